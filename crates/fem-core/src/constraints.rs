@@ -1,0 +1,156 @@
+//! Master–slave constraints `u_slave = factor · u_master`, eliminated so that the system stays symmetric positive definite.
+
+use crate::Error;
+
+/// What a constrained unknown equals, gathered before elimination.
+#[derive(Debug, Clone)]
+pub struct Constraints {
+    /// parent and factor: u = factor · u_parent; a root is its own parent
+    parent: Vec<(usize, f64)>,
+    held: Vec<bool>,
+}
+
+/// Each full unknown in terms of the reduced ones: `u_full = factor · u_reduced`, or zero where it is held.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DofMap {
+    entries: Vec<Option<(usize, f64)>>,
+    reduced: usize,
+}
+
+impl Constraints {
+    /// No constraint on `unknowns` unknowns.
+    pub fn new(unknowns: usize) -> Self {
+        Self { parent: (0..unknowns).map(|i| (i, 1.0)).collect(), held: vec![false; unknowns] }
+    }
+
+    fn root(&self, mut i: usize) -> (usize, f64) {
+        let mut factor = 1.0;
+        while self.parent[i].0 != i {
+            factor *= self.parent[i].1;
+            i = self.parent[i].0;
+        }
+        (i, factor)
+    }
+
+    fn check(&self, i: usize) -> Result<(), Error> {
+        if i < self.parent.len() {
+            return Ok(());
+        }
+        Err(Error::Constraint(format!("unknown {i} of {}", self.parent.len())))
+    }
+
+    /// u_i = 0.
+    ///
+    /// # Errors
+    /// [`Error::Constraint`] if there is no such unknown.
+    pub fn hold(&mut self, i: usize) -> Result<(), Error> {
+        self.check(i)?;
+        let (root, _) = self.root(i);
+        self.held[root] = true;
+        Ok(())
+    }
+
+    /// u_slave = sign · u_master, sign +1 or −1. Chains and loops are resolved; a loop that demands u = −u holds u at zero.
+    ///
+    /// # Errors
+    /// [`Error::Constraint`] if there is no such unknown, or the sign is neither.
+    pub fn tie(&mut self, slave: usize, master: usize, sign: f64) -> Result<(), Error> {
+        self.check(slave)?;
+        self.check(master)?;
+        if sign.abs() != 1.0 {
+            return Err(Error::Constraint(format!("sign {sign} of a tie must be +1 or -1")));
+        }
+        let ((s, fs), (m, fm)) = (self.root(slave), self.root(master));
+        if s == m {
+            self.held[s] |= fs != sign * fm;
+            return Ok(());
+        }
+        self.parent[s] = (m, sign * fm * fs);
+        self.held[m] |= self.held[s];
+        Ok(())
+    }
+
+    /// Numbers what is left, dropping also every unknown that `used` does not name.
+    pub fn eliminate(&self, used: &[bool]) -> DofMap {
+        let mut number = vec![None; self.parent.len()];
+        let mut reduced = 0;
+        let mut root_used = vec![false; self.parent.len()];
+        for (i, _) in used.iter().enumerate().filter(|(_, used)| **used) {
+            root_used[self.root(i).0] = true;
+        }
+        for i in 0..self.parent.len() {
+            if self.parent[i].0 == i && !self.held[i] && root_used[i] {
+                number[i] = Some(reduced);
+                reduced += 1;
+            }
+        }
+        let entries = (0..self.parent.len())
+            .map(|i| {
+                let (root, factor) = self.root(i);
+                number[root].map(|n| (n, factor))
+            })
+            .collect();
+        DofMap { entries, reduced }
+    }
+}
+
+impl DofMap {
+    /// Number of unknowns of the reduced system.
+    pub fn reduced(&self) -> usize {
+        self.reduced
+    }
+
+    /// Number of unknowns before elimination.
+    pub fn full(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Reduced unknown and factor of full unknown `i`, or `None` if it is held at zero.
+    pub fn get(&self, i: usize) -> Option<(usize, f64)> {
+        self.entries[i]
+    }
+
+    /// Tᵀ f: a full load vector onto the reduced unknowns.
+    pub fn restrict(&self, full: &[f64]) -> Vec<f64> {
+        let mut reduced = vec![0.0; self.reduced];
+        for (entry, value) in self.entries.iter().zip(full) {
+            if let Some((i, factor)) = entry {
+                reduced[*i] += factor * value;
+            }
+        }
+        reduced
+    }
+
+    /// T u: a reduced solution onto all unknowns.
+    pub fn expand(&self, reduced: &[f64]) -> Vec<f64> {
+        self.entries.iter().map(|entry| entry.map_or(0.0, |(i, factor)| factor * reduced[i])).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_chains_and_loops_of_ties_are_resolved() {
+        let mut c = Constraints::new(6);
+        c.tie(0, 1, -1.0).unwrap();
+        c.tie(1, 2, -1.0).unwrap();
+        c.tie(2, 0, 1.0).unwrap(); // consistent loop: nothing new
+        c.tie(3, 4, 1.0).unwrap();
+        c.tie(4, 3, -1.0).unwrap(); // demands u = -u
+        let map = c.eliminate(&[true; 6]);
+        assert_eq!(map.reduced(), 2);
+        assert_eq!(map.expand(&[2.0, 5.0]), vec![2.0, -2.0, 2.0, 0.0, 0.0, 5.0]);
+        assert_eq!(map.restrict(&[1.0, 10.0, 100.0, 7.0, 7.0, 3.0]), vec![91.0, 3.0]);
+    }
+
+    #[test]
+    fn exact_holding_a_slave_holds_its_master() {
+        let mut c = Constraints::new(3);
+        c.tie(0, 1, 1.0).unwrap();
+        c.hold(0).unwrap();
+        assert_eq!(c.eliminate(&[true, true, false]).reduced(), 0);
+        assert!(c.hold(3).is_err() && c.tie(0, 1, 0.5).is_err());
+    }
+}

@@ -1,0 +1,45 @@
+//! What can go wrong, with the numbers.
+
+/// Errors of this crate.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A material constant is outside its range.
+    #[error("{field} = {value}, but it must be {range}")]
+    Material {
+        /// Name of the constant.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// The valid range, in words.
+        range: String,
+    },
+    /// The mesh's arrays do not fit each other, or an element is turned inside out.
+    #[error("mesh: {0}")]
+    Mesh(String),
+    /// A constraint cannot be applied.
+    #[error("constraint: {0}")]
+    Constraint(String),
+    /// The matrix is not positive definite: a material law or a missing constraint.
+    #[error(
+        "the matrix of {unknowns} unknowns is not positive definite ({detail}); hold the rigid motions and check the material constants"
+    )]
+    NotPositiveDefinite {
+        /// Number of unknowns.
+        unknowns: usize,
+        /// What the factorisation reported.
+        detail: String,
+    },
+    /// A solve left a residual that rounding cannot explain.
+    #[error(
+        "relative residual {residual:.3e} exceeds {limit:.1e} with {unknowns} unknowns; the factorisation is not to be trusted"
+    )]
+    Residual {
+        /// Largest residual relative to the right-hand side.
+        residual: f64,
+        /// The limit.
+        limit: f64,
+        /// Number of unknowns.
+        unknowns: usize,
+    },
+}

@@ -1,0 +1,182 @@
+//! The weak forms: which derivative of which displacement makes which strain.
+//!
+//! Every form is `∫ (B v)ᵀ D (B u)` with a strain operator `B` that is a short list of terms and a constitutive matrix `D`
+//! that is constant in each region. Element matrices are sums of `D_ts (O_tᵀ W O_s)` over the operators O.
+
+use crate::geometry::{ElementGeometry, Measure};
+use nalgebra::{DMatrix, DVector};
+
+/// A derivative (or quotient) of a scalar shape function.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Operator {
+    /// ∂N/∂x
+    DX,
+    /// ∂N/∂y
+    DY,
+    /// N/x: the hoop strain of a radial displacement
+    OverX,
+}
+
+/// `strain[strain] += operator(u[component])`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Term {
+    strain: usize,
+    operator: Operator,
+    component: usize,
+}
+
+const fn term(strain: usize, operator: Operator, component: usize) -> Term {
+    Term { strain, operator, component }
+}
+
+/// A weak form: strain operator and measure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Form {
+    components: usize,
+    strains: usize,
+    terms: &'static [Term],
+    measure: Measure,
+}
+
+impl Form {
+    /// Conduction or antiplane shear in the plane: strains (∂u/∂x, ∂u/∂y).
+    pub const DIFFUSION: Self =
+        Self { components: 1, strains: 2, terms: &[term(0, Operator::DX, 0), term(1, Operator::DY, 0)], measure: Measure::Area };
+
+    /// Generalised plane strain: strains (xx, yy, xy); zz is prescribed by the load.
+    pub const PLANE_STRAIN: Self = Self {
+        components: 2,
+        strains: 3,
+        terms: &[term(0, Operator::DX, 0), term(1, Operator::DY, 1), term(2, Operator::DY, 0), term(2, Operator::DX, 1)],
+        measure: Measure::Area,
+    };
+
+    /// Axisymmetric conduction in (r, y).
+    pub const AXISYMMETRIC_DIFFUSION: Self = Self { measure: Measure::Revolution, ..Self::DIFFUSION };
+
+    /// Axisymmetric elasticity in (r, y): strains (rr, yy, hoop, ry), displacements (u_r, u_y).
+    pub const AXISYMMETRIC_ELASTICITY: Self = Self {
+        components: 2,
+        strains: 4,
+        terms: &[
+            term(0, Operator::DX, 0),
+            term(1, Operator::DY, 1),
+            term(2, Operator::OverX, 0),
+            term(3, Operator::DY, 0),
+            term(3, Operator::DX, 1),
+        ],
+        measure: Measure::Revolution,
+    };
+
+    /// Unknowns per node.
+    pub fn components(&self) -> usize {
+        self.components
+    }
+
+    /// Number of strains.
+    pub fn strains(&self) -> usize {
+        self.strains
+    }
+
+    /// Measure of the integrals.
+    pub fn measure(&self) -> Measure {
+        self.measure
+    }
+
+    fn operator(&self, operator: Operator, value: &DMatrix<f64>, g: &ElementGeometry) -> DMatrix<f64> {
+        match operator {
+            Operator::DX => g.d_x.clone(),
+            Operator::DY => g.d_y.clone(),
+            Operator::OverX => DMatrix::from_fn(value.nrows(), value.ncols(), |a, k| value[(a, k)] / g.x[k]),
+        }
+    }
+
+    fn operators(&self) -> Vec<Operator> {
+        let mut list = Vec::new();
+        for t in self.terms {
+            if !list.contains(&t.operator) {
+                list.push(t.operator);
+            }
+        }
+        list
+    }
+
+    /// Element stiffness `∫ Bᵀ D B`, unknowns node by node (component fastest). `d` is (strains × strains), symmetric.
+    pub fn stiffness(&self, value: &DMatrix<f64>, g: &ElementGeometry, d: &DMatrix<f64>) -> DMatrix<f64> {
+        let list = self.operators();
+        let left: Vec<_> = list.iter().map(|&o| self.operator(o, value, g)).collect();
+        let (n, c) = (value.nrows(), self.components);
+        let mut k = DMatrix::zeros(n * c, n * c);
+        for (s, right) in list.iter().zip(&left) {
+            let mut weighted = right.transpose();
+            for (mut row, w) in weighted.row_iter_mut().zip(&g.weight) {
+                row *= *w;
+            }
+            for (t, left) in list.iter().zip(&left) {
+                let product = left * &weighted;
+                self.scatter(&mut k, &product, (*t, *s), d);
+            }
+        }
+        k
+    }
+
+    /// Adds `D_ts product` wherever the operators of two terms are the given pair.
+    fn scatter(&self, k: &mut DMatrix<f64>, product: &DMatrix<f64>, pair: (Operator, Operator), d: &DMatrix<f64>) {
+        let (n, c) = (product.nrows(), self.components);
+        for t in self.terms.iter().filter(|t| t.operator == pair.0) {
+            for s in self.terms.iter().filter(|s| s.operator == pair.1) {
+                let factor = d[(t.strain, s.strain)];
+                if factor != 0.0 {
+                    for b in 0..n {
+                        for a in 0..n {
+                            k[(a * c + t.component, b * c + s.component)] += factor * product[(a, b)];
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Element load `∫ Bᵀ σ` of a stress that is constant in the element (length `strains`).
+    pub fn load(&self, value: &DMatrix<f64>, g: &ElementGeometry, stress: &[f64]) -> DVector<f64> {
+        let (n, c) = (value.nrows(), self.components);
+        let weight = DVector::from_column_slice(&g.weight);
+        let mut f = DVector::zeros(n * c);
+        for t in self.terms.iter().filter(|t| stress[t.strain] != 0.0) {
+            let integral = self.operator(t.operator, value, g) * &weight;
+            for a in 0..n {
+                f[a * c + t.component] += stress[t.strain] * integral[a];
+            }
+        }
+        f
+    }
+
+    /// Coupling `∫ Bᵀ β N`: the load of a scalar nodal field that stresses the element by `β` per unit.
+    /// Shape (nodes × components, nodes).
+    pub fn coupling(&self, value: &DMatrix<f64>, g: &ElementGeometry, beta: &[f64]) -> DMatrix<f64> {
+        let (n, c) = (value.nrows(), self.components);
+        let mut weighted = value.transpose();
+        for (mut row, w) in weighted.row_iter_mut().zip(&g.weight) {
+            row *= *w;
+        }
+        let mut h = DMatrix::zeros(n * c, n);
+        for t in self.terms.iter().filter(|t| beta[t.strain] != 0.0) {
+            let product = self.operator(t.operator, value, g) * &weighted;
+            for b in 0..n {
+                for a in 0..n {
+                    h[(a * c + t.component, b)] += beta[t.strain] * product[(a, b)];
+                }
+            }
+        }
+        h
+    }
+
+    /// Element mass `∫ N c N` of a scalar field.
+    pub fn mass(value: &DMatrix<f64>, g: &ElementGeometry, capacity: f64) -> DMatrix<f64> {
+        let mut weighted = value.transpose();
+        for (mut row, w) in weighted.row_iter_mut().zip(&g.weight) {
+            row *= *w * capacity;
+        }
+        value * weighted
+    }
+}

@@ -1,0 +1,134 @@
+//! Shape functions and their physical gradients at the quadrature points of an element.
+
+use crate::polynomial::{Lagrange, Quadrature, gauss};
+use crate::{Error, Mesh};
+use nalgebra::DMatrix;
+use std::f64::consts::TAU;
+
+/// What the area element is multiplied by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measure {
+    /// Per unit length across the plane: dA.
+    Area,
+    /// Body of revolution about x = 0: 2πx dA.
+    Revolution,
+}
+
+/// Tensor-product shape functions at the quadrature points of the reference square. Rows are nodes, columns points.
+#[derive(Debug, Clone)]
+pub struct ReferenceElement {
+    basis: Lagrange,
+    /// N, shape (nodes, points).
+    pub value: DMatrix<f64>,
+    d_xi: DMatrix<f64>,
+    d_eta: DMatrix<f64>,
+    weights: Vec<f64>,
+}
+
+/// Gradients and weights of one element at its quadrature points. Rows are nodes, columns points.
+#[derive(Debug, Clone)]
+pub struct ElementGeometry {
+    /// ∂N/∂x [1/m].
+    pub d_x: DMatrix<f64>,
+    /// ∂N/∂y [1/m].
+    pub d_y: DMatrix<f64>,
+    /// x at each point [m].
+    pub x: Vec<f64>,
+    /// y at each point [m].
+    pub y: Vec<f64>,
+    /// Quadrature weight times area element times [`Measure`].
+    pub weight: Vec<f64>,
+}
+
+impl ReferenceElement {
+    /// Elements of `order` with `points` Gauss points per direction.
+    pub fn new(order: usize, points: usize) -> Self {
+        let basis = Lagrange::gauss_lobatto(order);
+        let Quadrature { points, weights } = gauss(points);
+        let one_dimension: Vec<_> = points.iter().map(|&x| basis.evaluate(x)).collect();
+        let (n, q) = (order + 1, points.len());
+        let tensor = |xi: &dyn Fn(usize, usize) -> f64, eta: &dyn Fn(usize, usize) -> f64| {
+            DMatrix::from_fn(n * n, q * q, |node, point| xi(node % n, point % q) * eta(node / n, point / q))
+        };
+        let (v, d) = (|i: usize, k: usize| one_dimension[k].0[i], |i: usize, k: usize| one_dimension[k].1[i]);
+        let (value, d_xi, d_eta) = (tensor(&v, &v), tensor(&d, &v), tensor(&v, &d));
+        let weights = (0..q * q).map(|k| weights[k % q] * weights[k / q]).collect();
+        Self { basis, value, d_xi, d_eta, weights }
+    }
+
+    /// Geometry of element `e` of `mesh` (which must be of this order).
+    ///
+    /// # Errors
+    /// [`Error::Mesh`] if the element is turned inside out at a quadrature point.
+    pub fn geometry(&self, mesh: &Mesh, e: usize, measure: Measure) -> Result<ElementGeometry, Error> {
+        let nodes = &mesh.elements()[e];
+        let points = self.weights.len();
+        let (mut d_x, mut d_y) = (DMatrix::zeros(nodes.len(), points), DMatrix::zeros(nodes.len(), points));
+        let (mut xs, mut ys, mut weight) = (vec![0.0; points], vec![0.0; points], vec![0.0; points]);
+        for k in 0..points {
+            let (value, d_xi, d_eta) = (self.value.column(k), self.d_xi.column(k), self.d_eta.column(k));
+            let (mut position, mut j) = ([0.0; 2], [[0.0; 2]; 2]);
+            for (a, &node) in nodes.iter().enumerate() {
+                let p = mesh.nodes()[node];
+                for c in 0..2 {
+                    position[c] += value[a] * p[c];
+                    j[0][c] += d_xi[a] * p[c];
+                    j[1][c] += d_eta[a] * p[c];
+                }
+            }
+            let det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+            if det <= 0.0 {
+                return Err(Error::Mesh(format!(
+                    "element {e} is turned inside out near ({:.6e}, {:.6e}) m",
+                    position[0], position[1]
+                )));
+            }
+            for a in 0..nodes.len() {
+                d_x[(a, k)] = (j[1][1] * d_xi[a] - j[0][1] * d_eta[a]) / det;
+                d_y[(a, k)] = (j[0][0] * d_eta[a] - j[1][0] * d_xi[a]) / det;
+            }
+            (xs[k], ys[k]) = (position[0], position[1]);
+            weight[k] = self.weights[k] * det * if measure == Measure::Revolution { TAU * position[0] } else { 1.0 };
+        }
+        Ok(ElementGeometry { d_x, d_y, x: xs, y: ys, weight })
+    }
+
+    /// Area (or volume of revolution) of each region of `mesh`, by quadrature [m² or m³].
+    ///
+    /// # Errors
+    /// As [`Self::geometry`].
+    pub fn region_measures(&self, mesh: &Mesh, measure: Measure) -> Result<Vec<f64>, Error> {
+        let mut sums = vec![0.0; mesh.region_count()];
+        for (e, &region) in mesh.regions().iter().enumerate() {
+            sums[region] += self.geometry(mesh, e, measure)?.weight.iter().sum::<f64>();
+        }
+        Ok(sums)
+    }
+
+    /// Values and physical gradients of all shape functions of element `e` at the reference point (ξ, η).
+    ///
+    /// Returns (N, ∂N/∂x, ∂N/∂y), each of length (p+1)².
+    pub fn at_point(&self, mesh: &Mesh, e: usize, xi: f64, eta: f64) -> [Vec<f64>; 3] {
+        let ((vx, dx), (vy, dy)) = (self.basis.evaluate(xi), self.basis.evaluate(eta));
+        let n = vx.len();
+        let shape: Vec<[f64; 3]> = (0..n * n)
+            .map(|a| {
+                let (i, j) = (a % n, a / n);
+                [vx[i] * vy[j], dx[i] * vy[j], vx[i] * dy[j]]
+            })
+            .collect();
+        let mut j = [[0.0; 2]; 2];
+        for (s, &node) in shape.iter().zip(&mesh.elements()[e]) {
+            for c in 0..2 {
+                j[0][c] += s[1] * mesh.nodes()[node][c];
+                j[1][c] += s[2] * mesh.nodes()[node][c];
+            }
+        }
+        let det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+        [
+            shape.iter().map(|s| s[0]).collect(),
+            shape.iter().map(|s| (j[1][1] * s[1] - j[0][1] * s[2]) / det).collect(),
+            shape.iter().map(|s| (j[0][0] * s[2] - j[1][0] * s[1]) / det).collect(),
+        ]
+    }
+}

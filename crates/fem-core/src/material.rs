@@ -1,0 +1,208 @@
+//! Thermo-elastic laws as a 6×6 stiffness and a thermal stress vector.
+//!
+//! Voigt order xx, yy, zz, yz, xz, xy with engineering shear strains; stresses in Pa, strains dimensionless.
+//! The stress is `C ε − β ΔT` with the thermal stress vector `β = C α` [Pa/K].
+
+use crate::Error;
+use nalgebra::{Matrix6, Vector6};
+
+/// A linear thermo-elastic law: stiffness [Pa] and thermal stress vector [Pa/K] in Voigt order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ThermoElastic {
+    /// Stiffness `C` [Pa], symmetric positive definite.
+    pub stiffness: Matrix6<f64>,
+    /// Thermal stress vector `β = C α` [Pa/K].
+    pub thermal_stress: Vector6<f64>,
+}
+
+/// An isotropic solid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Isotropic {
+    /// Young's modulus [Pa], > 0.
+    pub youngs_modulus: f64,
+    /// Poisson's ratio, in (−1, 0.5).
+    pub poisson_ratio: f64,
+    /// Coefficient of linear thermal expansion [1/K].
+    pub thermal_expansion: f64,
+}
+
+/// A solid that is isotropic in the plane across its fibre direction z.
+///
+/// `ν_rz = ν_zr E_r / E_z` and `G_r = E_r / 2(1 + ν_r)` follow from the others.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TransverselyIsotropic {
+    /// Young's modulus along the fibre [Pa], > 0.
+    pub e_z: f64,
+    /// Young's modulus across the fibre [Pa], > 0.
+    pub e_r: f64,
+    /// Shear modulus in planes that hold the fibre [Pa], > 0.
+    pub g_zr: f64,
+    /// Transverse contraction per axial extension under axial stress.
+    pub nu_zr: f64,
+    /// Poisson's ratio within the plane across the fibre.
+    pub nu_r: f64,
+    /// Thermal expansion along the fibre [1/K].
+    pub alpha_z: f64,
+    /// Thermal expansion across the fibre [1/K].
+    pub alpha_r: f64,
+}
+
+fn positive(field: &'static str, value: f64) -> Result<(), Error> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    Err(Error::Material { field, value, range: "finite and greater than 0".into() })
+}
+
+fn finite(field: &'static str, value: f64) -> Result<(), Error> {
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(Error::Material { field, value, range: "finite".into() })
+}
+
+impl Isotropic {
+    /// First Lamé constant λ [Pa].
+    pub fn lame_lambda(&self) -> f64 {
+        let nu = self.poisson_ratio;
+        self.youngs_modulus * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
+    }
+
+    /// Shear modulus μ [Pa].
+    pub fn shear_modulus(&self) -> f64 {
+        self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio))
+    }
+
+    /// The law.
+    ///
+    /// # Errors
+    /// [`Error::Material`] names the constant that is outside its range.
+    pub fn law(&self) -> Result<ThermoElastic, Error> {
+        positive("youngs_modulus", self.youngs_modulus)?;
+        finite("thermal_expansion", self.thermal_expansion)?;
+        let nu = self.poisson_ratio;
+        if !(nu > -1.0 && nu < 0.5) {
+            let range =
+                "greater than -1 and less than 0.5 (at 0.5 the solid is incompressible and its stiffness infinite)".into();
+            return Err(Error::Material { field: "poisson_ratio", value: nu, range });
+        }
+        let (lambda, mu) = (self.lame_lambda(), self.shear_modulus());
+        let mut stiffness = Matrix6::zeros();
+        for i in 0..3 {
+            for j in 0..3 {
+                stiffness[(i, j)] = lambda;
+            }
+            stiffness[(i, i)] += 2.0 * mu;
+            stiffness[(i + 3, i + 3)] = mu;
+        }
+        let beta = self.thermal_expansion * (3.0 * lambda + 2.0 * mu);
+        Ok(ThermoElastic { stiffness, thermal_stress: Vector6::new(beta, beta, beta, 0.0, 0.0, 0.0) })
+    }
+}
+
+impl TransverselyIsotropic {
+    /// Transverse contraction seen along the fibre when stressed across it, `ν_rz = ν_zr E_r / E_z`.
+    pub fn nu_rz(&self) -> f64 {
+        self.nu_zr * self.e_r / self.e_z
+    }
+
+    /// Shear modulus across the fibre, `G_r = E_r / 2(1 + ν_r)` [Pa].
+    pub fn g_r(&self) -> f64 {
+        self.e_r / (2.0 * (1.0 + self.nu_r))
+    }
+
+    /// The factor on `e_r` at which the stiffness turns indefinite, `(1 − ν_r) E_z / (2 ν_zr² E_r)`.
+    pub fn indefinite_at_e_r_factor(&self) -> f64 {
+        (1.0 - self.nu_r) * self.e_z / (2.0 * self.nu_zr * self.nu_zr * self.e_r)
+    }
+
+    /// The law with z = fibre.
+    ///
+    /// # Errors
+    /// [`Error::Material`] names the constant that is outside its range; the stiffness must be positive definite:
+    /// `|ν_r| < 1` and `1 − ν_r > 2 ν_zr² E_r / E_z`.
+    pub fn law(&self) -> Result<ThermoElastic, Error> {
+        positive("e_z", self.e_z)?;
+        positive("e_r", self.e_r)?;
+        positive("g_zr", self.g_zr)?;
+        finite("nu_zr", self.nu_zr)?;
+        finite("alpha_z", self.alpha_z)?;
+        finite("alpha_r", self.alpha_r)?;
+        if !(self.nu_r > -1.0 && self.nu_r < 1.0) {
+            return Err(Error::Material { field: "nu_r", value: self.nu_r, range: "greater than -1 and less than 1".into() });
+        }
+        if self.indefinite_at_e_r_factor() <= 1.0 {
+            let limit = 1.0 - 2.0 * self.nu_zr * self.nu_rz();
+            let range = format!("less than 1 - 2 nu_zr^2 e_r/e_z = {limit:.6} (else the stiffness is not positive definite)");
+            return Err(Error::Material { field: "nu_r", value: self.nu_r, range });
+        }
+        // normal part of the compliance inverted in closed form: sums and differences of the two transverse directions
+        let (nu_rz, gamma) = (self.nu_rz(), 1.0 - self.nu_r - 2.0 * self.nu_zr * self.nu_rz());
+        let bulk = self.e_r / (2.0 * gamma); // plane-strain bulk modulus
+        let g_r = self.g_r();
+        let (c11, c12) = (bulk + g_r, bulk - g_r);
+        let c13 = 2.0 * self.nu_zr * bulk;
+        let c33 = self.e_z + 4.0 * self.nu_zr * self.nu_zr * bulk;
+        debug_assert!(nu_rz.is_finite());
+        #[rustfmt::skip]
+        let stiffness = Matrix6::new(
+            c11, c12, c13, 0.0, 0.0, 0.0,
+            c12, c11, c13, 0.0, 0.0, 0.0,
+            c13, c13, c33, 0.0, 0.0, 0.0,
+            0.0, 0.0, 0.0, self.g_zr, 0.0, 0.0,
+            0.0, 0.0, 0.0, 0.0, self.g_zr, 0.0,
+            0.0, 0.0, 0.0, 0.0, 0.0, g_r,
+        );
+        let alpha = Vector6::new(self.alpha_r, self.alpha_r, self.alpha_z, 0.0, 0.0, 0.0);
+        Ok(ThermoElastic { stiffness, thermal_stress: stiffness * alpha })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn coil() -> TransverselyIsotropic {
+        TransverselyIsotropic {
+            e_z: 14.5e9,
+            e_r: 95.2e6,
+            g_zr: 24.1e6,
+            nu_zr: 0.392,
+            nu_r: 0.979,
+            alpha_z: 3.36e-6,
+            alpha_r: 193e-6,
+        }
+    }
+
+    #[test]
+    fn exact_compliance_of_the_transversely_isotropic_law_returns_its_constants() {
+        let c = coil();
+        let s = c.law().unwrap().stiffness.try_inverse().unwrap();
+        assert_relative_eq!(1.0 / s[(0, 0)], c.e_r, max_relative = 1e-12);
+        assert_relative_eq!(1.0 / s[(2, 2)], c.e_z, max_relative = 1e-12);
+        assert_relative_eq!(-s[(0, 1)] / s[(0, 0)], c.nu_r, max_relative = 1e-12);
+        assert_relative_eq!(-s[(0, 2)] / s[(2, 2)], c.nu_zr, max_relative = 1e-12);
+        assert_relative_eq!(-s[(2, 0)] / s[(0, 0)], c.nu_rz(), max_relative = 1e-12);
+    }
+
+    #[test]
+    fn exact_isotropic_solid_is_the_isotropic_case_of_the_transverse_law() {
+        let i = Isotropic { youngs_modulus: 70e9, poisson_ratio: 0.17, thermal_expansion: 0.55e-6 };
+        let (e, nu, a) = (i.youngs_modulus, i.poisson_ratio, i.thermal_expansion);
+        let t = TransverselyIsotropic { e_z: e, e_r: e, g_zr: i.shear_modulus(), nu_zr: nu, nu_r: nu, alpha_z: a, alpha_r: a };
+        let (i, t) = (i.law().unwrap(), t.law().unwrap());
+        assert_relative_eq!(i.stiffness, t.stiffness, max_relative = 1e-12);
+        assert_relative_eq!(i.thermal_stress, t.thermal_stress, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn bounds_an_indefinite_law_is_refused_exactly_from_the_limit_on() {
+        let limit = coil().indefinite_at_e_r_factor();
+        let scaled = |f: f64| TransverselyIsotropic { e_r: 95.2e6 * f, ..coil() };
+        assert!(scaled(limit * 0.999).law().unwrap().stiffness.cholesky().is_some());
+        assert!(scaled(limit * 1.001).law().is_err());
+        assert!(Isotropic { youngs_modulus: 1.0, poisson_ratio: 0.5, thermal_expansion: 0.0 }.law().is_err());
+        assert!(Isotropic { youngs_modulus: f64::NAN, poisson_ratio: 0.3, thermal_expansion: 0.0 }.law().is_err());
+    }
+}

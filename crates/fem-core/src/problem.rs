@@ -1,0 +1,124 @@
+//! A weak form on a mesh: element matrices region by region, assembly, factor.
+
+use crate::geometry::ReferenceElement;
+use crate::{DofMap, Error, Factor, Form, Mesh, Pattern, SparseMatrix};
+use nalgebra::DMatrix;
+
+/// A form on a mesh, integrated with `order + extra` Gauss points per direction.
+#[derive(Debug, Clone)]
+pub struct Problem<'a> {
+    mesh: &'a Mesh,
+    form: Form,
+    reference: ReferenceElement,
+}
+
+impl<'a> Problem<'a> {
+    /// `form` on `mesh` with `points` Gauss points per direction (order + 1 integrates straight elements exactly).
+    pub fn new(mesh: &'a Mesh, form: Form, points: usize) -> Self {
+        Self { mesh, form, reference: ReferenceElement::new(mesh.order(), points) }
+    }
+
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh {
+        self.mesh
+    }
+
+    /// Which unknowns the active regions use, for [`crate::Constraints::eliminate`].
+    pub fn used(&self, active: impl Fn(usize) -> bool) -> Vec<bool> {
+        let c = self.form.components();
+        let mut used = vec![false; self.mesh.nodes().len() * c];
+        for (element, &region) in self.mesh.elements().iter().zip(self.mesh.regions()) {
+            if active(region) {
+                element.iter().for_each(|node| used[node * c..(node + 1) * c].fill(true));
+            }
+        }
+        used
+    }
+
+    fn element_matrices<'m>(
+        &self,
+        laws: &'m [Option<DMatrix<f64>>],
+        matrix: impl Fn(&crate::ElementGeometry, &'m DMatrix<f64>) -> DMatrix<f64>,
+    ) -> Result<Vec<DMatrix<f64>>, Error> {
+        let per_element = |(e, &region): (usize, &usize)| match &laws[region] {
+            None => Ok(DMatrix::zeros(0, 0)),
+            Some(law) => Ok(matrix(&self.reference.geometry(self.mesh, e, self.form.measure())?, law)),
+        };
+        self.mesh.regions().iter().enumerate().map(per_element).collect()
+    }
+
+    /// Stiffness matrix. `laws[region]` is the constitutive matrix (strains × strains), `None` where the region takes no part.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`] if an element is turned inside out.
+    pub fn stiffness(&self, map: &DofMap, laws: &[Option<DMatrix<f64>>]) -> Result<SparseMatrix, Error> {
+        let elements = self.element_matrices(laws, |g, law| self.form.stiffness(&self.reference.value, g, law))?;
+        Ok(self.pattern(map, laws).assemble(&elements))
+    }
+
+    /// Stiffness matrix, factorised.
+    ///
+    /// # Errors
+    /// As [`Self::stiffness`] and [`Factor::new`].
+    pub fn factor(&self, map: &DofMap, laws: &[Option<DMatrix<f64>>]) -> Result<Factor, Error> {
+        Factor::new(self.stiffness(map, laws)?)
+    }
+
+    fn pattern(&self, map: &DofMap, laws: &[Option<DMatrix<f64>>]) -> Pattern {
+        Pattern::new(self.mesh, map, |e| laws[self.mesh.regions()[e]].is_some())
+    }
+
+    /// Full load vectors `∫ Bᵀ σ_j`. `stresses[region]` has one column per load (strains × loads), or is `None`.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`] if an element is turned inside out.
+    pub fn loads(&self, stresses: &[Option<DMatrix<f64>>]) -> Result<Vec<Vec<f64>>, Error> {
+        let count = stresses.iter().flatten().map(|s| s.ncols()).max().unwrap_or(0);
+        let c = self.form.components();
+        let mut loads = vec![vec![0.0; self.mesh.nodes().len() * c]; count];
+        for (e, &region) in self.mesh.regions().iter().enumerate() {
+            let Some(stress) = &stresses[region] else { continue };
+            let g = self.reference.geometry(self.mesh, e, self.form.measure())?;
+            for (load, column) in loads.iter_mut().zip(stress.column_iter()) {
+                let f = self.form.load(&self.reference.value, &g, column.as_slice());
+                for (a, node) in self.mesh.elements()[e].iter().enumerate() {
+                    (0..c).for_each(|i| load[node * c + i] += f[a * c + i]);
+                }
+            }
+        }
+        Ok(loads)
+    }
+
+    /// Coupling of a scalar nodal field into this form: `laws[region]` is the column β (strains × 1) by which a unit of the
+    /// field stresses the region.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`] if an element is turned inside out.
+    pub fn coupling(&self, rows: &DofMap, scalar: &DofMap, laws: &[Option<DMatrix<f64>>]) -> Result<SparseMatrix, Error> {
+        let elements = self.element_matrices(laws, |g, law| self.form.coupling(&self.reference.value, g, law.as_slice()))?;
+        let active = |e: usize| laws[self.mesh.regions()[e]].is_some();
+        Ok(Pattern::rectangular(self.mesh, rows, scalar, active).assemble(&elements))
+    }
+
+    /// Mass matrix of a scalar form: `capacities[region]` is 1 × 1.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`] if an element is turned inside out.
+    pub fn mass(&self, map: &DofMap, capacities: &[Option<DMatrix<f64>>]) -> Result<SparseMatrix, Error> {
+        let elements = self.element_matrices(capacities, |g, c| Form::mass(&self.reference.value, g, c[0]))?;
+        Ok(self.pattern(map, capacities).assemble(&elements))
+    }
+
+    /// Area (or volume of revolution) of each region [m² or m³].
+    ///
+    /// # Errors
+    /// [`Error::Mesh`] if an element is turned inside out.
+    pub fn region_measures(&self) -> Result<Vec<f64>, Error> {
+        self.reference.region_measures(self.mesh, self.form.measure())
+    }
+
+    /// Values and gradients of the shape functions of element `e` at (ξ, η): see [`ReferenceElement::at_point`].
+    pub fn at_point(&self, e: usize, xi: f64, eta: f64) -> [Vec<f64>; 3] {
+        self.reference.at_point(self.mesh, e, xi, eta)
+    }
+}
