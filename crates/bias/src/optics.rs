@@ -1,0 +1,136 @@
+//! The fibre's glass and the gyroscope's scale.
+
+use crate::{Coefficients, Error};
+
+/// Which strain eq. (2) is fed with.
+///
+/// Eq. (1) already holds the phase n α of a fibre that expands freely. Total strain contains that expansion too, so it is
+/// counted twice; in a steady ramp, where Ṫ is uniform, the difference integrates to zero.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum StrainConvention {
+    /// Total strain, as the paper prints eq. (2).
+    Total,
+    /// Total strain minus α ΔT, with the α of eq. (1), along and across the fibre.
+    Mechanical,
+}
+
+/// Optical constants of the fibre and the diameter of the Sagnac loop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Optics {
+    /// Refractive index n of the core, ≥ 1.
+    pub refractive_index: f64,
+    /// ∂n/∂T [1/K].
+    pub thermo_optic: f64,
+    /// Thermal expansion α of the core [1/K].
+    pub thermal_expansion: f64,
+    /// Photoelastic coefficient p11 of the glass.
+    pub p11: f64,
+    /// Photoelastic coefficient p12 of the glass.
+    pub p12: f64,
+    /// Mean diameter D of the coil \[m\], > 0.
+    pub sagnac_diameter: f64,
+    /// Which strain eq. (2) is fed with.
+    pub strain: StrainConvention,
+}
+
+impl Optics {
+    /// Checks every constant.
+    ///
+    /// # Errors
+    /// [`Error::Range`] names the first one outside its range.
+    pub fn validate(&self) -> Result<(), Error> {
+        let n = self.refractive_index;
+        if !(n.is_finite() && n >= 1.0) {
+            return Err(Error::Range { field: "refractive_index", value: n, range: "a finite number of 1 or more" });
+        }
+        let finite = [
+            ("thermo_optic", self.thermo_optic),
+            ("thermal_expansion", self.thermal_expansion),
+            ("p11", self.p11),
+            ("p12", self.p12),
+        ];
+        if let Some((field, value)) = finite.into_iter().find(|(_, value)| !value.is_finite()) {
+            return Err(Error::Range { field, value, range: "a finite number" });
+        }
+        positive("sagnac_diameter", self.sagnac_diameter)
+    }
+
+    /// A = n (1 − n² p12 / 2): optical path gained per length and axial strain, eq. (2).
+    pub fn a(&self) -> f64 {
+        let n = self.refractive_index;
+        n * (1.0 - n * n * self.p12 / 2.0)
+    }
+
+    /// B = n³ (p11 + p12) / 2: optical path lost per length and radial strain, eq. (2).
+    pub fn b(&self) -> f64 {
+        self.refractive_index.powi(3) * (self.p11 + self.p12) / 2.0
+    }
+
+    /// The factors of eqs. (1) and (2) for a fibre of `length` L \[m\], > 0, tails included.
+    ///
+    /// # Errors
+    /// A constant or the length outside its range.
+    pub fn coefficients(&self, length: f64) -> Result<Coefficients, Error> {
+        self.validate()?;
+        positive("length", length)?;
+        let scale = self.refractive_index / (length * self.sagnac_diameter);
+        let (axial, radial) = (scale * self.a(), -scale * self.b());
+        let counted_twice = match self.strain {
+            StrainConvention::Total => 0.0,
+            StrainConvention::Mechanical => self.thermal_expansion,
+        };
+        Ok(Coefficients {
+            shupe: scale * (self.thermo_optic + self.refractive_index * self.thermal_expansion),
+            axial,
+            radial,
+            axial_per_temperature_rate: -axial * counted_twice,
+            radial_per_temperature_rate: -radial * counted_twice,
+        })
+    }
+}
+
+fn positive(field: &'static str, value: f64) -> Result<(), Error> {
+    if value.is_finite() && value > 0.0 { Ok(()) } else { Err(Error::Range { field, value, range: "a finite length above 0 m" }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SILICA: Optics = Optics {
+        refractive_index: 1.45,
+        thermo_optic: 1.0e-5,
+        thermal_expansion: 0.55e-6,
+        p11: 0.121,
+        p12: 0.270,
+        sagnac_diameter: 92.325e-3,
+        strain: StrainConvention::Total,
+    };
+
+    #[test]
+    fn photoelastic_factors_of_silica() {
+        // 1.45 · (1 − 2.1025 · 0.135) and 3.048625 · 0.1955, by hand
+        approx::assert_relative_eq!(SILICA.a(), 1.038_435_625, max_relative = 1e-14);
+        approx::assert_relative_eq!(SILICA.b(), 0.596_006_187_5, max_relative = 1e-14);
+    }
+
+    #[test]
+    fn a_message_names_field_and_value() {
+        let cases = [
+            (Optics { refractive_index: 0.9, ..SILICA }, "refractive_index = 0.9"),
+            (Optics { thermo_optic: f64::NAN, ..SILICA }, "thermo_optic = NaN"),
+            (Optics { thermal_expansion: f64::INFINITY, ..SILICA }, "thermal_expansion = inf"),
+            (Optics { p11: f64::NAN, ..SILICA }, "p11 = NaN"),
+            (Optics { p12: f64::NAN, ..SILICA }, "p12 = NaN"),
+            (Optics { sagnac_diameter: 0.0, ..SILICA }, "sagnac_diameter = 0, but it must be a finite length above 0 m"),
+        ];
+        for (optics, expected) in cases {
+            let message = optics.coefficients(1000.0).expect_err(expected).to_string();
+            assert!(message.contains(expected), "{message}");
+        }
+        assert_eq!(
+            SILICA.coefficients(-1.0),
+            Err(Error::Range { field: "length", value: -1.0, range: "a finite length above 0 m" })
+        );
+    }
+}

@@ -1,0 +1,144 @@
+//! Against closed formulas.
+
+mod common;
+
+use approx::{assert_abs_diff_eq, assert_relative_eq};
+use common::{ALL, REFERENCE, any_spec};
+use proptest::prelude::*;
+use std::f64::consts::PI;
+use winding::{Half, Pattern, Spec, Tails, TurnLength, wind};
+
+/// Radial moment over ℓ² h, for turns all of length ℓ in layers a step h apart.
+fn scaled_moment(pattern: Pattern, layers: usize, odd: usize, even: usize) -> f64 {
+    let spec =
+        Spec { pattern, layers, turns_odd_layers: odd, turns_even_layers: even, turn_length: TurnLength::Equal, ..REFERENCE };
+    let coil = wind(&spec).expect("a valid coil");
+    let turn = coil.turns()[0].length();
+    coil.moment(1, 0) / (turn * turn * spec.pitch * 3_f64.sqrt() / 2.0)
+}
+
+#[test]
+fn exact_length_is_the_sum_of_two_arithmetic_series() {
+    let step = 0.170e-3 * 3_f64.sqrt() / 2.0;
+    let first = 43.5e-3 + 0.085e-3;
+    // 18 odd layers 0, 2, …, 34 and 18 even layers 1, 3, …, 35 steps out
+    let radii = 106.0 * (18.0 * first + 306.0 * step) + 105.0 * (18.0 * first + 324.0 * step);
+    assert_relative_eq!(wind(&REFERENCE).unwrap().length(), 2.0 * PI * radii, max_relative = 1e-13);
+}
+
+#[test]
+fn exact_radial_moments_of_layers_of_equal_length() {
+    for (layers, turns) in [(8, 20), (16, 7), (40, 33)] {
+        let (m, n) = (layers as f64, turns as f64);
+        let moment = |pattern| scaled_moment(pattern, layers, turns, turns) / (n * n);
+        assert_relative_eq!(moment(Pattern::Cylindrical), -m * (m * m - 1.0) / 6.0, max_relative = 1e-9);
+        assert_relative_eq!(moment(Pattern::Dipole), m * m / 4.0, max_relative = 1e-9);
+        assert_relative_eq!(moment(Pattern::Quadrupole), -m / 2.0, max_relative = 1e-9);
+        assert_abs_diff_eq!(moment(Pattern::Octupole), 0.0, epsilon = 1e-9 * m);
+    }
+}
+
+/// With one turn less in the even layers the quadrupole's radial moment changes sign at about 2 N − 1 layers of N turns: the
+/// lengths of the layers then alternate, and that adds a term of the opposite sign that grows with the square of the layers.
+#[test]
+fn exact_radial_moment_of_the_grooved_quadrupole() {
+    for (periods, turns) in [(2_usize, 20_usize), (9, 20), (10, 20), (25, 20), (9, 106)] {
+        let (q, n) = (periods as f64, turns as f64);
+        let expected = 2.0 * q * ((2.0 * n - 1.0) * q - n * (n - 1.0));
+        assert_relative_eq!(
+            scaled_moment(Pattern::Quadrupole, 4 * periods, turns, turns - 1),
+            expected,
+            max_relative = 1e-9,
+            epsilon = 1e-9 * q * n * n
+        );
+    }
+}
+
+/// Ten equal turns of a bobbin, five to a half; a long tail moves the middle of the fibre.
+#[test]
+fn exact_a_bobbin_is_divided_at_the_middle_of_its_fibre() {
+    let bobbin = Spec {
+        pattern: Pattern::Cylindrical,
+        layers: 2,
+        turns_odd_layers: 5,
+        turns_even_layers: 5,
+        turn_length: TurnLength::Equal,
+        ..REFERENCE
+    };
+    let turn = wind(&bobbin).unwrap().turns()[0].length();
+    for (cw_tail_in_turns, ccw_turns) in [(0.0, 5), (4.2, 7), (20.0, 10)] {
+        let coil = wind(&Spec { tails: Tails { cw: cw_tail_in_turns * turn, ccw: 0.0 }, ..bobbin }).unwrap();
+        assert!(coil.turns()[..ccw_turns].iter().all(|turn| turn.half == Half::Ccw));
+        assert_eq!((coil.count(Half::Ccw), coil.count(Half::Cw)), (ccw_turns, 10 - ccw_turns));
+    }
+}
+
+#[test]
+fn exact_outline_of_small_coils() {
+    let (r, p) = (REFERENCE.inner_radius, REFERENCE.pitch);
+    let outline = |layers, odd, even| {
+        let coil = wind(&Spec { layers, turns_odd_layers: odd, turns_even_layers: even, ..REFERENCE }).unwrap();
+        (coil.outer_radius() - r, coil.height())
+    };
+    for ((layers, odd, even), expected) in
+        [((1, 3, 3), (1.0, 3.0)), ((2, 3, 2), (1.0 + 0.75_f64.sqrt(), 3.0)), ((3, 3, 3), (1.0 + 3_f64.sqrt(), 3.5))]
+    {
+        let (build, height) = outline(layers, odd, even);
+        assert_abs_diff_eq!(build, expected.0 * p, epsilon = 1e-15);
+        assert_abs_diff_eq!(height, expected.1 * p, epsilon = 1e-15);
+    }
+}
+
+#[test]
+fn exact_a_fibre_too_long_to_square_is_refused() {
+    let message = wind(&Spec { inner_radius: 1e155, ..REFERENCE }).expect_err("overflow").to_string();
+    assert!(message.contains("lower inner_radius"), "{message}");
+}
+
+proptest! {
+    /// The fibre is the CCW tail, the turns end to end, the CW tail.
+    #[test]
+    fn exact_turns_and_tails_make_up_the_fibre(spec in any_spec(ALL)) {
+        let coil = wind(&spec).unwrap();
+        let ((start, ccw_end), (cw_start, end)) = coil.tail_spans();
+        prop_assert_eq!((start, ccw_end, end), (0.0, spec.tails.ccw, coil.length()));
+        prop_assert_eq!(coil.turns()[0].z_start, ccw_end);
+        prop_assert_eq!(coil.turns()[coil.turns().len() - 1].z_end, cw_start);
+        prop_assert!(coil.turns().windows(2).all(|pair| pair[0].z_end == pair[1].z_start));
+        prop_assert!(coil.turns().iter().all(|turn| turn.z_end > turn.z_start));
+        let Tails { cw, ccw } = spec.tails;
+        let rounding = (coil.turns().len() as f64 + 2.0) * f64::EPSILON * coil.length();
+        let circumferences: f64 = coil.turns().iter().map(|turn| 2.0 * PI * turn.r).sum();
+        prop_assert!((coil.wound_length() - circumferences).abs() < rounding);
+        prop_assert!((coil.length() - (circumferences + cw + ccw)).abs() < rounding);
+    }
+
+    #[test]
+    fn exact_each_turn_is_as_long_as_asked(spec in any_spec(ALL)) {
+        let coil = wind(&spec).unwrap();
+        let mean = coil.wound_length() / coil.turns().len() as f64;
+        let rounding = (coil.turns().len() as f64 + 2.0) * f64::EPSILON * coil.length();
+        for turn in coil.turns() {
+            let expected = match spec.turn_length {
+                TurnLength::True => 2.0 * PI * turn.r,
+                TurnLength::Equal => mean,
+            };
+            prop_assert!((turn.length() - expected).abs() < rounding, "{:?}", turn);
+        }
+    }
+
+    /// ∫ (L − 2z) dz over the whole fibre is 0, and it is ℓ (L − 2 z_mid) over each turn.
+    #[test]
+    fn exact_weights_add_up_to_nothing(spec in any_spec(ALL)) {
+        let coil = wind(&spec).unwrap();
+        let length = coil.length();
+        let span = |(start, end): (f64, f64)| (end - start) * (length - 2.0 * (0.5 * (start + end)));
+        let tails = span(coil.tail_spans().0) + span(coil.tail_spans().1);
+        // a plain sum of n terms, none above L²
+        let rounding = (coil.turns().len() as f64 + 6.0) * f64::EPSILON * length * length;
+        let turns: f64 = coil.turns().iter().map(|turn| turn.length() * (length - 2.0 * turn.z_mid())).sum();
+        prop_assert!((turns + tails).abs() < rounding);
+        prop_assert!((coil.weights().iter().sum::<f64>() + tails).abs() < rounding);
+        prop_assert!((coil.moment(0, 0) + tails).abs() < rounding);
+    }
+}
