@@ -28,19 +28,19 @@ pub struct Design {
 /// The homogenised coil body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body {
-    /// Outer radius [m].
+    /// Outer radius \[m\].
     pub outer_radius: f64,
-    /// Height along the axis [m].
+    /// Height along the axis \[m\].
     pub height: f64,
-    /// Density [kg/m³].
+    /// Density \[kg/m³\].
     pub density: f64,
-    /// Specific heat [J/(kg K)].
+    /// Specific heat \[J/(kg K)\].
     pub specific_heat: f64,
     /// Elastic constants and expansion; z is the fibre, so the coil's hoop direction.
     pub elastic: TransverselyIsotropic,
-    /// Conductivity along the fibre [W/(m K)] (unused in axisymmetry: no gradient points along the hoop).
+    /// Conductivity along the fibre \[W/(m K)\] (unused in axisymmetry: no gradient points along the hoop).
     pub conductivity_z: f64,
-    /// Conductivity across the fibre [W/(m K)].
+    /// Conductivity across the fibre \[W/(m K)\].
     pub conductivity_r: f64,
 }
 
@@ -49,11 +49,11 @@ pub struct Body {
 pub struct Solid {
     /// Elastic constants and expansion.
     pub elastic: Isotropic,
-    /// Conductivity [W/(m K)].
+    /// Conductivity \[W/(m K)\].
     pub conductivity: f64,
-    /// Density [kg/m³].
+    /// Density \[kg/m³\].
     pub density: f64,
-    /// Specific heat [J/(kg K)].
+    /// Specific heat \[J/(kg K)\].
     pub specific_heat: f64,
 }
 
@@ -62,7 +62,7 @@ pub struct Solid {
 pub struct Spool {
     /// Material of hub and flanges.
     pub material: Solid,
-    /// Wall thickness of the hub [m].
+    /// Wall thickness of the hub \[m\].
     pub hub_thickness: f64,
     /// Contact between hub and coil bore.
     pub hub_contact: Contact,
@@ -75,9 +75,9 @@ pub struct Spool {
 pub struct Flange {
     /// The side of the coil it stands at.
     pub side: Side,
-    /// Thickness along the axis [m].
+    /// Thickness along the axis \[m\].
     pub thickness: f64,
-    /// How far it reaches beyond the coil's outer radius [m], ≥ 0.
+    /// How far it reaches beyond the coil's outer radius \[m\], ≥ 0.
     pub overhang: f64,
     /// Contact between flange and coil face.
     pub contact: Contact,
@@ -102,10 +102,10 @@ pub enum Contact {
 }
 
 impl Contact {
-    /// Width of the gap at an unbonded face [m].
+    /// Width of the gap at an unbonded face \[m\].
     pub const GAP: f64 = 0.2e-3;
 
-    /// How far the spool's part stands back from the coil [m].
+    /// How far the spool's part stands back from the coil \[m\].
     pub fn gap(self) -> f64 {
         match self {
             Contact::Bonded => 0.0,
@@ -117,22 +117,22 @@ impl Contact {
 /// The medium around the solids.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Surroundings {
-    /// Conductivity [W/(m K)].
+    /// Conductivity \[W/(m K)\].
     pub conductivity: f64,
-    /// Density [kg/m³].
+    /// Density \[kg/m³\].
     pub density: f64,
-    /// Specific heat [J/(kg K)].
+    /// Specific heat \[J/(kg K)\].
     pub specific_heat: f64,
-    /// Distance from the solids' bounding box to the chamber wall [m].
+    /// Distance from the solids' bounding box to the chamber wall \[m\].
     pub margin: f64,
 }
 
 /// The spool's thermometer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensor {
-    /// Radius [m].
+    /// Radius \[m\].
     pub radius: f64,
-    /// Position along the axis [m].
+    /// Position along the axis \[m\].
     pub y: f64,
 }
 
@@ -146,6 +146,6 @@ pub struct Dehomogenization {
     pub m_ry: f64,
     /// Coefficient of the hoop strain.
     pub m_rz: f64,
-    /// Coefficient of the temperature difference [1/K].
+    /// Coefficient of the temperature difference \[1/K\].
     pub m_rt: f64,
 }

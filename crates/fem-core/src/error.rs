@@ -31,12 +31,10 @@ pub enum Error {
         detail: String,
     },
     /// A solve left a residual that rounding cannot explain.
-    #[error(
-        "relative residual {residual:.3e} exceeds {limit:.1e} with {unknowns} unknowns; the factorisation is not to be trusted"
-    )]
+    #[error("backward error {backward_error:.3e} of a solve with {unknowns} unknowns exceeds {limit:.1e}: the factor is wrong")]
     Residual {
-        /// Largest residual relative to the right-hand side.
-        residual: f64,
+        /// Largest residual relative to |A| |x| + |b|.
+        backward_error: f64,
         /// The limit.
         limit: f64,
         /// Number of unknowns.

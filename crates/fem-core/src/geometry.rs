@@ -28,13 +28,13 @@ pub struct ReferenceElement {
 /// Gradients and weights of one element at its quadrature points. Rows are nodes, columns points.
 #[derive(Debug, Clone)]
 pub struct ElementGeometry {
-    /// ∂N/∂x [1/m].
+    /// ∂N/∂x \[1/m\].
     pub d_x: DMatrix<f64>,
-    /// ∂N/∂y [1/m].
+    /// ∂N/∂y \[1/m\].
     pub d_y: DMatrix<f64>,
-    /// x at each point [m].
+    /// x at each point \[m\].
     pub x: Vec<f64>,
-    /// y at each point [m].
+    /// y at each point \[m\].
     pub y: Vec<f64>,
     /// Quadrature weight times area element times [`Measure`].
     pub weight: Vec<f64>,
@@ -93,7 +93,7 @@ impl ReferenceElement {
         Ok(ElementGeometry { d_x, d_y, x: xs, y: ys, weight })
     }
 
-    /// Area (or volume of revolution) of each region of `mesh`, by quadrature [m² or m³].
+    /// Area (or volume of revolution) of each region of `mesh`, by quadrature \[m² or m³\].
     ///
     /// # Errors
     /// As [`Self::geometry`].

@@ -43,7 +43,7 @@ pub use constraints::{Constraints, DofMap};
 pub use error::Error;
 pub use form::{Form, Operator};
 pub use geometry::{ElementGeometry, Measure, ReferenceElement};
-pub use linear::{Factor, RESIDUAL_LIMIT, SymbolicFactor};
+pub use linear::{BACKWARD_ERROR_LIMIT, Factor, SymbolicFactor};
 pub use mesh::Mesh;
 pub use problem::Problem;
 pub use sparse::{Pattern, SparseMatrix};

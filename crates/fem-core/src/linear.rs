@@ -7,11 +7,11 @@ use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Mat, Side};
 
-/// Largest residual relative to the right-hand side that a solve may leave, after one step of iterative refinement.
+/// Largest backward error `‖b − A x‖ / (‖ |A| |x| ‖ + ‖b‖)` (maximum norms) that a solve may leave, after one step of iterative
+/// refinement.
 ///
-/// Rounding leaves about 1e-16 × condition number before and far less after refinement; anything above this limit means a
-/// wrong factor.
-pub const RESIDUAL_LIMIT: f64 = 1e-8;
+/// A correct factor leaves a few units of rounding (1e-15), whatever the condition number; a wrong one leaves of order one.
+pub const BACKWARD_ERROR_LIMIT: f64 = 1e-12;
 
 /// Orderings and sizes of a Cholesky factor: computed once per sparsity pattern.
 #[derive(Debug, Clone)]
@@ -89,7 +89,7 @@ impl Factor {
     /// Solves for all right-hand sides together, refines once, checks each residual.
     ///
     /// # Errors
-    /// [`Error::Residual`] if a residual exceeds [`RESIDUAL_LIMIT`].
+    /// [`Error::Residual`] if a backward error exceeds [`BACKWARD_ERROR_LIMIT`].
     pub fn solve(&self, rhs: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, Error> {
         let residual =
             |x: &[f64], b: &[f64]| -> Vec<f64> { self.matrix.multiply(x).iter().zip(b).map(|(ax, b)| b - ax).collect() };
@@ -99,12 +99,18 @@ impl Factor {
             x.iter_mut().zip(step).for_each(|(x, step)| *x += step);
         }
         for (x, b) in x.iter().zip(rhs) {
-            let largest = |v: &[f64]| v.iter().fold(0.0, |m: f64, v| if v.is_nan() { f64::INFINITY } else { m.max(v.abs()) });
-            let (left, size) = (largest(&residual(x, b)), largest(b));
-            if left > RESIDUAL_LIMIT * size {
-                return Err(Error::Residual { residual: left / size, limit: RESIDUAL_LIMIT, unknowns: self.unknowns() });
+            let size = largest(&self.matrix.multiply_magnitudes(x)) + largest(b);
+            let backward_error = largest(&residual(x, b)) / size;
+            // not `>`: a NaN must not pass
+            if size != 0.0 && !(backward_error <= BACKWARD_ERROR_LIMIT) {
+                return Err(Error::Residual { backward_error, limit: BACKWARD_ERROR_LIMIT, unknowns: self.unknowns() });
             }
         }
         Ok(x)
     }
+}
+
+/// Maximum norm; NaN if any entry is.
+fn largest(v: &[f64]) -> f64 {
+    v.iter().fold(0.0, |m: f64, v| if v.is_nan() || m.is_nan() { f64::NAN } else { m.max(v.abs()) })
 }

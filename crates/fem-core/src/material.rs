@@ -1,28 +1,28 @@
 //! Thermo-elastic laws as a 6×6 stiffness and a thermal stress vector.
 //!
 //! Voigt order xx, yy, zz, yz, xz, xy with engineering shear strains; stresses in Pa, strains dimensionless.
-//! The stress is `C ε − β ΔT` with the thermal stress vector `β = C α` [Pa/K].
+//! The stress is `C ε − β ΔT` with the thermal stress vector `β = C α` \[Pa/K\].
 
 use crate::Error;
 use nalgebra::{Matrix6, Vector6};
 
-/// A linear thermo-elastic law: stiffness [Pa] and thermal stress vector [Pa/K] in Voigt order.
+/// A linear thermo-elastic law: stiffness \[Pa\] and thermal stress vector \[Pa/K\] in Voigt order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThermoElastic {
-    /// Stiffness `C` [Pa], symmetric positive definite.
+    /// Stiffness `C` \[Pa\], symmetric positive definite.
     pub stiffness: Matrix6<f64>,
-    /// Thermal stress vector `β = C α` [Pa/K].
+    /// Thermal stress vector `β = C α` \[Pa/K\].
     pub thermal_stress: Vector6<f64>,
 }
 
 /// An isotropic solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Isotropic {
-    /// Young's modulus [Pa], > 0.
+    /// Young's modulus \[Pa\], > 0.
     pub youngs_modulus: f64,
     /// Poisson's ratio, in (−1, 0.5).
     pub poisson_ratio: f64,
-    /// Coefficient of linear thermal expansion [1/K].
+    /// Coefficient of linear thermal expansion \[1/K\].
     pub thermal_expansion: f64,
 }
 
@@ -31,19 +31,19 @@ pub struct Isotropic {
 /// `ν_rz = ν_zr E_r / E_z` and `G_r = E_r / 2(1 + ν_r)` follow from the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TransverselyIsotropic {
-    /// Young's modulus along the fibre [Pa], > 0.
+    /// Young's modulus along the fibre \[Pa\], > 0.
     pub e_z: f64,
-    /// Young's modulus across the fibre [Pa], > 0.
+    /// Young's modulus across the fibre \[Pa\], > 0.
     pub e_r: f64,
-    /// Shear modulus in planes that hold the fibre [Pa], > 0.
+    /// Shear modulus in planes that hold the fibre \[Pa\], > 0.
     pub g_zr: f64,
     /// Transverse contraction per axial extension under axial stress.
     pub nu_zr: f64,
     /// Poisson's ratio within the plane across the fibre.
     pub nu_r: f64,
-    /// Thermal expansion along the fibre [1/K].
+    /// Thermal expansion along the fibre \[1/K\].
     pub alpha_z: f64,
-    /// Thermal expansion across the fibre [1/K].
+    /// Thermal expansion across the fibre \[1/K\].
     pub alpha_r: f64,
 }
 
@@ -62,13 +62,13 @@ fn finite(field: &'static str, value: f64) -> Result<(), Error> {
 }
 
 impl Isotropic {
-    /// First Lamé constant λ [Pa].
+    /// First Lamé constant λ \[Pa\].
     pub fn lame_lambda(&self) -> f64 {
         let nu = self.poisson_ratio;
         self.youngs_modulus * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
     }
 
-    /// Shear modulus μ [Pa].
+    /// Shear modulus μ \[Pa\].
     pub fn shear_modulus(&self) -> f64 {
         self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio))
     }
@@ -106,7 +106,7 @@ impl TransverselyIsotropic {
         self.nu_zr * self.e_r / self.e_z
     }
 
-    /// Shear modulus across the fibre, `G_r = E_r / 2(1 + ν_r)` [Pa].
+    /// Shear modulus across the fibre, `G_r = E_r / 2(1 + ν_r)` \[Pa\].
     pub fn g_r(&self) -> f64 {
         self.e_r / (2.0 * (1.0 + self.nu_r))
     }

@@ -16,7 +16,7 @@ pub struct Mesh {
 impl Mesh {
     /// Checks the arrays against each other and takes them.
     ///
-    /// `nodes` are positions [m]; `elements` list (order+1)² node numbers each; `regions` give each element's material.
+    /// `nodes` are positions \[m\]; `elements` list (order+1)² node numbers each; `regions` give each element's material.
     ///
     /// # Errors
     /// [`Error::Mesh`] if a length or a node number does not fit, or a coordinate is not finite.
@@ -47,7 +47,7 @@ impl Mesh {
         self.order
     }
 
-    /// Positions of the nodes [m].
+    /// Positions of the nodes \[m\].
     pub fn nodes(&self) -> &[[f64; 2]] {
         &self.nodes
     }

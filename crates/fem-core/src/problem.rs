@@ -109,7 +109,7 @@ impl<'a> Problem<'a> {
         Ok(self.pattern(map, capacities).assemble(&elements))
     }
 
-    /// Area (or volume of revolution) of each region [m² or m³].
+    /// Area (or volume of revolution) of each region \[m² or m³\].
     ///
     /// # Errors
     /// [`Error::Mesh`] if an element is turned inside out.

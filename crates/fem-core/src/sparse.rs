@@ -43,6 +43,18 @@ impl SparseMatrix {
         y
     }
 
+    /// |A| |x|: the scale of rounding in [`Self::multiply`].
+    pub fn multiply_magnitudes(&self, x: &[f64]) -> Vec<f64> {
+        let (starts, rows, values) = self.parts();
+        let mut y = vec![0.0; self.rows()];
+        for (range, x) in starts.windows(2).zip(x) {
+            for k in range[0]..range[1] {
+                y[rows[k]] += (values[k] * x).abs();
+            }
+        }
+        y
+    }
+
     /// α A + β B of two matrices on the same pattern.
     ///
     /// # Panics

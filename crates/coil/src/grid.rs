@@ -1,0 +1,158 @@
+//! Tensor-product meshes of the half-plane, graded towards the edges of the coil where bonded materials make stresses singular.
+
+use crate::Error;
+use crate::layout::{Layout, Region};
+use fem_core::{Mesh, polynomial::gauss_lobatto};
+
+/// Order and grading of a coil mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resolution {
+    /// Polynomial order of the elements, 1 to 20.
+    pub order: usize,
+    /// Geometric layers towards each edge of the coil, 0 to 20.
+    pub layers: usize,
+    /// Each layer's width as a fraction of the next one's distance from the edge, in 0.05 … 0.7.
+    pub ratio: f64,
+}
+
+/// How much of the half-plane is meshed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Domain {
+    /// Coil and spool: enough for mechanics.
+    Solids,
+    /// Everything to the chamber wall: heat flow.
+    Chamber,
+}
+
+/// A tensor-product mesh with its element lines.
+#[derive(Debug, Clone)]
+pub struct Grid {
+    mesh: Mesh,
+    regions: Vec<Region>,
+    r_lines: Vec<f64>,
+    y_lines: Vec<f64>,
+    /// element number of each grid cell, column by column, if it is meshed
+    cells: Vec<Option<usize>>,
+}
+
+/// Two lines closer than this are one \[m\]: far below any dimension a coil is made to.
+const COINCIDENT: f64 = 1e-9;
+
+/// Sorted positions without repetitions.
+fn distinct(mut positions: Vec<f64>) -> Vec<f64> {
+    positions.sort_by(f64::total_cmp);
+    positions.dedup_by(|a, b| (*a - *b).abs() < COINCIDENT);
+    positions
+}
+
+/// Fractions of an interval, graded towards the ends that are marked.
+fn fractions(layers: usize, ratio: f64, ends: [bool; 2]) -> Vec<f64> {
+    let towards_zero = |width: f64| (0..layers).rev().map(move |k| width * ratio.powi(k as i32 + 1));
+    match ends {
+        [false, false] => vec![0.0],
+        [true, false] => [0.0].into_iter().chain(towards_zero(1.0)).collect(),
+        [false, true] => {
+            let mut f: Vec<f64> = towards_zero(1.0).map(|x| 1.0 - x).collect();
+            f.reverse();
+            [0.0].into_iter().chain(f).collect()
+        }
+        [true, true] => {
+            let low: Vec<f64> = [0.0].into_iter().chain(towards_zero(0.5)).collect();
+            let high: Vec<f64> = low[1..].iter().rev().map(|x| 1.0 - x).collect();
+            low.into_iter().chain([0.5]).chain(high).collect()
+        }
+    }
+}
+
+fn lines(breaks: &[f64], coil: [f64; 2], resolution: &Resolution) -> Vec<f64> {
+    let edge = |x: f64| coil.iter().any(|e| (e - x).abs() < COINCIDENT);
+    let mut lines = Vec::new();
+    for w in breaks.windows(2) {
+        let f = fractions(resolution.layers, resolution.ratio, [edge(w[0]), edge(w[1])]);
+        lines.extend(f.iter().map(|f| w[0] + f * (w[1] - w[0])));
+    }
+    lines.extend(breaks.last());
+    lines
+}
+
+impl Grid {
+    /// Meshes `domain` of `layout`.
+    ///
+    /// # Errors
+    /// [`Error::Resolution`] if a number is out of range.
+    pub fn new(layout: &Layout, resolution: &Resolution, domain: Domain) -> Result<Self, Error> {
+        let Resolution { order, layers, ratio } = *resolution;
+        if !(1..=20).contains(&order) || layers > 20 || !(0.05..=0.7).contains(&ratio) {
+            let given = format!("order {order}, {layers} layers, ratio {ratio}");
+            return Err(Error::Resolution(format!("{given}; needs order 1 to 20, at most 20 layers, ratio 0.05 to 0.7")));
+        }
+        let rectangles = || layout.solids.iter().chain((domain == Domain::Chamber).then_some(&layout.chamber));
+        let coil = layout.solids[0];
+        let r_lines = lines(&distinct(rectangles().flat_map(|s| s.r).collect()), coil.r, resolution);
+        let y_lines = lines(&distinct(rectangles().flat_map(|s| s.y).collect()), coil.y, resolution);
+        Self::on_lines(layout, order, r_lines, y_lines, domain)
+    }
+
+    fn on_lines(layout: &Layout, order: usize, r_lines: Vec<f64>, y_lines: Vec<f64>, domain: Domain) -> Result<Self, Error> {
+        let lattice = gauss_lobatto(order);
+        let (columns, rows) = (r_lines.len() - 1, y_lines.len() - 1);
+        let width = columns * order + 1;
+        let along = |lines: &[f64], k: usize| {
+            let cell = (k / order).min(lines.len() - 2);
+            let xi = lattice[k - cell * order];
+            lines[cell] + (lines[cell + 1] - lines[cell]) * (1.0 + xi) / 2.0
+        };
+        let mut number = vec![usize::MAX; width * (rows * order + 1)];
+        let (mut nodes, mut elements, mut regions) = (Vec::new(), Vec::new(), Vec::new());
+        let mut cells = vec![None; columns * rows];
+        for cell in 0..columns * rows {
+            let (i, j) = (cell % columns, cell / columns);
+            let region = layout.region((r_lines[i] + r_lines[i + 1]) / 2.0, (y_lines[j] + y_lines[j + 1]) / 2.0);
+            if region == Region::Medium && domain == Domain::Solids {
+                continue;
+            }
+            let mut element = Vec::with_capacity((order + 1) * (order + 1));
+            for k in 0..(order + 1) * (order + 1) {
+                let (a, b) = (i * order + k % (order + 1), j * order + k / (order + 1));
+                let slot = &mut number[b * width + a];
+                if *slot == usize::MAX {
+                    *slot = nodes.len();
+                    nodes.push([along(&r_lines, a), along(&y_lines, b)]);
+                }
+                element.push(*slot);
+            }
+            cells[cell] = Some(elements.len());
+            elements.push(element);
+            regions.push(region);
+        }
+        let codes = regions.iter().map(|r| *r as usize).collect();
+        let mesh = Mesh::new(order, nodes, elements, codes).map_err(|source| Error::Solve { part: "structure", source })?;
+        Ok(Self { mesh, regions, r_lines, y_lines, cells })
+    }
+
+    /// The mesh; its region numbers are `Region as usize`.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// Region of each element.
+    pub fn regions(&self) -> &[Region] {
+        &self.regions
+    }
+
+    /// Elements that hold (r, y), with its reference coordinates (ξ, η) in each: one inside an element, two on a line, four on a
+    /// corner, none outside the mesh.
+    pub fn locate(&self, r: f64, y: f64) -> Vec<(usize, f64, f64)> {
+        let cells = |lines: &[f64], x: f64| -> Vec<usize> {
+            let holds = |k: &usize| lines[*k] - COINCIDENT <= x && x <= lines[*k + 1] + COINCIDENT;
+            (0..lines.len() - 1).filter(holds).collect()
+        };
+        let local = |lines: &[f64], k: usize, x: f64| 2.0 * (x - lines[k]) / (lines[k + 1] - lines[k]) - 1.0;
+        let (columns, rows) = (cells(&self.r_lines, r), cells(&self.y_lines, y));
+        let cell = |i: usize, j: usize| {
+            let element = self.cells[j * (self.r_lines.len() - 1) + i]?;
+            Some((element, local(&self.r_lines, i, r), local(&self.y_lines, j, y)))
+        };
+        rows.iter().flat_map(|&j| columns.iter().filter_map(move |&i| cell(i, j))).collect()
+    }
+}

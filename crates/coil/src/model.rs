@@ -1,0 +1,290 @@
+//! The mechanical model: coil and spool, factorised; strain at every turn for a given temperature field.
+
+use crate::{Dehomogenization, Design, Domain, Error, Grid, Layout, Region, Resolution};
+use bias::{Coefficients, Slice};
+use fem_core::material::ThermoElastic;
+use fem_core::{Constraints, DofMap, Factor, Form, Problem, SparseMatrix};
+use nalgebra::DMatrix;
+use winding::Winding;
+
+/// Voigt rows (x = radial, y = axial, z = hoop of the law) of the axisymmetric strains rr, yy, hoop, ry.
+const AXISYMMETRIC: [usize; 4] = [0, 1, 2, 5];
+
+/// Strain of the fibre's glass at the centre of a turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TurnStrain {
+    /// Along the fibre: the coil's hoop strain.
+    pub axial: f64,
+    /// Across the fibre: dehomogenised.
+    pub radial: f64,
+}
+
+/// A point in the mesh: nodes of its element (or elements) with values and gradients of the shape functions.
+struct Probe {
+    r: f64,
+    nodes: Vec<usize>,
+    value: Vec<f64>,
+    d_r: Vec<f64>,
+    d_y: Vec<f64>,
+}
+
+/// A design with its winding laid, its mesh and its factorised stiffness.
+pub struct Model {
+    winding: Winding,
+    coefficients: Coefficients,
+    dehomogenization: Dehomogenization,
+    fibre_expansion: f64,
+    grid: Grid,
+    map: DofMap,
+    factor: Factor,
+    thermal_load: SparseMatrix,
+    probes: Vec<Probe>,
+    bore: Probe,
+}
+
+/// The bias as a linear functional of the nodal temperature rates: one adjoint solution per elasto-optic part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BiasOperator {
+    /// Shupe part, [rad/s] per [K/s] at each node of [`Model::grid`].
+    pub shupe: Vec<f64>,
+    /// Elasto-optic part of the axial strain.
+    pub eo_axial: Vec<f64>,
+    /// Elasto-optic part of the radial strain.
+    pub eo_radial: Vec<f64>,
+}
+
+fn at<T>(part: &'static str, result: Result<T, fem_core::Error>) -> Result<T, Error> {
+    result.map_err(|source| Error::Solve { part, source })
+}
+
+fn axisymmetric(law: &ThermoElastic) -> (DMatrix<f64>, DMatrix<f64>) {
+    let stiffness = DMatrix::from_fn(4, 4, |i, j| law.stiffness[(AXISYMMETRIC[i], AXISYMMETRIC[j])]);
+    let stress = DMatrix::from_fn(4, 1, |i, _| law.thermal_stress[AXISYMMETRIC[i]]);
+    (stiffness, stress)
+}
+
+impl Model {
+    /// Winds, meshes and factorises `design`.
+    ///
+    /// # Errors
+    /// [`Error`] names the dimension, property, winding or optical constant at fault, or the solve that failed.
+    pub fn new(design: &Design, resolution: &Resolution) -> Result<Self, Error> {
+        let winding = winding::wind(&design.winding)?;
+        let coefficients = design.optics.coefficients(winding.length())?;
+        let layout = Layout::new(design)?;
+        let grid = Grid::new(&layout, resolution, Domain::Solids)?;
+        let (map, factor, thermal_load) = assemble(design, &grid)?;
+        let probe = |field: &str, r: f64, y: f64| probe(&grid, field, r, y);
+        let probes = winding.turns().iter().map(|t| probe("winding", t.r, t.y)).collect::<Result<_, _>>()?;
+        let lowest = layout.solids.iter().filter(|s| s.r[0] == layout.bore).map(|s| s.y[0]).fold(f64::INFINITY, f64::min);
+        let highest = layout.solids.iter().filter(|s| s.r[0] == layout.bore).map(|s| s.y[1]).fold(f64::NEG_INFINITY, f64::max);
+        let bore = probe("sensor", layout.bore, design.sensor.y.clamp(lowest, highest))?;
+        Ok(Self {
+            winding,
+            coefficients,
+            dehomogenization: design.dehomogenization,
+            fibre_expansion: design.optics.thermal_expansion,
+            grid,
+            map,
+            factor,
+            thermal_load,
+            probes,
+            bore,
+        })
+    }
+
+    /// The winding.
+    pub fn winding(&self) -> &Winding {
+        &self.winding
+    }
+
+    /// The mesh of coil and spool; temperatures are given at its nodes.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// Unknowns of the mechanical system.
+    pub fn unknowns(&self) -> usize {
+        self.factor.unknowns()
+    }
+
+    /// Temperature at the centre of every turn, in the winding's order, from nodal temperatures \[K\].
+    pub fn temperature_at_turns(&self, temperature: &[f64]) -> Vec<f64> {
+        self.probes.iter().map(|p| p.value_of(temperature)).collect()
+    }
+
+    /// Total strain of the glass at the centre of every turn for nodal temperature differences from the stress-free state \[K\].
+    ///
+    /// # Errors
+    /// [`Error::Solve`] if the solve leaves a residual.
+    pub fn strain_at_turns(&self, temperature: &[f64]) -> Result<Vec<TurnStrain>, Error> {
+        let load = self.thermal_load.multiply(temperature);
+        let u = self.map.expand(&at("structure", self.factor.solve(&[load]))?[0]);
+        let m = self.dehomogenization;
+        let strain = |p: &Probe| {
+            let [rr, yy, hoop] = p.strain_of(&u);
+            let radial = m.m_rx * rr + m.m_ry * yy + m.m_rz * hoop + m.m_rt * p.value_of(temperature);
+            TurnStrain { axial: hoop, radial }
+        };
+        Ok(self.probes.iter().map(strain).collect())
+    }
+
+    /// The fibre as slices for [`bias::bias`]: every turn, and the tails, which expand freely at the bore's temperature.
+    ///
+    /// # Errors
+    /// [`Error::Solve`] if the solve leaves a residual.
+    pub fn slices(&self, temperature_rate: &[f64]) -> Result<Vec<Slice>, Error> {
+        let strain = self.strain_at_turns(temperature_rate)?;
+        let rates = self.temperature_at_turns(temperature_rate);
+        let turns = self.winding.turns().iter().zip(strain).zip(rates).map(|((turn, strain), rate)| Slice {
+            z_start: turn.z_start,
+            z_end: turn.z_end,
+            temperature_rate: rate,
+            axial_strain_rate: strain.axial,
+            radial_strain_rate: strain.radial,
+        });
+        let rate = self.bore.value_of(temperature_rate);
+        let (ccw, cw) = self.winding.tail_spans();
+        let tails = [ccw, cw].into_iter().filter(|(start, end)| end > start).map(|(z_start, z_end)| Slice {
+            z_start,
+            z_end,
+            temperature_rate: rate,
+            axial_strain_rate: self.fibre_expansion * rate,
+            radial_strain_rate: self.fibre_expansion * rate,
+        });
+        Ok(turns.chain(tails).collect())
+    }
+
+    /// The bias parts as functionals of the nodal temperature rate, by one adjoint solve each.
+    ///
+    /// # Errors
+    /// [`Error::Solve`] if a solve leaves a residual.
+    pub fn bias_operator(&self) -> Result<BiasOperator, Error> {
+        let nodes = self.grid.mesh().nodes().len();
+        let (c, m) = (self.coefficients, self.dehomogenization);
+        let mut direct = BiasOperator { shupe: vec![0.0; nodes], eo_axial: vec![0.0; nodes], eo_radial: vec![0.0; nodes] };
+        let (mut axial, mut radial) = (vec![0.0; 2 * nodes], vec![0.0; 2 * nodes]);
+        for (p, w) in self.probes.iter().zip(self.winding.weights()) {
+            p.add_value(&mut direct.shupe, w * c.shupe);
+            p.add_value(&mut direct.eo_axial, w * c.axial_per_temperature_rate);
+            p.add_value(&mut direct.eo_radial, w * (c.radial * m.m_rt + c.radial_per_temperature_rate));
+            p.add_strain(&mut axial, w * c.axial, [0.0, 0.0, 1.0]);
+            p.add_strain(&mut radial, w * c.radial, [m.m_rx, m.m_ry, m.m_rz]);
+        }
+        let (length, (ccw, cw)) = (self.winding.length(), self.winding.tail_spans());
+        let w: f64 = [ccw, cw].iter().map(|(start, end)| (end - start) * (length - start - end)).sum();
+        self.bore.add_value(&mut direct.shupe, w * c.shupe);
+        self.bore.add_value(&mut direct.eo_axial, w * (c.axial * self.fibre_expansion + c.axial_per_temperature_rate));
+        self.bore.add_value(&mut direct.eo_radial, w * (c.radial * self.fibre_expansion + c.radial_per_temperature_rate));
+        let adjoint = at("structure", self.factor.solve(&[self.map.restrict(&axial), self.map.restrict(&radial)]))?;
+        for (part, adjoint) in [&mut direct.eo_axial, &mut direct.eo_radial].into_iter().zip(adjoint) {
+            let through = self.thermal_load.multiply_transposed(&adjoint);
+            part.iter_mut().zip(through).for_each(|(g, t)| *g += t);
+        }
+        Ok(direct)
+    }
+}
+
+impl Probe {
+    fn value_of(&self, field: &[f64]) -> f64 {
+        self.nodes.iter().zip(&self.value).map(|(&node, v)| v * field[node]).sum()
+    }
+
+    /// Strains rr, yy, hoop of the displacement (u_r, u_y), component fastest.
+    fn strain_of(&self, u: &[f64]) -> [f64; 3] {
+        let mut strain = [0.0; 3];
+        for (a, &node) in self.nodes.iter().enumerate() {
+            strain[0] += self.d_r[a] * u[2 * node];
+            strain[1] += self.d_y[a] * u[2 * node + 1];
+            strain[2] += self.value[a] / self.r * u[2 * node];
+        }
+        strain
+    }
+
+    fn add_value(&self, functional: &mut [f64], factor: f64) {
+        for (a, &node) in self.nodes.iter().enumerate() {
+            functional[node] += factor * self.value[a];
+        }
+    }
+
+    /// Adds `factor · (s · strain)` to a functional of the displacement: the transpose of [`Self::strain_of`].
+    fn add_strain(&self, functional: &mut [f64], factor: f64, s: [f64; 3]) {
+        for (a, &node) in self.nodes.iter().enumerate() {
+            functional[2 * node] += factor * (s[0] * self.d_r[a] + s[2] * self.value[a] / self.r);
+            functional[2 * node + 1] += factor * s[1] * self.d_y[a];
+        }
+    }
+}
+
+/// A point between elements takes the mean of their values: gradients jump there, and the mean keeps mirror symmetry.
+fn probe(grid: &Grid, field: &str, r: f64, y: f64) -> Result<Probe, Error> {
+    let mut hits = grid.locate(r, y);
+    if hits.is_empty() {
+        return Err(Error::design(field, format!("the point r = {r} m, y = {y} m lies outside the solids")));
+    }
+    if field == "winding" {
+        hits.retain(|(element, _, _)| grid.regions()[*element] == Region::Coil);
+        if hits.is_empty() {
+            return Err(Error::design(
+                field,
+                format!("the turn at r = {r} m, y = {y} m lies outside the coil; enlarge the coil"),
+            ));
+        }
+    }
+    let mesh = grid.mesh();
+    let problem = Problem::new(mesh, Form::AXISYMMETRIC_DIFFUSION, 1);
+    let mut probe = Probe { r, nodes: Vec::new(), value: Vec::new(), d_r: Vec::new(), d_y: Vec::new() };
+    let share = 1.0 / hits.len() as f64;
+    for (element, xi, eta) in hits {
+        let [value, d_r, d_y] = problem.at_point(element, xi, eta);
+        probe.nodes.extend(&mesh.elements()[element]);
+        for (to, from) in [(&mut probe.value, value), (&mut probe.d_r, d_r), (&mut probe.d_y, d_y)] {
+            to.extend(from.iter().map(|v| share * v));
+        }
+    }
+    Ok(probe)
+}
+
+fn assemble(design: &Design, grid: &Grid) -> Result<(DofMap, Factor, SparseMatrix), Error> {
+    let mesh = grid.mesh();
+    let mut laws = vec![None; mesh.region_count()];
+    let mut stresses = vec![None; mesh.region_count()];
+    let mut set = |region: Region, law: ThermoElastic| {
+        let (stiffness, stress) = axisymmetric(&law);
+        (laws[region as usize], stresses[region as usize]) = (Some(stiffness), Some(stress));
+    };
+    set(Region::Coil, at("coil", design.body.elastic.law())?);
+    if let Some(spool) = &design.spool {
+        set(Region::Spool, at("spool", spool.material.elastic.law())?);
+    }
+    let problem = Problem::new(mesh, Form::AXISYMMETRIC_ELASTICITY, mesh.order() + 1);
+    let mut constraints = Constraints::new(2 * mesh.nodes().len());
+    for node in one_node_of_each_body(mesh) {
+        at("structure", constraints.hold(2 * node + 1))?;
+    }
+    let map = constraints.eliminate(&problem.used(|_| true));
+    let factor = at("structure", problem.factor(&map, &laws))?;
+    let scalar = Constraints::new(mesh.nodes().len()).eliminate(&vec![true; mesh.nodes().len()]);
+    let thermal_load = at("structure", problem.coupling(&map, &scalar, &stresses))?;
+    Ok((map, factor, thermal_load))
+}
+
+/// One node of every connected body: each is free to move along the axis until it is held.
+fn one_node_of_each_body(mesh: &fem_core::Mesh) -> Vec<usize> {
+    let mut body: Vec<usize> = (0..mesh.nodes().len()).collect();
+    fn root(body: &mut [usize], mut i: usize) -> usize {
+        while body[i] != i {
+            body[i] = body[body[i]];
+            i = body[i];
+        }
+        i
+    }
+    for element in mesh.elements() {
+        let first = root(&mut body, element[0]);
+        for &node in &element[1..] {
+            let other = root(&mut body, node);
+            body[other] = first;
+        }
+    }
+    (0..body.len()).filter(|&i| body[i] == i).collect()
+}

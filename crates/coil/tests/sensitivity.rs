@@ -1,0 +1,175 @@
+//! Steady-ramp sensitivity: adjoint against brute force, symmetries, exact cases, the reference coil's numbers.
+
+mod common;
+
+use bias::{Bias, Sensitivity, StrainConvention};
+use coil::{COARSE, Contact, Design, FINE, Flange, Model, Resolution, Side, steady_sensitivity};
+use common::{changed, reference, spool};
+use fem_core::material::{Isotropic, TransverselyIsotropic};
+use winding::{ClimbSide, Pattern, Tails, TurnLength};
+
+/// Enough for identities that hold on any mesh.
+const QUICK: Resolution = Resolution { order: 4, layers: 1, ratio: 0.2 };
+
+fn total(design: &Design) -> f64 {
+    Model::new(design, &QUICK).expect("model").sensitivity().expect("solve").total()
+}
+
+/// Bias by running the forward model twice and differencing, through the slices of the bias integral.
+fn brute_force(design: &Design, rate: impl Fn([f64; 2]) -> f64) -> (Bias, Bias) {
+    let model = Model::new(design, &QUICK).expect("model");
+    let rates: Vec<f64> = model.grid().mesh().nodes().iter().map(|&p| rate(p)).collect();
+    let operator = model.bias_operator().expect("adjoint");
+    let dot = |g: &[f64]| g.iter().zip(&rates).map(|(g, r)| g * r).sum::<f64>();
+    let adjoint = Bias { shupe: dot(&operator.shupe), eo_axial: dot(&operator.eo_axial), eo_radial: dot(&operator.eo_radial) };
+    // two states an hour apart, far from the stress-free one
+    let before: Vec<f64> = rates.iter().map(|r| -60.0 - 1800.0 * r).collect();
+    let after: Vec<f64> = before.iter().zip(&rates).map(|(t, r)| t + 3600.0 * r).collect();
+    let (s0, s1) = (model.slices(&before).expect("solve"), model.slices(&after).expect("solve"));
+    let slices: Vec<_> = s0
+        .iter()
+        .zip(s1)
+        .map(|(a, b)| bias::Slice {
+            z_start: a.z_start,
+            z_end: a.z_end,
+            temperature_rate: (b.temperature_rate - a.temperature_rate) / 3600.0,
+            axial_strain_rate: (b.axial_strain_rate - a.axial_strain_rate) / 3600.0,
+            radial_strain_rate: (b.radial_strain_rate - a.radial_strain_rate) / 3600.0,
+        })
+        .collect();
+    let forward = bias::bias(&design.optics, model.winding().length(), &slices).expect("slices");
+    (adjoint, forward)
+}
+
+fn assert_close(a: Bias, b: Bias, what: &str) {
+    let scale = b.shupe.abs() + b.eo_axial.abs() + b.eo_radial.abs();
+    for (a, b) in [(a.shupe, b.shupe), (a.eo_axial, b.eo_axial), (a.eo_radial, b.eo_radial)] {
+        assert!((a - b).abs() < 1e-8 * scale, "{what}: adjoint {a:e}, brute force {b:e}");
+    }
+}
+
+#[test]
+fn exact_adjoint_matches_brute_force_differencing() {
+    let designs = [
+        ("reference", reference()),
+        (
+            "tails, mechanical strain, left climb",
+            changed(|d| {
+                d.winding.tails = Tails { cw: 0.7, ccw: 0.1 };
+                d.optics.strain = StrainConvention::Mechanical;
+                d.winding.cw_climbs = ClimbSide::Left;
+            }),
+        ),
+        (
+            "steel, two flanges, one loose",
+            changed(|d| {
+                let s = spool(d);
+                s.material.elastic = Isotropic { youngs_modulus: 193e9, poisson_ratio: 0.29, thermal_expansion: 17.3e-6 };
+                let left = Flange { side: Side::Left, contact: Contact::Gap, ..s.flanges[0] };
+                s.flanges.push(left);
+            }),
+        ),
+        (
+            "no spool, equal turns, soft",
+            changed(|d| {
+                d.spool = None;
+                d.winding.turn_length = TurnLength::Equal;
+                d.body.elastic.e_r *= 0.5;
+            }),
+        ),
+    ];
+    for (name, design) in designs {
+        let (adjoint, forward) = brute_force(&design, |_| 1.0 / 60.0);
+        assert_close(adjoint, forward, &format!("{name}, ramp"));
+        let (adjoint, forward) = brute_force(&design, |[r, y]| (300.0 * r).sin() / 60.0 + 0.3 * y - 8.0 * r * y);
+        assert_close(adjoint, forward, &format!("{name}, uneven warming"));
+        assert!(forward.shupe.abs() > 1e-3 * forward.eo_axial.abs(), "the uneven field must have a Shupe part");
+    }
+}
+
+#[test]
+fn exact_one_isotropic_material_expands_freely_and_has_no_bias() {
+    let design = changed(|d| {
+        let Isotropic { youngs_modulus: e, poisson_ratio: nu, thermal_expansion: a } = common::aluminium().elastic;
+        let g = e / (2.0 * (1.0 + nu));
+        d.body.elastic = TransverselyIsotropic { e_z: e, e_r: e, g_zr: g, nu_zr: nu, nu_r: nu, alpha_z: a, alpha_r: a };
+    });
+    let model = Model::new(&design, &QUICK).expect("model");
+    let strain = model.strain_at_turns(&vec![1.0; model.grid().mesh().nodes().len()]).expect("solve");
+    let m = design.dehomogenization;
+    let radial = (m.m_rx + m.m_ry + m.m_rz) * 23.6e-6 + m.m_rt;
+    for s in &strain {
+        assert!((s.axial / 23.6e-6 - 1.0).abs() < 1e-9 && (s.radial / radial - 1.0).abs() < 1e-9, "{s:?}");
+    }
+    assert!(model.sensitivity().expect("solve").total().abs() < 1e-6 * total(&reference()).abs());
+}
+
+#[test]
+fn exact_no_shupe_part_in_a_steady_ramp_with_or_without_tails() {
+    for tails in [Tails { cw: 0.0, ccw: 0.0 }, Tails { cw: 1.3, ccw: 0.2 }] {
+        let s = Model::new(&changed(|d| d.winding.tails = tails), &QUICK).expect("model").sensitivity().expect("solve");
+        assert!(s.shupe.abs() < 1e-9, "{}", s.shupe);
+    }
+}
+
+#[test]
+fn symmetry_mirroring_coil_and_spool_changes_nothing_and_mirroring_one_does() {
+    let mirrored = changed(|d| {
+        d.winding.cw_climbs = ClimbSide::Left;
+        spool(d).flanges[0].side = Side::Left;
+    });
+    let half = changed(|d| d.winding.cw_climbs = ClimbSide::Left);
+    let s = total(&reference());
+    assert!((total(&mirrored) / s - 1.0).abs() < 1e-7, "{} against {s}", total(&mirrored));
+    assert!((total(&half) - s).abs() > 0.5, "handedness against the flange must matter: {} and {s}", total(&half));
+}
+
+#[test]
+fn symmetry_strain_conventions_agree_in_a_steady_ramp() {
+    let mechanical = changed(|d| {
+        d.optics.strain = StrainConvention::Mechanical;
+        d.winding.tails = Tails { cw: 0.4, ccw: 0.0 };
+    });
+    let total_strain = changed(|d| d.winding.tails = Tails { cw: 0.4, ccw: 0.0 });
+    assert!((total(&mechanical) - total(&total_strain)).abs() < 1e-9);
+}
+
+#[test]
+fn exact_loose_bodies_are_each_held_once_and_do_not_touch_the_coil() {
+    let loose = changed(|d| {
+        spool(d).hub_contact = Contact::Gap;
+        spool(d).flanges[0].contact = Contact::Gap;
+    });
+    let none = changed(|d| d.spool = None);
+    // the spool's lines refine the loose coil's mesh differently, so the two agree to discretisation only
+    let s = |d: &Design| Model::new(d, &COARSE).expect("model").sensitivity().expect("solve").total();
+    assert!((s(&loose) / s(&none) - 1.0).abs() < 1e-4, "{} against {}", s(&loose), s(&none));
+}
+
+#[test]
+fn paper_reference_coil_against_two_independent_codes() {
+    let s = steady_sensitivity(&reference()).expect("solve");
+    assert!((s.sensitivity.total().abs() / 2.7335 - 1.0).abs() < 1e-3, "{}", s.sensitivity.total());
+    assert!((s.sensitivity.eo_axial.abs() / 2.412 - 1.0).abs() < 1e-3, "{}", s.sensitivity.eo_axial);
+    assert!(s.sensitivity.total() < 0.0 && s.sensitivity.shupe.abs() < 1e-9);
+    assert!(s.error_estimate < 2e-3);
+}
+
+#[test]
+fn paper_ideal_quadrupole_and_tails() {
+    let quadrupole = Model::new(&changed(|d| d.winding.pattern = Pattern::Quadrupole), &COARSE).expect("model");
+    assert!((quadrupole.sensitivity().expect("solve").total().abs() - 0.437).abs() < 0.003);
+    let tail = |cw: f64| total(&changed(|d| d.winding.tails = Tails { cw, ccw: 0.0 }));
+    assert_eq!(format!("{:.1}", tail(1.0) - tail(0.0)), "1.8");
+}
+
+#[test]
+fn bounds_error_estimate_covers_the_true_error_at_most_tenfold() {
+    // against two refinements; the reference and three altered designs are in `cargo xtask validate`
+    let design = changed(|d| spool(d).flanges.clear());
+    let s = steady_sensitivity(&design).expect("solve");
+    let finest = Resolution { order: FINE.order + 2, layers: FINE.layers + 1, ..FINE };
+    let truth: Sensitivity = Model::new(&design, &finest).expect("model").sensitivity().expect("solve");
+    let ratio = s.error_estimate / (s.sensitivity.total() - truth.total()).abs();
+    assert!((1.0..10.0).contains(&ratio), "estimate over true error: {ratio}");
+}
