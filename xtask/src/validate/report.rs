@@ -1,0 +1,156 @@
+//! The comparison as text, as docs/validation.md, as the README's headline table, as JSON.
+
+use super::row::{Kind, Row, Verdict};
+use super::{Failure, Section, fixtures};
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::Path;
+
+fn kind(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Predicted => "predicted",
+        Kind::Identified => "identified",
+        Kind::Calibrated => "calibrated",
+        Kind::Misprint => "misprint",
+    }
+}
+
+fn verdict(row: &Row) -> &'static str {
+    match row.verdict {
+        Verdict::Holds => "holds",
+        Verdict::Differs => "differs",
+        Verdict::Fails => "FAILS",
+    }
+}
+
+/// The terminal's table.
+pub(crate) fn text(sections: &[Section]) -> String {
+    let mut out = String::new();
+    for section in sections {
+        let _ = writeln!(out, "\n{}", section.title);
+        for row in &section.rows {
+            let printed = row.printed.as_deref().unwrap_or("");
+            let computed = row.computed_text();
+            let _ = writeln!(
+                out,
+                "  {:<8} {:<10} {:<58} {:>8}  {:<28} {}",
+                verdict(row),
+                kind(row.kind),
+                row.quantity,
+                printed,
+                computed,
+                row.unit
+            );
+            if row.verdict != Verdict::Holds {
+                let _ = writeln!(out, "  {:<8} {}", "", row.reason);
+            }
+        }
+        for line in &section.timings {
+            let _ = writeln!(out, "  [{line}]");
+        }
+    }
+    out
+}
+
+fn markdown_table(out: &mut String, section: &Section) {
+    let _ = writeln!(out, "| id | quantity | printed | computed | unit | verdict | kind | reason |");
+    let _ = writeln!(out, "|---|---|---|---|---|---|---|---|");
+    for row in &section.rows {
+        let _ = writeln!(
+            out,
+            "| {} | {} | {} | {} | {} | {}{} | {} | {} |",
+            row.id.replace('|', "\\|"),
+            row.quantity.replace('|', "\\|"),
+            row.printed.as_deref().unwrap_or(""),
+            row.computed_text(),
+            row.unit,
+            verdict(row),
+            if row.must_hold { " (must)" } else { "" },
+            kind(row.kind),
+            row.reason.replace('|', "\\|")
+        );
+    }
+}
+
+/// docs/validation.md.
+pub(crate) fn markdown(sections: &[Section]) -> String {
+    let mut out = String::from(include_str!("preamble.md"));
+    for section in sections {
+        let _ = writeln!(out, "\n## {}\n", section.title);
+        for note in &section.notes {
+            let _ = writeln!(out, "{note}\n");
+        }
+        markdown_table(&mut out, section);
+        if !section.lines.is_empty() {
+            let _ = writeln!(out, "\n| spool | S, (deg/h)/(degC/min) |\n|---|---|");
+            for (name, s) in &section.lines {
+                let _ = writeln!(out, "| {name} | {s:.3} |");
+            }
+        }
+    }
+    out.push('\n');
+    out.push_str(include_str!("commands.md"));
+    out
+}
+
+/// The README's headline table.
+fn headline(sections: &[Section]) -> String {
+    let wanted = [
+        "I.E_z",
+        "I.E_r",
+        "I.alpha_r",
+        "II.M_rx",
+        "II.M_rz.free",
+        "III.length",
+        "III.height",
+        "IV.theory",
+        "IV.own",
+        "IV.quadrupole",
+    ];
+    let mut out = String::from("| | paper | fogcoil | unit | kind of agreement |\n|---|---|---|---|---|\n");
+    for row in sections.iter().flat_map(|s| &s.rows).filter(|row| wanted.contains(&row.id.as_str())) {
+        let (table, printed) = (row.id.split('.').next().unwrap_or(""), row.printed.as_deref().unwrap_or("–"));
+        let computed = row.computed_text();
+        let _ = writeln!(
+            out,
+            "| Table {table}: {} | {printed} | {computed} | {} | {} |",
+            row.quantity.replace('|', "\\|"),
+            row.unit,
+            kind(row.kind)
+        );
+    }
+    out
+}
+
+/// Writes `text` to a temporary file beside `path`, then renames it.
+fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    let failed = |e: std::io::Error| Failure(format!("{}: {e}", path.display()));
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut file = tempfile::Builder::new().tempfile_in(folder).map_err(failed)?;
+    file.write_all(text.as_bytes()).map_err(failed)?;
+    file.persist(path).map_err(|e| failed(e.error))?;
+    Ok(())
+}
+
+const BEGIN: &str = "<!-- headline: written by `cargo xtask validate` -->";
+const END: &str = "<!-- headline end -->";
+
+/// Writes docs/validation.md and the README's headline table.
+pub(crate) fn write_documents(sections: &[Section]) -> Result<(), Failure> {
+    let root = fixtures::root();
+    write(&root.join("docs/validation.md"), &markdown(sections))?;
+    let path = root.join("README.md");
+    let readme = std::fs::read_to_string(&path).map_err(|e| Failure(format!("{}: {e}", path.display())))?;
+    let missing = || Failure(format!("README.md lacks the lines {BEGIN:?} and {END:?}"));
+    let (before, rest) = readme.split_once(BEGIN).ok_or_else(missing)?;
+    let (_, after) = rest.split_once(END).ok_or_else(missing)?;
+    write(&path, &format!("{before}{BEGIN}\n{}{END}{after}", headline(sections)))
+}
+
+/// The rows as JSON (docs/schema/validate.schema.json).
+pub(crate) fn write_json(sections: &[Section], holds: bool, path: &Path) -> Result<(), Failure> {
+    let rows: Vec<&Row> = sections.iter().flat_map(|s| &s.rows).collect();
+    let json = serde_json::json!({ "version": env!("CARGO_PKG_VERSION"), "holds": holds, "rows": rows });
+    let text = serde_json::to_string_pretty(&json).map_err(|e| Failure(e.to_string()))?;
+    write(path, &(text + "\n"))
+}
