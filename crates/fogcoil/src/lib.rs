@@ -1,1 +1,37 @@
-//! fogcoil
+//! Case files in; tables, pictures and JSON out: the program `fogcoil` as a library.
+//!
+//! - [`input`] reads `CELL.ron` and `COIL.ron`. Every value is checked; what is wrong is said once, with file, line, field and
+//!   remedy ([`input::InputError`]). The keys carry their units, the result is SI; [`units`] holds every conversion.
+//! - [`homogenize`], [`wind`], [`sensitivity`] render what the physics crates compute: as text for people and as JSON, CSV or SVG.
+//! - [`output`] writes a file whole or not at all.
+//!
+//! The functions neither print nor parse arguments; `main.rs` does.
+//!
+//! Conventions: y = 0 is the coil's left face, +y its right; z = 0 is the outer end of the CCW half; in a material z is the
+//! fibre (the coil's hoop), r across it. Sensitivities in (deg/h)/(degC/min).
+//!
+//! ```
+//! # fn main() -> Result<(), fogcoil::Error> {
+//! # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/coil-reference.ron");
+//! let case = fogcoil::input::read_coil(path.as_ref())?;
+//! assert_eq!(format!("{:.2}", case.winding.length()), "1101.57"); // m
+//! assert!(fogcoil::wind::csv(&case.winding).starts_with("half,layer,turn,y_mm,r_mm,z_start_m,z_end_m\nCCW,36,"));
+//! # Ok(())
+//! # }
+//! ```
+
+mod error;
+pub mod homogenize;
+pub mod input;
+pub mod output;
+pub mod picture;
+pub mod sensitivity;
+mod table;
+pub mod units;
+pub mod wind;
+
+pub use error::Error;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,0 +1,56 @@
+//! Why a command did not finish.
+
+use std::path::PathBuf;
+
+use crate::input::InputError;
+
+/// Errors of the program.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A case file cannot be used.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The arguments contradict each other.
+    #[error("{0}")]
+    Usage(String),
+    /// A result cannot be written.
+    #[error("{}: cannot be written: {source}; give a path in a folder that exists and is writable", file.display())]
+    Output {
+        /// The file.
+        file: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// Standard output cannot be written.
+    #[error("standard output cannot be written: {0}")]
+    Stdout(std::io::Error),
+    /// A cell could not be solved.
+    #[error("{}: {source}", file.display())]
+    Homogenization {
+        /// The cell file.
+        file: PathBuf,
+        /// What went wrong.
+        source: homogenization::Error,
+    },
+    /// A coil could not be solved.
+    #[error("{}: {source}", file.display())]
+    Coil {
+        /// The coil file.
+        file: PathBuf,
+        /// What went wrong.
+        source: coil::Error,
+    },
+}
+
+impl Error {
+    /// Exit status: 2 where the user can mend it (arguments, case files, paths), 1 where the program failed.
+    pub fn exit_code(&self) -> u8 {
+        use coil::Error::{Bias, Design, Winding};
+        match self {
+            Self::Input(_) | Self::Usage(_) | Self::Output { .. } => 2,
+            Self::Coil { source: Design { .. } | Winding(_) | Bias(_), .. } => 2,
+            Self::Stdout(_) | Self::Homogenization { .. } | Self::Coil { .. } => 1,
+        }
+    }
+}

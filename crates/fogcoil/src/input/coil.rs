@@ -1,0 +1,186 @@
+//! The coil's case file: `COIL.ron`.
+
+use std::path::{Path, PathBuf};
+
+use coil::{Body, Dehomogenization, Design, Layout, SteadySensitivity};
+use fem_core::material::TransverselyIsotropic;
+use homogenization::Constants;
+use winding::Winding;
+
+use super::coil_file::{CoilFile, ConstantsFile, DehomogenizationFile, MaterialFile, MatrixFile};
+use super::limits::{
+    CONDUCTIVITY, DENSITY, EXPANSION_PER_K, Group, MODULUS_GPA, MODULUS_MPA, RATIO, SPECIFIC_HEAT, STRAIN_RATIO,
+};
+use super::source::Source;
+use super::{InputError, coil_parts as parts, read_cell};
+use crate::Error;
+use crate::units::{from_gpa, from_mm, from_mpa, to_mm};
+
+/// Table II of Osunluk, Ogut and Ozbay as printed; its exponents and the last sign are misprints (see the validation).
+const PRINTED: Dehomogenization = Dehomogenization { m_rx: 2.74e-6, m_ry: 2.70e-6, m_rz: -0.17, m_rt: 9.98e-6 };
+
+/// A coil file that has been read and checked.
+#[derive(Debug, Clone)]
+pub struct CoilCase {
+    /// The file it was read from.
+    pub file: PathBuf,
+    /// Its name.
+    pub name: String,
+    /// What it describes, in SI.
+    pub design: Design,
+    /// Its turns.
+    pub winding: Winding,
+    /// Where its numbers come from.
+    pub provenance: Provenance,
+}
+
+/// Where the numbers of a design come from that a file can give in several ways.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Provenance {
+    /// Of the coil's constants.
+    pub material: Origin,
+    /// Of the dehomogenisation row.
+    pub dehomogenization: Origin,
+}
+
+/// Where a set of numbers comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Origin {
+    /// Written in the coil file.
+    Given,
+    /// Homogenised from this cell file.
+    Cell(PathBuf),
+    /// As the paper prints it.
+    Printed,
+}
+
+/// Cells that have been homogenised, by path: each once.
+struct Cells<'a> {
+    top: Group<'a>,
+    source: &'a Source,
+    done: Vec<(PathBuf, Constants)>,
+}
+
+/// Reads and checks a coil file; homogenises the cells it names.
+///
+/// Without a spool the thermometer sits at the coil's bore, whatever radius the file gives.
+///
+/// # Errors
+/// [`Error::Input`] says what is wrong, in which file, line and field, and how to mend it; [`Error::Homogenization`] if a sound
+/// cell cannot be solved.
+pub fn read_coil(path: &Path) -> Result<CoilCase, Error> {
+    let source = Source::read(path)?;
+    let file: CoilFile = source.parse()?;
+    let top = Group::whole(&source);
+    let winding = parts::winding(&top.group("winding"), &file.winding)?;
+    let inner_radius = winding.spec().inner_radius;
+    let at = top.group("coil");
+    parts::check_rectangle(&at, &file.coil, &winding)?;
+    let density = at.number("density_kg_per_m3", file.coil.density_kg_per_m3, &DENSITY)?;
+    let specific_heat = at.number("specific_heat_j_per_kgk", file.coil.specific_heat_j_per_kgk, &SPECIFIC_HEAT)?;
+    let spool = file.spool.as_ref().map(|spool| parts::spool(&top.group("spool"), spool, inner_radius)).transpose()?;
+    let surroundings = parts::surroundings(&top.group("surroundings"), &file.surroundings)?;
+    let mut sensor = parts::sensor(&top.group("sensor"), &file.sensor)?;
+    if spool.is_none() {
+        sensor.radius = inner_radius;
+    }
+    let optics = parts::optics(&top.group("optics"), &file.optics)?;
+    let mut cells = Cells { top: top.clone(), source: &source, done: Vec::new() };
+    let (constants, material) = material(&mut cells, &file.coil.material)?;
+    let (dehomogenization, row) = dehomogenization(&mut cells, &file.dehomogenization)?;
+    let (outer_radius, height) = (from_mm(file.coil.outer_radius_mm), from_mm(file.coil.height_mm));
+    let (elastic, conductivity_z, conductivity_r) = constants;
+    let body = Body { outer_radius, height, density, specific_heat, elastic, conductivity_z, conductivity_r };
+    let design = Design { winding: *winding.spec(), body, spool, surroundings, sensor, optics, dehomogenization };
+    Layout::new(&design).map_err(|error| design_fault(&top, &design, &error))?;
+    let provenance = Provenance { material, dehomogenization: row };
+    Ok(CoilCase { file: path.to_owned(), name: file.name, design, winding, provenance })
+}
+
+impl CoilCase {
+    /// Bias per temperature rate in a steady ramp.
+    ///
+    /// # Errors
+    /// [`Error::Coil`] if the coil cannot be solved.
+    pub fn steady_sensitivity(&self) -> Result<SteadySensitivity, Error> {
+        coil::steady_sensitivity(&self.design).map_err(|source| Error::Coil { file: self.file.clone(), source })
+    }
+}
+
+/// A complaint about the design as a whole, at the field it names.
+fn design_fault(top: &Group, design: &Design, error: &coil::Error) -> InputError {
+    match error {
+        coil::Error::Design { field, .. } if field == "sensor" => {
+            let hub = design.spool.as_ref().map_or(0.0, |spool| spool.hub_contact.gap() + spool.hub_thickness);
+            let (bore, middle) = (to_mm(design.winding.inner_radius - hub), to_mm(design.body.height / 2.0));
+            let remedy = format!("at the bore, mid height, it would be (radius_mm: {bore:.3}, y_mm: {middle:.3})");
+            top.fault(field, "the thermometer lies outside the chamber", remedy)
+        }
+        coil::Error::Design { field, problem } => top.fault(field, problem.as_str(), ""),
+        other => top.fault("", other.to_string(), ""),
+    }
+}
+
+type Material = (TransverselyIsotropic, f64, f64);
+
+fn material(cells: &mut Cells, file: &MaterialFile) -> Result<(Material, Origin), Error> {
+    let at = cells.top.group("coil.material");
+    match file {
+        MaterialFile::Constants(file) => Ok((constants(&at, file)?, Origin::Given)),
+        MaterialFile::FromCell(path) => {
+            let (path, constants) = cells.constants("coil.material", path)?;
+            let elastic = constants.elastic();
+            at.law(elastic.law())?;
+            Ok(((elastic, constants.k_z, constants.k_r), Origin::Cell(path)))
+        }
+    }
+}
+
+fn constants(at: &Group, file: &ConstantsFile) -> Result<Material, InputError> {
+    let elastic = TransverselyIsotropic {
+        e_z: from_gpa(at.number("e_z_gpa", file.e_z_gpa, &MODULUS_GPA)?),
+        e_r: from_mpa(at.number("e_r_mpa", file.e_r_mpa, &MODULUS_MPA)?),
+        g_zr: from_mpa(at.number("g_zr_mpa", file.g_zr_mpa, &MODULUS_MPA)?),
+        nu_zr: at.number("nu_zr", file.nu_zr, &RATIO)?,
+        nu_r: file.nu_r,
+        alpha_z: at.number("alpha_z_per_k", file.alpha_z_per_k, &EXPANSION_PER_K)?,
+        alpha_r: at.number("alpha_r_per_k", file.alpha_r_per_k, &EXPANSION_PER_K)?,
+    };
+    at.law(elastic.law())?;
+    let k_z = at.number("k_z_w_per_mk", file.k_z_w_per_mk, &CONDUCTIVITY)?;
+    Ok((elastic, k_z, at.number("k_r_w_per_mk", file.k_r_w_per_mk, &CONDUCTIVITY)?))
+}
+
+fn dehomogenization(cells: &mut Cells, file: &DehomogenizationFile) -> Result<(Dehomogenization, Origin), Error> {
+    match file {
+        DehomogenizationFile::Matrix(file) => Ok((matrix(&cells.top.group("dehomogenization"), file)?, Origin::Given)),
+        DehomogenizationFile::Printed => Ok((PRINTED, Origin::Printed)),
+        DehomogenizationFile::FromCell(path) => {
+            let (path, Constants { m_rx, m_ry, m_rz, m_rt, .. }) = cells.constants("dehomogenization", path)?;
+            Ok((Dehomogenization { m_rx, m_ry, m_rz, m_rt }, Origin::Cell(path)))
+        }
+    }
+}
+
+fn matrix(at: &Group, file: &MatrixFile) -> Result<Dehomogenization, InputError> {
+    Ok(Dehomogenization {
+        m_rx: at.number("m_rx", file.m_rx, &STRAIN_RATIO)?,
+        m_ry: at.number("m_ry", file.m_ry, &STRAIN_RATIO)?,
+        m_rz: at.number("m_rz", file.m_rz, &STRAIN_RATIO)?,
+        m_rt: at.number("m_rt_per_k", file.m_rt_per_k, &EXPANSION_PER_K)?,
+    })
+}
+
+impl Cells<'_> {
+    fn constants(&mut self, field: &str, named: &str) -> Result<(PathBuf, Constants), Error> {
+        let path = self.source.neighbour(named);
+        if let Some(done) = self.done.iter().find(|(known, _)| *known == path) {
+            return Ok(done.clone());
+        }
+        let cell =
+            read_cell(&path).map_err(|inner| self.top.fault(field, format!("the cell {named:?} cannot be used: {inner}"), ""))?;
+        let constants = cell.homogenize()?.constants;
+        self.done.push((path.clone(), constants));
+        Ok((path, constants))
+    }
+}

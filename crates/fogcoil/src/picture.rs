@@ -1,0 +1,235 @@
+//! The cross-section as a picture (Osunluk et al., Fig. 3): every turn a disc, coloured by its half of the fibre.
+//!
+//! The colours are those of Okabe and Ito, told apart by colour-blind readers; large CCW turns carry a white centre as well.
+
+use std::fmt::Write;
+
+use winding::{Half, Turn, Winding};
+
+use crate::units::to_mm;
+use crate::wind::name;
+
+/// Beyond this number of turns the overview draws runs of turns as bars, to keep the file small.
+const MOST_DISCS: usize = 20_000;
+/// Radius from which a CCW turn carries a white centre [px].
+const LARGE_DISC: f64 = 10.0;
+/// Layers and turns in an enlarged corner.
+const CORNER: (usize, usize) = (8, 7);
+const WIDTH: f64 = 1100.0;
+const LEFT: f64 = 90.0;
+const PLOT: (f64, f64) = (960.0, 420.0);
+const TOP: f64 = 110.0;
+
+/// A rectangle of the (y, r) half-plane [mm] drawn at (`left`, `top`) [px] with `scale` [px/mm]; y to the right, r upwards.
+struct View {
+    y: [f64; 2],
+    r: [f64; 2],
+    left: f64,
+    top: f64,
+    scale: f64,
+}
+
+impl View {
+    fn x(&self, y: f64) -> f64 {
+        self.left + (y - self.y[0]) * self.scale
+    }
+
+    fn v(&self, r: f64) -> f64 {
+        self.top + (self.r[1] - r) * self.scale
+    }
+
+    fn width(&self) -> f64 {
+        (self.y[1] - self.y[0]) * self.scale
+    }
+
+    fn bottom(&self) -> f64 {
+        self.v(self.r[0])
+    }
+}
+
+/// The picture as an SVG document: an overview with axes, and the two inner corners enlarged.
+pub fn svg(case_name: &str, winding: &Winding) -> String {
+    let spec = winding.spec();
+    let (width, inner, outer) = (to_mm(winding.height()), to_mm(spec.inner_radius), to_mm(winding.outer_radius()));
+    let scale = (PLOT.0 / width).min(PLOT.1 / (outer - inner));
+    let overview = View { y: [0.0, width], r: [inner, outer], left: LEFT, top: TOP, scale };
+    let corners = corners(winding, overview.bottom() + 130.0);
+    let height = corners.iter().map(View::bottom).fold(overview.bottom(), f64::max) + 60.0;
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height:.0}\" width=\"{WIDTH}\" height=\"{height:.0}\" \
+         font-family=\"sans-serif\" font-size=\"15\" role=\"img\" aria-labelledby=\"title\">\n<title id=\"title\">Cross-section of \
+         the coil {}: {} turns of the CW half and {} of the CCW half</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+        escape(case_name),
+        winding.count(Half::Cw),
+        winding.count(Half::Ccw)
+    );
+    heading(&mut out, case_name, winding);
+    turns(&mut out, &overview, winding);
+    axes(&mut out, &overview);
+    for (corner, side) in corners.iter().zip(["left", "right"]) {
+        enlarged(&mut out, &overview, corner, winding, side);
+    }
+    out.push_str("</svg>\n");
+    out
+}
+
+/// The enlarged inner corners at the left and the right end; none where they would meet.
+fn corners(winding: &Winding, top: f64) -> Vec<View> {
+    let spec = winding.spec();
+    let (pitch, width, inner) = (to_mm(spec.pitch), to_mm(winding.height()), to_mm(spec.inner_radius));
+    let across = (CORNER.1 as f64 + 0.5) * pitch;
+    if width < 2.0 * across {
+        return Vec::new();
+    }
+    let layers = spec.layers.min(CORNER.0) as f64;
+    let up = (1.0 + (layers - 1.0) * 3_f64.sqrt() / 2.0) * pitch;
+    let scale = 430.0 / across;
+    let r = [inner, inner + up];
+    let right = View { y: [width - across, width], r, left: LEFT + PLOT.0 - across * scale, top, scale };
+    vec![View { y: [0.0, across], r, left: LEFT, top, scale }, right]
+}
+
+fn heading(out: &mut String, case_name: &str, winding: &Winding) {
+    let (spec, count) = (winding.spec(), winding.turns().len());
+    text(
+        out,
+        LEFT,
+        34.0,
+        "start\" font-size=\"20\" font-weight=\"bold",
+        &escape(&format!("{case_name}: {:?} winding", spec.pattern)),
+    );
+    let line = format!("{} layers, {count} turns, {:.2} m of fibre", spec.layers, winding.length());
+    text(out, LEFT, 58.0, "start", &line);
+    for (half, x) in [(Half::Cw, LEFT + 8.0), (Half::Ccw, LEFT + 250.0)] {
+        disc(out, (x, 82.0), 8.0, half);
+        text(out, x + 16.0, 87.0, "start", &format!("{} half, {} turns", name(half), winding.count(half)));
+    }
+}
+
+fn colour(half: Half) -> &'static str {
+    match half {
+        Half::Cw => "#0072B2",
+        Half::Ccw => "#D55E00",
+    }
+}
+
+fn disc(out: &mut String, (x, y): (f64, f64), radius: f64, half: Half) {
+    let _ = writeln!(out, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" fill=\"{}\"/>", colour(half));
+    if half == Half::Ccw {
+        let _ = writeln!(out, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{:.2}\" fill=\"#fff\"/>", 0.3 * radius);
+    }
+}
+
+fn text(out: &mut String, x: f64, y: f64, anchor: &str, content: &str) {
+    let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{content}</text>");
+}
+
+fn turns(out: &mut String, view: &View, winding: &Winding) {
+    let radius = to_mm(winding.spec().pitch) / 2.0 * view.scale;
+    for half in [Half::Cw, Half::Ccw] {
+        let _ = writeln!(out, "<g fill=\"{}\">", colour(half));
+        let own: Vec<&Turn> = winding.turns().iter().filter(|turn| turn.half == half).collect();
+        if winding.turns().len() <= MOST_DISCS {
+            for turn in own {
+                let (x, v) = (view.x(to_mm(turn.y)), view.v(to_mm(turn.r)));
+                if radius > LARGE_DISC {
+                    disc(out, (x, v), radius, half);
+                    continue;
+                }
+                let _ = writeln!(out, "<circle cx=\"{x:.2}\" cy=\"{v:.2}\" r=\"{radius:.2}\"/>");
+            }
+        } else {
+            bars(out, view, radius, &own);
+        }
+        out.push_str("</g>\n");
+    }
+}
+
+/// Draws turns that follow one another in a layer as one bar.
+fn bars(out: &mut String, view: &View, radius: f64, turns: &[&Turn]) {
+    for run in turns.chunk_by(|a, b| a.layer == b.layer && a.turn.abs_diff(b.turn) == 1) {
+        let ys = || run.iter().map(|turn| view.x(to_mm(turn.y)));
+        let (x0, x1) = (ys().fold(f64::INFINITY, f64::min) - radius, ys().fold(0.0, f64::max) + radius);
+        let top = run.first().map_or(0.0, |turn| view.v(to_mm(turn.r))) - radius;
+        let (width, height) = (x1 - x0, 2.0 * radius);
+        let _ = writeln!(out, "<rect x=\"{x0:.2}\" y=\"{top:.2}\" width=\"{width:.2}\" height=\"{height:.3}\"/>");
+    }
+}
+
+fn axes(out: &mut String, view: &View) {
+    let (bottom, right) = (view.bottom() + 8.0, view.left + view.width());
+    let left = view.left - 8.0;
+    let _ = writeln!(
+        out,
+        "<path d=\"M{left:.1} {:.1}V{bottom:.1}H{right:.1}\" fill=\"none\" stroke=\"#000\" stroke-width=\"1\"/>",
+        view.top
+    );
+    for y in ticks(view.y, view.scale) {
+        let x = view.x(y);
+        let _ = writeln!(out, "<path d=\"M{x:.1} {bottom:.1}v6\" stroke=\"#000\"/>");
+        text(out, x, bottom + 22.0, "middle", &label(y));
+    }
+    for r in ticks(view.r, view.scale) {
+        let v = view.v(r);
+        let _ = writeln!(out, "<path d=\"M{left:.1} {v:.1}h-6\" stroke=\"#000\"/>");
+        text(out, left - 10.0, v + 5.0, "end", &label(r));
+    }
+    text(out, view.left + view.width() / 2.0, bottom + 44.0, "middle", "axial position y [mm], 0 at the left face");
+    let (x, y) = (left - 55.0, (view.top + view.bottom()) / 2.0);
+    let _ = writeln!(out, "<text transform=\"translate({x:.1} {y:.1}) rotate(-90)\" text-anchor=\"middle\">radius r [mm]</text>");
+}
+
+/// Round numbers (steps of 1, 2 or 5) some 60 px apart.
+fn ticks(range: [f64; 2], scale: f64) -> Vec<f64> {
+    let least = 60.0 / scale;
+    let decade = 10_f64.powf(least.log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * decade).find(|step| *step >= least).unwrap_or(10.0 * decade);
+    let first = (range[0] / step - 1e-9).ceil();
+    (0..60).map(|i| (first + f64::from(i)) * step).take_while(|tick| *tick <= range[1] + 1e-9 * step).collect()
+}
+
+fn label(tick: f64) -> String {
+    let rounded = format!("{tick:.4}");
+    rounded.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn enlarged(out: &mut String, overview: &View, corner: &View, winding: &Winding, side: &str) {
+    let (x, v) = (overview.x(corner.y[0]), overview.v(corner.r[1]));
+    let (w, h) = ((corner.y[1] - corner.y[0]) * overview.scale, (corner.r[1] - corner.r[0]) * overview.scale);
+    let _ = writeln!(
+        out,
+        "<rect x=\"{x:.1}\" y=\"{v:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"none\" stroke=\"#000\" stroke-width=\"2\"/>"
+    );
+    let radius = to_mm(winding.spec().pitch) / 2.0;
+    let inside = |turn: &&Turn| {
+        let (y, r, reach) = (to_mm(turn.y), to_mm(turn.r), 0.99 * radius);
+        corner.y[0] < y - reach && y + reach < corner.y[1] && r + reach < corner.r[1]
+    };
+    for turn in winding.turns().iter().filter(inside) {
+        disc(out, (corner.x(to_mm(turn.y)), corner.v(to_mm(turn.r))), 0.96 * radius * corner.scale, turn.half);
+    }
+    let right = corner.left + corner.width();
+    let (label_x, anchor, caption_x, towards) =
+        if side == "left" { (corner.left - 12.0, "end", corner.left, "start") } else { (right + 12.0, "start", right, "end") };
+    let step = 3_f64.sqrt() * radius;
+    for layer in 1..=winding.spec().layers.min(CORNER.0) {
+        let v = corner.v(corner.r[0] + radius + (layer - 1) as f64 * step);
+        text(out, label_x, v + 5.0, anchor, &layer.to_string());
+    }
+    let caption = format!("{side} end enlarged, y = {:.2} to {:.2} mm, by layer", corner.y[0], corner.y[1]);
+    text(out, caption_x, corner.top - 14.0, towards, &caption);
+}
+
+fn escape(content: &str) -> String {
+    let printable = content.chars().filter(|c| !c.is_control());
+    printable.fold(String::new(), |mut text, c| {
+        match c {
+            '&' => text.push_str("&amp;"),
+            '<' => text.push_str("&lt;"),
+            '>' => text.push_str("&gt;"),
+            '"' => text.push_str("&quot;"),
+            c => text.push(c),
+        }
+        text
+    })
+}

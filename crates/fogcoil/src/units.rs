@@ -1,0 +1,41 @@
+//! Between the units of the files and SI: the only place where a factor is applied.
+//!
+//! Divisions by powers of ten are correctly rounded, so `from_mm(43.5)` is the double nearest to 0.0435.
+
+/// What a key in a case file may end in, after the quantity's name.
+pub(crate) const SUFFIXES: [&str; 10] = ["um", "mm", "m", "mpa", "gpa", "per_k", "w_per_mk", "kg_per_m3", "j_per_kgk", "c"];
+
+/// Micrometres to metres.
+pub fn from_um(value: f64) -> f64 {
+    value / 1e6
+}
+
+/// Millimetres to metres.
+pub fn from_mm(value: f64) -> f64 {
+    value / 1e3
+}
+
+/// Metres to millimetres.
+pub fn to_mm(metres: f64) -> f64 {
+    metres * 1e3
+}
+
+/// Megapascals to pascals.
+pub fn from_mpa(value: f64) -> f64 {
+    value * 1e6
+}
+
+/// Pascals to megapascals.
+pub fn to_mpa(pascals: f64) -> f64 {
+    pascals / 1e6
+}
+
+/// Gigapascals to pascals.
+pub fn from_gpa(value: f64) -> f64 {
+    value * 1e9
+}
+
+/// 1/K to 10⁻⁶/K.
+pub fn to_ppm(ratio: f64) -> f64 {
+    ratio * 1e6
+}

@@ -1,0 +1,49 @@
+//! `fogcoil wind`: the turn table.
+
+use std::fmt::Write;
+
+use winding::{Half, Winding};
+
+use crate::input::CoilCase;
+use crate::table::table;
+use crate::units::to_mm;
+
+/// Columns of the turn table.
+pub const HEADER: &str = "half,layer,turn,y_mm,r_mm,z_start_m,z_end_m";
+
+/// The turn table, one row a turn, in order along the fibre from z = 0; every number reads back to the same double.
+pub fn csv(winding: &Winding) -> String {
+    let mut text = format!("{HEADER}\n");
+    for turn in winding.turns() {
+        let (half, y, r) = (name(turn.half), to_mm(turn.y), to_mm(turn.r));
+        let _ = writeln!(text, "{half},{},{},{y},{r},{},{}", turn.layer, turn.turn, turn.z_start, turn.z_end);
+    }
+    text
+}
+
+/// `CW` or `CCW`.
+pub(crate) fn name(half: Half) -> &'static str {
+    match half {
+        Half::Cw => "CW",
+        Half::Ccw => "CCW",
+    }
+}
+
+/// What was wound, in a few lines.
+pub fn text(case: &CoilCase) -> String {
+    let (winding, spec) = (&case.winding, case.winding.spec());
+    let row = |name: &str, value: String, unit: &str| vec![name.to_owned(), value, unit.to_owned()];
+    let rows = [
+        row("fibre", format!("{:.4}", winding.length()), "m, tails included"),
+        row("tails CW, CCW", format!("{}, {}", spec.tails.cw, spec.tails.ccw), "m"),
+        row("layers", spec.layers.to_string(), ""),
+        row("turns", winding.turns().len().to_string(), ""),
+        row("turns CW, CCW", format!("{}, {}", winding.count(Half::Cw), winding.count(Half::Ccw)), ""),
+        row("inner diameter", format!("{:.4}", 2.0 * to_mm(spec.inner_radius)), "mm"),
+        row("outer diameter", format!("{:.4}", 2.0 * to_mm(winding.outer_radius())), "mm, half a pitch beyond the last layer"),
+        row("height", format!("{:.4}", to_mm(winding.height())), "mm, half a pitch beyond the last turn"),
+        row("radial first moment", format!("{:.6e}", winding.moment(1, 0)), "m^3, sum of W (r - mean r), W = int (L - 2z) dz"),
+        row("axial first moment", format!("{:.6e}", winding.moment(0, 1)), "m^3, sum of W (y - mean y)"),
+    ];
+    format!("{}: {:?} winding\n\n{}", case.name, spec.pattern, table(&rows))
+}

@@ -1,0 +1,47 @@
+//! The reader never panics, whatever bytes it is given.
+
+mod common;
+
+use common::{CELL, COIL, Folder};
+use fogcoil::input::{read_cell, read_coil};
+use proptest::prelude::*;
+
+/// A change to a text: at a relative place, some bytes removed and others put in.
+fn edit() -> impl Strategy<Value = (f64, usize, Vec<u8>)> {
+    let words: Vec<Vec<u8>> =
+        ["(", ")", "[", "]", ",", ":", "\"", "//", "/*", "*/", "r#\"", "NaN", "-", "1e999", "Some((", "0", "é"]
+            .iter()
+            .map(|word| word.as_bytes().to_vec())
+            .collect();
+    let inserted = prop_oneof![proptest::sample::select(words), proptest::collection::vec(any::<u8>(), 0..4)];
+    (0.0..1.0, 0_usize..12, inserted)
+}
+
+fn mutate(text: &str, edits: &[(f64, usize, Vec<u8>)]) -> Vec<u8> {
+    let mut bytes = text.as_bytes().to_vec();
+    for (place, removed, inserted) in edits {
+        let start = (place * bytes.len() as f64) as usize;
+        let end = (start + removed).min(bytes.len());
+        bytes.splice(start..end, inserted.iter().copied());
+    }
+    bytes
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn mutated_files_are_read_or_refused(edits in proptest::collection::vec(edit(), 1..4)) {
+        let folder = Folder::new();
+        for (name, reference) in [("cell.ron", CELL), ("coil.ron", COIL)] {
+            let path = folder.write(name, mutate(reference, &edits));
+            let message = match name {
+                "cell.ron" => read_cell(&path).err().map(|e| e.to_string()),
+                _ => read_coil(&path).err().map(|e| e.to_string()),
+            };
+            if let Some(message) = message {
+                prop_assert!(message.contains(name) && message.lines().count() == 1, "{}", message);
+            }
+        }
+    }
+}
