@@ -17,6 +17,10 @@ pub struct Design {
     pub spool: Option<Spool>,
     /// What fills the rest of the chamber.
     pub surroundings: Surroundings,
+    /// How stiffness and bonds depend on temperature and time.
+    pub mechanics: Mechanics,
+    /// Heat paths and sources beyond conduction through solids and medium.
+    pub heat: HeatPaths,
     /// Where the thermometer sits.
     pub sensor: Sensor,
     /// The fibre's optics.
@@ -127,6 +131,83 @@ pub struct Surroundings {
     pub margin: f64,
 }
 
+/// How the coil's transverse stiffness, or its bond to a flange, depends on temperature and time. Temperatures are means over the coil.
+///
+/// The law is incremental: stress rates follow strain rates and temperature rates with the stiffness of the moment.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub enum Mechanics {
+    /// Constant.
+    #[default]
+    Elastic,
+    /// Factors on the coil's transverse constants by temperature, linear between rows, constant beyond; at least one row, increasing.
+    TemperatureTable(Vec<FactorsAt>),
+    /// The transverse moduli relax: `E(t)/E(0) = 1 − fraction + fraction e^(−t/time)`.
+    Relaxing {
+        /// Share that relaxes, in [0, 1).
+        fraction: f64,
+        /// Relaxation time \[s\], > 0.
+        time: f64,
+    },
+    /// The outer part of the bond between coil and flange carries no force below a temperature, and carries again above it plus the
+    /// hysteresis. Heat still passes; nothing jumps at the switch.
+    Opening(Opening),
+}
+
+/// A row of [`Mechanics::TemperatureTable`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FactorsAt {
+    /// Mean temperature of the coil, in the unit of the profile.
+    pub temperature: f64,
+    /// Factor on E_r, G_zr (and so on G_r), > 0.
+    pub transverse_modulus: f64,
+    /// Factor on α_r.
+    pub transverse_expansion: f64,
+}
+
+/// A bond that opens in the cold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Opening {
+    /// The flange, which must be bonded.
+    pub side: Side,
+    /// Opens below this mean temperature of the coil.
+    pub below: f64,
+    /// Closes above `below + hysteresis`, ≥ 0.
+    pub hysteresis: f64,
+    /// Open share of the annulus's width, from the outer edge inwards, in (0, 1).
+    pub fraction: f64,
+}
+
+/// Heat paths and sources beyond conduction through solids and medium. Empty by default.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct HeatPaths {
+    /// Thermal contact resistance between hub and coil bore \[m² K/W\]; 0 is a perfect contact.
+    pub hub_resistance: f64,
+    /// Mounts at the outer faces of flanges.
+    pub mounts: Vec<Mount>,
+    /// Power dissipated in flanges from the first instant of a profile.
+    pub heaters: Vec<Heater>,
+    /// Film that couples every surface of the solids to the chamber's temperature \[W/(m² K)\], in place of the still medium.
+    pub film: Option<f64>,
+}
+
+/// A mount that couples the outer face of a flange to the mount's temperature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mount {
+    /// The flange.
+    pub side: Side,
+    /// Conductance \[W/(m² K)\], > 0.
+    pub conductance: f64,
+}
+
+/// Power dissipated evenly in a flange.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Heater {
+    /// The flange.
+    pub side: Side,
+    /// Power \[W\].
+    pub power: f64,
+}
+
 /// The spool's thermometer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensor {
@@ -134,6 +215,8 @@ pub struct Sensor {
     pub radius: f64,
     /// Position along the axis \[m\].
     pub y: f64,
+    /// Its own first-order lag \[s\], ≥ 0.
+    pub lag: f64,
 }
 
 /// The row M_r of the dehomogenisation matrix (Osunluk et al., eqs 4, 5):

@@ -12,6 +12,14 @@ pub enum Error {
         /// What is wrong and how to mend it.
         problem: String,
     },
+    /// A profile cannot be run.
+    #[error("instant {row}: {problem}")]
+    Profile {
+        /// Number of the instant, from 0.
+        row: usize,
+        /// What is wrong and how to mend it.
+        problem: String,
+    },
     /// The resolution cannot be meshed.
     #[error("resolution: {0}")]
     Resolution(String),

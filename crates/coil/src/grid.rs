@@ -1,8 +1,8 @@
 //! Tensor-product meshes of the half-plane, graded towards the edges of the coil where bonded materials make stresses singular.
 
-use crate::Error;
 use crate::layout::{Layout, Region};
-use fem_core::{Mesh, polynomial::gauss_lobatto};
+use crate::{Error, Side};
+use fem_core::{Edge, Measure, Mesh, ReferenceElement, polynomial::gauss_lobatto};
 
 /// Order and grading of a coil mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,10 +24,20 @@ pub enum Domain {
     Chamber,
 }
 
+/// Whether a bond that can open is open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bonds {
+    /// All bonds hold.
+    Closed,
+    /// The bond that can open is open.
+    Opened,
+}
+
 /// A tensor-product mesh with its element lines.
 #[derive(Debug, Clone)]
 pub struct Grid {
     mesh: Mesh,
+    reference: ReferenceElement,
     regions: Vec<Region>,
     r_lines: Vec<f64>,
     y_lines: Vec<f64>,
@@ -64,8 +74,8 @@ fn fractions(layers: usize, ratio: f64, ends: [bool; 2]) -> Vec<f64> {
     }
 }
 
-fn lines(breaks: &[f64], coil: [f64; 2], resolution: &Resolution) -> Vec<f64> {
-    let edge = |x: f64| coil.iter().any(|e| (e - x).abs() < COINCIDENT);
+fn lines(breaks: &[f64], edges: &[f64], resolution: &Resolution) -> Vec<f64> {
+    let edge = |x: f64| edges.iter().any(|e| (e - x).abs() < COINCIDENT);
     let mut lines = Vec::new();
     for w in breaks.windows(2) {
         let f = fractions(resolution.layers, resolution.ratio, [edge(w[0]), edge(w[1])]);
@@ -80,7 +90,7 @@ impl Grid {
     ///
     /// # Errors
     /// [`Error::Resolution`] if a number is out of range.
-    pub fn new(layout: &Layout, resolution: &Resolution, domain: Domain) -> Result<Self, Error> {
+    pub fn new(layout: &Layout, resolution: &Resolution, domain: Domain, bonds: Bonds) -> Result<Self, Error> {
         let Resolution { order, layers, ratio } = *resolution;
         if !(1..=20).contains(&order) || layers > 20 || !(0.05..=0.7).contains(&ratio) {
             let given = format!("order {order}, {layers} layers, ratio {ratio}");
@@ -88,12 +98,21 @@ impl Grid {
         }
         let rectangles = || layout.solids.iter().chain((domain == Domain::Chamber).then_some(&layout.chamber));
         let coil = layout.solids[0];
-        let r_lines = lines(&distinct(rectangles().flat_map(|s| s.r).collect()), coil.r, resolution);
-        let y_lines = lines(&distinct(rectangles().flat_map(|s| s.y).collect()), coil.y, resolution);
-        Self::on_lines(layout, order, r_lines, y_lines, domain)
+        let tip = layout.lasting_bond.map(|(_, r)| r);
+        let r_edges: Vec<f64> = coil.r.into_iter().chain(tip).collect();
+        let r_lines = lines(&distinct(rectangles().flat_map(|s| s.r).chain(tip).collect()), &r_edges, resolution);
+        let y_lines = lines(&distinct(rectangles().flat_map(|s| s.y).collect()), &coil.y, resolution);
+        Self::on_lines(layout, order, r_lines, y_lines, domain, bonds)
     }
 
-    fn on_lines(layout: &Layout, order: usize, r_lines: Vec<f64>, y_lines: Vec<f64>, domain: Domain) -> Result<Self, Error> {
+    fn on_lines(
+        layout: &Layout,
+        order: usize,
+        r_lines: Vec<f64>,
+        y_lines: Vec<f64>,
+        domain: Domain,
+        bonds: Bonds,
+    ) -> Result<Self, Error> {
         let lattice = gauss_lobatto(order);
         let (columns, rows) = (r_lines.len() - 1, y_lines.len() - 1);
         let width = columns * order + 1;
@@ -102,10 +121,19 @@ impl Grid {
             let xi = lattice[k - cell * order];
             lines[cell] + (lines[cell + 1] - lines[cell]) * (1.0 + xi) / 2.0
         };
-        let mut number = vec![usize::MAX; width * (rows * order + 1)];
+        let opened = |[r, y]: [f64; 2]| match (bonds, layout.lasting_bond) {
+            (Bonds::Opened, Some((side, lasting))) => {
+                let face = layout.solids[0].y[usize::from(side == Side::Right)];
+                (y - face).abs() < COINCIDENT && r > lasting + COINCIDENT
+            }
+            _ => false,
+        };
+        // coil nodes on an opened bond are apart from the flange's: a second set of numbers
+        let lattice_points = width * (rows * order + 1);
+        let mut number = vec![usize::MAX; 2 * lattice_points];
         let (mut nodes, mut elements, mut regions) = (Vec::new(), Vec::new(), Vec::new());
         let mut cells = vec![None; columns * rows];
-        for cell in 0..columns * rows {
+        for (cell, slot) in cells.iter_mut().enumerate() {
             let (i, j) = (cell % columns, cell / columns);
             let region = layout.region((r_lines[i] + r_lines[i + 1]) / 2.0, (y_lines[j] + y_lines[j + 1]) / 2.0);
             if region == Region::Medium && domain == Domain::Solids {
@@ -114,20 +142,23 @@ impl Grid {
             let mut element = Vec::with_capacity((order + 1) * (order + 1));
             for k in 0..(order + 1) * (order + 1) {
                 let (a, b) = (i * order + k % (order + 1), j * order + k / (order + 1));
-                let slot = &mut number[b * width + a];
-                if *slot == usize::MAX {
-                    *slot = nodes.len();
-                    nodes.push([along(&r_lines, a), along(&y_lines, b)]);
+                let position = [along(&r_lines, a), along(&y_lines, b)];
+                let apart = region == Region::Coil && opened(position);
+                let node = &mut number[b * width + a + if apart { lattice_points } else { 0 }];
+                if *node == usize::MAX {
+                    *node = nodes.len();
+                    nodes.push(position);
                 }
-                element.push(*slot);
+                element.push(*node);
             }
-            cells[cell] = Some(elements.len());
+            *slot = Some(elements.len());
             elements.push(element);
             regions.push(region);
         }
         let codes = regions.iter().map(|r| *r as usize).collect();
         let mesh = Mesh::new(order, nodes, elements, codes).map_err(|source| Error::Solve { part: "structure", source })?;
-        Ok(Self { mesh, regions, r_lines, y_lines, cells })
+        let reference = ReferenceElement::new(order, 1);
+        Ok(Self { mesh, reference, regions, r_lines, y_lines, cells })
     }
 
     /// The mesh; its region numbers are `Region as usize`.
@@ -154,5 +185,61 @@ impl Grid {
             Some((element, local(&self.r_lines, i, r), local(&self.y_lines, j, y)))
         };
         rows.iter().flat_map(|&j| columns.iter().filter_map(move |&i| cell(i, j))).collect()
+    }
+
+    /// Shape functions of an element at (ξ, η): values, ∂/∂r, ∂/∂y.
+    pub(crate) fn shape_functions(&self, element: usize, xi: f64, eta: f64) -> [Vec<f64>; 3] {
+        self.reference.at_point(&self.mesh, element, xi, eta)
+    }
+
+    /// Element beside each meshed cell in a direction.
+    fn neighbour(&self, cell: usize, edge: Edge) -> Option<usize> {
+        let columns = self.r_lines.len() - 1;
+        let (i, j) = (cell % columns, cell / columns);
+        let beside = match edge {
+            Edge::XiLow => (i > 0).then(|| cell - 1),
+            Edge::XiHigh => (i + 1 < columns).then_some(cell + 1),
+            Edge::EtaLow => (j > 0).then(|| cell - columns),
+            Edge::EtaHigh => (cell + columns < self.cells.len()).then_some(cell + columns),
+        };
+        beside.and_then(|cell| self.cells[cell])
+    }
+
+    /// Edges without a neighbour, off the axis: (element, edge, region).
+    pub(crate) fn free_edges(&self) -> Vec<(usize, Edge, Region)> {
+        let mut edges = Vec::new();
+        for (cell, element) in self.cells.iter().enumerate().filter_map(|(cell, e)| e.map(|e| (cell, e))) {
+            for edge in [Edge::XiLow, Edge::XiHigh, Edge::EtaLow, Edge::EtaHigh] {
+                let on_axis = edge == Edge::XiLow && self.r_lines[cell % (self.r_lines.len() - 1)] == 0.0;
+                if self.neighbour(cell, edge).is_none() && !on_axis {
+                    edges.push((element, edge, self.regions[element]));
+                }
+            }
+        }
+        edges
+    }
+
+    /// Whether an edge of an element lies on y = `at`.
+    pub(crate) fn touches(&self, element: usize, edge: Edge, at: f64) -> bool {
+        let nodes = &self.mesh.elements()[element];
+        let corner = if edge == Edge::EtaHigh { nodes[nodes.len() - 1] } else { nodes[0] };
+        (self.mesh.nodes()[corner][1] - at).abs() < COINCIDENT
+    }
+
+    /// Mean over the coil's volume, as a functional of a nodal field.
+    pub(crate) fn coil_mean(&self) -> Result<Vec<f64>, Error> {
+        let mesh = &self.mesh;
+        let reference = ReferenceElement::new(mesh.order(), mesh.order() + 1);
+        let mut mean = vec![0.0; mesh.nodes().len()];
+        for (e, _) in self.regions.iter().enumerate().filter(|(_, region)| **region == Region::Coil) {
+            let geometry = reference.geometry(mesh, e, Measure::Revolution);
+            let geometry = geometry.map_err(|source| Error::Solve { part: "structure", source })?;
+            for (a, &node) in mesh.elements()[e].iter().enumerate() {
+                mean[node] += reference.value.row(a).iter().zip(&geometry.weight).map(|(n, w)| n * w).sum::<f64>();
+            }
+        }
+        let volume: f64 = mean.iter().sum();
+        mean.iter_mut().for_each(|m| *m /= volume);
+        Ok(mean)
     }
 }

@@ -1,14 +1,24 @@
 //! Which rectangle of the (r, y) half-plane holds what.
 
-use crate::{Design, Error, Side};
+use crate::{Contact, Design, Error, Mechanics, Side};
+
+/// Thickness of the skin of the hub whose radial conductivity stands for a contact resistance \[m\]: thin enough to leave the hub's
+/// conduction and stiffness as they are (1/4000 of a wall of 4 mm).
+pub(crate) const CONTACT_SKIN: f64 = 1e-6;
 
 /// What fills a part of the half-plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Region {
     /// The homogenised coil.
     Coil,
-    /// Hub or flange.
-    Spool,
+    /// The hub between or beyond the flanges.
+    Hub,
+    /// The flange below y = 0, with the part of the hub in it.
+    LeftFlange,
+    /// The flange above y = height, with the part of the hub in it.
+    RightFlange,
+    /// The outermost skin of the hub, as thick as 1 µm, that carries a thermal contact resistance.
+    Contact,
     /// The medium around the solids.
     Medium,
 }
@@ -27,12 +37,32 @@ pub struct Rectangle {
 /// The solids of a design and the chamber around them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
-    /// Coil first, then hub and flanges.
+    /// Coil first, then flanges, contact skin and hub; where two overlap the earlier one holds.
     pub solids: Vec<Rectangle>,
     /// The whole computational domain, from the axis to the chamber wall.
     pub chamber: Rectangle,
     /// Bore of the hub, or of the coil where there is no spool \[m\].
     pub bore: f64,
+    /// Where a bond that can open stays closed: flange and outer radius of the lasting bond \[m\].
+    pub lasting_bond: Option<(Side, f64)>,
+}
+
+impl Region {
+    /// Number of regions.
+    pub const COUNT: usize = 6;
+
+    /// Whether the region is made of the spool's material.
+    pub fn is_spool(self) -> bool {
+        matches!(self, Self::Hub | Self::LeftFlange | Self::RightFlange | Self::Contact)
+    }
+
+    /// The flange on a side.
+    pub fn flange(side: Side) -> Self {
+        match side {
+            Side::Left => Self::LeftFlange,
+            Side::Right => Self::RightFlange,
+        }
+    }
 }
 
 impl Layout {
@@ -57,9 +87,13 @@ impl Layout {
                     Side::Right => [body.height + near, body.height + far],
                 };
                 hub_y = [hub_y[0].min(y[0]), hub_y[1].max(y[1])];
-                solids.push(Rectangle { region: Region::Spool, r: [bore, body.outer_radius + flange.overhang], y });
+                let r = [bore, body.outer_radius + flange.overhang];
+                solids.push(Rectangle { region: Region::flange(flange.side), r, y });
             }
-            solids.insert(1, Rectangle { region: Region::Spool, r: [bore, hub_outer], y: hub_y });
+            if design.heat.hub_resistance > 0.0 && spool.hub_contact == Contact::Bonded {
+                solids.push(Rectangle { region: Region::Contact, r: [hub_outer - CONTACT_SKIN, hub_outer], y: coil.y });
+            }
+            solids.push(Rectangle { region: Region::Hub, r: [bore, hub_outer], y: hub_y });
         }
         let margin = design.surroundings.margin;
         let most = |f: fn(&Rectangle) -> f64| solids.iter().map(f).fold(f64::NEG_INFINITY, f64::max);
@@ -71,7 +105,11 @@ impl Layout {
             let problem = format!("({} m, {} m) lies outside the chamber, {inside}; move it inside", sensor.radius, sensor.y);
             return Err(Error::design("sensor", problem));
         }
-        Ok(Self { solids, chamber, bore })
+        let lasting_bond = match design.mechanics {
+            Mechanics::Opening(o) => Some((o.side, body.outer_radius - o.fraction * (body.outer_radius - inner))),
+            _ => None,
+        };
+        Ok(Self { solids, chamber, bore, lasting_bond })
     }
 
     /// What fills the point (r, y).
@@ -103,6 +141,8 @@ fn check(design: &Design) -> Result<(), Error> {
         let problem = format!("{} m must be finite and greater than the inner radius {inner} m", body.outer_radius);
         return Err(Error::design("coil.outer_radius", problem));
     }
+    check_heat(design)?;
+    check_mechanics(design)?;
     let Some(spool) = &design.spool else { return Ok(()) };
     positive("spool.hub_thickness", spool.hub_thickness)?;
     positive("spool.material.conductivity", spool.material.conductivity)?;
@@ -125,4 +165,78 @@ fn check(design: &Design) -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+fn check_heat(design: &Design) -> Result<(), Error> {
+    let heat = &design.heat;
+    if !(heat.hub_resistance.is_finite() && heat.hub_resistance >= 0.0) {
+        return Err(Error::design("heat.hub_resistance", format!("{} must be finite and not negative", heat.hub_resistance)));
+    }
+    if !(design.sensor.lag.is_finite() && design.sensor.lag >= 0.0) {
+        return Err(Error::design("sensor.lag", format!("{} s must be finite and not negative", design.sensor.lag)));
+    }
+    if let Some(film) = heat.film {
+        positive("heat.film", film)?;
+    }
+    let flange = |side: Side| design.spool.iter().flat_map(|s| &s.flanges).any(|f| f.side == side);
+    for (i, mount) in heat.mounts.iter().enumerate() {
+        positive(&format!("heat.mounts[{i}].conductance"), mount.conductance)?;
+        if !flange(mount.side) {
+            return Err(Error::design(&format!("heat.mounts[{i}].side"), "there is no flange on this side".into()));
+        }
+    }
+    for (i, heater) in heat.heaters.iter().enumerate() {
+        if !heater.power.is_finite() {
+            return Err(Error::design(&format!("heat.heaters[{i}].power"), format!("{} W must be finite", heater.power)));
+        }
+        if !flange(heater.side) {
+            return Err(Error::design(&format!("heat.heaters[{i}].side"), "there is no flange on this side".into()));
+        }
+    }
+    Ok(())
+}
+
+fn check_mechanics(design: &Design) -> Result<(), Error> {
+    match &design.mechanics {
+        Mechanics::Elastic => Ok(()),
+        Mechanics::TemperatureTable(rows) => {
+            if rows.is_empty() || rows.windows(2).any(|w| w[0].temperature.total_cmp(&w[1].temperature).is_ge()) {
+                let problem = "at least one row is needed, temperatures increasing".into();
+                return Err(Error::design("mechanics.temperature_table", problem));
+            }
+            for (i, row) in rows.iter().enumerate() {
+                positive(&format!("mechanics.temperature_table[{i}].transverse_modulus"), row.transverse_modulus)?;
+                if !(row.temperature.is_finite() && row.transverse_expansion.is_finite()) {
+                    return Err(Error::design(
+                        &format!("mechanics.temperature_table[{i}]"),
+                        "every number must be finite".into(),
+                    ));
+                }
+            }
+            Ok(())
+        }
+        Mechanics::Relaxing { fraction, time } => {
+            positive("mechanics.relaxing.time", *time)?;
+            if !(0.0..1.0).contains(fraction) {
+                return Err(Error::design("mechanics.relaxing.fraction", format!("{fraction} must lie in 0 … 1, below 1")));
+            }
+            Ok(())
+        }
+        Mechanics::Opening(o) => {
+            let bonded = |f: &crate::Flange| f.side == o.side && f.contact == Contact::Bonded;
+            if !design.spool.iter().flat_map(|s| &s.flanges).any(bonded) {
+                return Err(Error::design("mechanics.opening.side", "there is no bonded flange on this side".into()));
+            }
+            if !(o.fraction > 0.0 && o.fraction < 1.0) {
+                return Err(Error::design("mechanics.opening.fraction", format!("{} must lie between 0 and 1", o.fraction)));
+            }
+            if !(o.below.is_finite() && o.hysteresis.is_finite() && o.hysteresis >= 0.0) {
+                return Err(Error::design(
+                    "mechanics.opening",
+                    "temperatures must be finite, the hysteresis not negative".into(),
+                ));
+            }
+            Ok(())
+        }
+    }
 }

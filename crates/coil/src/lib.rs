@@ -1,16 +1,51 @@
-//! coil
+//! A fibre coil on its spool in a test chamber: temperature, strain at every turn, bias.
+//!
+//! The coil is homogenised and transversely isotropic with its fibre along the hoop; coil, spool and medium are axisymmetric in
+//! (r, y). [`Model`] solves thermo-elasticity on coil and spool,
+//!
+//! ```text
+//! ∫ 2πr ε(v) : (C ε(u) − β ΔT) dr dy = 0,
+//! ```
+//!
+//! gives the strain of the glass at the centre of every turn, and by one adjoint solve per part the bias as a linear functional of
+//! the temperature rate at every node ([`BiasOperator`]). In a steady ramp that rate is uniform and its sum is the sensitivity:
+//! [`steady_sensitivity`], with an error measured on a finer mesh. [`ThermalModel`] is the heat flow, stepped in full or reduced to
+//! a few exponentials ([`Reduced`]); [`Dynamics`] runs a chamber profile through both.
+//!
+//! Conventions: SI units; y = 0 is the coil's left face, +y its right; the strain-free state is ΔT = 0; surfaces are free of
+//! traction and each connected body is held at one point along y. Unbonded faces are gaps of 0.2 mm. Tails are bare fibre that
+//! expands freely at the temperature of the hub's bore.
+//!
+//! References: B. Osunluk, S. Ogut and E. Ozbay, *Thermally Induced Bias Errors for a Fiber Coil with Practical Quadrupole Winding*;
+//! I. Babuška and B. Q. Guo, *SIAM J. Numer. Anal.* 25, 837 (1988), for the grading of the mesh; A. Ruhe, *Linear Algebra Appl.* 58,
+//! 391 (1984), for the Krylov space of the reduction.
+
 mod design;
+mod dynamics;
 mod error;
 mod grid;
 mod layout;
+mod mechanics;
 mod model;
+mod probe;
 mod sensitivity;
 mod thermal;
+mod trim;
 
-pub use design::{Body, Contact, Dehomogenization, Design, Flange, Sensor, Side, Solid, Spool, Surroundings};
+pub use design::{
+    Body, Contact, Dehomogenization, Design, FactorsAt, Flange, HeatPaths, Heater, Mechanics, Mount, Opening, Sensor, Side,
+    Solid, Spool, Surroundings,
+};
+pub use dynamics::{Dynamics, Fidelity, Profile, ReductionError, Response, STANDARD, functionals};
 pub use error::Error;
-pub use grid::{Domain, Grid, Resolution};
+pub use grid::{Bonds, Domain, Grid, Resolution};
 pub use layout::{Layout, Rectangle, Region};
+pub use mechanics::MechanicalState;
 pub use model::{BiasOperator, Model, TurnStrain};
 pub use sensitivity::{COARSE, FINE, SAFETY, SteadySensitivity, steady_sensitivity};
-pub use thermal::{RampLag, ramp_lag};
+pub use thermal::{Drive, FullRun, Interval, RampLag, Reduced, ReducedOutput, ThermalModel, ramp_lag};
+pub use trim::{PRIORS, TailTrim, TurnTrim, trim_tails, trim_turns};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,6 +1,7 @@
 //! The mechanical model: coil and spool, factorised; strain at every turn for a given temperature field.
 
-use crate::{Dehomogenization, Design, Domain, Error, Grid, Layout, Region, Resolution};
+use crate::probe::Probe;
+use crate::{Dehomogenization, Design, Domain, Error, Grid, Layout, MechanicalState, Region, Resolution};
 use bias::{Coefficients, Slice};
 use fem_core::material::ThermoElastic;
 use fem_core::{Constraints, DofMap, Factor, Form, Problem, SparseMatrix};
@@ -17,15 +18,6 @@ pub struct TurnStrain {
     pub axial: f64,
     /// Across the fibre: dehomogenised.
     pub radial: f64,
-}
-
-/// A point in the mesh: nodes of its element (or elements) with values and gradients of the shape functions.
-struct Probe {
-    r: f64,
-    nodes: Vec<usize>,
-    value: Vec<f64>,
-    d_r: Vec<f64>,
-    d_y: Vec<f64>,
 }
 
 /// A design with its winding laid, its mesh and its factorised stiffness.
@@ -69,16 +61,23 @@ impl Model {
     /// # Errors
     /// [`Error`] names the dimension, property, winding or optical constant at fault, or the solve that failed.
     pub fn new(design: &Design, resolution: &Resolution) -> Result<Self, Error> {
+        Self::in_state(design, resolution, &MechanicalState::NOMINAL)
+    }
+
+    /// As [`Self::new`], in a state of the design's [`crate::Mechanics`].
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn in_state(design: &Design, resolution: &Resolution, state: &MechanicalState) -> Result<Self, Error> {
         let winding = winding::wind(&design.winding)?;
         let coefficients = design.optics.coefficients(winding.length())?;
         let layout = Layout::new(design)?;
-        let grid = Grid::new(&layout, resolution, Domain::Solids)?;
-        let (map, factor, thermal_load) = assemble(design, &grid)?;
-        let probe = |field: &str, r: f64, y: f64| probe(&grid, field, r, y);
-        let probes = winding.turns().iter().map(|t| probe("winding", t.r, t.y)).collect::<Result<_, _>>()?;
+        let grid = Grid::new(&layout, resolution, Domain::Solids, state.bonds)?;
+        let (map, factor, thermal_load) = assemble(design, &grid, state)?;
+        let probes = winding.turns().iter().map(|t| grid.probe("winding", t.r, t.y)).collect::<Result<_, _>>()?;
         let lowest = layout.solids.iter().filter(|s| s.r[0] == layout.bore).map(|s| s.y[0]).fold(f64::INFINITY, f64::min);
         let highest = layout.solids.iter().filter(|s| s.r[0] == layout.bore).map(|s| s.y[1]).fold(f64::NEG_INFINITY, f64::max);
-        let bore = probe("sensor", layout.bore, design.sensor.y.clamp(lowest, highest))?;
+        let bore = grid.probe("sensor", layout.bore, design.sensor.y.clamp(lowest, highest))?;
         Ok(Self {
             winding,
             coefficients,
@@ -185,77 +184,18 @@ impl Model {
     }
 }
 
-impl Probe {
-    fn value_of(&self, field: &[f64]) -> f64 {
-        self.nodes.iter().zip(&self.value).map(|(&node, v)| v * field[node]).sum()
-    }
-
-    /// Strains rr, yy, hoop of the displacement (u_r, u_y), component fastest.
-    fn strain_of(&self, u: &[f64]) -> [f64; 3] {
-        let mut strain = [0.0; 3];
-        for (a, &node) in self.nodes.iter().enumerate() {
-            strain[0] += self.d_r[a] * u[2 * node];
-            strain[1] += self.d_y[a] * u[2 * node + 1];
-            strain[2] += self.value[a] / self.r * u[2 * node];
-        }
-        strain
-    }
-
-    fn add_value(&self, functional: &mut [f64], factor: f64) {
-        for (a, &node) in self.nodes.iter().enumerate() {
-            functional[node] += factor * self.value[a];
-        }
-    }
-
-    /// Adds `factor · (s · strain)` to a functional of the displacement: the transpose of [`Self::strain_of`].
-    fn add_strain(&self, functional: &mut [f64], factor: f64, s: [f64; 3]) {
-        for (a, &node) in self.nodes.iter().enumerate() {
-            functional[2 * node] += factor * (s[0] * self.d_r[a] + s[2] * self.value[a] / self.r);
-            functional[2 * node + 1] += factor * s[1] * self.d_y[a];
-        }
-    }
-}
-
-/// A point between elements takes the mean of their values: gradients jump there, and the mean keeps mirror symmetry.
-fn probe(grid: &Grid, field: &str, r: f64, y: f64) -> Result<Probe, Error> {
-    let mut hits = grid.locate(r, y);
-    if hits.is_empty() {
-        return Err(Error::design(field, format!("the point r = {r} m, y = {y} m lies outside the solids")));
-    }
-    if field == "winding" {
-        hits.retain(|(element, _, _)| grid.regions()[*element] == Region::Coil);
-        if hits.is_empty() {
-            return Err(Error::design(
-                field,
-                format!("the turn at r = {r} m, y = {y} m lies outside the coil; enlarge the coil"),
-            ));
-        }
-    }
+fn assemble(design: &Design, grid: &Grid, state: &MechanicalState) -> Result<(DofMap, Factor, SparseMatrix), Error> {
     let mesh = grid.mesh();
-    let problem = Problem::new(mesh, Form::AXISYMMETRIC_DIFFUSION, 1);
-    let mut probe = Probe { r, nodes: Vec::new(), value: Vec::new(), d_r: Vec::new(), d_y: Vec::new() };
-    let share = 1.0 / hits.len() as f64;
-    for (element, xi, eta) in hits {
-        let [value, d_r, d_y] = problem.at_point(element, xi, eta);
-        probe.nodes.extend(&mesh.elements()[element]);
-        for (to, from) in [(&mut probe.value, value), (&mut probe.d_r, d_r), (&mut probe.d_y, d_y)] {
-            to.extend(from.iter().map(|v| share * v));
-        }
-    }
-    Ok(probe)
-}
-
-fn assemble(design: &Design, grid: &Grid) -> Result<(DofMap, Factor, SparseMatrix), Error> {
-    let mesh = grid.mesh();
-    let mut laws = vec![None; mesh.region_count()];
-    let mut stresses = vec![None; mesh.region_count()];
+    let mut laws = vec![None; Region::COUNT];
+    let mut stresses = vec![None; Region::COUNT];
     let mut set = |region: Region, law: ThermoElastic| {
         let (stiffness, stress) = axisymmetric(&law);
         (laws[region as usize], stresses[region as usize]) = (Some(stiffness), Some(stress));
     };
-    set(Region::Coil, at("coil", design.body.elastic.law())?);
+    set(Region::Coil, at("coil", state.elastic(&design.body.elastic).law())?);
     if let Some(spool) = &design.spool {
-        set(Region::Spool, at("spool", spool.material.elastic.law())?);
+        let law = at("spool", spool.material.elastic.law())?;
+        [Region::Hub, Region::LeftFlange, Region::RightFlange, Region::Contact].into_iter().for_each(|region| set(region, law));
     }
     let problem = Problem::new(mesh, Form::AXISYMMETRIC_ELASTICITY, mesh.order() + 1);
     let mut constraints = Constraints::new(2 * mesh.nodes().len());

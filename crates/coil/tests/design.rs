@@ -2,7 +2,7 @@
 
 mod common;
 
-use coil::{COARSE, Contact, Design, Domain, Error, Flange, Grid, Layout, Model, Region, Resolution, Side, ramp_lag};
+use coil::{Bonds, COARSE, Contact, Design, Domain, Error, Flange, Grid, Layout, Model, Region, Resolution, Side, ramp_lag};
 use common::{changed, reference, spool};
 
 #[test]
@@ -10,8 +10,8 @@ fn exact_layout_of_the_reference_coil() {
     let layout = Layout::new(&reference()).expect("layout");
     assert!((layout.chamber.r[1] - 59.825e-3).abs() < 1e-12);
     assert!((layout.chamber.y[0] + 10e-3).abs() < 1e-12 && (layout.chamber.y[1] - 30.02e-3).abs() < 1e-12);
-    assert_eq!(layout.region(40e-3, 19e-3), Region::Spool);
-    assert_eq!(layout.region(49e-3, 19e-3), Region::Spool);
+    assert_eq!(layout.region(40e-3, 19e-3), Region::RightFlange);
+    assert_eq!(layout.region(49e-3, 19e-3), Region::RightFlange);
     assert_eq!(layout.region(45e-3, 9e-3), Region::Coil);
     assert_eq!(layout.region(49e-3, 9e-3), Region::Medium);
 }
@@ -27,8 +27,8 @@ fn exact_unbonded_parts_stand_back_and_the_coil_stays() {
     assert_eq!(layout.region(43.4e-3, 9e-3), Region::Medium);
     assert_eq!(layout.region(45e-3, 18.1e-3), Region::Medium);
     assert_eq!(layout.region(43.6e-3, 18.0e-3), Region::Coil);
-    assert_eq!(layout.region(40e-3, 20.2e-3), Region::Spool);
-    assert_eq!(layout.region(43.4e-3, 19e-3), Region::Spool);
+    assert_eq!(layout.region(40e-3, 9e-3), Region::Hub);
+    assert_eq!(layout.region(43.4e-3, 19e-3), Region::RightFlange);
 }
 
 #[test]
@@ -60,7 +60,7 @@ fn bounds_each_bad_design_names_its_field() {
 #[test]
 fn exact_locating_a_point_returns_its_coordinates() {
     let layout = Layout::new(&reference()).expect("layout");
-    let grid = Grid::new(&layout, &COARSE, Domain::Solids).expect("grid");
+    let grid = Grid::new(&layout, &COARSE, Domain::Solids, Bonds::Closed).expect("grid");
     let (nodes, elements) = (grid.mesh().nodes(), grid.mesh().elements());
     for (r, y) in [(43.5e-3, 18.02e-3), (48.825e-3, 0.0), (39.5e-3, 10.01e-3), (44.0e-3, 3.3e-3), (49.8e-3, 20.0e-3)] {
         let hits = grid.locate(r, y);

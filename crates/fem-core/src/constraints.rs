@@ -70,26 +70,45 @@ impl Constraints {
         Ok(())
     }
 
-    /// Numbers what is left, dropping also every unknown that `used` does not name.
-    pub fn eliminate(&self, used: &[bool]) -> DofMap {
-        let mut number = vec![None; self.parent.len()];
-        let mut reduced = 0;
-        let mut root_used = vec![false; self.parent.len()];
-        for (i, _) in used.iter().enumerate().filter(|(_, used)| **used) {
-            root_used[self.root(i).0] = true;
+    /// Root and factor of every unknown, each link followed once.
+    fn roots(&self) -> Vec<(usize, f64)> {
+        let mut roots: Vec<Option<(usize, f64)>> = vec![None; self.parent.len()];
+        let mut path = Vec::new();
+        for start in 0..self.parent.len() {
+            let mut i = start;
+            while roots[i].is_none() && self.parent[i].0 != i {
+                path.push(i);
+                i = self.parent[i].0;
+            }
+            let (root, mut factor) = *roots[i].get_or_insert((i, 1.0));
+            while let Some(i) = path.pop() {
+                factor *= self.parent[i].1;
+                roots[i] = Some((root, factor));
+            }
         }
-        for i in 0..self.parent.len() {
-            if self.parent[i].0 == i && !self.held[i] && root_used[i] {
+        roots.into_iter().flatten().collect()
+    }
+
+    /// Numbers what is left, dropping also every unknown that `used` (one entry for each unknown) does not name.
+    ///
+    /// # Panics
+    /// If `used` has another length than there are unknowns.
+    pub fn eliminate(&self, used: &[bool]) -> DofMap {
+        assert!(used.len() == self.parent.len(), "one entry of `used` for each of {} unknowns", self.parent.len());
+        let roots = self.roots();
+        let mut root_used = vec![false; roots.len()];
+        for ((root, _), _) in roots.iter().zip(used).filter(|(_, used)| **used) {
+            root_used[*root] = true;
+        }
+        let mut number = vec![None; roots.len()];
+        let mut reduced = 0;
+        for i in 0..roots.len() {
+            if roots[i].0 == i && !self.held[i] && root_used[i] {
                 number[i] = Some(reduced);
                 reduced += 1;
             }
         }
-        let entries = (0..self.parent.len())
-            .map(|i| {
-                let (root, factor) = self.root(i);
-                number[root].map(|n| (n, factor))
-            })
-            .collect();
+        let entries = roots.iter().map(|(root, factor)| number[*root].map(|n| (n, *factor))).collect();
         DofMap { entries, reduced }
     }
 }
@@ -143,6 +162,55 @@ mod tests {
         assert_eq!(map.reduced(), 2);
         assert_eq!(map.expand(&[2.0, 5.0]), vec![2.0, -2.0, 2.0, 0.0, 0.0, 5.0]);
         assert_eq!(map.restrict(&[1.0, 10.0, 100.0, 7.0, 7.0, 3.0]), vec![91.0, 3.0]);
+    }
+
+    /// u0 = −u1 and u0 = u2, so u1 = −u2: the second tie reaches u1 through a slave.
+    #[test]
+    fn exact_a_slave_that_is_tied_again_carries_its_sign() {
+        let mut c = Constraints::new(3);
+        c.tie(0, 1, -1.0).unwrap();
+        c.tie(0, 2, 1.0).unwrap();
+        let map = c.eliminate(&[true; 3]);
+        assert_eq!((map.reduced(), map.expand(&[4.0])), (1, vec![4.0, -4.0, 4.0]));
+    }
+
+    #[test]
+    fn exact_a_long_chain_is_one_unknown() {
+        let n = 200_000;
+        let mut c = Constraints::new(n);
+        for i in 1..n {
+            c.tie(i - 1, i, -1.0).unwrap();
+        }
+        let map = c.eliminate(&vec![true; n]);
+        assert_eq!(map.reduced(), 1);
+        assert!(map.expand(&[1.0]).windows(2).all(|w| w[0] == -w[1]));
+    }
+
+    #[test]
+    fn exact_a_hold_reaches_all_that_is_tied_before_or_after() {
+        for held in 0..3 {
+            for first in [true, false] {
+                let mut c = Constraints::new(3);
+                if first {
+                    c.hold(held).unwrap();
+                }
+                c.tie(0, 1, -1.0).unwrap();
+                c.tie(2, 1, 1.0).unwrap();
+                if !first {
+                    c.hold(held).unwrap();
+                }
+                assert_eq!(c.eliminate(&[true; 3]).reduced(), 0, "held {held}, first {first}");
+            }
+        }
+    }
+
+    #[test]
+    fn exact_unknowns_that_nothing_uses_are_dropped() {
+        let mut c = Constraints::new(4);
+        c.tie(0, 1, -1.0).unwrap();
+        let map = c.eliminate(&[true, false, false, true]);
+        assert_eq!(map.reduced(), 2);
+        assert_eq!([map.get(0), map.get(1), map.get(2), map.get(3)], [Some((0, -1.0)), Some((0, 1.0)), None, Some((1, 1.0))]);
     }
 
     #[test]

@@ -17,6 +17,16 @@ pub enum Error {
     /// The mesh's arrays do not fit each other, or an element is turned inside out.
     #[error("mesh: {0}")]
     Mesh(String),
+    /// The matrix of constants of a region is missing or has the wrong shape.
+    #[error("constants of region {region}: {found}, but the weak form needs {needed}")]
+    Law {
+        /// Region number.
+        region: usize,
+        /// What was given.
+        found: String,
+        /// What the form needs.
+        needed: String,
+    },
     /// A constraint cannot be applied.
     #[error("constraint: {0}")]
     Constraint(String),
@@ -39,5 +49,13 @@ pub enum Error {
         limit: f64,
         /// Number of unknowns.
         unknowns: usize,
+    },
+    /// No time step is short enough.
+    #[error("even steps of {step:e} s leave an error above {tolerance:e}; raise the tolerance")]
+    Step {
+        /// The tolerance.
+        tolerance: f64,
+        /// The smallest step tried \[s\].
+        step: f64,
     },
 }

@@ -59,38 +59,48 @@ impl ReferenceElement {
     /// Geometry of element `e` of `mesh` (which must be of this order).
     ///
     /// # Errors
-    /// [`Error::Mesh`] if the element is turned inside out at a quadrature point.
+    /// [`Error::Mesh`] if the element is turned inside out at a quadrature point, or a body of revolution reaches across its axis.
     pub fn geometry(&self, mesh: &Mesh, e: usize, measure: Measure) -> Result<ElementGeometry, Error> {
-        let nodes = &mesh.elements()[e];
-        let points = self.weights.len();
-        let (mut d_x, mut d_y) = (DMatrix::zeros(nodes.len(), points), DMatrix::zeros(nodes.len(), points));
-        let (mut xs, mut ys, mut weight) = (vec![0.0; points], vec![0.0; points], vec![0.0; points]);
+        let (nodes, points) = (mesh.elements()[e].len(), self.weights.len());
+        let zeros = || DMatrix::zeros(nodes, points);
+        let mut g =
+            ElementGeometry { d_x: zeros(), d_y: zeros(), x: vec![0.0; points], y: vec![0.0; points], weight: Vec::new() };
         for k in 0..points {
-            let (value, d_xi, d_eta) = (self.value.column(k), self.d_xi.column(k), self.d_eta.column(k));
-            let (mut position, mut j) = ([0.0; 2], [[0.0; 2]; 2]);
-            for (a, &node) in nodes.iter().enumerate() {
-                let p = mesh.nodes()[node];
-                for c in 0..2 {
-                    position[c] += value[a] * p[c];
-                    j[0][c] += d_xi[a] * p[c];
-                    j[1][c] += d_eta[a] * p[c];
-                }
-            }
+            let ([x, y], j) = self.position_and_jacobian(mesh, e, k);
             let det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
-            if det <= 0.0 {
-                return Err(Error::Mesh(format!(
-                    "element {e} is turned inside out near ({:.6e}, {:.6e}) m",
-                    position[0], position[1]
-                )));
+            // not `<=`: a NaN must not pass
+            if !(det > 0.0 && det.is_finite()) {
+                return Err(Error::Mesh(format!("element {e} is turned inside out near ({x:.6e}, {y:.6e}) m")));
             }
-            for a in 0..nodes.len() {
-                d_x[(a, k)] = (j[1][1] * d_xi[a] - j[0][1] * d_eta[a]) / det;
-                d_y[(a, k)] = (j[0][0] * d_eta[a] - j[1][0] * d_xi[a]) / det;
+            let radius = match measure {
+                Measure::Area => 1.0,
+                Measure::Revolution if x > 0.0 => TAU * x,
+                Measure::Revolution => return Err(Error::Mesh(format!("element {e} reaches across the axis to x = {x:.6e} m"))),
+            };
+            let (d_xi, d_eta) = (self.d_xi.column(k), self.d_eta.column(k));
+            for a in 0..nodes {
+                g.d_x[(a, k)] = (j[1][1] * d_xi[a] - j[0][1] * d_eta[a]) / det;
+                g.d_y[(a, k)] = (j[0][0] * d_eta[a] - j[1][0] * d_xi[a]) / det;
             }
-            (xs[k], ys[k]) = (position[0], position[1]);
-            weight[k] = self.weights[k] * det * if measure == Measure::Revolution { TAU * position[0] } else { 1.0 };
+            (g.x[k], g.y[k]) = (x, y);
+            g.weight.push(self.weights[k] * det * radius);
         }
-        Ok(ElementGeometry { d_x, d_y, x: xs, y: ys, weight })
+        Ok(g)
+    }
+
+    /// Position of quadrature point `k` and its derivatives along ξ (first row) and η.
+    fn position_and_jacobian(&self, mesh: &Mesh, e: usize, k: usize) -> ([f64; 2], [[f64; 2]; 2]) {
+        let (value, d_xi, d_eta) = (self.value.column(k), self.d_xi.column(k), self.d_eta.column(k));
+        let (mut position, mut jacobian) = ([0.0; 2], [[0.0; 2]; 2]);
+        for (a, &node) in mesh.elements()[e].iter().enumerate() {
+            let p = mesh.nodes()[node];
+            for c in 0..2 {
+                position[c] += value[a] * p[c];
+                jacobian[0][c] += d_xi[a] * p[c];
+                jacobian[1][c] += d_eta[a] * p[c];
+            }
+        }
+        (position, jacobian)
     }
 
     /// Area (or volume of revolution) of each region of `mesh`, by quadrature \[m² or m³\].
@@ -119,10 +129,9 @@ impl ReferenceElement {
             .collect();
         let mut j = [[0.0; 2]; 2];
         for (s, &node) in shape.iter().zip(&mesh.elements()[e]) {
-            for c in 0..2 {
-                j[0][c] += s[1] * mesh.nodes()[node][c];
-                j[1][c] += s[2] * mesh.nodes()[node][c];
-            }
+            let [x, y] = mesh.nodes()[node];
+            j[0] = [j[0][0] + s[1] * x, j[0][1] + s[1] * y];
+            j[1] = [j[1][0] + s[2] * x, j[1][1] + s[2] * y];
         }
         let det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
         [
@@ -130,5 +139,55 @@ impl ReferenceElement {
             shape.iter().map(|s| (j[1][1] * s[1] - j[0][1] * s[2]) / det).collect(),
             shape.iter().map(|s| (j[0][0] * s[2] - j[1][0] * s[1]) / det).collect(),
         ]
+    }
+}
+
+/// An edge of the reference square.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Edge {
+    /// ξ = −1
+    XiLow,
+    /// ξ = +1
+    XiHigh,
+    /// η = −1
+    EtaLow,
+    /// η = +1
+    EtaHigh,
+}
+
+impl Edge {
+    /// Local numbers of the edge's nodes, along ξ or η.
+    fn nodes(self, order: usize) -> Vec<usize> {
+        let n = order + 1;
+        (0..n)
+            .map(|k| match self {
+                Self::XiLow => k * n,
+                Self::XiHigh => k * n + order,
+                Self::EtaLow => k,
+                Self::EtaHigh => order * n + k,
+            })
+            .collect()
+    }
+}
+
+impl ReferenceElement {
+    /// `∫ N N ds` along an edge of element `e` (times 2πx for a body of revolution), shape (nodes, nodes).
+    pub fn edge_mass(&self, mesh: &Mesh, e: usize, edge: Edge, measure: Measure) -> DMatrix<f64> {
+        let local = edge.nodes(mesh.order());
+        let position = |k: usize| mesh.nodes()[mesh.elements()[e][local[k]]];
+        let mut mass = DMatrix::zeros(mesh.elements()[e].len(), mesh.elements()[e].len());
+        let Quadrature { points, weights } = gauss(mesh.order() + 2);
+        for (point, weight) in points.iter().zip(&weights) {
+            let (value, slope) = self.basis.evaluate(*point);
+            let sum = |factors: &[f64], c: usize| factors.iter().enumerate().map(|(k, f)| f * position(k)[c]).sum::<f64>();
+            let around = if measure == Measure::Revolution { TAU * sum(&value, 0) } else { 1.0 };
+            let ds = weight * sum(&slope, 0).hypot(sum(&slope, 1)) * around;
+            for (a, &i) in local.iter().enumerate() {
+                for (b, &j) in local.iter().enumerate() {
+                    mass[(i, j)] += ds * value[a] * value[b];
+                }
+            }
+        }
+        mass
     }
 }

@@ -38,12 +38,18 @@ mod mesh;
 pub mod polynomial;
 mod problem;
 mod sparse;
+mod transient;
 
 pub use constraints::{Constraints, DofMap};
 pub use error::Error;
 pub use form::{Form, Operator};
-pub use geometry::{ElementGeometry, Measure, ReferenceElement};
-pub use linear::{BACKWARD_ERROR_LIMIT, Factor, SymbolicFactor};
+pub use geometry::{Edge, ElementGeometry, Measure, ReferenceElement};
+pub use linear::{BACKWARD_ERROR_LIMIT, Factor, PROBE_ERROR_LIMIT, SymbolicFactor};
 pub use mesh::Mesh;
 pub use problem::Problem;
 pub use sparse::{Pattern, SparseMatrix};
+pub use transient::{Effort, State, Transient};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

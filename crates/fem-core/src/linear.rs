@@ -13,9 +13,19 @@ use faer::{Mat, Side};
 /// A correct factor leaves a few units of rounding (1e-15), whatever the condition number; a wrong one leaves of order one.
 pub const BACKWARD_ERROR_LIMIT: f64 = 1e-12;
 
+/// Largest relative error (maximum norm) with which a new factor may return a known solution.
+///
+/// The backward error of a singular system is small too: its solution only runs away along what nothing holds. A solution that
+/// comes back this wrong belongs to a condition number above 1e13, where no digit of any result can be trusted.
+pub const PROBE_ERROR_LIMIT: f64 = 1e-3;
+
 /// Orderings and sizes of a Cholesky factor: computed once per sparsity pattern.
 #[derive(Debug, Clone)]
-pub struct SymbolicFactor(SymbolicLlt<usize>);
+pub struct SymbolicFactor {
+    symbolic: SymbolicLlt<usize>,
+    starts: Vec<usize>,
+    indices: Vec<usize>,
+}
 
 /// A Cholesky factor of a symmetric positive definite matrix, checked when it was made.
 #[derive(Debug, Clone)]
@@ -33,29 +43,44 @@ fn not_positive_definite(matrix: &SparseMatrix, detail: impl std::fmt::Display) 
     Error::NotPositiveDefinite { unknowns: matrix.rows(), detail: detail.to_string() }
 }
 
+/// A solution without symmetry, in \[1, 2): the fractional parts of multiples of the golden section.
+fn probe(unknowns: usize) -> Vec<f64> {
+    (0..unknowns).map(|i| 1.0 + (i as f64 * 0.618_033_988_749_894_9).fract()).collect()
+}
+
 impl SymbolicFactor {
     /// Orders the unknowns of `matrix`.
     ///
     /// # Errors
-    /// [`Error::NotPositiveDefinite`] if the ordering runs out of memory.
+    /// [`Error::NotPositiveDefinite`] if the matrix is not square or the ordering runs out of memory.
     pub fn new(matrix: &SparseMatrix) -> Result<Self, Error> {
+        if matrix.rows() != matrix.columns() {
+            return Err(not_positive_definite(matrix, format!("it has {} columns", matrix.columns())));
+        }
         let symbolic = SymbolicLlt::try_new(structure(matrix), Side::Lower);
-        Ok(Self(symbolic.map_err(|e| not_positive_definite(matrix, format!("{e:?}")))?))
+        let symbolic = symbolic.map_err(|e| not_positive_definite(matrix, format!("{e:?}")))?;
+        let (starts, indices, _) = matrix.parts();
+        Ok(Self { symbolic, starts: starts.to_vec(), indices: indices.to_vec() })
     }
 
-    /// Factorises a matrix of the same pattern and checks the factor on one right-hand side.
+    /// Factorises a matrix of the same pattern and checks the factor on a known solution.
     ///
     /// # Errors
-    /// [`Error::NotPositiveDefinite`]; [`Error::Residual`] if the factor does not solve.
+    /// [`Error::NotPositiveDefinite`], also if the matrix is singular to rounding; [`Error::Residual`] if the factor does not
+    /// solve, as when the matrix is not symmetric.
+    ///
+    /// # Panics
+    /// If the pattern differs: a programming error, both matrices must come from the same [`crate::Pattern`].
     pub fn factor(&self, matrix: SparseMatrix) -> Result<Factor, Error> {
-        let numeric = SparseColMatRef::new(structure(&matrix), matrix.parts().2);
-        let cholesky = Llt::try_new_with_symbolic(self.0.clone(), numeric, Side::Lower).map_err(|e| match e {
+        let (starts, indices, values) = matrix.parts();
+        assert!(starts == self.starts && indices == self.indices, "a matrix of the Pattern that was ordered");
+        let numeric = SparseColMatRef::new(structure(&matrix), values);
+        let cholesky = Llt::try_new_with_symbolic(self.symbolic.clone(), numeric, Side::Lower).map_err(|e| match e {
             LltError::Numeric(e) => not_positive_definite(&matrix, format!("{e:?}")),
             LltError::Generic(e) => not_positive_definite(&matrix, format!("{e:?}")),
         })?;
         let factor = Factor { matrix, cholesky };
-        let probe = factor.matrix.multiply(&vec![1.0; factor.matrix.columns()]);
-        factor.solve(&[probe])?;
+        factor.check()?;
         Ok(factor)
     }
 }
@@ -79,17 +104,34 @@ impl Factor {
         &self.matrix
     }
 
+    /// Solves for a known solution.
+    fn check(&self) -> Result<(), Error> {
+        let known = probe(self.unknowns());
+        let found = &self.solve(&[self.matrix.multiply(&known)])?[0];
+        let difference: Vec<f64> = found.iter().zip(&known).map(|(a, b)| a - b).collect();
+        let error = largest(&difference) / 2.0;
+        if error <= PROBE_ERROR_LIMIT {
+            return Ok(());
+        }
+        let detail = format!("singular to rounding: a known solution came back with a relative error of {error:.1e}");
+        Err(not_positive_definite(&self.matrix, detail))
+    }
+
     fn substitute(&self, columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let n = self.unknowns();
+        assert!(columns.iter().all(|c| c.len() == n), "right-hand sides of {n} entries");
         let rhs = Mat::from_fn(n, columns.len(), |i, j| columns[j][i]);
         let x = self.cholesky.solve(&rhs);
         (0..columns.len()).map(|j| (0..n).map(|i| x[(i, j)]).collect()).collect()
     }
 
-    /// Solves for all right-hand sides together, refines once, checks each residual.
+    /// Solves for all right-hand sides (each of length [`Self::unknowns`]) together, refines once, checks each residual.
     ///
     /// # Errors
-    /// [`Error::Residual`] if a backward error exceeds [`BACKWARD_ERROR_LIMIT`].
+    /// [`Error::Residual`] if a backward error exceeds [`BACKWARD_ERROR_LIMIT`], as when a right-hand side is not finite.
+    ///
+    /// # Panics
+    /// If a right-hand side has another length.
     pub fn solve(&self, rhs: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, Error> {
         let residual =
             |x: &[f64], b: &[f64]| -> Vec<f64> { self.matrix.multiply(x).iter().zip(b).map(|(ax, b)| b - ax).collect() };
@@ -101,8 +143,7 @@ impl Factor {
         for (x, b) in x.iter().zip(rhs) {
             let size = largest(&self.matrix.multiply_magnitudes(x)) + largest(b);
             let backward_error = largest(&residual(x, b)) / size;
-            // not `>`: a NaN must not pass
-            if size != 0.0 && !(backward_error <= BACKWARD_ERROR_LIMIT) {
+            if size != 0.0 && (backward_error > BACKWARD_ERROR_LIMIT || backward_error.is_nan()) {
                 return Err(Error::Residual { backward_error, limit: BACKWARD_ERROR_LIMIT, unknowns: self.unknowns() });
             }
         }

@@ -116,12 +116,7 @@ impl TransverselyIsotropic {
         (1.0 - self.nu_r) * self.e_z / (2.0 * self.nu_zr * self.nu_zr * self.e_r)
     }
 
-    /// The law with z = fibre.
-    ///
-    /// # Errors
-    /// [`Error::Material`] names the constant that is outside its range; the stiffness must be positive definite:
-    /// `|ν_r| < 1` and `1 − ν_r > 2 ν_zr² E_r / E_z`.
-    pub fn law(&self) -> Result<ThermoElastic, Error> {
+    fn check(&self) -> Result<(), Error> {
         positive("e_z", self.e_z)?;
         positive("e_r", self.e_r)?;
         positive("g_zr", self.g_zr)?;
@@ -136,14 +131,22 @@ impl TransverselyIsotropic {
             let range = format!("less than 1 - 2 nu_zr^2 e_r/e_z = {limit:.6} (else the stiffness is not positive definite)");
             return Err(Error::Material { field: "nu_r", value: self.nu_r, range });
         }
-        // normal part of the compliance inverted in closed form: sums and differences of the two transverse directions
-        let (nu_rz, gamma) = (self.nu_rz(), 1.0 - self.nu_r - 2.0 * self.nu_zr * self.nu_rz());
-        let bulk = self.e_r / (2.0 * gamma); // plane-strain bulk modulus
+        Ok(())
+    }
+
+    /// The law with z = fibre.
+    ///
+    /// # Errors
+    /// [`Error::Material`] names the constant that is outside its range; the stiffness must be positive definite:
+    /// `|ν_r| < 1` and `1 − ν_r > 2 ν_zr² E_r / E_z`.
+    pub fn law(&self) -> Result<ThermoElastic, Error> {
+        self.check()?;
+        // the normal part of the compliance inverted in closed form: sums and differences of the two transverse directions
+        let bulk = self.e_r / (2.0 * (1.0 - self.nu_r - 2.0 * self.nu_zr * self.nu_rz())); // plane-strain bulk modulus
         let g_r = self.g_r();
         let (c11, c12) = (bulk + g_r, bulk - g_r);
         let c13 = 2.0 * self.nu_zr * bulk;
         let c33 = self.e_z + 4.0 * self.nu_zr * self.nu_zr * bulk;
-        debug_assert!(nu_rz.is_finite());
         #[rustfmt::skip]
         let stiffness = Matrix6::new(
             c11, c12, c13, 0.0, 0.0, 0.0,

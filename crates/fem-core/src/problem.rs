@@ -1,10 +1,10 @@
 //! A weak form on a mesh: element matrices region by region, assembly, factor.
 
-use crate::geometry::ReferenceElement;
+use crate::geometry::{Edge, ReferenceElement};
 use crate::{DofMap, Error, Factor, Form, Mesh, Pattern, SparseMatrix};
 use nalgebra::DMatrix;
 
-/// A form on a mesh, integrated with `order + extra` Gauss points per direction.
+/// A form on a mesh with its quadrature.
 #[derive(Debug, Clone)]
 pub struct Problem<'a> {
     mesh: &'a Mesh,
@@ -13,7 +13,10 @@ pub struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    /// `form` on `mesh` with `points` Gauss points per direction (order + 1 integrates straight elements exactly).
+    /// `form` on `mesh` with `points` Gauss points per direction.
+    ///
+    /// Order p needs p + 1 on straight elements, and on curved ones to reproduce uniform strains exactly in the plane; curved
+    /// elements of a body of revolution need 3p/2 + 1 for that. One more than p + 1 suits gently curved elements.
     pub fn new(mesh: &'a Mesh, form: Form, points: usize) -> Self {
         Self { mesh, form, reference: ReferenceElement::new(mesh.order(), points) }
     }
@@ -35,6 +38,22 @@ impl<'a> Problem<'a> {
         used
     }
 
+    /// Each region of the mesh must have an entry; those that are not `None` must have `rows` rows and, if given, `columns` columns.
+    fn check(&self, laws: &[Option<DMatrix<f64>>], rows: usize, columns: Option<usize>) -> Result<(), Error> {
+        let needed = || format!("{rows} × {}", columns.map_or("any".into(), |c| c.to_string()));
+        if laws.len() < self.mesh.region_count() {
+            let found = format!("only {} regions have an entry", laws.len());
+            return Err(Error::Law { region: laws.len(), found, needed: needed() });
+        }
+        match laws.iter().position(|l| l.as_ref().is_some_and(|l| l.nrows() != rows || columns.is_some_and(|c| l.ncols() != c))) {
+            None => Ok(()),
+            Some(region) => {
+                let found = laws[region].as_ref().map_or(String::new(), |l| format!("{} × {}", l.nrows(), l.ncols()));
+                Err(Error::Law { region, found, needed: needed() })
+            }
+        }
+    }
+
     fn element_matrices<'m>(
         &self,
         laws: &'m [Option<DMatrix<f64>>],
@@ -50,8 +69,9 @@ impl<'a> Problem<'a> {
     /// Stiffness matrix. `laws[region]` is the constitutive matrix (strains × strains), `None` where the region takes no part.
     ///
     /// # Errors
-    /// [`Error::Mesh`] if an element is turned inside out.
+    /// [`Error::Law`] if the constants do not fit; [`Error::Mesh`] if an element is turned inside out.
     pub fn stiffness(&self, map: &DofMap, laws: &[Option<DMatrix<f64>>]) -> Result<SparseMatrix, Error> {
+        self.check(laws, self.form.strains(), Some(self.form.strains()))?;
         let elements = self.element_matrices(laws, |g, law| self.form.stiffness(&self.reference.value, g, law))?;
         Ok(self.pattern(map, laws).assemble(&elements))
     }
@@ -71,8 +91,9 @@ impl<'a> Problem<'a> {
     /// Full load vectors `∫ Bᵀ σ_j`. `stresses[region]` has one column per load (strains × loads), or is `None`.
     ///
     /// # Errors
-    /// [`Error::Mesh`] if an element is turned inside out.
+    /// As [`Self::stiffness`].
     pub fn loads(&self, stresses: &[Option<DMatrix<f64>>]) -> Result<Vec<Vec<f64>>, Error> {
+        self.check(stresses, self.form.strains(), None)?;
         let count = stresses.iter().flatten().map(|s| s.ncols()).max().unwrap_or(0);
         let c = self.form.components();
         let mut loads = vec![vec![0.0; self.mesh.nodes().len() * c]; count];
@@ -93,20 +114,34 @@ impl<'a> Problem<'a> {
     /// field stresses the region.
     ///
     /// # Errors
-    /// [`Error::Mesh`] if an element is turned inside out.
+    /// As [`Self::stiffness`].
     pub fn coupling(&self, rows: &DofMap, scalar: &DofMap, laws: &[Option<DMatrix<f64>>]) -> Result<SparseMatrix, Error> {
+        self.check(laws, self.form.strains(), Some(1))?;
         let elements = self.element_matrices(laws, |g, law| self.form.coupling(&self.reference.value, g, law.as_slice()))?;
         let active = |e: usize| laws[self.mesh.regions()[e]].is_some();
         Ok(Pattern::rectangular(self.mesh, rows, scalar, active).assemble(&elements))
     }
 
-    /// Mass matrix of a scalar form: `capacities[region]` is 1 × 1.
+    /// Mass matrix, `∫ N c N` for each component: `capacities[region]` is 1 × 1.
     ///
     /// # Errors
-    /// [`Error::Mesh`] if an element is turned inside out.
+    /// As [`Self::stiffness`].
     pub fn mass(&self, map: &DofMap, capacities: &[Option<DMatrix<f64>>]) -> Result<SparseMatrix, Error> {
-        let elements = self.element_matrices(capacities, |g, c| Form::mass(&self.reference.value, g, c[0]))?;
-        Ok(self.pattern(map, capacities).assemble(&elements))
+        self.check(capacities, 1, Some(1))?;
+        let each_component = DMatrix::identity(self.form.components(), self.form.components());
+        let mass =
+            |g: &crate::ElementGeometry, c: &DMatrix<f64>| Form::mass(&self.reference.value, g, c[0]).kronecker(&each_component);
+        Ok(self.pattern(map, capacities).assemble(&self.element_matrices(capacities, mass)?))
+    }
+
+    /// Boundary mass `∫ N h N ds` of a scalar form over the given (element, edge, h), on the pattern of the whole mesh.
+    pub fn edge_mass(&self, map: &DofMap, edges: &[(usize, Edge, f64)]) -> SparseMatrix {
+        let nodes = (self.mesh.order() + 1).pow(2);
+        let mut elements = vec![DMatrix::zeros(nodes, nodes); self.mesh.elements().len()];
+        for &(e, edge, h) in edges {
+            elements[e] += self.reference.edge_mass(self.mesh, e, edge, self.form.measure()) * h;
+        }
+        Pattern::new(self.mesh, map, |_| true).assemble(&elements)
     }
 
     /// Area (or volume of revolution) of each region \[m² or m³\].

@@ -7,14 +7,14 @@ use fem_core::material::Isotropic;
 pub struct Constituent {
     /// Elastic constants and expansion.
     pub elastic: Isotropic,
-    /// Thermal conductivity [W/(m K)].
+    /// Thermal conductivity \[W/(m K)\].
     pub conductivity: f64,
 }
 
 /// One concentric ring of the fibre.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ring {
-    /// Outer radius [m].
+    /// Outer radius \[m\].
     pub outer_radius: f64,
     /// What it is made of.
     pub constituent: Constituent,
@@ -34,7 +34,7 @@ pub enum Role {
 /// A fibre's rings from the inside out, in adhesive, at the lattice pitch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FibreCell {
-    /// Distance between neighbouring fibre axes [m].
+    /// Distance between neighbouring fibre axes \[m\].
     pub pitch: f64,
     /// Rings from the inside out, at least one; the outermost stays inside `pitch / 2`.
     pub rings: Vec<Ring>,

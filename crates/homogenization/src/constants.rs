@@ -6,15 +6,15 @@ use fem_core::material::TransverselyIsotropic;
 /// Effective constants of a transversely isotropic coil and its dehomogenisation row; z = fibre, r = across it. SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Constants {
-    /// Young's modulus along the fibre [Pa].
+    /// Young's modulus along the fibre \[Pa\].
     pub e_z: f64,
-    /// Young's modulus across the fibre [Pa].
+    /// Young's modulus across the fibre \[Pa\].
     pub e_r: f64,
-    /// Shear modulus in planes that hold the fibre [Pa].
+    /// Shear modulus in planes that hold the fibre \[Pa\].
     pub g_zr: f64,
-    /// Shear modulus across the fibre [Pa].
+    /// Shear modulus across the fibre \[Pa\].
     pub g_r: f64,
-    /// Plane-strain bulk modulus (C11 + C12)/2 [Pa].
+    /// Plane-strain bulk modulus (C11 + C12)/2 \[Pa\].
     pub k_plane_strain: f64,
     /// Transverse contraction per axial extension.
     pub nu_zr: f64,
@@ -22,13 +22,13 @@ pub struct Constants {
     pub nu_r: f64,
     /// Axial contraction per transverse extension.
     pub nu_rz: f64,
-    /// Thermal expansion along the fibre [1/K].
+    /// Thermal expansion along the fibre \[1/K\].
     pub alpha_z: f64,
-    /// Thermal expansion across the fibre [1/K].
+    /// Thermal expansion across the fibre \[1/K\].
     pub alpha_r: f64,
-    /// Conductivity along the fibre [W/(m K)].
+    /// Conductivity along the fibre \[W/(m K)\].
     pub k_z: f64,
-    /// Conductivity across the fibre [W/(m K)].
+    /// Conductivity across the fibre \[W/(m K)\].
     pub k_r: f64,
     /// Mean radial strain of the glass, (xx + yy)/2, per macroscopic xx.
     pub m_rx: f64,
@@ -36,7 +36,7 @@ pub struct Constants {
     pub m_ry: f64,
     /// Mean radial strain of the glass per macroscopic zz at zero macroscopic xx and yy.
     pub m_rz: f64,
-    /// Mean radial strain of the glass per K at zero macroscopic strain [1/K].
+    /// Mean radial strain of the glass per K at zero macroscopic strain \[1/K\].
     pub m_rt: f64,
 }
 

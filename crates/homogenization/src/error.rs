@@ -31,9 +31,9 @@ pub enum Error {
     Area {
         /// Phase number from the inside.
         phase: usize,
-        /// Area of the mesh [m²].
+        /// Area of the mesh \[m²\].
         area: f64,
-        /// Exact area [m²].
+        /// Exact area \[m²\].
         exact: f64,
     },
     /// The finite-element solution failed.

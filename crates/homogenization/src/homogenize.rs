@@ -4,12 +4,18 @@ use crate::solve::CellProblem;
 use crate::{Constants, Discretization, Effective, Error, FibreCell};
 use rve_mesh::{Extent, Resolution};
 
+/// A constant below this fraction of its natural scale (1 for Poisson's ratios and strains of the glass per strain, the larger
+/// effective expansion for expansions and strains of the glass per K) is as good as zero, and so is its relative error.
+pub const NEGLIGIBLE: f64 = 1e-6;
+
 /// Effective constants with their numerical error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Homogenized {
     /// The constants.
     pub constants: Constants,
-    /// Relative difference of each from its own value two polynomial orders higher.
+    /// Relative difference of each from its own value two polynomial orders higher. A constant that is nearly zero is compared
+    /// with [`NEGLIGIBLE`] of its natural scale instead. As long as two orders gain a factor of three, the true error is at most
+    /// half as much again.
     pub relative_error: Constants,
     /// Stiffness, thermal stress, conductivity and glass strain behind the constants.
     pub effective: Effective,
@@ -51,8 +57,29 @@ pub fn homogenize_on(cell: &FibreCell, discretization: &Discretization) -> Resul
     let finer = crate::effective(cell, &discretization.refined())?;
     let singular = || Error::Solve(fem_core::Error::NotPositiveDefinite { unknowns: 6, detail: "effective stiffness".into() });
     let constants = effective.constants().ok_or_else(singular)?;
-    let relative_error = constants.combine(&finer.constants().ok_or_else(singular)?, |a, b| ((a - b) / b).abs());
+    let relative_error = relative_difference(&constants, &finer.constants().ok_or_else(singular)?);
     Ok(Homogenized { constants, relative_error, unknowns: effective.unknowns, effective })
+}
+
+/// |a − b| of each constant over |b|, or over [`NEGLIGIBLE`] of its natural scale if that is larger.
+fn relative_difference(a: &Constants, b: &Constants) -> Constants {
+    let expansion = b.alpha_z.abs().max(b.alpha_r.abs());
+    let scale = Constants {
+        nu_zr: 1.0,
+        nu_r: 1.0,
+        nu_rz: 1.0,
+        alpha_z: expansion,
+        alpha_r: expansion,
+        m_rx: 1.0,
+        m_ry: 1.0,
+        m_rz: 1.0,
+        m_rt: expansion,
+        ..*b
+    };
+    let size = b.combine(&scale, |b, scale| b.abs().max(NEGLIGIBLE * scale.abs()));
+    let difference = a.combine(b, |a, b| (a - b).abs());
+    // 0/0 where nothing expands
+    difference.combine(&size, |difference, size| if difference == 0.0 { 0.0 } else { difference / size })
 }
 
 /// Effective constants of `cell` on the standard discretisation.
@@ -66,7 +93,7 @@ pub fn homogenize(cell: &FibreCell) -> Result<Homogenized, Error> {
 /// The traction-free cell one kelvin warmer, solved on its own.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FreeCell {
-    /// Mean radial strain of the glass [1/K].
+    /// Mean radial strain of the glass \[1/K\].
     pub glass_strain: f64,
     /// What is left of the mean stress (xx, yy, zz), relative to the stress of the fully held cell.
     pub relative_stress: f64,

@@ -31,13 +31,13 @@ const AREA_TOLERANCE: f64 = 1e-6;
 /// Effective response of a cell: macroscopic stress `C ε − β ΔT`, heat flux `−k ∇T`, and the mean strain of the glass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Effective {
-    /// Stiffness [Pa], Voigt order xx, yy, zz, yz, xz, xy, z = fibre.
+    /// Stiffness \[Pa\], Voigt order xx, yy, zz, yz, xz, xy, z = fibre.
     pub stiffness: Matrix6<f64>,
-    /// Thermal stress vector [Pa/K].
+    /// Thermal stress vector \[Pa/K\].
     pub thermal_stress: Vector6<f64>,
-    /// Conductivity across the fibre [W/(m K)].
+    /// Conductivity across the fibre \[W/(m K)\].
     pub conductivity: Matrix2<f64>,
-    /// Conductivity along the fibre [W/(m K)].
+    /// Conductivity along the fibre \[W/(m K)\].
     pub conductivity_z: f64,
     /// Mean strains xx, yy, xy of the glass (rows) per unit macroscopic xx, yy, zz, xy and per K at zero macroscopic strain.
     pub glass_strain: SMatrix<f64, 3, LOADS>,
@@ -182,7 +182,7 @@ impl CellProblem {
             self.fractions.iter().zip(&self.laws).map(|(f, law)| f * Self::source(law, load)[row]).sum()
         };
         for load in 0..LOADS {
-            self.add_macroscopic(effective, load, |row| mean(load, VOIGT[row]));
+            self.add_macroscopic(effective, load, |voigt| mean(load, voigt));
         }
         for class in self.classes(&[0, 1, 2, 4], &[3], &[0, 1, 2, 3, 4], true) {
             let map = self.map(&problem, 2, &class)?;
@@ -199,11 +199,11 @@ impl CellProblem {
     }
 
     fn add_macroscopic(&self, effective: &mut Effective, load: usize, stress: impl Fn(usize) -> f64) {
-        for row in 0..4 {
+        for voigt in VOIGT {
             if load == 4 {
-                effective.thermal_stress[VOIGT[row]] -= stress(row);
+                effective.thermal_stress[voigt] -= stress(voigt);
             } else {
-                effective.stiffness[(VOIGT[row], VOIGT[load])] += stress(row);
+                effective.stiffness[(voigt, VOIGT[load])] += stress(voigt);
             }
         }
         if let Some(row) = GLASS_ROWS.iter().position(|like| *like == load) {
@@ -221,7 +221,7 @@ impl CellProblem {
                 effective.stiffness[(VOIGT[row], VOIGT[load])] += stress;
             }
         }
-        for (row, like) in GLASS_ROWS.iter().enumerate().filter(|(_, like)| rows.contains(like)) {
+        for row in (0..GLASS_ROWS.len()).filter(|row| rows.contains(&GLASS_ROWS[*row])) {
             effective.glass_strain[(row, load)] += product(LOADS + row);
         }
     }

@@ -11,7 +11,7 @@ pub struct HexagonalCell {
 }
 
 impl HexagonalCell {
-    /// A cell of lattice `pitch` [m] and rings of outer `radii` [m] from the inside out.
+    /// A cell of lattice `pitch` \[m\] and rings of outer `radii` \[m\] from the inside out.
     ///
     /// # Errors
     /// [`Error`] names what is out of range: radii must increase from 0 and stay below half the pitch.
@@ -33,22 +33,22 @@ impl HexagonalCell {
         Ok(Self { pitch, radii })
     }
 
-    /// Distance between neighbouring fibre axes [m].
+    /// Distance between neighbouring fibre axes \[m\].
     pub fn pitch(&self) -> f64 {
         self.pitch
     }
 
-    /// Outer radii of the rings [m], from the inside out.
+    /// Outer radii of the rings \[m\], from the inside out.
     pub fn radii(&self) -> &[f64] {
         &self.radii
     }
 
-    /// Area of the hexagon, `p² √3 / 2` [m²].
+    /// Area of the hexagon, `p² √3 / 2` \[m²\].
     pub fn area(&self) -> f64 {
         self.pitch * self.pitch * 3f64.sqrt() / 2.0
     }
 
-    /// Exact area of each phase [m²]: the rings from the inside out, last the adhesive.
+    /// Exact area of each phase \[m²\]: the rings from the inside out, last the adhesive.
     pub fn phase_areas(&self) -> Vec<f64> {
         let mut inner = 0.0;
         let mut areas: Vec<f64> = self

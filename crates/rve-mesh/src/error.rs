@@ -12,17 +12,17 @@ pub enum Error {
     RingOrder {
         /// Ring number, from 0 inside.
         ring: usize,
-        /// Its outer radius [m].
+        /// Its outer radius \[m\].
         radius: f64,
-        /// The radius of the ring inside it [m].
+        /// The radius of the ring inside it \[m\].
         inner: f64,
     },
     /// The fibres touch or overlap.
     #[error("outermost radius {radius:e} m leaves no adhesive film at pitch {pitch:e} m; it must be less than half the pitch")]
     Overlap {
-        /// Outermost radius [m].
+        /// Outermost radius \[m\].
         radius: f64,
-        /// Pitch [m].
+        /// Pitch \[m\].
         pitch: f64,
     },
     /// The cell has no ring.

@@ -2,7 +2,7 @@
 //!
 //! The cell is the lattice's Wigner–Seitz hexagon around one fibre of any number of concentric rings, the rest filled with
 //! adhesive. Elements lie between rays from the fibre axis and are refined towards the narrow parts of the adhesive film; all
-//! nodes of an interface lie on its circle exactly, at any polynomial order. The mesh is plain data: positions [m], node
+//! nodes of an interface lie on its circle exactly, at any polynomial order. The mesh is plain data: positions \[m\], node
 //! numbers, phases, and which boundary nodes the lattice's symmetry relates. The crate knows no finite-element method.
 //!
 //! Nearest neighbours lie along x; the hexagon's flat sides are at x = ±p/2.
@@ -27,3 +27,7 @@ mod mesh;
 pub use cell::HexagonalCell;
 pub use error::Error;
 pub use mesh::{CellMesh, Extent, Resolution, Symmetry, mesh};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -31,7 +31,7 @@ pub struct Resolution {
 pub struct CellMesh {
     /// Polynomial order of the elements.
     pub order: usize,
-    /// Positions [m]; the fibre axis is the origin and node 0.
+    /// Positions \[m\]; the fibre axis is the origin and node 0.
     pub nodes: Vec<[f64; 2]>,
     /// (order + 1)² node numbers each.
     pub elements: Vec<Vec<usize>>,
@@ -56,7 +56,7 @@ pub struct Symmetry {
 
 /// Nodes on a grid of rays and rings. Ring 0 is the axis.
 struct Grid {
-    /// angles of the rays [rad] and direction of the hexagon side they meet [rad]
+    /// angles of the rays \[rad\] and direction of the hexagon side they meet \[rad\]
     rays: Vec<(f64, f64)>,
     /// (phase, fraction across it), from the first ring outside the axis
     rings: Vec<(usize, f64)>,

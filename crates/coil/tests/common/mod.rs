@@ -2,7 +2,7 @@
 #![allow(dead_code)]
 
 use bias::{Optics, StrainConvention};
-use coil::{Body, Contact, Dehomogenization, Design, Flange, Sensor, Side, Solid, Spool, Surroundings};
+use coil::{Body, Contact, Dehomogenization, Design, Flange, HeatPaths, Mechanics, Sensor, Side, Solid, Spool, Surroundings};
 use fem_core::material::{Isotropic, TransverselyIsotropic};
 use winding::{ClimbSide, Pattern, Spec, Tails, TurnLength};
 
@@ -44,7 +44,9 @@ pub(crate) fn reference() -> Design {
             flanges: vec![Flange { side: Side::Right, thickness: 2e-3, overhang: 1e-3, contact: Contact::Bonded }],
         }),
         surroundings: Surroundings { conductivity: 0.026, density: 1.2, specific_heat: 1005.0, margin: 10e-3 },
-        sensor: Sensor { radius: 39.5e-3, y: 10.01e-3 },
+        mechanics: Mechanics::default(),
+        heat: HeatPaths::default(),
+        sensor: Sensor { radius: 39.5e-3, y: 10.01e-3, lag: 0.0 },
         optics: Optics {
             refractive_index: 1.45,
             thermo_optic: 1e-5,

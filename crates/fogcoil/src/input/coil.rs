@@ -91,7 +91,9 @@ pub fn read_coil(path: &Path) -> Result<CoilCase, Error> {
     let (outer_radius, height) = (from_mm(file.coil.outer_radius_mm), from_mm(file.coil.height_mm));
     let (elastic, conductivity_z, conductivity_r) = constants;
     let body = Body { outer_radius, height, density, specific_heat, elastic, conductivity_z, conductivity_r };
-    let design = Design { winding: *winding.spec(), body, spool, surroundings, sensor, optics, dehomogenization };
+    let (mechanics, heat) = (coil::Mechanics::default(), coil::HeatPaths::default());
+    let winding_spec = *winding.spec();
+    let design = Design { winding: winding_spec, body, spool, surroundings, mechanics, heat, sensor, optics, dehomogenization };
     Layout::new(&design).map_err(|error| design_fault(&top, &design, &error))?;
     let provenance = Provenance { material, dehomogenization: row };
     Ok(CoilCase { file: path.to_owned(), name: file.name, design, winding, provenance })

@@ -152,6 +152,7 @@ pub(crate) fn sensor(at: &Group, file: &SensorFile) -> Result<Sensor, InputError
     Ok(Sensor {
         radius: from_mm(at.number("radius_mm", file.radius_mm, &EXTRA_LENGTH_MM)?),
         y: from_mm(at.number("y_mm", file.y_mm, &POSITION_MM)?),
+        lag: 0.0,
     })
 }
 

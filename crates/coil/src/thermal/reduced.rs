@@ -1,0 +1,152 @@
+//! Krylov-reduced heat flow: a few exponentials that reproduce chosen outputs for any course of the drives.
+
+use super::{Drive, ThermalModel};
+use crate::Error;
+use fem_core::{Factor, SparseMatrix};
+use nalgebra::{DMatrix, SymmetricEigen};
+
+/// Decaying modes `q̇_i = −rate_i q_i − Σ_k drive_ik u̇_k` and outputs `y_j = Σ_k static_jk u_k + Σ_i modal_ji q_i`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reduced {
+    /// Decay rates \[1/s\], increasing.
+    pub rates: Vec<f64>,
+    /// Coupling of each mode (outer index) to each drive.
+    pub drive: Vec<Vec<f64>>,
+    /// The outputs, in the order of the functionals they were made from.
+    pub outputs: Vec<ReducedOutput>,
+}
+
+/// One output of a reduced model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReducedOutput {
+    /// Value per unit of each drive at rest.
+    pub at_rest: Vec<f64>,
+    /// Value per unit of each mode.
+    pub modal: Vec<f64>,
+}
+
+/// Time scale of the fast modes \[s\]: the shortest interval at which a bias is usually read.
+const FAST: f64 = 1.0;
+
+/// A direction that is this small after orthogonalisation, relative to before, is rounding.
+const DEPENDENT: f64 = 1e-10;
+
+/// Instants at which responses are compared: thirty a decade over seven decades resolve a sum of exponentials.
+const INSTANTS: usize = 2000;
+
+/// Orthonormal in the inner product of C: the basis with C times each vector beside it.
+struct Basis<'a> {
+    model: &'a ThermalModel,
+    vectors: Vec<Vec<f64>>,
+    weighted: Vec<Vec<f64>>,
+}
+
+impl Basis<'_> {
+    /// Adds a block, up to `size` vectors in all, and returns the next block: the factor's solution for C times what was new.
+    fn extend_by(&mut self, block: Vec<Vec<f64>>, size: usize, factor: &Factor) -> Result<Vec<Vec<f64>>, fem_core::Error> {
+        let first = self.vectors.len();
+        for v in block {
+            if self.vectors.len() < size {
+                self.extend(v);
+            }
+        }
+        factor.solve(&self.weighted[first..])
+    }
+
+    /// Adds what is new in `v`; `false` if nothing is.
+    fn extend(&mut self, mut v: Vec<f64>) -> bool {
+        let norm = |v: &[f64], model: &ThermalModel| dot(v, &model.capacity().multiply(v)).sqrt();
+        let before = norm(&v, self.model);
+        for _ in 0..2 {
+            for (q, cq) in self.vectors.iter().zip(&self.weighted) {
+                let part = dot(cq, &v);
+                v.iter_mut().zip(q).for_each(|(v, q)| *v -= part * q);
+            }
+        }
+        let after = norm(&v, self.model);
+        // not `<=`: a NaN is not a direction
+        let new = after > DEPENDENT * before;
+        if new {
+            v.iter_mut().for_each(|v| *v /= after);
+            self.weighted.push(self.model.capacity().multiply(&v));
+            self.vectors.push(v);
+        }
+        new
+    }
+}
+
+impl Reduced {
+    /// Projects `model` on `size` vectors of the rational Krylov space of K⁻¹C and (K + C/1 s)⁻¹C.
+    ///
+    /// `functionals` are output functionals of the nodal temperature (all nodes of the model's grid). Beside the model comes a smaller
+    /// one, on two thirds of the vectors: the distance between the two measures what the reduction leaves out.
+    ///
+    /// # Errors
+    /// [`Error::Solve`] if a solve leaves a residual.
+    pub fn new(model: &ThermalModel, functionals: &[Vec<f64>], size: usize) -> Result<(Self, Self), Error> {
+        let failed = |source| Error::Solve { part: "chamber", source };
+        let mut basis = Basis { model, vectors: Vec::new(), weighted: Vec::new() };
+        // a heater jumps when it is switched on: its space starts from the jump itself, the others from the response to a ramp
+        let ramps = model.conductivity().solve(model.stored()).map_err(failed)?;
+        let mut block: Vec<Vec<f64>> = model
+            .drives()
+            .iter()
+            .zip(ramps)
+            .zip(model.shapes())
+            .map(|((drive, ramp), shape)| if *drive == Drive::Heaters { model.map().restrict(shape) } else { ramp })
+            .collect();
+        // slow modes from K⁻¹, fast ones from (K + C/τ)⁻¹, in turn
+        let fast = Factor::new(SparseMatrix::combine(1.0, model.conductivity().matrix(), 1.0 / FAST, model.capacity()))
+            .map_err(failed)?;
+        let mut fast_block = fast.solve(model.stored()).map_err(failed)?;
+        while basis.vectors.len() < size && !(block.is_empty() && fast_block.is_empty()) {
+            block = basis.extend_by(block, size, model.conductivity()).map_err(failed)?;
+            fast_block = basis.extend_by(fast_block, size, &fast).map_err(failed)?;
+        }
+        let smaller = project(model, &basis, functionals, basis.vectors.len().saturating_sub(size / 3));
+        Ok((project(model, &basis, functionals, basis.vectors.len()), smaller))
+    }
+
+    /// Response of output `k` to a unit step of drive `d`, `t` \[s\] after it.
+    pub fn step_response(&self, k: usize, d: usize, t: f64) -> f64 {
+        let output = &self.outputs[k];
+        let decaying = self.rates.iter().zip(&self.drive).zip(&output.modal);
+        output.at_rest[d] - decaying.map(|((rate, drive), modal)| modal * drive[d] * (-rate * t).exp()).sum::<f64>()
+    }
+
+    /// Instants that resolve every mode, evenly spaced in the logarithm of time \[s\].
+    pub fn instants(&self) -> Vec<f64> {
+        let ends = (self.rates.last(), self.rates.first());
+        let (Some(fast), Some(slow)) = ends else { return vec![0.0] };
+        let (first, last) = (0.01 / fast, 40.0 / slow);
+        let step = (last / first).ln() / (INSTANTS - 1) as f64;
+        (0..INSTANTS).map(|i| first * (step * i as f64).exp()).collect()
+    }
+}
+
+fn project(model: &ThermalModel, basis: &Basis, functionals: &[Vec<f64>], n: usize) -> Reduced {
+    let flows: Vec<Vec<f64>> = basis.vectors[..n].iter().map(|v| model.conductivity().matrix().multiply(v)).collect();
+    let small = DMatrix::from_fn(n, n, |i, j| (dot(&basis.vectors[i], &flows[j]) + dot(&basis.vectors[j], &flows[i])) / 2.0);
+    let SymmetricEigen { eigenvalues, eigenvectors } = small.symmetric_eigen();
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|&a, &b| eigenvalues[a].total_cmp(&eigenvalues[b]));
+    let modal = |along: &[f64], mode: usize| (0..n).map(|j| eigenvectors[(j, mode)] * along[j]).sum::<f64>();
+    let along = |load: &[f64]| basis.vectors[..n].iter().map(|v| dot(v, load)).collect::<Vec<_>>();
+    let drives: Vec<_> = model.stored().iter().map(|w| along(w)).collect();
+    let output = |functional: &Vec<f64>| {
+        let onto = along(&model.map().restrict(functional));
+        ReducedOutput {
+            at_rest: model.shapes().iter().map(|shape| dot(shape, functional)).collect(),
+            modal: order.iter().map(|&mode| modal(&onto, mode)).collect(),
+        }
+    };
+    Reduced {
+        rates: order.iter().map(|&mode| eigenvalues[mode]).collect(),
+        drive: order.iter().map(|&mode| drives.iter().map(|d| modal(d, mode)).collect()).collect(),
+        outputs: functionals.iter().map(output).collect(),
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

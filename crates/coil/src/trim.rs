@@ -1,0 +1,169 @@
+//! Which tails, or which turns removed at the ends, null the steady sensitivity of a coil, and how surely.
+
+use crate::{COARSE, Design, Error, Model};
+use bias::{Sensitivity, Slice};
+use winding::{Half, Tails};
+
+/// Standard uncertainties of the constants that a designer does not know better, relative (handbook scatter of potted coils).
+pub const PRIORS: [(&str, f64); 6] = [
+    ("transverse stiffness E_r, G", 0.10),
+    ("E_z", 0.03),
+    ("alpha_r", 0.03),
+    ("alpha_z", 0.03),
+    ("spool expansion", 0.02),
+    ("thermo-optic coefficient", 0.10),
+];
+
+/// A tail asymmetry that nulls the sensitivity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TailTrim {
+    /// CW tail minus CCW tail, the shorter one kept as it is \[m\].
+    pub cw_minus_ccw: f64,
+    /// Standard uncertainty that the [`PRIORS`] leave \[m\].
+    pub uncertainty: f64,
+    /// What each prior contributes to it \[m\], in their order.
+    pub contributions: Vec<f64>,
+    /// Change of the sensitivity per metre at the null, (°/h)/(°C/min)/m.
+    pub slope: f64,
+    /// Sensitivity before, (°/h)/(°C/min).
+    pub before: f64,
+}
+
+/// What removing turns from one end does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TurnTrim {
+    /// The half whose outer end is unwound.
+    pub half: Half,
+    /// Turns cut off.
+    pub turns: usize,
+    /// Fibre cut off \[m\].
+    pub length: f64,
+    /// Sensitivity that is left, (°/h)/(°C/min).
+    pub sensitivity: f64,
+}
+
+/// Every turn's place along the fibre and its rates in a ramp of 1 K/s, from the CCW end, with the rate of a bare tail.
+struct Fibre {
+    turns: Vec<Slice>,
+    halves: Vec<Half>,
+    free_strain: f64,
+}
+
+impl Fibre {
+    fn new(design: &Design) -> Result<Self, Error> {
+        let model = Model::new(design, &COARSE)?;
+        let nodes = model.grid().mesh().nodes().len();
+        let turns = model.winding().turns();
+        let mut slices = model.slices(&vec![1.0; nodes])?;
+        slices.truncate(turns.len());
+        let halves = turns.iter().map(|t| t.half).collect();
+        Ok(Self { turns: slices, halves, free_strain: design.optics.thermal_expansion })
+    }
+
+    /// Sensitivity with these tails and without the turns outside `range`.
+    fn sensitivity(&self, design: &Design, tails: Tails, range: std::ops::Range<usize>) -> Result<f64, Error> {
+        let turns = &self.turns[range];
+        let mut z = tails.ccw;
+        let mut slices = Vec::with_capacity(turns.len() + 2);
+        let tail = |start: f64, length: f64| Slice {
+            z_start: start,
+            z_end: start + length,
+            temperature_rate: 1.0,
+            axial_strain_rate: self.free_strain,
+            radial_strain_rate: self.free_strain,
+        };
+        slices.push(tail(0.0, tails.ccw));
+        for turn in turns {
+            let length = turn.z_end - turn.z_start;
+            slices.push(Slice { z_start: z, z_end: z + length, ..*turn });
+            z += length;
+        }
+        slices.push(tail(z, tails.cw));
+        let bias = bias::bias(&design.optics, z + tails.cw, &slices)?;
+        Ok(Sensitivity::from_ramp(&bias, 1.0)?.total())
+    }
+
+    /// CW − CCW asymmetry at the null and the slope there, by the secant method.
+    fn null(&self, design: &Design) -> Result<(f64, f64), Error> {
+        let common = design.winding.tails.cw.min(design.winding.tails.ccw);
+        let s = |x: f64| {
+            let tails = Tails { cw: common + x.max(0.0), ccw: common + (-x).max(0.0) };
+            self.sensitivity(design, tails, 0..self.turns.len())
+        };
+        let (mut x0, mut x1) = (0.0, 0.5);
+        let (mut f0, mut f1) = (s(x0)?, s(x1)?);
+        let mut slope = (f1 - f0) / (x1 - x0);
+        for _ in 0..SECANT_STEPS {
+            if f1.abs() <= NULL || slope == 0.0 {
+                break;
+            }
+            (x0, f0, x1) = (x1, f1, x1 - f1 / slope);
+            f1 = s(x1)?;
+            slope = (f1 - f0) / (x1 - x0);
+        }
+        Ok((x1, slope))
+    }
+}
+
+/// A sensitivity that counts as none, (°/h)/(°C/min): a millionth of a typical one.
+const NULL: f64 = 1e-6;
+/// Steps of the secant method; the sensitivity is nearly linear in the tails, three suffice.
+const SECANT_STEPS: usize = 12;
+
+fn moved(design: &Design, prior: usize, by: f64) -> Design {
+    let mut d = design.clone();
+    let (factor, e) = (1.0 + by * PRIORS[prior].1, &mut d.body.elastic);
+    match prior {
+        0 => {
+            e.e_r *= factor;
+            e.g_zr *= factor;
+        }
+        1 => e.e_z *= factor,
+        2 => e.alpha_r *= factor,
+        3 => e.alpha_z *= factor,
+        4 => d.spool.iter_mut().for_each(|s| s.material.elastic.thermal_expansion *= factor),
+        _ => d.optics.thermo_optic *= factor,
+    }
+    d
+}
+
+/// The tail asymmetry that nulls the steady sensitivity of `design`, with the uncertainty that its constants leave.
+///
+/// # Errors
+/// [`Error`] names the dimension or property at fault, or the solve that failed.
+pub fn trim_tails(design: &Design) -> Result<TailTrim, Error> {
+    let fibre = Fibre::new(design)?;
+    let (cw_minus_ccw, slope) = fibre.null(design)?;
+    let before = fibre.sensitivity(design, design.winding.tails, 0..fibre.turns.len())?;
+    let mut contributions = Vec::new();
+    for prior in 0..PRIORS.len() {
+        // downwards: upwards a transverse stiffness can become indefinite
+        let changed = moved(design, prior, -1.0);
+        contributions.push((Fibre::new(&changed)?.null(&changed)?.0 - cw_minus_ccw).abs());
+    }
+    let uncertainty = contributions.iter().map(|c| c * c).sum::<f64>().sqrt();
+    Ok(TailTrim { cw_minus_ccw, uncertainty, contributions, slope, before })
+}
+
+/// What cutting off up to `most` turns from either outer end leaves of the sensitivity, tails as they are.
+///
+/// # Errors
+/// [`Error`] names the dimension or property at fault, or the solve that failed.
+pub fn trim_turns(design: &Design, most: usize) -> Result<Vec<TurnTrim>, Error> {
+    let fibre = Fibre::new(design)?;
+    let count = fibre.turns.len();
+    let mut trims = Vec::new();
+    for half in [Half::Ccw, Half::Cw] {
+        let own = fibre.halves.iter().filter(|h| **h == half).count();
+        for turns in 1..=most.min(own.saturating_sub(1)) {
+            let (range, cut) = match half {
+                Half::Ccw => (turns..count, 0..turns),
+                Half::Cw => (0..count - turns, count - turns..count),
+            };
+            let length = fibre.turns[cut].iter().map(|t| t.z_end - t.z_start).sum();
+            let sensitivity = fibre.sensitivity(design, design.winding.tails, range)?;
+            trims.push(TurnTrim { half, turns, length, sensitivity });
+        }
+    }
+    Ok(trims)
+}

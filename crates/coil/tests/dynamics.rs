@@ -1,0 +1,202 @@
+//! A coil in time: the reduced model against all unknowns, ramps against the steady sensitivity, heat paths against each other.
+
+mod common;
+
+use bias::{Bias, Sensitivity};
+use coil::{
+    Contact, Drive, Dynamics, FactorsAt, Fidelity, Heater, Mechanics, Model, Mount, Opening, Profile, Resolution, Side,
+    ThermalModel, functionals,
+};
+use common::{changed, reference, spool};
+
+const QUICK: Fidelity = Fidelity { resolution: Resolution { order: 3, layers: 1, ratio: 0.2 }, modes: 24 };
+
+/// Chamber: rest, a step of 20 K within 10 s, rest, a ramp of 1 K/min, rest.
+fn step_and_ramp(interval: f64) -> Profile {
+    let chamber = |t: f64| (t - 600.0).clamp(0.0, 10.0) * 2.0 + (t - 4800.0).clamp(0.0, 1200.0) / 60.0;
+    let time: Vec<f64> = (0..).map(|k| f64::from(k) * interval).take_while(|t| *t <= 9000.0).collect();
+    Profile { drives: vec![time.iter().map(|t| chamber(*t)).collect()], time }
+}
+
+#[test]
+fn exact_reduced_model_agrees_with_all_unknowns_on_steps_and_ramps() {
+    let design = reference();
+    let thermal = ThermalModel::new(&design, &QUICK.resolution, &[Drive::Chamber]).expect("model");
+    let dynamics = Dynamics::new(&design, &[Drive::Chamber], &QUICK).expect("model");
+    let model = Model::new(&design, &QUICK.resolution).expect("model");
+    let outputs = functionals(&design, &model, &thermal).expect("outputs");
+    let profile = step_and_ramp(10.0);
+    let full = thermal.run(&profile, &outputs, 1e-5).expect("run");
+    let reduced = dynamics.simulate(&profile).expect("run");
+    let of = |r: &coil::Response| [r.bias.shupe, r.bias.eo_axial, r.bias.eo_radial];
+    for part in 0..3 {
+        let full = |n: usize| (full.outputs[n][part + 2] - full.outputs[n - 1][part + 2]) / 10.0;
+        let peak = (1..profile.time.len()).map(|n| full(n).abs()).fold(0.0, f64::max);
+        for (n, response) in reduced.iter().enumerate().skip(1) {
+            let error = (full(n) - of(response)[part]).abs() / peak;
+            assert!(error < 1e-3, "part {part} at {} s: {error:.1e} of the peak", profile.time[n]);
+        }
+    }
+    let bound = dynamics.reduction_error();
+    assert!(bound.bias < 0.02 && bound.sensor < 1e-4, "a bound that says nothing: {bound:?}");
+    let sensor = (0..reduced.len()).map(|n| (full.outputs[n][0] - reduced[n].sensor).abs()).fold(0.0, f64::max);
+    // 2 K/s at most; beside the reduction stands the stepping's own 1e-5 K a step
+    assert!(sensor < 2.0 * bound.sensor + 2e-3, "{sensor}");
+}
+
+#[test]
+fn exact_a_long_ramp_has_the_steady_sensitivity_and_its_lag() {
+    let design = reference();
+    let dynamics = Dynamics::new(&design, &[Drive::Chamber], &QUICK).expect("model");
+    let rate = 1.0 / 60.0;
+    let time: Vec<f64> = (0..2000).map(|k| 30.0 * f64::from(k)).collect();
+    let chamber: Vec<f64> = time.iter().map(|t| rate * t).collect();
+    let rows = dynamics.simulate(&Profile { drives: vec![chamber.clone()], time }).expect("run");
+    let last = rows.len() - 1;
+    let steady = coil::Model::new(&design, &QUICK.resolution).expect("model").sensitivity().expect("solve");
+    let ramp = Sensitivity::from_ramp(&rows[last].bias, rate).expect("ramp");
+    assert!((ramp.total() / steady.total() - 1.0).abs() < 1e-6, "{} against {}", ramp.total(), steady.total());
+    assert!(ramp.shupe.abs() < 1e-6);
+    let lag = coil::ramp_lag(&design, &QUICK.resolution).expect("solve").sensor;
+    assert!(((chamber[last] - rows[last].sensor) / rate / lag - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn symmetry_exchanging_the_ends_of_everything_mirrors_the_drives() {
+    let ends = [Drive::Chamber, Drive::EndWall(Side::Left), Drive::EndWall(Side::Right)];
+    let time: Vec<f64> = (0..200).map(|k| 30.0 * f64::from(k)).collect();
+    let warm: Vec<f64> = time.iter().map(|t| t / 300.0).collect();
+    let still = vec![0.0; time.len()];
+    let run = |design: &coil::Design, drives: [&Vec<f64>; 3]| {
+        let profile = Profile { time: time.clone(), drives: drives.map(|d| d.clone()).to_vec() };
+        let rows = Dynamics::new(design, &ends, &QUICK).expect("model").simulate(&profile).expect("run");
+        rows[150].bias.total()
+    };
+    let mirrored = changed(|d| {
+        d.winding.cw_climbs = winding::ClimbSide::Left;
+        spool(d).flanges[0].side = Side::Left;
+        d.sensor.y = 8.01e-3;
+    });
+    let (a, b) = (run(&reference(), [&still, &warm, &still]), run(&mirrored, [&still, &still, &warm]));
+    assert!((a / b - 1.0).abs() < 1e-6, "{a:e} against {b:e}");
+    // all walls together are one chamber
+    let all = run(&reference(), [&warm, &warm, &warm]);
+    let profile = Profile { time: time.clone(), drives: vec![warm.clone()] };
+    let one = Dynamics::new(&reference(), &[Drive::Chamber], &QUICK).expect("model").simulate(&profile).expect("run");
+    assert!((all / one[150].bias.total() - 1.0).abs() < 1e-4, "{all:e} against {:e}", one[150].bias.total());
+}
+
+#[test]
+fn bounds_heat_paths_act_in_the_right_direction() {
+    let lag = |design: &coil::Design| coil::ramp_lag(design, &QUICK.resolution).expect("solve");
+    let plain = lag(&reference());
+    let mounted = lag(&changed(|d| d.heat.mounts.push(Mount { side: Side::Right, conductance: 50.0 })));
+    assert!(mounted.sensor < 0.9 * plain.sensor, "{} against {}", mounted.sensor, plain.sensor);
+    let blown = lag(&changed(|d| d.heat.film = Some(20.0)));
+    assert!(blown.sensor < 0.5 * plain.sensor, "{} against {}", blown.sensor, plain.sensor);
+    // a contact resistance holds the coil back behind the hub
+    let behind = |l: &coil::RampLag| l.turns.iter().sum::<f64>() / l.turns.len() as f64 - l.sensor;
+    let poor = lag(&changed(|d| d.heat.hub_resistance = 1e-2));
+    assert!(behind(&poor) > behind(&plain) + 1.0, "{} against {}", behind(&poor), behind(&plain));
+    let gap = lag(&changed(|d| {
+        spool(d).hub_contact = Contact::Gap;
+        d.heat.hub_resistance = 1e-2; // no contact, no resistance
+    }));
+    assert!(gap.turns.iter().all(|t| t.is_finite()));
+}
+
+#[test]
+fn exact_a_heater_settles_where_its_power_leaves_through_the_mount() {
+    // nearly all heat leaves through a strong mount: the flange face sits at power / (conductance × area) above it
+    let design = changed(|d| {
+        d.heat.mounts.push(Mount { side: Side::Right, conductance: 2000.0 });
+        d.heat.heaters.push(Heater { side: Side::Right, power: 1.0 });
+        d.surroundings.conductivity = 1e-6;
+    });
+    let dynamics = Dynamics::new(&design, &[Drive::Chamber, Drive::Heaters], &QUICK).expect("model");
+    let time: Vec<f64> = (0..5000).map(|k| 60.0 * f64::from(k)).collect();
+    let profile = Profile { drives: vec![vec![20.0; time.len()], vec![1.0; time.len()]], time };
+    let rows = dynamics.simulate(&profile).expect("run");
+    assert!((rows[0].sensor - 20.0).abs() < 1e-9 && rows[0].bias == Bias::ZERO, "rest before the heater is on: {:?}", rows[0]);
+    let area = std::f64::consts::PI * (49.825e-3f64.powi(2) - 39.5e-3f64.powi(2));
+    let rise = rows[rows.len() - 1].sensor - 20.0;
+    assert!((rise * 2000.0 * area - 1.0).abs() < 0.02, "{rise} K against {} K", 1.0 / (2000.0 * area));
+}
+
+#[test]
+fn bounds_profiles_that_cannot_be_run_name_the_instant() {
+    let dynamics = Dynamics::new(&reference(), &[Drive::Chamber], &QUICK).expect("model");
+    let run = |time: &[f64], chamber: &[f64]| {
+        let profile = Profile { time: time.to_vec(), drives: vec![chamber.to_vec()] };
+        dynamics.simulate(&profile).map(|rows| rows.len()).map_err(|e| e.to_string())
+    };
+    assert_eq!(run(&[0.0], &[20.0]), Ok(1));
+    assert!(run(&[], &[]).expect_err("empty").contains("at least one"));
+    assert!(run(&[0.0, 30.0, 30.0], &[1.0, 2.0, 3.0]).expect_err("twice").contains("instant 2"));
+    assert!(run(&[0.0, 30.0], &[1.0, f64::NAN]).expect_err("NaN").contains("instant 1"));
+    assert!(run(&[0.0, 30.0], &[1.0]).expect_err("short").contains("courses"));
+    assert_eq!(run(&[0.0, 1e-6, 1e9], &[-40.0, 500.0, 0.0]), Ok(3), "a jump is a profile like any other");
+}
+
+/// Rate of the total bias in a slow ramp at the end of a run, per state of the mechanics.
+fn slow_ramp(mechanics: Mechanics, from: f64, to: f64) -> Vec<(f64, f64)> {
+    let design = changed(|d| d.mechanics = mechanics);
+    let time: Vec<f64> = (0..4000).map(|k| 30.0 * f64::from(k)).collect();
+    let end = time[time.len() - 1];
+    let chamber = time.iter().map(|t| from + (to - from) * t / end).collect();
+    let rows =
+        Dynamics::new(&design, &[Drive::Chamber], &QUICK).expect("model").simulate(&Profile { time, drives: vec![chamber] });
+    rows.expect("run").iter().map(|r| (r.coil, r.bias.total() / ((to - from) / end))).collect()
+}
+
+fn steady(change: impl FnOnce(&mut coil::Design)) -> f64 {
+    let model = Model::new(&changed(change), &QUICK.resolution).expect("model");
+    model.sensitivity().expect("solve").total() / bias::units::DEG_PER_H_PER_K_PER_MIN_PER_RAD_PER_K
+}
+
+#[test]
+fn exact_temperature_table_gives_each_rows_own_sensitivity() {
+    let row = |temperature, transverse_modulus| FactorsAt { temperature, transverse_modulus, transverse_expansion: 1.0 };
+    let rows = slow_ramp(Mechanics::TemperatureTable(vec![row(-30.0, 2.0), row(-20.0, 2.0), row(20.0, 0.5)]), -60.0, 60.0);
+    let at = |t: f64| rows.iter().find(|(coil, _)| *coil >= t).expect("passed").1;
+    let stiff = steady(|d| {
+        d.body.elastic.e_r *= 2.0;
+        d.body.elastic.g_zr *= 2.0;
+    });
+    let soft = steady(|d| {
+        d.body.elastic.e_r *= 0.5;
+        d.body.elastic.g_zr *= 0.5;
+    });
+    assert!((at(-22.0) / stiff - 1.0).abs() < 1e-3 && (at(50.0) / soft - 1.0).abs() < 1e-3, "{} {}", at(-22.0), at(50.0));
+    assert!((at(0.0) / ((stiff + soft) / 2.0) - 1.0).abs() < 0.01, "halfway between the rows");
+}
+
+#[test]
+fn exact_a_relaxing_coil_ends_with_its_relaxed_sensitivity() {
+    let rows = slow_ramp(Mechanics::Relaxing { fraction: 0.5, time: 1800.0 }, -60.0, 60.0);
+    let relaxed = steady(|d| {
+        d.body.elastic.e_r *= 0.5;
+        d.body.elastic.g_zr *= 0.5;
+    });
+    let last = rows[rows.len() - 1].1;
+    assert!((last / relaxed - 1.0).abs() < 1e-4, "{last:e} against {relaxed:e}");
+    let none = slow_ramp(Mechanics::Relaxing { fraction: 0.0, time: 1800.0 }, -60.0, 60.0);
+    let elastic = slow_ramp(Mechanics::Elastic, -60.0, 60.0);
+    assert!(none.iter().zip(&elastic).all(|(a, b)| (a.1 - b.1).abs() < 1e-9 * relaxed.abs()));
+}
+
+#[test]
+fn exact_an_opening_bond_switches_with_hysteresis_and_without_a_jump_of_the_phase() {
+    let opening = |below| Mechanics::Opening(Opening { side: Side::Right, below, hysteresis: 10.0, fraction: 0.5 });
+    let closed = steady(|_| ());
+    let warming = slow_ramp(opening(-20.0), -60.0, 60.0);
+    let at = |rows: &[(f64, f64)], t: f64| rows.iter().find(|(coil, _)| *coil >= t).expect("passed").1;
+    let open = at(&warming, -30.0);
+    assert!((open / closed - 1.0).abs() > 0.05, "half the bond matters: {open:e} against {closed:e}");
+    assert!((at(&warming, -15.0) / open - 1.0).abs() < 1e-3, "still open within the hysteresis");
+    assert!((at(&warming, 0.0) / closed - 1.0).abs() < 1e-2);
+    let cooling = slow_ramp(opening(-20.0), 60.0, -60.0);
+    let down = |t: f64| cooling.iter().find(|(coil, _)| *coil <= t).expect("passed").1;
+    assert!((down(-15.0) / closed - 1.0).abs() < 1e-2 && (down(-25.0) / open - 1.0).abs() < 1e-2);
+    assert!(warming.iter().skip(1).all(|(_, rate)| rate.abs() < 3.0 * closed.abs()), "no jump at the switch");
+}

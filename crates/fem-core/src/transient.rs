@@ -1,0 +1,161 @@
+//! Linear heat-like systems in time: `C ẏ + K y = f(t)` by TR-BDF2, with error control on a ladder of step sizes.
+//!
+//! TR-BDF2 (R. E. Bank et al., 1985) is L-stable and of second order; both implicit stages share the matrix `C + d h K`, so each
+//! step size needs one factorisation, which is kept. The error estimate is that of M. E. Hosea and L. F. Shampine (1996): the
+//! distance to an embedded third-order formula, filtered through the same matrix so that stiff modes do not inflate it.
+
+use crate::{Error, Factor, SparseMatrix, SymbolicFactor};
+use std::collections::BTreeMap;
+use std::f64::consts::SQRT_2;
+
+/// First stage's reach, as a fraction of the step.
+const GAMMA: f64 = 2.0 - SQRT_2;
+/// Diagonal coefficient of both implicit stages.
+const D: f64 = GAMMA / 2.0;
+/// Weight of the first two stages.
+const W: f64 = SQRT_2 / 4.0;
+/// Halvings of an interval before the control gives up.
+const MOST_HALVINGS: u32 = 30;
+
+/// How far below the tolerance the error must lie before the step is doubled, which raises it eightfold.
+const ROOM: f64 = 16.0;
+
+/// What the stepping did.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Effort {
+    /// Steps that were taken.
+    pub steps: usize,
+    /// Steps that were tried and refused.
+    pub refused: usize,
+    /// Factorisations, one per step size.
+    pub factorisations: usize,
+}
+
+/// The system with its factors.
+#[derive(Debug)]
+pub struct Transient {
+    capacity: SparseMatrix,
+    conductivity: SparseMatrix,
+    symbolic: SymbolicFactor,
+    factors: BTreeMap<u64, Factor>,
+    effort: Effort,
+}
+
+/// State y and its rate ẏ at one instant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// y.
+    pub value: Vec<f64>,
+    /// ẏ.
+    pub rate: Vec<f64>,
+}
+
+impl Transient {
+    /// `C ẏ + K y = f`, both matrices symmetric positive definite and of one pattern.
+    ///
+    /// # Errors
+    /// [`Error::NotPositiveDefinite`] if the ordering fails.
+    pub fn new(capacity: SparseMatrix, conductivity: SparseMatrix) -> Result<Self, Error> {
+        let symbolic = SymbolicFactor::new(&SparseMatrix::combine(1.0, &capacity, 1.0, &conductivity))?;
+        Ok(Self { capacity, conductivity, symbolic, factors: BTreeMap::new(), effort: Effort::default() })
+    }
+
+    /// C.
+    pub fn capacity(&self) -> &SparseMatrix {
+        &self.capacity
+    }
+
+    /// What the stepping did so far.
+    pub fn effort(&self) -> Effort {
+        self.effort
+    }
+
+    fn solve(&mut self, step: f64, rhs: Vec<f64>) -> Result<Vec<f64>, Error> {
+        let key = step.to_bits();
+        if !self.factors.contains_key(&key) {
+            let matrix = SparseMatrix::combine(1.0, &self.capacity, D * step, &self.conductivity);
+            self.factors.insert(key, self.symbolic.factor(matrix)?);
+            self.effort.factorisations += 1;
+        }
+        Ok(self.factors[&key].solve(&[rhs])?.remove(0))
+    }
+
+    /// One step of size `step` under a constant load `f`: the new state and the estimated error of its value.
+    ///
+    /// # Errors
+    /// As [`Factor::solve`].
+    pub fn step(&mut self, state: &State, load: &[f64], step: f64) -> Result<(State, Vec<f64>), Error> {
+        let (y, z1) = (&state.value, &state.rate);
+        // stages z = ẏ: (C + d h K) z = f − K (y + what the earlier stages add)
+        let stage = |me: &mut Self, known: Vec<f64>| {
+            let flow = me.conductivity.multiply(&known);
+            me.solve(step, load.iter().zip(flow).map(|(f, k)| f - k).collect())
+        };
+        let z2 = stage(self, add(y, &[(D * step, z1)]))?;
+        let z3 = stage(self, add(y, &[(W * step, z1), (W * step, &z2)]))?;
+        let value = add(y, &[(W * step, z1), (W * step, &z2), (D * step, &z3)]);
+        let weights = [W - (1.0 - W) / 3.0, W - (3.0 * W + 1.0) / 3.0, D - D / 3.0];
+        let raw = add(&vec![0.0; y.len()], &[(step * weights[0], z1), (step * weights[1], &z2), (step * weights[2], &z3)]);
+        let filtered = self.capacity.multiply(&raw);
+        let error = self.solve(step, filtered)?;
+        Ok((State { value, rate: z3 }, error))
+    }
+
+    /// C⁻¹ f: what a sudden change of load by `f` adds to the rate.
+    ///
+    /// # Errors
+    /// As [`Factor::new`].
+    pub fn rate_of_load(&self, load: &[f64]) -> Result<Vec<f64>, Error> {
+        Ok(self.symbolic.factor(self.capacity.clone())?.solve(&[load.to_vec()])?.remove(0))
+    }
+
+    /// Advances by `interval` under a constant load, in steps of `interval / 2^k` whose error is at most `tolerance` each (largest
+    /// entry of the value). `halvings` is the k to begin with and, on return, to go on with.
+    ///
+    /// The state's rate must be that under this load: add [`Self::rate_of_load`] of every change of load to it.
+    ///
+    /// # Errors
+    /// As [`Factor::solve`]; [`Error::Step`] if even the smallest step is not accurate enough.
+    pub fn advance(
+        &mut self,
+        state: &State,
+        load: &[f64],
+        interval: f64,
+        tolerance: f64,
+        halvings: &mut u32,
+    ) -> Result<State, Error> {
+        let mut now = state.clone();
+        // time in units of the smallest step, so that it stays exact
+        let whole = 1u64 << MOST_HALVINGS;
+        let mut done = 0u64;
+        while done < whole {
+            let units = whole >> *halvings;
+            let (next, error) = self.step(&now, load, interval / (whole / units) as f64)?;
+            let size = error.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
+            if size > tolerance {
+                self.effort.refused += 1;
+                *halvings += 1;
+                if *halvings > MOST_HALVINGS {
+                    return Err(Error::Step { tolerance, step: interval / whole as f64 });
+                }
+                continue;
+            }
+            self.effort.steps += 1;
+            done += units;
+            now = next;
+            // the error is of third order in the step; a doubled step must end on its own grid
+            if *halvings > 0 && size < tolerance / ROOM && done.is_multiple_of(2 * units) {
+                *halvings -= 1;
+            }
+        }
+        Ok(now)
+    }
+}
+
+fn add(y: &[f64], terms: &[(f64, &Vec<f64>)]) -> Vec<f64> {
+    let mut sum = y.to_vec();
+    for (factor, term) in terms {
+        sum.iter_mut().zip(term.iter()).for_each(|(s, t)| *s += factor * t);
+    }
+    sum
+}
