@@ -44,7 +44,7 @@ pub use mechanics::MechanicalState;
 pub use model::{BiasOperator, Model, TurnStrain};
 pub use sensitivity::{COARSE, FINE, SAFETY, SteadySensitivity, steady_sensitivity};
 pub use thermal::{Drive, FullRun, Interval, RampLag, Reduced, ReducedOutput, ThermalModel, ramp_lag};
-pub use trim::{PRIORS, TailTrim, TurnTrim, trim_tails, trim_turns};
+pub use trim::{PRIORS, TailTrim, TurnTrim, tail_asymmetry, trim_tails, trim_turns};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -83,18 +83,18 @@ impl Fibre {
         Ok(Sensitivity::from_ramp(&bias, 1.0)?.total())
     }
 
-    /// CW − CCW asymmetry at the null and the slope there, by the secant method.
-    fn null(&self, design: &Design) -> Result<(f64, f64), Error> {
+    /// CW − CCW asymmetry that gives `target`, and the slope there, by the secant method.
+    fn asymmetry(&self, design: &Design, target: f64) -> Result<(f64, f64), Error> {
         let common = design.winding.tails.cw.min(design.winding.tails.ccw);
         let s = |x: f64| {
             let tails = Tails { cw: common + x.max(0.0), ccw: common + (-x).max(0.0) };
-            self.sensitivity(design, tails, 0..self.turns.len())
+            self.sensitivity(design, tails, 0..self.turns.len()).map(|s| s - target)
         };
         let (mut x0, mut x1) = (0.0, 0.5);
         let (mut f0, mut f1) = (s(x0)?, s(x1)?);
         let mut slope = (f1 - f0) / (x1 - x0);
         for _ in 0..SECANT_STEPS {
-            if f1.abs() <= NULL || slope == 0.0 {
+            if f1.abs() <= MET || slope == 0.0 {
                 break;
             }
             (x0, f0, x1) = (x1, f1, x1 - f1 / slope);
@@ -105,8 +105,8 @@ impl Fibre {
     }
 }
 
-/// A sensitivity that counts as none, (°/h)/(°C/min): a millionth of a typical one.
-const NULL: f64 = 1e-6;
+/// Distance to the target that counts as met, (°/h)/(°C/min): a millionth of a typical sensitivity.
+const MET: f64 = 1e-6;
 /// Steps of the secant method; the sensitivity is nearly linear in the tails, three suffice.
 const SECANT_STEPS: usize = 12;
 
@@ -127,19 +127,28 @@ fn moved(design: &Design, prior: usize, by: f64) -> Design {
     d
 }
 
+/// Tail asymmetry CW − CCW \[m\] that gives a steady sensitivity of `target` (°/h)/(°C/min), the shorter tail kept as it is, and the
+/// change of sensitivity per metre there.
+///
+/// # Errors
+/// [`Error`] names the dimension or property at fault, or the solve that failed.
+pub fn tail_asymmetry(design: &Design, target: f64) -> Result<(f64, f64), Error> {
+    Fibre::new(design)?.asymmetry(design, target)
+}
+
 /// The tail asymmetry that nulls the steady sensitivity of `design`, with the uncertainty that its constants leave.
 ///
 /// # Errors
 /// [`Error`] names the dimension or property at fault, or the solve that failed.
 pub fn trim_tails(design: &Design) -> Result<TailTrim, Error> {
     let fibre = Fibre::new(design)?;
-    let (cw_minus_ccw, slope) = fibre.null(design)?;
+    let (cw_minus_ccw, slope) = fibre.asymmetry(design, 0.0)?;
     let before = fibre.sensitivity(design, design.winding.tails, 0..fibre.turns.len())?;
     let mut contributions = Vec::new();
     for prior in 0..PRIORS.len() {
         // downwards: upwards a transverse stiffness can become indefinite
         let changed = moved(design, prior, -1.0);
-        contributions.push((Fibre::new(&changed)?.null(&changed)?.0 - cw_minus_ccw).abs());
+        contributions.push((Fibre::new(&changed)?.asymmetry(&changed, 0.0)?.0 - cw_minus_ccw).abs());
     }
     let uncertainty = contributions.iter().map(|c| c * c).sum::<f64>().sqrt();
     Ok(TailTrim { cw_minus_ccw, uncertainty, contributions, slope, before })

@@ -253,31 +253,11 @@ fn own_constants(fixtures: &Fixtures, constants: &Constants, section: &mut Secti
     Ok(())
 }
 
-/// Tail asymmetry (CW − CCW) that gives `target`, by the secant method; the other tail stays zero.
-fn tail_for(design: &Design, target: f64) -> Result<(f64, f64), Failure> {
-    let s = |tail: f64| {
-        let tails = Tails { cw: tail.max(0.0), ccw: (-tail).max(0.0) };
-        total(&with(design, |d| d.winding.tails = tails), &COARSE).map(|s| s - target)
-    };
-    let (mut x0, mut x1) = (0.0, 0.5);
-    let (mut f0, mut f1) = (s(x0)?, s(x1)?);
-    for _ in 0..8 {
-        let x2 = x1 - f1 * (x1 - x0) / (f1 - f0);
-        (x0, f0, x1) = (x1, f1, x2);
-        f1 = s(x1)?;
-        if f1.abs() < 1e-6 {
-            break;
-        }
-    }
-    let slope = (f1 - f0) / (x1 - x0);
-    Ok((x1, slope))
-}
-
 fn real_coils(fixtures: &Fixtures, error: f64, section: &mut Section) -> Result<(), Failure> {
     for id in ["IV.coil1", "IV.coil2", "IV.coil3"] {
         let printed = fixtures.printed(id)?;
         let target: f64 = printed.printed.parse().map_err(|_| Failure(format!("{id}: not a number")))?;
-        let (tail, slope) = tail_for(&fixtures.coil, -target)?;
+        let (tail, slope) = coil::tail_asymmetry(&fixtures.coil, -target)?;
         let mut row = value(
             id,
             format!("tail asymmetry CW - CCW that explains {}", printed.quantity),
