@@ -2,10 +2,11 @@
 
 use crate::probe::Probe;
 use crate::{Dehomogenization, Design, Domain, Error, Grid, Layout, MechanicalState, Region, Resolution};
-use bias::{Coefficients, Slice};
+use bias::{Bias, Coefficients, Slice};
 use fem_core::material::ThermoElastic;
-use fem_core::{Constraints, DofMap, Factor, Form, Problem, SparseMatrix};
+use fem_core::{Condensed, Constraints, Coupling, DofMap, Form, Problem};
 use nalgebra::DMatrix;
+use std::sync::OnceLock;
 use winding::Winding;
 
 /// Voigt rows (x = radial, y = axial, z = hoop of the law) of the axisymmetric strains rr, yy, hoop, ry.
@@ -28,8 +29,9 @@ pub struct Model {
     fibre_expansion: f64,
     grid: Grid,
     map: DofMap,
-    factor: Factor,
-    thermal_load: SparseMatrix,
+    factor: Condensed,
+    thermal_stresses: Vec<Option<DMatrix<f64>>>,
+    coupling: OnceLock<Coupling>,
     probes: Vec<Probe>,
     bore: Probe,
 }
@@ -73,7 +75,7 @@ impl Model {
         let coefficients = design.optics.coefficients(winding.length())?;
         let layout = Layout::new(design)?;
         let grid = Grid::new(&layout, resolution, Domain::Solids, state.bonds)?;
-        let (map, factor, thermal_load) = assemble(design, &grid, state)?;
+        let (map, factor, thermal_stresses) = assemble(design, &grid, state)?;
         let probes = winding.turns().iter().map(|t| grid.probe("winding", t.r, t.y)).collect::<Result<_, _>>()?;
         let lowest = layout.solids.iter().filter(|s| s.r[0] == layout.bore).map(|s| s.y[0]).fold(f64::INFINITY, f64::min);
         let highest = layout.solids.iter().filter(|s| s.r[0] == layout.bore).map(|s| s.y[1]).fold(f64::NEG_INFINITY, f64::max);
@@ -86,7 +88,8 @@ impl Model {
             grid,
             map,
             factor,
-            thermal_load,
+            thermal_stresses,
+            coupling: OnceLock::new(),
             probes,
             bore,
         })
@@ -117,7 +120,7 @@ impl Model {
     /// # Errors
     /// [`Error::Solve`] if the solve leaves a residual.
     pub fn strain_at_turns(&self, temperature: &[f64]) -> Result<Vec<TurnStrain>, Error> {
-        let load = self.thermal_load.multiply(temperature);
+        let load = self.map.restrict(&self.coupling()?.multiply(temperature));
         let u = self.map.expand(&at("structure", self.factor.solve(&[load]))?[0]);
         let m = self.dehomogenization;
         let strain = |p: &Probe| {
@@ -154,11 +157,21 @@ impl Model {
         Ok(turns.chain(tails).collect())
     }
 
-    /// The bias parts as functionals of the nodal temperature rate, by one adjoint solve each.
-    ///
-    /// # Errors
-    /// [`Error::Solve`] if a solve leaves a residual.
-    pub fn bias_operator(&self) -> Result<BiasOperator, Error> {
+    fn problem(&self) -> Problem<'_> {
+        Problem::new(self.grid.mesh(), Form::AXISYMMETRIC_ELASTICITY, self.grid.mesh().order() + 1)
+    }
+
+    /// Load of a nodal temperature; computed when it is first asked for, a uniform temperature does without.
+    fn coupling(&self) -> Result<&Coupling, Error> {
+        if self.coupling.get().is_none() {
+            let coupling = at("structure", self.problem().coupling(&self.thermal_stresses))?;
+            return Ok(self.coupling.get_or_init(|| coupling));
+        }
+        self.coupling.get().ok_or_else(|| Error::Resolution("the thermal load is missing".into()))
+    }
+
+    /// Parts of the bias that act on the temperature directly, and the adjoint displacements of the two elasto-optic parts.
+    fn adjoint(&self) -> Result<(BiasOperator, Vec<Vec<f64>>), Error> {
         let nodes = self.grid.mesh().nodes().len();
         let (c, m) = (self.coefficients, self.dehomogenization);
         let mut direct = BiasOperator { shupe: vec![0.0; nodes], eo_axial: vec![0.0; nodes], eo_radial: vec![0.0; nodes] };
@@ -176,15 +189,43 @@ impl Model {
         self.bore.add_value(&mut direct.eo_axial, w * (c.axial * self.fibre_expansion + c.axial_per_temperature_rate));
         self.bore.add_value(&mut direct.eo_radial, w * (c.radial * self.fibre_expansion + c.radial_per_temperature_rate));
         let adjoint = at("structure", self.factor.solve(&[self.map.restrict(&axial), self.map.restrict(&radial)]))?;
-        for (part, adjoint) in [&mut direct.eo_axial, &mut direct.eo_radial].into_iter().zip(adjoint) {
-            let through = self.thermal_load.multiply_transposed(&adjoint);
+        Ok((direct, adjoint))
+    }
+
+    /// The bias parts as functionals of the nodal temperature rate, by one adjoint solve each.
+    ///
+    /// # Errors
+    /// [`Error::Solve`] if a solve leaves a residual.
+    pub fn bias_operator(&self) -> Result<BiasOperator, Error> {
+        let (mut operator, adjoint) = self.adjoint()?;
+        for (part, adjoint) in [&mut operator.eo_axial, &mut operator.eo_radial].into_iter().zip(adjoint) {
+            let through = self.coupling()?.multiply_transposed(&self.map.expand(&adjoint));
             part.iter_mut().zip(through).for_each(|(g, t)| *g += t);
         }
-        Ok(direct)
+        Ok(operator)
+    }
+
+    /// Bias in a steady ramp of 1 K/s: the operator applied to a uniform rate, whose load needs no matrix.
+    ///
+    /// # Errors
+    /// [`Error::Solve`] if a solve leaves a residual.
+    pub fn bias_in_ramp(&self) -> Result<Bias, Error> {
+        let (direct, adjoint) = self.adjoint()?;
+        let load = self.map.restrict(&at("structure", self.problem().loads(&self.thermal_stresses))?[0]);
+        let through = |adjoint: &[f64]| adjoint.iter().zip(&load).map(|(a, l)| a * l).sum::<f64>();
+        let sum = |part: &[f64]| part.iter().sum::<f64>();
+        Ok(Bias {
+            shupe: sum(&direct.shupe),
+            eo_axial: sum(&direct.eo_axial) + through(&adjoint[0]),
+            eo_radial: sum(&direct.eo_radial) + through(&adjoint[1]),
+        })
     }
 }
 
-fn assemble(design: &Design, grid: &Grid, state: &MechanicalState) -> Result<(DofMap, Factor, SparseMatrix), Error> {
+/// Unknowns, factor, and thermal stress of each region.
+type Assembled = (DofMap, Condensed, Vec<Option<DMatrix<f64>>>);
+
+fn assemble(design: &Design, grid: &Grid, state: &MechanicalState) -> Result<Assembled, Error> {
     let mesh = grid.mesh();
     let mut laws = vec![None; Region::COUNT];
     let mut stresses = vec![None; Region::COUNT];
@@ -203,10 +244,8 @@ fn assemble(design: &Design, grid: &Grid, state: &MechanicalState) -> Result<(Do
         at("structure", constraints.hold(2 * node + 1))?;
     }
     let map = constraints.eliminate(&problem.used(|_| true));
-    let factor = at("structure", problem.factor(&map, &laws))?;
-    let scalar = Constraints::new(mesh.nodes().len()).eliminate(&vec![true; mesh.nodes().len()]);
-    let thermal_load = at("structure", problem.coupling(&map, &scalar, &stresses))?;
-    Ok((map, factor, thermal_load))
+    let factor = at("structure", problem.condense(&map, &laws))?;
+    Ok((map, factor, stresses))
 }
 
 /// One node of every connected body: each is free to move along the axis until it is held.

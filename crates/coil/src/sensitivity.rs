@@ -1,7 +1,7 @@
 //! Steady-ramp sensitivity with its own numerical error.
 
 use crate::{Design, Error, Model, Resolution};
-use bias::{Bias, Sensitivity};
+use bias::Sensitivity;
 
 /// The mesh behind the reported value.
 pub const COARSE: Resolution = Resolution { order: 6, layers: 3, ratio: 0.2 };
@@ -35,10 +35,7 @@ impl Model {
     /// # Errors
     /// [`Error::Solve`] if a solve leaves a residual.
     pub fn sensitivity(&self) -> Result<Sensitivity, Error> {
-        let operator = self.bias_operator()?;
-        let sum = |part: &[f64]| part.iter().sum::<f64>();
-        let bias = Bias { shupe: sum(&operator.shupe), eo_axial: sum(&operator.eo_axial), eo_radial: sum(&operator.eo_radial) };
-        Ok(Sensitivity::from_ramp(&bias, 1.0)?)
+        Ok(Sensitivity::from_ramp(&self.bias_in_ramp()?, 1.0)?)
     }
 }
 

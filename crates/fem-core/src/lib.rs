@@ -28,6 +28,7 @@
 //! # Ok::<(), fem_core::Error>(())
 //! ```
 
+mod condensed;
 mod constraints;
 mod error;
 mod form;
@@ -40,13 +41,14 @@ mod problem;
 mod sparse;
 mod transient;
 
+pub use condensed::Condensed;
 pub use constraints::{Constraints, DofMap};
 pub use error::Error;
 pub use form::{Form, Operator};
 pub use geometry::{Edge, ElementGeometry, Measure, ReferenceElement};
 pub use linear::{BACKWARD_ERROR_LIMIT, Factor, PROBE_ERROR_LIMIT, SymbolicFactor};
 pub use mesh::Mesh;
-pub use problem::Problem;
+pub use problem::{Coupling, Problem};
 pub use sparse::{Pattern, SparseMatrix};
 pub use transient::{Effort, State, Transient};
 

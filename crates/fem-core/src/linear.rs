@@ -6,6 +6,7 @@ use faer::sparse::linalg::LltError;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Mat, Side};
+use nalgebra::DMatrix;
 
 /// Largest backward error `‖b − A x‖ / (‖ |A| |x| ‖ + ‖b‖)` (maximum norms) that a solve may leave, after one step of iterative
 /// refinement.
@@ -44,7 +45,7 @@ fn not_positive_definite(matrix: &SparseMatrix, detail: impl std::fmt::Display) 
 }
 
 /// A solution without symmetry, in \[1, 2): the fractional parts of multiples of the golden section.
-fn probe(unknowns: usize) -> Vec<f64> {
+pub(crate) fn probe(unknowns: usize) -> Vec<f64> {
     (0..unknowns).map(|i| 1.0 + (i as f64 * 0.618_033_988_749_894_9).fract()).collect()
 }
 
@@ -151,7 +152,26 @@ impl Factor {
     }
 }
 
+/// Cholesky factor of a small dense matrix.
+#[derive(Debug, Clone)]
+pub(crate) struct DenseFactor(faer::linalg::solvers::Llt<f64>);
+
+impl DenseFactor {
+    pub(crate) fn new(matrix: &DMatrix<f64>) -> Result<Self, Error> {
+        let copy = Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)]);
+        let factor = faer::linalg::solvers::Llt::new(copy.as_ref(), Side::Lower);
+        let failed = |e| Error::NotPositiveDefinite { unknowns: matrix.nrows(), detail: format!("inside an element: {e:?}") };
+        Ok(Self(factor.map_err(failed)?))
+    }
+
+    pub(crate) fn solve(&self, rhs: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut x = Mat::from_fn(rhs.nrows(), rhs.ncols(), |i, j| rhs[(i, j)]);
+        self.0.solve_in_place(x.as_mut());
+        DMatrix::from_fn(rhs.nrows(), rhs.ncols(), |i, j| x[(i, j)])
+    }
+}
+
 /// Maximum norm; NaN if any entry is.
-fn largest(v: &[f64]) -> f64 {
+pub(crate) fn largest(v: &[f64]) -> f64 {
     v.iter().fold(0.0, |m: f64, v| if v.is_nan() || m.is_nan() { f64::NAN } else { m.max(v.abs()) })
 }

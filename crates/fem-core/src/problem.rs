@@ -1,8 +1,48 @@
 //! A weak form on a mesh: element matrices region by region, assembly, factor.
 
 use crate::geometry::{Edge, ReferenceElement};
-use crate::{DofMap, Error, Factor, Form, Mesh, Pattern, SparseMatrix};
-use nalgebra::DMatrix;
+use crate::{Condensed, DofMap, Error, Factor, Form, Mesh, Pattern, SparseMatrix};
+use nalgebra::{DMatrix, DVector};
+
+/// The load of a scalar nodal field on a form, kept element by element: `f = H T`, all unknowns, nothing eliminated.
+#[derive(Debug, Clone)]
+pub struct Coupling {
+    components: usize,
+    count: usize,
+    nodes: Vec<Vec<usize>>,
+    elements: Vec<DMatrix<f64>>,
+}
+
+impl Coupling {
+    fn active(&self) -> impl Iterator<Item = (&Vec<usize>, &DMatrix<f64>)> {
+        self.nodes.iter().zip(&self.elements).filter(|(_, m)| m.nrows() > 0)
+    }
+
+    /// H T: load vector (nodes × components, component fastest) of nodal values.
+    pub fn multiply(&self, field: &[f64]) -> Vec<f64> {
+        let c = self.components;
+        let mut load = vec![0.0; self.count * c];
+        for (nodes, matrix) in self.active() {
+            let product = matrix * DVector::from_iterator(nodes.len(), nodes.iter().map(|&node| field[node]));
+            for (a, &node) in nodes.iter().enumerate() {
+                (0..c).for_each(|i| load[node * c + i] += product[a * c + i]);
+            }
+        }
+        load
+    }
+
+    /// Hᵀ u: what a displacement (nodes × components) says of each node's value.
+    pub fn multiply_transposed(&self, displacement: &[f64]) -> Vec<f64> {
+        let c = self.components;
+        let mut result = vec![0.0; self.count];
+        for (nodes, matrix) in self.active() {
+            let local = nodes.iter().flat_map(|&node| &displacement[node * c..(node + 1) * c]);
+            let product = matrix.tr_mul(&DVector::from_iterator(nodes.len() * c, local.copied()));
+            nodes.iter().zip(product.iter()).for_each(|(&node, value)| result[node] += value);
+        }
+        result
+    }
+}
 
 /// A form on a mesh with its quadrature.
 #[derive(Debug, Clone)]
@@ -84,6 +124,16 @@ impl<'a> Problem<'a> {
         Factor::new(self.stiffness(map, laws)?)
     }
 
+    /// Stiffness matrix with the unknowns inside elements eliminated, factorised.
+    ///
+    /// # Errors
+    /// As [`Self::stiffness`] and [`Condensed::new`].
+    pub fn condense(&self, map: &DofMap, laws: &[Option<DMatrix<f64>>]) -> Result<Condensed, Error> {
+        self.check(laws, self.form.strains(), Some(self.form.strains()))?;
+        let elements = self.element_matrices(laws, |g, law| self.form.stiffness(&self.reference.value, g, law))?;
+        Condensed::new(self.mesh, map, &elements)
+    }
+
     fn pattern(&self, map: &DofMap, laws: &[Option<DMatrix<f64>>]) -> Pattern {
         Pattern::new(self.mesh, map, |e| laws[self.mesh.regions()[e]].is_some())
     }
@@ -115,11 +165,11 @@ impl<'a> Problem<'a> {
     ///
     /// # Errors
     /// As [`Self::stiffness`].
-    pub fn coupling(&self, rows: &DofMap, scalar: &DofMap, laws: &[Option<DMatrix<f64>>]) -> Result<SparseMatrix, Error> {
+    pub fn coupling(&self, laws: &[Option<DMatrix<f64>>]) -> Result<Coupling, Error> {
         self.check(laws, self.form.strains(), Some(1))?;
         let elements = self.element_matrices(laws, |g, law| self.form.coupling(&self.reference.value, g, law.as_slice()))?;
-        let active = |e: usize| laws[self.mesh.regions()[e]].is_some();
-        Ok(Pattern::rectangular(self.mesh, rows, scalar, active).assemble(&elements))
+        let nodes: Vec<_> = self.mesh.elements().to_vec();
+        Ok(Coupling { components: self.form.components(), count: self.mesh.nodes().len(), nodes, elements })
     }
 
     /// Mass matrix, `∫ N c N` for each component: `capacities[region]` is 1 × 1.

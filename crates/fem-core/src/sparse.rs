@@ -70,9 +70,9 @@ impl SparseMatrix {
 }
 
 /// Reduced unknowns and factors of one element, component fastest.
-type ElementDofs = Vec<Option<(usize, f64)>>;
+pub(crate) type ElementDofs = Vec<Option<(usize, f64)>>;
 
-fn element_dofs(mesh: &Mesh, map: &DofMap) -> Vec<ElementDofs> {
+pub(crate) fn element_dofs(mesh: &Mesh, map: &DofMap) -> Vec<ElementDofs> {
     let components = map.full() / mesh.nodes().len().max(1);
     let of_node = |node: &usize| (0..components).map(move |c| map.get(node * components + c)).collect::<Vec<_>>();
     mesh.elements().iter().map(|element| element.iter().flat_map(of_node).collect()).collect()
@@ -97,16 +97,26 @@ impl Pattern {
 
     /// Pattern of a matrix whose rows are the unknowns of one map and whose columns those of another.
     pub fn rectangular(mesh: &Mesh, rows: &DofMap, columns: &DofMap, active: impl Fn(usize) -> bool) -> Self {
-        let (row_dofs, column_dofs) = (element_dofs(mesh, rows), element_dofs(mesh, columns));
-        let mut incidence = vec![Vec::new(); columns.reduced()];
-        for (e, dofs) in column_dofs.iter().enumerate().filter(|(e, _)| active(*e)) {
+        let columns_of = |dofs: Vec<ElementDofs>| dofs.into_iter().enumerate().filter(|(e, _)| active(*e)).collect::<Vec<_>>();
+        Self::of_elements(rows.reduced(), element_dofs(mesh, rows), columns.reduced(), &columns_of(element_dofs(mesh, columns)))
+    }
+
+    /// Pattern of matrices that couple the given row and column unknowns of each element; `column_dofs` names its elements.
+    pub(crate) fn of_elements(
+        rows: usize,
+        row_dofs: Vec<ElementDofs>,
+        columns: usize,
+        column_dofs: &[(usize, ElementDofs)],
+    ) -> Self {
+        let mut incidence = vec![Vec::new(); columns];
+        for (e, dofs) in column_dofs {
             for (local, dof) in dofs.iter().enumerate() {
                 if let Some((column, factor)) = dof {
-                    incidence[*column].push((e, local, *factor));
+                    incidence[*column].push((*e, local, *factor));
                 }
             }
         }
-        let mut seen = vec![usize::MAX; rows.reduced()];
+        let mut seen = vec![usize::MAX; rows];
         let (mut starts, mut indices) = (vec![0], Vec::new());
         for (column, elements) in incidence.iter().enumerate() {
             let begin = indices.len();
@@ -121,7 +131,7 @@ impl Pattern {
             indices[begin..].sort_unstable();
             starts.push(indices.len());
         }
-        Self { rows: rows.reduced(), row_dofs, incidence, starts, indices }
+        Self { rows, row_dofs, incidence, starts, indices }
     }
 
     /// Sums the element matrices (one per element of the mesh; those of inactive elements are not read).

@@ -107,9 +107,8 @@ fn exact_coupling_is_the_derivative_of_the_load() {
         let n = mesh.nodes().len();
         let problem = Problem::new(&mesh, form, 6);
         let betas = form_and_beta(form);
-        let (rows, scalar) = (constrained(&mesh, form.components(), 8), unconstrained(n));
-        let coupling = problem.coupling(&rows, &scalar, &betas).unwrap();
-        let uniform = rows.restrict(&problem.loads(&betas).unwrap()[0]);
+        let coupling = problem.coupling(&betas).unwrap();
+        let uniform = problem.loads(&betas).unwrap().remove(0);
         let ones = coupling.multiply(&vec![1.0; n]);
         assert!((DVector::from_vec(ones) - DVector::from_vec(uniform)).amax() < 1e-12);
     }
@@ -119,13 +118,14 @@ fn exact_coupling_is_the_derivative_of_the_load() {
 #[test]
 fn exact_coupling_to_a_field_that_varies() {
     let (form, mesh) = (Form::PLANE_STRAIN, distorted(4, 33));
-    let n = mesh.nodes().len();
     let betas = form_and_beta(form);
-    let coupling = Problem::new(&mesh, form, 7).coupling(&unconstrained(2 * n), &unconstrained(n), &betas).unwrap();
+    let coupling = Problem::new(&mesh, form, 7).coupling(&betas).unwrap();
     let field: Vec<f64> = mesh.nodes().iter().map(|[x, y]| 1.0 + 3.0 * x - 2.0 * y).collect();
     let u: Vec<f64> = mesh.nodes().iter().flat_map(|[x, y]| [0.3 * x - 0.2 * y, 0.7 * x + 0.5 * y]).collect();
     let strain = [0.3, 0.5, 0.5];
     let work: f64 = coupling.multiply(&field).iter().zip(&u).map(|(f, u)| f * u).sum();
+    let back: f64 = coupling.multiply_transposed(&u).iter().zip(&field).map(|(h, t)| h * t).sum();
+    assert!((back / work - 1.0).abs() < 1e-13, "the transpose does the same work");
     let (reference, mut expected) = (ReferenceElement::new(4, 7), 0.0);
     for (e, region) in mesh.regions().iter().enumerate() {
         let g = reference.geometry(&mesh, e, form.measure()).unwrap();
@@ -186,7 +186,7 @@ fn bounds_constants_of_the_wrong_shape_are_refused() {
     refused(problem.stiffness(&map, &[law(3, 3)]), 1);
     refused(problem.stiffness(&map, &[law(3, 3), law(2, 2)]), 1);
     refused(problem.mass(&map, &[law(3, 3), None]), 0);
-    refused(problem.coupling(&map, &unconstrained(n), &[law(3, 2), None]), 0);
+    assert!(matches!(problem.coupling(&[law(3, 2), None]), Err(Error::Law { region: 0, .. })));
     assert!(matches!(problem.loads(&[None, law(4, 1)]), Err(Error::Law { region: 1, .. })));
 }
 

@@ -2,7 +2,7 @@
 
 use crate::{Error, FibreCell, Role};
 use fem_core::material::ThermoElastic;
-use fem_core::{Constraints, DofMap, Factor, Form, Mesh, Problem, polynomial};
+use fem_core::{Constraints, DofMap, Form, Mesh, Problem, polynomial};
 use nalgebra::{DMatrix, Matrix2, Matrix6, SMatrix, Vector6};
 use rve_mesh::{CellMesh, Extent, HexagonalCell, Resolution};
 
@@ -186,7 +186,7 @@ impl CellProblem {
         }
         for class in self.classes(&[0, 1, 2, 4], &[3], &[0, 1, 2, 3, 4], true) {
             let map = self.map(&problem, 2, &class)?;
-            let factor = problem.factor(&map, &self.plane_laws())?;
+            let factor = problem.condense(&map, &self.plane_laws())?;
             effective.unknowns = effective.unknowns.max(factor.unknowns());
             let reduced: Vec<_> = loads.iter().map(|f| map.restrict(f)).collect();
             let rhs: Vec<_> = class.loads.iter().map(|&load| reduced[load].clone()).collect();
@@ -236,7 +236,7 @@ impl CellProblem {
         }
         for class in self.classes(&[0], &[1], &[0, 1], false) {
             let map = self.map(&problem, 1, &class)?;
-            let factor = problem.factor(&map, laws)?;
+            let factor = problem.condense(&map, laws)?;
             let reduced: Vec<_> = loads.iter().map(|f| map.restrict(f)).collect();
             let rhs: Vec<_> = class.loads.iter().map(|&load| reduced[load].clone()).collect();
             for (&j, u) in class.loads.iter().zip(factor.solve(&rhs)?) {
@@ -259,7 +259,7 @@ impl CellProblem {
         };
         let stresses: Vec<_> = self.laws.iter().map(|l| Some(DMatrix::from_fn(3, 1, |i, _| total(l)[PLANE[i]]))).collect();
         let load = map.restrict(&problem.loads(&stresses)?[0]);
-        let factor: Factor = problem.factor(&map, &self.plane_laws())?;
+        let factor = problem.condense(&map, &self.plane_laws())?;
         let u = factor.solve(&[load])?;
         let reduced: Vec<_> = self.plane_loads(&problem)?.iter().map(|f| map.restrict(f)).collect();
         let mean = |row: usize| -> f64 { self.fractions.iter().zip(&self.laws).map(|(f, l)| f * total(l)[row]).sum() };
