@@ -70,7 +70,7 @@ mod solve;
 pub use cell::{Constituent, FibreCell, Ring, Role};
 pub use constants::Constants;
 pub use error::Error;
-pub use homogenize::{FreeCell, Homogenized, NEGLIGIBLE, effective, free_cell, homogenize, homogenize_on};
+pub use homogenize::{FreeCell, Homogenized, NEGLIGIBLE, SAFETY, effective, free_cell, homogenize, homogenize_on};
 pub use rve_mesh::{Extent, Resolution};
 pub use solve::{Discretization, Effective};
 

@@ -18,6 +18,7 @@ fn kind(kind: Kind) -> &'static str {
 fn verdict(row: &Row) -> &'static str {
     match row.verdict {
         Verdict::Holds => "holds",
+        Verdict::Shown => "shown",
         Verdict::Differs => "differs",
         Verdict::Fails => "FAILS",
     }
@@ -41,7 +42,7 @@ pub(crate) fn text(sections: &[Section]) -> String {
                 computed,
                 row.unit
             );
-            if row.verdict != Verdict::Holds {
+            if matches!(row.verdict, Verdict::Differs | Verdict::Fails) {
                 let _ = writeln!(out, "  {:<8} {}", "", row.reason);
             }
         }

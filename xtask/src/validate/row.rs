@@ -20,8 +20,10 @@ pub(crate) enum Kind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Verdict {
-    /// They agree.
+    /// They agree by a test.
     Holds,
+    /// Nothing is tested: the number is shown for what it is.
+    Shown,
     /// They differ, for the reason given.
     Differs,
     /// They had to agree and do not.
@@ -67,7 +69,7 @@ impl Row {
 
 /// Decimals of a printed number.
 fn decimals(printed: &str) -> usize {
-    printed.split_once('.').map_or(0, |(_, fraction)| fraction.len())
+    printed.split_once('.').map_or(0, |(_, fraction)| fraction.bytes().take_while(u8::is_ascii_digit).count())
 }
 
 /// Whether `value`, anywhere within its numerical error, rounds to the printed digits.
@@ -76,12 +78,12 @@ pub(crate) fn rounds_to(printed: &str, value: f64, error: f64) -> bool {
     round(value - error) == printed && round(value + error) == printed
 }
 
-/// `value ± error`: as many decimals as the error justifies, at least `at_least` and at most five more.
+/// `value ± error`: as many decimals as the error justifies, at least `at_least`.
 pub(crate) fn with_error(value: f64, error: f64, at_least: usize) -> String {
     if error == 0.0 {
         return plain(value);
     }
-    let digits = (1.0 - error.log10().floor()).clamp(at_least as f64, at_least as f64 + 5.0) as usize;
+    let digits = (1.0 - error.log10().floor()).clamp(at_least as f64, 15.0) as usize;
     format!("{value:.digits$} ± {error:.1e}")
 }
 
@@ -112,7 +114,8 @@ mod tests {
         assert!(rounds_to("193", 193.2, 0.1) && !rounds_to("193", 193.45, 0.1));
         assert!(!rounds_to("95.2", 95.2, 0.06) && rounds_to("-0.17", -0.1703, 1e-4));
         assert_eq!(with_error(95.2049940, 0.0000804, 1), "95.204994 ± 8.0e-5");
-        assert_eq!(with_error(1101.566598648, 1e-10, 2), "1101.5665986 ± 1.0e-10");
+        assert_eq!(with_error(1101.566598648, 1e-10, 2), "1101.56659864800 ± 1.0e-10");
+        assert_eq!(decimals("2.74e-6"), 2);
         assert_eq!((plain(3798.0).as_str(), plain(-4e-12).as_str(), plain(1.8834).as_str()), ("3798", "-4.0e-12", "1.883"));
     }
 }

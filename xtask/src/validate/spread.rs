@@ -2,13 +2,13 @@
 
 use super::Failure;
 use super::fixtures::{Fixtures, SpoolMaterial};
-use coil::{COARSE, Contact, Design, Flange, Model, Side};
+use coil::{COARSE, Contact, Design, Flange, Model, Side, steady_sensitivity};
 use fem_core::material::Isotropic;
 use rayon::prelude::*;
 
-/// Smallest and largest |S| with the spool that gives it, and one line per spool: (name, S).
+/// Smallest |S| with its numerical error and largest, each with the spool that gives it, and one line per spool: (name, S).
 pub(crate) struct Spread {
-    pub(crate) lowest: (String, f64),
+    pub(crate) lowest: (String, f64, f64),
     pub(crate) highest: (String, f64),
     pub(crate) lines: Vec<(String, f64)>,
 }
@@ -20,7 +20,8 @@ fn spools(fixtures: &Fixtures) -> Vec<(String, Design)> {
     for material in &fixtures.spools {
         for sides in [&[][..], &[Side::Right][..], &[Side::Left][..], &[Side::Left, Side::Right][..]] {
             for (hub, flange) in [(true, true), (true, false), (false, true), (false, false)] {
-                if sides.is_empty() && !flange {
+                // without flanges only the hub's bond counts; a coil that nothing holds is no coil on a spool
+                if (sides.is_empty() && !flange) || (!hub && (sides.is_empty() || !flange)) {
                     continue;
                 }
                 let Some(design) = design(fixtures, material, sides, contact(hub), contact(flange)) else { continue };
@@ -52,11 +53,15 @@ fn design(fixtures: &Fixtures, material: &SpoolMaterial, sides: &[Side], hub: Co
 }
 
 pub(crate) fn over_spools(fixtures: &Fixtures) -> Result<Spread, Failure> {
-    let solve = |(name, design): (String, Design)| -> Result<(String, f64), Failure> {
-        Ok((name, Model::new(&design, &COARSE)?.sensitivity()?.total()))
+    let solve = |(name, design): (String, Design)| -> Result<(String, f64, Design), Failure> {
+        let s = Model::new(&design, &COARSE)?.sensitivity()?.total();
+        Ok((name, s, design))
     };
-    let lines = spools(fixtures).into_par_iter().map(solve).collect::<Result<Vec<_>, _>>()?;
-    let by_size = |a: &&(String, f64), b: &&(String, f64)| a.1.abs().total_cmp(&b.1.abs());
-    let pick = |line: Option<&(String, f64)>| line.map_or((String::new(), f64::NAN), |(name, s)| (name.clone(), s.abs()));
-    Ok(Spread { lowest: pick(lines.iter().min_by(by_size)), highest: pick(lines.iter().max_by(by_size)), lines })
+    let mut solved = spools(fixtures).into_par_iter().map(solve).collect::<Result<Vec<_>, _>>()?;
+    let lines = solved.iter().map(|(name, s, _)| (name.clone(), *s)).collect();
+    solved.sort_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    let none = || Failure("fixtures/spool-materials.ron lists no material".into());
+    let (lowest, highest) = (solved.first().ok_or_else(none)?, solved.last().ok_or_else(none)?);
+    let error = steady_sensitivity(&lowest.2)?.error_estimate;
+    Ok(Spread { lowest: (lowest.0.clone(), lowest.1.abs(), error), highest: (highest.0.clone(), highest.1.abs()), lines })
 }

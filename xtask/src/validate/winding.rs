@@ -14,7 +14,8 @@ fn row(printed: &Printed, computed: f64, kind: Kind) -> Row {
         quantity: printed.quantity.clone(),
         printed: Some(printed.printed.clone()),
         computed: computed / printed.scale,
-        numerical_error: (computed / printed.scale * ROUNDING).abs(),
+        // counts are exact
+        numerical_error: if printed.unit == "-" { 0.0 } else { (computed / printed.scale * ROUNDING).abs() },
         unit: printed.unit.clone(),
         verdict: Verdict::Differs,
         kind,
@@ -49,25 +50,30 @@ pub(crate) fn table_3(fixtures: &Fixtures) -> Result<Section, Failure> {
     let spec = fixtures.coil.winding;
     let coil = wind(&spec)?;
     let mut section = Section::new("Table III: winding");
-    section.note("From pitch, layers, loops and inner radius by the practical pattern; three entries are printed wrongly.");
+    section.note(
+        "From pitch, layers, loops and inner radius by the practical pattern. Layers, loops and inner radius are inputs; the pitch is \
+         the printed height over 106 loops; length, turn counts and outer diameter follow. Three entries are printed wrongly.",
+    );
     let at = |id: &str| fixtures.printed(id);
     let full = wind(&Spec { pattern: Pattern::Quadrupole, turns_even_layers: spec.turns_odd_layers, ..spec })?;
     let length = format!(
-        "even layers sit in the grooves and hold {}; {} in every layer would give {:.2} m",
+        "an orthocyclic even layer sits in the grooves of the one below and holds one turn fewer, {}; {} everywhere would give {:.2} m",
         spec.turns_even_layers,
         spec.turns_odd_layers,
         full.length()
     );
     section.rows.push(must_round(row(at("III.length")?, coil.length(), Kind::Predicted)).because(&length));
     let layers = coil.turns().iter().map(|t| t.layer).max().unwrap_or(0);
-    section.rows.push(must_round(row(at("III.layers")?, layers as f64, Kind::Predicted)).because("an input"));
+    section.rows.push(must_round(row(at("III.layers")?, layers as f64, Kind::Identified)).because("an input"));
     let loops = |layer: usize| coil.turns().iter().filter(|t| t.layer == layer).count();
-    let text = format!("holds for odd layers; even layers have {}, or the printed length could not be", loops(2));
+    let text = format!("holds for odd layers; even layers have {} (see the length)", loops(2));
     section.rows.push(row(at("III.loops")?, loops(1) as f64, Kind::Misprint).compared(loops(1) == 106 && loops(2) == 106, text));
     let diameter = "printed as a radius, but it is the diameter";
     section.rows.push(must_round(row(at("III.inner")?, 2.0 * spec.inner_radius, Kind::Misprint)).because(diameter));
     section.rows.push(must_round(row(at("III.outer")?, 2.0 * coil.outer_radius(), Kind::Misprint)).because(diameter));
-    section.rows.push(must_round(row(at("III.height")?, coil.height(), Kind::Predicted)).because("106 loops at the pitch"));
+    section.rows.push(
+        must_round(row(at("III.height")?, coil.height(), Kind::Identified)).because("the pitch is this height over 106 loops"),
+    );
     let turns = coil.turns().len();
     section.rows.push(counted("III.turns", "turns", turns, 3798, "18 layers of 106 and 18 of 105"));
     let (cw, ccw) = (coil.count(Half::Cw), coil.count(Half::Ccw));
