@@ -15,7 +15,7 @@ pub struct Fidelity {
 }
 
 /// The mesh and the modes behind a simulation.
-pub const STANDARD: Fidelity = Fidelity { resolution: Resolution { order: 6, layers: 2, ratio: 0.2 }, modes: 40 };
+pub const STANDARD: Fidelity = Fidelity { resolution: crate::COARSE, modes: 40 };
 
 /// A design ready to be simulated: its thermometer, mean coil temperature and bias parts as a few exponentials.
 #[derive(Debug, Clone, PartialEq)]

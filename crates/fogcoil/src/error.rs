@@ -41,16 +41,24 @@ pub enum Error {
         /// What went wrong.
         source: coil::Error,
     },
+    /// A simulation gave no number.
+    #[error("{}: the response at {time} s is not a finite number; this is the program's fault, please report it", file.display())]
+    NotFinite {
+        /// The profile.
+        file: PathBuf,
+        /// The instant \[s\].
+        time: f64,
+    },
 }
 
 impl Error {
     /// Exit status: 2 where the user can mend it (arguments, case files, paths), 1 where the program failed.
     pub fn exit_code(&self) -> u8 {
-        use coil::Error::{Bias, Design, Winding};
+        use coil::Error::{Bias, Design, Profile, Winding};
         match self {
             Self::Input(_) | Self::Usage(_) | Self::Output { .. } => 2,
-            Self::Coil { source: Design { .. } | Winding(_) | Bias(_), .. } => 2,
-            Self::Stdout(_) | Self::Homogenization { .. } | Self::Coil { .. } => 1,
+            Self::Coil { source: Design { .. } | Profile { .. } | Winding(_) | Bias(_), .. } => 2,
+            Self::Stdout(_) | Self::Homogenization { .. } | Self::Coil { .. } | Self::NotFinite { .. } => 1,
         }
     }
 }

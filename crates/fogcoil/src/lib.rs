@@ -1,7 +1,8 @@
 //! Case files in; tables, pictures and JSON out: the program `fogcoil` as a library.
 //!
-//! - [`input`] reads `CELL.ron` and `COIL.ron`. Every value is checked; what is wrong is said once, with file, line, field and
+//! - [`input`] reads `CELL.ron`, `COIL.ron` and profiles. Every value is checked; what is wrong is said once, with file, line, field and
 //!   remedy ([`input::InputError`]). The keys carry their units, the result is SI; [`units`] holds every conversion.
+//! - [`simulate`] runs a profile; [`summary`] and [`report`] say what came out.
 //! - [`homogenize`], [`wind`], [`sensitivity`] render what the physics crates compute: as text for people and as JSON, CSV or SVG.
 //! - [`output`] writes a file whole or not at all.
 //!
@@ -25,8 +26,13 @@ pub mod homogenize;
 pub mod input;
 pub mod output;
 pub mod picture;
+mod plot;
+pub mod report;
 pub mod sensitivity;
+pub mod simulate;
+pub mod summary;
 mod table;
+pub mod trim;
 pub mod units;
 pub mod wind;
 

@@ -1,53 +1,17 @@
 //! The command line: arguments in, exit status out. Everything else is in the library.
 
+mod cli;
+mod progress;
+
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
-use fogcoil::{Error, homogenize, input, output, picture, sensitivity, wind};
-
-/// Thermal bias of fibre-optic-gyroscope coils.
-#[derive(Parser)]
-#[command(version, after_help = "Exit status: 0 done; 2 bad usage or input; 1 the program's own failure.")]
-struct Cli {
-    #[command(subcommand)]
-    command: Command,
-}
-
-#[derive(Subcommand)]
-enum Command {
-    /// Effective constants and the M row of a fibre's cell
-    Homogenize {
-        /// Case file of the cell
-        #[arg(value_name = "CELL.ron")]
-        cell: PathBuf,
-        /// Print one JSON object, in SI
-        #[arg(long)]
-        json: bool,
-    },
-    /// Turn table and cross-section picture; without flags a summary
-    Wind {
-        /// Case file of the coil
-        #[arg(value_name = "COIL.ron")]
-        coil: PathBuf,
-        /// Write the turn table here
-        #[arg(long, value_name = "FILE")]
-        csv: Option<PathBuf>,
-        /// Draw the cross-section here
-        #[arg(long, value_name = "FILE")]
-        svg: Option<PathBuf>,
-    },
-    /// Steady-ramp sensitivity in (deg/h)/(degC/min), by part
-    Sensitivity {
-        /// Case file of the coil
-        #[arg(value_name = "COIL.ron")]
-        coil: PathBuf,
-        /// Print one JSON object
-        #[arg(long)]
-        json: bool,
-    },
-}
+use clap::Parser;
+use cli::{Cli, Command, Simulate};
+use fogcoil::output::Content;
+use fogcoil::{Error, homogenize, input, output, picture, report, sensitivity, simulate, summary, trim, wind};
+use progress::Progress;
 
 fn main() -> ExitCode {
     match run(&Cli::parse().command) {
@@ -67,9 +31,11 @@ fn run(command: &Command) -> Result<(), Error> {
             let result = case.homogenize()?;
             output::print(&if *json { line(&homogenize::json(&result)) } else { homogenize::text(&case, &result) })
         }
+        Command::Simulate(arguments) => run_simulate(arguments),
+        Command::Trim { coil, profile, json } => run_trim(coil, profile.as_deref(), *json),
         Command::Wind { coil, csv, svg } => run_wind(coil, csv.as_deref(), svg.as_deref()),
         Command::Sensitivity { coil, json } => {
-            let case = input::read_coil(coil)?;
+            let case = read_coil(coil)?;
             let result = case.steady_sensitivity()?;
             output::print(&if *json { line(&sensitivity::json(&result)) } else { sensitivity::text(&case, &result) })
         }
@@ -77,14 +43,47 @@ fn run(command: &Command) -> Result<(), Error> {
 }
 
 fn run_wind(coil: &Path, csv: Option<&Path>, svg: Option<&Path>) -> Result<(), Error> {
-    output::check_distinct(coil, &[csv, svg])?;
-    let case = input::read_coil(coil)?;
-    let csv = csv.map(|path| (path, wind::csv(&case.winding)));
-    let svg = svg.map(|path| (path, picture::svg(&case.name, &case.winding)));
+    output::check_distinct(&[coil], &[csv, svg])?;
+    let case = read_coil(coil)?;
+    let csv = csv.map(|path| (path, Content::Text(wind::csv(&case.winding))));
+    let svg = svg.map(|path| (path, Content::Text(picture::svg(&case.name, &case.winding))));
     match (csv, svg) {
         (None, None) => output::print(&wind::text(&case)),
         (csv, svg) => output::write_files(&csv.into_iter().chain(svg).collect::<Vec<_>>()),
     }
+}
+
+fn run_trim(coil: &Path, profile: Option<&Path>, json: bool) -> Result<(), Error> {
+    let case = read_coil(coil)?;
+    let profile = profile.map(|path| input::read_profile(path, &case.design)).transpose()?;
+    let result = Progress::OnStandardError.during("trimming", || trim::trim(&case, profile.as_ref()))?;
+    output::print(&if json { line(&trim::json(&result)) } else { trim::text(&case, &result) })
+}
+
+/// Reads a coil file and says on standard error what in it looks like a mistake.
+fn read_coil(path: &Path) -> Result<input::CoilCase, Error> {
+    let case = input::read_coil(path)?;
+    case.warnings.iter().for_each(|warning| Progress::OnStandardError.note(&format!("warning: {}: {warning}", path.display())));
+    Ok(case)
+}
+
+fn run_simulate(arguments: &Simulate) -> Result<(), Error> {
+    let Simulate { coil, profile, out, report, json, quiet } = arguments;
+    output::check_distinct(&[coil, profile], &[Some(out), report.as_deref()])?;
+    let progress = if *quiet { Progress::Silent } else { Progress::OnStandardError };
+    let case = if *quiet { input::read_coil(coil)? } else { read_coil(coil)? };
+    let profile = progress.during(&format!("reading {}", profile.display()), || input::read_profile(profile, &case.design))?;
+    profile.notes.iter().for_each(|note| progress.note(note));
+    let model = progress.during("modelling the coil", || simulate::model(&case, &profile))?;
+    let task = format!("simulating {} rows", profile.profile.time.len());
+    let simulation = progress.during(&task, || simulate::simulate(&case, &profile, &model))?;
+    let rows = |out: &mut dyn Write| simulation.write_csv(out);
+    let mut files = vec![(out.as_path(), Content::Written(&rows))];
+    if let Some(path) = report {
+        files.push((path, Content::Text(report::html(&simulation))));
+    }
+    progress.during(&format!("writing {}", out.display()), || output::write_files(&files))?;
+    output::print(&if *json { line(&summary::json(&simulation)) } else { summary::text(&simulation) })
 }
 
 fn line(json: &serde_json::Value) -> String {

@@ -1,12 +1,34 @@
 //! Results on their way out: files whole or not at all, standard output without complaint when its reader has left.
 
 use std::fs;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
 use crate::Error;
+
+/// What a file is to hold.
+pub enum Content<'a> {
+    /// A text.
+    Text(String),
+    /// What this writes; it may be called more than once.
+    Written(&'a dyn Fn(&mut dyn Write) -> io::Result<()>),
+}
+
+impl Content<'_> {
+    fn write_to(&self, out: &mut dyn Write) -> io::Result<()> {
+        let mut out = BufWriter::with_capacity(BUFFER, out);
+        match self {
+            Self::Text(text) => out.write_all(text.as_bytes())?,
+            Self::Written(write) => write(&mut out)?,
+        }
+        out.flush()
+    }
+}
+
+/// Bytes that go to a file at once.
+const BUFFER: usize = 1 << 18;
 
 /// Writes all files: each under another name in its folder first, and renamed when all are complete.
 ///
@@ -14,19 +36,20 @@ use crate::Error;
 ///
 /// # Errors
 /// [`Error::Output`] names the file that cannot be written.
-pub fn write_files(files: &[(&Path, String)]) -> Result<(), Error> {
+pub fn write_files(files: &[(&Path, Content)]) -> Result<(), Error> {
     let at = |file: &Path| {
         let file = file.to_owned();
         move |source| Error::Output { file, source }
     };
-    let staged: Vec<Staged> = files.iter().map(|(path, text)| stage(path, text).map_err(at(path))).collect::<Result<_, _>>()?;
-    for (staged, (path, text)) in staged.into_iter().zip(files) {
+    let staged: Vec<Staged> =
+        files.iter().map(|(path, content)| stage(path, content).map_err(at(path))).collect::<Result<_, _>>()?;
+    for (staged, (path, content)) in staged.into_iter().zip(files) {
         match staged {
             Staged::Temporary(file, target) => file.persist(target).map(drop).map_err(|error| at(path)(error.error))?,
             Staged::Stream => fs::OpenOptions::new()
                 .write(true)
                 .open(path)
-                .and_then(|mut stream| unless_reader_left(stream.write_all(text.as_bytes())))
+                .and_then(|mut stream| unless_reader_left(content.write_to(&mut stream)))
                 .map_err(at(path))?,
         }
     }
@@ -40,7 +63,7 @@ enum Staged {
     Stream,
 }
 
-fn stage(path: &Path, text: &str) -> io::Result<Staged> {
+fn stage(path: &Path, content: &Content) -> io::Result<Staged> {
     let target = match fs::metadata(path) {
         Ok(kind) if kind.is_dir() => return Err(io::Error::new(ErrorKind::IsADirectory, "is a directory")),
         Ok(kind) if !kind.is_file() => return Ok(Staged::Stream),
@@ -49,7 +72,7 @@ fn stage(path: &Path, text: &str) -> io::Result<Staged> {
     };
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut file = temporary(folder)?;
-    file.write_all(text.as_bytes())?;
+    content.write_to(&mut file)?;
     file.as_file().sync_all()?;
     Ok(Staged::Temporary(file, target))
 }
@@ -78,17 +101,17 @@ fn unless_reader_left(written: io::Result<()>) -> io::Result<()> {
     written.or_else(|error| if error.kind() == ErrorKind::BrokenPipe { Ok(()) } else { Err(error) })
 }
 
-/// Checks that no result would overwrite the case file or another result.
+/// Checks that no result would overwrite an input or another result.
 ///
 /// # Errors
 /// [`Error::Usage`] names the file.
-pub fn check_distinct(input: &Path, outputs: &[Option<&Path>]) -> Result<(), Error> {
+pub fn check_distinct(inputs: &[&Path], outputs: &[Option<&Path>]) -> Result<(), Error> {
     let place = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    let mut taken = vec![place(input)];
+    let mut taken: Vec<PathBuf> = inputs.iter().map(|input| place(input)).collect();
     for output in outputs.iter().flatten() {
         let (target, regular) = (place(output), fs::metadata(output).map_or(true, |kind| kind.is_file()));
         if regular && taken.contains(&target) {
-            let problem = "is given twice, or is the case file itself; give each result a file of its own";
+            let problem = "is given twice, or is an input; give each result a file of its own";
             return Err(Error::Usage(format!("{}: {problem}", output.display())));
         }
         taken.push(target);

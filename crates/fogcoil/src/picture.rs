@@ -220,7 +220,8 @@ fn enlarged(out: &mut String, overview: &View, corner: &View, winding: &Winding,
     text(out, caption_x, corner.top - 14.0, towards, &caption);
 }
 
-fn escape(content: &str) -> String {
+/// As text or attribute of a document; control characters are dropped.
+pub(crate) fn escape(content: &str) -> String {
     let printable = content.chars().filter(|c| !c.is_control());
     printable.fold(String::new(), |mut text, c| {
         match c {

@@ -46,7 +46,8 @@ pub fn text(case: &CoilCase, result: &SteadySensitivity) -> String {
     )
 }
 
-fn origin(origin: &Origin) -> String {
+/// Where a set of numbers comes from, in words.
+pub(crate) fn origin(origin: &Origin) -> String {
     match origin {
         Origin::Given => "as given in the file".into(),
         Origin::Cell(path) => format!("homogenised from {}", path.display()),

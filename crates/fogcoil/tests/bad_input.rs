@@ -175,7 +175,7 @@ fn an_output_that_cannot_be_written() {
     let folder = Folder::new();
     folder.write("coil.ron", COIL);
     refuse(&folder, &["wind", "coil.ron", "--csv", "good.csv", "--svg", "none/x.svg"], &["none/x.svg: cannot be written"]);
-    refuse(&folder, &["wind", "coil.ron", "--csv", "coil.ron"], &["coil.ron: is given twice, or is the case file"]);
+    refuse(&folder, &["wind", "coil.ron", "--csv", "coil.ron"], &["coil.ron: is given twice, or is an input"]);
     assert_eq!(std::fs::read_to_string(folder.path("coil.ron")).unwrap(), COIL);
 }
 

@@ -7,6 +7,7 @@ use homogenization::{Constituent, FibreCell, Homogenized, Ring, Role};
 use serde::Deserialize;
 
 use super::InputError;
+use super::fingerprint::Fingerprint;
 use super::limits::{CONDUCTIVITY, EXPANSION_PER_K, FIBRE_UM, Group, MODULUS_MPA};
 use super::source::Source;
 use crate::Error;
@@ -26,6 +27,8 @@ pub struct CellCase {
     pub ring_names: Vec<String>,
     /// What it describes, in SI.
     pub cell: FibreCell,
+    /// Its content.
+    pub fingerprint: Fingerprint,
 }
 
 #[derive(Deserialize)]
@@ -72,6 +75,7 @@ pub fn read_cell(path: &Path) -> Result<CellCase, InputError> {
         name: file.name,
         ring_names,
         cell: FibreCell { pitch: from_um(pitch), rings, adhesive },
+        fingerprint: source.fingerprint(),
     })
 }
 

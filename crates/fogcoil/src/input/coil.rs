@@ -2,17 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
-use coil::{Body, Dehomogenization, Design, Layout, SteadySensitivity};
+use coil::{Body, Dehomogenization, Design, Layout, Region, Sensor, SteadySensitivity};
 use fem_core::material::TransverselyIsotropic;
 use homogenization::Constants;
 use winding::Winding;
 
 use super::coil_file::{CoilFile, ConstantsFile, DehomogenizationFile, MaterialFile, MatrixFile};
+use super::fingerprint::Fingerprint;
 use super::limits::{
     CONDUCTIVITY, DENSITY, EXPANSION_PER_K, Group, MODULUS_GPA, MODULUS_MPA, RATIO, SPECIFIC_HEAT, STRAIN_RATIO,
 };
+use super::mechanics::mechanics;
 use super::source::Source;
-use super::{InputError, coil_parts as parts, read_cell};
+use super::warnings::warnings;
+use super::{InputError, coil_parts as parts, heat, read_cell};
 use crate::Error;
 use crate::units::{from_gpa, from_mm, from_mpa, to_mm};
 
@@ -32,6 +35,10 @@ pub struct CoilCase {
     pub winding: Winding,
     /// Where its numbers come from.
     pub provenance: Provenance,
+    /// The content of the file and of the cells it names, in this order.
+    pub fingerprints: Vec<Fingerprint>,
+    /// What is allowed but looks like a mistake, a line each.
+    pub warnings: Vec<String>,
 }
 
 /// Where the numbers of a design come from that a file can give in several ways.
@@ -59,6 +66,7 @@ struct Cells<'a> {
     top: Group<'a>,
     source: &'a Source,
     done: Vec<(PathBuf, Constants)>,
+    fingerprints: Vec<Fingerprint>,
 }
 
 /// Reads and checks a coil file; homogenises the cells it names.
@@ -85,18 +93,22 @@ pub fn read_coil(path: &Path) -> Result<CoilCase, Error> {
         sensor.radius = inner_radius;
     }
     let optics = parts::optics(&top.group("optics"), &file.optics)?;
-    let mut cells = Cells { top: top.clone(), source: &source, done: Vec::new() };
+    let mut cells = Cells { top: top.clone(), source: &source, done: Vec::new(), fingerprints: vec![source.fingerprint()] };
     let (constants, material) = material(&mut cells, &file.coil.material)?;
     let (dehomogenization, row) = dehomogenization(&mut cells, &file.dehomogenization)?;
     let (outer_radius, height) = (from_mm(file.coil.outer_radius_mm), from_mm(file.coil.height_mm));
     let (elastic, conductivity_z, conductivity_r) = constants;
     let body = Body { outer_radius, height, density, specific_heat, elastic, conductivity_z, conductivity_r };
-    let (mechanics, heat) = (coil::Mechanics::default(), coil::HeatPaths::default());
-    let winding_spec = *winding.spec();
-    let design = Design { winding: winding_spec, body, spool, surroundings, mechanics, heat, sensor, optics, dehomogenization };
-    Layout::new(&design).map_err(|error| design_fault(&top, &design, &error))?;
+    let heat = heat::paths(&top.group("heat"), &file.heat, spool.as_ref())?;
+    let mechanics = mechanics(&top.group("mechanics"), &file.mechanics, &body)?;
+    let design =
+        Design { winding: *winding.spec(), body, spool, surroundings, mechanics, heat, sensor, optics, dehomogenization };
+    let layout = Layout::new(&design).map_err(|error| design_fault(&top, &design, &error))?;
+    check_film(&top, &design, &layout)?;
+    let name = file.name;
     let provenance = Provenance { material, dehomogenization: row };
-    Ok(CoilCase { file: path.to_owned(), name: file.name, design, winding, provenance })
+    let (file, fingerprints, warnings) = (path.to_owned(), cells.fingerprints, warnings(&design, &winding));
+    Ok(CoilCase { file, name, design, winding, provenance, fingerprints, warnings })
 }
 
 impl CoilCase {
@@ -107,6 +119,20 @@ impl CoilCase {
     pub fn steady_sensitivity(&self) -> Result<SteadySensitivity, Error> {
         coil::steady_sensitivity(&self.design).map_err(|source| Error::Coil { file: self.file.clone(), source })
     }
+}
+
+/// With a film there is no medium for the thermometer to sit in.
+fn check_film(top: &Group, design: &Design, layout: &Layout) -> Result<(), InputError> {
+    let Sensor { radius, y, .. } = design.sensor;
+    if design.heat.film.is_some() && layout.region(radius, y) == Region::Medium {
+        let remedy = "move it into the spool or the coil, or remove heat.film_w_per_m2k";
+        return Err(top.fault(
+            "sensor",
+            "the thermometer lies outside the solids, and a film stands in place of the medium",
+            remedy,
+        ));
+    }
+    Ok(())
 }
 
 /// A complaint about the design as a whole, at the field it names.
@@ -182,6 +208,7 @@ impl Cells<'_> {
         let cell =
             read_cell(&path).map_err(|inner| self.top.fault(field, format!("the cell {named:?} cannot be used: {inner}"), ""))?;
         let constants = cell.homogenize()?.constants;
+        self.fingerprints.push(cell.fingerprint);
         self.done.push((path.clone(), constants));
         Ok((path, constants))
     }

@@ -2,6 +2,8 @@
 
 use serde::Deserialize;
 
+use super::mechanics::MechanicsFile;
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CoilFile {
@@ -10,6 +12,10 @@ pub(crate) struct CoilFile {
     pub(crate) coil: BodyFile,
     pub(crate) spool: Option<SpoolFile>,
     pub(crate) surroundings: SurroundingsFile,
+    #[serde(default)]
+    pub(crate) mechanics: MechanicsFile,
+    #[serde(default)]
+    pub(crate) heat: HeatFile,
     pub(crate) sensor: SensorFile,
     pub(crate) optics: OpticsFile,
     pub(crate) dehomogenization: DehomogenizationFile,
@@ -136,6 +142,31 @@ pub(crate) struct MediumFile {
 pub(crate) struct SensorFile {
     pub(crate) radius_mm: f64,
     pub(crate) y_mm: f64,
+    #[serde(default)]
+    pub(crate) lag_s: f64,
+}
+
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct HeatFile {
+    pub(crate) hub_resistance_m2k_per_w: f64,
+    pub(crate) mounts: Vec<MountFile>,
+    pub(crate) heaters: Vec<HeaterFile>,
+    pub(crate) film_w_per_m2k: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MountFile {
+    pub(crate) side: SideFile,
+    pub(crate) conductance_w_per_m2k: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct HeaterFile {
+    pub(crate) side: SideFile,
+    pub(crate) power_w: f64,
 }
 
 #[derive(Deserialize)]

@@ -11,7 +11,7 @@ use super::coil_file::{
     TurnLengthFile, WindingFile,
 };
 use super::limits::{
-    CONDUCTIVITY, DENSITY, EXPANSION_PER_K, EXTRA_LENGTH_MM, Group, INDEX, LENGTH_MM, MODULUS_GPA, PHOTOELASTIC, PITCH_MM,
+    CONDUCTIVITY, DENSITY, EXPANSION_PER_K, EXTRA_LENGTH_MM, Group, INDEX, LAG_S, LENGTH_MM, MODULUS_GPA, PHOTOELASTIC, PITCH_MM,
     POSITION_MM, SPECIFIC_HEAT, TAIL_M,
 };
 use crate::units::{from_gpa, from_mm, to_mm};
@@ -109,14 +109,18 @@ pub(crate) fn spool(at: &Group, file: &SpoolFile, inner_radius: f64) -> Result<S
 
 fn flange(at: &Group, file: &FlangeFile) -> Result<Flange, InputError> {
     Ok(Flange {
-        side: match file.side {
-            SideFile::Left => Side::Left,
-            SideFile::Right => Side::Right,
-        },
+        side: side(file.side),
         thickness: from_mm(at.number("thickness_mm", file.thickness_mm, &LENGTH_MM)?),
         overhang: from_mm(at.number("overhang_mm", file.overhang_mm, &EXTRA_LENGTH_MM)?),
         contact: contact(file.bonded),
     })
+}
+
+pub(crate) fn side(file: SideFile) -> Side {
+    match file {
+        SideFile::Left => Side::Left,
+        SideFile::Right => Side::Right,
+    }
 }
 
 fn contact(bonded: bool) -> Contact {
@@ -152,7 +156,7 @@ pub(crate) fn sensor(at: &Group, file: &SensorFile) -> Result<Sensor, InputError
     Ok(Sensor {
         radius: from_mm(at.number("radius_mm", file.radius_mm, &EXTRA_LENGTH_MM)?),
         y: from_mm(at.number("y_mm", file.y_mm, &POSITION_MM)?),
-        lag: 0.0,
+        lag: at.number("lag_s", file.lag_s, &LAG_S)?,
     })
 }
 

@@ -9,6 +9,7 @@ const DEEPEST: usize = 128;
 /// The fields of a RON text as a tree; enum names, `Some` and the parentheses of a newtype leave no level.
 pub(crate) struct FieldMap<'a> {
     fields: Vec<Field<'a>>,
+    open_at_end: bool,
 }
 
 struct Field<'a> {
@@ -39,7 +40,7 @@ struct Frame {
 
 impl<'a> FieldMap<'a> {
     pub(crate) fn new(text: &'a str) -> Self {
-        let mut map = Self { fields: Vec::new() };
+        let mut map = Self { fields: Vec::new(), open_at_end: false };
         let mut frames = vec![Frame { bracket: b'(', owner: None, current: None, index: 0 }];
         let mut tokens = Scanner::new(text).peekable();
         while let Some((at, token)) = tokens.next() {
@@ -64,7 +65,13 @@ impl<'a> FieldMap<'a> {
                 Token::Colon | Token::Word(_) | Token::Other => {}
             }
         }
+        map.open_at_end = frames.len() > 1;
         map
+    }
+
+    /// Whether the text ends inside a bracket.
+    pub(crate) fn is_cut_short(&self) -> bool {
+        self.open_at_end
     }
 
     fn begin(&mut self, frame: &mut Frame, at: usize, token: Token<'a>, followed_by_colon: bool, end: usize) {

@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 
 use super::InputError;
 use super::fields::{FieldMap, join};
+use super::fingerprint::Fingerprint;
 use super::syntax::explain;
 
 /// Largest case file [bytes]: some 300 times the reference files.
@@ -38,6 +39,7 @@ impl Source {
             let line = 1 + bytes[..valid].iter().filter(|&&b| b == b'\n').count();
             InputError { line: Some(line), ..fault("is not UTF-8 text".into(), "save the file as UTF-8") }
         })?;
+        let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
         if text.trim().is_empty() {
             return Err(fault("is empty".into(), "copy the reference file and change its numbers"));
         }
@@ -49,6 +51,10 @@ impl Source {
         self.path.parent().unwrap_or(Path::new("")).join(path)
     }
 
+    pub(crate) fn fingerprint(&self) -> Fingerprint {
+        Fingerprint::of(self.path.clone(), self.text.as_bytes())
+    }
+
     pub(crate) fn parse<T: DeserializeOwned>(&self) -> Result<T, InputError> {
         ron::from_str(&self.text).map_err(|error| self.syntax_fault(&error))
     }
@@ -56,6 +62,12 @@ impl Source {
     fn syntax_fault(&self, error: &SpannedError) -> InputError {
         let offset = self.offset(error.span.start.line, error.span.start.col);
         let map = FieldMap::new(&self.text);
+        if map.is_cut_short() {
+            let (found, _) = explain(&error.code, &self.text[offset..]);
+            let problem = format!("the file is cut short, or a bracket is never closed (the reader stopped here: {found})");
+            let line = Some(error.span.start.line);
+            return InputError { line, ..whole_file(&self.path, problem, "close every bracket, or get the whole file") };
+        }
         let mut field = map.path(map.at(offset));
         if let ron::Error::MissingStructField { field: missing, .. } = &error.code {
             field = join(&field, missing);

@@ -1,0 +1,153 @@
+//! A profile: the chamber's temperature in time, `time_s,chamber_c` and what else drives the coil.
+
+use std::path::Path;
+
+use coil::{Design, Drive, Profile};
+
+use super::InputError;
+use super::fingerprint::Fingerprint;
+use super::profile_columns::{Columns, TIME};
+use super::rows::{Rows, quoted};
+
+/// Most rows of a profile: two and a half years at 4 s.
+const MOST_ROWS: usize = 20_000_000;
+/// Accepted temperatures \[degC\].
+const ABSOLUTE_ZERO_C: f64 = -273.15;
+const MOST_C: f64 = 1000.0;
+/// A chamber that never gets below this \[degC\] is noted as possibly recorded in kelvin.
+const KELVIN_C: f64 = 180.0;
+/// Latest instant, either side of 0 [s]: 30 000 years, to catch a wrong unit.
+const MOST_S: f64 = 1e12;
+/// Shortest interval between rows [s]: a hundredth of the rounding of a time counted from 1970.
+const SHORTEST_S: f64 = 1e-6;
+
+/// Rows closer than this \[s\] are noted: the model's fastest modes last about as long, and what a jump does within it is not resolved.
+const RESOLVED_S: f64 = 1.0;
+
+/// A profile that has been read and checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProfileCase {
+    /// What drives the coil, in the order of the profile's courses; the chamber first.
+    pub drives: Vec<Drive>,
+    /// Instants \[s\] and courses \[°C; heaters in units of their power\].
+    pub profile: Profile,
+    /// What a user should know although nothing is wrong.
+    pub notes: Vec<String>,
+    /// The file.
+    pub fingerprint: Fingerprint,
+}
+
+impl ProfileCase {
+    /// Temperature of the chamber at every instant \[°C\].
+    pub fn chamber(&self) -> &[f64] {
+        &self.profile.drives[0]
+    }
+}
+
+/// Reads and checks the profile of a design. The design's heaters, if it has any, are on throughout.
+///
+/// # Errors
+/// What is wrong, in which file, line and column, and how to mend it.
+pub fn read_profile(path: &Path, design: &Design) -> Result<ProfileCase, InputError> {
+    let mut rows = Rows::open(path, "a profile (*.csv)")?;
+    if !rows.advance()? {
+        return Err(
+            rows.whole_fault("is empty", "its first line names the columns, time_s,chamber_c; a row for each instant follows")
+        );
+    }
+    let columns = Columns::read(&rows, design)?;
+    let (time, mut courses) = read_rows(&mut rows, &columns)?;
+    let mut drives: Vec<Drive> = columns.drives.iter().map(|(_, drive)| *drive).collect();
+    if !design.heat.heaters.is_empty() {
+        drives.push(Drive::Heaters);
+        courses.push(vec![1.0; time.len()]);
+    }
+    let mut notes = columns.notes(path);
+    let shortest = time.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
+    if shortest < RESOLVED_S * (1.0 - 1e-6) {
+        let problem = format!(
+            "rows are as close as {shortest:.6} s; means over less than {RESOLVED_S} s are not reliable just after a jump"
+        );
+        notes.push(format!("{}: {problem}", path.display()));
+    }
+    if courses[0].iter().all(|celsius| *celsius > KELVIN_C) {
+        let problem = format!("chamber_c never falls below {KELVIN_C} degC; if it is in kelvin, subtract 273.15");
+        notes.push(format!("{}: {problem}", path.display()));
+    }
+    Ok(ProfileCase { drives, profile: Profile { time, drives: courses }, notes, fingerprint: rows.fingerprint() })
+}
+
+fn read_rows(rows: &mut Rows, columns: &Columns) -> Result<(Vec<f64>, Vec<Vec<f64>>), InputError> {
+    let mut time: Vec<f64> = Vec::new();
+    let mut courses = vec![Vec::new(); columns.drives.len()];
+    while rows.advance()? {
+        check_count(rows, columns.count)?;
+        if time.len() == MOST_ROWS {
+            return Err(rows.fault(None, format!("more than {MOST_ROWS} rows"), "split the profile, or thin it out"));
+        }
+        time.push(instant(rows, columns.time, time.last().copied())?);
+        for ((column, _), course) in columns.drives.iter().zip(&mut courses) {
+            course.push(temperature(rows, *column, columns.name(*column))?);
+        }
+    }
+    if time.is_empty() {
+        return Err(rows.whole_fault("has no row below its header", "give one for each instant, e.g. 0,20.0"));
+    }
+    Ok((time, courses))
+}
+
+fn check_count(rows: &Rows, expected: usize) -> Result<(), InputError> {
+    let found = rows.count();
+    if found == expected {
+        return Ok(());
+    }
+    let line = rows.fields().collect::<Vec<_>>().join(",");
+    let problem =
+        format!("{} has {found} field{} where the header has {expected}", quoted(&line), if found == 1 { "" } else { "s" });
+    let remedy = if line.contains(';') {
+        "separate the fields with commas, not semicolons, and write decimals with a point"
+    } else if found > expected {
+        "give one number a column, decimals with a point, not a comma"
+    } else {
+        "complete the row or remove it: between rows the course is linear"
+    };
+    Err(rows.fault(None, problem, remedy))
+}
+
+fn instant(rows: &Rows, column: usize, last: Option<f64>) -> Result<f64, InputError> {
+    let time = rows.number(column, TIME)?;
+    let fault = |problem: String, remedy: &str| Err(rows.fault(Some(TIME), problem, remedy));
+    if time.abs() > MOST_S {
+        return fault(format!("{time} s is beyond {MOST_S:e} s"), "give seconds from any start");
+    }
+    match last {
+        Some(last) if time == last => fault(format!("{time} s stands in the row above too"), "keep one of the two rows"),
+        Some(last) if time < last => fault(
+            format!("{time} s comes before the row above, {last} s"),
+            "sort the rows by time, or split the file where the clock restarts",
+        ),
+        Some(last) if time - last < SHORTEST_S => fault(
+            format!("{time} s is less than {SHORTEST_S:e} s after the row above"),
+            "give seconds; remove one of the rows if it is a repeat",
+        ),
+        _ => Ok(time),
+    }
+}
+
+fn temperature(rows: &Rows, column: usize, name: &str) -> Result<f64, InputError> {
+    let celsius = rows.number(column, name)?;
+    let fault = |problem: String, remedy: &str| Err(rows.fault(Some(name), problem, remedy));
+    if celsius < ABSOLUTE_ZERO_C {
+        fault(
+            format!("{celsius} degC is below absolute zero, {ABSOLUTE_ZERO_C} degC"),
+            "check the sensor and the unit; temperatures are in degC",
+        )
+    } else if celsius > MOST_C {
+        fault(
+            format!("{celsius} degC is more than {MOST_C}, the most accepted"),
+            "give degrees Celsius; if it is in kelvin, subtract 273.15, if in hundredths of a degree, divide by 100",
+        )
+    } else {
+        Ok(celsius)
+    }
+}

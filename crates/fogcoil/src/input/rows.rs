@@ -1,0 +1,176 @@
+//! A CSV table row by row: every complaint knows its line, and no file is held whole.
+//!
+//! Fields are separated by commas and not quoted with line ends inside; double quotes around a field are dropped.
+
+use std::fs::File;
+use std::io::{self, Chain, Read};
+use std::path::{Path, PathBuf};
+
+use csv::{ErrorKind, StringRecord, Terminator};
+
+use super::InputError;
+use super::fingerprint::{Fingerprint, Fnv1a};
+
+/// Largest table [bytes]: 2 GiB.
+pub(crate) const LARGEST: u64 = 2 << 30;
+/// Longest line \[bytes\]; what has longer ones is no table of numbers.
+const LONGEST_LINE: usize = 1 << 16;
+/// Longest part of the file that a message quotes \[characters\].
+const QUOTED: usize = 40;
+
+/// The rows of a file.
+pub(crate) struct Rows {
+    path: PathBuf,
+    reader: csv::Reader<Chain<Metered, &'static [u8]>>,
+    record: StringRecord,
+}
+
+/// A file that is hashed and measured while it is read.
+struct Metered {
+    file: File,
+    hash: Fnv1a,
+    bytes: u64,
+    line: usize,
+}
+
+impl Read for Metered {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.file.read(buffer)?;
+        let piece = &buffer[..count];
+        self.hash.update(piece);
+        self.bytes += count as u64;
+        for line in piece.split_inclusive(|&byte| byte == b'\n') {
+            self.line += line.len();
+            if self.line > LONGEST_LINE {
+                return Err(io::Error::other(format!(
+                    "it has a line of more than {LONGEST_LINE} bytes, so it is no table of numbers"
+                )));
+            }
+            if line.ends_with(b"\n") {
+                self.line = 0;
+            }
+        }
+        if self.bytes > LARGEST {
+            return Err(io::Error::other(format!("it is larger than {LARGEST} bytes; split it")));
+        }
+        Ok(count)
+    }
+}
+
+impl Rows {
+    /// Opens a table; `kind` says what is expected, e.g. "a profile (*.csv)".
+    pub(crate) fn open(path: &Path, kind: &str) -> Result<Self, InputError> {
+        let fault = |problem: String, remedy: &str| InputError {
+            file: path.to_owned(),
+            line: None,
+            field: None,
+            problem,
+            remedy: remedy.into(),
+        };
+        let unreadable = |error: io::Error| fault(format!("cannot be read: {error}"), "check the path and its permissions");
+        let file = File::open(path).map_err(unreadable)?;
+        let about = file.metadata().map_err(unreadable)?;
+        if about.is_dir() {
+            return Err(fault("is a directory".into(), &format!("give the path of {kind}")));
+        }
+        if about.len() > LARGEST {
+            return Err(fault(format!("is larger than {LARGEST} bytes"), "split it"));
+        }
+        let metered = Metered { file, hash: Fnv1a::new(), bytes: 0, line: 0 };
+        // a line feed ends the last line too, so the line of a record is always the one before the reader's
+        let reader = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .quoting(false)
+            .terminator(Terminator::Any(b'\n'))
+            .from_reader(metered.chain(&b"\n"[..]));
+        Ok(Self { path: path.to_owned(), reader, record: StringRecord::new() })
+    }
+
+    /// Moves to the next row that is not blank; `false` at the end.
+    pub(crate) fn advance(&mut self) -> Result<bool, InputError> {
+        loop {
+            match self.reader.read_record(&mut self.record) {
+                Ok(false) => return Ok(false),
+                Ok(true) if self.count() == 1 && self.field(0).is_empty() => {}
+                Ok(true) => return Ok(true),
+                Err(error) => return Err(self.unreadable(&error)),
+            }
+        }
+    }
+
+    fn unreadable(&self, error: &csv::Error) -> InputError {
+        match error.kind() {
+            ErrorKind::Utf8 { .. } => self.fault(None, "is not UTF-8 text", "save the file as \"CSV UTF-8\""),
+            ErrorKind::Io(error) => {
+                let problem = format!("cannot be read: {error}");
+                InputError { file: self.path.clone(), line: None, field: None, problem, remedy: String::new() }
+            }
+            _ => self.fault(None, error.to_string(), ""),
+        }
+    }
+
+    /// Number of fields in this row.
+    pub(crate) fn count(&self) -> usize {
+        self.record.len()
+    }
+
+    /// A field of this row without blanks and quotes around it; empty if there is none.
+    pub(crate) fn field(&self, column: usize) -> &str {
+        let field = self.record.get(column).unwrap_or("").trim();
+        field.strip_prefix('"').and_then(|inner| inner.strip_suffix('"')).map_or(field, str::trim)
+    }
+
+    /// The fields of this row.
+    pub(crate) fn fields(&self) -> impl Iterator<Item = &str> {
+        (0..self.count()).map(|column| self.field(column))
+    }
+
+    /// A field as a finite number.
+    pub(crate) fn number(&self, column: usize, name: &str) -> Result<f64, InputError> {
+        let text = self.field(column);
+        match text.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(value),
+            Ok(_) => {
+                let problem = format!("{} is not a finite number", quoted(text));
+                Err(self.fault(Some(name), problem, "remove the row: between rows the course is linear"))
+            }
+            Err(_) if text.is_empty() => {
+                Err(self.fault(Some(name), "is empty", "give a number, or remove the row: between rows the course is linear"))
+            }
+            Err(_) => {
+                Err(self.fault(Some(name), format!("{} is not a number", quoted(text)), "write it like 20.5, without a unit"))
+            }
+        }
+    }
+
+    /// A complaint about this row.
+    pub(crate) fn fault(&self, column: Option<&str>, problem: impl Into<String>, remedy: impl Into<String>) -> InputError {
+        let line = usize::try_from(self.reader.position().line().saturating_sub(1)).unwrap_or(usize::MAX);
+        InputError {
+            file: self.path.clone(),
+            line: Some(line.max(1)),
+            field: column.map(str::to_owned),
+            problem: problem.into(),
+            remedy: remedy.into(),
+        }
+    }
+
+    /// A complaint about the file as a whole.
+    pub(crate) fn whole_fault(&self, problem: &str, remedy: impl Into<String>) -> InputError {
+        InputError { line: None, ..self.fault(None, problem, remedy) }
+    }
+
+    /// The content read so far.
+    pub(crate) fn fingerprint(&self) -> Fingerprint {
+        let metered = self.reader.get_ref().get_ref().0;
+        Fingerprint { file: self.path.clone(), bytes: metered.bytes, fnv1a: metered.hash.value() }
+    }
+}
+
+/// A piece of a file in a message: short, on one line.
+pub(crate) fn quoted(text: &str) -> String {
+    let shown: String = text.chars().take(QUOTED).collect();
+    let more = if shown.len() < text.len() { "..." } else { "" };
+    format!("`{}{more}`", shown.escape_debug())
+}

@@ -1,0 +1,127 @@
+//! From values to pixels, and round numbers along an axis.
+
+/// One of the two axes of a figure.
+pub(crate) struct Axis {
+    /// Quantity and unit, e.g. "time [h]".
+    pub(crate) label: String,
+    /// The smallest span that is drawn, in the axis' unit: less would blow rounding up to a picture.
+    pub(crate) least_span: f64,
+    /// Where the drawn range ends.
+    pub(crate) ends: Ends,
+}
+
+/// Where the drawn range of an axis ends.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ends {
+    /// At the data's own.
+    Data,
+    /// At the round numbers around them.
+    Ticks,
+}
+
+impl Axis {
+    /// An axis that ends where the data end.
+    pub(crate) fn tight(label: impl Into<String>, least_span: f64) -> Self {
+        Self { label: label.into(), least_span, ends: Ends::Data }
+    }
+
+    /// An axis that ends at round numbers.
+    pub(crate) fn round(label: impl Into<String>, least_span: f64) -> Self {
+        Self { label: label.into(), least_span, ends: Ends::Ticks }
+    }
+}
+
+/// An axis laid over pixels.
+pub(crate) struct Scale {
+    low: f64,
+    high: f64,
+    /// Pixels of `low` and `high`.
+    pixels: [f64; 2],
+    step: f64,
+}
+
+impl Scale {
+    /// For data between `low` and `high`, ticks at least `apart` pixels from each other.
+    pub(crate) fn new(axis: &Axis, [mut low, mut high]: [f64; 2], pixels: [f64; 2], apart: f64) -> Self {
+        let least = axis.least_span.max(1e-9 * low.abs().max(high.abs()));
+        if high - low < least {
+            let middle = low / 2.0 + high / 2.0;
+            (low, high) = (middle - least / 2.0, middle + least / 2.0);
+        }
+        let count = ((pixels[1] - pixels[0]).abs() / apart).max(1.0);
+        let step = round_step((high - low) / count);
+        if axis.ends == Ends::Ticks {
+            (low, high) = ((low / step + SLACK).floor() * step, (high / step - SLACK).ceil() * step);
+        }
+        Self { low, high, pixels, step }
+    }
+
+    pub(crate) fn pixel(&self, value: f64) -> f64 {
+        self.pixels[0] + (value - self.low) / (self.high - self.low) * (self.pixels[1] - self.pixels[0])
+    }
+
+    /// Whether a value lies in the drawn range.
+    pub(crate) fn holds(&self, value: f64) -> bool {
+        (self.low..=self.high).contains(&value)
+    }
+
+    /// Round numbers and their labels.
+    pub(crate) fn ticks(&self) -> Vec<(f64, String)> {
+        let first = (self.low / self.step - SLACK).ceil();
+        let all = (0..100).map(|i| (first + f64::from(i)) * self.step).take_while(|tick| *tick <= self.high + SLACK * self.step);
+        all.map(|tick| (tick, self.label(tick))).collect()
+    }
+
+    fn label(&self, tick: f64) -> String {
+        let most = self.low.abs().max(self.high.abs());
+        let text = if !(1e-3..1e6).contains(&most) {
+            // as many digits as the step needs below the largest number
+            let digits = (most.log10().floor() - self.step.log10().floor()).clamp(0.0, 15.0) as usize;
+            if tick.abs() < SLACK * self.step { "0".into() } else { format!("{tick:.digits$e}") }
+        } else {
+            let decimals = (-self.step.log10().floor()).clamp(0.0, 15.0) as usize;
+            let rounded = format!("{tick:.decimals$}");
+            if rounded.trim_start_matches('-').chars().all(|c| "0.".contains(c)) { "0".into() } else { rounded }
+        };
+        text.replace('-', "\u{2212}")
+    }
+}
+
+/// A tick this close to the end of an axis, in steps, is on it.
+const SLACK: f64 = 1e-6;
+
+/// The next of 1, 2, 5 times a power of ten.
+fn round_step(least: f64) -> f64 {
+    let decade = 10_f64.powf(least.log10().floor());
+    [1.0, 2.0, 5.0].into_iter().map(|m| m * decade).find(|step| *step >= least * (1.0 - 1e-9)).unwrap_or(10.0 * decade)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(range: [f64; 2], ends: Ends) -> Vec<String> {
+        let axis = Axis { label: String::new(), least_span: 0.01, ends };
+        Scale::new(&axis, range, [0.0, 300.0], 60.0).ticks().into_iter().map(|(_, label)| label).collect()
+    }
+
+    #[test]
+    fn ticks_are_round_and_carry_the_digits_they_need() {
+        assert_eq!(labels([-41.0, 62.0], Ends::Ticks), ["\u{2212}50", "0", "50", "100"]);
+        assert_eq!(labels([0.0, 31.0], Ends::Data), ["0", "10", "20", "30"]);
+        assert_eq!(labels([-0.55, 0.55], Ends::Ticks), ["\u{2212}1.0", "\u{2212}0.5", "0", "0.5", "1.0"]);
+        assert_eq!(labels([20.0, 20.0], Ends::Ticks), ["19.994", "19.996", "19.998", "20.000", "20.002", "20.004", "20.006"]);
+        assert_eq!(labels([1e9, 1.000_000_3e9], Ends::Data)[0], "1.0000000e9");
+    }
+
+    #[test]
+    fn pixels_are_linear_and_every_range_can_be_drawn() {
+        let axis = Axis::tight("", 0.0);
+        let scale = Scale::new(&axis, [1.0, 3.0], [100.0, 0.0], 20.0);
+        assert_eq!((scale.pixel(1.0), scale.pixel(2.0), scale.pixel(3.0)), (100.0, 50.0, 0.0));
+        for range in [[0.0, 0.0], [1e300, 1e300], [-1e-300, 1e-300], [-1e12, 1e12]] {
+            let scale = Scale::new(&Axis::round("", 1e-6), range, [0.0, 300.0], 50.0);
+            assert!(scale.pixel(range[0]).is_finite() && scale.ticks().len() < 20, "{range:?}");
+        }
+    }
+}

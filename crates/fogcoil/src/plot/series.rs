@@ -1,0 +1,164 @@
+//! A line of a plot, thinned to what the paper can show.
+
+use super::MOST_POINTS;
+
+/// A line through points that are computed when they are needed.
+pub(crate) struct Series<'a> {
+    /// Its name in the legend, with what it stands for.
+    pub(crate) name: &'a str,
+    /// How it looks.
+    pub(crate) style: Style,
+    /// Number of its points.
+    pub(crate) count: usize,
+    /// The point of a number below `count`.
+    pub(crate) at: &'a dyn Fn(usize) -> (f64, f64),
+    /// How it is thinned.
+    pub(crate) thinning: Thinning,
+}
+
+/// How a line looks; each differs from the others in colour and in dash.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Style {
+    /// Black or white, heavy.
+    Total,
+    /// Blue.
+    First,
+    /// Vermilion, dashed.
+    Second,
+    /// Green, dotted.
+    Third,
+}
+
+impl Style {
+    /// Its class in the style sheet.
+    pub(crate) fn class(self) -> &'static str {
+        match self {
+            Self::Total => "line total",
+            Self::First => "line first",
+            Self::Second => "line second",
+            Self::Third => "line third",
+        }
+    }
+}
+
+/// How a line is thinned.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Thinning {
+    /// The line runs from left to right: its lowest and highest point in every column of pixels.
+    Columns,
+    /// The line runs anywhere: the points that are a pixel from the one before, evenly thinned if they are still too many.
+    Distance,
+}
+
+impl Series<'_> {
+    /// Lowest and highest x, lowest and highest y; `None` without points.
+    pub(crate) fn ranges(&self) -> Option<[[f64; 2]; 2]> {
+        (0..self.count).map(self.at).fold(None, |ranges, (x, y)| {
+            let [[x0, x1], [y0, y1]] = ranges.unwrap_or([[x, x], [y, y]]);
+            Some([[x0.min(x), x1.max(x)], [y0.min(y), y1.max(y)]])
+        })
+    }
+
+    /// The points to draw, in pixels.
+    pub(crate) fn points(&self, pixel: impl Fn((f64, f64)) -> (f64, f64)) -> Vec<(f64, f64)> {
+        let all = || (0..self.count).map(|n| pixel((self.at)(n)));
+        match self.thinning {
+            _ if self.count <= MOST_POINTS / 2 => all().collect(),
+            Thinning::Columns => extremes(all()),
+            Thinning::Distance => {
+                let points = strides(all(), 1.0);
+                let every = points.len().div_ceil(MOST_POINTS - 1).max(1);
+                let end = points.last().copied().filter(|_| (points.len() - 1) % every != 0);
+                points.into_iter().step_by(every).chain(end).collect()
+            }
+        }
+    }
+}
+
+/// A point and its number.
+type Numbered = (usize, (f64, f64));
+
+/// Lowest and highest point of every column of pixels in the order they come, and the two ends.
+fn extremes(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+    let mut kept: Vec<(f64, f64)> = Vec::new();
+    let keep = |kept: &mut Vec<(f64, f64)>, [low, high]: [Numbered; 2]| {
+        let (first, second) = if low.0 <= high.0 { (low, high) } else { (high, low) };
+        kept.push(first.1);
+        if second.0 != first.0 {
+            kept.push(second.1);
+        }
+    };
+    let mut column: Option<[Numbered; 2]> = None;
+    let mut last = None;
+    for (n, point) in points.enumerate() {
+        if n == 0 {
+            kept.push(point);
+        }
+        last = Some(point);
+        column = Some(match column {
+            Some([low, high]) if low.1.0.floor() == point.0.floor() => {
+                [if point.1 < low.1.1 { (n, point) } else { low }, if point.1 > high.1.1 { (n, point) } else { high }]
+            }
+            full => {
+                full.into_iter().for_each(|ends| keep(&mut kept, ends));
+                [(n, point); 2]
+            }
+        });
+    }
+    column.into_iter().for_each(|ends| keep(&mut kept, ends));
+    kept.extend(last);
+    kept
+}
+
+/// Points at least `reach` pixels from the one kept before, and the last.
+fn strides(points: impl Iterator<Item = (f64, f64)>, reach: f64) -> Vec<(f64, f64)> {
+    let mut kept: Vec<(f64, f64)> = Vec::new();
+    let mut last = None;
+    for point in points {
+        if kept.last().is_none_or(|before| (point.0 - before.0).hypot(point.1 - before.1) >= reach) {
+            kept.push(point);
+        }
+        last = Some(point);
+    }
+    kept.extend(last);
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn series<'a>(count: usize, at: &'a dyn Fn(usize) -> (f64, f64), thinning: Thinning) -> Series<'a> {
+        Series { name: "", style: Style::Total, count, at, thinning }
+    }
+
+    #[test]
+    fn a_single_spike_among_a_million_points_survives() {
+        let at = |n: usize| (n as f64 / 1e6 * 800.0, if n == 654_321 { 99.0 } else { (n % 7) as f64 });
+        let points = series(1_000_000, &at, Thinning::Columns).points(|p| p);
+        assert!(points.len() <= MOST_POINTS, "{}", points.len());
+        assert!(points.iter().any(|p| p.1 == 99.0) && points.windows(2).all(|w| w[0].0 <= w[1].0));
+        assert_eq!((points[0], points[points.len() - 1]), (at(0), at(999_999)));
+    }
+
+    #[test]
+    fn a_loop_keeps_its_shape() {
+        let angle = |n: usize| n as f64 / 1e5 * std::f64::consts::TAU;
+        let at = |n: usize| (angle(n).cos() * 300.0, angle(n).sin() * 300.0);
+        let chaos = |n: usize| ((n as f64).cos() * 300.0, (n as f64).sin() * 300.0);
+        for at in [&at as &dyn Fn(usize) -> (f64, f64), &chaos] {
+            let points = series(100_000, at, Thinning::Distance).points(|p| p);
+            assert!((1000..=MOST_POINTS).contains(&points.len()), "{}", points.len());
+            assert_eq!(points[points.len() - 1], at(99_999));
+        }
+    }
+
+    #[test]
+    fn few_points_are_all_drawn() {
+        let at = |n: usize| (n as f64, 0.0);
+        assert_eq!(series(1, &at, Thinning::Columns).points(|p| p), [(0.0, 0.0)]);
+        assert_eq!(series(0, &at, Thinning::Columns).points(|p| p), []);
+        assert_eq!(series(500, &at, Thinning::Distance).points(|p| p).len(), 500);
+        assert_eq!(series(0, &at, Thinning::Columns).ranges(), None);
+    }
+}

@@ -1,0 +1,139 @@
+//! What a simulation comes down to: peak, root mean square, and the slope on the thermometer's rate beside the steady sensitivity.
+
+use serde_json::{Value, json};
+
+use crate::simulate::{Row, Simulation, WINDOW_S};
+use crate::table::{significant, table};
+use crate::units::DurationUnit;
+
+/// The numbers of a simulation that matter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Summary {
+    /// Number of rows.
+    pub rows: usize,
+    /// From the first to the last instant \[s\].
+    pub duration: f64,
+    /// Lowest and highest temperature of the chamber \[°C\].
+    pub chamber: [f64; 2],
+    /// Lowest and highest temperature of the thermometer \[°C\].
+    pub spool: [f64; 2],
+    /// The row with the largest |rate|.
+    pub peak: Row,
+    /// Root of the mean over time of the squared rate \[deg/h\].
+    pub rms: f64,
+    /// Slope of the regression of the rate on the thermometer's rate over windows of [`WINDOW_S`], with intercept
+    /// \[(deg/h)/(degC/min)\]; `None` if the thermometer's rate does not vary.
+    pub slope: Option<f64>,
+}
+
+/// Least-squares line through points that come one by one (Welford's update).
+#[derive(Default)]
+struct Regression {
+    count: f64,
+    mean: [f64; 2],
+    xx: f64,
+    xy: f64,
+}
+
+/// Rates of the thermometer that spread less than this \[degC/min\] are rounding, not a course.
+const STILL: f64 = 1e-9;
+
+impl Regression {
+    fn add(&mut self, x: f64, y: f64) {
+        self.count += 1.0;
+        let (dx, dy) = (x - self.mean[0], y - self.mean[1]);
+        self.mean[0] += dx / self.count;
+        self.mean[1] += dy / self.count;
+        self.xx += dx * (x - self.mean[0]);
+        self.xy += dx * (y - self.mean[1]);
+    }
+
+    fn slope(&self) -> Option<f64> {
+        (self.xx > self.count * STILL * STILL).then(|| self.xy / self.xx)
+    }
+}
+
+impl Summary {
+    /// Of a simulation.
+    pub fn of(simulation: &Simulation) -> Self {
+        let first = simulation.row(0);
+        let (mut chamber, mut spool) = ([first.chamber; 2], [first.spool; 2]);
+        let (mut peak, mut last, mut squared) = (first, first.time, 0.0);
+        let widen = |range: &mut [f64; 2], value: f64| *range = [range[0].min(value), range[1].max(value)];
+        for row in simulation.rows() {
+            widen(&mut chamber, row.chamber);
+            widen(&mut spool, row.spool);
+            if row.rate.abs() > peak.rate.abs() {
+                peak = row;
+            }
+            squared += row.rate * row.rate * (row.time - last);
+            last = row.time;
+        }
+        let mut regression = Regression::default();
+        simulation.windows().for_each(|window| regression.add(window.spool_rate, window.rate));
+        let duration = simulation.duration();
+        let rms = if duration > 0.0 { (squared / duration).sqrt() } else { 0.0 };
+        Self { rows: simulation.count(), duration, chamber, spool, peak, rms, slope: regression.slope() }
+    }
+}
+
+/// The summary as one object, units in the keys; `slope` and sensitivities in (deg/h)/(degC/min).
+pub fn json(simulation: &Simulation) -> Value {
+    let Summary { rows, duration, chamber, spool, peak, rms, slope } = Summary::of(simulation);
+    let steady = simulation.steady;
+    json!({
+        "rows": rows,
+        "duration_s": duration,
+        "chamber_c": chamber,
+        "spool_c": spool,
+        "peak": {
+            "time_s": peak.time,
+            "shupe_deg_per_h": peak.shupe,
+            "eo_axial_deg_per_h": peak.eo_axial,
+            "eo_radial_deg_per_h": peak.eo_radial,
+            "rate_deg_per_h": peak.rate,
+        },
+        "rms_deg_per_h": rms,
+        "slope": slope,
+        "slope_window_s": WINDOW_S,
+        "steady_sensitivity": steady.sensitivity.total(),
+        "steady_sensitivity_error_estimate": steady.error_estimate,
+        "reduction_error": simulation.reduction.bias,
+    })
+}
+
+/// The summary as a table with units.
+pub fn text(simulation: &Simulation) -> String {
+    let mut rows = vec![];
+    for [name, value, unit] in entries(simulation) {
+        rows.push(vec![name, value, unit]);
+    }
+    format!("{} under {}\n\n{}", simulation.case.name, simulation.profile.fingerprint.file.display(), table(&rows))
+}
+
+/// Name, value and unit of each number, for people.
+pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
+    let Summary { rows, duration, chamber, spool, peak, rms, slope } = Summary::of(simulation);
+    let entry = |name: &str, value: String, unit: &str| [name.to_owned(), value, unit.to_owned()];
+    let range = |[low, high]: [f64; 2]| format!("{:.2} to {:.2}", low + 0.0, high + 0.0);
+    let rate = |value: f64| format!("{:.4}", (value * 1e4).round() / 1e4 + 0.0);
+    let unit = DurationUnit::of(duration);
+    let after = format!("s, {:.2} {} after the first row", unit.of_seconds(peak.time - simulation.row(0).time), unit.name());
+    let slope_name = format!("slope of the rate on the spool's rate, {WINDOW_S}-s differences");
+    let steady = format!("{:.4} ± {}", simulation.steady.sensitivity.total(), significant(simulation.steady.error_estimate, 2));
+    vec![
+        entry("rows", rows.to_string(), ""),
+        entry("duration", format!("{:.2}", unit.of_seconds(duration)), unit.name()),
+        entry("chamber", range(chamber), "degC"),
+        entry("spool", range(spool), "degC"),
+        entry("largest |rate|", rate(peak.rate.abs()), "deg/h"),
+        entry("  at", format!("{}", peak.time), &after),
+        entry("  shupe", rate(peak.shupe), "deg/h"),
+        entry("  eo_axial", rate(peak.eo_axial), "deg/h"),
+        entry("  eo_radial", rate(peak.eo_radial), "deg/h"),
+        entry("  rate", rate(peak.rate), "deg/h, the sum of the three"),
+        entry("root mean square of the rate", rate(rms), "deg/h, over time"),
+        entry(&slope_name, slope.map_or("none".into(), rate), "(deg/h)/(degC/min)"),
+        entry("steady-ramp sensitivity", steady, "(deg/h)/(degC/min)"),
+    ]
+}

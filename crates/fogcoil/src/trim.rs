@@ -1,0 +1,120 @@
+//! `fogcoil trim`: which tails, or which turns cut off, null the steady sensitivity, and what remains in transients.
+
+use std::fmt::Write;
+
+use bias::units::DEG_PER_H_PER_RAD_PER_S;
+use coil::{Design, Dynamics, PRIORS, STANDARD, TailTrim, TurnTrim, trim_tails, trim_turns};
+use serde_json::{Value, json};
+use winding::Half;
+
+use crate::Error;
+use crate::input::{CoilCase, ProfileCase};
+use crate::table::{significant, table};
+
+/// Turns cut off from either end, at most, in the table.
+const MOST_TURNS: usize = 12;
+
+/// What trimming does to a coil.
+#[derive(Debug, Clone)]
+pub struct Trim {
+    /// By tails.
+    pub tails: TailTrim,
+    /// By turns.
+    pub turns: Vec<TurnTrim>,
+    /// Root mean square and peak of |bias| under the profile \[deg/h\], before and after trimming the tails.
+    pub transients: Option<[[f64; 2]; 2]>,
+}
+
+/// Trims a coil; under `profile`, if there is one, shows what the tails' trim leaves.
+///
+/// # Errors
+/// [`Error::Coil`] if the coil cannot be solved.
+pub fn trim(case: &CoilCase, profile: Option<&ProfileCase>) -> Result<Trim, Error> {
+    let at = |source| Error::Coil { file: case.file.clone(), source };
+    let tails = trim_tails(&case.design).map_err(at)?;
+    let turns = trim_turns(&case.design, MOST_TURNS).map_err(at)?;
+    let run = |design: &Design, profile: &ProfileCase| -> Result<[f64; 2], Error> {
+        let rows = Dynamics::new(design, &profile.drives, &STANDARD).and_then(|d| d.simulate(&profile.profile)).map_err(at)?;
+        let rates: Vec<f64> = rows.iter().map(|row| row.bias.total() * DEG_PER_H_PER_RAD_PER_S).collect();
+        let mean_square = rates.iter().map(|r| r * r).sum::<f64>() / rates.len() as f64;
+        Ok([mean_square.sqrt(), rates.iter().fold(0.0, |m: f64, r| m.max(r.abs()))])
+    };
+    let transients = match profile {
+        None => None,
+        Some(profile) => Some([run(&case.design, profile)?, run(&trimmed(&case.design, &tails), profile)?]),
+    };
+    Ok(Trim { tails, turns, transients })
+}
+
+/// The design with the tails that null it.
+fn trimmed(design: &Design, trim: &TailTrim) -> Design {
+    let mut design = design.clone();
+    let shorter = design.winding.tails.cw.min(design.winding.tails.ccw);
+    design.winding.tails.cw = shorter + trim.cw_minus_ccw.max(0.0);
+    design.winding.tails.ccw = shorter + (-trim.cw_minus_ccw).max(0.0);
+    design
+}
+
+fn name(half: Half) -> &'static str {
+    match half {
+        Half::Cw => "CW",
+        Half::Ccw => "CCW",
+    }
+}
+
+/// All of it; lengths in m, sensitivities in (deg/h)/(degC/min), bias in deg/h.
+pub fn json(trim: &Trim) -> Value {
+    let turns: Vec<Value> = trim
+        .turns
+        .iter()
+        .map(|t| json!({ "half": name(t.half), "turns": t.turns, "length_m": t.length, "sensitivity": t.sensitivity }))
+        .collect();
+    let transients = trim.transients.map(|[[rms, peak], [rms_after, peak_after]]| {
+        json!({ "rms_before": rms, "peak_before": peak, "rms_after": rms_after, "peak_after": peak_after })
+    });
+    json!({
+        "sensitivity": trim.tails.before,
+        "tail_cw_minus_ccw_m": trim.tails.cw_minus_ccw,
+        "tail_standard_uncertainty_m": trim.tails.uncertainty,
+        "sensitivity_per_m": trim.tails.slope,
+        "turns_cut_off": turns,
+        "transients_deg_per_h": transients,
+    })
+}
+
+/// All of it in words and tables.
+pub fn text(case: &CoilCase, trim: &Trim) -> String {
+    let TailTrim { cw_minus_ccw, uncertainty, contributions, slope, before } = &trim.tails;
+    let (longer, difference) = if *cw_minus_ccw >= 0.0 { ("CW", *cw_minus_ccw) } else { ("CCW", -cw_minus_ccw) };
+    let mut text = format!(
+        "{}: sensitivity {before:.4} (deg/h)/(degC/min); null it by either\n\n\
+         tails: the {longer} tail longer by {difference:.3} ± {uncertainty:.3} m (standard uncertainty); each metre adds {slope:.3}\n\n",
+        case.name
+    );
+    let rows: Vec<Vec<String>> = PRIORS
+        .iter()
+        .zip(contributions)
+        .map(|((what, size), part)| {
+            vec![format!("  {what}"), format!("{:.0} %", 100.0 * size), format!("{part:.3}"), "m of it".into()]
+        })
+        .collect();
+    let _ = writeln!(text, "{}", table(&rows));
+    let best = trim.turns.iter().min_by(|a, b| a.sensitivity.abs().total_cmp(&b.sensitivity.abs()));
+    if let Some(best) = best.filter(|best| best.sensitivity.abs() < before.abs()) {
+        let TurnTrim { half, turns, length, sensitivity } = best;
+        let _ =
+            writeln!(text, "or turns: cut {turns} off the {} end ({length:.2} m), which leaves {sensitivity:.4}", name(*half));
+    }
+    for half in [Half::Ccw, Half::Cw] {
+        let left = trim.turns.iter().filter(|t| t.half == half).map(|t| significant(t.sensitivity, 4)).collect::<Vec<_>>();
+        let _ = writeln!(text, "  {:>3} end, 1 to {} turns off: {}", name(half), left.len(), left.join(" "));
+    }
+    if let Some([[rms, peak], [rms_after, peak_after]]) = trim.transients {
+        let _ = writeln!(
+            text,
+            "\nunder the profile, bias before: rms {rms:.4}, peak {peak:.4} deg/h; with the tails trimmed: rms {rms_after:.4}, peak \
+             {peak_after:.4} deg/h\n(transients that a steady null does not touch)"
+        );
+    }
+    text
+}
