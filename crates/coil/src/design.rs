@@ -143,13 +143,13 @@ pub enum Mechanics {
     TemperatureTable(Vec<FactorsAt>),
     /// The transverse moduli relax: `E(t)/E(0) = 1 − fraction + fraction e^(−t/time)`.
     Relaxing {
-        /// Share that relaxes, in [0, 1).
+        /// Share that relaxes, 0 to 0.8.
         fraction: f64,
         /// Relaxation time \[s\], > 0.
         time: f64,
     },
-    /// The outer part of the bond between coil and flange carries no force below a temperature, and carries again above it plus the
-    /// hysteresis. Heat still passes; nothing jumps at the switch.
+    /// The outer part of the bond between coil and flange carries no further force below a temperature, and carries again above it plus
+    /// the hysteresis. Heat still passes. The law is incremental: what the bond carried when it opened stays, nothing jumps.
     Opening(Opening),
 }
 

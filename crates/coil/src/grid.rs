@@ -1,6 +1,6 @@
 //! Tensor-product meshes of the half-plane, graded towards the edges of the coil where bonded materials make stresses singular.
 
-use crate::layout::{Layout, Region};
+use crate::layout::{CONTACT_SKIN, Layout, Region};
 use crate::{Error, Side};
 use fem_core::{Edge, Measure, Mesh, ReferenceElement, polynomial::gauss_lobatto};
 
@@ -46,7 +46,7 @@ pub struct Grid {
 }
 
 /// Two lines closer than this are one \[m\]: far below any dimension a coil is made to.
-const COINCIDENT: f64 = 1e-9;
+pub(crate) const COINCIDENT: f64 = 1e-9;
 
 /// Sorted positions without repetitions.
 fn distinct(mut positions: Vec<f64>) -> Vec<f64> {
@@ -66,6 +66,7 @@ fn fractions(layers: usize, ratio: f64, ends: [bool; 2]) -> Vec<f64> {
             f.reverse();
             [0.0].into_iter().chain(f).collect()
         }
+        [true, true] if layers == 0 => vec![0.0],
         [true, true] => {
             let low: Vec<f64> = [0.0].into_iter().chain(towards_zero(0.5)).collect();
             let high: Vec<f64> = low[1..].iter().rev().map(|x| 1.0 - x).collect();
@@ -78,7 +79,9 @@ fn lines(breaks: &[f64], edges: &[f64], resolution: &Resolution) -> Vec<f64> {
     let edge = |x: f64| edges.iter().any(|e| (e - x).abs() < COINCIDENT);
     let mut lines = Vec::new();
     for w in breaks.windows(2) {
-        let f = fractions(resolution.layers, resolution.ratio, [edge(w[0]), edge(w[1])]);
+        // a skin is one element thick
+        let layers = if w[1] - w[0] < 2.0 * CONTACT_SKIN { 0 } else { resolution.layers };
+        let f = fractions(layers, resolution.ratio, [edge(w[0]), edge(w[1])]);
         lines.extend(f.iter().map(|f| w[0] + f * (w[1] - w[0])));
     }
     lines.extend(breaks.last());
@@ -99,7 +102,8 @@ impl Grid {
         let rectangles = || layout.solids.iter().chain((domain == Domain::Chamber).then_some(&layout.chamber));
         let coil = layout.solids[0];
         let tip = layout.lasting_bond.map(|(_, r)| r);
-        let r_edges: Vec<f64> = coil.r.into_iter().chain(tip).collect();
+        let skin = layout.solids.iter().find(|s| s.region == Region::Contact).map(|s| s.r[0]);
+        let r_edges: Vec<f64> = coil.r.into_iter().chain(tip).chain(skin).collect();
         let r_lines = lines(&distinct(rectangles().flat_map(|s| s.r).chain(tip).collect()), &r_edges, resolution);
         let y_lines = lines(&distinct(rectangles().flat_map(|s| s.y).collect()), &coil.y, resolution);
         Self::on_lines(layout, order, r_lines, y_lines, domain, bonds)
@@ -119,6 +123,10 @@ impl Grid {
         let along = |lines: &[f64], k: usize| {
             let cell = (k / order).min(lines.len() - 2);
             let xi = lattice[k - cell * order];
+            if xi == 1.0 {
+                // a + (b − a) is not always b
+                return lines[cell + 1];
+            }
             lines[cell] + (lines[cell + 1] - lines[cell]) * (1.0 + xi) / 2.0
         };
         let opened = |[r, y]: [f64; 2]| match (bonds, layout.lasting_bond) {

@@ -1,5 +1,6 @@
 //! Which rectangle of the (r, y) half-plane holds what.
 
+use crate::mechanics::MOST_RELAXING;
 use crate::{Contact, Design, Error, Mechanics, Side};
 
 /// Thickness of the skin of the hub whose radial conductivity stands for a contact resistance \[m\]: thin enough to leave the hub's
@@ -126,6 +127,14 @@ fn positive(field: &str, value: f64) -> Result<(), Error> {
     Err(Error::design(field, format!("{value} must be finite and greater than 0")))
 }
 
+/// A wall's thickness: at least ten contact skins, far below anything that is made.
+fn thick(field: &str, value: f64) -> Result<(), Error> {
+    if value.is_finite() && value >= 10.0 * CONTACT_SKIN {
+        return Ok(());
+    }
+    Err(Error::design(field, format!("{value} m must be finite and at least {} m", 10.0 * CONTACT_SKIN)))
+}
+
 fn check(design: &Design) -> Result<(), Error> {
     let (inner, body) = (design.winding.inner_radius, &design.body);
     positive("winding.inner_radius", inner)?;
@@ -144,7 +153,7 @@ fn check(design: &Design) -> Result<(), Error> {
     check_heat(design)?;
     check_mechanics(design)?;
     let Some(spool) = &design.spool else { return Ok(()) };
-    positive("spool.hub_thickness", spool.hub_thickness)?;
+    thick("spool.hub_thickness", spool.hub_thickness)?;
     positive("spool.material.conductivity", spool.material.conductivity)?;
     positive("spool.material.density", spool.material.density)?;
     positive("spool.material.specific_heat", spool.material.specific_heat)?;
@@ -154,7 +163,7 @@ fn check(design: &Design) -> Result<(), Error> {
         return Err(Error::design("spool.hub_thickness", problem));
     }
     for (i, flange) in spool.flanges.iter().enumerate() {
-        positive(&format!("spool.flanges[{i}].thickness"), flange.thickness)?;
+        thick(&format!("spool.flanges[{i}].thickness"), flange.thickness)?;
         if !(flange.overhang.is_finite() && flange.overhang >= 0.0) {
             let problem = format!("{} m must be finite and not negative", flange.overhang);
             return Err(Error::design(&format!("spool.flanges[{i}].overhang"), problem));
@@ -202,39 +211,34 @@ fn check_mechanics(design: &Design) -> Result<(), Error> {
         Mechanics::TemperatureTable(rows) => {
             if rows.is_empty() || rows.windows(2).any(|w| w[0].temperature.total_cmp(&w[1].temperature).is_ge()) {
                 let problem = "at least one row is needed, temperatures increasing".into();
-                return Err(Error::design("mechanics.temperature_table", problem));
+                return Err(Error::design("mechanics", problem));
             }
             for (i, row) in rows.iter().enumerate() {
-                positive(&format!("mechanics.temperature_table[{i}].transverse_modulus"), row.transverse_modulus)?;
+                positive(&format!("mechanics[{i}].transverse_modulus"), row.transverse_modulus)?;
                 if !(row.temperature.is_finite() && row.transverse_expansion.is_finite()) {
-                    return Err(Error::design(
-                        &format!("mechanics.temperature_table[{i}]"),
-                        "every number must be finite".into(),
-                    ));
+                    return Err(Error::design(&format!("mechanics[{i}]"), "every number must be finite".into()));
                 }
             }
             Ok(())
         }
         Mechanics::Relaxing { fraction, time } => {
-            positive("mechanics.relaxing.time", *time)?;
-            if !(0.0..1.0).contains(fraction) {
-                return Err(Error::design("mechanics.relaxing.fraction", format!("{fraction} must lie in 0 … 1, below 1")));
+            positive("mechanics.time", *time)?;
+            if !(0.0..=MOST_RELAXING).contains(fraction) {
+                let problem = format!("{fraction} must lie in 0 … {MOST_RELAXING}; a larger share is not resolved");
+                return Err(Error::design("mechanics.fraction", problem));
             }
             Ok(())
         }
         Mechanics::Opening(o) => {
             let bonded = |f: &crate::Flange| f.side == o.side && f.contact == Contact::Bonded;
             if !design.spool.iter().flat_map(|s| &s.flanges).any(bonded) {
-                return Err(Error::design("mechanics.opening.side", "there is no bonded flange on this side".into()));
+                return Err(Error::design("mechanics.side", "there is no bonded flange on this side".into()));
             }
             if !(o.fraction > 0.0 && o.fraction < 1.0) {
-                return Err(Error::design("mechanics.opening.fraction", format!("{} must lie between 0 and 1", o.fraction)));
+                return Err(Error::design("mechanics.fraction", format!("{} must lie between 0 and 1", o.fraction)));
             }
             if !(o.below.is_finite() && o.hysteresis.is_finite() && o.hysteresis >= 0.0) {
-                return Err(Error::design(
-                    "mechanics.opening",
-                    "temperatures must be finite, the hysteresis not negative".into(),
-                ));
+                return Err(Error::design("mechanics", "temperatures must be finite, the hysteresis not negative".into()));
             }
             Ok(())
         }

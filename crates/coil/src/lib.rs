@@ -36,7 +36,7 @@ pub use design::{
     Body, Contact, Dehomogenization, Design, FactorsAt, Flange, HeatPaths, Heater, Mechanics, Mount, Opening, Sensor, Side,
     Solid, Spool, Surroundings,
 };
-pub use dynamics::{Dynamics, Fidelity, Profile, ReductionError, Response, STANDARD, functionals};
+pub use dynamics::{Dynamics, Fidelity, Profile, REDUCTION_SAFETY, ReductionError, Response, STANDARD, functionals};
 pub use error::Error;
 pub use grid::{Bonds, Domain, Grid, Resolution};
 pub use layout::{Layout, Rectangle, Region};

@@ -38,7 +38,7 @@ fn exact_reduced_model_agrees_with_all_unknowns_on_steps_and_ramps() {
         }
     }
     let bound = dynamics.reduction_error();
-    assert!(bound.bias < 0.02 && bound.sensor < 1e-4, "a bound that says nothing: {bound:?}");
+    assert!(bound.bias < 0.06 && bound.sensor < 1e-4, "an estimate that says nothing: {bound:?}");
     let sensor = (0..reduced.len()).map(|n| (full.outputs[n][0] - reduced[n].sensor).abs()).fold(0.0, f64::max);
     // 2 K/s at most; beside the reduction stands the stepping's own 1e-5 K a step
     assert!(sensor < 2.0 * bound.sensor + 2e-3, "{sensor}");
@@ -168,7 +168,15 @@ fn exact_temperature_table_gives_each_rows_own_sensitivity() {
         d.body.elastic.g_zr *= 0.5;
     });
     assert!((at(-22.0) / stiff - 1.0).abs() < 1e-3 && (at(50.0) / soft - 1.0).abs() < 1e-3, "{} {}", at(-22.0), at(50.0));
-    assert!((at(0.0) / ((stiff + soft) / 2.0) - 1.0).abs() < 0.01, "halfway between the rows");
+    let middle = steady(|d| {
+        d.body.elastic.e_r *= 1.25;
+        d.body.elastic.g_zr *= 1.25;
+    });
+    assert!(
+        (at(0.0) / middle - 1.0).abs() < 3e-3,
+        "halfway between the rows the factor is the mean: {} against {middle}",
+        at(0.0)
+    );
 }
 
 #[test]
@@ -199,4 +207,72 @@ fn exact_an_opening_bond_switches_with_hysteresis_and_without_a_jump_of_the_phas
     let down = |t: f64| cooling.iter().find(|(coil, _)| *coil <= t).expect("passed").1;
     assert!((down(-15.0) / closed - 1.0).abs() < 1e-2 && (down(-25.0) / open - 1.0).abs() < 1e-2);
     assert!(warming.iter().skip(1).all(|(_, rate)| rate.abs() < 3.0 * closed.abs()), "no jump at the switch");
+}
+
+#[test]
+fn exact_the_polynomial_of_a_relaxing_coil_follows_its_response() {
+    // in a ramp that started long ago a relaxing coil is the relaxed one; in one that just started, the unrelaxed one; the largest share
+    let mechanics = Mechanics::Relaxing { fraction: 0.8, time: 1800.0 };
+    let rows = slow_ramp(mechanics, -60.0, 60.0);
+    let relaxed = steady(|d| {
+        d.body.elastic.e_r *= 0.2;
+        d.body.elastic.g_zr *= 0.2;
+    });
+    assert!((rows[rows.len() - 1].1 / relaxed - 1.0).abs() < 2e-4);
+    let too_much = changed(|d| d.mechanics = Mechanics::Relaxing { fraction: 0.9, time: 1800.0 });
+    assert!(Dynamics::new(&too_much, &[Drive::Chamber], &QUICK).is_err());
+}
+
+#[test]
+fn exact_the_thermometers_own_lag_adds_to_the_ramps() {
+    let ramp = |lag: f64| {
+        let time: Vec<f64> = (0..2000).map(|k| 30.0 * f64::from(k)).collect();
+        let profile = Profile { drives: vec![time.iter().map(|t| t / 60.0).collect()], time };
+        let design = changed(|d| d.sensor.lag = lag);
+        let rows = Dynamics::new(&design, &[Drive::Chamber], &QUICK).expect("model").simulate(&profile).expect("run");
+        rows[rows.len() - 1].sensor
+    };
+    assert!(((ramp(0.0) - ramp(300.0)) * 60.0 / 300.0 - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn exact_a_strong_mount_takes_the_spool_to_its_own_temperature_on_either_side() {
+    for side in [Side::Left, Side::Right] {
+        let design = changed(|d| {
+            spool(d).flanges[0].side = side;
+            d.heat.mounts.push(Mount { side, conductance: 1e5 });
+            d.sensor.y = 9.01e-3;
+        });
+        let dynamics = Dynamics::new(&design, &[Drive::Chamber, Drive::Mount(side)], &QUICK).expect("model");
+        let time: Vec<f64> = (0..2000).map(|k| 30.0 * f64::from(k)).collect();
+        let warm = time.iter().map(|t| (t / 600.0).min(10.0)).collect();
+        let profile = Profile { drives: vec![vec![0.0; time.len()], warm], time };
+        let rows = dynamics.simulate(&profile).expect("run");
+        let sensor = rows[rows.len() - 1].sensor;
+        assert!((9.5..10.0).contains(&sensor), "{side:?}: {sensor}");
+    }
+}
+
+#[test]
+fn exact_reduced_and_full_runs_agree_when_a_heater_is_switched_on() {
+    let design = changed(|d| d.heat.heaters.push(Heater { side: Side::Right, power: 2.0 }));
+    let drives = [Drive::Chamber, Drive::Heaters];
+    let thermal = ThermalModel::new(&design, &QUICK.resolution, &drives).expect("model");
+    let model = Model::new(&design, &QUICK.resolution).expect("model");
+    let outputs = functionals(&design, &model, &thermal).expect("outputs");
+    let time: Vec<f64> = (0..200).map(|k| 30.0 * f64::from(k)).collect();
+    let profile = Profile { drives: vec![vec![20.0; 200], vec![1.0; 200]], time };
+    let full = thermal.run(&profile, &outputs, 1e-4).expect("run");
+    let reduced = Dynamics::new(&design, &drives, &QUICK).expect("model").simulate(&profile).expect("run");
+    for (full, reduced) in full.outputs.iter().zip(&reduced) {
+        assert!((full[0] - reduced.sensor).abs() < 5e-3, "{} against {}", full[0], reduced.sensor);
+    }
+}
+
+#[test]
+fn bounds_what_cannot_be_modelled_is_refused() {
+    let none = Fidelity { modes: 0, ..QUICK };
+    assert!(Dynamics::new(&reference(), &[Drive::Chamber], &none).is_err());
+    assert!(Dynamics::new(&reference(), &[], &QUICK).is_err());
+    assert!(Dynamics::new(&reference(), &[Drive::Heaters], &QUICK).is_err());
 }

@@ -173,3 +173,31 @@ fn bounds_error_estimate_covers_the_true_error_at_most_tenfold() {
     let ratio = s.error_estimate / (s.sensitivity.total() - truth.total()).abs();
     assert!((1.0..10.0).contains(&ratio), "estimate over true error: {ratio}");
 }
+
+#[test]
+fn exact_the_shear_modulus_along_the_fibre_has_no_part_in_axisymmetry() {
+    // Table I cannot tell G_r from G_zr, they are equal to 0.2 %
+    let s = total(&changed(|d| d.body.elastic.g_zr *= 3.0));
+    assert!((s / total(&reference()) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn exact_a_contact_resistance_has_no_part_in_a_steady_ramp() {
+    let s = |d: &Design| Model::new(d, &COARSE).expect("model").sensitivity().expect("solve").total();
+    let resisting = changed(|d| d.heat.hub_resistance = 1e-3);
+    // the skin shifts the grading of the hub by a micrometre
+    assert!((s(&resisting) / s(&reference()) - 1.0).abs() < 2e-5, "{} against {}", s(&resisting), s(&reference()));
+}
+
+#[test]
+fn exact_a_tail_warms_with_the_bore_and_not_with_the_coil() {
+    let tailed = changed(|d| d.winding.tails = Tails { cw: 2.0, ccw: 0.0 });
+    let model = Model::new(&tailed, &QUICK).expect("model");
+    let nodes = model.grid().mesh().nodes();
+    // the bore stays, all else warms: the tail's slice, the last one, must not
+    let rate: Vec<f64> = nodes.iter().map(|[r, _]| if (r - 39.5e-3).abs() < 1e-9 { 0.0 } else { 1.0 }).collect();
+    let slices = model.slices(&rate).expect("solve");
+    let tail = slices[slices.len() - 1];
+    assert!((tail.z_end - tail.z_start - 2.0).abs() < 1e-9);
+    assert_eq!((tail.temperature_rate, tail.axial_strain_rate), (0.0, 0.0));
+}

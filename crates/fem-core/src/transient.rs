@@ -20,6 +20,9 @@ const MOST_HALVINGS: u32 = 30;
 /// How far below the tolerance the error must lie before the step is doubled, which raises it eightfold.
 const ROOM: f64 = 16.0;
 
+/// Factors that are kept: a ladder of step sizes has a few, irregular instants would have one each.
+const MOST_FACTORS: usize = 32;
+
 /// What the stepping did.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Effort {
@@ -73,6 +76,9 @@ impl Transient {
     fn solve(&mut self, step: f64, rhs: Vec<f64>) -> Result<Vec<f64>, Error> {
         let key = step.to_bits();
         if !self.factors.contains_key(&key) {
+            if self.factors.len() >= MOST_FACTORS {
+                self.factors.clear();
+            }
             let matrix = SparseMatrix::combine(1.0, &self.capacity, D * step, &self.conductivity);
             self.factors.insert(key, self.symbolic.factor(matrix)?);
             self.effort.factorisations += 1;

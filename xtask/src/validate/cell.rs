@@ -11,6 +11,8 @@ const SELF_CONVERGENCE: f64 = 1e-4;
 const MOST_UNKNOWNS: usize = 5000;
 /// Rounding of a solve with a condition number of 1e9, about, relative: no error estimate below this means anything.
 const ROUNDING: f64 = 1e-11;
+/// What a mended entry of Table II may still be off: the identified cell is not the authors'.
+const MENDED: f64 = 0.06;
 /// Two routes to the same number, both of about 1e-9 of rounding at order 10.
 const IDENTITY: f64 = 1e-7;
 
@@ -31,6 +33,11 @@ fn row(printed: &Printed, computed: f64, relative_error: f64, kind: Kind) -> Row
         must_hold: false,
         reason: String::new(),
     }
+}
+
+/// The larger, or NaN if either is: what is not a number must not pass.
+pub(crate) fn largest(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
 /// A check without a printed value: `computed` is a relative deviation that must stay below `limit`.
@@ -68,7 +75,7 @@ pub(crate) fn table_1(fixtures: &Fixtures) -> Result<(Section, Homogenized), Fai
         let rounds = rounds_to(&printed.printed, r.computed, r.numerical_error);
         section.rows.push(r.required(rounds && e <= SELF_CONVERGENCE).because("constituents identified from this table"));
     }
-    let worst = cell.relative_error.named().iter().fold(("", 0.0), |w, e| if e.1 > w.1 { *e } else { w });
+    let worst = cell.relative_error.named().iter().fold(("", 0.0), |w, e| if e.1 > w.1 || e.1.is_nan() { *e } else { w });
     let what = format!("largest change of a constant two orders higher ({})", worst.0);
     section.rows.push(check("I.converged", &what, worst.1, SELF_CONVERGENCE, "-", "twice the distance from order 6 to order 8"));
     let unknowns = check(
@@ -80,18 +87,26 @@ pub(crate) fn table_1(fixtures: &Fixtures) -> Result<(Section, Homogenized), Fai
         "of the largest system behind the values",
     );
     section.rows.push(unknowns);
-    section.rows.push(independent(fixtures, &cell)?);
+    section.rows.push(independent(fixtures)?);
     section.rows.push(whole_cell_shear(fixtures)?);
     Ok((section, cell))
 }
 
-fn independent(fixtures: &Fixtures, cell: &Homogenized) -> Result<Row, Failure> {
+fn independent(fixtures: &Fixtures) -> Result<Row, Failure> {
     // order 10, so that what is compared is the physics and not the discretisation
     let finer = homogenize_on(&fixtures.cell, &Discretization { order: 10, ..Discretization::standard(&fixtures.cell) })?;
     let known = &fixtures.independent;
-    let deviation = |name: &String, v: &f64| (value(&finer.constants, name) / v - 1.0).abs();
-    let worst = known.cell.iter().map(|(name, v)| deviation(name, v)).fold(0.0, f64::max);
-    debug_assert!(cell.unknowns > 0);
+    let mut worst = 0.0;
+    for (name, v) in &known.cell {
+        let computed = value(&finer.constants, name);
+        if computed.is_nan() {
+            return Err(Failure(format!("fixtures/independent.ron: there is no constant {name}")));
+        }
+        worst = largest(worst, (computed / v - 1.0).abs());
+    }
+    if known.cell.len() < 13 {
+        return Err(Failure(format!("fixtures/independent.ron: only {} of 13 constants", known.cell.len())));
+    }
     let text = format!("largest distance of {} constants from two independent codes", known.cell.len());
     Ok(check("I.independent", &text, worst, known.cell_tolerance, "-", "order 10; the limit is half a unit of their last digit"))
 }
@@ -136,6 +151,19 @@ pub(crate) fn table_2(fixtures: &Fixtures, cell: &Homogenized) -> Result<Section
     let reason = "the sign must be negative: polymers that are held while they want to expand squeeze the glass, and the identity below \
                   demands it; 5 % of the size are left unexplained";
     section.rows.push(row(fixtures.printed("II.M_rT")?, c.m_rt, e.m_rt, Kind::Misprint).compared(false, reason));
+    for (id, v, read) in [("II.M_rx", c.m_rx, 1e4), ("II.M_ry", c.m_ry, 1e4), ("II.M_rT", c.m_rt, -1e-6)] {
+        let printed = fixtures.printed(id)?;
+        let digits: f64 = printed.printed.parse().map_err(|_| Failure(format!("{id}: not a number")))?;
+        let text = format!("{} against the printed digits with exponent and sign mended", printed.quantity);
+        section.rows.push(check(
+            &format!("{id}.read"),
+            &text,
+            v / (digits * read) - 1.0,
+            MENDED,
+            "-",
+            "the part that is left unexplained",
+        ));
+    }
     section.rows.extend(identity(fixtures)?);
     Ok(section)
 }

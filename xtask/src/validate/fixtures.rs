@@ -33,7 +33,7 @@ pub(crate) struct Known {
 
 impl Known {
     pub(crate) fn holds(&self, computed: f64) -> bool {
-        (computed.abs() / self.value.abs() - 1.0).abs() <= self.relative_tolerance
+        (computed / self.value - 1.0).abs() <= self.relative_tolerance
     }
 }
 

@@ -1,6 +1,6 @@
 //! The heat flow without reduction: every unknown stepped in time.
 
-use super::ThermalModel;
+use super::{Drive, ThermalModel};
 use crate::{Error, Profile};
 use fem_core::{Effort, State, Transient};
 
@@ -20,7 +20,7 @@ fn failed(source: fem_core::Error) -> Error {
 impl ThermalModel {
     /// Runs a profile from rest at its first instant with an error of at most `tolerance` \[K\] in each step.
     ///
-    /// `functionals` act on the temperature of all nodes; the drives start as they are, at rest.
+    /// `functionals` act on the temperature of all nodes; heaters are off before the first instant.
     ///
     /// # Errors
     /// [`Error::Profile`] for a profile that cannot be run; [`Error::Solve`] if a solve fails.
@@ -30,8 +30,14 @@ impl ThermalModel {
         let mut transient = Transient::new(self.capacity().clone(), conductivity).map_err(failed)?;
         let sudden = self.stored().iter().map(|w| transient.rate_of_load(w)).collect::<Result<Vec<_>, _>>().map_err(failed)?;
         let unknowns = self.map().reduced();
-        let mut state = State { value: vec![0.0; unknowns], rate: vec![0.0; unknowns] };
         let at = |n: usize| -> Vec<f64> { profile.drives.iter().map(|d| d[n]).collect() };
+        let mut state = State { value: vec![0.0; unknowns], rate: vec![0.0; unknowns] };
+        // heaters are off before the first instant: switching them on moves θ, not T
+        for ((_, shape), u) in self.drives().iter().zip(self.shapes()).zip(at(0)).filter(|((d, _), _)| **d == Drive::Heaters) {
+            state.value.iter_mut().zip(self.map().restrict(shape)).for_each(|(v, s)| *v -= u * s);
+        }
+        let held_back = transient.rate_of_load(&self.conductivity().matrix().multiply(&state.value)).map_err(failed)?;
+        state.rate.iter_mut().zip(held_back).for_each(|(r, k)| *r -= k);
         let onto: Vec<Vec<f64>> = functionals.iter().map(|f| self.map().restrict(f)).collect();
         let rest: Vec<Vec<f64>> = functionals.iter().map(|f| self.shapes().iter().map(|s| dot(s, f)).collect()).collect();
         let read = |u: &[f64], theta: &[f64]| -> Vec<f64> {

@@ -1,6 +1,7 @@
 //! The heat-flow model: capacity and conductivity matrices, and the steady temperature that each drive holds up.
 
 use super::Drive;
+use crate::grid::COINCIDENT;
 use crate::{Bonds, Design, Domain, Error, Grid, Layout, Region, Resolution, Side};
 use fem_core::{Constraints, DofMap, Edge, Factor, Form, Mesh, Problem, SparseMatrix};
 use nalgebra::DMatrix;
@@ -61,13 +62,13 @@ fn laws(design: &Design) -> (Laws, Laws) {
 /// Drive of a node on the chamber wall, or `None` inside.
 fn wall(layout: &Layout, drives: &[Drive], [r, y]: [f64; 2]) -> Option<Drive> {
     let end = |side: Side| if drives.contains(&Drive::EndWall(side)) { Drive::EndWall(side) } else { Drive::Chamber };
-    let chamber = layout.chamber;
-    if y == chamber.y[0] {
+    let (chamber, at) = (layout.chamber, |x: f64, wall: f64| (x - wall).abs() < COINCIDENT);
+    if at(y, chamber.y[0]) {
         Some(end(Side::Left))
-    } else if y == chamber.y[1] {
+    } else if at(y, chamber.y[1]) {
         Some(end(Side::Right))
     } else {
-        (r == chamber.r[1]).then_some(Drive::Chamber)
+        at(r, chamber.r[1]).then_some(Drive::Chamber)
     }
 }
 
@@ -77,6 +78,9 @@ impl ThermalModel {
     /// # Errors
     /// [`Error`] names the dimension or property at fault, or the solve that failed.
     pub fn new(design: &Design, resolution: &Resolution, drives: &[Drive]) -> Result<Self, Error> {
+        if drives.first() != Some(&Drive::Chamber) {
+            return Err(Error::Resolution("the first drive must be the chamber".into()));
+        }
         let layout = Layout::new(design)?;
         let domain = if design.heat.film.is_some() { Domain::Solids } else { Domain::Chamber };
         let grid = Grid::new(&layout, resolution, domain, Bonds::Closed)?;

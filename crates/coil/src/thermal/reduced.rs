@@ -103,8 +103,12 @@ impl Reduced {
             block = basis.extend_by(block, size, model.conductivity()).map_err(failed)?;
             fast_block = basis.extend_by(fast_block, size, &fast).map_err(failed)?;
         }
-        let smaller = project(model, &basis, functionals, basis.vectors.len().saturating_sub(size / 3));
-        Ok((project(model, &basis, functionals, basis.vectors.len()), smaller))
+        let all = basis.vectors.len();
+        if all == 0 {
+            return Err(Error::Resolution("the mesh leaves nothing to reduce; refine it".into()));
+        }
+        let smaller = project(model, &basis, functionals, all.saturating_sub((size / 3).max(1)).max(1));
+        Ok((project(model, &basis, functionals, all), smaller))
     }
 
     /// Response of output `k` to a unit step of drive `d`, `t` \[s\] after it.
