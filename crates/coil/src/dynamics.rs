@@ -32,7 +32,7 @@ pub struct Dynamics {
 /// times that distance.
 pub const REDUCTION_SAFETY: f64 = 4.0;
 
-/// Estimates of what the reduction leaves out, for any course of the drives.
+/// Estimates of what the reduction leaves out, for any course of the drives and readings that are means over a second or more.
 ///
 /// A response to any course is the convolution of the drive's rate with the step response, so a difference of step responses bounds
 /// the difference of responses for every course of bounded rate. What is taken is [`REDUCTION_SAFETY`] times the difference to a model

@@ -157,7 +157,7 @@ fn a_file_that_is_no_case_file() {
             ("blank.ron", "blank.ron: is empty"),
             ("latin.ron", "latin.ron:2: is not UTF-8"),
             ("large.ron", "large.ron: is larger than"),
-            ("deep.ron", "deep.ron:1: a name is needed"),
+            ("deep.ron", "deep.ron:1: the file is cut short, or a bracket is never closed"),
             ("lists.ron", "lists.ron:1: name"),
             ("missing.ron", "missing.ron: cannot be read"),
             ("folder.ron", "folder.ron: is a directory"),
@@ -184,5 +184,44 @@ fn bad_usage() {
     let folder = Folder::new();
     for arguments in [&[][..], &["unwind", "x.ron"], &["wind"], &["wind", "x.ron", "--json"], &["homogenize", "a", "b"]] {
         assert_eq!(folder.run(arguments).status.code(), Some(2));
+    }
+}
+
+#[test]
+fn a_file_that_is_cut_short_is_called_so_wherever_it_ends() {
+    let folder = Folder::new();
+    for (name, command, text) in [("cell.ron", "homogenize", CELL), ("coil.ron", "sensitivity", COIL)] {
+        for tenth in 3..10 {
+            let mut end = text.len() * tenth / 10;
+            while !text.is_char_boundary(end) {
+                end -= 1;
+            }
+            folder.write(name, &text[..end]);
+            let output = folder.run(&[command, name]);
+            assert_eq!(output.status.code(), Some(2));
+            assert!(stderr(&output).contains("cut short"), "{name} at {tenth}/10: {}", stderr(&output));
+        }
+    }
+}
+
+#[test]
+fn mechanics_that_cannot_be_are_refused() {
+    let folder = Folder::new();
+    for (mechanics, field) in [
+        ("Relaxing((fraction: 0.95, time_s: 600.0))", "mechanics"),
+        ("Relaxing((fraction: 0.5, time_s: -1.0))", "mechanics.time_s"),
+        ("TemperatureTable([])", "mechanics"),
+        ("Opening((side: Left, below_c: 0.0, hysteresis_k: 5.0, fraction: 0.4))", "mechanics"),
+        (
+            "TemperatureTable([(temperature_c: 0.0, transverse_modulus_factor: 30.0, transverse_expansion_factor: 1.0)])",
+            "mechanics[0].transverse_modulus_factor",
+        ),
+    ] {
+        let text = change(COIL, "    sensor: (", &format!("    mechanics: {mechanics},\n    sensor: ("));
+        folder.write("coil.ron", &text);
+        let output = folder.run(&["sensitivity", "coil.ron"]);
+        assert_eq!(output.status.code(), Some(2), "{mechanics}: {}", stderr(&output));
+        let line = 1 + text[..text.find("mechanics:").unwrap()].matches('\n').count();
+        assert!(stderr(&output).contains(&format!("coil.ron:{line}: {field}")), "{mechanics}: {}", stderr(&output));
     }
 }

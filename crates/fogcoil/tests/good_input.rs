@@ -102,7 +102,7 @@ fn a_result_replaces_an_older_one_through_a_link() {
 #[test]
 fn a_large_coil_makes_a_small_picture() {
     let folder = Folder::new();
-    let large = change(&change(COIL, "layers: 36", "layers: 400"), "outer_radius_mm: 48.825", "outer_radius_mm: 103.0");
+    let large = change(&change(COIL, "layers: 36", "layers: 400"), "outer_radius_mm: 48.825", "outer_radius_mm: 102.5");
     folder.write("coil.ron", large);
     run(&folder, &["wind", "coil.ron", "--svg", "section.svg"]);
     assert!(std::fs::metadata(folder.path("section.svg")).unwrap().len() < 500_000);
@@ -173,4 +173,73 @@ fn values_arrive_in_si() {
     let cell = read_cell(&folder.write("cell.ron", CELL)).unwrap().cell;
     assert_eq!((cell.pitch, cell.rings[0].outer_radius), (170e-6, 40e-6));
     assert_eq!(cell.rings[2].constituent.elastic.youngs_modulus, 870e6);
+}
+
+/// The reference coil with `mechanics`.
+fn with_mechanics(mechanics: &str) -> String {
+    change(COIL, "    sensor: (", &format!("    mechanics: {mechanics},\n    sensor: ("))
+}
+
+#[test]
+fn mechanics_are_read_and_change_the_bias_in_time() {
+    let folder = Folder::new();
+    folder.write("p.csv", "time_s,chamber_c\n0,-40\n3600,-40\n18000,60\n21600,60\n");
+    let peak = |name: &str, coil: &str| {
+        folder.write(name, coil);
+        let output = folder.run(&["simulate", name, "--profile", "p.csv", "--out", "b.csv", "--json", "--quiet"]);
+        assert!(output.status.success(), "{name}: {}", stderr(&output));
+        let rows = std::fs::read_to_string(folder.path("b.csv")).unwrap();
+        rows.lines().nth(3).unwrap().split(',').next_back().unwrap().parse::<f64>().unwrap()
+    };
+    let elastic = peak("elastic.ron", COIL);
+    assert_eq!(peak("named.ron", &with_mechanics("Elastic")), elastic);
+    let table = "TemperatureTable([(temperature_c: -40.0, transverse_modulus_factor: 0.5, transverse_expansion_factor: 1.0)])";
+    for (name, mechanics) in [
+        ("table.ron", table),
+        ("relaxing.ron", "Relaxing((fraction: 0.5, time_s: 600.0))"),
+        ("opening.ron", "Opening((side: Right, below_c: 100.0, hysteresis_k: 5.0, fraction: 0.4))"),
+    ] {
+        let other = peak(name, &with_mechanics(mechanics));
+        assert!((other / elastic - 1.0).abs() > 0.05, "{name}: {other} against {elastic}");
+    }
+}
+
+#[test]
+fn trim_says_how_to_null_the_reference_coil() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let output = folder.run(&["trim", "coil.ron", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let tail = json["tail_cw_minus_ccw_m"].as_f64().unwrap();
+    let trimmed = change(COIL, "tails_m: (cw: 0.0", &format!("tails_m: (cw: {tail}"));
+    folder.write("trimmed.ron", trimmed);
+    let output = folder.run(&["sensitivity", "trimmed.ron", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert!(json["total"].as_f64().unwrap().abs() < 1e-5, "{json}");
+    assert!(stdout(&folder.run(&["trim", "coil.ron"])).contains("CW tail longer by 1.499"));
+}
+
+#[test]
+fn what_looks_like_a_mistake_is_said_and_not_refused() {
+    let folder = Folder::new();
+    for (old, new, word) in [
+        ("outer_radius_mm: 48.825", "outer_radius_mm: 97.65", "coil.outer_radius_mm"),
+        ("height_mm: 18.02", "height_mm: 25.0", "coil.height_mm"),
+        ("sagnac_diameter_mm: 92.325", "sagnac_diameter_mm: 0.092325", "optics.sagnac_diameter_mm"),
+        ("tails_m: (cw: 0.0", "tails_m: (cw: 2000.0", "winding.tails_m"),
+    ] {
+        folder.write("coil.ron", change(COIL, old, new));
+        let output = folder.run(&["wind", "coil.ron"]);
+        assert!(output.status.success(), "{new}: {}", stderr(&output));
+        assert!(stderr(&output).contains(word), "{new}: {}", stderr(&output));
+    }
+    folder.write("coil.ron", COIL);
+    assert_eq!(stderr(&folder.run(&["wind", "coil.ron"])), "");
+}
+
+#[test]
+fn a_byte_order_mark_is_no_part_of_the_file() {
+    let folder = Folder::new();
+    folder.write("coil.ron", format!("\u{feff}{COIL}"));
+    assert!(folder.run(&["wind", "coil.ron"]).status.success());
 }

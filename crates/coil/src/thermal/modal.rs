@@ -3,7 +3,7 @@
 use super::Reduced;
 
 /// (1 − e^−x)/x, smooth at 0.
-fn settled(x: f64) -> f64 {
+pub(super) fn settled(x: f64) -> f64 {
     if x.abs() < 1e-8 { 1.0 - x / 2.0 } else { -(-x).exp_m1() / x }
 }
 

@@ -1,5 +1,6 @@
 //! Krylov-reduced heat flow: a few exponentials that reproduce chosen outputs for any course of the drives.
 
+use super::modal::settled;
 use super::{Drive, ThermalModel};
 use crate::Error;
 use fem_core::{Factor, SparseMatrix};
@@ -111,11 +112,13 @@ impl Reduced {
         Ok((project(model, &basis, functionals, all), smaller))
     }
 
-    /// Response of output `k` to a unit step of drive `d`, `t` \[s\] after it.
+    /// Mean response of output `k` to a unit step of drive `d` over the second that begins `t` \[s\] after it: no reading is shorter.
     pub fn step_response(&self, k: usize, d: usize, t: f64) -> f64 {
         let output = &self.outputs[k];
         let decaying = self.rates.iter().zip(&self.drive).zip(&output.modal);
-        output.at_rest[d] - decaying.map(|((rate, drive), modal)| modal * drive[d] * (-rate * t).exp()).sum::<f64>()
+        let mode =
+            |((rate, drive), modal): ((&f64, &Vec<f64>), &f64)| modal * drive[d] * (-rate * t).exp() * settled(rate * FAST);
+        output.at_rest[d] - decaying.map(mode).sum::<f64>()
     }
 
     /// Instants that resolve every mode, evenly spaced in the logarithm of time \[s\].

@@ -62,17 +62,15 @@ impl Source {
     fn syntax_fault(&self, error: &SpannedError) -> InputError {
         let offset = self.offset(error.span.start.line, error.span.start.col);
         let map = FieldMap::new(&self.text);
-        if map.is_cut_short() {
-            let (found, _) = explain(&error.code, &self.text[offset..]);
-            let problem = format!("the file is cut short, or a bracket is never closed (the reader stopped here: {found})");
-            let line = Some(error.span.start.line);
-            return InputError { line, ..whole_file(&self.path, problem, "close every bracket, or get the whole file") };
-        }
         let mut field = map.path(map.at(offset));
         if let ron::Error::MissingStructField { field: missing, .. } = &error.code {
             field = join(&field, missing);
         }
-        let (problem, remedy) = explain(&error.code, &self.text[offset..]);
+        let (mut problem, mut remedy) = explain(&error.code, &self.text[offset..]);
+        if map.is_cut_short() {
+            problem = format!("the file is cut short, or a bracket is never closed (the reader stopped here: {problem})");
+            remedy = "close every bracket, or get the whole file".into();
+        }
         let line = Some(error.span.start.line);
         InputError { line, field: Some(field).filter(|f| !f.is_empty()), ..whole_file(&self.path, problem, &remedy) }
     }
