@@ -15,12 +15,14 @@ fn main() -> ExitCode {
     let json = match words[..] {
         ["validate"] => None,
         ["validate", "--json", file] => Some(PathBuf::from(file)),
-        ["--help" | "-h" | "help"] => {
+        ["--help" | "-h" | "help"] | ["validate", "--help" | "-h"] => {
             println!("{USAGE}");
             return ExitCode::SUCCESS;
         }
         _ => {
-            eprintln!("{USAGE}");
+            let given =
+                if words.is_empty() { "no command is given".into() } else { format!("`{}` is not a command", words.join(" ")) };
+            eprintln!("error: {given}\n\n{USAGE}");
             return ExitCode::from(2);
         }
     };

@@ -9,8 +9,8 @@ use homogenization::{Constants, Discretization, Extent, Homogenized, free_cell, 
 const SELF_CONVERGENCE: f64 = 1e-4;
 /// … with fewer unknowns than this.
 const MOST_UNKNOWNS: usize = 5000;
-/// Rounding of a solve with a condition number of 1e9, about, relative: no error estimate below this means anything.
-const ROUNDING: f64 = 1e-11;
+/// Nothing is claimed to more than nine digits, however small the estimated error, relative.
+pub(crate) const NINE_DIGITS: f64 = 1e-9;
 /// What a mended entry of Table II may still be off: the identified cell is not the authors'.
 const MENDED: f64 = 0.06;
 /// Two routes to the same number, both of about 1e-9 of rounding at order 10.
@@ -26,7 +26,7 @@ fn row(printed: &Printed, computed: f64, relative_error: f64, kind: Kind) -> Row
         quantity: printed.quantity.clone(),
         printed: Some(printed.printed.clone()),
         computed: computed / printed.scale,
-        numerical_error: (computed / printed.scale).abs() * relative_error.max(ROUNDING),
+        numerical_error: (computed / printed.scale).abs() * relative_error.max(NINE_DIGITS),
         unit: printed.unit.clone(),
         verdict: Verdict::Differs,
         kind,

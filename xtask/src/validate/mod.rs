@@ -70,7 +70,7 @@ pub(crate) fn run(json: Option<&Path>) -> Result<bool, Failure> {
     let table_2 = cell::table_2(&fixtures, &cell)?;
     step("Table III: winding");
     let table_3 = winding::table_3(&fixtures)?;
-    step("Table IV: sensitivity, spools, tails, error estimates (some 40 s)");
+    step("Table IV: sensitivity, spools, tails, error estimates (some 10 s)");
     let table_4 = coil::table_4(&fixtures, &cell.constants)?;
     let sections = [table_1, table_2, table_3, table_4];
     let failed: Vec<&Row> = sections.iter().flat_map(|s| &s.rows).filter(|row| row.verdict == Verdict::Fails).collect();

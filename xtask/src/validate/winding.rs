@@ -1,12 +1,10 @@
 //! Table III: the winding, from the pattern alone.
 
+use super::cell::NINE_DIGITS;
 use super::fixtures::{Fixtures, Printed};
 use super::row::{Kind, Row, Verdict, rounds_to};
 use super::{Failure, Section};
 use winding::{Half, Pattern, Spec, wind};
-
-/// Rounding of a sum of some thousand lengths, relative.
-const ROUNDING: f64 = 1e-13;
 
 fn row(printed: &Printed, computed: f64, kind: Kind) -> Row {
     Row {
@@ -15,7 +13,7 @@ fn row(printed: &Printed, computed: f64, kind: Kind) -> Row {
         printed: Some(printed.printed.clone()),
         computed: computed / printed.scale,
         // counts are exact
-        numerical_error: if printed.unit == "-" { 0.0 } else { (computed / printed.scale * ROUNDING).abs() },
+        numerical_error: if printed.unit == "-" { 0.0 } else { (computed / printed.scale * NINE_DIGITS).abs() },
         unit: printed.unit.clone(),
         verdict: Verdict::Differs,
         kind,
