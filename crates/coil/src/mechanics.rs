@@ -111,7 +111,7 @@ impl Design {
                 let x = nodes();
                 let powers = DMatrix::from_fn(x.len(), x.len(), |i, j| x[i].powi(j as i32));
                 let identity = DMatrix::identity(x.len(), x.len());
-                let to_coefficients = powers.lu().solve(&identity).unwrap_or(identity);
+                let to_coefficients = powers.lu().solve(&identity).expect("a Vandermonde matrix of distinct points is regular");
                 let chains = (0..=DEGREE).map(|j| vec![[0.0; 3]; j]).collect();
                 (x.iter().map(state).collect(), Blend::Relaxing { time: *time, to_coefficients, chains })
             }

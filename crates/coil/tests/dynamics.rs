@@ -276,3 +276,25 @@ fn bounds_what_cannot_be_modelled_is_refused() {
     assert!(Dynamics::new(&reference(), &[], &QUICK).is_err());
     assert!(Dynamics::new(&reference(), &[Drive::Heaters], &QUICK).is_err());
 }
+
+/// Response at 1 − 0.8 x against its interpolation of degree 8 through Chebyshev–Lobatto points, midway between them, where it is worst.
+#[test]
+fn exact_the_response_of_a_relaxing_coil_is_a_polynomial_to_2e_4() {
+    let response = |x: f64| {
+        steady(|d| {
+            d.body.elastic.e_r *= 1.0 - 0.8 * x;
+            d.body.elastic.g_zr *= 1.0 - 0.8 * x;
+        })
+    };
+    let at = |k: f64| (1.0 - (std::f64::consts::PI * k / 8.0).cos()) / 2.0;
+    let nodes: Vec<f64> = (0..=8).map(|k| at(f64::from(k))).collect();
+    let values: Vec<f64> = nodes.iter().map(|x| response(*x)).collect();
+    let largest = values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    for k in 0..8 {
+        let x = at(f64::from(k) + 0.5);
+        let basis = |i: usize| (0..9).filter(|j| *j != i).map(|j| (x - nodes[j]) / (nodes[i] - nodes[j])).product::<f64>();
+        let polynomial: f64 = (0..9).map(|i| basis(i) * values[i]).sum();
+        let error = (polynomial - response(x)).abs() / largest;
+        assert!(error < 2e-4, "x = {x}: {error:e}");
+    }
+}
