@@ -37,8 +37,8 @@ pub(crate) const MOST_RELAXING: f64 = 0.8;
 /// 2e-4 of the response at degree 8 (tests/dynamics.rs).
 const DEGREE: usize = 8;
 
-/// Largest change of a factor between two states of a temperature table; responses are linear between states, and a change of this
-/// size leaves about 1e-3 of curvature.
+/// Largest change of a factor between two states of a temperature table; responses are linear between states, which leaves less than
+/// 3e-3 of the response (tests/dynamics.rs).
 const FACTOR_STEP: f64 = 0.1;
 
 /// States of a table at most: each is a model.

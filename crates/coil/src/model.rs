@@ -163,11 +163,11 @@ impl Model {
 
     /// Load of a nodal temperature; computed when it is first asked for, a uniform temperature does without.
     fn coupling(&self) -> Result<&Coupling, Error> {
-        if self.coupling.get().is_none() {
-            let coupling = at("structure", self.problem().coupling(&self.thermal_stresses))?;
-            return Ok(self.coupling.get_or_init(|| coupling));
+        if let Some(coupling) = self.coupling.get() {
+            return Ok(coupling);
         }
-        self.coupling.get().ok_or_else(|| Error::Resolution("the thermal load is missing".into()))
+        let coupling = at("structure", self.problem().coupling(&self.thermal_stresses))?;
+        Ok(self.coupling.get_or_init(|| coupling))
     }
 
     /// Parts of the bias that act on the temperature directly, and the adjoint displacements of the two elasto-optic parts.

@@ -4,7 +4,7 @@ use crate::{COARSE, Design, Error, Model};
 use bias::{Sensitivity, Slice};
 use winding::{Half, Tails};
 
-/// Standard uncertainties of the constants that a designer does not know better, relative (handbook scatter of potted coils).
+/// Standard uncertainties of the constants, relative: assumed for a designer who does not know them better, not measured.
 pub const PRIORS: [(&str, f64); 6] = [
     ("transverse stiffness E_r, G", 0.10),
     ("E_z", 0.03),

@@ -111,8 +111,9 @@ impl Transient {
     ///
     /// # Errors
     /// As [`Factor::new`].
-    pub fn rate_of_load(&self, load: &[f64]) -> Result<Vec<f64>, Error> {
-        Ok(self.symbolic.factor(self.capacity.clone())?.solve(&[load.to_vec()])?.remove(0))
+    pub fn rate_of_load(&mut self, load: &[f64]) -> Result<Vec<f64>, Error> {
+        // the matrix of a step of no length is C
+        self.solve(0.0, load.to_vec())
     }
 
     /// Advances by `interval` under a constant load, in steps of `interval / 2^k` whose error is at most `tolerance` each (largest

@@ -70,8 +70,11 @@ fn bounds_error_control_keeps_the_error_near_the_tolerance_with_few_factorisatio
 
 #[test]
 fn exact_the_rate_of_a_load_is_that_of_the_capacity() {
-    let (transient, start) = rod(4);
+    let (mut transient, start) = rod(4);
     // C⁻¹ (C v) = v, with C v from a combination that only the capacity knows: the rate of the mode's own load
-    let rate = transient.rate_of_load(&transient.capacity().multiply(&start)).expect("solve");
+    let rate = {
+        let load = transient.capacity().multiply(&start);
+        transient.rate_of_load(&load).expect("solve")
+    };
     assert!(rate.iter().zip(&start).all(|(a, b)| (a - b).abs() < 1e-12));
 }

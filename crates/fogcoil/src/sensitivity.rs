@@ -1,6 +1,6 @@
 //! `fogcoil sensitivity`: bias per temperature rate in a steady ramp, by part.
 
-use coil::SteadySensitivity;
+use coil::{Mechanics, SteadySensitivity};
 use serde_json::{Value, json};
 
 use crate::input::{CoilCase, Origin};
@@ -43,7 +43,12 @@ pub fn text(case: &CoilCase, result: &SteadySensitivity) -> String {
         result.unknowns,
         origin(&case.provenance.material),
         origin(&case.provenance.dehomogenization),
-    )
+    ) + match case.design.mechanics {
+        Mechanics::Elastic => "",
+        _ => {
+            "The file's mechanics change with temperature or time; this is the sensitivity of the nominal state, see `simulate`.\n"
+        }
+    }
 }
 
 /// Where a set of numbers comes from, in words.

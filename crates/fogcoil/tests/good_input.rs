@@ -202,6 +202,8 @@ fn mechanics_are_read_and_change_the_bias_in_time() {
         let other = peak(name, &with_mechanics(mechanics));
         assert!((other / elastic - 1.0).abs() > 0.05, "{name}: {other} against {elastic}");
     }
+    assert!(stdout(&folder.run(&["sensitivity", "table.ron"])).contains("nominal state"));
+    assert!(!stdout(&folder.run(&["sensitivity", "elastic.ron"])).contains("nominal state"));
 }
 
 #[test]

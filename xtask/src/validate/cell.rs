@@ -161,7 +161,7 @@ pub(crate) fn table_2(fixtures: &Fixtures, cell: &Homogenized) -> Result<Section
             v / (digits * read) - 1.0,
             MENDED,
             "-",
-            "the part that is left unexplained",
+            "the part left unexplained; the limit is not derived, it guards sign and size against regression",
         ));
     }
     section.rows.extend(identity(fixtures)?);

@@ -47,22 +47,25 @@ fn with(design: &Design, change: impl FnOnce(&mut Design)) -> Design {
 }
 
 /// Half a unit of the last printed digit of every constant of Tables I and II that enters, moved one at a time.
-fn rounding_of_the_inputs(design: &Design) -> Result<f64, Failure> {
+fn rounding_of_the_inputs(fixtures: &Fixtures) -> Result<f64, Failure> {
+    let design = &fixtures.coil;
     type Move = fn(&mut Design, f64);
-    let moves: [(Move, f64); 10] = [
-        (|d, h| d.body.elastic.e_z += h, 0.05e9),
-        (|d, h| d.body.elastic.e_r += h, 0.05e6),
-        (|d, h| d.body.elastic.nu_zr += h, 0.0005),
-        (|d, h| d.body.elastic.nu_r += h, 0.0005),
-        (|d, h| d.body.elastic.alpha_z += h, 0.005e-6),
-        (|d, h| d.body.elastic.alpha_r += h, 0.5e-6),
-        (|d, h| d.dehomogenization.m_rx += h, 0.00005),
-        (|d, h| d.dehomogenization.m_ry += h, 0.00005),
-        (|d, h| d.dehomogenization.m_rz += h, 0.005),
-        (|d, h| d.dehomogenization.m_rt += h, 0.005e-6),
+    // the exponent of M_rx and M_ry is misprinted by 1e4
+    let moves: [(Move, &str, f64); 10] = [
+        (|d, h| d.body.elastic.e_z += h, "I.E_z", 1.0),
+        (|d, h| d.body.elastic.e_r += h, "I.E_r", 1.0),
+        (|d, h| d.body.elastic.nu_zr += h, "I.nu_zr", 1.0),
+        (|d, h| d.body.elastic.nu_r += h, "I.nu_r", 1.0),
+        (|d, h| d.body.elastic.alpha_z += h, "I.alpha_z", 1.0),
+        (|d, h| d.body.elastic.alpha_r += h, "I.alpha_r", 1.0),
+        (|d, h| d.dehomogenization.m_rx += h, "II.M_rx", 1e4),
+        (|d, h| d.dehomogenization.m_ry += h, "II.M_ry", 1e4),
+        (|d, h| d.dehomogenization.m_rz += h, "II.M_rz", 1.0),
+        (|d, h| d.dehomogenization.m_rt += h, "II.M_rT", 1.0),
     ];
     let nominal = total(design, &COARSE)?;
-    let shift = |(change, half): &(Move, f64)| -> Result<f64, Failure> {
+    let shift = |(change, id, mended): &(Move, &str, f64)| -> Result<f64, Failure> {
+        let half = fixtures.printed(id)?.half_digit() * mended;
         let moved = |sign: f64| total(&with(design, |d| change(d, sign * half)), &COARSE).map(|s| (s - nominal).abs());
         Ok(largest(moved(1.0)?, moved(-1.0)?))
     };
@@ -86,7 +89,7 @@ fn theory(fixtures: &Fixtures, constants: &Constants, section: &mut Section) -> 
     ));
     let printed: &Printed = fixtures.printed("IV.theory")?;
     let target: f64 = printed.printed.parse().map_err(|_| Failure(format!("{}: not a number", printed.id)))?;
-    let inputs = rounding_of_the_inputs(&fixtures.coil)?;
+    let inputs = rounding_of_the_inputs(fixtures)?;
     let computed = s.sensitivity.total().abs();
     let own = total(&with(&fixtures.coil, |d| d.dehomogenization = own_m(constants)), &COARSE)?.abs();
     // Table II cannot be used as printed, so either reading of M may be the authors'
@@ -218,7 +221,6 @@ fn own_m(constants: &Constants) -> Dehomogenization {
 
 fn own_constants(fixtures: &Fixtures, constants: &Constants, section: &mut Section) -> Result<(), Failure> {
     let own_m = own_m(constants);
-    let printed_m = Dehomogenization { m_rx: 2.74e-6, m_ry: 2.70e-6, m_rz: -0.17, m_rt: 9.98e-6 };
     let chain = with(&fixtures.coil, |d| {
         d.body.elastic = constants.elastic();
         d.dehomogenization = own_m;
@@ -239,7 +241,7 @@ fn own_constants(fixtures: &Fixtures, constants: &Constants, section: &mut Secti
         (
             "IV.printed_m",
             "S with Table I and M as printed",
-            with(&fixtures.coil, |d| d.dehomogenization = printed_m),
+            with(&fixtures.coil, |d| d.dehomogenization = fogcoil::input::PRINTED),
             "shown, not believed: see Table II",
         ),
     ];

@@ -1,6 +1,7 @@
 //! What the comparison reads: the two reference files, the paper's tables, the independent values, the spool materials.
 
 use super::Failure;
+use super::row::decimals;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -15,6 +16,14 @@ pub(crate) struct Printed {
     pub(crate) printed: String,
     pub(crate) unit: String,
     pub(crate) scale: f64,
+}
+
+impl Printed {
+    /// Half a unit of the last printed digit, in SI.
+    pub(crate) fn half_digit(&self) -> f64 {
+        let exponent = self.printed.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
+        0.5 * 10f64.powi(exponent - decimals(&self.printed) as i32) * self.scale
+    }
 }
 
 #[derive(Debug, Deserialize)]

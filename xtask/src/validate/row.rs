@@ -68,7 +68,7 @@ impl Row {
 }
 
 /// Decimals of a printed number.
-fn decimals(printed: &str) -> usize {
+pub(crate) fn decimals(printed: &str) -> usize {
     printed.split_once('.').map_or(0, |(_, fraction)| fraction.bytes().take_while(u8::is_ascii_digit).count())
 }
 

@@ -20,7 +20,7 @@ use crate::Error;
 use crate::units::{from_gpa, from_mm, from_mpa, to_mm};
 
 /// Table II of Osunluk, Ogut and Ozbay as printed; its exponents and the last sign are misprints (see the validation).
-const PRINTED: Dehomogenization = Dehomogenization { m_rx: 2.74e-6, m_ry: 2.70e-6, m_rz: -0.17, m_rt: 9.98e-6 };
+pub const PRINTED: Dehomogenization = Dehomogenization { m_rx: 2.74e-6, m_ry: 2.70e-6, m_rz: -0.17, m_rt: 9.98e-6 };
 
 /// A coil file that has been read and checked.
 #[derive(Debug, Clone)]

@@ -19,7 +19,7 @@ mod syntax;
 mod warnings;
 
 pub use cell::{CellCase, read_cell};
-pub use coil::{CoilCase, Origin, Provenance, read_coil};
+pub use coil::{CoilCase, Origin, PRINTED, Provenance, read_coil};
 pub use error::InputError;
 pub use fingerprint::Fingerprint;
 pub use profile::{ProfileCase, read_profile};
