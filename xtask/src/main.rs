@@ -1,21 +1,35 @@
-//! Project chores: `cargo xtask validate [--json FILE]`.
+//! Project chores: `cargo xtask validate [--json FILE]`, `cargo xtask figures [--out DIR]`, `cargo xtask bench NAME`.
 
+mod bench;
+mod figures;
 mod validate;
 
-use std::path::PathBuf;
 use std::process::ExitCode;
 
-const USAGE: &str = "usage: cargo xtask validate [--json FILE]\n\n  \
+const USAGE: &str = "usage: cargo xtask validate [--json FILE]\n       cargo xtask figures [--out DIR]\n       \
+    cargo xtask bench coil|sensitivity [--peers-python PATH] [--repetitions N]\n       cargo xtask bench reduced\n\n  \
     validate   run the whole chain, compare with the paper's Tables I to IV,\n             \
-    write docs/validation.md and the README's headline table; exit 1 if a row that must hold does not";
+    write docs/validation.md and the README's headline table; exit 1 if a row that must hold does not\n  \
+    figures    draw the reference coil's figures as SVG files into docs/pictures, or DIR\n  \
+    bench      times beside errors into docs/benchmarks.md: the coil job and the steady sensitivity beside other programs,\n             \
+    PATH being a Python with their packages (else FOGCOIL_PEERS_PYTHON; without it they are skipped); reduced and full model";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    let json = match words[..] {
-        ["validate"] => None,
-        ["validate", "--json", file] => Some(PathBuf::from(file)),
-        ["--help" | "-h" | "help"] | ["validate", "--help" | "-h"] => {
+    let outcome = match words[..] {
+        ["validate"] => validate::run(None),
+        ["validate", "--json", file] => validate::run(Some(file.as_ref())),
+        ["figures"] => figures::run("docs/pictures".as_ref()),
+        ["figures", "--out", folder] => figures::run(folder.as_ref()),
+        ["bench", ref rest @ ..] if !matches!(rest, ["--help" | "-h"]) => match bench::Command::parse(rest) {
+            Ok(command) => command.run(),
+            Err(error) => {
+                eprintln!("error: {error}\n\n{USAGE}");
+                return ExitCode::from(2);
+            }
+        },
+        ["--help" | "-h" | "help"] | ["validate" | "figures" | "bench", "--help" | "-h"] => {
             println!("{USAGE}");
             return ExitCode::SUCCESS;
         }
@@ -26,7 +40,7 @@ fn main() -> ExitCode {
             return ExitCode::from(2);
         }
     };
-    match validate::run(json.as_deref()) {
+    match outcome {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
         Err(error) => {

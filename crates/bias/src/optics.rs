@@ -7,6 +7,7 @@ use crate::{Coefficients, Error};
 /// Eq. (1) already holds the phase n α of a fibre that expands freely. Total strain contains that expansion too, so it is
 /// counted twice; in a steady ramp, where Ṫ is uniform, the difference integrates to zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum StrainConvention {
     /// Total strain, as the paper prints eq. (2).
     Total,
@@ -16,6 +17,7 @@ pub enum StrainConvention {
 
 /// Optical constants of the fibre and the diameter of the Sagnac loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Optics {
     /// Refractive index n of the core, ≥ 1.
     pub refractive_index: f64,

@@ -5,6 +5,7 @@ use crate::{Bias, Error};
 
 /// Bias in a temperature ramp over the ramp's rate, (deg/h)/(degC/min), by cause. Osunluk et al., Table IV.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sensitivity {
     /// Thermal phase, eq. (1).
     pub shupe: f64,

@@ -8,6 +8,7 @@ use winding::Spec;
 ///
 /// The coil occupies `winding.inner_radius ≤ r ≤ body.outer_radius` and `0 ≤ y ≤ body.height`.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Design {
     /// How the fibre is wound.
     pub winding: Spec,
@@ -25,12 +26,15 @@ pub struct Design {
     pub sensor: Sensor,
     /// The fibre's optics.
     pub optics: Optics,
+    /// What the optics and the read-out depend on temperature with, beyond their constants.
+    pub drifts: Drifts,
     /// From macroscopic strain to the strain of the fibre's glass.
     pub dehomogenization: Dehomogenization,
 }
 
 /// The homogenised coil body.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Body {
     /// Outer radius \[m\].
     pub outer_radius: f64,
@@ -50,6 +54,7 @@ pub struct Body {
 
 /// An isotropic solid with its thermal properties.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Solid {
     /// Elastic constants and expansion.
     pub elastic: Isotropic,
@@ -63,6 +68,7 @@ pub struct Solid {
 
 /// Hub and flanges, one material.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Spool {
     /// Material of hub and flanges.
     pub material: Solid,
@@ -76,6 +82,7 @@ pub struct Spool {
 
 /// A flange of the spool.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Flange {
     /// The side of the coil it stands at.
     pub side: Side,
@@ -89,6 +96,7 @@ pub struct Flange {
 
 /// A face of the coil body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Side {
     /// The face y = 0.
     Left,
@@ -98,6 +106,7 @@ pub enum Side {
 
 /// How a face of the spool meets the coil.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Contact {
     /// Perfectly bonded.
     Bonded,
@@ -120,6 +129,7 @@ impl Contact {
 
 /// The medium around the solids.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Surroundings {
     /// Conductivity \[W/(m K)\].
     pub conductivity: f64,
@@ -135,6 +145,7 @@ pub struct Surroundings {
 ///
 /// The law is incremental: stress rates follow strain rates and temperature rates with the stiffness of the moment.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Mechanics {
     /// Constant.
     #[default]
@@ -155,6 +166,7 @@ pub enum Mechanics {
 
 /// A row of [`Mechanics::TemperatureTable`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FactorsAt {
     /// Mean temperature of the coil, in the unit of the profile.
     pub temperature: f64,
@@ -166,6 +178,7 @@ pub struct FactorsAt {
 
 /// A bond that opens in the cold.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Opening {
     /// The flange, which must be bonded.
     pub side: Side,
@@ -179,6 +192,7 @@ pub struct Opening {
 
 /// Heat paths and sources beyond conduction through solids and medium. Empty by default.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct HeatPaths {
     /// Thermal contact resistance between hub and coil bore \[m² K/W\]; 0 is a perfect contact.
     pub hub_resistance: f64,
@@ -192,6 +206,7 @@ pub struct HeatPaths {
 
 /// A mount that couples the outer face of a flange to the mount's temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mount {
     /// The flange.
     pub side: Side,
@@ -201,6 +216,7 @@ pub struct Mount {
 
 /// Power dissipated evenly in a flange.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Heater {
     /// The flange.
     pub side: Side,
@@ -210,6 +226,7 @@ pub struct Heater {
 
 /// The spool's thermometer.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sensor {
     /// Radius \[m\].
     pub radius: f64,
@@ -219,9 +236,28 @@ pub struct Sensor {
     pub lag: f64,
 }
 
+/// Effects that vanish at a reference temperature. None by default.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Drifts {
+    /// Temperature at which they vanish, in the unit of the profile.
+    pub reference: f64,
+    /// b in ∂n/∂T = (∂n/∂T)₀ + b (T − reference), with T the temperature of each turn \[1/K²\].
+    pub thermo_optic_curvature: f64,
+    /// Bias of the read-out per kelvin of the thermometer's place above the reference \[rad/(s K)\].
+    pub read_out: f64,
+}
+
+impl Default for Drifts {
+    fn default() -> Self {
+        Self { reference: 20.0, thermo_optic_curvature: 0.0, read_out: 0.0 }
+    }
+}
+
 /// The row M_r of the dehomogenisation matrix (Osunluk et al., eqs 4, 5):
 /// `ε_r,glass = m_rx ε_rr + m_ry ε_yy + m_rz ε_hoop + m_rt ΔT`, total macroscopic strains.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Dehomogenization {
     /// Coefficient of the coil's radial strain.
     pub m_rx: f64,

@@ -1,12 +1,17 @@
 //! A coil in time: chamber temperature in, thermometer and bias out, through a reduced model of the heat flow.
 
 use crate::mechanics::Blend;
-use crate::{BiasOperator, Design, Drive, Error, Grid, Model, Reduced, Resolution, ThermalModel};
+use crate::{
+    BiasOperator, Design, Drifts, Drive, Error, Grid, MechanicalState, Model, Reduced, Reduction, Resolution, ThermalModel,
+    TurnFields,
+};
 use bias::Bias;
+use nalgebra::{DMatrix, DVector};
 use std::collections::HashMap;
 
 /// How finely a coil in time is modelled.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fidelity {
     /// Mesh of heat flow and mechanics.
     pub resolution: Resolution,
@@ -19,14 +24,44 @@ pub const STANDARD: Fidelity = Fidelity { resolution: crate::COARSE, modes: 40 }
 
 /// A design ready to be simulated: its thermometer, mean coil temperature and bias parts as a few exponentials.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Dynamics {
     reduced: Reduced,
     error: ReductionError,
     blend: Blend,
     states: usize,
-    sensor_lag: f64,
-    drives: Vec<Drive>,
+    pub(crate) sensor_lag: f64,
+    pub(crate) drives: Vec<Drive>,
+    drifts: Drifts,
+    curvature: Option<Curvature>,
 }
+
+/// Phase of a curved ∂n/∂T \[rad\] as a quadratic form of drives and modes.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Curvature {
+    form: DMatrix<f64>,
+    linear: DVector<f64>,
+}
+
+impl Curvature {
+    fn new(design: &Design, fields: &TurnFields) -> Result<Self, Error> {
+        let winding = winding::wind(&design.winding)?;
+        let (form, linear) = fields.moments(&winding);
+        // eq. (1) integrated in time with b (T − reference) in place of ∂n/∂T
+        let o = &design.optics;
+        let scale = design.drifts.thermo_optic_curvature * o.refractive_index / (winding.length() * o.sagnac_diameter);
+        Ok(Self { form: form * (scale / 2.0), linear: linear * (-scale * design.drifts.reference) })
+    }
+
+    fn phase(&self, u: &[f64], q: &[f64]) -> f64 {
+        let state = DVector::from_iterator(u.len() + q.len(), u.iter().chain(q).copied());
+        state.dot(&(&self.form * &state)) + self.linear.dot(&state)
+    }
+}
+
+/// A reduced design, its heat flow, the nodal temperatures of its modes, and its nominal mechanics if that is among its states.
+type Parts = (Dynamics, ThermalModel, Vec<Vec<f64>>, Option<Model>);
 
 /// Factor on the distance to a smaller model that [`ReductionError`] states: with few modes the error was seen to be up to four
 /// times that distance.
@@ -38,6 +73,7 @@ pub const REDUCTION_SAFETY: f64 = 4.0;
 /// the difference of responses for every course of bounded rate. What is taken is [`REDUCTION_SAFETY`] times the difference to a model
 /// with two thirds of the modes, the worst over drives and mechanical states: an estimate, not a bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ReductionError {
     /// Thermometer: kelvin per (kelvin per second) of a drive \[s\].
     pub sensor: f64,
@@ -86,25 +122,32 @@ pub struct Response {
     pub coil: f64,
     /// Mean bias since the previous instant \[rad/s\]; zero at the first.
     pub bias: Bias,
+    /// Mean bias of the read-out since the previous instant \[rad/s\].
+    pub read_out: f64,
+}
+
+impl Response {
+    /// Everything that the gyroscope reads as a rate \[rad/s\].
+    pub fn rate(&self) -> f64 {
+        self.bias.total() + self.read_out
+    }
 }
 
 /// Outputs of the reduced model, in this order.
-const SENSOR: usize = 0;
+pub(crate) const SENSOR: usize = 0;
 const COIL: usize = 1;
 const SHUPE: usize = 2;
 
-/// A functional of the mechanical mesh's nodes on the nodes of the thermal mesh, which holds them all.
-fn embed(from: &Grid, to: &Grid, functional: &[f64]) -> Result<Vec<f64>, Error> {
+/// For each node of the mechanical mesh the node of the thermal mesh at its place: the thermal mesh holds them all.
+pub(crate) fn shared_nodes(mechanical: &Grid, thermal: &Grid) -> Result<Vec<usize>, Error> {
     // a tenth of a nanometre: far above rounding, far below any element
     let key = |p: [f64; 2]| p.map(|x| (x * 1e10).round() as i64);
-    let index: HashMap<_, usize> = to.mesh().nodes().iter().enumerate().map(|(i, &p)| (key(p), i)).collect();
-    let mut embedded = vec![0.0; to.mesh().nodes().len()];
-    for (&p, value) in from.mesh().nodes().iter().zip(functional) {
+    let index: HashMap<_, usize> = thermal.mesh().nodes().iter().enumerate().map(|(i, &p)| (key(p), i)).collect();
+    let of = |p: &[f64; 2]| {
         let missing = || Error::Resolution(format!("the thermal mesh lacks the mechanical node at {p:?} m"));
-        // both faces of an opened bond lie at one place
-        embedded[*index.get(&key(p)).ok_or_else(missing)?] += *value;
-    }
-    Ok(embedded)
+        index.get(&key(*p)).copied().ok_or_else(missing)
+    };
+    mechanical.mesh().nodes().iter().map(of).collect()
 }
 
 /// Outputs of a coil as functionals of the temperature at the nodes of `thermal`'s mesh: thermometer and mean coil temperature \[K\],
@@ -117,11 +160,15 @@ pub fn functionals(design: &Design, model: &Model, thermal: &ThermalModel) -> Re
     let mut sensor = vec![0.0; nodes];
     thermal.grid().probe("sensor", design.sensor.radius, design.sensor.y)?.add_value(&mut sensor, 1.0);
     let BiasOperator { shupe, eo_axial, eo_radial } = model.bias_operator()?;
-    let mut all = vec![sensor, thermal.grid().coil_mean()?];
-    for part in [shupe, eo_axial, eo_radial] {
-        all.push(embed(model.grid(), thermal.grid(), &part)?);
-    }
-    Ok(all)
+    let shared = shared_nodes(model.grid(), thermal.grid())?;
+    let embed = |part: Vec<f64>| {
+        let mut embedded = vec![0.0; nodes];
+        // both faces of an opened bond lie at one place
+        shared.iter().zip(part).for_each(|(&node, value)| embedded[node] += value);
+        embedded
+    };
+    let parts = [shupe, eo_axial, eo_radial].map(embed);
+    Ok([sensor, thermal.grid().coil_mean()?].into_iter().chain(parts).collect())
 }
 
 impl Dynamics {
@@ -130,19 +177,58 @@ impl Dynamics {
     /// # Errors
     /// [`Error`] names the dimension or property at fault, or the solve that failed.
     pub fn new(design: &Design, drives: &[Drive], fidelity: &Fidelity) -> Result<Self, Error> {
+        Ok(Self::reduce(design, drives, fidelity)?.0)
+    }
+
+    /// As [`Self::new`], with the fields at the turns in the nominal mechanical state: every bond holds, nothing has relaxed, factors
+    /// are 1.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_fields(design: &Design, drives: &[Drive], fidelity: &Fidelity) -> Result<(Self, TurnFields), Error> {
+        let (dynamics, thermal, modes, nominal) = Self::reduce(design, drives, fidelity)?;
+        let nominal = nominal.map_or_else(|| Model::new(design, &fidelity.resolution), Ok)?;
+        let fields = TurnFields::new(&nominal, &thermal, &modes)?;
+        Ok((dynamics, fields))
+    }
+
+    fn reduce(design: &Design, drives: &[Drive], fidelity: &Fidelity) -> Result<Parts, Error> {
         if fidelity.modes == 0 {
             return Err(Error::Resolution("a reduced model needs at least one mode".into()));
         }
         let thermal = ThermalModel::new(design, &fidelity.resolution, drives)?;
         let (states, blend) = design.states();
-        let mut outputs = Vec::new();
+        let (mut outputs, mut nominal) = (Vec::new(), None);
         for state in &states {
-            let of_state = functionals(design, &Model::in_state(design, &fidelity.resolution, state)?, &thermal)?;
+            let model = Model::in_state(design, &fidelity.resolution, state)?;
+            let of_state = functionals(design, &model, &thermal)?;
             outputs.extend(of_state.into_iter().skip(if outputs.is_empty() { 0 } else { SHUPE }));
+            if *state == MechanicalState::NOMINAL {
+                nominal = Some(model);
+            }
         }
-        let (reduced, smaller) = Reduced::new(&thermal, &outputs, fidelity.modes * drives.len())?;
+        let Reduction { reduced, smaller, modes } = Reduction::new(&thermal, &outputs, fidelity.modes * drives.len())?;
         let error = ReductionError::between(&reduced, &smaller, drives.len(), states.len());
-        Ok(Self { reduced, error, blend, states: states.len(), sensor_lag: design.sensor.lag, drives: drives.to_vec() })
+        let curvature = if design.drifts.thermo_optic_curvature == 0.0 {
+            None
+        } else {
+            if nominal.is_none() {
+                nominal = Some(Model::new(design, &fidelity.resolution)?);
+            }
+            let fields = nominal.as_ref().map(|model| TurnFields::new(model, &thermal, &modes)).transpose()?;
+            fields.map(|fields| Curvature::new(design, &fields)).transpose()?
+        };
+        let dynamics = Self {
+            reduced,
+            error,
+            blend,
+            states: states.len(),
+            sensor_lag: design.sensor.lag,
+            drives: drives.to_vec(),
+            drifts: design.drifts,
+            curvature,
+        };
+        Ok((dynamics, thermal, modes, nominal))
     }
 
     /// What the reduction may leave out.
@@ -166,6 +252,15 @@ impl Dynamics {
     /// # Errors
     /// [`Error::Profile`] names the instant that is out of order or not finite.
     pub fn simulate(&self, profile: &Profile) -> Result<Vec<Response>, Error> {
+        self.simulate_with(profile, |_, _, _| ())
+    }
+
+    /// As [`Self::simulate`]; `visit(n, u, q)` sees the drives and the modes' amplitudes at every instant n, from which
+    /// [`TurnFields::at`] makes fields.
+    ///
+    /// # Errors
+    /// As [`Self::simulate`].
+    pub fn simulate_with(&self, profile: &Profile, mut visit: impl FnMut(usize, &[f64], &[f64])) -> Result<Vec<Response>, Error> {
         profile.check(self.drives.len())?;
         let at = |n: usize| -> Vec<f64> { profile.drives.iter().map(|d| d[n]).collect() };
         let mut q = vec![0.0; self.reduced.rates.len()];
@@ -174,14 +269,20 @@ impl Dynamics {
         let rest: Vec<f64> = self.drives.iter().zip(&u).map(|(d, u)| if *d == Drive::Heaters { 0.0 } else { *u }).collect();
         let jump: Vec<f64> = u.iter().zip(&rest).map(|(u, r)| u - r).collect();
         self.reduced.jump(&mut q, &jump);
+        visit(0, &u, &q);
         let mut lagging = self.reduced.output(SENSOR, &u, &q);
-        let mut rows = vec![Response { sensor: lagging, coil: self.reduced.output(COIL, &u, &q), bias: Bias::ZERO }];
+        // the read-out's temperature is that of the thermometer's place, whatever the thermometer's lag
+        let read_out = |from: f64, to: f64| self.drifts.read_out * ((from + to) / 2.0 - self.drifts.reference);
+        let mut place = lagging;
+        let coil = self.reduced.output(COIL, &u, &q);
+        let mut rows = vec![Response { sensor: lagging, coil, bias: Bias::ZERO, read_out: read_out(place, place) }];
         let (mut interval, mut blend) = (self.reduced.interval(0.0), self.blend.clone());
         for n in 1..profile.time.len() {
             let dt = profile.time[n] - profile.time[n - 1];
             let next = at(n);
             let slope: Vec<f64> = next.iter().zip(&u).map(|(b, a)| (b - a) / dt).collect();
             let before = self.phases(&u, &q);
+            let curved = self.curvature.as_ref().map(|c| c.phase(&u, &q));
             let from = self.reduced.output(COIL, &u, &q);
             if self.sensor_lag > 0.0 {
                 lagging = self.reduced.lagged(SENSOR, &u, &q, &slope, dt, self.sensor_lag, lagging);
@@ -191,6 +292,7 @@ impl Dynamics {
             }
             self.reduced.advance(&mut q, &slope, &interval);
             u = next;
+            visit(n, &u, &q);
             if self.sensor_lag == 0.0 {
                 lagging = self.reduced.output(SENSOR, &u, &q);
             }
@@ -198,7 +300,11 @@ impl Dynamics {
             let rates: Vec<[f64; 3]> =
                 self.phases(&u, &q).iter().zip(before).map(|(a, b)| [0, 1, 2].map(|p| (a[p] - b[p]) / dt)).collect();
             let [shupe, eo_axial, eo_radial] = blend.rates(&rates, from, coil, dt);
-            rows.push(Response { sensor: lagging, coil, bias: Bias { shupe, eo_axial, eo_radial } });
+            let curved = self.curvature.as_ref().zip(curved).map_or(0.0, |(c, before)| (c.phase(&u, &q) - before) / dt);
+            let now = self.reduced.output(SENSOR, &u, &q);
+            let bias = Bias { shupe: shupe + curved, eo_axial, eo_radial };
+            rows.push(Response { sensor: lagging, coil, bias, read_out: read_out(place, now) });
+            place = now;
         }
         Ok(rows)
     }

@@ -20,6 +20,9 @@ pub enum Error {
         /// What is wrong and how to mend it.
         problem: String,
     },
+    /// A thermometer's record cannot be inverted.
+    #[error("{0}")]
+    Record(String),
     /// The resolution cannot be meshed.
     #[error("resolution: {0}")]
     Resolution(String),

@@ -10,7 +10,8 @@
 //! gives the strain of the glass at the centre of every turn, and by one adjoint solve per part the bias as a linear functional of
 //! the temperature rate at every node ([`BiasOperator`]). In a steady ramp that rate is uniform and its sum is the sensitivity:
 //! [`steady_sensitivity`], with an error measured on a finer mesh. [`ThermalModel`] is the heat flow, stepped in full or reduced to
-//! a few exponentials ([`Reduced`]); [`Dynamics`] runs a chamber profile through both.
+//! a few exponentials ([`Reduced`]); [`Dynamics`] runs a chamber profile through both, and [`TurnFields`] gives temperature and strain
+//! of every turn back.
 //!
 //! Conventions: SI units; y = 0 is the coil's left face, +y its right; the strain-free state is ΔT = 0; surfaces are free of
 //! traction and each connected body is held at one point along y. Unbonded faces are gaps of 0.2 mm. Tails are bare fibre that
@@ -23,27 +24,32 @@
 mod design;
 mod dynamics;
 mod error;
+mod fields;
 mod grid;
+mod inverse;
 mod layout;
 mod mechanics;
 mod model;
 mod probe;
+mod profile;
 mod sensitivity;
 mod thermal;
 mod trim;
 
 pub use design::{
-    Body, Contact, Dehomogenization, Design, FactorsAt, Flange, HeatPaths, Heater, Mechanics, Mount, Opening, Sensor, Side,
-    Solid, Spool, Surroundings,
+    Body, Contact, Dehomogenization, Design, Drifts, FactorsAt, Flange, HeatPaths, Heater, Mechanics, Mount, Opening, Sensor,
+    Side, Solid, Spool, Surroundings,
 };
 pub use dynamics::{Dynamics, Fidelity, Profile, REDUCTION_SAFETY, ReductionError, Response, STANDARD, functionals};
 pub use error::Error;
+pub use fields::{TurnFields, TurnValues};
 pub use grid::{Bonds, Domain, Grid, Resolution};
+pub use inverse::{FEWEST_ROWS, Inferred, LEAST_NOISE, chamber_from_sensor};
 pub use layout::{Layout, Rectangle, Region};
-pub use mechanics::MechanicalState;
+pub use mechanics::{MechanicalState, Relaxation};
 pub use model::{BiasOperator, Model, TurnStrain};
-pub use sensitivity::{COARSE, FINE, SAFETY, SteadySensitivity, steady_sensitivity};
-pub use thermal::{Drive, FullRun, Interval, RampLag, Reduced, ReducedOutput, ThermalModel, ramp_lag};
+pub use sensitivity::{CHECKS, COARSE, FINE, SAFETY, SHARE, STEADY, SteadySensitivity, steady_sensitivity};
+pub use thermal::{Drive, FullRun, Interval, RampLag, Reduced, ReducedOutput, Reduction, ThermalModel, ramp_lag};
 pub use trim::{PRIORS, TailTrim, TurnTrim, tail_asymmetry, trim_tails, trim_turns};
 
 #[cfg(doctest)]

@@ -52,11 +52,66 @@ type Parts = [f64; 3];
 
 /// How the responses of the states combine along a course.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Blend {
     Elastic,
     Table(Vec<f64>),
-    Relaxing { time: f64, to_coefficients: DMatrix<f64>, chains: Vec<Vec<Parts>> },
+    Relaxing(Relaxation),
     Opening { below: f64, above: f64, open: bool },
+}
+
+/// A response that follows a relaxing modulus, put together from the responses at constant moduli.
+///
+/// The modulus is `1 − fraction x` with x = 1/(1 + s `time`): x = 0 is unrelaxed, x = 1 relaxed. The response is interpolated in x by a
+/// polynomial, whose powers are chains of first-order followers.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Relaxation {
+    time: f64,
+    to_coefficients: DMatrix<f64>,
+    chains: Vec<Vec<Parts>>,
+}
+
+impl Relaxation {
+    /// At rest; `time` is the relaxation time \[s\], > 0.
+    pub fn new(time: f64) -> Self {
+        let x = Self::nodes();
+        let powers = DMatrix::from_fn(x.len(), x.len(), |i, j| x[i].powi(j as i32));
+        let identity = DMatrix::identity(x.len(), x.len());
+        let to_coefficients = powers.lu().solve(&identity).expect("a Vandermonde matrix of distinct points is regular");
+        Self { time, to_coefficients, chains: (0..=DEGREE).map(|j| vec![[0.0; 3]; j]).collect() }
+    }
+
+    /// Points x at which [`Self::rates`] wants the responses.
+    pub fn nodes() -> Vec<f64> {
+        (0..=DEGREE).map(|k| (1.0 - (std::f64::consts::PI * k as f64 / DEGREE as f64).cos()) / 2.0).collect()
+    }
+
+    /// Mean rates over the next interval `dt` \[s\] from the rates that the modulus of each node alone would give; `states` has one entry
+    /// a node.
+    pub fn rates(&mut self, states: &[Parts], dt: f64) -> Parts {
+        // beyond some fifty relaxation times the followers have settled, however long the interval
+        let steps = (dt / (FOLLOWER_STEP * self.time)).ceil().clamp(1.0, 1e3);
+        let part_of_time = (dt / steps / self.time).min(1e3);
+        let decay = (-part_of_time).exp();
+        let forget = -(-part_of_time).exp_m1() / part_of_time;
+        let mut sum = [0.0; 3];
+        for (j, chain) in self.chains.iter_mut().enumerate() {
+            for part in 0..3 {
+                let constant: f64 = (0..states.len()).map(|i| self.to_coefficients[(j, i)] * states[i][part]).sum();
+                for _ in 0..steps as usize {
+                    let mut input = constant;
+                    for follower in chain.iter_mut() {
+                        let state = follower[part];
+                        follower[part] = input + (state - input) * decay;
+                        input += (state - input) * forget;
+                    }
+                    sum[part] += input / steps;
+                }
+            }
+        }
+        sum
+    }
 }
 
 /// Rows between which factors change little, linear between the given ones.
@@ -85,11 +140,6 @@ fn refined(rows: &[FactorsAt]) -> Vec<FactorsAt> {
     fine
 }
 
-/// Points of a polynomial in x on [0, 1].
-fn nodes() -> Vec<f64> {
-    (0..=DEGREE).map(|k| (1.0 - (std::f64::consts::PI * k as f64 / DEGREE as f64).cos()) / 2.0).collect()
-}
-
 impl Design {
     /// The states between which the coil moves, and how.
     pub(crate) fn states(&self) -> (Vec<MechanicalState>, Blend) {
@@ -106,14 +156,8 @@ impl Design {
                 (rows.iter().map(state).collect(), Blend::Table(rows.iter().map(|row| row.temperature).collect()))
             }
             Mechanics::Relaxing { fraction, time } => {
-                // modulus 1 − fraction x with x = 1/(1 + sτ): x = 0 is unrelaxed, x = 1 relaxed
                 let state = |x: &f64| MechanicalState { transverse_modulus: 1.0 - fraction * x, ..nominal };
-                let x = nodes();
-                let powers = DMatrix::from_fn(x.len(), x.len(), |i, j| x[i].powi(j as i32));
-                let identity = DMatrix::identity(x.len(), x.len());
-                let to_coefficients = powers.lu().solve(&identity).expect("a Vandermonde matrix of distinct points is regular");
-                let chains = (0..=DEGREE).map(|j| vec![[0.0; 3]; j]).collect();
-                (x.iter().map(state).collect(), Blend::Relaxing { time: *time, to_coefficients, chains })
+                (Relaxation::nodes().iter().map(state).collect(), Blend::Relaxing(Relaxation::new(*time)))
             }
             Mechanics::Opening(o) => {
                 let opened = MechanicalState { bonds: Bonds::Opened, ..nominal };
@@ -137,29 +181,7 @@ impl Blend {
                 let share = if width > 0.0 { ((middle - rows[lower]) / width).clamp(0.0, 1.0) } else { 0.0 };
                 [0, 1, 2].map(|p| (1.0 - share) * states[lower][p] + share * states[upper][p])
             }
-            Self::Relaxing { time, to_coefficients, chains } => {
-                // beyond some fifty relaxation times the followers have settled, however long the interval
-                let steps = (dt / (FOLLOWER_STEP * *time)).ceil().clamp(1.0, 1e3);
-                let part_of_time = (dt / steps / *time).min(1e3);
-                let decay = (-part_of_time).exp();
-                let forget = -(-part_of_time).exp_m1() / part_of_time;
-                let mut sum = [0.0; 3];
-                for (j, chain) in chains.iter_mut().enumerate() {
-                    for part in 0..3 {
-                        let constant: f64 = (0..states.len()).map(|i| to_coefficients[(j, i)] * states[i][part]).sum();
-                        for _ in 0..steps as usize {
-                            let mut input = constant;
-                            for follower in chain.iter_mut() {
-                                let state = follower[part];
-                                follower[part] = input + (state - input) * decay;
-                                input += (state - input) * forget;
-                            }
-                            sum[part] += input / steps;
-                        }
-                    }
-                }
-                sum
-            }
+            Self::Relaxing(relaxation) => relaxation.rates(states, dt),
             Self::Opening { below, above, open } => {
                 *open = if middle < *below { true } else { *open && middle <= *above };
                 states[usize::from(*open)]
@@ -176,15 +198,12 @@ mod tests {
     #[test]
     fn exact_a_follower_has_the_relaxation_time_whatever_the_interval() {
         for dt in [5.0, 60.0, 600.0] {
-            let x = nodes();
-            let powers = DMatrix::from_fn(x.len(), x.len(), |i, j| x[i].powi(j as i32));
-            let to_coefficients = powers.try_inverse().unwrap();
-            let chains = (0..=DEGREE).map(|j| vec![[0.0; 3]; j]).collect();
-            let mut blend = Blend::Relaxing { time: 600.0, to_coefficients, chains };
+            let x = Relaxation::nodes();
+            let mut relaxation = Relaxation::new(600.0);
             let states: Vec<Parts> = x.iter().map(|x| [*x, x * x, 1.0]).collect();
             let mut sums = [0.0; 3];
             for _ in 0..(1200.0 / dt) as usize {
-                let rates = blend.rates(&states, 0.0, 0.0, dt);
+                let rates = relaxation.rates(&states, dt);
                 (0..3).for_each(|p| sums[p] += rates[p] * dt);
             }
             // integrals over two relaxation times of 1 − e^−s and of 1 − (1 + s) e^−s

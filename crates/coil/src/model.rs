@@ -1,7 +1,8 @@
 //! The mechanical model: coil and spool, factorised; strain at every turn for a given temperature field.
 
-use crate::probe::Probe;
-use crate::{Dehomogenization, Design, Domain, Error, Grid, Layout, MechanicalState, Region, Resolution};
+use crate::grid::Grading;
+use crate::probe::{Probe, Prober, Sums};
+use crate::{Dehomogenization, Design, Domain, Error, Grid, Layout, MechanicalState, Region, Resolution, TurnValues};
 use bias::{Bias, Coefficients, Slice};
 use fem_core::material::ThermoElastic;
 use fem_core::{Condensed, Constraints, Coupling, DofMap, Form, Problem};
@@ -71,12 +72,23 @@ impl Model {
     /// # Errors
     /// As [`Self::new`].
     pub fn in_state(design: &Design, resolution: &Resolution, state: &MechanicalState) -> Result<Self, Error> {
+        Self::graded(design, resolution, Grading::Even, state)
+    }
+
+    /// As [`Self::in_state`], on a mesh of the given grading.
+    pub(crate) fn graded(
+        design: &Design,
+        resolution: &Resolution,
+        grading: Grading,
+        state: &MechanicalState,
+    ) -> Result<Self, Error> {
         let winding = winding::wind(&design.winding)?;
         let coefficients = design.optics.coefficients(winding.length())?;
         let layout = Layout::new(design)?;
-        let grid = Grid::new(&layout, resolution, Domain::Solids, state.bonds)?;
+        let grid = Grid::graded(&layout, resolution, grading, Domain::Solids, state.bonds)?;
         let (map, factor, thermal_stresses) = assemble(design, &grid, state)?;
-        let probes = winding.turns().iter().map(|t| grid.probe("winding", t.r, t.y)).collect::<Result<_, _>>()?;
+        let mut prober = Prober::new(&grid);
+        let probes = winding.turns().iter().map(|t| prober.probe("winding", t.r, t.y)).collect::<Result<_, _>>()?;
         let lowest = layout.solids.iter().filter(|s| s.r[0] == layout.bore).map(|s| s.y[0]).fold(f64::INFINITY, f64::min);
         let highest = layout.solids.iter().filter(|s| s.r[0] == layout.bore).map(|s| s.y[1]).fold(f64::NEG_INFINITY, f64::max);
         let bore = grid.probe("sensor", layout.bore, design.sensor.y.clamp(lowest, highest))?;
@@ -120,15 +132,32 @@ impl Model {
     /// # Errors
     /// [`Error::Solve`] if the solve leaves a residual.
     pub fn strain_at_turns(&self, temperature: &[f64]) -> Result<Vec<TurnStrain>, Error> {
-        let load = self.map.restrict(&self.coupling()?.multiply(temperature));
-        let u = self.map.expand(&at("structure", self.factor.solve(&[load]))?[0]);
+        Ok(self.strains_at_turns(&[temperature.to_vec()])?.remove(0))
+    }
+
+    /// As [`Self::strain_at_turns`] for several fields together.
+    ///
+    /// # Errors
+    /// [`Error::Solve`] if a solve leaves a residual.
+    pub fn strains_at_turns(&self, temperatures: &[Vec<f64>]) -> Result<Vec<Vec<TurnStrain>>, Error> {
+        let coupling = self.coupling()?;
+        let loads: Vec<_> = temperatures.iter().map(|t| self.map.restrict(&coupling.multiply(t))).collect();
         let m = self.dehomogenization;
-        let strain = |p: &Probe| {
-            let [rr, yy, hoop] = p.strain_of(&u);
-            let radial = m.m_rx * rr + m.m_ry * yy + m.m_rz * hoop + m.m_rt * p.value_of(temperature);
-            TurnStrain { axial: hoop, radial }
+        let strains = |(u, temperature): (&Vec<f64>, &Vec<f64>)| {
+            let u = self.map.expand(u);
+            let strain = |p: &Probe| {
+                let [rr, yy, hoop] = p.strain_of(&u);
+                let radial = m.m_rx * rr + m.m_ry * yy + m.m_rz * hoop + m.m_rt * p.value_of(temperature);
+                TurnStrain { axial: hoop, radial }
+            };
+            self.probes.iter().map(strain).collect()
         };
-        Ok(self.probes.iter().map(strain).collect())
+        Ok(at("structure", self.factor.solve(&loads))?.iter().zip(temperatures).map(strains).collect())
+    }
+
+    /// Temperature of the hub's bore, which the tails share, from nodal temperatures \[K\].
+    pub fn temperature_at_bore(&self, temperature: &[f64]) -> f64 {
+        self.bore.value_of(temperature)
     }
 
     /// The fibre as slices for [`bias::bias`]: every turn, and the tails, which expand freely at the bore's temperature.
@@ -137,24 +166,13 @@ impl Model {
     /// [`Error::Solve`] if the solve leaves a residual.
     pub fn slices(&self, temperature_rate: &[f64]) -> Result<Vec<Slice>, Error> {
         let strain = self.strain_at_turns(temperature_rate)?;
-        let rates = self.temperature_at_turns(temperature_rate);
-        let turns = self.winding.turns().iter().zip(strain).zip(rates).map(|((turn, strain), rate)| Slice {
-            z_start: turn.z_start,
-            z_end: turn.z_end,
-            temperature_rate: rate,
-            axial_strain_rate: strain.axial,
-            radial_strain_rate: strain.radial,
-        });
-        let rate = self.bore.value_of(temperature_rate);
-        let (ccw, cw) = self.winding.tail_spans();
-        let tails = [ccw, cw].into_iter().filter(|(start, end)| end > start).map(|(z_start, z_end)| Slice {
-            z_start,
-            z_end,
-            temperature_rate: rate,
-            axial_strain_rate: self.fibre_expansion * rate,
-            radial_strain_rate: self.fibre_expansion * rate,
-        });
-        Ok(turns.chain(tails).collect())
+        let values = TurnValues {
+            temperature: self.temperature_at_turns(temperature_rate),
+            axial: strain.iter().map(|s| s.axial).collect(),
+            radial: strain.iter().map(|s| s.radial).collect(),
+            bore: self.temperature_at_bore(temperature_rate),
+        };
+        Ok(values.slices(&self.winding, self.fibre_expansion))
     }
 
     fn problem(&self) -> Problem<'_> {
@@ -174,14 +192,18 @@ impl Model {
     fn adjoint(&self) -> Result<(BiasOperator, Vec<Vec<f64>>), Error> {
         let nodes = self.grid.mesh().nodes().len();
         let (c, m) = (self.coefficients, self.dehomogenization);
-        let mut direct = BiasOperator { shupe: vec![0.0; nodes], eo_axial: vec![0.0; nodes], eo_radial: vec![0.0; nodes] };
+        let turns = Sums::new(&self.probes, self.winding.weights(), nodes);
+        let scaled = |factor: f64| turns.value.iter().map(|v| factor * v).collect::<Vec<_>>();
+        let mut direct = BiasOperator {
+            shupe: scaled(c.shupe),
+            eo_axial: scaled(c.axial_per_temperature_rate),
+            eo_radial: scaled(c.radial * m.m_rt + c.radial_per_temperature_rate),
+        };
         let (mut axial, mut radial) = (vec![0.0; 2 * nodes], vec![0.0; 2 * nodes]);
-        for (p, w) in self.probes.iter().zip(self.winding.weights()) {
-            p.add_value(&mut direct.shupe, w * c.shupe);
-            p.add_value(&mut direct.eo_axial, w * c.axial_per_temperature_rate);
-            p.add_value(&mut direct.eo_radial, w * (c.radial * m.m_rt + c.radial_per_temperature_rate));
-            p.add_strain(&mut axial, w * c.axial, [0.0, 0.0, 1.0]);
-            p.add_strain(&mut radial, w * c.radial, [m.m_rx, m.m_ry, m.m_rz]);
+        for node in 0..nodes {
+            axial[2 * node] = c.axial * turns.over_r[node];
+            radial[2 * node] = c.radial * (m.m_rx * turns.d_r[node] + m.m_rz * turns.over_r[node]);
+            radial[2 * node + 1] = c.radial * m.m_ry * turns.d_y[node];
         }
         let (length, (ccw, cw)) = (self.winding.length(), self.winding.tail_spans());
         let w: f64 = [ccw, cw].iter().map(|(start, end)| (end - start) * (length - start - end)).sum();

@@ -1,19 +1,30 @@
 //! Steady-ramp sensitivity with its own numerical error.
 
-use crate::{Design, Error, Model, Resolution};
+use crate::grid::Grading;
+use crate::{Design, Error, MechanicalState, Model, Resolution};
 use bias::Sensitivity;
 
-/// The mesh behind the reported value.
+/// The mesh behind numbers without an error of their own: trims, profiles, comparisons of designs.
 pub const COARSE: Resolution = Resolution { order: 6, layers: 3, ratio: 0.2 };
-/// The mesh that measures its error: two orders and one layer finer, with about a fifteenth of the error.
+/// A mesh two orders and one layer finer, with about a fifteenth of the error.
 pub const FINE: Resolution = Resolution { order: 8, layers: 4, ratio: 0.2 };
 /// The distance between the two meshes is nearly all of the coarse one's error; the factor covers the rest.
 pub const SAFETY: f64 = 2.0;
+/// The mesh behind a [`SteadySensitivity`], graded as the coil's strain needs it.
+pub const STEADY: Resolution = Resolution { order: 7, layers: 2, ratio: 0.15 };
+/// The meshes that measure its error: the same elements at lower orders.
+pub const CHECKS: [Resolution; 2] = [Resolution { order: 4, ..STEADY }, Resolution { order: 5, ..STEADY }];
+/// Share of the distances to the [`CHECKS`], both elasto-optic parts and both meshes together, that is stated as the error. Fitted:
+/// over 204 designs of all kinds the largest error of the total or of a part was 0.31 of the distances, the median 0.04.
+pub const SHARE: f64 = 0.33;
+/// Least error that is stated, relative to the sum of the parts' magnitudes: rounding, and coils so smooth that the meshes agree.
+const LEAST: f64 = 1e-6;
 
 /// Bias of a coil whose temperature rises everywhere at the same rate, per unit rate.
 ///
 /// In such a ramp the temperature rate is uniform, so no thermal property matters.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SteadySensitivity {
     /// By part, in (°/h)/(°C/min).
     pub sensitivity: Sensitivity,
@@ -25,7 +36,7 @@ pub struct SteadySensitivity {
     pub length: f64,
     /// Unknowns of the mesh behind the value.
     pub unknowns: usize,
-    /// Unknowns of the mesh behind the error estimate.
+    /// Unknowns of the meshes behind the error estimate, together.
     pub unknowns_of_estimate: usize,
 }
 
@@ -39,24 +50,30 @@ impl Model {
     }
 }
 
-/// Steady-ramp sensitivity of `design` on [`COARSE`], its error measured on [`FINE`].
+/// Steady-ramp sensitivity of `design` on [`STEADY`], its error measured by [`CHECKS`].
 ///
 /// # Errors
 /// [`Error`] names the dimension, property, winding or optical constant at fault, or the solve that failed.
 pub fn steady_sensitivity(design: &Design) -> Result<SteadySensitivity, Error> {
-    let (coarse, fine) = (Model::new(design, &COARSE)?, Model::new(design, &FINE)?);
-    let (value, finer) = (coarse.sensitivity()?, fine.sensitivity()?);
-    let error = |a: f64, b: f64| SAFETY * (a - b).abs();
+    let model = |resolution| Model::graded(design, resolution, Grading::Strain, &MechanicalState::NOMINAL);
+    let steady = model(&STEADY)?;
+    let value = steady.sensitivity()?;
+    let (mut distance, mut shupe, mut unknowns_of_estimate) = (0.0, 0.0, 0);
+    for resolution in &CHECKS {
+        let check = model(resolution)?;
+        let other = check.sensitivity()?;
+        // part by part: their errors may cancel in the total of one mesh and not of another
+        distance += (value.eo_axial - other.eo_axial).abs() + (value.eo_radial - other.eo_radial).abs();
+        shupe += (value.shupe - other.shupe).abs();
+        unknowns_of_estimate += check.unknowns();
+    }
+    let error = SHARE * distance + LEAST * (value.eo_axial.abs() + value.eo_radial.abs());
     Ok(SteadySensitivity {
         sensitivity: value,
-        part_errors: Sensitivity {
-            shupe: error(value.shupe, finer.shupe),
-            eo_axial: error(value.eo_axial, finer.eo_axial),
-            eo_radial: error(value.eo_radial, finer.eo_radial),
-        },
-        error_estimate: error(value.total(), finer.total()),
-        length: coarse.winding().length(),
-        unknowns: coarse.unknowns(),
-        unknowns_of_estimate: fine.unknowns(),
+        part_errors: Sensitivity { shupe: SHARE * shupe, eo_axial: error, eo_radial: error },
+        error_estimate: error,
+        length: steady.winding().length(),
+        unknowns: steady.unknowns(),
+        unknowns_of_estimate,
     })
 }

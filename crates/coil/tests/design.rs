@@ -11,6 +11,7 @@ fn exact_layout_of_the_reference_coil() {
     assert!((layout.chamber.r[1] - 59.825e-3).abs() < 1e-12);
     assert!((layout.chamber.y[0] + 10e-3).abs() < 1e-12 && (layout.chamber.y[1] - 30.02e-3).abs() < 1e-12);
     assert_eq!(layout.region(40e-3, 19e-3), Region::RightFlange);
+    assert_eq!(layout.region(45e-3, 19e-3), Region::RightFlange);
     assert_eq!(layout.region(49e-3, 19e-3), Region::RightFlange);
     assert_eq!(layout.region(45e-3, 9e-3), Region::Coil);
     assert_eq!(layout.region(49e-3, 9e-3), Region::Medium);

@@ -18,6 +18,9 @@ pub enum Measure {
 #[derive(Debug, Clone)]
 pub struct ReferenceElement {
     basis: Lagrange,
+    /// Values and slopes at the points along one side, shape (nodes, points).
+    one_dimension: [DMatrix<f64>; 2],
+    quadrature: Quadrature,
     /// N, shape (nodes, points).
     pub value: DMatrix<f64>,
     d_xi: DMatrix<f64>,
@@ -44,7 +47,8 @@ impl ReferenceElement {
     /// Elements of `order` with `points` Gauss points per direction.
     pub fn new(order: usize, points: usize) -> Self {
         let basis = Lagrange::gauss_lobatto(order);
-        let Quadrature { points, weights } = gauss(points);
+        let quadrature = gauss(points);
+        let Quadrature { points, weights } = &quadrature;
         let one_dimension: Vec<_> = points.iter().map(|&x| basis.evaluate(x)).collect();
         let (n, q) = (order + 1, points.len());
         let tensor = |xi: &dyn Fn(usize, usize) -> f64, eta: &dyn Fn(usize, usize) -> f64| {
@@ -53,7 +57,17 @@ impl ReferenceElement {
         let (v, d) = (|i: usize, k: usize| one_dimension[k].0[i], |i: usize, k: usize| one_dimension[k].1[i]);
         let (value, d_xi, d_eta) = (tensor(&v, &v), tensor(&d, &v), tensor(&v, &d));
         let weights = (0..q * q).map(|k| weights[k % q] * weights[k / q]).collect();
-        Self { basis, value, d_xi, d_eta, weights }
+        let one_dimension = [DMatrix::from_fn(n, q, v), DMatrix::from_fn(n, q, d)];
+        Self { basis, one_dimension, quadrature, value, d_xi, d_eta, weights }
+    }
+
+    pub(crate) fn basis(&self) -> &Lagrange {
+        &self.basis
+    }
+
+    /// Values and slopes of the shape functions along one side of the reference square, shape (nodes, points), and the points.
+    pub(crate) fn one_dimension(&self) -> (&DMatrix<f64>, &DMatrix<f64>, &Quadrature) {
+        (&self.one_dimension[0], &self.one_dimension[1], &self.quadrature)
     }
 
     /// Geometry of element `e` of `mesh` (which must be of this order).

@@ -38,6 +38,7 @@ pub mod material;
 mod mesh;
 pub mod polynomial;
 mod problem;
+mod rectangle;
 mod sparse;
 mod transient;
 

@@ -1,11 +1,16 @@
 //! Sparse Cholesky factorisation with a residual check: the only module that names the factorisation library.
 
 use crate::{Error, SparseMatrix};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
+use faer::linalg::matmul::matmul;
+use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::solvers::Solve;
+use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::sparse::linalg::LltError;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Mat, Side};
+use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
 use nalgebra::DMatrix;
 
 /// Largest backward error `‖b − A x‖ / (‖ |A| |x| ‖ + ‖b‖)` (maximum norms) that a solve may leave, after one step of iterative
@@ -118,7 +123,8 @@ impl Factor {
         Err(not_positive_definite(&self.matrix, detail))
     }
 
-    fn substitute(&self, columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    /// Solves for all right-hand sides without refinement and without a look at the residual: the factor was checked when it was made.
+    pub(crate) fn substitute(&self, columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let n = self.unknowns();
         assert!(columns.iter().all(|c| c.len() == n), "right-hand sides of {n} entries");
         let rhs = Mat::from_fn(n, columns.len(), |i, j| columns[j][i]);
@@ -152,22 +158,66 @@ impl Factor {
     }
 }
 
-/// Cholesky factor of a small dense matrix.
+/// The first unknowns of a dense symmetric matrix, eliminated: `[L_ii; L_oi]` of `L Lᵀ`.
 #[derive(Debug, Clone)]
-pub(crate) struct DenseFactor(faer::linalg::solvers::Llt<f64>);
+pub(crate) struct PartialFactor {
+    rows: usize,
+    inner: usize,
+    columns: Vec<f64>,
+}
 
-impl DenseFactor {
-    pub(crate) fn new(matrix: &DMatrix<f64>) -> Result<Self, Error> {
-        let copy = Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)]);
-        let factor = faer::linalg::solvers::Llt::new(copy.as_ref(), Side::Lower);
-        let failed = |e| Error::NotPositiveDefinite { unknowns: matrix.nrows(), detail: format!("inside an element: {e:?}") };
-        Ok(Self(factor.map_err(failed)?))
+impl PartialFactor {
+    /// Eliminates the first `inner` unknowns of `matrix`, whose lower triangle counts; returns the lower triangle of what is left,
+    /// `K_oo − K_oi K_ii⁻¹ K_io`.
+    ///
+    /// # Errors
+    /// [`Error::NotPositiveDefinite`].
+    pub(crate) fn new(matrix: DMatrix<f64>, inner: usize) -> Result<(Self, DMatrix<f64>), Error> {
+        let rows = matrix.nrows();
+        let mut columns: Vec<f64> = matrix.data.into();
+        let whole = MatMut::from_column_major_slice_mut(&mut columns, rows, rows);
+        let (mut inside, _, mut across, mut outside) = whole.split_at_mut(inner, inner);
+        let mut memory = MemBuffer::new(cholesky_in_place_scratch::<f64>(inner, Par::Seq, Default::default()));
+        let stack = MemStack::new(&mut memory);
+        cholesky_in_place(inside.as_mut(), Default::default(), Par::Seq, stack, Default::default())
+            .map_err(|e| Error::NotPositiveDefinite { unknowns: rows, detail: format!("among elements: {e:?}") })?;
+        solve_lower_triangular_in_place(inside.as_ref(), across.as_mut().transpose_mut(), Par::Seq);
+        let (lower, full) = (BlockStructure::TriangularLower, BlockStructure::Rectangular);
+        let (left, right) = (across.as_ref(), across.as_ref().transpose());
+        triangular::matmul(outside.as_mut(), lower, Accum::Add, left, full, right, full, -1.0, Par::Seq);
+        let left = DMatrix::from_fn(rows - inner, rows - inner, |i, j| outside[(i, j)]);
+        columns.truncate(rows * inner);
+        columns.shrink_to_fit();
+        Ok((Self { rows, inner, columns }, left))
     }
 
-    pub(crate) fn solve(&self, rhs: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut x = Mat::from_fn(rhs.nrows(), rhs.ncols(), |i, j| rhs[(i, j)]);
-        self.0.solve_in_place(x.as_mut());
-        DMatrix::from_fn(rhs.nrows(), rhs.ncols(), |i, j| x[(i, j)])
+    /// Number of unknowns that are eliminated.
+    pub(crate) fn inner(&self) -> usize {
+        self.inner
+    }
+
+    fn blocks(&self) -> (MatRef<'_, f64>, MatRef<'_, f64>) {
+        MatRef::from_column_major_slice(&self.columns, self.rows, self.inner).split_at_row(self.inner)
+    }
+
+    /// `x_i ← L_ii⁻¹ x_i`, then `x_o ← x_o − L_oi x_i`, of every column of `x`.
+    pub(crate) fn forward(&self, x: &mut DMatrix<f64>) {
+        let (inside, across) = self.blocks();
+        let (rows, columns) = x.shape();
+        let whole = MatMut::from_column_major_slice_mut(x.as_mut_slice(), rows, columns);
+        let (mut inner, outer) = whole.split_at_row_mut(self.inner);
+        solve_lower_triangular_in_place(inside, inner.as_mut(), Par::Seq);
+        matmul(outer, Accum::Add, across, inner.as_ref(), -1.0, Par::Seq);
+    }
+
+    /// `x_i ← L_ii⁻ᵀ (x_i − L_oiᵀ x_o)` of every column of `x`.
+    pub(crate) fn backward(&self, x: &mut DMatrix<f64>) {
+        let (inside, across) = self.blocks();
+        let (rows, columns) = x.shape();
+        let whole = MatMut::from_column_major_slice_mut(x.as_mut_slice(), rows, columns);
+        let (mut inner, outer) = whole.split_at_row_mut(self.inner);
+        matmul(inner.as_mut(), Accum::Add, across.transpose(), outer.as_ref(), -1.0, Par::Seq);
+        solve_upper_triangular_in_place(inside.transpose(), inner, Par::Seq);
     }
 }
 

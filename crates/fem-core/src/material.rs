@@ -17,6 +17,7 @@ pub struct ThermoElastic {
 
 /// An isotropic solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Isotropic {
     /// Young's modulus \[Pa\], > 0.
     pub youngs_modulus: f64,
@@ -30,6 +31,7 @@ pub struct Isotropic {
 ///
 /// `ν_rz = ν_zr E_r / E_z` and `G_r = E_r / 2(1 + ν_r)` follow from the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TransverselyIsotropic {
     /// Young's modulus along the fibre \[Pa\], > 0.
     pub e_z: f64,

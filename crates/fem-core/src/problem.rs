@@ -1,6 +1,7 @@
 //! A weak form on a mesh: element matrices region by region, assembly, factor.
 
 use crate::geometry::{Edge, ReferenceElement};
+use crate::rectangle::{Coefficients, Rectangle};
 use crate::{Condensed, DofMap, Error, Factor, Form, Mesh, Pattern, SparseMatrix};
 use nalgebra::{DMatrix, DVector};
 
@@ -94,16 +95,38 @@ impl<'a> Problem<'a> {
         }
     }
 
-    fn element_matrices<'m>(
-        &self,
+    /// Matrix of each element, one at a time, empty where the region has no law: on rectangles from `coefficients` of the law, on any
+    /// other shape from its geometry.
+    fn element_matrices<'m, C>(
+        &'m self,
         laws: &'m [Option<DMatrix<f64>>],
-        matrix: impl Fn(&crate::ElementGeometry, &'m DMatrix<f64>) -> DMatrix<f64>,
-    ) -> Result<Vec<DMatrix<f64>>, Error> {
-        let per_element = |(e, &region): (usize, &usize)| match &laws[region] {
-            None => Ok(DMatrix::zeros(0, 0)),
-            Some(law) => Ok(matrix(&self.reference.geometry(self.mesh, e, self.form.measure())?, law)),
+        coefficients: impl Fn(&'m DMatrix<f64>) -> C,
+        on_rectangle: impl Fn(&Rectangle, &C) -> DMatrix<f64> + 'm,
+        matrix: impl Fn(&crate::ElementGeometry, &'m DMatrix<f64>) -> DMatrix<f64> + 'm,
+    ) -> impl Iterator<Item = Result<DMatrix<f64>, Error>> {
+        let coefficients: Vec<Option<C>> = laws.iter().map(|law| law.as_ref().map(&coefficients)).collect();
+        let per_element = move |(e, &region): (usize, &usize)| match (&laws[region], &coefficients[region]) {
+            (Some(law), Some(coefficients)) => match self.rectangle(e) {
+                Some(rectangle) => Ok(on_rectangle(&rectangle, coefficients)),
+                None => Ok(matrix(&self.reference.geometry(self.mesh, e, self.form.measure())?, law)),
+            },
+            _ => Ok(DMatrix::zeros(0, 0)),
         };
-        self.mesh.regions().iter().enumerate().map(per_element).collect()
+        self.mesh.regions().iter().enumerate().map(per_element)
+    }
+
+    fn rectangle(&self, e: usize) -> Option<Rectangle> {
+        Rectangle::new(&self.reference, self.mesh, e, self.form.measure())
+    }
+
+    fn stiffnesses<'m>(
+        &'m self,
+        laws: &'m [Option<DMatrix<f64>>],
+    ) -> Result<impl Iterator<Item = Result<DMatrix<f64>, Error>>, Error> {
+        self.check(laws, self.form.strains(), Some(self.form.strains()))?;
+        let coefficients = |law| Coefficients::stiffness(self.form, law);
+        let general = |g: &crate::ElementGeometry, law: &DMatrix<f64>| self.form.stiffness(&self.reference.value, g, law);
+        Ok(self.element_matrices(laws, coefficients, Rectangle::stiffness, general))
     }
 
     /// Stiffness matrix. `laws[region]` is the constitutive matrix (strains × strains), `None` where the region takes no part.
@@ -111,8 +134,7 @@ impl<'a> Problem<'a> {
     /// # Errors
     /// [`Error::Law`] if the constants do not fit; [`Error::Mesh`] if an element is turned inside out.
     pub fn stiffness(&self, map: &DofMap, laws: &[Option<DMatrix<f64>>]) -> Result<SparseMatrix, Error> {
-        self.check(laws, self.form.strains(), Some(self.form.strains()))?;
-        let elements = self.element_matrices(laws, |g, law| self.form.stiffness(&self.reference.value, g, law))?;
+        let elements: Vec<_> = self.stiffnesses(laws)?.collect::<Result<_, _>>()?;
         Ok(self.pattern(map, laws).assemble(&elements))
     }
 
@@ -129,9 +151,7 @@ impl<'a> Problem<'a> {
     /// # Errors
     /// As [`Self::stiffness`] and [`Condensed::new`].
     pub fn condense(&self, map: &DofMap, laws: &[Option<DMatrix<f64>>]) -> Result<Condensed, Error> {
-        self.check(laws, self.form.strains(), Some(self.form.strains()))?;
-        let elements = self.element_matrices(laws, |g, law| self.form.stiffness(&self.reference.value, g, law))?;
-        Condensed::new(self.mesh, map, &elements)
+        Condensed::assemble(self.mesh, map, |e| laws[self.mesh.regions()[e]].is_some(), self.stiffnesses(laws)?)
     }
 
     fn pattern(&self, map: &DofMap, laws: &[Option<DMatrix<f64>>]) -> Pattern {
@@ -147,11 +167,17 @@ impl<'a> Problem<'a> {
         let count = stresses.iter().flatten().map(|s| s.ncols()).max().unwrap_or(0);
         let c = self.form.components();
         let mut loads = vec![vec![0.0; self.mesh.nodes().len() * c]; count];
+        let coefficients: Vec<_> = stresses.iter().map(|s| s.as_ref().map(|s| Coefficients::loads(self.form, s))).collect();
         for (e, &region) in self.mesh.regions().iter().enumerate() {
-            let Some(stress) = &stresses[region] else { continue };
-            let g = self.reference.geometry(self.mesh, e, self.form.measure())?;
-            for (load, column) in loads.iter_mut().zip(stress.column_iter()) {
-                let f = self.form.load(&self.reference.value, &g, column.as_slice());
+            let (Some(stress), Some(coefficients)) = (&stresses[region], &coefficients[region]) else { continue };
+            let element: Vec<DVector<f64>> = match self.rectangle(e) {
+                Some(rectangle) => (0..stress.ncols()).map(|column| rectangle.load(coefficients, column)).collect(),
+                None => {
+                    let g = self.reference.geometry(self.mesh, e, self.form.measure())?;
+                    stress.column_iter().map(|s| self.form.load(&self.reference.value, &g, s.as_slice())).collect()
+                }
+            };
+            for (load, f) in loads.iter_mut().zip(&element) {
                 for (a, node) in self.mesh.elements()[e].iter().enumerate() {
                     (0..c).for_each(|i| load[node * c + i] += f[a * c + i]);
                 }
@@ -167,7 +193,10 @@ impl<'a> Problem<'a> {
     /// As [`Self::stiffness`].
     pub fn coupling(&self, laws: &[Option<DMatrix<f64>>]) -> Result<Coupling, Error> {
         self.check(laws, self.form.strains(), Some(1))?;
-        let elements = self.element_matrices(laws, |g, law| self.form.coupling(&self.reference.value, g, law.as_slice()))?;
+        let general =
+            |g: &crate::ElementGeometry, law: &DMatrix<f64>| self.form.coupling(&self.reference.value, g, law.as_slice());
+        let coefficients = |law| Coefficients::loads(self.form, law);
+        let elements = self.element_matrices(laws, coefficients, Rectangle::coupling, general).collect::<Result<_, _>>()?;
         let nodes: Vec<_> = self.mesh.elements().to_vec();
         Ok(Coupling { components: self.form.components(), count: self.mesh.nodes().len(), nodes, elements })
     }
@@ -179,9 +208,11 @@ impl<'a> Problem<'a> {
     pub fn mass(&self, map: &DofMap, capacities: &[Option<DMatrix<f64>>]) -> Result<SparseMatrix, Error> {
         self.check(capacities, 1, Some(1))?;
         let each_component = DMatrix::identity(self.form.components(), self.form.components());
+        let on_rectangle = |r: &Rectangle, c: &f64| (r.mass() * *c).kronecker(&each_component);
         let mass =
             |g: &crate::ElementGeometry, c: &DMatrix<f64>| Form::mass(&self.reference.value, g, c[0]).kronecker(&each_component);
-        Ok(self.pattern(map, capacities).assemble(&self.element_matrices(capacities, mass)?))
+        let elements: Vec<_> = self.element_matrices(capacities, |c| c[0], on_rectangle, mass).collect::<Result<_, _>>()?;
+        Ok(self.pattern(map, capacities).assemble(&elements))
     }
 
     /// Boundary mass `∫ N h N ds` of a scalar form over the given (element, edge, h), on the pattern of the whole mesh.

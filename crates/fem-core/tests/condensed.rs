@@ -41,3 +41,46 @@ fn bounds_a_body_that_is_not_held_is_refused() {
     let laws = vec![Some(DMatrix::identity(3, 3)); mesh.region_count()];
     assert!(matches!(problem.condense(&map, &laws), Err(Error::NotPositiveDefinite { .. })));
 }
+
+#[test]
+fn exact_one_element_is_solved_inside() {
+    let mesh = common::mapped(4, [1, 1], |x| x, |_| 0);
+    let problem = Problem::new(&mesh, Form::DIFFUSION, 5);
+    let mut constraints = Constraints::new(mesh.nodes().len());
+    constraints.hold(0).expect("unknown");
+    let map = constraints.eliminate(&problem.used(|_| true));
+    let laws = [Some(DMatrix::identity(2, 2))];
+    let condensed = problem.condense(&map, &laws).expect("condense");
+    assert_eq!(condensed.boundary_unknowns(), 0);
+    let load: Vec<f64> = (0..map.reduced()).map(|i| (i as f64).cos()).collect();
+    let (a, b) = (
+        condensed.solve(std::slice::from_ref(&load)).expect("solve"),
+        problem.factor(&map, &laws).expect("factor").solve(&[load]),
+    );
+    let b = b.expect("solve");
+    assert!(a[0].iter().zip(&b[0]).all(|(a, b)| (a - b).abs() < 1e-11), "{a:?} against {b:?}");
+    let mut spoilt = vec![1.0; map.reduced()];
+    spoilt[3] = f64::NAN;
+    assert!(matches!(condensed.solve(&[spoilt]), Err(Error::Residual { .. })));
+}
+
+/// Two bodies that do not touch, elements that take no part, more elements than a tree of one level holds, many loads at once.
+#[test]
+fn exact_a_gap_of_inactive_elements_and_many_loads_change_nothing() {
+    let mesh = common::mapped(3, [9, 5], |[x, y]| [1.0 + x, 0.4 * y + 0.1 * x * x], |column| usize::from(column == 4));
+    let problem = Problem::new(&mesh, Form::AXISYMMETRIC_ELASTICITY, 5);
+    let law = common::stiffness(Form::AXISYMMETRIC_ELASTICITY, &common::coil());
+    let laws = [Some(law), None];
+    let mut constraints = Constraints::new(2 * mesh.nodes().len());
+    for corner in [0, 9 * 3] {
+        constraints.hold(2 * corner + 1).expect("unknown");
+    }
+    let map = constraints.eliminate(&problem.used(|region| region == 0));
+    let (condensed, full) = (problem.condense(&map, &laws).expect("condense"), problem.factor(&map, &laws).expect("factor"));
+    let loads: Vec<Vec<f64>> = (0..12).map(|k| (0..map.reduced()).map(|i| ((i * (k + 3)) as f64).sin()).collect()).collect();
+    let (a, b) = (condensed.solve(&loads).expect("solve"), full.solve(&loads).expect("solve"));
+    for (a, b) in a.iter().zip(&b) {
+        let size = b.iter().fold(0.0f64, |m, b| m.max(b.abs()));
+        assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-8 * size));
+    }
+}

@@ -78,3 +78,15 @@ fn exact_the_rate_of_a_load_is_that_of_the_capacity() {
     };
     assert!(rate.iter().zip(&start).all(|(a, b)| (a - b).abs() < 1e-12));
 }
+
+#[test]
+fn exact_plain_step_is_the_step_without_its_error_estimate() {
+    let (mut transient, start) = rod(8);
+    let load: Vec<f64> = start.iter().map(|v| 0.3 * v).collect();
+    let (checked, _) = transient.step(&state(&start), &load, 0.02).expect("step");
+    let plain = transient.plain_step(&state(&start), &load, 0.02).expect("step");
+    for (a, b) in checked.value.iter().zip(&plain.value).chain(checked.rate.iter().zip(&plain.rate)) {
+        assert!((a - b).abs() < 1e-11, "{a} against {b}");
+    }
+    assert!(transient.plain_step(&state(&start), &vec![f64::NAN; load.len()], 0.02).is_err(), "no state that is not finite");
+}

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::cli_check::Check;
+
 /// Thermal bias of fibre-optic-gyroscope coils.
 #[derive(Parser)]
 #[command(version, after_help = "Exit status: 0 done; 2 bad usage or input; 1 the program's own failure.")]
@@ -56,8 +58,10 @@ pub(crate) enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Thermometer and bias in time under a profile of the chamber's temperature
+    /// Thermometer and bias in time under a profile of the chamber's temperature, or from a thermometer's record
     Simulate(Simulate),
+    /// Is a recording usable? Gaps, units, outliers, noise, Allan deviation
+    Check(Check),
 }
 
 #[derive(Args)]
@@ -66,8 +70,14 @@ pub(crate) struct Simulate {
     #[arg(value_name = "COIL.ron")]
     pub(crate) coil: PathBuf,
     /// Profile: time_s,chamber_c and, where wanted, left_c, right_c, mount_left_c, mount_right_c
-    #[arg(long, value_name = "P.csv")]
-    pub(crate) profile: PathBuf,
+    #[arg(long, value_name = "P.csv", required_unless_present = "spool")]
+    pub(crate) profile: Option<PathBuf>,
+    /// In place of a profile: a record time_s,spool_c of the spool's thermometer, from rest, to infer the chamber from
+    #[arg(long, value_name = "RECORD.csv", conflicts_with = "profile")]
+    pub(crate) spool: Option<PathBuf>,
+    /// Standard deviation of the record's readings in K, rounding included
+    #[arg(long, value_name = "K", conflicts_with = "profile", value_parser = noise, default_value = "0.01")]
+    pub(crate) spool_noise: f64,
     /// Write the result here, a row for each of the profile's
     #[arg(long, value_name = "B.csv")]
     pub(crate) out: PathBuf,
@@ -80,4 +90,16 @@ pub(crate) struct Simulate {
     /// No notes and no progress on standard error
     #[arg(long)]
     pub(crate) quiet: bool,
+    /// Build the model anew and do not keep it ($FOGCOIL_CACHE, else $XDG_CACHE_HOME/fogcoil, else ~/.cache/fogcoil)
+    #[arg(long)]
+    pub(crate) no_cache: bool,
+}
+
+/// Largest noise \[K\] of a thermometer that says anything.
+const MOST_NOISE: f64 = 10.0;
+
+fn noise(text: &str) -> Result<f64, String> {
+    let least = coil::LEAST_NOISE;
+    let number = text.parse().ok().filter(|noise| (least..=MOST_NOISE).contains(noise));
+    number.ok_or_else(|| format!("give kelvins from {least} to {MOST_NOISE}"))
 }

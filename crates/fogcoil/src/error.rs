@@ -54,10 +54,10 @@ pub enum Error {
 impl Error {
     /// Exit status: 2 where the user can mend it (arguments, case files, paths), 1 where the program failed.
     pub fn exit_code(&self) -> u8 {
-        use coil::Error::{Bias, Design, Profile, Winding};
+        use coil::Error::{Bias, Design, Profile, Record, Winding};
         match self {
             Self::Input(_) | Self::Usage(_) | Self::Output { .. } => 2,
-            Self::Coil { source: Design { .. } | Profile { .. } | Winding(_) | Bias(_), .. } => 2,
+            Self::Coil { source: Design { .. } | Profile { .. } | Record(_) | Winding(_) | Bias(_), .. } => 2,
             Self::Stdout(_) | Self::Homogenization { .. } | Self::Coil { .. } | Self::NotFinite { .. } => 1,
         }
     }

@@ -2,8 +2,10 @@
 //!
 //! - [`input`] reads `CELL.ron`, `COIL.ron` and profiles. Every value is checked; what is wrong is said once, with file, line, field and
 //!   remedy ([`input::InputError`]). The keys carry their units, the result is SI; [`units`] holds every conversion.
-//! - [`simulate`] runs a profile; [`summary`] and [`report`] say what came out.
+//! - [`simulate`] runs a profile; [`summary`], [`figures`] and [`report`] say what came out.
 //! - [`homogenize`], [`wind`], [`sensitivity`] render what the physics crates compute: as text for people and as JSON, CSV or SVG.
+//! - [`cache`] keeps models that take long to build.
+//! - [`check`] judges a recording and identifies its noise.
 //! - [`output`] writes a file whole or not at all.
 //!
 //! The functions neither print nor parse arguments; `main.rs` does.
@@ -21,7 +23,10 @@
 //! # }
 //! ```
 
+pub mod cache;
+pub mod check;
 mod error;
+pub mod figures;
 pub mod homogenize;
 pub mod input;
 pub mod output;

@@ -1,16 +1,20 @@
 //! The command line: arguments in, exit status out. Everything else is in the library.
 
 mod cli;
+mod cli_check;
 mod progress;
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
 use cli::{Cli, Command, Simulate};
+use cli_check::Check;
+use coil::Drive;
+use fogcoil::cache::Cache;
 use fogcoil::output::Content;
-use fogcoil::{Error, homogenize, input, output, picture, report, sensitivity, simulate, summary, trim, wind};
+use fogcoil::{Error, check, figures, homogenize, input, output, picture, report, sensitivity, simulate, summary, trim, wind};
 use progress::Progress;
 
 fn main() -> ExitCode {
@@ -31,6 +35,7 @@ fn run(command: &Command) -> Result<(), Error> {
             let result = case.homogenize()?;
             output::print(&if *json { line(&homogenize::json(&result)) } else { homogenize::text(&case, &result) })
         }
+        Command::Check(arguments) => run_check(arguments),
         Command::Simulate(arguments) => run_simulate(arguments),
         Command::Trim { coil, profile, json } => run_trim(coil, profile.as_deref(), *json),
         Command::Wind { coil, csv, svg } => run_wind(coil, csv.as_deref(), svg.as_deref()),
@@ -53,6 +58,21 @@ fn run_wind(coil: &Path, csv: Option<&Path>, svg: Option<&Path>) -> Result<(), E
     }
 }
 
+fn run_check(arguments: &Check) -> Result<(), Error> {
+    let Check { record, json, svg, .. } = arguments;
+    output::check_distinct(&[record], &[svg.as_deref()])?;
+    let progress = Progress::OnStandardError;
+    let case = progress.during(&format!("reading {}", record.display()), || input::read_record(record, &arguments.options()))?;
+    let analysis = progress.during("identifying the noise", || check::Analysis::new(&case));
+    output::print(&if *json { line(&check::json(&analysis)) } else { check::text(&analysis) })?;
+    case.require_usable()?;
+    match (svg, check::svg(&analysis)) {
+        (Some(path), Some(picture)) => output::write_files(&[(path, Content::Text(picture))]),
+        (Some(path), None) => Err(Error::Usage(format!("{}: there is no Allan deviation to draw", path.display()))),
+        (None, _) => Ok(()),
+    }
+}
+
 fn run_trim(coil: &Path, profile: Option<&Path>, json: bool) -> Result<(), Error> {
     let case = read_coil(coil)?;
     let profile = profile.map(|path| input::read_profile(path, &case.design)).transpose()?;
@@ -68,19 +88,40 @@ fn read_coil(path: &Path) -> Result<input::CoilCase, Error> {
 }
 
 fn run_simulate(arguments: &Simulate) -> Result<(), Error> {
-    let Simulate { coil, profile, out, report, json, quiet } = arguments;
-    output::check_distinct(&[coil, profile], &[Some(out), report.as_deref()])?;
+    let Simulate { coil, profile, spool, spool_noise, out, report, json, quiet, no_cache } = arguments;
+    let inputs: Vec<&Path> = [Some(coil), profile.as_ref(), spool.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
+    output::check_distinct(&inputs, &[Some(out), report.as_deref()])?;
     let progress = if *quiet { Progress::Silent } else { Progress::OnStandardError };
     let case = if *quiet { input::read_coil(coil)? } else { read_coil(coil)? };
-    let profile = progress.during(&format!("reading {}", profile.display()), || input::read_profile(profile, &case.design))?;
+    let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
+    let drawn = report.is_some() && case.winding.turns().len() <= figures::MOST_TURNS;
+    let model = |drives: &[Drive]| {
+        progress.during("modelling the coil", || match drawn {
+            true => simulate::model_with_fields(&case, drives, &cache).map(|(model, fields)| (model, Some(fields))),
+            false => simulate::model(&case, drives, &cache).map(|model| (model, None)),
+        })
+    };
+    let ((model, fields), profile) = match (profile, spool) {
+        (_, Some(spool)) => {
+            let record = progress.during(&format!("reading {}", spool.display()), || input::read_spool(spool, &case.design))?;
+            let model = model(&record.drives)?;
+            let profile = progress.during("inferring the chamber", || simulate::infer(record, *spool_noise, &model.0))?;
+            (model, profile)
+        }
+        (Some(profile), None) => {
+            let profile =
+                progress.during(&format!("reading {}", profile.display()), || input::read_profile(profile, &case.design))?;
+            (model(&profile.drives)?, profile)
+        }
+        (None, None) => return Err(Error::Usage("give a profile (--profile) or a thermometer's record (--spool)".into())),
+    };
     profile.notes.iter().for_each(|note| progress.note(note));
-    let model = progress.during("modelling the coil", || simulate::model(&case, &profile))?;
     let task = format!("simulating {} rows", profile.profile.time.len());
     let simulation = progress.during(&task, || simulate::simulate(&case, &profile, &model))?;
     let rows = |out: &mut dyn Write| simulation.write_csv(out);
     let mut files = vec![(out.as_path(), Content::Written(&rows))];
     if let Some(path) = report {
-        files.push((path, Content::Text(report::html(&simulation))));
+        files.push((path, Content::Text(report::html(&simulation, fields.as_ref()))));
     }
     progress.during(&format!("writing {}", out.display()), || output::write_files(&files))?;
     output::print(&if *json { line(&summary::json(&simulation)) } else { summary::text(&simulation) })

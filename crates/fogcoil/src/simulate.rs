@@ -3,10 +3,16 @@
 use std::io::{self, Write};
 
 use bias::units::{DEG_PER_H_PER_RAD_PER_S, K_PER_MIN_PER_K_PER_S};
-use coil::{Dynamics, ReductionError, Response, STANDARD, SteadySensitivity};
+use coil::{
+    COARSE, Drive, Dynamics, FINE, Profile, ReductionError, Response, STANDARD, SteadySensitivity, TurnFields,
+    chamber_from_sensor,
+};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use crate::Error;
-use crate::input::{CoilCase, ProfileCase};
+use crate::cache::{Cache, Source};
+use crate::input::{CoilCase, Inference, ProfileCase, SpoolCase};
 
 /// Columns of the result.
 pub const HEADER: &str = "time_s,chamber_c,spool_c,shupe_deg_per_h,eo_axial_deg_per_h,eo_radial_deg_per_h,rate_deg_per_h";
@@ -16,11 +22,12 @@ pub const WINDOW_S: f64 = 30.0;
 /// How much shorter a window may be, in windows: what clocks of recorders jitter.
 const JITTER: f64 = 0.1;
 
-/// A coil modelled for a profile's drives.
+/// A coil modelled for the drives of a profile.
 #[derive(Debug, Clone)]
 pub struct Model {
     dynamics: Dynamics,
     steady: SteadySensitivity,
+    source: Source,
 }
 
 /// What a coil does under a profile.
@@ -36,7 +43,24 @@ pub struct Simulation<'a> {
     pub reduction: ReductionError,
     /// Modes of the model.
     pub modes: usize,
+    /// Whether the model was built or found in the cache.
+    pub source: Source,
     responses: Vec<Response>,
+    samples: Vec<Sample>,
+}
+
+/// Instants between the first and the last at which fields can be drawn: the middles of as many equal intervals.
+const SAMPLES: usize = 150;
+
+/// The model's state at an instant.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Sample {
+    /// Instant \[s\].
+    pub(crate) time: f64,
+    /// Drives.
+    pub(crate) u: Vec<f64>,
+    /// Amplitudes of the modes.
+    pub(crate) q: Vec<f64>,
 }
 
 /// One row of the result, in the units of its header; rates are means since the previous row, 0 in the first.
@@ -54,7 +78,7 @@ pub struct Row {
     pub eo_axial: f64,
     /// Radial strain \[deg/h\].
     pub eo_radial: f64,
-    /// The sum of the three \[deg/h\].
+    /// The sum of the three and of the read-out's drift \[deg/h\].
     pub rate: f64,
 }
 
@@ -69,14 +93,74 @@ pub struct Window {
     pub rate: f64,
 }
 
-/// Models a coil for the drives of a profile.
+/// Models a coil for the drives of a profile, or finds its model in `cache`.
 ///
 /// # Errors
 /// [`Error::Coil`] if the coil cannot be solved.
-pub fn model(case: &CoilCase, profile: &ProfileCase) -> Result<Model, Error> {
-    let steady = case.steady_sensitivity()?;
-    let dynamics = Dynamics::new(&case.design, &profile.drives, &STANDARD);
-    Ok(Model { dynamics: dynamics.map_err(|source| Error::Coil { file: case.file.clone(), source })?, steady })
+pub fn model(case: &CoilCase, drives: &[Drive], cache: &Cache) -> Result<Model, Error> {
+    let build = || Dynamics::new(&case.design, drives, &STANDARD);
+    let (dynamics, source) = load_or_build(case, drives, cache, "dynamics", build)?;
+    assembled(case, cache, dynamics, source)
+}
+
+/// A thermometer that the model follows no better than this, in noises, is noted.
+const UNEXPLAINED: f64 = 2.0;
+
+/// The profile that a thermometer's record came from; `noise` \[K\] is the standard deviation of its readings.
+///
+/// # Errors
+/// [`Error::Coil`] if nothing can be inferred from the record.
+pub fn infer(record: SpoolCase, noise: f64, model: &Model) -> Result<ProfileCase, Error> {
+    let SpoolCase { drives, time, spool, mut notes, fingerprint } = record;
+    let file = || fingerprint.file.clone();
+    let inferred =
+        chamber_from_sensor(&model.dynamics, &time, &spool, noise).map_err(|source| Error::Coil { file: file(), source })?;
+    let residual = inferred.sensor_residual_rms;
+    if residual > UNEXPLAINED * noise {
+        let problem = format!(
+            "the model follows spool_c to {residual:.4} K only, with a noise of {noise} K; the record may not start at rest, the \
+             thermometer be noisier (--spool-noise), or the coil another"
+        );
+        notes.push(format!("{}: {problem}", file().display()));
+    }
+    let mut sd = inferred.chamber_sd;
+    sd.sort_by(f64::total_cmp);
+    let inference = Inference {
+        noise,
+        roughness: inferred.roughness,
+        sensor_residual_rms: residual,
+        chamber_sd: [sd[sd.len() / 2], sd[sd.len() - 1]],
+    };
+    let course = |drive: &Drive| if *drive == Drive::Heaters { vec![1.0; time.len()] } else { inferred.chamber.clone() };
+    let courses = drives.iter().map(course).collect();
+    Ok(ProfileCase { drives, profile: Profile { time, drives: courses }, inferred: Some(inference), notes, fingerprint })
+}
+
+/// As [`model`], with temperature and strain of every turn for [`crate::figures`]; those take 1 kB a turn and drive.
+///
+/// # Errors
+/// As [`model`].
+pub fn model_with_fields(case: &CoilCase, drives: &[Drive], cache: &Cache) -> Result<(Model, TurnFields), Error> {
+    let build = || Dynamics::with_fields(&case.design, drives, &STANDARD);
+    let ((dynamics, fields), source) = load_or_build(case, drives, cache, "dynamics and fields", build)?;
+    Ok((assembled(case, cache, dynamics, source)?, fields))
+}
+
+fn load_or_build<T: Serialize + DeserializeOwned>(
+    case: &CoilCase,
+    drives: &[Drive],
+    cache: &Cache,
+    purpose: &str,
+    build: impl FnOnce() -> Result<T, coil::Error>,
+) -> Result<(T, Source), Error> {
+    let at = |source| Error::Coil { file: case.file.clone(), source };
+    cache.load_or_build(purpose, &(&case.design, drives, STANDARD), || build().map_err(at))
+}
+
+fn assembled(case: &CoilCase, cache: &Cache, dynamics: Dynamics, source: Source) -> Result<Model, Error> {
+    let key = (&case.design, COARSE, FINE);
+    let (steady, of_steady) = cache.load_or_build("steady sensitivity", &key, || case.steady_sensitivity())?;
+    Ok(Model { dynamics, steady, source: if of_steady == source { source } else { Source::Built } })
 }
 
 /// Runs a profile from rest at its first instant.
@@ -85,12 +169,33 @@ pub fn model(case: &CoilCase, profile: &ProfileCase) -> Result<Model, Error> {
 /// [`Error::Coil`] if the profile cannot be run; [`Error::NotFinite`] if the model gives no number.
 pub fn simulate<'a>(case: &'a CoilCase, profile: &'a ProfileCase, model: &Model) -> Result<Simulation<'a>, Error> {
     let file = || profile.fingerprint.file.clone();
-    let responses = model.dynamics.simulate(&profile.profile).map_err(|source| Error::Coil { file: file(), source })?;
-    if let Some(row) = responses.iter().position(|r| !(r.sensor.is_finite() && r.bias.total().is_finite())) {
+    let mut samples = Vec::new();
+    let responses = model.dynamics.simulate_with(&profile.profile, |n, u, q| sample(&mut samples, model, profile, (n, u, q)));
+    let responses = responses.map_err(|source| Error::Coil { file: file(), source })?;
+    if let Some(row) = responses.iter().position(|r| !(r.sensor.is_finite() && r.rate().is_finite())) {
         return Err(Error::NotFinite { file: file(), time: profile.profile.time[row] });
     }
     let (reduction, modes) = (model.dynamics.reduction_error(), model.dynamics.reduced().rates.len());
-    Ok(Simulation { case, profile, steady: model.steady, reduction, modes, responses })
+    Ok(Simulation { case, profile, steady: model.steady, reduction, modes, source: model.source, responses, samples })
+}
+
+/// Adds the samples between row n and the next, from the state at row n.
+fn sample(samples: &mut Vec<Sample>, model: &Model, profile: &ProfileCase, (n, u, q): (usize, &[f64], &[f64])) {
+    let (time, reduced) = (&profile.profile.time, model.dynamics.reduced());
+    let [Some(next), Some(last)] = [time.get(n + 1), time.last()] else { return };
+    loop {
+        let at = time[0] + (last - time[0]) * (samples.len() as f64 + 0.5) / SAMPLES as f64;
+        if samples.len() == SAMPLES || at >= *next {
+            return;
+        }
+        // a sample that rounding puts before its row is taken at the row
+        let since = (at - time[n]).max(0.0);
+        let slope: Vec<f64> = profile.profile.drives.iter().map(|d| (d[n + 1] - d[n]) / (next - time[n])).collect();
+        let mut q = q.to_vec();
+        reduced.advance(&mut q, &slope, &reduced.interval(since));
+        let u = u.iter().zip(&slope).map(|(u, s)| u + s * since).collect();
+        samples.push(Sample { time: at, u, q });
+    }
 }
 
 impl Simulation<'_> {
@@ -99,12 +204,24 @@ impl Simulation<'_> {
         self.responses.len()
     }
 
+    /// States at instants evenly spaced over the course; none if it has no duration.
+    pub(crate) fn samples(&self) -> &[Sample] {
+        &self.samples
+    }
+
+    /// The drives at rest before the first row: its temperatures, heaters off.
+    pub(crate) fn rest(&self) -> Vec<f64> {
+        let of = |(drive, course): (&Drive, &Vec<f64>)| if *drive == Drive::Heaters { 0.0 } else { course[0] };
+        self.profile.drives.iter().zip(&self.profile.profile.drives).map(of).collect()
+    }
+
     /// A row.
     ///
     /// # Panics
     /// If `n` is not less than [`Simulation::count`].
     pub fn row(&self, n: usize) -> Row {
-        let Response { sensor, bias, .. } = self.responses[n];
+        let response = self.responses[n];
+        let Response { sensor, bias, .. } = response;
         let bias = bias * DEG_PER_H_PER_RAD_PER_S;
         Row {
             time: self.profile.profile.time[n],
@@ -113,7 +230,7 @@ impl Simulation<'_> {
             shupe: bias.shupe,
             eo_axial: bias.eo_axial,
             eo_radial: bias.eo_radial,
-            rate: bias.total(),
+            rate: response.rate() * DEG_PER_H_PER_RAD_PER_S,
         }
     }
 

@@ -2,6 +2,8 @@
 
 use serde_json::{Value, json};
 
+use crate::cache::Source;
+use crate::input::Inference;
 use crate::simulate::{Row, Simulation, WINDOW_S};
 use crate::table::{significant, table};
 use crate::units::DurationUnit;
@@ -99,6 +101,21 @@ pub fn json(simulation: &Simulation) -> Value {
         "steady_sensitivity": steady.sensitivity.total(),
         "steady_sensitivity_error_estimate": steady.error_estimate,
         "reduction_error": simulation.reduction.bias,
+        "inferred": simulation.profile.inferred.map(inferred),
+        "cached": simulation.source == Source::Cached,
+    })
+}
+
+/// How the chamber was inferred from the thermometer.
+fn inferred(inference: Inference) -> Value {
+    let Inference { noise, roughness, sensor_residual_rms, chamber_sd: [median, largest] } = inference;
+    json!({
+        "from": "spool_c",
+        "noise_k": noise,
+        "roughness_k_per_s1_5": roughness,
+        "sensor_residual_rms_k": sensor_residual_rms,
+        "chamber_sd_median_k": median,
+        "chamber_sd_largest_k": largest,
     })
 }
 
@@ -107,6 +124,9 @@ pub fn text(simulation: &Simulation) -> String {
     let mut rows = vec![];
     for [name, value, unit] in entries(simulation) {
         rows.push(vec![name, value, unit]);
+    }
+    if simulation.source == Source::Cached {
+        rows.push(["model", "from the cache", ""].map(str::to_owned).to_vec());
     }
     format!("{} under {}\n\n{}", simulation.case.name, simulation.profile.fingerprint.file.display(), table(&rows))
 }
@@ -121,7 +141,7 @@ pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
     let after = format!("s, {:.2} {} after the first row", unit.of_seconds(peak.time - simulation.row(0).time), unit.name());
     let slope_name = format!("slope of the rate on the spool's rate, {WINDOW_S}-s differences");
     let steady = format!("{:.4} ± {}", simulation.steady.sensitivity.total(), significant(simulation.steady.error_estimate, 2));
-    vec![
+    let mut all = vec![
         entry("rows", rows.to_string(), ""),
         entry("duration", format!("{:.2}", unit.of_seconds(duration)), unit.name()),
         entry("chamber", range(chamber), "degC"),
@@ -135,5 +155,14 @@ pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
         entry("root mean square of the rate", rate(rms), "deg/h, over time"),
         entry(&slope_name, slope.map_or("none".into(), rate), "(deg/h)/(degC/min)"),
         entry("steady-ramp sensitivity", steady, "(deg/h)/(degC/min)"),
-    ]
+    ];
+    if let Some(Inference { noise, sensor_residual_rms, chamber_sd: [median, largest], .. }) = simulation.profile.inferred {
+        let sd = format!("{} (median), {} (largest)", significant(median, 2), significant(largest, 2));
+        all.extend([
+            entry("chamber inferred from the spool's thermometer", String::new(), ""),
+            entry("  standard deviation", sd, "K, if the model is exact"),
+            entry("  thermometer's residual", significant(sensor_residual_rms, 2), &format!("K rms, of a noise of {noise} K")),
+        ]);
+    }
+    all
 }

@@ -2,7 +2,7 @@
 //!
 //! Divisions by powers of ten are correctly rounded, so `from_mm(43.5)` is the double nearest to 0.0435.
 
-use bias::units::{S_PER_H, S_PER_MIN};
+use bias::units::{DEG_PER_H_PER_RAD_PER_S, S_PER_H, S_PER_MIN};
 
 /// What a key in a case file may end in, after the quantity's name.
 pub(crate) const SUFFIXES: [&str; 14] =
@@ -47,6 +47,46 @@ pub fn to_gpa(pascals: f64) -> f64 {
 pub fn to_ppm(ratio: f64) -> f64 {
     ratio * 1e6
 }
+
+/// A unit of a recording's column: value in the standard unit = scale · value + offset.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ColumnUnit {
+    /// The names it goes by.
+    pub(crate) names: &'static [&'static str],
+    /// Factor.
+    pub(crate) scale: f64,
+    /// Added after the factor.
+    pub(crate) offset: f64,
+}
+
+const fn unit(names: &'static [&'static str], scale: f64, offset: f64) -> ColumnUnit {
+    ColumnUnit { names, scale, offset }
+}
+
+/// Units of instants; the standard one, s, first.
+pub(crate) const TIMES: [ColumnUnit; 6] = [
+    unit(&["s"], 1.0, 0.0),
+    unit(&["ms"], 1e-3, 0.0),
+    unit(&["us", "\u{b5}s", "\u{3bc}s"], 1e-6, 0.0),
+    unit(&["ns"], 1e-9, 0.0),
+    unit(&["min"], S_PER_MIN, 0.0),
+    unit(&["h"], S_PER_H, 0.0),
+];
+
+/// Units of temperatures; the standard one, degC, first.
+pub(crate) const TEMPERATURES: [ColumnUnit; 3] = [
+    unit(&["degC", "\u{b0}C", "C"], 1.0, 0.0),
+    unit(&["K"], 1.0, -273.15),
+    unit(&["degF", "\u{b0}F", "F"], 5.0 / 9.0, -160.0 / 9.0),
+];
+
+/// Units of rates; the standard one, deg/h, first.
+pub(crate) const RATES: [ColumnUnit; 4] = [
+    unit(&["deg/h", "\u{b0}/h", "dph"], 1.0, 0.0),
+    unit(&["deg/s", "\u{b0}/s", "dps"], S_PER_H, 0.0),
+    unit(&["rad/s"], DEG_PER_H_PER_RAD_PER_S, 0.0),
+    unit(&["mrad/s"], 1e-3 * DEG_PER_H_PER_RAD_PER_S, 0.0),
+];
 
 /// The unit in which a span of time is shown to people.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -17,7 +17,7 @@ fn report(coil: &str, profile: &str) -> String {
 
 /// Every element that is opened is closed in its turn, every attribute is quoted, every bare ampersand is an entity.
 fn assert_well_formed(page: &str) {
-    let page = page.strip_prefix("<!DOCTYPE html>").unwrap();
+    let page = page.strip_prefix("<!DOCTYPE html>").unwrap_or(page);
     let mut open: Vec<&str> = Vec::new();
     for (i, piece) in page.split('<').enumerate().skip(1) {
         let (tag, text) = piece.split_once('>').unwrap_or_else(|| panic!("tag {i} is not closed: {piece}"));
@@ -49,7 +49,22 @@ fn the_report_is_well_formed_and_needs_nothing_else() {
     for labels in page.split("aria-labelledby=\"").skip(1) {
         assert!(labels.split('"').next().unwrap().split(' ').all(|id| ids.contains(&id)));
     }
-    assert_eq!(page.matches("role=\"img\"").count(), 6, "three plots, for wide and narrow paper");
+    let figures = [
+        "model",
+        "temperatures",
+        "bias",
+        "bias-against-rate",
+        "temperature-along-fibre",
+        "radial-strain-along-fibre",
+        "axial-strain-along-fibre",
+        "contributions",
+    ];
+    assert_eq!(page.matches("role=\"img\"").count(), 2 * figures.len(), "each for wide and narrow paper");
+    for figure in figures {
+        for size in ["wide", "narrow"] {
+            assert!(ids.contains(&format!("{figure}-{size}-title").as_str()), "{figure}-{size}");
+        }
+    }
     for part in ["°/h", "[°C]", "[°C/min]", "FNV-1a", env!("CARGO_PKG_VERSION"), "prefers-color-scheme: dark", "<details>"] {
         assert!(page.contains(part), "{part}");
     }
@@ -61,6 +76,62 @@ fn a_profile_of_any_length_and_size_has_a_report() {
         let page = report(COIL, &format!("time_s,chamber_c\n{profile}"));
         assert_well_formed(&page);
         assert!(!page.contains("NaN") && !page.contains("inf "), "{profile}");
+    }
+}
+
+#[test]
+fn every_design_has_its_figures() {
+    let spool = |text: &str| {
+        let (before, rest) = COIL.split_once("    spool: Some((").unwrap();
+        let (_, after) = rest.split_once("    )),\n").unwrap();
+        format!("{before}    spool: {text},\n{after}")
+    };
+    let material = "material: (youngs_modulus_gpa: 68.9, poisson_ratio: 0.33, thermal_expansion_per_k: 23.6e-6, \
+                    conductivity_w_per_mk: 167.0, density_kg_per_m3: 2700.0, specific_heat_j_per_kgk: 896.0), hub_thickness_mm: 4.0, ";
+    let flange = |side: &str, bonded: bool| format!("(side: {side}, thickness_mm: 2.0, overhang_mm: 1.0, bonded: {bonded})");
+    let two = format!("Some(({material}hub_bonded: false, flanges: [{}, {}]))", flange("Left", false), flange("Right", true));
+    let bare = format!("Some(({material}hub_bonded: true, flanges: []))");
+    let few = |coil: String| {
+        change(
+            &change(&change(&coil, "layers: 36", "layers: 3"), "odd_layers: 106", "odd_layers: 3"),
+            "even_layers: 105",
+            "even_layers: 2",
+        )
+    };
+    let small =
+        change(&change(&spool("None"), "outer_radius_mm: 48.825", "outer_radius_mm: 44.1"), "height_mm: 18.02", "height_mm: 0.6");
+    let film = change(COIL, "sensor: (radius_mm", "heat: (film_w_per_m2k: Some(20.0)), sensor: (radius_mm");
+    for coil in [spool("None"), spool(&two), spool(&bare), few(small), film] {
+        let page = report(&coil, "time_s,chamber_c\n0,20\n600,30\n1200,15\n");
+        assert_well_formed(&page);
+        let numberless = ["NaN", "inf ", "inf<", "inf\"", "infL", "infV", "infH"].into_iter().find(|word| page.contains(word));
+        assert_eq!(numberless, None, "{coil}");
+        assert_eq!(page.matches("<figure>").count(), 8);
+    }
+}
+
+#[test]
+fn figures_alone_are_documents_and_the_contributions_add_up() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    folder.write("p.csv", "time_s,chamber_c\n0,20\n3600,40\n7200,30\n");
+    let case = fogcoil::input::read_coil(&folder.path("coil.ron")).unwrap();
+    let profile = fogcoil::input::read_profile(&folder.path("p.csv"), &case.design).unwrap();
+    let cache = fogcoil::cache::Cache::NONE;
+    let (model, fields) = fogcoil::simulate::model_with_fields(&case, &profile.drives, &cache).unwrap();
+    let simulation = fogcoil::simulate::simulate(&case, &profile, &model).unwrap();
+    let documents = fogcoil::figures::documents(&simulation, Some(&fields));
+    assert_eq!(documents.len(), 8);
+    for (name, svg) in &documents {
+        assert_well_formed(svg);
+        assert!(svg.starts_with("<svg xmlns=") && svg.len() < 400_000, "{name}: {} bytes", svg.len());
+        assert!(!svg.contains("NaN") && !svg.contains("var(") && !svg.contains(">inf"), "{name}");
+    }
+    let turns = fogcoil::figures::contributions_in_ramp(&simulation, &fields).unwrap();
+    let sum = turns.iter().fold(bias::Bias::ZERO, |sum, turn| sum + *turn);
+    let steady = simulation.steady.sensitivity;
+    for (part, expected) in [(sum.shupe, steady.shupe), (sum.eo_axial, steady.eo_axial), (sum.eo_radial, steady.eo_radial)] {
+        assert!((part - expected).abs() < 1e-8, "{part} against {expected}");
     }
 }
 

@@ -13,6 +13,7 @@ fn radial_moment(pattern: Pattern) -> Result<f64, Error> {
         cw_climbs: ClimbSide::Right,
         turn_length: TurnLength::Equal,
         tails: Tails { cw: 0.0, ccw: 0.0 },
+        defect: None,
     };
     Ok(wind(&spec)?.moment(1, 0).abs())
 }

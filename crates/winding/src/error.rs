@@ -41,6 +41,26 @@ pub enum Error {
         /// The least number of turns.
         needed: usize,
     },
+    /// The layer of a defect does not exist.
+    #[error("the defect's layer = {layer}, but the coil has layers 1 to {layers}")]
+    DefectLayer {
+        /// The layer that was named.
+        layer: usize,
+        /// Layers of the coil.
+        layers: usize,
+    },
+    /// A defect leaves no turn, or more than twice as many as designed.
+    #[error(
+        "a defect of {turns} turns in layer {layer}, where its owner lays {owned}; leave at least one turn and at most twice as many"
+    )]
+    DefectTurns {
+        /// The layer, counted from 1.
+        layer: usize,
+        /// Turns too many or missing.
+        turns: i32,
+        /// Turns that the layer's owner should lay.
+        owned: usize,
+    },
     /// The turn table would be too large.
     #[error(
         "layers = {layers} with turns_odd_layers = {odd} and turns_even_layers = {even} make more than {limit} turns, \

@@ -38,6 +38,7 @@
 //!     cw_climbs: ClimbSide::Right,
 //!     turn_length: TurnLength::True,
 //!     tails: Tails { cw: 0.0, ccw: 0.0 },
+//!     defect: None,
 //! })?;
 //! assert_eq!(format!("{:.4}", winding.length()), "1101.5666"); // m
 //! assert_eq!(winding.count(Half::Cw), 1899);
@@ -51,7 +52,7 @@ mod turn;
 mod winding;
 
 pub use error::Error;
-pub use spec::{ClimbSide, Half, MAX_TURNS, Pattern, Spec, Tails, TurnLength};
+pub use spec::{ClimbSide, Half, LayerDefect, MAX_TURNS, Pattern, Spec, Tails, TurnLength};
 pub use turn::Turn;
 pub use winding::{Winding, wind};
 

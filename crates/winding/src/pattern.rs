@@ -19,7 +19,10 @@ pub(crate) fn places(spec: &Spec) -> Vec<Place> {
     places.extend(lay(spec, Half::Cw));
     match spec.cw_climbs {
         ClimbSide::Right => {}
-        ClimbSide::Left => places.iter_mut().for_each(|place| place.turn = spec.turns_in(place.layer) + 1 - place.turn),
+        ClimbSide::Left => {
+            let turns = |layer| spec.turns_in(layer).saturating_add_signed(spec.surplus_in(layer));
+            places.iter_mut().for_each(|place| place.turn = turns(place.layer) + 1 - place.turn);
+        }
     }
     places
 }
@@ -32,7 +35,7 @@ fn lay(spec: &Spec, half: Half) -> Vec<Place> {
     let mut owned_before = 0;
     for layer in 1..=spec.layers {
         let owned = owner(spec.pattern, layer) == half;
-        let stretch = stretch(spec, half, layer, owned).map(|turn| Place { half, layer, turn });
+        let stretch = as_wound(spec, layer, owned, stretch(spec, half, layer, owned)).map(|turn| Place { half, layer, turn });
         if owned_before % 2 == 0 {
             places.extend(stretch);
         } else {
@@ -54,6 +57,29 @@ fn stretch(spec: &Spec, half: Half, layer: usize, owned: bool) -> RangeInclusive
         (Pattern::Cylindrical | Pattern::Dipole | Pattern::Quadrupole | Pattern::Octupole, _, true) => 1..=turns,
         #[expect(clippy::reversed_empty_ranges, reason = "a half lays nothing in a layer it does not own")]
         (Pattern::Cylindrical | Pattern::Dipole | Pattern::Quadrupole | Pattern::Octupole, _, false) => 1..=0,
+    }
+}
+
+/// A stretch with the turns that its layer has too many or too few.
+fn as_wound(spec: &Spec, layer: usize, owned: bool, stretch: RangeInclusive<usize>) -> RangeInclusive<usize> {
+    let (first, last) = stretch.into_inner();
+    let more = |turn: usize| turn.saturating_add_signed(spec.surplus_in(layer));
+    let passing_behind = !owned && first > 1;
+    if owned {
+        first..=more(last)
+    } else if passing_behind {
+        more(first)..=more(last)
+    } else {
+        first..=last
+    }
+}
+
+/// First and last turn of a layer that its owner lays, as designed.
+pub(crate) fn owned_stretch(spec: &Spec, layer: usize) -> (usize, usize) {
+    let (first, last) = stretch(spec, owner(spec.pattern, layer), layer, true).into_inner();
+    match spec.cw_climbs {
+        ClimbSide::Right => (first, last),
+        ClimbSide::Left => (spec.turns_in(layer) + 1 - last, spec.turns_in(layer) + 1 - first),
     }
 }
 
@@ -84,6 +110,7 @@ mod tests {
             cw_climbs: ClimbSide::Right,
             turn_length: TurnLength::True,
             tails: Tails { cw: 0.0, ccw: 0.0 },
+            defect: None,
         }
     }
 

@@ -1,6 +1,7 @@
 //! What is wound: pattern, counts, dimensions \[m\].
 
 use crate::Error;
+use crate::pattern::owned_stretch;
 
 /// Most turns that [`wind`](crate::wind) lays: some 40 times a 5 km coil of 6 cm diameter, in about 100 MB.
 pub const MAX_TURNS: usize = 1_000_000;
@@ -9,6 +10,7 @@ pub const MAX_TURNS: usize = 1_000_000;
 ///
 /// A and B are the layers owned by the CW and the CCW half, from the inside.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Pattern {
     /// One fibre from the innermost layer (z = 0) outwards, to and fro like thread on a bobbin.
     Cylindrical,
@@ -38,6 +40,7 @@ pub enum Half {
 ///
 /// Patterns without passing turns start at −y for `Right`, at +y for `Left`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ClimbSide {
     /// At −y: the mirror image of `Right`, turn j of a layer of N becoming turn N + 1 − j.
     Left,
@@ -47,6 +50,7 @@ pub enum ClimbSide {
 
 /// How much fibre a turn takes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum TurnLength {
     /// 2π r.
     True,
@@ -56,6 +60,7 @@ pub enum TurnLength {
 
 /// Bare fibre beyond the winding \[m\], finite and ≥ 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tails {
     /// At the outer end of the CW half \[m\].
     pub cw: f64,
@@ -63,8 +68,21 @@ pub struct Tails {
     pub ccw: f64,
 }
 
+/// A layer with too many or too few turns, spread evenly over the width that its owner's turns should take.
+///
+/// The turns belong to the half that owns the layer; where the other half passes, its turn stays at the end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct LayerDefect {
+    /// The layer, 1 = innermost.
+    pub layer: usize,
+    /// Turns too many (positive) or missing (negative).
+    pub turns: i32,
+}
+
 /// A winding to be laid.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Spec {
     /// Which half takes which layer.
     pub pattern: Pattern,
@@ -85,6 +103,8 @@ pub struct Spec {
     pub turn_length: TurnLength,
     /// Bare fibre beyond the winding.
     pub tails: Tails,
+    /// A layer wound wrongly, if there is one.
+    pub defect: Option<LayerDefect>,
 }
 
 impl Half {
@@ -123,7 +143,21 @@ impl Spec {
                 return Err(Error::Length { field, value, range: "of 0 or more" });
             }
         }
-        self.validate_counts()
+        self.validate_counts()?;
+        self.validate_defect()
+    }
+
+    fn validate_defect(&self) -> Result<(), Error> {
+        let Some(LayerDefect { layer, turns }) = self.defect else { return Ok(()) };
+        if !(1..=self.layers).contains(&layer) {
+            return Err(Error::DefectLayer { layer, layers: self.layers });
+        }
+        let (first, last) = owned_stretch(self, layer);
+        let owned = last + 1 - first;
+        match owned.checked_add_signed(turns as isize) {
+            Some(left) if left >= 1 && left <= 2 * owned => Ok(()),
+            _ => Err(Error::DefectTurns { layer, turns, owned }),
+        }
     }
 
     fn validate_counts(&self) -> Result<(), Error> {
@@ -154,7 +188,12 @@ impl Spec {
         odd.checked_add(even_layers.checked_mul(self.turns_even_layers)?)
     }
 
-    /// Turns in a layer counted from 1.
+    /// Turns too many in a layer.
+    pub(crate) fn surplus_in(&self, layer: usize) -> isize {
+        self.defect.filter(|defect| defect.layer == layer).map_or(0, |defect| defect.turns as isize)
+    }
+
+    /// Turns in a layer counted from 1, as designed.
     pub(crate) fn turns_in(&self, layer: usize) -> usize {
         if layer % 2 == 1 { self.turns_odd_layers } else { self.turns_even_layers }
     }
@@ -165,7 +204,26 @@ impl Spec {
         self.inner_radius + self.pitch / 2.0 + (layer - 1) as f64 * step
     }
 
-    /// Axial position of a turn's centre \[m\].
+    /// Axial position of a turn's centre as wound \[m\].
+    pub(crate) fn centre(&self, layer: usize, turn: usize) -> f64 {
+        let surplus = self.surplus_in(layer);
+        if surplus == 0 {
+            return self.position(layer, turn);
+        }
+        let (first, last) = owned_stretch(self, layer);
+        let designed = last + 1 - first;
+        let wound = designed.saturating_add_signed(surplus);
+        if turn < first {
+            self.position(layer, turn)
+        } else if turn < first + wound {
+            let share = (turn - first) as f64 + 0.5;
+            self.position(layer, first) + (share * designed as f64 / wound as f64 - 0.5) * self.pitch
+        } else {
+            self.position(layer, turn.saturating_add_signed(-surplus))
+        }
+    }
+
+    /// Axial position of a turn's centre as designed \[m\].
     pub(crate) fn position(&self, layer: usize, turn: usize) -> f64 {
         let groove = if layer % 2 == 1 { 0.5 } else { 0.0 };
         (turn as f64 - groove) * self.pitch
@@ -186,6 +244,7 @@ mod tests {
         cw_climbs: ClimbSide::Right,
         turn_length: TurnLength::True,
         tails: Tails { cw: 0.0, ccw: 0.0 },
+        defect: None,
     };
 
     #[test]

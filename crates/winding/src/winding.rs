@@ -31,7 +31,7 @@ pub fn wind(spec: &Spec) -> Result<Winding, Error> {
             TurnLength::Equal => mean,
         };
         let Place { half, layer, turn } = *place;
-        turns.push(Turn { half, layer, turn, r: spec.radius(layer), y: spec.position(layer, turn), z_start, z_end: z });
+        turns.push(Turn { half, layer, turn, r: spec.radius(layer), y: spec.centre(layer, turn), z_start, z_end: z });
     }
     let length = z + spec.tails.cw;
     if !(length * length).is_finite() {

@@ -6,7 +6,7 @@ use approx::{assert_abs_diff_eq, assert_relative_eq};
 use common::{ALL, REFERENCE, any_spec};
 use proptest::prelude::*;
 use std::f64::consts::PI;
-use winding::{Half, Pattern, Spec, Tails, TurnLength, wind};
+use winding::{ClimbSide, Half, LayerDefect, Pattern, Spec, Tails, TurnLength, wind};
 
 /// Radial moment over ℓ² h, for turns all of length ℓ in layers a step h apart.
 fn scaled_moment(pattern: Pattern, layers: usize, odd: usize, even: usize) -> f64 {
@@ -140,5 +140,54 @@ proptest! {
         prop_assert!((turns + tails).abs() < rounding);
         prop_assert!((coil.weights().iter().sum::<f64>() + tails).abs() < rounding);
         prop_assert!((coil.moment(0, 0) + tails).abs() < rounding);
+    }
+}
+
+#[test]
+fn a_defect_spreads_its_owners_turns_over_the_same_width_on_either_hand() {
+    for cw_climbs in [ClimbSide::Right, ClimbSide::Left] {
+        for (layer, turns) in [(1, 3), (2, -4), (24, -3), (35, 5), (36, 1)] {
+            let sound = Spec { cw_climbs, ..REFERENCE };
+            let (sound, defective) =
+                (wind(&sound).unwrap(), wind(&Spec { defect: Some(LayerDefect { layer, turns }), ..sound }).unwrap());
+            let of = |coil: &winding::Winding, half| -> Vec<f64> {
+                let mut y: Vec<f64> = coil.turns().iter().filter(|t| t.layer == layer && t.half == half).map(|t| t.y).collect();
+                y.sort_by(f64::total_cmp);
+                y
+            };
+            let owner = if matches!(layer % 4, 0 | 1) { Half::Cw } else { Half::Ccw };
+            let (before, after) = (of(&sound, owner), of(&defective, owner));
+            assert_eq!(after.len() as i32 - before.len() as i32, turns);
+            // the other half's passing turn stays
+            assert_eq!(of(&sound, owner.other()), of(&defective, owner.other()));
+            // even, and as wide as before: the cells of the turns fill the same stretch
+            let steps: Vec<f64> = after.windows(2).map(|w| w[1] - w[0]).collect();
+            let step = before.len() as f64 * REFERENCE.pitch / after.len() as f64;
+            assert!(steps.iter().all(|s| (s - step).abs() < 1e-12));
+            assert!((after[0] - step / 2.0 - (before[0] - REFERENCE.pitch / 2.0)).abs() < 1e-12);
+            // every other layer is as designed, and the fibre grows by the turns
+            let others = |coil: &winding::Winding| -> Vec<(usize, usize, f64)> {
+                coil.turns().iter().filter(|t| t.layer != layer).map(|t| (t.layer, t.turn, t.y)).collect()
+            };
+            assert_eq!(others(&sound), others(&defective));
+            let turn = sound.turns().iter().find(|t| t.layer == layer).unwrap().length();
+            assert!((defective.length() - sound.length() - f64::from(turns) * turn).abs() < 1e-9);
+            // numbered from −y without holes
+            let mut numbers: Vec<(usize, f64)> =
+                defective.turns().iter().filter(|t| t.layer == layer).map(|t| (t.turn, t.y)).collect();
+            numbers.sort_by_key(|(turn, _)| *turn);
+            assert!(numbers.iter().enumerate().all(|(i, (turn, _))| *turn == i + 1));
+            assert!(numbers.windows(2).all(|w| w[0].1 < w[1].1));
+        }
+    }
+}
+
+#[test]
+fn a_defect_that_cannot_be_wound_is_refused() {
+    for (layer, turns, says) in
+        [(0, 1, "layers 1 to 36"), (37, 1, "layers 1 to 36"), (4, -105, "at least one turn"), (4, i32::MAX, "twice")]
+    {
+        let error = wind(&Spec { defect: Some(LayerDefect { layer, turns }), ..REFERENCE }).unwrap_err().to_string();
+        assert!(error.contains(says), "{error}");
     }
 }

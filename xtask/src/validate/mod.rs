@@ -1,8 +1,9 @@
-//! `cargo xtask validate`: the whole chain once, against the paper's Tables I to IV.
+//! `cargo xtask validate`: the whole chain once, against the paper's Tables I to IV and an independent code.
 
 mod cell;
 mod coil;
 mod fixtures;
+mod nominal;
 mod report;
 mod row;
 mod spread;
@@ -72,7 +73,9 @@ pub(crate) fn run(json: Option<&Path>) -> Result<bool, Failure> {
     let table_3 = winding::table_3(&fixtures)?;
     step("Table IV: sensitivity, spools, tails, error estimates (some 10 s)");
     let table_4 = coil::table_4(&fixtures, &cell.constants)?;
-    let sections = [table_1, table_2, table_3, table_4];
+    step("five profiles in time against an independent code (some 10 s)");
+    let nominal = nominal::nominal(&fixtures)?;
+    let sections = [table_1, table_2, table_3, table_4, nominal];
     let failed: Vec<&Row> = sections.iter().flat_map(|s| &s.rows).filter(|row| row.verdict == Verdict::Fails).collect();
     println!("{}", report::text(&sections));
     report::write_documents(&sections)?;

@@ -4,6 +4,7 @@ use crate::Side;
 
 /// Something whose course in time a profile gives, in K (walls, mounts) or in units of the design's power (heaters).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Drive {
     /// The chamber's wall, and every mount, where no other drive of the list takes them.
     Chamber,

@@ -12,4 +12,4 @@ pub use full::FullRun;
 pub use lag::{RampLag, ramp_lag};
 pub use modal::Interval;
 pub use model::ThermalModel;
-pub use reduced::{Reduced, ReducedOutput};
+pub use reduced::{Reduced, ReducedOutput, Reduction};

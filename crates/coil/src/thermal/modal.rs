@@ -30,6 +30,12 @@ impl Reduced {
         }
     }
 
+    /// q̇ while the drives change at `slope`.
+    pub fn mode_rates(&self, q: &[f64], slope: &[f64]) -> Vec<f64> {
+        let push = |drive: &Vec<f64>| drive.iter().zip(slope).map(|(d, s)| d * s).sum::<f64>();
+        self.rates.iter().zip(&self.drive).zip(q).map(|((rate, drive), q)| -rate * q - push(drive)).collect()
+    }
+
     /// What an interval of `dt` \[s\] does to each mode.
     pub fn interval(&self, dt: f64) -> Interval {
         let of = |f: &dyn Fn(f64) -> f64| self.rates.iter().map(|rate| f(rate * dt)).collect();

@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 /// Decaying modes `q̇_i = −rate_i q_i − Σ_k drive_ik u̇_k` and outputs `y_j = Σ_k static_jk u_k + Σ_i modal_ji q_i`.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Reduced {
     /// Decay rates \[1/s\], increasing.
     pub rates: Vec<f64>,
@@ -17,8 +18,21 @@ pub struct Reduced {
     pub outputs: Vec<ReducedOutput>,
 }
 
+/// A heat flow reduced, with what measures the reduction and what gives the temperature back everywhere.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reduction {
+    /// The model.
+    pub reduced: Reduced,
+    /// One on two thirds of the vectors: the distance between the two measures what the reduction leaves out.
+    pub smaller: Reduced,
+    /// Temperature of each mode of [`Self::reduced`] at all nodes of the thermal grid: `T = Σ_k u_k φ_k + Σ_i q_i modes_i` with the
+    /// shapes φ of the [`ThermalModel`].
+    pub modes: Vec<Vec<f64>>,
+}
+
 /// One output of a reduced model.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ReducedOutput {
     /// Value per unit of each drive at rest.
     pub at_rest: Vec<f64>,
@@ -76,15 +90,14 @@ impl Basis<'_> {
     }
 }
 
-impl Reduced {
+impl Reduction {
     /// Projects `model` on `size` vectors of the rational Krylov space of K⁻¹C and (K + C/1 s)⁻¹C.
     ///
-    /// `functionals` are output functionals of the nodal temperature (all nodes of the model's grid). Beside the model comes a smaller
-    /// one, on two thirds of the vectors: the distance between the two measures what the reduction leaves out.
+    /// `functionals` are output functionals of the nodal temperature (all nodes of the model's grid).
     ///
     /// # Errors
     /// [`Error::Solve`] if a solve leaves a residual.
-    pub fn new(model: &ThermalModel, functionals: &[Vec<f64>], size: usize) -> Result<(Self, Self), Error> {
+    pub fn new(model: &ThermalModel, functionals: &[Vec<f64>], size: usize) -> Result<Self, Error> {
         let failed = |source| Error::Solve { part: "chamber", source };
         let mut basis = Basis { model, vectors: Vec::new(), weighted: Vec::new() };
         // a heater jumps when it is switched on: its space starts from the jump itself, the others from the response to a ramp
@@ -108,10 +121,14 @@ impl Reduced {
         if all == 0 {
             return Err(Error::Resolution("the mesh leaves nothing to reduce; refine it".into()));
         }
-        let smaller = project(model, &basis, functionals, all.saturating_sub((size / 3).max(1)).max(1));
-        Ok((project(model, &basis, functionals, all), smaller))
+        let (smaller, _) = project(model, &basis, functionals, all.saturating_sub((size / 3).max(1)).max(1));
+        let (reduced, combinations) = project(model, &basis, functionals, all);
+        let modes = combinations.iter().map(|c| model.map().expand(&combined(&basis.vectors, c))).collect();
+        Ok(Self { reduced, smaller, modes })
     }
+}
 
+impl Reduced {
     /// Mean response of output `k` to a unit step of drive `d` over the second that begins `t` \[s\] after it: no reading is shorter.
     pub fn step_response(&self, k: usize, d: usize, t: f64) -> f64 {
         let output = &self.outputs[k];
@@ -131,7 +148,8 @@ impl Reduced {
     }
 }
 
-fn project(model: &ThermalModel, basis: &Basis, functionals: &[Vec<f64>], n: usize) -> Reduced {
+/// The model on the first `n` vectors of `basis`, and each of its modes as a combination of them.
+fn project(model: &ThermalModel, basis: &Basis, functionals: &[Vec<f64>], n: usize) -> (Reduced, Vec<Vec<f64>>) {
     let flows: Vec<Vec<f64>> = basis.vectors[..n].iter().map(|v| model.conductivity().matrix().multiply(v)).collect();
     let small = DMatrix::from_fn(n, n, |i, j| (dot(&basis.vectors[i], &flows[j]) + dot(&basis.vectors[j], &flows[i])) / 2.0);
     let SymmetricEigen { eigenvalues, eigenvectors } = small.symmetric_eigen();
@@ -147,11 +165,21 @@ fn project(model: &ThermalModel, basis: &Basis, functionals: &[Vec<f64>], n: usi
             modal: order.iter().map(|&mode| modal(&onto, mode)).collect(),
         }
     };
-    Reduced {
+    let reduced = Reduced {
         rates: order.iter().map(|&mode| eigenvalues[mode]).collect(),
         drive: order.iter().map(|&mode| drives.iter().map(|d| modal(d, mode)).collect()).collect(),
         outputs: functionals.iter().map(output).collect(),
+    };
+    (reduced, order.iter().map(|&mode| eigenvectors.column(mode).iter().copied().collect()).collect())
+}
+
+/// Σ cᵢ vᵢ.
+fn combined(vectors: &[Vec<f64>], c: &[f64]) -> Vec<f64> {
+    let mut sum = vec![0.0; vectors.first().map_or(0, Vec::len)];
+    for (v, c) in vectors.iter().zip(c) {
+        sum.iter_mut().zip(v).for_each(|(s, v)| *s += c * v);
     }
+    sum
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -2,7 +2,9 @@
 #![allow(dead_code)]
 
 use bias::{Optics, StrainConvention};
-use coil::{Body, Contact, Dehomogenization, Design, Flange, HeatPaths, Mechanics, Sensor, Side, Solid, Spool, Surroundings};
+use coil::{
+    Body, Contact, Dehomogenization, Design, Drifts, Flange, HeatPaths, Mechanics, Sensor, Side, Solid, Spool, Surroundings,
+};
 use fem_core::material::{Isotropic, TransverselyIsotropic};
 use winding::{ClimbSide, Pattern, Spec, Tails, TurnLength};
 
@@ -19,6 +21,7 @@ pub(crate) fn reference() -> Design {
             cw_climbs: ClimbSide::Right,
             turn_length: TurnLength::True,
             tails: Tails { cw: 0.0, ccw: 0.0 },
+            defect: None,
         },
         body: Body {
             outer_radius: 48.825e-3,
@@ -56,6 +59,7 @@ pub(crate) fn reference() -> Design {
             sagnac_diameter: 92.325e-3,
             strain: StrainConvention::Total,
         },
+        drifts: Drifts::default(),
         dehomogenization: Dehomogenization { m_rx: 0.0274, m_ry: 0.0270, m_rz: -0.17, m_rt: -9.98e-6 },
     }
 }

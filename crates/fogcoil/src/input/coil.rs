@@ -93,6 +93,7 @@ pub fn read_coil(path: &Path) -> Result<CoilCase, Error> {
         sensor.radius = inner_radius;
     }
     let optics = parts::optics(&top.group("optics"), &file.optics)?;
+    let drifts = parts::drifts(&top.group("drifts"), &file.drifts)?;
     let mut cells = Cells { top: top.clone(), source: &source, done: Vec::new(), fingerprints: vec![source.fingerprint()] };
     let (constants, material) = material(&mut cells, &file.coil.material)?;
     let (dehomogenization, row) = dehomogenization(&mut cells, &file.dehomogenization)?;
@@ -102,7 +103,7 @@ pub fn read_coil(path: &Path) -> Result<CoilCase, Error> {
     let heat = heat::paths(&top.group("heat"), &file.heat, spool.as_ref())?;
     let mechanics = mechanics(&top.group("mechanics"), &file.mechanics, &body)?;
     let design =
-        Design { winding: *winding.spec(), body, spool, surroundings, mechanics, heat, sensor, optics, dehomogenization };
+        Design { winding: *winding.spec(), body, spool, surroundings, mechanics, heat, sensor, optics, drifts, dehomogenization };
     let layout = Layout::new(&design).map_err(|error| design_fault(&top, &design, &error))?;
     check_film(&top, &design, &layout)?;
     let name = file.name;

@@ -18,6 +18,8 @@ pub(crate) struct CoilFile {
     pub(crate) heat: HeatFile,
     pub(crate) sensor: SensorFile,
     pub(crate) optics: OpticsFile,
+    #[serde(default)]
+    pub(crate) drifts: DriftsFile,
     pub(crate) dehomogenization: DehomogenizationFile,
 }
 
@@ -33,6 +35,29 @@ pub(crate) struct WindingFile {
     pub(crate) cw_climbs: SideFile,
     pub(crate) turn_length: TurnLengthFile,
     pub(crate) tails_m: TailsFile,
+    #[serde(default)]
+    pub(crate) defect: Option<DefectFile>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DefectFile {
+    pub(crate) layer: usize,
+    pub(crate) turns: i32,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct DriftsFile {
+    pub(crate) reference_c: f64,
+    pub(crate) thermo_optic_curvature_per_k2: f64,
+    pub(crate) read_out_deg_per_h_per_k: f64,
+}
+
+impl Default for DriftsFile {
+    fn default() -> Self {
+        Self { reference_c: 20.0, thermo_optic_curvature_per_k2: 0.0, read_out_deg_per_h_per_k: 0.0 }
+    }
 }
 
 #[derive(Deserialize)]

@@ -1,18 +1,19 @@
 //! The parts of a coil file, each checked and turned into SI.
 
+use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use bias::{Optics, StrainConvention};
-use coil::{Contact, Flange, Sensor, Side, Solid, Spool, Surroundings};
+use coil::{Contact, Drifts, Flange, Sensor, Side, Solid, Spool, Surroundings};
 use fem_core::material::Isotropic;
-use winding::{ClimbSide, Pattern, Spec, Tails, TurnLength, Winding};
+use winding::{ClimbSide, LayerDefect, Pattern, Spec, Tails, TurnLength, Winding};
 
 use super::InputError;
 use super::coil_file::{
-    BodyFile, FlangeFile, OpticsFile, PatternFile, SensorFile, SideFile, SolidFile, SpoolFile, StrainFile, SurroundingsFile,
-    TurnLengthFile, WindingFile,
+    BodyFile, DriftsFile, FlangeFile, OpticsFile, PatternFile, SensorFile, SideFile, SolidFile, SpoolFile, StrainFile,
+    SurroundingsFile, TurnLengthFile, WindingFile,
 };
 use super::limits::{
-    CONDUCTIVITY, DENSITY, EXPANSION_PER_K, EXTRA_LENGTH_MM, Group, INDEX, LAG_S, LENGTH_MM, MODULUS_GPA, PHOTOELASTIC, PITCH_MM,
-    POSITION_MM, SPECIFIC_HEAT, TAIL_M,
+    CONDUCTIVITY, CURVATURE_PER_K2, DENSITY, DRIFT_DEG_PER_H_PER_K, EXPANSION_PER_K, EXTRA_LENGTH_MM, Group, INDEX, LAG_S,
+    LENGTH_MM, MODULUS_GPA, PHOTOELASTIC, PITCH_MM, POSITION_MM, SPECIFIC_HEAT, TAIL_M, TEMPERATURE_C,
 };
 use crate::units::{from_gpa, from_mm, to_mm};
 
@@ -45,17 +46,19 @@ pub(crate) fn winding(at: &Group, file: &WindingFile) -> Result<Winding, InputEr
             TurnLengthFile::Equal => TurnLength::Equal,
         },
         tails: Tails { cw: tails.number("cw", file.tails_m.cw, &TAIL_M)?, ccw: tails.number("ccw", file.tails_m.ccw, &TAIL_M)? },
+        defect: file.defect.as_ref().map(|d| LayerDefect { layer: d.layer, turns: d.turns }),
     };
     winding::wind(&spec).map_err(|error| at.fault(winding_field(&error), error.to_string(), ""))
 }
 
 fn winding_field(error: &winding::Error) -> &'static str {
-    use winding::Error::{EvenTurns, Length, NoLayers, TooFewTurns, TooLong, TooManyTurns};
+    use winding::Error::{DefectLayer, DefectTurns, EvenTurns, Length, NoLayers, TooFewTurns, TooLong, TooManyTurns};
     match error {
         Length { field, .. } => field,
         EvenTurns { .. } => "turns_even_layers",
         TooFewTurns { layer, .. } if layer % 2 == 0 => "turns_even_layers",
         TooFewTurns { .. } => "turns_odd_layers",
+        DefectLayer { .. } | DefectTurns { .. } => "defect",
         NoLayers | TooManyTurns { .. } => "layers",
         TooLong { .. } => "inner_radius_mm",
         _ => "",
@@ -157,6 +160,19 @@ pub(crate) fn sensor(at: &Group, file: &SensorFile) -> Result<Sensor, InputError
         radius: from_mm(at.number("radius_mm", file.radius_mm, &EXTRA_LENGTH_MM)?),
         y: from_mm(at.number("y_mm", file.y_mm, &POSITION_MM)?),
         lag: at.number("lag_s", file.lag_s, &LAG_S)?,
+    })
+}
+
+pub(crate) fn drifts(at: &Group, file: &DriftsFile) -> Result<Drifts, InputError> {
+    Ok(Drifts {
+        reference: at.number("reference_c", file.reference_c, &TEMPERATURE_C)?,
+        thermo_optic_curvature: at.number(
+            "thermo_optic_curvature_per_k2",
+            file.thermo_optic_curvature_per_k2,
+            &CURVATURE_PER_K2,
+        )?,
+        read_out: at.number("read_out_deg_per_h_per_k", file.read_out_deg_per_h_per_k, &DRIFT_DEG_PER_H_PER_K)?
+            / DEG_PER_H_PER_RAD_PER_S,
     })
 }
 

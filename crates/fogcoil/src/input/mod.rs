@@ -1,4 +1,4 @@
-//! Case files and profiles: read, checked to the last value, and turned into SI.
+//! Case files, profiles and recordings: read, checked to the last value, and turned into SI.
 
 mod cell;
 mod coil;
@@ -10,16 +10,26 @@ mod fingerprint;
 mod heat;
 mod limits;
 mod mechanics;
+mod meta;
 mod profile;
 mod profile_columns;
+mod record;
+mod record_columns;
+mod record_format;
 mod rows;
 mod scanner;
 mod source;
+mod spool;
 mod syntax;
+mod timestamp;
 mod warnings;
 
 pub use cell::{CellCase, read_cell};
 pub use coil::{CoilCase, Origin, PRINTED, Provenance, read_coil};
 pub use error::InputError;
 pub use fingerprint::Fingerprint;
-pub use profile::{ProfileCase, read_profile};
+pub use meta::{Meta, TemperatureSensor};
+pub use profile::{Inference, ProfileCase, read_profile};
+pub use record::{CHAMBER, RATE, RecordCase, SPOOL, read_record};
+pub use record_format::{Key, RecordOptions};
+pub use spool::{SpoolCase, read_spool};

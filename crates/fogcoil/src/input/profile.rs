@@ -31,10 +31,25 @@ pub struct ProfileCase {
     pub drives: Vec<Drive>,
     /// Instants \[s\] and courses \[°C; heaters in units of their power\].
     pub profile: Profile,
+    /// How the chamber's course was inferred from a thermometer; `None` if it is given.
+    pub inferred: Option<Inference>,
     /// What a user should know although nothing is wrong.
     pub notes: Vec<String>,
     /// The file.
     pub fingerprint: Fingerprint,
+}
+
+/// How well a thermometer's record determines the chamber's course.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Inference {
+    /// Standard deviation of the readings \[K\], given.
+    pub noise: f64,
+    /// Standard deviation of the change of the chamber's slope over a second \[K s^−3/2\], the most likely.
+    pub roughness: f64,
+    /// Root mean square of the readings minus the model's thermometer \[K\].
+    pub sensor_residual_rms: f64,
+    /// Standard deviation of the chamber's temperature \[K\]: median and largest.
+    pub chamber_sd: [f64; 2],
 }
 
 impl ProfileCase {
@@ -74,7 +89,7 @@ pub fn read_profile(path: &Path, design: &Design) -> Result<ProfileCase, InputEr
         let problem = format!("chamber_c never falls below {KELVIN_C} degC; if it is in kelvin, subtract 273.15");
         notes.push(format!("{}: {problem}", path.display()));
     }
-    Ok(ProfileCase { drives, profile: Profile { time, drives: courses }, notes, fingerprint: rows.fingerprint() })
+    Ok(ProfileCase { drives, profile: Profile { time, drives: courses }, inferred: None, notes, fingerprint: rows.fingerprint() })
 }
 
 fn read_rows(rows: &mut Rows, columns: &Columns) -> Result<(Vec<f64>, Vec<Vec<f64>>), InputError> {
@@ -96,7 +111,7 @@ fn read_rows(rows: &mut Rows, columns: &Columns) -> Result<(Vec<f64>, Vec<Vec<f6
     Ok((time, courses))
 }
 
-fn check_count(rows: &Rows, expected: usize) -> Result<(), InputError> {
+pub(super) fn check_count(rows: &Rows, expected: usize) -> Result<(), InputError> {
     let found = rows.count();
     if found == expected {
         return Ok(());
@@ -114,7 +129,7 @@ fn check_count(rows: &Rows, expected: usize) -> Result<(), InputError> {
     Err(rows.fault(None, problem, remedy))
 }
 
-fn instant(rows: &Rows, column: usize, last: Option<f64>) -> Result<f64, InputError> {
+pub(super) fn instant(rows: &Rows, column: usize, last: Option<f64>) -> Result<f64, InputError> {
     let time = rows.number(column, TIME)?;
     let fault = |problem: String, remedy: &str| Err(rows.fault(Some(TIME), problem, remedy));
     if time.abs() > MOST_S {
@@ -134,7 +149,7 @@ fn instant(rows: &Rows, column: usize, last: Option<f64>) -> Result<f64, InputEr
     }
 }
 
-fn temperature(rows: &Rows, column: usize, name: &str) -> Result<f64, InputError> {
+pub(super) fn temperature(rows: &Rows, column: usize, name: &str) -> Result<f64, InputError> {
     let celsius = rows.number(column, name)?;
     let fault = |problem: String, remedy: &str| Err(rows.fault(Some(name), problem, remedy));
     if celsius < ABSOLUTE_ZERO_C {

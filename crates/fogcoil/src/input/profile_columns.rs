@@ -11,7 +11,7 @@ pub(crate) const TIME: &str = "time_s";
 const CHAMBER: &str = "chamber_c";
 
 /// Columns that a profile may have, and what they drive.
-const DRIVES: [(&str, Drive); 5] = [
+pub(super) const DRIVES: [(&str, Drive); 5] = [
     (CHAMBER, Drive::Chamber),
     ("left_c", Drive::EndWall(Side::Left)),
     ("right_c", Drive::EndWall(Side::Right)),
@@ -20,7 +20,8 @@ const DRIVES: [(&str, Drive); 5] = [
 ];
 
 /// Columns of recordings and of this program's own results; a profile may have them, and they drive nothing.
-const RESULTS: [&str; 5] = ["spool_c", "shupe_deg_per_h", "eo_axial_deg_per_h", "eo_radial_deg_per_h", "rate_deg_per_h"];
+pub(super) const RESULTS: [&str; 5] =
+    ["spool_c", "shupe_deg_per_h", "eo_axial_deg_per_h", "eo_radial_deg_per_h", "rate_deg_per_h"];
 
 /// What the columns of a profile are.
 pub(crate) struct Columns {
@@ -37,7 +38,7 @@ pub(crate) struct Columns {
 impl Columns {
     /// Reads them from the row at which `rows` stands.
     pub(crate) fn read(rows: &Rows, design: &Design) -> Result<Self, InputError> {
-        check_separator(rows)?;
+        check_separator(rows, "time_s,chamber_c")?;
         let names: Vec<String> = rows.fields().map(str::to_owned).collect();
         let mut ignored = Vec::new();
         for (i, name) in names.iter().enumerate() {
@@ -53,8 +54,10 @@ impl Columns {
             }
         }
         let find = |wanted: &str| names.iter().position(|name| name == wanted);
-        let missing =
-            |name| rows.fault(Some(name), "the column is missing", format!("a profile starts with a line {TIME},{CHAMBER}"));
+        let record = if find("spool_c").is_some() { "; a record of the spool's thermometer goes to --spool" } else { "" };
+        let missing = |name| {
+            rows.fault(Some(name), "the column is missing", format!("a profile starts with a line {TIME},{CHAMBER}{record}"))
+        };
         let time = find(TIME).ok_or_else(|| missing(TIME))?;
         find(CHAMBER).ok_or_else(|| missing(CHAMBER))?;
         let drives = DRIVES.iter().filter_map(|(name, drive)| Some((find(name)?, *drive))).collect();
@@ -79,7 +82,7 @@ impl Columns {
     }
 }
 
-fn check_separator(rows: &Rows) -> Result<(), InputError> {
+pub(super) fn check_separator(rows: &Rows, example: &str) -> Result<(), InputError> {
     let line = rows.fields().collect::<Vec<_>>().join(",");
     let fault = |problem: &str, remedy: &str| Err(rows.fault(None, problem, remedy));
     if line.contains(';') {
@@ -92,10 +95,7 @@ fn check_separator(rows: &Rows) -> Result<(), InputError> {
         return fault("the lines end in carriage returns alone", "save the file with line feeds (Unix) or both (Windows)");
     }
     if rows.fields().all(|field| field.parse::<f64>().is_ok()) {
-        return fault(
-            "the first line holds numbers, not the names of the columns",
-            &format!("put a line {TIME},{CHAMBER} above it"),
-        );
+        return fault("the first line holds numbers, not the names of the columns", &format!("put a line {example} above it"));
     }
     Ok(())
 }

@@ -18,9 +18,27 @@ const LONGEST_LINE: usize = 1 << 16;
 /// Longest part of the file that a message quotes \[characters\].
 const QUOTED: usize = 40;
 
+/// How a table writes its rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Dialect {
+    /// Between the fields.
+    pub(crate) separator: u8,
+    /// In a number.
+    pub(crate) decimal: char,
+}
+
+impl Dialect {
+    /// Commas between the fields, a point in numbers.
+    pub(crate) const STANDARD: Self = Self { separator: b',', decimal: '.' };
+}
+
+/// What a field without a value may hold, in lower case.
+const MISSING: [&str; 9] = ["", "nan", "na", "n/a", "null", "none", "-", "--", "#n/a"];
+
 /// The rows of a file.
 pub(crate) struct Rows {
     path: PathBuf,
+    dialect: Dialect,
     reader: csv::Reader<Chain<Metered, &'static [u8]>>,
     record: StringRecord,
 }
@@ -58,8 +76,13 @@ impl Read for Metered {
 }
 
 impl Rows {
-    /// Opens a table; `kind` says what is expected, e.g. "a profile (*.csv)".
+    /// Opens a table in the standard dialect; `kind` says what is expected, e.g. "a profile (*.csv)".
     pub(crate) fn open(path: &Path, kind: &str) -> Result<Self, InputError> {
+        Self::open_as(path, kind, Dialect::STANDARD)
+    }
+
+    /// Opens a table.
+    pub(crate) fn open_as(path: &Path, kind: &str, dialect: Dialect) -> Result<Self, InputError> {
         let fault = |problem: String, remedy: &str| InputError {
             file: path.to_owned(),
             line: None,
@@ -82,9 +105,10 @@ impl Rows {
             .has_headers(false)
             .flexible(true)
             .quoting(false)
+            .delimiter(dialect.separator)
             .terminator(Terminator::Any(b'\n'))
             .from_reader(metered.chain(&b"\n"[..]));
-        Ok(Self { path: path.to_owned(), reader, record: StringRecord::new() })
+        Ok(Self { path: path.to_owned(), dialect, reader, record: StringRecord::new() })
     }
 
     /// Moves to the next row that is not blank; `false` at the end.
@@ -140,6 +164,27 @@ impl Rows {
             }
             Err(_) => {
                 Err(self.fault(Some(name), format!("{} is not a number", quoted(text)), "write it like 20.5, without a unit"))
+            }
+        }
+    }
+
+    /// A field as a finite number in the table's dialect; `None` if it says that there is none.
+    pub(crate) fn value(&self, column: usize, name: &str) -> Result<Option<f64>, InputError> {
+        let text = self.field(column);
+        let value = match self.dialect.decimal {
+            '.' => text.parse::<f64>(),
+            other => text.replace(other, ".").parse::<f64>(),
+        };
+        match value {
+            Ok(value) if value.is_finite() => Ok(Some(value)),
+            _ if MISSING.iter().any(|word| text.eq_ignore_ascii_case(word)) => Ok(None),
+            Ok(_) => Err(self.fault(Some(name), format!("{} is not a finite number", quoted(text)), "leave the field empty")),
+            Err(_) if self.dialect.decimal == '.' && text.replacen(',', ".", 1).parse::<f64>().is_ok() => {
+                Err(self.fault(Some(name), format!("{} has a decimal comma", quoted(text)), "add --decimal-comma"))
+            }
+            Err(_) => {
+                let remedy = "write it like 20.5 without a unit, or leave the field empty if the value is missing";
+                Err(self.fault(Some(name), format!("{} is not a number", quoted(text)), remedy))
             }
         }
     }

@@ -8,6 +8,8 @@ pub(crate) struct Axis {
     pub(crate) least_span: f64,
     /// Where the drawn range ends.
     pub(crate) ends: Ends,
+    /// What is drawn in any case: both ends, in the axis' unit.
+    pub(crate) covers: Option<[f64; 2]>,
 }
 
 /// Where the drawn range of an axis ends.
@@ -17,22 +19,36 @@ pub(crate) enum Ends {
     Data,
     /// At the round numbers around them.
     Ticks,
+    /// As [`Ends::Data`], the axis being logarithmic.
+    Logarithmic,
 }
 
 impl Axis {
     /// An axis that ends where the data end.
     pub(crate) fn tight(label: impl Into<String>, least_span: f64) -> Self {
-        Self { label: label.into(), least_span, ends: Ends::Data }
+        Self { label: label.into(), least_span, ends: Ends::Data, covers: None }
     }
 
     /// An axis that ends at round numbers.
     pub(crate) fn round(label: impl Into<String>, least_span: f64) -> Self {
-        Self { label: label.into(), least_span, ends: Ends::Ticks }
+        Self { label: label.into(), least_span, ends: Ends::Ticks, covers: None }
+    }
+
+    /// The axis with `ends` within what is drawn.
+    pub(crate) fn covering(self, ends: [f64; 2]) -> Self {
+        Self { covers: Some(ends), ..self }
+    }
+
+    /// A logarithmic axis for positive numbers.
+    pub(crate) fn logarithmic(label: impl Into<String>) -> Self {
+        Self { label: label.into(), least_span: 0.0, ends: Ends::Logarithmic, covers: None }
     }
 }
 
 /// An axis laid over pixels.
 pub(crate) struct Scale {
+    /// Whether `low`, `high` and `step` are decimal logarithms.
+    logarithmic: bool,
     low: f64,
     high: f64,
     /// Pixels of `low` and `high`.
@@ -42,7 +58,18 @@ pub(crate) struct Scale {
 
 impl Scale {
     /// For data between `low` and `high`, ticks at least `apart` pixels from each other.
-    pub(crate) fn new(axis: &Axis, [mut low, mut high]: [f64; 2], pixels: [f64; 2], apart: f64) -> Self {
+    pub(crate) fn new(axis: &Axis, range: [f64; 2], pixels: [f64; 2], apart: f64) -> Self {
+        let range = axis.covers.map_or(range, |[a, b]| [range[0].min(a), range[1].max(b)]);
+        if axis.ends == Ends::Logarithmic {
+            let [low, high] = range.map(|v| v.max(f64::MIN_POSITIVE).log10());
+            let (low, high) = (low.min(high - 1.0) - MARGIN, high + MARGIN);
+            let step = ((high - low) / ((pixels[1] - pixels[0]).abs() / apart).max(1.0)).ceil();
+            return Self { logarithmic: true, low, high, pixels, step };
+        }
+        Self::linear(axis, range, pixels, apart)
+    }
+
+    fn linear(axis: &Axis, [mut low, mut high]: [f64; 2], pixels: [f64; 2], apart: f64) -> Self {
         let least = axis.least_span.max(1e-9 * low.abs().max(high.abs()));
         if high - low < least {
             let middle = low / 2.0 + high / 2.0;
@@ -53,23 +80,36 @@ impl Scale {
         if axis.ends == Ends::Ticks {
             (low, high) = ((low / step + SLACK).floor() * step, (high / step - SLACK).ceil() * step);
         }
-        Self { low, high, pixels, step }
+        Self { logarithmic: false, low, high, pixels, step }
     }
 
     pub(crate) fn pixel(&self, value: f64) -> f64 {
+        let value = if self.logarithmic { value.max(f64::MIN_POSITIVE).log10() } else { value };
         self.pixels[0] + (value - self.low) / (self.high - self.low) * (self.pixels[1] - self.pixels[0])
     }
 
     /// Whether a value lies in the drawn range.
     pub(crate) fn holds(&self, value: f64) -> bool {
-        (self.low..=self.high).contains(&value)
+        !self.logarithmic && (self.low..=self.high).contains(&value)
     }
 
     /// Round numbers and their labels.
     pub(crate) fn ticks(&self) -> Vec<(f64, String)> {
         let first = (self.low / self.step - SLACK).ceil();
         let all = (0..100).map(|i| (first + f64::from(i)) * self.step).take_while(|tick| *tick <= self.high + SLACK * self.step);
+        if self.logarithmic {
+            let powers: Vec<f64> = all.collect();
+            // within two decades their halves and fifths help
+            let factors: &[f64] = if self.high - self.low < 2.5 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+            let below = powers.first().map(|first| first - 1.0);
+            let each = below.iter().chain(&powers).flat_map(|power| factors.iter().map(move |factor| (*power, *factor)));
+            return each.filter(|(power, factor)| self.spans(power + factor.log10())).map(of_ten).collect();
+        }
         all.map(|tick| (tick, self.label(tick))).collect()
+    }
+
+    fn spans(&self, logarithm: f64) -> bool {
+        (self.low - SLACK..=self.high + SLACK).contains(&logarithm)
     }
 
     fn label(&self, tick: f64) -> String {
@@ -87,6 +127,19 @@ impl Scale {
     }
 }
 
+/// What a logarithmic axis shows beyond its data, in decades.
+const MARGIN: f64 = 0.15;
+
+/// A multiple of a power of ten, and its label.
+fn of_ten((power, factor): (f64, f64)) -> (f64, String) {
+    let digit = |c: char| match c {
+        '-' => '⁻',
+        c => c.to_digit(10).map_or(c, |d| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][d as usize]),
+    };
+    let ten: String = "10".chars().chain(format!("{power:.0}").chars().map(digit)).collect();
+    (factor * 10_f64.powf(power), if factor == 1.0 { ten } else { format!("{factor} · {ten}") })
+}
+
 /// A tick this close to the end of an axis, in steps, is on it.
 const SLACK: f64 = 1e-6;
 
@@ -101,7 +154,7 @@ mod tests {
     use super::*;
 
     fn labels(range: [f64; 2], ends: Ends) -> Vec<String> {
-        let axis = Axis { label: String::new(), least_span: 0.01, ends };
+        let axis = Axis { ends, ..Axis::tight("", 0.01) };
         Scale::new(&axis, range, [0.0, 300.0], 60.0).ticks().into_iter().map(|(_, label)| label).collect()
     }
 
@@ -112,6 +165,21 @@ mod tests {
         assert_eq!(labels([-0.55, 0.55], Ends::Ticks), ["\u{2212}1.0", "\u{2212}0.5", "0", "0.5", "1.0"]);
         assert_eq!(labels([20.0, 20.0], Ends::Ticks), ["19.994", "19.996", "19.998", "20.000", "20.002", "20.004", "20.006"]);
         assert_eq!(labels([1e9, 1.000_000_3e9], Ends::Data)[0], "1.0000000e9");
+    }
+
+    #[test]
+    fn logarithmic_axes_have_powers_of_ten() {
+        let scale = Scale::new(&Axis::logarithmic(""), [3e-3, 2.0], [0.0, 300.0], 40.0);
+        let labels: Vec<String> = scale.ticks().into_iter().map(|(_, label)| label).collect();
+        assert_eq!(labels, ["10⁻²", "10⁻¹", "10⁰"]);
+        let narrow = Scale::new(&Axis::logarithmic(""), [0.9, 9.0], [0.0, 300.0], 40.0);
+        assert_eq!(
+            narrow.ticks().iter().map(|(v, l)| format!("{v} {l}")).collect::<Vec<_>>(),
+            ["1 10⁰", "2 2 · 10⁰", "5 5 · 10⁰", "10 10¹"]
+        );
+        assert!((scale.pixel(0.1) - scale.pixel(0.01) - (scale.pixel(1.0) - scale.pixel(0.1))).abs() < 1e-9);
+        let lone = Scale::new(&Axis::logarithmic(""), [0.0, 5.0], [0.0, 300.0], 40.0);
+        assert!(lone.pixel(0.0).is_finite() && !lone.ticks().is_empty());
     }
 
     #[test]

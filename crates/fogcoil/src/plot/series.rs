@@ -1,17 +1,19 @@
 //! A line of a plot, thinned to what the paper can show.
 
+use std::fmt::Write;
+
 use super::MOST_POINTS;
 
 /// A line through points that are computed when they are needed.
 pub(crate) struct Series<'a> {
-    /// Its name in the legend, with what it stands for.
-    pub(crate) name: &'a str,
+    /// Its name in the legend, with what it stands for; none if empty.
+    pub(crate) name: String,
     /// How it looks.
     pub(crate) style: Style,
     /// Number of its points.
     pub(crate) count: usize,
     /// The point of a number below `count`.
-    pub(crate) at: &'a dyn Fn(usize) -> (f64, f64),
+    pub(crate) at: Box<dyn Fn(usize) -> (f64, f64) + 'a>,
     /// How it is thinned.
     pub(crate) thinning: Thinning,
 }
@@ -27,6 +29,10 @@ pub(crate) enum Style {
     Second,
     /// Green, dotted.
     Third,
+    /// Thin, for a line that goes up and down many times: vermilion, black, blue or green.
+    Fine(u8),
+    /// Points joined by a line: blue rings, vermilion squares.
+    Marked(u8),
 }
 
 impl Style {
@@ -34,9 +40,13 @@ impl Style {
     pub(crate) fn class(self) -> &'static str {
         match self {
             Self::Total => "line total",
-            Self::First => "line first",
-            Self::Second => "line second",
+            Self::First | Self::Marked(0) => "line first",
+            Self::Second | Self::Marked(_) => "line second",
             Self::Third => "line third",
+            Self::Fine(0) => "line fine second",
+            Self::Fine(1) => "line fine total",
+            Self::Fine(2) => "line fine first",
+            Self::Fine(_) => "line fine third",
         }
     }
 }
@@ -51,9 +61,25 @@ pub(crate) enum Thinning {
 }
 
 impl Series<'_> {
+    /// The line, and a mark at each point where the style has marks.
+    pub(super) fn svg(&self, pixel: impl Fn((f64, f64)) -> (f64, f64)) -> String {
+        let points = self.points(pixel);
+        let mut out = format!("<path class=\"{}\" d=\"{}\"/>\n", self.style.class(), path(&points));
+        if let Style::Marked(kind) = self.style {
+            points.iter().for_each(|point| out.push_str(&mark(kind, *point)));
+        }
+        out
+    }
+
+    /// A piece of it for a legend, 34 × 12 px.
+    pub(super) fn sample(&self) -> String {
+        let line = format!("<path class=\"{}\" d=\"M2 6H32\"/>", self.style.class());
+        line + &if let Style::Marked(kind) = self.style { mark(kind, (17.0, 6.0)) } else { String::new() }
+    }
+
     /// Lowest and highest x, lowest and highest y; `None` without points.
     pub(crate) fn ranges(&self) -> Option<[[f64; 2]; 2]> {
-        (0..self.count).map(self.at).fold(None, |ranges, (x, y)| {
+        (0..self.count).map(&self.at).fold(None, |ranges, (x, y)| {
             let [[x0, x1], [y0, y1]] = ranges.unwrap_or([[x, x], [y, y]]);
             Some([[x0.min(x), x1.max(x)], [y0.min(y), y1.max(y)]])
         })
@@ -72,6 +98,25 @@ impl Series<'_> {
                 points.into_iter().step_by(every).chain(end).collect()
             }
         }
+    }
+}
+
+/// Path data to tenths of a pixel.
+fn path(points: &[(f64, f64)]) -> String {
+    let mut data = String::new();
+    for (i, (x, y)) in points.iter().enumerate() {
+        let _ = write!(data, "{}{x:.1} {y:.1}", if i == 0 { 'M' } else { 'L' });
+    }
+    if let [(x, y)] = points {
+        let _ = write!(data, "L{x:.1} {y:.1}"); // a lone point is a dot: its line caps are round
+    }
+    data
+}
+
+fn mark(kind: u8, (x, y): (f64, f64)) -> String {
+    match kind {
+        0 => format!("<circle class=\"mark first\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\"/>\n"),
+        _ => format!("<path class=\"mark second\" d=\"M{:.1} {:.1}h8v8h-8z\"/>\n", x - 4.0, y - 4.0),
     }
 }
 
@@ -129,7 +174,7 @@ mod tests {
     use super::*;
 
     fn series<'a>(count: usize, at: &'a dyn Fn(usize) -> (f64, f64), thinning: Thinning) -> Series<'a> {
-        Series { name: "", style: Style::Total, count, at, thinning }
+        Series { name: String::new(), style: Style::Total, count, at: Box::new(at), thinning }
     }
 
     #[test]

@@ -104,6 +104,15 @@ pub(super) fn computation(out: &mut String, simulation: &Simulation) {
         ),
         row("steady-ramp sensitivity", format!("mesh: {}; its error from {}", mesh(COARSE), mesh(FINE))),
     ]);
+    if let Some(inference) = simulation.profile.inferred {
+        let [median, largest] = inference.chamber_sd;
+        let course = format!(
+            "inferred from the spool's thermometer (spool_c), whose noise is taken as {} K: standard deviation {median:.3} K (median), \
+             {largest:.3} K (largest), if the model is exact; the thermometer is reproduced to {:.4} K rms",
+            inference.noise, inference.sensor_residual_rms
+        );
+        rows.push(row("chamber", course));
+    }
     rows.extend(simulation.profile.notes.iter().map(|note| row("note", note.as_str())));
     out.push_str("<h2>Computation</h2>\n");
     table(out, &rows);

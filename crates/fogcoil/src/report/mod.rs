@@ -1,11 +1,14 @@
 //! A simulation as one page: HTML that needs nothing but itself, on paper, phone and screen, in light and dark.
 
 mod facts;
-mod figures;
 
 use std::fmt::Write;
 
+use coil::TurnFields;
+
+use crate::figures;
 use crate::picture::escape;
+use crate::plot::page_style;
 use crate::simulate::{Row, Simulation};
 use crate::summary::{Summary, entries};
 
@@ -13,19 +16,20 @@ const STYLE: &str = include_str!("style.css");
 /// Most rows of the table of the plotted data, the peak's not counted.
 const MOST_ROWS: usize = 60;
 
-/// The page.
-pub fn html(simulation: &Simulation) -> String {
+/// The page; temperature, strain and contributions of the turns only with `fields`.
+pub fn html(simulation: &Simulation, fields: Option<&TurnFields>) -> String {
     let profile = simulation.profile.fingerprint.file.file_name().unwrap_or_default().to_string_lossy();
     let title = escape(&format!("{} under {profile}", simulation.case.name));
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{title}</title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n{}</header>\n<main>\n",
+         <style>\n{}{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n{}</header>\n<main>\n",
+        page_style(),
         lead(simulation)
     );
     summary(&mut out, simulation);
-    out.push_str("<h2>Course</h2>\n");
-    out.push_str(&figures::all(simulation));
+    out.push_str("<h2>Figures</h2>\n");
+    out.push_str(&figures::elements(simulation, fields));
     data(&mut out, simulation);
     facts::coil(&mut out, simulation);
     facts::computation(&mut out, simulation);
@@ -90,7 +94,7 @@ fn data(out: &mut String, simulation: &Simulation) {
 }
 
 /// A number with a true minus sign, and none before a zero.
-fn signed(value: f64, decimals: usize) -> String {
+pub(crate) fn signed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let zero = text.chars().all(|c| "-0.".contains(c));
     if zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "\u{2212}") }

@@ -31,9 +31,15 @@ impl Folder {
         names
     }
 
-    /// Runs the program in the folder.
+    /// Runs the program in the folder; models are kept from run to run, see [`Folder::run_with_cache`].
     pub(crate) fn run(&self, arguments: &[&str]) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_fogcoil")).args(arguments).current_dir(self.0.path()).output().unwrap()
+        self.run_with_cache(arguments, concat!(env!("CARGO_TARGET_TMPDIR"), "/cache"))
+    }
+
+    /// Runs the program in the folder with its models in `cache`.
+    pub(crate) fn run_with_cache(&self, arguments: &[&str], cache: &str) -> Output {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_fogcoil"));
+        command.args(arguments).env("FOGCOIL_CACHE", cache).current_dir(self.0.path()).output().unwrap()
     }
 }
 

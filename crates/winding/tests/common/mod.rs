@@ -16,6 +16,7 @@ pub(crate) const REFERENCE: Spec = Spec {
     cw_climbs: ClimbSide::Right,
     turn_length: TurnLength::True,
     tails: Tails { cw: 0.0, ccw: 0.0 },
+    defect: None,
 };
 
 /// Any valid coil of up to 24 layers and 40 turns a layer, of the given patterns.
@@ -39,6 +40,7 @@ pub(crate) fn any_spec(patterns: &'static [Pattern]) -> impl Strategy<Value = Sp
             cw_climbs: choices.1,
             turn_length: choices.2,
             tails: Tails { cw, ccw },
+            defect: None,
         }
     })
 }

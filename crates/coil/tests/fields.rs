@@ -1,0 +1,126 @@
+//! Fields at the turns, rebuilt from a reduced model: they carry the bias, obey uniform temperature, and agree with all unknowns.
+
+mod common;
+
+use bias::{Bias, bias};
+use coil::{Drive, Dynamics, FactorsAt, Fidelity, Mechanics, Model, Profile, Resolution, Side, ThermalModel};
+use common::{changed, reference};
+use winding::Tails;
+
+const QUICK: Fidelity = Fidelity { resolution: Resolution { order: 3, layers: 1, ratio: 0.2 }, modes: 24 };
+
+/// Rest, a ramp of 1 K/min for ten minutes, a soak.
+fn ramp_and_soak(drives: usize) -> Profile {
+    let time: Vec<f64> = (0..60).map(|k| 30.0 * f64::from(k)).collect();
+    let course = |drive: usize| time.iter().map(|t| 20.0 + (t - 120.0).clamp(0.0, 600.0) / 60.0 / (drive + 1) as f64).collect();
+    Profile { drives: (0..drives).map(course).collect(), time }
+}
+
+/// Drives and modes at every instant of a profile, and the mean bias that `simulate` gives since the one before.
+type Course = (Vec<(Vec<f64>, Vec<f64>)>, Vec<Bias>);
+
+fn course(dynamics: &Dynamics, profile: &Profile) -> Course {
+    let mut states = Vec::new();
+    let rows = dynamics.simulate_with(profile, |n, u, q| {
+        assert_eq!(n, states.len());
+        states.push((u.to_vec(), q.to_vec()));
+    });
+    let rows = rows.expect("run");
+    assert_eq!(rows, dynamics.simulate(profile).expect("run"), "looking on changes nothing");
+    (states, rows.iter().map(|r| r.bias).collect())
+}
+
+fn rates(a: &[f64], b: &[f64], dt: f64) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| (b - a) / dt).collect()
+}
+
+#[test]
+fn exact_the_bias_of_the_turns_is_the_bias_of_the_model() {
+    let ends = [Drive::Chamber, Drive::EndWall(Side::Left)];
+    let tailed = changed(|d| d.winding.tails = Tails { cw: 1.5, ccw: 0.4 });
+    for (design, drives) in [(reference(), &ends[..1]), (tailed, &ends[..])] {
+        let (dynamics, fields) = Dynamics::with_fields(&design, drives, &QUICK).expect("model");
+        let profile = ramp_and_soak(drives.len());
+        let (states, expected) = course(&dynamics, &profile);
+        let winding = winding::wind(&design.winding).expect("winding");
+        let parts = |b: &Bias| [b.shupe, b.eo_axial, b.eo_radial];
+        let peak = [0, 1, 2].map(|p| expected.iter().map(|b| parts(b)[p].abs()).fold(0.0, f64::max));
+        for n in 1..states.len() {
+            let dt = profile.time[n] - profile.time[n - 1];
+            let ((u0, q0), (u1, q1)) = (&states[n - 1], &states[n]);
+            let slices = fields.at(&rates(u0, u1, dt), &rates(q0, q1, dt)).slices(&winding, design.optics.thermal_expansion);
+            let found = bias(&design.optics, winding.length(), &slices).expect("bias");
+            for p in 0..3 {
+                let error = (parts(&found)[p] - parts(&expected[n])[p]).abs();
+                assert!(error < 1e-9 * peak[p], "part {p} at {} s: {error:.1e} of {:.1e}", profile.time[n], peak[p]);
+            }
+        }
+    }
+}
+
+#[test]
+fn exact_a_coil_at_rest_has_one_temperature_and_the_strain_of_uniform_warming() {
+    let design = reference();
+    let (dynamics, fields) = Dynamics::with_fields(&design, &[Drive::Chamber], &QUICK).expect("model");
+    let modes = dynamics.reduced().rates.len();
+    let rest = fields.at(&[1.0], &vec![0.0; modes]);
+    assert!(rest.temperature.iter().all(|t| (t - 1.0).abs() < 1e-12) && (rest.bore - 1.0).abs() < 1e-12);
+    let model = Model::new(&design, &QUICK.resolution).expect("model");
+    let strain = model.strain_at_turns(&vec![1.0; model.grid().mesh().nodes().len()]).expect("solve");
+    for (i, s) in strain.iter().enumerate() {
+        assert!((rest.axial[i] - s.axial).abs() < 1e-12 * 1e-6 + 1e-10 * s.axial.abs(), "turn {i}");
+        assert!((rest.radial[i] - s.radial).abs() < 1e-12 * 1e-6 + 1e-10 * s.radial.abs(), "turn {i}");
+    }
+}
+
+#[test]
+fn exact_turn_temperatures_agree_with_all_unknowns() {
+    let design = reference();
+    let (dynamics, fields) = Dynamics::with_fields(&design, &[Drive::Chamber], &QUICK).expect("model");
+    let profile = ramp_and_soak(1);
+    let (states, _) = course(&dynamics, &profile);
+    let thermal = ThermalModel::new(&design, &QUICK.resolution, &[Drive::Chamber]).expect("model");
+    let winding = winding::wind(&design.winding).expect("winding");
+    // the functional of one node: the one nearest to a turn, so within the coil
+    let turn = 1700;
+    let (r, y) = (winding.turns()[turn].r, winding.turns()[turn].y);
+    let nodes = thermal.grid().mesh().nodes();
+    let distance = |i: &usize| (nodes[*i][0] - r).hypot(nodes[*i][1] - y);
+    let nearest = (0..nodes.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("nodes");
+    let functional = (0..nodes.len()).map(|i| f64::from(u8::from(i == nearest))).collect();
+    let full = thermal.run(&profile, &[functional], 1e-5).expect("run");
+    for n in [10, 30, 59] {
+        let (u, q) = &states[n];
+        let at_turn = fields.at(u, q).temperature[turn];
+        // the node is a millimetre away at most; the coil lags by kelvins
+        assert!((at_turn - full.outputs[n][0]).abs() < 0.05, "{at_turn} against {} °C", full.outputs[n][0]);
+        assert!(n != 30 || u[0] - at_turn > 0.5, "the coil lags: {at_turn} against {} °C", u[0]);
+    }
+}
+
+#[test]
+fn exact_mode_rates_are_the_limit_of_differences() {
+    let dynamics = Dynamics::new(&reference(), &[Drive::Chamber], &QUICK).expect("model");
+    let reduced = dynamics.reduced();
+    let slope = [0.02];
+    let mut q = vec![0.0; reduced.rates.len()];
+    reduced.advance(&mut q, &slope, &reduced.interval(300.0));
+    let (start, rate, dt) = (q.clone(), reduced.mode_rates(&q, &slope), 1e-3);
+    reduced.advance(&mut q, &slope, &reduced.interval(dt));
+    for i in 0..q.len() {
+        // q'' = −rate q'
+        let expected = rate[i] * (1.0 - reduced.rates[i] * dt / 2.0);
+        let scale = reduced.drive[i][0].abs() * slope[0];
+        let second = (reduced.rates[i] * dt).powi(2);
+        assert!(((q[i] - start[i]) / dt - expected).abs() < (1e-6 + second) * scale, "mode {i}");
+    }
+}
+
+#[test]
+fn exact_fields_are_nominal_whatever_the_states() {
+    let row = |temperature: f64, factor: f64| FactorsAt { temperature, transverse_modulus: factor, transverse_expansion: 1.0 };
+    let table = changed(|d| d.mechanics = Mechanics::TemperatureTable(vec![row(-40.0, 1.3), row(60.0, 1.25)]));
+    let (_, expected) = Dynamics::with_fields(&reference(), &[Drive::Chamber], &QUICK).expect("model");
+    let (_, found) = Dynamics::with_fields(&table, &[Drive::Chamber], &QUICK).expect("model");
+    assert_eq!(found, expected);
+}

@@ -1,0 +1,340 @@
+//! From recordings to a verdict.
+
+use crate::fit::{Estimate, Fit, Fitter, Hypothesis};
+use crate::flexible::Rival;
+use crate::noise::Noise;
+use crate::{Error, ForwardModel, Observation};
+
+/// What the recordings say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// The nominal model suffices.
+    None,
+    /// Re-estimating the design's own constants within their uncertainties suffices.
+    Recalibrate,
+    /// A mechanism of the library explains the difference, or two.
+    Explained,
+    /// There is structure that nothing in the library explains.
+    Unknown,
+}
+
+/// Probabilities before any recording is seen, and what counts as excluded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Of the nominal model.
+    pub none: f64,
+    /// Of constants that must be re-estimated.
+    pub recalibrate: f64,
+    /// Of one mechanism, all together.
+    pub single: f64,
+    /// Of two mechanisms, all pairs together.
+    pub pair: f64,
+    /// Of something that is not in the library.
+    pub unknown: f64,
+    /// Smallest probability of a mechanism, relative to the best, at which it is not excluded.
+    pub excluded: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { none: 0.5, recalibrate: 0.05, single: 0.35, pair: 0.05, unknown: 0.05, excluded: 0.03 }
+    }
+}
+
+/// A hypothesis that was compared.
+#[derive(Debug, Clone)]
+pub struct Candidate {
+    /// At its most probable parameters.
+    pub fit: Fit,
+    /// Structure that was added to it, if any.
+    pub rival: Option<Rival>,
+    /// ln of evidence times prior probability.
+    pub log_weight: f64,
+    /// Probability among all that were compared.
+    pub probability: f64,
+}
+
+/// The outcome.
+#[derive(Debug, Clone)]
+pub struct Diagnosis {
+    /// In a word.
+    pub verdict: Verdict,
+    /// Everything compared, most probable first.
+    pub candidates: Vec<Candidate>,
+    /// Marginal probability of every mechanism (its number in the library), most probable first.
+    pub mechanisms: Vec<(usize, f64)>,
+    /// Mechanisms that the recordings do not exclude, best first.
+    pub set: Vec<usize>,
+    /// Parameters of the best candidate's mechanisms, in its order.
+    pub parameters: Vec<Vec<Estimate>>,
+    /// The nominal model, its offsets and model errors fitted.
+    pub nominal: Fit,
+}
+
+impl Diagnosis {
+    /// The most probable candidate.
+    pub fn best(&self) -> &Candidate {
+        &self.candidates[0]
+    }
+}
+
+/// Singles that are followed up with their own noise and as parts of pairs.
+const FOLLOWED: usize = 5;
+const LEADERS: usize = 5;
+/// ln evidence behind the best beyond which a candidate is not worth its own noise.
+const BEHIND: f64 = 25.0;
+/// Choices of a mechanism that are fitted in full, after all were tried in a linear step.
+const CHOICES: usize = 6;
+
+struct Pool<'a, M> {
+    fitter: Fitter<'a, M>,
+    settings: Settings,
+    candidates: Vec<Candidate>,
+}
+
+/// Compares everything that `model` may leave out on its records `records`, which observed `observations`.
+///
+/// # Errors
+/// [`Error`] if the model or a fit fails.
+pub fn diagnose<M: ForwardModel>(
+    model: &M,
+    records: &[usize],
+    observations: &[Observation],
+    settings: &Settings,
+    progress: &dyn Fn(&str),
+) -> Result<Diagnosis, Error<M::Error>> {
+    let fitter = Fitter { model, observations, records };
+    let times: Vec<&[f64]> = observations.iter().map(|o| o.time.as_slice()).collect();
+    let mut pool = Pool { fitter, settings: *settings, candidates: Vec::new() };
+    progress("nominal model and noise");
+    let typical = Noise::typical(model.channels(), observations)?;
+    let first = pool.fitter.fit(&Hypothesis::NOMINAL, &typical, None)?;
+    let mut nominal = pool.fitter.fit_with_noise(&Hypothesis::NOMINAL, &first, 3)?;
+    let singles: Vec<Vec<Hypothesis>> = (0..model.mechanisms().len()).map(|m| variants(model, m)).collect();
+
+    progress("single mechanisms");
+    // noise fitted to the nominal residual has swallowed part of the effect: what is sought first is sought in calmer noise
+    let calm = nominal.noise.calmed(model.channels(), observations)?;
+    let mut leader = Fit { noise: calm, ..nominal.clone() };
+    let mut fits: Vec<Fit> = Vec::new();
+    for round in 0..3 {
+        fits = Vec::new();
+        for hypothesis in singles.iter().flatten() {
+            let known = (round > 0).then_some(&leader);
+            fits.push(pool.fitter.fit(hypothesis, &leader.noise, known.or(Some(&nominal)))?);
+        }
+        let recalibrated = Hypothesis { constants_free: true, ..Hypothesis::NOMINAL };
+        fits.push(pool.fitter.fit(&recalibrated, &leader.noise, Some(&leader))?);
+        fits.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+        let best = pool.fitter.fit_with_noise(&fits[0].hypothesis, &fits[0], 2)?;
+        let gained = best.log_evidence - if round == 0 { nominal.log_evidence } else { leader.log_evidence };
+        if round == 0 || gained > 0.5 {
+            leader = best;
+        }
+        if gained < 3.0 || round == 2 {
+            break;
+        }
+    }
+    nominal = better(nominal.clone(), pool.fitter.fit_with_noise(&Hypothesis::NOMINAL, &leader_noise(&nominal, &leader), 2)?);
+    pool.push(nominal.clone(), None);
+    let recalibrated = Hypothesis { constants_free: true, ..Hypothesis::NOMINAL };
+    let recalibrated = pool.fitter.fit_with_noise(&recalibrated, &leader_noise(&nominal, &leader), 2)?;
+    pool.push(recalibrated, None);
+
+    progress("the likeliest mechanisms with their own noise");
+    let lead = fits[0].log_evidence;
+    let mut leaders: Vec<Fit> = Vec::new();
+    let mut met: Vec<usize> = Vec::new();
+    for fit in fits.into_iter().filter(|f| !f.hypothesis.mechanisms.is_empty()) {
+        let mechanism = fit.hypothesis.mechanisms[0].0;
+        let again = met.contains(&mechanism);
+        // of a mechanism's choices the best alone has its own noise; the others lie close behind it
+        if !again && (met.len() < FOLLOWED || lead - fit.log_evidence < BEHIND) {
+            let own = pool.fitter.fit_with_noise(&fit.hypothesis, &fit, 2)?;
+            if met.len() < FOLLOWED {
+                let free = Hypothesis { constants_free: true, ..own.hypothesis.clone() };
+                let free = pool.fitter.fit_with_noise(&free, &own, 1)?;
+                pool.push(free, None);
+            }
+            leaders.push(own.clone());
+            pool.push(own, None);
+        } else {
+            pool.push(fit, None);
+        }
+        if !again {
+            met.push(mechanism);
+        }
+    }
+    leaders.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+
+    progress("pairs of mechanisms");
+    let mut followed: Vec<usize> = Vec::new();
+    for fit in &leaders {
+        let first = fit.hypothesis.mechanisms[0].0;
+        if !followed.contains(&first) && followed.len() < LEADERS {
+            followed.push(first);
+            pool.pairs(fit, &singles)?;
+        }
+    }
+
+    progress("what no mechanism explains");
+    pool.rivals(&times);
+    Ok(pool.conclude(model, nominal))
+}
+
+/// The nominal fit, but under the leader's noise.
+fn leader_noise(nominal: &Fit, leader: &Fit) -> Fit {
+    Fit { noise: leader.noise.clone(), ..nominal.clone() }
+}
+
+fn better(a: Fit, b: Fit) -> Fit {
+    if b.log_evidence > a.log_evidence { b } else { a }
+}
+
+/// A mechanism alone, once for each of its choices.
+fn variants<M: ForwardModel>(model: &M, mechanism: usize) -> Vec<Hypothesis> {
+    let of = |choice| Hypothesis { mechanisms: vec![(mechanism, choice)], constants_free: false };
+    match &model.mechanisms()[mechanism].choice {
+        None => vec![of(None)],
+        Some((_, values)) => values.iter().map(|v| of(Some(*v))).collect(),
+    }
+}
+
+impl<M: ForwardModel> Pool<'_, M> {
+    fn push(&mut self, fit: Fit, rival: Option<Rival>) {
+        let log_weight =
+            self.log_prior(&fit.hypothesis, rival.is_some()) + fit.log_evidence + rival.as_ref().map_or(0.0, |r| r.gain);
+        self.candidates.push(Candidate { fit, rival, log_weight, probability: 0.0 });
+    }
+
+    /// ln of the probability of a hypothesis before anything is seen.
+    fn log_prior(&self, hypothesis: &Hypothesis, rival: bool) -> f64 {
+        let library = self.fitter.model.mechanisms();
+        let all: f64 = library.iter().map(|m| m.weight).sum();
+        let share = |&(m, _): &(usize, Option<f64>)| {
+            let choices = library[m].choice.as_ref().map_or(1, |(_, values)| values.len());
+            library[m].weight / all / choices as f64
+        };
+        let s = &self.settings;
+        let base = match hypothesis.mechanisms.as_slice() {
+            [] => {
+                if hypothesis.constants_free {
+                    s.recalibrate
+                } else {
+                    s.none
+                }
+            }
+            [one] => s.single * share(one),
+            // each pair is met in two orders
+            many => s.pair * 2.0 * many.iter().map(share).product::<f64>(),
+        };
+        let constants: f64 = match (hypothesis.mechanisms.is_empty(), hypothesis.constants_free) {
+            (true, _) => 1.0,
+            (false, free) => {
+                let odds = s.recalibrate / (s.none + s.recalibrate);
+                if free { odds } else { 1.0 - odds }
+            }
+        };
+        let structures = (crate::Structure::ALL.len() * self.fitter.model.channels().len()) as f64;
+        (base * constants * if rival { s.unknown / structures } else { 1.0 }).ln()
+    }
+
+    /// The mechanism of `fit` with every other one.
+    fn pairs(&mut self, fit: &Fit, singles: &[Vec<Hypothesis>]) -> Result<(), Error<M::Error>> {
+        let first = fit.hypothesis.mechanisms[0];
+        let mut fits = Vec::new();
+        for hypotheses in singles.iter().filter(|h| h[0].mechanisms[0].0 != first.0) {
+            let mut pairs: Vec<Hypothesis> = hypotheses
+                .iter()
+                .map(|h| Hypothesis { mechanisms: vec![first, h.mechanisms[0]], constants_free: false })
+                .collect();
+            // the choice of a second mechanism is hardly determined: a few stand for all
+            if pairs.len() > CHOICES {
+                let every = pairs.len().div_ceil(CHOICES);
+                pairs = pairs.into_iter().step_by(every).collect();
+            }
+            for pair in &pairs {
+                let known = self.candidates.iter().any(|c| same(&c.fit.hypothesis, pair));
+                if !known {
+                    fits.push(self.fitter.fit(pair, &fit.noise, Some(fit))?);
+                }
+            }
+        }
+        fits.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+        let lead = fits.first().map_or(0.0, |f| f.log_evidence);
+        for (rank, pair) in fits.into_iter().enumerate() {
+            let promising = pair.log_evidence - fit.log_evidence > 1.0 && lead - pair.log_evidence < BEHIND;
+            let own = if rank < FOLLOWED && promising { self.fitter.fit_with_noise(&pair.hypothesis, &pair, 2)? } else { pair };
+            self.push(own, None);
+        }
+        Ok(())
+    }
+
+    /// Adds every structure to the most probable candidates.
+    fn rivals(&mut self, times: &[&[f64]]) {
+        let mut order: Vec<usize> = (0..self.candidates.len()).collect();
+        order.sort_by(|&a, &b| self.candidates[b].log_weight.total_cmp(&self.candidates[a].log_weight));
+        order.truncate(LEADERS);
+        for at in order {
+            let fit = self.candidates[at].fit.clone();
+            for rival in fit.rivals(self.fitter.model, self.fitter.records, times) {
+                self.push(fit.clone(), Some(rival));
+            }
+        }
+    }
+
+    fn conclude(mut self, model: &M, nominal: Fit) -> Diagnosis {
+        self.candidates.sort_by(|a, b| b.log_weight.total_cmp(&a.log_weight));
+        let most = self.candidates[0].log_weight;
+        let sum: f64 = self.candidates.iter().map(|c| (c.log_weight - most).exp()).sum();
+        self.candidates.iter_mut().for_each(|c| c.probability = (c.log_weight - most).exp() / sum);
+        let of = |test: &dyn Fn(&Candidate) -> bool| -> f64 {
+            self.candidates.iter().filter(|c| test(c)).map(|c| c.probability).sum()
+        };
+        let none = of(&|c| c.rival.is_none() && c.fit.hypothesis == Hypothesis::NOMINAL);
+        let unknown = of(&|c| c.rival.is_some());
+        let recalibrate = of(&|c| c.rival.is_none() && c.fit.hypothesis.mechanisms.is_empty() && c.fit.hypothesis.constants_free);
+        let mut mechanisms: Vec<(usize, f64)> = (0..model.mechanisms().len())
+            .map(|m| (m, of(&|c| c.rival.is_none() && c.fit.hypothesis.mechanisms.iter().any(|(n, _)| *n == m))))
+            .collect();
+        mechanisms.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let explained = 1.0 - none - unknown - recalibrate;
+        let verdict = if none > 0.5 {
+            Verdict::None
+        } else if unknown > explained.max(recalibrate) {
+            Verdict::Unknown
+        } else if recalibrate > explained {
+            Verdict::Recalibrate
+        } else {
+            Verdict::Explained
+        };
+        // the best candidate of the verdict leads
+        let fits = |c: &Candidate| match verdict {
+            Verdict::None => c.rival.is_none() && c.fit.hypothesis == Hypothesis::NOMINAL,
+            Verdict::Recalibrate => {
+                c.rival.is_none() && c.fit.hypothesis.mechanisms.is_empty() && c.fit.hypothesis.constants_free
+            }
+            Verdict::Explained => c.rival.is_none() && !c.fit.hypothesis.mechanisms.is_empty(),
+            Verdict::Unknown => c.rival.is_some(),
+        };
+        if let Some(at) = self.candidates.iter().position(fits) {
+            let chosen = self.candidates.remove(at);
+            self.candidates.insert(0, chosen);
+        }
+        let best = &self.candidates[0];
+        let parameters = (0..best.fit.active.len()).map(|place| best.fit.estimates(model, place)).collect();
+        let threshold = self.settings.excluded * mechanisms.first().map_or(0.0, |m| m.1);
+        let set = match verdict {
+            Verdict::Explained => mechanisms.iter().filter(|(_, p)| *p >= threshold).map(|(m, _)| *m).collect(),
+            _ => Vec::new(),
+        };
+        Diagnosis { verdict, mechanisms, set, parameters, nominal, candidates: self.candidates }
+    }
+}
+
+/// Whether two hypotheses hold the same mechanisms and choices, in any order.
+fn same(a: &Hypothesis, b: &Hypothesis) -> bool {
+    a.constants_free == b.constants_free
+        && a.mechanisms.len() == b.mechanisms.len()
+        && a.mechanisms.iter().all(|m| b.mechanisms.iter().any(|n| n.0 == m.0))
+}

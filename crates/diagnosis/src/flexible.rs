@@ -1,0 +1,265 @@
+//! The flexible rival: linear families of functions of the state, for what no mechanism of the library explains.
+
+use crate::fit::Fit;
+use crate::{ForwardModel, State};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+/// A family of functions in which a residual is sought.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Structure {
+    /// Periodic in the level.
+    PeriodicInLevel,
+    /// A smooth function of the level.
+    Level,
+    /// The rate times a smooth function of the level.
+    RateByLevel,
+    /// A nonlinear function of the rate.
+    Rate,
+    /// The rate's past, on several time scales.
+    History,
+    /// The rate's own rate of change.
+    Acceleration,
+    /// The direction of change, by level.
+    Direction,
+    /// A step at an instant.
+    Step,
+    /// What accumulates with time or with the level's wandering.
+    Accumulation,
+}
+
+impl Structure {
+    /// All of them.
+    pub const ALL: [Self; 9] = [
+        Self::PeriodicInLevel,
+        Self::Level,
+        Self::RateByLevel,
+        Self::Rate,
+        Self::History,
+        Self::Acceleration,
+        Self::Direction,
+        Self::Step,
+        Self::Accumulation,
+    ];
+
+    /// In words.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::PeriodicInLevel => "periodic in the level",
+            Self::Level => "a function of the level",
+            Self::RateByLevel => "proportional to the rate, with a factor that depends on the level",
+            Self::Rate => "a nonlinear function of the rate",
+            Self::History => "a function of the history (lagged rate)",
+            Self::Acceleration => "proportional to the change of the rate",
+            Self::Direction => "dependent on the direction of change",
+            Self::Step => "a step in time",
+            Self::Accumulation => "accumulating with time or with cycling",
+        }
+    }
+}
+
+/// A structure found in a residual.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rival {
+    /// Which.
+    pub structure: Structure,
+    /// In which channel.
+    pub channel: usize,
+    /// Period in the level, or instant of a step \[s\], where the structure has one.
+    pub at: Option<f64>,
+    /// Gain of ln evidence over the fit it is added to.
+    pub gain: f64,
+}
+
+/// Smooth bumps: a partition of unity of `count` hats over the range of x.
+fn hats(x: &[f64], count: usize) -> Vec<Vec<f64>> {
+    let (low, high) = x.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+    let step = (high - low) / (count - 1) as f64;
+    if step.is_nan() || step <= 0.0 {
+        return Vec::new();
+    }
+    let hat = |k: usize| x.iter().map(|v| (1.0 - ((v - low) / step - k as f64).abs()).max(0.0)).collect();
+    (0..count).map(hat).collect()
+}
+
+/// First-order follower of a series.
+fn follow(time: &[f64], series: &[f64], tau: f64) -> Vec<f64> {
+    let mut x = 0.0;
+    (0..series.len())
+        .map(|n| {
+            let dt = if n > 0 { time[n] - time[n - 1] } else { 0.0 };
+            x += (series[n] - x) * -(-dt / tau).exp_m1();
+            x
+        })
+        .collect()
+}
+
+fn times(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a * b).collect()
+}
+
+/// Largest absolute value 1.
+fn normalised(series: Vec<f64>) -> Option<Vec<f64>> {
+    let most = series.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    (most > 0.0 && most.is_finite()).then(|| series.iter().map(|v| v / most).collect())
+}
+
+/// A set of functions, with the period or instant that it stands for.
+struct Basis {
+    at: Option<f64>,
+    functions: Vec<Vec<f64>>,
+}
+
+fn one(functions: Vec<Vec<f64>>) -> Vec<Basis> {
+    vec![Basis { at: None, functions }]
+}
+
+/// Alternatives of a structure; its evidence is their mean.
+fn bases(structure: Structure, time: &[f64], state: &State) -> Vec<Basis> {
+    let (level, rate) = (&state.level, &state.rate);
+    let (low, high) = level.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+    let range = high - low;
+    match structure {
+        Structure::PeriodicInLevel => {
+            if range.is_nan() || range <= 0.0 {
+                return Vec::new();
+            }
+            (0..PERIODS)
+                .map(|k| {
+                    let period = range / 30.0 * (15.0_f64).powf(k as f64 / (PERIODS - 1) as f64);
+                    let wave = |shift: f64| -> Vec<f64> {
+                        level.iter().map(|l| (std::f64::consts::TAU * l / period + shift).sin()).collect()
+                    };
+                    Basis { at: Some(period), functions: vec![wave(0.0), wave(std::f64::consts::FRAC_PI_2)] }
+                })
+                .collect()
+        }
+        Structure::Level => one(hats(level, 9)),
+        Structure::RateByLevel => one(hats(level, 7).iter().map(|h| times(h, rate)).collect()),
+        Structure::Rate => one(hats(rate, 7)),
+        Structure::History => {
+            let lagged = LAGS.iter().map(|tau| follow(time, rate, *tau));
+            one(lagged.collect())
+        }
+        Structure::Acceleration => {
+            let change = (0..rate.len()).map(|n| {
+                let (a, b) = (n.saturating_sub(1), (n + 1).min(rate.len() - 1));
+                if b > a { (rate[b] - rate[a]) / (time[b] - time[a]) } else { 0.0 }
+            });
+            one(vec![change.collect()])
+        }
+        Structure::Direction => {
+            let most = rate.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
+            let direction: Vec<f64> = rate.iter().map(|r| (r / (0.02 * most).max(f64::MIN_POSITIVE)).tanh()).collect();
+            one(hats(level, 4).iter().map(|h| times(h, &direction)).collect())
+        }
+        Structure::Step => {
+            let (first, last) = (time[0], time[time.len() - 1]);
+            (1..STEPS)
+                .map(|k| {
+                    let at = first + (last - first) * k as f64 / STEPS as f64;
+                    let step = |t: &f64| if *t >= at { 1.0 } else { 0.0 };
+                    Basis { at: Some(at), functions: vec![time.iter().map(step).collect()] }
+                })
+                .collect()
+        }
+        Structure::Accumulation => {
+            let span = time[time.len() - 1] - time[0];
+            let mut wandered = 0.0;
+            let wander = (0..time.len())
+                .map(|n| {
+                    wandered += if n > 0 { (level[n] - level[n - 1]).abs() } else { 0.0 };
+                    wandered
+                })
+                .collect();
+            let settling = |tau: f64| time.iter().map(|t| (-(t - time[0]) / (tau * span)).exp()).collect();
+            one(vec![wander, time.iter().map(|t| t - time[0]).collect(), settling(0.1), settling(0.3)])
+        }
+    }
+}
+
+const PERIODS: usize = 40;
+const STEPS: usize = 48;
+/// Time constants of the history \[s\].
+const LAGS: [f64; 5] = [200.0, 700.0, 2500.0, 8000.0, 25000.0];
+/// Amplitudes that are averaged over, in units of the channel's white noise.
+const AMPLITUDES: [f64; 4] = [0.3, 1.0, 3.0, 10.0];
+
+/// ln of the mean of e^x.
+fn log_mean_exp(values: &[f64]) -> f64 {
+    let most = values.iter().fold(f64::NEG_INFINITY, |m, v| m.max(*v));
+    if most == f64::NEG_INFINITY {
+        return most;
+    }
+    most + (values.iter().map(|v| (v - most).exp()).sum::<f64>() / values.len() as f64).ln()
+}
+
+impl Fit {
+    /// Gain of ln evidence by adding functions with independent normal amplitudes of standard deviation `scale`, for each scale.
+    fn gain(&self, columns: &DMatrix<f64>, scales: &[f64]) -> Vec<f64> {
+        // the fit's own unknowns are marginalised: they have the covariance (JᵀJ + I)⁻¹
+        let shared = self.jacobian.tr_mul(columns);
+        let free = columns.tr_mul(columns) - shared.tr_mul(&(&self.covariance * &shared));
+        let SymmetricEigen { eigenvalues, eigenvectors } = ((&free + free.transpose()) / 2.0).symmetric_eigen();
+        // what is left of the fit's own gradient, where it has not quite settled, is not the functions' merit
+        let unsettled = self.jacobian.tr_mul(&self.whitened) - &self.u;
+        let along = eigenvectors.tr_mul(&(columns.tr_mul(&self.whitened) - shared.tr_mul(&(&self.covariance * unsettled))));
+        let of = |scale: &f64| {
+            eigenvalues
+                .iter()
+                .zip(along.iter())
+                .map(|(e, g)| {
+                    let m = 1.0 + scale * scale * e.max(0.0);
+                    (scale * g).powi(2) / m / 2.0 - m.ln() / 2.0
+                })
+                .sum()
+        };
+        scales.iter().map(of).collect()
+    }
+
+    /// How much each structure in each channel would add to the fit, best first.
+    pub(crate) fn rivals<M: ForwardModel>(&self, model: &M, records: &[usize], times_of: &[&[f64]]) -> Vec<Rival> {
+        let mut rivals = Vec::new();
+        for channel in 0..model.channels().len() {
+            for structure in Structure::ALL {
+                let alternatives: Vec<Vec<Basis>> =
+                    records.iter().zip(times_of).map(|(record, time)| bases(structure, time, model.state(*record))).collect();
+                let count = alternatives.iter().map(Vec::len).min().unwrap_or(0);
+                let mut gains = Vec::new();
+                for k in 0..count {
+                    if let Some(columns) = self.columns(&alternatives, k, channel, times_of) {
+                        let scales: Vec<f64> = AMPLITUDES.iter().map(|a| a * self.noise.model(0, channel).white).collect();
+                        gains.push((log_mean_exp(&self.gain(&columns, &scales)), alternatives[0][k].at));
+                    }
+                }
+                let best = gains.iter().max_by(|a, b| a.0.total_cmp(&b.0));
+                if let Some(&(_, at)) = best {
+                    let gain = log_mean_exp(&gains.iter().map(|g| g.0).collect::<Vec<_>>());
+                    rivals.push(Rival { structure, channel, at, gain });
+                }
+            }
+        }
+        rivals.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        rivals
+    }
+
+    /// Whitened functions of alternative `k`, of every record one below another, in the rows of the fit's residual.
+    fn columns(&self, alternatives: &[Vec<Basis>], k: usize, channel: usize, times_of: &[&[f64]]) -> Option<DMatrix<f64>> {
+        let mut columns: Vec<DVector<f64>> = Vec::new();
+        for f in 0..alternatives[0][k].functions.len() {
+            let mut column = Vec::with_capacity(self.whitened.len());
+            for (record, bases) in alternatives.iter().enumerate() {
+                for c in 0..self.residuals[record].len() {
+                    if c == channel {
+                        let series = normalised(bases[k].functions.get(f)?.clone())?;
+                        column.extend(self.noise.whiten(record, c, &series));
+                    } else {
+                        column.extend(std::iter::repeat_n(0.0, self.noise.rows(record, c).len()));
+                    }
+                }
+                debug_assert_eq!(times_of[record].len(), self.residuals[record][channel].len());
+            }
+            columns.push(DVector::from_vec(column));
+        }
+        (!columns.is_empty()).then(|| DMatrix::from_columns(&columns))
+    }
+}

@@ -1,0 +1,60 @@
+//! What a fit predicts of a record that it has not seen.
+
+use crate::fit::{Fit, expected};
+use crate::noise::Noise;
+use crate::{Error, ForwardModel, Observation};
+
+/// A fit judged on a record that it has not seen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeldOut {
+    /// Prediction of every channel, with the offsets of the first record that was fitted.
+    pub prediction: Vec<Vec<f64>>,
+    /// Root mean square of recorded less predicted, of every channel.
+    pub rmse: Vec<f64>,
+    /// Standard deviation of the noise in a sample as identified in the fit, of every channel.
+    pub noise_floor: Vec<f64>,
+    /// ln of the likelihood of the record, the offsets known only as well as their priors say, up to a constant that fits with the same noise share.
+    pub log_score: f64,
+}
+
+impl Fit {
+    /// Predicts `record` of the model and compares with what was observed; `judge` gives the noise under which it is scored.
+    ///
+    /// # Errors
+    /// [`Error`] if the model fails.
+    pub fn hold_out<M: ForwardModel>(
+        &self,
+        model: &M,
+        record: usize,
+        observed: &Observation,
+        judge: &Self,
+    ) -> Result<HeldOut, Error<M::Error>> {
+        let middle = expected(model.nuisances());
+        // what every record has of its own is not known here
+        let nuisances: Vec<f64> =
+            model.nuisances().iter().enumerate().map(|(i, n)| if n.local { middle[i] } else { self.nuisances[0][i] }).collect();
+        let mut prediction = model.respond(record, &nuisances, &self.active).map_err(Error::Model)?;
+        for (channel, offset) in prediction.iter_mut().zip(&self.offsets[0]) {
+            channel.iter_mut().for_each(|p| *p += offset);
+        }
+        let noise = Noise::of_record(&judge.noise, 0, observed)?;
+        let (mut rmse, mut log_score) = (Vec::new(), 0.0);
+        for (c, (predicted, recorded)) in prediction.iter().zip(&observed.channels).enumerate() {
+            let residual: Vec<f64> = recorded.iter().zip(predicted).map(|(y, p)| y - p).collect();
+            let used: Vec<f64> = residual.iter().copied().filter(|r| !r.is_nan()).collect();
+            rmse.push((used.iter().map(|r| r * r).sum::<f64>() / used.len().max(1) as f64).sqrt());
+            // an offset of its own, with its prior, is marginalised
+            let ones = vec![model.channels()[c].offset_sd; residual.len()];
+            let (w, o) = (noise.whiten(0, c, &residual), noise.whiten(0, c, &ones));
+            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            log_score -= (dot(&w, &w) - dot(&w, &o).powi(2) / (1.0 + dot(&o, &o))) / 2.0;
+        }
+        let noise_floor = (0..model.channels().len())
+            .map(|c| {
+                let n = judge.noise.model(0, c);
+                n.white.hypot(n.drift)
+            })
+            .collect();
+        Ok(HeldOut { prediction, rmse, noise_floor, log_score })
+    }
+}

@@ -1,0 +1,22 @@
+//! When a simulation and a recording differ: locate the mismatch, name what was left out, prove it on a held-out recording.
+//!
+//! Knows nothing of what is modelled: a [`ForwardModel`] gives channels, uncertain constants, a library of mechanisms, and responses.
+
+mod diagnose;
+mod error;
+mod fit;
+mod flexible;
+mod hold_out;
+mod locate;
+mod model;
+mod noise;
+mod parameter;
+
+pub use diagnose::{Candidate, Diagnosis, Settings, Verdict, diagnose};
+pub use error::Error;
+pub use fit::{Estimate, Fit, Hypothesis};
+pub use flexible::{Rival, Structure};
+pub use hold_out::HeldOut;
+pub use locate::{Block, Cell, FREQUENCIES, Spectrum, whiteness};
+pub use model::{Active, Channel, ForwardModel, Mechanism, NoisePrior, Nuisance, Observation, Role, State};
+pub use parameter::{Parameter, Prior};

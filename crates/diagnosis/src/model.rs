@@ -1,0 +1,130 @@
+//! What the engine needs of a forward model.
+
+use crate::{Parameter, Prior};
+
+/// One output that is both predicted and recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Channel {
+    /// Name.
+    pub name: String,
+    /// Unit.
+    pub unit: String,
+    /// Standard deviation of the constant that is added to every recording of the channel; it is a nuisance, never a finding.
+    pub offset_sd: f64,
+    /// Span of a sample's mean \[s\], 0 for momentary values.
+    pub averaging: f64,
+    /// What is known of its noise.
+    pub noise: NoisePrior,
+}
+
+/// Size of the noise's terms as known beforehand: medians and the standard deviation of their logarithms.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NoisePrior {
+    /// White noise of a sample.
+    pub white: (f64, f64),
+    /// Exponentially correlated drift, standard deviation.
+    pub drift: (f64, f64),
+    /// Its correlation time \[s\].
+    pub drift_time: (f64, f64),
+    /// Random walk [unit/√s].
+    pub walk: (f64, f64),
+}
+
+/// When an uncertain number of the nominal model is let free.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// Always: an error that the model is known to have.
+    ModelError,
+    /// Where the design's own constants are re-estimated.
+    Constant,
+}
+
+/// An uncertain number of the nominal model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Nuisance {
+    /// The number.
+    pub parameter: Parameter,
+    /// When it is free.
+    pub role: Role,
+    /// Whether every record has its own.
+    pub local: bool,
+}
+
+/// Something that the nominal model leaves out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mechanism {
+    /// Short name.
+    pub id: String,
+    /// Part of the chain where it acts.
+    pub stage: String,
+    /// Its parameters.
+    pub parameters: Vec<Parameter>,
+    /// A further, whole-numbered parameter with its candidates, which are compared one by one.
+    pub choice: Option<(String, Vec<f64>)>,
+    /// Values of the parameters from which fits start, at least one.
+    pub starts: Vec<Vec<f64>>,
+    /// Whether an explanation by it counts as explained; else it only describes an unknown.
+    pub named: bool,
+    /// Weight before the recording is seen, relative to the others.
+    pub weight: f64,
+}
+
+/// A mechanism at work.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Active {
+    /// Its number in [`ForwardModel::mechanisms`].
+    pub mechanism: usize,
+    /// Values of its parameters.
+    pub values: Vec<f64>,
+    /// Value of its choice, if it has one.
+    pub choice: Option<f64>,
+}
+
+/// Two states of the modelled system that a mismatch may depend on, at the instants of a record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// Level, e.g. the temperature of what is modelled.
+    pub level: Vec<f64>,
+    /// Its rate of change [level/s].
+    pub rate: Vec<f64>,
+}
+
+/// A nominal model with what it may leave out, prepared for some records.
+pub trait ForwardModel {
+    /// Why a response cannot be computed.
+    type Error;
+
+    /// The channels, in the order of every response.
+    fn channels(&self) -> &[Channel];
+
+    /// Uncertain numbers of the nominal model.
+    fn nuisances(&self) -> &[Nuisance];
+
+    /// The library.
+    fn mechanisms(&self) -> &[Mechanism];
+
+    /// Response of every channel at the instants of a record, with nuisances at given values and mechanisms at work.
+    ///
+    /// # Errors
+    /// What keeps the model from responding.
+    fn respond(&self, record: usize, nuisances: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error>;
+
+    /// State of the nominal system during a record.
+    fn state(&self, record: usize) -> &State;
+}
+
+/// What was recorded, one series for each channel; NaN where nothing usable was.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Observation {
+    /// Instants \[s\], increasing.
+    pub time: Vec<f64>,
+    /// Series of each channel.
+    pub channels: Vec<Vec<f64>>,
+}
+
+impl Nuisance {
+    /// A number of the nominal model that is known to 1σ = `sd` about `mean`.
+    pub fn normal(name: impl Into<String>, mean: f64, sd: f64, role: Role) -> Self {
+        Self { parameter: Parameter::new(name, Prior::Normal { mean, sd }), role, local: false }
+    }
+}

@@ -1,0 +1,194 @@
+//! Noise of every channel of every record, fitted to a residual under its prior.
+
+use crate::model::NoisePrior;
+use crate::{Channel, Observation};
+use recording::noise::{NoiseModel, Whitener};
+
+/// The noise models of some records with their whiteners: `[record][channel]`.
+#[derive(Debug, Clone)]
+pub(crate) struct Noise {
+    models: Vec<Vec<NoiseModel>>,
+    whiteners: Vec<Vec<Whitener>>,
+    /// ln p of the noise's own parameters under their priors
+    pub(crate) log_prior: f64,
+}
+
+/// Logarithms of white, drift, drift time and walk in units of their priors.
+type Standard = [f64; 4];
+
+fn model(prior: &NoisePrior, averaging: f64, x: &Standard) -> NoiseModel {
+    let of = |(median, spread): (f64, f64), x: f64| median * (spread * x.clamp(-12.0, 12.0)).exp();
+    NoiseModel {
+        averaging,
+        white: of(prior.white, x[0]),
+        drift: of(prior.drift, x[1]),
+        drift_time: of(prior.drift_time, x[2]),
+        walk: of(prior.walk, x[3]),
+        quantisation: 0.0,
+    }
+}
+
+fn standard(prior: &NoisePrior, model: &NoiseModel) -> Standard {
+    let of = |(median, spread): (f64, f64), value: f64| (value / median).ln() / spread;
+    [
+        of(prior.white, model.white),
+        of(prior.drift, model.drift),
+        of(prior.drift_time, model.drift_time),
+        of(prior.walk, model.walk),
+    ]
+}
+
+fn log_prior(x: &Standard) -> f64 {
+    -x.iter().map(|x| x * x).sum::<f64>() / 2.0
+}
+
+fn mask(series: &[f64]) -> Vec<bool> {
+    series.iter().map(|v| !v.is_nan()).collect()
+}
+
+/// ln p of the whitened values under a model, without the constant of the normal density.
+fn log_likelihood(whitener: &Whitener, series: &[f64]) -> f64 {
+    -(whitener.apply(series).iter().map(|w| w * w).sum::<f64>() + whitener.log_det()) / 2.0
+}
+
+impl Noise {
+    /// Median noise.
+    pub(crate) fn typical(channels: &[Channel], observations: &[Observation]) -> Result<Self, recording::Error> {
+        let models = observations.iter().map(|_| channels.iter().map(|c| model(&c.noise, c.averaging, &[0.0; 4])).collect());
+        Self::with(models.collect(), 0.0, observations)
+    }
+
+    fn with(models: Vec<Vec<NoiseModel>>, log_prior: f64, observations: &[Observation]) -> Result<Self, recording::Error> {
+        let of = |(models, o): (&Vec<NoiseModel>, &Observation)| {
+            models.iter().zip(&o.channels).map(|(m, series)| Whitener::new(m, &o.time, &mask(series))).collect()
+        };
+        let whiteners = models.iter().zip(observations).map(of).collect::<Result<_, _>>()?;
+        Ok(Self { models, whiteners, log_prior })
+    }
+
+    /// The same with no more drift and walk than expected beforehand: what an unexplained effect swells is cut back.
+    pub(crate) fn calmed(&self, channels: &[Channel], observations: &[Observation]) -> Result<Self, recording::Error> {
+        let calm = |(m, c): (&NoiseModel, &Channel)| NoiseModel {
+            drift: m.drift.min(c.noise.drift.0),
+            walk: m.walk.min(c.noise.walk.0),
+            ..*m
+        };
+        let models = self.models.iter().map(|models| models.iter().zip(channels).map(calm).collect());
+        Self::with(models.collect(), 0.0, observations)
+    }
+
+    /// The noise of one of the records, for another observation.
+    pub(crate) fn of_record(other: &Self, record: usize, observed: &Observation) -> Result<Self, recording::Error> {
+        Self::with(vec![other.models[record].clone()], 0.0, std::slice::from_ref(observed))
+    }
+
+    /// Fits every channel's noise to its residuals `[record][channel][row]`, starting from this.
+    pub(crate) fn refitted(
+        &self,
+        channels: &[Channel],
+        observations: &[Observation],
+        residuals: &[Vec<Vec<f64>>],
+    ) -> Result<Self, recording::Error> {
+        let mut models = self.models.clone();
+        let mut sum = 0.0;
+        for (record, observation) in observations.iter().enumerate() {
+            for (c, channel) in channels.iter().enumerate() {
+                let (residual, used) = (&residuals[record][c], mask(&observation.channels[c]));
+                if !used.iter().any(|u| *u) {
+                    continue;
+                }
+                let objective = |x: &Standard| {
+                    let whitener = Whitener::new(&model(&channel.noise, channel.averaging, x), &observation.time, &used);
+                    whitener.map_or(f64::INFINITY, |w| -log_likelihood(&w, residual) - log_prior(x))
+                };
+                let best = minimise(objective, standard(&channel.noise, &models[record][c]));
+                models[record][c] = model(&channel.noise, channel.averaging, &best);
+                sum += log_prior(&best);
+            }
+        }
+        Self::with(models, sum, observations)
+    }
+
+    /// Noise model of a channel of a record.
+    pub(crate) fn model(&self, record: usize, channel: usize) -> &NoiseModel {
+        &self.models[record][channel]
+    }
+
+    /// Whitened series of a channel of a record, of the rows that are used.
+    pub(crate) fn whiten(&self, record: usize, channel: usize, series: &[f64]) -> Vec<f64> {
+        self.whiteners[record][channel].apply(series)
+    }
+
+    /// Rows of a channel of a record that are used.
+    pub(crate) fn rows(&self, record: usize, channel: usize) -> &[usize] {
+        self.whiteners[record][channel].rows()
+    }
+
+    /// ½ ln det of the covariance of all.
+    pub(crate) fn half_log_det(&self) -> f64 {
+        self.whiteners.iter().flatten().map(Whitener::log_det).sum::<f64>() / 2.0
+    }
+}
+
+/// Evaluations that a fit of the noise may take: enough to bring ln p within some hundredths of its maximum.
+const EVALUATIONS: usize = 90;
+
+/// The simplex method (Nelder and Mead 1965) in four dimensions.
+fn minimise(f: impl Fn(&Standard) -> f64, start: Standard) -> Standard {
+    let mut simplex: Vec<(f64, Standard)> = vec![(f(&start), start)];
+    for i in 0..start.len() {
+        let mut x = start;
+        x[i] += if x[i] > 0.0 { -0.4 } else { 0.4 };
+        simplex.push((f(&x), x));
+    }
+    let between = |a: &Standard, b: &Standard, t: f64| -> Standard { std::array::from_fn(|i| a[i] + t * (b[i] - a[i])) };
+    let mut spent = simplex.len();
+    while spent < EVALUATIONS {
+        simplex.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let worst = simplex[start.len()];
+        if worst.0 - simplex[0].0 < 1e-2 {
+            break;
+        }
+        let centre: Standard =
+            std::array::from_fn(|i| simplex[..start.len()].iter().map(|p| p.1[i]).sum::<f64>() / start.len() as f64);
+        let mut tried = |t: f64| {
+            let x = between(&centre, &worst.1, t);
+            spent += 1;
+            (f(&x), x)
+        };
+        let reflected = tried(-1.0);
+        let new = if reflected.0 < simplex[0].0 {
+            let expanded = tried(-2.0);
+            if expanded.0 < reflected.0 { expanded } else { reflected }
+        } else if reflected.0 < simplex[start.len() - 1].0 {
+            reflected
+        } else {
+            tried(if reflected.0 < worst.0 { -0.5 } else { 0.5 })
+        };
+        if new.0 < worst.0 {
+            simplex[start.len()] = new;
+        } else {
+            let best = simplex[0].1;
+            for point in &mut simplex[1..] {
+                let x = between(&best, &point.1, 0.5);
+                *point = (f(&x), x);
+            }
+            spent += start.len();
+        }
+    }
+    simplex.sort_by(|a, b| a.0.total_cmp(&b.0));
+    simplex[0].1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_simplex_finds_a_minimum() {
+        let target = [1.0, -0.5, 0.2, 2.0];
+        let f = |x: &Standard| 50.0 * x.iter().zip(target).map(|(x, t)| (x - t).powi(2)).sum::<f64>();
+        let found = minimise(f, [0.0; 4]);
+        assert!(f(&found) < 1.0, "{found:?}");
+    }
+}

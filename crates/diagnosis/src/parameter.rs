@@ -1,0 +1,110 @@
+//! Parameters and what is known of them beforehand.
+
+use statrs::distribution::{ContinuousCDF, Normal};
+
+/// What is known of a parameter before a recording is seen. Each is the image of a standard normal variable u, so that every
+/// parameter is fitted on one scale.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Prior {
+    /// Normal.
+    Normal {
+        /// Mean.
+        mean: f64,
+        /// Standard deviation, > 0.
+        sd: f64,
+    },
+    /// Its logarithm is normal.
+    LogNormal {
+        /// Median, > 0.
+        median: f64,
+        /// Standard deviation of the logarithm, > 0.
+        spread: f64,
+    },
+    /// Uniform.
+    Uniform {
+        /// Lower end.
+        low: f64,
+        /// Upper end, > `low`.
+        high: f64,
+    },
+}
+
+/// Largest |u| that is looked at: 1 in 10¹⁵ of a prior lies beyond.
+const MOST: f64 = 8.0;
+
+fn standard_normal() -> Normal {
+    Normal::standard()
+}
+
+impl Prior {
+    /// The value at u.
+    pub fn value(&self, u: f64) -> f64 {
+        let u = u.clamp(-MOST, MOST);
+        match *self {
+            Prior::Normal { mean, sd } => mean + sd * u,
+            Prior::LogNormal { median, spread } => median * (spread * u).exp(),
+            Prior::Uniform { low, high } => low + (high - low) * standard_normal().cdf(u),
+        }
+    }
+
+    /// The u of a value; of one outside the prior's range, the nearest that is looked at.
+    pub fn standard(&self, value: f64) -> f64 {
+        let u = match *self {
+            Prior::Normal { mean, sd } => (value - mean) / sd,
+            Prior::LogNormal { median, spread } => (value.max(f64::MIN_POSITIVE) / median).ln() / spread,
+            Prior::Uniform { low, high } => {
+                let share = ((value - low) / (high - low)).clamp(1e-15, 1.0 - 1e-15);
+                standard_normal().inverse_cdf(share)
+            }
+        };
+        u.clamp(-MOST, MOST)
+    }
+}
+
+/// A parameter of a forward model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Name with its unit, as it is reported.
+    pub name: String,
+    /// What is known of it.
+    pub prior: Prior,
+    /// Step for differences, in units of u: large where the response has kinks.
+    pub step: f64,
+}
+
+impl Parameter {
+    /// A parameter on which the response depends smoothly.
+    pub fn new(name: impl Into<String>, prior: Prior) -> Self {
+        Self { name: name.into(), prior, step: 0.02 }
+    }
+
+    /// The same with another step for differences.
+    pub fn with_step(self, step: f64) -> Self {
+        Self { step, ..self }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn value_and_standard_are_each_other_s_inverse() {
+        for prior in [
+            Prior::Normal { mean: 3.0, sd: 0.2 },
+            Prior::LogNormal { median: 5e-4, spread: 1.3 },
+            Prior::Uniform { low: -40.0, high: 60.0 },
+        ] {
+            for u in [-4.0, -1.0, 0.0, 0.3, 2.5] {
+                assert!((prior.standard(prior.value(u)) - u).abs() < 1e-6, "{prior:?} at {u}");
+            }
+        }
+    }
+
+    #[test]
+    fn values_outside_a_range_stay_finite() {
+        let prior = Prior::Uniform { low: 0.0, high: 1.0 };
+        assert!(prior.value(prior.standard(7.0)) <= 1.0 && prior.value(prior.standard(-7.0)) >= 0.0);
+        assert!(Prior::LogNormal { median: 1.0, spread: 1.0 }.standard(-1.0).is_finite());
+    }
+}

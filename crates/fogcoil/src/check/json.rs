@@ -1,0 +1,122 @@
+//! The result as one object.
+
+use bias::units::S_PER_H;
+use recording::check::{Finding, Kind, Repair};
+use serde_json::{Value, json};
+
+use super::text::severity;
+use super::{Analysis, GyroNoise};
+
+/// The result; units in the keys, `null` where a number is not known.
+pub fn json(analysis: &Analysis) -> Value {
+    let case = analysis.case;
+    let report = &case.report;
+    let instants = report.instants.as_ref();
+    let gap = |gap: &recording::check::Gap| json!({"from_s": gap.from, "to_s": gap.to, "missing_rows": gap.missing});
+    json!({
+        "file": case.fingerprint.file.display().to_string(),
+        "fnv1a": case.fingerprint.to_string(),
+        "usable": report.usable(),
+        "rows": case.recording.time().len(),
+        "rows_kept": report.rows.len(),
+        "span_s": instants.map(|i| i.span),
+        "interval_s": instants.map(|i| i.interval),
+        "jitter_rms_s": instants.map(|i| i.jitter),
+        "averaging_s": case.averaging,
+        "gaps": instants.map_or_else(Vec::new, |i| i.gaps.iter().map(gap).collect::<Vec<_>>()),
+        "channels": report.channels.iter().map(channel).collect::<Vec<_>>(),
+        "notes": case.notes,
+        "findings": report.findings.iter().map(finding).collect::<Vec<_>>(),
+        "noise": analysis.noise.as_ref().map(noise),
+    })
+}
+
+fn channel(channel: &recording::check::ChannelSummary) -> Value {
+    json!({
+        "name": channel.name,
+        "unit": channel.unit,
+        "present": channel.present,
+        "used": channel.used,
+        "least": channel.least,
+        "median": channel.median,
+        "largest": channel.largest,
+        "noise": channel.noise,
+        "step": channel.step,
+    })
+}
+
+fn finding(finding: &Finding) -> Value {
+    json!({
+        "kind": kind(&finding.kind),
+        "severity": severity(finding.severity),
+        "channel": finding.channel,
+        "from_s": finding.span.map(|[from, _]| from),
+        "to_s": finding.span.map(|[_, to]| to),
+        "rows": finding.rows,
+        "repair": match finding.repair {
+            Repair::None => "none",
+            Repair::Dropped => "dropped",
+            Repair::Masked => "masked",
+        },
+        "text": finding.to_string(),
+    })
+}
+
+fn kind(kind: &Kind) -> &'static str {
+    match kind {
+        Kind::Gap { .. } => "gap",
+        Kind::Jitter { .. } => "jitter",
+        Kind::Duplicate => "duplicate",
+        Kind::Conflict => "conflict",
+        Kind::Backwards { .. } => "backwards",
+        Kind::ClockStep { .. } => "clock-step",
+        Kind::Missing => "missing",
+        Kind::Outliers { .. } => "outliers",
+        Kind::Stuck { .. } => "stuck",
+        Kind::Saturation { .. } => "saturation",
+        Kind::Quantised { .. } => "quantised",
+        Kind::Unit { .. } => "unit",
+        Kind::Constant { .. } => "constant",
+        Kind::Empty => "empty",
+        Kind::TooShort { .. } => "too-short",
+        Kind::Offset { .. } => "offset",
+        _ => "other",
+    }
+}
+
+/// Errors are relative standard errors. A degree per hour times a second is an arc second.
+fn noise(noise: &GyroNoise) -> Value {
+    let (model, errors) = (&noise.estimate.model, noise.estimate.standard_errors);
+    let present = |size: f64, value: f64| (size > 0.0).then_some(value);
+    let point = |point: &recording::allan::AllanPoint| {
+        json!({
+            "tau_s": point.tau,
+            "deviation_deg_per_h": point.deviation,
+            "ci90_deg_per_h": [point.low, point.high],
+            "degrees_of_freedom": point.freedom,
+            "slope": point.slope,
+            "model_deg_per_h": model.allan_deviation(point.tau, noise.interval),
+        })
+    };
+    json!({
+        "white_deg_per_h": model.white,
+        "angle_random_walk_deg_per_sqrt_h": model.angle_random_walk().map(|n| n / S_PER_H.sqrt()),
+        "drift_deg_per_h": present(model.drift, model.drift),
+        "drift_time_s": present(model.drift, model.drift_time),
+        "bias_instability_deg_per_h": present(model.drift, model.bias_instability()),
+        "rate_random_walk_deg_per_h_per_sqrt_h": present(model.walk, model.walk * S_PER_H.sqrt()),
+        "quantisation_arcsec": present(model.quantisation, model.quantisation),
+        "relative_errors": {
+            "white": errors.white,
+            "drift": errors.drift,
+            "drift_time": errors.drift_time,
+            "rate_random_walk": errors.walk,
+            "quantisation": errors.quantisation,
+        },
+        "taken_off": {"temperature": noise.driver, "lags_s": noise.lags},
+        "rows": noise.estimate.rows,
+        "rows_left_out": noise.left_out,
+        "log_likelihood": noise.estimate.log_likelihood,
+        "allan": noise.allan.iter().map(point).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,172 @@
+//! `fogcoil check`: is a recording usable, and what noise is in it?
+//!
+//! Gyro and thermometers are judged by [`recording::check`]; the gyro's noise is identified after an offset and what linear systems
+//! lag behind the chamber's temperature have been taken off, so that thermal bias does not pass for noise. What of the bias is no
+//! linear lag remains: the slow terms are then upper bounds.
+
+mod json;
+mod plot;
+mod text;
+
+use recording::allan::{AllanPoint, allan};
+use recording::lag::lagging;
+use recording::noise::{Bounds, NoiseEstimate, Series, Term, Whitener, identify, residual};
+
+use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
+
+pub use json::json;
+pub use plot::svg;
+pub use text::text;
+
+/// A recording and its noise.
+#[derive(Debug, Clone)]
+pub struct Analysis<'a> {
+    /// The recording.
+    pub case: &'a RecordCase,
+    /// The gyro's noise; `None` where the recording cannot be used, or has too few rows, or no noise.
+    pub noise: Option<GyroNoise>,
+}
+
+/// The noise of a rate.
+#[derive(Debug, Clone)]
+pub struct GyroNoise {
+    /// The most likely model.
+    pub estimate: NoiseEstimate,
+    /// The temperature whose lags were taken off; `None` if only an offset was.
+    pub driver: Option<&'static str>,
+    /// Time constants of the lags \[s\].
+    pub lags: Vec<f64>,
+    /// Rows left out because the model does not expect them: fast transients.
+    pub left_out: usize,
+    /// Allan deviation of what is left.
+    pub allan: Vec<AllanPoint>,
+    /// Interval of the rows \[s\].
+    pub interval: f64,
+}
+
+/// Shortest lag, in intervals; the longest is a third of the length.
+const SHORTEST_LAG: f64 = 2.0;
+/// A lag is this many times the one before.
+const LAG_RATIO: f64 = 3.0;
+/// Innovations beyond so many standard deviations are left out, of long recordings beyond √(2 ln rows): normal noise has less than one.
+const UNEXPECTED: f64 = 4.0;
+/// Slope of the Allan deviation at its beginning below which quantisation is sought: between its own, -1, and white noise's, -1/2.
+const QUANTISED: f64 = -0.7;
+/// Most identifications, each without what the one before did not expect.
+const MOST_PASSES: usize = 4;
+/// Most values of all lags together: memory.
+const MOST_VALUES: usize = 20_000_000;
+/// Fewest rows for each lag.
+const ROWS_A_LAG: usize = 20;
+
+impl<'a> Analysis<'a> {
+    /// Analyses a recording.
+    pub fn new(case: &'a RecordCase) -> Self {
+        let noise = if case.report.usable() { gyro_noise(case) } else { None };
+        Self { case, noise }
+    }
+}
+
+fn gyro_noise(case: &RecordCase) -> Option<GyroNoise> {
+    let kept = case.kept();
+    let (time, instants) = (kept.time(), case.report.instants.as_ref()?);
+    let rate = case.number(RATE)?;
+    let (values, mask) = (&kept.channels()[rate].values, &case.report.masks[rate]);
+    let driver = [CHAMBER, SPOOL].into_iter().find(|name| {
+        case.number(name).is_some_and(|number| {
+            let summary = &case.report.channels[number];
+            summary.used > time.len() / 2 && summary.largest > summary.least
+        })
+    });
+    let temperature = driver.and_then(|name| {
+        let number = case.number(name)?;
+        Some(filled(time, &kept.channels()[number].values, &case.report.masks[number]))
+    });
+    let lags = if driver.is_some() { lags(instants.interval, instants.span, time.len()) } else { Vec::new() };
+    let mut columns = vec![vec![1.0; time.len()]];
+    if let Some(temperature) = &temperature {
+        columns.extend(lags.iter().map(|lag| lagging(time, temperature, *lag)));
+        columns.push(temperature.iter().map(|t| t - temperature[0]).collect());
+    }
+    let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    let mut bounds = Bounds::new(case.averaging, time);
+    let mut used = mask.clone();
+    let mut passes = 0;
+    let (estimate, allan) = loop {
+        let series = Series { time, values, mask: &used, columns: &columns };
+        let estimate = identify(&series, &bounds).ok()?;
+        let rest = residual(&series, &estimate.model).ok()?;
+        let still: Vec<bool> = rest.iter().map(|value| value.is_finite()).collect();
+        let allan = allan(time, &rest, &still).ok()?;
+        passes += 1;
+        // quantisation is sought where it shows: elsewhere it would take the white noise's place
+        let quantised = allan.first().is_some_and(|point| point.slope < QUANTISED) && !bounds.terms.contains(&Term::Quantisation);
+        if quantised {
+            bounds.terms.push(Term::Quantisation);
+        }
+        let more = leave_out(&estimate, time, &rest, &mut used) || quantised;
+        if !more || passes == MOST_PASSES {
+            break (estimate, allan);
+        }
+    };
+    let left_out = mask.iter().zip(&used).filter(|(there, used)| **there && !**used).count();
+    Some(GyroNoise { estimate, driver, lags, left_out, allan, interval: instants.interval })
+}
+
+/// Masks the rows that the model does not expect, where the temperature turns too fast for its lags; whether there were any.
+fn leave_out(estimate: &NoiseEstimate, time: &[f64], rest: &[f64], used: &mut [bool]) -> bool {
+    let Ok(whitener) = Whitener::new(&estimate.model, time, used) else { return false };
+    let white = whitener.apply(rest);
+    let bound = UNEXPECTED.max((2.0 * (whitener.rows().len() as f64).ln()).sqrt());
+    let unexpected: Vec<usize> =
+        whitener.rows().iter().zip(white).filter(|(_, z)| z.abs() > bound).map(|(row, _)| *row).collect();
+    unexpected.iter().for_each(|row| used[*row] = false);
+    !unexpected.is_empty()
+}
+
+fn lags(interval: f64, span: f64, rows: usize) -> Vec<f64> {
+    let (shortest, longest) = (SHORTEST_LAG * interval, span / 3.0);
+    let count = 1.0 + (longest / shortest).max(1.0).log(LAG_RATIO).floor();
+    let count = (count as usize).min(rows / ROWS_A_LAG).min(MOST_VALUES / rows.max(1));
+    let ratio = if count as f64 * LAG_RATIO.ln() < (longest / shortest).ln() && count > 1 {
+        (longest / shortest).powf(1.0 / (count as f64 - 1.0))
+    } else {
+        LAG_RATIO
+    };
+    (0..count as i32).map(|n| shortest * ratio.powi(n)).collect()
+}
+
+/// A temperature with its masked values replaced by the line between their neighbours; the ends by the nearest.
+fn filled(time: &[f64], values: &[f64], mask: &[bool]) -> Vec<f64> {
+    let mut after = mask.iter().position(|used| *used);
+    let mut before = None;
+    let fill = |row: usize| {
+        if mask[row] {
+            before = Some(row);
+            return values[row];
+        }
+        if after.is_some_and(|after| after < row) {
+            after = (row..mask.len()).find(|&later| mask[later]);
+        }
+        match (before, after) {
+            (Some(a), Some(b)) => values[a] + (values[b] - values[a]) * (time[row] - time[a]) / (time[b] - time[a]),
+            (Some(end), None) | (None, Some(end)) => values[end],
+            (None, None) => 0.0,
+        }
+    };
+    (0..time.len()).map(fill).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn masked_temperatures_are_filled() {
+        let time = [0.0, 1.0, 2.0, 4.0, 5.0, 6.0];
+        let nan = f64::NAN;
+        let mask = [false, true, false, true, false, false];
+        assert_eq!(filled(&time, &[nan, 10.0, nan, 13.0, 99.0, nan], &mask), [10.0, 10.0, 11.0, 13.0, 13.0, 13.0]);
+        assert_eq!(filled(&time, &[nan; 6], &[false; 6]), [0.0; 6]);
+    }
+}

@@ -1,0 +1,155 @@
+//! The result for people.
+
+use std::fmt::Write;
+
+use bias::units::S_PER_H;
+use recording::check::Severity;
+use recording::noise::{StandardErrors, Term};
+
+use super::{Analysis, GyroNoise};
+use crate::table::{significant, table};
+use crate::units::DurationUnit;
+
+/// Most findings of one kind in one channel that are written out.
+const MOST_ALIKE: usize = 8;
+
+/// The result as text with tables.
+pub fn text(analysis: &Analysis) -> String {
+    let case = analysis.case;
+    let verdict = if case.report.usable() { "usable" } else { "cannot be used" };
+    let mut out = format!("{}: {verdict}\n\n", case.fingerprint.file.display());
+    out.push_str(&table(&overview(analysis)));
+    out.push('\n');
+    out.push_str(&channels(analysis));
+    for note in &case.notes {
+        let _ = writeln!(out, "note: {note}");
+    }
+    findings(&mut out, analysis);
+    match &analysis.noise {
+        Some(noise) => gyro(&mut out, analysis, noise),
+        None if case.report.usable() => out.push_str("\nThe rate's noise cannot be identified: too few rows, or no noise.\n"),
+        None => {}
+    }
+    out
+}
+
+fn overview(analysis: &Analysis) -> Vec<Vec<String>> {
+    let report = &analysis.case.report;
+    let row = |name: &str, value: String, unit: &str| vec![name.to_owned(), value, unit.to_owned()];
+    let mut rows = vec![row("rows kept", report.rows.len().to_string(), &format!("of {}", analysis.case.recording.time().len()))];
+    if let Some(instants) = &report.instants {
+        let unit = DurationUnit::of(instants.span);
+        rows.push(row("span", significant(unit.of_seconds(instants.span), 4), unit.name()));
+        rows.push(row("interval", significant(instants.interval, 4), "s"));
+        rows.push(row("jitter, rms", significant(instants.jitter, 2), "s"));
+        let missing: usize = instants.gaps.iter().map(|gap| gap.missing).sum();
+        rows.push(row("gaps", instants.gaps.len().to_string(), &format!("({missing} rows missing)")));
+    }
+    rows
+}
+
+fn channels(analysis: &Analysis) -> String {
+    let header = ["channel", "used", "least", "median", "largest", "noise", "step", "unit"];
+    let mut rows = vec![header.map(str::to_owned).to_vec()];
+    for channel in &analysis.case.report.channels {
+        let number = |value: Option<f64>| value.filter(|v| v.is_finite()).map_or("-".to_owned(), |v| significant(v, 4));
+        rows.push(vec![
+            channel.name.clone(),
+            channel.used.to_string(),
+            number(Some(channel.least)),
+            number(Some(channel.median)),
+            number(Some(channel.largest)),
+            number(channel.noise),
+            number(channel.step),
+            channel.unit.clone(),
+        ]);
+    }
+    table(&rows) + "(noise: white, standard deviation of a value; step: resolution, where the values show one)\n\n"
+}
+
+fn findings(out: &mut String, analysis: &Analysis) {
+    let findings = &analysis.case.report.findings;
+    if findings.is_empty() {
+        out.push_str("nothing suspicious found\n");
+    }
+    let alike = |n: usize| {
+        let (kind, channel) = (std::mem::discriminant(&findings[n].kind), &findings[n].channel);
+        move |m: &usize| std::mem::discriminant(&findings[*m].kind) == kind && findings[*m].channel == *channel
+    };
+    for (n, finding) in findings.iter().enumerate() {
+        let before = (0..n).filter(alike(n)).count();
+        if before < MOST_ALIKE {
+            let _ = writeln!(out, "{}: {finding}", severity(finding.severity));
+        } else if before == MOST_ALIKE {
+            let more = (n..findings.len()).filter(alike(n)).count();
+            let _ = writeln!(out, "{}: ... and {more} more of this kind (all with --json)", severity(finding.severity));
+        }
+    }
+}
+
+pub(super) fn severity(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Note => "note",
+        Severity::Warning => "warning",
+        Severity::Error => "error",
+    }
+}
+
+/// What was taken off the rate before.
+pub(super) fn taken_off(noise: &GyroNoise) -> String {
+    match noise.driver {
+        Some(name) => format!("an offset and what {} linear lags of {name} explain", noise.lags.len()),
+        None => "an offset".into(),
+    }
+}
+
+fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
+    let estimate = &noise.estimate;
+    let _ = writeln!(out, "\nNoise of the rate beside {} (fitted; slow terms: upper bounds):\n", taken_off(noise));
+    let model = &estimate.model;
+    let StandardErrors { white, drift, drift_time, walk, quantisation } = estimate.standard_errors;
+    let row = |name: &str, value: f64, error: Option<f64>, unit: &str| {
+        let error = error.map_or(String::new(), |error| format!("± {:.0} %", 100.0 * error));
+        vec![name.to_owned(), significant(value, 3), error, unit.to_owned()]
+    };
+    let mut rows = vec![row("white noise of a sample", model.white, white, "deg/h")];
+    if let Some(n) = model.angle_random_walk() {
+        rows.push(row("angle random walk", n / S_PER_H.sqrt(), white, "deg/sqrt(h)"));
+    }
+    let bench = analysis.case.meta.as_ref().and_then(|meta| meta.nominal_arw_deg_per_sqrt_h);
+    if let Some(bench) = bench {
+        rows.push(row("  the meta file's", bench, None, "deg/sqrt(h)"));
+    }
+    if estimate.terms.contains(&Term::Drift) {
+        rows.push(row("drift", model.drift, drift, "deg/h"));
+        rows.push(row("  correlation time", model.drift_time / S_PER_H, drift_time, "h"));
+        rows.push(row("  bias instability", model.bias_instability(), drift, "deg/h"));
+    }
+    if estimate.terms.contains(&Term::Walk) {
+        rows.push(row("rate random walk", model.walk * S_PER_H.sqrt(), walk, "deg/h/sqrt(h)"));
+    }
+    if estimate.terms.contains(&Term::Quantisation) {
+        rows.push(row("quantisation of the angle", model.quantisation, quantisation, "arcsec"));
+    }
+    out.push_str(&table(&rows));
+    if noise.left_out > 0 {
+        let _ = writeln!(out, "{} rows that this model does not expect (fast transients) were left out", noise.left_out);
+    }
+    if estimate.terms.is_empty() {
+        out.push_str("no drift and no rate random walk is significant\n");
+    }
+    out.push_str("\nOverlapping Allan deviation [deg/h], with 90 % intervals:\n\n");
+    let mut rows = vec![["tau [s]", "deviation", "low", "high", "slope", "model"].map(str::to_owned).to_vec()];
+    for point in &noise.allan {
+        let modelled = model.allan_deviation(point.tau, noise.interval);
+        rows.push(vec![
+            significant(point.tau, 4),
+            significant(point.deviation, 3),
+            significant(point.low, 3),
+            significant(point.high, 3),
+            format!("{:.2}", point.slope),
+            significant(modelled, 3),
+        ]);
+    }
+    out.push_str(&table(&rows));
+}

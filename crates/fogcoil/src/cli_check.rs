@@ -1,0 +1,81 @@
+//! The arguments of `check`, and those that say how a recording is read.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::Args;
+use fogcoil::input::{Key, RecordOptions};
+
+#[derive(Args)]
+pub(crate) struct Check {
+    /// Recording: time_s,chamber_c,spool_c,rate_deg_per_h, or a logger's own file with the flags below
+    #[arg(value_name = "RECORD.csv")]
+    pub(crate) record: PathBuf,
+    #[command(flatten)]
+    pub(crate) format: Format,
+    /// What is known of the record besides its columns [default: meta.ron beside it, if it is there]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) meta: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Draw the Allan deviation here
+    #[arg(long, value_name = "FILE")]
+    pub(crate) svg: Option<PathBuf>,
+}
+
+/// How a logger's file is read.
+#[derive(Args)]
+pub(crate) struct Format {
+    /// A file with what the flags below say [default: RECORD.map.ron beside RECORD.csv, if it is there]
+    #[arg(long, value_name = "FILE.ron")]
+    map: Option<PathBuf>,
+    /// Name of a column in the file; KEY is time, chamber, spool or rate
+    #[arg(long = "column", value_name = "KEY=NAME", value_parser = pair::<String>)]
+    columns: Vec<(Key, String)>,
+    /// Unit of a column: s, ms, us, ns, min, h; degC, K, degF; deg/h, deg/s, rad/s, mrad/s (dates need none)
+    #[arg(long = "unit", value_name = "KEY=UNIT", value_parser = pair::<String>)]
+    units: Vec<(Key, String)>,
+    /// Units in a count, for a column of counts
+    #[arg(long = "scale", value_name = "KEY=FACTOR", value_parser = pair::<f64>)]
+    scales: Vec<(Key, f64)>,
+    /// What separates the fields: a character such as ';', or tab
+    #[arg(long, value_name = "CHAR")]
+    separator: Option<String>,
+    /// Numbers are written like 20,5
+    #[arg(long)]
+    decimal_comma: bool,
+    /// Seconds between rows, for a file without instants
+    #[arg(long, value_name = "S")]
+    interval: Option<f64>,
+}
+
+impl Check {
+    pub(crate) fn options(&self) -> RecordOptions {
+        self.format.options(self.meta.clone())
+    }
+}
+
+impl Format {
+    pub(crate) fn options(&self, meta: Option<PathBuf>) -> RecordOptions {
+        let Self { map, columns, units, scales, separator, decimal_comma, interval } = self;
+        RecordOptions {
+            map: map.clone(),
+            meta,
+            columns: columns.clone(),
+            units: units.clone(),
+            scales: scales.clone(),
+            separator: separator.clone(),
+            decimal_comma: *decimal_comma,
+            interval: *interval,
+        }
+    }
+}
+
+fn pair<T: FromStr>(text: &str) -> Result<(Key, T), String>
+where
+    T::Err: std::fmt::Display,
+{
+    let (key, value) = text.split_once('=').ok_or("write it as KEY=VALUE")?;
+    Ok((key.parse()?, value.parse().map_err(|error| format!("`{value}`: {error}"))?))
+}

@@ -1,0 +1,76 @@
+//! Error of the steady sensitivity against the number of unknowns, beside the program's own estimate.
+
+use coil::{COARSE, Model, Resolution, SAFETY};
+
+use super::Document;
+use crate::Error;
+use crate::input::CoilCase;
+use crate::plot::{Axis, Content, Figure, Height, Panel, Series, Style, Thinning};
+
+/// Orders whose error is shown.
+const ORDERS: std::ops::RangeInclusive<usize> = 3..=8;
+
+/// A mesh of this order with as many layers towards the coil's edges as the program's own meshes have: half the order.
+fn mesh(order: usize) -> Resolution {
+    Resolution { order, layers: order / 2, ratio: COARSE.ratio }
+}
+
+/// What is taken for exact: two orders and a layer beyond the finest mesh behind an estimate.
+const REFERENCE: usize = 12;
+
+/// The convergence of a coil's steady sensitivity; takes half a minute.
+///
+/// # Errors
+/// [`Error::Coil`] if the coil cannot be solved.
+pub fn convergence(case: &CoilCase) -> Result<Document, Error> {
+    let failed = |source| Error::Coil { file: case.file.clone(), source };
+    let solve = |order: usize| {
+        let model = Model::new(&case.design, &mesh(order))?;
+        Ok((model.unknowns() as f64, model.sensitivity()?.total()))
+    };
+    let solved = ORDERS.map(|p| solve(p).and_then(|(n, s)| Ok((n, s, solve(p + 2)?.1)))).collect::<Result<Vec<_>, coil::Error>>();
+    let solved = solved.map_err(failed)?;
+    let (unknowns, exact) = solve(REFERENCE).map_err(failed)?;
+    let floor = f64::EPSILON * exact.abs();
+    let series = |name: &str, kind: u8, error: fn(&(f64, f64, f64), f64) -> f64| {
+        let points: Vec<(f64, f64)> = solved.iter().map(|s| (s.0, error(s, exact).max(floor))).collect();
+        Series {
+            name: name.to_owned(),
+            style: Style::Marked(kind),
+            count: points.len(),
+            at: Box::new(move |n| points[n]),
+            thinning: Thinning::Distance,
+        }
+    };
+    let truth = format!("distance to order {REFERENCE}; from left to right orders {} to {}", ORDERS.start(), ORDERS.end());
+    let figure = Figure {
+        id: "convergence",
+        title: "Convergence of the steady sensitivity".into(),
+        description:
+            "Error of the steady sensitivity against the number of unknowns, both axes logarithmic: the distance to a much \
+                      finer mesh and the program's own estimate, which lies above it."
+                .into(),
+        caption: format!(
+            "{}: meshes of order {} to {}, with half as many layers towards the coil's edges; order {} is what the program reports. \
+             Reference: order {REFERENCE}, {} layers, {unknowns} unknowns. Estimate: {SAFETY} times the distance to the mesh two orders and \
+             a layer finer.",
+            case.name,
+            ORDERS.start(),
+            ORDERS.end(),
+            COARSE.order,
+            REFERENCE / 2
+        ),
+        columns: 1,
+        panels: vec![Panel {
+            heading: String::new(),
+            x: Axis::logarithmic("unknowns"),
+            y: Axis::logarithmic("error of the steady sensitivity [(°/h)/(°C/min)]"),
+            height: Height::Lines(24.0),
+            content: Content::Lines(vec![
+                series("the program's estimate", 1, |(_, s, finer), _| SAFETY * (s - finer).abs()),
+                series(&truth, 0, |(_, s, _), exact| (s - exact).abs()),
+            ]),
+        }],
+    };
+    Ok((figure.id, figure.document()))
+}

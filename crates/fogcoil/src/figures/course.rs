@@ -1,0 +1,170 @@
+//! Temperatures and bias in time, and the bias against the temperature rate (Fig. 7).
+
+use crate::plot::{Axis, Content, Figure, Height, Panel, Series, Style, Thinning};
+use crate::report::signed;
+use crate::simulate::{Row, Simulation, WINDOW_S, Window};
+use crate::summary::Summary;
+use crate::table::significant;
+use crate::units::DurationUnit;
+
+/// Smallest spans that are drawn: less is rounding or noise.
+const LEAST_C: f64 = 0.1;
+const LEAST_DEG_PER_H: f64 = 1e-4;
+const LEAST_C_PER_MIN: f64 = 1e-4;
+
+pub(super) fn all<'a>(simulation: &'a Simulation) -> [Figure<'a>; 3] {
+    let windows: Vec<Window> = simulation.windows().collect();
+    [temperatures(simulation), parts(simulation, windows.clone()), against_rate(simulation, windows)]
+}
+
+/// The time since the first row, in the unit of the axis.
+pub(super) fn time_axis(simulation: &Simulation) -> (Axis, impl Fn(f64) -> f64 + Copy + use<>) {
+    let (unit, start) = (DurationUnit::of(simulation.duration()), simulation.row(0).time);
+    let axis = Axis::tight(format!("time since the first row [{}]", unit.name()), 1e-6);
+    (axis, move |time: f64| unit.of_seconds(time - start))
+}
+
+fn temperatures<'a>(simulation: &'a Simulation) -> Figure<'a> {
+    let (x, time) = time_axis(simulation);
+    let series = |name: &str, style, value: fn(&Row) -> f64| Series {
+        name: name.to_owned(),
+        style,
+        count: simulation.count(),
+        at: Box::new(move |n| {
+            let row = simulation.row(n);
+            (time(row.time), value(&row))
+        }),
+        thinning: Thinning::Columns,
+    };
+    Figure {
+        id: "temperatures",
+        title: "Chamber and spool temperature".into(),
+        description: "Temperature of the chamber wall and of the spool's thermometer over time; the thermometer lags behind."
+            .into(),
+        caption: match simulation.profile.inferred {
+            None => "The chamber as the profile gives it, linear between its rows; the spool's thermometer as computed.".into(),
+            Some(_) => {
+                "The chamber as inferred from the spool's thermometer, linear between its rows; the thermometer as computed."
+                    .into()
+            }
+        },
+        columns: 1,
+        panels: vec![Panel {
+            heading: String::new(),
+            x,
+            y: Axis::round("temperature [°C]", LEAST_C),
+            height: Height::Lines(20.0),
+            content: Content::Lines(vec![
+                series("chamber", Style::Second, |row| row.chamber),
+                series("spool thermometer", Style::First, |row| row.spool),
+            ]),
+        }],
+    }
+}
+
+fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<'a> {
+    let (x, time) = time_axis(simulation);
+    let series = |name: &str, style, value: fn(&Row) -> f64| Series {
+        name: name.to_owned(),
+        style,
+        count: simulation.count(),
+        at: Box::new(move |n| {
+            // the first row has no rate: it repeats the second's, and a lone row shows its zero
+            let row = simulation.row(if n == 0 { 1.min(simulation.count() - 1) } else { n });
+            (time(simulation.row(n).time), value(&row))
+        }),
+        thinning: Thinning::Columns,
+    };
+    let bias = vec![
+        series("Shupe", Style::First, |row| row.shupe),
+        series("elasto-optic, axial strain", Style::Second, |row| row.eo_axial),
+        series("elasto-optic, radial strain", Style::Third, |row| row.eo_radial),
+        series("total", Style::Total, |row| row.rate),
+    ];
+    let ends = [simulation.row(0).time, simulation.row(simulation.count() - 1).time].map(time);
+    let rate = Series {
+        name: String::new(),
+        style: Style::First,
+        count: windows.len(),
+        at: Box::new(move |n| (time(windows[n].time), windows[n].spool_rate)),
+        thinning: Thinning::Columns,
+    };
+    let panel = |x: Axis, y: Axis, lines: f64, series| Panel {
+        heading: String::new(),
+        x,
+        y,
+        height: Height::Lines(lines),
+        content: Content::Lines(series),
+    };
+    let unlabelled = Axis::tight("", x.least_span).covering(ends);
+    Figure {
+        id: "bias",
+        title: "Bias, its parts, and the spool's temperature rate".into(),
+        description:
+            "Rotation rate that the gyroscope reports at rest over time with its thermal and elasto-optic parts, and below it \
+                      the rate of the spool's temperature, which it follows."
+                .into(),
+        caption: format!(
+            "Bias: means since the previous row, as a gyroscope reports them. Shupe: eq. (1), the thermal phase; elasto-optic: the two \
+             terms of eq. (2), from the strain of the glass along and across the fibre. Temperature rate: differences over {WINDOW_S} s, \
+             or over one row where rows are further apart. Counterpart of the paper's Fig. 7."
+        ),
+        columns: 1,
+        panels: vec![
+            panel(unlabelled, Axis::round("bias [°/h]", LEAST_DEG_PER_H), 18.0, bias),
+            panel(x.covering(ends), Axis::round("rate of the spool's temperature [°C/min]", LEAST_C_PER_MIN), 9.0, vec![rate]),
+        ],
+    }
+}
+
+fn against_rate<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<'a> {
+    let ends = windows.iter().fold([0.0_f64, 0.0_f64], |[low, high], w| [low.min(w.spool_rate), high.max(w.spool_rate)]);
+    let steady = simulation.steady.sensitivity.total();
+    let count = windows.len();
+    let mean = |of: fn(&Window) -> f64| windows.iter().map(of).sum::<f64>() / count.max(1) as f64;
+    let (mean_rate, mean_bias) = (mean(|w| w.spool_rate), mean(|w| w.rate));
+    let line = |name: String, style, value: Box<dyn Fn(f64) -> f64>| Series {
+        name,
+        style,
+        count: 2,
+        at: Box::new(move |n| (ends[n], value(ends[n]))),
+        thinning: Thinning::Distance,
+    };
+    let error = significant(simulation.steady.error_estimate, 2);
+    let unit = "(°/h)/(°C/min)";
+    let steady_name = format!("steady ramp: slope {} ± {error} {unit}", signed(steady, 4));
+    let slope = Summary::of(simulation).slope;
+    let mut series = vec![Series {
+        name: "course".into(),
+        style: Style::First,
+        count,
+        at: Box::new(move |n| (windows[n].spool_rate, windows[n].rate)),
+        thinning: Thinning::Distance,
+    }];
+    if let Some(slope) = slope {
+        let name = format!("regression: slope {} {unit}", signed(slope, 4));
+        series.push(line(name, Style::Total, Box::new(move |x| mean_bias + slope * (x - mean_rate))));
+    }
+    // where the two agree its dashes lie on the regression
+    series.push(line(steady_name, Style::Second, Box::new(move |x| steady * x)));
+    Figure {
+        id: "bias-against-rate",
+        title: "Bias against the spool's temperature rate".into(),
+        description: "Total bias against the rate of the spool's temperature, the line of the steady-ramp sensitivity and the \
+                      regression line; in steady ramps the course meets the first."
+            .into(),
+        caption: format!(
+            "Each point of the course is a mean over {WINDOW_S} s, or over one row where rows are further apart. Steady ramp: what a ramp \
+             that lasts would give, with its numerical error; loops away from it are transients. Regression: least squares with \
+             intercept through all points."
+        ),
+        columns: 1,
+        panels: vec![Panel {
+            heading: String::new(),
+            x: Axis::round("spool temperature rate [°C/min]", LEAST_C_PER_MIN),
+            y: Axis::round("bias [°/h]", LEAST_DEG_PER_H),
+            height: Height::Lines(22.0),
+            content: Content::Lines(series),
+        }],
+    }
+}

@@ -1,0 +1,257 @@
+//! Temperature and strain along the fibre, in time and at chosen instants (Figs. 4 to 6).
+
+use coil::{Mechanics, TurnFields, TurnValues};
+use winding::Winding;
+
+use super::MOST_TURNS;
+use super::course::time_axis;
+use crate::plot::{Axis, Colours, Content, Figure, HeatMap, Height, Panel, Series, Style, Thinning};
+use crate::report::signed;
+use crate::simulate::{Sample, Simulation};
+use crate::units::{DurationUnit, to_ppm};
+
+/// Stretches of fibre in a map: a few for each layer, but no more than the paper shows.
+const STRETCHES: usize = 180;
+/// Smallest spans that are drawn.
+const LEAST_K: f64 = 1e-3;
+const LEAST_STRAIN: f64 = 0.1;
+
+/// A quantity at every turn, in the unit of its axis.
+type Field = fn(&At) -> Vec<f64>;
+
+/// Values at every turn at one instant.
+struct At {
+    /// Instant \[s\].
+    time: f64,
+    /// Strains are counted from the first row.
+    values: TurnValues,
+    /// Mean temperature of the fibre \[°C\].
+    mean: f64,
+}
+
+/// Figures of temperature, radial and axial strain; none for a course without duration or a coil of too many turns.
+pub(super) fn all<'a>(simulation: &'a Simulation, fields: &TurnFields) -> Vec<Figure<'a>> {
+    let winding = &simulation.case.winding;
+    if simulation.samples().is_empty() || winding.turns().len() > MOST_TURNS {
+        return Vec::new();
+    }
+    let course = Course::of(simulation, fields);
+    let state = match simulation.case.design.mechanics {
+        Mechanics::Elastic => "",
+        _ => " The mechanics change in time; these are the strains of the nominal state.",
+    };
+    let strain = "Strain of the glass at the centre of each turn since the first row.";
+    let instants = "Below: along the fibre at chosen instants; the pattern repeats from layer to layer.";
+    let temperature = course.figure(
+        simulation,
+        Words {
+            id: "temperature-along-fibre",
+            title: "Temperature along the fibre",
+            quantity: "temperature less the fibre's mean [K]",
+            absolute: Some("fibre's mean temperature [°C]"),
+            caption: format!(
+                "Deviation of each turn from the fibre's mean, which is drawn above: a rate that all turns share drops out of the \
+                 Shupe bias. {instants} Counterpart of the paper's Fig. 4."
+            ),
+        },
+        |at| at.values.temperature.iter().map(|t| t - at.mean).collect(),
+        LEAST_K,
+    );
+    let radial = course.figure(
+        simulation,
+        Words {
+            id: "radial-strain-along-fibre",
+            title: "Radial strain of the glass along the fibre",
+            quantity: "radial strain [10⁻⁶]",
+            absolute: None,
+            caption: format!("{strain}{state} Dehomogenised, across the fibre. {instants} Counterpart of the paper's Fig. 5."),
+        },
+        |at| at.values.radial.iter().copied().map(to_ppm).collect(),
+        LEAST_STRAIN,
+    );
+    let axial = course.figure(
+        simulation,
+        Words {
+            id: "axial-strain-along-fibre",
+            title: "Axial strain of the glass along the fibre",
+            quantity: "axial strain [10⁻⁶]",
+            absolute: None,
+            caption: format!(
+                "{strain}{state} Along the fibre: the coil's hoop strain. {instants} Counterpart of the paper's Fig. 6."
+            ),
+        },
+        |at| at.values.axial.iter().copied().map(to_ppm).collect(),
+        LEAST_STRAIN,
+    );
+    vec![temperature, radial, axial]
+}
+
+/// What is said of a figure.
+struct Words {
+    id: &'static str,
+    title: &'static str,
+    quantity: &'static str,
+    /// Label of the mean temperature, where that is drawn too.
+    absolute: Option<&'static str>,
+    caption: String,
+}
+
+/// The samples of a simulation with all that is needed to see the turns at each.
+struct Course<'a> {
+    winding: &'a Winding,
+    fields: &'a TurnFields,
+    samples: &'a [Sample],
+    /// Drives at rest: what strains count from.
+    rest: Vec<f64>,
+    /// Mean temperature at each sample.
+    means: Vec<f64>,
+    /// Samples of which curves are drawn, in order of time.
+    chosen: Vec<Chosen>,
+}
+
+impl<'a> Course<'a> {
+    fn of(simulation: &'a Simulation, fields: &'a TurnFields) -> Self {
+        let winding = &simulation.case.winding;
+        let samples = simulation.samples();
+        let shares: Vec<f64> = winding.turns().iter().map(|t| (t.z_end - t.z_start) / winding.wound_length()).collect();
+        let mean_of_column = |j: usize| fields.temperature.column(j).iter().zip(&shares).map(|(t, share)| t * share).sum::<f64>();
+        let mean_of: Vec<f64> = (0..fields.temperature.ncols()).map(mean_of_column).collect();
+        let mean = |sample: &Sample| sample.u.iter().chain(&sample.q).zip(&mean_of).map(|(a, b)| a * b).sum::<f64>();
+        let means: Vec<f64> = samples.iter().map(mean).collect();
+        let chosen = chosen(samples, &means);
+        Self { winding, fields, samples, rest: simulation.rest(), means, chosen }
+    }
+
+    fn at(&self, sample: usize) -> At {
+        let Sample { time, u, q } = &self.samples[sample];
+        let since: Vec<f64> = u.iter().zip(&self.rest).map(|(u, rest)| u - rest).collect();
+        let mut values = self.fields.at(&since, q);
+        // temperatures count from 0 °C
+        values.temperature = self.fields.at(u, q).temperature;
+        At { time: *time, values, mean: self.means[sample] }
+    }
+
+    /// Means over stretches of fibre, a column for each sample.
+    fn map(&self, field: Field) -> Vec<f64> {
+        let (turns, length) = (self.winding.turns(), self.winding.length());
+        let layers = self.winding.spec().layers.max(1);
+        let rows = (STRETCHES / layers * layers).clamp(STRETCHES / 2, STRETCHES).min(turns.len());
+        let row_of: Vec<usize> =
+            turns.iter().map(|t| (((t.z_start + t.z_end) / 2.0 / length * rows as f64) as usize).min(rows - 1)).collect();
+        let mut count = vec![0.0; rows];
+        row_of.iter().for_each(|row| count[*row] += 1.0);
+        let columns = self.samples.len();
+        let mut values = vec![0.0; rows * columns];
+        for column in 0..columns {
+            for (value, row) in field(&self.at(column)).iter().zip(&row_of) {
+                values[row * columns + column] += value / count[*row];
+            }
+        }
+        // a stretch without a turn is a tail
+        for row in (0..rows).filter(|row| count[*row] == 0.0) {
+            values[row * columns..(row + 1) * columns].fill(f64::NAN);
+        }
+        values
+    }
+
+    fn figure<'b>(&self, simulation: &'b Simulation, words: Words, field: Field, least: f64) -> Figure<'b> {
+        let (x, time) = time_axis(simulation);
+        let length = self.winding.length();
+        let ends = [simulation.row(0).time, simulation.row(simulation.count() - 1).time].map(time);
+        let values = self.map(field);
+        let range =
+            values.iter().filter(|v| v.is_finite()).fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(*v), b.max(*v)]);
+        let mut panels = Vec::new();
+        if let Some(label) = words.absolute {
+            let points: Vec<(f64, f64)> = self.samples.iter().zip(&self.means).map(|(s, mean)| (time(s.time), *mean)).collect();
+            let series = Series {
+                name: String::new(),
+                style: Style::First,
+                count: points.len(),
+                at: Box::new(move |n| points[n]),
+                thinning: Thinning::Columns,
+            };
+            panels.push(Panel {
+                heading: String::new(),
+                x: Axis::tight("", x.least_span).covering(ends),
+                y: Axis::round(label, 0.1),
+                height: Height::Lines(7.0),
+                content: Content::Lines(vec![series]),
+            });
+        }
+        panels.push(Panel {
+            heading: String::new(),
+            x,
+            y: Axis::tight("place along the fibre z [m]", 1e-6),
+            height: Height::Lines(18.0),
+            content: Content::Map(HeatMap {
+                columns: self.samples.len(),
+                values,
+                x: ends,
+                y: [0.0, length],
+                colours: Colours::of(words.quantity, range, least),
+                bar: true,
+            }),
+        });
+        panels.push(Panel {
+            heading: String::new(),
+            x: Axis::tight("place along the fibre z [m]", 1e-6).covering([0.0, length]),
+            y: Axis::round(words.quantity, least),
+            height: Height::Lines(18.0),
+            content: Content::Lines(self.chosen.iter().map(|chosen| self.curve(simulation, *chosen, field)).collect()),
+        });
+        Figure {
+            id: words.id,
+            title: words.title.into(),
+            description: format!(
+                "Heat map of the {} over time and place along the fibre, and curves at chosen instants.",
+                words.quantity
+            ),
+            caption: words.caption,
+            columns: 1,
+            panels,
+        }
+    }
+
+    fn curve<'b>(&self, simulation: &Simulation, Chosen { sample, kind, what }: Chosen, field: Field) -> Series<'b> {
+        let at = self.at(sample);
+        let values = field(&at);
+        let places: Vec<f64> = self.winding.turns().iter().map(|t| (t.z_start + t.z_end) / 2.0).collect();
+        let unit = DurationUnit::of(simulation.duration());
+        let since = unit.of_seconds(at.time - simulation.row(0).time);
+        let name = format!("{what}, after {since:.2} {}, mean {} °C", unit.name(), signed(at.mean, 1));
+        Series {
+            name,
+            style: Style::Fine(kind),
+            count: values.len(),
+            at: Box::new(move |n| (places[n], values[n])),
+            thinning: Thinning::Columns,
+        }
+    }
+}
+
+/// A sample of which a curve is drawn.
+#[derive(Clone, Copy)]
+struct Chosen {
+    sample: usize,
+    /// Its colour: 0 warming, 1 warmest, 2 cooling.
+    kind: u8,
+    what: &'static str,
+}
+
+/// The samples of fastest warming, highest temperature and fastest cooling, each once.
+fn chosen(samples: &[Sample], means: &[f64]) -> Vec<Chosen> {
+    let rate = |i: &usize| {
+        let (a, b) = (i.saturating_sub(1), (i + 1).min(samples.len() - 1));
+        let dt = samples[b].time - samples[a].time;
+        if dt > 0.0 { (means[b] - means[a]) / dt } else { 0.0 }
+    };
+    let best = |value: &dyn Fn(&usize) -> f64| (0..samples.len()).max_by(|a, b| value(a).total_cmp(&value(b)));
+    let all =
+        [(1, best(&|i| means[*i]), "warmest"), (0, best(&rate), "fastest warming"), (2, best(&|i| -rate(i)), "fastest cooling")];
+    let mut chosen: Vec<Chosen> =
+        all.into_iter().filter_map(|(kind, sample, what)| Some(Chosen { sample: sample?, kind, what })).collect();
+    chosen.sort_by_key(|c| c.sample);
+    chosen.dedup_by_key(|c| c.sample);
+    chosen
+}

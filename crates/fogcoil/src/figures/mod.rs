@@ -1,0 +1,55 @@
+//! The figures of a coil and of a simulation, after Osunluk et al., Figs. 2 and 4 to 7, and what the paper does not show: where in the
+//! cross-section the bias comes from, and how it converges.
+//!
+//! Each figure is drawn once and stands either in a page ([`crate::report`]) or alone as an SVG document ([`documents`]).
+
+mod contributions;
+mod convergence;
+mod course;
+mod fields;
+mod model;
+
+use coil::TurnFields;
+
+use crate::plot::{Figure, Size};
+use crate::simulate::Simulation;
+
+pub use contributions::contributions_in_ramp;
+pub use convergence::convergence;
+
+/// Most turns of which fields are drawn: twice a 5 km coil of 6 cm diameter; more would take gigabytes.
+pub const MOST_TURNS: usize = 50_000;
+
+/// A figure as a file: name without extension, and SVG document.
+pub type Document = (&'static str, String);
+
+/// All figures; those of the fields only with `fields`.
+fn all<'a>(simulation: &'a Simulation, fields: Option<&TurnFields>) -> Vec<Figure<'a>> {
+    let mut figures = vec![model::figure(simulation.case)];
+    figures.extend(course::all(simulation));
+    if let Some(fields) = fields {
+        figures.extend(fields::all(simulation, fields));
+        figures.extend(contributions::figure(simulation, fields));
+    }
+    figures
+}
+
+/// All figures of a simulation as files of their own; those of temperature and strain along the fibre and of the turns' contributions
+/// only with `fields`.
+pub fn documents(simulation: &Simulation, fields: Option<&TurnFields>) -> Vec<Document> {
+    all(simulation, fields).iter().map(|figure| (figure.id, figure.document())).collect()
+}
+
+/// All figures as elements of a page, in wide and narrow.
+pub(crate) fn elements(simulation: &Simulation, fields: Option<&TurnFields>) -> String {
+    let element = |figure: &Figure| {
+        format!(
+            "<figure>\n<h3>{}</h3>\n{}{}<figcaption>{}</figcaption>\n</figure>\n",
+            crate::picture::escape(&figure.title),
+            figure.svg(Size::Wide),
+            figure.svg(Size::Narrow),
+            crate::picture::escape(&figure.caption)
+        )
+    };
+    all(simulation, fields).iter().map(element).collect()
+}

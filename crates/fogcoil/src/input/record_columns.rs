@@ -1,0 +1,109 @@
+//! The header of a recording: which column is what.
+
+use super::record_format::{Key, RecordFormat};
+use super::rows::{Rows, quoted};
+use super::{CHAMBER, InputError, RATE, SPOOL};
+
+/// The instants' column.
+const TIME: &str = "time_s";
+/// Most names that a message lists.
+const MOST_NAMES: usize = 12;
+
+impl Key {
+    /// Name of its column in a standard recording.
+    pub(super) fn standard(self) -> &'static str {
+        match self {
+            Self::Time => TIME,
+            Self::Chamber => CHAMBER,
+            Self::Spool => SPOOL,
+            Self::Rate => RATE,
+        }
+    }
+}
+
+/// Where a recording's columns are.
+pub(super) struct RecordColumns {
+    /// Names of all columns.
+    pub(super) names: Vec<String>,
+    /// Column of each key; of the temperatures, and of the time where an interval stands for it, `None` if there is none.
+    at: [Option<usize>; 4],
+}
+
+impl RecordColumns {
+    /// Reads them from the row at which `rows` stands.
+    pub(super) fn read(rows: &Rows, format: &RecordFormat) -> Result<Self, InputError> {
+        check_separator(rows, format)?;
+        let names: Vec<String> = rows.fields().map(str::to_owned).collect();
+        if names.iter().filter(|name| !name.is_empty()).all(|name| name.parse::<f64>().is_ok()) {
+            let remedy = "put a line above it that names them, e.g. time_s,chamber_c,spool_c,rate_deg_per_h";
+            return Err(rows.fault(None, "the first line holds numbers, not the names of the columns", remedy));
+        }
+        let mut at = [None; 4];
+        for key in Key::ALL {
+            let declared = format.column(key).name.as_deref();
+            let name = declared.unwrap_or(key.standard());
+            let found: Vec<usize> = (0..names.len()).filter(|&column| names[column] == name).collect();
+            at[key as usize] = match found[..] {
+                [column] => Some(column),
+                [] if declared.is_none() && (key == Key::Chamber || key == Key::Spool) => None,
+                [] if declared.is_none() && key == Key::Time && format.interval.is_some() => None,
+                [] => return Err(absent(rows, key, name, &names)),
+                _ => return Err(rows.fault(Some(name), "the column is there more than once", "rename all but one")),
+            };
+        }
+        Ok(Self { names, at })
+    }
+
+    /// Column of a key.
+    pub(super) fn column(&self, key: Key) -> Option<usize> {
+        self.at[key as usize]
+    }
+
+    /// Name of a column, for messages.
+    pub(super) fn name(&self, column: usize) -> &str {
+        &self.names[column]
+    }
+
+    /// Names of the columns that are not read.
+    pub(super) fn ignored(&self) -> Vec<&str> {
+        let used = |column: &usize| self.at.contains(&Some(*column));
+        (0..self.names.len())
+            .filter(|column| !used(column))
+            .map(|column| self.names[column].as_str())
+            .filter(|n| !n.is_empty())
+            .collect()
+    }
+}
+
+fn absent(rows: &Rows, key: Key, name: &str, names: &[String]) -> InputError {
+    let mut shown: Vec<String> = names.iter().take(MOST_NAMES).map(|name| quoted(name)).collect();
+    if names.len() > MOST_NAMES {
+        shown.push("...".into());
+    }
+    let interval = if key == Key::Time { ", or, without instants, --interval SECONDS" } else { "" };
+    let remedy = format!("the columns here are {}; say which it is: --column {}=NAME{interval}", shown.join(", "), key.name());
+    rows.fault(Some(name), "the column is missing", remedy)
+}
+
+fn check_separator(rows: &Rows, format: &RecordFormat) -> Result<(), InputError> {
+    let line = rows.fields().collect::<Vec<_>>().join("\n");
+    if line.contains('\r') {
+        let remedy = "save the file with line feeds (Unix) or both (Windows)";
+        return Err(rows.fault(None, "the lines end in carriage returns alone", remedy));
+    }
+    if rows.count() > 1 {
+        return Ok(());
+    }
+    let others = [(b';', "semicolons", "';'"), (b'\t', "tabs", "tab"), (b',', "commas", "','"), (b'|', "bars", "'|'")];
+    match others.into_iter().find(|(byte, ..)| *byte != format.dialect.separator && line.as_bytes().contains(byte)) {
+        Some((_, name, flag)) => {
+            let problem = format!("the fields seem to be separated by {name}");
+            Err(rows.fault(
+                None,
+                problem,
+                format!("add --separator {flag} (and --decimal-comma if numbers are written like 20,5)"),
+            ))
+        }
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,80 @@
+//! Instants as date and time of day.
+
+/// Seconds since 1970-01-01T00:00:00Z of `2024-05-01T12:00:00.5+02:00`; a blank may stand for the T, and the zone, then UTC, be absent.
+pub(crate) fn seconds(text: &str) -> Option<f64> {
+    let (date, rest) = (text.get(..10)?, text.get(11..)?);
+    if !matches!(text.as_bytes()[10], b'T' | b't' | b' ') {
+        return None;
+    }
+    let mut parts = date.split('-');
+    let (year, month, day) = (whole(parts.next()?)?, whole(parts.next()?)?, whole(parts.next()?)?);
+    let (clock, zone) = match rest.find(['Z', 'z', '+', '-']) {
+        Some(at) => (&rest[..at], zone(&rest[at..])?),
+        None => (rest, 0.0),
+    };
+    let mut parts = clock.split(':');
+    let (hour, minute) = (whole(parts.next()?)?, whole(parts.next()?)?);
+    let second: f64 = parts.next().unwrap_or("0").parse().ok()?;
+    let valid = (1..=12).contains(&month) && (1..=31).contains(&day) && hour < 24 && minute < 60 && (0.0..61.0).contains(&second);
+    let seconds = |days: i64| (days * 86_400 + hour * 3600 + minute * 60) as f64 + second - zone;
+    (valid && parts.next().is_none()).then(|| seconds(days(year, month, day)))
+}
+
+fn whole(text: &str) -> Option<i64> {
+    text.bytes().all(|byte| byte.is_ascii_digit()).then(|| text.parse().ok())?
+}
+
+/// Seconds east of Greenwich: `Z`, `+02`, `+0200` or `+02:00`.
+fn zone(text: &str) -> Option<f64> {
+    if text.eq_ignore_ascii_case("z") {
+        return Some(0.0);
+    }
+    let digits: String = text[1..].chars().filter(|c| *c != ':').collect();
+    let (hours, minutes) = (whole(digits.get(..2)?)?, whole(digits.get(2..)?).unwrap_or(0));
+    let sign = if text.starts_with('-') { -1.0 } else { 1.0 };
+    (hours < 24 && minutes < 60 && digits.len() <= 4).then(|| sign * (hours * 3600 + minutes * 60) as f64)
+}
+
+/// Days since 1970-01-01 in the Gregorian calendar (H. Hinnant, *chrono-compatible low-level date algorithms*).
+fn days(year: i64, month: i64, day: i64) -> i64 {
+    let year = year - i64::from(month <= 2);
+    let era = year.div_euclid(400);
+    let of_era = year - era * 400;
+    let of_year = (153 * ((month + 9) % 12) + 2) / 5 + day - 1;
+    era * 146_097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719_468
+}
+
+#[cfg(test)]
+mod tests {
+    use super::seconds;
+
+    #[test]
+    fn instants() {
+        let cases = [
+            ("1970-01-01T00:00:00Z", 0.0),
+            ("2000-02-29 12:00:00", 951_825_600.0),
+            ("2024-05-01T12:00:00.5+02:00", 1_714_557_600.5),
+            ("2024-05-01T12:00:00-0030", 1_714_566_600.0),
+            ("2024-05-01t10:00+00", 1_714_557_600.0),
+            ("1969-12-31T23:59:59Z", -1.0),
+        ];
+        for (text, expected) in cases {
+            assert_eq!(seconds(text), Some(expected), "{text}");
+        }
+        for text in [
+            "",
+            "12:00:00",
+            "2024-13-01T00:00:00",
+            "2024-05-01T25:00:00",
+            "2024-05-01",
+            "2024-05-01T10:00:00+2",
+            "20.5",
+            "2024-05-01T1:2:3:4",
+            "2024-05-01_10:00:00",
+            "2024-05-0\u{e9}T10:00:00",
+            "2024-05-01T10:00:00+0\u{e9}",
+        ] {
+            assert_eq!(seconds(text), None, "{text}");
+        }
+    }
+}

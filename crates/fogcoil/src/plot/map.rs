@@ -1,0 +1,164 @@
+//! Heat maps: a grid of values in steps of colour.
+
+use std::fmt::Write;
+
+/// Steps of colour; odd, so that a diverging map has a middle.
+const STEPS: usize = 41;
+
+/// How far rows of a map reach over each other [px]: without, rounding to pixels leaves gaps.
+const OVERLAP: f64 = 0.6;
+
+/// Cividis (Nuñez, Anderton and Renslow 2018): even in lightness, the same to colour-blind readers.
+const SEQUENTIAL: [u32; 10] =
+    [0x00204d, 0x00336f, 0x39486b, 0x575c6d, 0x707173, 0x8a8779, 0xa69d75, 0xc4b56c, 0xe4cf5b, 0xffea46];
+/// RdBu (Brewer), from blue to red.
+const DIVERGING: [u32; 11] =
+    [0x053061, 0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b, 0x67001f];
+
+/// Values to colours.
+#[derive(Clone)]
+pub(crate) struct Colours {
+    /// Quantity and unit, e.g. "strain [10⁻⁶]".
+    pub(crate) label: String,
+    /// Value at either end.
+    pub(crate) range: [f64; 2],
+    stops: &'static [u32],
+    /// Whether the colours run from high to low.
+    reversed: bool,
+}
+
+impl Colours {
+    /// From blue to red, white at 0, for values of at most `most` either side; never less than `least`.
+    pub(crate) fn diverging(label: impl Into<String>, most: f64, least: f64) -> Self {
+        let most = most.max(least);
+        Self { label: label.into(), range: [-most, most], stops: &DIVERGING, reversed: false }
+    }
+
+    /// From dark near 0 to bright for a range of one sign, diverging about 0 if the values lie on both sides of it; at least `least` wide.
+    pub(crate) fn of(label: impl Into<String>, [low, high]: [f64; 2], least: f64) -> Self {
+        // a hundredth on the other side is no reason to give half the colours to it
+        if low.min(-high) < 0.0 && (-low).min(high) > 0.01 * (-low).max(high) {
+            return Self::diverging(label, (-low).max(high), least);
+        }
+        let middle = low / 2.0 + high / 2.0;
+        let range = if high - low < least { [middle - least / 2.0, middle + least / 2.0] } else { [low, high] };
+        Self { label: label.into(), range, stops: &SEQUENTIAL, reversed: -low > high }
+    }
+
+    fn step(&self, value: f64) -> usize {
+        let part = (value - self.range[0]) / (self.range[1] - self.range[0]);
+        ((part * STEPS as f64).max(0.0) as usize).min(STEPS - 1)
+    }
+
+    fn colour(&self, step: usize) -> String {
+        let step = if self.reversed { STEPS - 1 - step } else { step };
+        let along = step as f64 / (STEPS - 1) as f64 * (self.stops.len() - 1) as f64;
+        let below = (along as usize).min(self.stops.len() - 2);
+        let channel = |shift: u32| {
+            let [a, b] = [below, below + 1].map(|k| f64::from((self.stops[k] >> shift) & 0xff));
+            (a + (b - a) * (along - below as f64)).round() as u8
+        };
+        format!("#{:02x}{:02x}{:02x}", channel(16), channel(8), channel(0))
+    }
+
+    /// All colours as a bar in a box of 1 × 1, from left to right.
+    pub(super) fn bar(&self) -> String {
+        let mut out = String::new();
+        for step in 0..STEPS {
+            let _ = writeln!(out, "<path fill=\"{}\" d=\"M{step} 0h1v1h-1z\"/>", self.colour(step));
+        }
+        format!("<g transform=\"scale({:.6} 1)\" shape-rendering=\"crispEdges\">\n{out}</g>\n", 1.0 / STEPS as f64)
+    }
+}
+
+/// Values on a grid of equal cells.
+pub(crate) struct HeatMap {
+    /// Cells along x.
+    pub(crate) columns: usize,
+    /// Value of each cell, row by row from the bottom, as many as fill whole rows; not a number where there is nothing.
+    pub(crate) values: Vec<f64>,
+    /// Ends along x.
+    pub(crate) x: [f64; 2],
+    /// Ends along y.
+    pub(crate) y: [f64; 2],
+    /// Its colours.
+    pub(crate) colours: Colours,
+    /// Whether the colour bar is drawn with it.
+    pub(crate) bar: bool,
+}
+
+impl HeatMap {
+    fn rows(&self) -> usize {
+        self.values.len() / self.columns.max(1)
+    }
+
+    /// The cells in a box of `width` × `height`. The first drawing of a map gives them the name `id`, later ones on the same page only
+    /// refer to it.
+    pub(super) fn cells(&self, width: f64, height: f64, id: &str, first: bool) -> String {
+        let (across, down) = (width / self.columns.max(1) as f64, height / self.rows().max(1) as f64);
+        let cells = if first { format!("<g id=\"{id}\">\n{}</g>", self.runs()) } else { format!("<use href=\"#{id}\"/>") };
+        let thick = 1.0 + OVERLAP / down;
+        format!(
+            "<g class=\"cells\" stroke-width=\"{thick:.3}\" transform=\"scale({across:.6} {down:.6})\" shape-rendering=\"crispEdges\">\n{cells}\n</g>\n"
+        )
+    }
+
+    /// Runs of cells of one colour as lines as thick as a row, one path for each colour; a cell is a unit square.
+    fn runs(&self) -> String {
+        let rows = self.rows();
+        let mut paths = vec![String::new(); STEPS];
+        for (row, values) in self.values.chunks_exact(self.columns.max(1)).enumerate() {
+            let steps: Vec<Option<usize>> = values.iter().map(|v| v.is_finite().then(|| self.colours.step(*v))).collect();
+            let mut start = 0;
+            for run in steps.chunk_by(|a, b| a == b) {
+                if let Some(step) = run[0] {
+                    let _ = write!(paths[step], "M{start} {}.5h{}", rows - 1 - row, run.len());
+                }
+                start += run.len();
+            }
+        }
+        let mut out = String::new();
+        for (step, path) in paths.iter().enumerate().filter(|(_, path)| !path.is_empty()) {
+            let _ = writeln!(out, "<path stroke=\"{}\" d=\"{path}\"/>", self.colours.colour(step));
+        }
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_run_from_end_to_end_with_white_at_zero() {
+        let diverging = Colours::of("", [-1.0, 2.0], 0.0);
+        assert_eq!(diverging.range, [-2.0, 2.0]);
+        let at = |value: f64| diverging.colour(diverging.step(value));
+        assert_eq!([at(-2.0), at(0.0), at(2.0), at(9.0)], ["#053061", "#f7f7f7", "#67001f", "#67001f"]);
+        let sequential = Colours::of("", [-0.001, 2.0], 0.0);
+        assert_eq!((sequential.range, sequential.colour(0).as_str()), ([-0.001, 2.0], "#00204d"));
+        let negative = Colours::of("", [-2.0, 0.0], 0.0);
+        assert_eq!(
+            (negative.colour(negative.step(0.0)).as_str(), negative.colour(negative.step(-2.0)).as_str()),
+            ("#00204d", "#ffea46")
+        );
+        let still = Colours::of("", [3.0, 3.0], 1.0);
+        assert_eq!((still.range, still.step(3.0)), ([2.5, 3.5], STEPS / 2));
+        assert_eq!(Colours::of("", [0.0, 0.0], 1.0).range, [-0.5, 0.5]);
+    }
+
+    #[test]
+    fn cells_of_one_colour_that_touch_are_one_box() {
+        let colours = Colours::diverging("", 1.0, 0.0);
+        let values = vec![1.0, 1.0, -1.0, f64::NAN, 1.0, 1.0];
+        let map = HeatMap { columns: 3, values, x: [0.0, 1.0], y: [0.0, 1.0], colours, bar: true };
+        let cells = map.cells(30.0, 20.0, "m", true);
+        assert!(cells.contains("scale(10.000000 10.000000)") && cells.contains("id=\"m\""), "{cells}");
+        assert!(cells.contains("d=\"M0 1.5h2M1 0.5h2\"") && cells.contains("d=\"M2 1.5h1\""), "{cells}");
+        let again = map.cells(15.0, 20.0, "m", false);
+        assert!(
+            again.contains("scale(5.000000 10.000000)") && again.contains("href=\"#m\"") && !again.contains("<path"),
+            "{again}"
+        );
+    }
+}

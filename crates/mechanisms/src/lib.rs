@@ -1,0 +1,19 @@
+//! What the nominal model of a fibre-optic-gyroscope coil may leave out, each at its physical place.
+//!
+//! [`Library`] holds reduced models of a design at chosen values of every mechanism's parameters; [`Prepared`] runs them under the
+//! chamber of one recording; [`Gyro`] interpolates between them and is the forward model that [`diagnosis`] fits.
+
+mod catalogue;
+mod change;
+mod gyro;
+mod interpolation;
+mod library;
+mod record;
+
+pub use change::{
+    POLYMER_FRACTION, with_air, with_glass_transition, with_heater, with_hub_resistance, with_mount, with_opening, with_polymer,
+    with_relaxation, with_tail,
+};
+pub use gyro::{Gyro, RATE, REFERENCE_C, SPOOL};
+pub use library::Library;
+pub use record::Prepared;

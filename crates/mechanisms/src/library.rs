@@ -1,0 +1,341 @@
+//! Everything of a design that does not depend on a recording: reduced models at chosen values of every mechanism's parameters.
+
+use crate::change;
+use crate::interpolation::nodes;
+use coil::{
+    COARSE, Design, Drive, Dynamics, Error, Fidelity, MechanicalState, Mechanics, Model, Reduced, Reduction, ThermalModel,
+    TurnFields, functionals,
+};
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+use winding::{Half, LayerDefect, Winding};
+
+/// Modes of every reduced model.
+const MODES: usize = 32;
+
+/// Places of a reduced model's outputs.
+pub(crate) const SENSOR: usize = 0;
+pub(crate) const COIL: usize = 1;
+pub(crate) const PARTS: usize = 2;
+
+/// Range of the factor on the transverse moduli that is tabulated.
+const MODULUS: [f64; 2] = [0.15, 2.2];
+const MODULUS_NODES: usize = 9;
+
+/// Open shares of a bond that are tabulated; the response is not monotonic in between.
+const OPEN: [f64; 10] = [0.02, 0.05, 0.09, 0.15, 0.24, 0.35, 0.48, 0.62, 0.76, 0.9];
+
+/// The three bias parts as functionals of drives and modes.
+pub(crate) type Functionals = [DVector<f64>; 3];
+
+/// A one-parameter family of heat flows.
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Family {
+    /// Nodes in the family's own coordinate, increasing.
+    pub(crate) nodes: Vec<f64>,
+    /// Which node is the nominal design.
+    pub(crate) nominal: usize,
+    /// A model at every other node, in their order.
+    pub(crate) models: Vec<Reduced>,
+}
+
+/// A family of heat flows in a coordinate x(parameter).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Path {
+    HubResistance,
+    Air,
+    Mount,
+    Polymer,
+}
+
+/// Contact resistance at which the family's coordinate is one half \[m² K/W\].
+const RESISTANCE: f64 = 2e-3;
+/// Conductance of a mount at which its coordinate is one half [W/(m² K)].
+const CONDUCTANCE: f64 = 4.0;
+
+impl Path {
+    pub(crate) const ALL: [Self; 4] = [Self::HubResistance, Self::Air, Self::Mount, Self::Polymer];
+
+    /// Coordinate of a parameter.
+    pub(crate) fn coordinate(self, value: f64) -> f64 {
+        match self {
+            Self::HubResistance => value.max(0.0) / (value.max(0.0) + RESISTANCE),
+            Self::Air => value.max(1e-3).ln(),
+            Self::Mount => value.max(0.0) / (value.max(0.0) + CONDUCTANCE),
+            Self::Polymer => value,
+        }
+    }
+
+    fn nodes(self) -> Vec<f64> {
+        match self {
+            Self::HubResistance => nodes(0.0, 0.85, 6),
+            Self::Air => nodes(-0.9, 0.9, 7),
+            Self::Mount => nodes(0.0, 0.9, 6),
+            Self::Polymer => nodes(-0.12, 0.12, 5),
+        }
+    }
+
+    fn design(self, design: &Design, x: f64) -> Design {
+        match self {
+            Self::HubResistance => change::with_hub_resistance(design, RESISTANCE * x / (1.0 - x)),
+            Self::Air => change::with_air(design, x.exp()),
+            Self::Mount => change::with_mount(design, CONDUCTANCE * x / (1.0 - x)),
+            Self::Polymer => change::with_polymer(design, x),
+        }
+    }
+
+    fn applies(self, design: &Design) -> bool {
+        let spool = design.spool.as_ref();
+        match self {
+            Self::HubResistance => spool.is_some_and(|s| s.hub_contact == coil::Contact::Bonded),
+            // a film takes the place of the still medium
+            Self::Air => design.heat.film.is_none(),
+            Self::Mount => change::flange(design).is_some() && design.heat.mounts.is_empty(),
+            Self::Polymer => true,
+        }
+    }
+}
+
+/// Reduced models of a design and of what it may leave out.
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Library {
+    pub(crate) design: Design,
+    /// the design as it is, whatever its mechanics
+    pub(crate) nominal: Dynamics,
+    /// thermometer, mean of the coil, nominal parts
+    pub(crate) base: Reduced,
+    pub(crate) fields: TurnFields,
+    /// ln of the factor on the transverse moduli at the nodes, and the parts there with the nominal α_r and per unit of its factor;
+    /// empty if the design's mechanics is not constant
+    pub(crate) modulus: Vec<(f64, Functionals, Functionals)>,
+    /// parts per relative change of E_z, α_z and the spool's expansion
+    pub(crate) constants: Vec<Functionals>,
+    pub(crate) paths: Vec<Option<Family>>,
+    /// thermometer, mean of the coil, closed parts, open parts at each open share
+    pub(crate) openings: Vec<(f64, Reduced)>,
+    /// driven by the chamber and by a heater of 1 W
+    pub(crate) heater: Option<Reduced>,
+}
+
+/// Relative steps of the constants of [`Library::constants`]: their usual uncertainties.
+pub(crate) const CONSTANT_STEPS: [f64; 3] = [0.03, 0.03, 0.02];
+
+fn chamber() -> Vec<Drive> {
+    vec![Drive::Chamber]
+}
+
+fn fidelity() -> Fidelity {
+    Fidelity { resolution: COARSE, modes: MODES }
+}
+
+/// What a job of the build makes.
+enum Made {
+    Path(Path, usize, Reduced),
+    Opening(usize, f64, Reduced),
+    Heater(Reduced),
+    Modulus(usize, f64, Functionals, Functionals),
+    Constant(usize, Functionals),
+}
+
+#[derive(Clone, Copy)]
+enum Job {
+    Path(Path, usize, f64),
+    Opening(usize, f64),
+    Heater,
+    Modulus(usize, f64),
+    Constant(usize),
+}
+
+impl Library {
+    /// Makes every model; `progress` is told the share done.
+    ///
+    /// # Errors
+    /// [`Error`] names the dimension or property at fault, or the solve that failed.
+    pub fn build(design: &Design, progress: impl Fn(f64) + Sync) -> Result<Self, Error> {
+        let thermal = ThermalModel::new(design, &COARSE, &chamber())?;
+        let model = Model::new(design, &COARSE)?;
+        let Reduction { reduced: base, modes, .. } = Reduction::new(&thermal, &functionals(design, &model, &thermal)?, MODES)?;
+        let fields = TurnFields::new(&model, &thermal, &modes)?;
+        let elastic = design.mechanics == Mechanics::Elastic;
+        let mut jobs: Vec<Job> = Vec::new();
+        for path in Path::ALL.into_iter().filter(|p| p.applies(design)) {
+            let nominal = path.coordinate(if path == Path::Air { 1.0 } else { 0.0 });
+            let others = path.nodes().into_iter().enumerate().filter(|(_, x)| (x - nominal).abs() > 1e-12);
+            jobs.extend(others.map(|(k, x)| Job::Path(path, k, x)));
+        }
+        if elastic && change::bonded_flange(design).is_some() {
+            jobs.extend(OPEN.iter().enumerate().map(|(k, share)| Job::Opening(k, *share)));
+        }
+        if change::flange(design).is_some() && design.heat.heaters.is_empty() {
+            jobs.push(Job::Heater);
+        }
+        if elastic {
+            let x = nodes(MODULUS[0].ln(), MODULUS[1].ln(), MODULUS_NODES);
+            jobs.extend(x.into_iter().enumerate().map(|(k, x)| Job::Modulus(k, x)));
+        }
+        jobs.extend((0..CONSTANT_STEPS.len()).map(Job::Constant));
+        let done = std::sync::atomic::AtomicUsize::new(0);
+        let run = |job: &Job| -> Result<Made, Error> {
+            let dynamics = |design: &Design, drives: &[Drive]| {
+                Dynamics::new(design, drives, &fidelity()).map(|dynamics| dynamics.reduced().clone())
+            };
+            let parts = |design: &Design, state: &MechanicalState| -> Result<Functionals, Error> {
+                let model = Model::in_state(design, &COARSE, state)?;
+                bias_functionals(design, model.winding(), &TurnFields::new(&model, &thermal, &modes)?)
+            };
+            let made = match *job {
+                Job::Path(path, k, x) => Made::Path(path, k, dynamics(&path.design(design, x), &chamber())?),
+                // temperatures at which the bond opens do not matter: both states are outputs
+                Job::Opening(k, share) => {
+                    Made::Opening(k, share, dynamics(&change::with_opening(design, 0.0, 1.0, share), &chamber())?)
+                }
+                Job::Heater => Made::Heater(dynamics(&change::with_heater(design, 1.0), &[Drive::Chamber, Drive::Heaters])?),
+                Job::Modulus(k, x) => {
+                    let state = MechanicalState { transverse_modulus: x.exp(), ..MechanicalState::NOMINAL };
+                    let nominal = parts(design, &state)?;
+                    let doubled = parts(design, &MechanicalState { transverse_expansion: 2.0, ..state })?;
+                    let per_factor = [0, 1, 2].map(|p: usize| &doubled[p] - &nominal[p]);
+                    Made::Modulus(k, x, nominal, per_factor)
+                }
+                Job::Constant(k) => {
+                    let changed = parts(&with_constant(design, k, 1.0 + CONSTANT_STEPS[k]), &MechanicalState::NOMINAL)?;
+                    let nominal = bias_functionals(design, model.winding(), &fields)?;
+                    Made::Constant(k, [0, 1, 2].map(|p: usize| (&changed[p] - &nominal[p]) / CONSTANT_STEPS[k]))
+                }
+            };
+            let count = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
+            progress(count as f64 / jobs.len() as f64);
+            Ok(made)
+        };
+        let mut made: Vec<Made> = jobs.par_iter().map(run).collect::<Result<_, _>>()?;
+        // the order of the jobs, whichever thread did them
+        made.sort_by_key(|m| match m {
+            Made::Path(_, k, _) | Made::Opening(k, ..) | Made::Modulus(k, ..) | Made::Constant(k, _) => *k,
+            Made::Heater(_) => 0,
+        });
+        let mut library = Self {
+            design: design.clone(),
+            nominal: Dynamics::new(design, &chamber(), &fidelity())?,
+            base,
+            fields,
+            modulus: Vec::new(),
+            constants: Vec::new(),
+            paths: vec![None; Path::ALL.len()],
+            openings: Vec::new(),
+            heater: None,
+        };
+        for made in made {
+            match made {
+                Made::Path(path, _, model) => {
+                    let nodes = path.nodes();
+                    let nominal = path.coordinate(if path == Path::Air { 1.0 } else { 0.0 });
+                    let nominal = nodes.iter().position(|x| (x - nominal).abs() <= 1e-12).unwrap_or(0);
+                    let family = library.paths[path as usize].get_or_insert(Family { nodes, nominal, models: Vec::new() });
+                    family.models.push(model);
+                }
+                Made::Opening(_, share, model) => library.openings.push((share, model)),
+                Made::Heater(model) => library.heater = Some(model),
+                Made::Modulus(_, x, nominal, per_factor) => library.modulus.push((x, nominal, per_factor)),
+                Made::Constant(_, parts) => library.constants.push(parts),
+            }
+        }
+        Ok(library)
+    }
+
+    /// The design it was made for.
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// The bias parts with another winding of the same fields.
+    pub(crate) fn rewound(&self, tail: f64, defect: Option<LayerDefect>) -> Result<Functionals, Error> {
+        let mut design = change::with_tail(&self.design, tail);
+        let sound = winding::wind(&self.design.winding)?;
+        if defect.is_none() {
+            return bias_functionals(&design, &winding::wind(&design.winding)?, &self.fields);
+        }
+        design.winding.defect = defect;
+        let wound = winding::wind(&design.winding)?;
+        bias_functionals(&design, &wound, &moved(&self.fields, &sound, &wound, defect.map_or(0, |d| d.layer)))
+    }
+}
+
+fn with_constant(design: &Design, k: usize, factor: f64) -> Design {
+    let mut changed = design.clone();
+    match k {
+        0 => changed.body.elastic.e_z *= factor,
+        1 => changed.body.elastic.alpha_z *= factor,
+        _ => {
+            if let Some(spool) = &mut changed.spool {
+                spool.material.elastic.thermal_expansion *= factor;
+            }
+        }
+    }
+    changed
+}
+
+/// The parts of the bias from the fields at the turns of a winding.
+pub(crate) fn bias_functionals(design: &Design, winding: &Winding, fields: &TurnFields) -> Result<Functionals, Error> {
+    let c = design.optics.coefficients(winding.length())?;
+    let w = DVector::from_vec(winding.weights());
+    let (ccw, cw) = winding.tail_spans();
+    let tail: f64 = [ccw, cw].iter().map(|(start, end)| (end - start) * (winding.length() - start - end)).sum();
+    let bore = DVector::from_column_slice(&fields.bore) * tail;
+    let temperature = fields.temperature.tr_mul(&w) + &bore;
+    let free = &bore * design.optics.thermal_expansion;
+    let (axial, radial) = (fields.axial.tr_mul(&w) + &free, fields.radial.tr_mul(&w) + free);
+    Ok([
+        &temperature * c.shupe,
+        axial * c.axial + &temperature * c.axial_per_temperature_rate,
+        radial * c.radial + temperature * c.radial_per_temperature_rate,
+    ])
+}
+
+/// Fields at the turns of a winding with a defect in one layer: cubic along that layer, as they are elsewhere.
+fn moved(fields: &TurnFields, sound: &Winding, wound: &Winding, layer: usize) -> TurnFields {
+    let mut along: Vec<(f64, usize)> =
+        sound.turns().iter().enumerate().filter(|(_, t)| t.layer == layer).map(|(i, t)| (t.y, i)).collect();
+    along.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // both windings have the other layers' turns in one order along each half
+    let mut others: std::collections::HashMap<(usize, usize, bool), usize> = std::collections::HashMap::new();
+    for (i, t) in sound.turns().iter().enumerate() {
+        others.insert((t.layer, t.turn, t.half == Half::Cw), i);
+    }
+    let rows: Vec<Vec<(usize, f64)>> = wound
+        .turns()
+        .iter()
+        .map(|t| match others.get(&(t.layer, t.turn, t.half == Half::Cw)) {
+            Some(&i) if t.layer != layer => vec![(i, 1.0)],
+            _ => cubic(&along, t.y),
+        })
+        .collect();
+    let of = |matrix: &DMatrix<f64>| {
+        let mut result = DMatrix::zeros(rows.len(), matrix.ncols());
+        for (i, row) in rows.iter().enumerate() {
+            for (j, weight) in row {
+                for k in 0..matrix.ncols() {
+                    result[(i, k)] += weight * matrix[(*j, k)];
+                }
+            }
+        }
+        result
+    };
+    TurnFields {
+        temperature: of(&fields.temperature),
+        axial: of(&fields.axial),
+        radial: of(&fields.radial),
+        bore: fields.bore.clone(),
+    }
+}
+
+/// Weights of up to four points about y: Lagrange's cubic.
+fn cubic(along: &[(f64, usize)], y: f64) -> Vec<(usize, f64)> {
+    let first = along.partition_point(|(at, _)| *at < y).saturating_sub(2).min(along.len().saturating_sub(4));
+    let about = &along[first..(first + 4).min(along.len())];
+    let weight = |k: usize| -> f64 {
+        about.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, p)| (y - p.0) / (about[k].0 - p.0)).product()
+    };
+    about.iter().enumerate().map(|(k, p)| (p.1, weight(k))).collect()
+}

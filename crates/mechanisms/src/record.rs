@@ -1,0 +1,278 @@
+//! A library's responses to the chamber of one recording.
+
+use crate::library::{COIL, Functionals, Library, PARTS, SENSOR};
+use bias::units::DEG_PER_H_PER_RAD_PER_S;
+use coil::{Error, Profile, Reduced};
+use diagnosis::State;
+use nalgebra::{DMatrix, DVector};
+
+/// Mean bias parts in every row \[deg/h\]: Shupe, elasto-optic axial and radial.
+pub(crate) type Parts = [Vec<f64>; 3];
+
+/// Rows that end this much later than the averaging span after the row before are gaps \[spans\].
+const GAP: f64 = 1.5;
+/// Relative change of the first chamber temperature for the effect of an unsettled start \[K\].
+const OFF_REST: f64 = 1.0;
+
+/// Instants of a recording and those before them at which a reading that follows a gap begins.
+#[derive(Debug, Clone)]
+pub(crate) struct Clock {
+    pub(crate) time: Vec<f64>,
+    pub(crate) chamber: Vec<f64>,
+    /// place of each row of the recording
+    pub(crate) rows: Vec<usize>,
+    /// whether a reading begins at an instant that is not a row's
+    begins: Vec<bool>,
+}
+
+/// Parts into which an interval is divided to follow the chamber between its readings.
+const BETWEEN: usize = 4;
+
+impl Clock {
+    /// Between its readings the chamber follows a cubic through them with the slopes of central differences (Catmull and Rom 1974): its
+    /// controller has no corners. A reading after a gap begins `averaging` seconds before its instant; there the course is linear.
+    pub(crate) fn new(time: &[f64], chamber: &[f64], averaging: f64) -> Self {
+        let mut clock = Self { time: Vec::new(), chamber: Vec::new(), rows: Vec::new(), begins: Vec::new() };
+        let gap = |n: usize| averaging > 0.0 && time[n] - time[n - 1] > GAP * averaging;
+        let secant = |n: usize| (chamber[n] - chamber[n - 1]) / (time[n] - time[n - 1]);
+        let slope = |n: usize| match (n > 0, n + 1 < time.len()) {
+            (true, true) if gap(n) => secant(n + 1),
+            (true, true) if gap(n + 1) => secant(n),
+            (true, true) => (chamber[n + 1] - chamber[n - 1]) / (time[n + 1] - time[n - 1]),
+            _ => 0.0,
+        };
+        for n in 0..time.len() {
+            let dt = if n > 0 { time[n] - time[n - 1] } else { 0.0 };
+            if n > 0 && gap(n) {
+                clock.push(time[n] - averaging, chamber[n] - secant(n) * averaging, true);
+            } else if n > 0 {
+                let (a, b) = (slope(n - 1) * dt, slope(n) * dt);
+                for k in 1..BETWEEN {
+                    let s = k as f64 / BETWEEN as f64;
+                    let (s2, s3) = (s * s, s * s * s);
+                    let straight = chamber[n - 1] * (1.0 - 3.0 * s2 + 2.0 * s3) + chamber[n] * (3.0 * s2 - 2.0 * s3);
+                    clock.push(time[n - 1] + s * dt, straight + a * (s - 2.0 * s2 + s3) + b * (s3 - s2), false);
+                }
+            }
+            clock.rows.push(clock.time.len());
+            clock.push(time[n], chamber[n], false);
+        }
+        clock
+    }
+
+    /// Means over the reading of each row of something that is a mean since the instant before.
+    fn means(&self, value: impl Fn(usize) -> f64) -> Vec<f64> {
+        let (mut sum, mut span, mut row) = (0.0, 0.0, 0);
+        let mut means = Vec::with_capacity(self.rows.len());
+        for n in 0..self.time.len() {
+            let dt = if n > 0 { self.time[n] - self.time[n - 1] } else { 0.0 };
+            sum += value(n) * dt;
+            span += dt;
+            if self.rows.get(row) == Some(&n) {
+                means.push(if span > 0.0 { sum / span } else { 0.0 });
+                row += 1;
+                (sum, span) = (0.0, 0.0);
+            } else if self.begins[n] {
+                (sum, span) = (0.0, 0.0);
+            }
+        }
+        means
+    }
+
+    fn push(&mut self, time: f64, chamber: f64, begins: bool) {
+        self.time.push(time);
+        self.chamber.push(chamber);
+        self.begins.push(begins);
+    }
+}
+
+/// Thermometer and bias parts of one model in the rows of a recording.
+#[derive(Debug, Clone)]
+pub(crate) struct Series {
+    pub(crate) sensor: Vec<f64>,
+    pub(crate) parts: Parts,
+}
+
+/// Drives and modes of one reduced model in the rows of a recording, and their mean rates.
+#[derive(Debug, Clone)]
+pub(crate) struct Course {
+    /// rows × (drives + modes)
+    pub(crate) states: DMatrix<f64>,
+    pub(crate) rates: DMatrix<f64>,
+}
+
+impl Course {
+    /// Runs `drives` from rest at `rest`; both in the order of the model's drives.
+    pub(crate) fn new(model: &Reduced, clock: &Clock, drives: &[Vec<f64>], rest: &[f64]) -> Self {
+        let at = |n: usize| -> Vec<f64> { drives.iter().map(|d| d[n]).collect() };
+        let mut q = vec![0.0; model.rates.len()];
+        let mut u = at(0);
+        model.jump(&mut q, &u.iter().zip(rest).map(|(u, r)| u - r).collect::<Vec<_>>());
+        let width = u.len() + q.len();
+        let (mut states, mut rates) = (DMatrix::zeros(clock.rows.len(), width), DMatrix::zeros(clock.rows.len(), width));
+        let joined = |u: &[f64], q: &[f64]| u.iter().chain(q).copied().collect::<Vec<f64>>();
+        let mut row = 0;
+        // where the reading of the row began
+        let (mut began, mut before) = (0, joined(&u, &q));
+        let mut interval = model.interval(0.0);
+        for n in 0..clock.time.len() {
+            let dt = if n > 0 { clock.time[n] - clock.time[n - 1] } else { 0.0 };
+            if n > 0 {
+                let next = at(n);
+                let slope: Vec<f64> = next.iter().zip(&u).map(|(b, a)| (b - a) / dt).collect();
+                if interval.dt != dt {
+                    interval = model.interval(dt);
+                }
+                model.advance(&mut q, &slope, &interval);
+                u = next;
+            }
+            let now = joined(&u, &q);
+            if clock.rows.get(row) == Some(&n) {
+                for k in 0..width {
+                    states[(row, k)] = now[k];
+                    rates[(row, k)] = if n > 0 { (now[k] - before[k]) / (clock.time[n] - clock.time[began]) } else { 0.0 };
+                }
+                row += 1;
+                (began, before) = (n, now);
+            } else if clock.begins[n] {
+                (began, before) = (n, now);
+            }
+        }
+        Self { states, rates }
+    }
+
+    /// An output in every row.
+    pub(crate) fn output(&self, model: &Reduced, k: usize) -> Vec<f64> {
+        (&self.states * functional(model, k)).as_slice().to_vec()
+    }
+
+    /// Mean bias parts in every row.
+    pub(crate) fn parts(&self, functionals: &Functionals) -> Parts {
+        [0, 1, 2].map(|p: usize| (&self.rates * (&functionals[p] * DEG_PER_H_PER_RAD_PER_S)).as_slice().to_vec())
+    }
+
+    fn series(&self, model: &Reduced, first: usize) -> Series {
+        Series { sensor: self.output(model, SENSOR), parts: self.parts(&[0, 1, 2].map(|p| functional(model, first + p))) }
+    }
+}
+
+fn functional(model: &Reduced, k: usize) -> DVector<f64> {
+    let output = &model.outputs[k];
+    DVector::from_iterator(output.at_rest.len() + output.modal.len(), output.at_rest.iter().chain(&output.modal).copied())
+}
+
+/// Differences of two series.
+fn minus(a: &Series, b: &Series) -> Series {
+    let of = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect();
+    Series { sensor: of(&a.sensor, &b.sensor), parts: [0, 1, 2].map(|p: usize| of(&a.parts[p], &b.parts[p])) }
+}
+
+/// A recording's instants and chamber, and what every model of a library does under it.
+#[derive(Debug, Clone)]
+pub struct Prepared {
+    pub(crate) time: Vec<f64>,
+    pub(crate) averaging: f64,
+    pub(crate) course: Course,
+    pub(crate) nominal: Series,
+    /// mean temperature of the coil \[°C\]
+    pub(crate) coil: Vec<f64>,
+    pub(crate) state: State,
+    /// change per kelvin that the start was off the first chamber temperature
+    pub(crate) off_rest: Series,
+    /// parts at each node of the transverse modulus, with the nominal α_r and per unit of its factor
+    pub(crate) modulus: Vec<(f64, Parts, Parts)>,
+    pub(crate) constants: Vec<Parts>,
+    /// changes at every node of each path, zero at the nominal one
+    pub(crate) paths: Vec<Option<(Vec<f64>, Vec<Series>)>>,
+    /// open minus closed
+    pub(crate) openings: Vec<(f64, Parts)>,
+    pub(crate) heater: Option<Heating>,
+}
+
+/// A watt in a flange that is switched on some time before the first row: every mode decays on its own.
+#[derive(Debug, Clone)]
+pub(crate) struct Heating {
+    /// amplitude of every mode in every row, switched on at the first, and its mean rate; the rates of the first row are not used
+    course: Course,
+    averaging: f64,
+}
+
+impl Heating {
+    fn new(model: &Reduced, clock: &Clock, averaging: f64) -> Self {
+        let n = clock.time.len();
+        Self { course: Course::new(model, clock, &[vec![0.0; n], vec![1.0; n]], &[0.0, 0.0]), averaging }
+    }
+
+    /// Response to 1 W that is switched on `before` the first row \[s\].
+    pub(crate) fn at(&self, model: &Reduced, before: f64) -> Series {
+        let mut course = self.course.clone();
+        let drives = course.states.ncols() - model.rates.len();
+        for (i, rate) in model.rates.iter().enumerate() {
+            let (k, decayed) = (drives + i, (-rate * before).exp());
+            // the first reading began before its row, but sees nothing from before the heater was on
+            let began = course.states[(0, k)] * (-rate * (before - self.averaging).max(0.0)).exp();
+            course.states.column_mut(k).scale_mut(decayed);
+            course.rates.column_mut(k).scale_mut(decayed);
+            course.rates[(0, k)] = if self.averaging > 0.0 { (course.states[(0, k)] - began) / self.averaging } else { 0.0 };
+        }
+        course.series(model, PARTS)
+    }
+}
+
+impl Prepared {
+    /// Runs every model of `library` under a chamber temperature \[°C\] that is linear between the instants \[s\]. Readings of the
+    /// rate are means over `averaging` seconds, or since the row before where that is nearer.
+    ///
+    /// # Errors
+    /// [`Error::Profile`] names the instant that is out of order or not finite.
+    pub fn new(library: &Library, time: &[f64], chamber: &[f64], averaging: f64) -> Result<Self, Error> {
+        let clock = Clock::new(time, chamber, averaging);
+        let profile = Profile { time: clock.time.clone(), drives: vec![clock.chamber.clone()] };
+        let responses = library.nominal.simulate(&profile)?;
+        let first = clock.chamber[0];
+        let run = |model: &Reduced| Course::new(model, &clock, std::slice::from_ref(&clock.chamber), &[first]);
+        let course = run(&library.base);
+        let base = course.series(&library.base, PARTS);
+        let part = |f: fn(&bias::Bias) -> f64| -> Vec<f64> { clock.means(|n| f(&responses[n].bias) * DEG_PER_H_PER_RAD_PER_S) };
+        let nominal = Series {
+            sensor: clock.rows.iter().map(|&n| responses[n].sensor).collect(),
+            parts: [part(|b| b.shupe), part(|b| b.eo_axial), part(|b| b.eo_radial)],
+        };
+        let off = Course::new(&library.base, &clock, std::slice::from_ref(&clock.chamber), &[first + OFF_REST]);
+        let paths = library.paths.iter().map(|family| {
+            let family = family.as_ref()?;
+            let mut changes: Vec<Series> =
+                family.models.iter().map(|model| minus(&run(model).series(model, PARTS), &base)).collect();
+            changes.insert(family.nominal, minus(&base, &base));
+            Some((family.nodes.clone(), changes))
+        });
+        let opening = |(share, model): &(f64, Reduced)| {
+            let course = run(model);
+            let change = minus(&course.series(model, PARTS + 3), &course.series(model, PARTS));
+            (*share, change.parts)
+        };
+        let heater = library.heater.as_ref().map(|model| Heating::new(model, &clock, averaging));
+        let coil = course.output(&library.base, COIL);
+        let level = nominal.sensor.clone();
+        let rate = (0..time.len())
+            .map(|n| {
+                let (a, b) = (n.saturating_sub(1), (n + 1).min(time.len() - 1));
+                if b > a { (level[b] - level[a]) / (time[b] - time[a]) } else { 0.0 }
+            })
+            .collect();
+        Ok(Self {
+            time: time.to_vec(),
+            averaging,
+            off_rest: minus(&off.series(&library.base, PARTS), &base),
+            modulus: library.modulus.iter().map(|(x, n, f)| (*x, course.parts(n), course.parts(f))).collect(),
+            constants: library.constants.iter().map(|f| course.parts(f)).collect(),
+            paths: paths.collect(),
+            openings: library.openings.iter().map(opening).collect(),
+            heater,
+            course,
+            nominal,
+            coil,
+            state: State { level, rate },
+        })
+    }
+}

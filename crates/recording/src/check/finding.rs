@@ -1,0 +1,235 @@
+//! A finding and its words.
+
+use std::fmt;
+
+/// How bad a finding is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// Worth knowing.
+    Note,
+    /// Looks like a mistake.
+    Warning,
+    /// The recording cannot be used.
+    Error,
+}
+
+/// What was done about a finding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Repair {
+    /// Nothing.
+    None,
+    /// The rows are not kept.
+    Dropped,
+    /// The values are not used; the data are unchanged.
+    Masked,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Kind {
+    /// Rows are missing.
+    Gap {
+        /// From the last row before it to the first after it \[s\].
+        length: f64,
+        /// How many rows it would have held.
+        missing: usize,
+    },
+    /// Intervals vary.
+    Jitter {
+        /// Their root-mean-square distance from the median \[s\].
+        rms: f64,
+        /// The largest \[s\].
+        largest: f64,
+    },
+    /// A row that repeats the one before.
+    Duplicate,
+    /// One instant with different values.
+    Conflict,
+    /// Time goes back.
+    Backwards {
+        /// By how much \[s\].
+        by: f64,
+    },
+    /// The clock was set: an interval that is no whole number of intervals.
+    ClockStep {
+        /// The interval \[s\].
+        interval: f64,
+    },
+    /// Values are missing.
+    Missing,
+    /// A lone value far from its neighbours.
+    Outliers {
+        /// The largest distance \[u\].
+        largest: f64,
+    },
+    /// The same value for longer than resolution and noise explain.
+    Stuck {
+        /// The value \[u\].
+        value: f64,
+    },
+    /// The channel's largest or least value for longer than resolution and noise explain.
+    Saturation {
+        /// The value \[u\].
+        value: f64,
+    },
+    /// The resolution is coarser than the noise, which it hides.
+    Quantised {
+        /// Step between values \[u\].
+        step: f64,
+        /// Noise of a value \[u\].
+        noise: f64,
+    },
+    /// The values are not of the size that the unit makes them.
+    Unit {
+        /// Which size was judged, e.g. "values".
+        what: &'static str,
+        /// What was found \[u\].
+        found: f64,
+        /// What is plausible \[u\].
+        range: [f64; 2],
+        /// Units in which it would be plausible.
+        candidates: Vec<String>,
+    },
+    /// One value throughout.
+    Constant {
+        /// The value \[u\].
+        value: f64,
+    },
+    /// No value at all.
+    Empty,
+    /// Few rows.
+    TooShort {
+        /// How many.
+        rows: usize,
+    },
+    /// An offset that something known explains.
+    Offset {
+        /// Median \[u\].
+        median: f64,
+        /// The most that is expected \[u\].
+        largest: f64,
+        /// What would explain it.
+        of: String,
+    },
+}
+
+/// Something found in a recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// What.
+    pub kind: Kind,
+    /// In which channel; `None` if it is about the instants.
+    pub channel: Option<String>,
+    /// Unit of the channel; empty if there is none.
+    pub unit: String,
+    /// First and last instant concerned \[s\]; `None` if it is about all.
+    pub span: Option<[f64; 2]>,
+    /// Number of rows concerned, 0 if it is about all.
+    pub rows: usize,
+    /// How bad it is.
+    pub severity: Severity,
+    /// What was done.
+    pub repair: Repair,
+}
+
+impl Finding {
+    /// About the whole recording.
+    pub(super) fn whole(kind: Kind, severity: Severity) -> Self {
+        Self { kind, channel: None, unit: String::new(), span: None, rows: 0, severity, repair: Repair::None }
+    }
+
+    /// About the instants from one to another.
+    pub(super) fn at(kind: Kind, severity: Severity, span: [f64; 2], rows: usize, repair: Repair) -> Self {
+        Self { span: Some(span), rows, repair, ..Self::whole(kind, severity) }
+    }
+
+    /// What to do, if there is something.
+    pub fn advice(&self) -> &'static str {
+        match (&self.kind, self.severity) {
+            (Kind::Conflict, _) => "keep the row that is right",
+            (Kind::Backwards { .. }, _) => "sort the rows by time, or split the file where the clock restarts",
+            (Kind::ClockStep { .. }, _) => "if the clock was set, split the file there or mend the instants",
+            (Kind::Empty | Kind::Constant { .. }, Severity::Error) => "check the sensor's cable and the choice of the column",
+            (Kind::Stuck { .. } | Kind::Saturation { .. }, _) => "check the sensor and its range",
+            (Kind::Unit { .. }, _) => "check the column's unit",
+            (Kind::Offset { .. }, _) => "remove it, or accept that the offset is fitted",
+            (Kind::TooShort { .. }, _) => "give a longer recording",
+            _ => "",
+        }
+    }
+}
+
+/// A number with four figures.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let size = self.0.abs();
+        if size == 0.0 || !size.is_finite() {
+            return write!(f, "{}", self.0);
+        }
+        if !(1e-4..1e7).contains(&size) {
+            return write!(f, "{:.3e}", self.0);
+        }
+        let decimals = (3.0 - size.log10().floor()).max(0.0) as usize;
+        let text = format!("{:.decimals$}", self.0);
+        f.write_str(if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text })
+    }
+}
+
+impl fmt::Display for Finding {
+    /// One sentence without its end: what, where, what was done, what to do.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(channel) = &self.channel {
+            write!(f, "{channel}: ")?;
+        }
+        self.what(f)?;
+        match (self.span, self.rows) {
+            (Some([from, to]), 0) => write!(f, ", from {from} to {to} s")?,
+            (Some([from, to]), rows) if to > from => write!(f, ", from {from} to {to} s ({rows} rows)")?,
+            (Some([at, _]), _) => write!(f, ", at {at} s")?,
+            (None, _) => {}
+        }
+        match self.repair {
+            Repair::None => {}
+            Repair::Dropped => f.write_str("; dropped")?,
+            Repair::Masked => f.write_str("; not used")?,
+        }
+        if self.advice().is_empty() { Ok(()) } else { write!(f, "; {}", self.advice()) }
+    }
+}
+
+impl Finding {
+    fn what(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let unit = &self.unit;
+        match &self.kind {
+            Kind::Gap { length, missing } => write!(f, "gap of {} s, {missing} rows missing", Short(*length)),
+            Kind::Jitter { rms, largest } => {
+                write!(f, "intervals vary by {} s rms, {} s at most", Short(*rms), Short(*largest))
+            }
+            Kind::Duplicate => write!(f, "a row is repeated"),
+            Kind::Conflict => write!(f, "one instant has different values"),
+            Kind::Backwards { by } => write!(f, "time goes back by {} s", Short(*by)),
+            Kind::ClockStep { interval } => write!(f, "an interval of {} s is no whole number of intervals", Short(*interval)),
+            Kind::Missing => write!(f, "values are missing"),
+            Kind::Outliers { largest } => write!(f, "outliers of up to {} {unit}", Short(*largest)),
+            Kind::Stuck { value } => write!(f, "stuck at {} {unit}", Short(*value)),
+            Kind::Saturation { value } => write!(f, "saturated at {} {unit}", Short(*value)),
+            Kind::Quantised { step, noise } => {
+                write!(f, "the resolution, {} {unit}, hides the noise, at most {} {unit}", Short(*step), Short(*noise))
+            }
+            Kind::Unit { what, found, range: [low, high], candidates } => {
+                let verb = if *what == "noise" { "is" } else { "are" };
+                write!(f, "{what} of {} {unit} {verb} implausible ({} to {} {unit})", Short(*found), Short(*low), Short(*high))?;
+                if candidates.is_empty() { Ok(()) } else { write!(f, "; is it in {}?", candidates.join(" or ")) }
+            }
+            Kind::Constant { value } => write!(f, "is {} {unit} throughout", Short(*value)),
+            Kind::Empty => write!(f, "has no value at all"),
+            Kind::TooShort { rows } => write!(f, "too few rows, {rows}"),
+            Kind::Offset { median, largest, of } => {
+                write!(f, "the median, {} {unit}, is more than {} {unit}: {of}?", Short(*median), Short(*largest))
+            }
+        }
+    }
+}

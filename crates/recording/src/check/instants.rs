@@ -1,0 +1,107 @@
+//! The instants of a recording.
+
+use super::{Finding, Kind, Repair, Severity};
+use crate::Recording;
+use crate::statistics::median;
+
+/// Rows that are missing between two that are not.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gap {
+    /// Last instant before it \[s\].
+    pub from: f64,
+    /// First instant after it \[s\].
+    pub to: f64,
+    /// How many rows it would have held.
+    pub missing: usize,
+}
+
+/// What there is to say about increasing instants.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Instants {
+    /// Median interval \[s\].
+    pub interval: f64,
+    /// From the first to the last \[s\].
+    pub span: f64,
+    /// Root-mean-square distance of the intervals that are no gaps from the median \[s\].
+    pub jitter: f64,
+    /// Their largest distance \[s\].
+    pub largest_jitter: f64,
+    /// Where rows are missing.
+    pub gaps: Vec<Gap>,
+}
+
+/// Intervals, in median ones, from which on rows are missing.
+const GAP: f64 = 1.5;
+/// Jitter worth a note, in intervals.
+const NOTED_JITTER: f64 = 1e-3;
+/// Distance of an interval from a whole number of intervals that makes it a clock step: in intervals, and in largest jitters.
+const STEP: [f64; 2] = [0.1, 4.0];
+
+impl Instants {
+    pub(super) fn new(time: &[f64]) -> Option<Self> {
+        let intervals: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let interval = median(intervals.clone())?;
+        let near = || intervals.iter().map(|dt| (dt - interval).abs()).filter(|distance| *distance < (GAP - 1.0) * interval);
+        let gap = |pair: &[f64]| {
+            let length = pair[1] - pair[0];
+            let missing = (length / interval).round().max(2.0) as usize - 1;
+            (length > GAP * interval).then_some(Gap { from: pair[0], to: pair[1], missing })
+        };
+        Some(Self {
+            interval,
+            span: time[time.len() - 1] - time[0],
+            jitter: (near().map(|d| d * d).sum::<f64>() / near().count().max(1) as f64).sqrt(),
+            largest_jitter: near().fold(0.0, f64::max),
+            gaps: time.windows(2).filter_map(gap).collect(),
+        })
+    }
+
+    pub(super) fn judge(&self, time: &[f64], findings: &mut Vec<Finding>) {
+        if self.largest_jitter > NOTED_JITTER * self.interval {
+            findings.push(Finding::whole(Kind::Jitter { rms: self.jitter, largest: self.largest_jitter }, Severity::Note));
+        }
+        for gap in &self.gaps {
+            let kind = Kind::Gap { length: gap.to - gap.from, missing: gap.missing };
+            findings.push(Finding::at(kind, Severity::Note, [gap.from, gap.to], 0, Repair::None));
+        }
+        let slack = (STEP[0] * self.interval).max(STEP[1] * self.largest_jitter);
+        for pair in time.windows(2) {
+            let interval = pair[1] - pair[0];
+            let whole = (interval / self.interval).round() * self.interval;
+            if (interval - whole).abs() > slack || interval < 0.5 * self.interval {
+                let kind = Kind::ClockStep { interval };
+                findings.push(Finding::at(kind, Severity::Warning, [pair[0], pair[1]], 0, Repair::None));
+            }
+        }
+    }
+}
+
+/// The rows whose instants increase: repeats are dropped, the rest that does not increase is an error.
+pub(super) fn keep(recording: &Recording, findings: &mut Vec<Finding>) -> Vec<usize> {
+    let time = recording.time();
+    let mut rows: Vec<usize> = Vec::with_capacity(time.len());
+    for row in 0..time.len() {
+        let Some(&last) = rows.last() else {
+            rows.push(row);
+            continue;
+        };
+        let finding = |kind, severity| Finding::at(kind, severity, [time[row]; 2], 1, Repair::Dropped);
+        if time[row] > time[last] {
+            rows.push(row);
+        } else if time[row] < time[last] {
+            findings.push(finding(Kind::Backwards { by: time[last] - time[row] }, Severity::Error));
+        } else if same(recording, row, last) {
+            findings.push(finding(Kind::Duplicate, Severity::Note));
+        } else {
+            findings.push(finding(Kind::Conflict, Severity::Error));
+        }
+    }
+    rows
+}
+
+fn same(recording: &Recording, row: usize, other: usize) -> bool {
+    recording.channels().iter().all(|channel| {
+        let (a, b) = (channel.values[row], channel.values[other]);
+        a == b || (a.is_nan() && b.is_nan())
+    })
+}

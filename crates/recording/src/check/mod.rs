@@ -1,0 +1,79 @@
+//! What is wrong with a recording.
+//!
+//! Nothing is altered: [`check`] says which rows to keep and, channel by channel, which values to trust, and lists why.
+
+mod channel;
+mod finding;
+mod instants;
+mod outliers;
+mod runs;
+mod units;
+
+pub use channel::{ChannelSummary, white_noise};
+pub use finding::{Finding, Kind, Repair, Severity};
+pub use instants::{Gap, Instants};
+pub use units::{Expectation, Offset, Unit};
+
+use crate::Recording;
+
+/// What a recording is expected to hold.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Expectations {
+    /// Of the channels, in their order; of channels beyond its end nothing is expected.
+    pub channels: Vec<Expectation>,
+    /// Rows below which a recording is noted as short.
+    pub fewest_rows: usize,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Report {
+    /// Everything found, the worst first.
+    pub findings: Vec<Finding>,
+    /// Rows of the recording to keep: all but identical repeats, and those of broken clocks.
+    pub rows: Vec<usize>,
+    /// For each channel and each row kept, whether its value is to be used.
+    pub masks: Vec<Vec<bool>>,
+    /// The instants kept; `None` for fewer than two.
+    pub instants: Option<Instants>,
+    /// The channels.
+    pub channels: Vec<ChannelSummary>,
+}
+
+impl Report {
+    /// Whether nothing forbids the use of the recording.
+    pub fn usable(&self) -> bool {
+        self.findings.iter().all(|finding| finding.severity != Severity::Error)
+    }
+}
+
+/// Fewest rows of a recording.
+const FEWEST_ROWS: usize = 3;
+
+/// Checks a recording.
+pub fn check(recording: &Recording, expectations: &Expectations) -> Report {
+    let mut findings = Vec::new();
+    let rows = instants::keep(recording, &mut findings);
+    let kept = recording.select(&rows);
+    let instants = Instants::new(kept.time());
+    if let Some(instants) = &instants {
+        instants.judge(kept.time(), &mut findings);
+    }
+    if rows.len() < FEWEST_ROWS.max(expectations.fewest_rows) {
+        let severity = if rows.len() < FEWEST_ROWS { Severity::Error } else { Severity::Warning };
+        findings.push(Finding::whole(Kind::TooShort { rows: rows.len() }, severity));
+    }
+    let nothing = Expectation::default();
+    let judge = |(number, channel)| {
+        let expectation = expectations.channels.get(number).unwrap_or(&nothing);
+        channel::judge(kept.time(), channel, expectation, instants.as_ref())
+    };
+    let (mut masks, mut channels) = (Vec::new(), Vec::new());
+    for judged in kept.channels().iter().enumerate().map(judge) {
+        masks.push(judged.mask);
+        channels.push(judged.summary);
+        findings.extend(judged.findings);
+    }
+    findings.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
+    Report { findings, rows, masks, instants, channels }
+}

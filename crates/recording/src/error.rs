@@ -1,0 +1,64 @@
+//! What cannot be computed.
+
+/// Errors of this crate.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A series is longer or shorter than its instants.
+    #[error("`{name}` has {found} values where there are {expected} instants; give one for each")]
+    Length {
+        /// Which series.
+        name: String,
+        /// Its length.
+        found: usize,
+        /// Number of instants.
+        expected: usize,
+    },
+    /// Two channels have one name.
+    #[error("two channels are named `{name}`; rename one")]
+    Name {
+        /// The name.
+        name: String,
+    },
+    /// An instant is not finite, or does not come after the one before.
+    #[error("instant {row}, {time} s, is not finite or not after the one before, {previous} s; drop repeats and sort by time")]
+    Time {
+        /// Its row, from 0.
+        row: usize,
+        /// The instant \[s\].
+        time: f64,
+        /// The instant before \[s\].
+        previous: f64,
+    },
+    /// A row that is used has no finite value.
+    #[error("`{name}` is {value} in row {row}, which is used; mask the row")]
+    Value {
+        /// Which series.
+        name: String,
+        /// The row, from 0.
+        row: usize,
+        /// The value.
+        value: f64,
+    },
+    /// A parameter is outside its range.
+    #[error("`{name}` is {value}; it has to be {range}")]
+    Parameter {
+        /// Its name.
+        name: &'static str,
+        /// The value.
+        value: f64,
+        /// The range.
+        range: &'static str,
+    },
+    /// Too few rows for what is asked.
+    #[error("{found} usable rows are too few, at least {needed} are needed; give a longer stretch")]
+    TooFew {
+        /// Usable rows.
+        found: usize,
+        /// Rows needed.
+        needed: usize,
+    },
+    /// The series is explained exactly: there is no noise to identify.
+    #[error("the series has no noise beyond rounding: it is constant or explained exactly by the columns given")]
+    NoNoise,
+}

@@ -1,0 +1,105 @@
+//! A series made ready: checked, and long ones as means over groups of rows, for which the model stays exact.
+
+use super::regression::independent;
+use super::{NoiseModel, Series};
+use crate::Error;
+use crate::series::check_series;
+use crate::statistics::median;
+
+/// Most rows before groups of them are averaged: white noise is then known to half a percent, and a fit takes a second.
+const MOST_ROWS: usize = 20_000;
+/// Fewest rows beyond the columns.
+const FEWEST_ROWS: usize = 16;
+/// Longest interval within a group, in median intervals.
+const GAP: f64 = 1.5;
+
+/// A series with its independent columns, perhaps thinned.
+pub(super) struct Data {
+    pub(super) time: Vec<f64>,
+    pub(super) mask: Vec<bool>,
+    pub(super) values: Vec<f64>,
+    /// Columns of the original that are no combination of those before them, and their numbers there.
+    pub(super) columns: Vec<Vec<f64>>,
+    pub(super) numbers: Vec<usize>,
+    /// Rows of the original in one of these.
+    pub(super) group: usize,
+    /// Median time between the original's rows \[s\].
+    pub(super) interval: f64,
+}
+
+impl Data {
+    pub(super) fn new(series: &Series) -> Result<Self, Error> {
+        let Series { time, values, mask, columns } = *series;
+        let names: Vec<String> = (0..columns.len()).map(|i| format!("column {i}")).collect();
+        let named = names.iter().map(String::as_str).zip(columns.iter().copied());
+        let used = check_series(time, mask, &std::iter::once(("values", values)).chain(named).collect::<Vec<_>>())?;
+        let needed = FEWEST_ROWS + columns.len();
+        let interval = median(time.windows(2).map(|pair| pair[1] - pair[0]).collect());
+        let Some(interval) = interval.filter(|_| used >= needed) else {
+            return Err(Error::TooFew { found: used, needed });
+        };
+        let group = used.div_ceil(MOST_ROWS);
+        let starts = if group > 1 { groups(time, mask, group, interval) } else { Vec::new() };
+        // a mask so ragged that few groups are complete leaves the series as it is
+        let mut data = if starts.len() >= MOST_ROWS / 4 {
+            let means = |series: &[f64]| -> Vec<f64> {
+                starts.iter().map(|&first| series[first..first + group].iter().sum::<f64>() / group as f64).collect()
+            };
+            let ends = starts.iter().map(|&first| time[first + group - 1]).collect();
+            Self::of(ends, vec![true; starts.len()], group, interval, means, series)
+        } else {
+            // masked rows hold 0, so that no arithmetic meets what they held
+            let clean = |series: &[f64]| series.iter().zip(mask).map(|(value, used)| if *used { *value } else { 0.0 }).collect();
+            Self::of(time.to_vec(), mask.to_vec(), 1, interval, clean, series)
+        };
+        data.numbers = independent(&data.columns);
+        data.columns = data.numbers.iter().map(|&number| std::mem::take(&mut data.columns[number])).collect();
+        Ok(data)
+    }
+
+    fn of(
+        time: Vec<f64>,
+        mask: Vec<bool>,
+        group: usize,
+        interval: f64,
+        take: impl Fn(&[f64]) -> Vec<f64>,
+        series: &Series,
+    ) -> Self {
+        let columns = series.columns.iter().map(|column| take(column)).collect();
+        Self { time, mask, values: take(series.values), columns, numbers: Vec::new(), group, interval }
+    }
+
+    /// The model of a row of these, given that of a row of the original: white noise falls with the root of the group.
+    pub(super) fn model(&self, original: &NoiseModel) -> NoiseModel {
+        if self.group == 1 {
+            return *original;
+        }
+        let group = self.group as f64;
+        let averaging = group * if original.averaging > 0.0 { original.averaging } else { self.interval };
+        NoiseModel { averaging, white: original.white / group.sqrt(), ..*original }
+    }
+
+    /// Number of rows used.
+    pub(super) fn rows(&self) -> usize {
+        self.mask.iter().filter(|&&used| used).count()
+    }
+}
+
+/// First rows of complete, contiguous groups.
+fn groups(time: &[f64], mask: &[bool], group: usize, interval: f64) -> Vec<usize> {
+    let (mut starts, mut start) = (Vec::new(), 0);
+    for row in 0..time.len() {
+        if !mask[row] {
+            start = row + 1;
+            continue;
+        }
+        if row > start && time[row] - time[row - 1] > GAP * interval {
+            start = row;
+        }
+        if row + 1 - start == group {
+            starts.push(start);
+            start = row + 1;
+        }
+    }
+    starts
+}

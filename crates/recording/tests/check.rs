@@ -1,0 +1,318 @@
+//! Sound recordings pass; each defect is found, said and, where that is right, taken out of use.
+
+mod common;
+
+use common::Random;
+use recording::check::{Expectation, Expectations, Finding, Kind, Offset, Repair, Report, Severity, Unit, check};
+use recording::{Channel, Error, Recording, Sampling};
+
+const ROWS: usize = 2000;
+const NAN: f64 = f64::NAN;
+
+/// A chamber that ramps, soaks and steps, a rate with noise; both with the resolution of their display.
+struct Sample {
+    time: Vec<f64>,
+    temperature: Vec<f64>,
+    rate: Vec<f64>,
+}
+
+fn round(value: f64, step: f64) -> f64 {
+    (value / step).round() * step
+}
+
+fn sound(seed: u64, resolution: f64) -> Sample {
+    let mut random = Random::new(seed);
+    let time: Vec<f64> = (0..ROWS).map(|i| 30.0 * i as f64).collect();
+    // a ramp of 1 °C/min, soaks, and a step through a lag of 200 s
+    let course = |t: f64| match t {
+        t if t < 6000.0 => 20.0,
+        t if t < 9000.0 => 20.0 + (t - 6000.0) / 60.0,
+        t if t < 30_000.0 => 70.0,
+        t => 70.0 - 90.0 * (1.0 - (-(t - 30_000.0) / 200.0).exp()),
+    };
+    let temperature = time.iter().map(|&t| round(course(t) + 0.01 * random.normal(), resolution)).collect();
+    let rate = time.iter().map(|t| round(0.3 * (t / 5000.0).sin() + 0.02 * random.normal(), 1e-5)).collect();
+    Sample { time, temperature, rate }
+}
+
+fn expectations() -> Expectations {
+    let unit = |name: &str, scale: f64, offset: f64| Unit { name: name.into(), scale, offset };
+    let temperature = Expectation {
+        values: [-120.0, 180.0],
+        noise: [1e-3, 1.0],
+        mistaken: vec![unit("K", 1.0, -273.15), unit("0.01 degC", 0.01, 0.0)],
+        ..Expectation::default()
+    };
+    let rate = Expectation {
+        values: [-1000.0, 1000.0],
+        noise: [1e-4, 100.0],
+        mistaken: vec![unit("deg/s", 3600.0, 0.0)],
+        offset: Some(Offset { largest: 0.5, explained: 15.1, of: "Earth rate not removed".into() }),
+        essential: true,
+    };
+    Expectations { channels: vec![temperature, rate], fewest_rows: 100 }
+}
+
+impl Sample {
+    fn report(self) -> Report {
+        let channel =
+            |name: &str, unit: &str, values, sampling| Channel { name: name.into(), unit: unit.into(), values, sampling };
+        let channels = vec![
+            channel("temperature", "degC", self.temperature, Sampling::Momentary),
+            channel("rate", "deg/h", self.rate, Sampling::Mean),
+        ];
+        check(&Recording::new(self.time, channels).expect("one shape"), &expectations())
+    }
+}
+
+/// The only finding of a sample.
+fn only(sample: Sample) -> (Finding, Report) {
+    let report = sample.report();
+    let texts: Vec<String> = report.findings.iter().map(ToString::to_string).collect();
+    assert_eq!(texts.len(), 1, "{texts:?}");
+    (report.findings[0].clone(), report)
+}
+
+#[test]
+fn sound_recordings_pass() {
+    for seed in 0..200 {
+        for resolution in [1e-6, 0.01] {
+            let report = sound(seed, resolution).report();
+            assert!(report.findings.is_empty(), "seed {seed}, {resolution}: {:?}", report.findings);
+            assert_eq!(report.rows.len(), ROWS);
+            assert!(report.masks.iter().flatten().all(|used| *used));
+        }
+        let (finding, report) = only(sound(seed, 0.0625));
+        assert!(matches!(finding.kind, Kind::Quantised { step, .. } if (step - 0.0625).abs() < 1e-9), "{finding}");
+        assert!(report.usable());
+    }
+}
+
+#[test]
+fn moving_temperatures_pass_at_any_resolution() {
+    for seed in 0..100 {
+        for (resolution, amplitude) in [(0.01, 40.0), (0.0625, 40.0), (0.0625, 0.5), (0.1, 3.0), (0.5, 40.0)] {
+            let (mut sample, mut random) = (sound(seed, 0.01), Random::new(seed + 1000));
+            let course = |t: &f64| round(amplitude * (t / 4000.0).sin() + 0.01 * random.normal(), resolution);
+            sample.temperature = sample.time.iter().map(course).collect();
+            let report = sample.report();
+            let sound = report.findings.iter().all(|finding| matches!(finding.kind, Kind::Quantised { .. }));
+            assert!(sound, "seed {seed}, {resolution}: {:?}", report.findings);
+            assert!((report.channels[0].step.unwrap() / resolution - 1.0).abs() < 1e-6);
+        }
+    }
+}
+
+#[test]
+fn records_without_noise_pass() {
+    for digits in [1e-2, 1e-3, 1e-4, 1e-6] {
+        let mut sample = sound(1, 0.01);
+        // dwells that the course approaches, and ramps that begin at once
+        let lagged = |t: f64| 30.0 * (1.0 - (-t / 150.0).exp());
+        let course =
+            |t: f64| (t / 6000.0).floor() * 30.0 + if t < 30_000.0 { lagged(t % 6000.0) } else { (t % 6000.0).min(600.0) / 20.0 };
+        sample.temperature = sample.time.iter().map(|&t| round(course(t) / 5.0, digits)).collect();
+        let report = sample.report();
+        let quiet = |finding: &Finding| matches!(finding.kind, Kind::Quantised { .. } | Kind::Unit { what: "noise", .. });
+        assert!(report.findings.iter().all(quiet), "{digits}: {:?}", report.findings);
+        assert!(report.masks.iter().flatten().all(|used| *used));
+    }
+}
+
+#[test]
+fn noise_is_measured_under_ramps_and_outliers() {
+    let mut sample = sound(1, 1e-6);
+    (0..ROWS).step_by(50).for_each(|row| sample.rate[row] += 100.0);
+    let report = sample.report();
+    let noise = report.channels.iter().map(|channel| channel.noise.unwrap());
+    for (found, truth) in noise.zip([0.01, 0.02]) {
+        assert!((found / truth - 1.0).abs() < 0.06, "{found} {truth}");
+    }
+}
+
+#[test]
+fn curvature_is_no_noise() {
+    let (mut sample, mut random) = (sound(1, 0.01), Random::new(1));
+    // second differences of the course alone would be 0.036 rms, those of the noise are 0.024
+    sample.temperature = sample.time.iter().map(|t| 57.0 * (t / 1000.0).sin() + 0.01 * random.normal()).collect();
+    let noise = sample.report().channels[0].noise.unwrap();
+    assert!((noise / 0.01 - 1.0).abs() < 0.06, "{noise}");
+}
+
+#[test]
+fn a_staircase_without_noise_passes() {
+    for lag in [40.0, 120.0, 300.0] {
+        let mut sample = sound(1, 0.01);
+        let mut state = 20.0;
+        let follow = |t: &f64| {
+            // 10 °C up at 2 °C/min, then 50 minutes' rest
+            let target = 20.0 + 10.0 * (t / 3300.0).floor() + (t % 3300.0 - 3000.0).max(0.0) / 30.0;
+            state += (target - state) * (1.0 - (-30.0_f64 / lag).exp());
+            round(state, 1e-4)
+        };
+        sample.temperature = sample.time.iter().map(follow).collect();
+        let stuck = |finding: &&Finding| matches!(finding.kind, Kind::Stuck { .. } | Kind::Saturation { .. });
+        let report = sample.report();
+        assert_eq!(report.findings.iter().find(stuck), None, "lag {lag}");
+    }
+}
+
+#[test]
+fn printing_does_not_hide_a_resolution() {
+    let mut sample = sound(3, 0.0625);
+    sample.temperature.iter_mut().for_each(|value| *value = round(*value, 0.01));
+    let (finding, _) = only(sample);
+    assert!(matches!(finding.kind, Kind::Quantised { step, .. } if (step / 0.0625 - 1.0).abs() < 0.01), "{finding}");
+}
+
+#[test]
+fn outliers_are_masked_and_nothing_else() {
+    for seed in 0..50 {
+        let mut sample = sound(seed, 0.01);
+        let rows = [2, 205, 400, 402, 1001, 1500, ROWS - 3]; // in the ramp, close to each other, in the step, at the ends
+        rows.iter().for_each(|&row| sample.rate[row] += if row % 2 == 0 { 0.3 } else { -0.4 });
+        sample.temperature[300] += 5.0;
+        let report = sample.report();
+        assert_eq!(report.findings.len(), 2, "{:?}", report.findings);
+        let masked = |channel: usize| (0..ROWS).filter(|&row| !report.masks[channel][row]).collect::<Vec<_>>();
+        assert_eq!((masked(0), masked(1)), (vec![300], rows.to_vec()), "seed {seed}");
+        assert!(report.findings.iter().all(|finding| finding.repair == Repair::Masked));
+    }
+}
+
+#[test]
+fn gaps_jitter_and_clock_steps() {
+    let mut sample = sound(1, 0.01);
+    sample.time[700..].iter_mut().for_each(|t| *t += 1800.0);
+    let (finding, report) = only(sample);
+    assert_eq!(finding.kind, Kind::Gap { length: 1830.0, missing: 60 });
+    assert_eq!(report.instants.unwrap().gaps.len(), 1);
+
+    let mut sample = sound(1, 0.01);
+    let mut random = Random::new(8);
+    sample.time.iter_mut().for_each(|t| *t += 2.0 * random.uniform());
+    let (finding, _) = only(sample);
+    assert!(matches!(finding.kind, Kind::Jitter { rms, largest } if rms > 0.5 && rms < largest && largest < 2.0), "{finding}");
+
+    let mut sample = sound(1, 0.01);
+    sample.time[700..].iter_mut().for_each(|t| *t += 1813.0);
+    let report = sample.report();
+    assert_eq!(report.findings[0].kind, Kind::ClockStep { interval: 1843.0 });
+    assert!(matches!(report.findings[1].kind, Kind::Gap { .. }));
+
+    let mut sample = sound(1, 0.01);
+    sample.time[700..].iter_mut().for_each(|t| *t -= 20.0);
+    let report = sample.report();
+    assert!(report.findings.iter().any(|finding| finding.kind == Kind::ClockStep { interval: 10.0 }), "{:?}", report.findings);
+}
+
+#[test]
+fn repeats_conflicts_and_time_that_goes_back() {
+    let repeat = |conflict: f64| {
+        let mut sample = sound(1, 0.01);
+        sample.temperature[400] = NAN;
+        for series in [&mut sample.time, &mut sample.temperature, &mut sample.rate] {
+            series.insert(400, series[400]);
+        }
+        sample.rate[401] += conflict;
+        sample.report()
+    };
+    let report = repeat(0.0);
+    assert_eq!(report.findings.iter().filter(|finding| finding.kind == Kind::Duplicate).count(), 1);
+    assert!(report.usable() && report.rows.len() == ROWS && !report.rows.contains(&401));
+    let report = repeat(0.01);
+    assert_eq!(report.findings[0].kind, Kind::Conflict);
+    assert!(!report.usable());
+
+    let mut sample = sound(1, 0.01);
+    sample.time[700] -= 100.0;
+    let report = sample.report();
+    assert!(matches!(report.findings[0].kind, Kind::Backwards { .. }) && !report.usable());
+    assert!(report.findings[0].to_string().contains("sort the rows"));
+}
+
+#[test]
+fn missing_and_empty() {
+    let mut sample = sound(1, 0.01);
+    sample.temperature[100..120].fill(NAN);
+    let (finding, report) = only(sample);
+    assert_eq!((finding.kind.clone(), finding.rows, finding.span), (Kind::Missing, 20, Some([3000.0, 3570.0])));
+    assert_eq!(report.channels[0].used, ROWS - 20);
+
+    let mut sample = sound(1, 0.01);
+    sample.temperature.fill(NAN);
+    let (finding, report) = only(sample);
+    assert!(finding.kind == Kind::Empty && report.usable(), "a channel that can be spared");
+    let mut sample = sound(1, 0.01);
+    sample.rate.fill(NAN);
+    assert!(!only(sample).1.usable());
+    let mut sample = sound(1, 0.01);
+    sample.rate.fill(0.1);
+    let (finding, report) = only(sample);
+    assert!(finding.kind == Kind::Constant { value: 0.1 } && !report.usable());
+}
+
+#[test]
+fn stuck_and_saturated() {
+    for resolution in [0.01, 0.0625] {
+        let mut sample = sound(1, resolution);
+        let value = sample.temperature[240];
+        sample.temperature[240..290].fill(value); // in the ramp: it jumps when it comes back
+        let report = sample.report();
+        let finding = &report.findings[0];
+        assert_eq!((finding.kind.clone(), finding.rows), (Kind::Stuck { value }, 50), "{:?}", report.findings);
+        // where the resolution hides the noise a true step looks the same
+        let masked = resolution < 0.02;
+        assert!((240..290).all(|row| report.masks[0][row] != masked) && report.masks[0][239] && report.masks[0][290]);
+    }
+    let mut sample = sound(1, 0.01);
+    sample.rate.iter_mut().for_each(|rate| *rate = rate.min(0.25));
+    let report = sample.report();
+    assert!(!report.findings.is_empty());
+    assert!(report.findings.iter().all(|finding| finding.kind == Kind::Saturation { value: 0.25 }), "{:?}", report.findings);
+}
+
+#[test]
+fn units_and_offsets() {
+    let suspects = |sample: Sample| match only(sample).0.kind {
+        Kind::Unit { candidates, .. } => candidates,
+        other => panic!("{other:?}"),
+    };
+    let mut sample = sound(1, 0.01);
+    sample.temperature.iter_mut().for_each(|value| *value += 273.15);
+    assert_eq!(suspects(sample), ["K"]);
+    let mut sample = sound(1, 0.01);
+    sample.temperature.iter_mut().for_each(|value| *value *= 100.0);
+    assert_eq!(suspects(sample), ["0.01 degC"]);
+    let mut sample = sound(1, 0.01);
+    sample.rate.iter_mut().for_each(|value| *value /= 3600.0);
+    assert_eq!(suspects(sample), ["deg/s"]);
+    let mut sample = sound(1, 0.01);
+    sample.rate.iter_mut().for_each(|value| *value += 10.1);
+    let (finding, _) = only(sample);
+    assert!(
+        matches!(&finding.kind, Kind::Offset { of, .. } if of == "Earth rate not removed")
+            && finding.severity == Severity::Warning
+    );
+}
+
+#[test]
+fn short_and_misshapen() {
+    let cut = |rows: usize| {
+        let mut sample = sound(1, 0.01);
+        [&mut sample.time, &mut sample.temperature, &mut sample.rate].into_iter().for_each(|series| series.truncate(rows));
+        sample.report()
+    };
+    for rows in [0, 1, 2] {
+        assert!(!cut(rows).usable(), "{rows}");
+    }
+    let report = cut(50);
+    assert!(report.usable());
+    assert!(report.findings.iter().any(|finding| finding.kind == Kind::TooShort { rows: 50 }));
+
+    let channel = |name: &str, values| Channel { name: name.into(), unit: String::new(), values, sampling: Sampling::Mean };
+    let new = |time: Vec<f64>, channels| Recording::new(time, channels).unwrap_err();
+    assert!(matches!(new(vec![0.0], vec![channel("a", vec![])]), Error::Length { .. }));
+    assert!(matches!(new(vec![0.0], vec![channel("a", vec![0.0]), channel("a", vec![0.0])]), Error::Name { .. }));
+    assert!(matches!(new(vec![0.0, NAN], vec![]), Error::Value { row: 1, .. }));
+}

@@ -1,0 +1,181 @@
+//! Simulated noise is found again, with intervals that cover it.
+
+mod common;
+
+use common::{Random, even, simulate};
+use recording::Error;
+use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Series, Term, identify};
+
+const COUNT: usize = 2500;
+
+fn estimate(time: &[f64], values: &[f64], bounds: &Bounds) -> NoiseEstimate {
+    let (mask, one) = (vec![true; time.len()], vec![1.0; time.len()]);
+    identify(&Series { time, values, mask: &mask, columns: &[&one] }, bounds).expect("valid series")
+}
+
+/// Share of 90 % intervals that hold the truth.
+struct Coverage(Vec<bool>);
+
+impl Coverage {
+    fn add(&mut self, found: f64, truth: f64, error: Option<f64>) {
+        if let Some(error) = error {
+            self.0.push((found / truth).ln().abs() < 1.645 * error);
+        }
+    }
+
+    fn share(&self) -> f64 {
+        self.0.iter().filter(|&&holds| holds).count() as f64 / self.0.len() as f64
+    }
+}
+
+#[test]
+fn white_noise_and_drift() {
+    let truth = NoiseModel { drift: 0.4, drift_time: 5000.0, ..NoiseModel::white(1.0, 30.0) };
+    let time = even(COUNT, 30.0);
+    let bounds = Bounds { terms: vec![Term::Drift], ..Bounds::new(30.0, &time) };
+    let (mut white, mut slow, mut found) = (Coverage(vec![]), Coverage(vec![]), 0);
+    for seed in 0..30 {
+        let values: Vec<f64> = simulate(&truth, COUNT, &mut Random::new(seed)).iter().map(|x| x + 7.0).collect();
+        let NoiseEstimate { model, standard_errors, terms, .. } = estimate(&time, &values, &bounds);
+        found += usize::from(terms == [Term::Drift]);
+        white.add(model.white, truth.white, standard_errors.white);
+        slow.add(model.drift, truth.drift, standard_errors.drift);
+        slow.add(model.drift_time, truth.drift_time, standard_errors.drift_time);
+    }
+    println!("found {found}/30, 90 % intervals cover: white {}, drift {}", white.share(), slow.share());
+    assert_eq!(found, 30);
+    // 30 trials at 0.9: 0.9 ± 0.055
+    assert!(white.share() >= 0.75, "{}", white.share());
+    assert!(slow.share() >= 0.75, "{}", slow.share());
+}
+
+#[test]
+fn white_noise_and_walk() {
+    let truth = NoiseModel { walk: 0.01, ..NoiseModel::white(1.0, 30.0) };
+    let time = even(COUNT, 30.0);
+    let bounds = Bounds { terms: vec![Term::Walk], ..Bounds::new(30.0, &time) };
+    let (mut coverage, mut ratio) = (Coverage(vec![]), 0.0);
+    for seed in 100..140 {
+        let result = estimate(&time, &simulate(&truth, COUNT, &mut Random::new(seed)), &bounds);
+        assert_eq!(result.terms, [Term::Walk], "seed {seed}");
+        coverage.add(result.model.white, truth.white, result.standard_errors.white);
+        coverage.add(result.model.walk, truth.walk, result.standard_errors.walk);
+        ratio += (result.model.walk / truth.walk).ln() / 40.0;
+    }
+    println!("90 % intervals cover {}, mean ln(walk/truth) {ratio}", coverage.share());
+    assert_eq!(coverage.0.len(), 80);
+    assert!((0.8..=0.98).contains(&coverage.share()), "{}", coverage.share());
+    assert!(ratio.abs() < 0.08, "{ratio}");
+}
+
+#[test]
+fn white_noise_alone_and_quantisation() {
+    let time = even(COUNT, 30.0);
+    let bounds = Bounds { terms: vec![Term::Drift, Term::Walk, Term::Quantisation], ..Bounds::new(30.0, &time) };
+    let (mut alone, mut coverage) = (0, Coverage(vec![]));
+    for seed in 200..220 {
+        let white = simulate(&NoiseModel::white(1.0, 30.0), COUNT, &mut Random::new(seed));
+        alone += usize::from(estimate(&time, &white, &bounds).terms.is_empty());
+        let truth = NoiseModel { quantisation: 30.0, ..NoiseModel::white(1.0, 30.0) };
+        let result = estimate(&time, &simulate(&truth, COUNT, &mut Random::new(seed)), &bounds);
+        assert!(result.terms.contains(&Term::Quantisation), "seed {seed}: {:?}", result.terms);
+        coverage.add(result.model.quantisation, truth.quantisation, result.standard_errors.quantisation);
+    }
+    println!("nothing invented in {alone}/20; 90 % intervals of the quantisation cover {}", coverage.share());
+    assert!(alone >= 18, "{alone}");
+    assert!(coverage.share() >= 0.7, "{}", coverage.share());
+}
+
+#[test]
+fn columns_are_taken_off_and_gaps_do_not_matter() {
+    let truth = NoiseModel { drift: 0.6, drift_time: 1200.0, ..NoiseModel::white(1.0, 30.0) };
+    let mut random = Random::new(9);
+    let all = simulate(&truth, 4000, &mut random);
+    let kept: Vec<usize> = (0..4000).filter(|i| !(1000..1100).contains(i) && i % 97 != 0).collect();
+    let time: Vec<f64> = kept.iter().map(|&i| 30.0 * (i + 1) as f64).collect();
+    let ramp: Vec<f64> = time.iter().map(|t| t / 1e4).collect();
+    let (one, wave): (Vec<f64>, Vec<f64>) = time.iter().map(|t| (1.0, (t / 3000.0).sin())).unzip();
+    let mut values: Vec<f64> =
+        kept.iter().zip(&ramp).zip(&wave).map(|((&i, r), w)| all[i] + 50.0 - 20.0 * r + 30.0 * w).collect();
+    let mut mask = vec![true; time.len()];
+    (mask[5], values[5]) = (false, f64::NAN);
+    (mask[2000], values[2000]) = (false, 1e9);
+    let twice: Vec<f64> = wave.iter().map(|w| 2.0 * w).collect();
+    let series = Series { time: &time, values: &values, mask: &mask, columns: &[&one, &ramp, &wave, &twice] };
+    let result = identify(&series, &Bounds::new(30.0, &time)).unwrap();
+    assert_eq!(result.terms, [Term::Drift]);
+    let close = |found: f64, truth: f64, error: Option<f64>| (found / truth).ln().abs() < 3.0 * error.unwrap();
+    assert!(close(result.model.white, 1.0, result.standard_errors.white), "{result:?}");
+    assert!(close(result.model.drift, 0.6, result.standard_errors.drift), "{result:?}");
+    // and the residual is what was put in, but for the columns' own share of it
+    let rest = recording::noise::residual(&series, &result.model).unwrap();
+    let apart: Vec<f64> = rest.iter().zip(&kept).filter(|(r, _)| r.is_finite()).map(|(r, &i)| r - all[i]).collect();
+    assert_eq!(rest.iter().filter(|r| r.is_nan()).count(), 2);
+    assert!(apart.iter().all(|a| a.abs() < 1.0), "the wave of 30 and the ramp of 240 are gone");
+    // without the column the wave is taken for slow noise
+    let without = identify(&Series { columns: &[&one, &ramp], ..series }, &Bounds::new(30.0, &time)).unwrap();
+    assert!(without.model.allan_deviation(3000.0, 30.0) > 5.0 * truth.allan_deviation(3000.0, 30.0), "{without:?}");
+}
+
+#[test]
+fn long_series_are_thinned_and_give_the_same() {
+    let truth = NoiseModel { drift: 0.3, drift_time: 400.0, walk: 2e-3, ..NoiseModel::white(1.0, 1.0) };
+    let count = 100_000;
+    let mut values = simulate(&truth, count, &mut Random::new(4));
+    let mut time = even(count, 1.0);
+    time[40_002..].iter_mut().for_each(|t| *t += 500.0); // a group must not reach across, nor hold a masked row
+    let mask: Vec<bool> = (0..count).map(|row| row % 5003 != 7).collect();
+    mask.iter().zip(&mut values).filter(|(used, _)| !**used).for_each(|(_, value)| *value = 1e3);
+    let start = std::time::Instant::now();
+    let series = Series { time: &time, values: &values, mask: &mask, columns: &[&vec![1.0; count]] };
+    let result = identify(&series, &Bounds::new(1.0, &time)).unwrap();
+    println!("{count} rows in {:?}: {:?} {:?}", start.elapsed(), result.model, result.standard_errors);
+    assert_eq!(result.group, 5);
+    let errors = result.standard_errors;
+    let checks = [
+        (result.model.white, truth.white, errors.white),
+        (result.model.drift, truth.drift, errors.drift),
+        (result.model.drift_time, truth.drift_time, errors.drift_time),
+        (result.model.walk, truth.walk, errors.walk),
+    ];
+    for (found, truth, error) in checks {
+        assert!((found / truth).ln().abs() < 3.5 * error.unwrap(), "{found} {truth} {error:?}");
+    }
+}
+
+#[test]
+fn momentary_values() {
+    // with no span the samples are white noise and an autoregression of the first order
+    let mut random = Random::new(12);
+    let kept = (-30.0 / 2000.0_f64).exp();
+    let mut drift = random.normal();
+    let sample = |_| {
+        drift = kept * drift + (1.0 - kept * kept).sqrt() * random.normal();
+        0.5 * drift + 0.7 * random.normal()
+    };
+    let values: Vec<f64> = (0..COUNT).map(sample).collect();
+    let time = even(COUNT, 30.0);
+    let result = estimate(&time, &values, &Bounds::new(0.0, &time));
+    assert_eq!(result.terms, [Term::Drift]);
+    assert!((result.model.white / 0.7).ln().abs() < 3.0 * result.standard_errors.white.unwrap());
+    assert!((result.model.drift / 0.5).ln().abs() < 3.0 * result.standard_errors.drift.unwrap());
+}
+
+#[test]
+fn what_cannot_be_identified_is_refused() {
+    let time = even(100, 30.0);
+    let bounds = Bounds::new(30.0, &time);
+    let run = |values: &[f64], mask: &[bool], columns: &[&[f64]], bounds: &Bounds| {
+        identify(&Series { time: &time, values, mask, columns }, bounds).unwrap_err()
+    };
+    let (mask, noise, one) = ([true; 100], Random::new(1).normals(100), [1.0; 100]);
+    assert_eq!(run(&[5.0; 100], &mask, &[&one], &bounds), Error::NoNoise);
+    assert!(matches!(run(&noise, &[false; 100], &[], &bounds), Error::TooFew { found: 0, .. }));
+    assert!(matches!(run(&noise[1..], &mask, &[], &bounds), Error::Length { found: 99, .. }));
+    assert!(matches!(run(&noise, &mask, &[&one[1..]], &bounds), Error::Length { .. }));
+    let mut holed = noise.clone();
+    holed[7] = f64::NAN;
+    assert!(matches!(run(&holed, &mask, &[], &bounds), Error::Value { row: 7, .. }));
+    let backwards = Bounds { drift_time: [100.0, 10.0], ..bounds.clone() };
+    assert!(matches!(run(&noise, &mask, &[], &backwards), Error::Parameter { name: "drift_time", .. }));
+}

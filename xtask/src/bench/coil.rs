@@ -1,0 +1,232 @@
+//! `cargo xtask bench coil`: the coil job of `benches/peers`, ours and the peers found, interleaved, times beside errors.
+
+use super::job::{self, Outcome, STORED, Setting};
+use super::peers::{self, Printed, Run};
+use super::{Failure, Options, Progress, median, publish};
+use std::ffi::OsString;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Our settings by name; the first is what every ratio is against.
+const OURS: [(&str, Setting); 3] = [
+    ("fogcoil, 200 steps of 300 s", Setting { orders: [4, 9], layers: [1, 0, 0], ratio: 0.1, steps: 1 }),
+    ("fogcoil, 2000 steps of 30 s", Setting { orders: [4, 9], layers: [1, 0, 0], ratio: 0.1, steps: 10 }),
+    ("fogcoil, fine, 200 steps", Setting { orders: [5, 7], layers: [2, 1, 1], ratio: 0.12, steps: 1 }),
+];
+/// What errors are measured against, and the coarser run whose distance bounds its own error.
+const REFERENCE: Setting = Setting { orders: [8, 8], layers: [3, 2, 2], ratio: 0.15, steps: 4 };
+const SECOND: Setting = Setting { orders: [6, 6], layers: [3, 2, 2], ratio: 0.15, steps: 2 };
+
+/// Meshes for the peers: name, arguments of `mesh_coil.py` before and after the file.
+const MESHES: [(&str, &str, &[&str]); 2] = [("h 0.3 mm", "0.3", &[]), ("graded", "0.2", &["1", "10"])];
+
+/// A peer: name, needed module, script, arguments after the mesh, meshes it is run on.
+struct Peer {
+    name: &'static str,
+    module: &'static str,
+    script: &'static str,
+    arguments: &'static [&'static str],
+    meshes: &'static [usize],
+}
+
+const PYTHON: [Peer; 3] = [
+    Peer {
+        name: "scikit-fem, CHOLMOD, P2",
+        module: "skfem, sksparse.cholmod",
+        script: "coil_skfem.py",
+        arguments: &["cholmod"],
+        meshes: &[0, 1],
+    },
+    Peer { name: "NGSolve, P2", module: "ngsolve", script: "coil_ngsolve.py", arguments: &["sparsecholesky", "2"], meshes: &[1] },
+    Peer { name: "NGSolve, P4", module: "ngsolve", script: "coil_ngsolve.py", arguments: &["sparsecholesky", "4"], meshes: &[1] },
+];
+
+/// A program with its runs.
+struct Program {
+    name: String,
+    path: PathBuf,
+    arguments: Vec<OsString>,
+    runs: Vec<Run>,
+}
+
+impl Program {
+    fn median(&self, of: impl Fn(&Run) -> f64) -> f64 {
+        median(self.runs.iter().map(of).collect())
+    }
+
+    fn compute(&self) -> f64 {
+        self.median(|r| r.printed.compute())
+    }
+
+    /// CPU time of the process, or wall time where the system does not tell.
+    fn process(&self) -> f64 {
+        self.median(|r| r.cpu.unwrap_or(r.wall))
+    }
+
+    fn printed(&self) -> &Printed {
+        &self.runs[0].printed
+    }
+}
+
+/// Largest errors over all stored instants: mean temperatures \[K\], mean strains relative to the largest of each.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Errors {
+    temperature: f64,
+    strain: f64,
+}
+
+fn errors(course: &[[f64; 5]], reference: &[[f64; 5]]) -> Errors {
+    let off = |k: usize| course.iter().zip(reference).fold(0.0, |m: f64, (a, b)| m.max((a[k] - b[k]).abs()));
+    let size = |k: usize| reference.iter().fold(0.0, |m: f64, b| m.max(b[k].abs()));
+    Errors { temperature: off(0).max(off(1)), strain: (2..5).fold(0.0, |m, k| m.max(off(k) / size(k))) }
+}
+
+/// Does the job under one of our settings and prints the result as a peer does.
+///
+/// # Errors
+/// [`Failure`] if there is no such setting, or a solve fails.
+pub(crate) fn child(name: &str) -> Result<(), Failure> {
+    let setting = OURS.iter().find(|(own, _)| *own == name).ok_or_else(|| Failure(format!("no setting is called {name:?}")))?;
+    let Outcome { unknowns, phases, course } = job::run(&setting.1)?;
+    let phases: serde_json::Map<_, _> = phases.into_iter().map(|(name, s)| (name.to_string(), s.into())).collect();
+    let mut out = serde_json::Map::new();
+    for n in [STORED / 2, STORED] {
+        job::OUTPUTS.iter().zip(course[n - 1]).for_each(|(key, value)| drop(out.insert(format!("{key}{n}"), value.into())));
+    }
+    let result = serde_json::json!({ "peer": name, "job": "coil", "dof": unknowns[0], "dof2": unknowns[1], "phases": phases,
+        "out": out, "course": course });
+    println!("RESULT {result}");
+    Ok(())
+}
+
+fn ours() -> Result<Vec<Program>, Failure> {
+    let path = std::env::current_exe()?;
+    let program = |name: &str| Program {
+        name: name.into(),
+        path: path.clone(),
+        arguments: ["bench", "coil-job", name].map(OsString::from).to_vec(),
+        runs: Vec::new(),
+    };
+    Ok(OURS.iter().map(|(name, _)| program(name)).collect())
+}
+
+/// Every peer that is found, with its meshes made in `folder`.
+fn found(python: &Path, folder: &Path, progress: &Progress) -> Result<Vec<Program>, Failure> {
+    if !peers::has(python, "gmsh, numpy") {
+        progress.say("peers skipped: this Python lacks gmsh or numpy (benches/peers/README.md)");
+        return Ok(Vec::new());
+    }
+    let mesh = |k: usize| folder.join(format!("coil{k}"));
+    for (k, (name, size, grading)) in MESHES.iter().enumerate() {
+        progress.say(&format!("gmsh: mesh {name}"));
+        let mut arguments: Vec<OsString> = vec!["mesh_coil.py".into(), size.into(), mesh(k).into()];
+        arguments.extend(grading.iter().map(OsString::from));
+        peers::run(python, &arguments)?;
+    }
+    let mut programs = Vec::new();
+    for peer in &PYTHON {
+        if !peers::has(python, peer.module) {
+            progress.say(&format!("{} skipped: this Python lacks {}", peer.name, peer.module));
+            continue;
+        }
+        for &k in peer.meshes {
+            let mut arguments: Vec<OsString> = vec![peer.script.into(), mesh(k).with_extension("npz").into()];
+            arguments.extend(peer.arguments.iter().map(OsString::from));
+            let name = format!("{}, {}", peer.name, MESHES[k].0);
+            programs.push(Program { name, path: python.into(), arguments, runs: Vec::new() });
+        }
+    }
+    let graded = MESHES.len() - 1;
+    let words = ["-nw", "-v", "0", "coil.edp", "-solver", "CHOLMOD", "-mesh"].map(OsString::from);
+    let arguments = words.into_iter().chain([mesh(graded).with_extension("msh").into_os_string()]).collect();
+    let name = format!("FreeFem, CHOLMOD, P2, {}", MESHES[graded].0);
+    programs.push(Program { name, path: "FreeFem++".into(), arguments, runs: Vec::new() });
+    Ok(programs)
+}
+
+/// `cargo xtask bench coil`.
+///
+/// # Errors
+/// [`Failure`] if one of our own runs fails; a peer that fails is left out with a message.
+pub(crate) fn run(options: &Options) -> Result<(), Failure> {
+    let progress = Progress::new();
+    progress.say("reference: orders 8 and 6 on a fine mesh (half a minute)");
+    let reference = job::run(&REFERENCE)?.course;
+    let uncertainty = errors(&job::run(&SECOND)?.course, &reference);
+    let folder = tempfile::tempdir()?;
+    let mut programs = ours()?;
+    match &options.python {
+        Some(python) => programs.extend(found(python, folder.path(), &progress)?),
+        None => progress.say("peers skipped: give --peers-python PATH or set FOGCOIL_PEERS_PYTHON"),
+    }
+    for repetition in 0..options.repetitions {
+        let mut kept = Vec::new();
+        for mut program in programs {
+            progress.say(&format!("run {} of {}: {}", repetition + 1, options.repetitions, program.name));
+            match peers::run(&program.path, &program.arguments) {
+                Ok(run) => program.runs.push(run),
+                Err(error) if kept.len() < OURS.len() => return Err(error),
+                Err(error) => {
+                    progress.say(&format!("{} is left out: {error}", program.name));
+                    continue;
+                }
+            }
+            kept.push(program);
+        }
+        programs = kept;
+    }
+    publish("coil", &section(&programs, &reference, uncertainty, options.repetitions))
+}
+
+fn section(programs: &[Program], reference: &[[f64; 5]], uncertainty: Errors, repetitions: usize) -> String {
+    let mut out = String::from(
+        "| program | unknowns, heat + strain | wall s | CPU s | compute s | error of temperatures, K | error of strains | CPU ÷ ours | compute ÷ ours |\n\
+         |---|---|---|---|---|---|---|---|---|\n",
+    );
+    let first = &programs[0];
+    for program in programs {
+        let (printed, e) = (program.printed(), errors(&program.printed().course, reference));
+        let _ = writeln!(
+            out,
+            "| {} | {} + {} | {:.2} | {:.2} | {:.3} | {:.1e} | {:.1e} | {:.1} | {:.1} |",
+            program.name,
+            printed.dof,
+            printed.dof2,
+            program.median(|r| r.wall),
+            program.process(),
+            program.compute(),
+            e.temperature,
+            e.strain,
+            program.process() / first.process(),
+            program.compute() / first.compute()
+        );
+    }
+    let _ = writeln!(
+        out,
+        "\nMedians of {repetitions} interleaved runs. The reference's own error, by distance to a coarser one: {:.1e} K and {:.1e}.",
+        uncertainty.temperature, uncertainty.strain
+    );
+    let own = errors(&first.printed().course, reference);
+    let fastest = |measure: &'static str, of: fn(&Program) -> f64| {
+        let peer = programs[OURS.len()..].iter().min_by(|a, b| of(a).total_cmp(&of(b)))?;
+        Some((measure, peer, of(peer) / of(first)))
+    };
+    let pair = [fastest("compute", Program::compute), fastest("CPU of the process", Program::process)];
+    for (measure, peer, ratio) in pair.into_iter().flatten() {
+        let other = errors(&peer.printed().course, reference);
+        let smaller = own.temperature <= other.temperature && own.strain <= other.strain;
+        let _ = writeln!(
+            out,
+            "\nFastest peer by {measure}: {}. \"{}\" takes 1/{:.1} of it with {} ({:.2e} K against {:.2e} K, {:.2e} against {:.2e}).",
+            peer.name,
+            first.name,
+            ratio,
+            if smaller { "errors no larger" } else { "errors that are NOT both smaller" },
+            own.temperature,
+            other.temperature,
+            own.strain,
+            other.strain
+        );
+    }
+    out
+}
