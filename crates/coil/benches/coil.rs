@@ -1,4 +1,4 @@
-//! Time of the coil's mechanics on the mesh behind a reported sensitivity.
+//! Time of the coil's mechanics: a model for any temperature, and the steady-ramp sensitivity.
 #![allow(missing_docs)]
 
 #[path = "../tests/common/mod.rs"]

@@ -1,6 +1,7 @@
 //! Which tails, or which turns removed at the ends, null the steady sensitivity of a coil, and how surely.
 
-use crate::{COARSE, Design, Error, Model};
+use crate::grid::Grading;
+use crate::{Design, Error, MechanicalState, Model, STEADY};
 use bias::{Sensitivity, Slice};
 use winding::{Half, Tails};
 
@@ -51,7 +52,7 @@ struct Fibre {
 
 impl Fibre {
     fn new(design: &Design) -> Result<Self, Error> {
-        let model = Model::new(design, &COARSE)?;
+        let model = Model::graded(design, &STEADY, Grading::Strain, &MechanicalState::NOMINAL)?;
         let nodes = model.grid().mesh().nodes().len();
         let turns = model.winding().turns();
         let mut slices = model.slices(&vec![1.0; nodes])?;

@@ -1,4 +1,4 @@
-//! Time to assemble, to factorise and to solve a thermo-elastic ring of some 7 000 unknowns.
+//! Time to assemble, to condense, to factorise and to solve a thermo-elastic ring of some 7 000 unknowns.
 
 #![allow(missing_docs, reason = "criterion_group! generates undocumented functions")]
 
@@ -23,6 +23,7 @@ fn ring(criterion: &mut Criterion) {
     let load = vec![vec![1.0; factor.unknowns()]];
     let name = |what: &str| format!("{what} {} unknowns", matrix.rows());
     criterion.bench_function(&name("assemble"), |b| b.iter(|| problem.stiffness(black_box(&map), &laws)));
+    criterion.bench_function(&name("condense, factorise and check"), |b| b.iter(|| problem.condense(black_box(&map), &laws)));
     criterion.bench_function(&name("order"), |b| b.iter(|| SymbolicFactor::new(black_box(&matrix))));
     criterion.bench_function(&name("factorise and check"), |b| b.iter(|| symbolic.factor(black_box(&matrix).clone())));
     criterion.bench_function(&name("solve one load"), |b| b.iter(|| factor.solve(black_box(&load))));

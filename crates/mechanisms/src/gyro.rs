@@ -32,6 +32,7 @@ mod nuisance {
     pub(super) const LINEAR: usize = 5;
     pub(super) const CONDUCTIVITY: usize = 8;
     pub(super) const THERMO_OPTIC: usize = 9;
+    pub(super) const SHUPE: usize = 10;
 }
 
 /// A design's library and the recordings it is compared with.
@@ -228,6 +229,8 @@ fn channels(averaging: f64) -> Vec<Channel> {
 /// What the forward model is off by: discretisation, and a start that was not quite at rest.
 const GAIN_ERROR: f64 = 0.003;
 const AIR_ERROR: f64 = 0.003;
+/// The Shupe part is what differences of temperature within the coil leave: small, and the first to feel a coarse mesh or a coarse record.
+const SHUPE_ERROR: f64 = 0.015;
 const REST_ERROR_K: f64 = 0.015;
 
 fn nuisances() -> Vec<Nuisance> {
@@ -247,6 +250,7 @@ fn nuisances() -> Vec<Nuisance> {
         Nuisance::normal("spool expansion", 1.0, 0.02, Role::Constant),
         spread("conductivity of the surroundings", 0.05),
         Nuisance::normal("dn/dT", 1.0, 0.10, Role::Constant),
+        Nuisance::normal("gain of the Shupe part (model)", 1.0, SHUPE_ERROR, Role::ModelError),
     ]
 }
 
@@ -367,16 +371,13 @@ impl ForwardModel for Gyro {
             let (a, b) = (o.thermo_optic, o.refractive_index * o.thermal_expansion);
             (a * nuisances[nuisance::THERMO_OPTIC] + b) / (a + b)
         };
-        parts[0].iter_mut().for_each(|s| *s *= thermo_optic);
+        let shupe = thermo_optic * nuisances[nuisance::SHUPE];
+        parts[0].iter_mut().for_each(|s| *s *= shupe);
         let rest = nuisances[nuisance::REST];
-        for p in 0..3 {
-            add(&mut parts[p], &record.off_rest.parts[p], rest);
-        }
+        parts.iter_mut().zip(&record.off_rest.parts).for_each(|(part, change)| add(part, change, rest));
         add(&mut sensor, &record.off_rest.sensor, rest);
         for change in &recalibrated {
-            for p in 0..3 {
-                add(&mut parts[p], &change.parts[p], 1.0);
-            }
+            parts.iter_mut().zip(&change.parts).for_each(|(part, change)| add(part, change, 1.0));
             if let Some(s) = &change.sensor {
                 add(&mut sensor, s, 1.0);
             }

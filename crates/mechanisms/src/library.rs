@@ -52,7 +52,7 @@ pub(crate) enum Path {
 /// Contact resistance at which the family's coordinate is one half \[m² K/W\].
 const RESISTANCE: f64 = 2e-3;
 /// Conductance of a mount at which its coordinate is one half [W/(m² K)].
-const CONDUCTANCE: f64 = 4.0;
+const CONDUCTANCE: f64 = 2.0;
 
 impl Path {
     pub(crate) const ALL: [Self; 4] = [Self::HubResistance, Self::Air, Self::Mount, Self::Polymer];
@@ -69,9 +69,9 @@ impl Path {
 
     fn nodes(self) -> Vec<f64> {
         match self {
-            Self::HubResistance => nodes(0.0, 0.85, 6),
+            Self::HubResistance => nodes(0.0, 0.85, 7),
             Self::Air => nodes(-0.9, 0.9, 7),
-            Self::Mount => nodes(0.0, 0.9, 6),
+            Self::Mount => nodes(0.0, 0.9, 9),
             Self::Polymer => nodes(-0.12, 0.12, 5),
         }
     }

@@ -29,35 +29,26 @@ pub(crate) struct Clock {
 const BETWEEN: usize = 4;
 
 impl Clock {
-    /// Between its readings the chamber follows a cubic through them with the slopes of central differences (Catmull and Rom 1974): its
-    /// controller has no corners. A reading after a gap begins `averaging` seconds before its instant; there the course is linear.
+    /// Between its readings the chamber follows a smooth course ([`Profile::smoothed`]): its controller has no corners. A reading after a
+    /// gap begins `averaging` seconds before its instant.
     pub(crate) fn new(time: &[f64], chamber: &[f64], averaging: f64) -> Self {
-        let mut clock = Self { time: Vec::new(), chamber: Vec::new(), rows: Vec::new(), begins: Vec::new() };
-        let gap = |n: usize| averaging > 0.0 && time[n] - time[n - 1] > GAP * averaging;
-        let secant = |n: usize| (chamber[n] - chamber[n - 1]) / (time[n] - time[n - 1]);
-        let slope = |n: usize| match (n > 0, n + 1 < time.len()) {
-            (true, true) if gap(n) => secant(n + 1),
-            (true, true) if gap(n + 1) => secant(n),
-            (true, true) => (chamber[n + 1] - chamber[n - 1]) / (time[n + 1] - time[n - 1]),
-            _ => 0.0,
-        };
+        let (mut t, mut c) = (Vec::with_capacity(time.len()), Vec::with_capacity(time.len()));
+        let (mut rows, mut starts) = (Vec::with_capacity(time.len()), Vec::new());
         for n in 0..time.len() {
             let dt = if n > 0 { time[n] - time[n - 1] } else { 0.0 };
-            if n > 0 && gap(n) {
-                clock.push(time[n] - averaging, chamber[n] - secant(n) * averaging, true);
-            } else if n > 0 {
-                let (a, b) = (slope(n - 1) * dt, slope(n) * dt);
-                for k in 1..BETWEEN {
-                    let s = k as f64 / BETWEEN as f64;
-                    let (s2, s3) = (s * s, s * s * s);
-                    let straight = chamber[n - 1] * (1.0 - 3.0 * s2 + 2.0 * s3) + chamber[n] * (3.0 * s2 - 2.0 * s3);
-                    clock.push(time[n - 1] + s * dt, straight + a * (s - 2.0 * s2 + s3) + b * (s3 - s2), false);
-                }
+            if averaging > 0.0 && dt > GAP * averaging {
+                starts.push(t.len() * BETWEEN);
+                t.push(time[n] - averaging);
+                c.push(chamber[n] - (chamber[n] - chamber[n - 1]) * averaging / dt);
             }
-            clock.rows.push(clock.time.len());
-            clock.push(time[n], chamber[n], false);
+            rows.push(t.len() * BETWEEN);
+            t.push(time[n]);
+            c.push(chamber[n]);
         }
-        clock
+        let Profile { time, mut drives } = Profile { time: t, drives: vec![c] }.smoothed(BETWEEN);
+        let mut begins = vec![false; time.len()];
+        starts.into_iter().for_each(|n| begins[n] = true);
+        Self { time, chamber: drives.swap_remove(0), rows, begins }
     }
 
     /// Means over the reading of each row of something that is a mean since the instant before.
@@ -77,12 +68,6 @@ impl Clock {
             }
         }
         means
-    }
-
-    fn push(&mut self, time: f64, chamber: f64, begins: bool) {
-        self.time.push(time);
-        self.chamber.push(chamber);
-        self.begins.push(begins);
     }
 }
 

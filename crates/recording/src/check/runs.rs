@@ -18,6 +18,8 @@ const SHORTEST: usize = 8;
 const CHANCE: f64 = 1e-6;
 /// Rows on each side of a run that show the noise.
 const BESIDE: usize = 24;
+/// Rows among which they are sought.
+const REACH: usize = 8 * BESIDE;
 /// Minus the median product of neighbouring second differences of white noise of unit variance, by simulation.
 const OPPOSITE: f64 = 1.49;
 /// Noise, in steps, below which equal values say nothing unless a jump ends them.
@@ -100,8 +102,8 @@ fn noise_beside(values: &[f64], used: &[usize], run: Range<usize>) -> f64 {
     };
     // saturation comes and goes at first
     let other = |row: &usize| values[*row] != values[used[run.start]];
-    let after: Vec<usize> = used[run.end..].iter().copied().filter(other).take(BESIDE).collect();
-    let mut before: Vec<usize> = used[..run.start].iter().rev().copied().filter(other).take(BESIDE).collect();
+    let after: Vec<usize> = used[run.end..].iter().take(REACH).copied().filter(other).take(BESIDE).collect();
+    let mut before: Vec<usize> = used[..run.start].iter().rev().take(REACH).copied().filter(other).take(BESIDE).collect();
     before.reverse();
     let sides = [before, after];
     sides.iter().filter(|side| side.len() >= BESIDE / 2).map(|side| of(side)).reduce(f64::min).unwrap_or(0.0)

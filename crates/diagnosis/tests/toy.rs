@@ -1,0 +1,206 @@
+//! A thermometer in a bath, of which the nominal model knows the bath and the gain: the engine must name what is left out, and only then.
+
+use diagnosis::{
+    Active, Channel, Diagnosis, ForwardModel, Mechanism, NoisePrior, Nuisance, Observation, Parameter, Prior, Role, Settings,
+    State, Structure, Verdict, diagnose,
+};
+
+const ROWS: usize = 600;
+const STEP_S: f64 = 30.0;
+
+struct Bath {
+    channels: Vec<Channel>,
+    nuisances: Vec<Nuisance>,
+    mechanisms: Vec<Mechanism>,
+    states: Vec<State>,
+    time: Vec<f64>,
+}
+
+fn mechanism(id: &str, stage: &str, parameters: Vec<Parameter>, start: Vec<f64>) -> Mechanism {
+    let (id, stage) = (id.to_owned(), stage.to_owned());
+    Mechanism { id, stage, parameters, choice: None, starts: vec![start], named: true, weight: 1.0 }
+}
+
+impl Bath {
+    /// Two courses of the bath: one to fit, one to judge.
+    fn new() -> Self {
+        let time: Vec<f64> = (0..ROWS).map(|n| STEP_S * n as f64).collect();
+        let course = |fast: f64| {
+            let level: Vec<f64> = time.iter().map(|t| 20.0 * (t / 2000.0).sin() + 15.0 * (fast * t / 2000.0).sin()).collect();
+            let slope = |t: &f64| (20.0 * (t / 2000.0).cos() + 15.0 * fast * (fast * t / 2000.0).cos()) / 2000.0;
+            State { level, rate: time.iter().map(slope).collect() }
+        };
+        let noise = NoisePrior { white: (0.1, 0.7), drift: (0.03, 0.7), drift_time: (1500.0, 0.5), walk: (1e-5, 1.0) };
+        Self {
+            channels: vec![Channel { name: "y".into(), unit: "1".into(), offset_sd: 1.0, averaging: 0.0, noise }],
+            nuisances: vec![
+                Nuisance::normal("gain", 1.0, 1e-3, Role::ModelError),
+                Nuisance::normal("constant", 1.0, 0.03, Role::Constant),
+            ],
+            mechanisms: vec![
+                mechanism(
+                    "lag",
+                    "sensor",
+                    vec![Parameter::new("lag_s", Prior::LogNormal { median: 60.0, spread: 1.0 })],
+                    vec![60.0],
+                ),
+                mechanism("bend", "optics", vec![Parameter::new("bend", Prior::Normal { mean: 0.0, sd: 2.0 })], vec![0.0]),
+            ],
+            states: vec![course(2.7), course(1.9)],
+            time,
+        }
+    }
+
+    fn truth(&self, record: usize, mechanism: Option<(usize, f64)>) -> Vec<f64> {
+        let active: Vec<Active> =
+            mechanism.map(|(mechanism, value)| Active { mechanism, values: vec![value], choice: None }).into_iter().collect();
+        self.respond(record, &[1.0, 1.0], &active).expect("a response").remove(0)
+    }
+}
+
+impl ForwardModel for Bath {
+    type Error = std::convert::Infallible;
+
+    fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    fn nuisances(&self) -> &[Nuisance] {
+        &self.nuisances
+    }
+
+    fn mechanisms(&self) -> &[Mechanism] {
+        &self.mechanisms
+    }
+
+    fn respond(&self, record: usize, nuisances: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
+        let State { level, rate } = &self.states[record];
+        let mut y: Vec<f64> = rate.iter().map(|r| 100.0 * nuisances[0] * nuisances[1] * r).collect();
+        for active in active {
+            match active.mechanism {
+                0 => {
+                    let mut x = y[0];
+                    for y in &mut y {
+                        x += (*y - x) * -(-STEP_S / active.values[0].max(1e-6)).exp_m1();
+                        *y = x;
+                    }
+                }
+                _ => y.iter_mut().zip(level).zip(rate).for_each(|((y, l), r)| *y += active.values[0] * l * r),
+            }
+        }
+        Ok(vec![y])
+    }
+
+    fn state(&self, record: usize) -> &State {
+        &self.states[record]
+    }
+}
+
+/// White noise of 0.1 and a drift of 0.03 over 1500 s.
+fn noise(seed: u64) -> Vec<f64> {
+    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
+    let mut uniform = move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut normal = move || (-2.0 * uniform().max(1e-300).ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos();
+    let keep = (-STEP_S / 1500.0_f64).exp();
+    let mut drift = 0.03 * normal();
+    (0..ROWS)
+        .map(|_| {
+            drift = keep * drift + 0.03 * (1.0 - keep * keep).sqrt() * normal();
+            drift + 0.1 * normal()
+        })
+        .collect()
+}
+
+fn observed(bath: &Bath, y: &[f64], seed: u64) -> Observation {
+    let y = y.iter().zip(noise(seed)).map(|(y, n)| y + n + 0.4).collect();
+    Observation { time: bath.time.clone(), channels: vec![y] }
+}
+
+fn run(bath: &Bath, y: &[f64], seed: u64) -> Diagnosis {
+    diagnose(bath, &[0], &[observed(bath, y, seed)], &Settings::default(), &|_| ()).expect("a diagnosis")
+}
+
+#[test]
+fn nothing_is_found_in_noise() {
+    let bath = Bath::new();
+    let y = bath.truth(0, None);
+    let raised = (1..=30).filter(|seed| run(&bath, &y, *seed).verdict != Verdict::None).count();
+    // at one false alarm in a hundred, two of thirty would be rarer than one in twenty
+    assert!(raised <= 1, "{raised} false alarms in 30");
+}
+
+#[test]
+fn what_is_concealed_is_named_its_parameter_covered_and_the_held_out_record_predicted() {
+    let bath = Bath::new();
+    for (concealed, value) in [(0, 45.0), (1, 1.5)] {
+        let y = bath.truth(0, Some((concealed, value)));
+        let mut covered = 0;
+        for seed in 101..=120 {
+            let diagnosis = run(&bath, &y, seed);
+            assert_eq!(diagnosis.verdict, Verdict::Explained, "mechanism {concealed}, seed {seed}");
+            assert_eq!(diagnosis.mechanisms[0].0, concealed);
+            assert!(diagnosis.set.contains(&concealed));
+            let [low, high] = diagnosis.parameters[0][0].ci90;
+            covered += usize::from((low..=high).contains(&value));
+            let judge = &diagnosis.best().fit;
+            let record = observed(&bath, &bath.truth(1, Some((concealed, value))), seed + 1000);
+            let model = judge.hold_out(&bath, 1, &record, judge).expect("held out");
+            let nominal = diagnosis.nominal.hold_out(&bath, 1, &record, judge).expect("held out");
+            assert!(model.rmse[0] < nominal.rmse[0] && model.rmse[0] < 1.2 * model.noise_floor[0], "{model:?}");
+            assert!(model.log_score > nominal.log_score);
+        }
+        // 90 % of 20 are 18; 14 or fewer would be rarer than one in twenty
+        assert!(covered >= 15, "mechanism {concealed}: {covered} of 20 intervals hold the truth");
+    }
+}
+
+#[test]
+fn a_changed_constant_is_recalibrated() {
+    let bath = Bath::new();
+    let y = bath.respond(0, &[1.0, 1.06], &[]).expect("a response").remove(0);
+    let diagnosis = run(&bath, &y, 7);
+    assert_eq!(diagnosis.verdict, Verdict::Recalibrate);
+}
+
+#[test]
+fn a_ripple_that_no_mechanism_makes_is_unknown_and_described() {
+    let bath = Bath::new();
+    let level = &bath.states[0].level;
+    let y: Vec<f64> = bath.truth(0, None).iter().zip(level).map(|(y, l)| y + 0.15 * (l / 1.1).sin()).collect();
+    let diagnosis = run(&bath, &y, 11);
+    assert_eq!(diagnosis.verdict, Verdict::Unknown);
+    let rival = diagnosis.best().rival.as_ref().expect("a structure");
+    assert_eq!(rival.structure, Structure::PeriodicInLevel);
+    let period = rival.at.expect("a period");
+    assert!((period / (std::f64::consts::TAU * 1.1) - 1.0).abs() < 0.1, "period {period}");
+}
+
+#[test]
+fn a_mismatch_is_located_over_the_state_and_in_time() {
+    let bath = Bath::new();
+    // something that acts only where it is warm, and only for an hour
+    let hour = 7200.0..10800.0;
+    let level = &bath.states[0].level;
+    let extra = |n: usize| {
+        let t = bath.time[n];
+        let warm = if level[n] > 20.0 { 0.5 } else { 0.0 };
+        warm + if hour.contains(&t) { 0.6 * (std::f64::consts::TAU * t / 100.0).sin() } else { 0.0 }
+    };
+    let y: Vec<f64> = bath.truth(0, None).iter().enumerate().map(|(n, y)| y + extra(n)).collect();
+    let record = observed(&bath, &y, 13);
+    let diagnosis = diagnose(&bath, &[0], std::slice::from_ref(&record), &Settings::default(), &|_| ()).expect("a diagnosis");
+    // the noise is that of a record without it
+    let clean = run(&bath, &bath.truth(0, None), 14);
+    let judge = &clean.best().fit;
+    let cells = diagnosis.nominal.over_state(&bath, (0, 0), 0, &record, judge);
+    let found: Vec<_> = cells.iter().filter(|c| c.significant).collect();
+    assert!(!found.is_empty() && found.iter().filter(|c| c.level[1] > 17.0).count() * 2 > found.len(), "{found:?}");
+    let blocks = diagnosis.nominal.in_time(0, 0, &record, judge);
+    let most = blocks.iter().max_by(|a, b| a.excess.total_cmp(&b.excess)).expect("blocks");
+    assert!(most.significant && most.time[1] > hour.start && most.time[0] < hour.end, "{blocks:?}");
+}
