@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
+use fogcoil::input::Between;
 
 use crate::cli_check::Check;
 
@@ -72,6 +73,9 @@ pub(crate) struct Simulate {
     /// Profile: time_s,chamber_c and, where wanted, left_c, right_c, mount_left_c, mount_right_c
     #[arg(long, value_name = "P.csv", required_unless_present = "spool")]
     pub(crate) profile: Option<PathBuf>,
+    /// How the temperatures run between the profile's rows
+    #[arg(long, value_enum, default_value_t = Between::Linear, conflicts_with = "spool")]
+    pub(crate) between: Between,
     /// In place of a profile: a record time_s,spool_c of the spool's thermometer, from rest, to infer the chamber from
     #[arg(long, value_name = "RECORD.csv", conflicts_with = "profile")]
     pub(crate) spool: Option<PathBuf>,

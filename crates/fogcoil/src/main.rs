@@ -88,7 +88,7 @@ fn read_coil(path: &Path) -> Result<input::CoilCase, Error> {
 }
 
 fn run_simulate(arguments: &Simulate) -> Result<(), Error> {
-    let Simulate { coil, profile, spool, spool_noise, out, report, json, quiet, no_cache } = arguments;
+    let Simulate { coil, profile, between, spool, spool_noise, out, report, json, quiet, no_cache } = arguments;
     let inputs: Vec<&Path> = [Some(coil), profile.as_ref(), spool.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
     output::check_distinct(&inputs, &[Some(out), report.as_deref()])?;
     let progress = if *quiet { Progress::Silent } else { Progress::OnStandardError };
@@ -109,8 +109,9 @@ fn run_simulate(arguments: &Simulate) -> Result<(), Error> {
             (model, profile)
         }
         (Some(profile), None) => {
-            let profile =
+            let mut profile =
                 progress.during(&format!("reading {}", profile.display()), || input::read_profile(profile, &case.design))?;
+            profile.between = *between;
             (model(&profile.drives)?, profile)
         }
         (None, None) => return Err(Error::Usage("give a profile (--profile) or a thermometer's record (--spool)".into())),

@@ -1,10 +1,12 @@
 //! `fogcoil simulate`: a profile in, thermometer and bias out.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 
+use bias::Bias;
 use bias::units::{DEG_PER_H_PER_RAD_PER_S, K_PER_MIN_PER_K_PER_S};
 use coil::{
-    COARSE, Drive, Dynamics, FINE, Profile, ReductionError, Response, STANDARD, SteadySensitivity, TurnFields,
+    CHECKS, Drive, Dynamics, Profile, ReductionError, Response, STANDARD, STEADY, SteadySensitivity, TurnFields,
     chamber_from_sensor,
 };
 use serde::Serialize;
@@ -12,7 +14,7 @@ use serde::de::DeserializeOwned;
 
 use crate::Error;
 use crate::cache::{Cache, Source};
-use crate::input::{CoilCase, Inference, ProfileCase, SpoolCase};
+use crate::input::{Between, CoilCase, Inference, ProfileCase, SpoolCase};
 
 /// Columns of the result.
 pub const HEADER: &str = "time_s,chamber_c,spool_c,shupe_deg_per_h,eo_axial_deg_per_h,eo_radial_deg_per_h,rate_deg_per_h";
@@ -133,7 +135,14 @@ pub fn infer(record: SpoolCase, noise: f64, model: &Model) -> Result<ProfileCase
     };
     let course = |drive: &Drive| if *drive == Drive::Heaters { vec![1.0; time.len()] } else { inferred.chamber.clone() };
     let courses = drives.iter().map(course).collect();
-    Ok(ProfileCase { drives, profile: Profile { time, drives: courses }, inferred: Some(inference), notes, fingerprint })
+    Ok(ProfileCase {
+        drives,
+        profile: Profile { time, drives: courses },
+        inferred: Some(inference),
+        notes,
+        fingerprint,
+        between: Between::Linear,
+    })
 }
 
 /// As [`model`], with temperature and strain of every turn for [`crate::figures`]; those take 1 kB a turn and drive.
@@ -158,7 +167,7 @@ fn load_or_build<T: Serialize + DeserializeOwned>(
 }
 
 fn assembled(case: &CoilCase, cache: &Cache, dynamics: Dynamics, source: Source) -> Result<Model, Error> {
-    let key = (&case.design, COARSE, FINE);
+    let key = (&case.design, STEADY, CHECKS);
     let (steady, of_steady) = cache.load_or_build("steady sensitivity", &key, || case.steady_sensitivity())?;
     Ok(Model { dynamics, steady, source: if of_steady == source { source } else { Source::Built } })
 }
@@ -170,8 +179,10 @@ fn assembled(case: &CoilCase, cache: &Cache, dynamics: Dynamics, source: Source)
 pub fn simulate<'a>(case: &'a CoilCase, profile: &'a ProfileCase, model: &Model) -> Result<Simulation<'a>, Error> {
     let file = || profile.fingerprint.file.clone();
     let mut samples = Vec::new();
-    let responses = model.dynamics.simulate_with(&profile.profile, |n, u, q| sample(&mut samples, model, profile, (n, u, q)));
-    let responses = responses.map_err(|source| Error::Coil { file: file(), source })?;
+    let parts = profile.between.parts();
+    let course = if parts == 1 { Cow::Borrowed(&profile.profile) } else { Cow::Owned(profile.profile.smoothed(parts)) };
+    let responses = model.dynamics.simulate_with(&course, |n, u, q| sample(&mut samples, model, &course, (n, u, q)));
+    let responses = by_row(responses.map_err(|source| Error::Coil { file: file(), source })?, parts);
     if let Some(row) = responses.iter().position(|r| !(r.sensor.is_finite() && r.rate().is_finite())) {
         return Err(Error::NotFinite { file: file(), time: profile.profile.time[row] });
     }
@@ -179,9 +190,23 @@ pub fn simulate<'a>(case: &'a CoilCase, profile: &'a ProfileCase, model: &Model)
     Ok(Simulation { case, profile, steady: model.steady, reduction, modes, source: model.source, responses, samples })
 }
 
+/// Responses at the rows of a course that was divided into `parts` between each two: the means of a row are those of its parts.
+fn by_row(responses: Vec<Response>, parts: usize) -> Vec<Response> {
+    if parts == 1 {
+        return responses;
+    }
+    let mean = |part: &[Response]| {
+        let share = 1.0 / part.len() as f64;
+        let bias = part.iter().fold(Bias::ZERO, |sum, r| sum + r.bias) * share;
+        let read_out = part.iter().map(|r| r.read_out).sum::<f64>() * share;
+        Response { bias, read_out, ..part[part.len() - 1] }
+    };
+    responses[..1].iter().copied().chain(responses[1..].chunks(parts).map(mean)).collect()
+}
+
 /// Adds the samples between row n and the next, from the state at row n.
-fn sample(samples: &mut Vec<Sample>, model: &Model, profile: &ProfileCase, (n, u, q): (usize, &[f64], &[f64])) {
-    let (time, reduced) = (&profile.profile.time, model.dynamics.reduced());
+fn sample(samples: &mut Vec<Sample>, model: &Model, course: &Profile, (n, u, q): (usize, &[f64], &[f64])) {
+    let (time, reduced) = (&course.time, model.dynamics.reduced());
     let [Some(next), Some(last)] = [time.get(n + 1), time.last()] else { return };
     loop {
         let at = time[0] + (last - time[0]) * (samples.len() as f64 + 0.5) / SAMPLES as f64;
@@ -190,7 +215,7 @@ fn sample(samples: &mut Vec<Sample>, model: &Model, profile: &ProfileCase, (n, u
         }
         // a sample that rounding puts before its row is taken at the row
         let since = (at - time[n]).max(0.0);
-        let slope: Vec<f64> = profile.profile.drives.iter().map(|d| (d[n + 1] - d[n]) / (next - time[n])).collect();
+        let slope: Vec<f64> = course.drives.iter().map(|d| (d[n + 1] - d[n]) / (next - time[n])).collect();
         let mut q = q.to_vec();
         reduced.advance(&mut q, &slope, &reduced.interval(since));
         let u = u.iter().zip(&slope).map(|(u, s)| u + s * since).collect();

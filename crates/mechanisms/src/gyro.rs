@@ -228,7 +228,7 @@ fn channels(averaging: f64) -> Vec<Channel> {
 
 /// What the forward model is off by: discretisation, and a start that was not quite at rest.
 const GAIN_ERROR: f64 = 0.003;
-const AIR_ERROR: f64 = 0.003;
+const AIR_ERROR: f64 = 0.001;
 /// The Shupe part is what differences of temperature within the coil leave: small, and the first to feel a coarse mesh or a coarse record.
 const SHUPE_ERROR: f64 = 0.015;
 const REST_ERROR_K: f64 = 0.015;

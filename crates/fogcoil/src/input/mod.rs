@@ -29,7 +29,7 @@ pub use coil::{CoilCase, Origin, PRINTED, Provenance, read_coil};
 pub use error::InputError;
 pub use fingerprint::Fingerprint;
 pub use meta::{Meta, TemperatureSensor};
-pub use profile::{Inference, ProfileCase, read_profile};
+pub use profile::{Between, Inference, ProfileCase, read_profile};
 pub use record::{CHAMBER, RATE, RecordCase, SPOOL, read_record};
 pub use record_format::{Key, RecordOptions};
 pub use spool::{SpoolCase, read_spool};

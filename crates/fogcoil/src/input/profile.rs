@@ -24,6 +24,26 @@ const SHORTEST_S: f64 = 1e-6;
 /// Rows closer than this \[s\] are noted: the model's fastest modes last about as long, and what a jump does within it is not resolved.
 const RESOLVED_S: f64 = 1.0;
 
+/// How a profile's drives run between its rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
+pub enum Between {
+    /// Straight: what a programme says.
+    #[default]
+    Linear,
+    /// On a smooth cubic through the rows: what a chamber that was recorded does.
+    Cubic,
+}
+
+impl Between {
+    /// Parts into which an interval is divided.
+    pub(crate) fn parts(self) -> usize {
+        match self {
+            Self::Linear => 1,
+            Self::Cubic => 6,
+        }
+    }
+}
+
 /// A profile that has been read and checked.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProfileCase {
@@ -37,6 +57,8 @@ pub struct ProfileCase {
     pub notes: Vec<String>,
     /// The file.
     pub fingerprint: Fingerprint,
+    /// How the drives run between its rows.
+    pub between: Between,
 }
 
 /// How well a thermometer's record determines the chamber's course.
@@ -89,7 +111,14 @@ pub fn read_profile(path: &Path, design: &Design) -> Result<ProfileCase, InputEr
         let problem = format!("chamber_c never falls below {KELVIN_C} degC; if it is in kelvin, subtract 273.15");
         notes.push(format!("{}: {problem}", path.display()));
     }
-    Ok(ProfileCase { drives, profile: Profile { time, drives: courses }, inferred: None, notes, fingerprint: rows.fingerprint() })
+    Ok(ProfileCase {
+        drives,
+        profile: Profile { time, drives: courses },
+        inferred: None,
+        notes,
+        fingerprint: rows.fingerprint(),
+        between: Between::Linear,
+    })
 }
 
 fn read_rows(rows: &mut Rows, columns: &Columns) -> Result<(Vec<f64>, Vec<Vec<f64>>), InputError> {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use coil::{COARSE, Drive, FINE, Side};
+use coil::{CHECKS, Drive, STEADY, Side};
 
 use crate::picture::escape;
 use crate::sensitivity::origin;
@@ -102,7 +102,10 @@ pub(super) fn computation(out: &mut String, simulation: &Simulation) {
                 simulation.reduction.bias, simulation.reduction.sensor
             ),
         ),
-        row("steady-ramp sensitivity", format!("mesh: {}; its error from {}", mesh(COARSE), mesh(FINE))),
+        row(
+            "steady-ramp sensitivity",
+            format!("mesh: {}; its error from orders {} and {} on it", mesh(STEADY), CHECKS[0].order, CHECKS[1].order),
+        ),
     ]);
     if let Some(inference) = simulation.profile.inferred {
         let [median, largest] = inference.chamber_sd;
