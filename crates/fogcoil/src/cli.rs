@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 use fogcoil::input::Between;
 
-use crate::cli_check::Check;
+use crate::cli_check::{Check, Format};
 
 /// Thermal bias of fibre-optic-gyroscope coils.
 #[derive(Parser)]
@@ -61,8 +61,40 @@ pub(crate) enum Command {
     },
     /// Thermometer and bias in time under a profile of the chamber's temperature, or from a thermometer's record
     Simulate(Simulate),
+    /// What differs between a unit's recording and its design, and what most likely causes it
+    Diagnose(Diagnose),
     /// Is a recording usable? Gaps, units, outliers, noise, Allan deviation
     Check(Check),
+}
+
+#[derive(Args)]
+pub(crate) struct Diagnose {
+    /// Case file of the coil
+    #[arg(value_name = "COIL.ron")]
+    pub(crate) coil: PathBuf,
+    /// Record to find and fit with; may be given more than once, for one unit
+    #[arg(long = "fit", value_name = "A.csv", required = true)]
+    pub(crate) fits: Vec<PathBuf>,
+    /// Record of the same unit to judge on
+    #[arg(long = "holdout", value_name = "B.csv")]
+    pub(crate) holdouts: Vec<PathBuf>,
+    /// Write one JSON object here; without a file, print it alone
+    #[arg(long, value_name = "J", num_args = 0..=1)]
+    pub(crate) json: Option<Option<PathBuf>>,
+    /// Write the prediction of the first held-out record here
+    #[arg(long, value_name = "P.csv", requires = "holdouts")]
+    pub(crate) prediction: Option<PathBuf>,
+    /// What is known of the records besides their columns [default: meta.ron beside each, if it is there]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) meta: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) format: Format,
+    /// No notes and no progress on standard error
+    #[arg(long)]
+    pub(crate) quiet: bool,
+    /// Build the models anew and do not keep them
+    #[arg(long)]
+    pub(crate) no_cache: bool,
 }
 
 #[derive(Args)]

@@ -41,6 +41,9 @@ pub enum Error {
         /// What went wrong.
         source: coil::Error,
     },
+    /// A diagnosis failed.
+    #[error("the diagnosis failed: {0}")]
+    Diagnosis(String),
     /// A simulation gave no number.
     #[error("{}: the response at {time} s is not a finite number; this is the program's fault, please report it", file.display())]
     NotFinite {
@@ -58,7 +61,7 @@ impl Error {
         match self {
             Self::Input(_) | Self::Usage(_) | Self::Output { .. } => 2,
             Self::Coil { source: Design { .. } | Profile { .. } | Record(_) | Winding(_) | Bias(_), .. } => 2,
-            Self::Stdout(_) | Self::Homogenization { .. } | Self::Coil { .. } | Self::NotFinite { .. } => 1,
+            Self::Stdout(_) | Self::Diagnosis(_) | Self::Homogenization { .. } | Self::Coil { .. } | Self::NotFinite { .. } => 1,
         }
     }
 }

@@ -6,6 +6,7 @@
 //! - [`homogenize`], [`wind`], [`sensitivity`] render what the physics crates compute: as text for people and as JSON, CSV or SVG.
 //! - [`cache`] keeps models that take long to build.
 //! - [`check`] judges a recording and identifies its noise.
+//! - [`diagnose`] compares recordings with a design and names what the design leaves out.
 //! - [`output`] writes a file whole or not at all.
 //!
 //! The functions neither print nor parse arguments; `main.rs` does.
@@ -25,6 +26,7 @@
 
 pub mod cache;
 pub mod check;
+pub mod diagnose;
 mod error;
 pub mod figures;
 pub mod homogenize;

@@ -9,12 +9,14 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
-use cli::{Cli, Command, Simulate};
+use cli::{Cli, Command, Diagnose, Simulate};
 use cli_check::Check;
 use coil::Drive;
 use fogcoil::cache::Cache;
 use fogcoil::output::Content;
-use fogcoil::{Error, check, figures, homogenize, input, output, picture, report, sensitivity, simulate, summary, trim, wind};
+use fogcoil::{
+    Error, check, diagnose, figures, homogenize, input, output, picture, report, sensitivity, simulate, summary, trim, wind,
+};
 use progress::Progress;
 
 fn main() -> ExitCode {
@@ -36,6 +38,7 @@ fn run(command: &Command) -> Result<(), Error> {
             output::print(&if *json { line(&homogenize::json(&result)) } else { homogenize::text(&case, &result) })
         }
         Command::Check(arguments) => run_check(arguments),
+        Command::Diagnose(arguments) => run_diagnose(arguments),
         Command::Simulate(arguments) => run_simulate(arguments),
         Command::Trim { coil, profile, json } => run_trim(coil, profile.as_deref(), *json),
         Command::Wind { coil, csv, svg } => run_wind(coil, csv.as_deref(), svg.as_deref()),
@@ -56,6 +59,28 @@ fn run_wind(coil: &Path, csv: Option<&Path>, svg: Option<&Path>) -> Result<(), E
         (None, None) => output::print(&wind::text(&case)),
         (csv, svg) => output::write_files(&csv.into_iter().chain(svg).collect::<Vec<_>>()),
     }
+}
+
+fn run_diagnose(arguments: &Diagnose) -> Result<(), Error> {
+    let Diagnose { coil, fits, holdouts, json, prediction, meta, format, quiet, no_cache } = arguments;
+    let inputs: Vec<&Path> = [coil].into_iter().chain(fits).chain(holdouts).map(PathBuf::as_path).collect();
+    let json_file = json.as_ref().and_then(Option::as_deref);
+    output::check_distinct(&inputs, &[json_file, prediction.as_deref()])?;
+    let progress = if *quiet { Progress::Silent } else { Progress::OnStandardError };
+    let case = if *quiet { input::read_coil(coil)? } else { read_coil(coil)? };
+    diagnose::check_design(&case, coil)?;
+    let options = format.options(meta.clone());
+    let read = |paths: &[PathBuf]| paths.iter().map(|path| input::read_record(path, &options)).collect::<Result<Vec<_>, _>>();
+    let (fits, holdouts) = progress.during("reading the records", || Ok::<_, Error>((read(fits)?, read(holdouts)?)))?;
+    let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
+    let outcome = diagnose::diagnose(&case, &fits, &holdouts, &cache, &|task| progress.note(task))?;
+    outcome.notes().iter().for_each(|note| progress.note(note));
+    let object = line(&outcome.json());
+    let mut files = Vec::new();
+    files.extend(json_file.map(|path| (path, Content::Text(object.clone()))));
+    files.extend(prediction.as_deref().zip(outcome.prediction()).map(|(path, text)| (path, Content::Text(text))));
+    output::write_files(&files)?;
+    output::print(&if *json == Some(None) { object } else { outcome.text() })
 }
 
 fn run_check(arguments: &Check) -> Result<(), Error> {

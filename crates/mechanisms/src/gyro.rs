@@ -35,6 +35,19 @@ mod nuisance {
     pub(super) const SHUPE: usize = 10;
 }
 
+/// Where a mechanism acts; `None` where the question makes no sense.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Located {
+    /// Part of the chain.
+    pub stage: String,
+    /// Temperatures of the coil \[°C\].
+    pub temperature: Option<[f64; 2]>,
+    /// Instants \[s\].
+    pub time: Option<[f64; 2]>,
+    /// Layers, 1 = innermost.
+    pub layers: Option<[usize; 2]>,
+}
+
 /// A design's library and the recordings it is compared with.
 pub struct Gyro {
     library: Library,
@@ -80,6 +93,20 @@ impl Gyro {
     /// Number of a mechanism by its id.
     pub fn find(&self, id: &str) -> Option<usize> {
         self.mechanisms.iter().position(|m| m.id == id)
+    }
+
+    /// Where a mechanism acts.
+    pub fn located(&self, active: &Active) -> Located {
+        let v = &active.values;
+        let none =
+            Located { stage: self.mechanisms[active.mechanism].stage.clone(), temperature: None, time: None, layers: None };
+        match self.laws[active.mechanism] {
+            // nearly nine tenths of a logistic step lie within two widths
+            Law::GlassTransition => Located { temperature: Some([v[0] - 2.0 * v[1], v[0] + 2.0 * v[1]]), ..none },
+            Law::Debond => Located { temperature: Some([v[0], v[0] + v[1]]), ..none },
+            Law::Defect => Located { layers: active.choice.map(|layer| [layer as usize; 2]), ..none },
+            _ => none,
+        }
     }
 
     /// Parts with tails or a layer's turns changed; the nominal functionals are subtracted.

@@ -14,6 +14,6 @@ pub use change::{
     POLYMER_FRACTION, with_air, with_glass_transition, with_heater, with_hub_resistance, with_mount, with_opening, with_polymer,
     with_relaxation, with_tail,
 };
-pub use gyro::{Gyro, RATE, REFERENCE_C, SPOOL};
+pub use gyro::{Gyro, Located, RATE, REFERENCE_C, SPOOL};
 pub use library::Library;
 pub use record::Prepared;
