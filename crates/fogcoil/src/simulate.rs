@@ -14,7 +14,7 @@ use serde::de::DeserializeOwned;
 
 use crate::Error;
 use crate::cache::{Cache, Source};
-use crate::input::{Between, CoilCase, Inference, ProfileCase, SpoolCase};
+use crate::input::{Between, CoilCase, Inference, InputError, ProfileCase, SpoolCase};
 
 /// Columns of the result.
 pub const HEADER: &str = "time_s,chamber_c,spool_c,shupe_deg_per_h,eo_axial_deg_per_h,eo_radial_deg_per_h,rate_deg_per_h";
@@ -80,7 +80,9 @@ pub struct Row {
     pub eo_axial: f64,
     /// Radial strain \[deg/h\].
     pub eo_radial: f64,
-    /// The sum of the three and of the read-out's drift \[deg/h\].
+    /// The read-out's own drift with temperature \[deg/h\]; not a column of the result.
+    pub read_out: f64,
+    /// The sum of the four \[deg/h\].
     pub rate: f64,
 }
 
@@ -105,6 +107,10 @@ pub fn model(case: &CoilCase, drives: &[Drive], cache: &Cache) -> Result<Model, 
     assembled(case, cache, dynamics, source)
 }
 
+/// Temperatures between which a chamber is believed \[°C\].
+const ABSOLUTE_ZERO_C: f64 = -273.15;
+const HOTTEST_C: f64 = 1000.0;
+
 /// A thermometer that the model follows no better than this, in noises, is noted.
 const UNEXPLAINED: f64 = 2.0;
 
@@ -118,6 +124,13 @@ pub fn infer(record: SpoolCase, noise: f64, model: &Model) -> Result<ProfileCase
     let inferred =
         chamber_from_sensor(&model.dynamics, &time, &spool, noise).map_err(|source| Error::Coil { file: file(), source })?;
     let residual = inferred.sensor_residual_rms;
+    let impossible = |t: &&f64| !(ABSOLUTE_ZERO_C..=HOTTEST_C).contains(*t);
+    if let Some(t) = inferred.chamber.iter().find(impossible) {
+        let problem = format!(
+            "spool_c would need a chamber at {t:.0} degC; the record jumps, is rounded coarsely (--spool-noise), or does not start at rest"
+        );
+        return Err(InputError { file: file(), line: None, field: Some("spool_c".into()), problem, remedy: String::new() }.into());
+    }
     if residual > UNEXPLAINED * noise {
         let problem = format!(
             "the model follows spool_c to {residual:.4} K only, with a noise of {noise} K; the record may not start at rest, the \
@@ -255,6 +268,7 @@ impl Simulation<'_> {
             shupe: bias.shupe,
             eo_axial: bias.eo_axial,
             eo_radial: bias.eo_radial,
+            read_out: response.read_out * DEG_PER_H_PER_RAD_PER_S,
             rate: response.rate() * DEG_PER_H_PER_RAD_PER_S,
         }
     }
@@ -293,7 +307,7 @@ impl Simulation<'_> {
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "{HEADER}")?;
         for row in self.rows() {
-            let Row { time, chamber, spool, shupe, eo_axial, eo_radial, rate } = row;
+            let Row { time, chamber, spool, shupe, eo_axial, eo_radial, rate, .. } = row;
             for (i, value) in [time, chamber, spool, shupe, eo_axial, eo_radial, rate].into_iter().enumerate() {
                 if i > 0 {
                     out.write_all(b",")?;

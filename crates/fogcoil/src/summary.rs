@@ -1,5 +1,6 @@
 //! What a simulation comes down to: peak, root mean square, and the slope on the thermometer's rate beside the steady sensitivity.
 
+use coil::Mechanics;
 use serde_json::{Value, json};
 
 use crate::cache::Source;
@@ -93,6 +94,7 @@ pub fn json(simulation: &Simulation) -> Value {
             "shupe_deg_per_h": peak.shupe,
             "eo_axial_deg_per_h": peak.eo_axial,
             "eo_radial_deg_per_h": peak.eo_radial,
+            "read_out_deg_per_h": peak.read_out,
             "rate_deg_per_h": peak.rate,
         },
         "rms_deg_per_h": rms,
@@ -151,11 +153,19 @@ pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
         entry("  shupe", rate(peak.shupe), "deg/h"),
         entry("  eo_axial", rate(peak.eo_axial), "deg/h"),
         entry("  eo_radial", rate(peak.eo_radial), "deg/h"),
-        entry("  rate", rate(peak.rate), "deg/h, the sum of the three"),
+    ];
+    let drifting = simulation.case.design.drifts.read_out != 0.0;
+    if drifting {
+        all.push(entry("  read-out", rate(peak.read_out), "deg/h"));
+    }
+    let changing = simulation.case.design.mechanics != Mechanics::Elastic;
+    let nominal = if changing { "(deg/h)/(degC/min), of the nominal state" } else { "(deg/h)/(degC/min)" };
+    all.extend([
+        entry("  rate", rate(peak.rate), if drifting { "deg/h, the sum of the four" } else { "deg/h, the sum of the three" }),
         entry("root mean square of the rate", rate(rms), "deg/h, over time"),
         entry(&slope_name, slope.map_or("none".into(), rate), "(deg/h)/(degC/min)"),
-        entry("steady-ramp sensitivity", steady, "(deg/h)/(degC/min)"),
-    ];
+        entry("steady-ramp sensitivity", steady, nominal),
+    ]);
     if let Some(Inference { noise, sensor_residual_rms, chamber_sd: [median, largest], .. }) = simulation.profile.inferred {
         let sd = format!("{} (median), {} (largest)", significant(median, 2), significant(largest, 2));
         all.extend([

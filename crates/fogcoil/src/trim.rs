@@ -35,7 +35,7 @@ pub fn trim(case: &CoilCase, profile: Option<&ProfileCase>) -> Result<Trim, Erro
     let turns = trim_turns(&case.design, MOST_TURNS).map_err(at)?;
     let run = |design: &Design, profile: &ProfileCase| -> Result<[f64; 2], Error> {
         let rows = Dynamics::new(design, &profile.drives, &STANDARD).and_then(|d| d.simulate(&profile.profile)).map_err(at)?;
-        let rates: Vec<f64> = rows.iter().map(|row| row.bias.total() * DEG_PER_H_PER_RAD_PER_S).collect();
+        let rates: Vec<f64> = rows.iter().map(|row| row.rate() * DEG_PER_H_PER_RAD_PER_S).collect();
         let mean_square = rates.iter().map(|r| r * r).sum::<f64>() / rates.len() as f64;
         Ok([mean_square.sqrt(), rates.iter().fold(0.0, |m: f64, r| m.max(r.abs()))])
     };

@@ -228,3 +228,19 @@ fn a_smooth_course_between_rows_agrees_with_its_rows_written_out() {
     assert_eq!((linear.len(), cubic.len()), (61, 61));
     assert!(off(&cubic) < 0.3 * off(&linear), "{} against {}", off(&cubic), off(&linear));
 }
+
+#[test]
+fn the_read_out_s_drift_is_named_and_the_parts_add_up() {
+    let folder = Folder::new();
+    let drifts = "drifts: (read_out_deg_per_h_per_k: 0.01),\n    sensor:";
+    folder.write("coil.ron", change(COIL, "sensor:", drifts));
+    folder.write("p.csv", ramp());
+    let output = folder.run(&["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv", "--json", "--quiet"]);
+    let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let of = |key: &str| json["peak"][key].as_f64().unwrap();
+    let parts = of("shupe_deg_per_h") + of("eo_axial_deg_per_h") + of("eo_radial_deg_per_h");
+    assert!(of("read_out_deg_per_h").abs() > 0.05);
+    assert!((parts + of("read_out_deg_per_h") - of("rate_deg_per_h")).abs() < 1e-12);
+    let text = stdout(&folder.run(&["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv", "--quiet"]));
+    assert!(text.contains("read-out") && text.contains("the sum of the four"), "{text}");
+}

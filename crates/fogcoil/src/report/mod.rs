@@ -83,7 +83,7 @@ fn data(out: &mut String, simulation: &Simulation) {
     }
     out.push_str("</tr>\n</thead>\n<tbody>\n");
     for (_, row) in simulation.rows().enumerate().filter(chosen) {
-        let Row { time, chamber, spool, shupe, eo_axial, eo_radial, rate } = row;
+        let Row { time, chamber, spool, shupe, eo_axial, eo_radial, rate, .. } = row;
         let _ = write!(out, "<tr><td>{time}</td><td>{}</td><td>{}</td>", signed(chamber, 3), signed(spool, 3));
         for part in [shupe, eo_axial, eo_radial, rate] {
             let _ = write!(out, "<td>{}</td>", signed(part, 5));
