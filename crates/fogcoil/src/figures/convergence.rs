@@ -1,4 +1,4 @@
-//! Error of the steady sensitivity against the number of unknowns, beside the program's own estimate.
+//! Error of the steady sensitivity against the number of unknowns, beside an estimate from the next finer mesh.
 
 use coil::{COARSE, Model, Resolution, SAFETY};
 
@@ -48,12 +48,12 @@ pub fn convergence(case: &CoilCase) -> Result<Document, Error> {
         title: "Convergence of the steady sensitivity".into(),
         description:
             "Error of the steady sensitivity against the number of unknowns, both axes logarithmic: the distance to a much \
-                      finer mesh and the program's own estimate, which lies above it."
+                      finer mesh, and twice the distance to the next finer one, which lies above it."
                 .into(),
         caption: format!(
-            "{}: meshes of order {} to {}, with half as many layers towards the coil's edges; order {} is what the program reports. \
-             Reference: order {REFERENCE}, {} layers, {unknowns} unknowns. Estimate: {SAFETY} times the distance to the mesh two orders and \
-             a layer finer.",
+            "{}: meshes of order {} to {}, with half as many layers towards the coil's edges; order {} is that of fields and profiles. \
+             Reference: order {REFERENCE}, {} layers, {unknowns} unknowns. The next finer mesh is two orders and a layer finer. \
+             The program reports the sensitivity from another mesh, of order 7, and estimates its error from lower orders.",
             case.name,
             ORDERS.start(),
             ORDERS.end(),
@@ -67,7 +67,7 @@ pub fn convergence(case: &CoilCase) -> Result<Document, Error> {
             y: Axis::logarithmic("error of the steady sensitivity [(°/h)/(°C/min)]"),
             height: Height::Lines(24.0),
             content: Content::Lines(vec![
-                series("the program's estimate", 1, |(_, s, finer), _| SAFETY * (s - finer).abs()),
+                series("twice the distance to the next finer mesh", 1, |(_, s, finer), _| SAFETY * (s - finer).abs()),
                 series(&truth, 0, |(_, s, _), exact| (s - exact).abs()),
             ]),
         }],
