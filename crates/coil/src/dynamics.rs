@@ -272,10 +272,9 @@ impl Dynamics {
         visit(0, &u, &q);
         let mut lagging = self.reduced.output(SENSOR, &u, &q);
         // the read-out's temperature is that of the thermometer's place, whatever the thermometer's lag
-        let read_out = |from: f64, to: f64| self.drifts.read_out * ((from + to) / 2.0 - self.drifts.reference);
-        let mut place = lagging;
+        let read_out = |mean: f64| self.drifts.read_out * (mean - self.drifts.reference);
         let coil = self.reduced.output(COIL, &u, &q);
-        let mut rows = vec![Response { sensor: lagging, coil, bias: Bias::ZERO, read_out: read_out(place, place) }];
+        let mut rows = vec![Response { sensor: lagging, coil, bias: Bias::ZERO, read_out: read_out(lagging) }];
         let (mut interval, mut blend) = (self.reduced.interval(0.0), self.blend.clone());
         for n in 1..profile.time.len() {
             let dt = profile.time[n] - profile.time[n - 1];
@@ -290,6 +289,7 @@ impl Dynamics {
             if interval.dt != dt {
                 interval = self.reduced.interval(dt);
             }
+            let place = self.reduced.mean(SENSOR, &u, &q, &slope, dt);
             self.reduced.advance(&mut q, &slope, &interval);
             u = next;
             visit(n, &u, &q);
@@ -301,10 +301,8 @@ impl Dynamics {
                 self.phases(&u, &q).iter().zip(before).map(|(a, b)| [0, 1, 2].map(|p| (a[p] - b[p]) / dt)).collect();
             let [shupe, eo_axial, eo_radial] = blend.rates(&rates, from, coil, dt);
             let curved = self.curvature.as_ref().zip(curved).map_or(0.0, |(c, before)| (c.phase(&u, &q) - before) / dt);
-            let now = self.reduced.output(SENSOR, &u, &q);
             let bias = Bias { shupe: shupe + curved, eo_axial, eo_radial };
-            rows.push(Response { sensor: lagging, coil, bias, read_out: read_out(place, now) });
-            place = now;
+            rows.push(Response { sensor: lagging, coil, bias, read_out: read_out(place) });
         }
         Ok(rows)
     }

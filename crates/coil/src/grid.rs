@@ -330,3 +330,21 @@ impl Grid {
         Ok(mean)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_the_coil_s_mean_is_over_its_volume() {
+        let [a, b] = [0.03, 0.05];
+        let coil = crate::Rectangle { region: Region::Coil, r: [a, b], y: [0.0, 0.02] };
+        let chamber = crate::Rectangle { region: Region::Medium, r: [0.0, 0.06], y: [-0.01, 0.03] };
+        let layout = Layout { solids: vec![coil], chamber, bore: a, lasting_bond: None };
+        let resolution = Resolution { order: 3, layers: 1, ratio: 0.2 };
+        let grid = Grid::new(&layout, &resolution, Domain::Chamber, Bonds::Closed).unwrap();
+        let mean: f64 = grid.coil_mean().unwrap().iter().zip(grid.mesh().nodes()).map(|(m, [r, _])| m * r).sum();
+        let exact = 2.0 / 3.0 * (b.powi(3) - a.powi(3)) / (b * b - a * a);
+        assert!((mean / exact - 1.0).abs() < 1e-12, "{mean} against {exact}");
+    }
+}

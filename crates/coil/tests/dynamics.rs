@@ -45,6 +45,27 @@ fn exact_reduced_model_agrees_with_all_unknowns_on_steps_and_ramps() {
 }
 
 #[test]
+fn bounds_the_stated_reduction_error_covers_the_true_one_and_not_by_much() {
+    let design = reference();
+    let exact = Dynamics::new(&design, &[Drive::Chamber], &QUICK).expect("model");
+    let profile = step_and_ramp(10.0);
+    let truth = exact.simulate(&profile).expect("run");
+    let fastest = profile.time.windows(2).zip(profile.drives[0].windows(2)).map(|(t, u)| ((u[1] - u[0]) / (t[1] - t[0])).abs());
+    let fastest = fastest.fold(0.0, f64::max);
+    let peak = truth.iter().map(|r| r.bias.total().abs()).fold(0.0, f64::max);
+    for modes in [6, 8, 10] {
+        let few = Dynamics::new(&design, &[Drive::Chamber], &coil::Fidelity { modes, ..QUICK }).expect("model");
+        let rows = few.simulate(&profile).expect("run");
+        let most = |f: &dyn Fn(usize) -> f64| (0..rows.len()).map(f).fold(0.0, f64::max);
+        let sensor = most(&|n| (rows[n].sensor - truth[n].sensor).abs()) / fastest;
+        let bias = most(&|n| (rows[n].bias.total() - truth[n].bias.total()).abs()) / peak;
+        let stated = few.reduction_error();
+        assert!(sensor <= stated.sensor && stated.sensor < 1e4 * sensor, "{modes} modes, sensor: {sensor:.1e}, {stated:?}");
+        assert!(bias <= stated.bias && stated.bias < 1e4 * bias, "{modes} modes, bias: {bias:.1e}, {stated:?}");
+    }
+}
+
+#[test]
 fn exact_a_long_ramp_has_the_steady_sensitivity_and_its_lag() {
     let design = reference();
     let dynamics = Dynamics::new(&design, &[Drive::Chamber], &QUICK).expect("model");

@@ -124,3 +124,52 @@ fn exact_fields_are_nominal_whatever_the_states() {
     let (_, found) = Dynamics::with_fields(&table, &[Drive::Chamber], &QUICK).expect("model");
     assert_eq!(found, expected);
 }
+
+#[test]
+fn exact_a_curved_thermo_optic_coefficient_and_a_read_out_act_as_their_definitions_say() {
+    let (reference_c, curvature, per_kelvin) = (12.0, 3e-8, 2e-9);
+    let plain = changed(|d| d.winding.tails = Tails { cw: 0.7, ccw: 0.2 });
+    let drives = [Drive::Chamber, Drive::EndWall(Side::Left)];
+    let (dynamics, fields) = Dynamics::with_fields(&plain, &drives, &QUICK).expect("model");
+    let drifting = |lag: f64| {
+        let mut design = plain.clone();
+        design.sensor.lag = lag;
+        design.drifts = coil::Drifts { reference: reference_c, thermo_optic_curvature: curvature, read_out: per_kelvin };
+        Dynamics::new(&design, &drives, &QUICK).expect("model")
+    };
+    let profile = ramp_and_soak(2);
+    let (states, expected) = course(&dynamics, &profile);
+    let rows = drifting(0.0).simulate(&profile).expect("run");
+    let winding = winding::wind(&plain.winding).expect("winding");
+    // phase Σ n b/(L D) W (T²/2 − T_ref T), tails at the bore's temperature
+    let phase = |(u, q): &(Vec<f64>, Vec<f64>)| {
+        let at = fields.at(u, q);
+        let term = |w: f64, t: f64| w * (t * t / 2.0 - reference_c * t);
+        let turns: f64 = winding.weights().iter().zip(&at.temperature).map(|(w, t)| term(*w, *t)).sum();
+        let (ccw, cw) = winding.tail_spans();
+        let tails: f64 = [ccw, cw].iter().map(|(a, b)| term((b - a) * (winding.length() - a - b), at.bore)).sum();
+        plain.optics.refractive_index * curvature / (winding.length() * plain.optics.sagnac_diameter) * (turns + tails)
+    };
+    let added = |n: usize| (phase(&states[n]) - phase(&states[n - 1])) / (profile.time[n] - profile.time[n - 1]);
+    let peak = (1..rows.len()).map(|n| added(n).abs()).fold(0.0, f64::max);
+    assert!(peak > 1e-3 * expected.iter().map(|b| b.shupe.abs()).fold(0.0, f64::max), "an effect that can be seen");
+    for n in 1..rows.len() {
+        let error = (rows[n].bias.shupe - expected[n].shupe - added(n)).abs();
+        assert!(error < 1e-8 * peak, "{error:.1e} of {peak:.1e} at {} s", profile.time[n]);
+        assert_eq!(rows[n].bias.eo_axial, expected[n].eo_axial);
+    }
+    // the read-out is that of the place, whatever the thermometer's lag, and a mean over the row however long
+    let lagging = drifting(300.0).simulate(&profile).expect("run");
+    assert!(rows.iter().zip(&lagging).all(|(a, b)| a.read_out == b.read_out) && rows[40].sensor != lagging[40].sensor);
+    let long = Profile { time: vec![0.0, 120.0, 1770.0], drives: vec![vec![20.0, 20.0, 29.0], vec![20.0, 20.0, 24.0]] };
+    let fine = Profile {
+        time: (0..=1770).map(f64::from).collect(),
+        drives: [9.0, 4.0]
+            .map(|rise| (0..=1770).map(|t| 20.0 + rise * (f64::from(t) - 120.0).max(0.0) / 1650.0).collect())
+            .to_vec(),
+    };
+    let of = |profile: &Profile| drifting(0.0).simulate(profile).expect("run");
+    let mean = of(&fine)[121..].iter().map(|r| r.read_out).sum::<f64>() / 1650.0;
+    assert!((of(&long)[2].read_out / mean - 1.0).abs() < 1e-9, "{} against {mean}", of(&long)[2].read_out);
+    assert!((of(&fine)[0].read_out / (per_kelvin * (20.0 - reference_c)) - 1.0).abs() < 1e-9);
+}

@@ -213,6 +213,9 @@ mod tests {
             Mesh::new(3, nodes, vec![(0..16).collect()], vec![0]).unwrap()
         };
         assert!(!is_one(&moved(3.0, -1.0), Measure::Area), "turned inside out");
+        let upside_down = mesh(3, 0.0).nodes().iter().map(|[x, y]| [*x, -y]).collect();
+        let upside_down = Mesh::new(3, upside_down, vec![(0..16).collect()], vec![0]).unwrap();
+        assert!(!is_one(&upside_down, Measure::Area), "turned inside out along y");
         assert!(!is_one(&moved(-1.1, 1.0), Measure::Revolution) && is_one(&moved(-1.1, 1.0), Measure::Area), "across the axis");
     }
 }

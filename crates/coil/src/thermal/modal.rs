@@ -50,6 +50,17 @@ impl Reduced {
         }
     }
 
+    /// Mean of output `k` over an interval `dt` \[s\], > 0, over which the drives move linearly from `u` at `slope`: exact.
+    pub fn mean(&self, k: usize, u: &[f64], q: &[f64], slope: &[f64], dt: f64) -> f64 {
+        let output = &self.outputs[k];
+        let of_drives: f64 = output.at_rest.iter().zip(u).zip(slope).map(|((rest, u), s)| rest * (u + s * dt / 2.0)).sum();
+        let of_mode = |i: usize| {
+            let push: f64 = self.drive[i].iter().zip(slope).map(|(d, s)| d * s).sum::<f64>() / self.rates[i];
+            output.modal[i] * ((q[i] + push) * settled(self.rates[i] * dt) - push)
+        };
+        of_drives + (0..self.rates.len()).map(of_mode).sum::<f64>()
+    }
+
     /// A first-order follower of output `k` with time constant `lag` \[s\], > 0, from its value `x` at the start of an interval `dt` over
     /// which the drives move linearly from `u`: exact.
     #[expect(clippy::too_many_arguments, reason = "the state of one interval")]
@@ -96,6 +107,21 @@ mod tests {
         }
         let lag = 4000.0 * 2.0 - r.output(0, &[8000.0], &q);
         assert!((lag - 200.0).abs() < 1e-10 * 200.0);
+    }
+
+    #[test]
+    fn exact_a_mean_over_a_long_interval_is_that_of_short_ones() {
+        let r = one_mode(0.01);
+        let (u, slope, mut q) = ([5.0], [0.3], vec![-2.0]);
+        let long = r.mean(0, &u, &q, &slope, 300.0);
+        let (mut at, mut sum) = (u, 0.0);
+        for _ in 0..3000 {
+            let before = r.output(0, &at, &q);
+            r.advance(&mut q, &slope, &r.interval(0.1));
+            at[0] += 0.1 * slope[0];
+            sum += (before + r.output(0, &at, &q)) / 2.0;
+        }
+        assert!((long - sum / 3000.0).abs() < 1e-7 * long.abs(), "{long} against {}", sum / 3000.0);
     }
 
     #[test]
