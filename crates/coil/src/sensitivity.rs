@@ -16,7 +16,7 @@ pub const STEADY: Resolution = Resolution { order: 7, layers: 2, ratio: 0.15 };
 pub const CHECKS: [Resolution; 2] = [Resolution { order: 4, ..STEADY }, Resolution { order: 5, ..STEADY }];
 /// Share of the distances to the [`CHECKS`], both elasto-optic parts and both meshes together, that is stated as the error. Fitted:
 /// over 204 designs of all kinds the largest error of the total or of a part was 0.31 of the distances, the median 0.04; of 140 others it
-/// covered all but one, which it missed by rounding before [`LEAST`] was added.
+/// covered all but one, which it missed by rounding before a least error was added.
 pub const SHARE: f64 = 0.33;
 /// Least error that is stated, relative to the sum of the parts' magnitudes: rounding, and coils so smooth that the meshes agree.
 const LEAST: f64 = 1e-6;

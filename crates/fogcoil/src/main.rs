@@ -147,7 +147,8 @@ fn run_simulate(arguments: &Simulate) -> Result<(), Error> {
     let rows = |out: &mut dyn Write| simulation.write_csv(out);
     let mut files = vec![(out.as_path(), Content::Written(&rows))];
     if let Some(path) = report {
-        files.push((path, Content::Text(report::html(&simulation, fields.as_ref()))));
+        let measured = progress.during("solving on finer meshes", || figures::Convergence::measure(&case, &cache))?;
+        files.push((path, Content::Text(report::html(&simulation, fields.as_ref(), Some(&measured)))));
     }
     progress.during(&format!("writing {}", out.display()), || output::write_files(&files))?;
     output::print(&if *json { line(&summary::json(&simulation)) } else { summary::text(&simulation) })

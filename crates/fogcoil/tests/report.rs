@@ -58,6 +58,7 @@ fn the_report_is_well_formed_and_needs_nothing_else() {
         "radial-strain-along-fibre",
         "axial-strain-along-fibre",
         "contributions",
+        "convergence",
     ];
     assert_eq!(page.matches("role=\"img\"").count(), 2 * figures.len(), "each for wide and narrow paper");
     for figure in figures {
@@ -106,7 +107,7 @@ fn every_design_has_its_figures() {
         assert_well_formed(&page);
         let numberless = ["NaN", "inf ", "inf<", "inf\"", "infL", "infV", "infH"].into_iter().find(|word| page.contains(word));
         assert_eq!(numberless, None, "{coil}");
-        assert_eq!(page.matches("<figure>").count(), 8);
+        assert_eq!(page.matches("<figure>").count(), 9);
     }
 }
 

@@ -2,8 +2,11 @@
 
 use coil::{COARSE, Model, Resolution, SAFETY};
 
+use serde::{Deserialize, Serialize};
+
 use super::Document;
 use crate::Error;
+use crate::cache::Cache;
 use crate::input::CoilCase;
 use crate::plot::{Axis, Content, Figure, Height, Panel, Series, Style, Thinning};
 
@@ -18,22 +21,49 @@ fn mesh(order: usize) -> Resolution {
 /// What is taken for exact: two orders and a layer beyond the finest mesh behind an estimate.
 const REFERENCE: usize = 12;
 
-/// The convergence of a coil's steady sensitivity; takes half a minute.
+/// How a coil's steady sensitivity converges.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Convergence {
+    /// Unknowns, sensitivity, and sensitivity of the next finer mesh, by order.
+    meshes: Vec<(f64, f64, f64)>,
+    /// Unknowns and sensitivity of the reference.
+    reference: (f64, f64),
+}
+
+impl Convergence {
+    /// Solves on every mesh, about a second, or finds it in `cache`.
+    ///
+    /// # Errors
+    /// [`Error::Coil`] if the coil cannot be solved.
+    pub fn measure(case: &CoilCase, cache: &Cache) -> Result<Self, Error> {
+        let solve = |order: usize| -> Result<(f64, f64), coil::Error> {
+            let model = Model::new(&case.design, &mesh(order))?;
+            Ok((model.unknowns() as f64, model.sensitivity()?.total()))
+        };
+        let build = || -> Result<Self, coil::Error> {
+            let meshes = ORDERS.map(|p| solve(p).and_then(|(n, s)| Ok((n, s, solve(p + 2)?.1)))).collect::<Result<_, _>>()?;
+            Ok(Self { meshes, reference: solve(REFERENCE)? })
+        };
+        let measured = cache.load_or_build("convergence", &case.design, build);
+        measured.map(|(measured, _)| measured).map_err(|source| Error::Coil { file: case.file.clone(), source })
+    }
+}
+
+/// The convergence of a coil's steady sensitivity, as a file.
 ///
 /// # Errors
 /// [`Error::Coil`] if the coil cannot be solved.
 pub fn convergence(case: &CoilCase) -> Result<Document, Error> {
-    let failed = |source| Error::Coil { file: case.file.clone(), source };
-    let solve = |order: usize| {
-        let model = Model::new(&case.design, &mesh(order))?;
-        Ok((model.unknowns() as f64, model.sensitivity()?.total()))
-    };
-    let solved = ORDERS.map(|p| solve(p).and_then(|(n, s)| Ok((n, s, solve(p + 2)?.1)))).collect::<Result<Vec<_>, coil::Error>>();
-    let solved = solved.map_err(failed)?;
-    let (unknowns, exact) = solve(REFERENCE).map_err(failed)?;
+    let measured = Convergence::measure(case, &Cache::NONE)?;
+    let figure = figure(case, &measured);
+    Ok((figure.id, figure.document()))
+}
+
+pub(super) fn figure(case: &CoilCase, measured: &Convergence) -> Figure<'static> {
+    let (unknowns, exact) = measured.reference;
     let floor = f64::EPSILON * exact.abs();
     let series = |name: &str, kind: u8, error: fn(&(f64, f64, f64), f64) -> f64| {
-        let points: Vec<(f64, f64)> = solved.iter().map(|s| (s.0, error(s, exact).max(floor))).collect();
+        let points: Vec<(f64, f64)> = measured.meshes.iter().map(|s| (s.0, error(s, exact).max(floor))).collect();
         Series {
             name: name.to_owned(),
             style: Style::Marked(kind),
@@ -43,7 +73,7 @@ pub fn convergence(case: &CoilCase) -> Result<Document, Error> {
         }
     };
     let truth = format!("distance to order {REFERENCE}; from left to right orders {} to {}", ORDERS.start(), ORDERS.end());
-    let figure = Figure {
+    Figure {
         id: "convergence",
         title: "Convergence of the steady sensitivity".into(),
         description:
@@ -71,6 +101,5 @@ pub fn convergence(case: &CoilCase) -> Result<Document, Error> {
                 series(&truth, 0, |(_, s, _), exact| (s - exact).abs()),
             ]),
         }],
-    };
-    Ok((figure.id, figure.document()))
+    }
 }

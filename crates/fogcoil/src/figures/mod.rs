@@ -15,7 +15,7 @@ use crate::plot::{Figure, Size};
 use crate::simulate::Simulation;
 
 pub use contributions::contributions_in_ramp;
-pub use convergence::convergence;
+pub use convergence::{Convergence, convergence};
 
 /// Most turns of which fields are drawn: twice a 5 km coil of 6 cm diameter; more would take gigabytes.
 pub const MOST_TURNS: usize = 50_000;
@@ -41,7 +41,7 @@ pub fn documents(simulation: &Simulation, fields: Option<&TurnFields>) -> Vec<Do
 }
 
 /// All figures as elements of a page, in wide and narrow.
-pub(crate) fn elements(simulation: &Simulation, fields: Option<&TurnFields>) -> String {
+pub(crate) fn elements(simulation: &Simulation, fields: Option<&TurnFields>, convergence: Option<&Convergence>) -> String {
     let element = |figure: &Figure| {
         format!(
             "<figure>\n<h3>{}</h3>\n{}{}<figcaption>{}</figcaption>\n</figure>\n",
@@ -51,5 +51,6 @@ pub(crate) fn elements(simulation: &Simulation, fields: Option<&TurnFields>) -> 
             crate::picture::escape(&figure.caption)
         )
     };
-    all(simulation, fields).iter().map(element).collect()
+    let last = convergence.map(|measured| convergence::figure(simulation.case, measured));
+    all(simulation, fields).iter().chain(&last).map(element).collect()
 }

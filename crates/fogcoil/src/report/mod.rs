@@ -17,7 +17,7 @@ const STYLE: &str = include_str!("style.css");
 const MOST_ROWS: usize = 60;
 
 /// The page; temperature, strain and contributions of the turns only with `fields`.
-pub fn html(simulation: &Simulation, fields: Option<&TurnFields>) -> String {
+pub fn html(simulation: &Simulation, fields: Option<&TurnFields>, convergence: Option<&figures::Convergence>) -> String {
     let profile = simulation.profile.fingerprint.file.file_name().unwrap_or_default().to_string_lossy();
     let title = escape(&format!("{} under {profile}", simulation.case.name));
     let mut out = format!(
@@ -29,7 +29,7 @@ pub fn html(simulation: &Simulation, fields: Option<&TurnFields>) -> String {
     );
     summary(&mut out, simulation);
     out.push_str("<h2>Figures</h2>\n");
-    out.push_str(&figures::elements(simulation, fields));
+    out.push_str(&figures::elements(simulation, fields, convergence));
     data(&mut out, simulation);
     facts::coil(&mut out, simulation);
     facts::computation(&mut out, simulation);
