@@ -66,7 +66,7 @@ fn what_looks_wrong_in_a_record_is_noted() {
     folder.write("coil.ron", COIL);
     let mut record = "time_s,spool_c\n".to_owned();
     (0..60).filter(|k| !(20..40).contains(k)).for_each(|k| {
-        let _ = writeln!(record, "{},{}", 30 * k, 20.0 + if k % 2 == 0 { 0.5 } else { 0.0 });
+        let _ = writeln!(record, "{},{}", 30 * k, 20.0 + if k % 2 == 0 { 0.15 } else { 0.0 });
     });
     folder.write("r.csv", &record);
     let output = folder.run(&["simulate", "coil.ron", "--spool", "r.csv", "--out", "b.csv"]);
@@ -95,7 +95,9 @@ fn a_record_that_cannot_be_used_is_refused_in_one_message() {
     };
     let rows = |count: usize| (0..count).map(|k| format!("{},20.5\n", 30 * k)).collect::<String>();
     let twelve = rows(12);
+    let jumping: String = (0..60).map(|k| format!("{},{}\n", 30 * k, 20.0 + f64::from(k % 2) * 5.0)).collect();
     let cases = [
+        (format!("time_s,spool_c\n{jumping}"), "r.csv: spool_c: spool_c would need a chamber at "),
         (String::new(), "r.csv: is empty; its first line names the columns, time_s,spool_c"),
         ("time_s,chamber_c\n0,20\n".into(), "r.csv:1: spool_c: the column is missing; a record starts with"),
         ("spool_c\n20\n".into(), "r.csv:1: time_s: the column is missing"),
