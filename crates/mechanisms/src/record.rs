@@ -205,13 +205,16 @@ impl Heating {
 }
 
 impl Prepared {
-    /// Runs every model of `library` under a chamber temperature \[°C\] that is linear between the instants \[s\]. Readings of the
-    /// rate are means over `averaging` seconds, or since the row before where that is nearer.
+    /// Runs every model of `library` under a recorded chamber temperature \[°C\], first freed of its sensor's noise
+    /// ([`recording::smooth`]): passed through the model, that noise would be correlated with every mechanism. Readings of the rate are means
+    /// over `averaging` seconds, or since the row before where that is nearer.
     ///
     /// # Errors
     /// [`Error::Profile`] names the instant that is out of order or not finite.
     pub fn new(library: &Library, time: &[f64], chamber: &[f64], averaging: f64) -> Result<Self, Error> {
-        let clock = Clock::new(time, chamber, averaging);
+        // what is too short or out of order is left to the simulation, which says so
+        let smooth = recording::smooth::smoothed(time, chamber);
+        let clock = Clock::new(time, smooth.as_ref().map_or(chamber, |s| &s.values), averaging);
         let profile = Profile { time: clock.time.clone(), drives: vec![clock.chamber.clone()] };
         let responses = library.nominal.simulate(&profile)?;
         let first = clock.chamber[0];

@@ -38,6 +38,7 @@ pub mod lag;
 pub mod noise;
 mod record;
 mod series;
+pub mod smooth;
 pub mod statistics;
 
 pub use error::Error;

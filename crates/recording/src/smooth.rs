@@ -1,0 +1,261 @@
+//! A measured course without its sensor's noise.
+
+use crate::Error;
+use crate::series::check_series;
+
+/// Degrees of freedom of the disturbances' Student distribution: a programme turns seldom, but then sharply.
+const FREEDOM: f64 = 2.0;
+/// Rounds of reweighting.
+const ROUNDS: usize = 8;
+/// ln of a disturbance's variance over the noise's that is searched, and how closely it is found.
+const RATIOS: (f64, f64) = (-20.0, 20.0);
+const CLOSE: f64 = 0.1;
+/// Variance of an unknown start over the noise's.
+const UNKNOWN: f64 = 1e8;
+/// Fewest rows that can be smoothed.
+pub const FEWEST_ROWS: usize = 8;
+
+type Vector = [f64; 2];
+type Matrix = [[f64; 2]; 2];
+
+/// A course freed of white noise.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Smoothed {
+    /// The course at the instants given.
+    pub values: Vec<f64>,
+    /// Standard deviation of the noise that was taken off \[unit of the values\].
+    pub noise: f64,
+}
+
+/// Frees a series of white noise: its slope wanders, mostly little, at times much.
+///
+/// The slope is a random walk whose steps follow Student's distribution with two degrees of freedom, so that ramps and soaks are smoothed
+/// while the corners between them stay; the sizes of noise and steps are the most likely ones. Kalman's filter and the smoother of Rauch,
+/// Tung and Striebel (1965), reweighted as Lange, Little and Taylor (1989) do. From a series without noise next to nothing is taken.
+///
+/// # Errors
+/// [`Error`] if instants do not increase, a value is not finite, or there are fewer than [`FEWEST_ROWS`].
+pub fn smoothed(time: &[f64], values: &[f64]) -> Result<Smoothed, Error> {
+    let found = check_series(time, &vec![true; time.len()], &[("values", values)])?;
+    if found < FEWEST_ROWS {
+        return Err(Error::TooFew { found, needed: FEWEST_ROWS });
+    }
+    // intervals in units of their mean
+    let unit = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
+    let steps: Vec<f64> = time.windows(2).map(|t| (t[1] - t[0]) / unit).collect();
+    let mut weights = vec![1.0; steps.len()];
+    let mut ratio = most_likely(&steps, values, &weights);
+    for round in 1..ROUNDS {
+        let filter = Filter::new(&steps, values, ratio, &weights);
+        let ((_, squares), variance) = (filter.smooth(), filter.variance().max(f64::MIN_POSITIVE));
+        for (w, square) in weights.iter_mut().zip(&squares) {
+            *w = (FREEDOM + 2.0) / (FREEDOM + square / variance);
+        }
+        if round < 4 {
+            ratio = most_likely(&steps, values, &weights);
+        }
+    }
+    let filter = Filter::new(&steps, values, ratio, &weights);
+    Ok(Smoothed { values: filter.smooth().0, noise: filter.variance().sqrt() })
+}
+
+/// The most likely variance of a step over that of the noise: golden section in its logarithm.
+fn most_likely(steps: &[f64], values: &[f64], weights: &[f64]) -> f64 {
+    let of = |x: f64| Filter::new(steps, values, x.exp(), weights).deviance();
+    let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
+    let (mut a, mut b) = RATIOS;
+    let (mut x, mut y) = (b - golden * (b - a), a + golden * (b - a));
+    let (mut at_x, mut at_y) = (of(x), of(y));
+    while b - a > CLOSE {
+        if at_x < at_y {
+            (b, y, at_y) = (y, x, at_x);
+            x = b - golden * (b - a);
+            at_x = of(x);
+        } else {
+            (a, x, at_x) = (x, y, at_y);
+            y = a + golden * (b - a);
+            at_y = of(y);
+        }
+    }
+    ((a + b) / 2.0).exp()
+}
+
+fn times(a: &Matrix, b: &Matrix) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| a[i][0] * b[0][j] + a[i][1] * b[1][j]))
+}
+
+fn apply(a: &Matrix, x: &Vector) -> Vector {
+    std::array::from_fn(|i| a[i][0] * x[0] + a[i][1] * x[1])
+}
+
+fn transposed(a: &Matrix) -> Matrix {
+    [[a[0][0], a[1][0]], [a[0][1], a[1][1]]]
+}
+
+fn plus(a: &Matrix, b: &Matrix, factor: f64) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + factor * b[i][j]))
+}
+
+fn inverse(a: &Matrix) -> Matrix {
+    let det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+    [[a[1][1] / det, -a[0][1] / det], [-a[1][0] / det, a[0][0] / det]]
+}
+
+fn forward(dt: f64) -> Matrix {
+    [[1.0, dt], [0.0, 1.0]]
+}
+
+/// Covariance of what a random walk of the slope, of unit intensity, adds over an interval.
+fn wander(dt: f64) -> Matrix {
+    [[dt.powi(3) / 3.0, dt * dt / 2.0], [dt * dt / 2.0, dt]]
+}
+
+/// Kalman's filter, variances in units of the noise's.
+struct Filter<'a> {
+    steps: &'a [f64],
+    ratio: f64,
+    weights: &'a [f64],
+    /// mean and covariance after each value
+    states: Vec<(Vector, Matrix)>,
+    squares: f64,
+    log_det: f64,
+    count: usize,
+}
+
+impl<'a> Filter<'a> {
+    fn new(steps: &'a [f64], values: &[f64], ratio: f64, weights: &'a [f64]) -> Self {
+        let mut states = Vec::with_capacity(values.len());
+        let (mut x, mut p): (Vector, Matrix) = ([values[0], 0.0], [[UNKNOWN, 0.0], [0.0, UNKNOWN]]);
+        let (mut squares, mut log_det, mut count) = (0.0, 0.0, 0);
+        for (n, value) in values.iter().enumerate() {
+            if n > 0 {
+                let f = forward(steps[n - 1]);
+                x = apply(&f, &x);
+                p = plus(&times(&times(&f, &p), &transposed(&f)), &wander(steps[n - 1]), ratio / weights[n - 1]);
+            }
+            let (surprise, s) = (value - x[0], p[0][0] + 1.0);
+            // the first two say where it starts
+            if n > 1 {
+                squares += surprise * surprise / s;
+                log_det += s.ln();
+                count += 1;
+            }
+            let gain = [p[0][0] / s, p[1][0] / s];
+            x = [x[0] + gain[0] * surprise, x[1] + gain[1] * surprise];
+            p = std::array::from_fn(|i| std::array::from_fn(|j| p[i][j] - gain[i] * gain[j] * s));
+            states.push((x, p));
+        }
+        Self { steps, ratio, weights, states, squares, log_det, count }
+    }
+
+    /// Most likely variance of the noise.
+    fn variance(&self) -> f64 {
+        self.squares / self.count as f64
+    }
+
+    /// −2 ln of the likelihood, the noise's variance at its most likely value.
+    fn deviance(&self) -> f64 {
+        self.count as f64 * self.variance().max(f64::MIN_POSITIVE).ln() + self.log_det
+    }
+
+    /// The smoothed values, and of every step the expected square of its disturbance over its variance at weight 1, times the noise's
+    /// variance.
+    fn smooth(&self) -> (Vec<f64>, Vec<f64>) {
+        let last = self.states.len() - 1;
+        let mut values = vec![0.0; last + 1];
+        let mut squares = vec![0.0; last];
+        let (mut x, mut p) = self.states[last];
+        values[last] = x[0];
+        for n in (0..last).rev() {
+            let (f, q) = (forward(self.steps[n]), wander(self.steps[n]));
+            let (here, here_p) = &self.states[n];
+            let ahead = apply(&f, here);
+            let ahead_p = plus(&times(&times(&f, here_p), &transposed(&f)), &q, self.ratio / self.weights[n]);
+            let gain = times(&times(here_p, &transposed(&f)), &inverse(&ahead_p));
+            let off = [x[0] - ahead[0], x[1] - ahead[1]];
+            let correction = apply(&gain, &off);
+            let smooth = [here[0] + correction[0], here[1] + correction[1]];
+            let smooth_p = plus(here_p, &times(&times(&gain, &plus(&p, &ahead_p, -1.0)), &transposed(&gain)), 1.0);
+            // the disturbance is x(n+1) − F x(n); x(n) and x(n+1) share the covariance gain · p
+            let shared = times(&f, &times(&gain, &p));
+            let from = apply(&f, &smooth);
+            let d = [x[0] - from[0], x[1] - from[1]];
+            let spread = plus(
+                &plus(&p, &plus(&shared, &transposed(&shared), 1.0), -1.0),
+                &times(&times(&f, &smooth_p), &transposed(&f)),
+                1.0,
+            );
+            let q = inverse(&q);
+            let mean = d[0] * (q[0][0] * d[0] + q[0][1] * d[1]) + d[1] * (q[1][0] * d[0] + q[1][1] * d[1]);
+            let trace = times(&q, &spread);
+            squares[n] = (mean + self.variance() * (trace[0][0] + trace[1][1])).max(0.0) / self.ratio;
+            (x, p) = (smooth, smooth_p);
+            values[n] = x[0];
+        }
+        (values, squares)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ramps of 0.01 K/s and soaks, rounded by a lag of `lag` \[s\].
+    fn programme(lag: f64) -> (Vec<f64>, Vec<f64>) {
+        let time: Vec<f64> = (0..1200).map(|n| 30.0 * f64::from(n)).collect();
+        let target = |t: f64| 0.01 * ((t - 6000.0).clamp(0.0, 6000.0) - (t - 20000.0).clamp(0.0, 8000.0));
+        let mut x = target(0.0);
+        let course = time
+            .iter()
+            .map(|t| {
+                x += (target(*t) - x) * -(-30.0 / lag).exp_m1();
+                20.0 + x
+            })
+            .collect();
+        (time, course)
+    }
+
+    fn noise(n: usize) -> Vec<f64> {
+        let mut state = 7_u64;
+        let mut uniform = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        (0..n).map(|_| (0..12).map(|_| uniform()).sum::<f64>() - 6.0).collect()
+    }
+
+    fn rms(a: &[f64]) -> f64 {
+        (a.iter().map(|x| x * x).sum::<f64>() / a.len() as f64).sqrt()
+    }
+
+    #[test]
+    fn noise_goes_and_corners_stay() {
+        let (time, course) = programme(90.0);
+        let noisy: Vec<f64> = course.iter().zip(noise(course.len())).map(|(c, e)| c + 0.01 * e).collect();
+        let smooth = smoothed(&time, &noisy).unwrap();
+        assert!((smooth.noise / 0.01 - 1.0).abs() < 0.1, "{}", smooth.noise);
+        let off: Vec<f64> = smooth.values.iter().zip(&course).map(|(a, b)| a - b).collect();
+        assert!(rms(&off) < 0.005, "{}", rms(&off));
+        // at the four corners, too
+        for corner in [200, 400, 667, 933] {
+            assert!(off[corner - 8..corner + 12].iter().all(|o| o.abs() < 0.03), "{:?}", &off[corner - 8..corner + 12]);
+        }
+    }
+
+    #[test]
+    fn a_quiet_series_stays() {
+        let (time, course) = programme(200.0);
+        let smooth = smoothed(&time, &course).unwrap();
+        let off = smooth.values.iter().zip(&course).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+        assert!(off < 1e-3, "{off}");
+    }
+
+    #[test]
+    fn what_cannot_be_smoothed_is_refused() {
+        assert!(matches!(smoothed(&[0.0, 1.0, 2.0], &[1.0, 2.0, 3.0]), Err(Error::TooFew { .. })));
+        let time: Vec<f64> = (0..10).map(f64::from).collect();
+        assert!(matches!(smoothed(&time, &[f64::NAN; 10]), Err(Error::Value { .. })));
+        // a constant is kept
+        assert!(smoothed(&time, &[5.0; 10]).unwrap().values.iter().all(|v| (v - 5.0).abs() < 1e-9));
+    }
+}
