@@ -44,9 +44,6 @@ const FACTOR_STEP: f64 = 0.1;
 /// States of a table at most: each is a model.
 const MOST_STATES: usize = 64;
 
-/// Longest part of an interval, in relaxation times, over which a follower's input is taken as constant.
-const FOLLOWER_STEP: f64 = 0.1;
-
 /// Rates of the three bias parts.
 type Parts = [f64; 3];
 
@@ -90,23 +87,27 @@ impl Relaxation {
     /// Mean rates over the next interval `dt` \[s\] from the rates that the modulus of each node alone would give; `states` has one entry
     /// a node.
     pub fn rates(&mut self, states: &[Parts], dt: f64) -> Parts {
-        // beyond some fifty relaxation times the followers have settled, however long the interval
-        let steps = (dt / (FOLLOWER_STEP * self.time)).ceil().clamp(1.0, 1e3);
-        let part_of_time = (dt / steps / self.time).min(1e3);
-        let decay = (-part_of_time).exp();
-        let forget = -(-part_of_time).exp_m1() / part_of_time;
+        // what is left of a chain's differences from its input after `dt` and in the mean: it follows itself, delayed
+        let h = (dt / self.time).max(f64::MIN_POSITIVE);
+        let (mut left, mut mean) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
+        let (mut term, mut gone) = ((-h).exp(), -(-h).exp_m1());
+        for m in 0..=DEGREE {
+            (left[m], mean[m]) = (term, gone.max(0.0) / h);
+            term *= h / (m + 1) as f64;
+            gone -= term;
+        }
         let mut sum = [0.0; 3];
         for (j, chain) in self.chains.iter_mut().enumerate() {
             for part in 0..3 {
-                let constant: f64 = (0..states.len()).map(|i| self.to_coefficients[(j, i)] * states[i][part]).sum();
-                for _ in 0..steps as usize {
-                    let mut input = constant;
-                    for follower in chain.iter_mut() {
-                        let state = follower[part];
-                        follower[part] = input + (state - input) * decay;
-                        input += (state - input) * forget;
+                let input: f64 = (0..states.len()).map(|i| self.to_coefficients[(j, i)] * states[i][part]).sum();
+                sum[part] += input;
+                // from the last, which needs all before it
+                for k in (0..j).rev() {
+                    let off = |i: usize| chain[i][part] - input;
+                    if k + 1 == j {
+                        sum[part] += (0..j).map(|i| mean[k - i] * off(i)).sum::<f64>();
                     }
-                    sum[part] += input / steps;
+                    chain[k][part] = input + (0..=k).map(|i| left[k - i] * off(i)).sum::<f64>();
                 }
             }
         }

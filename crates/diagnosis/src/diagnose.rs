@@ -85,6 +85,10 @@ const LEADERS: usize = 5;
 const BEHIND: f64 = 25.0;
 /// Choices of a mechanism that are fitted in full, after all were tried in a linear step.
 const CHOICES: usize = 6;
+/// Gain of ln evidence of one mechanism below which it is not sought what may stand beside it.
+const PAIRED: f64 = 1.0;
+/// Share of the unknown that the unnamed mechanisms have; the rest is the structures'.
+const DESCRIBED: f64 = 0.5;
 
 struct Pool<'a, M> {
     fitter: Fitter<'a, M>,
@@ -169,9 +173,9 @@ pub fn diagnose<M: ForwardModel>(
 
     progress("pairs of mechanisms");
     let mut followed: Vec<usize> = Vec::new();
-    for fit in &leaders {
+    for fit in leaders.iter().filter(|f| f.log_evidence - nominal.log_evidence > PAIRED) {
         let first = fit.hypothesis.mechanisms[0].0;
-        if !followed.contains(&first) && followed.len() < LEADERS {
+        if model.mechanisms()[first].named && !followed.contains(&first) && followed.len() < LEADERS {
             followed.push(first);
             pool.pairs(fit, &singles)?;
         }
@@ -210,8 +214,9 @@ impl<M: ForwardModel> Pool<'_, M> {
     /// ln of the probability of a hypothesis before anything is seen.
     fn log_prior(&self, hypothesis: &Hypothesis, rival: bool) -> f64 {
         let library = self.fitter.model.mechanisms();
-        let all: f64 = library.iter().map(|m| m.weight).sum();
+        // among those of its kind
         let share = |&(m, _): &(usize, Option<f64>)| {
+            let all: f64 = library.iter().filter(|other| other.named == library[m].named).map(|m| m.weight).sum();
             let choices = library[m].choice.as_ref().map_or(1, |(_, values)| values.len());
             library[m].weight / all / choices as f64
         };
@@ -224,7 +229,8 @@ impl<M: ForwardModel> Pool<'_, M> {
                     s.none
                 }
             }
-            [one] => s.single * share(one),
+            [one] if library[one.0].named => s.single * share(one),
+            [one] => s.unknown * DESCRIBED * share(one),
             // each pair is met in two orders
             many => s.pair * 2.0 * many.iter().map(share).product::<f64>(),
         };
@@ -236,14 +242,15 @@ impl<M: ForwardModel> Pool<'_, M> {
             }
         };
         let structures = (crate::Structure::ALL.len() * self.fitter.model.channels().len()) as f64;
-        (base * constants * if rival { s.unknown / structures } else { 1.0 }).ln()
+        (base * constants * if rival { s.unknown * (1.0 - DESCRIBED) / structures } else { 1.0 }).ln()
     }
 
     /// The mechanism of `fit` with every other one.
     fn pairs(&mut self, fit: &Fit, singles: &[Vec<Hypothesis>]) -> Result<(), Error<M::Error>> {
         let first = fit.hypothesis.mechanisms[0];
         let mut fits = Vec::new();
-        for hypotheses in singles.iter().filter(|h| h[0].mechanisms[0].0 != first.0) {
+        let named = |m: usize| self.fitter.model.mechanisms()[m].named;
+        for hypotheses in singles.iter().filter(|h| h[0].mechanisms[0].0 != first.0 && named(h[0].mechanisms[0].0)) {
             let mut pairs: Vec<Hypothesis> = hypotheses
                 .iter()
                 .map(|h| Hypothesis { mechanisms: vec![first, h.mechanisms[0]], constants_free: false })
@@ -292,7 +299,8 @@ impl<M: ForwardModel> Pool<'_, M> {
             self.candidates.iter().filter(|c| test(c)).map(|c| c.probability).sum()
         };
         let none = of(&|c| c.rival.is_none() && c.fit.hypothesis == Hypothesis::NOMINAL);
-        let unknown = of(&|c| c.rival.is_some());
+        let named = |c: &Candidate| c.fit.hypothesis.mechanisms.iter().all(|(m, _)| model.mechanisms()[*m].named);
+        let unknown = of(&|c| c.rival.is_some() || !named(c));
         let recalibrate = of(&|c| c.rival.is_none() && c.fit.hypothesis.mechanisms.is_empty() && c.fit.hypothesis.constants_free);
         let mut mechanisms: Vec<(usize, f64)> = (0..model.mechanisms().len())
             .map(|m| (m, of(&|c| c.rival.is_none() && c.fit.hypothesis.mechanisms.iter().any(|(n, _)| *n == m))))
@@ -314,8 +322,8 @@ impl<M: ForwardModel> Pool<'_, M> {
             Verdict::Recalibrate => {
                 c.rival.is_none() && c.fit.hypothesis.mechanisms.is_empty() && c.fit.hypothesis.constants_free
             }
-            Verdict::Explained => c.rival.is_none() && !c.fit.hypothesis.mechanisms.is_empty(),
-            Verdict::Unknown => c.rival.is_some(),
+            Verdict::Explained => c.rival.is_none() && !c.fit.hypothesis.mechanisms.is_empty() && named(c),
+            Verdict::Unknown => c.rival.is_some() || !named(c),
         };
         if let Some(at) = self.candidates.iter().position(fits) {
             let chosen = self.candidates.remove(at);
@@ -323,11 +331,15 @@ impl<M: ForwardModel> Pool<'_, M> {
         }
         let best = &self.candidates[0];
         let parameters = (0..best.fit.active.len()).map(|place| best.fit.estimates(model, place)).collect();
-        let threshold = self.settings.excluded * mechanisms.first().map_or(0.0, |m| m.1);
-        let set = match verdict {
-            Verdict::Explained => mechanisms.iter().filter(|(_, p)| *p >= threshold).map(|(m, _)| *m).collect(),
-            _ => Vec::new(),
+        // of those of the verdict's kind
+        let kind = |m: usize| model.mechanisms()[m].named == (verdict == Verdict::Explained);
+        let likely: Vec<(usize, f64)> = match verdict {
+            Verdict::Explained | Verdict::Unknown => mechanisms.iter().filter(|(m, _)| kind(*m)).copied().collect(),
+            Verdict::None | Verdict::Recalibrate => Vec::new(),
         };
+        // what is all but excluded is no member, even of a set of one
+        let least = self.settings.excluded * likely.first().map_or(0.0, |m| m.1).max(self.settings.excluded);
+        let set = likely.iter().filter(|(_, p)| *p >= least).map(|(m, _)| *m).collect();
         Diagnosis { verdict, mechanisms, set, parameters, nominal, candidates: self.candidates }
     }
 }

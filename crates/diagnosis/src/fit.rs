@@ -245,7 +245,8 @@ impl<M: ForwardModel> Fitter<'_, M> {
         best.ok_or(Error::NoStart)
     }
 
-    /// Whitened derivatives of the prediction by every unknown at `u`.
+    /// Whitened derivatives of the prediction by every unknown at `u`; by those that are no mechanism's, which hardly change on the way,
+    /// from `known`.
     fn jacobian(
         &self,
         hypothesis: &Hypothesis,
@@ -253,9 +254,14 @@ impl<M: ForwardModel> Fitter<'_, M> {
         noise: &Noise,
         u: &DVector<f64>,
         responses: &Responses,
+        known: Option<&DMatrix<f64>>,
     ) -> Result<DMatrix<f64>, Error<M::Error>> {
         let mut columns = Vec::with_capacity(layout.len());
         for (i, unknown) in layout.iter().enumerate() {
+            if let Some(known) = known.filter(|_| !matches!(unknown, Unknown::Mechanism { .. })) {
+                columns.push(known.column(i).into_owned());
+                continue;
+            }
             let step = self.step(hypothesis, *unknown);
             let series: Responses = if let Unknown::Offset { record, channel } = *unknown {
                 let offset = self.model.channels()[channel].offset_sd;
@@ -292,7 +298,7 @@ impl<M: ForwardModel> Fitter<'_, M> {
         let mut r = self.whiten(noise, &self.residuals(layout, &u, &responses));
         let mut value = objective(&r, &u);
         let mut damping = 1e-3;
-        let mut jacobian = self.jacobian(hypothesis, layout, noise, &u, &responses)?;
+        let mut jacobian = self.jacobian(hypothesis, layout, noise, &u, &responses, None)?;
         for _ in 0..MOST_STEPS {
             let normal = jacobian.tr_mul(&jacobian) + DMatrix::identity(layout.len(), layout.len());
             let gradient = jacobian.tr_mul(&r) - &u;
@@ -321,13 +327,12 @@ impl<M: ForwardModel> Fitter<'_, M> {
                 }
                 damping *= 10.0;
             }
-            if gained > 0.0 {
-                jacobian = self.jacobian(hypothesis, layout, noise, &u, &responses)?;
-            }
             if gained < SETTLED {
                 break;
             }
+            jacobian = self.jacobian(hypothesis, layout, noise, &u, &responses, Some(&jacobian))?;
         }
+        jacobian = self.jacobian(hypothesis, layout, noise, &u, &responses, None)?;
         let normal: Cholesky<f64, Dyn> =
             Cholesky::new(jacobian.tr_mul(&jacobian) + DMatrix::identity(layout.len(), layout.len())).ok_or(Error::NotFinite)?;
         let half_log_det: f64 = normal.l_dirty().diagonal().iter().map(|d| d.ln()).sum();

@@ -19,13 +19,20 @@ pub(crate) enum Law {
     SensorLag,
     Curvature,
     ReadOut,
+    // beyond the named ones
+    Ripple,
+    Moisture,
+    Ratchet,
+    SpoolExpansion,
+    Racket,
+    Magnetic,
 }
 
-const fn normal(sd: f64) -> Prior {
+pub(crate) const fn normal(sd: f64) -> Prior {
     Prior::Normal { mean: 0.0, sd }
 }
 
-const fn about(median: f64, spread: f64) -> Prior {
+pub(crate) const fn about(median: f64, spread: f64) -> Prior {
     Prior::LogNormal { median, spread }
 }
 
@@ -34,7 +41,7 @@ fn one(name: &str, prior: Prior) -> Vec<Parameter> {
 }
 
 /// Every combination of a value from each list.
-fn grid(lists: &[&[f64]]) -> Vec<Vec<f64>> {
+pub(crate) fn grid(lists: &[&[f64]]) -> Vec<Vec<f64>> {
     lists.iter().fold(vec![Vec::new()], |grid, list| {
         grid.iter().flat_map(|v| list.iter().map(|x| [v.as_slice(), &[*x]].concat())).collect()
     })
@@ -111,6 +118,7 @@ pub(crate) fn entries(library: &Library, range: [f64; 2]) -> Vec<(Law, Mechanism
             mechanism.choice = Some(("layer".to_owned(), (1..=layers).map(|k| k as f64).collect()));
         }
     }
+    entries.extend(crate::beyond::entries());
     entries
 }
 

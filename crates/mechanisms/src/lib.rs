@@ -3,11 +3,14 @@
 //! [`Library`] holds reduced models of a design at chosen values of every mechanism's parameters; [`Prepared`] runs them under the
 //! chamber of one recording; [`Gyro`] interpolates between them and is the forward model that [`diagnosis`] fits.
 
+mod beyond;
 mod catalogue;
 mod change;
 mod gyro;
 mod interpolation;
+mod laws;
 mod library;
+mod nuisances;
 mod record;
 
 pub use change::{

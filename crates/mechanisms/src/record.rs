@@ -156,6 +156,8 @@ fn minus(a: &Series, b: &Series) -> Series {
 #[derive(Debug, Clone)]
 pub struct Prepared {
     pub(crate) time: Vec<f64>,
+    /// freed of its sensor's noise \[°C\]
+    pub(crate) chamber: Vec<f64>,
     pub(crate) averaging: f64,
     pub(crate) course: Course,
     pub(crate) nominal: Series,
@@ -250,6 +252,7 @@ impl Prepared {
             .collect();
         Ok(Self {
             time: time.to_vec(),
+            chamber: clock.rows.iter().map(|&n| clock.chamber[n]).collect(),
             averaging,
             off_rest: minus(&off.series(&library.base, PARTS), &base),
             modulus: library.modulus.iter().map(|(x, n, f)| (*x, course.parts(n), course.parts(f))).collect(),
