@@ -1,15 +1,21 @@
-//! Project chores: `cargo xtask validate [--json FILE]`, `cargo xtask figures [--out DIR]`, `cargo xtask bench NAME`.
+//! Project chores: `cargo xtask validate [--json FILE]`, `cargo xtask prove`, `cargo xtask figures [--out DIR]`,
+//! `cargo xtask bench NAME`.
 
 mod bench;
 mod figures;
+mod prove;
 mod validate;
 
 use std::process::ExitCode;
 
-const USAGE: &str = "usage: cargo xtask validate [--json FILE]\n       cargo xtask figures [--out DIR]\n       \
+const USAGE: &str = "usage: cargo xtask validate [--json FILE]\n       cargo xtask prove [--case NN]...\n       \
+    cargo xtask prove --sealed [--again DIR]\n       cargo xtask figures [--out DIR]\n       \
     cargo xtask bench coil|sensitivity [--peers-python PATH] [--repetitions N]\n       cargo xtask bench reduced\n\n  \
     validate   run the whole chain, compare with the paper's Tables I to IV,\n             \
     write docs/validation.md and the README's headline table; exit 1 if a row that must hold does not\n  \
+    prove      diagnose the units of fixtures/concealed/open, or those named, hold the answers against the truth,\n             \
+    write docs/proof.md; exit 1 if a score is not as asked; --sealed: answer the sealed units, once\n             \
+    (--again: into DIR, and compare with the answers that are there)\n  \
     figures    draw the reference coil's figures as SVG files into docs/pictures, or DIR\n  \
     bench      times beside errors into docs/benchmarks.md: the coil job and the steady sensitivity beside other programs,\n             \
     PATH being a Python with their packages (else FOGCOIL_PEERS_PYTHON; without it they are skipped); reduced and full model";
@@ -22,6 +28,13 @@ fn main() -> ExitCode {
         ["validate", "--json", file] => validate::run(Some(file.as_ref())),
         ["figures"] => figures::run("docs/pictures".as_ref()),
         ["figures", "--out", folder] => figures::run(folder.as_ref()),
+        ["prove", ref rest @ ..] if !matches!(rest, ["--help" | "-h"]) => match prove::Command::parse(rest) {
+            Ok(command) => command.run(),
+            Err(error) => {
+                eprintln!("error: {error}\n\n{USAGE}");
+                return ExitCode::from(2);
+            }
+        },
         ["bench", ref rest @ ..] if !matches!(rest, ["--help" | "-h"]) => match bench::Command::parse(rest) {
             Ok(command) => command.run(),
             Err(error) => {
@@ -29,7 +42,7 @@ fn main() -> ExitCode {
                 return ExitCode::from(2);
             }
         },
-        ["--help" | "-h" | "help"] | ["validate" | "figures" | "bench", "--help" | "-h"] => {
+        ["--help" | "-h" | "help"] | ["validate" | "prove" | "figures" | "bench", "--help" | "-h"] => {
             println!("{USAGE}");
             return ExitCode::SUCCESS;
         }

@@ -69,12 +69,22 @@ pub struct Diagnosis {
     pub parameters: Vec<Vec<Estimate>>,
     /// The nominal model, its offsets and model errors fitted.
     pub nominal: Fit,
+    /// The nominal model under the best candidate's noise: what it leaves is the mismatch.
+    pub mismatch: Fit,
+    /// What a flexible input at each stage would make of the mismatch, best first.
+    pub stages: Vec<crate::Stage>,
 }
 
 impl Diagnosis {
     /// The most probable candidate.
     pub fn best(&self) -> &Candidate {
         &self.candidates[0]
+    }
+
+    /// Ends of what the choice of the best candidate's mechanism at `place` may be, if it has one.
+    pub fn choice(&self, place: usize) -> Option<[f64; 2]> {
+        self.best().fit.hypothesis.mechanisms.get(place)?.1?;
+        Some(self.parameters.get(place)?.first()?.ci90)
     }
 }
 
@@ -87,6 +97,8 @@ const BEHIND: f64 = 25.0;
 const CHOICES: usize = 6;
 /// Gain of ln evidence of one mechanism below which it is not sought what may stand beside it.
 const PAIRED: f64 = 1.0;
+/// Marginal probability from which a mechanism beside another is reported, though the other alone explains all.
+const BESIDE: f64 = 0.15;
 /// Share of the unknown that the unnamed mechanisms have; the rest is the structures'.
 const DESCRIBED: f64 = 0.5;
 
@@ -183,7 +195,7 @@ pub fn diagnose<M: ForwardModel>(
 
     progress("what no mechanism explains");
     pool.rivals(&times);
-    Ok(pool.conclude(model, nominal))
+    pool.conclude(nominal)
 }
 
 /// The nominal fit, but under the leader's noise.
@@ -290,7 +302,25 @@ impl<M: ForwardModel> Pool<'_, M> {
         }
     }
 
-    fn conclude(mut self, model: &M, nominal: Fit) -> Diagnosis {
+    /// Whether a mechanism stands in some likely candidate that loses by leaving it out: not merely beside another that explains all.
+    fn needed(&self, mechanism: usize) -> bool {
+        let weight = |wanted: &[usize]| {
+            let is = |c: &&Candidate| {
+                let has = &c.fit.hypothesis.mechanisms;
+                c.rival.is_none() && has.len() == wanted.len() && has.iter().all(|(m, _)| wanted.contains(m))
+            };
+            self.candidates.iter().filter(is).map(|c| c.probability).sum::<f64>()
+        };
+        let least = self.settings.excluded * self.candidates.first().map_or(0.0, |c| c.probability);
+        self.candidates.iter().filter(|c| c.rival.is_none()).any(|c| {
+            let all: Vec<usize> = c.fit.hypothesis.mechanisms.iter().map(|(m, _)| *m).collect();
+            let others: Vec<usize> = all.iter().copied().filter(|m| *m != mechanism).collect();
+            all.contains(&mechanism) && weight(&all) > least && (others.is_empty() || weight(&all) > weight(&others))
+        })
+    }
+
+    fn conclude(mut self, nominal: Fit) -> Result<Diagnosis, Error<M::Error>> {
+        let model = self.fitter.model;
         self.candidates.sort_by(|a, b| b.log_weight.total_cmp(&a.log_weight));
         let most = self.candidates[0].log_weight;
         let sum: f64 = self.candidates.iter().map(|c| (c.log_weight - most).exp()).sum();
@@ -330,7 +360,8 @@ impl<M: ForwardModel> Pool<'_, M> {
             self.candidates.insert(0, chosen);
         }
         let best = &self.candidates[0];
-        let parameters = (0..best.fit.active.len()).map(|place| best.fit.estimates(model, place)).collect();
+        let places = 0..best.fit.active.len();
+        let parameters = places.map(|place| crate::marginal::estimates(model, &self.candidates, place)).collect();
         // of those of the verdict's kind
         let kind = |m: usize| model.mechanisms()[m].named == (verdict == Verdict::Explained);
         let likely: Vec<(usize, f64)> = match verdict {
@@ -338,9 +369,12 @@ impl<M: ForwardModel> Pool<'_, M> {
             Verdict::None | Verdict::Recalibrate => Vec::new(),
         };
         // what is all but excluded is no member, even of a set of one
+        let needed = |m: usize| likely.iter().any(|(n, p)| *n == m && *p >= BESIDE) || self.needed(m);
         let least = self.settings.excluded * likely.first().map_or(0.0, |m| m.1).max(self.settings.excluded);
-        let set = likely.iter().filter(|(_, p)| *p >= least).map(|(m, _)| *m).collect();
-        Diagnosis { verdict, mechanisms, set, parameters, nominal, candidates: self.candidates }
+        let set = likely.iter().filter(|(m, p)| *p >= least && needed(*m)).map(|(m, _)| *m).collect();
+        let mismatch = self.fitter.fit(&Hypothesis::NOMINAL, &best.fit.noise, Some(&nominal))?;
+        let stages = mismatch.stages(model, self.fitter.records, self.fitter.observations)?;
+        Ok(Diagnosis { verdict, mechanisms, set, parameters, nominal, mismatch, stages, candidates: self.candidates })
     }
 }
 

@@ -195,7 +195,7 @@ fn log_mean_exp(values: &[f64]) -> f64 {
 
 impl Fit {
     /// Gain of ln evidence by adding functions with independent normal amplitudes of standard deviation `scale`, for each scale.
-    fn gain(&self, columns: &DMatrix<f64>, scales: &[f64]) -> Vec<f64> {
+    pub(crate) fn gain(&self, columns: &DMatrix<f64>, scales: &[f64]) -> Vec<f64> {
         // the fit's own unknowns are marginalised: they have the covariance (JᵀJ + I)⁻¹
         let shared = self.jacobian.tr_mul(columns);
         let free = columns.tr_mul(columns) - shared.tr_mul(&(&self.covariance * &shared));

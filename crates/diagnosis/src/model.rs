@@ -1,6 +1,6 @@
 //! What the engine needs of a forward model.
 
-use crate::{Parameter, Prior};
+use crate::{Latent, Parameter, Prior};
 
 /// One output that is both predicted and recorded.
 #[derive(Debug, Clone, PartialEq)]
@@ -111,6 +111,24 @@ pub trait ForwardModel {
 
     /// State of the nominal system during a record.
     fn state(&self, record: usize) -> &State;
+
+    /// A flexible input at every stage where one can act; without any, a mismatch is not located by stage.
+    ///
+    /// # Errors
+    /// What keeps the model from responding.
+    fn latent(&self, record: usize) -> Result<Vec<Latent>, Self::Error> {
+        let _ = record;
+        Ok(Vec::new())
+    }
+
+    /// Members of a group, such as layers, each a function: which of them are at work may be asked of a record.
+    ///
+    /// # Errors
+    /// What keeps the model from responding.
+    fn members(&self, record: usize) -> Result<Option<Latent>, Self::Error> {
+        let _ = record;
+        Ok(None)
+    }
 }
 
 /// What was recorded, one series for each channel; NaN where nothing usable was.

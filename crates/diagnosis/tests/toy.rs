@@ -1,8 +1,8 @@
 //! A thermometer in a bath, of which the nominal model knows the bath and the gain: the engine must name what is left out, and only then.
 
 use diagnosis::{
-    Active, Channel, Diagnosis, ForwardModel, Mechanism, NoisePrior, Nuisance, Observation, Parameter, Prior, Role, Settings,
-    State, Structure, Verdict, diagnose,
+    Active, Channel, Diagnosis, ForwardModel, Latent, Mechanism, NoisePrior, Nuisance, Observation, Parameter, Prior, Role,
+    Settings, State, Structure, Verdict, diagnose,
 };
 
 const ROWS: usize = 600;
@@ -93,6 +93,23 @@ impl ForwardModel for Bath {
 
     fn state(&self, record: usize) -> &State {
         &self.states[record]
+    }
+
+    fn latent(&self, record: usize) -> Result<Vec<Latent>, Self::Error> {
+        let State { level, rate } = &self.states[record];
+        let one = |stage: &str, series: Vec<f64>| Latent { stage: stage.to_owned(), functions: vec![vec![series]] };
+        Ok(vec![
+            one("sensor", rate.windows(2).map(|r| r[1] - r[0]).chain([0.0]).collect()),
+            one("optics", level.iter().zip(rate).map(|(l, r)| l * r).collect()),
+            one("electronics", level.clone()),
+        ])
+    }
+
+    /// Two that do the same, and one of its own.
+    fn members(&self, record: usize) -> Result<Option<Latent>, Self::Error> {
+        let State { level, rate } = &self.states[record];
+        let bend: Vec<f64> = level.iter().zip(rate).map(|(l, r)| l * r).collect();
+        Ok(Some(Latent { stage: "optics".to_owned(), functions: vec![vec![bend.clone()], vec![bend], vec![level.clone()]] }))
     }
 }
 
@@ -203,4 +220,44 @@ fn a_mismatch_is_located_over_the_state_and_in_time() {
     let blocks = diagnosis.nominal.in_time(0, 0, &record, judge);
     let most = blocks.iter().max_by(|a, b| a.excess.total_cmp(&b.excess)).expect("blocks");
     assert!(most.significant && most.time[1] > hour.start && most.time[0] < hour.end, "{blocks:?}");
+}
+
+#[test]
+fn a_flexible_input_at_the_right_stage_restores_whiteness() {
+    let bath = Bath::new();
+    for (concealed, value, stage) in [(0, 45.0, "sensor"), (1, 1.5, "optics")] {
+        let diagnosis = run(&bath, &bath.truth(0, Some((concealed, value))), 31);
+        let [first, others @ ..] = diagnosis.stages.as_slice() else { panic!("no stages") };
+        assert_eq!(first.stage, stage);
+        assert!(first.probability > 0.9 && first.whiteness[0] > 0.01, "{first:?}");
+        assert!(others.iter().all(|s| s.gain < first.gain - 5.0), "{others:?}");
+    }
+}
+
+#[test]
+fn members_that_do_the_same_are_not_told_apart() {
+    let bath = Bath::new();
+    let diagnosis = run(&bath, &bath.truth(0, Some((1, 1.5))), 37);
+    let resolution = diagnosis.mismatch.resolution(&bath, &[0], 2.0).expect("a resolution").expect("members");
+    // of the twins each is half resolved, and they share what is there; the third is resolved, and is not at work
+    assert!(resolution.resolved[..2].iter().all(|r| (r - 0.5).abs() < 0.02), "{resolution:?}");
+    assert!((resolution.values[0] + resolution.values[1] - 1.5).abs() < 0.2, "{resolution:?}");
+    assert!(resolution.resolved[2] > 0.9 && resolution.values[2].abs() < 3.0 * resolution.errors[2], "{resolution:?}");
+    assert!((resolution.combinations() - 2.0).abs() < 0.1 && resolution.locatable());
+}
+
+#[test]
+fn an_explanation_by_an_unnamed_mechanism_stays_unknown_and_a_choice_has_an_interval() {
+    let mut bath = Bath::new();
+    bath.mechanisms[1].named = false;
+    let y = bath.truth(0, Some((1, 1.5)));
+    let diagnosis = run(&bath, &y, 41);
+    assert_eq!(diagnosis.verdict, Verdict::Unknown);
+    assert_eq!(diagnosis.set, [1]);
+    assert_eq!(diagnosis.choice(0), None);
+    // choices that do the same are not told apart
+    bath.mechanisms[1].named = true;
+    bath.mechanisms[1].choice = Some(("place".to_owned(), vec![1.0, 2.0, 3.0]));
+    let diagnosis = run(&bath, &y, 41);
+    assert_eq!((diagnosis.verdict, diagnosis.choice(0)), (Verdict::Explained, Some([1.0, 3.0])));
 }

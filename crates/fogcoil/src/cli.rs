@@ -6,6 +6,8 @@ use clap::{Args, Parser, Subcommand};
 use fogcoil::input::Between;
 
 use crate::cli_check::{Check, Format};
+use crate::cli_explain::Explain;
+use crate::cli_recommend::Recommend;
 
 /// Thermal bias of fibre-optic-gyroscope coils.
 #[derive(Parser)]
@@ -63,6 +65,10 @@ pub(crate) enum Command {
     Simulate(Simulate),
     /// What differs between a unit's recording and its design, and what most likely causes it
     Diagnose(Diagnose),
+    /// Which chamber programme, or which further sensor, tells mechanisms apart
+    Recommend(Recommend),
+    /// Which change of the coil would give a measured sensitivity
+    Explain(Explain),
     /// Is a recording usable? Gaps, units, outliers, noise, Allan deviation
     Check(Check),
 }
@@ -84,6 +90,12 @@ pub(crate) struct Diagnose {
     /// Write the prediction of the first held-out record here
     #[arg(long, value_name = "P.csv", requires = "holdouts")]
     pub(crate) prediction: Option<PathBuf>,
+    /// Write the extended design here, a coil file with what was found at its place
+    #[arg(long, value_name = "M.ron")]
+    pub(crate) model_out: Option<PathBuf>,
+    /// Write a page with plots here
+    #[arg(long, value_name = "R.html")]
+    pub(crate) report: Option<PathBuf>,
     /// What is known of the records besides their columns [default: meta.ron beside each, if it is there]
     #[arg(long, value_name = "FILE")]
     pub(crate) meta: Option<PathBuf>,

@@ -7,6 +7,7 @@
 //! - [`cache`] keeps models that take long to build.
 //! - [`check`] judges a recording and identifies its noise.
 //! - [`diagnose`] compares recordings with a design and names what the design leaves out.
+//! - [`recommend`] finds the test that tells mechanisms apart; [`explain`] solves for what would give a measured sensitivity.
 //! - [`output`] writes a file whole or not at all.
 //!
 //! The functions neither print nor parse arguments; `main.rs` does.
@@ -28,12 +29,14 @@ pub mod cache;
 pub mod check;
 pub mod diagnose;
 mod error;
+pub mod explain;
 pub mod figures;
 pub mod homogenize;
 pub mod input;
 pub mod output;
 pub mod picture;
 mod plot;
+pub mod recommend;
 pub mod report;
 pub mod sensitivity;
 pub mod simulate;

@@ -2,6 +2,8 @@
 
 mod cli;
 mod cli_check;
+mod cli_explain;
+mod cli_recommend;
 mod progress;
 
 use std::io::Write;
@@ -39,6 +41,8 @@ fn run(command: &Command) -> Result<(), Error> {
         }
         Command::Check(arguments) => run_check(arguments),
         Command::Diagnose(arguments) => run_diagnose(arguments),
+        Command::Explain(arguments) => cli_explain::run(arguments),
+        Command::Recommend(arguments) => cli_recommend::run(arguments),
         Command::Simulate(arguments) => run_simulate(arguments),
         Command::Trim { coil, profile, json } => run_trim(coil, profile.as_deref(), *json),
         Command::Wind { coil, csv, svg } => run_wind(coil, csv.as_deref(), svg.as_deref()),
@@ -62,10 +66,10 @@ fn run_wind(coil: &Path, csv: Option<&Path>, svg: Option<&Path>) -> Result<(), E
 }
 
 fn run_diagnose(arguments: &Diagnose) -> Result<(), Error> {
-    let Diagnose { coil, fits, holdouts, json, prediction, meta, format, quiet, no_cache } = arguments;
+    let Diagnose { coil, fits, holdouts, json, prediction, model_out, report, meta, format, quiet, no_cache } = arguments;
     let inputs: Vec<&Path> = [coil].into_iter().chain(fits).chain(holdouts).map(PathBuf::as_path).collect();
     let json_file = json.as_ref().and_then(Option::as_deref);
-    output::check_distinct(&inputs, &[json_file, prediction.as_deref()])?;
+    output::check_distinct(&inputs, &[json_file, prediction.as_deref(), model_out.as_deref(), report.as_deref()])?;
     let progress = if *quiet { Progress::Silent } else { Progress::OnStandardError };
     let case = if *quiet { input::read_coil(coil)? } else { read_coil(coil)? };
     diagnose::check_design(&case, coil)?;
@@ -79,6 +83,13 @@ fn run_diagnose(arguments: &Diagnose) -> Result<(), Error> {
     let mut files = Vec::new();
     files.extend(json_file.map(|path| (path, Content::Text(object.clone()))));
     files.extend(prediction.as_deref().zip(outcome.prediction()).map(|(path, text)| (path, Content::Text(text))));
+    if let Some(path) = model_out {
+        match outcome.model() {
+            Ok(text) => files.push((path, Content::Text(text))),
+            Err(why) => progress.note(&format!("{}: nothing to write: {why}", path.display())),
+        }
+    }
+    files.extend(report.as_deref().map(|path| (path, Content::Text(outcome.report()))));
     output::write_files(&files)?;
     output::print(&if *json == Some(None) { object } else { outcome.text() })
 }

@@ -6,7 +6,7 @@ use crate::library::{Library, Path};
 use crate::nuisances::{self, channels, nuisances};
 use crate::record::{Parts, Prepared};
 use coil::Error;
-use diagnosis::{Active, Channel, ForwardModel, Mechanism, Nuisance, State};
+use diagnosis::{Active, Channel, ForwardModel, Latent, Mechanism, Nuisance, State};
 use std::cell::RefCell;
 use std::sync::Arc;
 
@@ -43,6 +43,8 @@ pub struct Gyro {
     known: RefCell<Vec<(usize, Active, Arc<Change>)>>,
 }
 
+/// Share of its final rise at which a heated unit has settled.
+const RISEN: f64 = 0.95;
 /// Changes that are kept.
 const KEPT: usize = 12;
 
@@ -77,8 +79,8 @@ impl Gyro {
         self.mechanisms.iter().position(|m| m.id == id)
     }
 
-    /// Where a mechanism acts.
-    pub fn located(&self, active: &Active) -> Located {
+    /// Where a mechanism acts; `layers` are those that are not excluded, where it acts on one of them.
+    pub fn located(&self, active: &Active, layers: Option<[f64; 2]>) -> Located {
         let v = &active.values;
         let none =
             Located { stage: self.mechanisms[active.mechanism].stage.clone(), temperature: None, time: None, layers: None };
@@ -86,9 +88,25 @@ impl Gyro {
             // nearly nine tenths of a logistic step lie within two widths
             Law::GlassTransition => Located { temperature: Some([v[0] - 2.0 * v[1], v[0] + 2.0 * v[1]]), ..none },
             Law::Debond => Located { temperature: Some([v[0], v[0] + v[1]]), ..none },
-            Law::Defect => Located { layers: active.choice.map(|layer| [layer as usize; 2]), ..none },
+            // a layer among all is not located
+            Law::Defect => {
+                let half = self.laws.library.design().winding.layers as f64 / 2.0;
+                let few = layers.filter(|[first, last]| last - first < half);
+                Located { layers: few.map(|ends| ends.map(|layer| layer as usize)), ..none }
+            }
+            Law::SelfHeating => Located { time: self.heating(active), ..none },
             _ => none,
         }
+    }
+
+    /// From the switch-on until the thermometer has risen by nearly all that it ever will in the first record.
+    fn heating(&self, active: &Active) -> Option<[f64; 2]> {
+        let record = self.records.first()?;
+        let change = self.change(0, active).ok()?;
+        let rise = change.sensor.as_ref()?;
+        let settled = RISEN * rise.last()?;
+        let at = rise.iter().position(|r| r.abs() >= settled.abs())?;
+        Some([record.time[0], record.time[at]])
     }
 
     /// Parts and thermometer of the nominal model with its uncertain numbers at `u`.
@@ -195,6 +213,15 @@ impl ForwardModel for Gyro {
             }
         }
         Ok(vec![sensor, rate])
+    }
+
+    fn latent(&self, record: usize) -> Result<Vec<Latent>, Error> {
+        self.laws.latent(&self.records[record])
+    }
+
+    /// The layers, innermost first, with one turn more.
+    fn members(&self, record: usize) -> Result<Option<Latent>, Error> {
+        self.laws.layers(&self.records[record]).map(Some)
     }
 
     fn state(&self, record: usize) -> &State {

@@ -119,7 +119,7 @@ impl Laws {
     }
 
     /// Parts with tails or a layer's turns changed; the nominal functionals are subtracted.
-    fn rewound(&self, record: &Prepared, tail: f64, defect: Option<(usize, f64)>) -> Result<Parts, Error> {
+    pub(crate) fn rewound(&self, record: &Prepared, tail: f64, defect: Option<(usize, f64)>) -> Result<Parts, Error> {
         let functionals = match defect {
             None => self.library.rewound(tail, None)?,
             Some((layer, turns)) => {
@@ -216,7 +216,7 @@ impl Laws {
     }
 
     /// Phase of a curved ∂n/∂T in every row, differenced \[deg/h per 1/K²\].
-    fn curved(&self, record: &Prepared) -> Vec<f64> {
+    pub(crate) fn curved(&self, record: &Prepared) -> Vec<f64> {
         let (form, linear) = &self.curvature;
         let states = &record.course.states;
         let phases: Vec<f64> = (0..states.nrows())

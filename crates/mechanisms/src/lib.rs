@@ -8,6 +8,7 @@ mod catalogue;
 mod change;
 mod gyro;
 mod interpolation;
+mod latent;
 mod laws;
 mod library;
 mod nuisances;

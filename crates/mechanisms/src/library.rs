@@ -70,8 +70,8 @@ impl Path {
     fn nodes(self) -> Vec<f64> {
         match self {
             Self::HubResistance => nodes(0.0, 0.85, 7),
-            Self::Air => nodes(-0.9, 0.9, 7),
-            Self::Mount => nodes(0.0, 0.9, 9),
+            Self::Air => nodes(-0.9, 0.9, 9),
+            Self::Mount => nodes(0.0, 0.9, 12),
             Self::Polymer => nodes(-0.12, 0.12, 5),
         }
     }

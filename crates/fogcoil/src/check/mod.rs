@@ -15,6 +15,7 @@ use recording::noise::{Bounds, NoiseEstimate, Series, Term, Whitener, identify, 
 use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
 
 pub use json::json;
+pub(crate) use plot::Allan;
 pub use plot::svg;
 pub use text::text;
 

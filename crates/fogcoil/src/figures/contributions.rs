@@ -71,7 +71,7 @@ pub(super) fn figure<'a>(simulation: &'a Simulation, fields: &TurnFields) -> Opt
                 x: Axis::tight("axial position y [mm]", 1e-6),
                 y: Axis::tight("radius r [mm]", 1e-6),
                 height: Height::ToScale(20.0),
-                content: Content::Map(HeatMap { columns, values, x, y, colours, bar: k == 0 }),
+                content: Content::Map(HeatMap { columns, values, x, y, colours, bar: k == 0, marked: Vec::new() }),
             });
         }
     }

@@ -191,6 +191,7 @@ impl<'a> Course<'a> {
                 y: [0.0, length],
                 colours: Colours::of(words.quantity, range, least),
                 bar: true,
+                marked: Vec::new(),
             }),
         });
         panels.push(Panel {

@@ -42,15 +42,17 @@ pub fn documents(simulation: &Simulation, fields: Option<&TurnFields>) -> Vec<Do
 
 /// All figures as elements of a page, in wide and narrow.
 pub(crate) fn elements(simulation: &Simulation, fields: Option<&TurnFields>, convergence: Option<&Convergence>) -> String {
-    let element = |figure: &Figure| {
-        format!(
-            "<figure>\n<h3>{}</h3>\n{}{}<figcaption>{}</figcaption>\n</figure>\n",
-            crate::picture::escape(&figure.title),
-            figure.svg(Size::Wide),
-            figure.svg(Size::Narrow),
-            crate::picture::escape(&figure.caption)
-        )
-    };
     let last = convergence.map(|measured| convergence::figure(simulation.case, measured));
     all(simulation, fields).iter().chain(&last).map(element).collect()
+}
+
+/// A figure as an element of a page, in wide and narrow.
+pub(crate) fn element(figure: &Figure) -> String {
+    format!(
+        "<figure>\n<h3>{}</h3>\n{}{}<figcaption>{}</figcaption>\n</figure>\n",
+        crate::picture::escape(&figure.title),
+        figure.svg(Size::Wide),
+        figure.svg(Size::Narrow),
+        crate::picture::escape(&figure.caption)
+    )
 }

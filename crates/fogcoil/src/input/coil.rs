@@ -77,7 +77,18 @@ struct Cells<'a> {
 /// [`Error::Input`] says what is wrong, in which file, line and field, and how to mend it; [`Error::Homogenization`] if a sound
 /// cell cannot be solved.
 pub fn read_coil(path: &Path) -> Result<CoilCase, Error> {
-    let source = Source::read(path)?;
+    checked(path, Source::read(path)?)
+}
+
+/// Checks a coil file that is yet to be written: the case that [`read_coil`] would read.
+///
+/// # Errors
+/// As [`read_coil`].
+pub fn check_coil(path: &Path, text: &str) -> Result<CoilCase, Error> {
+    checked(path, Source::of(path, text.to_owned()))
+}
+
+fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
     let file: CoilFile = source.parse()?;
     let top = Group::whole(&source);
     let winding = parts::winding(&top.group("winding"), &file.winding)?;

@@ -9,7 +9,7 @@ use super::coil_parts::side;
 use super::limits::{FACTOR, Group, HYSTERESIS_K, SHARE, TEMPERATURE_C, TIME_S};
 
 /// Rows of the longest temperature table accepted: each costs a model.
-const MOST_ROWS: usize = 50;
+const MOST_ROWS: usize = 100;
 
 #[derive(Deserialize, Default)]
 pub(crate) enum MechanicsFile {

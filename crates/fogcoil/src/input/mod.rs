@@ -25,7 +25,7 @@ mod timestamp;
 mod warnings;
 
 pub use cell::{CellCase, read_cell};
-pub use coil::{CoilCase, Origin, PRINTED, Provenance, read_coil};
+pub use coil::{CoilCase, Origin, PRINTED, Provenance, check_coil, read_coil};
 pub use error::InputError;
 pub use fingerprint::Fingerprint;
 pub use meta::{Meta, TemperatureSensor};

@@ -46,6 +46,11 @@ impl Source {
         Ok(Self { path: path.to_owned(), text })
     }
 
+    /// A text that is not in a file yet.
+    pub(crate) fn of(path: &Path, text: String) -> Self {
+        Self { path: path.to_owned(), text }
+    }
+
     /// A file named inside this one: relative to it, or absolute.
     pub(crate) fn neighbour(&self, path: &str) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(path)

@@ -340,6 +340,7 @@ impl Panel<'_> {
             }
             Content::Map(map) => {
                 out.push_str(&map.cells(width, height, id, m.first));
+                out.push_str(&map.dots(width, height));
                 let _ = writeln!(out, "<path class=\"axis\" d=\"{frame}{}\"/>", outward_ticks(&x, &y, height));
             }
             Content::Drawing(drawing) => {

@@ -85,6 +85,8 @@ pub(crate) struct HeatMap {
     pub(crate) colours: Colours,
     /// Whether the colour bar is drawn with it.
     pub(crate) bar: bool,
+    /// Numbers of the cells that stand out, in the order of the values; each carries a dot.
+    pub(crate) marked: Vec<usize>,
 }
 
 impl HeatMap {
@@ -101,6 +103,17 @@ impl HeatMap {
         format!(
             "<g class=\"cells\" stroke-width=\"{thick:.3}\" transform=\"scale({across:.6} {down:.6})\" shape-rendering=\"crispEdges\">\n{cells}\n</g>\n"
         )
+    }
+
+    /// A dot in the middle of each cell that stands out, in a box of `width` × `height`.
+    pub(super) fn dots(&self, width: f64, height: f64) -> String {
+        let (columns, rows) = (self.columns.max(1), self.rows().max(1));
+        self.marked.iter().fold(String::new(), |mut out, cell| {
+            let (x, y) = ((cell % columns) as f64 + 0.5, (rows - 1 - cell / columns) as f64 + 0.5);
+            let (x, y) = (x * width / columns as f64, y * height / rows as f64);
+            let _ = writeln!(out, "<circle class=\"dot\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"/>");
+            out
+        })
     }
 
     /// Runs of cells of one colour as lines as thick as a row, one path for each colour; a cell is a unit square.
@@ -151,10 +164,12 @@ mod tests {
     fn cells_of_one_colour_that_touch_are_one_box() {
         let colours = Colours::diverging("", 1.0, 0.0);
         let values = vec![1.0, 1.0, -1.0, f64::NAN, 1.0, 1.0];
-        let map = HeatMap { columns: 3, values, x: [0.0, 1.0], y: [0.0, 1.0], colours, bar: true };
+        let map = HeatMap { columns: 3, values, x: [0.0, 1.0], y: [0.0, 1.0], colours, bar: true, marked: vec![1] };
         let cells = map.cells(30.0, 20.0, "m", true);
         assert!(cells.contains("scale(10.000000 10.000000)") && cells.contains("id=\"m\""), "{cells}");
         assert!(cells.contains("d=\"M0 1.5h2M1 0.5h2\"") && cells.contains("d=\"M2 1.5h1\""), "{cells}");
+        let dots = map.dots(30.0, 20.0);
+        assert!(dots.contains("cx=\"15.0\" cy=\"15.0\"") && dots.lines().count() == 1, "{dots}");
         let again = map.cells(15.0, 20.0, "m", false);
         assert!(
             again.contains("scale(5.000000 10.000000)") && again.contains("href=\"#m\"") && !again.contains("<path"),

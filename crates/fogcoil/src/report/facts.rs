@@ -9,7 +9,8 @@ use crate::sensitivity::origin;
 use crate::simulate::Simulation;
 use crate::units::{to_mm, to_ppm};
 
-fn table(out: &mut String, rows: &[(String, String)]) {
+/// Names and values.
+pub(crate) fn table(out: &mut String, rows: &[(String, String)]) {
     out.push_str("<table class=\"facts\">\n<tbody>\n");
     for (name, value) in rows {
         let _ = writeln!(out, "<tr><th scope=\"row\">{}</th><td>{}</td></tr>", escape(name), escape(value));
@@ -17,7 +18,8 @@ fn table(out: &mut String, rows: &[(String, String)]) {
     out.push_str("</tbody>\n</table>\n");
 }
 
-fn row(name: &str, value: impl Into<String>) -> (String, String) {
+/// A row of [`table`].
+pub(crate) fn row(name: &str, value: impl Into<String>) -> (String, String) {
     (name.to_owned(), value.into())
 }
 

@@ -12,6 +12,8 @@ use crate::plot::page_style;
 use crate::simulate::{Row, Simulation};
 use crate::summary::{Summary, entries};
 
+pub(crate) use facts::{row, table};
+
 const STYLE: &str = include_str!("style.css");
 /// Most rows of the table of the plotted data, the peak's not counted.
 const MOST_ROWS: usize = 60;
@@ -19,22 +21,26 @@ const MOST_ROWS: usize = 60;
 /// The page; temperature, strain and contributions of the turns only with `fields`.
 pub fn html(simulation: &Simulation, fields: Option<&TurnFields>, convergence: Option<&figures::Convergence>) -> String {
     let profile = simulation.profile.fingerprint.file.file_name().unwrap_or_default().to_string_lossy();
-    let title = escape(&format!("{} under {profile}", simulation.case.name));
-    let mut out = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{title}</title>\n\
-         <style>\n{}{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n{}</header>\n<main>\n",
-        page_style(),
-        lead(simulation)
-    );
+    let title = format!("{} under {profile}", simulation.case.name);
+    let mut out = String::new();
     summary(&mut out, simulation);
     out.push_str("<h2>Figures</h2>\n");
     out.push_str(&figures::elements(simulation, fields, convergence));
     data(&mut out, simulation);
     facts::coil(&mut out, simulation);
     facts::computation(&mut out, simulation);
-    out.push_str("</main>\n</body>\n</html>\n");
-    out
+    page(&title, &lead(simulation), &out)
+}
+
+/// A page that needs nothing but itself: `lead` in its header, `body` below, both HTML; the title is text.
+pub(crate) fn page(title: &str, lead: &str, body: &str) -> String {
+    let title = escape(title);
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{title}</title>\n\
+         <style>\n{}{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n{lead}</header>\n<main>\n{body}</main>\n</body>\n</html>\n",
+        page_style(),
+    )
 }
 
 /// The result in two sentences.

@@ -1,5 +1,7 @@
 //! Results on their way out: files whole or not at all, standard output without complaint when its reader has left.
 
+mod design;
+
 use std::fs;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -7,6 +9,8 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 use crate::Error;
+
+pub use design::coil_file;
 
 /// What a file is to hold.
 pub enum Content<'a> {

@@ -1,0 +1,194 @@
+//! Which part of the chain a mismatch comes from: one flexible input at a time, placed at each stage.
+
+use crate::fit::Fit;
+use crate::{Error, ForwardModel, Observation, whiteness};
+use nalgebra::{Cholesky, DMatrix, DVector};
+
+/// Responses `[function][channel][row]` of one record.
+type Functions = Vec<Vec<Vec<f64>>>;
+
+/// A flexible input at one part of the chain: what the channels do when each of its functions acts with amplitude 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Latent {
+    /// Part of the chain.
+    pub stage: String,
+    /// Responses `[function][channel][row]`.
+    pub functions: Vec<Vec<Vec<f64>>>,
+}
+
+/// What a flexible input at one stage makes of a mismatch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stage {
+    /// Part of the chain.
+    pub stage: String,
+    /// Gain of ln evidence over the nominal model.
+    pub gain: f64,
+    /// Probability among the stages, each as likely as another beforehand.
+    pub probability: f64,
+    /// Probability that noise is less white than what is left in each channel of the first record ([`whiteness`]).
+    pub whiteness: Vec<f64>,
+}
+
+/// How well the members of a group, such as layers, can be told apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Resolution {
+    /// Most probable amplitude of each member, all at once.
+    pub values: Vec<f64>,
+    /// Their standard deviations.
+    pub errors: Vec<f64>,
+    /// Diagonal of the resolution matrix (JᵀJ + P⁻¹)⁻¹ JᵀJ: 1 where the records alone say how much, 0 where the prior does.
+    pub resolved: Vec<f64>,
+}
+
+impl Resolution {
+    /// Number of combinations that the records determine: the trace of the resolution matrix.
+    pub fn combinations(&self) -> f64 {
+        self.resolved.iter().sum()
+    }
+
+    /// Whether members can be located: at least half of some member's amplitude is the records' own.
+    pub fn locatable(&self) -> bool {
+        self.resolved.iter().any(|r| *r > 0.5)
+    }
+}
+
+/// Amplitudes that are averaged over, in units of the noise of one sample.
+const AMPLITUDES: [f64; 7] = [0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0];
+
+impl Fit {
+    /// Whitened responses to the functions, those of all records one below another; each scaled to a largest response of one
+    /// standard deviation of a channel's white noise.
+    fn whitened_functions(&self, records: &[Functions]) -> Option<(DMatrix<f64>, Vec<f64>)> {
+        let count = records.iter().map(Vec::len).min()?;
+        let (mut columns, mut scales) = (Vec::new(), Vec::new());
+        for f in 0..count {
+            let size = |r: usize, c: usize| {
+                let most = records[r][f][c].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+                most / self.noise.model(r, c).white
+            };
+            let pairs = (0..records.len()).flat_map(|r| (0..records[r][f].len()).map(move |c| (r, c)));
+            let most = pairs.map(|(r, c)| size(r, c)).fold(0.0, f64::max);
+            let scale = if most > 0.0 { 1.0 / most } else { 0.0 };
+            let mut column = Vec::with_capacity(self.whitened.len());
+            for (r, functions) in records.iter().enumerate() {
+                for (c, series) in functions[f].iter().enumerate() {
+                    column.extend(self.noise.whiten(r, c, series).iter().map(|w| w * scale));
+                }
+            }
+            columns.push(DVector::from_vec(column));
+            scales.push(scale);
+        }
+        (!columns.is_empty()).then(|| (DMatrix::from_columns(&columns), scales))
+    }
+
+    /// The latent inputs of every record, together.
+    fn latent<E>(
+        records: &[usize],
+        of: impl Fn(usize) -> Result<Vec<Latent>, E>,
+    ) -> Result<Vec<(String, Vec<Functions>)>, Error<E>> {
+        let mut stages: Vec<(String, Vec<Functions>)> = Vec::new();
+        for (n, record) in records.iter().enumerate() {
+            for latent in of(*record).map_err(Error::Model)? {
+                match stages.iter_mut().find(|(stage, _)| *stage == latent.stage) {
+                    Some((_, functions)) if functions.len() == n => functions.push(latent.functions),
+                    Some(_) => {}
+                    None if n == 0 => stages.push((latent.stage, vec![latent.functions])),
+                    None => {}
+                }
+            }
+        }
+        Ok(stages)
+    }
+
+    /// What a flexible input at each stage of the chain would make of this fit's residual, best first. To be asked of the nominal model under
+    /// the noise of the best candidate.
+    ///
+    /// # Errors
+    /// [`Error`] if the model fails.
+    pub fn stages<M: ForwardModel>(
+        &self,
+        model: &M,
+        records: &[usize],
+        observations: &[Observation],
+    ) -> Result<Vec<Stage>, Error<M::Error>> {
+        let mut stages = Vec::new();
+        for (stage, functions) in Self::latent(records, |r| model.latent(r))? {
+            let Some((columns, _)) = self.whitened_functions(&functions) else { continue };
+            let gains = self.gain(&columns, &AMPLITUDES);
+            let most = gains.iter().fold(f64::NEG_INFINITY, |m, g| m.max(*g));
+            let gain = most + (gains.iter().map(|g| (g - most).exp()).sum::<f64>() / gains.len() as f64).ln();
+            let best = gains.iter().position(|g| *g == most).map_or(1.0, |k| AMPLITUDES[k]);
+            let left = self.after(&columns, best);
+            let mut start = 0;
+            let whiteness = (0..model.channels().len())
+                .map(|c| {
+                    let rows = observations.first().map_or(0, |_| self.noise.rows(0, c).len());
+                    let part = &left.as_slice()[start..start + rows];
+                    start += rows;
+                    whiteness(part)
+                })
+                .collect();
+            stages.push(Stage { stage, gain, probability: 0.0, whiteness });
+        }
+        let most = stages.iter().fold(f64::NEG_INFINITY, |m, s| m.max(s.gain));
+        let sum: f64 = stages.iter().map(|s| (s.gain - most).exp()).sum();
+        stages.iter_mut().for_each(|s| s.probability = (s.gain - most).exp() / sum);
+        stages.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        Ok(stages)
+    }
+
+    /// What is left of the whitened residual after functions of amplitude `scale` and the fit's own unknowns have taken their part.
+    fn after(&self, columns: &DMatrix<f64>, scale: f64) -> DVector<f64> {
+        let all = DMatrix::from_columns(
+            &self
+                .jacobian
+                .column_iter()
+                .map(|c| c.into_owned())
+                .chain(columns.column_iter().map(|c| c * scale))
+                .collect::<Vec<_>>(),
+        );
+        let normal = all.tr_mul(&all) + DMatrix::identity(all.ncols(), all.ncols());
+        match Cholesky::new(normal) {
+            Some(factor) => &self.whitened - &all * factor.solve(&all.tr_mul(&self.whitened)),
+            None => self.whitened.clone(),
+        }
+    }
+
+    /// How well the members of the model's group ([`ForwardModel::members`]) can be told apart by the records, their amplitudes being
+    /// known beforehand to 1σ = `prior`; `None` if the model has no such group.
+    ///
+    /// # Errors
+    /// [`Error`] if the model fails.
+    pub fn resolution<M: ForwardModel>(
+        &self,
+        model: &M,
+        records: &[usize],
+        prior: f64,
+    ) -> Result<Option<Resolution>, Error<M::Error>> {
+        let group = Self::latent(records, |r| Ok(model.members(r)?.into_iter().collect()))?;
+        let Some((columns, scales)) = group.first().and_then(|(_, functions)| self.whitened_functions(functions)) else {
+            return Ok(None);
+        };
+        // in units of the prior
+        let mut columns = columns;
+        for (k, scale) in scales.iter().enumerate() {
+            columns.column_mut(k).scale_mut(if *scale > 0.0 { prior / scale } else { 0.0 });
+        }
+        let own = self.jacobian.ncols();
+        let all = DMatrix::from_columns(&self.jacobian.column_iter().chain(columns.column_iter()).collect::<Vec<_>>());
+        let information = all.tr_mul(&all);
+        let posterior = Cholesky::new(&information + DMatrix::identity(all.ncols(), all.ncols())).ok_or(Error::NotFinite)?;
+        let covariance = posterior.inverse();
+        // the fit's own unknowns are where they fit best, at u
+        let mut gradient = all.tr_mul(&self.whitened);
+        gradient.rows_mut(0, own).zip_apply(&self.u, |g, u| *g -= u);
+        let amplitudes = &covariance * gradient;
+        let member = own..all.ncols();
+        Ok(Some(Resolution {
+            values: member.clone().map(|k| prior * amplitudes[k]).collect(),
+            errors: member.clone().map(|k| prior * covariance[(k, k)].max(0.0).sqrt()).collect(),
+            // (A + I)⁻¹ A = I − (A + I)⁻¹
+            resolved: member.map(|k| 1.0 - covariance[(k, k)]).collect(),
+        }))
+    }
+}

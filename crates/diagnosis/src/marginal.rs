@@ -1,0 +1,84 @@
+//! Parameters of the best explanation, with the doubt about a mechanism's choice in their intervals.
+
+use crate::diagnose::Candidate;
+use crate::fit::{Estimate, Unknown};
+use crate::{ForwardModel, Prior};
+use statrs::distribution::{ContinuousCDF, Normal};
+
+/// Shares of the posterior below the ends of an interval.
+const ENDS: [f64; 2] = [0.05, 0.95];
+/// Halvings that find a quantile.
+const HALVINGS: usize = 60;
+
+/// Estimates of the mechanism at `place` in `candidates[0]`. Where the mechanism has a choice, intervals are those of the mixture over
+/// all candidates that differ in choices only.
+pub(crate) fn estimates<M: ForwardModel>(model: &M, candidates: &[Candidate], place: usize) -> Vec<Estimate> {
+    let best = &candidates[0].fit;
+    let mut estimates = best.estimates(model, place);
+    let (mechanism, choice) = best.hypothesis.mechanisms[place];
+    if choice.is_none() {
+        return estimates;
+    }
+    // the same mechanisms, by number
+    let sorted = |c: &Candidate| {
+        let mut numbers: Vec<usize> = c.fit.hypothesis.mechanisms.iter().map(|m| m.0).collect();
+        numbers.sort_unstable();
+        numbers
+    };
+    let like = |c: &&Candidate| {
+        c.rival == candidates[0].rival
+            && sorted(c) == sorted(&candidates[0])
+            && c.fit.hypothesis.constants_free == best.hypothesis.constants_free
+    };
+    let kin: Vec<(&Candidate, usize)> = candidates
+        .iter()
+        .filter(like)
+        .filter_map(|c| Some((c, c.fit.hypothesis.mechanisms.iter().position(|m| m.0 == mechanism)?)))
+        .collect();
+    let sum: f64 = kin.iter().map(|(c, _)| c.probability).sum();
+    if sum.is_nan() || sum <= 0.0 {
+        return estimates;
+    }
+    let mut choices: Vec<(f64, f64)> =
+        kin.iter().filter_map(|(c, at)| Some((c.fit.hypothesis.mechanisms[*at].1?, c.probability / sum))).collect();
+    choices.sort_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some(first) = estimates.first_mut() {
+        first.ci90 = ENDS.map(|end| {
+            let mut below = 0.0;
+            let reached = choices.iter().find(|(_, p)| {
+                below += p;
+                below >= end
+            });
+            reached.or(choices.last()).map_or(first.value, |c| c.0)
+        });
+    }
+    for (parameter, estimate) in estimates.iter_mut().skip(1).enumerate() {
+        let prior = model.mechanisms()[mechanism].parameters[parameter].prior;
+        let normals: Vec<(Normal, f64)> =
+            kin.iter().filter_map(|(c, at)| normal(c, *at, parameter).map(|n| (n, c.probability / sum))).collect();
+        estimate.ci90 = ENDS.map(|end| quantile(&prior, &normals, end));
+    }
+    estimates
+}
+
+/// Posterior of a parameter's u in one candidate.
+fn normal(candidate: &Candidate, place: usize, parameter: usize) -> Option<Normal> {
+    let fit = &candidate.fit;
+    let at = fit.layout.iter().position(|u| *u == Unknown::Mechanism { place, parameter })?;
+    Normal::new(fit.u[at], fit.covariance[(at, at)].max(f64::MIN_POSITIVE).sqrt()).ok()
+}
+
+/// Value below which a share of a mixture lies.
+fn quantile(prior: &Prior, mixture: &[(Normal, f64)], share: f64) -> f64 {
+    let (mut low, mut high) = (-20.0, 20.0);
+    for _ in 0..HALVINGS {
+        let middle = (low + high) / 2.0;
+        let below: f64 = mixture.iter().map(|(normal, weight)| weight * normal.cdf(middle)).sum();
+        if below < share {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    prior.value((low + high) / 2.0)
+}

@@ -1,0 +1,73 @@
+//! `recommend`: its arguments, and what it does with them.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use fogcoil::cache::Cache;
+use fogcoil::output::Content;
+use fogcoil::recommend::Limits;
+use fogcoil::{Error, diagnose, input, output, recommend};
+
+use crate::cli_check::Format;
+use crate::progress::Progress;
+use crate::{line, read_coil};
+
+#[derive(Args)]
+pub(crate) struct Recommend {
+    /// Case file of the coil
+    #[arg(value_name = "COIL.ron")]
+    coil: PathBuf,
+    /// Mechanisms to tell apart; `nominal` and `recalibrate` may stand among them
+    #[arg(long, value_name = "ID,ID,...", value_delimiter = ',', required = true)]
+    between: Vec<String>,
+    /// Record of the unit: gives sizes, noise, and the test that a repeat would repeat; may be given more than once
+    #[arg(long = "from", value_name = "A.csv")]
+    records: Vec<PathBuf>,
+    /// Lowest chamber temperature in degC
+    #[arg(long, value_name = "C", default_value_t = -40.0, allow_negative_numbers = true)]
+    coldest: f64,
+    /// Highest chamber temperature in degC
+    #[arg(long, value_name = "C", default_value_t = 60.0, allow_negative_numbers = true)]
+    hottest: f64,
+    /// Fastest change of the chamber in K/min
+    #[arg(long, value_name = "K/MIN", default_value_t = 2.0)]
+    fastest: f64,
+    /// Length of the test in h
+    #[arg(long, value_name = "H", default_value_t = 24.0)]
+    hours: f64,
+    /// Write the recommended profile here, time_s,chamber_c, as `simulate` reads it
+    #[arg(long, value_name = "P.csv")]
+    out: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+    /// What is known of the records besides their columns [default: meta.ron beside each, if it is there]
+    #[arg(long, value_name = "FILE")]
+    meta: Option<PathBuf>,
+    #[command(flatten)]
+    format: Format,
+    /// No notes and no progress on standard error
+    #[arg(long)]
+    quiet: bool,
+    /// Build the models anew and do not keep them
+    #[arg(long)]
+    no_cache: bool,
+}
+
+pub(crate) fn run(arguments: &Recommend) -> Result<(), Error> {
+    let Recommend { coil, between, records, coldest, hottest, fastest, hours, out, json, meta, format, quiet, no_cache } = arguments;
+    let inputs: Vec<&Path> = [coil].into_iter().chain(records).map(PathBuf::as_path).collect();
+    output::check_distinct(&inputs, &[out.as_deref()])?;
+    let progress = if *quiet { Progress::Silent } else { Progress::OnStandardError };
+    let case = if *quiet { input::read_coil(coil)? } else { read_coil(coil)? };
+    diagnose::check_design(&case, coil)?;
+    let options = format.options(meta.clone());
+    let records = records.iter().map(|path| input::read_record(path, &options)).collect::<Result<Vec<_>, _>>()?;
+    let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
+    let limits = Limits { coldest: *coldest, hottest: *hottest, fastest: *fastest, hours: *hours };
+    let result = recommend::recommend(&case, between, &records, &limits, &cache, &|task| progress.note(task))?;
+    if let Some(path) = out {
+        output::write_files(&[(path, Content::Text(result.profiles[0].programme.csv()))])?;
+    }
+    output::print(&if *json { line(&recommend::json(&result)) } else { recommend::text(&result) })
+}

@@ -1,0 +1,39 @@
+//! The outcome as scripts read it.
+
+use diagnosis::{HeldOut, Verdict};
+use mechanisms::RATE as RATE_CHANNEL;
+use serde_json::{Value, json};
+
+use super::{Outcome, name};
+
+impl Outcome {
+    /// One object, as scripts read it.
+    pub fn json(&self) -> Value {
+        let d = &self.diagnosis;
+        let explained = d.verdict == Verdict::Explained;
+        let mechanisms: Vec<Value> = self.likely().map(|(id, p)| json!({"id": id, "probability": p})).collect();
+        let set: Vec<&str> = d.set.iter().map(|m| self.id(*m)).collect();
+        let mut parameters = serde_json::Map::new();
+        for estimate in d.parameters.iter().flatten().filter(|_| explained) {
+            parameters.insert(estimate.name.clone(), json!({"value": estimate.value, "ci90": estimate.ci90}));
+        }
+        let located = self.places().next().filter(|_| explained).map(|(_, place)| {
+            json!({"stage": place.stage, "temperature_c": place.temperature, "time_s": place.time, "layers": place.layers})
+        });
+        let held = self.holdouts.first().map(|held| {
+            let of = |h: &HeldOut| h.rmse[RATE_CHANNEL];
+            let floor = held.model.noise_floor[RATE_CHANNEL];
+            json!({"rmse_nominal": of(&held.nominal), "rmse_model": of(&held.model), "noise_floor": floor, "accepted": held.accepted})
+        });
+        let nowhere = json!({"stage": null, "temperature_c": null, "time_s": null, "layers": null});
+        json!({
+            "verdict": name(d.verdict),
+            "mechanisms": mechanisms,
+            "set": set,
+            "parameters": parameters,
+            "located": located.unwrap_or(nowhere),
+            "structure": self.structure(),
+            "holdout": held,
+        })
+    }
+}

@@ -1,0 +1,184 @@
+//! `fogcoil diagnose`: recordings of a unit in; what differs from its design, and what most likely causes it, out.
+
+mod extended;
+mod json;
+mod record;
+mod report;
+mod structure;
+mod text;
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use coil::COARSE;
+use diagnosis::{Diagnosis, ForwardModel, HeldOut, Hypothesis, Observation, Settings, Verdict};
+use mechanisms::{Gyro, Library, Located, Prepared, RATE as RATE_CHANNEL};
+
+use crate::Error;
+use crate::cache::Cache;
+use crate::input::{CoilCase, InputError, RecordCase};
+
+pub use extended::with_mechanism;
+pub use record::{FEWEST_ROWS, INTERVAL_S, MANY_ROWS, MOST_ROWS};
+pub(crate) use record::{Ready, ready};
+
+/// A diagnosis with what it was made from.
+pub struct Outcome {
+    /// Name of the design.
+    name: String,
+    gyro: Gyro,
+    diagnosis: Diagnosis,
+    fits: Vec<Record>,
+    holdouts: Vec<Held>,
+    notes: Vec<String>,
+}
+
+/// A record that was used.
+struct Record {
+    file: PathBuf,
+    observed: Observation,
+    chamber: Vec<f64>,
+}
+
+/// A record that was held out: what the nominal and the extended model predict of it.
+struct Held {
+    record: Record,
+    nominal: HeldOut,
+    model: HeldOut,
+    accepted: bool,
+}
+
+/// Diagnoses a unit of the design `case` from the records `fits`, judged on `holdouts`.
+///
+/// # Errors
+/// [`Error::Input`] names the record that cannot be used and why; [`Error::Coil`] if the design cannot be modelled.
+pub fn diagnose(
+    case: &CoilCase,
+    fits: &[RecordCase],
+    holdouts: &[RecordCase],
+    cache: &Cache,
+    progress: &dyn Fn(&str),
+) -> Result<Outcome, Error> {
+    let coil = |source| Error::Coil { file: case.file.clone(), source };
+    let mut notes = Vec::new();
+    let read: Vec<Ready> = fits.iter().chain(holdouts).map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
+    progress("modelling the coil and what its model may leave out (half a minute, once for a design)");
+    let library = library(case, cache)?;
+    progress("running every model under the recorded chamber");
+    let prepared = |r: &Ready| Prepared::new(&library, &r.observation.time, &r.chamber, r.averaging);
+    let prepared = read.iter().map(prepared).collect::<Result<Vec<_>, _>>().map_err(coil)?;
+    let gyro = Gyro::new(library, prepared).map_err(coil)?;
+    let observations: Vec<Observation> = read.iter().map(|r| r.observation.clone()).collect();
+    let numbers: Vec<usize> = (0..fits.len()).collect();
+    let failed = |error: diagnosis::Error<coil::Error>| match error {
+        diagnosis::Error::Model(source) => coil(source),
+        other => Error::Diagnosis(other.to_string()),
+    };
+    let diagnosis =
+        diagnosis::diagnose(&gyro, &numbers, &observations[..fits.len()], &Settings::default(), progress).map_err(failed)?;
+    let mut records = read.into_iter().zip(fits.iter().chain(holdouts)).map(|(ready, case)| Record {
+        file: case.fingerprint.file.clone(),
+        observed: ready.observation,
+        chamber: ready.chamber,
+    });
+    let fitted: Vec<Record> = records.by_ref().take(fits.len()).collect();
+    let best = &diagnosis.best().fit;
+    let held = |(n, record): (usize, Record)| -> Result<Held, Error> {
+        let model = best.hold_out(&gyro, n, &record.observed, best).map_err(failed)?;
+        let nominal = diagnosis.nominal.hold_out(&gyro, n, &record.observed, best).map_err(failed)?;
+        let accepted = model.rmse[RATE_CHANNEL] <= nominal.rmse[RATE_CHANNEL];
+        Ok(Held { record, nominal, model, accepted })
+    };
+    let holdouts = records.enumerate().map(|(n, record)| held((fits.len() + n, record))).collect::<Result<Vec<_>, _>>()?;
+    Ok(Outcome { name: case.name.clone(), gyro, diagnosis, fits: fitted, holdouts, notes })
+}
+
+/// The library of a design, from the cache if it is there.
+pub(crate) fn library(case: &CoilCase, cache: &Cache) -> Result<Library, Error> {
+    let key = (&case.design, COARSE);
+    let built = cache.load_or_build("library", &key, || Library::build(&case.design, |_| ()));
+    built.map(|(library, _)| library).map_err(|source| Error::Coil { file: case.file.clone(), source })
+}
+
+/// The verdict's name.
+fn name(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::None => "none",
+        Verdict::Recalibrate => "recalibrate",
+        Verdict::Explained => "explained",
+        Verdict::Unknown => "unknown",
+    }
+}
+
+/// What the design as it is is called.
+const NOMINAL: &str = "nominal model";
+
+impl Outcome {
+    /// What the model that the verdict rests on is called, where it is not the nominal one.
+    fn found(&self) -> Option<&'static str> {
+        match self.diagnosis.verdict {
+            Verdict::None => None,
+            Verdict::Recalibrate => Some("recalibrated model"),
+            Verdict::Explained => Some("extended model"),
+            Verdict::Unknown if self.diagnosis.best().fit.hypothesis == Hypothesis::NOMINAL => None,
+            Verdict::Unknown => Some("best of the library"),
+        }
+    }
+
+    fn id(&self, mechanism: usize) -> &str {
+        &self.gyro.mechanisms()[mechanism].id
+    }
+
+    /// Ids of the best candidate's mechanisms.
+    fn names(&self) -> Vec<&str> {
+        self.diagnosis.best().fit.active.iter().map(|a| self.id(a.mechanism)).collect()
+    }
+
+    /// Where each of the best candidate's mechanisms acts.
+    fn places(&self) -> impl Iterator<Item = (&str, Located)> {
+        let active = self.diagnosis.best().fit.active.iter().enumerate();
+        active.map(|(n, a)| (self.id(a.mechanism), self.gyro.located(a, self.diagnosis.choice(n))))
+    }
+
+    /// Probabilities worth saying.
+    fn likely(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.diagnosis.mechanisms.iter().filter(|(_, p)| *p >= 5e-4).map(|(m, p)| (self.id(*m), *p))
+    }
+
+    /// Whether no record that was held out is predicted worse than by the nominal model.
+    fn accepted(&self) -> bool {
+        self.holdouts.iter().all(|held| held.accepted)
+    }
+
+    /// What the accepted model predicts of the first record that was held out, `time_s,rate_deg_per_h`; `None` if there is none.
+    ///
+    /// A model that predicts it worse than the nominal one is not accepted: then the nominal prediction is given.
+    pub fn prediction(&self) -> Option<String> {
+        let held = self.holdouts.first()?;
+        let chosen = if held.accepted { &held.model } else { &held.nominal };
+        let mut text = "time_s,rate_deg_per_h\n".to_owned();
+        for (t, rate) in held.record.observed.time.iter().zip(&chosen.prediction[RATE_CHANNEL]) {
+            let _ = writeln!(text, "{t},{rate}");
+        }
+        Some(text)
+    }
+
+    /// What a user should know besides.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+}
+
+/// Refuses a design that the library cannot be made for.
+///
+/// # Errors
+/// [`Error::Input`] for a coil file whose own mechanics changes with temperature or time.
+pub fn check_design(case: &CoilCase, file: &Path) -> Result<(), Error> {
+    if case.design.mechanics == coil::Mechanics::Elastic {
+        return Ok(());
+    }
+    let problem =
+        "a design whose mechanics changes is not diagnosed: its own changes would hide those that are sought".to_owned();
+    let remedy = "set it to Elastic, the nominal design".to_owned();
+    Err(InputError { file: file.to_owned(), line: None, field: Some("mechanics".into()), problem, remedy }.into())
+}

@@ -1,0 +1,85 @@
+//! The recording with its models, and what is left.
+
+use super::{Clock, Quantity, Shown, line};
+use crate::diagnose::Outcome;
+use crate::figures::element;
+use crate::plot::{Axis, Content, Figure, Height, Panel, Series, Style};
+
+impl Outcome {
+    pub(super) fn course(&self, out: &mut String) {
+        let shown = self.shown();
+        let Some(first) = shown.first() else { return };
+        out.push_str(&element(&self.recording(&shown, first)));
+        out.push_str(&element(&self.residuals(&shown, first)));
+    }
+
+    fn recording(&self, shown: &[Shown], first: &Shown) -> Figure<'static> {
+        let (clock, time) = (Clock::of(&first.record.observed), &first.record.observed.time);
+        let chamber = time.iter().zip(&first.record.chamber).map(|(t, c)| (clock.at(*t), *c)).collect();
+        let mut panels = vec![panel(&clock, "chamber [°C]", 0.1, 9.0, vec![line("", Style::First, chamber)])];
+        for q in self.quantities() {
+            let recorded = &first.record.observed.channels[q.channel];
+            let rows = || time.iter().zip(recorded).filter(|(_, y)| y.is_finite()).map(|(t, y)| (clock.at(*t), *y));
+            let mut series = vec![line("recording", Style::Fine(2), rows().collect())];
+            for (n, fit) in shown.iter().enumerate() {
+                let left = fit.residual(q.channel);
+                let predicted = rows().zip(left).map(|((t, y), (_, r))| (t, y - r)).collect();
+                series.push(line(fit.name, if n + 1 == shown.len() { Style::Second } else { Style::Third }, predicted));
+            }
+            panels.push(panel(&clock, q.label, q.least, 14.0, series));
+        }
+        label_last(&mut panels, &clock);
+        Figure {
+            id: "course",
+            title: format!("{}: recording and model", first.record.name()),
+            description: "Chamber temperature, the gyroscope's rate and the spool's thermometer over time, as recorded and as modelled.".into(),
+            caption: "The models are driven by the recorded chamber temperature; each has its fitted constant offset.".into(),
+            columns: 1,
+            panels,
+        }
+    }
+
+    fn residuals(&self, shown: &[Shown], first: &Shown) -> Figure<'static> {
+        let clock = Clock::of(&first.record.observed);
+        let mut panels = Vec::new();
+        for q in self.quantities() {
+            let of = |fit: &Shown| fit.residual(q.channel).into_iter().map(|(t, r)| (clock.at(t), r)).collect::<Vec<_>>();
+            // both on one scale
+            let most = shown.iter().flat_map(of).fold(q.least / 2.0, |most, (_, r)| r.abs().max(most));
+            for (n, fit) in shown.iter().enumerate() {
+                let style = if n + 1 == shown.len() { Style::Fine(2) } else { Style::Fine(0) };
+                let label = format!("{} [{}]", q.name, unit(q));
+                let mut panel = panel(&clock, &label, q.least, 9.0, vec![line("", style, of(fit))]);
+                panel.heading = format!("recorded less {}", fit.name);
+                panel.y = panel.y.covering([-most, most]);
+                panels.push(panel);
+            }
+        }
+        label_last(&mut panels, &clock);
+        Figure {
+            id: "residuals",
+            title: "What each model leaves".into(),
+            description: "Recorded less modelled rate and spool temperature over time, for the nominal model and for what was found.".into(),
+            caption: "A channel's panels have one scale. What is noise has no shape; what has one is missing in the model.".into(),
+            columns: 1,
+            panels,
+        }
+    }
+}
+
+fn unit(q: Quantity) -> &'static str {
+    if q.channel == mechanisms::RATE { "°/h" } else { "K" }
+}
+
+pub(super) fn panel(clock: &Clock, label: &str, least: f64, lines: f64, series: Vec<Series<'static>>) -> Panel<'static> {
+    let x = Axis { label: String::new(), ..clock.axis() };
+    let y = Axis::round(label, least);
+    Panel { heading: String::new(), x, y, height: Height::Lines(lines), content: Content::Lines(series) }
+}
+
+/// Of panels over one axis of time the last alone carries its label.
+pub(super) fn label_last(panels: &mut [Panel], clock: &Clock) {
+    if let Some(last) = panels.last_mut() {
+        last.x = Axis { covers: last.x.covers, ..clock.axis() };
+    }
+}

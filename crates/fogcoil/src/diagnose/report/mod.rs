@@ -1,0 +1,226 @@
+//! A diagnosis as one page for an expert: verdict, recording, residuals before and after, where, which mechanism, proof, noise.
+
+mod candidates;
+mod course;
+mod held_out;
+mod noise;
+mod parameters;
+mod place;
+mod spectrum;
+mod stages;
+
+use std::fmt::Write;
+
+use diagnosis::{Fit, ForwardModel, Observation, Verdict};
+use mechanisms::{RATE, SPOOL};
+
+use super::{NOMINAL, Outcome, Record};
+use crate::picture::escape;
+use crate::plot::{Axis, Series, Style, Thinning};
+use crate::report::{page, row, table};
+use crate::units::DurationUnit;
+
+/// A fit beside the record that it is shown for.
+#[derive(Clone, Copy)]
+struct Shown<'a> {
+    /// What it is called.
+    name: &'static str,
+    fit: &'a Fit,
+    /// Number of the record among those that were fitted.
+    number: usize,
+    record: &'a Record,
+    /// The fit whose noise whitens.
+    judge: &'a Fit,
+}
+
+impl Shown<'_> {
+    /// Rows of a channel with a value, and the residual there.
+    fn residual(&self, channel: usize) -> Vec<(f64, f64)> {
+        let all = self.record.observed.time.iter().zip(&self.fit.residuals[self.number][channel]);
+        all.filter(|(_, r)| r.is_finite()).map(|(t, r)| (*t, *r)).collect()
+    }
+
+    fn whitened(&self, channel: usize) -> Vec<f64> {
+        self.fit.whitened_residual(self.number, channel, &self.record.observed, self.judge).1
+    }
+}
+
+/// What is shown for a channel.
+#[derive(Clone, Copy)]
+struct Quantity {
+    channel: usize,
+    /// With its unit.
+    label: &'static str,
+    name: &'static str,
+    /// Least span that is drawn.
+    least: f64,
+}
+
+const QUANTITIES: [Quantity; 2] = [
+    Quantity { channel: RATE, label: "rate [°/h]", name: "rate", least: 1e-4 },
+    Quantity { channel: SPOOL, label: "spool thermometer [°C]", name: "spool thermometer", least: 0.01 },
+];
+
+/// The time since the first row, in the unit of its axis.
+struct Clock {
+    unit: DurationUnit,
+    start: f64,
+    end: f64,
+}
+
+impl Clock {
+    fn of(observed: &Observation) -> Self {
+        let (start, end) = observed.time.first().zip(observed.time.last()).map_or((0.0, 0.0), |(a, b)| (*a, *b));
+        Self { unit: DurationUnit::of(end - start), start, end }
+    }
+
+    fn at(&self, time: f64) -> f64 {
+        self.unit.of_seconds(time - self.start)
+    }
+
+    fn ends(&self) -> [f64; 2] {
+        [0.0, self.at(self.end)]
+    }
+
+    fn axis(&self) -> Axis {
+        Axis::tight(format!("time since the first row [{}]", self.unit.name()), 1e-6)
+    }
+}
+
+/// A line through points.
+fn line<'a>(name: impl Into<String>, style: Style, points: Vec<(f64, f64)>) -> Series<'a> {
+    let count = points.len();
+    Series { name: name.into(), style, count, at: Box::new(move |n| points[n]), thinning: Thinning::Columns }
+}
+
+impl Outcome {
+    /// A page that needs nothing but itself.
+    pub fn report(&self) -> String {
+        let mut out = String::new();
+        out.push_str("<h2>Finding</h2>\n");
+        self.finding(&mut out);
+        self.candidates(&mut out);
+        self.parameters(&mut out);
+        out.push_str("<h2>Recording and model</h2>\n");
+        self.course(&mut out);
+        out.push_str("<h2>Is what is left noise?</h2>\n");
+        self.spectra(&mut out);
+        out.push_str("<h2>Where the difference is</h2>\n");
+        self.stages(&mut out);
+        self.place(&mut out);
+        self.held_out(&mut out);
+        self.noise(&mut out);
+        self.limits(&mut out);
+        let title = format!("{}: what differs from the design", self.name);
+        page(&title, &format!("<p>{}</p>\n", escape(&self.verdict())), &out)
+    }
+
+    /// The nominal model and, where it is another, what the verdict rests on, for the first record that was fitted.
+    fn shown(&self) -> Vec<Shown<'_>> {
+        let best = &self.diagnosis.best().fit;
+        match self.found() {
+            None => self.of_first(NOMINAL, best).into_iter().collect(),
+            Some(name) => self.of_first(NOMINAL, &self.diagnosis.mismatch).into_iter().chain(self.of_first(name, best)).collect(),
+        }
+    }
+
+    fn of_first<'a>(&'a self, name: &'static str, fit: &'a Fit) -> Option<Shown<'a>> {
+        let record = self.fits.first()?;
+        Some(Shown { name, fit, number: 0, record, judge: &self.diagnosis.best().fit })
+    }
+
+    /// Channels in which something was recorded.
+    fn quantities(&self) -> impl Iterator<Item = Quantity> {
+        let recorded = |q: &Quantity| {
+            self.fits.first().is_some_and(|record| record.observed.channels[q.channel].iter().any(|v| v.is_finite()))
+        };
+        QUANTITIES.into_iter().filter(recorded)
+    }
+
+    fn finding(&self, out: &mut String) {
+        let mut rows = Vec::new();
+        let d = &self.diagnosis;
+        for (n, active) in d.best().fit.active.iter().enumerate().filter(|_| d.verdict == Verdict::Explained) {
+            rows.push(row(self.id(active.mechanism), nice(&super::text::place(&self.gyro.located(active, d.choice(n))))));
+        }
+        if let Some(alternatives) = self.alternatives() {
+            rows.push(row("not told apart", alternatives));
+        }
+        if let Some(structure) = self.structure() {
+            rows.push(row("structure", structure));
+        }
+        for (n, record) in self.fits.iter().enumerate() {
+            let shown = if n == 0 && self.fits.len() > 1 { "; this one is drawn below" } else { "" };
+            rows.push(row("fitted", format!("{}, {}{shown}", record.name(), record.span())));
+        }
+        for held in &self.holdouts {
+            rows.push(row("held out", format!("{}, {}", held.record.name(), held.record.span())));
+        }
+        if self.holdouts.is_empty() {
+            rows.push(row("held out", "no record: what was fitted is not proven on data that it has not seen"));
+        }
+        rows.extend(self.notes.iter().map(|note| row("note", note.as_str())));
+        table(out, &rows);
+    }
+
+    fn limits(&self, out: &mut String) {
+        out.push_str("<h2>Limits</h2>\n");
+        let library: Vec<&str> = self.gyro.mechanisms().iter().map(|m| m.id.as_str()).collect();
+        let mut rows = vec![
+            row("program", format!("fogcoil {}", env!("CARGO_PKG_VERSION"))),
+            row("library", library.join(", ")),
+        ];
+        rows.push(row(
+            "probabilities",
+            "posterior, with all that was compared counted in; they hold if the library and the priors do. A mechanism outside the \
+             library shows as structure that nothing explains",
+        ));
+        rows.push(row("values", "fitted through the whole chain, most probable values with 90 % intervals; not measured"));
+        rows.push(row(
+            "model errors allowed for",
+            "gain of the rate 0.3 %, gain of the Shupe part 1.5 %, conductivity of the surroundings 0.1 %, start off rest 0.015 K (1σ); \
+             a constant offset of each channel is never a finding",
+        ));
+        table(out, &rows);
+    }
+}
+
+impl Record {
+    /// How long and how many rows.
+    fn span(&self) -> String {
+        let time = &self.observed.time;
+        let seconds = time.first().zip(time.last()).map_or(0.0, |(a, b)| b - a);
+        let unit = DurationUnit::of(seconds);
+        format!("{} rows over {:.1} {}", time.len(), unit.of_seconds(seconds), unit.name())
+    }
+}
+
+/// Text for people in the page's signs: a true minus before a number, ° for deg.
+fn nice(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut before = ' ';
+    for (at, c) in text.char_indices() {
+        let number = c == '-' && text[at + 1..].starts_with(|next: char| next.is_ascii_digit());
+        out.push(if number && !before.is_alphanumeric() || number && before == 'e' { '\u{2212}' } else { c });
+        before = c;
+    }
+    out.replace("degC", "°C")
+}
+
+/// A table with a head, in a box that scrolls where it is too wide.
+fn grid(out: &mut String, head: &[&str], rows: &[Vec<String>]) {
+    out.push_str("<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"table\">\n<table class=\"data named\">\n<thead>\n<tr>");
+    head.iter().for_each(|cell| {
+        let _ = write!(out, "<th scope=\"col\">{}</th>", escape(cell));
+    });
+    out.push_str("</tr>\n</thead>\n<tbody>\n");
+    for row in rows {
+        out.push_str("<tr>");
+        for (n, cell) in row.iter().enumerate() {
+            let tag = if n == 0 { "th scope=\"row\"" } else { "td" };
+            let _ = write!(out, "<{tag}>{}</{}>", escape(&nice(cell)), &tag[..2]);
+        }
+        out.push_str("</tr>\n");
+    }
+    out.push_str("</tbody>\n</table>\n</div>\n");
+}

@@ -1,0 +1,99 @@
+//! What was fitted: densities after the recording beside those before.
+
+use std::fmt::Write;
+
+use diagnosis::{Place, Posterior, Role, Verdict};
+
+use super::line;
+use crate::diagnose::Outcome;
+use crate::figures::element;
+use crate::plot::{Axis, Content, Figure, Height, Panel, Style};
+use crate::table::significant;
+
+/// Points of a density.
+const POINTS: usize = 200;
+/// How far a density is drawn [standard deviations].
+const REACH: f64 = 5.0;
+
+impl Outcome {
+    pub(super) fn parameters(&self, out: &mut String) {
+        let all = self.diagnosis.best().fit.posteriors(&self.gyro);
+        let wanted = |p: &&Posterior| match self.diagnosis.verdict {
+            Verdict::Explained | Verdict::Unknown => matches!(p.place, Place::Mechanism(_)),
+            Verdict::Recalibrate => p.place == Place::Nominal(Role::Constant),
+            Verdict::None => false,
+        };
+        let fitted: Vec<&Posterior> = all.iter().filter(wanted).collect();
+        if fitted.is_empty() {
+            return;
+        }
+        let figure = Figure {
+            id: "parameters",
+            title: match self.diagnosis.verdict {
+                Verdict::Unknown => "Parameters of the nearest description (fitted)".into(),
+                _ => "Parameters (fitted)".into(),
+            },
+            description: "Probability density of each parameter after the recording, its 90 % interval, and its density before.".into(),
+            caption: "After the recording (normal in the coordinate in which the prior is), its 90 % interval, and the prior; each density \
+                      is scaled to its own maximum. If another mechanism is at work, none of this holds."
+                .into(),
+            columns: 2,
+            panels: fitted.iter().map(|p| panel(p)).collect(),
+        };
+        out.push_str(&element(&figure));
+        let rows: Vec<Vec<String>> = fitted
+            .iter()
+            .map(|p| {
+                let (before, after) = (central(p, 0.0, 1.0), p.ci90());
+                let interval = |ends: [f64; 2]| ends.map(|end| significant(end, 4)).join(" to ");
+                vec![p.name.clone(), significant(p.value(), 4), interval(after), interval(before)]
+            })
+            .collect();
+        super::grid(out, &["parameter", "value (fitted)", "90 % interval", "90 % of the prior"], &rows);
+        for active in &self.diagnosis.best().fit.active {
+            if let Some((name, value)) = self.choice(active) {
+                let _ = writeln!(out, "<p>{}: {name} {value}, compared with every other one.</p>", self.id(active.mechanism));
+            }
+        }
+    }
+}
+
+/// 90 % interval of a normal u.
+fn central(p: &Posterior, u: f64, sd: f64) -> [f64; 2] {
+    Posterior { u, sd, ..p.clone() }.ci90()
+}
+
+fn panel(p: &Posterior) -> Panel<'static> {
+    let reach = REACH * p.sd;
+    let at = |k: usize| p.u + reach * (2.0 * k as f64 / POINTS as f64 - 1.0);
+    // du/dvalue, so that it is a density of the value
+    let slope = |u: f64| {
+        let h = 1e-4;
+        2.0 * h / (p.prior.value(u + h) - p.prior.value(u - h)).abs().max(f64::MIN_POSITIVE)
+    };
+    let density = |mean: f64, sd: f64| move |u: f64| (-((u - mean) / sd).powi(2) / 2.0).exp();
+    let scaled = |of: &dyn Fn(f64) -> f64, most: f64| -> Vec<(f64, f64)> {
+        (0..=POINTS).map(|k| (p.prior.value(at(k)), of(at(k)) * slope(at(k)) / most)).collect()
+    };
+    let most = |of: &dyn Fn(f64) -> f64, middle: f64, sd: f64| {
+        let points = (0..=POINTS).map(|k| middle + REACH * sd * (2.0 * k as f64 / POINTS as f64 - 1.0));
+        points.map(|u| of(u) * slope(u)).fold(f64::MIN_POSITIVE, f64::max)
+    };
+    let (after, before) = (density(p.u, p.sd), density(0.0, 1.0));
+    let posterior = scaled(&after, most(&after, p.u, p.sd));
+    let prior = scaled(&before, most(&before, 0.0, 1.0));
+    let [low, high] = p.ci90();
+    let ends = |value: f64| line("", Style::Fine(2), vec![(value, 0.0), (value, 1.0)]);
+    Panel {
+        heading: p.name.clone(),
+        x: Axis::tight("", 0.0),
+        y: Axis::round("density, scaled", 0.1).covering([0.0, 1.0]),
+        height: Height::Lines(10.0),
+        content: Content::Lines(vec![
+            line("prior", Style::Second, prior),
+            ends(low),
+            ends(high),
+            line("posterior", Style::First, posterior),
+        ]),
+    }
+}

@@ -1,0 +1,162 @@
+//! Where the difference is: over temperature and its rate, in time, in frequency.
+
+use mechanisms::RATE;
+
+use super::{Clock, Shown, course, line};
+use crate::diagnose::Outcome;
+use crate::figures::element;
+use crate::plot::{Axis, Colours, Content, Figure, HeatMap, Height, Panel, Style};
+use bias::units::S_PER_MIN;
+use diagnosis::{Cell, Spectrum};
+
+/// z at which the colours end.
+const MOST_Z: f64 = 10.0;
+
+impl Outcome {
+    pub(super) fn place(&self, out: &mut String) {
+        let shown = self.shown();
+        out.push_str(&self.map(&shown));
+        out.push_str(&self.blocks(&shown));
+        out.push_str(&self.coherence(&shown));
+    }
+
+    /// Mean residual over temperature and its rate.
+    fn map(&self, shown: &[Shown]) -> String {
+        let cells = |fit: &Shown| {
+            fit.fit.over_state(&self.gyro, (fit.number, fit.number), RATE, &fit.record.observed, fit.judge)
+        };
+        let all: Vec<Vec<Cell>> = shown.iter().map(cells).collect();
+        let most = all.iter().flatten().fold(3.0_f64, |most, cell| cell.z.abs().max(most)).min(MOST_Z);
+        let panels: Vec<Panel> =
+            shown.iter().zip(&all).filter_map(|(fit, cells)| grid(fit.name, cells, most)).collect();
+        if panels.is_empty() {
+            return String::new();
+        }
+        element(&Figure {
+            id: "state",
+            title: "The rate's residual over temperature and its rate".into(),
+            description: "Map of the mean whitened residual over the spool's temperature and its rate; dots mark cells that stand out.".into(),
+            caption: "z: sum of the whitened residual in a cell over the root of its rows, standard normal in noise. A dot marks what \
+                      stands out, at most one in twenty of them by chance (Benjamini and Hochberg). Columns of one colour: a function of the \
+                      temperature; upper and lower halves of opposite colours: a function of its rate."
+                .into(),
+            columns: 2,
+            panels,
+        })
+    }
+
+    /// Stretches of about an hour.
+    fn blocks(&self, shown: &[Shown]) -> String {
+        let Some(first) = shown.first() else { return String::new() };
+        let clock = Clock::of(&first.record.observed);
+        let mut panels = Vec::new();
+        for q in self.quantities() {
+            let mut series = Vec::new();
+            for (n, fit) in shown.iter().enumerate() {
+                let last = n + 1 == shown.len();
+                let blocks = fit.fit.in_time(fit.number, q.channel, &fit.record.observed, fit.judge);
+                let middle = |b: &diagnosis::Block| (clock.at((b.time[0] + b.time[1]) / 2.0), b.excess);
+                series.push(line(
+                    fit.name,
+                    if last { Style::First } else { Style::Second },
+                    blocks.iter().map(middle).collect(),
+                ));
+                // each mark is a series of its own: none is joined to the next
+                let marks = blocks.iter().filter(|b| b.significant).enumerate();
+                series.extend(marks.map(|(k, b)| {
+                    let name = if k == 0 { format!("stands out, {}", fit.name) } else { String::new() };
+                    line(name, Style::Marked(u8::from(!last)), vec![middle(b)])
+                }));
+            }
+            let mut panel = course::panel(&clock, "mean square over that of noise", 0.5, 10.0, series);
+            panel.heading = q.name.to_owned();
+            panel.y = Axis::logarithmic("mean square over that of noise");
+            panel.x = panel.x.covering(clock.ends());
+            panels.push(panel);
+        }
+        course::label_last(&mut panels, &clock);
+        element(&Figure {
+            id: "blocks",
+            title: "When the residual is larger than noise".into(),
+            description: "Mean square of the whitened residual in stretches of about an hour; those that stand out are marked.".into(),
+            caption: "In stretches of about an hour; 1 is noise. Marked: what stands out, the number of stretches considered.".into(),
+            columns: 1,
+            panels,
+        })
+    }
+
+    /// With which state it goes.
+    fn coherence(&self, shown: &[Shown]) -> String {
+        let panel = |fit: &Shown| -> Option<Panel<'static>> {
+            let spectra = fit.fit.in_frequency(&self.gyro, (fit.number, fit.number), RATE, &fit.record.observed);
+            let threshold = spectra.first()?.threshold;
+            let of = |k: usize| spectra.iter().map(|s: &Spectrum| (s.frequency, s.coherence[k])).collect::<Vec<_>>();
+            let ends = [spectra.first()?.frequency, spectra.last()?.frequency];
+            Some(Panel {
+                heading: fit.name.to_owned(),
+                x: Axis::logarithmic("frequency [Hz]"),
+                y: Axis::round("squared coherence", 0.1).covering([0.0, 1.0]),
+                height: Height::Lines(14.0),
+                content: Content::Lines(vec![
+                    line("noise exceeds it once in twenty", Style::Fine(1), ends.map(|f| (f, threshold)).to_vec()),
+                    line("with the temperature", Style::First, of(0)),
+                    line("with its rate", Style::Second, of(1)),
+                    line("with the change of its rate", Style::Third, of(2)),
+                ]),
+            })
+        };
+        let panels: Vec<Panel> = shown.iter().filter_map(panel).collect();
+        if panels.is_empty() {
+            return String::new();
+        }
+        element(&Figure {
+            id: "coherence",
+            title: "Coherence of the rate's residual with the spool's temperature".into(),
+            description: "Squared coherence of the residual with the spool's temperature, its rate and the change of its rate against \
+                          frequency, and what noise exceeds once in twenty."
+                .into(),
+            caption: "Nine half-overlapping segments. At frequencies at which the temperature hardly moves, coherence says nothing.".into(),
+            columns: 2,
+            panels,
+        })
+    }
+}
+
+/// Cells as a map, temperature to the right, its rate upwards.
+fn grid(name: &str, cells: &[Cell], most: f64) -> Option<Panel<'static>> {
+    let first = cells.first()?;
+    let (wide, high) = (first.level[1] - first.level[0], first.rate[1] - first.rate[0]);
+    let ends = |of: &dyn Fn(&Cell) -> [f64; 2]| {
+        cells.iter().map(of).fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], [c, d]| [a.min(c), b.max(d)])
+    };
+    let (x, y) = (ends(&|c| c.level), ends(&|c| c.rate));
+    if !(wide > 0.0 && high > 0.0) {
+        return None;
+    }
+    let place = |at: f64, low: f64, step: f64| ((at - low) / step).round() as usize;
+    let (columns, rows) = (place(x[1], x[0], wide).max(1), place(y[1], y[0], high).max(1));
+    let mut values = vec![f64::NAN; columns * rows];
+    let mut marked = Vec::new();
+    for cell in cells {
+        let at = place(cell.rate[0], y[0], high) * columns + place(cell.level[0], x[0], wide);
+        if let Some(value) = values.get_mut(at) {
+            *value = cell.z;
+            marked.extend(cell.significant.then_some(at));
+        }
+    }
+    Some(Panel {
+        heading: name.to_owned(),
+        x: Axis::tight("spool temperature [°C]", 0.1),
+        y: Axis::tight("its rate [°C/min]", 1e-6),
+        height: Height::Lines(16.0),
+        content: Content::Map(HeatMap {
+            columns,
+            values,
+            x,
+            y: y.map(|rate| rate * S_PER_MIN),
+            colours: Colours::diverging("z", most, 1.0),
+            bar: true,
+            marked,
+        }),
+    })
+}

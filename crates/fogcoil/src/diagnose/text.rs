@@ -1,0 +1,99 @@
+//! The outcome for people.
+
+use std::fmt::Write;
+
+use bias::units::S_PER_H;
+use diagnosis::Verdict;
+use mechanisms::{Located, RATE as RATE_CHANNEL};
+
+use super::{NOMINAL, Outcome};
+use crate::table::{significant, table};
+
+/// Most mechanisms whose probability is shown.
+const MOST_MECHANISMS: usize = 6;
+
+impl Outcome {
+    /// For people: verdict, place, alternatives, parameters, held-out errors.
+    pub fn text(&self) -> String {
+        let d = &self.diagnosis;
+        let mut out = self.verdict();
+        out.push('\n');
+        if d.verdict == Verdict::Explained {
+            for (n, active) in d.best().fit.active.iter().enumerate() {
+                let _ = writeln!(out, "{}: {}.", self.id(active.mechanism), place(&self.gyro.located(active, d.choice(n))));
+            }
+            if let Some(structure) = self.structure() {
+                let _ = writeln!(out, "Besides, {structure}.");
+            }
+        }
+        if let Some(alternatives) = self.alternatives() {
+            let _ = writeln!(out, "{alternatives}");
+        }
+        let mut rows = vec![vec!["mechanism".to_owned(), "probability".to_owned(), String::new()]];
+        let likely = self.likely().take(MOST_MECHANISMS);
+        rows.extend(likely.map(|(id, p)| vec![id.to_owned(), format!("{p:.3}"), String::new()]));
+        if d.verdict == Verdict::Explained {
+            rows.push(vec!["parameter (fitted)".to_owned(), "value".to_owned(), "90 % interval".to_owned()]);
+            for estimate in d.parameters.iter().flatten() {
+                let interval = estimate.ci90.map(|end| significant(end, 4)).join(" to ");
+                rows.push(vec![estimate.name.clone(), significant(estimate.value, 4), interval]);
+            }
+        }
+        for held in &self.holdouts {
+            let file = held.record.name();
+            rows.push(vec![format!("held-out record {file}"), "rms, deg/h".to_owned(), String::new()]);
+            rows.push(vec![format!("  {NOMINAL}"), significant(held.nominal.rmse[RATE_CHANNEL], 3), String::new()]);
+            if let Some(name) = self.found() {
+                rows.push(vec![format!("  {name}"), significant(held.model.rmse[RATE_CHANNEL], 3), String::new()]);
+            }
+            let floor = significant(held.model.noise_floor[RATE_CHANNEL], 3);
+            rows.push(vec!["  noise as identified".to_owned(), floor, String::new()]);
+            if !held.accepted {
+                rows.push(vec!["  what was fitted is worse here: not accepted".to_owned(), String::new(), String::new()]);
+            }
+        }
+        out.push_str(&table(&rows));
+        out
+    }
+
+    /// In a sentence.
+    pub(super) fn verdict(&self) -> String {
+        match self.diagnosis.verdict {
+            Verdict::None => "The nominal model suffices: no difference beyond noise.".to_owned(),
+            Verdict::Recalibrate => "The design's own constants, re-estimated within their uncertainties, suffice.".to_owned(),
+            Verdict::Explained => {
+                format!("The recording differs from the design. Most likely: {}.", self.names().join(" and "))
+            }
+            Verdict::Unknown => {
+                let structure = self.structure().map_or(String::new(), |structure| format!(": {structure}"));
+                format!("The recording differs from the design in a way that nothing in the library explains{structure}.")
+            }
+        }
+    }
+
+    /// What the records do not exclude beside what is most likely, and what would tell.
+    pub(super) fn alternatives(&self) -> Option<String> {
+        let best = self.names();
+        let others: Vec<&str> = self.diagnosis.set.iter().map(|m| self.id(*m)).filter(|id| !best.contains(id)).collect();
+        let (first, other) = (best.first()?, others.first()?);
+        Some(format!(
+            "These records do not exclude: {}. What would tell: fogcoil recommend COIL.ron --between {first},{other}",
+            others.join(", ")
+        ))
+    }
+}
+
+/// Where in the chain, at which temperatures, in which layers, when.
+pub(super) fn place(located: &Located) -> String {
+    let mut place = format!("part of the chain: {}", located.stage);
+    if let Some([low, high]) = located.temperature {
+        let _ = write!(place, ", at a coil temperature between {} and {} degC", significant(low, 3), significant(high, 3));
+    }
+    if let Some([low, high]) = located.layers {
+        let _ = if low == high { write!(place, ", layer {low}") } else { write!(place, ", layers {low} to {high}") };
+    }
+    if let Some([from, to]) = located.time {
+        let _ = write!(place, ", from {} to {} h", significant(from / S_PER_H, 3), significant(to / S_PER_H, 3));
+    }
+    place
+}

@@ -1,0 +1,263 @@
+//! `fogcoil explain`: which change of a coil would give a measured sensitivity, and how far it is from what is expected.
+
+mod law;
+mod say;
+mod solve;
+mod test;
+
+use coil::{COARSE, Design, MechanicalState, Model};
+use diagnosis::{Active, ForwardModel, Prior, Role};
+use mechanisms::{Gyro, Prepared, RATE};
+
+use crate::Error;
+use crate::cache::Cache;
+use crate::diagnose::library;
+use crate::input::CoilCase;
+use crate::recommend::{Limits, prepared, programmes};
+use law::{EVEN, Law, laws, rewound};
+
+pub use say::{json, text};
+pub use test::Test;
+
+/// Distance from the middle of a prior up to which a value is plausible \[σ\].
+pub const PLAUSIBLE: f64 = 2.0;
+/// Distance up to which it is not out of the question \[σ\].
+pub const STRAINED: f64 = 3.0;
+
+/// What a mechanism would have to be.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outcome {
+    /// It gives the sensitivity.
+    Gives {
+        /// The parameter and its value.
+        value: f64,
+        /// Error of the value by that of the computed sensitivity.
+        error: f64,
+        /// Distance from the middle of its prior \[σ\].
+        sigma: f64,
+        /// A layer and the number of layers in which a plausible number of turns does as well, where it is a defect of one.
+        layer: Option<(usize, usize)>,
+    },
+    /// It changes the sensitivity, but not so much, within four σ of its prior.
+    OutOfReach {
+        /// What it can give, (deg/h)/(degC/min).
+        range: [f64; 2],
+    },
+    /// It does not change the sensitivity.
+    Unable {
+        /// Why.
+        why: &'static str,
+    },
+}
+
+/// A mechanism as an explanation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Explanation {
+    /// Mechanism.
+    pub id: String,
+    /// Its parameter; empty where none is solved for.
+    pub parameter: String,
+    /// Under which condition.
+    pub when: &'static str,
+    /// What it would have to be.
+    pub outcome: Outcome,
+}
+
+impl Explanation {
+    /// Distance from the middle of the prior, if the mechanism can explain the sensitivity.
+    pub fn sigma(&self) -> Option<f64> {
+        match self.outcome {
+            Outcome::Gives { sigma, .. } => Some(sigma),
+            _ => None,
+        }
+    }
+}
+
+/// All explanations of a sensitivity.
+#[derive(Debug, Clone)]
+pub struct Explained {
+    /// The measured sensitivity with the sign it was taken with, (deg/h)/(degC/min).
+    pub measured: f64,
+    /// Whether that sign is the design's own: it was measured as a magnitude.
+    pub magnitude: bool,
+    /// The design's.
+    pub nominal: f64,
+    /// Numerical error of the design's.
+    pub error: f64,
+    /// What the design's own constants, uncertain together, leave \[σ\] of the difference.
+    pub recalibrate: f64,
+    /// Their joint standard uncertainty, (deg/h)/(degC/min).
+    pub constants: f64,
+    /// In the library's order.
+    pub explanations: Vec<Explanation>,
+    /// What tells the plausible ones apart.
+    pub tests: Vec<Test>,
+}
+
+/// Explains a measured sensitivity, (deg/h)/(degC/min); without a sign (`magnitude`) it is taken with that of the design.
+///
+/// # Errors
+/// [`Error::Usage`] for a sensitivity that is not a number; [`Error::Coil`] if the design cannot be modelled.
+pub fn explain(
+    case: &CoilCase,
+    measured: f64,
+    magnitude: bool,
+    cache: &Cache,
+    progress: &dyn Fn(&str),
+) -> Result<Explained, Error> {
+    if !measured.is_finite() || measured.abs() > MOST || (magnitude && measured < 0.0) {
+        let text = format!("--sensitivity {measured}: give a magnitude up to {MOST} (deg/h)/(degC/min), or a signed value with --signed");
+        return Err(Error::Usage(text));
+    }
+    let coil = |source| Error::Coil { file: case.file.clone(), source };
+    let steady = case.steady_sensitivity()?;
+    let nominal = steady.sensitivity.total();
+    let measured = if magnitude { measured.copysign(nominal) } else { measured };
+    progress("modelling the coil and what its model may leave out (half a minute, once for a design)");
+    let library = library(case, cache)?;
+    // one of each family
+    let mut programmes = programmes(&LIMITS);
+    programmes.dedup_by_key(|programme| programme.family);
+    let (time, chamber) = ramp();
+    let mut records = vec![Prepared::new(&library, &time, &chamber, 0.0).map_err(coil)?];
+    for programme in &programmes {
+        records.push(prepared(&library, programme).map_err(coil)?);
+    }
+    let gyro = Gyro::new(library, records).map_err(coil)?;
+    progress("solving for every mechanism");
+    let problem = Problem { design: &case.design, target: measured, error: steady.error_estimate, nominal: None };
+    let problem = Problem { nominal: problem.sensitivity(&case.design, &MechanicalState::NOMINAL), ..problem };
+    let explanations: Vec<Explanation> = gyro.mechanisms().iter().flat_map(|m| problem.explanations(m)).collect();
+    let constants = constants(&gyro).map_err(coil)?;
+    let tests = test::tests(&gyro, &explanations, &programmes, progress).map_err(|error| match error {
+        diagnosis::Error::Model(source) => coil(source),
+        other => Error::Diagnosis(other.to_string()),
+    })?;
+    Ok(Explained {
+        measured,
+        magnitude,
+        nominal,
+        error: steady.error_estimate,
+        recalibrate: (measured - nominal) / constants,
+        constants,
+        explanations,
+        tests,
+    })
+}
+
+/// Largest sensitivity that is explained, (deg/h)/(degC/min).
+const MOST: f64 = 1000.0;
+/// The chamber of the tests that are proposed: `recommend` has others.
+const LIMITS: Limits = Limits { coldest: -40.0, hottest: 60.0, fastest: 2.0, hours: 24.0 };
+
+/// A ramp of ten hours over the range of the tests, long enough to be steady: instants \[s\] and temperatures \[°C\].
+fn ramp() -> (Vec<f64>, Vec<f64>) {
+    const ROWS: u32 = 601;
+    let share = |n: u32| f64::from(n) / f64::from(ROWS - 1);
+    let chamber = |n| LIMITS.coldest + (LIMITS.hottest - LIMITS.coldest) * share(n);
+    ((0..ROWS).map(|n| 60.0 * f64::from(n)).collect(), (0..ROWS).map(chamber).collect())
+}
+
+/// Standard uncertainty that the design's constants leave together, (deg/h)/(degC/min): the record 0 is the ramp.
+fn constants(gyro: &Gyro) -> Result<f64, coil::Error> {
+    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let (time, chamber) = ramp();
+    let per_minute = 60.0 * (chamber[1] - chamber[0]) / (time[1] - time[0]);
+    let steady = |nuisances: &[f64]| -> Result<f64, coil::Error> {
+        let rate = gyro.respond(0, nuisances, &[])?.swap_remove(RATE);
+        Ok(rate[rate.len() - 1] / per_minute)
+    };
+    let nominal = steady(&middle)?;
+    let mut square = 0.0;
+    for (k, nuisance) in gyro.nuisances().iter().enumerate().filter(|(_, n)| n.role == Role::Constant) {
+        let mut moved = middle.clone();
+        moved[k] = nuisance.parameter.prior.value(1.0);
+        square += (steady(&moved)? - nominal).powi(2);
+    }
+    Ok(square.sqrt())
+}
+
+struct Problem<'a> {
+    design: &'a Design,
+    target: f64,
+    /// numerical error of a sensitivity
+    error: f64,
+    /// sensitivity on the mesh of all others
+    nominal: Option<f64>,
+}
+
+impl Problem<'_> {
+    /// `None` where a change is too large to be modelled.
+    fn sensitivity(&self, design: &Design, state: &MechanicalState) -> Option<f64> {
+        Some(Model::in_state(design, &COARSE, state).ok()?.sensitivity().ok()?.total())
+    }
+
+    fn explanations(&self, mechanism: &diagnosis::Mechanism) -> Vec<Explanation> {
+        let of = |law: Law| {
+            let (outcome, parameter, when) = match law {
+                Law::Nothing(why) => (Outcome::Unable { why }, None, ""),
+                Law::Rewinds => (self.rewinding(&mechanism.parameters[0].prior), Some(0), ""),
+                Law::Changes { parameter, changed, when } => {
+                    (self.change(&mechanism.parameters[parameter].prior, changed), Some(parameter), when)
+                }
+            };
+            let parameter = parameter.map_or(String::new(), |p| mechanism.parameters[p].name.clone());
+            Explanation { id: mechanism.id.clone(), parameter, when, outcome }
+        };
+        laws(&mechanism.id).into_iter().map(of).collect()
+    }
+
+    fn change(&self, prior: &Prior, changed: fn(&Design, f64) -> (Design, MechanicalState)) -> Outcome {
+        let at = |u: f64| {
+            let (design, state) = changed(self.design, prior.value(u));
+            self.sensitivity(&design, &state)
+        };
+        let course = solve::course(&at);
+        let (low, high) = course.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p.1), h.max(p.1)));
+        let nominal = self.nominal.unwrap_or(f64::NAN);
+        if high - low < 1e-6 * nominal.abs() && (high - nominal).abs() < 1e-6 * nominal.abs() {
+            return Outcome::Unable { why: EVEN };
+        }
+        match solve::nearest(&course, self.target, &at) {
+            None => Outcome::OutOfReach { range: [low, high] },
+            Some((u, slope)) => {
+                let value = prior.value(u);
+                let per_u = (prior.value(u + 1e-3) - prior.value(u - 1e-3)) / 2e-3;
+                Outcome::Gives { value, error: (self.error * per_u / slope).abs(), sigma: u, layer: None }
+            }
+        }
+    }
+
+    /// The fewest turns in any layer.
+    fn rewinding(&self, prior: &Prior) -> Outcome {
+        let most = prior.value(solve::REACH).floor() as i32;
+        let mut best: Option<(i32, usize, f64)> = None;
+        let (mut plausible, mut range) = (0, [f64::INFINITY, f64::NEG_INFINITY]);
+        for layer in 1..=self.design.winding.layers {
+            let at = |turns: i32| self.sensitivity(&rewound(self.design, layer, turns), &MechanicalState::NOMINAL);
+            let Some((turns, slope)) = solve::whole(self.target, most, self.nominal, &at, &mut range) else { continue };
+            plausible += usize::from(prior.standard(f64::from(turns)).abs() <= PLAUSIBLE);
+            if best.is_none_or(|(least, ..)| turns.abs() < least.abs()) {
+                best = Some((turns, layer, slope));
+            }
+        }
+        match best {
+            None => Outcome::OutOfReach { range },
+            Some((turns, layer, slope)) => {
+                let value = f64::from(turns);
+                let error = (self.error / slope).abs().max(0.5);
+                Outcome::Gives { value, error, sigma: prior.standard(value), layer: Some((layer, plausible)) }
+            }
+        }
+    }
+}
+
+/// A mechanism of that size: the solved parameter among the middles of the others.
+fn active(gyro: &Gyro, explanation: &Explanation) -> Option<Active> {
+    let Outcome::Gives { value, layer, .. } = explanation.outcome else { return None };
+    let mechanism = gyro.find(&explanation.id)?;
+    let entry = &gyro.mechanisms()[mechanism];
+    let of = |p: &diagnosis::Parameter| if p.name == explanation.parameter { value } else { p.prior.value(0.0) };
+    let choice = layer.map(|(layer, _)| layer as f64);
+    Some(Active { mechanism, values: entry.parameters.iter().map(of).collect(), choice })
+}

@@ -1,0 +1,103 @@
+//! Explanations in words, as a table, as JSON.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use super::{Explained, Explanation, Outcome, PLAUSIBLE, STRAINED, Test};
+use crate::input::CoilCase;
+use crate::table::{significant, table};
+
+fn verdict(sigma: f64) -> &'static str {
+    match sigma.abs() {
+        s if s <= PLAUSIBLE => "plausible",
+        s if s <= STRAINED => "strained",
+        _ => "implausible",
+    }
+}
+
+/// One object; sensitivities in (deg/h)/(degC/min). See docs/schema/explain.schema.json.
+pub fn json(e: &Explained) -> Value {
+    let of = |x: &Explanation| {
+        let outcome = match &x.outcome {
+            Outcome::Gives { value, error, sigma, layer } => json!({
+                "able": true, "value": value, "numerical_error": error, "sigma": sigma, "verdict": verdict(*sigma),
+                "layer": layer.map(|l| l.0), "plausible_layers": layer.map(|l| l.1),
+            }),
+            Outcome::OutOfReach { range } => json!({"able": false, "range": range}),
+            Outcome::Unable { why } => json!({"able": false, "why": why}),
+        };
+        let mut object = json!({"id": x.id, "parameter": x.parameter, "when": x.when});
+        if let (Some(object), Value::Object(more)) = (object.as_object_mut(), outcome) {
+            object.extend(more);
+        }
+        object
+    };
+    let test = |t: &Test| {
+        let [slow, best] = [&t.slow, &t.best].map(|(name, odds)| json!({"profile": name, "log_odds": odds.log_odds, "decides": odds.decides()}));
+        json!({"between": t.between, "slow_ramp": slow, "best": best})
+    };
+    json!({
+        "sensitivity": e.measured,
+        "taken_as_magnitude": e.magnitude,
+        "nominal": {"sensitivity": e.nominal, "numerical_error": e.error},
+        "recalibrate": {"sigma": e.recalibrate, "verdict": verdict(e.recalibrate), "uncertainty": e.constants},
+        "explanations": e.explanations.iter().map(of).collect::<Vec<_>>(),
+        "tests": e.tests.iter().map(test).collect::<Vec<_>>(),
+    })
+}
+
+fn row(x: &Explanation) -> Option<Vec<String>> {
+    let when = if x.when.is_empty() { String::new() } else { format!(", {}", x.when) };
+    let name = format!("{} ({})", x.id, x.parameter);
+    Some(match &x.outcome {
+        Outcome::Gives { value, error, sigma, layer } => {
+            let layer = layer.map_or(String::new(), |(k, n)| format!(", in layer {k}; as plausibly in {n} layers"));
+            let value = format!("{} ± {}", significant(*value, 3), significant(*error, 1));
+            vec![name, value, format!("{sigma:+.1}"), format!("{}{layer}{when}", verdict(*sigma))]
+        }
+        Outcome::OutOfReach { range: [low, high] } => {
+            vec![name, "-".into(), "-".into(), format!("gives {low:.2} to {high:.2} only{when}")]
+        }
+        Outcome::Unable { .. } => return None,
+    })
+}
+
+/// For people.
+pub fn text(case: &CoilCase, e: &Explained) -> String {
+    let sign = if e.magnitude { " (a magnitude, taken with the design's sign)" } else { "" };
+    let mut out = format!(
+        "{}: measured {:.3}{sign}, the design gives {:.3} ± {} (deg/h)/(degC/min)\n\n",
+        case.name,
+        e.measured,
+        e.nominal,
+        significant(e.error, 1)
+    );
+    let mut rows = vec![["one change that gives it", "value (solved)", "sigma", ""].map(str::to_owned).to_vec()];
+    let constants = format!("{}; together they leave ± {:.2}", verdict(e.recalibrate), e.constants);
+    rows.push(vec!["the design's own constants".into(), "-".into(), format!("{:+.1}", e.recalibrate), constants]);
+    rows.extend(e.explanations.iter().filter_map(row));
+    out.push_str(&table(&rows));
+    out.push_str("\nUnable to change it:\n");
+    for x in &e.explanations {
+        if let Outcome::Unable { why } = x.outcome {
+            let _ = writeln!(out, "  {}: {why}", x.id);
+        }
+    }
+    out.push_str(
+        "\nOne number cannot tell these apart, and a slow ramp hardly can: in it a longer tail and a changed coil are both factors on the\n\
+         slope. Expected ln odds at these sizes, their own likelihood beforehand included, in 24 h, -40 to 60 degC, at most 2 K/min:\n",
+    );
+    let mut rows = vec![["", "slow ramp", "best", "by"].map(str::to_owned).to_vec()];
+    for Test { between, slow, best } in &e.tests {
+        let says = if best.1.decides() { best.0.clone() } else { format!("{}: does not decide", best.0) };
+        let [slow, best] = [slow, best].map(|t| format!("{:.1}", t.1.log_odds));
+        rows.push(vec![format!("{} from {}", between[0], between[1]), slow, best, says]);
+    }
+    if e.tests.is_empty() {
+        out.push_str("  no tail within three sigma gives it: there is nothing to tell a tail from\n");
+    } else {
+        out.push_str(&table(&rows));
+    }
+    out
+}

@@ -1,0 +1,123 @@
+//! Contenders, and how well a test tells them apart.
+
+use diagnosis::{Active, ForwardModel, Hypothesis, Observation, Plan, Settings, alternatives, separation};
+use mechanisms::{Gyro, Library, Prepared, RATE, SPOOL};
+use recording::noise::NoiseModel;
+
+use super::Programme;
+
+/// Ids besides the library's: the design as it is, and its own constants re-estimated.
+const NOMINAL: &str = "nominal";
+const RECALIBRATE: &str = "recalibrate";
+/// Span of a reading in the tests that are proposed \[s\].
+pub(super) const INTERVAL: f64 = 30.0;
+
+type Failure = diagnosis::Error<coil::Error>;
+
+/// What is to be told apart from others.
+#[derive(Clone)]
+pub(crate) struct Contender {
+    pub(crate) id: String,
+    pub(super) hypotheses: Vec<Hypothesis>,
+    /// what is at work when it is the truth; the nominal and the recalibrated design are never taken for the truth
+    pub(super) truth: Option<Active>,
+}
+
+impl Contender {
+    /// Of an id, a mechanism's at a size that is neither small nor large: the middle of the priors, or one σ beyond where the middle means
+    /// that nothing is at work. `None` if the library does not hold it.
+    pub(super) fn named(gyro: &Gyro, id: &str) -> Result<Option<Self>, Failure> {
+        Ok(match (id, gyro.find(id)) {
+            (NOMINAL, _) => Some(Self { id: NOMINAL.into(), hypotheses: vec![Hypothesis::NOMINAL], truth: None }),
+            (RECALIBRATE, _) => Some(Self::recalibrated()),
+            (_, Some(mechanism)) => Some(Self::of(gyro, typical(gyro, mechanism)?)),
+            (_, None) => None,
+        })
+    }
+
+    /// A mechanism at a given size.
+    pub(crate) fn of(gyro: &Gyro, truth: Active) -> Self {
+        let id = gyro.mechanisms()[truth.mechanism].id.clone();
+        Self { id, hypotheses: alternatives(gyro, truth.mechanism), truth: Some(truth) }
+    }
+
+    /// The design with its own constants re-estimated.
+    pub(crate) fn recalibrated() -> Self {
+        let hypotheses = vec![Hypothesis { constants_free: true, ..Hypothesis::NOMINAL }];
+        Self { id: RECALIBRATE.into(), hypotheses, truth: None }
+    }
+
+    /// All that may be named.
+    pub(super) fn known(gyro: &Gyro) -> String {
+        let ids: Vec<&str> = gyro.mechanisms().iter().map(|m| m.id.as_str()).chain([NOMINAL, RECALIBRATE]).collect();
+        ids.join(", ")
+    }
+}
+
+fn typical(gyro: &Gyro, mechanism: usize) -> Result<Active, Failure> {
+    let entry = &gyro.mechanisms()[mechanism];
+    let choice = entry.choice.as_ref().map(|(_, values)| values[values.len() / 2]);
+    let at = |u: f64| Active { mechanism, values: entry.parameters.iter().map(|p| p.prior.value(u)).collect(), choice };
+    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let respond = |active: &[Active]| gyro.respond(0, &middle, active).map_err(diagnosis::Error::Model);
+    let (with, without) = (respond(&[at(0.0)])?, respond(&[])?);
+    let off = with.iter().flatten().zip(without.iter().flatten()).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+    Ok(at(if off < 1e-9 { 1.0 } else { 0.0 }))
+}
+
+/// How well something tells contenders apart: of the pair that it tells worst.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Odds {
+    /// The truth, and what is taken for it.
+    pub pair: [String; 2],
+    /// Distance in standard deviations of the noise.
+    pub sigma: f64,
+    /// Expected ln of the odds for the truth.
+    pub log_odds: f64,
+}
+
+impl Odds {
+    /// Whether the loser is expected to be excluded.
+    pub fn decides(&self) -> bool {
+        self.log_odds >= -Settings::default().excluded.ln()
+    }
+}
+
+/// Of every ordered pair of contenders the one that is told apart worst.
+pub(crate) fn odds(gyro: &Gyro, contenders: &[Contender], plan: &Plan) -> Result<Odds, Failure> {
+    let mut worst: Option<Odds> = None;
+    for truth in contenders {
+        let Some(active) = &truth.truth else { continue };
+        for rival in contenders.iter().filter(|r| r.id != truth.id) {
+            let found = separation(gyro, plan, std::slice::from_ref(active), &rival.hypotheses)?;
+            let odds = Odds { pair: [truth.id.clone(), rival.id.clone()], sigma: found.sigma(), log_odds: found.log_odds() };
+            if worst.as_ref().is_none_or(|w| odds.log_odds < w.log_odds) {
+                worst = Some(odds);
+            }
+        }
+    }
+    worst.ok_or_else(|| diagnosis::Error::Data("there is no pair to tell apart".into()))
+}
+
+/// The library under a programme.
+pub(crate) fn prepared(library: &Library, programme: &Programme) -> Result<Prepared, coil::Error> {
+    let (time, chamber) = programme.sampled(INTERVAL);
+    Prepared::new(library, &time, &chamber, INTERVAL)
+}
+
+/// Both channels at every instant of a programme.
+pub(crate) fn everything(programme: &Programme) -> Observation {
+    let (time, _) = programme.sampled(INTERVAL);
+    let channels = vec![vec![0.0; time.len()]; 2];
+    Observation { time, channels }
+}
+
+/// The medians of the channels' priors.
+pub(crate) fn usual(gyro: &Gyro) -> [NoiseModel; 2] {
+    [SPOOL, RATE].map(|channel| {
+        let prior = &gyro.channels()[channel].noise;
+        let averaging = if channel == RATE { INTERVAL } else { 0.0 };
+        let [white, drift, drift_time, walk] = [prior.white.0, prior.drift.0, prior.drift_time.0, prior.walk.0];
+        NoiseModel { averaging, white, drift, drift_time, walk, quantisation: 0.0 }
+    })
+}

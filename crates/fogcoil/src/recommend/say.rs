@@ -1,0 +1,135 @@
+//! A recommendation in words, as a table, as JSON.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use super::inspection::inspection;
+use super::{Odds, Recommendation, Size};
+use crate::table::{significant, table};
+
+/// Most programmes in the table.
+const SHOWN: usize = 8;
+
+fn object(odds: &Odds) -> Value {
+    json!({"sigma": odds.sigma, "log_odds": odds.log_odds, "decides": odds.decides(), "hardest_pair": odds.pair})
+}
+
+fn with(mut object: Value, more: Value) -> Value {
+    if let (Some(object), Value::Object(more)) = (object.as_object_mut(), more) {
+        object.extend(more);
+    }
+    object
+}
+
+/// One object; see docs/schema/recommend.schema.json.
+pub fn json(r: &Recommendation) -> Value {
+    let gain = |odds: &Odds| odds.log_odds - r.repeat.1.log_odds;
+    let sizes: Vec<Value> = r
+        .sizes
+        .iter()
+        .map(|Size { id, values }| {
+            let parameters: serde_json::Map<String, Value> = values.iter().map(|(name, v)| (name.clone(), json!(v))).collect();
+            json!({"id": id, "parameters": parameters})
+        })
+        .collect();
+    let profiles: Vec<Value> = r
+        .profiles
+        .iter()
+        .map(|p| {
+            let more = json!({"family": p.programme.family, "name": p.programme.name, "gain_over_repeat": gain(&p.odds)});
+            with(object(&p.odds), more)
+        })
+        .collect();
+    let sensors: Vec<Value> = r
+        .sensors
+        .iter()
+        .map(|s| with(object(&s.odds), json!({"sensor": s.sensor, "profile": s.programme, "gain_over_repeat": gain(&s.odds)})))
+        .collect();
+    let (name, odds) = &r.repeat;
+    let l = &r.limits;
+    json!({
+        "between": r.between,
+        "limits": {"coldest_c": l.coldest, "hottest_c": l.hottest, "fastest_k_per_min": l.fastest, "hours": l.hours},
+        "sizes": sizes,
+        "fitted": r.fitted,
+        "repeat": with(object(odds), json!({"name": name})),
+        "profiles": profiles,
+        "sensors": sensors,
+        "inspections": inspections(r).iter().map(|(id, what)| json!({"id": id, "what": what})).collect::<Vec<_>>(),
+        "recommendation": sentence(r),
+    })
+}
+
+fn inspections(r: &Recommendation) -> Vec<(&str, &'static str)> {
+    r.between.iter().filter_map(|id| Some((id.as_str(), inspection(id)?))).collect()
+}
+
+fn number(x: f64) -> String {
+    if x.abs() >= 9.95 { format!("{x:.0}") } else { format!("{x:.1}") }
+}
+
+/// What to do.
+fn sentence(r: &Recommendation) -> String {
+    let best = &r.profiles[0];
+    let [truth, rival] = &best.odds.pair;
+    let several = r.between.len() > 2;
+    let all = if several { format!("{} from one another", r.between.join(", ")) } else { r.between.join(" from ") };
+    let hardest = if several { format!(", the hardest pair being {truth} and {rival}") } else { String::new() };
+    let (name, odds) = (&best.programme.name, number(best.odds.log_odds));
+    let (repeat, repeated) = (&r.repeat.0, number(r.repeat.1.log_odds));
+    if best.odds.decides() {
+        let beside = if r.repeat.1.decides() { "would do, too" } else { "would not" };
+        return format!(
+            "{name}: separates {all} in {} h (ln odds {odds}{hardest}); {repeat} {beside} (ln odds {repeated}).",
+            r.limits.hours
+        );
+    }
+    let mut out = format!("No profile within the limits separates {all}: the best, {name}, gives ln odds {odds}{hardest}. ");
+    let sensor = r.sensors.iter().filter(|s| s.odds.decides()).max_by(|a, b| a.odds.log_odds.total_cmp(&b.odds.log_odds));
+    match sensor {
+        Some(s) => {
+            let _ = write!(out, "Add {}: with {} it gives ln odds {}.", s.sensor, s.programme, number(s.odds.log_odds));
+        }
+        None => {
+            let of = |(id, what): (&str, &str)| format!("for {id}, {what}");
+            let checks: Vec<String> = inspections(r).into_iter().map(of).collect();
+            let _ = write!(out, "Neither does a finer thermometer on the spool. Look at the unit itself: {}.", checks.join("; "));
+        }
+    }
+    out
+}
+
+/// For people.
+pub fn text(r: &Recommendation) -> String {
+    let said = sentence(r);
+    // a sentence begins with a capital
+    let mut out = said[..1].to_uppercase() + &said[1..] + "\n\n";
+    let l = &r.limits;
+    let _ = writeln!(
+        out,
+        "chamber {} to {} degC, at most {} K/min, {} h; expected ln odds for the truth, of the worst pair, at these sizes ({}):",
+        l.coldest,
+        l.hottest,
+        l.fastest,
+        l.hours,
+        if r.fitted { "fitted to the record" } else { "typical" }
+    );
+    for Size { id, values } in &r.sizes {
+        let values: Vec<String> = values.iter().map(|(name, v)| format!("{name} = {}", significant(*v, 3))).collect();
+        let _ = writeln!(out, "  {id}: {}", values.join(", "));
+    }
+    let row = |name: &str, odds: &Odds| {
+        let gain = odds.log_odds - r.repeat.1.log_odds;
+        let pair = format!("{} / {}", odds.pair[0], odds.pair[1]);
+        vec![name.to_owned(), number(odds.sigma), number(odds.log_odds), format!("{}{}", if gain >= 0.05 { "+" } else { "" }, number(gain)), pair]
+    };
+    let head = ["profile", "sigma", "ln odds", "gain", "truth / taken for it"].map(str::to_owned).to_vec();
+    let mut rows = vec![head];
+    rows.extend(r.profiles.iter().take(SHOWN).map(|p| row(&p.programme.name, &p.odds)));
+    rows.push(row(&format!("again: {}", r.repeat.0), &r.repeat.1));
+    rows.extend(r.sensors.iter().map(|s| row(&format!("{} with {}", s.programme, s.sensor), &s.odds)));
+    out.push('\n');
+    out.push_str(&table(&rows));
+    out
+}

@@ -1,0 +1,112 @@
+//! Flexible inputs at every stage of a coil's chain, and what single layers do.
+
+use crate::catalogue::Law;
+use crate::laws::{Change, Laws, lagged};
+use crate::library::Path;
+use crate::record::{Parts, Prepared};
+use coil::Error;
+use diagnosis::{Active, Latent};
+
+/// Smooth functions of temperature that a flexible input is made of.
+const HATS: usize = 6;
+/// Time constants with which a material may lag behind \[s\].
+const LAGS: [f64; 3] = [1000.0, 4000.0, 12000.0];
+/// Small changes of heat paths: of the air's conductivity, of the resistance at the hub \[m²K/W\], of the flange's coupling \[W/(m²K)\].
+const PATHS: [(Path, f64); 3] = [(Path::Air, 1.02), (Path::HubResistance, 2e-4), (Path::Mount, 0.1)];
+/// Factors on transverse modulus and expansion.
+const SOFTER: f64 = 0.95;
+const WIDER: f64 = 1.02;
+/// A thermometer's lag \[s\].
+const LAG: f64 = 30.0;
+/// Tail \[m\] and every which layer for the winding as a whole.
+const TAIL: f64 = 0.05;
+const EVERY: usize = 6;
+
+/// Functions `[function][channel][row]`.
+type Functions = Vec<Vec<Vec<f64>>>;
+
+/// Hats over the range of the coil's temperature, a partition of unity.
+fn hats(x: &[f64]) -> Vec<Vec<f64>> {
+    let (low, high) = x.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+    let step = (high - low) / (HATS - 1) as f64;
+    if step.is_nan() || step <= 0.0 {
+        return vec![vec![1.0; x.len()]];
+    }
+    let hat = |k: usize| x.iter().map(|v| (1.0 - ((v - low) / step - k as f64).abs()).max(0.0)).collect();
+    (0..HATS).map(hat).collect()
+}
+
+fn sum(parts: &Parts) -> Vec<f64> {
+    (0..parts[0].len()).map(|n| parts[0][n] + parts[1][n] + parts[2][n]).collect()
+}
+
+fn times(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a * b).collect()
+}
+
+/// Thermometer and rate, each times every hat.
+fn shaped(change: &Change, hats: &[Vec<f64>]) -> Functions {
+    let rate = sum(&change.parts);
+    let still = vec![0.0; rate.len()];
+    let sensor = change.sensor.as_ref().unwrap_or(&still);
+    hats.iter().map(|h| vec![times(sensor, h), times(&rate, h)]).collect()
+}
+
+impl Laws {
+    /// A flexible input at every stage.
+    pub(crate) fn latent(&self, record: &Prepared) -> Result<Vec<Latent>, Error> {
+        let hats = hats(&record.coil);
+        let rows = record.time.len();
+        let parts = |parts: Parts| Change { parts, ..Change::none(record) };
+        let of_rate = |series: Vec<f64>| vec![vec![0.0; rows], series];
+        let mut stages = Vec::new();
+        let mut add = |stage: &str, functions: Functions| stages.push(Latent { stage: stage.to_owned(), functions });
+
+        let mut thermal: Functions =
+            PATHS.iter().flat_map(|(path, value)| shaped(&self.path(record, *path, *value), &hats)).collect();
+        let heater = Active { mechanism: 0, values: vec![0.1, 1.0], choice: None };
+        thermal.extend(shaped(&self.change(record, Law::SelfHeating, &heater)?, &hats[..1]));
+        add("thermal", thermal);
+
+        let softer = parts(self.softened(record, |_| (SOFTER, 1.0)));
+        let wider = parts(self.softened(record, |_| (1.0, WIDER)));
+        let mut material: Functions = shaped(&softer, &hats);
+        material.extend(shaped(&wider, &hats));
+        material.extend(LAGS.iter().map(|lag| of_rate(lagged(&record.time, &sum(&softer.parts), *lag))));
+        material.extend(record.constants.iter().map(|c| of_rate(sum(c))));
+        add("material", material);
+
+        let bond = record.openings.iter().step_by((record.openings.len() / 2).max(1));
+        add("bond", bond.flat_map(|(_, open)| shaped(&parts(open.clone()), &hats)).collect());
+
+        let layers = self.library.design().winding.layers;
+        let mut winding = vec![of_rate(sum(&self.rewound(record, TAIL, None)?))];
+        for layer in (1..=layers).step_by(EVERY) {
+            winding.push(of_rate(sum(&self.rewound(record, 0.0, Some((layer, 1.0)))?)));
+        }
+        add("winding", winding);
+
+        let [shupe, ..] = &record.nominal.parts;
+        let mut optics: Functions = hats.iter().map(|h| of_rate(times(shupe, h))).collect();
+        optics.push(of_rate(self.curved(record)));
+        add("optics", optics);
+
+        add("electronics", hats.iter().map(|h| of_rate(h.clone())).collect());
+
+        let spool = &record.nominal.sensor;
+        let behind: Vec<f64> = lagged(&record.time, spool, LAG).iter().zip(spool).map(|(a, b)| a - b).collect();
+        let of_spool = |series: Vec<f64>| vec![series, vec![0.0; rows]];
+        let mut sensor = vec![of_spool(behind)];
+        sensor.extend(hats.iter().map(|h| of_spool(h.clone())));
+        add("sensor", sensor);
+        Ok(stages)
+    }
+
+    /// What one turn more in each layer does.
+    pub(crate) fn layers(&self, record: &Prepared) -> Result<Latent, Error> {
+        let rows = record.time.len();
+        let layers = 1..=self.library.design().winding.layers;
+        let of = |layer| Ok(vec![vec![0.0; rows], sum(&self.rewound(record, 0.0, Some((layer, 1.0)))?)]);
+        Ok(Latent { stage: "winding".to_owned(), functions: layers.map(of).collect::<Result<_, Error>>()? })
+    }
+}

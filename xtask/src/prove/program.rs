@@ -1,0 +1,69 @@
+//! Which program answered: a hash over everything it is made from.
+
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+use crate::validate::Failure;
+
+/// SHA-256 of the workspace's manifests, its lock file and the sources of its crates, in the order of their paths: of each the path, a NUL,
+/// its length in eight bytes (little-endian) and its content.
+pub(crate) fn hash(root: &Path) -> Result<String, Failure> {
+    let mut files: Vec<PathBuf> = vec!["Cargo.toml".into(), "Cargo.lock".into()];
+    for krate in entries(&root.join("crates"))? {
+        let krate = Path::new("crates").join(krate);
+        files.push(krate.join("Cargo.toml"));
+        collect(root, &krate.join("src"), &mut files)?;
+    }
+    files.sort();
+    let mut hash = Sha256::new();
+    for file in &files {
+        let path = root.join(file);
+        let content = std::fs::read(&path).map_err(|e| Failure(format!("{}: {e}", path.display())))?;
+        hash.update(file.to_string_lossy().replace('\\', "/"));
+        hash.update([0]);
+        hash.update((content.len() as u64).to_le_bytes());
+        hash.update(&content);
+    }
+    Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+}
+
+/// Names in a folder.
+fn entries(folder: &Path) -> Result<Vec<String>, Failure> {
+    let failed = |e: std::io::Error| Failure(format!("{}: {e}", folder.display()));
+    let name = |entry: std::io::Result<std::fs::DirEntry>| Ok(entry.map_err(failed)?.file_name().to_string_lossy().into_owned());
+    std::fs::read_dir(folder).map_err(failed)?.map(name).collect()
+}
+
+/// Adds every file below `folder`, which is relative to `root`.
+fn collect(root: &Path, folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    for name in entries(&root.join(folder))? {
+        let path = folder.join(name);
+        if root.join(&path).is_dir() { collect(root, &path, files)? } else { files.push(path) }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_source_counts_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let root = folder.path();
+        std::fs::create_dir_all(root.join("crates/a/src/deep")).unwrap();
+        for file in ["Cargo.toml", "Cargo.lock", "crates/a/Cargo.toml", "crates/a/src/lib.rs", "crates/a/src/deep/x.rs"] {
+            std::fs::write(root.join(file), file).unwrap();
+        }
+        let first = hash(root).unwrap();
+        assert_eq!((first.len(), hash(root).unwrap()), (64, first.clone()));
+        std::fs::write(root.join("crates/a/README.md"), "words").unwrap();
+        assert_eq!(hash(root).unwrap(), first);
+        std::fs::write(root.join("crates/a/src/deep/x.rs"), "more").unwrap();
+        let changed = hash(root).unwrap();
+        assert_ne!(changed, first);
+        std::fs::rename(root.join("crates/a/src/deep/x.rs"), root.join("crates/a/src/deep/y.rs")).unwrap();
+        assert_ne!(hash(root).unwrap(), changed);
+    }
+}

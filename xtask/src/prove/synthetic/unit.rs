@@ -1,0 +1,306 @@
+//! One unit: drawn, sized, run under two programmes, written down.
+
+use super::chamber::{self, Course};
+use super::effect::{self, Effect};
+use super::matched::{Whitening, beyond};
+use super::noise::{Noise, SPAN};
+use super::outside::{Outside, SHAPES};
+use super::plant::{Build, Plant, Run};
+use super::random::Random;
+use super::record::{Sensors, Signal, THERMOMETER, instants, signal};
+use super::sheet::{Sheet, Wandering};
+use crate::prove::truth::{self, Strength};
+use crate::validate::Failure;
+use coil::Design;
+
+/// Signal-to-noise ratios that effects are sized to, evenly in the logarithm.
+const STRENGTH: [f64; 2] = [3.0, 200.0];
+/// Off by less than this factor is as wanted.
+const NEAR: f64 = 1.2;
+/// Effects of which the size is no matter of degree that are tried.
+const TRIES: usize = 3;
+/// Standard deviations that a forward model is granted: rate gain, conductivity of the air, offsets \[K\], [deg/h].
+const GRANTED: f64 = 0.003;
+const OFFSETS: [f64; 2] = [0.1, 0.1];
+
+/// Which unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Which {
+    /// Nothing is concealed.
+    Null(usize),
+    /// Something is.
+    Concealed(usize),
+}
+
+/// A unit's files.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Unit {
+    /// The record that is fitted, as CSV.
+    pub(crate) fit: String,
+    /// The record that judges, as CSV.
+    pub(crate) holdout: String,
+    /// How both were sampled, as RON.
+    pub(crate) meta: String,
+    /// What is concealed, as RON.
+    pub(crate) truth: String,
+}
+
+/// What all units share: the design, and how it answers to the conductivity of its air.
+pub(crate) struct Generator {
+    pub(super) design: Design,
+    nominal: Plant,
+    airier: Plant,
+}
+
+/// Relative change of the air's conductivity that a derivative is taken with.
+const AIRIER: f64 = 0.02;
+
+/// One record of a unit, to be.
+struct Scene {
+    course: Course,
+    time: Vec<f64>,
+}
+
+impl Scene {
+    fn draw(family: chamber::Family, random: &mut Random) -> Self {
+        let course = Course::draw(family, random);
+        let time = instants(&course, random);
+        Self { course, time }
+    }
+
+    fn run(&self, plant: &Plant) -> Run {
+        plant.run(&self.course.temperature)
+    }
+
+    fn signal(&self, plant: &Plant, effects: &[Effect]) -> Signal {
+        let mut run = self.run(plant);
+        for effect in effects {
+            if let Effect::Outside(outside) = effect {
+                outside.act(&self.course.temperature, &mut run);
+            }
+        }
+        // before the start only the read-out's coefficient says something
+        signal(&run, &self.time, plant.read_out_at(run.bore[0]))
+    }
+}
+
+/// Whitened difference from the nominal response in the record that is fitted.
+struct Judge<'a> {
+    whitening: Whitening,
+    spool_sd: f64,
+    nominal: &'a Signal,
+    granted: Vec<Vec<f64>>,
+}
+
+fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+fn times(a: &[f64], factor: f64) -> Vec<f64> {
+    a.iter().map(|a| a * factor).collect()
+}
+
+impl<'a> Judge<'a> {
+    fn new(generator: &Generator, scene: &Scene, nominal: &'a Signal, noise: &Noise, sensors: &Sensors) -> Self {
+        let whitening = Whitening::new(noise, &scene.time);
+        let spool_sd = (THERMOMETER.powi(2) + sensors.resolution.powi(2) / 12.0).sqrt();
+        let rows = scene.time.len();
+        let (base, airier) = (scene.signal(&generator.nominal, &[]), scene.signal(&generator.airier, &[]));
+        let mut judge = Self { whitening, spool_sd, nominal, granted: Vec::new() };
+        let (none, one) = (vec![0.0; rows], vec![1.0; rows]);
+        let per_air = |a: &[f64], b: &[f64]| times(&minus(a, b), GRANTED / AIRIER);
+        judge.granted = vec![
+            judge.joined(&times(&one, OFFSETS[0]), &none),
+            judge.joined(&none, &times(&one, OFFSETS[1])),
+            judge.joined(&none, &times(&nominal.rate, GRANTED)),
+            judge.joined(&per_air(&airier.spool, &base.spool), &per_air(&airier.rate, &base.rate)),
+        ];
+        judge
+    }
+
+    /// Whitened channels, one after the other.
+    fn joined(&self, spool: &[f64], rate: &[f64]) -> Vec<f64> {
+        let mut whitened = times(spool, 1.0 / self.spool_sd);
+        whitened.extend(self.whitening.apply(rate));
+        whitened
+    }
+
+    /// The signal-to-noise ratio of both channels, then that of each without anything granted but its offset.
+    fn strength(&self, id: &str, signal: &Signal) -> Strength {
+        let (spool, rate) = (minus(&signal.spool, &self.nominal.spool), minus(&signal.rate, &self.nominal.rate));
+        let none = vec![0.0; rate.len()];
+        let alone = |spool: &[f64], rate: &[f64]| beyond(&self.joined(spool, rate), &self.granted[..2]);
+        Strength {
+            id: id.into(),
+            snr: beyond(&self.joined(&spool, &rate), &self.granted),
+            snr_noise_only_rate: alone(&none, &rate),
+            snr_noise_only_spool: alone(&spool, &none),
+        }
+    }
+}
+
+impl Generator {
+    pub(crate) fn new(design: Design) -> Result<Self, Failure> {
+        let nominal = Plant::new(Build::new(design.clone()), None)?;
+        let mut airier = Build::new(design.clone());
+        airier.design.surroundings.conductivity *= 1.0 + AIRIER;
+        Ok(Self { airier: Plant::new(airier, Some(&nominal))?, nominal, design })
+    }
+
+    /// The design as this unit has it: off by what no mesh resolves, at most 0.3 % of the peak all together.
+    pub(super) fn specimen(&self, random: &mut Random) -> Build {
+        let mut build = Build::new(self.design.clone());
+        build.gain = random.uniform(0.9985, 1.0015);
+        let design = &mut build.design;
+        design.surroundings.conductivity *= random.uniform(0.999, 1.001);
+        design.body.conductivity_r *= random.uniform(0.998, 1.002);
+        let stiffer = random.uniform(0.9995, 1.0005);
+        design.body.elastic.e_r *= stiffer;
+        design.body.elastic.g_zr *= stiffer;
+        design.body.elastic.alpha_r *= random.uniform(0.9998, 1.0002);
+        build
+    }
+
+    /// The unit of this number: always the same for one seed.
+    pub(crate) fn unit(&self, seed: u64, which: Which) -> Result<Unit, Failure> {
+        let stream = match which {
+            Which::Null(n) => 2 * n as u64,
+            Which::Concealed(n) => 2 * n as u64 + 1,
+        };
+        let random = &mut Random::new(seed, stream);
+        let (noise, sensors) = (Noise::draw(random), Sensors::draw(random));
+        let first = random.below(chamber::Family::ALL.len());
+        let second = (first + 1 + random.below(chamber::Family::ALL.len() - 1)) % chamber::Family::ALL.len();
+        let families = [first, second].map(|k| chamber::Family::ALL[k]);
+        let [fit, holdout] = families.map(|family| Scene::draw(family, random));
+        let specimen = self.specimen(random);
+        let nominal = Plant::new(specimen.clone(), Some(&self.nominal))?;
+        let nominal_fit = fit.signal(&nominal, &[]);
+        let judge = Judge::new(self, &fit, &nominal_fit, &noise, &sensors);
+        let mut effects = Vec::new();
+        let mut strengths = Vec::new();
+        if let Which::Concealed(n) = which {
+            for kind in kinds(n, random) {
+                let (effect, strength) = self.sized(&kind, &specimen, &nominal, &fit, &judge, random)?;
+                effects.push(effect);
+                strengths.push(strength);
+            }
+        }
+        let mut build = specimen;
+        effects.iter().for_each(|effect| effect.build_into(&mut build));
+        let plant = Plant::new(build, Some(&nominal))?;
+        let signals = [&fit, &holdout].map(|scene| (scene.signal(&nominal, &[]), scene.signal(&plant, &effects)));
+        let arw = random.chance(0.4).then(|| noise.arw * (1.0 + 0.1 * random.normal()));
+        let mut write = |scene: &Scene, signal: &Signal, since: f64| {
+            let readings = noise.sample(&scene.time, since, random);
+            sensors.write(&scene.course, &scene.time, signal, &readings, noise.white(0.0), random)
+        };
+        let later = fit.time[fit.time.len() - 1] + 6.0 * 3600.0;
+        let (fit_text, holdout_text) = (write(&fit, &signals[0].1, 0.0), write(&holdout, &signals[1].1, later));
+        let mut mechanisms: Vec<_> = effects.iter().map(Effect::mechanism).collect();
+        let confusable_sets = mechanisms.iter().map(|m| vec![m.id.clone()]).collect();
+        if mechanisms.is_empty() {
+            mechanisms.push(truth::Mechanism { id: "none".into(), ..Default::default() });
+        }
+        let rms = |series: &[f64]| (series.iter().map(|x| x * x).sum::<f64>() / series.len() as f64).sqrt();
+        let sizes = truth::Sizes {
+            fit_nominal: rms(&signals[0].0.rate),
+            fit_true: rms(&signals[0].1.rate),
+            fit_difference: rms(&minus(&signals[0].1.rate, &signals[0].0.rate)),
+            holdout_difference: rms(&minus(&signals[1].1.rate, &signals[1].0.rate)),
+        };
+        let sheet = Sheet {
+            mechanisms,
+            snr: strengths,
+            confusable_sets,
+            noise: Wandering::new(&noise),
+            noise_free_rms_deg_per_h: sizes,
+            profiles: families.map(|f| format!("{f:?}")),
+        };
+        Ok(Unit { fit: fit_text, holdout: holdout_text, meta: meta(&sensors, arw), truth: sheet.write()? })
+    }
+
+    /// A member of a family sized to a strength at random, alone in the unit.
+    fn sized(
+        &self,
+        kind: &Kind,
+        specimen: &Build,
+        nominal: &Plant,
+        scene: &Scene,
+        judge: &Judge<'_>,
+        random: &mut Random,
+    ) -> Result<(Effect, Strength), Failure> {
+        let wanted = random.log_uniform(STRENGTH[0], STRENGTH[1]);
+        let tried = |effect: Effect| -> Result<(Effect, Strength), Failure> {
+            let mut build = specimen.clone();
+            effect.build_into(&mut build);
+            let signal = scene.signal(&Plant::new(build, Some(nominal))?, &[effect]);
+            Ok((effect, judge.strength(&effect.mechanism().id, &signal)))
+        };
+        let off = |strength: &Strength| (strength.snr.max(1e-9) / wanted).ln();
+        let mut best = tried(kind.draw(random))?;
+        for _ in 0..TRIES {
+            if off(&best.1).abs() < NEAR.ln() {
+                break;
+            }
+            let next = match best.0.scaled((-off(&best.1)).exp()) {
+                Some(same) if same == best.0 => break,
+                Some(next) => tried(next)?,
+                None => tried(kind.draw(random))?,
+            };
+            if off(&next.1).abs() < off(&best.1).abs() {
+                best = next;
+            }
+        }
+        Ok(best)
+    }
+}
+
+/// A family to draw from.
+enum Kind {
+    Library(effect::Family),
+    /// By number.
+    Outside(usize),
+}
+
+impl Kind {
+    fn draw(&self, random: &mut Random) -> Effect {
+        match self {
+            Self::Library(family) => Effect::draw(*family, random),
+            Self::Outside(kind) => Effect::Outside(Outside::draw(*kind, random)),
+        }
+    }
+}
+
+/// What the n-th unit conceals: of twenty, two are outside the library, three hold two families, fifteen one; families in turn.
+fn kinds(n: usize, random: &mut Random) -> Vec<Kind> {
+    const ROUND: usize = 20;
+    let (round, place) = (n / ROUND, n % ROUND);
+    let all = effect::Family::ALL;
+    match place {
+        9 | 19 => vec![Kind::Outside((2 * round + place / 10) % SHAPES)],
+        4 | 11 | 16 => {
+            let first = all[random.below(all.len())];
+            loop {
+                let second = all[random.below(all.len())];
+                if second != first && !(first.is_law() && second.is_law()) {
+                    return vec![Kind::Library(first), Kind::Library(second)];
+                }
+            }
+        }
+        _ => {
+            let before = [4, 9, 11, 16].iter().filter(|other| **other < place).count();
+            vec![Kind::Library(all[(15 * round + place - before) % all.len()])]
+        }
+    }
+}
+
+fn meta(sensors: &Sensors, arw: Option<f64>) -> String {
+    format!(
+        "(\n    design: \"reference-coil\",\n    sample_interval_s: {SPAN:?},\n    rate_is: \"mean over the 30 s that end at time_s\",\n    \
+         temperature_sensor: (noise_c: {THERMOMETER}, chamber_quantisation_c: 0.01, spool_quantisation_c: {}),\n    \
+         nominal_arw_deg_per_sqrt_h: {},\n)\n",
+        sensors.resolution,
+        arw.map_or("None".into(), |arw| format!("Some({arw:.4})"))
+    )
+}
