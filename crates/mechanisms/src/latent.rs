@@ -8,11 +8,14 @@ use coil::Error;
 use diagnosis::{Active, Latent};
 
 /// Smooth functions of temperature that a flexible input is made of.
-const HATS: usize = 6;
+const HATS: usize = 9;
 /// Time constants with which a material may lag behind \[s\].
 const LAGS: [f64; 3] = [1000.0, 4000.0, 12000.0];
 /// Small changes of heat paths: of the air's conductivity, of the resistance at the hub \[m²K/W\], of the flange's coupling \[W/(m²K)\].
 const PATHS: [(Path, f64); 3] = [(Path::Air, 1.02), (Path::HubResistance, 2e-4), (Path::Mount, 0.1)];
+/// A heater's power \[W\], and when it may have been switched on before the record \[s\].
+const POWER: f64 = 0.1;
+const SWITCHED_ON: [f64; 4] = [1.0, 60.0, 300.0, 1500.0];
 /// Factors on transverse modulus and expansion.
 const SOFTER: f64 = 0.95;
 const WIDER: f64 = 1.02;
@@ -64,8 +67,11 @@ impl Laws {
 
         let mut thermal: Functions =
             PATHS.iter().flat_map(|(path, value)| shaped(&self.path(record, *path, *value), &hats)).collect();
-        let heater = Active { mechanism: 0, values: vec![0.1, 1.0], choice: None };
-        thermal.extend(shaped(&self.change(record, Law::SelfHeating, &heater)?, &hats[..1]));
+        for before in SWITCHED_ON {
+            let heater = Active { mechanism: 0, values: vec![POWER, before], choice: None };
+            let heated = self.change(record, Law::SelfHeating, &heater)?;
+            thermal.push(vec![heated.sensor.clone().unwrap_or_else(|| vec![0.0; rows]), sum(&heated.parts)]);
+        }
         add("thermal", thermal);
 
         let softer = parts(self.softened(record, |_| (SOFTER, 1.0)));
