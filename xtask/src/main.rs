@@ -1,8 +1,9 @@
-//! Project chores: `cargo xtask validate [--json FILE]`, `cargo xtask prove`, `cargo xtask figures [--out DIR]`,
+//! Project chores: `cargo xtask validate [--json FILE]`, `cargo xtask prove`, `cargo xtask figures [--out DIR]`, `cargo xtask mechanisms`,
 //! `cargo xtask bench NAME`.
 
 mod bench;
 mod figures;
+mod mechanisms;
 mod prove;
 mod validate;
 
@@ -10,13 +11,14 @@ use std::process::ExitCode;
 
 const USAGE: &str = "usage: cargo xtask validate [--json FILE]\n       cargo xtask prove [--case NN]...\n       \
     cargo xtask prove --sealed [--again DIR]\n       cargo xtask figures [--out DIR]\n       \
-    cargo xtask bench coil|sensitivity [--peers-python PATH] [--repetitions N]\n       cargo xtask bench reduced\n\n  \
+    cargo xtask mechanisms\n       cargo xtask bench coil|sensitivity [--peers-python PATH] [--repetitions N]\n       cargo xtask bench reduced\n\n  \
     validate   run the whole chain, compare with the paper's Tables I to IV,\n             \
     write docs/validation.md and the README's headline table; exit 1 if a row that must hold does not\n  \
     prove      diagnose the units of fixtures/concealed/open, or those named, hold the answers against the truth,\n             \
     write docs/proof.md; exit 1 if a score is not as asked; --sealed: answer the sealed units, once\n             \
     (--again: into DIR, and compare with the answers that are there)\n  \
     figures    draw the reference coil's figures as SVG files into docs/pictures, or DIR\n  \
+    mechanisms measure which mechanisms are mistaken for which; the numbers of docs/mechanisms and its pictures\n  \
     bench      times beside errors into docs/benchmarks.md: the coil job and the steady sensitivity beside other programs,\n             \
     PATH being a Python with their packages (else FOGCOIL_PEERS_PYTHON; without it they are skipped); reduced and full model";
 
@@ -26,6 +28,7 @@ fn main() -> ExitCode {
     let outcome = match words[..] {
         ["validate"] => validate::run(None),
         ["validate", "--json", file] => validate::run(Some(file.as_ref())),
+        ["mechanisms"] => mechanisms::run(),
         ["figures"] => figures::run("docs/pictures".as_ref()),
         ["figures", "--out", folder] => figures::run(folder.as_ref()),
         ["prove", ref rest @ ..] if !matches!(rest, ["--help" | "-h"]) => match prove::Command::parse(rest) {
@@ -42,7 +45,7 @@ fn main() -> ExitCode {
                 return ExitCode::from(2);
             }
         },
-        ["--help" | "-h" | "help"] | ["validate" | "prove" | "figures" | "bench", "--help" | "-h"] => {
+        ["--help" | "-h" | "help"] | ["validate" | "prove" | "figures" | "mechanisms" | "bench", "--help" | "-h"] => {
             println!("{USAGE}");
             return ExitCode::SUCCESS;
         }

@@ -7,13 +7,15 @@
 //! The file (nonlinearbenchmark.org) has columns uEst, uVal, yEst, yVal in volts and, in its first row, Ts in seconds. It is not part of this
 //! repository. The levels are fitted on uEst, yEst and judged on uVal, yVal.
 
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program")]
+
 #[path = "models/tanks.rs"]
 #[allow(dead_code)] // the test uses the rest
 mod tanks;
 
 use std::error::Error;
 
-use diagnosis::{Diagnosis, ForwardModel, Hypothesis, Observation, Settings, Verdict, diagnose, fitted};
+use diagnosis::{Diagnosis, ForwardModel, Hypothesis, Observation, Settings, diagnose, fitted};
 use tanks::{Feed, LOWER_OVERFLOW, Tanks, UPPER_OVERFLOW};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -65,16 +67,15 @@ fn say(tanks: &Tanks, found: &Diagnosis, observations: &[Observation]) -> Result
     for (mechanism, probability) in found.mechanisms.iter().filter(|(_, p)| *p >= 5e-4) {
         println!("  {:<18} probability {probability:.3}", tanks.mechanisms()[*mechanism].id);
     }
-    if found.verdict == Verdict::Explained {
-        for (active, estimates) in best.active.iter().zip(&found.parameters) {
-            println!("{} (fitted):", tanks.mechanisms()[active.mechanism].id);
-            for e in estimates {
-                println!("  {} = {:.3}, 90 % interval {:.3} to {:.3}", e.name, e.value, e.ci90[0], e.ci90[1]);
-            }
+    // an unknown may lie beyond what is named
+    for (active, estimates) in best.active.iter().zip(&found.parameters) {
+        println!("named: {} (fitted)", tanks.mechanisms()[active.mechanism].id);
+        for e in estimates {
+            println!("  {} = {:.3}, 90 % interval {:.3} to {:.3}", e.name, e.value, e.ci90[0], e.ci90[1]);
         }
     }
     if let Some(rival) = &found.best().rival {
-        println!("beyond it: {} (ln evidence +{:.1})", rival.structure.describe(), rival.gain);
+        println!("not explained: {} (ln evidence +{:.1})", rival.structure.describe(), rival.gain);
     }
     // where Bernoulli's law fails
     let cells = found.nominal.over_state(tanks, (0, 0), 0, &observations[0], best);

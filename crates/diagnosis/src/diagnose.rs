@@ -346,13 +346,17 @@ impl<M: ForwardModel> Pool<'_, M> {
         } else {
             Verdict::Explained
         };
+        let likeliest = mechanisms.iter().map(|(m, _)| *m).find(|m| model.mechanisms()[*m].named);
         // the best candidate of the verdict leads
         let fits = |c: &Candidate| match verdict {
             Verdict::None => c.rival.is_none() && c.fit.hypothesis == Hypothesis::NOMINAL,
             Verdict::Recalibrate => {
                 c.rival.is_none() && c.fit.hypothesis.mechanisms.is_empty() && c.fit.hypothesis.constants_free
             }
-            Verdict::Explained => c.rival.is_none() && !c.fit.hypothesis.mechanisms.is_empty() && named(c),
+            // of those that hold the likeliest mechanism, many small candidates together may outweigh a large one
+            Verdict::Explained => {
+                c.rival.is_none() && named(c) && c.fit.hypothesis.mechanisms.iter().any(|m| Some(m.0) == likeliest)
+            }
             Verdict::Unknown => c.rival.is_some() || !named(c),
         };
         if let Some(at) = self.candidates.iter().position(fits) {

@@ -55,7 +55,8 @@ pub(crate) struct Recommend {
 }
 
 pub(crate) fn run(arguments: &Recommend) -> Result<(), Error> {
-    let Recommend { coil, between, records, coldest, hottest, fastest, hours, out, json, meta, format, quiet, no_cache } = arguments;
+    let Recommend { coil, between, records, coldest, hottest, fastest, hours, out, json, meta, format, quiet, no_cache } =
+        arguments;
     let inputs: Vec<&Path> = [coil].into_iter().chain(records).map(PathBuf::as_path).collect();
     output::check_distinct(&inputs, &[out.as_deref()])?;
     let progress = if *quiet { Progress::Silent } else { Progress::OnStandardError };

@@ -26,6 +26,7 @@
 //! ```
 
 pub mod cache;
+pub mod catalogue;
 pub mod check;
 pub mod diagnose;
 mod error;

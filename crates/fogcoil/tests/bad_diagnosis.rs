@@ -1,4 +1,5 @@
 //! Records that say nothing, or very much: one clear message, or an honest verdict.
+#![allow(clippy::unwrap_used)]
 
 mod common;
 
@@ -78,6 +79,7 @@ fn a_soak_or_an_hour_names_nothing() {
     let (soaked, notes, _) = verdict(&soak);
     assert_eq!(soaked, "none");
     assert!(notes.contains("the chamber moves by"), "{notes}");
-    let hour: String = std::fs::read_to_string(format!("{CASE}/fit.csv")).unwrap().lines().take(121).map(|l| l.to_owned() + "\n").collect();
+    let hour: String =
+        std::fs::read_to_string(format!("{CASE}/fit.csv")).unwrap().lines().take(121).map(|l| l.to_owned() + "\n").collect();
     assert_eq!(verdict(&hour).0, "none");
 }

@@ -1,8 +1,11 @@
 //! `fogcoil diagnose` as a user runs it, on a recording in which a bond opens.
+#![allow(clippy::unwrap_used)]
 
 mod common;
 
+use coil::{Design, Mechanics};
 use common::{COIL, Folder, change, stderr, stdout};
+use fogcoil::input::read_coil;
 
 const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/concealed/open/case_13");
 
@@ -11,7 +14,9 @@ fn a_concealed_bond_is_named_and_the_held_out_record_predicted() {
     let folder = Folder::new();
     folder.write("coil.ron", COIL);
     let (fit, holdout) = (format!("{CASE}/fit.csv"), format!("{CASE}/holdout.csv"));
-    let arguments = ["diagnose", "coil.ron", "--fit", &fit, "--holdout", &holdout, "--json", "j.json", "--prediction", "p.csv"];
+    let mut arguments =
+        vec!["diagnose", "coil.ron", "--fit", &fit, "--holdout", &holdout, "--json", "j.json", "--prediction", "p.csv"];
+    arguments.extend(["--model-out", "m.ron", "--report", "r.html"]);
     let output = folder.run(&arguments);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert!(stdout(&output).contains("Most likely: debond."), "{}", stdout(&output));
@@ -29,6 +34,49 @@ fn a_concealed_bond_is_named_and_the_held_out_record_predicted() {
     let rows = |text: String| text.lines().map(|line| line.split(',').next().unwrap().to_owned()).collect::<Vec<_>>();
     let predicted = rows(std::fs::read_to_string(folder.path("p.csv")).unwrap());
     assert_eq!(predicted, rows(std::fs::read_to_string(holdout).unwrap()));
+    the_model_is_the_design_with_the_bond(&folder, at["value"].as_f64().unwrap());
+    the_page_stands_alone(&std::fs::read_to_string(folder.path("r.html")).unwrap());
+}
+
+fn the_model_is_the_design_with_the_bond(folder: &Folder, below: f64) {
+    let text = std::fs::read_to_string(folder.path("m.ron")).unwrap();
+    for part in ["fit.csv", "holdout.csv", "Fitted, not measured", "debond_c = ", " to ", "no worse than"] {
+        assert!(text.contains(part), "`{part}` in {text}");
+    }
+    let [model, design] = ["m.ron", "coil.ron"].map(|name| read_coil(&folder.path(name)).unwrap().design);
+    let Mechanics::Opening(bond) = model.mechanics else { panic!("{:?}", model.mechanics) };
+    assert_eq!(bond.below, below);
+    assert_eq!(Design { mechanics: Mechanics::Elastic, ..model }, design);
+}
+
+fn the_page_stands_alone(page: &str) {
+    for part in [
+        "Most likely: debond.",
+        "course-wide",
+        "residuals-narrow",
+        "spectrum-wide",
+        "state-wide",
+        "blocks-wide",
+        "coherence-wide",
+        "layers-wide",
+        "parameters-wide",
+        "held-out-wide",
+        "allan-wide",
+        "part of the chain: bond",
+        "Ljung",
+        "class=\"dot\"",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    for part in ["http://", "https://", "<script", "NaN", ">inf", "<img"] {
+        assert!(!page.contains(part), "{part}");
+    }
+    let mut ids: Vec<&str> = page.split(" id=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+    let count = ids.len();
+    ids.sort_unstable();
+    ids.dedup();
+    assert_eq!(ids.len(), count);
+    assert!(page.len() < 1_000_000, "{} bytes", page.len());
 }
 
 #[test]

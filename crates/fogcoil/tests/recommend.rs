@@ -1,4 +1,5 @@
 //! `fogcoil recommend` and `fogcoil explain` as a user runs them.
+#![allow(clippy::unwrap_used)] // in helpers, too
 
 mod common;
 
@@ -66,7 +67,8 @@ fn log_odds(of: &Value) -> f64 {
 fn a_fast_profile_is_recommended_and_can_be_simulated() {
     let folder = Folder::new();
     folder.write("coil.ron", COIL);
-    let between = ["recommend", "coil.ron", "--between", "tail-asymmetry,adhesive-content", "--json", "--out", "p.csv", "--quiet"];
+    let between =
+        ["recommend", "coil.ron", "--between", "tail-asymmetry,adhesive-content", "--json", "--out", "p.csv", "--quiet"];
     let r = json(&folder, &between, "recommend");
     let profiles = r["profiles"].as_array().unwrap();
     assert!(profiles.windows(2).all(|p| log_odds(&p[0]) >= log_odds(&p[1])));
@@ -89,7 +91,11 @@ fn a_record_gives_sizes_and_the_test_that_is_repeated() {
     let folder = Folder::new();
     folder.write("coil.ron", COIL);
     let fit = format!("{CASE}/fit.csv");
-    let r = json(&folder, &["recommend", "coil.ron", "--between", "debond,nominal", "--from", &fit, "--json", "--quiet"], "recommend");
+    let r = json(
+        &folder,
+        &["recommend", "coil.ron", "--between", "debond,nominal", "--from", &fit, "--json", "--quiet"],
+        "recommend",
+    );
     assert!(r["fitted"] == true && r["repeat"]["name"] == "the recorded test");
     // what the record was made with: -7.2073 degC
     assert!((r["sizes"][0]["parameters"]["debond_c"].as_f64().unwrap() + 7.2073).abs() < 1.0, "{}", r["sizes"]);
@@ -103,7 +109,10 @@ fn what_cannot_be_recommended_is_said_at_once() {
     for (arguments, says) in [
         (&["--between", "tail-asymmetry"][..], "two or more"),
         (&["--between", "tail-asymmetry,tail-asymmetry"], "twice"),
-        (&["--between", "tail-asymmetry,gremlins"], "`gremlins` is not in this design's library; it holds tail-asymmetry, winding-defect"),
+        (
+            &["--between", "tail-asymmetry,gremlins"],
+            "`gremlins` is not in this design's library; it holds tail-asymmetry, winding-defect",
+        ),
         (&["--between", "nominal,recalibrate"], "a mechanism's"),
         (&["--between", "debond,air-path", "--coldest", "60", "--hottest", "-40"], "--coldest 60 --hottest -40"),
         (&["--between", "debond,air-path", "--fastest", "0"], "--fastest 0"),

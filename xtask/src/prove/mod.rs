@@ -26,6 +26,8 @@ pub(crate) enum Command {
     Sealed,
     /// Answer them again elsewhere and compare.
     Again(PathBuf),
+    /// Make, answer and score units of the project's own generator.
+    Synthetic(synthetic::Plan),
 }
 
 impl Command {
@@ -35,6 +37,7 @@ impl Command {
         match words {
             ["--sealed"] => return Ok(Self::Sealed),
             ["--sealed", "--again", folder] => return Ok(Self::Again(folder.into())),
+            ["--synthetic", rest @ ..] => return Ok(Self::Synthetic(synthetic::Plan::parse(rest)?)),
             _ => {}
         }
         let mut cases = Vec::new();
@@ -57,6 +60,7 @@ impl Command {
             Self::Open(cases) => open(cases),
             Self::Sealed => concealed::sealed(),
             Self::Again(folder) => concealed::sealed_again(folder),
+            Self::Synthetic(plan) => plan.run(),
         }
     }
 }

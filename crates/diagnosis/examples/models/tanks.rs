@@ -102,7 +102,8 @@ fn constants() -> Vec<Nuisance> {
 impl Tanks {
     /// Tanks under several feeds; the records are in their order.
     pub(crate) fn new(feeds: Vec<Feed>) -> Self {
-        let noise = NoisePrior { white: (0.05, 0.5), drift: (0.2, 0.5), drift_time: (40.0, 0.5), walk: (1e-6, 0.5) };
+        // Bernoulli's law is good for a tenth of a volt
+        let noise = NoisePrior { white: (0.1, 0.3), drift: (0.1, 0.3), drift_time: (100.0, 0.5), walk: (1e-6, 0.5) };
         let channel = Channel { name: "lower level".into(), unit: "V".into(), offset_sd: 0.05, averaging: 0.0, noise };
         let mut tanks =
             Self { feeds, states: Vec::new(), channels: vec![channel], nuisances: constants(), mechanisms: library() };

@@ -3,8 +3,8 @@
 use recording::allan::{AllanPoint, CONFIDENCE};
 use recording::noise::NoiseModel;
 
-use super::text::taken_off;
 use super::Analysis;
+use super::text::taken_off;
 use crate::plot::{Axis, Content, Figure, Height, Panel, Series, Style, Thinning};
 
 /// The Allan deviation with its intervals and the fitted model, as an SVG document; `None` without identified noise.
@@ -34,9 +34,10 @@ impl<'a> Allan<'a> {
         self.points.iter().any(|point| point.deviation > 0.0).then(|| Figure {
             id,
             title,
-            description: "Overlapping Allan deviation against averaging time, both axes logarithmic, between the ends of its 90 % \
+            description:
+                "Overlapping Allan deviation against averaging time, both axes logarithmic, between the ends of its 90 % \
                           intervals, and that of the fitted noise model."
-                .into(),
+                    .into(),
             caption,
             columns: 1,
             panels: vec![Panel {

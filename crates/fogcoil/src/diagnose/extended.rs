@@ -33,7 +33,7 @@ impl Outcome {
         if found.is_empty() {
             return Ok(coil_file(&self.name, nominal, &comments));
         }
-        comments.extend(found.iter().filter(|p| p.record.is_none()).map(said));
+        comments.extend(found.iter().filter(|p| p.record.is_none()).map(|p| said(p, self.interval(p))));
         let mut design = nominal.clone();
         for posterior in found.iter().filter(|p| p.place == Place::Nominal(Role::Constant)) {
             match with_constant(&design, &posterior.name, posterior.value()) {
@@ -41,10 +41,10 @@ impl Outcome {
                 None => return Err(format!("a coil file cannot hold a change of {}", posterior.name)),
             }
         }
-        for active in &best.active {
+        for (place, active) in best.active.iter().enumerate() {
             let id = self.id(active.mechanism);
-            if let Some((name, value)) = self.choice(active) {
-                comments.push(format!("  {name} = {value} (chosen among all, one by one)"));
+            if let (Some((name, value)), Some([low, high])) = (self.choice(active), self.diagnosis.choice(place)) {
+                comments.push(format!("  {name} = {value} ({low} to {high}), compared with every other"));
             }
             comments.extend(caveat(id, nominal).map(str::to_owned));
             match with_mechanism(&self.gyro, &design, active) {
@@ -81,6 +81,17 @@ impl Outcome {
         lines
     }
 
+    /// 90 % interval of an unknown of the best candidate, with the doubt about its mechanism's choice in it.
+    pub(super) fn interval(&self, posterior: &Posterior) -> [f64; 2] {
+        let with_choice = match posterior.place {
+            Place::Mechanism(place) => self.diagnosis.parameters.get(place),
+            Place::Nominal(_) => None,
+        };
+        let same = with_choice.into_iter().flatten().find(|estimate| estimate.name == posterior.name);
+        same.map_or_else(|| posterior.ci90(), |estimate| estimate.ci90)
+    }
+
+    /// Name and value of a mechanism's choice.
     pub(super) fn choice(&self, active: &Active) -> Option<(&str, f64)> {
         let (name, _) = self.gyro.mechanisms()[active.mechanism].choice.as_ref()?;
         Some((name, active.choice?))
@@ -94,8 +105,8 @@ impl Record {
     }
 }
 
-fn said(posterior: &Posterior) -> String {
-    let [low, high] = posterior.ci90().map(|end| significant(end, 5));
+fn said(posterior: &Posterior, ci90: [f64; 2]) -> String {
+    let [low, high] = ci90.map(|end| significant(end, 5));
     let what = match posterior.place {
         Place::Mechanism(_) => "",
         Place::Nominal(Role::Constant) => ", factor on the design's own",

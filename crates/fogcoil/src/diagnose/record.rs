@@ -1,5 +1,6 @@
 //! A recording as the engine wants it.
 
+use bias::units::S_PER_MIN;
 use diagnosis::Observation;
 
 use crate::Error;
@@ -13,8 +14,12 @@ pub const MANY_ROWS: usize = 10_000;
 pub const INTERVAL_S: f64 = 30.0;
 /// Most rows of a record that are compared; of more, the interval grows.
 pub const MOST_ROWS: usize = 30_000;
-/// Least range of the chamber \[K\] below which it is noted that nothing shows.
+/// Range of the chamber \[K\] below which it is noted that nothing shows.
 const FEWEST_KELVIN: f64 = 5.0;
+/// What chamber and spool may differ by at rest, and the chamber move by in the first minutes \[K\]: thermometers' offsets and noise.
+const AT_REST: f64 = 0.5;
+/// How long the chamber should be steady at first \[s\].
+const REST_S: f64 = 600.0;
 /// Intervals longer than this many usual ones are gaps.
 const GAP: f64 = 1.5;
 
@@ -36,7 +41,10 @@ fn refuse(case: &RecordCase, field: &str, problem: String, remedy: &str) -> Erro
 /// [`Error::Input`] says why it cannot be used.
 pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<String>) -> Result<Ready, Error> {
     case.require_usable()?;
-    let missing = || refuse(case, CHAMBER, "there is no chamber temperature to drive the model with".into(), "add the column");
+    let missing = || {
+        let problem = "there is no chamber temperature to drive the model with".to_owned();
+        refuse(case, CHAMBER, problem, "give a column with values")
+    };
     let mut table = Table::new(case).thinned(case, notes);
     if !bridge(&table.time, &mut table.chamber) {
         return Err(missing());
@@ -54,6 +62,9 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<String>) -> Result<Ready,
     }
     if case.number(SPOOL).is_none() {
         notes.push(format!("{file}: no spool_c: heat paths and the thermometer cannot be told apart"));
+    }
+    if let Some(off) = unrest(&table) {
+        notes.push(format!("{file}: does not start at rest ({off}), as the model does: what this leaves is no finding"));
     }
     let Table { time, chamber, spool, rate, averaging } = table;
     Ok(Ready { observation: Observation { time, channels: vec![spool, rate] }, chamber, averaging })
@@ -125,6 +136,19 @@ fn mean(values: &[f64]) -> f64 {
     if 2 * count < values.len() { f64::NAN } else { sum / count as f64 }
 }
 
+/// Why a record does not start at rest, if it does not.
+fn unrest(table: &Table) -> Option<String> {
+    let (start, first) = (table.time[0], table.chamber[0]);
+    let spool = table.spool.iter().find(|t| t.is_finite()).map_or(0.0, |t| (t - first).abs());
+    let early = table.time.iter().zip(&table.chamber).take_while(|(t, _)| *t - start <= REST_S);
+    let moved = early.fold(0.0_f64, |most, (_, c)| most.max((c - first).abs()));
+    if spool > AT_REST {
+        Some(format!("spool and chamber differ by {spool:.1} K"))
+    } else {
+        (moved > AT_REST).then(|| format!("the chamber moves by {moved:.1} K in the first {} min", REST_S / S_PER_MIN))
+    }
+}
+
 /// Fills gaps on straight lines; false if there is nothing to draw them through.
 fn bridge(time: &[f64], values: &mut [f64]) -> bool {
     let known: Vec<usize> = (0..values.len()).filter(|&n| values[n].is_finite()).collect();
@@ -150,6 +174,30 @@ mod tests {
     fn half_a_mean_is_none() {
         assert_eq!(mean(&[1.0, f64::NAN, 3.0, 5.0]), 3.0);
         assert!(mean(&[1.0, f64::NAN, f64::NAN]).is_nan() && mean(&[]).is_nan());
+    }
+
+    /// 12 000 rows of a second, the rate rising by 1 deg/h a row; from row 6000 on all is an hour later.
+    #[test]
+    fn very_many_rows_are_averaged_by_whole_numbers() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("r.csv");
+        let row = |n: usize| {
+            let (time, rate) = (n + if n < 6015 { 0 } else { 3600 }, 0.001 * n as f64 + 0.0001 * (n % 3) as f64);
+            format!("{time},{},{},{rate:.4}\n", 20.0 + 0.001 * n as f64, 20.0 + 0.0005 * n as f64 + 0.01 * (n % 2) as f64)
+        };
+        std::fs::write(&path, "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &(0..12_000).map(row).collect::<String>())
+            .unwrap();
+        let case = crate::input::read_record(&path, &crate::input::RecordOptions::default()).unwrap();
+        let mut notes = Vec::new();
+        let ready = ready(&case, &mut notes).unwrap();
+        let [spool, rate] = &ready.observation.channels[..] else { panic!() };
+        let time = &ready.observation.time;
+        // 200 whole groups before the gap, of which 15 rows are cut off, and 199 after it
+        assert_eq!((time.len(), time[0], time[199], time[200]), (399, 29.0, 5999.0, 6044.0 + 3600.0));
+        assert_eq!(ready.averaging, 30.0);
+        assert!((rate[0] - (0.0145 + 0.0001)).abs() < 1e-12 && (rate[200] - (6.0295 + 0.0001)).abs() < 1e-9, "{rate:?}");
+        assert!((ready.chamber[0] - 20.029).abs() < 1e-12 && (spool[0] - 20.0195).abs() < 1e-3, "{}", spool[0]);
+        assert!(notes.iter().any(|note| note.contains("12000 rows are averaged by 30 to 399 of 30.000 s")), "{notes:?}");
     }
 
     #[test]

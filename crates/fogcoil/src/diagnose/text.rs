@@ -62,7 +62,14 @@ impl Outcome {
             Verdict::None => "The nominal model suffices: no difference beyond noise.".to_owned(),
             Verdict::Recalibrate => "The design's own constants, re-estimated within their uncertainties, suffice.".to_owned(),
             Verdict::Explained => {
-                format!("The recording differs from the design. Most likely: {}.", self.names().join(" and "))
+                let (best, first) = (self.names(), self.diagnosis.mechanisms.first().map_or("", |(m, _)| self.id(*m)));
+                let all = best.join(" and ");
+                if best.contains(&first) {
+                    format!("The recording differs from the design. Most likely: {all}.")
+                } else {
+                    // many choices of one mechanism together outweigh the best single hypothesis
+                    format!("The recording differs from the design. Most likely: {first}; the best single hypothesis: {all}.")
+                }
             }
             Verdict::Unknown => {
                 let structure = self.structure().map_or(String::new(), |structure| format!(": {structure}"));

@@ -106,7 +106,9 @@ pub fn explain(
     progress: &dyn Fn(&str),
 ) -> Result<Explained, Error> {
     if !measured.is_finite() || measured.abs() > MOST || (magnitude && measured < 0.0) {
-        let text = format!("--sensitivity {measured}: give a magnitude up to {MOST} (deg/h)/(degC/min), or a signed value with --signed");
+        let text = format!(
+            "--sensitivity {measured}: give a magnitude up to {MOST} (deg/h)/(degC/min), or a signed value with --signed"
+        );
         return Err(Error::Usage(text));
     }
     let coil = |source| Error::Coil { file: case.file.clone(), source };
@@ -127,7 +129,8 @@ pub fn explain(
     progress("solving for every mechanism");
     let problem = Problem { design: &case.design, target: measured, error: steady.error_estimate, nominal: None };
     let problem = Problem { nominal: problem.sensitivity(&case.design, &MechanicalState::NOMINAL), ..problem };
-    let explanations: Vec<Explanation> = gyro.mechanisms().iter().flat_map(|m| problem.explanations(m)).collect();
+    let named = gyro.mechanisms().iter().filter(|m| m.named);
+    let explanations: Vec<Explanation> = named.flat_map(|m| problem.explanations(m)).collect();
     let constants = constants(&gyro).map_err(coil)?;
     let tests = test::tests(&gyro, &explanations, &programmes, progress).map_err(|error| match error {
         diagnosis::Error::Model(source) => coil(source),

@@ -34,7 +34,8 @@ pub fn json(e: &Explained) -> Value {
         object
     };
     let test = |t: &Test| {
-        let [slow, best] = [&t.slow, &t.best].map(|(name, odds)| json!({"profile": name, "log_odds": odds.log_odds, "decides": odds.decides()}));
+        let [slow, best] =
+            [&t.slow, &t.best].map(|(name, odds)| json!({"profile": name, "log_odds": odds.log_odds, "decides": odds.decides()}));
         json!({"between": t.between, "slow_ramp": slow, "best": best})
     };
     json!({

@@ -113,11 +113,7 @@ fn spool(spool: Option<&Spool>) -> String {
     let bonded = |contact: Contact| contact == Contact::Bonded;
     let flange = |f: &coil::Flange| {
         let (thickness, overhang) = (mm(f.thickness), mm(f.overhang));
-        format!(
-            "(side: {}, thickness_mm: {thickness}, overhang_mm: {overhang}, bonded: {})",
-            side(f.side),
-            bonded(f.contact)
-        )
+        format!("(side: {}, thickness_mm: {thickness}, overhang_mm: {overhang}, bonded: {})", side(f.side), bonded(f.contact))
     };
     format!(
         "    spool: Some((\n        material: (youngs_modulus_gpa: {}, poisson_ratio: {:?}, thermal_expansion_per_k: {:?},\n                   \
@@ -156,10 +152,7 @@ fn mechanics(mechanics: &Mechanics) -> String {
         Mechanics::Relaxing { fraction, time } => format!("Relaxing((fraction: {fraction:?}, time_s: {time:?}))"),
         Mechanics::Opening(o) => {
             let (below, hysteresis, fraction) = (o.below, o.hysteresis, o.fraction);
-            format!(
-                "Opening((side: {}, below_c: {below:?}, hysteresis_k: {hysteresis:?}, fraction: {fraction:?}))",
-                side(o.side)
-            )
+            format!("Opening((side: {}, below_c: {below:?}, hysteresis_k: {hysteresis:?}, fraction: {fraction:?}))", side(o.side))
         }
     };
     format!("    mechanics: {law},\n")

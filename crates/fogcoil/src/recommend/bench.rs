@@ -18,15 +18,15 @@ type Failure = diagnosis::Error<coil::Error>;
 #[derive(Clone)]
 pub(crate) struct Contender {
     pub(crate) id: String,
-    pub(super) hypotheses: Vec<Hypothesis>,
+    pub(crate) hypotheses: Vec<Hypothesis>,
     /// what is at work when it is the truth; the nominal and the recalibrated design are never taken for the truth
-    pub(super) truth: Option<Active>,
+    pub(crate) truth: Option<Active>,
 }
 
 impl Contender {
     /// Of an id, a mechanism's at a size that is neither small nor large: the middle of the priors, or one σ beyond where the middle means
     /// that nothing is at work. `None` if the library does not hold it.
-    pub(super) fn named(gyro: &Gyro, id: &str) -> Result<Option<Self>, Failure> {
+    pub(crate) fn named(gyro: &Gyro, id: &str) -> Result<Option<Self>, Failure> {
         Ok(match (id, gyro.find(id)) {
             (NOMINAL, _) => Some(Self { id: NOMINAL.into(), hypotheses: vec![Hypothesis::NOMINAL], truth: None }),
             (RECALIBRATE, _) => Some(Self::recalibrated()),

@@ -122,7 +122,13 @@ pub fn text(r: &Recommendation) -> String {
     let row = |name: &str, odds: &Odds| {
         let gain = odds.log_odds - r.repeat.1.log_odds;
         let pair = format!("{} / {}", odds.pair[0], odds.pair[1]);
-        vec![name.to_owned(), number(odds.sigma), number(odds.log_odds), format!("{}{}", if gain >= 0.05 { "+" } else { "" }, number(gain)), pair]
+        vec![
+            name.to_owned(),
+            number(odds.sigma),
+            number(odds.log_odds),
+            format!("{}{}", if gain >= 0.05 { "+" } else { "" }, number(gain)),
+            pair,
+        ]
     };
     let head = ["profile", "sigma", "ln odds", "gain", "truth / taken for it"].map(str::to_owned).to_vec();
     let mut rows = vec![head];

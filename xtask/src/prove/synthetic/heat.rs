@@ -35,8 +35,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 impl Heat {
     /// The chamber drives, and a heater if the design has one.
     pub(super) fn new(design: &Design, vectors: usize) -> Result<Self, Error> {
-        let drives: &[Drive] =
-            if design.heat.heaters.is_empty() { &[Drive::Chamber] } else { &[Drive::Chamber, Drive::Heaters] };
+        let drives: &[Drive] = if design.heat.heaters.is_empty() { &[Drive::Chamber] } else { &[Drive::Chamber, Drive::Heaters] };
         let model = ThermalModel::new(design, &MESH, drives)?;
         let vectors = krylov(&model, vectors)?;
         let stiffness = model.conductivity().matrix();

@@ -1,8 +1,13 @@
-//! Units that a generator of the project's own conceals something in.
+//! `cargo xtask prove --synthetic`: many units of a generator of the project's own, so that rates have tight intervals.
+//!
+//! The generator shares with the diagnosis the assembly of matrices, the adjoint of the bias and the reference coil; its own are the mesh, the
+//! space of thermal modes, the integrator, the laws of stiffness, bonds, thermometer and optics, the changes of the design, the noise and the
+//! matched filter. Constants are off by what no mesh resolves.
 
 mod chamber;
 mod effect;
 mod heat;
+mod inseparable;
 mod law;
 mod matched;
 mod noise;
@@ -10,8 +15,195 @@ mod outside;
 mod plant;
 mod random;
 mod record;
+mod section;
 mod sheet;
 mod unit;
 
 #[cfg(test)]
 mod tests;
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use fogcoil::cache::Cache;
+use fogcoil::input;
+use fogcoil::output::{self, Content};
+use sha2::{Digest, Sha256};
+
+use super::answer::{Answer, answer, rates};
+use super::chain;
+use super::concealed::{each, root};
+use super::score::{Scored, score};
+use super::truth::Truth;
+use super::{program, report, summary};
+use crate::validate::Failure;
+use unit::{Generator, Which};
+
+/// What the units are made by, to know them from those of another generator.
+const SOURCES: [&str; 13] = [
+    include_str!("chamber.rs"),
+    include_str!("effect.rs"),
+    include_str!("heat.rs"),
+    include_str!("law.rs"),
+    include_str!("matched.rs"),
+    include_str!("noise.rs"),
+    include_str!("outside.rs"),
+    include_str!("plant.rs"),
+    include_str!("random.rs"),
+    include_str!("record.rs"),
+    include_str!("sheet.rs"),
+    include_str!("unit.rs"),
+    include_str!("../../../../fixtures/coil-reference.ron"),
+];
+
+/// How many units of which seed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Plan {
+    pub(crate) seed: u64,
+    /// Units in which nothing is concealed.
+    pub(crate) nulls: usize,
+    /// Units in which something is.
+    pub(crate) concealed: usize,
+}
+
+/// A unit with its answer held against its truth.
+pub(crate) struct Case {
+    pub(crate) scored: Scored,
+    /// Noise that the identification has no term for.
+    pub(crate) unseen: Option<String>,
+}
+
+impl Plan {
+    /// Reads what follows `--synthetic`.
+    ///
+    /// # Errors
+    /// Names the word that is not understood.
+    pub(crate) fn parse(words: &[&str]) -> Result<Self, Failure> {
+        let mut plan = Self { seed: 1, nulls: 300, concealed: 200 };
+        for pair in words.chunks(2) {
+            let [option, value] = pair else { return Err(Failure(format!("{} needs a number", pair.join(" ")))) };
+            let bad = |_| Failure(format!("{option} {value}: the number is not a whole one of 0 or more"));
+            match *option {
+                "--seed" => plan.seed = value.parse().map_err(bad)?,
+                "--nulls" => plan.nulls = value.parse().map_err(bad)?,
+                "--concealed" => plan.concealed = value.parse().map_err(bad)?,
+                _ => return Err(Failure(format!("--synthetic knows --seed, --nulls and --concealed, not {option}"))),
+            }
+        }
+        Ok(plan)
+    }
+
+    /// Makes, answers and scores; writes the section of docs/proof.md. Whether all scores are as asked.
+    ///
+    /// # Errors
+    /// [`Failure`] says what went wrong; what is finished is kept and not done again.
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
+        let folder = root().join("target/prove/synthetic").join(self.seed.to_string());
+        let cases = self.cases(&folder, &Cache::of_user())?;
+        let scored: Vec<Scored> = cases.iter().map(|case| case.scored.clone()).collect();
+        let table = summary::summary(&scored);
+        report::publish("synthetic", &section::section(self, &cases, &table))?;
+        println!("{}", report::lines(&table));
+        table.failures().for_each(|row| eprintln!("FAILS: {}: {}", row.group, row.quantity));
+        Ok(table.failures().next().is_none())
+    }
+
+    fn units(&self) -> Vec<Which> {
+        let all = (0..self.nulls.max(self.concealed)).flat_map(|n| [Which::Null(n), Which::Concealed(n)]);
+        all.filter(|which| match which {
+            Which::Null(n) => *n < self.nulls,
+            Which::Concealed(n) => *n < self.concealed,
+        })
+        .collect()
+    }
+
+    /// All units in `folder`: made, then answered, and only then held against their truths.
+    pub(crate) fn cases(&self, folder: &Path, cache: &Cache) -> Result<Vec<Case>, Failure> {
+        let clock = Instant::now();
+        // of the sources that this program was just built from
+        let program = program::hash(&root())?;
+        let say = |what: &str, unit: &str| eprintln!("[{:6.0} s] {unit} {what}", clock.elapsed().as_secs_f64());
+        let names: Vec<String> = self.units().iter().map(|which| which.name()).collect();
+        let coil = input::read_coil(&root().join("fixtures/coil-reference.ron"))?;
+        check_generator(folder)?;
+        let generator = Generator::new(coil.design.clone())?;
+        let truth_of = |unit: &str| folder.join("truth").join(format!("{unit}.ron"));
+        each(&names, |name| {
+            let which = Which::of(name).ok_or_else(|| Failure("no unit has this name".into()))?;
+            // written last of a unit's files
+            if !truth_of(name).exists() {
+                let unit = generator.unit(self.seed, which)?;
+                let at = folder.join(name);
+                let files = [("fit.csv", unit.fit), ("holdout.csv", unit.holdout), ("meta.ron", unit.meta)];
+                write(&files.map(|(file, text)| (at.join(file), text)))?;
+                write(&[(truth_of(name), unit.truth)])?;
+                say("is made", name);
+            }
+            Ok(())
+        })?;
+        let answers = folder.join("answers").join(&program[..16]);
+        // the library is built once, before the threads ask for it
+        let library = chain::library(&coil, cache)?;
+        each(&names, |name| {
+            let into = ["json", "csv"].map(|kind| answers.join(format!("{name}.{kind}")));
+            if !into.iter().all(|file| file.exists()) {
+                let files = answer(&coil, &folder.join(name).join("fit.csv"), &folder.join(name).join("holdout.csv"), cache)?;
+                let [json, prediction] = into;
+                write(&[(prediction, files.prediction), (json, files.json)])?;
+                say("is answered", name);
+            }
+            Ok(())
+        })?;
+        each(&names, |name| {
+            let mut truth = Truth::read(&truth_of(name))?;
+            let sheet = inseparable::Sheet::read(&truth_of(name))?;
+            let read = |kind: &str| text(&answers.join(format!("{name}.{kind}")));
+            let answer = Answer::parse(&read("json")?)?;
+            let model = chain::Unit::new(&library, &folder.join(name).join("fit.csv"), &folder.join(name).join("holdout.csv"))?;
+            inseparable::extend(&mut truth, &sheet, &answer, &model)?;
+            let held = model.held_out(&truth, &rates(&read("csv")?)?)?;
+            Ok(Case { scored: score(name, &truth, &answer, Some(held)), unseen: sheet.noise.unseen })
+        })
+    }
+}
+
+impl Which {
+    /// Folder of the unit; it does not say what kind it is of to who does not know how units are numbered.
+    fn name(self) -> String {
+        format!("unit_{:04}", self.number())
+    }
+
+    fn of(name: &str) -> Option<Self> {
+        let number: usize = name.strip_prefix("unit_")?.parse().ok()?;
+        Some(if number.is_multiple_of(2) { Self::Null(number / 2) } else { Self::Concealed(number / 2) })
+    }
+}
+
+fn text(file: &Path) -> Result<String, Failure> {
+    std::fs::read_to_string(file).map_err(|e| Failure(format!("{}: {e}", file.display())))
+}
+
+/// Writes files, all or none, and the folders they lie in.
+fn write(files: &[(PathBuf, String)]) -> Result<(), Failure> {
+    for folder in files.iter().filter_map(|(file, _)| file.parent()) {
+        std::fs::create_dir_all(folder).map_err(|e| Failure(format!("{}: {e}", folder.display())))?;
+    }
+    let contents: Vec<(&Path, Content)> =
+        files.iter().map(|(file, text)| (file.as_path(), Content::Text(text.clone()))).collect();
+    Ok(output::write_files(&contents)?)
+}
+
+/// Units of another generator are not mixed with these.
+fn check_generator(folder: &Path) -> Result<(), Failure> {
+    let hash = SOURCES.iter().fold(Sha256::new(), |hash, source| hash.chain_update(source)).finalize();
+    let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
+    let file = folder.join("GENERATOR");
+    if !file.exists() {
+        return write(&[(file, hash)]);
+    }
+    if text(&file)? != hash {
+        let problem = "these units are of another generator; remove the folder, or give another --seed";
+        return Err(Failure(format!("{}: {problem}", folder.display())));
+    }
+    Ok(())
+}

@@ -157,8 +157,8 @@ impl Unseen {
             Self::Telegraph(size, dwell) => format!("random telegraph of {size:.5} deg/h, {dwell:.0} s"),
             Self::Flicker(size) => format!("1/f noise of {size:.5} deg/h per factor of four"),
             Self::Daily(size, period, _) => format!("sine of {size:.5} deg/h, {period:.0} s"),
-            Self::HeavyTails(freedom) => format!("white noise of Student's t, {freedom} degrees of freedom"),
-            Self::Breathing(share, period, _) => format!("white noise that swings by {share:.2} over {period:.0} s"),
+            Self::HeavyTails(freedom) => format!("heavy-tailed white noise of {freedom} degrees of freedom (Student's t)"),
+            Self::Breathing(share, period, _) => format!("swinging white noise of {share:.2} over {period:.0} s"),
         }
     }
 }

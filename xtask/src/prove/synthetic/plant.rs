@@ -72,7 +72,9 @@ impl Build {
 
     /// Whether heat flows in `other` as it does here.
     fn shares_heat(&self, other: &Self) -> bool {
-        let of = |b: &Self| (b.design.body, b.design.spool.clone(), b.design.surroundings, b.design.heat.clone(), b.design.mechanics.clone());
+        let of = |b: &Self| {
+            (b.design.body, b.design.spool.clone(), b.design.surroundings, b.design.heat.clone(), b.design.mechanics.clone())
+        };
         of(self) == of(other)
     }
 }

@@ -51,9 +51,7 @@ pub(super) fn at(course: &[f64], time: f64) -> f64 {
     let x = (time / STEP).max(0.0);
     let first = (x as usize).saturating_sub(1).min(course.len() - 4);
     let x = x - first as f64;
-    let weight = |k: usize| -> f64 {
-        (0..4).filter(|j| *j != k).map(|j| (x - j as f64) / (k as f64 - j as f64)).product()
-    };
+    let weight = |k: usize| -> f64 { (0..4).filter(|j| *j != k).map(|j| (x - j as f64) / (k as f64 - j as f64)).product() };
     (0..4).map(|k| weight(k) * course[first + k]).sum()
 }
 
@@ -81,7 +79,15 @@ impl Sensors {
     }
 
     /// The file of a record. `rate` is read with its noise; a few outliers may be added.
-    pub(super) fn write(&self, course: &Course, time: &[f64], signal: &Signal, noise: &[f64], white: f64, random: &mut Random) -> String {
+    pub(super) fn write(
+        &self,
+        course: &Course,
+        time: &[f64],
+        signal: &Signal,
+        noise: &[f64],
+        white: f64,
+        random: &mut Random,
+    ) -> String {
         let mut rate: Vec<f64> = signal.rate.iter().zip(noise).map(|(s, n)| s + n).collect();
         if random.chance(0.2) {
             for _ in 0..=random.below(4) {

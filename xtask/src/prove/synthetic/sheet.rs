@@ -11,6 +11,7 @@ pub(super) struct Sheet {
     pub(super) snr: Vec<Strength>,
     pub(super) confusable_sets: Vec<Vec<String>>,
     pub(super) noise: Wandering,
+    pub(super) spool_sensor: SpoolSensor,
     pub(super) noise_free_rms_deg_per_h: Sizes,
     /// Of the record that is fitted, of the one that judges.
     pub(super) profiles: [String; 2],
@@ -25,6 +26,14 @@ pub(super) struct Wandering {
     rrw_deg_per_h_per_sqrt_h: f64,
     offset_deg_per_h: f64,
     unseen: Option<String>,
+}
+
+/// The spool's thermometer \[K\].
+#[derive(Serialize)]
+pub(super) struct SpoolSensor {
+    pub(super) noise_c: f64,
+    pub(super) quantisation_c: f64,
+    pub(super) offset_c: f64,
 }
 
 impl Wandering {

@@ -1,5 +1,6 @@
 //! The generator against the program's own chain, against finer versions of itself, and its noise against what was drawn.
 
+use super::Plan;
 use super::chamber::{Course, Family, STEP};
 use super::effect::{self, Effect};
 use super::heat::{Heat, VECTORS};
@@ -10,9 +11,9 @@ use super::plant::{Build, Plant};
 use super::random::Random;
 use super::record::{Signal, at, signal};
 use super::unit::{Generator, Which};
-use crate::prove::truth::Truth;
+use crate::prove::truth::{Kind, Tier, Truth};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
-use coil::{Design, Drive, Dynamics, Profile, STANDARD};
+use coil::{Design, Drive, Dynamics, FINE, Fidelity, Profile, STANDARD};
 use std::sync::{Arc, LazyLock};
 
 static DESIGN: LazyLock<Design> = LazyLock::new(|| {
@@ -38,12 +39,16 @@ fn run(plant: &Plant, course: &Course) -> Signal {
 }
 
 /// The same course through `coil`'s chain.
-fn chain(design: &Design, course: &Course) -> Signal {
+fn chain(design: &Design, course: &Course, fidelity: &Fidelity) -> Signal {
     let time: Vec<f64> = (0..course.temperature.len()).map(|n| n as f64 * STEP).collect();
-    let dynamics = Dynamics::new(design, &[Drive::Chamber], &STANDARD).unwrap();
-    let responses = dynamics.simulate(&Profile { time, drives: vec![course.temperature.clone()] }).unwrap();
+    let heated = !design.heat.heaters.is_empty();
+    let courses = [course.temperature.clone(), vec![1.0; time.len()]];
+    let (drives, courses) = ([Drive::Chamber, Drive::Heaters], courses[..1 + usize::from(heated)].to_vec());
+    let dynamics = Dynamics::new(design, &drives[..courses.len()], fidelity).unwrap();
+    let responses = dynamics.simulate(&Profile { time, drives: courses }).unwrap();
     let parts = (SPAN / STEP) as usize;
-    let rate = |row: &[coil::Response]| row.iter().map(coil::Response::rate).sum::<f64>() / parts as f64 * DEG_PER_H_PER_RAD_PER_S;
+    let rate =
+        |row: &[coil::Response]| row.iter().map(coil::Response::rate).sum::<f64>() / parts as f64 * DEG_PER_H_PER_RAD_PER_S;
     let rates = std::iter::once(0.0).chain(responses[1..].chunks_exact(parts).map(rate));
     Signal { rate: rates.collect(), spool: responses.iter().step_by(parts).map(|r| r.sensor).collect() }
 }
@@ -56,7 +61,7 @@ fn course(family: Family) -> Course {
 fn a_nominal_unit_agrees_with_the_chain_within_what_no_mesh_resolves() {
     for (n, family) in Family::ALL.into_iter().enumerate() {
         let course = course(family);
-        let chain = chain(&DESIGN, &course);
+        let chain = chain(&DESIGN, &course, &STANDARD);
         let exact = run(&Plant::new(Build::new(DESIGN.clone()), None).unwrap(), &course);
         let specimen = run(&Plant::new(GENERATOR.specimen(&mut Random::new(3, n as u64)), None).unwrap(), &course);
         for (unit, name) in [(exact, "design"), (specimen, "specimen")] {
@@ -78,4 +83,250 @@ fn twice_the_vectors_change_nothing() {
     let (few, many) = (of(VECTORS), of(2 * VECTORS));
     let (rate, spool) = (largest(&few.rate, &many.rate) / peak(&many.rate), largest(&few.spool, &many.spool) / peak(&many.spool));
     assert!(rate < 2e-5 && spool < 2e-5, "{rate:e} {spool:e}");
+}
+
+/// The unit with an effect through `coil`'s own chain, where that holds it.
+fn chained(effect: Effect, course: &Course, fidelity: &Fidelity) -> Signal {
+    let mut build = Build::new(DESIGN.clone());
+    effect.build_into(&mut build);
+    let mut design = build.design;
+    design.sensor.lag = build.lag;
+    design.drifts.thermo_optic_curvature = build.curvature;
+    design.drifts.read_out = build.read_out / DEG_PER_H_PER_RAD_PER_S;
+    if let Some((fraction, time)) = build.relaxing {
+        design.mechanics = coil::Mechanics::Relaxing { fraction, time };
+    }
+    if let Some(step) = build.softening {
+        let row = |k: i32| {
+            let x = f64::from(k) / 5.0;
+            let share = 1.0 / (1.0 + (-x).exp());
+            coil::FactorsAt {
+                temperature: step.at + step.width * x,
+                transverse_modulus: 1.0 + (step.modulus - 1.0) * share,
+                transverse_expansion: 1.0 + (step.expansion - 1.0) * share,
+            }
+        };
+        design.mechanics = coil::Mechanics::TemperatureTable((-50..=50).map(row).collect());
+    }
+    chain(&design, course, fidelity)
+}
+
+/// Each effect beside the chain of the program, which has its own laws for it: their largest difference, relative to what the effect changes.
+#[test]
+fn every_family_agrees_with_the_chain() {
+    let course = course(Family::P5);
+    let nominal = Plant::new(Build::new(DESIGN.clone()), None).unwrap();
+    let base = run(&nominal, &course);
+    let standard = chain(&DESIGN, &course, &STANDARD);
+    // in the contact's skin the standard mesh is a hundredth of the effect off, the fine one 3e-5
+    let fine_mesh = Fidelity { resolution: FINE, ..STANDARD };
+    let fine = chain(&DESIGN, &course, &fine_mesh);
+    let mut random = Random::new(11, 0);
+    for family in effect::Family::ALL {
+        let effect = Effect::draw(family, &mut random);
+        let effect = effect.scaled(3.0).unwrap_or(effect);
+        let mut build = Build::new(DESIGN.clone());
+        effect.build_into(&mut build);
+        let rest = build.read_out * (course.temperature[0] - 20.0);
+        let plant = Plant::new(build, Some(&nominal)).unwrap();
+        let ours = signal(&plant.run(&course.temperature), &even(&course), rest);
+        let in_skin = family == effect::Family::HubResistance;
+        let (fidelity, base_chain) = if in_skin { (&fine_mesh, &fine) } else { (&STANDARD, &standard) };
+        let theirs = chained(effect, &course, fidelity);
+        let change = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<f64>>();
+        let pairs = [
+            (change(&ours.rate, &base.rate), change(&theirs.rate, &base_chain.rate)),
+            (change(&ours.spool, &base.spool), change(&theirs.spool, &base_chain.spool)),
+        ];
+        let off = pairs.map(|(ours, theirs)| {
+            // the first row of the chain is no reading
+            let size = theirs[1..].iter().map(|x| x.abs()).fold(0.0, f64::max);
+            let rms = |x: &[f64]| (x.iter().map(|x| x * x).sum::<f64>() / x.len() as f64).sqrt();
+            if size < 1e-6 {
+                largest(&ours[1..], &theirs[1..])
+            } else {
+                rms(&change(&ours[1..], &theirs[1..])) / rms(&theirs[1..])
+            }
+        });
+        println!("{family:?}: rate {:.1e}, spool {:.1e}", off[0], off[1]);
+        let most = if family == effect::Family::Debond { 0.05 } else { 0.01 };
+        assert!(off[0] < most && off[1] < 0.01, "{effect:?}: {off:?}");
+    }
+}
+
+#[test]
+fn an_effect_of_no_size_is_no_effect() {
+    let course = course(Family::P2);
+    let nominal = Plant::new(Build::new(DESIGN.clone()), None).unwrap();
+    let base = run(&nominal, &course);
+    let mut random = Random::new(5, 0);
+    for family in effect::Family::ALL {
+        // turns are whole, and the size of an opening is no matter of degree
+        let effect = match Effect::draw(family, &mut random).scaled(1e-6) {
+            Some(effect) if family != effect::Family::Defect => effect,
+            _ => continue,
+        };
+        let mut build = Build::new(DESIGN.clone());
+        effect.build_into(&mut build);
+        let unit = run(&Plant::new(build, Some(&nominal)).unwrap(), &course);
+        let (rate, spool) = (largest(&unit.rate, &base.rate), largest(&unit.spool, &base.spool));
+        assert!(rate < 1e-5 && spool < 1e-4, "{effect:?}: {rate:e} deg/h, {spool:e} K");
+    }
+}
+
+fn noises() -> Vec<Noise> {
+    let plain = Noise { arw: 0.0008, drift: (0.003, 6000.0), walk: 0.0, offset: 0.0, unseen: None };
+    let unseen = [
+        Unseen::SecondDrift(0.002, 400.0),
+        Unseen::Telegraph(0.002, 5000.0),
+        Unseen::Flicker(0.001),
+        Unseen::Daily(0.002, 8e4, 0.3),
+        Unseen::HeavyTails(5),
+        Unseen::Breathing(0.5, 2e4, 1.0),
+    ];
+    let walking = Noise { walk: 0.001, ..plain.clone() };
+    let with = |unseen| Noise { unseen: Some(unseen), ..plain.clone() };
+    [plain.clone(), walking].into_iter().chain(unseen.map(with)).collect()
+}
+
+/// Innovations of the true noise are white and of unit variance, whatever the family.
+#[test]
+fn a_null_s_whitened_noise_is_white() {
+    let time: Vec<f64> = (0..2000).map(|n| f64::from(n) * SPAN).collect();
+    for (k, noise) in noises().into_iter().enumerate() {
+        let whitening = Whitening::new(&noise, &time);
+        let (mut squares, mut products, mut count) = (0.0, [0.0; 3], 0.0);
+        for stream in 0..20 {
+            let mut random = Random::new(17 + k as u64, stream);
+            // a daily sine is of random phase to the filter
+            let since = random.uniform(0.0, 8e4);
+            let white = whitening.apply(&noise.sample(&time, since, &mut random));
+            squares += white.iter().map(|w| w * w).sum::<f64>();
+            for (lag, product) in [1, 10, 100].into_iter().zip(&mut products) {
+                *product += white.iter().zip(&white[lag..]).map(|(a, b)| a * b).sum::<f64>();
+            }
+            count += white.len() as f64;
+        }
+        // 40 000 rows: a standard deviation of 0.007 in the variance of normal noise, of 0.005 in a correlation
+        let (variance, correlations) = (squares / count, products.map(|p| p / squares));
+        let most = if matches!(noise.unseen, Some(Unseen::HeavyTails(_))) { 0.06 } else { 0.03 };
+        assert!((variance - 1.0).abs() < most, "{:?}: variance {variance}", noise.unseen);
+        assert!(correlations.iter().all(|c| c.abs() < 0.02), "{:?}: {correlations:?}", noise.unseen);
+    }
+}
+
+/// The whitened length is that by the covariance matrix, written down from the autocorrelations.
+#[test]
+fn exact_the_matched_filter_is_that_of_the_covariance() {
+    use nalgebra::{DMatrix, DVector};
+    let time: Vec<f64> = (0..40).map(|n| f64::from(n * 30 + n * n)).collect();
+    let mut random = Random::new(1, 2);
+    let signal: Vec<f64> = time.iter().map(|t| (t / 300.0).sin() + 0.3 * random.normal()).collect();
+    for noise in noises() {
+        let covariance = DMatrix::from_fn(time.len(), time.len(), |i, j| {
+            let (dt, earlier) = ((time[i] - time[j]).abs(), time[i].min(time[j]));
+            let markov = |size: f64, tau: f64| size * size * (-dt / tau).exp();
+            let unseen = match noise.unseen {
+                Some(Unseen::SecondDrift(size, tau)) => markov(size, tau),
+                Some(Unseen::Telegraph(size, dwell)) => size * size * (-2.0 * dt / dwell).exp(),
+                Some(Unseen::Flicker(size)) => (0..6).map(|k| markov(size, 60.0 * 4.0_f64.powi(k))).sum(),
+                Some(Unseen::Daily(size, period, _)) => size * size / 2.0 * (std::f64::consts::TAU * dt / period).cos(),
+                Some(Unseen::HeavyTails(_) | Unseen::Breathing(..)) | None => 0.0,
+            };
+            let white = if i == j { noise.white(time[i]).powi(2) } else { 0.0 };
+            white + markov(noise.drift.0, noise.drift.1) + noise.walk.powi(2) * earlier / 3600.0 + unseen
+        });
+        let s = DVector::from_vec(signal.clone());
+        let exact = s.dot(&covariance.cholesky().unwrap().solve(&s));
+        let whitened: f64 = Whitening::new(&noise, &time).apply(&signal).iter().map(|w| w * w).sum();
+        assert!((whitened / exact - 1.0).abs() < 1e-8, "{:?}: {whitened} {exact}", noise.unseen);
+    }
+}
+
+#[test]
+fn a_unit_is_the_same_for_one_seed_and_reads_as_it_was_written() {
+    let make = |seed, n| GENERATOR.unit(seed, Which::Concealed(n)).unwrap_or_else(|e| panic!("{}", e.0));
+    let (first, again, other) = (make(1, 0), make(1, 0), make(2, 0));
+    assert_eq!(first, again);
+    assert_ne!(first.fit, other.fit);
+    let truth: Truth = ron::from_str(&first.truth).unwrap();
+    assert_eq!(truth.mechanisms[0].id, "tail-asymmetry");
+    assert!((3.0 / 1.2..=200.0 * 1.2).contains(&truth.snr[0].snr), "{:?}", truth.snr);
+    let rows: Vec<Vec<f64>> = first.fit.lines().skip(1).map(|l| l.split(',').map(|v| v.parse().unwrap()).collect()).collect();
+    assert!(rows.len() > 1200 && rows.iter().all(|row| row.len() == 4) && rows.windows(2).all(|w| w[1][0] > w[0][0]));
+    // recorded is what was computed but for noise of some thousandths, and an offset
+    let rms = |x: &[f64]| (x.iter().map(|x| x * x).sum::<f64>() / x.len() as f64).sqrt();
+    let rate: Vec<f64> = rows.iter().map(|row| row[3] - truth.noise.offset_deg_per_h).collect();
+    assert!((rms(&rate) / truth.noise_free_rms_deg_per_h.fit_true - 1.0).abs() < 0.05);
+}
+
+#[test]
+fn programmes_are_as_described() {
+    for family in Family::ALL {
+        for stream in 0..6 {
+            let course = Course::draw(family, &mut Random::new(23, stream));
+            let hours = (course.temperature.len() - 1) as f64 * STEP / 3600.0;
+            assert!((10.0..27.0).contains(&hours), "{family:?}: {hours} h");
+            let rest = &course.temperature[..(20.0 * 60.0 / STEP) as usize];
+            assert!(peak(rest) < 0.2, "{family:?} does not rest: {}", peak(rest));
+            let [low, high] = [f64::min, f64::max].map(|of| course.temperature.iter().copied().fold(course.temperature[0], of));
+            assert!(low > -43.0 && high < 63.0 && high - low > 70.0, "{family:?}: {low} {high}");
+        }
+    }
+}
+
+#[test]
+fn exact_a_cubic_is_read_between_its_points() {
+    let cubic = |t: f64| 1.0 + 0.1 * t - 0.02 * t * t + 0.001 * t.powi(3);
+    let course: Vec<f64> = (0..20).map(|n| cubic(f64::from(n) * STEP)).collect();
+    for t in [0.0, 1.3, 7.9, 50.0, 94.9, 95.0] {
+        assert!((at(&course, t) - cubic(t)).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn effects_outside_the_library_have_their_sizes() {
+    let course = course(Family::P1);
+    let plant = Plant::new(Build::new(DESIGN.clone()), None).unwrap();
+    let base = run(&plant, &course);
+    for kind in 0..SHAPES {
+        let outside = Outside { size: 0.01, ..Outside::draw(kind, &mut Random::new(29, kind as u64)) };
+        let mut with = plant.run(&course.temperature);
+        outside.act(&course.temperature, &mut with);
+        let with = signal(&with, &even(&course), 0.0);
+        let most = largest(&with.rate[2..], &base.rate[2..]);
+        assert!((0.0001..0.025).contains(&most), "{outside:?}: {most}");
+    }
+}
+
+#[test]
+fn plans() {
+    let plan = |seed, nulls, concealed| Plan { seed, nulls, concealed };
+    assert_eq!(Plan::parse(&[]).unwrap(), plan(1, 300, 200));
+    assert_eq!(Plan::parse(&["--nulls", "5", "--seed", "7", "--concealed", "0"]).unwrap(), plan(7, 5, 0));
+    for bad in [&["--nulls"][..], &["--nulls", "-1"], &["--units", "3"]] {
+        assert!(Plan::parse(bad).is_err(), "{bad:?}");
+    }
+}
+
+/// Ten units are made, answered and scored; a second run finds them done.
+#[test]
+fn ten_units_are_answered() {
+    let folder = tempfile::tempdir().unwrap();
+    let cache = fogcoil::cache::Cache::in_folder(folder.path().join("cache"));
+    let plan = Plan { seed: 2, nulls: 5, concealed: 5 };
+    let run = || plan.cases(folder.path(), &cache).unwrap_or_else(|e| panic!("{}", e.0));
+    let start = std::time::Instant::now();
+    let cases = run();
+    let first = start.elapsed();
+    let scored: Vec<_> = cases.into_iter().map(|case| case.scored).collect();
+    println!("{first:?}: {scored:#?}");
+    let of = |kind: Kind| scored.iter().filter(move |s| s.kind == kind);
+    assert_eq!((scored.len(), of(Kind::Null).count()), (10, 5));
+    assert_eq!(of(Kind::Null).filter(|s| s.detected).count(), 0, "falsely detected");
+    assert!(scored.iter().all(|s| !s.misnamed), "confident and wrong");
+    let strong = || of(Kind::Single).filter(|s| s.tier != Tier::Weak);
+    assert!(strong().all(|s| s.detected) && strong().filter(|s| s.right).count() + 1 >= strong().count());
+    let again: Vec<_> = run().into_iter().map(|case| case.scored).collect();
+    assert!(scored == again && start.elapsed() < 2 * first);
 }

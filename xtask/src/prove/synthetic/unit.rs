@@ -8,7 +8,7 @@ use super::outside::{Outside, SHAPES};
 use super::plant::{Build, Plant, Run};
 use super::random::Random;
 use super::record::{Sensors, Signal, THERMOMETER, instants, signal};
-use super::sheet::{Sheet, Wandering};
+use super::sheet::{Sheet, SpoolSensor, Wandering};
 use crate::prove::truth::{self, Strength};
 use crate::validate::Failure;
 use coil::Design;
@@ -30,6 +30,16 @@ pub(crate) enum Which {
     Null(usize),
     /// Something is.
     Concealed(usize),
+}
+
+impl Which {
+    /// Even for nulls.
+    pub(super) fn number(self) -> usize {
+        match self {
+            Self::Null(n) => 2 * n,
+            Self::Concealed(n) => 2 * n + 1,
+        }
+    }
 }
 
 /// A unit's files.
@@ -163,11 +173,7 @@ impl Generator {
 
     /// The unit of this number: always the same for one seed.
     pub(crate) fn unit(&self, seed: u64, which: Which) -> Result<Unit, Failure> {
-        let stream = match which {
-            Which::Null(n) => 2 * n as u64,
-            Which::Concealed(n) => 2 * n as u64 + 1,
-        };
-        let random = &mut Random::new(seed, stream);
+        let random = &mut Random::new(seed, which.number() as u64);
         let (noise, sensors) = (Noise::draw(random), Sensors::draw(random));
         let first = random.below(chamber::Family::ALL.len());
         let second = (first + 1 + random.below(chamber::Family::ALL.len() - 1)) % chamber::Family::ALL.len();
@@ -214,6 +220,7 @@ impl Generator {
             snr: strengths,
             confusable_sets,
             noise: Wandering::new(&noise),
+            spool_sensor: SpoolSensor { noise_c: THERMOMETER, quantisation_c: sensors.resolution, offset_c: sensors.offset },
             noise_free_rms_deg_per_h: sizes,
             profiles: families.map(|f| format!("{f:?}")),
         };

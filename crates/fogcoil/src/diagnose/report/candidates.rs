@@ -16,7 +16,8 @@ const NEGLIGIBLE: f64 = 5e-4;
 impl Outcome {
     pub(super) fn candidates(&self, out: &mut String) {
         let d = &self.diagnosis;
-        let whole = |test: &dyn Fn(&Candidate) -> bool| d.candidates.iter().filter(|c| test(c)).map(|c| c.probability).sum::<f64>();
+        let whole =
+            |test: &dyn Fn(&Candidate) -> bool| d.candidates.iter().filter(|c| test(c)).map(|c| c.probability).sum::<f64>();
         let bare = |c: &Candidate| c.rival.is_none() && c.fit.hypothesis.mechanisms.is_empty();
         let library = self.gyro.mechanisms();
         let named = |c: &Candidate| c.rival.is_none() && c.fit.hypothesis.mechanisms.iter().all(|(m, _)| library[*m].named);

@@ -32,7 +32,9 @@ impl Outcome {
         Figure {
             id: "course",
             title: format!("{}: recording and model", first.record.name()),
-            description: "Chamber temperature, the gyroscope's rate and the spool's thermometer over time, as recorded and as modelled.".into(),
+            description:
+                "Chamber temperature, the gyroscope's rate and the spool's thermometer over time, as recorded and as modelled."
+                    .into(),
             caption: "The models are driven by the recorded chamber temperature; each has its fitted constant offset.".into(),
             columns: 1,
             panels,
@@ -59,8 +61,11 @@ impl Outcome {
         Figure {
             id: "residuals",
             title: "What each model leaves".into(),
-            description: "Recorded less modelled rate and spool temperature over time, for the nominal model and for what was found.".into(),
-            caption: "A channel's panels have one scale. What is noise has no shape; what has one is missing in the model.".into(),
+            description:
+                "Recorded less modelled rate and spool temperature over time, for the nominal model and for what was found."
+                    .into(),
+            caption: "A channel's panels have one scale. What is noise has no shape; what has one is missing in the model."
+                .into(),
             columns: 1,
             panels,
         }

@@ -112,7 +112,7 @@ impl Outcome {
         self.noise(&mut out);
         self.limits(&mut out);
         let title = format!("{}: what differs from the design", self.name);
-        page(&title, &format!("<p>{}</p>\n", escape(&self.verdict())), &out)
+        page(&title, &format!("<p>{}</p>\n", escape(&nice(&self.verdict()))), &out)
     }
 
     /// The nominal model and, where it is another, what the verdict rests on, for the first record that was fitted.
@@ -147,7 +147,7 @@ impl Outcome {
             rows.push(row("not told apart", alternatives));
         }
         if let Some(structure) = self.structure() {
-            rows.push(row("structure", structure));
+            rows.push(row("structure", nice(&structure)));
         }
         for (n, record) in self.fits.iter().enumerate() {
             let shown = if n == 0 && self.fits.len() > 1 { "; this one is drawn below" } else { "" };
@@ -166,10 +166,7 @@ impl Outcome {
     fn limits(&self, out: &mut String) {
         out.push_str("<h2>Limits</h2>\n");
         let library: Vec<&str> = self.gyro.mechanisms().iter().map(|m| m.id.as_str()).collect();
-        let mut rows = vec![
-            row("program", format!("fogcoil {}", env!("CARGO_PKG_VERSION"))),
-            row("library", library.join(", ")),
-        ];
+        let mut rows = vec![row("program", format!("fogcoil {}", env!("CARGO_PKG_VERSION"))), row("library", library.join(", "))];
         rows.push(row(
             "probabilities",
             "posterior, with all that was compared counted in; they hold if the library and the priors do. A mechanism outside the \
@@ -198,18 +195,22 @@ impl Record {
 /// Text for people in the page's signs: a true minus before a number, ° for deg.
 fn nice(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    let mut before = ' ';
+    let mut before = [' '; 2];
     for (at, c) in text.char_indices() {
         let number = c == '-' && text[at + 1..].starts_with(|next: char| next.is_ascii_digit());
-        out.push(if number && !before.is_alphanumeric() || number && before == 'e' { '\u{2212}' } else { c });
-        before = c;
+        // at the start of a word, or in an exponent
+        let minus = !before[1].is_alphanumeric() || (before[1] == 'e' && before[0].is_ascii_digit());
+        out.push(if number && minus { '\u{2212}' } else { c });
+        before = [before[1], c];
     }
-    out.replace("degC", "°C")
+    out.replace("degC", "°C").replace("deg/h", "°/h")
 }
 
 /// A table with a head, in a box that scrolls where it is too wide.
 fn grid(out: &mut String, head: &[&str], rows: &[Vec<String>]) {
-    out.push_str("<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"table\">\n<table class=\"data named\">\n<thead>\n<tr>");
+    out.push_str(
+        "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"table\">\n<table class=\"data named\">\n<thead>\n<tr>",
+    );
     head.iter().for_each(|cell| {
         let _ = write!(out, "<th scope=\"col\">{}</th>", escape(cell));
     });
@@ -223,4 +224,13 @@ fn grid(out: &mut String, head: &[&str], rows: &[Vec<String>]) {
         out.push_str("</tr>\n");
     }
     out.push_str("</tbody>\n</table>\n</div>\n");
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn numbers_have_a_true_minus_and_names_their_hyphen() {
+        let text = super::nice("file-3.csv: -7.1 to 4.8e-5 degC, rate-1");
+        assert_eq!(text, "file-3.csv: \u{2212}7.1 to 4.8e\u{2212}5 °C, rate-1");
+    }
 }

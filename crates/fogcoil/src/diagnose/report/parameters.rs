@@ -38,21 +38,22 @@ impl Outcome {
                       is scaled to its own maximum. If another mechanism is at work, none of this holds."
                 .into(),
             columns: 2,
-            panels: fitted.iter().map(|p| panel(p)).collect(),
+            panels: fitted.iter().map(|p| panel(p, self.interval(p))).collect(),
         };
         out.push_str(&element(&figure));
         let rows: Vec<Vec<String>> = fitted
             .iter()
             .map(|p| {
-                let (before, after) = (central(p, 0.0, 1.0), p.ci90());
                 let interval = |ends: [f64; 2]| ends.map(|end| significant(end, 4)).join(" to ");
-                vec![p.name.clone(), significant(p.value(), 4), interval(after), interval(before)]
+                vec![p.name.clone(), significant(p.value(), 4), interval(self.interval(p)), interval(central(p, 0.0, 1.0))]
             })
             .collect();
         super::grid(out, &["parameter", "value (fitted)", "90 % interval", "90 % of the prior"], &rows);
-        for active in &self.diagnosis.best().fit.active {
-            if let Some((name, value)) = self.choice(active) {
-                let _ = writeln!(out, "<p>{}: {name} {value}, compared with every other one.</p>", self.id(active.mechanism));
+        for (place, active) in self.diagnosis.best().fit.active.iter().enumerate() {
+            if let (Some((name, value)), Some([low, high])) = (self.choice(active), self.diagnosis.choice(place)) {
+                let id = self.id(active.mechanism);
+                let _ =
+                    writeln!(out, "<p>{id}: {name} {value}, each compared with every other; 90 % lies in {low} to {high}.</p>");
             }
         }
     }
@@ -63,7 +64,7 @@ fn central(p: &Posterior, u: f64, sd: f64) -> [f64; 2] {
     Posterior { u, sd, ..p.clone() }.ci90()
 }
 
-fn panel(p: &Posterior) -> Panel<'static> {
+fn panel(p: &Posterior, [low, high]: [f64; 2]) -> Panel<'static> {
     let reach = REACH * p.sd;
     let at = |k: usize| p.u + reach * (2.0 * k as f64 / POINTS as f64 - 1.0);
     // du/dvalue, so that it is a density of the value
@@ -82,7 +83,6 @@ fn panel(p: &Posterior) -> Panel<'static> {
     let (after, before) = (density(p.u, p.sd), density(0.0, 1.0));
     let posterior = scaled(&after, most(&after, p.u, p.sd));
     let prior = scaled(&before, most(&before, 0.0, 1.0));
-    let [low, high] = p.ci90();
     let ends = |value: f64| line("", Style::Fine(2), vec![(value, 0.0), (value, 1.0)]);
     Panel {
         heading: p.name.clone(),

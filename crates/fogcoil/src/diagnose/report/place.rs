@@ -22,13 +22,10 @@ impl Outcome {
 
     /// Mean residual over temperature and its rate.
     fn map(&self, shown: &[Shown]) -> String {
-        let cells = |fit: &Shown| {
-            fit.fit.over_state(&self.gyro, (fit.number, fit.number), RATE, &fit.record.observed, fit.judge)
-        };
+        let cells = |fit: &Shown| fit.fit.over_state(&self.gyro, (fit.number, fit.number), RATE, &fit.record.observed, fit.judge);
         let all: Vec<Vec<Cell>> = shown.iter().map(cells).collect();
         let most = all.iter().flatten().fold(3.0_f64, |most, cell| cell.z.abs().max(most)).min(MOST_Z);
-        let panels: Vec<Panel> =
-            shown.iter().zip(&all).filter_map(|(fit, cells)| grid(fit.name, cells, most)).collect();
+        let panels: Vec<Panel> = shown.iter().zip(&all).filter_map(|(fit, cells)| grid(fit.name, cells, most)).collect();
         if panels.is_empty() {
             return String::new();
         }
@@ -56,11 +53,7 @@ impl Outcome {
                 let last = n + 1 == shown.len();
                 let blocks = fit.fit.in_time(fit.number, q.channel, &fit.record.observed, fit.judge);
                 let middle = |b: &diagnosis::Block| (clock.at((b.time[0] + b.time[1]) / 2.0), b.excess);
-                series.push(line(
-                    fit.name,
-                    if last { Style::First } else { Style::Second },
-                    blocks.iter().map(middle).collect(),
-                ));
+                series.push(line(fit.name, if last { Style::First } else { Style::Second }, blocks.iter().map(middle).collect()));
                 // each mark is a series of its own: none is joined to the next
                 let marks = blocks.iter().filter(|b| b.significant).enumerate();
                 series.extend(marks.map(|(k, b)| {
@@ -78,8 +71,10 @@ impl Outcome {
         element(&Figure {
             id: "blocks",
             title: "When the residual is larger than noise".into(),
-            description: "Mean square of the whitened residual in stretches of about an hour; those that stand out are marked.".into(),
-            caption: "In stretches of about an hour; 1 is noise. Marked: what stands out, the number of stretches considered.".into(),
+            description: "Mean square of the whitened residual in stretches of about an hour; those that stand out are marked."
+                .into(),
+            caption: "In stretches of about an hour; 1 is noise. Marked: what stands out, the number of stretches considered."
+                .into(),
             columns: 1,
             panels,
         })
@@ -112,10 +107,13 @@ impl Outcome {
         element(&Figure {
             id: "coherence",
             title: "Coherence of the rate's residual with the spool's temperature".into(),
-            description: "Squared coherence of the residual with the spool's temperature, its rate and the change of its rate against \
+            description:
+                "Squared coherence of the residual with the spool's temperature, its rate and the change of its rate against \
                           frequency, and what noise exceeds once in twenty."
-                .into(),
-            caption: "Nine half-overlapping segments. At frequencies at which the temperature hardly moves, coherence says nothing.".into(),
+                    .into(),
+            caption:
+                "Nine half-overlapping segments. At frequencies at which the temperature hardly moves, coherence says nothing."
+                    .into(),
             columns: 2,
             panels,
         })

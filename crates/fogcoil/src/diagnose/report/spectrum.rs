@@ -14,7 +14,7 @@ const SEGMENT: usize = 4096;
 const FEWEST: usize = 3;
 const WIDER: f64 = 1.25;
 /// Probability below which a residual is called coloured.
-const WHITE: f64 = 0.01;
+pub(super) const WHITE: f64 = 0.01;
 
 impl Outcome {
     pub(super) fn spectra(&self, out: &mut String) {
@@ -98,9 +98,8 @@ fn bands(values: &[f64], interval: f64) -> Vec<Band> {
         return Vec::new();
     }
     let segments: Vec<&[f64]> = values.chunks_exact(length).collect();
-    let power: Vec<f64> = (1..=(length - 1) / 2)
-        .map(|k| segments.iter().map(|s| ordinate(s, k)).sum::<f64>() / segments.len() as f64)
-        .collect();
+    let power: Vec<f64> =
+        (1..=(length - 1) / 2).map(|k| segments.iter().map(|s| ordinate(s, k)).sum::<f64>() / segments.len() as f64).collect();
     let (mut bands, mut first, mut wide) = (Vec::new(), 0, FEWEST as f64);
     while first < power.len() {
         let last = (first + wide as usize).min(power.len());

@@ -28,10 +28,14 @@ impl Outcome {
                 .collect();
             out.push_str("<h3>Part of the chain</h3>\n");
             grid(out, &["flexible input at", "ln evidence gained", "probability", "rate's residual, Ljung–Box"], &rows);
-            out.push_str(
-                "<p>One flexible input at a time takes the place of every mechanism. Where none gains, there is nothing to locate; where \
-                 several do, this recording does not tell them apart.</p>\n",
-            );
+            let restored = stages.iter().any(|s| s.whiteness.get(RATE).is_some_and(|p| *p >= spectrum::WHITE));
+            let said = if restored {
+                "Where several gain alike, this recording does not tell them apart."
+            } else {
+                "None leaves the rate's residual white: the difference is not what one smooth input makes, and the probabilities compare \
+                 stages that all fail."
+            };
+            let _ = writeln!(out, "<p>One flexible input at a time takes the place of every mechanism. {said}</p>");
         }
         self.layers(out);
     }
@@ -71,12 +75,13 @@ fn figure(found: &Resolution) -> Figure<'static> {
     Figure {
         id: "layers",
         title: "Layer by layer".into(),
-        description: "Turns too many in each layer that would make the mismatch, with their standard deviations, and the diagonal of the \
+        description:
+            "Turns too many in each layer that would make the mismatch, with their standard deviations, and the diagonal of the \
                       resolution matrix."
-            .into(),
+                .into(),
         caption: format!(
-            "All layers at once, each known to ± {TURNS} turns (1σ) beforehand. Right: diagonal of the resolution matrix, 1 where the \
-             recording alone says how much, 0 where the prior does."
+            "All layers at once, each known to ± {TURNS} turns (1σ) beforehand. Share from the recording: diagonal of the resolution matrix, 1 where \
+             it alone says how much, 0 where the prior does."
         ),
         columns: 2,
         panels: vec![

@@ -1,0 +1,91 @@
+//! `cargo xtask mechanisms`: the numbers and pictures of docs/mechanisms.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+use fogcoil::cache::Cache;
+use fogcoil::catalogue::Catalogue;
+use fogcoil::explain::{Explained, Explanation, Outcome, explain};
+use fogcoil::input;
+
+use crate::validate::Failure;
+
+const COIL: &str = "fixtures/coil-reference.ron";
+const PAGES: &str = "docs/mechanisms";
+const PICTURES: &str = "docs/pictures/mechanisms";
+/// Measured sensitivities of Table IV, (deg/h)/(degC/min).
+const COILS: [f64; 3] = [3.01, 1.39, 1.98];
+/// Between these lines a page holds what this command writes.
+const BEGIN: &str = "<!-- measured: written by `cargo xtask mechanisms` -->\n";
+const END: &str = "<!-- measured end -->\n";
+
+/// Writes the measured part of every page and all pictures; always `true`.
+pub(crate) fn run() -> Result<bool, Failure> {
+    let case = input::read_coil(COIL.as_ref())?;
+    let catalogue = Catalogue::measure(&case, &Cache::of_user(), &|task| eprintln!("{task}"))?;
+    fs::create_dir_all(PICTURES)?;
+    let pictures = Path::new(PICTURES);
+    for entry in &catalogue.entries {
+        let file = format!("{}.svg", entry.id);
+        fs::write(pictures.join(&file), catalogue.signature(entry))?;
+        let page = catalogue.page(entry, &format!("../pictures/mechanisms/{file}"));
+        rewrite(&Path::new(PAGES).join(format!("{}.md", entry.id)), &page)?;
+    }
+    let last = catalogue.programmes.len() - 1;
+    fs::write(pictures.join("confusion.svg"), catalogue.confusion(&[0, last]))?;
+    rewrite(&Path::new(PAGES).join("README.md"), &catalogue.overview())?;
+    let coils = COILS.map(|measured| explain(&case, measured, true, &Cache::of_user(), &|task| eprintln!("{measured}: {task}")));
+    let [a, b, c] = coils;
+    rewrite(&Path::new(PAGES).join("paper-coils.md"), &coils_text(&[a?, b?, c?]))?;
+    println!("{PAGES} and {PICTURES}: {} mechanisms", catalogue.entries.len());
+    Ok(true)
+}
+
+/// Explanations of several coils of one design, side by side.
+fn coils_text(coils: &[Explained]) -> String {
+    let row = |name: &str, cell: &dyn Fn(&Explained) -> String| {
+        let cells: Vec<String> = coils.iter().map(cell).collect();
+        format!("| {name} | {} |\n", cells.join(" | "))
+    };
+    let mut out = row("measured, (°/h)/(°C/min)", &|c| format!("{:.2}", c.measured.abs()));
+    out.push_str(&format!("|---|{}\n", "---|".repeat(coils.len())));
+    out += &row("the design's own constants together", &|c| format!("{:+.1} σ", c.recalibrate));
+    for (k, first) in coils[0].explanations.iter().enumerate() {
+        if matches!(first.outcome, Outcome::Unable { .. }) {
+            continue;
+        }
+        let when = if first.when.is_empty() { String::new() } else { format!(", {}", first.when) };
+        out += &row(&format!("{} (`{}`){when}", first.id, first.parameter), &|c| outcome(&c.explanations[k]));
+    }
+    out.push_str("\n| a tail told from | measured | ln odds, slow ramp | ln odds, best | by |\n|---|---|---|---|---|\n");
+    for coil in coils {
+        for test in &coil.tests {
+            let (slow, best) = (test.slow.1.log_odds, test.best.1.log_odds);
+            let by = if test.best.1.decides() { test.best.0.as_str() } else { "none of these" };
+            let _ = writeln!(out, "| {} | {:.2} | {slow:.1} | {best:.1} | {by} |", test.between[1], coil.measured.abs());
+        }
+    }
+    out
+}
+
+fn outcome(explanation: &Explanation) -> String {
+    match explanation.outcome {
+        Outcome::Gives { value, sigma, layer: None, .. } => format!("{value:.3} ({sigma:+.1} σ)"),
+        Outcome::Gives { value, sigma, layer: Some((layer, others)), .. } => {
+            format!("{value:.0} in layer {layer} ({sigma:+.1} σ), plausible in {others} layers")
+        }
+        Outcome::OutOfReach { range: [low, high] } => {
+            format!("only {:.2} to {:.2}", low.abs().min(high.abs()), low.abs().max(high.abs()))
+        }
+        Outcome::Unable { .. } => "unable".into(),
+    }
+}
+
+/// Puts `text` between the marks of a page.
+fn rewrite(page: &Path, text: &str) -> Result<(), Failure> {
+    let old = fs::read_to_string(page).map_err(|error| Failure(format!("{}: {error}", page.display())))?;
+    let ends = old.split_once(BEGIN).and_then(|(head, rest)| Some((head, rest.split_once(END)?.1)));
+    let Some((head, tail)) = ends else { return Err(Failure(format!("{}: lacks the marks {BEGIN}{END}", page.display()))) };
+    Ok(fs::write(page, format!("{head}{BEGIN}\n{}\n{END}{tail}", text.trim_end()))?)
+}
