@@ -15,6 +15,7 @@ mod outside;
 mod plant;
 mod random;
 mod record;
+mod scene;
 mod section;
 mod sheet;
 mod unit;
@@ -40,7 +41,7 @@ use crate::validate::Failure;
 use unit::{Generator, Which};
 
 /// What the units are made by, to know them from those of another generator.
-const SOURCES: [&str; 13] = [
+const SOURCES: [&str; 14] = [
     include_str!("chamber.rs"),
     include_str!("effect.rs"),
     include_str!("heat.rs"),
@@ -51,6 +52,7 @@ const SOURCES: [&str; 13] = [
     include_str!("plant.rs"),
     include_str!("random.rs"),
     include_str!("record.rs"),
+    include_str!("scene.rs"),
     include_str!("sheet.rs"),
     include_str!("unit.rs"),
     include_str!("../../../../fixtures/coil-reference.ron"),

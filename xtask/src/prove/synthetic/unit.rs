@@ -1,13 +1,13 @@
 //! One unit: drawn, sized, run under two programmes, written down.
 
-use super::chamber::{self, Course};
+use super::chamber;
 use super::effect::{self, Effect};
-use super::matched::{Whitening, beyond};
 use super::noise::{Noise, SPAN};
 use super::outside::{Outside, SHAPES};
-use super::plant::{Build, Plant, Run};
+use super::plant::{Build, Plant};
 use super::random::Random;
-use super::record::{Sensors, Signal, THERMOMETER, instants, signal};
+use super::record::{Sensors, Signal, THERMOMETER};
+use super::scene::{AIRIER, Judge, Scene, minus};
 use super::sheet::{Sheet, SpoolSensor, Wandering};
 use crate::prove::truth::{self, Strength};
 use crate::validate::Failure;
@@ -19,9 +19,6 @@ const STRENGTH: [f64; 2] = [3.0, 200.0];
 const NEAR: f64 = 1.2;
 /// Effects of which the size is no matter of degree that are tried.
 const TRIES: usize = 3;
-/// Standard deviations that a forward model is granted: rate gain, conductivity of the air, offsets \[K\], [deg/h].
-const GRANTED: f64 = 0.003;
-const OFFSETS: [f64; 2] = [0.1, 0.1];
 
 /// Which unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,93 +59,6 @@ pub(crate) struct Generator {
     airier: Plant,
 }
 
-/// Relative change of the air's conductivity that a derivative is taken with.
-const AIRIER: f64 = 0.02;
-
-/// One record of a unit, to be.
-struct Scene {
-    course: Course,
-    time: Vec<f64>,
-}
-
-impl Scene {
-    fn draw(family: chamber::Family, random: &mut Random) -> Self {
-        let course = Course::draw(family, random);
-        let time = instants(&course, random);
-        Self { course, time }
-    }
-
-    fn run(&self, plant: &Plant) -> Run {
-        plant.run(&self.course.temperature)
-    }
-
-    fn signal(&self, plant: &Plant, effects: &[Effect]) -> Signal {
-        let mut run = self.run(plant);
-        for effect in effects {
-            if let Effect::Outside(outside) = effect {
-                outside.act(&self.course.temperature, &mut run);
-            }
-        }
-        // before the start only the read-out's coefficient says something
-        signal(&run, &self.time, plant.read_out_at(run.bore[0]))
-    }
-}
-
-/// Whitened difference from the nominal response in the record that is fitted.
-struct Judge<'a> {
-    whitening: Whitening,
-    spool_sd: f64,
-    nominal: &'a Signal,
-    granted: Vec<Vec<f64>>,
-}
-
-fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| a - b).collect()
-}
-
-fn times(a: &[f64], factor: f64) -> Vec<f64> {
-    a.iter().map(|a| a * factor).collect()
-}
-
-impl<'a> Judge<'a> {
-    fn new(generator: &Generator, scene: &Scene, nominal: &'a Signal, noise: &Noise, sensors: &Sensors) -> Self {
-        let whitening = Whitening::new(noise, &scene.time);
-        let spool_sd = (THERMOMETER.powi(2) + sensors.resolution.powi(2) / 12.0).sqrt();
-        let rows = scene.time.len();
-        let (base, airier) = (scene.signal(&generator.nominal, &[]), scene.signal(&generator.airier, &[]));
-        let mut judge = Self { whitening, spool_sd, nominal, granted: Vec::new() };
-        let (none, one) = (vec![0.0; rows], vec![1.0; rows]);
-        let per_air = |a: &[f64], b: &[f64]| times(&minus(a, b), GRANTED / AIRIER);
-        judge.granted = vec![
-            judge.joined(&times(&one, OFFSETS[0]), &none),
-            judge.joined(&none, &times(&one, OFFSETS[1])),
-            judge.joined(&none, &times(&nominal.rate, GRANTED)),
-            judge.joined(&per_air(&airier.spool, &base.spool), &per_air(&airier.rate, &base.rate)),
-        ];
-        judge
-    }
-
-    /// Whitened channels, one after the other.
-    fn joined(&self, spool: &[f64], rate: &[f64]) -> Vec<f64> {
-        let mut whitened = times(spool, 1.0 / self.spool_sd);
-        whitened.extend(self.whitening.apply(rate));
-        whitened
-    }
-
-    /// The signal-to-noise ratio of both channels, then that of each without anything granted but its offset.
-    fn strength(&self, id: &str, signal: &Signal) -> Strength {
-        let (spool, rate) = (minus(&signal.spool, &self.nominal.spool), minus(&signal.rate, &self.nominal.rate));
-        let none = vec![0.0; rate.len()];
-        let alone = |spool: &[f64], rate: &[f64]| beyond(&self.joined(spool, rate), &self.granted[..2]);
-        Strength {
-            id: id.into(),
-            snr: beyond(&self.joined(&spool, &rate), &self.granted),
-            snr_noise_only_rate: alone(&none, &rate),
-            snr_noise_only_spool: alone(&spool, &none),
-        }
-    }
-}
-
 impl Generator {
     pub(crate) fn new(design: Design) -> Result<Self, Failure> {
         let nominal = Plant::new(Build::new(design.clone()), None)?;
@@ -182,7 +92,7 @@ impl Generator {
         let specimen = self.specimen(random);
         let nominal = Plant::new(specimen.clone(), Some(&self.nominal))?;
         let nominal_fit = fit.signal(&nominal, &[]);
-        let judge = Judge::new(self, &fit, &nominal_fit, &noise, &sensors);
+        let judge = Judge::new([&self.nominal, &self.airier], &fit, &nominal_fit, &noise, &sensors);
         let mut effects = Vec::new();
         let mut strengths = Vec::new();
         if let Which::Concealed(n) = which {
