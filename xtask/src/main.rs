@@ -10,17 +10,19 @@ mod validate;
 use std::process::ExitCode;
 
 const USAGE: &str = "usage: cargo xtask validate [--json FILE]\n       cargo xtask prove [--case NN]...\n       \
-    cargo xtask prove --sealed [--again DIR]\n       cargo xtask figures [--out DIR]\n       \
-    cargo xtask mechanisms\n       cargo xtask bench coil|sensitivity [--peers-python PATH] [--repetitions N]\n       cargo xtask bench reduced\n\n  \
+    cargo xtask prove --sealed [--again DIR]\n       cargo xtask prove --synthetic [--seed S] [--nulls N] [--concealed N]\n       \
+    cargo xtask figures [--out DIR]\n       \
+    cargo xtask mechanisms\n       cargo xtask bench coil|sensitivity [--peers-python PATH] [--repetitions N]\n       cargo xtask bench reduced|diagnose\n\n  \
     validate   run the whole chain, compare with the paper's Tables I to IV,\n             \
     write docs/validation.md and the README's headline table; exit 1 if a row that must hold does not\n  \
     prove      diagnose the units of fixtures/concealed/open, or those named, hold the answers against the truth,\n             \
     write docs/proof.md; exit 1 if a score is not as asked; --sealed: answer the sealed units, once\n             \
-    (--again: into DIR, and compare with the answers that are there)\n  \
+    (--again: into DIR, and compare with the answers that are there); --synthetic: units of the project's own generator,\n             \
+    kept in target/prove, where a run that was stopped goes on\n  \
     figures    draw the reference coil's figures as SVG files into docs/pictures, or DIR\n  \
     mechanisms measure which mechanisms are mistaken for which; the numbers of docs/mechanisms and its pictures\n  \
     bench      times beside errors into docs/benchmarks.md: the coil job and the steady sensitivity beside other programs,\n             \
-    PATH being a Python with their packages (else FOGCOIL_PEERS_PYTHON; without it they are skipped); reduced and full model";
+    PATH being a Python with their packages (else FOGCOIL_PEERS_PYTHON; without it they are skipped); reduced and full model; whole diagnoses";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

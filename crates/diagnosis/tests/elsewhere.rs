@@ -37,7 +37,7 @@ where
 
 const STEP_S: f64 = 4.0;
 const WHITE_V: f64 = 0.08;
-const CONSTANTS: [f64; 8] = [0.055, 0.048, 0.05, 0.052, 5.0, 0.3, 0.5, 0.5];
+const CONSTANTS: [f64; 7] = [0.055, 0.05, 0.052, 5.0, 0.3, 0.5, 0.5];
 
 /// Two feeds that fill the tanks to about 15 V if nothing spills.
 fn tanks() -> Tanks {
@@ -70,7 +70,6 @@ fn an_overflow_is_named_measured_and_predicts_the_other_feed() {
     // three 90 % intervals' half widths, a chance of one in ten thousand to lie outside
     for (estimate, value) in found.parameters[0].iter().zip([9.0, 0.7]) {
         let half = (estimate.ci90[1] - estimate.ci90[0]) / 2.0;
-        // nobody reads the upper level: its scale, and so the rim's height, is known to a tenth or so
         assert!((estimate.value - value).abs() < 3.0 * half && half < 0.15 * value, "{estimate:?}");
     }
     let best = &found.best().fit;

@@ -2,6 +2,7 @@
 //! rewrites its section of docs/benchmarks.md.
 
 mod coil;
+mod diagnose;
 mod job;
 mod peers;
 mod reduced;
@@ -87,6 +88,8 @@ pub(crate) enum Command {
     Coil(Options),
     /// Ours alone under a named setting, as the process that [`Command::Coil`] starts.
     CoilJob(String),
+    /// Whole diagnoses.
+    Diagnose,
     /// Reduced against full model.
     Reduced,
     /// Steady sensitivity beside NGSolve.
@@ -100,6 +103,7 @@ impl Command {
         match words {
             ["coil", rest @ ..] => Ok(Self::Coil(Options::parse(rest, FEWEST)?)),
             ["coil-job", name] => Ok(Self::CoilJob(name.to_string())),
+            ["diagnose"] => Ok(Self::Diagnose),
             ["reduced"] => Ok(Self::Reduced),
             ["sensitivity", rest @ ..] => Ok(Self::Sensitivity(Options::parse(rest, 21)?)),
             _ => Err(Failure(format!("`bench {}` is not a command", words.join(" ")))),
@@ -114,6 +118,7 @@ impl Command {
         match self {
             Self::Coil(options) => coil::run(options)?,
             Self::CoilJob(name) => coil::child(name)?,
+            Self::Diagnose => diagnose::run()?,
             Self::Reduced => reduced::run()?,
             Self::Sensitivity(options) => sensitivity::run(options)?,
         }

@@ -78,8 +78,8 @@ fn library() -> Vec<Mechanism> {
     ]
 }
 
-/// Constants of the nominal model: what drains from above, arrives below, drains from below [√V/s]; the pump's gain [1/s]; the
-/// upper start and the sensor's zero \[V\].
+/// Constants of the nominal model: what drains from above, and arrives below, what drains from below [√V/s]; the pump's gain [1/s]; the upper start
+/// and the sensor's zero \[V\]; exponents of the outflows. The tanks are equally wide: a volt of either is the same water.
 fn constants() -> Vec<Nuisance> {
     let unknown = |name: &str, median: f64, spread: f64| Nuisance {
         parameter: Parameter::new(name, Prior::LogNormal { median, spread }),
@@ -89,7 +89,6 @@ fn constants() -> Vec<Nuisance> {
     };
     vec![
         unknown("drain of the upper tank", 0.05, 0.7),
-        unknown("inflow of the lower tank", 0.05, 0.7),
         unknown("drain of the lower tank", 0.05, 0.7),
         unknown("gain of the pump", 0.05, 0.7),
         unknown("upper level at the start", 4.0, 0.6),
@@ -129,7 +128,7 @@ impl Tanks {
         let of = |mechanism: usize, parameter: usize, otherwise: f64| {
             active.iter().find(|a| a.mechanism == mechanism).map_or(otherwise, |a| a.values[parameter])
         };
-        let [drain_upper, inflow, drain_lower, gain, start, zero] = [0, 1, 2, 3, 4, 5].map(|k: usize| constants[k]);
+        let [drain_upper, drain_lower, gain, start, zero] = [0, 1, 2, 3, 4].map(|k: usize| constants[k]);
         let (upper_rim, lower_rim) = (of(UPPER_OVERFLOW, 0, f64::INFINITY), of(LOWER_OVERFLOW, 0, f64::INFINITY));
         let (share, leak, viscous) = (of(UPPER_OVERFLOW, 1, 0.0), of(LEAK, 0, 0.0), of(VISCOUS_OUTFLOW, 0, 0.0));
         let (dead, most) = (of(DEAD_ZONE, 0, 0.0), of(PUMP_SATURATION, 0, f64::INFINITY));
@@ -145,13 +144,12 @@ impl Tanks {
             for _ in 0..PARTS {
                 // the slow flow of a thick film adds to Bernoulli's
                 let flow = |level: f64, exponent: f64| level.max(0.0).powf(exponent) + viscous * level;
-                let (above, below) = (flow(upper, constants[6]), flow(lower, constants[7]));
+                let (above, below) = (flow(upper, constants[5]), flow(lower, constants[6]));
                 upper += dt * (filled - drain_upper * above - leak * upper);
-                lower += dt * (inflow * above - drain_lower * below);
-                // what a volt of the upper tank is in the lower one: the same water arrives there
+                lower += dt * (drain_upper * above - drain_lower * below);
                 let spilt = (upper - upper_rim).max(0.0);
                 upper = (upper - spilt).max(0.0);
-                lower = (lower + share * spilt * inflow / drain_upper).clamp(0.0, lower_rim);
+                lower = (lower + share * spilt).clamp(0.0, lower_rim);
             }
         }
         course
