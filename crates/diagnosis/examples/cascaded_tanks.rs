@@ -21,7 +21,7 @@ use tanks::{Feed, LOWER_OVERFLOW, Tanks, UPPER_OVERFLOW};
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).ok_or("usage: cascaded_tanks PATH")?;
     let (feeds, observations) = read(&std::fs::read_to_string(&path).map_err(|e| format!("{path}: {e}"))?)?;
-    let mut tanks = Tanks::new(feeds);
+    let mut tanks = Tanks::new(feeds, 1.0);
     let nominal = fitted(&tanks, &[0], &observations[..1], &[Hypothesis::NOMINAL])?;
     tanks.settle(&nominal.nuisances[0]);
     let found = diagnose(&tanks, &[0], &observations[..1], &Settings::default(), &|task| eprintln!("{task}"))?;
@@ -85,8 +85,10 @@ fn say(tanks: &Tanks, found: &Diagnosis, observations: &[Observation]) -> Result
     }
     let course = tanks.run(0, &best.nuisances[0], &best.active);
     for (which, levels, mechanism) in [("upper", &course.upper, UPPER_OVERFLOW), ("lower", &course.lower, LOWER_OVERFLOW)] {
-        if let Some(active) = best.active.iter().find(|a| a.mechanism == mechanism) {
-            let spills: Vec<String> = runs(levels, active.values[0] - 1e-9)
+        if best.active.iter().any(|a| a.mechanism == mechanism) {
+            // no level is above the rim
+            let rim = levels.iter().fold(0.0, |m: f64, level| m.max(*level));
+            let spills: Vec<String> = runs(levels, rim - 1e-9)
                 .iter()
                 .map(|(a, b)| format!("{:.0}-{:.0}", observations[0].time[*a], observations[0].time[*b]))
                 .collect();

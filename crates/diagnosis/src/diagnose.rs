@@ -81,6 +81,12 @@ impl Diagnosis {
         &self.candidates[0]
     }
 
+    /// Takes back an explanation that a held-out record contradicts: what is left is unknown.
+    pub fn take_back(&mut self) {
+        self.verdict = Verdict::Unknown;
+        self.set.clear();
+    }
+
     /// Ends of what the choice of the best candidate's mechanism at `place` may be, if it has one.
     pub fn choice(&self, place: usize) -> Option<[f64; 2]> {
         self.best().fit.hypothesis.mechanisms.get(place)?.1?;

@@ -17,6 +17,18 @@ pub struct HeldOut {
     pub log_score: f64,
 }
 
+/// ln of a likelihood ratio beyond which it is no matter of chance.
+const CLEAR: f64 = 5.0;
+/// Share of the error beyond which one prediction is worse than another.
+const WORSE: f64 = 0.01;
+
+impl HeldOut {
+    /// Whether `other` predicts a channel clearly better: by its error and by the likelihood of the record.
+    pub fn clearly_worse_than(&self, other: &Self, channel: usize) -> bool {
+        self.rmse[channel] > (1.0 + WORSE) * other.rmse[channel] && self.log_score < other.log_score - CLEAR
+    }
+}
+
 impl Fit {
     /// Predicts `record` of the model and compares with what was observed; `judge` gives the noise under which it is scored.
     ///

@@ -261,3 +261,17 @@ fn an_explanation_by_an_unnamed_mechanism_stays_unknown_and_a_choice_has_an_inte
     let diagnosis = run(&bath, &y, 41);
     assert_eq!((diagnosis.verdict, diagnosis.choice(0)), (Verdict::Explained, Some([1.0, 3.0])));
 }
+
+#[test]
+fn an_explanation_that_a_held_out_record_contradicts_is_clearly_worse() {
+    let bath = Bath::new();
+    let mut diagnosis = run(&bath, &bath.truth(0, Some((1, 1.5))), 43);
+    let fit = &diagnosis.best().fit;
+    // another unit, without what the first had
+    let other = observed(&bath, &bath.truth(1, None), 44);
+    let model = fit.hold_out(&bath, 1, &other, fit).expect("held out");
+    let nominal = diagnosis.nominal.hold_out(&bath, 1, &other, fit).expect("held out");
+    assert!(model.clearly_worse_than(&nominal, 0) && !nominal.clearly_worse_than(&model, 0), "{model:?}");
+    diagnosis.take_back();
+    assert_eq!((diagnosis.verdict, diagnosis.set.len()), (Verdict::Unknown, 0));
+}

@@ -67,7 +67,7 @@ fn library() -> Vec<Mechanism> {
             "upper-overflow",
             "upper tank",
             &[("rim_v", level), ("share_into_lower", share)],
-            &[&[7.0, 0.5], &[9.0, 0.5], &[11.0, 0.5], &[13.0, 0.5]],
+            &[5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0].map(|rim| [rim, 0.5]).each_ref().map(|start| start.as_slice()),
         ),
         mechanism("lower-overflow", "lower tank", &[("rim_v", level)], &[&[7.0], &[9.0], &[10.0], &[12.0]]),
         mechanism("viscous-outflow", "pipes", &[("share_per_root_v", small(0.1))], &[&[0.05], &[0.3]]),
@@ -78,34 +78,36 @@ fn library() -> Vec<Mechanism> {
     ]
 }
 
-/// Constants of the nominal model: what drains from above, and arrives below, what drains from below [√V/s]; the pump's gain [1/s]; the upper start
-/// and the sensor's zero \[V\]; exponents of the outflows. The tanks are equally wide: a volt of either is the same water.
-fn constants() -> Vec<Nuisance> {
+/// Constants of the nominal model: what drains from above, arrives below, drains from below [√V/s]; the pump's gain [1/s]; the upper start
+/// and the sensor's zero \[V\]; exponents of the outflows.
+fn constants(doubt: f64) -> Vec<Nuisance> {
     let unknown = |name: &str, median: f64, spread: f64| Nuisance {
-        parameter: Parameter::new(name, Prior::LogNormal { median, spread }),
-        // nobody measured them: they are always free
+        parameter: Parameter::new(name, Prior::LogNormal { median, spread: doubt * spread }),
+        // nobody measured them well: they are always free
         role: Role::ModelError,
         local: false,
     };
     vec![
         unknown("drain of the upper tank", 0.05, 0.7),
+        unknown("inflow of the lower tank", 0.05, 0.7),
         unknown("drain of the lower tank", 0.05, 0.7),
         unknown("gain of the pump", 0.05, 0.7),
         unknown("upper level at the start", 4.0, 0.6),
-        Nuisance::normal("level at which the sensor reads zero", 0.0, 1.0, Role::ModelError),
-        Nuisance::normal("exponent of the upper outflow", 0.5, 0.05, Role::ModelError),
-        Nuisance::normal("exponent of the lower outflow", 0.5, 0.05, Role::ModelError),
+        Nuisance::normal("level at which the sensor reads zero", 0.0, doubt, Role::ModelError),
+        Nuisance::normal("exponent of the upper outflow", 0.5, 0.05 * doubt, Role::ModelError),
+        Nuisance::normal("exponent of the lower outflow", 0.5, 0.05 * doubt, Role::ModelError),
     ]
 }
 
 impl Tanks {
-    /// Tanks under several feeds; the records are in their order.
-    pub(crate) fn new(feeds: Vec<Feed>) -> Self {
+    /// Tanks under several feeds; the records are in their order. With a `doubt` of 1 next to nothing is known of the constants, with one of 0.1
+    /// they were measured to a tenth.
+    pub(crate) fn new(feeds: Vec<Feed>, doubt: f64) -> Self {
         // Bernoulli's law is good for a tenth of a volt
         let noise = NoisePrior { white: (0.1, 0.3), drift: (0.1, 0.3), drift_time: (100.0, 0.5), walk: (1e-6, 0.5) };
         let channel = Channel { name: "lower level".into(), unit: "V".into(), offset_sd: 0.05, averaging: 0.0, noise };
         let mut tanks =
-            Self { feeds, states: Vec::new(), channels: vec![channel], nuisances: constants(), mechanisms: library() };
+            Self { feeds, states: Vec::new(), channels: vec![channel], nuisances: constants(doubt), mechanisms: library() };
         let middle: Vec<f64> = tanks.nuisances.iter().map(|n| n.parameter.prior.value(0.0)).collect();
         tanks.settle(&middle);
         tanks
@@ -128,8 +130,10 @@ impl Tanks {
         let of = |mechanism: usize, parameter: usize, otherwise: f64| {
             active.iter().find(|a| a.mechanism == mechanism).map_or(otherwise, |a| a.values[parameter])
         };
-        let [drain_upper, drain_lower, gain, start, zero] = [0, 1, 2, 3, 4].map(|k: usize| constants[k]);
-        let (upper_rim, lower_rim) = (of(UPPER_OVERFLOW, 0, f64::INFINITY), of(LOWER_OVERFLOW, 0, f64::INFINITY));
+        let [drain_upper, inflow, drain_lower, gain, start, zero] = [0, 1, 2, 3, 4, 5].map(|k: usize| constants[k]);
+        // nobody reads the upper level, so its scale is free: its rim is told by what the water in it is in the lower tank
+        let upper_rim = of(UPPER_OVERFLOW, 0, f64::INFINITY) * drain_upper / inflow;
+        let lower_rim = of(LOWER_OVERFLOW, 0, f64::INFINITY);
         let (share, leak, viscous) = (of(UPPER_OVERFLOW, 1, 0.0), of(LEAK, 0, 0.0), of(VISCOUS_OUTFLOW, 0, 0.0));
         let (dead, most) = (of(DEAD_ZONE, 0, 0.0), of(PUMP_SATURATION, 0, f64::INFINITY));
         let reads = of(SENSOR_SATURATION, 0, f64::INFINITY);
@@ -144,12 +148,12 @@ impl Tanks {
             for _ in 0..PARTS {
                 // the slow flow of a thick film adds to Bernoulli's
                 let flow = |level: f64, exponent: f64| level.max(0.0).powf(exponent) + viscous * level;
-                let (above, below) = (flow(upper, constants[5]), flow(lower, constants[6]));
+                let (above, below) = (flow(upper, constants[6]), flow(lower, constants[7]));
                 upper += dt * (filled - drain_upper * above - leak * upper);
-                lower += dt * (drain_upper * above - drain_lower * below);
+                lower += dt * (inflow * above - drain_lower * below);
                 let spilt = (upper - upper_rim).max(0.0);
                 upper = (upper - spilt).max(0.0);
-                lower = (lower + share * spilt).clamp(0.0, lower_rim);
+                lower = (lower + share * spilt * inflow / drain_upper).clamp(0.0, lower_rim);
             }
         }
         course

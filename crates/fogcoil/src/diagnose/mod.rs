@@ -74,7 +74,7 @@ pub fn diagnose(
         diagnosis::Error::Model(source) => coil(source),
         other => Error::Diagnosis(other.to_string()),
     };
-    let diagnosis =
+    let mut diagnosis =
         diagnosis::diagnose(&gyro, &numbers, &observations[..fits.len()], &Settings::default(), progress).map_err(failed)?;
     let mut records = read.into_iter().zip(fits.iter().chain(holdouts)).map(|(ready, case)| Record {
         file: case.fingerprint.file.clone(),
@@ -90,6 +90,14 @@ pub fn diagnose(
         Ok(Held { record, nominal, model, accepted })
     };
     let holdouts = records.enumerate().map(|(n, record)| held((fits.len() + n, record))).collect::<Result<Vec<_>, _>>()?;
+    let found = matches!(diagnosis.verdict, Verdict::Explained | Verdict::Recalibrate);
+    if let Some(held) = holdouts.iter().find(|h| found && h.model.clearly_worse_than(&h.nominal, RATE_CHANNEL)) {
+        let file = held.record.file.display();
+        notes.push(format!(
+            "{file} is predicted clearly worse than by the nominal model: the likeliest explanation is taken back"
+        ));
+        diagnosis.take_back();
+    }
     Ok(Outcome { name: case.name.clone(), gyro, diagnosis, fits: fitted, holdouts, notes })
 }
 
