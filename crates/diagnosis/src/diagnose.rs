@@ -37,7 +37,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { none: 0.5, recalibrate: 0.05, single: 0.35, pair: 0.05, unknown: 0.05, excluded: 0.03 }
+        Self { none: 0.38, recalibrate: 0.02, single: 0.45, pair: 0.07, unknown: 0.08, excluded: 0.03 }
     }
 }
 
@@ -81,9 +81,10 @@ impl Diagnosis {
         &self.candidates[0]
     }
 
-    /// Takes back an explanation that a held-out record contradicts: what is left is unknown.
-    pub fn take_back(&mut self) {
-        self.verdict = Verdict::Unknown;
+    /// Takes back what a held-out record contradicts: nothing is left to explain if the nominal model `suffices` for that record, else
+    /// what there is is unknown.
+    pub fn take_back(&mut self, suffices: bool) {
+        self.verdict = if suffices { Verdict::None } else { Verdict::Unknown };
         self.set.clear();
     }
 

@@ -19,10 +19,17 @@ pub struct HeldOut {
 
 /// ln of a likelihood ratio beyond which it is no matter of chance.
 const CLEAR: f64 = 5.0;
+/// Error over the noise identified elsewhere that is still noise: drift differs from record to record.
+const NOISE: f64 = 1.3;
 /// Share of the error beyond which one prediction is worse than another.
 const WORSE: f64 = 0.01;
 
 impl HeldOut {
+    /// Whether what it leaves of a channel is no larger than noise.
+    pub fn within_noise(&self, channel: usize) -> bool {
+        self.rmse[channel] <= NOISE * self.noise_floor[channel]
+    }
+
     /// Whether `other` predicts a channel clearly better: by its error and by the likelihood of the record.
     pub fn clearly_worse_than(&self, other: &Self, channel: usize) -> bool {
         self.rmse[channel] > (1.0 + WORSE) * other.rmse[channel] && self.log_score < other.log_score - CLEAR
@@ -45,28 +52,62 @@ impl Fit {
         // what every record has of its own is not known here
         let nuisances: Vec<f64> =
             model.nuisances().iter().enumerate().map(|(i, n)| if n.local { middle[i] } else { self.nuisances[0][i] }).collect();
-        let mut prediction = model.respond(record, &nuisances, &self.active).map_err(Error::Model)?;
-        for (channel, offset) in prediction.iter_mut().zip(&self.offsets[0]) {
-            channel.iter_mut().for_each(|p| *p += offset);
-        }
-        let noise = Noise::of_record(&judge.noise, 0, observed)?;
-        let (mut rmse, mut log_score) = (Vec::new(), 0.0);
-        for (c, (predicted, recorded)) in prediction.iter().zip(&observed.channels).enumerate() {
-            let residual: Vec<f64> = recorded.iter().zip(predicted).map(|(y, p)| y - p).collect();
-            let used: Vec<f64> = residual.iter().copied().filter(|r| !r.is_nan()).collect();
-            rmse.push((used.iter().map(|r| r * r).sum::<f64>() / used.len().max(1) as f64).sqrt());
-            // an offset of its own, with its prior, is marginalised
-            let ones = vec![model.channels()[c].offset_sd; residual.len()];
-            let (w, o) = (noise.whiten(0, c, &residual), noise.whiten(0, c, &ones));
-            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-            log_score -= (dot(&w, &w) - dot(&w, &o).powi(2) / (1.0 + dot(&o, &o))) / 2.0;
-        }
-        let noise_floor = (0..model.channels().len())
-            .map(|c| {
-                let n = judge.noise.model(0, c);
-                n.white.hypot(n.drift)
-            })
-            .collect();
-        Ok(HeldOut { prediction, rmse, noise_floor, log_score })
+        let response = model.respond(record, &nuisances, &self.active).map_err(Error::Model)?;
+        judged(model, response, &self.offsets[0], observed, judge)
     }
+}
+
+/// The same for the model as it is designed: nothing fitted but the offsets, which are the medians of what it leaves of `fitted`.
+///
+/// # Errors
+/// [`Error`] if the model fails.
+pub fn as_designed<M: ForwardModel>(
+    model: &M,
+    fitted: (usize, &Observation),
+    held: (usize, &Observation),
+    judge: &Fit,
+) -> Result<HeldOut, Error<M::Error>> {
+    let respond = |record| model.respond(record, &expected(model.nuisances()), &[]).map_err(Error::Model);
+    let offsets: Vec<f64> = respond(fitted.0)?
+        .iter()
+        .zip(&fitted.1.channels)
+        .map(|(predicted, recorded)| {
+            let mut left: Vec<f64> = recorded.iter().zip(predicted).map(|(y, p)| y - p).filter(|r| r.is_finite()).collect();
+            left.sort_by(f64::total_cmp);
+            left.get(left.len() / 2).copied().unwrap_or(0.0)
+        })
+        .collect();
+    judged(model, respond(held.0)?, &offsets, held.1, judge)
+}
+
+/// A response with offsets against what was observed.
+fn judged<M: ForwardModel>(
+    model: &M,
+    mut prediction: Vec<Vec<f64>>,
+    offsets: &[f64],
+    observed: &Observation,
+    judge: &Fit,
+) -> Result<HeldOut, Error<M::Error>> {
+    for (channel, offset) in prediction.iter_mut().zip(offsets) {
+        channel.iter_mut().for_each(|p| *p += offset);
+    }
+    let noise = Noise::of_record(&judge.noise, 0, observed)?;
+    let (mut rmse, mut log_score) = (Vec::new(), 0.0);
+    for (c, (predicted, recorded)) in prediction.iter().zip(&observed.channels).enumerate() {
+        let residual: Vec<f64> = recorded.iter().zip(predicted).map(|(y, p)| y - p).collect();
+        let used: Vec<f64> = residual.iter().copied().filter(|r| !r.is_nan()).collect();
+        rmse.push((used.iter().map(|r| r * r).sum::<f64>() / used.len().max(1) as f64).sqrt());
+        // an offset of its own, with its prior, is marginalised
+        let ones = vec![model.channels()[c].offset_sd; residual.len()];
+        let (w, o) = (noise.whiten(0, c, &residual), noise.whiten(0, c, &ones));
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        log_score -= (dot(&w, &w) - dot(&w, &o).powi(2) / (1.0 + dot(&o, &o))) / 2.0;
+    }
+    let noise_floor = (0..model.channels().len())
+        .map(|c| {
+            let n = judge.noise.model(0, c);
+            n.white.hypot(n.drift)
+        })
+        .collect();
+    Ok(HeldOut { prediction, rmse, noise_floor, log_score })
 }

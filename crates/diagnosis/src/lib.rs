@@ -22,7 +22,7 @@ pub use discriminate::{Plan, Separation, alternatives, fitted, separation};
 pub use error::Error;
 pub use fit::{Estimate, Fit, Hypothesis};
 pub use flexible::{Rival, Structure};
-pub use hold_out::HeldOut;
+pub use hold_out::{HeldOut, as_designed};
 pub use latent::{Latent, Resolution, Stage};
 pub use locate::{Block, Cell, FREQUENCIES, Spectrum, whiteness};
 pub use model::{Active, Channel, ForwardModel, Mechanism, NoisePrior, Nuisance, Observation, Role, State};

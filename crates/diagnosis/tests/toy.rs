@@ -2,7 +2,7 @@
 
 use diagnosis::{
     Active, Channel, Diagnosis, ForwardModel, Latent, Mechanism, NoisePrior, Nuisance, Observation, Parameter, Prior, Role,
-    Settings, State, Structure, Verdict, diagnose,
+    Settings, State, Structure, Verdict, as_designed, diagnose,
 };
 
 const ROWS: usize = 600;
@@ -270,8 +270,12 @@ fn an_explanation_that_a_held_out_record_contradicts_is_clearly_worse() {
     // another unit, without what the first had
     let other = observed(&bath, &bath.truth(1, None), 44);
     let model = fit.hold_out(&bath, 1, &other, fit).expect("held out");
-    let nominal = diagnosis.nominal.hold_out(&bath, 1, &other, fit).expect("held out");
+    let first = observed(&bath, &bath.truth(0, Some((1, 1.5))), 43);
+    let nominal = as_designed(&bath, (0, &first), (1, &other), fit).expect("held out");
+    assert!(nominal.within_noise(0) && !model.within_noise(0));
     assert!(model.clearly_worse_than(&nominal, 0) && !nominal.clearly_worse_than(&model, 0), "{model:?}");
-    diagnosis.take_back();
+    diagnosis.take_back(false);
     assert_eq!((diagnosis.verdict, diagnosis.set.len()), (Verdict::Unknown, 0));
+    diagnosis.take_back(true);
+    assert_eq!(diagnosis.verdict, Verdict::None);
 }

@@ -103,13 +103,13 @@ pub(crate) fn entries(library: &Library, range: [f64; 2]) -> Vec<(Law, Mechanism
     }
     if library.heater.is_some() {
         let heating = vec![
-            Parameter::new("power_w", about(0.1, 1.0)),
+            Parameter::new("power_w", about(0.05, 1.4)),
             Parameter::new("before_s", Prior::LogNormal { median: 30.0, spread: 1.0 }),
         ];
-        add(Law::SelfHeating, "self-heating", "thermal", heating, grid(&[&[0.05], &[10.0, 60.0, 300.0]]));
+        add(Law::SelfHeating, "self-heating", "thermal", heating, grid(&[&[0.005, 0.05], &[10.0, 60.0, 300.0]]));
     }
     add(Law::SensorLag, "sensor-lag", "sensor", one("lag_s", about(30.0, 0.9)), vec![vec![20.0], vec![60.0]]);
-    add(Law::Curvature, "thermo-optic-curvature", "optics", one("curvature_per_k2", normal(2e-8)), vec![vec![0.0]]);
+    add(Law::Curvature, "thermo-optic-curvature", "optics", one("curvature_per_k2", normal(6e-8)), vec![vec![0.0]]);
     let coefficient = one("coefficient_deg_per_h_per_k", normal(1.5e-3));
     add(Law::ReadOut, "rate-temperature-coefficient", "electronics", coefficient, vec![vec![0.0]]);
     for (law, mechanism) in &mut entries {

@@ -15,15 +15,15 @@ pub(crate) fn weights(nodes: &[f64], x: f64) -> Vec<f64> {
     (0..nodes.len()).map(basis).collect()
 }
 
-/// Weights of the two nodes about x: linear interpolation.
-pub(crate) fn linear_weights(nodes: &[f64], x: f64) -> Vec<f64> {
-    let mut weights = vec![0.0; nodes.len()];
-    let x = x.clamp(nodes[0], nodes[nodes.len() - 1]);
-    let upper = nodes.partition_point(|n| *n < x).clamp(1, nodes.len() - 1);
-    let share = (x - nodes[upper - 1]) / (nodes[upper] - nodes[upper - 1]);
-    weights[upper - 1] = 1.0 - share;
-    weights[upper] = share;
-    weights
+/// Weights of the up to four nodes about x, others 0: Lagrange's cubic.
+pub(crate) fn cubic_weights(nodes: &[f64], x: f64) -> Vec<f64> {
+    let first = nodes.partition_point(|n| *n < x).saturating_sub(2).min(nodes.len().saturating_sub(4));
+    let about = &nodes[first..(first + 4).min(nodes.len())];
+    let mut all = vec![0.0; nodes.len()];
+    for (k, node) in about.iter().enumerate() {
+        all[first + k] = about.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, n)| (x - n) / (node - n)).product();
+    }
+    all
 }
 
 #[cfg(test)]
@@ -37,8 +37,8 @@ mod tests {
         for x in [-1.0, -0.2, 0.7, 2.9, 3.0] {
             let sum: f64 = weights(&nodes, x).iter().zip(&nodes).map(|(w, n)| w * p(*n)).sum();
             assert!((sum - p(x)).abs() < 1e-12);
-            let linear: f64 = linear_weights(&nodes, x).iter().zip(&nodes).map(|(w, n)| w * (1.0 + 2.0 * n)).sum();
-            assert!((linear - 1.0 - 2.0 * x).abs() < 1e-12);
+            let cubic: f64 = cubic_weights(&nodes, x).iter().zip(&nodes).map(|(w, n)| w * (1.0 + 2.0 * n.powi(3))).sum();
+            assert!((cubic - 1.0 - 2.0 * x.powi(3)).abs() < 1e-12);
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::REFERENCE_C;
 use crate::beyond;
 use crate::catalogue::Law;
 use crate::change::logistic;
-use crate::interpolation::{linear_weights, weights};
+use crate::interpolation::{cubic_weights, weights};
 use crate::library::{Functionals, Library, Path};
 use crate::record::{Parts, Prepared};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
@@ -188,8 +188,9 @@ impl Laws {
     }
 
     fn opened(&self, record: &Prepared, below: f64, hysteresis: f64, share: f64) -> Parts {
-        let nodes: Vec<f64> = record.openings.iter().map(|(share, _)| *share).collect();
-        let w = linear_weights(&nodes, share);
+        // nothing open changes nothing
+        let nodes: Vec<f64> = std::iter::once(0.0).chain(record.openings.iter().map(|(share, _)| *share)).collect();
+        let w = &cubic_weights(&nodes, share.clamp(0.0, nodes[nodes.len() - 1]))[1..];
         let mut change: Parts = [0, 1, 2].map(|_| vec![0.0; record.time.len()]);
         let mut open = record.coil[0] < below;
         for n in 1..record.time.len() {

@@ -1,7 +1,7 @@
 //! Everything of a design that does not depend on a recording: reduced models at chosen values of every mechanism's parameters.
 
 use crate::change;
-use crate::interpolation::nodes;
+use crate::interpolation::{cubic_weights, nodes};
 use coil::{
     COARSE, Design, Drive, Dynamics, Error, Fidelity, MechanicalState, Mechanics, Model, Reduced, Reduction, ThermalModel,
     TurnFields, functionals,
@@ -23,7 +23,7 @@ const MODULUS: [f64; 2] = [0.15, 2.2];
 const MODULUS_NODES: usize = 9;
 
 /// Open shares of a bond that are tabulated; the response is not monotonic in between.
-const OPEN: [f64; 10] = [0.02, 0.05, 0.09, 0.15, 0.24, 0.35, 0.48, 0.62, 0.76, 0.9];
+const OPEN: [f64; 18] = [0.02, 0.04, 0.06, 0.08, 0.1, 0.125, 0.15, 0.18, 0.21, 0.25, 0.3, 0.36, 0.44, 0.53, 0.62, 0.71, 0.8, 0.9];
 
 /// The three bias parts as functionals of drives and modes.
 pub(crate) type Functionals = [DVector<f64>; 3];
@@ -298,6 +298,7 @@ fn moved(fields: &TurnFields, sound: &Winding, wound: &Winding, layer: usize) ->
     let mut along: Vec<(f64, usize)> =
         sound.turns().iter().enumerate().filter(|(_, t)| t.layer == layer).map(|(i, t)| (t.y, i)).collect();
     along.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let places: Vec<f64> = along.iter().map(|p| p.0).collect();
     // both windings have the other layers' turns in one order along each half
     let mut others: std::collections::HashMap<(usize, usize, bool), usize> = std::collections::HashMap::new();
     for (i, t) in sound.turns().iter().enumerate() {
@@ -308,7 +309,7 @@ fn moved(fields: &TurnFields, sound: &Winding, wound: &Winding, layer: usize) ->
         .iter()
         .map(|t| match others.get(&(t.layer, t.turn, t.half == Half::Cw)) {
             Some(&i) if t.layer != layer => vec![(i, 1.0)],
-            _ => cubic(&along, t.y),
+            _ => cubic_weights(&places, t.y).into_iter().zip(&along).filter(|(w, _)| *w != 0.0).map(|(w, p)| (p.1, w)).collect(),
         })
         .collect();
     let of = |matrix: &DMatrix<f64>| {
@@ -328,14 +329,4 @@ fn moved(fields: &TurnFields, sound: &Winding, wound: &Winding, layer: usize) ->
         radial: of(&fields.radial),
         bore: fields.bore.clone(),
     }
-}
-
-/// Weights of up to four points about y: Lagrange's cubic.
-fn cubic(along: &[(f64, usize)], y: f64) -> Vec<(usize, f64)> {
-    let first = along.partition_point(|(at, _)| *at < y).saturating_sub(2).min(along.len().saturating_sub(4));
-    let about = &along[first..(first + 4).min(along.len())];
-    let weight = |k: usize| -> f64 {
-        about.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, p)| (y - p.0) / (about[k].0 - p.0)).product()
-    };
-    about.iter().enumerate().map(|(k, p)| (p.1, weight(k))).collect()
 }

@@ -11,7 +11,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use coil::COARSE;
-use diagnosis::{Diagnosis, ForwardModel, HeldOut, Hypothesis, Observation, Settings, Verdict};
+use diagnosis::{Diagnosis, ForwardModel, HeldOut, Hypothesis, Observation, Settings, Verdict, as_designed};
 use mechanisms::{Gyro, Library, Located, Prepared, RATE as RATE_CHANNEL};
 
 use crate::Error;
@@ -85,7 +85,7 @@ pub fn diagnose(
     let best = &diagnosis.best().fit;
     let held = |(n, record): (usize, Record)| -> Result<Held, Error> {
         let model = best.hold_out(&gyro, n, &record.observed, best).map_err(failed)?;
-        let nominal = diagnosis.nominal.hold_out(&gyro, n, &record.observed, best).map_err(failed)?;
+        let nominal = as_designed(&gyro, (0, &fitted[0].observed), (n, &record.observed), best).map_err(failed)?;
         let accepted = model.rmse[RATE_CHANNEL] <= nominal.rmse[RATE_CHANNEL];
         Ok(Held { record, nominal, model, accepted })
     };
@@ -96,7 +96,7 @@ pub fn diagnose(
         notes.push(format!(
             "{file} is predicted clearly worse than by the nominal model: the likeliest explanation is taken back"
         ));
-        diagnosis.take_back();
+        diagnosis.take_back(held.nominal.within_noise(RATE_CHANNEL));
     }
     Ok(Outcome { name: case.name.clone(), gyro, diagnosis, fits: fitted, holdouts, notes })
 }
