@@ -192,7 +192,12 @@ impl<M: ForwardModel> Fitter<'_, M> {
                 base[i] = known.and_then(of).unwrap_or(0.0);
             }
         }
+        // where the known fit has strayed far to make up for what it lacks, its unknowns are a poor start
+        let strayed = base.amax() > STRAYED;
         let mut starts = vec![base];
+        if strayed {
+            starts.push(DVector::zeros(layout.len()));
+        }
         for (place, (mechanism, choice)) in hypothesis.mechanisms.iter().enumerate() {
             let entry = &self.model.mechanisms()[*mechanism];
             // a mechanism that is already fitted goes on from there
@@ -382,6 +387,8 @@ impl<M: ForwardModel> Fitter<'_, M> {
     }
 }
 
+/// An unknown of a known fit [u] beyond which a fit starts from the middles of the priors, too.
+const STRAYED: f64 = 3.0;
 /// Starts that are followed to the end.
 const STARTS: usize = 4;
 

@@ -136,10 +136,7 @@ fn bases(structure: Structure, time: &[f64], state: &State) -> Vec<Basis> {
         Structure::Level => one(hats(level, 9)),
         Structure::RateByLevel => one(hats(level, 7).iter().map(|h| times(h, rate)).collect()),
         Structure::Rate => one(hats(rate, 7)),
-        Structure::History => {
-            let lagged = LAGS.iter().map(|tau| follow(time, rate, *tau));
-            one(lagged.collect())
-        }
+        Structure::History => one(lags(time).iter().map(|tau| follow(time, rate, *tau)).collect()),
         Structure::Acceleration => {
             let change = (0..rate.len()).map(|n| {
                 let (a, b) = (n.saturating_sub(1), (n + 1).min(rate.len() - 1));
@@ -179,8 +176,19 @@ fn bases(structure: Structure, time: &[f64], state: &State) -> Vec<Basis> {
 
 const PERIODS: usize = 40;
 const STEPS: usize = 48;
-/// Time constants of the history \[s\].
-const LAGS: [f64; 5] = [200.0, 700.0, 2500.0, 8000.0, 25000.0];
+/// Number of time constants of the history, the shortest in mean intervals, the longest as a share of the record.
+const LAGS: usize = 5;
+const SHORTEST: f64 = 7.0;
+const LONGEST: f64 = 0.3;
+
+/// Time constants of the history \[s\], evenly spaced in their logarithms.
+fn lags(time: &[f64]) -> Vec<f64> {
+    let span = time[time.len() - 1] - time[0];
+    let shortest = SHORTEST * span / (time.len() - 1).max(1) as f64;
+    let longest = (LONGEST * span).max(shortest);
+    (0..LAGS).map(|k| shortest * (longest / shortest).powf(k as f64 / (LAGS - 1) as f64)).collect()
+}
+
 /// Amplitudes that are averaged over, in units of the channel's white noise.
 const AMPLITUDES: [f64; 4] = [0.3, 1.0, 3.0, 10.0];
 

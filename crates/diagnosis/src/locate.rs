@@ -106,13 +106,14 @@ impl Fit {
         }
     }
 
-    /// Stretches of about an hour in which the residual is larger than noise.
+    /// Equal stretches of the record, two dozen if it is long enough, in which the residual is larger than noise.
     pub fn in_time(&self, record: usize, channel: usize, observed: &Observation, judge: &Self) -> Vec<Block> {
-        const LENGTH_S: f64 = 3600.0;
+        const STRETCHES: usize = 24;
+        const FEWEST_ROWS: usize = 20;
         let (rows, w) = self.whitened_residual(record, channel, observed, judge);
         let Some((&first, &last)) = rows.first().zip(rows.last()) else { return Vec::new() };
         let (first, last) = (observed.time[first], observed.time[last]);
-        let count = (((last - first) / LENGTH_S).round() as usize).max(1);
+        let count = (rows.len() / FEWEST_ROWS).clamp(1, STRETCHES);
         let mut sums = vec![(0.0, 0_usize); count];
         let at = |t: f64| (((t - first) / (last - first).max(f64::MIN_POSITIVE) * count as f64) as usize).min(count - 1);
         for (row, w) in rows.iter().zip(&w) {

@@ -42,7 +42,7 @@ impl Outcome {
         })
     }
 
-    /// Stretches of about an hour.
+    /// Stretches of equal length.
     fn blocks(&self, shown: &[Shown]) -> String {
         let Some(first) = shown.first() else { return String::new() };
         let clock = Clock::of(&first.record.observed);
@@ -71,9 +71,9 @@ impl Outcome {
         element(&Figure {
             id: "blocks",
             title: "When the residual is larger than noise".into(),
-            description: "Mean square of the whitened residual in stretches of about an hour; those that stand out are marked."
+            description: "Mean square of the whitened residual in stretches of equal length; those that stand out are marked."
                 .into(),
-            caption: "In stretches of about an hour; 1 is noise. Marked: what stands out, the number of stretches considered."
+            caption: "In stretches of equal length; 1 is noise. Marked: what stands out, the number of stretches considered."
                 .into(),
             columns: 1,
             panels,
