@@ -73,12 +73,18 @@ pub struct Diagnosis {
     pub mismatch: Fit,
     /// What a flexible input at each stage would make of the mismatch, best first.
     pub stages: Vec<crate::Stage>,
+    verdicts: [f64; 4],
 }
 
 impl Diagnosis {
     /// The most probable candidate.
     pub fn best(&self) -> &Candidate {
         &self.candidates[0]
+    }
+
+    /// Probabilities of the verdicts none, recalibrate, explained and unknown.
+    pub fn verdicts(&self) -> [f64; 4] {
+        self.verdicts
     }
 
     /// Takes back what a held-out record contradicts: nothing is left to explain if the nominal model `suffices` for that record, else
@@ -104,6 +110,8 @@ const BEHIND: f64 = 25.0;
 const CHOICES: usize = 6;
 /// Gain of ln evidence of one mechanism below which it is not sought what may stand beside it.
 const PAIRED: f64 = 1.0;
+/// Least gain of ln evidence over the nominal model of anything that is called a finding.
+const FINDING: f64 = 2.0;
 /// Marginal probability from which a mechanism beside another is reported, though the other alone explains all.
 const BESIDE: f64 = 0.15;
 /// Share of the unknown that the unnamed mechanisms have; the rest is the structures'.
@@ -182,7 +190,10 @@ pub fn diagnose<M: ForwardModel>(
             leaders.push(own.clone());
             pool.push(own, None);
         } else {
-            pool.push(fit, None);
+            // another choice of a mechanism that has its own noise is fitted in that
+            let known = leaders.iter().find(|l| again && l.hypothesis.mechanisms[0].0 == mechanism);
+            let own = known.map(|leader| pool.fitter.fit(&fit.hypothesis, &leader.noise, Some(&fit))).transpose()?;
+            pool.push(own.map_or(fit.clone(), |own| better(fit, own)), None);
         }
         if !again {
             met.push(mechanism);
@@ -201,7 +212,7 @@ pub fn diagnose<M: ForwardModel>(
     }
 
     progress("what no mechanism explains");
-    pool.rivals(&times);
+    pool.rivals(&times)?;
     pool.conclude(nominal)
 }
 
@@ -225,8 +236,13 @@ fn variants<M: ForwardModel>(model: &M, mechanism: usize) -> Vec<Hypothesis> {
 
 impl<M: ForwardModel> Pool<'_, M> {
     fn push(&mut self, fit: Fit, rival: Option<Rival>) {
+        self.push_for(fit, rival, 0.0);
+    }
+
+    /// The same for a candidate that stands for others like it, too: `kin` is the ln of their number.
+    fn push_for(&mut self, fit: Fit, rival: Option<Rival>, kin: f64) {
         let log_weight =
-            self.log_prior(&fit.hypothesis, rival.is_some()) + fit.log_evidence + rival.as_ref().map_or(0.0, |r| r.gain);
+            self.log_prior(&fit.hypothesis, rival.is_some()) + fit.log_evidence + rival.as_ref().map_or(0.0, |r| r.gain) + kin;
         self.candidates.push(Candidate { fit, rival, log_weight, probability: 0.0 });
     }
 
@@ -267,6 +283,15 @@ impl<M: ForwardModel> Pool<'_, M> {
     /// The mechanism of `fit` with every other one.
     fn pairs(&mut self, fit: &Fit, singles: &[Vec<Hypothesis>]) -> Result<(), Error<M::Error>> {
         let first = fit.hypothesis.mechanisms[0];
+        // the first one's best choice stands for those that explain nearly as much
+        let alone = |c: &&Candidate| {
+            c.rival.is_none()
+                && !c.fit.hypothesis.constants_free
+                && matches!(c.fit.hypothesis.mechanisms[..], [one] if one.0 == first.0)
+        };
+        let of_first: f64 =
+            self.candidates.iter().filter(alone).map(|c| (c.fit.log_evidence - fit.log_evidence).min(0.0).exp()).sum();
+        let of_first = of_first.max(1.0).ln();
         let mut fits = Vec::new();
         let named = |m: usize| self.fitter.model.mechanisms()[m].named;
         for hypotheses in singles.iter().filter(|h| h[0].mechanisms[0].0 != first.0 && named(h[0].mechanisms[0].0)) {
@@ -275,6 +300,7 @@ impl<M: ForwardModel> Pool<'_, M> {
                 .map(|h| Hypothesis { mechanisms: vec![first, h.mechanisms[0]], constants_free: false })
                 .collect();
             // the choice of a second mechanism is hardly determined: a few stand for all
+            let all = pairs.len() as f64;
             if pairs.len() > CHOICES {
                 let every = pairs.len().div_ceil(CHOICES);
                 pairs = pairs.into_iter().step_by(every).collect();
@@ -282,31 +308,42 @@ impl<M: ForwardModel> Pool<'_, M> {
             for pair in &pairs {
                 let known = self.candidates.iter().any(|c| same(&c.fit.hypothesis, pair));
                 if !known {
-                    fits.push(self.fitter.fit(pair, &fit.noise, Some(fit))?);
+                    fits.push((self.fitter.fit(pair, &fit.noise, Some(fit))?, (all / pairs.len() as f64).ln()));
                 }
             }
         }
-        fits.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
-        let lead = fits.first().map_or(0.0, |f| f.log_evidence);
-        for (rank, pair) in fits.into_iter().enumerate() {
+        fits.sort_by(|a, b| b.0.log_evidence.total_cmp(&a.0.log_evidence));
+        let lead = fits.first().map_or(0.0, |f| f.0.log_evidence);
+        for (rank, (pair, kin)) in fits.into_iter().enumerate() {
             let promising = pair.log_evidence - fit.log_evidence > 1.0 && lead - pair.log_evidence < BEHIND;
             let own = if rank < FOLLOWED && promising { self.fitter.fit_with_noise(&pair.hypothesis, &pair, 2)? } else { pair };
-            self.push(own, None);
+            self.push_for(own, None, kin + of_first);
         }
         Ok(())
     }
 
-    /// Adds every structure to the most probable candidates.
-    fn rivals(&mut self, times: &[&[f64]]) {
+    /// Adds every structure to the most probable candidates, under their own noise and under calmer noise, which has not swallowed it; of
+    /// the two the likelier counts.
+    fn rivals(&mut self, times: &[&[f64]]) -> Result<(), Error<M::Error>> {
         let mut order: Vec<usize> = (0..self.candidates.len()).collect();
         order.sort_by(|&a, &b| self.candidates[b].log_weight.total_cmp(&self.candidates[a].log_weight));
         order.truncate(LEADERS);
         for at in order {
+            let Fitter { model, records, observations } = self.fitter;
             let fit = self.candidates[at].fit.clone();
-            for rival in fit.rivals(self.fitter.model, self.fitter.records, times) {
-                self.push(fit.clone(), Some(rival));
+            let calm = fit.noise.calmed(model.channels(), observations)?;
+            let calmer = self.fitter.fit(&fit.hypothesis, &calm, Some(&fit))?;
+            let found = [&fit, &calmer].map(|f| f.rivals(model, records, times));
+            let weight = |f: &Fit, r: &Rival| f.log_evidence + r.gain;
+            for rival in &found[0] {
+                let same = found[1].iter().find(|r| (r.structure, r.channel) == (rival.structure, rival.channel));
+                match same.filter(|calm| weight(&calmer, calm) > weight(&fit, rival)) {
+                    Some(calm) => self.push(calmer.clone(), Some(calm.clone())),
+                    None => self.push(fit.clone(), Some(rival.clone())),
+                }
             }
         }
+        Ok(())
     }
 
     /// Whether a mechanism stands in some likely candidate that loses by leaving it out: not merely beside another that explains all.
@@ -344,7 +381,10 @@ impl<M: ForwardModel> Pool<'_, M> {
             .collect();
         mechanisms.sort_by(|a, b| b.1.total_cmp(&a.1));
         let explained = 1.0 - none - unknown - recalibrate;
-        let verdict = if none > 0.5 {
+        // many hypotheses that a record says nothing about are no finding: one of them has to stand out
+        let gain = |c: &Candidate| c.fit.log_evidence + c.rival.as_ref().map_or(0.0, |r| r.gain) - nominal.log_evidence;
+        let evidence = self.candidates.iter().map(gain).fold(f64::NEG_INFINITY, f64::max);
+        let verdict = if none > 0.5 || evidence < FINDING {
             Verdict::None
         } else if unknown > explained.max(recalibrate) {
             Verdict::Unknown
@@ -385,11 +425,12 @@ impl<M: ForwardModel> Pool<'_, M> {
         let set = likely.iter().filter(|(m, p)| *p >= least && needed(*m)).map(|(m, _)| *m).collect();
         let mismatch = self.fitter.fit(&Hypothesis::NOMINAL, &best.fit.noise, Some(&nominal))?;
         let stages = mismatch.stages(model, self.fitter.records, self.fitter.observations)?;
-        Ok(Diagnosis { verdict, mechanisms, set, parameters, nominal, mismatch, stages, candidates: self.candidates })
+        let verdicts = [none, recalibrate, explained, unknown];
+        Ok(Diagnosis { verdict, mechanisms, set, parameters, nominal, mismatch, stages, verdicts, candidates: self.candidates })
     }
 }
 
-/// Whether two hypotheses hold the same mechanisms and choices, in any order.
+/// Whether two hypotheses hold the same mechanisms, in any order and with any choices.
 fn same(a: &Hypothesis, b: &Hypothesis) -> bool {
     a.constants_free == b.constants_free
         && a.mechanisms.len() == b.mechanisms.len()

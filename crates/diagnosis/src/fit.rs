@@ -237,7 +237,7 @@ impl<M: ForwardModel> Fitter<'_, M> {
             let r = self.whiten(noise, &self.residuals(&layout, &u, &responses));
             tried.push((r.norm_squared() + u.norm_squared(), u));
         }
-        // the start that fits best after one linear step wins; the two best as they are, too
+        // the likeliest starts are followed
         tried.sort_by(|a, b| a.0.total_cmp(&b.0));
         tried.truncate(STARTS);
         let mut best: Option<Fit> = None;
@@ -383,10 +383,71 @@ impl<M: ForwardModel> Fitter<'_, M> {
                 break;
             }
         }
+        self.searched(best)
+    }
+
+    /// Looks for a better minimum around a fit's parameters whose responses have kinks: each is set aside by its distances, the other
+    /// unknowns following by one linear step.
+    fn searched(&self, mut best: Fit) -> Result<Fit, Error<M::Error>> {
+        let library = self.model.mechanisms();
+        for _ in 0..SEARCHES {
+            let (hypothesis, layout) = (best.hypothesis.clone(), best.layout.clone());
+            let value = |r: &DVector<f64>, u: &DVector<f64>| (r.norm_squared() + u.norm_squared()) / 2.0;
+            let mut found: Option<(f64, DVector<f64>)> = None;
+            let parameter = |i: usize| match layout[i] {
+                Unknown::Mechanism { place, parameter } => Some(&library[hypothesis.mechanisms[place].0].parameters[parameter]),
+                _ => None,
+            };
+            let searched: Vec<usize> =
+                (0..layout.len()).filter(|i| parameter(*i).is_some_and(|p| !p.around.is_empty())).collect();
+            // one alone, or one against another: the sum of two may be what the records know
+            let moves = searched.iter().flat_map(|i| {
+                std::iter::once((*i, None)).chain(searched.iter().filter(move |j| *j != i).map(|j| (*i, Some(*j))))
+            });
+            for (i, other) in moves {
+                let Some(moved) = parameter(i) else { continue };
+                for by in moved.around.iter().flat_map(|d| [-d, *d]) {
+                    let mut u = best.u.clone();
+                    u[i] = moved.prior.standard(moved.prior.value(u[i]) + by);
+                    if let Some((j, against)) = other.and_then(|j| Some((j, parameter(j)?))) {
+                        u[j] = against.prior.standard(against.prior.value(u[j]) - by);
+                    }
+                    let responses = self.responses(&hypothesis, &layout, &u)?;
+                    let r = self.whiten(&best.noise, &self.residuals(&layout, &u, &responses));
+                    let mut jacobian = self.jacobian(&hypothesis, &layout, &best.noise, &u, &responses, Some(&best.jacobian))?;
+                    let gradient = jacobian.tr_mul(&r) - &u;
+                    std::iter::once(i).chain(other).for_each(|k| jacobian.column_mut(k).fill(0.0));
+                    let normal = jacobian.tr_mul(&jacobian) + DMatrix::identity(layout.len(), layout.len());
+                    let Some(factor) = Cholesky::new(normal) else { continue };
+                    let mut step = factor.solve(&gradient);
+                    std::iter::once(i).chain(other).for_each(|k| step[k] = 0.0);
+                    step.iter_mut().for_each(|s| *s = s.clamp(-STRIDE, STRIDE));
+                    let u = u + step;
+                    let responses = self.responses(&hypothesis, &layout, &u)?;
+                    let r = self.whiten(&best.noise, &self.residuals(&layout, &u, &responses));
+                    let at = value(&r, &u);
+                    if found.as_ref().is_none_or(|(least, _)| at < *least) {
+                        found = Some((at, u));
+                    }
+                }
+            }
+            let Some((least, u)) = found else { break };
+            if least > value(&best.whitened, &best.u) - WORTH {
+                break;
+            }
+            let fit = self.descend(&hypothesis, &layout, &best.noise, u)?;
+            if fit.log_evidence <= best.log_evidence {
+                break;
+            }
+            best = fit;
+        }
         Ok(best)
     }
 }
 
+/// Rounds of the search around a fit, and the gain of ln p that makes one worth while.
+const SEARCHES: usize = 6;
+const WORTH: f64 = 0.3;
 /// An unknown of a known fit [u] beyond which a fit starts from the middles of the priors, too.
 const STRAYED: f64 = 3.0;
 /// Starts that are followed to the end.

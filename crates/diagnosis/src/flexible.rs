@@ -70,9 +70,19 @@ pub struct Rival {
     pub gain: f64,
 }
 
-/// Smooth bumps: a partition of unity of `count` hats over the range of x.
-fn hats(x: &[f64], count: usize) -> Vec<Vec<f64>> {
-    let (low, high) = x.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+/// Smallest and largest value.
+fn range<'a>(x: impl Iterator<Item = &'a f64>) -> [f64; 2] {
+    x.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)])
+}
+
+/// What all records together reach.
+struct Reach {
+    level: [f64; 2],
+    rate: [f64; 2],
+}
+
+/// Smooth bumps: a partition of unity of `count` hats over a range of x.
+fn hats(x: &[f64], [low, high]: [f64; 2], count: usize) -> Vec<Vec<f64>> {
     let step = (high - low) / (count - 1) as f64;
     if step.is_nan() || step <= 0.0 {
         return Vec::new();
@@ -97,12 +107,6 @@ fn times(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a * b).collect()
 }
 
-/// Largest absolute value 1.
-fn normalised(series: Vec<f64>) -> Option<Vec<f64>> {
-    let most = series.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    (most > 0.0 && most.is_finite()).then(|| series.iter().map(|v| v / most).collect())
-}
-
 /// A set of functions, with the period or instant that it stands for.
 struct Basis {
     at: Option<f64>,
@@ -114,10 +118,9 @@ fn one(functions: Vec<Vec<f64>>) -> Vec<Basis> {
 }
 
 /// Alternatives of a structure; its evidence is their mean.
-fn bases(structure: Structure, time: &[f64], state: &State) -> Vec<Basis> {
+fn bases(structure: Structure, time: &[f64], state: &State, reach: &Reach) -> Vec<Basis> {
     let (level, rate) = (&state.level, &state.rate);
-    let (low, high) = level.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
-    let range = high - low;
+    let range = reach.level[1] - reach.level[0];
     match structure {
         Structure::PeriodicInLevel => {
             if range.is_nan() || range <= 0.0 {
@@ -133,9 +136,9 @@ fn bases(structure: Structure, time: &[f64], state: &State) -> Vec<Basis> {
                 })
                 .collect()
         }
-        Structure::Level => one(hats(level, 9)),
-        Structure::RateByLevel => one(hats(level, 7).iter().map(|h| times(h, rate)).collect()),
-        Structure::Rate => one(hats(rate, 7)),
+        Structure::Level => one(hats(level, reach.level, 9)),
+        Structure::RateByLevel => one(hats(level, reach.level, 7).iter().map(|h| times(h, rate)).collect()),
+        Structure::Rate => one(hats(rate, reach.rate, 7)),
         Structure::History => one(lags(time).iter().map(|tau| follow(time, rate, *tau)).collect()),
         Structure::Acceleration => {
             let change = (0..rate.len()).map(|n| {
@@ -145,9 +148,9 @@ fn bases(structure: Structure, time: &[f64], state: &State) -> Vec<Basis> {
             one(vec![change.collect()])
         }
         Structure::Direction => {
-            let most = rate.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
+            let most = reach.rate[0].abs().max(reach.rate[1].abs());
             let direction: Vec<f64> = rate.iter().map(|r| (r / (0.02 * most).max(f64::MIN_POSITIVE)).tanh()).collect();
-            one(hats(level, 4).iter().map(|h| times(h, &direction)).collect())
+            one(hats(level, reach.level, 4).iter().map(|h| times(h, &direction)).collect())
         }
         Structure::Step => {
             let (first, last) = (time[0], time[time.len() - 1]);
@@ -226,16 +229,22 @@ impl Fit {
 
     /// How much each structure in each channel would add to the fit, best first.
     pub(crate) fn rivals<M: ForwardModel>(&self, model: &M, records: &[usize], times_of: &[&[f64]]) -> Vec<Rival> {
+        let states = || records.iter().map(|r| model.state(*r));
+        let reach = Reach { level: range(states().flat_map(|s| &s.level)), rate: range(states().flat_map(|s| &s.rate)) };
         let mut rivals = Vec::new();
         for channel in 0..model.channels().len() {
             for structure in Structure::ALL {
-                let alternatives: Vec<Vec<Basis>> =
-                    records.iter().zip(times_of).map(|(record, time)| bases(structure, time, model.state(*record))).collect();
+                let alternatives: Vec<Vec<Basis>> = records
+                    .iter()
+                    .zip(times_of)
+                    .map(|(record, time)| bases(structure, time, model.state(*record), &reach))
+                    .collect();
                 let count = alternatives.iter().map(Vec::len).min().unwrap_or(0);
                 let mut gains = Vec::new();
                 for k in 0..count {
                     if let Some(columns) = self.columns(&alternatives, k, channel, times_of) {
-                        let scales: Vec<f64> = AMPLITUDES.iter().map(|a| a * self.noise.model(0, channel).white).collect();
+                        let white = (0..records.len()).map(|r| self.noise.model(r, channel).white).fold(0.0, f64::max);
+                        let scales: Vec<f64> = AMPLITUDES.iter().map(|a| a * white).collect();
                         gains.push((log_mean_exp(&self.gain(&columns, &scales)), alternatives[0][k].at));
                     }
                 }
@@ -254,11 +263,16 @@ impl Fit {
     fn columns(&self, alternatives: &[Vec<Basis>], k: usize, channel: usize, times_of: &[&[f64]]) -> Option<DMatrix<f64>> {
         let mut columns: Vec<DVector<f64>> = Vec::new();
         for f in 0..alternatives[0][k].functions.len() {
+            // largest absolute value 1 over all records
+            let most = alternatives.iter().filter_map(|b| b[k].functions.get(f)).flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
+            if most.is_nan() || most <= 0.0 || most.is_infinite() {
+                return None;
+            }
             let mut column = Vec::with_capacity(self.whitened.len());
             for (record, bases) in alternatives.iter().enumerate() {
                 for c in 0..self.residuals[record].len() {
                     if c == channel {
-                        let series = normalised(bases[k].functions.get(f)?.clone())?;
+                        let series: Vec<f64> = bases[k].functions.get(f)?.iter().map(|v| v / most).collect();
                         column.extend(self.noise.whiten(record, c, &series));
                     } else {
                         column.extend(std::iter::repeat_n(0.0, self.noise.rows(record, c).len()));

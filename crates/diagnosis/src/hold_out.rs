@@ -13,6 +13,8 @@ pub struct HeldOut {
     pub rmse: Vec<f64>,
     /// Standard deviation of the noise in a sample as identified in the fit, of every channel.
     pub noise_floor: Vec<f64>,
+    /// The same with no more drift than is usual: where a fit leaves something unexplained, its noise has swallowed that.
+    pub quiet: Vec<f64>,
     /// ln of the likelihood of the record, the offsets known only as well as their priors say, up to a constant that fits with the same noise share.
     pub log_score: f64,
 }
@@ -21,13 +23,23 @@ pub struct HeldOut {
 const CLEAR: f64 = 5.0;
 /// Error over the noise identified elsewhere that is still noise: drift differs from record to record.
 const NOISE: f64 = 1.3;
+/// Error over the noise that is far more, and error over the nominal one that is hardly less.
+const FAR: f64 = 2.0;
+const BARELY: f64 = 0.95;
+/// Largest drift that is usual, over the median of its prior.
+const USUAL: f64 = 2.0;
 /// Share of the error beyond which one prediction is worse than another.
 const WORSE: f64 = 0.01;
 
 impl HeldOut {
     /// Whether what it leaves of a channel is no larger than noise.
     pub fn within_noise(&self, channel: usize) -> bool {
-        self.rmse[channel] <= NOISE * self.noise_floor[channel]
+        self.rmse[channel] <= NOISE * self.quiet[channel]
+    }
+
+    /// Whether this is no proof of what was fitted: what it leaves of a channel is far more than noise, and hardly less than `nominal` leaves.
+    pub fn proves_nothing(&self, nominal: &Self, channel: usize) -> bool {
+        self.rmse[channel] > FAR * self.quiet[channel] && self.rmse[channel] > BARELY * nominal.rmse[channel]
     }
 
     /// Whether `other` predicts a channel clearly better: by its error and by the likelihood of the record.
@@ -57,7 +69,7 @@ impl Fit {
     }
 }
 
-/// The same for the model as it is designed: nothing fitted but the offsets, which are the medians of what it leaves of `fitted`.
+/// The same for the model as it is designed: nothing fitted but the offsets, which are the means of what it leaves of `fitted`.
 ///
 /// # Errors
 /// [`Error`] if the model fails.
@@ -72,9 +84,8 @@ pub fn as_designed<M: ForwardModel>(
         .iter()
         .zip(&fitted.1.channels)
         .map(|(predicted, recorded)| {
-            let mut left: Vec<f64> = recorded.iter().zip(predicted).map(|(y, p)| y - p).filter(|r| r.is_finite()).collect();
-            left.sort_by(f64::total_cmp);
-            left.get(left.len() / 2).copied().unwrap_or(0.0)
+            let left: Vec<f64> = recorded.iter().zip(predicted).map(|(y, p)| y - p).filter(|r| r.is_finite()).collect();
+            left.iter().sum::<f64>() / left.len().max(1) as f64
         })
         .collect();
     judged(model, respond(held.0)?, &offsets, held.1, judge)
@@ -103,11 +114,12 @@ fn judged<M: ForwardModel>(
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         log_score -= (dot(&w, &w) - dot(&w, &o).powi(2) / (1.0 + dot(&o, &o))) / 2.0;
     }
-    let noise_floor = (0..model.channels().len())
-        .map(|c| {
+    let floor = |most: f64| {
+        let of = |(c, channel): (usize, &crate::Channel)| {
             let n = judge.noise.model(0, c);
-            n.white.hypot(n.drift)
-        })
-        .collect();
-    Ok(HeldOut { prediction, rmse, noise_floor, log_score })
+            n.white.hypot(n.drift.min(most * channel.noise.drift.0))
+        };
+        model.channels().iter().enumerate().map(of).collect()
+    };
+    Ok(HeldOut { prediction, rmse, noise_floor: floor(f64::INFINITY), quiet: floor(USUAL), log_score })
 }

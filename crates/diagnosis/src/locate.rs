@@ -193,7 +193,9 @@ impl Fit {
         let span = time[length - 1] - time[0];
         let (low, high) = (2.0 / span, length as f64 / span / 4.0);
         // magnitude-squared coherence of noise with ν independent segments exceeds 1 − 0.05^(1/(ν−1)) once in twenty
-        let independent = 1.0 + (SEGMENTS - 1) as f64 * 0.7;
+        // neighbours that overlap by half under Hann's window share 1/36 of their power (Welch 1967)
+        let count = SEGMENTS as f64;
+        let independent = count / (1.0 + 2.0 / 36.0 * (1.0 - 1.0 / count));
         let threshold = 1.0 - 0.05_f64.powf(1.0 / (independent - 1.0));
         (0..FREQUENCIES)
             .map(|k| {

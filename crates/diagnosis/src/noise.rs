@@ -73,8 +73,18 @@ impl Noise {
             walk: m.walk.min(c.noise.walk.0),
             ..*m
         };
-        let models = self.models.iter().map(|models| models.iter().zip(channels).map(calm).collect());
-        Self::with(models.collect(), 0.0, observations)
+        let models: Vec<Vec<NoiseModel>> =
+            self.models.iter().map(|models| models.iter().zip(channels).map(calm).collect()).collect();
+        // of what is recorded, as in a refit
+        let recorded = |record: usize, c: usize| observations[record].channels[c].iter().any(|v| !v.is_nan());
+        let of = |(record, models): (usize, &Vec<NoiseModel>)| -> f64 {
+            let of = |(c, m): (usize, &NoiseModel)| {
+                if recorded(record, c) { log_prior(&standard(&channels[c].noise, m)) } else { 0.0 }
+            };
+            models.iter().enumerate().map(of).sum()
+        };
+        let sum = models.iter().enumerate().map(of).sum();
+        Self::with(models, sum, observations)
     }
 
     /// The noise of one of the records, for another observation.

@@ -70,17 +70,24 @@ pub struct Parameter {
     pub prior: Prior,
     /// Step for differences, in units of u: large where the response has kinks.
     pub step: f64,
+    /// Distances at which a better value is sought around a fitted one, where kinks make local minima; none where the response is smooth.
+    pub around: Vec<f64>,
 }
 
 impl Parameter {
     /// A parameter on which the response depends smoothly.
     pub fn new(name: impl Into<String>, prior: Prior) -> Self {
-        Self { name: name.into(), prior, step: 0.02 }
+        Self { name: name.into(), prior, step: 0.02, around: Vec::new() }
     }
 
     /// The same with another step for differences.
     pub fn with_step(self, step: f64) -> Self {
         Self { step, ..self }
+    }
+
+    /// The same, sought also at these distances from where a fit has settled.
+    pub fn with_search(self, around: &[f64]) -> Self {
+        Self { around: around.to_vec(), ..self }
     }
 }
 

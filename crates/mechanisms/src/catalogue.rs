@@ -84,8 +84,8 @@ pub(crate) fn entries(library: &Library, range: [f64; 2]) -> Vec<(Law, Mechanism
     }
     if !library.openings.is_empty() {
         let debond = vec![
-            Parameter::new("debond_c", within).with_step(0.02),
-            Parameter::new("hysteresis_k", about(6.0, 0.6)).with_step(0.1),
+            Parameter::new("debond_c", within).with_step(0.02).with_search(&AROUND_K),
+            Parameter::new("hysteresis_k", about(6.0, 0.6)).with_step(0.1).with_search(&AROUND_K),
             Parameter::new("fraction", Prior::Uniform { low: 0.01, high: 0.9 }).with_step(0.05),
         ];
         let starts = grid(&[&across(40), &[3.0, 9.0], &[0.05, 0.15, 0.35, 0.6]]);
@@ -121,6 +121,9 @@ pub(crate) fn entries(library: &Library, range: [f64; 2]) -> Vec<(Law, Mechanism
     entries.extend(crate::beyond::entries());
     entries
 }
+
+/// Distances from a fitted switching temperature at which a better one is sought \[K\]: whether a row is before the switch is all or nothing.
+const AROUND_K: [f64; 6] = [0.06, 0.15, 0.4, 1.0, 2.2, 4.5];
 
 /// Layers that are compared one by one.
 const MOST_LAYERS: usize = 200;

@@ -54,7 +54,16 @@ impl Gyro {
     /// # Errors
     /// [`Error`] names the dimension or property at fault.
     pub fn new(library: Library, records: Vec<Prepared>) -> Result<Self, Error> {
-        let temperatures = || records.iter().flat_map(|r| r.coil.iter().copied());
+        let all = records.len();
+        Self::fitted_to(library, records, all)
+    }
+
+    /// The same where only the first `fitted` of the records are fitted: the others' temperatures say nothing beforehand.
+    ///
+    /// # Errors
+    /// [`Error`] names the dimension or property at fault.
+    pub fn fitted_to(library: Library, records: Vec<Prepared>, fitted: usize) -> Result<Self, Error> {
+        let temperatures = || records.iter().take(fitted).flat_map(|r| r.coil.iter().copied());
         let range = [temperatures().fold(f64::INFINITY, f64::min), temperatures().fold(f64::NEG_INFINITY, f64::max)];
         let (kinds, mechanisms) = entries(&library, range).into_iter().unzip();
         let averaging = records.first().map_or(0.0, |r| r.averaging);

@@ -42,7 +42,7 @@ pub(crate) fn share(a: &[f64], b: &[f64]) -> f64 {
     if size > 0.0 { of(a, b) / size } else { 0.0 }
 }
 
-/// More turns than this in one layer are no defect but another design.
+/// More turns than this, or than half of a layer's, are no defect but another design.
 const MOST_TURNS: f64 = 40.0;
 
 /// A library with what is worked out from it once for all recordings.
@@ -84,7 +84,8 @@ impl Laws {
             Law::Tail => parts(self.rewound(record, v[0], None)?),
             Law::Defect => {
                 let layer = active.choice.unwrap_or(1.0) as usize;
-                parts(self.rewound(record, 0.0, Some((layer, v[0].clamp(-MOST_TURNS, MOST_TURNS))))?)
+                let most = MOST_TURNS.min((self.library.design().winding.turns_even_layers / 2) as f64 - 1.0).max(0.0);
+                parts(self.rewound(record, 0.0, Some((layer, v[0].clamp(-most, most))))?)
             }
             Law::Polymer => Ok(self.path(record, Path::Polymer, v[0])),
             Law::HubResistance => Ok(self.path(record, Path::HubResistance, v[0])),

@@ -34,6 +34,15 @@ pub(crate) struct Answer {
     pub(crate) located: Place,
     /// What was seen, in words.
     pub(crate) structure: Option<String>,
+    /// Of the record held out.
+    #[serde(default)]
+    pub(crate) holdout: Option<Held>,
+}
+
+/// What was fitted, held against the record held out, whether it was accepted or not.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+pub(crate) struct Held {
+    pub(crate) rmse_model: f64,
 }
 
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]

@@ -73,6 +73,8 @@ pub(crate) struct Scored {
     pub(crate) stage: Option<bool>,
     pub(crate) parameters: Vec<Parameter>,
     pub(crate) held: Option<HeldOut>,
+    /// The same for what was fitted, whether it was accepted or not.
+    pub(crate) fitted: Option<HeldOut>,
 }
 
 /// Scores the answer of a unit.
@@ -91,7 +93,9 @@ pub(crate) fn score(unit: &str, truth: &Truth, answer: &Answer, held: Option<Hel
     let both = kind == Kind::Double && pairs().any(|(a, b)| truth.is_like(0, a) && truth.is_like(1, b));
     let mut listed = truth.concealed();
     let in_set = kind != Kind::Null && listed.all(|m| answer.set.contains(&m.id));
-    let misnamed = answer.mechanisms.iter().any(|m| m.probability >= CONFIDENT && !truth.admits(&m.id));
+    // an id that says of itself that it is unknown names nothing
+    let names = |id: &str| !id.starts_with("unknown:");
+    let misnamed = answer.mechanisms.iter().any(|m| m.probability >= CONFIDENT && names(&m.id) && !truth.admits(&m.id));
     let library = matches!(kind, Kind::Single | Kind::Double) && !named.is_empty();
     let excess = library.then(|| answer.set.iter().filter(|id| !truth.admits(id)).count());
     let place = answer.located.stage.as_deref();
@@ -110,6 +114,7 @@ pub(crate) fn score(unit: &str, truth: &Truth, answer: &Answer, held: Option<Hel
         stage,
         parameters: parameters(truth, answer),
         held,
+        fitted: held.zip(answer.holdout).map(|(held, answer)| HeldOut { model: answer.rmse_model, ..held }),
     }
 }
 

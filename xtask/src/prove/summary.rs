@@ -85,6 +85,7 @@ pub(crate) fn summary(units: &[Scored]) -> Table {
         rows.push(of.share("set holds the truth", in_set, |u| u.in_set));
         rows.push(of.share("confident and wrong", misnamed, |u| u.misnamed));
         rows.push(of.skill(skill));
+        rows.push(of.skill_before());
     }
     let of = Group { name: "two mechanisms", units: pick(units, |u| u.kind == Kind::Double) };
     rows.push(of.share("at least one named", Bound::AtLeast(1.0), |u| u.right));
@@ -93,12 +94,15 @@ pub(crate) fn summary(units: &[Scored]) -> Table {
     rows.push(of.skill(Bound::Open));
     let of = Group { name: "nothing concealed", units: pick(units, |u| u.kind == Kind::Null) };
     rows.push(of.share("falsely detected", Bound::AtMost(0.01), |u| u.detected));
+    rows.push(of.worse_before());
     let of = Group { name: "out of the library", units: pick(units, |u| u.kind == Kind::Outside) };
     rows.push(of.share("verdict `unknown`", Bound::AtLeast(0.8), |u| u.right));
     rows.push(of.share("confident and wrong", Bound::AtMost(0.02), |u| u.misnamed));
     rows.push(of.worse());
+    rows.push(of.worse_before());
     let of = Group { name: "in the library", units: pick(units, |u| matches!(u.kind, Kind::Single | Kind::Double)) };
     rows.push(of.worse());
+    rows.push(of.worse_before());
     rows.push(of.share_of_some("stage right, of those named", Bound::AtLeast(0.9), |u| u.stage));
     let excess: Vec<f64> = of.units.iter().filter_map(|u| u.excess).map(|n| n as f64).collect();
     rows.push(of.row("members of the set that are separable", mean(&excess), Form::Number, Bound::AtMost(0.5)));
@@ -138,6 +142,16 @@ impl Group<'_> {
         self.share_of_some("held-out prediction made worse", Bound::AtMost(0.0), |u| u.held.map(|held| held.is_worse()))
     }
 
+    fn worse_before(&self) -> Row {
+        let quantity = "made worse by what was fitted, before it was accepted or not";
+        self.share_of_some(quantity, Bound::Open, |u| u.fitted.map(|held| held.is_worse()))
+    }
+
+    fn skill_before(&self) -> Row {
+        let skills: Vec<f64> = self.units.iter().filter_map(|u| u.fitted?.skill()).collect();
+        self.row("the same before acceptance", median(&skills), Form::Number, Bound::Open)
+    }
+
     fn skill(&self, bound: Bound) -> Row {
         let skills: Vec<f64> = self.units.iter().filter_map(|u| u.held?.skill()).collect();
         self.row("held-out skill, median", median(&skills), Form::Number, bound)
@@ -163,6 +177,7 @@ mod tests {
             stage: Some(true),
             parameters: vec![Parameter { name: "p".into(), truth: 1.0, value: 1.0, ci90: [0.9, 1.1] }],
             held: Some(HeldOut { nominal: 0.5, model: 0.1, truth: 0.1 }),
+            fitted: None,
         }
     }
 

@@ -26,8 +26,10 @@ impl Outcome {
             json!({"rmse_nominal": of(&held.nominal), "rmse_model": of(&held.model), "noise_floor": floor, "accepted": held.accepted})
         });
         let nowhere = json!({"stage": null, "temperature_c": null, "time_s": null, "layers": null});
+        let [none, recalibrate, by_library, unknown] = d.verdicts();
         json!({
             "verdict": name(d.verdict),
+            "verdicts": {"none": none, "recalibrate": recalibrate, "explained": by_library, "unknown": unknown},
             "mechanisms": mechanisms,
             "set": set,
             "parameters": parameters,

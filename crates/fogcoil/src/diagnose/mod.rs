@@ -67,7 +67,7 @@ pub fn diagnose(
     progress("running every model under the recorded chamber");
     let prepared = |r: &Ready| Prepared::new(&library, &r.observation.time, &r.chamber, r.averaging);
     let prepared = read.iter().map(prepared).collect::<Result<Vec<_>, _>>().map_err(coil)?;
-    let gyro = Gyro::new(library, prepared).map_err(coil)?;
+    let gyro = Gyro::fitted_to(library, prepared, fits.len()).map_err(coil)?;
     let observations: Vec<Observation> = read.iter().map(|r| r.observation.clone()).collect();
     let numbers: Vec<usize> = (0..fits.len()).collect();
     let failed = |error: diagnosis::Error<coil::Error>| match error {
@@ -91,10 +91,17 @@ pub fn diagnose(
     };
     let holdouts = records.enumerate().map(|(n, record)| held((fits.len() + n, record))).collect::<Result<Vec<_>, _>>()?;
     let found = matches!(diagnosis.verdict, Verdict::Explained | Verdict::Recalibrate);
-    if let Some(held) = holdouts.iter().find(|h| found && h.model.clearly_worse_than(&h.nominal, RATE_CHANNEL)) {
+    let worse = |h: &&Held| h.model.clearly_worse_than(&h.nominal, RATE_CHANNEL);
+    let unproven = |h: &&Held| h.model.proves_nothing(&h.nominal, RATE_CHANNEL);
+    if let Some(held) = holdouts.iter().find(|h| found && (worse(h) || unproven(h))) {
         let file = held.record.file.display();
+        let how = if worse(&held) {
+            "clearly worse than by the nominal model"
+        } else {
+            "no better than by the nominal model, far from its noise"
+        };
         notes.push(format!(
-            "{file} is predicted clearly worse than by the nominal model: the likeliest explanation is taken back"
+            "{file} is predicted {how}: the likeliest explanation is taken back; is it a record of the same unit?"
         ));
         diagnosis.take_back(held.nominal.within_noise(RATE_CHANNEL));
     }
