@@ -107,4 +107,8 @@ fn what_cannot_be_diagnosed_is_said_at_once() {
         assert!(stderr(&output).contains(says), "{record}: {}", stderr(&output));
         assert!(!folder.path("j.json").exists());
     }
+    // a record cannot judge what was fitted to itself
+    let output = folder.run(&["diagnose", "coil.ron", "--fit", "good.csv", "--holdout", "good.csv"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("same recording"), "{}", stderr(&output));
 }

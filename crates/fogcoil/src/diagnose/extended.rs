@@ -24,8 +24,7 @@ impl Outcome {
         let best = &self.diagnosis.best().fit;
         let nominal = self.gyro.library().design();
         let found = match self.diagnosis.verdict {
-            Verdict::Unknown => return Err("nothing in the library explains the difference".into()),
-            Verdict::None => Vec::new(),
+            Verdict::Unknown | Verdict::None => Vec::new(),
             _ if !self.accepted() => Vec::new(),
             Verdict::Recalibrate | Verdict::Explained => best.posteriors(&self.gyro),
         };
@@ -74,7 +73,7 @@ impl Outcome {
             ));
         }
         lines.push(match self.diagnosis.verdict {
-            Verdict::None => "This is the nominal design, unchanged.".into(),
+            Verdict::None | Verdict::Unknown => "This is the nominal design, unchanged.".into(),
             _ if !self.accepted() => "What was fitted is not accepted: this is the nominal design, unchanged.".into(),
             _ => "Fitted, not measured; most probable values with 90 % intervals:".to_owned(),
         });
@@ -99,9 +98,10 @@ impl Outcome {
 }
 
 impl Record {
-    /// Its file's name.
+    /// Its file's name, with the folder: records of many units are called alike.
     pub(super) fn name(&self) -> String {
-        self.file.file_name().unwrap_or_default().to_string_lossy().into_owned()
+        let parts: Vec<_> = self.file.components().rev().take(2).map(|part| part.as_os_str().to_string_lossy()).collect();
+        parts.into_iter().rev().collect::<Vec<_>>().join("/")
     }
 }
 

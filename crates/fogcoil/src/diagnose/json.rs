@@ -36,6 +36,7 @@ impl Outcome {
             "located": located.unwrap_or(nowhere),
             "structure": self.structure(),
             "holdout": held,
+            "notes": self.notes,
         })
     }
 }

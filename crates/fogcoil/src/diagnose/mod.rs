@@ -26,6 +26,8 @@ pub(crate) use record::{Ready, ready};
 pub struct Outcome {
     /// Name of the design.
     name: String,
+    /// Its file.
+    coil: PathBuf,
     gyro: Gyro,
     diagnosis: Diagnosis,
     fits: Vec<Record>,
@@ -60,6 +62,7 @@ pub fn diagnose(
     progress: &dyn Fn(&str),
 ) -> Result<Outcome, Error> {
     let coil = |source| Error::Coil { file: case.file.clone(), source };
+    refuse_copies(fits.iter().chain(holdouts))?;
     let mut notes = Vec::new();
     let read: Vec<Ready> = fits.iter().chain(holdouts).map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
     progress("modelling the coil and what its model may leave out (half a minute, once for a design)");
@@ -105,7 +108,21 @@ pub fn diagnose(
         ));
         diagnosis.take_back(held.nominal.within_noise(RATE_CHANNEL));
     }
-    Ok(Outcome { name: case.name.clone(), gyro, diagnosis, fits: fitted, holdouts, notes })
+    Ok(Outcome { name: case.name.clone(), coil: case.file.clone(), gyro, diagnosis, fits: fitted, holdouts, notes })
+}
+
+/// A record that is given twice would be counted, or judged, by itself.
+fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -> Result<(), Error> {
+    let mut known: Vec<&crate::input::Fingerprint> = Vec::new();
+    for RecordCase { fingerprint, .. } in records {
+        if let Some(first) = known.iter().find(|k| (k.bytes, k.fnv1a) == (fingerprint.bytes, fingerprint.fnv1a)) {
+            let problem = format!("is the same recording as {}", first.file.display());
+            let remedy = "give every recording once: what was fitted cannot judge".to_owned();
+            return Err(InputError { file: fingerprint.file.clone(), line: None, field: None, problem, remedy }.into());
+        }
+        known.push(fingerprint);
+    }
+    Ok(())
 }
 
 /// The library of a design, from the cache if it is there.

@@ -2,6 +2,7 @@
 
 use bias::units::S_PER_MIN;
 use diagnosis::Observation;
+use recording::check::Severity;
 
 use crate::Error;
 use crate::input::{CHAMBER, InputError, RATE, RecordCase, SPOOL};
@@ -22,6 +23,9 @@ const AT_REST: f64 = 0.5;
 const REST_S: f64 = 600.0;
 /// Intervals longer than this many usual ones are gaps.
 const GAP: f64 = 1.5;
+
+/// What a note begins with that may make the whole answer void.
+pub(super) const WARNING: &str = "warning: ";
 
 /// A record as the engine wants it.
 pub(crate) struct Ready {
@@ -55,6 +59,8 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<String>) -> Result<Ready,
         return Err(refuse(case, RATE, problem, "record at least an hour, with ramps"));
     }
     let file = case.fingerprint.file.display();
+    let warnings = case.report.findings.iter().filter(|finding| finding.severity == Severity::Warning);
+    notes.extend(warnings.map(|finding| format!("{WARNING}{file}: {finding}")));
     let ends = |[low, high]: [f64; 2], t: &f64| [low.min(*t), high.max(*t)];
     let [low, high] = table.chamber.iter().fold([f64::INFINITY, f64::NEG_INFINITY], ends);
     if high - low < FEWEST_KELVIN {

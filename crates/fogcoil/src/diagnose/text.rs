@@ -6,6 +6,7 @@ use bias::units::S_PER_H;
 use diagnosis::Verdict;
 use mechanisms::{Located, RATE as RATE_CHANNEL};
 
+use super::record::WARNING;
 use super::{NOMINAL, Outcome};
 use crate::table::{significant, table};
 
@@ -16,7 +17,11 @@ impl Outcome {
     /// For people: verdict, place, alternatives, parameters, held-out errors.
     pub fn text(&self) -> String {
         let d = &self.diagnosis;
-        let mut out = self.verdict();
+        let mut out = String::new();
+        for warning in self.notes.iter().filter(|note| note.starts_with(WARNING)) {
+            let _ = writeln!(out, "{warning}");
+        }
+        out.push_str(&self.verdict());
         out.push('\n');
         if d.verdict == Verdict::Explained {
             for (n, active) in d.best().fit.active.iter().enumerate() {
@@ -29,9 +34,14 @@ impl Outcome {
         if let Some(alternatives) = self.alternatives() {
             let _ = writeln!(out, "{alternatives}");
         }
-        let mut rows = vec![vec!["mechanism".to_owned(), "probability".to_owned(), String::new()]];
+        let row = |name: &str, p: f64| vec![name.to_owned(), format!("{p:.3}"), String::new()];
+        let [none, recalibrate, _, unknown] = d.verdicts();
+        let mut rows = vec![vec!["explanation".to_owned(), "probability".to_owned(), String::new()]];
+        rows.push(row("the design as it is", none));
+        rows.push(row("its constants re-estimated", recalibrate));
         let likely = self.likely().take(MOST_MECHANISMS);
-        rows.extend(likely.map(|(id, p)| vec![id.to_owned(), format!("{p:.3}"), String::new()]));
+        rows.extend(likely.map(|(id, p)| row(id, p)));
+        rows.push(row("nothing that has a name here", unknown));
         if d.verdict == Verdict::Explained {
             rows.push(vec!["parameter (fitted)".to_owned(), "value".to_owned(), "90 % interval".to_owned()]);
             for estimate in d.parameters.iter().flatten() {
@@ -48,7 +58,7 @@ impl Outcome {
             }
             let floor = significant(held.model.noise_floor[RATE_CHANNEL], 3);
             rows.push(vec!["  noise as identified".to_owned(), floor, String::new()]);
-            if !held.accepted {
+            if !held.accepted && d.verdict != Verdict::None {
                 rows.push(vec!["  what was fitted is worse here: not accepted".to_owned(), String::new(), String::new()]);
             }
         }
@@ -83,9 +93,11 @@ impl Outcome {
         let best = self.names();
         let others: Vec<&str> = self.diagnosis.set.iter().map(|m| self.id(*m)).filter(|id| !best.contains(id)).collect();
         let (first, other) = (best.first()?, others.first()?);
+        let from: String = self.fits.iter().map(|record| format!(" --from {}", record.file.display())).collect();
         Some(format!(
-            "These records do not exclude: {}. What would tell: fogcoil recommend COIL.ron --between {first},{other}",
-            others.join(", ")
+            "These records do not exclude: {}. What would tell: fogcoil recommend {} --between {first},{other}{from}",
+            others.join(", "),
+            self.coil.display()
         ))
     }
 }
