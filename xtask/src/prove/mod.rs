@@ -67,11 +67,12 @@ impl Command {
 
 /// Scores the open units; docs/proof.md is written when all were scored.
 fn open(only: &[String]) -> Result<bool, Failure> {
+    let program = program::hash(&concealed::root())?;
     let cases = concealed::open(only)?;
     let scored: Vec<Scored> = cases.iter().map(|case| case.scored.clone()).collect();
     let table = summary::summary(&scored);
     if only.is_empty() {
-        report::publish("open", &report::open(&cases, &table))?;
+        report::publish("open", &program, &report::open(&cases, &table))?;
         eprintln!("docs/proof.md is written");
     } else {
         println!("{}", report::details(&cases));

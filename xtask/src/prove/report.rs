@@ -214,9 +214,10 @@ pub(crate) fn details(cases: &[Case]) -> String {
     out
 }
 
-/// Puts a section between its two marks in docs/proof.md.
-pub(crate) fn publish(name: &str, section: &str) -> Result<(), Failure> {
-    replace(&root().join("docs/proof.md"), name, section)
+/// Puts a section between its two marks in docs/proof.md, under the hash of the program whose answers it scores.
+pub(crate) fn publish(name: &str, program: &str, section: &str) -> Result<(), Failure> {
+    let section = format!("Answered by the program `{}…` (SHA-256 of the crates' sources).\n\n{section}", &program[..16]);
+    replace(&root().join("docs/proof.md"), name, &section)
 }
 
 fn replace(path: &Path, name: &str, section: &str) -> Result<(), Failure> {

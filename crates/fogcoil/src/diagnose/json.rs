@@ -23,7 +23,15 @@ impl Outcome {
         let held = self.holdouts.first().map(|held| {
             let of = |h: &HeldOut| h.rmse[RATE_CHANNEL];
             let floor = held.model.noise_floor[RATE_CHANNEL];
-            json!({"rmse_nominal": of(&held.nominal), "rmse_model": of(&held.model), "noise_floor": floor, "accepted": held.accepted})
+            let [spool_nominal, spool_model] = self.thermometer(held).map_or([None; 2], |spool| spool.map(Some));
+            json!({
+                "rmse_nominal": of(&held.nominal),
+                "rmse_model": of(&held.model),
+                "noise_floor": floor,
+                "accepted": held.accepted,
+                "spool_rmse_nominal": spool_nominal,
+                "spool_rmse_model": spool_model,
+            })
         });
         let nowhere = json!({"stage": null, "temperature_c": null, "time_s": null, "layers": null});
         let [none, recalibrate, by_library, unknown] = d.verdicts();

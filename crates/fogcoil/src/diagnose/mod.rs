@@ -2,6 +2,7 @@
 
 mod extended;
 mod json;
+mod meaning;
 mod record;
 mod report;
 mod structure;
@@ -12,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use coil::COARSE;
 use diagnosis::{Diagnosis, ForwardModel, HeldOut, Hypothesis, Observation, Settings, Verdict, as_designed};
-use mechanisms::{Gyro, Library, Located, Prepared, RATE as RATE_CHANNEL};
+use mechanisms::{Gyro, Library, Located, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 
 use crate::Error;
 use crate::cache::Cache;
@@ -170,6 +171,13 @@ impl Outcome {
     fn places(&self) -> impl Iterator<Item = (&str, Located)> {
         let active = self.diagnosis.best().fit.active.iter().enumerate();
         active.map(|(n, a)| (self.id(a.mechanism), self.gyro.located(a, self.diagnosis.choice(n))))
+    }
+
+    /// Root mean squares of recorded less predicted thermometer in a record held out, of the design and of what was fitted \[K\]; `None` if
+    /// it was not recorded.
+    fn thermometer(&self, held: &Held) -> Option<[f64; 2]> {
+        let recorded = held.record.observed.channels[SPOOL_CHANNEL].iter().any(|v| v.is_finite());
+        recorded.then(|| [held.nominal.rmse[SPOOL_CHANNEL], held.model.rmse[SPOOL_CHANNEL]])
     }
 
     /// Probabilities worth saying.

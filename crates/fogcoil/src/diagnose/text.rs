@@ -6,8 +6,10 @@ use bias::units::S_PER_H;
 use diagnosis::Verdict;
 use mechanisms::{Located, RATE as RATE_CHANNEL};
 
+use super::meaning::meaning;
 use super::record::WARNING;
 use super::{NOMINAL, Outcome};
+use crate::recommend::inspection;
 use crate::table::{significant, table};
 
 /// Most mechanisms whose probability is shown.
@@ -25,11 +27,21 @@ impl Outcome {
         out.push('\n');
         if d.verdict == Verdict::Explained {
             for (n, active) in d.best().fit.active.iter().enumerate() {
-                let _ = writeln!(out, "{}: {}.", self.id(active.mechanism), place(&self.gyro.located(active, d.choice(n))));
+                let id = self.id(active.mechanism);
+                let _ = writeln!(out, "{id}: {}.", place(&self.gyro.located(active, d.choice(n))));
+                if let Some(meaning) = meaning(id) {
+                    let _ = writeln!(out, "  What it is: {meaning}.");
+                }
+                if let Some(inspection) = inspection(id) {
+                    let _ = writeln!(out, "  What would show it: {inspection}.");
+                }
             }
             if let Some(structure) = self.structure() {
                 let _ = writeln!(out, "Besides, {structure}.");
             }
+        }
+        if d.verdict == Verdict::Unknown {
+            out.push_str("What to do: check signs, columns, units and times (fogcoil check), then repeat the test under another profile.\n");
         }
         if let Some(alternatives) = self.alternatives() {
             let _ = writeln!(out, "{alternatives}");
@@ -58,6 +70,10 @@ impl Outcome {
             }
             let floor = significant(held.model.noise_floor[RATE_CHANNEL], 3);
             rows.push(vec!["  noise as identified".to_owned(), floor, String::new()]);
+            if let Some(([nominal, model], name)) = self.thermometer(held).zip(self.found()) {
+                rows.push(vec![format!("  thermometer, {NOMINAL}"), significant(nominal, 3), "K".to_owned()]);
+                rows.push(vec![format!("  thermometer, {name}"), significant(model, 3), "K".to_owned()]);
+            }
             if !held.accepted && d.verdict != Verdict::None {
                 rows.push(vec!["  what was fitted is worse here: not accepted".to_owned(), String::new(), String::new()]);
             }

@@ -1,7 +1,7 @@
 //! What to look at where no test in the chamber tells.
 
 /// A check of the unit itself that decides about a mechanism.
-pub(super) fn inspection(id: &str) -> Option<&'static str> {
+pub(crate) fn inspection(id: &str) -> Option<&'static str> {
     Some(match id {
         "tail-asymmetry" => "measure both tails' lengths outside the winding",
         "winding-defect" => "count the turns of each layer in the winding record, or section a sister unit",

@@ -16,6 +16,7 @@ use crate::input::{CoilCase, RecordCase};
 
 pub use bench::Odds;
 pub(crate) use bench::{Contender, everything, odds, prepared, usual};
+pub(crate) use inspection::inspection;
 pub use programme::{Limits, Programme, programmes};
 pub use say::{json, text};
 

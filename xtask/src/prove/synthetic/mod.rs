@@ -101,10 +101,11 @@ impl Plan {
     /// [`Failure`] says what went wrong; what is finished is kept and not done again.
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         let folder = root().join("target/prove/synthetic").join(self.seed.to_string());
+        let program = program::hash(&root())?;
         let cases = self.cases(&folder, &Cache::of_user())?;
         let scored: Vec<Scored> = cases.iter().map(|case| case.scored.clone()).collect();
         let table = summary::summary(&scored);
-        report::publish("synthetic", &section::section(self, &cases, &table))?;
+        report::publish("synthetic", &program, &section::section(self, &cases, &table))?;
         println!("{}", report::lines(&table));
         table.failures().for_each(|row| eprintln!("FAILS: {}: {}", row.group, row.quantity));
         Ok(table.failures().next().is_none())
