@@ -10,14 +10,15 @@ mod validate;
 use std::process::ExitCode;
 
 const USAGE: &str = "usage: cargo xtask validate [--json FILE]\n       cargo xtask prove [--case NN]...\n       \
-    cargo xtask prove --sealed [--again DIR]\n       cargo xtask prove --synthetic [--seed S] [--nulls N] [--concealed N]\n       \
+    cargo xtask prove --sealed [--again DIR]\n       cargo xtask prove --recommended\n       cargo xtask prove --synthetic [--seed S] [--nulls N] [--concealed N]\n       \
     cargo xtask figures [--out DIR]\n       \
     cargo xtask mechanisms\n       cargo xtask bench coil|sensitivity [--peers-python PATH] [--repetitions N]\n       cargo xtask bench reduced|diagnose\n\n  \
     validate   run the whole chain, compare with the paper's Tables I to IV,\n             \
     write docs/validation.md and the README's headline table; exit 1 if a row that must hold does not\n  \
     prove      diagnose the units of fixtures/concealed/open, or those named, hold the answers against the truth,\n             \
     write docs/proof.md; exit 1 if a score is not as asked; --sealed: answer the sealed units, once\n             \
-    (--again: into DIR, and compare with the answers that are there); --synthetic: units of the project's own generator,\n             \
+    (--again: into DIR, and compare with the answers that are there); --recommended: whether what is recommended tells\n             \
+    mechanisms apart; --synthetic: units of the project's own generator,\n             \
     kept in target/prove, where a run that was stopped goes on\n  \
     figures    draw the reference coil's figures as SVG files into docs/pictures, or DIR\n  \
     mechanisms measure which mechanisms are mistaken for which; the numbers of docs/mechanisms and its pictures\n  \

@@ -5,6 +5,7 @@ mod baselines;
 mod chain;
 mod concealed;
 mod program;
+mod recommended;
 mod report;
 mod score;
 mod statistics;
@@ -26,6 +27,8 @@ pub(crate) enum Command {
     Sealed,
     /// Answer them again elsewhere and compare.
     Again(PathBuf),
+    /// Try what is recommended for every pair of mechanisms.
+    Recommended,
     /// Make, answer and score units of the project's own generator.
     Synthetic(synthetic::Plan),
 }
@@ -36,6 +39,7 @@ impl Command {
     pub(crate) fn parse(words: &[&str]) -> Result<Self, Failure> {
         match words {
             ["--sealed"] => return Ok(Self::Sealed),
+            ["--recommended"] => return Ok(Self::Recommended),
             ["--sealed", "--again", folder] => return Ok(Self::Again(folder.into())),
             ["--synthetic", rest @ ..] => return Ok(Self::Synthetic(synthetic::Plan::parse(rest)?)),
             _ => {}
@@ -59,6 +63,7 @@ impl Command {
         match self {
             Self::Open(cases) => open(cases),
             Self::Sealed => concealed::sealed(),
+            Self::Recommended => recommended::run(),
             Self::Again(folder) => concealed::sealed_again(folder),
             Self::Synthetic(plan) => plan.run(),
         }

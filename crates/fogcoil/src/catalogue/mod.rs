@@ -3,6 +3,7 @@
 mod confusion;
 mod signature;
 mod text;
+mod trial;
 
 use diagnosis::{Active, ForwardModel, Plan, Prior, separation};
 use mechanisms::{Gyro, RATE, SPOOL};
@@ -12,6 +13,8 @@ use crate::cache::Cache;
 use crate::diagnose::library;
 use crate::input::CoilCase;
 use crate::recommend::{Contender, Limits, Programme, everything, prepared, programmes, usual};
+
+pub use trial::Trial;
 
 /// The chamber of the tests: `recommend` has others.
 pub const LIMITS: Limits = Limits { coldest: -40.0, hottest: 60.0, fastest: 2.0, hours: 24.0 };

@@ -79,8 +79,13 @@ pub struct Odds {
 impl Odds {
     /// Whether the loser is expected to be excluded.
     pub fn decides(&self) -> bool {
-        self.log_odds >= -Settings::default().excluded.ln()
+        told_apart(self.log_odds)
     }
+}
+
+/// Whether expected ln odds are enough to exclude the loser.
+pub(crate) fn told_apart(log_odds: f64) -> bool {
+    log_odds >= -Settings::default().excluded.ln()
 }
 
 /// Of every ordered pair of contenders the one that is told apart worst.

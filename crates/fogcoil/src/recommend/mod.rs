@@ -15,7 +15,7 @@ use crate::diagnose::{Ready, library, ready};
 use crate::input::{CoilCase, RecordCase};
 
 pub use bench::Odds;
-pub(crate) use bench::{Contender, everything, odds, prepared, usual};
+pub(crate) use bench::{Contender, everything, odds, prepared, told_apart, usual};
 pub(crate) use inspection::inspection;
 pub use programme::{Limits, Programme, programmes};
 pub use say::{json, text};

@@ -14,6 +14,7 @@ mod noise;
 mod outside;
 mod plant;
 mod random;
+pub(super) use random::Random;
 mod record;
 mod scene;
 mod section;

@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 /// xoshiro256++ (D. Blackman and S. Vigna, *ACM Trans. Math. Softw.* 47, 36, 2021), seeded by their SplitMix64.
-pub(super) struct Random([u64; 4]);
+pub(crate) struct Random([u64; 4]);
 
 impl Random {
     /// A stream of its own for every seed and number.
-    pub(super) fn new(seed: u64, stream: u64) -> Self {
+    pub(crate) fn new(seed: u64, stream: u64) -> Self {
         let mut state = seed.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ stream;
         Self(std::array::from_fn(|_| {
             state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
@@ -31,33 +31,33 @@ impl Random {
     }
 
     /// Evenly in (low, high).
-    pub(super) fn uniform(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn uniform(&mut self, low: f64, high: f64) -> f64 {
         let unit = ((self.next() >> 11) as f64 + 0.5) / (1u64 << 53) as f64;
         low + (high - low) * unit
     }
 
     /// Evenly in the logarithm.
-    pub(super) fn log_uniform(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn log_uniform(&mut self, low: f64, high: f64) -> f64 {
         self.uniform(low.ln(), high.ln()).exp()
     }
 
     /// Normal, zero mean, unit variance (Box and Muller).
-    pub(super) fn normal(&mut self) -> f64 {
+    pub(crate) fn normal(&mut self) -> f64 {
         let (radius, angle) = ((-2.0 * self.uniform(0.0, 1.0).ln()).sqrt(), self.uniform(0.0, TAU));
         radius * angle.cos()
     }
 
     /// 0 … n − 1.
-    pub(super) fn below(&mut self, n: usize) -> usize {
+    pub(crate) fn below(&mut self, n: usize) -> usize {
         (self.uniform(0.0, n as f64) as usize).min(n - 1)
     }
 
-    pub(super) fn chance(&mut self, probability: f64) -> bool {
+    pub(crate) fn chance(&mut self, probability: f64) -> bool {
         self.uniform(0.0, 1.0) < probability
     }
 
     /// +1 or −1.
-    pub(super) fn sign(&mut self) -> f64 {
+    pub(crate) fn sign(&mut self) -> f64 {
         if self.chance(0.5) { 1.0 } else { -1.0 }
     }
 }
