@@ -171,6 +171,8 @@ impl Grid {
         let r_edges: Vec<f64> = coil.r.into_iter().chain(tip).chain(skin).collect();
         let short = (coil.r[1] - coil.r[0]).min(coil.y[1] - coil.y[0]);
         let finest = (grading == Grading::Strain).then(|| short / 2.0 * ratio.powi(layers as i32));
+        // where a bond opens the stress is sharpest: with a layer more the effect of a short opening is 0.3 % off, without it 2.5 %
+        let resolution = &Resolution { layers: layers + usize::from(tip.is_some()), ..*resolution };
         let r = distinct(rectangles().flat_map(|s| s.r).chain(tip).collect());
         let y = distinct(rectangles().flat_map(|s| s.y).collect());
         let r_lines = lines(&r, &r_edges, coil.r, domain, resolution, finest);

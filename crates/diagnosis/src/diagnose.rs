@@ -1,22 +1,9 @@
-//! From recordings to a verdict.
+//! The search: everything a model may leave out is fitted and weighed.
 
-use crate::fit::{Estimate, Fit, Fitter, Hypothesis};
+use crate::fit::{Fit, Fitter, Hypothesis};
 use crate::flexible::Rival;
 use crate::noise::Noise;
-use crate::{Error, ForwardModel, Observation};
-
-/// What the recordings say.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
-    /// The nominal model suffices.
-    None,
-    /// Re-estimating the design's own constants within their uncertainties suffices.
-    Recalibrate,
-    /// A mechanism of the library explains the difference, or two.
-    Explained,
-    /// There is structure that nothing in the library explains.
-    Unknown,
-}
+use crate::{Diagnosis, Error, ForwardModel, Observation};
 
 /// Probabilities before any recording is seen, and what counts as excluded.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,53 +41,6 @@ pub struct Candidate {
     pub probability: f64,
 }
 
-/// The outcome.
-#[derive(Debug, Clone)]
-pub struct Diagnosis {
-    /// In a word.
-    pub verdict: Verdict,
-    /// Everything compared, most probable first.
-    pub candidates: Vec<Candidate>,
-    /// Marginal probability of every mechanism (its number in the library), most probable first.
-    pub mechanisms: Vec<(usize, f64)>,
-    /// Mechanisms that the recordings do not exclude, best first.
-    pub set: Vec<usize>,
-    /// Parameters of the best candidate's mechanisms, in its order.
-    pub parameters: Vec<Vec<Estimate>>,
-    /// The nominal model, its offsets and model errors fitted.
-    pub nominal: Fit,
-    /// The nominal model under the best candidate's noise: what it leaves is the mismatch.
-    pub mismatch: Fit,
-    /// What a flexible input at each stage would make of the mismatch, best first.
-    pub stages: Vec<crate::Stage>,
-    verdicts: [f64; 4],
-}
-
-impl Diagnosis {
-    /// The most probable candidate.
-    pub fn best(&self) -> &Candidate {
-        &self.candidates[0]
-    }
-
-    /// Probabilities of the verdicts none, recalibrate, explained and unknown.
-    pub fn verdicts(&self) -> [f64; 4] {
-        self.verdicts
-    }
-
-    /// Takes back what a held-out record contradicts: nothing is left to explain if the nominal model `suffices` for that record, else
-    /// what there is is unknown.
-    pub fn take_back(&mut self, suffices: bool) {
-        self.verdict = if suffices { Verdict::None } else { Verdict::Unknown };
-        self.set.clear();
-    }
-
-    /// Ends of what the choice of the best candidate's mechanism at `place` may be, if it has one.
-    pub fn choice(&self, place: usize) -> Option<[f64; 2]> {
-        self.best().fit.hypothesis.mechanisms.get(place)?.1?;
-        Some(self.parameters.get(place)?.first()?.ci90)
-    }
-}
-
 /// Singles that are followed up with their own noise and as parts of pairs.
 const FOLLOWED: usize = 5;
 const LEADERS: usize = 5;
@@ -110,10 +50,6 @@ const BEHIND: f64 = 25.0;
 const CHOICES: usize = 6;
 /// Gain of ln evidence of one mechanism below which it is not sought what may stand beside it.
 const PAIRED: f64 = 1.0;
-/// Least gain of ln evidence over the nominal model of anything that is called a finding.
-const FINDING: f64 = 2.0;
-/// Marginal probability from which a mechanism beside another is reported, though the other alone explains all.
-const BESIDE: f64 = 0.15;
 /// Share of the unknown that the unnamed mechanisms have; the rest is the structures'.
 const DESCRIBED: f64 = 0.5;
 
@@ -213,7 +149,7 @@ pub fn diagnose<M: ForwardModel>(
 
     progress("what no mechanism explains");
     pool.rivals(&times)?;
-    pool.conclude(nominal)
+    Diagnosis::conclude(&pool.fitter, settings, pool.candidates, nominal)
 }
 
 /// The nominal fit, but under the leader's noise.
@@ -344,89 +280,6 @@ impl<M: ForwardModel> Pool<'_, M> {
             }
         }
         Ok(())
-    }
-
-    /// Whether a mechanism stands in some likely candidate that loses by leaving it out: not merely beside another that explains all.
-    fn needed(&self, mechanism: usize) -> bool {
-        let weight = |wanted: &[usize]| {
-            let is = |c: &&Candidate| {
-                let has = &c.fit.hypothesis.mechanisms;
-                c.rival.is_none() && has.len() == wanted.len() && has.iter().all(|(m, _)| wanted.contains(m))
-            };
-            self.candidates.iter().filter(is).map(|c| c.probability).sum::<f64>()
-        };
-        let least = self.settings.excluded * self.candidates.first().map_or(0.0, |c| c.probability);
-        self.candidates.iter().filter(|c| c.rival.is_none()).any(|c| {
-            let all: Vec<usize> = c.fit.hypothesis.mechanisms.iter().map(|(m, _)| *m).collect();
-            let others: Vec<usize> = all.iter().copied().filter(|m| *m != mechanism).collect();
-            all.contains(&mechanism) && weight(&all) > least && (others.is_empty() || weight(&all) > weight(&others))
-        })
-    }
-
-    fn conclude(mut self, nominal: Fit) -> Result<Diagnosis, Error<M::Error>> {
-        let model = self.fitter.model;
-        self.candidates.sort_by(|a, b| b.log_weight.total_cmp(&a.log_weight));
-        let most = self.candidates[0].log_weight;
-        let sum: f64 = self.candidates.iter().map(|c| (c.log_weight - most).exp()).sum();
-        self.candidates.iter_mut().for_each(|c| c.probability = (c.log_weight - most).exp() / sum);
-        let of = |test: &dyn Fn(&Candidate) -> bool| -> f64 {
-            self.candidates.iter().filter(|c| test(c)).map(|c| c.probability).sum()
-        };
-        let none = of(&|c| c.rival.is_none() && c.fit.hypothesis == Hypothesis::NOMINAL);
-        let named = |c: &Candidate| c.fit.hypothesis.mechanisms.iter().all(|(m, _)| model.mechanisms()[*m].named);
-        let unknown = of(&|c| c.rival.is_some() || !named(c));
-        let recalibrate = of(&|c| c.rival.is_none() && c.fit.hypothesis.mechanisms.is_empty() && c.fit.hypothesis.constants_free);
-        let mut mechanisms: Vec<(usize, f64)> = (0..model.mechanisms().len())
-            .map(|m| (m, of(&|c| c.rival.is_none() && c.fit.hypothesis.mechanisms.iter().any(|(n, _)| *n == m))))
-            .collect();
-        mechanisms.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let explained = 1.0 - none - unknown - recalibrate;
-        // many hypotheses that a record says nothing about are no finding: one of them has to stand out
-        let gain = |c: &Candidate| c.fit.log_evidence + c.rival.as_ref().map_or(0.0, |r| r.gain) - nominal.log_evidence;
-        let evidence = self.candidates.iter().map(gain).fold(f64::NEG_INFINITY, f64::max);
-        let verdict = if none > 0.5 || evidence < FINDING {
-            Verdict::None
-        } else if unknown > explained.max(recalibrate) {
-            Verdict::Unknown
-        } else if recalibrate > explained {
-            Verdict::Recalibrate
-        } else {
-            Verdict::Explained
-        };
-        let likeliest = mechanisms.iter().map(|(m, _)| *m).find(|m| model.mechanisms()[*m].named);
-        // the best candidate of the verdict leads
-        let fits = |c: &Candidate| match verdict {
-            Verdict::None => c.rival.is_none() && c.fit.hypothesis == Hypothesis::NOMINAL,
-            Verdict::Recalibrate => {
-                c.rival.is_none() && c.fit.hypothesis.mechanisms.is_empty() && c.fit.hypothesis.constants_free
-            }
-            // of those that hold the likeliest mechanism, many small candidates together may outweigh a large one
-            Verdict::Explained => {
-                c.rival.is_none() && named(c) && c.fit.hypothesis.mechanisms.iter().any(|m| Some(m.0) == likeliest)
-            }
-            Verdict::Unknown => c.rival.is_some() || !named(c),
-        };
-        if let Some(at) = self.candidates.iter().position(fits) {
-            let chosen = self.candidates.remove(at);
-            self.candidates.insert(0, chosen);
-        }
-        let best = &self.candidates[0];
-        let places = 0..best.fit.active.len();
-        let parameters = places.map(|place| crate::marginal::estimates(model, &self.candidates, place)).collect();
-        // of those of the verdict's kind
-        let kind = |m: usize| model.mechanisms()[m].named == (verdict == Verdict::Explained);
-        let likely: Vec<(usize, f64)> = match verdict {
-            Verdict::Explained | Verdict::Unknown => mechanisms.iter().filter(|(m, _)| kind(*m)).copied().collect(),
-            Verdict::None | Verdict::Recalibrate => Vec::new(),
-        };
-        // what is all but excluded is no member, even of a set of one
-        let needed = |m: usize| likely.iter().any(|(n, p)| *n == m && *p >= BESIDE) || self.needed(m);
-        let least = self.settings.excluded * likely.first().map_or(0.0, |m| m.1).max(self.settings.excluded);
-        let set = likely.iter().filter(|(m, p)| *p >= least && needed(*m)).map(|(m, _)| *m).collect();
-        let mismatch = self.fitter.fit(&Hypothesis::NOMINAL, &best.fit.noise, Some(&nominal))?;
-        let stages = mismatch.stages(model, self.fitter.records, self.fitter.observations)?;
-        let verdicts = [none, recalibrate, explained, unknown];
-        Ok(Diagnosis { verdict, mechanisms, set, parameters, nominal, mismatch, stages, verdicts, candidates: self.candidates })
     }
 }
 

@@ -110,15 +110,22 @@ fn times(a: &[f64], b: &[f64]) -> Vec<f64> {
 /// A set of functions, with the period or instant that it stands for.
 struct Basis {
     at: Option<f64>,
+    /// Share of the structure's probability.
+    share: f64,
     functions: Vec<Vec<f64>>,
 }
 
 fn one(functions: Vec<Vec<f64>>) -> Vec<Basis> {
-    vec![Basis { at: None, functions }]
+    vec![Basis { at: None, share: 1.0, functions }]
 }
 
-/// Alternatives of a structure; its evidence is their mean.
-fn bases(structure: Structure, time: &[f64], state: &State, reach: &Reach) -> Vec<Basis> {
+/// 0 before an instant, 1 from it on.
+fn step_at(time: &[f64], at: f64) -> Vec<f64> {
+    time.iter().map(|t| if *t >= at { 1.0 } else { 0.0 }).collect()
+}
+
+/// Alternatives of a structure; its evidence is their mean. A step is tried at the `jumps` too.
+fn bases(structure: Structure, time: &[f64], state: &State, reach: &Reach, jumps: &[Option<f64>]) -> Vec<Basis> {
     let (level, rate) = (&state.level, &state.rate);
     let range = reach.level[1] - reach.level[0];
     match structure {
@@ -132,7 +139,8 @@ fn bases(structure: Structure, time: &[f64], state: &State, reach: &Reach) -> Ve
                     let wave = |shift: f64| -> Vec<f64> {
                         level.iter().map(|l| (std::f64::consts::TAU * l / period + shift).sin()).collect()
                     };
-                    Basis { at: Some(period), functions: vec![wave(0.0), wave(std::f64::consts::FRAC_PI_2)] }
+                    let functions = vec![wave(0.0), wave(std::f64::consts::FRAC_PI_2)];
+                    Basis { at: Some(period), share: 1.0 / PERIODS as f64, functions }
                 })
                 .collect()
         }
@@ -154,13 +162,15 @@ fn bases(structure: Structure, time: &[f64], state: &State, reach: &Reach) -> Ve
         }
         Structure::Step => {
             let (first, last) = (time[0], time[time.len() - 1]);
-            (1..STEPS)
-                .map(|k| {
-                    let at = first + (last - first) * k as f64 / STEPS as f64;
-                    let step = |t: &f64| if *t >= at { 1.0 } else { 0.0 };
-                    Basis { at: Some(at), functions: vec![time.iter().map(step).collect()] }
-                })
-                .collect()
+            // half of the probability evenly in time, half on all rows, of which those that jump most are tried
+            let even = (1..STEPS).map(|k| {
+                let at = first + (last - first) * k as f64 / STEPS as f64;
+                Basis { at: Some(at), share: 0.5 / (STEPS - 1) as f64, functions: vec![step_at(time, at)] }
+            });
+            let row = 0.5 / time.len() as f64;
+            let at_jump =
+                |at: &Option<f64>| Basis { at: *at, share: row, functions: vec![step_at(time, at.unwrap_or(f64::INFINITY))] };
+            even.chain(jumps.iter().map(at_jump)).collect()
         }
         Structure::Accumulation => {
             let span = time[time.len() - 1] - time[0];
@@ -179,6 +189,31 @@ fn bases(structure: Structure, time: &[f64], state: &State, reach: &Reach) -> Ve
 
 const PERIODS: usize = 40;
 const STEPS: usize = 48;
+/// Jumps of a residual at which a step is tried, and the rows before and after that are compared.
+const JUMPS: usize = 6;
+const BESIDE_JUMP: usize = 10;
+
+/// Instants at which a series changes most between the rows before and the rows after, apart from each other by as many; NaN is left out.
+fn jumps(time: &[f64], series: &[f64]) -> Vec<f64> {
+    let used: Vec<usize> = (0..series.len()).filter(|n| series[*n].is_finite()).collect();
+    let sums: Vec<f64> = std::iter::once(0.0)
+        .chain(used.iter().scan(0.0, |sum, n| {
+            *sum += series[*n];
+            Some(*sum)
+        }))
+        .collect();
+    let mut found: Vec<(usize, f64)> = (BESIDE_JUMP..used.len().saturating_sub(BESIDE_JUMP))
+        .map(|k| (k, (sums[k + BESIDE_JUMP] - 2.0 * sums[k] + sums[k - BESIDE_JUMP]).abs()))
+        .collect();
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut chosen: Vec<usize> = Vec::new();
+    for (k, _) in found {
+        if chosen.len() < JUMPS && chosen.iter().all(|c| c.abs_diff(k) >= BESIDE_JUMP) {
+            chosen.push(k);
+        }
+    }
+    chosen.iter().map(|k| time[used[*k]]).collect()
+}
 /// Number of time constants of the history, the shortest in mean intervals, the longest as a share of the record.
 const LAGS: usize = 5;
 const SHORTEST: f64 = 7.0;
@@ -195,13 +230,13 @@ fn lags(time: &[f64]) -> Vec<f64> {
 /// Amplitudes that are averaged over, in units of the channel's white noise.
 const AMPLITUDES: [f64; 4] = [0.3, 1.0, 3.0, 10.0];
 
-/// ln of the mean of e^x.
-fn log_mean_exp(values: &[f64]) -> f64 {
-    let most = values.iter().fold(f64::NEG_INFINITY, |m, v| m.max(*v));
+/// ln of the mean of e^x, each with its share.
+fn log_mean_exp(values: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
+    let most = values.clone().fold(f64::NEG_INFINITY, |m, v| m.max(v.0));
     if most == f64::NEG_INFINITY {
         return most;
     }
-    most + (values.iter().map(|v| (v - most).exp()).sum::<f64>() / values.len() as f64).ln()
+    most + values.map(|(v, share)| share * (v - most).exp()).sum::<f64>().ln()
 }
 
 impl Fit {
@@ -233,11 +268,18 @@ impl Fit {
         let reach = Reach { level: range(states().flat_map(|s| &s.level)), rate: range(states().flat_map(|s| &s.rate)) };
         let mut rivals = Vec::new();
         for channel in 0..model.channels().len() {
+            // a jump is one record's own: the others have no step then
+            let found: Vec<Vec<f64>> =
+                times_of.iter().zip(&self.residuals).map(|(time, residual)| jumps(time, &residual[channel])).collect();
+            let jumps_of = |record: usize| -> Vec<Option<f64>> {
+                let own = |(r, at): (usize, &Vec<f64>)| at.iter().map(move |at| (r == record).then_some(*at)).collect::<Vec<_>>();
+                found.iter().enumerate().flat_map(own).collect()
+            };
             for structure in Structure::ALL {
                 let alternatives: Vec<Vec<Basis>> = records
                     .iter()
-                    .zip(times_of)
-                    .map(|(record, time)| bases(structure, time, model.state(*record), &reach))
+                    .enumerate()
+                    .map(|(r, record)| bases(structure, times_of[r], model.state(*record), &reach, &jumps_of(r)))
                     .collect();
                 let count = alternatives.iter().map(Vec::len).min().unwrap_or(0);
                 let mut gains = Vec::new();
@@ -245,12 +287,15 @@ impl Fit {
                     if let Some(columns) = self.columns(&alternatives, k, channel, times_of) {
                         let white = (0..records.len()).map(|r| self.noise.model(r, channel).white).fold(0.0, f64::max);
                         let scales: Vec<f64> = AMPLITUDES.iter().map(|a| a * white).collect();
-                        gains.push((log_mean_exp(&self.gain(&columns, &scales)), alternatives[0][k].at));
+                        let even = 1.0 / scales.len() as f64;
+                        let gain = log_mean_exp(self.gain(&columns, &scales).into_iter().map(|g| (g, even)));
+                        let at = alternatives.iter().find_map(|of_record| of_record[k].at);
+                        gains.push((gain, at, alternatives[0][k].share));
                     }
                 }
                 let best = gains.iter().max_by(|a, b| a.0.total_cmp(&b.0));
-                if let Some(&(_, at)) = best {
-                    let gain = log_mean_exp(&gains.iter().map(|g| g.0).collect::<Vec<_>>());
+                if let Some(&(_, at, _)) = best {
+                    let gain = log_mean_exp(gains.iter().map(|g| (g.0, g.2)));
                     rivals.push(Rival { structure, channel, at, gain });
                 }
             }

@@ -16,8 +16,9 @@ mod model;
 mod noise;
 mod parameter;
 mod posterior;
+mod verdict;
 
-pub use diagnose::{Candidate, Diagnosis, Settings, Verdict, diagnose};
+pub use diagnose::{Candidate, Settings, diagnose};
 pub use discriminate::{Plan, Separation, alternatives, fitted, separation};
 pub use error::Error;
 pub use fit::{Estimate, Fit, Hypothesis};
@@ -28,3 +29,4 @@ pub use locate::{Block, Cell, FREQUENCIES, Spectrum, whiteness};
 pub use model::{Active, Channel, ForwardModel, Mechanism, NoisePrior, Nuisance, Observation, Role, State};
 pub use parameter::{Parameter, Prior};
 pub use posterior::{Place, Posterior};
+pub use verdict::{Diagnosis, Verdict};

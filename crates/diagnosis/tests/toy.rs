@@ -279,3 +279,41 @@ fn an_explanation_that_a_held_out_record_contradicts_is_clearly_worse() {
     diagnosis.take_back(true);
     assert_eq!(diagnosis.verdict, Verdict::None);
 }
+
+#[test]
+fn a_step_between_the_even_instants_is_found_where_it_is() {
+    const ROW: usize = 318;
+    let bath = Bath::new();
+    let y: Vec<f64> = bath.truth(0, None).iter().enumerate().map(|(n, y)| if n < ROW { *y } else { y + 0.35 }).collect();
+    let diagnosis = run(&bath, &y, 51);
+    assert_eq!(diagnosis.verdict, Verdict::Unknown);
+    let rival = diagnosis.best().rival.as_ref().expect("a structure");
+    assert_eq!(rival.structure, Structure::Step);
+    let row = rival.at.expect("an instant") / STEP_S;
+    assert!((row - ROW as f64).abs() <= 2.0, "row {row}");
+}
+
+#[test]
+fn a_mechanism_with_a_name_beside_a_structure_is_accepted_with_its_probability() {
+    let bath = Bath::new();
+    let rippled = |record: usize, lag: Option<(usize, f64)>, height: f64| -> Vec<f64> {
+        let (y, level) = (bath.truth(record, lag), &bath.states[record].level);
+        y.iter().zip(level).map(|(y, l)| y + height * (l / 1.1).sin()).collect()
+    };
+    let both = |record| rippled(record, Some((0, 150.0)), 0.09);
+    let mut diagnosis = run(&bath, &both(0), 61);
+    assert_eq!(diagnosis.verdict, Verdict::Unknown);
+    assert!(diagnosis.is_beside_named(&bath) && diagnosis.mechanisms[0].1 < 0.5);
+    let fit = &diagnosis.best().fit;
+    let other = observed(&bath, &both(1), 62);
+    let model = fit.hold_out(&bath, 1, &other, fit).expect("held out");
+    let first = observed(&bath, &both(0), 61);
+    let nominal = as_designed(&bath, (0, &first), (1, &other), fit).expect("held out");
+    assert!(nominal.clearly_worse_than(&model, 0), "{:?} {:?} {} {}", nominal.rmse, model.rmse, nominal.log_score, model.log_score);
+    assert!(model.within_noise(0), "{:?} {:?}", model.rmse, model.quiet);
+    diagnosis.accept_beside(&bath);
+    assert_eq!((diagnosis.verdict, diagnosis.mechanisms[0].0, diagnosis.set.as_slice()), (Verdict::Explained, 0, &[0][..]));
+    assert!(diagnosis.mechanisms[0].1 > 0.9 && !diagnosis.is_beside_named(&bath));
+    // a ripple alone stands beside nothing
+    assert!(!run(&bath, &rippled(0, None, 0.15), 11).is_beside_named(&bath));
+}

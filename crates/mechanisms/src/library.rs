@@ -22,8 +22,11 @@ pub(crate) const PARTS: usize = 2;
 const MODULUS: [f64; 2] = [0.15, 2.2];
 const MODULUS_NODES: usize = 9;
 
-/// Open shares of a bond that are tabulated; the response is not monotonic in between.
-const OPEN: [f64; 18] = [0.02, 0.04, 0.06, 0.08, 0.1, 0.125, 0.15, 0.18, 0.21, 0.25, 0.3, 0.36, 0.44, 0.53, 0.62, 0.71, 0.8, 0.9];
+/// Open shares of a bond that are tabulated: the response follows the layers of the winding, steps and all.
+const OPEN: [f64; 23] = [
+    0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09, 0.1, 0.125, 0.15, 0.18, 0.21, 0.25, 0.3, 0.36, 0.44, 0.53, 0.62, 0.71,
+    0.8, 0.9,
+];
 
 /// The three bias parts as functionals of drives and modes.
 pub(crate) type Functionals = [DVector<f64>; 3];

@@ -27,8 +27,8 @@ pub(crate) fn channels(averaging: f64) -> Vec<Channel> {
 const GAIN_ERROR: f64 = 0.003;
 const AIR_ERROR: f64 = 0.001;
 /// The Shupe part is what differences of temperature within the coil leave: small, and the first to feel a coarse mesh or a coarse record.
-const SHUPE_ERROR: f64 = 0.015;
-const REST_ERROR_K: f64 = 0.015;
+const SHUPE_ERROR: f64 = 0.006;
+const REST_ERROR_K: f64 = 0.012;
 
 pub(crate) fn nuisances() -> Vec<Nuisance> {
     let spread = |name: &str, spread: f64| Nuisance {

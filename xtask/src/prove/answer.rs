@@ -10,6 +10,9 @@ use serde::Deserialize;
 
 use crate::validate::Failure;
 
+/// Probability from which something is said to be there.
+pub(crate) const MORE_THAN_NOT: f64 = 0.5;
+
 /// The files that `fogcoil diagnose COIL --fit F --holdout H --json J --prediction P` writes.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Files {
@@ -87,6 +90,11 @@ impl Answer {
         let explained = self.verdict == "explained";
         let said = self.mechanisms.iter().enumerate().filter(move |(n, m)| explained && (*n == 0 || m.probability >= 0.5));
         said.map(|(_, m)| m.id.as_str())
+    }
+
+    /// Of all mechanisms that are `like` something, together; those in a pair count each.
+    pub(crate) fn probability(&self, like: impl Fn(&str) -> bool) -> f64 {
+        self.mechanisms.iter().filter(|m| like(&m.id)).map(|m| m.probability).sum()
     }
 
     /// The mechanism named first.

@@ -1,6 +1,6 @@
 //! One unit's answer held against its truth.
 
-use super::answer::Answer;
+use super::answer::{Answer, MORE_THAN_NOT};
 use super::truth::{Kind, Tier, Truth, stage};
 
 /// Probability from which a name is given with confidence.
@@ -61,7 +61,7 @@ pub(crate) struct Scored {
     /// The first name is true or inseparable from the truth, of two mechanisms any name; out of the library: the verdict is `unknown`;
     /// nothing concealed: `none`.
     pub(crate) right: bool,
-    /// Two names for two mechanisms, each true or inseparable.
+    /// Two names for two mechanisms, each true or inseparable, or all that is inseparable from each together more probable than not.
     pub(crate) both: bool,
     /// The set holds everything that is true.
     pub(crate) in_set: bool,
@@ -90,7 +90,10 @@ pub(crate) fn score(unit: &str, truth: &Truth, answer: &Answer, held: Option<Hel
     };
     let named: Vec<&str> = answer.named().collect();
     let pairs = || named.iter().flat_map(|a| named.iter().map(move |b| (a, b))).filter(|(a, b)| a != b);
-    let both = kind == Kind::Double && pairs().any(|(a, b)| truth.is_like(0, a) && truth.is_like(1, b));
+    // the names may share a probability among what is inseparable from one truth, and from that one alone
+    let likely = |of: usize| answer.probability(|id| truth.is_like(of, id) && !truth.is_like(1 - of, id)) >= MORE_THAN_NOT;
+    let both = kind == Kind::Double
+        && (pairs().any(|(a, b)| truth.is_like(0, a) && truth.is_like(1, b)) || (!named.is_empty() && likely(0) && likely(1)));
     let mut listed = truth.concealed();
     let in_set = kind != Kind::Null && listed.all(|m| answer.set.contains(&m.id));
     // an id that says of itself that it is unknown names nothing
@@ -246,6 +249,13 @@ mod tests {
         // one that stands for either is one all the same; a name below one half is not said
         assert!(!both(&[(DEFECT, 0.9)]));
         assert!(!both(&[(AIR, 0.9), (TAIL, 0.4)]));
+        // what is inseparable from one shares its probability; what is so from both counts for neither
+        let three = |mechanisms: &[(&str, f64)], verdict: &str| {
+            of(&self::truth(&[&[TAIL, "debond", DEFECT], &[AIR, DEFECT]]), &answer(verdict, mechanisms, &[])).both
+        };
+        assert!(three(&[(AIR, 0.9), (TAIL, 0.4), ("debond", 0.3)], "explained"));
+        assert!(!three(&[(AIR, 0.9), (TAIL, 0.4), ("debond", 0.3)], "unknown"));
+        assert!(!three(&[(AIR, 0.9), (TAIL, 0.4), (DEFECT, 0.3)], "explained"));
         let one = of(&truth, &answer("explained", &[("debond", 0.9), (TAIL, 0.6)], &[]));
         assert!(one.right && !one.both);
         assert!(!of(&truth, &answer("explained", &[("debond", 0.9), (TAIL, 0.4)], &[])).right);
