@@ -23,7 +23,7 @@ const ALL: [(&str, &[f64], Option<f64>); 13] = [
     ("adhesive-content", &[0.0388], None),
     ("glass-transition", &[33.6, 7.06, 0.66, 1.067], None),
     ("viscoelastic-relaxation", &[0.273, 8343.4], None),
-    ("debond", &[-7.2073, 8.967, 0.06], None),
+    ("debond", &[-7.2073, 8.967, 0.05], None),
     ("interface-resistance", &[0.0010612], None),
     ("air-path", &[0.95262], None),
     ("axial-heat-path", &[0.56968], None),

@@ -94,6 +94,10 @@ pub fn diagnose(
         Ok(Held { record, nominal, model, accepted })
     };
     let holdouts = records.enumerate().map(|(n, record)| held((fits.len() + n, record))).collect::<Result<Vec<_>, _>>()?;
+    let proves = |h: &Held| h.nominal.clearly_worse_than(&h.model, RATE_CHANNEL) && h.model.within_noise(RATE_CHANNEL);
+    if diagnosis.is_beside_named(&gyro) && !holdouts.is_empty() && holdouts.iter().all(proves) {
+        diagnosis.accept_beside(&gyro);
+    }
     let found = matches!(diagnosis.verdict, Verdict::Explained | Verdict::Recalibrate);
     let worse = |h: &&Held| h.model.clearly_worse_than(&h.nominal, RATE_CHANNEL);
     let unproven = |h: &&Held| h.model.proves_nothing(&h.nominal, RATE_CHANNEL);
