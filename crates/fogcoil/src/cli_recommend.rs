@@ -18,22 +18,22 @@ pub(crate) struct Recommend {
     #[arg(value_name = "COIL.ron")]
     coil: PathBuf,
     /// Mechanisms to tell apart; `nominal` and `recalibrate` may stand among them
-    #[arg(long, value_name = "ID,ID,...", value_delimiter = ',', required = true)]
+    #[arg(long, value_name = "ID,ID,...", value_delimiter = ',', value_parser = id, required = true)]
     between: Vec<String>,
     /// Record of the unit: gives sizes, noise, and the test that a repeat would repeat; may be given more than once
     #[arg(long = "from", value_name = "A.csv")]
     records: Vec<PathBuf>,
     /// Lowest chamber temperature in degC
-    #[arg(long, value_name = "C", default_value_t = -40.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "C", default_value_t = Limits::USUAL.coldest, allow_negative_numbers = true)]
     coldest: f64,
     /// Highest chamber temperature in degC
-    #[arg(long, value_name = "C", default_value_t = 60.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "C", default_value_t = Limits::USUAL.hottest, allow_negative_numbers = true)]
     hottest: f64,
     /// Fastest change of the chamber in K/min
-    #[arg(long, value_name = "K/MIN", default_value_t = 2.0)]
+    #[arg(long, value_name = "K/MIN", default_value_t = Limits::USUAL.fastest)]
     fastest: f64,
     /// Length of the test in h
-    #[arg(long, value_name = "H", default_value_t = 24.0)]
+    #[arg(long, value_name = "H", default_value_t = Limits::USUAL.hours)]
     hours: f64,
     /// Write the recommended profile here, time_s,chamber_c, as `simulate` reads it
     #[arg(long, value_name = "P.csv")]
@@ -52,6 +52,11 @@ pub(crate) struct Recommend {
     /// Build the models anew and do not keep them
     #[arg(long)]
     no_cache: bool,
+}
+
+/// An id as it is meant: a list may have spaces behind its commas.
+fn id(text: &str) -> Result<String, std::convert::Infallible> {
+    Ok(text.trim().to_owned())
 }
 
 pub(crate) fn run(arguments: &Recommend) -> Result<(), Error> {

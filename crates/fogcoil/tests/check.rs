@@ -104,6 +104,17 @@ fn text_json_and_picture() {
     let picture = std::fs::read_to_string(folder.path("a.svg")).unwrap();
     assert!(picture.starts_with("<svg") && picture.contains("Allan deviation") && picture.contains("fitted model"));
 
+    // notes are neither warnings nor errors
+    let output = folder.run(&["check", "r.csv", "--quiet"]);
+    assert!(output.status.success() && stdout(&output).is_empty() && stderr(&output).is_empty(), "{}", stdout(&output));
+    folder.write("kelvin.csv", standard(&rows.iter().map(|[t, a, b, r]| [*t, a + 273.15, *b, *r]).collect::<Vec<_>>()));
+    let output = folder.run(&["check", "kelvin.csv", "--quiet"]);
+    assert!(
+        !stdout(&output).is_empty() && stdout(&output).lines().all(|line| line.starts_with("warning: ")),
+        "{}",
+        stdout(&output)
+    );
+
     let output = folder.run(&["check", "r.csv", "--json"]);
     assert_eq!(stdout(&output).lines().count(), 1);
     let json: Value = serde_json::from_str(&stdout(&output)).unwrap();

@@ -19,7 +19,7 @@ fn a_concealed_bond_is_named_and_the_held_out_record_predicted() {
     arguments.extend(["--model-out", "m.ron", "--report", "r.html"]);
     let output = folder.run(&arguments);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(stdout(&output).contains("Most likely: debond."), "{}", stdout(&output));
+    assert!(stdout(&output).starts_with("The recording differs") && stdout(&output).contains("Most likely: debond."));
     let json: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(folder.path("j.json")).unwrap()).unwrap();
     assert_eq!(json["verdict"], "explained");
     assert_eq!(json["mechanisms"][0]["id"], "debond");
@@ -65,6 +65,7 @@ fn the_page_stands_alone(page: &str) {
         "part of the chain: bond",
         "Ljung",
         "class=\"dot\"",
+        "No further test is needed to tell mechanisms apart: debond alone is left",
     ] {
         assert!(page.contains(part), "{part}");
     }
@@ -77,6 +78,59 @@ fn the_page_stands_alone(page: &str) {
     ids.dedup();
     assert_eq!(ids.len(), count);
     assert!(page.len() < 1_000_000, "{} bytes", page.len());
+}
+
+/// A unit that two records leave to several mechanisms: both records are drawn, and the profile that would tell the mechanisms apart.
+#[test]
+fn the_report_holds_every_record_and_the_recommended_profile() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let unit = CASE.replace("case_13", "case_03");
+    let [one, two] = ["fit.csv", "holdout.csv"].map(|name| format!("{unit}/{name}"));
+    let output = folder.run(&["diagnose", "coil.ron", "--fit", &one, "--fit", &two, "--json", "j.json", "--report", "r.html"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let json: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(folder.path("j.json")).unwrap()).unwrap();
+    let set: Vec<&str> = json["set"].as_array().unwrap().iter().filter_map(|id| id.as_str()).collect();
+    assert!(set.len() > 1, "{set:?}");
+    let page = std::fs::read_to_string(folder.path("r.html")).unwrap();
+    for record in ["case_03/fit.csv", "case_03/holdout.csv"] {
+        assert!(page.contains(&format!("recorded less nominal model, {record}</text>")), "{record}");
+    }
+    // the command of the page finds the profile of the page
+    let (_, rest) = page.split_once("<code>fogcoil recommend ").unwrap();
+    let command = rest.split("</code>").next().unwrap();
+    assert!(command.ends_with("--out next.csv") && set.iter().take(2).all(|id| command.contains(id)), "{command}");
+    let (_, rest) = page.split_once("<th scope=\"row\">profile</th><td>").unwrap();
+    let profile = rest.split("</td>").next().unwrap();
+    let output = folder.run(&[vec!["recommend", "--json", "--quiet"], command.split(' ').collect()].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let found: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(found["profiles"][0]["name"], profile);
+    assert!(folder.path("next.csv").exists() && page.contains("next-test-narrow") && page.contains("expected separation"));
+}
+
+/// What a mistake in the file's columns does, and no mechanism: said before the verdict.
+#[test]
+fn exchanged_columns_and_a_reversed_rate_are_named() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let changed = |name: &str, row: &dyn Fn(&[&str]) -> String| {
+        let text = std::fs::read_to_string(format!("{CASE}/{name}")).unwrap();
+        let (head, rows) = text.split_once('\n').unwrap();
+        rows.lines().map(|line| row(&line.split(',').collect::<Vec<_>>()) + "\n").fold(head.to_owned() + "\n", |t, r| t + &r)
+    };
+    let negated =
+        |f: &[&str]| format!("{},{},{},{}", f[0], f[1], f[2], f[3].parse::<f64>().map_or(String::new(), |r| (-r).to_string()));
+    folder.write("negated.csv", changed("fit.csv", &negated));
+    folder.write("exchanged.csv", changed("holdout.csv", &|f| format!("{},{},{},{}", f[0], f[2], f[1], f[3])));
+    let output = folder.run(&["diagnose", "coil.ron", "--fit", "negated.csv", "--holdout", "exchanged.csv"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let (text, says) = (stdout(&output), |line: &str, words: [&str; 2]| words.iter().all(|w| line.contains(w)));
+    let lines: Vec<&str> = text.lines().take_while(|line| line.starts_with("warning: ")).collect();
+    assert!(lines.iter().any(|l| says(l, ["negated.csv: rate_deg_per_h", "other sign"])), "{text}");
+    assert!(lines.iter().any(|l| says(l, ["exchanged.csv: chamber_c and spool_c", "exchanged"])), "{text}");
+    // what was not changed is not suspected: the other test's records have no warning
+    assert!(!lines.iter().any(|l| l.contains("negated.csv: chamber_c") || l.contains("exchanged.csv: rate")), "{text}");
 }
 
 #[test]

@@ -68,7 +68,7 @@ fn a_fast_profile_is_recommended_and_can_be_simulated() {
     let folder = Folder::new();
     folder.write("coil.ron", COIL);
     let between =
-        ["recommend", "coil.ron", "--between", "tail-asymmetry,adhesive-content", "--json", "--out", "p.csv", "--quiet"];
+        ["recommend", "coil.ron", "--between", "tail-asymmetry, adhesive-content", "--json", "--out", "p.csv", "--quiet"];
     let r = json(&folder, &between, "recommend");
     let profiles = r["profiles"].as_array().unwrap();
     assert!(profiles.windows(2).all(|p| log_odds(&p[0]) >= log_odds(&p[1])));
@@ -79,7 +79,9 @@ fn a_fast_profile_is_recommended_and_can_be_simulated() {
     let last = std::fs::read_to_string(folder.path("p.csv")).unwrap().lines().last().unwrap().to_owned();
     assert!(last.starts_with("86400.0,"), "{last}");
     // a chamber that hardly moves tells nothing
-    let narrow = [&between[..4], &["--coldest", "19", "--hottest", "21", "--fastest", "0.05", "--json", "--quiet"]].concat();
+    let narrow =
+        [&between[..4], &["--coldest", "19", "--hottest", "21", "--fastest", "0.05", "--hours", "12", "--json", "--quiet"]]
+            .concat();
     let r = json(&folder, &narrow, "recommend");
     assert_eq!(r["profiles"][0]["decides"], false);
     let says = r["recommendation"].as_str().unwrap();

@@ -17,7 +17,7 @@ use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
 pub use json::json;
 pub(crate) use plot::Allan;
 pub use plot::svg;
-pub use text::text;
+pub use text::{text, warnings};
 
 /// A recording and its noise.
 #[derive(Debug, Clone)]

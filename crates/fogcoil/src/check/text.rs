@@ -3,15 +3,24 @@
 use std::fmt::Write;
 
 use bias::units::S_PER_H;
-use recording::check::Severity;
+use recording::check::{Finding, Severity};
 use recording::noise::{StandardErrors, Term};
 
 use super::{Analysis, GyroNoise};
+use crate::input::RecordCase;
 use crate::table::{significant, table};
 use crate::units::DurationUnit;
 
 /// Most findings of one kind in one channel that are written out.
 const MOST_ALIKE: usize = 8;
+
+/// What is wrong with a recording, line by line; empty if nothing is.
+pub fn warnings(case: &RecordCase) -> String {
+    let mut out = String::new();
+    let wrong: Vec<&Finding> = case.report.findings.iter().filter(|finding| finding.severity != Severity::Note).collect();
+    findings(&mut out, &wrong);
+    out
+}
 
 /// The result as text with tables.
 pub fn text(analysis: &Analysis) -> String {
@@ -24,7 +33,11 @@ pub fn text(analysis: &Analysis) -> String {
     for note in &case.notes {
         let _ = writeln!(out, "note: {note}");
     }
-    findings(&mut out, analysis);
+    let found: Vec<&Finding> = case.report.findings.iter().collect();
+    if found.is_empty() {
+        out.push_str("nothing suspicious found\n");
+    }
+    findings(&mut out, &found);
     match &analysis.noise {
         Some(noise) => gyro(&mut out, analysis, noise),
         None if case.report.usable() => out.push_str("\nThe rate's noise cannot be identified: too few rows, or no noise.\n"),
@@ -67,11 +80,8 @@ fn channels(analysis: &Analysis) -> String {
     table(&rows) + "(noise: white, standard deviation of a value; step: resolution, where the values show one)\n\n"
 }
 
-fn findings(out: &mut String, analysis: &Analysis) {
-    let findings = &analysis.case.report.findings;
-    if findings.is_empty() {
-        out.push_str("nothing suspicious found\n");
-    }
+/// A line for each, up to a number of one kind.
+fn findings(out: &mut String, findings: &[&Finding]) {
     let alike = |n: usize| {
         let (kind, channel) = (std::mem::discriminant(&findings[n].kind), &findings[n].channel);
         move |m: &usize| std::mem::discriminant(&findings[*m].kind) == kind && findings[*m].channel == *channel

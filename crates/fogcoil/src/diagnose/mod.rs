@@ -1,5 +1,8 @@
 //! `fogcoil diagnose`: recordings of a unit in; what differs from its design, and what most likely causes it, out.
 
+mod apart;
+mod columns;
+mod explanations;
 mod extended;
 mod json;
 mod meaning;
@@ -41,6 +44,7 @@ struct Record {
     file: PathBuf,
     observed: Observation,
     chamber: Vec<f64>,
+    averaging: f64,
 }
 
 /// A record that was held out: what the nominal and the extended model predict of it.
@@ -72,6 +76,9 @@ pub fn diagnose(
     let prepared = |r: &Ready| Prepared::new(&library, &r.observation.time, &r.chamber, r.averaging);
     let prepared = read.iter().map(prepared).collect::<Result<Vec<_>, _>>().map_err(coil)?;
     let gyro = Gyro::fitted_to(library, prepared, fits.len()).map_err(coil)?;
+    for (number, (record, case)) in read.iter().zip(fits.iter().chain(holdouts)).enumerate() {
+        notes.extend(columns::warning(&gyro, number, record, case).map_err(coil)?);
+    }
     let observations: Vec<Observation> = read.iter().map(|r| r.observation.clone()).collect();
     let numbers: Vec<usize> = (0..fits.len()).collect();
     let failed = |error: diagnosis::Error<coil::Error>| match error {
@@ -84,6 +91,7 @@ pub fn diagnose(
         file: case.fingerprint.file.clone(),
         observed: ready.observation,
         chamber: ready.chamber,
+        averaging: ready.averaging,
     });
     let fitted: Vec<Record> = records.by_ref().take(fits.len()).collect();
     let best = &diagnosis.best().fit;
@@ -182,11 +190,6 @@ impl Outcome {
     fn thermometer(&self, held: &Held) -> Option<[f64; 2]> {
         let recorded = held.record.observed.channels[SPOOL_CHANNEL].iter().any(|v| v.is_finite());
         recorded.then(|| [held.nominal.rmse[SPOOL_CHANNEL], held.model.rmse[SPOOL_CHANNEL]])
-    }
-
-    /// Probabilities worth saying.
-    fn likely(&self) -> impl Iterator<Item = (&str, f64)> {
-        self.diagnosis.mechanisms.iter().filter(|(_, p)| *p >= 5e-4).map(|(m, p)| (self.id(*m), *p))
     }
 
     /// Whether no record that was held out is predicted worse than by the nominal model.

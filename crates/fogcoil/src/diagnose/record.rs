@@ -156,7 +156,7 @@ fn unrest(table: &Table) -> Option<String> {
 }
 
 /// Fills gaps on straight lines; false if there is nothing to draw them through.
-fn bridge(time: &[f64], values: &mut [f64]) -> bool {
+pub(super) fn bridge(time: &[f64], values: &mut [f64]) -> bool {
     let known: Vec<usize> = (0..values.len()).filter(|&n| values[n].is_finite()).collect();
     let (Some(&first), Some(&last)) = (known.first(), known.last()) else { return false };
     for n in 0..values.len() {

@@ -12,9 +12,6 @@ use super::{NOMINAL, Outcome};
 use crate::recommend::inspection;
 use crate::table::{significant, table};
 
-/// Most mechanisms whose probability is shown.
-const MOST_MECHANISMS: usize = 6;
-
 impl Outcome {
     /// For people: verdict, place, alternatives, parameters, held-out errors.
     pub fn text(&self) -> String {
@@ -46,14 +43,8 @@ impl Outcome {
         if let Some(alternatives) = self.alternatives() {
             let _ = writeln!(out, "{alternatives}");
         }
-        let row = |name: &str, p: f64| vec![name.to_owned(), format!("{p:.3}"), String::new()];
-        let [none, recalibrate, _, unknown] = d.verdicts();
         let mut rows = vec![vec!["explanation".to_owned(), "probability".to_owned(), String::new()]];
-        rows.push(row("the design as it is", none));
-        rows.push(row("its constants re-estimated", recalibrate));
-        let likely = self.likely().take(MOST_MECHANISMS);
-        rows.extend(likely.map(|(id, p)| row(id, p)));
-        rows.push(row("nothing that has a name here", unknown));
+        rows.extend(self.explanations().iter().map(|e| vec![e.name.to_owned(), format!("{:.3}", e.probability), String::new()]));
         if d.verdict == Verdict::Explained {
             rows.push(vec!["parameter (fitted)".to_owned(), "value".to_owned(), "90 % interval".to_owned()]);
             for estimate in d.parameters.iter().flatten() {
@@ -106,15 +97,9 @@ impl Outcome {
 
     /// What the records do not exclude beside what is most likely, and what would tell.
     pub(super) fn alternatives(&self) -> Option<String> {
-        let best = self.names();
-        let others: Vec<&str> = self.diagnosis.set.iter().map(|m| self.id(*m)).filter(|id| !best.contains(id)).collect();
-        let (first, other) = (best.first()?, others.first()?);
-        let from: String = self.fits.iter().map(|record| format!(" --from {}", record.file.display())).collect();
-        Some(format!(
-            "These records do not exclude: {}. What would tell: fogcoil recommend {} --between {first},{other}{from}",
-            others.join(", "),
-            self.coil.display()
-        ))
+        let ids = self.apart();
+        let command = (!ids.is_empty()).then(|| self.recommend(&ids))?;
+        Some(format!("These records do not exclude: {}. What would tell: {command}", self.others().join(", ")))
     }
 }
 

@@ -9,10 +9,12 @@ use super::Programme;
 /// Ids besides the library's: the design as it is, and its own constants re-estimated.
 const NOMINAL: &str = "nominal";
 const RECALIBRATE: &str = "recalibrate";
+/// Choices that stand for all of a mechanism's where a bound is enough.
+const FEW: usize = 6;
 /// Span of a reading in the tests that are proposed \[s\].
 pub(super) const INTERVAL: f64 = 30.0;
 
-type Failure = diagnosis::Error<coil::Error>;
+pub(super) type Failure = diagnosis::Error<coil::Error>;
 
 /// What is to be told apart from others.
 #[derive(Clone)]
@@ -45,6 +47,12 @@ impl Contender {
     pub(crate) fn recalibrated() -> Self {
         let hypotheses = vec![Hypothesis { constants_free: true, ..Hypothesis::NOMINAL }];
         Self { id: RECALIBRATE.into(), hypotheses, truth: None }
+    }
+
+    /// With few of its choices. As a rival it is told apart at least as well as with all of them: an upper bound.
+    pub(super) fn narrowed(&self) -> Self {
+        let every = self.hypotheses.len().div_ceil(FEW);
+        Self { hypotheses: self.hypotheses.iter().skip(every / 2).step_by(every.max(1)).cloned().collect(), ..self.clone() }
     }
 
     /// All that may be named.

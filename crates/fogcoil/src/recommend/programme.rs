@@ -3,51 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-use crate::Error;
-
-/// What the chamber can do.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
-    /// Lowest temperature \[°C\].
-    pub coldest: f64,
-    /// Highest temperature \[°C\].
-    pub hottest: f64,
-    /// Fastest change [K/min].
-    pub fastest: f64,
-    /// Length of a test \[h\].
-    pub hours: f64,
-}
-
-/// Shortest and longest test \[h\].
-const HOURS: [f64; 2] = [2.0, 240.0];
-
-impl Limits {
-    /// Limits that leave something to vary.
-    ///
-    /// # Errors
-    /// [`Error::Usage`] names the flag at fault.
-    pub fn check(&self) -> Result<(), Error> {
-        let Self { coldest, hottest, fastest, hours } = *self;
-        let wrong = |text: String| Err(Error::Usage(text));
-        if ![coldest, hottest].iter().all(|t| (-100.0..=200.0).contains(t)) {
-            return wrong(format!("--coldest {coldest} --hottest {hottest}: give degrees Celsius from -100 to 200"));
-        }
-        if hottest - coldest < 1.0 {
-            return wrong(format!("--coldest {coldest} --hottest {hottest}: leave at least one kelvin between them"));
-        }
-        if !(0.01..=100.0).contains(&fastest) {
-            return wrong(format!("--fastest {fastest}: give K/min from 0.01 to 100"));
-        }
-        if !(HOURS[0]..=HOURS[1]).contains(&hours) {
-            return wrong(format!("--hours {hours}: give {} to {}", HOURS[0], HOURS[1]));
-        }
-        Ok(())
-    }
-
-    fn range(&self) -> f64 {
-        self.hottest - self.coldest
-    }
-}
+use super::Limits;
 
 /// A chamber programme: temperature \[°C\] linear between instants \[s\].
 #[derive(Debug, Clone, PartialEq)]
@@ -229,10 +185,9 @@ mod tests {
 
     #[test]
     fn every_programme_keeps_the_limits_and_fills_the_test() {
-        let usual = Limits { coldest: -40.0, hottest: 60.0, fastest: 2.0, hours: 24.0 };
         let narrow = Limits { coldest: 25.0, hottest: 29.0, fastest: 0.1, hours: 2.5 };
         let warm = Limits { coldest: 30.0, hottest: 80.0, fastest: 10.0, hours: 100.0 };
-        for limits in [usual, narrow, warm] {
+        for limits in [Limits::USUAL, narrow, warm] {
             for programme in programmes(&limits) {
                 let name = &programme.name;
                 assert!((programme.duration() - limits.hours * HOUR).abs() < 1e-6, "{name}: {}", programme.duration());

@@ -65,12 +65,13 @@ fn inspections(r: &Recommendation) -> Vec<(&str, &'static str)> {
     r.between.iter().filter_map(|id| Some((id.as_str(), inspection(id)?))).collect()
 }
 
-fn number(x: f64) -> String {
+/// ln odds or σ, as precise as they are meant.
+pub(crate) fn number(x: f64) -> String {
     if x.abs() >= 9.95 { format!("{x:.0}") } else { format!("{x:.1}") }
 }
 
 /// What to do.
-fn sentence(r: &Recommendation) -> String {
+pub(crate) fn sentence(r: &Recommendation) -> String {
     let best = &r.profiles[0];
     let [truth, rival] = &best.odds.pair;
     let several = r.between.len() > 2;

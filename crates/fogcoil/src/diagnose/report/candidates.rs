@@ -2,46 +2,44 @@
 
 use std::fmt::Write;
 
-use diagnosis::{Candidate, ForwardModel, Verdict};
+use diagnosis::{Candidate, ForwardModel};
 
 use crate::diagnose::Outcome;
 use crate::picture::escape;
+use crate::table::significant;
 
-/// Most rows of the table of mechanisms and of that of hypotheses.
+/// Most rows of the table of hypotheses.
 const MOST: usize = 8;
-/// Mechanisms that are shown however improbable, and the probability below which others are not.
-const FEWEST: usize = 3;
-const NEGLIGIBLE: f64 = 5e-4;
+
+/// Hypotheses that differ in a choice alone.
+struct Group<'a> {
+    /// The most probable of them.
+    first: &'a Candidate,
+    count: usize,
+    probability: f64,
+    /// ln of the sum of their weights.
+    log_weight: f64,
+}
 
 impl Outcome {
     pub(super) fn candidates(&self, out: &mut String) {
         let d = &self.diagnosis;
-        let whole =
-            |test: &dyn Fn(&Candidate) -> bool| d.candidates.iter().filter(|c| test(c)).map(|c| c.probability).sum::<f64>();
-        let bare = |c: &Candidate| c.rival.is_none() && c.fit.hypothesis.mechanisms.is_empty();
-        let library = self.gyro.mechanisms();
-        let named = |c: &Candidate| c.rival.is_none() && c.fit.hypothesis.mechanisms.iter().all(|(m, _)| library[*m].named);
-        let verdicts = [
-            ("nominal model", whole(&|c| bare(c) && !c.fit.hypothesis.constants_free), d.verdict == Verdict::None),
-            ("constants re-estimated", whole(&|c| bare(c) && c.fit.hypothesis.constants_free), d.verdict == Verdict::Recalibrate),
-            ("a mechanism of the library", whole(&|c| !bare(c) && named(c)), d.verdict == Verdict::Explained),
-            ("something else", whole(&|c| !named(c)), d.verdict == Verdict::Unknown),
-        ];
-        out.push_str("<h3>Kinds of explanation</h3>\n");
-        bars(out, verdicts.iter().map(|(name, p, chosen)| ((*name).to_owned(), *p, *chosen)));
-        out.push_str("<h3>Mechanisms</h3>\n");
-        let shown = d.mechanisms.iter().enumerate().take(MOST).filter(|(n, (_, p))| *n < FEWEST || *p >= NEGLIGIBLE);
-        bars(out, shown.map(|(_, (m, p))| (self.id(*m).to_owned(), *p, d.set.contains(m))));
-        let set = match d.set.len() {
-            0 => String::new(),
-            1 => " The marked one alone is not excluded.".into(),
-            n => format!(" The {n} marked ones are not excluded."),
-        };
+        out.push_str("<h3>Explanations</h3>\n<table class=\"bars\">\n<tbody>\n");
+        for explanation in self.explanations() {
+            let (mark, p) = (if explanation.open { " class=\"marked\"" } else { "" }, explanation.probability);
+            let _ = writeln!(
+                out,
+                "<tr{mark}><th scope=\"row\">{}</th><td>{p:.3}</td><td class=\"bar\"><span style=\"width:{:.1}%\"></span></td></tr>",
+                escape(explanation.name),
+                100.0 * p.clamp(0.0, 1.0)
+            );
+        }
+        let [.., library, _] = d.verdicts();
         let _ = writeln!(
             out,
-            "<p>Probability that a mechanism is at work, alone or with another.{set} {} hypotheses were compared: {} mechanisms alone, \
-             their pairs, and each of the leading ones with free structure; every choice (a layer, a second mechanism) is paid for by its \
-             share of the prior.</p>",
+            "</tbody>\n</table>\n<p>Of a mechanism: the probability that it is at work, alone or with another; of any in the library: {library:.3}. \
+             What is marked is not excluded. {} hypotheses were compared: {} mechanisms alone, their pairs, and each of the leading ones with free \
+             structure; every choice (a layer, a second mechanism) is paid for by its share of the prior.</p>",
             d.candidates.len(),
             self.gyro.mechanisms().len(),
         );
@@ -49,25 +47,45 @@ impl Outcome {
     }
 
     fn hypotheses(&self, out: &mut String) {
-        let candidates = &self.diagnosis.candidates;
-        let best = candidates[0].log_weight;
-        let rows: Vec<Vec<String>> = candidates
+        let groups = self.groups();
+        let best = groups.first().map_or(0.0, |group| group.log_weight);
+        let rows: Vec<Vec<String>> = groups
             .iter()
             .take(MOST)
-            .map(|c| {
-                let weight = format!("{:.1}", c.log_weight - best).replace('-', "\u{2212}");
-                vec![self.said(c), format!("{:.3}", c.probability), weight]
-            })
+            .map(|group| vec![self.said(group), format!("{:.3}", group.probability), significant(group.log_weight - best, 2)])
             .collect();
         let _ = writeln!(out, "<details>\n<summary>The {} most probable hypotheses</summary>", rows.len());
         super::grid(out, &["hypothesis", "probability", "ln odds to the first"], &rows);
         out.push_str("</details>\n");
     }
 
+    /// All candidates, most probable first.
+    fn groups(&self) -> Vec<Group<'_>> {
+        let mut groups: Vec<Group> = Vec::new();
+        for candidate in &self.diagnosis.candidates {
+            let Candidate { probability, log_weight, .. } = *candidate;
+            match groups.iter_mut().find(|group| alike(group.first, candidate)) {
+                None => groups.push(Group { first: candidate, count: 1, probability, log_weight }),
+                Some(group) => {
+                    group.count += 1;
+                    group.probability += probability;
+                    let [low, high] = [group.log_weight.min(log_weight), group.log_weight.max(log_weight)];
+                    group.log_weight = high + (low - high).exp().ln_1p();
+                    if probability > group.first.probability {
+                        group.first = candidate;
+                    }
+                }
+            }
+        }
+        groups.sort_by(|a, b| b.log_weight.total_cmp(&a.log_weight));
+        groups
+    }
+
     /// A hypothesis in words.
-    fn said(&self, candidate: &Candidate) -> String {
-        let h = &candidate.fit.hypothesis;
+    fn said(&self, group: &Group) -> String {
+        let h = &group.first.fit.hypothesis;
         let mechanism = |(m, choice): &(usize, Option<f64>)| match choice {
+            Some(value) if group.count > 1 => format!("{} (best at {value})", self.id(*m)),
             Some(value) => format!("{} ({value})", self.id(*m)),
             None => self.id(*m).to_owned(),
         };
@@ -78,24 +96,20 @@ impl Outcome {
         if h.constants_free {
             parts.push("constants free".into());
         }
-        if let Some(rival) = &candidate.rival {
+        if let Some(rival) = &group.first.rival {
             parts.push(format!("{}: {}", self.gyro.channels()[rival.channel].name, self.describe(rival)));
         }
-        parts.join(" + ")
+        let all = parts.join(" + ");
+        if group.count > 1 { format!("{all}, of {} choices", group.count) } else { all }
     }
 }
 
-/// Names, probabilities as bars, and which are marked.
-fn bars(out: &mut String, rows: impl Iterator<Item = (String, f64, bool)>) {
-    out.push_str("<table class=\"bars\">\n<tbody>\n");
-    for (name, p, marked) in rows {
-        let mark = if marked { " class=\"marked\"" } else { "" };
-        let _ = writeln!(
-            out,
-            "<tr{mark}><th scope=\"row\">{}</th><td>{p:.3}</td><td class=\"bar\"><span style=\"width:{:.1}%\"></span></td></tr>",
-            escape(&name),
-            100.0 * p.clamp(0.0, 1.0)
-        );
-    }
-    out.push_str("</tbody>\n</table>\n");
+/// Whether two candidates differ in their choices alone.
+fn alike(a: &Candidate, b: &Candidate) -> bool {
+    let (x, y) = (&a.fit.hypothesis, &b.fit.hypothesis);
+    let structure = |c: &Candidate| c.rival.as_ref().map(|rival| (rival.structure, rival.channel));
+    x.constants_free == y.constants_free
+        && x.mechanisms.len() == y.mechanisms.len()
+        && x.mechanisms.iter().all(|(m, _)| y.mechanisms.iter().any(|(n, _)| n == m))
+        && structure(a) == structure(b)
 }

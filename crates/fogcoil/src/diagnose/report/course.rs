@@ -1,24 +1,43 @@
-//! The recording with its models, and what is left.
+//! The recordings with their models, and what is left.
 
+use super::data::with_data;
+use super::multiples::multiples;
 use super::{Clock, Quantity, Shown, line};
 use crate::diagnose::Outcome;
-use crate::figures::element;
 use crate::plot::{Axis, Content, Figure, Height, Panel, Series, Style};
 
 impl Outcome {
     pub(super) fn course(&self, out: &mut String) {
-        let shown = self.shown();
-        let Some(first) = shown.first() else { return };
-        out.push_str(&element(&self.recording(&shown, first)));
-        out.push_str(&element(&self.residuals(&shown, first)));
+        out.push_str(&with_data(&self.recording()));
+        out.push_str(&with_data(&self.residuals()));
     }
 
-    fn recording(&self, shown: &[Shown], first: &Shown) -> Figure<'static> {
-        let (clock, time) = (Clock::of(&first.record.observed), &first.record.observed.time);
-        let chamber = time.iter().zip(&first.record.chamber).map(|(t, c)| (clock.at(*t), *c)).collect();
+    fn recording(&self) -> Figure<'static> {
+        let (columns, panels) = multiples(self.each().map(|shown| self.recorded(&shown)).collect());
+        let whose = match &self.fits[..] {
+            [one] => one.name(),
+            several => format!("{} records", several.len()),
+        };
+        Figure {
+            id: "course",
+            title: format!("{whose}: recording and model"),
+            description:
+                "Chamber temperature, the gyroscope's rate and the spool's thermometer over time, as recorded and as modelled."
+                    .into(),
+            caption: "The models are driven by the recorded chamber temperature; each has its fitted constant offset.".into(),
+            columns,
+            panels,
+        }
+    }
+
+    /// One record's panels.
+    fn recorded(&self, shown: &[Shown]) -> Vec<Panel<'static>> {
+        let Some(Shown { record, .. }) = shown.first() else { return Vec::new() };
+        let (clock, time) = (self.clock(record), &record.observed.time);
+        let chamber = time.iter().zip(&record.chamber).map(|(t, c)| (clock.at(*t), *c)).collect();
         let mut panels = vec![panel(&clock, "chamber [°C]", 0.1, 9.0, vec![line("", Style::First, chamber)])];
         for q in self.quantities() {
-            let recorded = &first.record.observed.channels[q.channel];
+            let recorded = &record.observed.channels[q.channel];
             let rows = || time.iter().zip(recorded).filter(|(_, y)| y.is_finite()).map(|(t, y)| (clock.at(*t), *y));
             let mut series = vec![line("recording", Style::Fine(2), rows().collect())];
             for (n, fit) in shown.iter().enumerate() {
@@ -28,36 +47,13 @@ impl Outcome {
             }
             panels.push(panel(&clock, q.label, q.least, 14.0, series));
         }
+        panels.iter_mut().for_each(|panel| panel.heading = self.headed("", record));
         label_last(&mut panels, &clock);
-        Figure {
-            id: "course",
-            title: format!("{}: recording and model", first.record.name()),
-            description:
-                "Chamber temperature, the gyroscope's rate and the spool's thermometer over time, as recorded and as modelled."
-                    .into(),
-            caption: "The models are driven by the recorded chamber temperature; each has its fitted constant offset.".into(),
-            columns: 1,
-            panels,
-        }
+        panels
     }
 
-    fn residuals(&self, shown: &[Shown], first: &Shown) -> Figure<'static> {
-        let clock = Clock::of(&first.record.observed);
-        let mut panels = Vec::new();
-        for q in self.quantities() {
-            let of = |fit: &Shown| fit.residual(q.channel).into_iter().map(|(t, r)| (clock.at(t), r)).collect::<Vec<_>>();
-            // both on one scale
-            let most = shown.iter().flat_map(of).fold(q.least / 2.0, |most, (_, r)| r.abs().max(most));
-            for (n, fit) in shown.iter().enumerate() {
-                let style = if n + 1 == shown.len() { Style::Fine(2) } else { Style::Fine(0) };
-                let label = format!("{} [{}]", q.name, unit(q));
-                let mut panel = panel(&clock, &label, q.least, 9.0, vec![line("", style, of(fit))]);
-                panel.heading = format!("recorded less {}", fit.name);
-                panel.y = panel.y.covering([-most, most]);
-                panels.push(panel);
-            }
-        }
-        label_last(&mut panels, &clock);
+    fn residuals(&self) -> Figure<'static> {
+        let (columns, panels) = multiples(self.each().map(|shown| self.left(&shown)).collect());
         Figure {
             id: "residuals",
             title: "What each model leaves".into(),
@@ -66,9 +62,32 @@ impl Outcome {
                     .into(),
             caption: "A channel's panels have one scale. What is noise has no shape; what has one is missing in the model."
                 .into(),
-            columns: 1,
+            columns,
             panels,
         }
+    }
+
+    /// What is left of one record.
+    fn left(&self, shown: &[Shown]) -> Vec<Panel<'static>> {
+        let Some(Shown { record, .. }) = shown.first() else { return Vec::new() };
+        let clock = self.clock(record);
+        let mut panels = Vec::new();
+        for q in self.quantities() {
+            let of = |fit: &Shown| fit.residual(q.channel).into_iter().map(|(t, r)| (clock.at(t), r)).collect::<Vec<_>>();
+            // both on one scale
+            let all = self.each().flatten().flat_map(|fit| fit.residual(q.channel));
+            let most = all.fold(q.least / 2.0, |most, (_, r)| r.abs().max(most));
+            for (n, fit) in shown.iter().enumerate() {
+                let style = if n + 1 == shown.len() { Style::Fine(2) } else { Style::Fine(0) };
+                let label = format!("{} [{}]", q.name, unit(q));
+                let mut panel = panel(&clock, &label, q.least, 9.0, vec![line("", style, of(fit))]);
+                panel.heading = self.headed(&format!("recorded less {}", fit.name), record);
+                panel.y = panel.y.covering([-most, most]);
+                panels.push(panel);
+            }
+        }
+        label_last(&mut panels, &clock);
+        panels
     }
 }
 

@@ -3,15 +3,18 @@
 use diagnosis::{HeldOut, Verdict, whiteness};
 use mechanisms::RATE;
 
-use super::{Clock, course, line, spectrum};
+use super::data::with_data;
+use super::multiples::multiples;
+use super::{course, line, spectrum};
 use crate::diagnose::{Held, NOMINAL, Outcome};
-use crate::figures::element;
-use crate::plot::{Figure, Style};
+use crate::plot::{Figure, Panel, Style};
 use crate::table::significant;
 
 impl Outcome {
     pub(super) fn held_out(&self, out: &mut String) {
-        let Some(first) = self.holdouts.first() else { return };
+        if self.holdouts.is_empty() {
+            return;
+        }
         out.push_str("<h2>Proof on a record that was held out</h2>\n");
         let mut rows = Vec::new();
         for held in &self.holdouts {
@@ -34,7 +37,7 @@ impl Outcome {
             "Nothing was adjusted to a held-out record, its offset neither: it is that of the first record that was fitted."
         };
         out.push_str(&format!("<p>{said}</p>\n"));
-        out.push_str(&element(&self.proof(first)));
+        out.push_str(&with_data(&self.proof()));
     }
 
     /// What is shown of a held-out record: the nominal model and what was found, where that is another.
@@ -43,8 +46,25 @@ impl Outcome {
         [(NOMINAL, &held.nominal)].into_iter().chain(found).collect()
     }
 
-    fn proof(&self, held: &Held) -> Figure<'static> {
-        let (clock, time) = (Clock::of(&held.record.observed), &held.record.observed.time);
+    fn proof(&self) -> Figure<'static> {
+        let (columns, panels) = multiples(self.holdouts.iter().map(|held| self.predicted(held)).collect());
+        let whose = match &self.holdouts[..] {
+            [one] => one.record.name(),
+            several => format!("{} records", several.len()),
+        };
+        Figure {
+            id: "held-out",
+            title: format!("{whose}: predicted and recorded"),
+            description: "The held-out record's rate over time with its predictions, and what each prediction is off by.".into(),
+            caption: "Driven by the record's own chamber temperature; the offset is that of the fit.".into(),
+            columns,
+            panels,
+        }
+    }
+
+    /// One record's panels.
+    fn predicted(&self, held: &Held) -> Vec<Panel<'static>> {
+        let (clock, time) = (self.clock(&held.record), &held.record.observed.time);
         let recorded = &held.record.observed.channels[RATE];
         let rows = |of: &dyn Fn(usize, f64) -> f64| -> Vec<(f64, f64)> {
             let used = (0..time.len()).filter(|n| recorded[*n].is_finite());
@@ -67,15 +87,11 @@ impl Outcome {
         let most = most.fold(0.0, |most: f64, (_, r)| most.max(r));
         panels.iter_mut().for_each(|panel| panel.y.covers = Some([-most, most]));
         panels.insert(0, course::panel(&clock, "rate [°/h]", 1e-4, 16.0, both));
-        course::label_last(&mut panels, &clock);
-        Figure {
-            id: "held-out",
-            title: format!("{}: predicted and recorded", held.record.name()),
-            description: "The held-out record's rate over time with its predictions, and what each prediction is off by.".into(),
-            caption: "Driven by the record's own chamber temperature; the offset is that of the fit.".into(),
-            columns: 1,
-            panels,
+        if self.holdouts.len() > 1 {
+            panels[0].heading = held.record.name();
         }
+        course::label_last(&mut panels, &clock);
+        panels
     }
 }
 

@@ -2,7 +2,10 @@
 
 mod candidates;
 mod course;
+mod data;
 mod held_out;
+mod multiples;
+mod next_test;
 mod noise;
 mod parameters;
 mod place;
@@ -11,9 +14,10 @@ mod stages;
 
 use std::fmt::Write;
 
-use diagnosis::{Fit, ForwardModel, Observation, Verdict};
+use diagnosis::{Fit, ForwardModel, Verdict};
 use mechanisms::{RATE, SPOOL};
 
+use super::record::WARNING;
 use super::{NOMINAL, Outcome, Record};
 use crate::picture::escape;
 use crate::plot::{Axis, Series, Style, Thinning};
@@ -69,11 +73,6 @@ struct Clock {
 }
 
 impl Clock {
-    fn of(observed: &Observation) -> Self {
-        let (start, end) = observed.time.first().zip(observed.time.last()).map_or((0.0, 0.0), |(a, b)| (*a, *b));
-        Self { unit: DurationUnit::of(end - start), start, end }
-    }
-
     fn at(&self, time: f64) -> f64 {
         self.unit.of_seconds(time - self.start)
     }
@@ -109,57 +108,65 @@ impl Outcome {
         self.stages(&mut out);
         self.place(&mut out);
         self.held_out(&mut out);
+        self.next_test(&mut out);
         self.noise(&mut out);
         self.limits(&mut out);
         let title = format!("{}: what differs from the design", self.name);
         page(&title, &format!("<p>{}</p>\n", escape(&nice(&self.verdict()))), &out)
     }
 
-    /// The nominal model and, where it is another, what the verdict rests on, for the first record that was fitted.
-    fn shown(&self) -> Vec<Shown<'_>> {
+    /// The nominal model and, where it is another, what the verdict rests on, for a record that was fitted.
+    fn shown(&self, number: usize) -> Vec<Shown<'_>> {
         let best = &self.diagnosis.best().fit;
+        let of = |name, fit| Shown { name, fit, number, record: &self.fits[number], judge: best };
         match self.found() {
-            None => self.of_first(NOMINAL, best).into_iter().collect(),
-            Some(name) => self.of_first(NOMINAL, &self.diagnosis.mismatch).into_iter().chain(self.of_first(name, best)).collect(),
+            None => vec![of(NOMINAL, best)],
+            Some(name) => vec![of(NOMINAL, &self.diagnosis.mismatch), of(name, best)],
         }
     }
 
-    fn of_first<'a>(&'a self, name: &'static str, fit: &'a Fit) -> Option<Shown<'a>> {
-        let record = self.fits.first()?;
-        Some(Shown { name, fit, number: 0, record, judge: &self.diagnosis.best().fit })
+    /// The same for each of them.
+    fn each(&self) -> impl Iterator<Item = Vec<Shown<'_>>> {
+        (0..self.fits.len()).map(|number| self.shown(number))
     }
 
     /// Channels in which something was recorded.
     fn quantities(&self) -> impl Iterator<Item = Quantity> {
-        let recorded = |q: &Quantity| {
-            self.fits.first().is_some_and(|record| record.observed.channels[q.channel].iter().any(|v| v.is_finite()))
-        };
+        let recorded = |q: &Quantity| self.fits.iter().any(|r| r.observed.channels[q.channel].iter().any(|v| v.is_finite()));
         QUANTITIES.into_iter().filter(recorded)
     }
 
+    /// The time of a record, in the unit of the longest one's.
+    fn clock(&self, record: &Record) -> Clock {
+        let ends = |record: &Record| record.observed.time.first().zip(record.observed.time.last()).map(|(a, b)| [*a, *b]);
+        let held = self.holdouts.iter().map(|held| &held.record);
+        let longest = self.fits.iter().chain(held).filter_map(ends).fold(0.0_f64, |most, [a, b]| most.max(b - a));
+        let [start, end] = ends(record).unwrap_or_default();
+        Clock { unit: DurationUnit::of(longest), start, end }
+    }
+
     fn finding(&self, out: &mut String) {
-        let mut rows = Vec::new();
         let d = &self.diagnosis;
+        // what may make the rest void comes first
+        let (warnings, notes): (Vec<&String>, Vec<&String>) = self.notes.iter().partition(|note| note.starts_with(WARNING));
+        let mut rows: Vec<_> = warnings.iter().map(|note| row("warning", note.trim_start_matches(WARNING))).collect();
         for (n, active) in d.best().fit.active.iter().enumerate().filter(|_| d.verdict == Verdict::Explained) {
             rows.push(row(self.id(active.mechanism), nice(&super::text::place(&self.gyro.located(active, d.choice(n))))));
         }
         if let Some(alternatives) = self.alternatives() {
-            rows.push(row("not told apart", alternatives));
+            rows.push(row("not told apart", format!("{alternatives} (see the next test)")));
         }
         if let Some(structure) = self.structure() {
             rows.push(row("structure", nice(&structure)));
         }
-        for (n, record) in self.fits.iter().enumerate() {
-            let shown = if n == 0 && self.fits.len() > 1 { "; this one is drawn below" } else { "" };
-            rows.push(row("fitted", format!("{}, {}{shown}", record.name(), record.span())));
-        }
+        rows.extend(self.fits.iter().map(|record| row("fitted", format!("{}, {}", record.name(), record.span()))));
         for held in &self.holdouts {
             rows.push(row("held out", format!("{}, {}", held.record.name(), held.record.span())));
         }
         if self.holdouts.is_empty() {
             rows.push(row("held out", "no record: what was fitted is not proven on data that it has not seen"));
         }
-        rows.extend(self.notes.iter().map(|note| row("note", note.as_str())));
+        rows.extend(notes.into_iter().map(|note| row("note", note.as_str())));
         table(out, &rows);
     }
 
@@ -212,7 +219,7 @@ fn grid(out: &mut String, head: &[&str], rows: &[Vec<String>]) {
         "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"table\">\n<table class=\"data named\">\n<thead>\n<tr>",
     );
     head.iter().for_each(|cell| {
-        let _ = write!(out, "<th scope=\"col\">{}</th>", escape(cell));
+        let _ = write!(out, "<th scope=\"col\">{}</th>", escape(&nice(cell)));
     });
     out.push_str("</tr>\n</thead>\n<tbody>\n");
     for row in rows {

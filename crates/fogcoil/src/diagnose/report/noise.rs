@@ -2,11 +2,14 @@
 
 use bias::units::S_PER_H;
 use mechanisms::RATE;
-use recording::allan::allan;
+use recording::allan::{AllanPoint, allan};
 
+use super::Shown;
+use super::data::with_data;
+use super::spectrum::median_interval;
 use crate::check::Allan;
 use crate::diagnose::Outcome;
-use crate::figures::element;
+use crate::plot::Figure;
 use crate::table::significant;
 
 impl Outcome {
@@ -31,17 +34,28 @@ impl Outcome {
             }
         }
         super::grid(out, &["channel (fitted)", "white, of a sample", "drift", "its correlation time", "random walk"], &rows);
-        let Some(shown) = self.shown().pop() else { return };
-        let time = &shown.record.observed.time;
-        let residual = &shown.fit.residuals[shown.number][RATE];
-        let mask: Vec<bool> = residual.iter().map(|r| r.is_finite()).collect();
-        let mut intervals: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
-        intervals.sort_by(f64::total_cmp);
-        let (Ok(points), Some(interval)) = (allan(time, residual, &mask), intervals.get(intervals.len() / 2)) else { return };
-        let allan = Allan { points: &points, model: best.noise_model(shown.number, RATE), interval: *interval };
-        let caption = format!("Of what the {} leaves of the rate, and of the noise model that was fitted with it.", shown.name);
-        if let Some(figure) = allan.figure("allan", "Allan deviation of what is left of the rate".into(), caption) {
-            out.push_str(&element(&figure));
-        }
+        let left: Vec<(Shown, Vec<AllanPoint>)> =
+            self.each().filter_map(|mut shown| shown.pop()).map(|shown| (shown, deviation(&shown))).collect();
+        let figures = left.iter().filter_map(|(shown, points)| {
+            let interval = median_interval(&shown.record.observed.time);
+            let allan = Allan { points, model: best.noise_model(shown.number, RATE), interval };
+            let caption =
+                format!("Of what the {} leaves of the rate, and of the noise model that was fitted with it.", shown.name);
+            let mut figure = allan.figure("allan", "Allan deviation of what is left of the rate".into(), caption)?;
+            figure.panels.iter_mut().for_each(|panel| panel.heading = self.headed("", shown.record));
+            Some(figure)
+        });
+        let all = figures.reduce(|mut all, one| {
+            all.panels.extend(one.panels);
+            Figure { columns: 2, ..all }
+        });
+        out.extend(all.iter().map(with_data));
     }
+}
+
+/// Allan deviation of what is left of the rate; empty where there is too little.
+fn deviation(shown: &Shown) -> Vec<AllanPoint> {
+    let residual = &shown.fit.residuals[shown.number][RATE];
+    let mask: Vec<bool> = residual.iter().map(|r| r.is_finite()).collect();
+    allan(&shown.record.observed.time, residual, &mask).unwrap_or_default()
 }

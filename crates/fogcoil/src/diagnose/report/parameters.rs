@@ -11,7 +11,7 @@ use crate::plot::{Axis, Content, Figure, Height, Panel, Style};
 use crate::table::significant;
 
 /// Points of a density.
-const POINTS: usize = 200;
+const POINTS: usize = 400;
 /// How far a density is drawn [standard deviations].
 const REACH: f64 = 5.0;
 
@@ -66,7 +66,10 @@ fn central(p: &Posterior, u: f64, sd: f64) -> [f64; 2] {
 
 fn panel(p: &Posterior, [low, high]: [f64; 2]) -> Panel<'static> {
     let reach = REACH * p.sd;
-    let at = |k: usize| p.u + reach * (2.0 * k as f64 / POINTS as f64 - 1.0);
+    // the interval may reach beyond: what is compared choice by choice has a density of its own for each
+    let [from, to] = [low, high].map(|end| p.prior.standard(end)).map(|u| if u.is_finite() { u } else { p.u });
+    let (from, to) = (from.min(to).min(p.u - reach), from.max(to).max(p.u + reach));
+    let at = |k: usize| from + (to - from) * k as f64 / POINTS as f64;
     // du/dvalue, so that it is a density of the value
     let slope = |u: f64| {
         let h = 1e-4;

@@ -2,9 +2,10 @@
 
 use mechanisms::RATE;
 
-use super::{Clock, Shown, course, line};
+use super::data::with_data;
+use super::multiples::multiples;
+use super::{Shown, course, line};
 use crate::diagnose::Outcome;
-use crate::figures::element;
 use crate::plot::{Axis, Colours, Content, Figure, HeatMap, Height, Panel, Style};
 use bias::units::S_PER_MIN;
 use diagnosis::{Cell, Spectrum};
@@ -14,22 +15,24 @@ const MOST_Z: f64 = 10.0;
 
 impl Outcome {
     pub(super) fn place(&self, out: &mut String) {
-        let shown = self.shown();
-        out.push_str(&self.map(&shown));
-        out.push_str(&self.blocks(&shown));
-        out.push_str(&self.coherence(&shown));
+        out.push_str(&self.map());
+        out.push_str(&self.blocks());
+        out.push_str(&self.coherence());
     }
 
     /// Mean residual over temperature and its rate.
-    fn map(&self, shown: &[Shown]) -> String {
-        let cells = |fit: &Shown| fit.fit.over_state(&self.gyro, (fit.number, fit.number), RATE, &fit.record.observed, fit.judge);
-        let all: Vec<Vec<Cell>> = shown.iter().map(cells).collect();
-        let most = all.iter().flatten().fold(3.0_f64, |most, cell| cell.z.abs().max(most)).min(MOST_Z);
-        let panels: Vec<Panel> = shown.iter().zip(&all).filter_map(|(fit, cells)| grid(fit.name, cells, most)).collect();
+    fn map(&self) -> String {
+        let cells = |fit: Shown| {
+            let cells = fit.fit.over_state(&self.gyro, (fit.number, fit.number), RATE, &fit.record.observed, fit.judge);
+            (self.headed(fit.name, fit.record), cells)
+        };
+        let all: Vec<(String, Vec<Cell>)> = self.each().flatten().map(cells).collect();
+        let most = all.iter().flat_map(|(_, cells)| cells).fold(3.0_f64, |most, cell| cell.z.abs().max(most)).min(MOST_Z);
+        let panels: Vec<Panel> = all.iter().filter_map(|(name, cells)| grid(name, cells, most)).collect();
         if panels.is_empty() {
             return String::new();
         }
-        element(&Figure {
+        with_data(&Figure {
             id: "state",
             title: "The rate's residual over temperature and its rate".into(),
             description: "Map of the mean whitened residual over the spool's temperature and its rate; dots mark cells that stand out.".into(),
@@ -43,9 +46,24 @@ impl Outcome {
     }
 
     /// Stretches of equal length.
-    fn blocks(&self, shown: &[Shown]) -> String {
-        let Some(first) = shown.first() else { return String::new() };
-        let clock = Clock::of(&first.record.observed);
+    fn blocks(&self) -> String {
+        let (columns, panels) = multiples(self.each().map(|shown| self.stretches(&shown)).collect());
+        with_data(&Figure {
+            id: "blocks",
+            title: "When the residual is larger than noise".into(),
+            description: "Mean square of the whitened residual in stretches of equal length; those that stand out are marked."
+                .into(),
+            caption: "In stretches of equal length; 1 is noise. Marked: what stands out, the number of stretches considered."
+                .into(),
+            columns,
+            panels,
+        })
+    }
+
+    /// Of one record.
+    fn stretches(&self, shown: &[Shown]) -> Vec<Panel<'static>> {
+        let Some(Shown { record, .. }) = shown.first() else { return Vec::new() };
+        let clock = self.clock(record);
         let mut panels = Vec::new();
         for q in self.quantities() {
             let mut series = Vec::new();
@@ -62,33 +80,24 @@ impl Outcome {
                 }));
             }
             let mut panel = course::panel(&clock, "mean square over that of noise", 0.5, 10.0, series);
-            panel.heading = q.name.to_owned();
+            panel.heading = self.headed(q.name, record);
             panel.y = Axis::logarithmic("mean square over that of noise");
             panel.x = panel.x.covering(clock.ends());
             panels.push(panel);
         }
         course::label_last(&mut panels, &clock);
-        element(&Figure {
-            id: "blocks",
-            title: "When the residual is larger than noise".into(),
-            description: "Mean square of the whitened residual in stretches of equal length; those that stand out are marked."
-                .into(),
-            caption: "In stretches of equal length; 1 is noise. Marked: what stands out, the number of stretches considered."
-                .into(),
-            columns: 1,
-            panels,
-        })
+        panels
     }
 
     /// With which state it goes.
-    fn coherence(&self, shown: &[Shown]) -> String {
-        let panel = |fit: &Shown| -> Option<Panel<'static>> {
+    fn coherence(&self) -> String {
+        let panel = |fit: Shown| -> Option<Panel<'static>> {
             let spectra = fit.fit.in_frequency(&self.gyro, (fit.number, fit.number), RATE, &fit.record.observed);
             let threshold = spectra.first()?.threshold;
             let of = |k: usize| spectra.iter().map(|s: &Spectrum| (s.frequency, s.coherence[k])).collect::<Vec<_>>();
             let ends = [spectra.first()?.frequency, spectra.last()?.frequency];
             Some(Panel {
-                heading: fit.name.to_owned(),
+                heading: self.headed(fit.name, fit.record),
                 x: Axis::logarithmic("frequency [Hz]"),
                 y: Axis::round("squared coherence", 0.1).covering([0.0, 1.0]),
                 height: Height::Lines(14.0),
@@ -100,11 +109,11 @@ impl Outcome {
                 ]),
             })
         };
-        let panels: Vec<Panel> = shown.iter().filter_map(panel).collect();
+        let panels: Vec<Panel> = self.each().flatten().filter_map(panel).collect();
         if panels.is_empty() {
             return String::new();
         }
-        element(&Figure {
+        with_data(&Figure {
             id: "coherence",
             title: "Coherence of the rate's residual with the spool's temperature".into(),
             description:

@@ -2,9 +2,9 @@
 
 use diagnosis::whiteness;
 
+use super::data::with_data;
 use super::{Quantity, Shown, line};
 use crate::diagnose::Outcome;
-use crate::figures::element;
 use crate::plot::{Axis, Content, Figure, Height, Panel, Style};
 use crate::table::significant;
 
@@ -18,9 +18,9 @@ pub(super) const WHITE: f64 = 0.01;
 
 impl Outcome {
     pub(super) fn spectra(&self, out: &mut String) {
-        let shown = self.shown();
-        let panels: Vec<Panel> = self.quantities().map(|q| panel(&shown, q)).collect();
-        out.push_str(&element(&Figure {
+        let of = |shown: &Vec<Shown>| self.quantities().map(|q| self.spectrum(shown, q)).collect::<Vec<_>>();
+        let panels = self.each().flat_map(|shown| of(&shown)).collect();
+        out.push_str(&with_data(&Figure {
             id: "spectrum",
             title: "Spectrum of the whitened residuals".into(),
             description: "Mean periodogram of the whitened residual of rate and spool thermometer against frequency, which is 1 for noise."
@@ -32,15 +32,39 @@ impl Outcome {
             panels,
         }));
         let mut rows = Vec::new();
-        for fit in &shown {
+        for fit in self.each().flatten() {
             for q in self.quantities() {
                 let w = fit.whitened(q.channel);
                 let p = whiteness(&w);
                 let excess = w.iter().map(|w| w * w).sum::<f64>() / (w.len() as f64).max(1.0);
-                rows.push(vec![format!("{}, {}", fit.name, q.name), significant(excess, 3), judged(p)]);
+                rows.push(vec![self.headed(&format!("{}, {}", fit.name, q.name), fit.record), significant(excess, 3), judged(p)]);
             }
         }
         super::grid(out, &["residual", "mean square (noise: 1)", "Ljung–Box, 30 lags"], &rows);
+    }
+
+    /// Of one channel of one record.
+    fn spectrum(&self, shown: &[Shown], q: Quantity) -> Panel<'static> {
+        let mut series = Vec::new();
+        for (n, fit) in shown.iter().enumerate() {
+            let time = &fit.record.observed.time;
+            let interval = median_interval(time);
+            let bands = bands(&fit.whitened(q.channel), interval);
+            if n == 0 {
+                let edge = |z: f64| bands.iter().map(|b| (b.frequency, chi_square(2.0 * b.count, z) / (2.0 * b.count))).collect();
+                series.push(line("95 % band of noise", Style::Third, edge(-Z975)));
+                series.push(line("", Style::Third, edge(Z975)));
+            }
+            let style = if n + 1 == shown.len() { Style::First } else { Style::Second };
+            series.push(line(fit.name, style, bands.iter().map(|b| (b.frequency, b.power)).collect()));
+        }
+        Panel {
+            heading: shown.first().map_or(String::new(), |fit| self.headed(q.name, fit.record)),
+            x: Axis::logarithmic("frequency [Hz]"),
+            y: Axis::logarithmic("power over that of noise"),
+            height: Height::Lines(16.0),
+            content: Content::Lines(series),
+        }
     }
 }
 
@@ -54,30 +78,7 @@ pub(super) fn judged(p: f64) -> String {
     }
 }
 
-fn panel(shown: &[Shown], q: Quantity) -> Panel<'static> {
-    let mut series = Vec::new();
-    for (n, fit) in shown.iter().enumerate() {
-        let time = &fit.record.observed.time;
-        let interval = median_interval(time);
-        let bands = bands(&fit.whitened(q.channel), interval);
-        if n == 0 {
-            let edge = |z: f64| bands.iter().map(|b| (b.frequency, chi_square(2.0 * b.count, z) / (2.0 * b.count))).collect();
-            series.push(line("95 % band of noise", Style::Third, edge(-Z975)));
-            series.push(line("", Style::Third, edge(Z975)));
-        }
-        let style = if n + 1 == shown.len() { Style::First } else { Style::Second };
-        series.push(line(fit.name, style, bands.iter().map(|b| (b.frequency, b.power)).collect()));
-    }
-    Panel {
-        heading: q.name.to_owned(),
-        x: Axis::logarithmic("frequency [Hz]"),
-        y: Axis::logarithmic("power over that of noise"),
-        height: Height::Lines(16.0),
-        content: Content::Lines(series),
-    }
-}
-
-fn median_interval(time: &[f64]) -> f64 {
+pub(super) fn median_interval(time: &[f64]) -> f64 {
     let mut intervals: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
     intervals.sort_by(f64::total_cmp);
     intervals.get(intervals.len() / 2).copied().unwrap_or(1.0)

@@ -5,9 +5,9 @@ use std::fmt::Write;
 use diagnosis::Resolution;
 use mechanisms::RATE;
 
+use super::data::with_data;
 use super::{grid, line, spectrum};
 use crate::diagnose::Outcome;
-use crate::figures::element;
 use crate::plot::{Axis, Content, Figure, Height, Panel, Style};
 use crate::table::significant;
 
@@ -43,7 +43,7 @@ impl Outcome {
     fn layers(&self, out: &mut String) {
         let records: Vec<usize> = (0..self.fits.len()).collect();
         let Ok(Some(found)) = self.diagnosis.mismatch.resolution(&self.gyro, &records, TURNS) else { return };
-        out.push_str(&element(&figure(&found)));
+        out.push_str(&with_data(&figure(&found)));
         let verdict = if found.locatable() {
             "some layers can be located"
         } else {

@@ -1,0 +1,56 @@
+//! What the records leave to be told apart.
+
+use std::path::Path;
+
+use diagnosis::Candidate;
+
+use super::Outcome;
+
+/// Most ids that one test is asked to tell apart.
+const MOST: usize = 3;
+
+impl Outcome {
+    /// Mechanisms that are not excluded beside those of the best hypothesis, best first.
+    pub(super) fn others(&self) -> Vec<&str> {
+        let best = self.names();
+        self.diagnosis.set.iter().map(|m| self.id(*m)).filter(|id| !best.contains(id)).collect()
+    }
+
+    /// Ids that the next test should tell apart, most probable first; empty where there is nothing to tell apart.
+    pub(super) fn apart(&self) -> Vec<String> {
+        let others = self.others();
+        let Some(first) = others.first() else { return Vec::new() };
+        let holds = |c: &&Candidate| c.rival.is_none() && c.fit.active.iter().any(|a| self.id(a.mechanism) == *first);
+        let with_it = self.diagnosis.candidates.iter().filter(holds).max_by(|a, b| a.probability.total_cmp(&b.probability));
+        let kept = |id: &str| with_it.is_some_and(|c| c.fit.active.iter().any(|a| self.id(a.mechanism) == id));
+        // of a pair the one whose place it takes
+        let best = self.names();
+        let replaced = best.iter().find(|id| !kept(id)).or(best.first());
+        let ids: Vec<String> = replaced.into_iter().chain(&others).take(MOST).map(|id| (*id).to_owned()).collect();
+        if ids.len() > 1 { ids } else { Vec::new() }
+    }
+
+    /// The command that finds the test that tells `ids` apart.
+    pub(super) fn recommend(&self, ids: &[String]) -> String {
+        let from: String = self.fits.iter().map(|record| format!(" --from {}", word(&record.file))).collect();
+        format!("fogcoil recommend {} --between {}{from}", word(&self.coil), ids.join(","))
+    }
+}
+
+/// A path as one word of a shell's line.
+fn word(path: &Path) -> String {
+    let text = path.display().to_string();
+    let plain = |c: char| c.is_alphanumeric() || "/._-+,:@%=".contains(c);
+    if !text.is_empty() && text.chars().all(plain) { text } else { format!("'{}'", text.replace('\'', r"'\''")) }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_path_is_one_word() {
+        let word = |text: &str| super::word(text.as_ref());
+        assert_eq!(word("a/b-1.csv"), "a/b-1.csv");
+        assert_eq!(word("my records/unit's.csv"), r"'my records/unit'\''s.csv'");
+        assert_eq!(word(""), "''");
+    }
+}

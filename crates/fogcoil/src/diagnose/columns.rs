@@ -1,0 +1,69 @@
+//! Records whose columns are exchanged, or whose rate has the other sign: what a mechanism would hardly do, and a mistake does.
+
+use diagnosis::{ForwardModel, Observation};
+use mechanisms::{Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
+
+use super::record::{Ready, WARNING, bridge};
+use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
+use crate::table::significant;
+
+/// What the model leaves of a record as it is over what it leaves of it as suspected, from which that is said.
+const SUSPECT: f64 = 4.0;
+/// The same for the rate's sign: beside the thermal bias there is noise.
+const REVERSED: f64 = 2.5;
+/// Root mean square of what the nominal model leaves of the thermometer below which no column is suspected \[K\].
+const FAIR_K: f64 = 0.5;
+
+/// The warning about a record, if there is one; `number` is its number in `gyro`.
+///
+/// # Errors
+/// [`coil::Error`] if the model cannot be run.
+pub(super) fn warning(gyro: &Gyro, number: usize, ready: &Ready, case: &RecordCase) -> Result<Option<String>, coil::Error> {
+    let file = case.fingerprint.file.display();
+    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let predicted = gyro.respond(number, &middle, &[])?;
+    let Observation { time, channels } = &ready.observation;
+    let (spool, rate) = (&channels[SPOOL_CHANNEL], &channels[RATE_CHANNEL]);
+    let left = rms(spool, &predicted[SPOOL_CHANNEL], 1.0);
+    if left > FAIR_K {
+        let exchanged = [
+            (format!("{SPOOL} and {RATE}"), &ready.chamber, rate),
+            (format!("{CHAMBER} and {SPOOL}"), spool, &ready.chamber),
+            (format!("{CHAMBER} and {RATE}"), rate, spool),
+        ];
+        for (columns, chamber, thermometer) in exchanged {
+            let would = rms(thermometer, &thermometer_under(gyro.library(), time, chamber)?, 1.0);
+            if SUSPECT * would < left {
+                let [left, would] = [left, would].map(|k| significant(k, 2));
+                return Ok(Some(format!(
+                    "{WARNING}{file}: {columns} seem to be exchanged: the model leaves {left} K rms of the thermometer as it stands, \
+                     {would} K with them exchanged; check the header or --column"
+                )));
+            }
+        }
+    }
+    let [left, would] = [1.0, -1.0].map(|sign| rms(rate, &predicted[RATE_CHANNEL], sign));
+    Ok((REVERSED * would < left).then(|| {
+        let [left, would] = [left, would].map(|r| significant(r, 2));
+        format!(
+            "{WARNING}{file}: {RATE} seems to have the other sign: the nominal model leaves {left} deg/h rms as it stands, {would} \
+             with the rate negated; check the sense of the gyro's axis and cw_climbs"
+        )
+    }))
+}
+
+/// The thermometer under another chamber temperature, over its gaps on straight lines.
+fn thermometer_under(library: &Library, time: &[f64], chamber: &[f64]) -> Result<Vec<f64>, coil::Error> {
+    let mut chamber = chamber.to_vec();
+    bridge(time, &mut chamber);
+    let prepared = Prepared::new(library, time, &chamber, 0.0)?;
+    Ok(Gyro::new(library.clone(), vec![prepared])?.state(0).level.clone())
+}
+
+/// Standard deviation of what is recorded less `sign` times what is predicted; 0 where nothing is recorded.
+fn rms(recorded: &[f64], predicted: &[f64], sign: f64) -> f64 {
+    let left: Vec<f64> = recorded.iter().zip(predicted).map(|(y, p)| y - sign * p).filter(|r| r.is_finite()).collect();
+    let count = left.len().max(1) as f64;
+    let mean = left.iter().sum::<f64>() / count;
+    (left.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / count).sqrt()
+}

@@ -1,0 +1,180 @@
+//! The test to make next: the profile that tells apart what the records do not, what it is expected to show, and how to get it.
+
+use std::fmt::Write;
+
+use diagnosis::{Settings, Verdict};
+
+use super::data::with_data;
+use super::{line, nice};
+use crate::diagnose::Outcome;
+use crate::diagnose::record::Ready;
+use crate::picture::escape;
+use crate::plot::{Axis, Content, Figure, Height, Panel, Style};
+use crate::recommend::{Course, Limits, Odds, Question, Recommendation, inspection, number, sentence};
+use crate::report::{row, table};
+use crate::table::significant;
+use crate::units::DurationUnit;
+
+/// Share of the squared distance from which a thermometer's course is drawn.
+const WORTH_DRAWING: f64 = 0.05;
+
+impl Outcome {
+    pub(super) fn next_test(&self, out: &mut String) {
+        out.push_str("<h2>The next test</h2>\n");
+        let between = self.apart();
+        if between.is_empty() {
+            let _ = writeln!(out, "<p>{}</p>", escape(&self.nothing_to_tell_apart()));
+            return;
+        }
+        let command = format!("{} --out next.csv", self.recommend(&between));
+        let records = self.fits.iter().map(|record| Ready {
+            observation: record.observed.clone(),
+            chamber: record.chamber.clone(),
+            averaging: record.averaging,
+        });
+        let question =
+            Question { file: &self.coil, between: &between, records: records.collect(), limits: Limits::USUAL, thorough: false };
+        match question.answer(self.gyro.library().clone(), &|_| ()) {
+            Ok(found) => recommended(out, &found),
+            Err(error) => {
+                let _ = writeln!(out, "<p>It could not be worked out: {}</p>", escape(&error.to_string()));
+            }
+        }
+        let _ = writeln!(
+            out,
+            "<p>This writes the profile, as <code>fogcoil simulate --profile</code> reads it; other limits of the chamber are flags \
+             of the same command:</p>\n<p><code>{}</code></p>",
+            escape(&command)
+        );
+    }
+
+    /// What would confirm or sharpen, where no two mechanisms are left.
+    fn nothing_to_tell_apart(&self) -> String {
+        let proven = !self.holdouts.is_empty() && self.accepted();
+        let names = self.names();
+        let looks: Vec<&str> = names.iter().filter_map(|id| inspection(id)).collect();
+        let (names, looks) = (names.join(" and "), looks.join("; "));
+        let likeliest = self.likely().next().filter(|(_, p)| *p >= Settings::default().excluded);
+        match self.diagnosis.verdict {
+            Verdict::Explained if proven => format!(
+                "No further test is needed to tell mechanisms apart: {names} alone is left, and a record that was held out bears it out; \
+                 on the unit itself, {looks}."
+            ),
+            Verdict::Explained => format!(
+                "No other mechanism is left: what would confirm {names} is a record of the same unit under another profile, given with \
+                 --holdout, and on the unit itself: {looks}."
+            ),
+            Verdict::Recalibrate if proven => {
+                "No further test is needed: the re-estimated constants predict a record that was held out.".into()
+            }
+            Verdict::Recalibrate => {
+                "What would confirm the re-estimated constants is a record of the same unit under another profile, given with --holdout."
+                    .into()
+            }
+            Verdict::Unknown => "No profile can be computed for what no mechanism describes: repeat the same profile first, for what does \
+                                 not return is the test's and not the unit's, then another one, and give both with --fit."
+                .into(),
+            Verdict::None => match likeliest {
+                Some((id, p)) => {
+                    let command = self.recommend(&[id.to_owned(), "nominal".into()]);
+                    format!(
+                        "None is needed to explain these records; what they exclude least is {id} (probability {p:.3}), and {command} \
+                         finds the test that would show it."
+                    )
+                }
+                None => "None is needed: nothing beyond noise is left, and no mechanism stands out.".into(),
+            },
+        }
+    }
+}
+
+fn recommended(out: &mut String, found: &Recommendation) {
+    let said = nice(&sentence(found));
+    let capital: String = said.chars().take(1).flat_map(char::to_uppercase).chain(said.chars().skip(1)).collect();
+    let _ = writeln!(out, "<p>{}</p>", escape(&capital));
+    let (best, limits) = (&found.profiles[0], &found.limits);
+    let mut rows = vec![
+        row("told apart", found.between.join(", ")),
+        row("profile", best.programme.name.clone()),
+        row("duration", format!("{} h", significant(best.programme.duration() / 3600.0, 3))),
+        row("chamber", nice(&format!("{} to {} degC, at most {} K/min", limits.coldest, limits.hottest, limits.fastest))),
+        row("sensors", "those of the record: the gyro's rate and the spool's thermometer, with the noise that was identified"),
+        row("expected separation", meaning(&best.odds)),
+        row(&format!("{} instead, as long", found.repeat.0), brief(&found.repeat.1)),
+    ];
+    rows.extend(found.sensors.iter().map(|s| row(&format!("with {}", s.sensor), format!("{}: {}", s.programme, brief(&s.odds)))));
+    for size in &found.sizes {
+        let values: Vec<String> = size.values.iter().map(|(name, v)| format!("{name} = {}", significant(*v, 3))).collect();
+        rows.push(row(&format!("size of {} (fitted alone)", size.id), nice(&values.join(", "))));
+    }
+    table(out, &rows);
+    out.push_str(&with_data(&figure(&found.course, &best.programme.name)));
+}
+
+fn brief(odds: &Odds) -> String {
+    let apart = if odds.decides() { "tells them apart" } else { "does not" };
+    format!("{apart} (ln odds {}, {} σ)", nice(&number(odds.log_odds)), number(odds.sigma))
+}
+
+/// What an expected separation means.
+fn meaning(odds: &Odds) -> String {
+    let excluded = Settings::default().excluded;
+    let [truth, rival] = &odds.pair;
+    format!(
+        "{}: if {truth} is at work, the nearest {rival} stays {} standard deviations of the noise away, and the ln of the odds for {truth} over \
+         {rival} is expected to be {}; from {:.1} on (1 in {:.0}) the loser counts as excluded. Of all pairs this one is told apart worst",
+        if odds.decides() { "enough" } else { "not enough" },
+        number(odds.sigma),
+        nice(&number(odds.log_odds)),
+        -excluded.ln(),
+        1.0 / excluded,
+    )
+}
+
+fn figure(course: &Course, name: &str) -> Figure<'static> {
+    let Course { pair: [truth, rival], time, chamber, rate, spool } = course;
+    let unit = DurationUnit::of(time.last().copied().unwrap_or(0.0));
+    let over = |values: &[f64]| time.iter().zip(values).map(|(t, v)| (unit.of_seconds(*t), *v)).collect::<Vec<_>>();
+    let panel = |heading: String, label: &str, least: f64, lines: f64, series| Panel {
+        heading,
+        x: Axis::tight("", 1e-6),
+        y: Axis::round(label, least),
+        height: Height::Lines(lines),
+        content: Content::Lines(series),
+    };
+    let mut panels = vec![panel("the profile".into(), "chamber [°C]", 0.1, 10.0, vec![line("", Style::First, over(chamber))])];
+    for (trace, label, of, least) in [(rate, "rate [°/h]", "°/h", 1e-4), (spool, "spool thermometer [K]", "K", 0.01)] {
+        if trace.share < WORTH_DRAWING && label != "rate [°/h]" {
+            continue;
+        }
+        let [own, other] = &trace.added;
+        let both = vec![line(truth.clone(), Style::First, over(own)), line(rival.clone(), Style::Second, over(other))];
+        panels.push(panel("what each adds to the design".into(), label, least, 14.0, both));
+        let noise = trace.noise;
+        let at = |level: f64| over(&vec![level; time.len()]);
+        let noise_name = format!("± noise of a reading, {} {of}", significant(noise, 2));
+        let left = vec![
+            line(noise_name, Style::Third, at(noise)),
+            line("", Style::Third, at(-noise)),
+            line(format!("left of {truth}"), Style::First, over(&trace.left)),
+        ];
+        panels.push(panel("what tells them apart".into(), label, least, 10.0, left));
+    }
+    if let Some(last) = panels.last_mut() {
+        last.x.label = format!("time [{}]", unit.name());
+    }
+    Figure {
+        id: "next-test",
+        title: format!("The recommended test: {name}"),
+        description: format!(
+            "Chamber temperature of the recommended profile over time, the rates that {truth} and {rival} add to the design's, and what tells \
+             the two apart."
+        ),
+        caption: format!(
+            "Predicted, without noise, at the sizes that were fitted to the record, each mechanism alone. What tells them apart: what is left of \
+             {truth} when {rival}, the model's own errors and the offset are fitted to it; over the whole test this decides."
+        ),
+        columns: 1,
+        panels,
+    }
+}

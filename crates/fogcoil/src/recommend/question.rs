@@ -1,0 +1,195 @@
+//! A question about a design, and how it is answered.
+
+use std::path::Path;
+
+use diagnosis::{Active, ForwardModel, Observation, Plan, fitted};
+use mechanisms::{Gyro, Library, Prepared, RATE, SPOOL};
+use recording::noise::NoiseModel;
+
+use super::bench::{self, Contender, everything, odds, prepared, usual};
+use super::{Course, Limits, Odds, Ranked, Recommendation, Size, WithSensor, check, programmes};
+use crate::Error;
+use crate::diagnose::Ready;
+
+/// Noise of a spool thermometer that may be added \[K\], its drift a tenth of the usual.
+const FINE_K: f64 = 0.001;
+const FINE_DRIFT: f64 = 0.1;
+
+/// The test that is repeated for comparison.
+struct Repeat {
+    name: String,
+    records: Vec<usize>,
+    instants: Vec<Observation>,
+    noise: [NoiseModel; 2],
+    /// how often it fits into the time of the others
+    times: f64,
+}
+
+/// What is asked about a design.
+pub(crate) struct Question<'a> {
+    /// The design's file.
+    pub(crate) file: &'a Path,
+    /// Ids to be told apart.
+    pub(crate) between: &'a [String],
+    /// Records of the unit, if there are any.
+    pub(crate) records: Vec<Ready>,
+    /// What the chamber can do.
+    pub(crate) limits: Limits,
+    /// Whether all is asked for; else of a programme that is not the best no more is worked out than that, and no sensor where a programme does.
+    pub(crate) thorough: bool,
+}
+
+impl Question<'_> {
+    /// The answer, from the design's library.
+    ///
+    /// # Errors
+    /// As [`recommend`].
+    pub(crate) fn answer(self, library: Library, progress: &dyn Fn(&str)) -> Result<Recommendation, Error> {
+        let Self { file, between, records: given, limits, thorough } = self;
+        check(between, &limits)?;
+        let coil = |source| Error::Coil { file: file.to_owned(), source };
+        let failed = |error: diagnosis::Error<coil::Error>| match error {
+            diagnosis::Error::Model(source) => coil(source),
+            other => Error::Diagnosis(other.to_string()),
+        };
+        let programmes = programmes(&limits);
+        progress("running every model under every programme");
+        let recorded = given.iter().map(|r| Prepared::new(&library, &r.observation.time, &r.chamber, r.averaging));
+        let all = recorded.chain(programmes.iter().map(|programme| prepared(&library, programme)));
+        let all = all.collect::<Result<Vec<_>, _>>().map_err(coil)?;
+        let gyro = Gyro::new(library, all).map_err(coil)?;
+        let mut contenders = contenders(&gyro, between, failed)?;
+        let observations: Vec<Observation> = given.into_iter().map(|r| r.observation).collect();
+        let recorded = observations.len();
+        let mut noise = None;
+        if recorded > 0 {
+            progress("fitting each of them to the record");
+            noise = Some(fit(&gyro, &observations, &mut contenders).map_err(failed)?);
+        }
+        let proposed_noise = noise.map_or_else(|| usual(&gyro), |[spool, rate]| [spool, over(&rate, bench::INTERVAL)]);
+        let told = |records: &[usize], instants: &[Observation], noise: &[NoiseModel]| {
+            odds(&gyro, &contenders, &Plan { records, instants, noise: Some(noise) }).map_err(failed)
+        };
+        let planned = |k: usize| ([recorded + k], [everything(&programmes[k])]);
+        let mut order: Vec<(usize, Option<Odds>)> = (0..programmes.len()).map(|k| (k, None)).collect();
+        if !thorough {
+            let narrow: Vec<Contender> = contenders.iter().map(Contender::narrowed).collect();
+            for (k, bound) in &mut order {
+                let (records, instants) = planned(*k);
+                let plan = Plan { records: &records, instants: &instants, noise: Some(&proposed_noise) };
+                *bound = Some(odds(&gyro, &narrow, &plan).map_err(failed)?);
+            }
+            let height = |bound: &Option<Odds>| bound.as_ref().map_or(0.0, |b| b.log_odds);
+            order.sort_by(|a, b| height(&b.1).total_cmp(&height(&a.1)));
+        }
+        let (mut profiles, mut most) = (Vec::new(), f64::NEG_INFINITY);
+        for (n, (k, bound)) in order.into_iter().enumerate() {
+            progress(&format!("{} ({} of {})", programmes[k].name, n + 1, programmes.len()));
+            let (records, instants) = planned(k);
+            let odds = match bound {
+                Some(bound) if bound.log_odds < most => bound,
+                _ => told(&records, &instants, &proposed_noise)?,
+            };
+            most = most.max(odds.log_odds);
+            profiles.push((recorded + k, Ranked { programme: programmes[k].clone(), odds }));
+        }
+        profiles.sort_by(|a, b| b.1.odds.log_odds.total_cmp(&a.1.odds.log_odds));
+        let repeat = match noise {
+            Some(noise) => {
+                let span: f64 = observations.iter().map(|o| o.time[o.time.len() - 1] - o.time[0]).sum();
+                let (records, times) = ((0..recorded).collect(), limits.hours * 3600.0 / span);
+                Repeat { name: "the recorded test".into(), records, instants: observations, noise, times }
+            }
+            None => {
+                let (name, instants) = (programmes[0].name.clone(), vec![everything(&programmes[0])]);
+                Repeat { name, records: vec![recorded], instants, noise: proposed_noise, times: 1.0 }
+            }
+        };
+        // a repeat tells as much again in as much time again
+        let again = |odds: Odds| Odds { sigma: odds.sigma * repeat.times.sqrt(), log_odds: odds.log_odds * repeat.times, ..odds };
+        let as_it_was = again(told(&repeat.records, &repeat.instants, &repeat.noise)?);
+        let (number, best) = (profiles[0].0, &profiles[0].1.programme);
+        let mut sensors = Vec::new();
+        if thorough || !profiles[0].1.odds.decides() {
+            progress("further sensors");
+            let sensor = format!("a spool thermometer of {FINE_K} K");
+            let finer_repeat = again(told(&repeat.records, &whole_spool(repeat.instants.clone()), &finer(repeat.noise))?);
+            let finer_best = told(&[number], &[everything(best)], &finer(proposed_noise))?;
+            sensors.push(WithSensor { sensor: sensor.clone(), programme: repeat.name.clone(), odds: finer_repeat });
+            sensors.push(WithSensor { sensor, programme: best.name.clone(), odds: finer_best });
+        }
+        let plan = Plan { records: &[number], instants: &[everything(best)], noise: Some(&proposed_noise) };
+        let course = Course::new(&gyro, &contenders, &profiles[0].1.odds, (number, best), &plan).map_err(failed)?;
+        Ok(Recommendation {
+            between: between.to_vec(),
+            limits,
+            sizes: contenders.iter().filter_map(|c| c.truth.as_ref()).map(|active| size(&gyro, active)).collect(),
+            fitted: recorded > 0,
+            repeat: (repeat.name, as_it_was),
+            profiles: profiles.into_iter().map(|(_, ranked)| ranked).collect(),
+            sensors,
+            course,
+        })
+    }
+}
+
+fn contenders(
+    gyro: &Gyro,
+    between: &[String],
+    failed: impl Fn(diagnosis::Error<coil::Error>) -> Error,
+) -> Result<Vec<Contender>, Error> {
+    let mut contenders = Vec::with_capacity(between.len());
+    for id in between {
+        let Some(contender) = Contender::named(gyro, id).map_err(&failed)? else {
+            let known = Contender::known(gyro);
+            return Err(Error::Usage(format!("--between: `{id}` is not in this design's library; it holds {known}")));
+        };
+        contenders.push(contender);
+    }
+    if contenders.iter().all(|c| c.truth.is_none()) {
+        return Err(Error::Usage("--between: one of the ids must be a mechanism's".into()));
+    }
+    Ok(contenders)
+}
+
+/// Gives the contenders the sizes that fit records best, and returns the noise beside the best of them.
+fn fit(
+    gyro: &Gyro,
+    observations: &[Observation],
+    contenders: &mut [Contender],
+) -> Result<[NoiseModel; 2], diagnosis::Error<coil::Error>> {
+    let records: Vec<usize> = (0..observations.len()).collect();
+    let (mut noise, mut most) = (usual(gyro), f64::NEG_INFINITY);
+    for contender in contenders {
+        let fit = fitted(gyro, &records, observations, &contender.hypotheses)?;
+        contender.truth = fit.active.first().cloned();
+        if fit.log_evidence > most {
+            most = fit.log_evidence;
+            noise = [SPOOL, RATE].map(|channel| *fit.noise_model(0, channel));
+        }
+    }
+    Ok(noise)
+}
+
+fn size(gyro: &Gyro, active: &Active) -> Size {
+    let entry = &gyro.mechanisms()[active.mechanism];
+    let choice = entry.choice.iter().zip(active.choice).map(|((name, _), value)| (name.clone(), value));
+    let parameters = entry.parameters.iter().zip(&active.values).map(|(p, value)| (p.name.clone(), *value));
+    Size { id: entry.id.clone(), values: choice.chain(parameters).collect() }
+}
+
+/// The same instants with a spool thermometer that reads at each of them.
+fn whole_spool(mut instants: Vec<Observation>) -> Vec<Observation> {
+    instants.iter_mut().for_each(|o| o.channels[SPOOL] = vec![0.0; o.time.len()]);
+    instants
+}
+
+fn finer([spool, rate]: [NoiseModel; 2]) -> [NoiseModel; 2] {
+    [NoiseModel { white: FINE_K.min(spool.white), drift: FINE_DRIFT * spool.drift, ..spool }, rate]
+}
+
+/// The noise of means over another span.
+fn over(noise: &NoiseModel, averaging: f64) -> NoiseModel {
+    let share = if noise.averaging > 0.0 { (noise.averaging / averaging).sqrt() } else { 1.0 };
+    NoiseModel { averaging, white: noise.white * share, ..*noise }
+}
