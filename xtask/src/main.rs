@@ -1,8 +1,11 @@
-//! Project chores: `cargo xtask validate [--json FILE]`, `cargo xtask prove`, `cargo xtask figures [--out DIR]`, `cargo xtask mechanisms`,
+//! Project chores: `cargo xtask validate [--json FILE]`, `cargo xtask prove`, `cargo xtask figures [--out DIR]`, `cargo xtask cells`, `cargo xtask mechanisms`,
+//! `cargo xtask identify [--cells N]`,
 //! `cargo xtask bench NAME`.
 
 mod bench;
+mod cells;
 mod figures;
+mod identify;
 mod mechanisms;
 mod prove;
 mod validate;
@@ -12,7 +15,7 @@ use std::process::ExitCode;
 const USAGE: &str = "usage: cargo xtask validate [--json FILE]\n       cargo xtask prove [--case NN]...\n       \
     cargo xtask prove --sealed [--again DIR]\n       cargo xtask prove --recommended\n       cargo xtask prove --synthetic [--seed S] [--nulls N] [--concealed N]\n       \
     cargo xtask figures [--out DIR]\n       \
-    cargo xtask mechanisms\n       cargo xtask bench coil|sensitivity [--peers-python PATH] [--repetitions N]\n       cargo xtask bench reduced|diagnose\n\n  \
+    cargo xtask cells\n       cargo xtask mechanisms\n       cargo xtask identify [--cells N]\n       cargo xtask bench cell|coil|sensitivity [--peers-python PATH] [--repetitions N]\n       cargo xtask bench reduced|diagnose\n\n  \
     validate   run the whole chain, compare with the paper's Tables I to IV,\n             \
     write docs/validation.md and the README's headline table; exit 1 if a row that must hold does not\n  \
     prove      diagnose the units of fixtures/concealed/open, or those named, hold the answers against the truth,\n             \
@@ -21,8 +24,12 @@ const USAGE: &str = "usage: cargo xtask validate [--json FILE]\n       cargo xta
     mechanisms apart; --synthetic: units of the project's own generator,\n             \
     kept in target/prove, where a run that was stopped goes on\n  \
     figures    draw the reference coil's figures as SVG files into docs/pictures, or DIR\n  \
+    cells      cells of many kinds to 1e-6, each against a much finer solution and finite elements; writes docs/cells.md;\n             \
+    exit 1 if an error is above its estimate or the tolerance\n  \
     mechanisms measure which mechanisms are mistaken for which; the numbers of docs/mechanisms and its pictures\n  \
-    bench      times beside errors into docs/benchmarks.md: the coil job and the steady sensitivity beside other programs,\n             \
+    identify   cells drawn from the priors, measured with 1 % noise, identified, held against the truth; writes the table of docs/identify.md;\n             \
+    exit 1 if the truth lies in the 90 % intervals of fewer than 8 of 10\n  \
+    bench      times beside errors into docs/benchmarks.md: the cell, the coil job and the steady sensitivity beside other programs,\n             \
     PATH being a Python with their packages (else FOGCOIL_PEERS_PYTHON; without it they are skipped); reduced and full model; whole diagnoses";
 
 fn main() -> ExitCode {
@@ -31,10 +38,18 @@ fn main() -> ExitCode {
     let outcome = match words[..] {
         ["validate"] => validate::run(None),
         ["validate", "--json", file] => validate::run(Some(file.as_ref())),
+        ["cells"] => cells::run(),
         ["mechanisms"] => mechanisms::run(),
         ["figures"] => figures::run("docs/pictures".as_ref()),
         ["figures", "--out", folder] => figures::run(folder.as_ref()),
         ["prove", ref rest @ ..] if !matches!(rest, ["--help" | "-h"]) => match prove::Command::parse(rest) {
+            Ok(command) => command.run(),
+            Err(error) => {
+                eprintln!("error: {error}\n\n{USAGE}");
+                return ExitCode::from(2);
+            }
+        },
+        ["identify", ref rest @ ..] if !matches!(rest, ["--help" | "-h"]) => match identify::Command::parse(rest) {
             Ok(command) => command.run(),
             Err(error) => {
                 eprintln!("error: {error}\n\n{USAGE}");
@@ -48,7 +63,7 @@ fn main() -> ExitCode {
                 return ExitCode::from(2);
             }
         },
-        ["--help" | "-h" | "help"] | ["validate" | "prove" | "figures" | "mechanisms" | "bench", "--help" | "-h"] => {
+        ["--help" | "-h" | "help"] | ["validate" | "prove" | "cells" | "figures" | "mechanisms" | "identify" | "bench", "--help" | "-h"] => {
             println!("{USAGE}");
             return ExitCode::SUCCESS;
         }

@@ -4,7 +4,7 @@
 //! The stress is `C ε − β ΔT` with the thermal stress vector `β = C α` \[Pa/K\].
 
 use crate::Error;
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 /// A linear thermo-elastic law: stiffness \[Pa\] and thermal stress vector \[Pa/K\] in Voigt order.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -163,6 +163,93 @@ impl TransverselyIsotropic {
     }
 }
 
+/// A solid with three planes of symmetry, its axes along x, y, z.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Orthotropic {
+    /// Young's modulus along x \[Pa\], > 0.
+    pub e_x: f64,
+    /// Young's modulus along y \[Pa\], > 0.
+    pub e_y: f64,
+    /// Young's modulus along z \[Pa\], > 0.
+    pub e_z: f64,
+    /// Shear modulus of the plane yz \[Pa\], > 0.
+    pub g_yz: f64,
+    /// Shear modulus of the plane xz \[Pa\], > 0.
+    pub g_xz: f64,
+    /// Shear modulus of the plane xy \[Pa\], > 0.
+    pub g_xy: f64,
+    /// Contraction along z per extension along y under stress along y, −ε_z/ε_y.
+    pub nu_yz: f64,
+    /// Contraction along z per extension along x under stress along x.
+    pub nu_xz: f64,
+    /// Contraction along y per extension along x under stress along x.
+    pub nu_xy: f64,
+    /// Thermal expansion along x \[1/K\].
+    pub alpha_x: f64,
+    /// Thermal expansion along y \[1/K\].
+    pub alpha_y: f64,
+    /// Thermal expansion along z \[1/K\].
+    pub alpha_z: f64,
+}
+
+impl Orthotropic {
+    /// The law.
+    ///
+    /// # Errors
+    /// [`Error::Material`] names the constant that is outside its range; the stiffness must be positive definite.
+    pub fn law(&self) -> Result<ThermoElastic, Error> {
+        let Self { e_x, e_y, e_z, g_yz, g_xz, g_xy, nu_yz, nu_xz, nu_xy, alpha_x, alpha_y, alpha_z } = *self;
+        let moduli = [("e_x", e_x), ("e_y", e_y), ("e_z", e_z), ("g_yz", g_yz), ("g_xz", g_xz), ("g_xy", g_xy)];
+        moduli.into_iter().try_for_each(|(field, value)| positive(field, value))?;
+        let ratios = [("nu_yz", nu_yz), ("nu_xz", nu_xz), ("nu_xy", nu_xy)];
+        let expansions = [("alpha_x", alpha_x), ("alpha_y", alpha_y), ("alpha_z", alpha_z)];
+        ratios.into_iter().chain(expansions).try_for_each(|(field, value)| finite(field, value))?;
+        let (xy, xz, yz) = (-nu_xy / e_x, -nu_xz / e_x, -nu_yz / e_y);
+        let compliance = Matrix3::new(1.0 / e_x, xy, xz, xy, 1.0 / e_y, yz, xz, yz, 1.0 / e_z);
+        // scaled to a unit diagonal: whether it is positive definite does not depend on units
+        let root = Matrix3::from_diagonal(&Vector3::new(e_x.sqrt(), e_y.sqrt(), e_z.sqrt()));
+        let scaled = root * compliance * root;
+        let minor = 1.0 - scaled[(0, 1)].powi(2);
+        let inverse = scaled.try_inverse().filter(|_| minor > 0.0 && scaled.determinant() > 0.0);
+        let Some(inverse) = inverse else {
+            let field = if minor > 0.0 { "nu_xz" } else { "nu_xy" };
+            let range =
+                "such that the stiffness is positive definite with the other Poisson's ratios (nu_ij^2 < e_i/e_j is needed)";
+            return Err(Error::Material { field, value: if minor > 0.0 { nu_xz } else { nu_xy }, range: range.into() });
+        };
+        let normal = root * inverse * root;
+        let mut stiffness = Matrix6::from_diagonal(&Vector6::new(0.0, 0.0, 0.0, g_yz, g_xz, g_xy));
+        stiffness.fixed_view_mut::<3, 3>(0, 0).copy_from(&((normal + normal.transpose()) / 2.0));
+        let alpha = Vector6::new(alpha_x, alpha_y, alpha_z, 0.0, 0.0, 0.0);
+        Ok(ThermoElastic { stiffness, thermal_stress: stiffness * alpha })
+    }
+}
+
+/// The matrix that takes a stress (xx, yy, zz, yz, xz, xy) to its components along axes x, y turned by −`angle` \[rad\] about z: the
+/// stress of a solid that was turned by `angle`. Its transpose takes strains with engineering shear back.
+pub fn stress_rotation(angle: f64) -> Matrix6<f64> {
+    let (s, c) = angle.sin_cos();
+    #[rustfmt::skip]
+    let rotation = Matrix6::new(
+        c * c, s * s, 0.0, 0.0, 0.0, -2.0 * s * c,
+        s * s, c * c, 0.0, 0.0, 0.0, 2.0 * s * c,
+        0.0, 0.0, 1.0, 0.0, 0.0, 0.0,
+        0.0, 0.0, 0.0, c, s, 0.0,
+        0.0, 0.0, 0.0, -s, c, 0.0,
+        s * c, -s * c, 0.0, 0.0, 0.0, c * c - s * s,
+    );
+    rotation
+}
+
+impl ThermoElastic {
+    /// The same solid turned by `angle` \[rad\] about z.
+    pub fn turned(&self, angle: f64) -> Self {
+        let rotation = stress_rotation(angle);
+        Self { stiffness: rotation * self.stiffness * rotation.transpose(), thermal_stress: rotation * self.thermal_stress }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -209,5 +296,64 @@ mod tests {
         assert!(scaled(limit * 1.001).law().is_err());
         assert!(Isotropic { youngs_modulus: 1.0, poisson_ratio: 0.5, thermal_expansion: 0.0 }.law().is_err());
         assert!(Isotropic { youngs_modulus: f64::NAN, poisson_ratio: 0.3, thermal_expansion: 0.0 }.law().is_err());
+    }
+
+    fn wood() -> Orthotropic {
+        let (nu_yz, nu_xz, nu_xy) = (0.021, 0.027, 0.55);
+        let (g_yz, g_xz, g_xy) = (0.8e9, 0.9e9, 0.1e9);
+        let (alpha_x, alpha_y, alpha_z) = (40e-6, 30e-6, 4e-6);
+        Orthotropic { e_x: 1.1e9, e_y: 0.7e9, e_z: 12e9, g_yz, g_xz, g_xy, nu_yz, nu_xz, nu_xy, alpha_x, alpha_y, alpha_z }
+    }
+
+    #[test]
+    fn exact_orthotropic_law_returns_its_constants_and_holds_the_isotropic_one() {
+        let (o, law) = (wood(), wood().law().unwrap());
+        let s = law.stiffness.try_inverse().unwrap();
+        let found = [1.0 / s[(0, 0)], 1.0 / s[(1, 1)], 1.0 / s[(2, 2)], -s[(1, 2)] / s[(1, 1)], -s[(0, 2)] / s[(0, 0)]];
+        for (found, given) in found.into_iter().zip([o.e_x, o.e_y, o.e_z, o.nu_yz, o.nu_xz]) {
+            assert_relative_eq!(found, given, max_relative = 1e-12);
+        }
+        assert_relative_eq!(s * law.thermal_stress, Vector6::new(40e-6, 30e-6, 4e-6, 0.0, 0.0, 0.0), max_relative = 1e-12);
+        let (e, nu, a) = (70e9, 0.17, 0.55e-6);
+        let i = Isotropic { youngs_modulus: e, poisson_ratio: nu, thermal_expansion: a };
+        let g = i.shear_modulus();
+        let same = Orthotropic {
+            e_x: e,
+            e_y: e,
+            e_z: e,
+            g_yz: g,
+            g_xz: g,
+            g_xy: g,
+            nu_yz: nu,
+            nu_xz: nu,
+            nu_xy: nu,
+            alpha_x: a,
+            alpha_y: a,
+            alpha_z: a,
+        };
+        assert_relative_eq!(same.law().unwrap().stiffness, i.law().unwrap().stiffness, max_relative = 1e-12);
+        let refused = [Orthotropic { nu_xy: 1.3, ..o }, Orthotropic { nu_xz: 1.3, ..o }, Orthotropic { g_xy: 0.0, ..o }];
+        let fields = refused.map(|o| match o.law() {
+            Err(Error::Material { field, .. }) => field,
+            other => panic!("{other:?}"),
+        });
+        assert_eq!(fields, ["nu_xy", "nu_xz", "g_xy"]);
+    }
+
+    /// A quarter turn exchanges x and y; any turn and back is none; energy does not know of a turn of both solid and strain.
+    #[test]
+    fn exact_turns_about_z() {
+        let law = wood().law().unwrap();
+        let quarter = law.turned(std::f64::consts::FRAC_PI_2).stiffness;
+        for (a, b) in [((0, 0), (1, 1)), ((0, 2), (1, 2)), ((3, 3), (4, 4)), ((5, 5), (5, 5)), ((0, 1), (1, 0))] {
+            assert_relative_eq!(quarter[a], law.stiffness[b], max_relative = 1e-12);
+        }
+        let there = law.turned(0.7);
+        assert!(there.stiffness[(0, 5)].abs() > 1e-3 * law.stiffness[(0, 0)]);
+        assert_relative_eq!(there.turned(-0.7).stiffness, law.stiffness, max_relative = 1e-12, epsilon = 1e-3);
+        // a uniaxial stress along the turned x axis stretches it by 1/e_x
+        let stress = stress_rotation(0.7) * Vector6::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+        let strain = there.stiffness.try_inverse().unwrap() * stress;
+        assert_relative_eq!(stress.dot(&strain), 1.0 / wood().e_x, max_relative = 1e-12);
     }
 }

@@ -154,6 +154,25 @@ impl<'a> Problem<'a> {
         Condensed::assemble(self.mesh, map, |e| laws[self.mesh.regions()[e]].is_some(), self.stiffnesses(laws)?)
     }
 
+    /// As [`Self::condense`], of the sum of this stiffness and that of `fewer`, the same form on the same mesh with fewer Gauss points
+    /// and laws of its own: selective reduced integration. A nearly incompressible solid of low order does not lock if its volumetric
+    /// part, `λ` times the square of the dilatation, is integrated with one point per direction fewer than p + 1.
+    ///
+    /// D. S. Malkus and T. J. R. Hughes, *Comput. Methods Appl. Mech. Eng.* 15, 63 (1978).
+    ///
+    /// # Errors
+    /// As [`Self::condense`].
+    pub fn condense_selective(
+        &self,
+        map: &DofMap,
+        laws: &[Option<DMatrix<f64>>],
+        fewer: &Problem,
+        volumetric: &[Option<DMatrix<f64>>],
+    ) -> Result<Condensed, Error> {
+        let sums = self.stiffnesses(laws)?.zip(fewer.stiffnesses(volumetric)?).map(|(a, b)| Ok(a? + b?));
+        Condensed::assemble(self.mesh, map, |e| laws[self.mesh.regions()[e]].is_some(), sums)
+    }
+
     fn pattern(&self, map: &DofMap, laws: &[Option<DMatrix<f64>>]) -> Pattern {
         Pattern::new(self.mesh, map, |e| laws[self.mesh.regions()[e]].is_some())
     }

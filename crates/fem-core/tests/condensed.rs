@@ -84,3 +84,27 @@ fn exact_a_gap_of_inactive_elements_and_many_loads_change_nothing() {
         assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-8 * size));
     }
 }
+
+/// Two parts of a law, integrated alike, are the law; integrated with too few points one part is softer.
+#[test]
+fn exact_selective_integration_sums_two_parts() {
+    let order = 3;
+    let mesh = common::distorted(order, 2);
+    let [full, fewer] = [order + 2, order].map(|points| Problem::new(&mesh, Form::PLANE_STRAIN, points));
+    let mut constraints = Constraints::new(2 * mesh.nodes().len());
+    [0, 1, 2 * order + 1].into_iter().for_each(|unknown| constraints.hold(unknown).expect("unknown"));
+    let map = constraints.eliminate(&full.used(|_| true));
+    let all = |law: DMatrix<f64>| vec![Some(law); mesh.region_count()];
+    let dilatation = DMatrix::from_row_slice(3, 3, &[1e4, 1e4, 0.0, 1e4, 1e4, 0.0, 0.0, 0.0, 0.0]);
+    let rest = DMatrix::from_diagonal(&nalgebra::DVector::from_vec(vec![2.0, 2.0, 1.0]));
+    let load: Vec<f64> = (0..map.reduced()).map(|i| (i as f64).sin()).collect();
+    let energy = |factor: fem_core::Condensed| -> f64 {
+        factor.solve(std::slice::from_ref(&load)).expect("solve")[0].iter().zip(&load).map(|(u, f)| u * f).sum()
+    };
+    let whole = energy(full.condense(&map, &all(&dilatation + &rest)).expect("condense"));
+    let [same, softer] = [&full, &fewer].map(|problem| {
+        energy(full.condense_selective(&map, &all(rest.clone()), problem, &all(dilatation.clone())).expect("condense"))
+    });
+    assert!((same / whole - 1.0).abs() < 1e-9, "{same} against {whole}");
+    assert!(softer > 1.001 * whole, "{softer} against {whole}");
+}

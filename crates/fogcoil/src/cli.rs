@@ -7,6 +7,8 @@ use fogcoil::input::Between;
 
 use crate::cli_check::{Check, Format};
 use crate::cli_explain::Explain;
+use crate::cli_homogenize::Homogenize;
+use crate::cli_identify::Identify;
 use crate::cli_recommend::Recommend;
 
 /// Thermal bias of fibre-optic-gyroscope coils.
@@ -19,15 +21,10 @@ pub(crate) struct Cli {
 
 #[derive(Subcommand)]
 pub(crate) enum Command {
-    /// Effective constants and the M row of a fibre's cell
-    Homogenize {
-        /// Case file of the cell
-        #[arg(value_name = "CELL.ron")]
-        cell: PathBuf,
-        /// Print one JSON object, in SI
-        #[arg(long)]
-        json: bool,
-    },
+    /// Effective constants and the M row of a fibre's cell, and the strains inside it
+    Homogenize(Homogenize),
+    /// Constituents from measured effective constants, with what is and is not determined
+    Identify(Identify),
     /// Turn table and cross-section picture; without flags a summary
     Wind {
         /// Case file of the coil
@@ -150,4 +147,9 @@ fn noise(text: &str) -> Result<f64, String> {
     let least = coil::LEAST_NOISE;
     let number = text.parse().ok().filter(|noise| (least..=MOST_NOISE).contains(noise));
     number.ok_or_else(|| format!("give kelvins from {least} to {MOST_NOISE}"))
+}
+
+pub(crate) fn relative_error(text: &str) -> Result<f64, String> {
+    let value = text.parse().map_err(|_| "not a number; give a relative error, e.g. 1e-6".to_owned())?;
+    if value > 0.0 && value < 1.0 { Ok(value) } else { Err("must be greater than 0 and less than 1, e.g. 1e-6".to_owned()) }
 }

@@ -33,6 +33,12 @@ pub enum Error {
         /// What went wrong.
         source: homogenization::Error,
     },
+    /// No cell of a kind could be solved.
+    #[error("{}: a kind of cells has none that can be solved; check its ranges", file.display())]
+    Identification {
+        /// The file of targets.
+        file: PathBuf,
+    },
     /// A coil could not be solved.
     #[error("{}: {source}", file.display())]
     Coil {
@@ -59,7 +65,8 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         use coil::Error::{Bias, Design, Profile, Record, Winding};
         match self {
-            Self::Input(_) | Self::Usage(_) | Self::Output { .. } => 2,
+            Self::Input(_) | Self::Usage(_) | Self::Output { .. } | Self::Identification { .. } => 2,
+            Self::Homogenization { source: homogenization::Error::Accuracy { .. }, .. } => 2,
             Self::Coil { source: Design { .. } | Profile { .. } | Record(_) | Winding(_) | Bias(_), .. } => 2,
             Self::Stdout(_) | Self::Diagnosis(_) | Self::Homogenization { .. } | Self::Coil { .. } | Self::NotFinite { .. } => 1,
         }

@@ -4,6 +4,7 @@
 //!   remedy ([`input::InputError`]). The keys carry their units, the result is SI; [`units`] holds every conversion.
 //! - [`simulate`] runs a profile; [`summary`], [`figures`] and [`report`] say what came out.
 //! - [`homogenize`], [`wind`], [`sensitivity`] render what the physics crates compute: as text for people and as JSON, CSV or SVG.
+//! - [`identify`] finds constituents behind measured effective constants.
 //! - [`cache`] keeps models that take long to build.
 //! - [`check`] judges a recording and identifies its noise.
 //! - [`diagnose`] compares recordings with a design and names what the design leaves out.
@@ -25,6 +26,7 @@
 //! # }
 //! ```
 
+mod bounds;
 pub mod cache;
 pub mod catalogue;
 pub mod check;
@@ -33,9 +35,11 @@ mod error;
 pub mod explain;
 pub mod figures;
 pub mod homogenize;
+pub mod identify;
 pub mod input;
 pub mod output;
 pub mod picture;
+pub mod picture_cell;
 mod plot;
 pub mod recommend;
 pub mod report;

@@ -3,6 +3,8 @@
 mod cli;
 mod cli_check;
 mod cli_explain;
+mod cli_homogenize;
+mod cli_identify;
 mod cli_recommend;
 mod progress;
 
@@ -17,7 +19,7 @@ use coil::Drive;
 use fogcoil::cache::Cache;
 use fogcoil::output::Content;
 use fogcoil::{
-    Error, check, diagnose, figures, homogenize, input, output, picture, report, sensitivity, simulate, summary, trim, wind,
+    Error, check, diagnose, figures, input, output, picture, report, sensitivity, simulate, summary, trim, wind,
 };
 use progress::Progress;
 
@@ -34,14 +36,11 @@ fn main() -> ExitCode {
 
 fn run(command: &Command) -> Result<(), Error> {
     match command {
-        Command::Homogenize { cell, json } => {
-            let case = input::read_cell(cell)?;
-            let result = case.homogenize()?;
-            output::print(&if *json { line(&homogenize::json(&result)) } else { homogenize::text(&case, &result) })
-        }
+        Command::Homogenize(arguments) => cli_homogenize::run(arguments),
         Command::Check(arguments) => run_check(arguments),
         Command::Diagnose(arguments) => run_diagnose(arguments),
         Command::Explain(arguments) => cli_explain::run(arguments),
+        Command::Identify(arguments) => cli_identify::run(arguments),
         Command::Recommend(arguments) => cli_recommend::run(arguments),
         Command::Simulate(arguments) => run_simulate(arguments),
         Command::Trim { coil, profile, json } => run_trim(coil, profile.as_deref(), *json),
@@ -89,18 +88,27 @@ fn run_diagnose(arguments: &Diagnose) -> Result<(), Error> {
             Err(why) => progress.note(&format!("{}: nothing to write: {why}", path.display())),
         }
     }
-    files.extend(report.as_deref().map(|path| (path, Content::Text(outcome.report()))));
+    let page = || progress.during("drawing the report, with the test to make next", || outcome.report());
+    files.extend(report.as_deref().map(|path| (path, Content::Text(page()))));
     output::write_files(&files)?;
     output::print(&if *json == Some(None) { object } else { outcome.text() })
 }
 
 fn run_check(arguments: &Check) -> Result<(), Error> {
-    let Check { record, json, svg, .. } = arguments;
+    let Check { record, json, svg, quiet, .. } = arguments;
     output::check_distinct(&[record], &[svg.as_deref()])?;
-    let progress = Progress::OnStandardError;
+    let progress = if *quiet { Progress::Silent } else { Progress::OnStandardError };
     let case = progress.during(&format!("reading {}", record.display()), || input::read_record(record, &arguments.options()))?;
+    if *quiet && !*json && svg.is_none() {
+        output::print(&check::warnings(&case))?;
+        return Ok(case.require_usable()?);
+    }
     let analysis = progress.during("identifying the noise", || check::Analysis::new(&case));
-    output::print(&if *json { line(&check::json(&analysis)) } else { check::text(&analysis) })?;
+    output::print(&match (json, quiet) {
+        (true, _) => line(&check::json(&analysis)),
+        (false, true) => check::warnings(&case),
+        (false, false) => check::text(&analysis),
+    })?;
     case.require_usable()?;
     match (svg, check::svg(&analysis)) {
         (Some(path), Some(picture)) => output::write_files(&[(path, Content::Text(picture))]),

@@ -5,12 +5,13 @@ use fem_core::material::Isotropic;
 use homogenization::{Constituent, Error, FibreCell, Ring, Role, homogenize};
 
 fn solid(youngs_modulus: f64, poisson_ratio: f64, thermal_expansion: f64, conductivity: f64) -> Constituent {
-    Constituent { elastic: Isotropic { youngs_modulus, poisson_ratio, thermal_expansion }, conductivity }
+    Constituent::new(Isotropic { youngs_modulus, poisson_ratio, thermal_expansion }, conductivity)
 }
 
 fn main() -> Result<(), Error> {
     let ring = |diameter: f64, constituent, role| Ring { outer_radius: diameter / 2.0, constituent, role };
     let cable = FibreCell {
+        packing: homogenization::Packing::Hexagonal,
         pitch: 250e-6,
         rings: vec![
             ring(125e-6, solid(72e9, 0.17, 0.55e-6, 1.38), Role::Glass),

@@ -12,7 +12,7 @@ pub struct Constants {
     pub e_r: f64,
     /// Shear modulus in planes that hold the fibre \[Pa\].
     pub g_zr: f64,
-    /// Shear modulus across the fibre \[Pa\].
+    /// Shear modulus across the fibre, between x and y \[Pa\].
     pub g_r: f64,
     /// Plane-strain bulk modulus (C11 + C12)/2 \[Pa\].
     pub k_plane_strain: f64,
@@ -86,7 +86,8 @@ impl Constants {
         ]
     }
 
-    /// The law of the homogenised coil.
+    /// The law of the homogenised coil. It takes the plane across the fibre for isotropic with `e_r` and `nu_r`; of square packing it
+    /// therefore has the shear modulus at 45° to the axes instead of `g_r`.
     pub fn elastic(&self) -> TransverselyIsotropic {
         TransverselyIsotropic {
             e_z: self.e_z,
@@ -101,7 +102,15 @@ impl Constants {
 }
 
 impl Effective {
-    /// The constants, read along x (the hexagonal cell is isotropic across the fibre).
+    /// Shear moduli across the fibre \[Pa\]: C66, between the axes x and y, and (C11 − C12)/2, between the directions at 45° to them. Equal
+    /// under hexagonal packing, which is isotropic across the fibre; the greatest and the least, in one order or the other, under square
+    /// packing, which is not.
+    pub fn shear_moduli_across(&self) -> [f64; 2] {
+        [self.stiffness[(5, 5)], (self.stiffness[(0, 0)] - self.stiffness[(0, 1)]) / 2.0]
+    }
+
+    /// The constants, read along the axes x and y to the nearest neighbours. Hexagonal packing is isotropic across the fibre; square
+    /// packing is not: `e_r`, `nu_r` and `g_r` are then three constants of their own, see [`Self::shear_moduli_across`].
     ///
     /// `None` if the stiffness is singular, which no positive definite set of constituents makes.
     pub fn constants(&self) -> Option<Constants> {

@@ -7,6 +7,9 @@ pub enum Error {
     /// The cell's geometry is out of range.
     #[error(transparent)]
     Geometry(#[from] rve_mesh::Error),
+    /// The arrangement of inclusions is out of range.
+    #[error(transparent)]
+    Layout(#[from] rve_mesh::LayoutError),
     /// A constituent's constant is out of range.
     #[error("{constituent}: {source}")]
     Constituent {
@@ -22,6 +25,43 @@ pub enum Error {
         constituent: String,
         /// Its value.
         value: f64,
+    },
+    /// A constituent's density or specific heat is out of range.
+    #[error("{constituent}: {what} {value} {unit} must be finite and greater than 0")]
+    Property {
+        /// "ring 0", "ring 1", … from the inside, or "adhesive".
+        constituent: String,
+        /// Which property.
+        what: &'static str,
+        /// Its unit.
+        unit: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A solution by multipoles failed.
+    #[error("multipoles up to order {order}: {detail}")]
+    Multipoles {
+        /// Highest order.
+        order: usize,
+        /// What happened.
+        detail: String,
+    },
+    /// The constants cannot be computed to the accuracy that was asked for.
+    #[error(
+        "{constant} cannot be computed to a relative error of {requested:.1e}: the best estimate reached is {reached:.1e}, with \
+         multipoles up to order {order}; {why}"
+    )]
+    Accuracy {
+        /// The least accurate constant.
+        constant: &'static str,
+        /// What was asked for.
+        requested: f64,
+        /// What was reached.
+        reached: f64,
+        /// Highest order of the multipoles.
+        order: usize,
+        /// What stands in the way, and what to do.
+        why: &'static str,
     },
     /// No ring is glass, so the dehomogenisation matrix has nothing to report on.
     #[error("no ring is glass; mark at least one so that the dehomogenisation matrix has a mean to report")]

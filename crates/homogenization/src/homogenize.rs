@@ -1,27 +1,40 @@
 //! From a cell to its effective constants with an error beside each.
 
-use crate::solve::CellProblem;
+use crate::cell::Phases;
+use crate::multipole::{self, HIGHEST_ORDER, multipoles};
+use crate::solve::{CellProblem, Integration};
 use crate::{Constants, Discretization, Effective, Error, FibreCell};
+use nalgebra::Matrix3;
 use rve_mesh::{Extent, Resolution};
 
 /// A constant below this fraction of its natural scale (1 for Poisson's ratios and strains of the glass per strain, the larger
 /// effective expansion for expansions and strains of the glass per K) is as good as zero, and so is its relative error.
 pub const NEGLIGIBLE: f64 = 1e-6;
 
+/// By how much the multipoles fall from one order that is tried to the next.
+const STEP: f64 = 0.03;
+
+/// Roundings that add up in a constant: a few times what was seen when rings are split into rings of the same material.
+const ROUNDING: f64 = 128.0;
+
 /// Factor on the distance to two orders higher: it covers the true error as long as two orders halve it at least.
 pub const SAFETY: f64 = 2.0;
+
+/// The relative error that [`homogenize`] meets in every constant.
+pub const TOLERANCE: f64 = 1e-6;
 
 /// Effective constants with their numerical error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Homogenized {
     /// The constants.
     pub constants: Constants,
-    /// Estimated relative error of each: [`SAFETY`] times its distance from its own value two polynomial orders higher. A constant
-    /// that is nearly zero is compared with [`NEGLIGIBLE`] of its natural scale instead.
+    /// Estimated relative error of each: [`SAFETY`] times its distance from its value with fewer multipoles ([`homogenize_to`]) or two
+    /// polynomial orders higher ([`homogenize_on`]), and what rounding may do. A constant that is nearly zero is compared with
+    /// [`NEGLIGIBLE`] of its natural scale instead.
     pub relative_error: Constants,
     /// Stiffness, thermal stress, conductivity and glass strain behind the constants.
     pub effective: Effective,
-    /// Unknowns of the largest system behind the constants (not of the error estimate).
+    /// Unknowns of the largest system behind the constants.
     pub unknowns: usize,
 }
 
@@ -42,24 +55,32 @@ impl Discretization {
     }
 }
 
-/// Effective response of `cell` on one discretisation.
+/// Effective response of `cell` on one mesh of finite elements.
 ///
 /// # Errors
 /// [`Error`] names the constituent or the geometry at fault, or the solve that failed.
 pub fn effective(cell: &FibreCell, discretization: &Discretization) -> Result<Effective, Error> {
-    CellProblem::new(cell, discretization)?.effective()
+    effective_with(cell, discretization, Integration::Full)
 }
 
-/// Effective constants on `discretization`, each with its estimated relative error.
+/// As [`effective`], with a choice of how the volumetric part is integrated.
+///
+/// # Errors
+/// As [`effective`].
+pub fn effective_with(cell: &FibreCell, discretization: &Discretization, volumetric: Integration) -> Result<Effective, Error> {
+    CellProblem::new(cell, discretization, volumetric)?.effective()
+}
+
+/// Effective constants by finite elements on `discretization`, each with its estimated relative error: an independent check of
+/// [`homogenize_to`], which knows neither mesh nor element.
 ///
 /// # Errors
 /// As [`effective`].
 pub fn homogenize_on(cell: &FibreCell, discretization: &Discretization) -> Result<Homogenized, Error> {
     let effective = effective(cell, discretization)?;
     let finer = crate::effective(cell, &discretization.refined())?;
-    let singular = || Error::Solve(fem_core::Error::NotPositiveDefinite { unknowns: 6, detail: "effective stiffness".into() });
-    let constants = effective.constants().ok_or_else(singular)?;
-    let relative_error = relative_difference(&constants, &finer.constants().ok_or_else(singular)?);
+    let constants = constants(&effective)?;
+    let relative_error = relative_difference(&constants, &crate::homogenize::constants(&finer)?);
     Ok(Homogenized { constants, relative_error, unknowns: effective.unknowns, effective })
 }
 
@@ -84,12 +105,63 @@ fn relative_difference(a: &Constants, b: &Constants) -> Constants {
     difference.combine(&size, |difference, size| if difference == 0.0 { 0.0 } else { difference / size })
 }
 
-/// Effective constants of `cell` on the standard discretisation.
+fn constants(effective: &Effective) -> Result<Constants, Error> {
+    let singular = || Error::Solve(fem_core::Error::NotPositiveDefinite { unknowns: 6, detail: "effective stiffness".into() });
+    effective.constants().ok_or_else(singular)
+}
+
+/// Effective constants of `cell`, each to [`TOLERANCE`].
 ///
 /// # Errors
-/// As [`effective`].
+/// As [`homogenize_to`].
 pub fn homogenize(cell: &FibreCell) -> Result<Homogenized, Error> {
-    homogenize_on(cell, &Discretization::standard(cell))
+    homogenize_to(cell, TOLERANCE)
+}
+
+/// Effective constants of `cell`, each to `relative_error` by its own estimate: multipoles up to an order that follows from the film's
+/// thickness, raised until two orders agree.
+///
+/// # Errors
+/// [`Error::Accuracy`] if rounding, or a film too thin for [`HIGHEST_ORDER`], stands in the way, with the best estimate reached;
+/// else [`Error`] names the constituent or the geometry at fault.
+pub fn homogenize_to(cell: &FibreCell, relative_error: f64) -> Result<Homogenized, Error> {
+    Phases::new(cell)?;
+    let decay = multipole::decay(cell);
+    let needed = |factor: f64| (factor.ln() / decay.ln()).ceil().clamp(1.0, HIGHEST_ORDER as f64) as usize;
+    let step = needed(STEP).max(2 * cell.packing.sides());
+    let mut order = needed(relative_error.clamp(f64::EPSILON, 1.0)).min(HIGHEST_ORDER - step.min(HIGHEST_ORDER - 1));
+    let mut last = constants(&multipoles(cell, order)?)?;
+    loop {
+        order = (order + step).min(HIGHEST_ORDER);
+        let effective = multipoles(cell, order)?;
+        let constants = constants(&effective)?;
+        let truncation = relative_difference(&last, &constants);
+        let rounding = rounding(&effective);
+        let relative = truncation.combine(&truncation, |t, _| t + rounding);
+        let worst = relative.named().into_iter().fold(("", 0.0), |worst, one| if one.1 > worst.1 { one } else { worst });
+        if worst.1 <= relative_error {
+            return Ok(Homogenized { constants, relative_error: relative, unknowns: effective.unknowns, effective });
+        }
+        let rounded = worst.1 < 2.0 * rounding;
+        if rounded || order == HIGHEST_ORDER {
+            let why = if rounded {
+                "rounding stands in the way: raise the tolerance above that"
+            } else {
+                "the film between the fibres is too thin: raise the tolerance above that, or the pitch"
+            };
+            return Err(Error::Accuracy { constant: worst.0, requested: relative_error, reached: worst.1, order, why });
+        }
+        last = constants;
+    }
+}
+
+/// What rounding may do to a constant: it grows with the condition of the effective stiffness, scaled to a unit diagonal, and is most
+/// where the cell is nearly incompressible.
+fn rounding(effective: &Effective) -> f64 {
+    let c = effective.stiffness.fixed_view::<3, 3>(0, 0);
+    let scaled = Matrix3::from_fn(|i, j| c[(i, j)] / (c[(i, i)] * c[(j, j)]).sqrt());
+    let condition = scaled.try_inverse().map_or(f64::INFINITY, |inverse| scaled.norm() * inverse.norm());
+    ROUNDING * f64::EPSILON * condition
 }
 
 /// The traction-free cell one kelvin warmer, solved on its own.
@@ -106,7 +178,7 @@ pub struct FreeCell {
 /// # Errors
 /// As [`effective`].
 pub fn free_cell(cell: &FibreCell, discretization: &Discretization, constants: &Constants) -> Result<FreeCell, Error> {
-    let problem = CellProblem::new(cell, discretization)?;
+    let problem = CellProblem::new(cell, discretization, Integration::Full)?;
     let (glass, stress) = problem.combined([constants.alpha_r, constants.alpha_r, constants.alpha_z])?;
     let (_, held) = problem.combined([0.0; 3])?;
     let largest = |s: [f64; 3]| s.iter().fold(0.0, |m: f64, s| m.max(s.abs()));

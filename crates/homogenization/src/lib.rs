@@ -1,7 +1,8 @@
 //! Effective constants of a winding of coated fibres in adhesive, and the strain of the glass inside it.
 //!
 //! A [`FibreCell`] is one fibre of concentric rings (glass, coatings) with the adhesive around it, repeated on an orthocyclic
-//! (hexagonal) lattice. On the scale of the coil it is a homogeneous solid, transversely isotropic about the fibre. [`homogenize`]
+//! (hexagonal) or a square lattice. On the scale of the coil it is a homogeneous solid, under hexagonal packing transversely isotropic
+//! about the fibre, under square packing tetragonal ([`Effective::shear_moduli_across`]). [`homogenize`]
 //! returns its [`Constants`] (Young's and shear moduli, Poisson's ratios, expansions, conductivities), the row M that leads back
 //! from the coil's strain to the glass's, and the numerical error of each.
 //!
@@ -24,9 +25,14 @@
 //! ```
 //!
 //! # Method
-//! Curved quadrilaterals of high order (`rve-mesh`, `fem-core`): the polymers are nearly incompressible and the film between two
-//! fibres a few µm thin, which low orders do not resolve. [`Extent::Quarter`] uses the mirror and point symmetry of the lattice;
+//! [`homogenize_to`] works by multipoles ([`multipoles`]): in concentric rings the angular harmonics are solved exactly, in the adhesive
+//! the fields of multipoles at all fibres' axes converge exponentially with their order, the slower the thinner the film. Neither mesh nor
+//! incompressibility enters; the error is estimated from a lower order.
+//!
+//! [`homogenize_on`] works by finite elements, curved quadrilaterals of high order (`rve-mesh`, `fem-core`), and shares nothing with the
+//! multipoles but the constituents' laws: each checks the other. [`Extent::Quarter`] uses the mirror and point symmetry of the lattice;
 //! [`Extent::Whole`] assumes none but periodicity. Each constant is compared with its own value two orders higher.
+//! [`Integration::Reduced`] keeps low orders from locking.
 //!
 //! # Conventions
 //! SI units. z is the fibre, x points to a nearest neighbour; Voigt order xx, yy, zz, yz, xz, xy with engineering shear. In a coil
@@ -40,14 +46,14 @@
 //!
 //! ```
 //! use fem_core::material::Isotropic;
-//! use homogenization::{Constituent, FibreCell, Ring, Role, homogenize};
+//! use homogenization::{Constituent, FibreCell, Packing, Ring, Role, homogenize};
 //!
-//! let solid = |youngs_modulus, poisson_ratio, thermal_expansion, conductivity| Constituent {
-//!     elastic: Isotropic { youngs_modulus, poisson_ratio, thermal_expansion },
-//!     conductivity,
+//! let solid = |youngs_modulus, poisson_ratio, thermal_expansion, conductivity| {
+//!     Constituent::new(Isotropic { youngs_modulus, poisson_ratio, thermal_expansion }, conductivity)
 //! };
 //! // glass fibres of 0.125 mm in epoxy, not coated
 //! let cell = FibreCell {
+//!     packing: Packing::Hexagonal,
 //!     pitch: 140e-6,
 //!     rings: vec![Ring { outer_radius: 62.5e-6, constituent: solid(72e9, 0.17, 0.55e-6, 1.38), role: Role::Glass }],
 //!     adhesive: solid(3e9, 0.38, 60e-6, 0.2),
@@ -61,18 +67,27 @@
 //! # Ok::<(), homogenization::Error>(())
 //! ```
 
+pub mod bounds;
 mod cell;
 mod constants;
 mod error;
+pub mod fields;
 mod homogenize;
+pub mod identify;
+pub mod irregular;
+mod multipole;
 mod solve;
 
 pub use cell::{Constituent, FibreCell, Ring, Role};
 pub use constants::Constants;
 pub use error::Error;
-pub use homogenize::{FreeCell, Homogenized, NEGLIGIBLE, SAFETY, effective, free_cell, homogenize, homogenize_on};
-pub use rve_mesh::{Extent, Resolution};
-pub use solve::{Discretization, Effective};
+pub use homogenize::{
+    FreeCell, Homogenized, NEGLIGIBLE, SAFETY, TOLERANCE, effective, effective_with, free_cell, homogenize, homogenize_on,
+    homogenize_to,
+};
+pub use multipole::{HIGHEST_ORDER, multipoles};
+pub use rve_mesh::{Extent, Packing, Resolution};
+pub use solve::{Discretization, Effective, Integration};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

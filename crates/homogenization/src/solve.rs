@@ -1,10 +1,11 @@
 //! Periodic cell problems: fluctuations under unit macroscopic loads, effective stiffness, thermal stress, conductivity.
 
-use crate::{Error, FibreCell, Role};
+use crate::cell::Phases;
+use crate::{Error, FibreCell};
 use fem_core::material::ThermoElastic;
-use fem_core::{Constraints, DofMap, Form, Mesh, Problem, polynomial};
+use fem_core::{Condensed, Constraints, DofMap, Form, Mesh, Problem, polynomial};
 use nalgebra::{DMatrix, Matrix2, Matrix6, SMatrix, Vector6};
-use rve_mesh::{CellMesh, Extent, HexagonalCell, Resolution};
+use rve_mesh::{CellMesh, Extent, Resolution};
 
 /// Order and mesh of one cell solution.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,16 +14,16 @@ pub struct Discretization {
     pub order: usize,
     /// Divisions of the mesh.
     pub resolution: Resolution,
-    /// Whole hexagon or its symmetric quarter.
+    /// Whole cell or its symmetric quarter.
     pub extent: Extent,
 }
 
 /// In-plane loads in the order xx, yy, zz, xy, ΔT.
-const LOADS: usize = 5;
+pub(crate) const LOADS: usize = 5;
 /// Voigt rows of the first four loads.
-const VOIGT: [usize; 4] = [0, 1, 2, 5];
+pub(crate) const VOIGT: [usize; 4] = [0, 1, 2, 5];
 /// The load whose macroscopic strain each row of the glass strain (xx, yy, xy) matches.
-const GLASS_ROWS: [usize; 3] = [0, 1, 3];
+pub(crate) const GLASS_ROWS: [usize; 3] = [0, 1, 3];
 /// Voigt rows of the in-plane strains xx, yy, xy of [`Form::PLANE_STRAIN`].
 const PLANE: [usize; 3] = [0, 1, 5];
 /// A mesh's area must match the exact one to this relative tolerance (an order-4 arc of 30° is within 1e-8).
@@ -51,12 +52,19 @@ pub struct Effective {
 pub(crate) struct CellProblem {
     mesh: Mesh,
     cell_mesh: CellMesh,
-    laws: Vec<ThermoElastic>,
-    conductivities: Vec<f64>,
-    fractions: Vec<f64>,
-    glass: Vec<bool>,
+    phases: Phases,
     area: f64,
     area_error: f64,
+    volumetric: Integration,
+}
+
+/// How the volumetric part of the plane stiffness, `λ (ε_xx + ε_yy + ε_zz)² / 2`, and of its loads is integrated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Integration {
+    /// As everything else, with two points per direction more than the order.
+    Full,
+    /// With as many points per direction as the order: elements of low order do not lock where a solid is nearly incompressible.
+    Reduced,
 }
 
 /// One symmetry class of loads with the displacement components that vanish on the mirror planes.
@@ -67,33 +75,24 @@ struct Class<'a> {
 }
 
 impl CellProblem {
-    pub(crate) fn new(cell: &FibreCell, d: &Discretization) -> Result<Self, Error> {
-        let radii = cell.rings.iter().map(|r| r.outer_radius).collect();
-        let hexagon = HexagonalCell::new(cell.pitch, radii)?;
-        let cell_mesh = rve_mesh::mesh(&hexagon, d.extent, &d.resolution, &polynomial::gauss_lobatto(d.order))?;
+    pub(crate) fn new(cell: &FibreCell, d: &Discretization, volumetric: Integration) -> Result<Self, Error> {
+        let mut phases = Phases::new(cell)?;
+        let outline = cell.outline()?;
+        let cell_mesh = rve_mesh::mesh(&outline, d.extent, &d.resolution, &polynomial::gauss_lobatto(d.order))?;
         let mesh = Mesh::new(d.order, cell_mesh.nodes.clone(), cell_mesh.elements.clone(), cell_mesh.phases.clone())?;
         let areas = Problem::new(&mesh, Form::DIFFUSION, d.order + 2).region_measures()?;
-        let share = areas.iter().sum::<f64>() / hexagon.area();
+        let area = areas.iter().sum::<f64>();
+        let share = (outline.area() / area).round().recip(); // 1 or a quarter
         let mut area_error: f64 = 0.0;
-        for (phase, (area, exact)) in areas.iter().zip(hexagon.phase_areas()).enumerate() {
-            let exact = exact * share.recip().round().recip(); // 1 or a quarter
+        for (phase, (area, exact)) in areas.iter().zip(outline.phase_areas()).enumerate() {
+            let exact = exact * share;
             area_error = area_error.max((area / exact - 1.0).abs());
             if (area / exact - 1.0).abs() > AREA_TOLERANCE {
                 return Err(Error::Area { phase, area: *area, exact });
             }
         }
-        let area = areas.iter().sum::<f64>();
-        let (laws, conductivities) = laws(cell)?;
-        Ok(Self {
-            mesh,
-            cell_mesh,
-            laws,
-            conductivities,
-            fractions: areas.iter().map(|a| a / area).collect(),
-            glass: glass(cell)?,
-            area,
-            area_error,
-        })
+        phases.fractions = areas.iter().map(|a| a / area).collect();
+        Ok(Self { mesh, cell_mesh, phases, area, area_error, volumetric })
     }
 
     fn map(&self, problem: &Problem, components: usize, class: &Class) -> Result<DofMap, Error> {
@@ -124,7 +123,7 @@ impl CellProblem {
         all: &'static [usize],
         plane: bool,
     ) -> Vec<Class<'static>> {
-        if self.cell_mesh.symmetry.inversions.is_empty() {
+        if self.cell_mesh.symmetry.mirror_x.is_empty() {
             return vec![Class { loads: all, on_mirror_x: None, on_mirror_y: None }];
         }
         let other = plane.then_some(1);
@@ -139,17 +138,48 @@ impl CellProblem {
         if load == 4 { -law.thermal_stress } else { law.stiffness.column(VOIGT[load]).into_owned() }
     }
 
-    fn plane_laws(&self) -> Vec<Option<DMatrix<f64>>> {
-        self.laws.iter().map(|l| Some(DMatrix::from_fn(3, 3, |i, j| l.stiffness[(PLANE[i], PLANE[j])]))).collect()
+    /// What `∫ B` of stresses (xx, yy, xy) that xx and yy share looks like: one column per load.
+    fn volumetric(stresses: &[f64]) -> DMatrix<f64> {
+        DMatrix::from_fn(3, stresses.len(), |i, j| if i < 2 { stresses[j] } else { 0.0 })
+    }
+
+    /// The plane stiffness, factorised.
+    fn condense(&self, problem: &Problem, map: &DofMap) -> Result<Condensed, Error> {
+        let law = |l: &ThermoElastic| DMatrix::from_fn(3, 3, |i, j| l.stiffness[(PLANE[i], PLANE[j])]);
+        let laws: Vec<_> = self.phases.laws.iter().map(law).collect();
+        if self.volumetric == Integration::Full {
+            return Ok(problem.condense(map, &laws.into_iter().map(Some).collect::<Vec<_>>())?);
+        }
+        let volumetric: Vec<_> = laws.iter().map(|d| Self::volumetric(&[d[(0, 1)], d[(0, 1)], 0.0])).collect();
+        let rest: Vec<_> = laws.into_iter().zip(&volumetric).map(|(d, v)| Some(d - v)).collect();
+        Ok(problem.condense_selective(map, &rest, &self.fewer_points(), &volumetric.into_iter().map(Some).collect::<Vec<_>>())?)
+    }
+
+    fn fewer_points(&self) -> Problem<'_> {
+        Problem::new(&self.mesh, Form::PLANE_STRAIN, self.mesh.order())
     }
 
     /// Full load vectors: the five sources, then the glass means of xx, yy, xy.
     fn plane_loads(&self, problem: &Problem) -> Result<Vec<Vec<f64>>, Error> {
-        let sources = self.laws.iter().map(|law| Some(DMatrix::from_fn(3, LOADS, |i, load| Self::source(law, load)[PLANE[i]])));
-        let mut loads = problem.loads(&sources.collect::<Vec<_>>())?;
+        let source = |law: &ThermoElastic| DMatrix::from_fn(3, LOADS, |i, load| Self::source(law, load)[PLANE[i]]);
+        let sources: Vec<_> = self.phases.laws.iter().map(source).collect();
+        let mut loads = if self.volumetric == Integration::Full {
+            problem.loads(&sources.into_iter().map(Some).collect::<Vec<_>>())?
+        } else {
+            let part = |law: &ThermoElastic| {
+                let lambda = law.stiffness[(0, 1)];
+                Self::volumetric(&[lambda, lambda, lambda, 0.0, -law.thermal_stress[0]])
+            };
+            let parts: Vec<_> = self.phases.laws.iter().map(part).collect();
+            let rest = sources.into_iter().zip(&parts).map(|(source, part)| Some(source - part));
+            let mut loads = problem.loads(&rest.collect::<Vec<_>>())?;
+            let fewer = self.fewer_points().loads(&parts.into_iter().map(Some).collect::<Vec<_>>())?;
+            loads.iter_mut().flatten().zip(fewer.iter().flatten()).for_each(|(sum, part)| *sum += part);
+            loads
+        };
         let glass_area: f64 =
-            self.area * self.fractions.iter().zip(&self.glass).filter(|(_, g)| **g).map(|(f, _)| f).sum::<f64>();
-        let means = self.glass.iter().map(|g| g.then(|| DMatrix::identity(3, 3) / glass_area));
+            self.area * self.phases.fractions.iter().zip(&self.phases.glass).filter(|(_, g)| **g).map(|(f, _)| f).sum::<f64>();
+        let means = self.phases.glass.iter().map(|g| g.then(|| DMatrix::identity(3, 3) / glass_area));
         loads.extend(problem.loads(&means.collect::<Vec<_>>())?);
         Ok(loads)
     }
@@ -159,19 +189,19 @@ impl CellProblem {
             stiffness: Matrix6::zeros(),
             thermal_stress: Vector6::zeros(),
             conductivity: Matrix2::zeros(),
-            conductivity_z: self.fractions.iter().zip(&self.conductivities).map(|(f, k)| f * k).sum(),
+            conductivity_z: self.phases.fractions.iter().zip(&self.phases.conductivities).map(|(f, k)| f * k).sum(),
             glass_strain: SMatrix::zeros(),
             unknowns: 0,
             area_error: self.area_error,
         };
         self.plane(&mut effective)?;
         let shear = |l: &ThermoElastic| DMatrix::from_fn(2, 2, |i, j| l.stiffness[(4 - i, 4 - j)]);
-        let antiplane = self.scalar(&self.laws.iter().map(|l| Some(shear(l))).collect::<Vec<_>>())?;
+        let antiplane = self.scalar(&self.phases.laws.iter().map(|l| Some(shear(l))).collect::<Vec<_>>())?;
         for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
             effective.stiffness[(4 - i, 4 - j)] = antiplane[(i, j)];
         }
         effective.conductivity =
-            self.scalar(&self.conductivities.iter().map(|k| Some(DMatrix::identity(2, 2) * *k)).collect::<Vec<_>>())?;
+            self.scalar(&self.phases.conductivities.iter().map(|k| Some(DMatrix::identity(2, 2) * *k)).collect::<Vec<_>>())?;
         Ok(effective)
     }
 
@@ -179,14 +209,14 @@ impl CellProblem {
         let problem = Problem::new(&self.mesh, Form::PLANE_STRAIN, self.mesh.order() + 2);
         let loads = self.plane_loads(&problem)?;
         let mean = |load: usize, row: usize| -> f64 {
-            self.fractions.iter().zip(&self.laws).map(|(f, law)| f * Self::source(law, load)[row]).sum()
+            self.phases.fractions.iter().zip(&self.phases.laws).map(|(f, law)| f * Self::source(law, load)[row]).sum()
         };
         for load in 0..LOADS {
             self.add_macroscopic(effective, load, |voigt| mean(load, voigt));
         }
         for class in self.classes(&[0, 1, 2, 4], &[3], &[0, 1, 2, 3, 4], true) {
             let map = self.map(&problem, 2, &class)?;
-            let factor = problem.condense(&map, &self.plane_laws())?;
+            let factor = self.condense(&problem, &map)?;
             effective.unknowns = effective.unknowns.max(factor.unknowns());
             let reduced: Vec<_> = loads.iter().map(|f| map.restrict(f)).collect();
             let rhs: Vec<_> = class.loads.iter().map(|&load| reduced[load].clone()).collect();
@@ -231,7 +261,7 @@ impl CellProblem {
         let problem = Problem::new(&self.mesh, Form::DIFFUSION, self.mesh.order() + 2);
         let loads = problem.loads(laws)?;
         let mut effective = Matrix2::zeros();
-        for (f, law) in self.fractions.iter().zip(laws.iter().flatten()) {
+        for (f, law) in self.phases.fractions.iter().zip(laws.iter().flatten()) {
             effective += law.fixed_view::<2, 2>(0, 0) * *f;
         }
         for class in self.classes(&[0], &[1], &[0, 1], false) {
@@ -257,12 +287,13 @@ impl CellProblem {
         let total = |law: &ThermoElastic| {
             law.stiffness * Vector6::new(strain[0], strain[1], strain[2], 0.0, 0.0, 0.0) - law.thermal_stress
         };
-        let stresses: Vec<_> = self.laws.iter().map(|l| Some(DMatrix::from_fn(3, 1, |i, _| total(l)[PLANE[i]]))).collect();
+        let stresses: Vec<_> = self.phases.laws.iter().map(|l| Some(DMatrix::from_fn(3, 1, |i, _| total(l)[PLANE[i]]))).collect();
         let load = map.restrict(&problem.loads(&stresses)?[0]);
-        let factor = problem.condense(&map, &self.plane_laws())?;
+        let factor = self.condense(&problem, &map)?;
         let u = factor.solve(&[load])?;
         let reduced: Vec<_> = self.plane_loads(&problem)?.iter().map(|f| map.restrict(f)).collect();
-        let mean = |row: usize| -> f64 { self.fractions.iter().zip(&self.laws).map(|(f, l)| f * total(l)[row]).sum() };
+        let mean =
+            |row: usize| -> f64 { self.phases.fractions.iter().zip(&self.phases.laws).map(|(f, l)| f * total(l)[row]).sum() };
         let glass = [0, 1].map(|row| strain[row] - dot(&reduced[LOADS + row], &u[0]));
         let stress = [0, 1, 2].map(|row| mean(row) - dot(&reduced[row], &u[0]) / self.area);
         Ok((glass, stress))
@@ -271,23 +302,4 @@ impl CellProblem {
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn laws(cell: &FibreCell) -> Result<(Vec<ThermoElastic>, Vec<f64>), Error> {
-    let name = |i: usize| if i < cell.rings.len() { format!("ring {i}") } else { "adhesive".into() };
-    let (mut laws, mut conductivities) = (Vec::new(), Vec::new());
-    for (i, c) in cell.rings.iter().map(|r| &r.constituent).chain([&cell.adhesive]).enumerate() {
-        laws.push(c.elastic.law().map_err(|source| Error::Constituent { constituent: name(i), source })?);
-        if !(c.conductivity.is_finite() && c.conductivity > 0.0) {
-            return Err(Error::Conductivity { constituent: name(i), value: c.conductivity });
-        }
-        conductivities.push(c.conductivity);
-    }
-    Ok((laws, conductivities))
-}
-
-fn glass(cell: &FibreCell) -> Result<Vec<bool>, Error> {
-    let mut glass: Vec<bool> = cell.rings.iter().map(|r| r.role == Role::Glass).collect();
-    glass.push(false);
-    if glass.contains(&true) { Ok(glass) } else { Err(Error::NoGlass) }
 }

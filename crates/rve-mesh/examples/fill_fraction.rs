@@ -1,9 +1,9 @@
 //! How much of a winding is adhesive, and how thin its film gets: 165 µm fibres at a pitch of 170 µm.
 
-use rve_mesh::{Error, Extent, HexagonalCell, Resolution, mesh};
+use rve_mesh::{Error, Extent, LatticeCell, Resolution, mesh};
 
 fn main() -> Result<(), Error> {
-    let cell = HexagonalCell::new(170e-6, vec![82.5e-6])?;
+    let cell = LatticeCell::hexagonal(170e-6, vec![82.5e-6])?;
     let resolution = Resolution { sectors: 2, grading: 1.5, across: vec![1, 1] };
     let quarter = mesh(&cell, Extent::Quarter, &resolution, &[-1.0, 1.0])?;
     let radius = |node: &usize| quarter.nodes[*node][0].hypot(quarter.nodes[*node][1]);

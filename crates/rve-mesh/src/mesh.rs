@@ -1,23 +1,23 @@
 //! Structured curved quadrilaterals between rays from the fibre axis.
 
-use crate::{Error, HexagonalCell};
+use crate::{Error, LatticeCell, Packing};
 
-/// How much of the hexagon is meshed.
+/// How much of the hexagon or square is meshed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
     /// All of it; opposite sides are translations of each other.
     Whole,
-    /// The quarter x, y ≥ 0: mirror planes at x = 0, y = 0 and x = p/2, and the point symmetry of the lattice about the middle
-    /// of the slanted side.
+    /// The quarter x, y ≥ 0: mirror planes at x = 0, y = 0 and x = p/2, and for the hexagon the point symmetry of the lattice about
+    /// the middle of the slanted side, for the square another mirror plane at y = p/2.
     Quarter,
 }
 
 /// How finely the cell is divided.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolution {
-    /// Elements per 30° between the film's narrowest part and the hexagon's corner, ≥ 1.
+    /// Elements per wedge between the film's narrowest part and the next corner (30° of the hexagon, 45° of the square), ≥ 1.
     pub sectors: usize,
-    /// Their angles are `30° (i / sectors)^grading` from the narrowest part: above 1 refines the thin film. In 0.2 … 5.
+    /// Their angles are `wedge (i / sectors)^grading` from the narrowest part: above 1 refines the thin film. In 0.2 … 5.
     pub grading: f64,
     /// Elements across each phase: the rings from the inside out, last the film. Each ≥ 1.
     pub across: Vec<usize>,
@@ -56,7 +56,7 @@ pub struct Symmetry {
 
 /// Nodes on a grid of rays and rings. Ring 0 is the axis.
 struct Grid {
-    /// angles of the rays \[rad\] and direction of the hexagon side they meet \[rad\]
+    /// angles of the rays \[rad\] and direction of the cell's side they meet \[rad\]
     rays: Vec<(f64, f64)>,
     /// (phase, fraction across it), from the first ring outside the axis
     rings: Vec<(usize, f64)>,
@@ -68,7 +68,7 @@ impl Grid {
         if ring == 0 { 0 } else { 1 + (ring - 1) * self.rays.len() + if self.closed { ray % self.rays.len() } else { ray } }
     }
 
-    fn positions(&self, cell: &HexagonalCell) -> Vec<[f64; 2]> {
+    fn positions(&self, cell: &LatticeCell) -> Vec<[f64; 2]> {
         let mut nodes = vec![[0.0, 0.0]];
         for &(phase, fraction) in &self.rings {
             let inner = if phase == 0 { 0.0 } else { cell.radii()[phase - 1] };
@@ -82,7 +82,7 @@ impl Grid {
     }
 }
 
-fn check(cell: &HexagonalCell, resolution: &Resolution, lattice: &[f64]) -> Result<(), Error> {
+fn check(cell: &LatticeCell, resolution: &Resolution, lattice: &[f64]) -> Result<(), Error> {
     let bad = |text: String| Err(Error::Resolution(text));
     let phases = cell.radii().len() + 1;
     if resolution.across.len() != phases || resolution.across.contains(&0) {
@@ -98,20 +98,20 @@ fn check(cell: &HexagonalCell, resolution: &Resolution, lattice: &[f64]) -> Resu
     Ok(())
 }
 
-/// Angles from 0 to 30° of the element boundaries, in units of 30°.
+/// Angles of the element boundaries from a side's middle to the corner, in units of the wedge.
 fn breaks(resolution: &Resolution) -> Vec<f64> {
     (0..=resolution.sectors).map(|i| (i as f64 / resolution.sectors as f64).powf(resolution.grading)).collect()
 }
 
-fn rays(resolution: &Resolution, lattice: &[f64], extent: Extent) -> Vec<(f64, f64)> {
+fn rays(packing: Packing, resolution: &Resolution, lattice: &[f64], extent: Extent) -> Vec<(f64, f64)> {
     let (wedges, closed) = match extent {
-        Extent::Whole => (12, true),
-        Extent::Quarter => (3, false),
+        Extent::Whole => (2 * packing.sides(), true),
+        Extent::Quarter => (packing.sides() / 2, false),
     };
     let rising = breaks(resolution);
     let mut rays = Vec::new();
     for wedge in 0..wedges {
-        let side = (60.0 * ((wedge + 1) / 2) as f64).to_radians();
+        let side = (2.0 * packing.wedge() * wedge.div_ceil(2) as f64).to_radians();
         for i in 0..resolution.sectors {
             // odd wedges run from a corner back to the narrowest part
             let (from, to) = if wedge % 2 == 0 {
@@ -121,7 +121,7 @@ fn rays(resolution: &Resolution, lattice: &[f64], extent: Extent) -> Vec<(f64, f
             };
             let first = usize::from(!(rays.is_empty()));
             for xi in &lattice[first..] {
-                let angle = (30.0 * (wedge as f64 + from + (to - from) * (1.0 + xi) / 2.0)).to_radians();
+                let angle = (packing.wedge() * (wedge as f64 + from + (to - from) * (1.0 + xi) / 2.0)).to_radians();
                 rays.push((angle, side));
             }
         }
@@ -142,28 +142,35 @@ fn rings(resolution: &Resolution, lattice: &[f64]) -> Vec<(usize, f64)> {
     rings
 }
 
-fn symmetry(grid: &Grid, extent: Extent) -> Symmetry {
+fn symmetry(packing: Packing, grid: &Grid, extent: Extent) -> Symmetry {
     let outer = grid.rings.len();
+    let sides = packing.sides();
     let mut symmetry = Symmetry::default();
     match extent {
         Extent::Whole => {
-            let sixth = grid.rays.len() / 6;
-            for side in 0..3 {
-                for offset in 0..=sixth {
+            let along = grid.rays.len() / sides;
+            for side in 0..sides / 2 {
+                for offset in 0..=along {
                     // a node `offset` past one end of a side meets the one as far before the other end of the opposite side
-                    let here = grid.node(6 * sixth + side * sixth + offset - sixth / 2, outer);
-                    let there = grid.node(6 * sixth + (side + 3) * sixth + sixth / 2 - offset, outer);
+                    let here = grid.node(sides * along + side * along + offset - along / 2, outer);
+                    let there = grid.node(sides * along + (side + sides / 2) * along + along / 2 - offset, outer);
                     symmetry.translations.push([here, there]);
                 }
             }
         }
         Extent::Quarter => {
-            let third = (grid.rays.len() - 1) / 3;
+            let wedges = sides / 2;
+            let along = (grid.rays.len() - 1) / wedges;
             symmetry.mirror_y = (0..=outer).map(|ring| grid.node(0, ring)).collect();
-            symmetry.mirror_x = (0..=outer).map(|ring| grid.node(3 * third, ring)).collect();
-            symmetry.mirror_x.extend((0..=third).map(|ray| grid.node(ray, outer)));
-            symmetry.inversions =
-                (0..=third).map(|d| [grid.node(2 * third - d, outer), grid.node(2 * third + d, outer)]).collect();
+            symmetry.mirror_x = (0..=outer).map(|ring| grid.node(wedges * along, ring)).collect();
+            symmetry.mirror_x.extend((0..=along).map(|ray| grid.node(ray, outer)));
+            match packing {
+                Packing::Hexagonal => {
+                    let pair = |d: usize| [grid.node(2 * along - d, outer), grid.node(2 * along + d, outer)];
+                    symmetry.inversions = (0..=along).map(pair).collect();
+                }
+                Packing::Square => symmetry.mirror_y.extend((along..=2 * along).map(|ray| grid.node(ray, outer))),
+            }
         }
     }
     symmetry
@@ -177,11 +184,11 @@ fn symmetry(grid: &Grid, extent: Extent) -> Symmetry {
 ///
 /// # Errors
 /// [`Error::Resolution`] if a number of divisions, the grading or the lattice is out of range.
-pub fn mesh(cell: &HexagonalCell, extent: Extent, resolution: &Resolution, lattice: &[f64]) -> Result<CellMesh, Error> {
+pub fn mesh(cell: &LatticeCell, extent: Extent, resolution: &Resolution, lattice: &[f64]) -> Result<CellMesh, Error> {
     check(cell, resolution, lattice)?;
     let order = lattice.len() - 1;
     let closed = extent == Extent::Whole;
-    let grid = Grid { rays: rays(resolution, lattice, extent), rings: rings(resolution, lattice), closed };
+    let grid = Grid { rays: rays(cell.packing(), resolution, lattice, extent), rings: rings(resolution, lattice), closed };
     let sectors = (grid.rays.len() - usize::from(!closed)) / order;
     let (mut elements, mut phases) = (Vec::new(), Vec::new());
     for layer in 0..grid.rings.len() / order {
@@ -191,5 +198,5 @@ pub fn mesh(cell: &HexagonalCell, extent: Extent, resolution: &Resolution, latti
             phases.push(grid.rings[layer * order].0);
         }
     }
-    Ok(CellMesh { order, nodes: grid.positions(cell), elements, phases, symmetry: symmetry(&grid, extent) })
+    Ok(CellMesh { order, nodes: grid.positions(cell), elements, phases, symmetry: symmetry(cell.packing(), &grid, extent) })
 }

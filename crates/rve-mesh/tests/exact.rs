@@ -5,7 +5,7 @@ mod common;
 use common::{Case, EXTENTS, any_case, on_hexagon, polar};
 use fem_core::{Form, Mesh, Problem};
 use proptest::prelude::*;
-use rve_mesh::{CellMesh, Extent, HexagonalCell, Resolution};
+use rve_mesh::{CellMesh, Extent, LatticeCell, Packing, Resolution};
 use std::collections::HashMap;
 
 fn areas(mesh: &CellMesh) -> Result<Vec<f64>, fem_core::Error> {
@@ -22,7 +22,7 @@ fn share(extent: Extent) -> f64 {
 
 fn reference(order: usize, sectors: usize) -> Case {
     Case {
-        cell: HexagonalCell::new(170e-6, vec![40e-6, 56e-6, 82.5e-6]).expect("a cell"),
+        cell: LatticeCell::hexagonal(170e-6, vec![40e-6, 56e-6, 82.5e-6]).expect("a cell"),
         resolution: Resolution { sectors, grading: 1.3, across: vec![1, 2, 1, 1] },
         order,
     }
@@ -136,6 +136,33 @@ proptest! {
                         && [0, 1].iter().any(|c| nodes.iter().all(|n| mesh.nodes[*n][*c].abs() < 1e-15 * case.cell.pitch())));
                 prop_assert_eq!(count, if outline { 1 } else { 2 });
             }
+        }
+    }
+}
+
+/// The square cell: areas, right-handed elements, and boundary nodes related as its lattice demands.
+#[test]
+fn exact_square_cell() {
+    let cell = LatticeCell::new(Packing::Square, 2.0, vec![0.4, 0.9]).expect("a cell");
+    for extent in EXTENTS {
+        let case =
+            Case { cell: cell.clone(), resolution: Resolution { sectors: 2, grading: 1.3, across: vec![1, 1, 1] }, order: 8 };
+        assert!(area_error(&case, extent) < 1e-11);
+        let CellMesh { nodes, symmetry, .. } = case.mesh(extent);
+        let on = |claim: &dyn Fn([f64; 2]) -> bool| (0..nodes.len()).filter(|n| claim(nodes[*n])).count();
+        let close = |a: f64, b: f64| (a - b).abs() < 1e-13;
+        if extent == Extent::Quarter {
+            for (mirror, axis) in [(&symmetry.mirror_x, 0), (&symmetry.mirror_y, 1)] {
+                assert!(mirror.iter().all(|n| close(nodes[*n][axis], 0.0) || close(nodes[*n][axis], 1.0)));
+                let distinct: std::collections::HashSet<_> = mirror.iter().collect();
+                assert_eq!(distinct.len(), on(&|p| close(p[axis], 0.0) || close(p[axis], 1.0)));
+            }
+            assert!(symmetry.inversions.is_empty() && symmetry.translations.is_empty());
+        } else {
+            let translated = |[a, b]: &[usize; 2]| [0, 1].map(|c| (nodes[*a][c] - nodes[*b][c]).abs());
+            assert!(symmetry.translations.iter().map(translated).all(|[x, y]| close(x.max(y), 2.0) && close(x.min(y), 0.0)));
+            let paired: std::collections::HashSet<_> = symmetry.translations.iter().flatten().collect();
+            assert_eq!(paired.len(), on(&|p| close(p[0].abs().max(p[1].abs()), 1.0)));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! `cargo xtask bench`: times beside errors, against other programs and against the full model. Each subcommand prints a table and
 //! rewrites its section of docs/benchmarks.md.
 
+mod cell;
 mod coil;
 mod diagnose;
 mod job;
@@ -84,6 +85,10 @@ impl Options {
 
 /// A subcommand with its options.
 pub(crate) enum Command {
+    /// The reference cell, ours and the peers'.
+    Cell(Options),
+    /// Ours alone, as the process that [`Command::Cell`] starts.
+    CellJob(String),
     /// The coil job, ours and the peers'.
     Coil(Options),
     /// Ours alone under a named setting, as the process that [`Command::Coil`] starts.
@@ -101,6 +106,8 @@ impl Command {
     /// Names the word that is not understood.
     pub(crate) fn parse(words: &[&str]) -> Result<Self, Failure> {
         match words {
+            ["cell", rest @ ..] => Ok(Self::Cell(Options::parse(rest, 11)?)),
+            ["cell-job", name] => Ok(Self::CellJob(name.to_string())),
             ["coil", rest @ ..] => Ok(Self::Coil(Options::parse(rest, FEWEST)?)),
             ["coil-job", name] => Ok(Self::CoilJob(name.to_string())),
             ["diagnose"] => Ok(Self::Diagnose),
@@ -116,6 +123,8 @@ impl Command {
     /// [`Failure`] says what went wrong.
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         match self {
+            Self::Cell(options) => cell::run(options)?,
+            Self::CellJob(name) => cell::child(name)?,
             Self::Coil(options) => coil::run(options)?,
             Self::CoilJob(name) => coil::child(name)?,
             Self::Diagnose => diagnose::run()?,

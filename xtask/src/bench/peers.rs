@@ -38,7 +38,7 @@ pub(crate) struct Run {
 }
 
 /// CPU time of the children that have ended \[s\]: Linux counts it in hundredths.
-fn children() -> Option<f64> {
+pub(crate) fn children() -> Option<f64> {
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
     // fields 16 and 17; the name, field 2, is in brackets and may hold spaces
     let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();

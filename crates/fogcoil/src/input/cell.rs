@@ -2,19 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use fem_core::material::Isotropic;
-use homogenization::{Constituent, FibreCell, Homogenized, Ring, Role};
-use serde::Deserialize;
+use homogenization::{FibreCell, Homogenized, Packing, Ring, Role};
 
-use super::InputError;
+use super::cell_file::{CellFile, PackingFile, RingFile};
+use super::cell_general::{GeneralCase, general};
+use super::cell_material::isotropic;
 use super::fingerprint::Fingerprint;
-use super::limits::{CONDUCTIVITY, EXPANSION_PER_K, FIBRE_UM, Group, MODULUS_MPA};
+use super::limits::{FIBRE_UM, Group};
 use super::source::Source;
+use super::{InputError, MOST_RINGS};
 use crate::Error;
-use crate::units::{from_mpa, from_um};
-
-/// Rings of the most elaborate fibre accepted.
-const MOST_RINGS: usize = 16;
+use crate::units::from_um;
 
 /// A cell file that has been read and checked.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,61 +29,68 @@ pub struct CellCase {
     pub fingerprint: Fingerprint,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CellFile {
-    name: String,
-    pitch_um: f64,
-    rings: Vec<RingFile>,
-    adhesive: ConstituentFile,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RingFile {
-    name: String,
-    outer_diameter_um: f64,
-    glass: bool,
-    material: ConstituentFile,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ConstituentFile {
-    youngs_modulus_mpa: f64,
-    poisson_ratio: f64,
-    thermal_expansion_per_k: f64,
-    conductivity_w_per_mk: f64,
-}
-
-/// Reads and checks a cell file.
+/// Reads and checks the file of a regular cell: one fibre of round rings, isotropic constituents.
 ///
 /// # Errors
 /// What is wrong, in which file, line and field, and how to mend it.
 pub fn read_cell(path: &Path) -> Result<CellCase, InputError> {
     let source = Source::read(path)?;
     let file: CellFile = source.parse()?;
-    let top = Group::whole(&source);
-    let pitch = top.number("pitch_um", file.pitch_um, &FIBRE_UM)?;
+    if let Some(key) = file.general_key() {
+        let remedy = "homogenize it with `fogcoil homogenize` and give the coil the constants it prints";
+        return Err(Group::whole(&source).fault(&key, "a coil's cell must be regular", remedy));
+    }
+    regular(&source, file, path)
+}
+
+/// Reads and checks a cell file of any arrangement; also as a regular cell, if it is one.
+///
+/// # Errors
+/// What is wrong, in which file, line and field, and how to mend it.
+pub fn read_any_cell(path: &Path) -> Result<(GeneralCase, Option<CellCase>), InputError> {
+    let source = Source::read(path)?;
+    let file: CellFile = source.parse()?;
+    let is_regular = file.general_key().is_none();
+    // a regular cell's own complaints come first
+    let regular = if is_regular { Some(regular(&source, source.parse()?, path)?) } else { None };
+    Ok((general(&Group::whole(&source), &file, path.to_owned(), source.fingerprint())?, regular))
+}
+
+fn regular(source: &Source, file: CellFile, path: &Path) -> Result<CellCase, InputError> {
+    let top = Group::whole(source);
+    let missing = || top.fault("pitch_um", "the field is missing", "add it to the group that ends here");
+    let pitch = top.number("pitch_um", file.pitch_um.ok_or_else(missing)?, &FIBRE_UM)?;
+    let packing = match file.packing {
+        Some(PackingFile::Square) => Packing::Square,
+        Some(PackingFile::Hexagonal) | None => Packing::Hexagonal,
+    };
     let rings = rings(&top, &file.rings, pitch)?;
-    let adhesive = constituent(&top.group("adhesive"), &file.adhesive)?;
+    let adhesive = isotropic(&top.group("adhesive"), &file.adhesive)?;
     let ring_names = file.rings.into_iter().map(|ring| ring.name).collect();
     Ok(CellCase {
         file: path.to_owned(),
         name: file.name,
         ring_names,
-        cell: FibreCell { pitch: from_um(pitch), rings, adhesive },
+        cell: FibreCell { packing, pitch: from_um(pitch), rings, adhesive },
         fingerprint: source.fingerprint(),
     })
 }
 
 impl CellCase {
-    /// Effective constants with their numerical errors.
+    /// Effective constants, each to the default relative error.
     ///
     /// # Errors
-    /// [`Error::Homogenization`] if the cell cannot be solved.
+    /// As [`Self::homogenize_to`].
     pub fn homogenize(&self) -> Result<Homogenized, Error> {
-        homogenization::homogenize(&self.cell).map_err(|source| Error::Homogenization { file: self.file.clone(), source })
+        self.homogenize_to(homogenization::TOLERANCE)
+    }
+
+    /// Effective constants, each to a relative error.
+    ///
+    /// # Errors
+    /// [`Error::Homogenization`] if the cell cannot be solved to it.
+    pub fn homogenize_to(&self, relative_error: f64) -> Result<Homogenized, Error> {
+        homogenization::homogenize_to(&self.cell, relative_error).map_err(|source| Error::Homogenization { file: self.file.clone(), source })
     }
 }
 
@@ -98,7 +103,9 @@ fn rings(top: &Group, files: &[RingFile], pitch: f64) -> Result<Vec<Ring>, Input
     let mut inside = 0.0;
     for (i, file) in files.iter().enumerate() {
         let at = top.group(&format!("rings[{i}]"));
-        let (key, outside) = ("outer_diameter_um", file.outer_diameter_um);
+        let key = "outer_diameter_um";
+        let missing = || at.fault(key, "the field is missing", "add it to the group that ends here");
+        let outside = file.outer_diameter_um.ok_or_else(missing)?;
         at.number(key, outside, &FIBRE_UM)?;
         if outside <= inside {
             let problem = format!("{outside} um is not greater than the ring inside it, {inside} um");
@@ -109,7 +116,7 @@ fn rings(top: &Group, files: &[RingFile], pitch: f64) -> Result<Vec<Ring>, Input
             return Err(at.fault(key, problem, "make it less than pitch_um"));
         }
         let role = if file.glass { Role::Glass } else { Role::Coating };
-        let constituent = constituent(&at.group("material"), &file.material)?;
+        let constituent = isotropic(&at.group("material"), &file.material)?;
         rings.push(Ring { outer_radius: from_um(outside) / 2.0, constituent, role });
         inside = outside;
     }
@@ -118,14 +125,4 @@ fn rings(top: &Group, files: &[RingFile], pitch: f64) -> Result<Vec<Ring>, Input
         return Err(top.fault("rings[0].glass", "no ring is glass, so the M row has no strain to report", remedy));
     }
     Ok(rings)
-}
-
-fn constituent(at: &Group, file: &ConstituentFile) -> Result<Constituent, InputError> {
-    let elastic = Isotropic {
-        youngs_modulus: from_mpa(at.number("youngs_modulus_mpa", file.youngs_modulus_mpa, &MODULUS_MPA)?),
-        poisson_ratio: file.poisson_ratio,
-        thermal_expansion: at.number("thermal_expansion_per_k", file.thermal_expansion_per_k, &EXPANSION_PER_K)?,
-    };
-    at.law(elastic.law())?;
-    Ok(Constituent { elastic, conductivity: at.number("conductivity_w_per_mk", file.conductivity_w_per_mk, &CONDUCTIVITY)? })
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use coil::{Body, Dehomogenization, Design, Layout, Region, Sensor, SteadySensitivity};
 use fem_core::material::TransverselyIsotropic;
-use homogenization::Constants;
+use homogenization::{Constants, Packing};
 use winding::Winding;
 
 use super::coil_file::{CoilFile, ConstantsFile, DehomogenizationFile, MaterialFile, MatrixFile};
@@ -219,6 +219,10 @@ impl Cells<'_> {
         }
         let cell =
             read_cell(&path).map_err(|inner| self.top.fault(field, format!("the cell {named:?} cannot be used: {inner}"), ""))?;
+        if cell.cell.packing == Packing::Square {
+            let problem = format!("the cell {named:?} is packed square, but a coil's law is isotropic across the fibre");
+            return Err(self.top.fault(field, problem, "give a cell of hexagonal packing, or the constants themselves").into());
+        }
         let constants = cell.homogenize()?.constants;
         self.fingerprints.push(cell.fingerprint);
         self.done.push((path.clone(), constants));

@@ -17,6 +17,8 @@ const fn limit(least: f64, most: f64, unit: &'static str, example: &'static str)
 }
 
 pub(crate) const FIBRE_UM: Limit = limit(0.1, 1e5, "um", "170.0");
+pub(crate) const PLACE_UM: Limit = limit(-1e6, 1e6, "um", "85.0");
+pub(crate) const ANGLE_DEG: Limit = limit(-360.0, 360.0, "deg", "30.0");
 pub(crate) const PITCH_MM: Limit = limit(1e-3, 50.0, "mm", "0.170");
 pub(crate) const LENGTH_MM: Limit = limit(1e-3, 1e5, "mm", "43.5");
 pub(crate) const EXTRA_LENGTH_MM: Limit = limit(0.0, 1e5, "mm", "1.0");

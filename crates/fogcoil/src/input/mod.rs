@@ -1,6 +1,9 @@
 //! Case files, profiles and recordings: read, checked to the last value, and turned into SI.
 
 mod cell;
+mod cell_file;
+mod cell_general;
+mod cell_material;
 mod coil;
 mod coil_file;
 mod coil_parts;
@@ -21,10 +24,14 @@ mod scanner;
 mod source;
 mod spool;
 mod syntax;
+mod targets;
+mod targets_file;
 mod timestamp;
 mod warnings;
 
-pub use cell::{CellCase, read_cell};
+pub use cell::{CellCase, read_any_cell, read_cell};
+pub use cell_general::GeneralCase;
+pub use cell_material::Material;
 pub use coil::{CoilCase, Origin, PRINTED, Provenance, check_coil, read_coil};
 pub use error::InputError;
 pub use fingerprint::Fingerprint;
@@ -33,3 +40,9 @@ pub use profile::{Between, Inference, ProfileCase, read_profile};
 pub use record::{CHAMBER, RATE, RecordCase, SPOOL, read_record};
 pub use record_format::{Key, RecordOptions};
 pub use spool::{SpoolCase, read_spool};
+pub use targets::{TargetsCase, read_targets};
+
+/// Rings of the most elaborate fibre accepted.
+const MOST_RINGS: usize = 16;
+/// Fibres of the largest cell accepted.
+const MOST_FIBRES: usize = 100;

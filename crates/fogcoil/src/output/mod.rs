@@ -1,6 +1,7 @@
 //! Results on their way out: files whole or not at all, standard output without complaint when its reader has left.
 
 mod design;
+mod vtu;
 
 use std::fs;
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -11,6 +12,7 @@ use tempfile::NamedTempFile;
 use crate::Error;
 
 pub use design::coil_file;
+pub use vtu::vtu;
 
 /// What a file is to hold.
 pub enum Content<'a> {

@@ -45,6 +45,11 @@ impl Colours {
         Self { label: label.into(), range, stops: &SEQUENTIAL, reversed: -low > high }
     }
 
+    /// Colour of a value.
+    pub(crate) fn at(&self, value: f64) -> String {
+        self.colour(self.step(value))
+    }
+
     fn step(&self, value: f64) -> usize {
         let part = (value - self.range[0]) / (self.range[1] - self.range[0]);
         ((part * STEPS as f64).max(0.0) as usize).min(STEPS - 1)
@@ -62,7 +67,7 @@ impl Colours {
     }
 
     /// All colours as a bar in a box of 1 × 1, from left to right.
-    pub(super) fn bar(&self) -> String {
+    pub(crate) fn bar(&self) -> String {
         let mut out = String::new();
         for step in 0..STEPS {
             let _ = writeln!(out, "<path fill=\"{}\" d=\"M{step} 0h1v1h-1z\"/>", self.colour(step));

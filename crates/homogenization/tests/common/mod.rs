@@ -7,7 +7,7 @@ use homogenization::{Constants, Constituent, Discretization, Effective, Extent, 
 
 /// E \[Pa\], ν, α \[1/K\], k \[W/(m K)\].
 pub(crate) fn solid(youngs_modulus: f64, poisson_ratio: f64, thermal_expansion: f64, conductivity: f64) -> Constituent {
-    Constituent { elastic: Isotropic { youngs_modulus, poisson_ratio, thermal_expansion }, conductivity }
+    Constituent::new(Isotropic { youngs_modulus, poisson_ratio, thermal_expansion }, conductivity)
 }
 
 fn ring(micrometres: f64, constituent: Constituent, role: Role) -> Ring {
@@ -21,6 +21,7 @@ pub(crate) fn glass() -> Constituent {
 /// The dual-coated fibre whose constants round to the paper's Table I.
 pub(crate) fn reference() -> FibreCell {
     FibreCell {
+        packing: homogenization::Packing::Hexagonal,
         pitch: 170e-6,
         rings: vec![
             ring(80.0, glass(), Role::Glass),
@@ -34,9 +35,14 @@ pub(crate) fn reference() -> FibreCell {
 /// Cells unlike the reference: thinner film, bare fibre in much epoxy, thick stiff coating with a separate core.
 pub(crate) fn varied() -> [FibreCell; 3] {
     let thin = FibreCell { pitch: 167e-6, ..reference() };
-    let bare =
-        FibreCell { pitch: 200e-6, rings: vec![ring(125.0, glass(), Role::Glass)], adhesive: solid(3e9, 0.38, 60e-6, 0.2) };
+    let bare = FibreCell {
+        packing: homogenization::Packing::Hexagonal,
+        pitch: 200e-6,
+        rings: vec![ring(125.0, glass(), Role::Glass)],
+        adhesive: solid(3e9, 0.38, 60e-6, 0.2),
+    };
     let thick = FibreCell {
+        packing: homogenization::Packing::Hexagonal,
         pitch: 260e-6,
         rings: vec![
             ring(9.0, solid(69e9, 0.18, 1.1e-6, 1.3), Role::Glass),
@@ -51,7 +57,12 @@ pub(crate) fn varied() -> [FibreCell; 3] {
 
 /// A bare fibre of radius 0.38 pitch (52 % by area) in a matrix.
 pub(crate) fn two_phase(fibre: Constituent, matrix: Constituent) -> FibreCell {
-    FibreCell { pitch: 1.0, rings: vec![Ring { outer_radius: 0.38, constituent: fibre, role: Role::Glass }], adhesive: matrix }
+    FibreCell {
+        packing: homogenization::Packing::Hexagonal,
+        pitch: 1.0,
+        rings: vec![Ring { outer_radius: 0.38, constituent: fibre, role: Role::Glass }],
+        adhesive: matrix,
+    }
 }
 
 /// Two sectors per 30°, one element across each phase.

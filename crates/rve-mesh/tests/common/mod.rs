@@ -4,12 +4,12 @@
 
 use fem_core::polynomial::gauss_lobatto;
 use proptest::prelude::*;
-use rve_mesh::{CellMesh, Extent, HexagonalCell, Resolution, mesh};
+use rve_mesh::{CellMesh, Extent, LatticeCell, Resolution, mesh};
 
 /// A cell with what it takes to mesh it.
 #[derive(Debug, Clone)]
 pub(crate) struct Case {
-    pub(crate) cell: HexagonalCell,
+    pub(crate) cell: LatticeCell,
     pub(crate) resolution: Resolution,
     pub(crate) order: usize,
 }
@@ -36,7 +36,7 @@ pub(crate) fn any_case(orders: std::ops::RangeInclusive<usize>) -> impl Strategy
             let radii = rings.iter().map(grow).collect();
             let across = rings.iter().map(|(_, n)| *n).chain([across_film]).collect();
             Case {
-                cell: HexagonalCell::new(pitch, radii).expect("a valid cell"),
+                cell: LatticeCell::hexagonal(pitch, radii).expect("a valid cell"),
                 resolution: Resolution { sectors, grading, across },
                 order,
             }

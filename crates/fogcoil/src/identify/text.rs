@@ -1,0 +1,161 @@
+//! What was found, for people.
+
+use std::fmt::Write;
+
+use homogenization::identify::{Alternatives, Family, Fit, Identification, ORDINARY, Outcome, Posterior, Target, Uncertainty};
+
+use super::quantity::{in_words, presentation, title};
+use crate::homogenize::presentation as of_constant;
+use crate::input::TargetsCase;
+use crate::table::{significant, table};
+
+/// Further measurements shown.
+const MEASUREMENTS: usize = 5;
+
+/// The whole answer.
+pub fn text(case: &TargetsCase, result: &Identification) -> String {
+    let mut out = format!("{}: constituents from {} effective constants\n", case.name, case.targets.len());
+    for (family, outcome) in case.families.iter().zip(&result.outcomes) {
+        let _ = write!(out, "\n{}: {}\n\n", family.name, verdict(family, outcome));
+        out += &entries(&case.targets, outcome);
+    }
+    let chosen = &case.families[result.chosen];
+    match &result.posterior {
+        Some(posterior) => {
+            out += &determined(chosen, &result.outcomes[result.chosen].best, posterior);
+        }
+        None => out += "\nNo kind of cell explains the constants with ordinary constituents, so there is nothing to bound.\n",
+    }
+    match (&result.alternatives, &result.posterior) {
+        (Some(alternatives), _) => out += &apart(chosen, alternatives),
+        (None, Some(_)) => out += "\nNo two sets that explain the constants alike were found.\n",
+        (None, None) => {}
+    }
+    out
+}
+
+fn verdict(family: &Family, outcome: &Outcome) -> String {
+    let (j, sigma) = outcome.best.farthest();
+    let farthest = || {
+        let parameter = &family.parameters()[j];
+        let (_, _, unit, convert) = presentation(parameter.quantity);
+        format!(
+            "{} {} {unit}, {sigma:.1} sigma from what is ordinary",
+            title(parameter),
+            significant(convert(outcome.best.values[j]), 3)
+        )
+    };
+    let missed = |fit: &Fit| fit.met.iter().filter(|met| !**met).count();
+    match (outcome.best.reproduces(), outcome.explains()) {
+        (_, true) => {
+            format!("explains every entry with ordinary constituents (all within {:.1} sigma)", outcome.fit().farthest().1)
+        }
+        (true, false) => format!(
+            "no ordinary cell found that explains every entry; it would take e.g. {}; within {ORDINARY} sigma {} entries are missed",
+            farthest(),
+            missed(outcome.fit())
+        ),
+        (false, false) => format!(
+            "no cell found that explains every entry; {} are missed at best (then {}), {} within {ORDINARY} sigma",
+            missed(&outcome.best),
+            farthest(),
+            missed(outcome.fit())
+        ),
+    }
+}
+
+fn entries(targets: &[Target], outcome: &Outcome) -> String {
+    let ordinary = outcome.ordinary.is_some();
+    let mut rows = vec![
+        ["entry", "target", "within", if ordinary { "best ordinary cell" } else { "best cell" }, "unit", ""]
+            .map(String::from)
+            .to_vec(),
+    ];
+    let fit = outcome.fit();
+    for (target, (value, met)) in targets.iter().zip(fit.entries.iter().zip(&fit.met)) {
+        let (unit, convert, _) = of_constant(target.name());
+        let width = match target.uncertainty {
+            Uncertainty::Rounded(half) => format!("± {}", significant(convert(half), 2)),
+            Uncertainty::Normal(sd) => format!("sd {}", significant(convert(sd), 2)),
+        };
+        let met = if *met { "met" } else { "MISSED" };
+        let row = [
+            target.name().into(),
+            significant(convert(target.value), 5),
+            width,
+            significant(convert(*value), 5),
+            unit.into(),
+            met.into(),
+        ];
+        rows.push(row.to_vec());
+    }
+    table(&rows)
+}
+
+fn determined(family: &Family, best: &Fit, posterior: &Posterior) -> String {
+    let parameters = family.parameters();
+    let heads = ["constituent", "prior 90 %", "best fit", "posterior 90 %", "left of prior", "unit"];
+    let mut rows = vec![heads.map(String::from).to_vec()];
+    for (j, parameter) in parameters.iter().enumerate() {
+        let (_, _, unit, convert) = presentation(parameter.quantity);
+        let range = |[low, high]: [f64; 2]| format!("{} .. {}", significant(convert(low), 3), significant(convert(high), 3));
+        rows.push(vec![
+            title(parameter),
+            range([parameter.prior.low, parameter.prior.high]),
+            significant(convert(best.values[j]), 4),
+            range(posterior.interval(j, 0.9).map(|u| parameter.prior.value(u))),
+            format!("{:.0} %", 100.0 * posterior.deviation(j)),
+            unit.into(),
+        ]);
+    }
+    let (rank, all) = (posterior.rank(), parameters.len());
+    let shares: Vec<String> = posterior.regions.iter().map(|region| format!("{:.1} %", 100.0 * region.weight)).collect();
+    let regions = match shares.len() {
+        1 => String::new(),
+        n => format!("{n} regions that lie apart explain the entries, with {} of the probability.\n", shares.join(" and ")),
+    };
+    let mut out = format!(
+        "\n{}: what the entries determine\n\n{}\n{regions}The entries fix {rank} combinations of {all} constants; {} are as open as before. Fixed, best first (powers of \
+         prior widths):\n",
+        family.name,
+        table(&rows),
+        all - rank
+    );
+    for direction in posterior.directions.iter().take(rank) {
+        let _ = writeln!(out, "  to {:>7.2e} of its prior: {}", direction.shrinkage(), in_words(&direction.along, &parameters));
+    }
+    let _ = writeln!(
+        out,
+        "{} draws worth {:.0} independent ones, on an emulator whose error moves a draw by {:.1e} prior standard deviations",
+        posterior.draws.len(),
+        posterior.effective_draws,
+        posterior.emulator_error
+    );
+    out
+}
+
+fn apart(family: &Family, alternatives: &Alternatives) -> String {
+    let mut rows = vec![["constituent", "set A", "set B", "unit"].map(String::from).to_vec()];
+    let [a, b] = &alternatives.sets;
+    for (j, parameter) in family.parameters().iter().enumerate() {
+        let (_, _, unit, convert) = presentation(parameter.quantity);
+        let value = |fit: &Fit| significant(convert(fit.values[j]), 4);
+        rows.push(vec![title(parameter), value(a), value(b), unit.into()]);
+    }
+    let mut out = format!(
+        "\nTwo sets that explain every entry alike (finite elements; all constants within {:.1} sigma)\n\n{}\nWhat would tell them apart:\n",
+        a.farthest().1.max(b.farthest().1),
+        table(&rows)
+    );
+    for measurement in alternatives.measurements.iter().take(MEASUREMENTS) {
+        let [a, b] = measurement.values.map(|value| significant(value, 3));
+        let _ = writeln!(
+            out,
+            "  {}: {a} against {b} (SI), {:.0} times the usual error of {}",
+            measurement.what,
+            measurement.separation(),
+            significant(measurement.error, 1)
+        );
+    }
+    out
+}

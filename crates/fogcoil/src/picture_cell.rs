@@ -1,0 +1,232 @@
+//! A cell as a picture: its mesh over its phases, or over a field; the cells around it pale.
+
+use std::collections::{BTreeMap, HashMap};
+use std::fmt::Write;
+
+use homogenization::fields::Sample;
+use homogenization::irregular::Solution;
+
+use crate::homogenize::Quantity;
+use crate::picture::escape;
+use crate::plot::Colours;
+
+/// Phases in Okabe and Ito's colours, pale enough to carry a mesh.
+const PHASES: [&str; 8] = ["#9ecae9", "#f2cf7d", "#8fd0b5", "#e6b3cf", "#f0a881", "#bcbddc", "#f7f0a8", "#c8c8c8"];
+const SIDE: f64 = 640.0;
+const LEFT: f64 = 40.0;
+const TOP: f64 = 84.0;
+/// Room at the right for the legend [px].
+const LEGEND: f64 = 350.0;
+/// Width of what is shown around the cell, in widths of the cell.
+const AROUND: f64 = 0.12;
+
+/// Positions [m] to pixels; y upwards.
+struct View {
+    low: [f64; 2],
+    scale: f64,
+    size: [f64; 2],
+}
+
+impl View {
+    fn new(sample: &Sample, lattice: [[f64; 2]; 2]) -> Self {
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for position in sample.states.iter().map(|s| s.position).chain(corners(lattice)) {
+            for c in 0..2 {
+                (low[c], high[c]) = (low[c].min(position[c]), high[c].max(position[c]));
+            }
+        }
+        let margin = AROUND * (high[0] - low[0]).max(high[1] - low[1]);
+        let (low, high) = (low.map(|v| v - margin), high.map(|v| v + margin));
+        let scale = SIDE / (high[0] - low[0]).max(high[1] - low[1]);
+        Self { low, scale, size: [0, 1].map(|c| (high[c] - low[c]) * scale) }
+    }
+
+    fn pixel(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [(x - self.low[0]) * self.scale, self.size[1] - (y - self.low[1]) * self.scale]
+    }
+}
+
+/// Corners of the lattice cell.
+fn corners([a, b]: [[f64; 2]; 2]) -> [[f64; 2]; 4] {
+    [[0.0, 0.0], a, [a[0] + b[0], a[1] + b[1]], b]
+}
+
+/// The picture as an SVG document, with a field if one is given.
+pub fn svg(name: &str, caption: &str, solution: &Solution, sample: &Sample, field: Option<Quantity>) -> String {
+    let view = View::new(sample, solution.periodic().lattice);
+    let (width, height) = (LEFT + view.size[0] + LEGEND, TOP + view.size[1] + 70.0);
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" height=\"{height:.0}\" \
+         font-family=\"sans-serif\" font-size=\"15\" role=\"img\" aria-labelledby=\"title\">\n<title id=\"title\">{}</title>\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<text x=\"{LEFT}\" y=\"34\" font-size=\"20\" font-weight=\"bold\">{}</text>\n\
+         <text x=\"{LEFT}\" y=\"60\">{}</text>\n",
+        escape(&format!("{name}: {caption}")),
+        escape(name),
+        escape(caption)
+    );
+    let colours = field.map(|quantity| (quantity, colours(quantity, sample)));
+    let _ = writeln!(
+        out,
+        "<clipPath id=\"frame\"><rect width=\"{:.1}\" height=\"{:.1}\"/></clipPath>\n<g transform=\"translate({LEFT} {TOP})\" \
+         clip-path=\"url(#frame)\">\n<defs><g id=\"cell\">",
+        view.size[0], view.size[1]
+    );
+    fill(&mut out, &view, sample, colours.as_ref());
+    mesh(&mut out, &view, solution, sample);
+    out.push_str("</g></defs>\n");
+    copies(&mut out, &view, solution);
+    out.push_str("</g>\n");
+    let right = LEFT + view.size[0] + 24.0;
+    match &colours {
+        Some((quantity, colours)) => bar(&mut out, right, *quantity, colours),
+        None => legend(&mut out, right, solution),
+    }
+    scale_bar(&mut out, &view);
+    out.push_str("</svg>\n");
+    out
+}
+
+fn colours(quantity: Quantity, sample: &Sample) -> Colours {
+    let values = sample.states.iter().map(|s| quantity.of(s)).filter(|v| v.is_finite());
+    let range = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]);
+    Colours::of(quantity.label(), range, 1e-9)
+}
+
+/// All of one colour as one path; edges of their own colour hide the seams. Without a field an element is filled as a whole.
+fn fill(out: &mut String, view: &View, sample: &Sample, colours: Option<&(Quantity, Colours)>) {
+    let mut paths: BTreeMap<String, String> = BTreeMap::new();
+    let Some((quantity, colours)) = colours else {
+        let of_element = (sample.divisions + 1) * (sample.divisions + 1);
+        for states in sample.states.chunks(of_element) {
+            let path = paths.entry(PHASES[states[0].phase % PHASES.len()].to_owned()).or_default();
+            line(path, view, (0..4).flat_map(|side| along(sample, side)).map(|k| states[k].position));
+        }
+        return paths.iter().for_each(|(colour, path)| area(out, colour, path));
+    };
+    for corners in &sample.quadrilaterals {
+        let states = corners.map(|k| &sample.states[k]);
+        let mean = states.iter().map(|s| quantity.of(s)).sum::<f64>() / 4.0;
+        let colour = if mean.is_finite() { colours.at(mean) } else { "#e8e8e8".into() };
+        line(paths.entry(colour).or_default(), view, states.iter().map(|s| s.position));
+    }
+    paths.iter().for_each(|(colour, path)| area(out, colour, path));
+}
+
+fn area(out: &mut String, colour: &str, path: &str) {
+    let _ = writeln!(out, "<path fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"0.5\" d=\"{path}\"/>");
+}
+
+fn line(path: &mut String, view: &View, positions: impl Iterator<Item = [f64; 2]>) {
+    for (k, position) in positions.enumerate() {
+        let [x, y] = view.pixel(position);
+        let _ = write!(path, "{}{x:.1} {y:.1}", if k == 0 { "M" } else { "L" });
+    }
+}
+
+/// Points of a sampled element along its sides, counter-clockwise.
+fn along(sample: &Sample, side: usize) -> impl Iterator<Item = usize> {
+    let (d, n) = (sample.divisions, sample.divisions + 1);
+    (0..n).map(move |k| match side {
+        0 => k,
+        1 => k * n + d,
+        2 => d * n + d - k,
+        _ => (d - k) * n,
+    })
+}
+
+/// Outlines of the elements, thicker where the phase changes or ends.
+fn mesh(out: &mut String, view: &View, solution: &Solution, sample: &Sample) {
+    let (mesh, of_element) = (solution.mesh(), (sample.divisions + 1) * (sample.divisions + 1));
+    let mut original: Vec<usize> = (0..mesh.nodes().len()).collect();
+    solution.periodic().periodic.iter().for_each(|[copy, first]| original[*copy] = *first);
+    // the inner nodes of a side name it, whichever copy it is
+    let (order, m) = (mesh.order(), mesh.order() + 1);
+    let name = |e: usize, side: usize| {
+        let node = |k: usize| match side {
+            0 => k,
+            1 => k * m + order,
+            2 => order * m + k,
+            _ => k * m,
+        };
+        let mut pair = [1, order - 1].map(|k| original[mesh.elements()[e][node(k)]]);
+        pair.sort_unstable();
+        pair
+    };
+    let mut sides: HashMap<[usize; 2], Vec<(usize, usize)>> = HashMap::new();
+    let all = || (0..mesh.elements().len()).flat_map(|e| (0..4).map(move |side| (e, side)));
+    all().for_each(|(e, side)| sides.entry(name(e, side)).or_default().push((e, side)));
+    let (mut lines, mut interfaces) = (String::new(), String::new());
+    for (e, side) in all() {
+        let beside = &sides[&name(e, side)];
+        let inside = beside.len() > 1 && beside.iter().all(|(other, _)| mesh.regions()[*other] == mesh.regions()[e]);
+        let path = if inside { &mut lines } else { &mut interfaces };
+        let start = e * of_element;
+        line(path, view, along(sample, side).map(|k| sample.states[start + k].position));
+    }
+    let _ = writeln!(out, "<path fill=\"none\" stroke=\"#000\" stroke-opacity=\"0.35\" stroke-width=\"0.6\" d=\"{lines}\"/>");
+    let _ = writeln!(out, "<path fill=\"none\" stroke=\"#000\" stroke-width=\"1\" d=\"{interfaces}\"/>");
+}
+
+/// The cell, pale copies around it, and its lattice vectors.
+fn copies(out: &mut String, view: &View, solution: &Solution) {
+    let [a, b] = solution.periodic().lattice;
+    out.push_str("<g opacity=\"0.3\">\n");
+    for (i, j) in (-2..=2).flat_map(|i| (-2..=2).map(move |j| (i, j))).filter(|ij| *ij != (0, 0)) {
+        let (i, j) = (f64::from(i) * view.scale, f64::from(j) * view.scale);
+        let _ = writeln!(out, "<use href=\"#cell\" x=\"{:.2}\" y=\"{:.2}\"/>", i * a[0] + j * b[0], -(i * a[1] + j * b[1]));
+    }
+    out.push_str("</g>\n<use href=\"#cell\"/>\n");
+    let path: Vec<String> = corners([a, b]).map(|p| view.pixel(p)).iter().map(|[x, y]| format!("{x:.2} {y:.2}")).collect();
+    let _ = writeln!(
+        out,
+        "<path fill=\"none\" stroke=\"#c00000\" stroke-width=\"1.5\" stroke-dasharray=\"7 4\" d=\"M{}z\"/>",
+        path.join("L")
+    );
+}
+
+fn legend(out: &mut String, x: f64, solution: &Solution) {
+    for (k, phase) in solution.phases().iter().enumerate() {
+        let y = TOP + 20.0 + 28.0 * k as f64;
+        let share = solution.response().fractions.get(k).copied().unwrap_or(0.0);
+        let _ = writeln!(
+            out,
+            "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"18\" height=\"18\" fill=\"{}\" stroke=\"#000\"/>\n<text x=\"{:.1}\" y=\"{y:.1}\">{}, {:.2} %</text>",
+            y - 14.0,
+            PHASES[k % PHASES.len()],
+            x + 28.0,
+            escape(&phase.name),
+            100.0 * share
+        );
+    }
+    let y = TOP + 30.0 + 28.0 * solution.phases().len() as f64;
+    let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" fill=\"#c00000\">dashed: the lattice cell</text>");
+    let elements = solution.mesh().elements().len();
+    let order = solution.mesh().order();
+    let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{:.1}\">{elements} elements of order {order}</text>", y + 26.0);
+}
+
+fn bar(out: &mut String, x: f64, quantity: Quantity, colours: &Colours) {
+    let (width, y) = (LEGEND - 110.0, TOP + 34.0);
+    let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{:.1}\">{}</text>", TOP + 14.0, escape(&quantity.label()));
+    let _ = writeln!(out, "<g transform=\"translate({x:.1} {y:.1}) scale({width:.1} 18)\">{}</g>", colours.bar());
+    for (k, anchor) in [(0.0, "start"), (0.5, "middle"), (1.0, "end")] {
+        let value = colours.range[0] + k * (colours.range[1] - colours.range[0]);
+        let label = crate::table::significant(value, 4);
+        let _ = writeln!(out, "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\">{label}</text>", x + k * width, y + 38.0);
+    }
+    let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{:.1}\" fill=\"#c00000\">dashed: the lattice cell</text>", y + 76.0);
+}
+
+/// A round length below the picture.
+fn scale_bar(out: &mut String, view: &View) {
+    let metres = 0.25 * view.size[0] / view.scale;
+    let decade = 10_f64.powf(metres.log10().floor());
+    let length = [5.0, 2.0, 1.0].into_iter().map(|m| m * decade).find(|l| *l <= metres).unwrap_or(decade);
+    let (y, pixels) = (TOP + view.size[1] + 24.0, length * view.scale);
+    let _ = writeln!(
+        out,
+        "<path d=\"M{LEFT} {y:.1}h{pixels:.1}\" stroke=\"#000\" stroke-width=\"3\"/>\n<text x=\"{LEFT}\" y=\"{:.1}\">{} µm; x to the right, y upwards</text>",
+        y + 22.0,
+        crate::table::significant(length * 1e6, 3)
+    );
+}

@@ -1,0 +1,78 @@
+//! Energies of axisymmetric states as quadratic forms, and what two of them in Loewner order say of every constant between them.
+
+use super::phases::Phase;
+use nalgebra::{Matrix2, Matrix3, Vector2};
+
+/// Hessian of twice the potential `W(e, ε, T)`: e the strain across the fibre (xx = yy), ε along it, T the temperature. Its
+/// conjugates are 2σ_xx and σ_zz. The pure T term is free: whatever it is, it is the same in every form compared.
+pub(crate) type Form = Matrix3<f64>;
+
+fn form(phase: &Phase) -> Form {
+    let Phase { bulk, shear, lambda, beta, .. } = *phase;
+    let off = [2.0 * lambda, -2.0 * beta, -beta];
+    Matrix3::new(4.0 * bulk, off[0], off[1], off[0], lambda + 2.0 * shear, off[2], off[1], off[2], 0.0)
+}
+
+/// Effective form when each phase sits in a transverse environment of shear modulus `shear` (Hashin–Shtrikman; infinite: Voigt).
+pub(crate) fn embedded(phases: &[Phase], shear: f64) -> Form {
+    if shear.is_infinite() {
+        return phases.iter().map(|p| form(p) * p.share).sum();
+    }
+    let environment = 4.0 * shear;
+    let (mut s, mut b, mut c) = (0.0, Vector2::zeros(), Matrix2::zeros());
+    for phase in phases {
+        let h = form(phase);
+        let (across, coupling) = (h[(0, 0)] + environment, h.fixed_view::<2, 1>(1, 0));
+        s += phase.share / across;
+        b += coupling * (phase.share / across);
+        c += (h.fixed_view::<2, 2>(1, 1) - coupling * coupling.transpose() / across) * phase.share;
+    }
+    c += b * b.transpose() / s;
+    let b = b / s;
+    Matrix3::new(1.0 / s - environment, b[0], b[1], b[0], c[(0, 0)], c[(0, 1)], b[1], c[(1, 0)], c[(1, 1)])
+}
+
+/// Effective form under uniform stress (Reuss).
+pub(crate) fn uniform_stress(phases: &[Phase]) -> Option<Form> {
+    let mut mean = Form::zeros();
+    for phase in phases {
+        mean += conjugate(&form(phase))? * phase.share;
+    }
+    conjugate(&mean)
+}
+
+/// The Legendre transform in the strains: compliance, expansion and what belongs to T; its own inverse, and it turns the order round.
+pub(crate) fn conjugate(form: &Form) -> Option<Form> {
+    let inverse = form.fixed_view::<2, 2>(0, 0).try_inverse()?;
+    let b = form.fixed_view::<2, 1>(0, 2).into_owned();
+    let alpha = -(inverse * b);
+    let last = (b.transpose() * inverse * b)[0] - form[(2, 2)];
+    Some(Matrix3::new(
+        inverse[(0, 0)],
+        inverse[(0, 1)],
+        alpha[0],
+        inverse[(1, 0)],
+        inverse[(1, 1)],
+        alpha[1],
+        alpha[0],
+        alpha[1],
+        last,
+    ))
+}
+
+/// A closed interval, lower end first.
+pub(crate) type Interval = [f64; 2];
+
+/// Entry (i, j) of any form between `lower` and `upper` in Loewner order: with D their difference, it differs from the middle by
+/// at most √(D_ii D_jj)/2 (Cauchy–Schwarz).
+pub(crate) fn entry(lower: &Form, upper: &Form, i: usize, j: usize) -> Interval {
+    let spread = |i: usize| (upper[(i, i)] - lower[(i, i)]).max(0.0);
+    let (middle, half) = ((lower[(i, j)] + upper[(i, j)]) / 2.0, (spread(i) * spread(j)).sqrt() / 2.0);
+    [middle - half, middle + half]
+}
+
+/// Quotient of two intervals, the second positive.
+pub(crate) fn quotient(a: Interval, b: Interval) -> Interval {
+    let all = [a[0] / b[0], a[0] / b[1], a[1] / b[0], a[1] / b[1]];
+    [all.iter().copied().fold(f64::INFINITY, f64::min), all.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
+}

@@ -1,0 +1,100 @@
+//! A layout and what its phases are made of.
+
+use super::Solution;
+use crate::{Constituent, Error, FibreCell, Role};
+use fem_core::material::ThermoElastic;
+use fem_core::polynomial;
+use nalgebra::{Matrix2, Rotation2};
+use rve_mesh::{Arrangement, Inclusion, Layout, Outline, periodic_mesh};
+
+/// A solid with z an axis of its symmetry. SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solid {
+    /// Stiffness and thermal stress; yz and xz must not couple with the others.
+    pub law: ThermoElastic,
+    /// Conductivity in the plane xy \[W/(m K)\], symmetric.
+    pub conductivity: Matrix2<f64>,
+    /// Conductivity along z \[W/(m K)\].
+    pub conductivity_z: f64,
+}
+
+/// A phase of the cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Phase {
+    /// Its name.
+    pub name: String,
+    /// What it is made of.
+    pub solid: Solid,
+    /// Whether it counts as glass in the row M.
+    pub role: Role,
+}
+
+/// A periodic cell with its constituents.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cell {
+    /// Lattice, inclusions, matrix.
+    pub layout: Layout,
+    /// The phases the layout names by number.
+    pub phases: Vec<Phase>,
+}
+
+impl Solid {
+    /// An isotropic constituent.
+    ///
+    /// # Errors
+    /// [`fem_core::Error::Material`] names the constant that is out of range.
+    pub fn isotropic(constituent: &Constituent) -> Result<Self, fem_core::Error> {
+        let conductivity = Matrix2::identity() * constituent.conductivity;
+        Ok(Self { law: constituent.elastic.law()?, conductivity, conductivity_z: constituent.conductivity })
+    }
+
+    /// The same solid turned by `angle` \[rad\] about z.
+    pub fn turned(&self, angle: f64) -> Self {
+        let rotation = Rotation2::new(angle);
+        let conductivity = rotation.matrix() * self.conductivity * rotation.matrix().transpose();
+        Self { law: self.law.turned(angle), conductivity, conductivity_z: self.conductivity_z }
+    }
+
+    fn check(&self, constituent: &str) -> Result<(), Error> {
+        let least = self.conductivity.symmetric_eigenvalues().min().min(self.conductivity_z);
+        if !(least > 0.0 && self.conductivity.iter().all(|k| k.is_finite()) && self.conductivity_z.is_finite()) {
+            return Err(Error::Conductivity { constituent: constituent.into(), value: least });
+        }
+        Ok(())
+    }
+}
+
+impl Cell {
+    /// The regular cell of [`crate::homogenize`] with `arrangement` in place of its lattice: phases are the rings from the inside out,
+    /// last the adhesive.
+    ///
+    /// # Errors
+    /// [`Error`] names the constituent or the geometry at fault.
+    pub fn of_fibres(cell: &FibreCell, arrangement: &Arrangement) -> Result<Self, Error> {
+        let fibre = |centre: &[f64; 2]| Inclusion {
+            outlines: cell.rings.iter().map(|r| Outline::circle(*centre, r.outer_radius)).collect(),
+            phases: (0..cell.rings.len()).map(Some).collect(),
+        };
+        let layout = Layout::new(arrangement.lattice, arrangement.centres.iter().map(fibre).collect(), cell.rings.len())?;
+        let rings = cell.rings.iter().enumerate().map(|(i, r)| (format!("ring {i}"), &r.constituent, r.role));
+        let mut phases = Vec::new();
+        for (name, constituent, role) in rings.chain([("adhesive".into(), &cell.adhesive, Role::Coating)]) {
+            let solid = Solid::isotropic(constituent);
+            let solid = solid.map_err(|source| Error::Constituent { constituent: name.clone(), source })?;
+            phases.push(Phase { name, solid, role });
+        }
+        Ok(Self { layout, phases })
+    }
+
+    /// Solves the cell problems on elements of polynomial `order`; `fineness` 1 is the standard mesh.
+    ///
+    /// # Errors
+    /// [`Error`] names the constituent at fault, or the mesh or solve that failed.
+    pub fn solve(&self, order: usize, fineness: f64) -> Result<Solution, Error> {
+        self.phases.iter().try_for_each(|phase| phase.solid.check(&phase.name))?;
+        if !self.phases.iter().any(|phase| phase.role == Role::Glass) {
+            return Err(Error::NoGlass);
+        }
+        Solution::new(periodic_mesh(&self.layout, fineness, &polynomial::gauss_lobatto(order))?, &self.phases)
+    }
+}

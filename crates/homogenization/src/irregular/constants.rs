@@ -1,0 +1,152 @@
+//! Engineering constants of a cell that need not be isotropic across the fibre.
+
+use super::response::mean_over_turns;
+use super::{Cell, Response, Solution, TEMPERATURE};
+use crate::{Error, NEGLIGIBLE, SAFETY};
+use fem_core::material::TransverselyIsotropic;
+use nalgebra::Matrix6;
+
+/// Engineering constants along x, y, z (z = fibre). SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Directional {
+    /// Young's moduli along x, y, z \[Pa\].
+    pub e: [f64; 3],
+    /// Shear moduli of the planes yz, xz, xy \[Pa\].
+    pub g: [f64; 3],
+    /// Poisson's ratios zx, zy, xy: contraction along the second per extension along the first.
+    pub nu: [f64; 3],
+    /// Expansions along x, y, z and the shear xy \[1/K\].
+    pub alpha: [f64; 4],
+    /// Conductivities xx, yy, zz, xy \[W/(m K)\].
+    pub k: [f64; 4],
+    /// Plane-strain bulk modulus, mean of C11, C22 and 2 C12 over two \[Pa\].
+    pub k_plane_strain: f64,
+    /// Mean radial strain (xx + yy)/2 of the glass per macroscopic xx, yy, zz, xy, and per K \[1/K\].
+    pub m: [f64; 5],
+}
+
+const NAMES: [&str; 23] = [
+    "e_x",
+    "e_y",
+    "e_z",
+    "g_yz",
+    "g_xz",
+    "g_xy",
+    "nu_zx",
+    "nu_zy",
+    "nu_xy",
+    "alpha_x",
+    "alpha_y",
+    "alpha_z",
+    "alpha_xy",
+    "k_x",
+    "k_y",
+    "k_z",
+    "k_xy",
+    "k_plane_strain",
+    "m_rx",
+    "m_ry",
+    "m_rz",
+    "m_rxy",
+    "m_rt",
+];
+
+impl Directional {
+    /// Names (as in the JSON output) and values.
+    pub fn named(&self) -> Vec<(&'static str, f64)> {
+        NAMES.into_iter().zip(self.values()).collect()
+    }
+
+    fn values(&self) -> Vec<f64> {
+        let Self { e, g, nu, alpha, k, k_plane_strain, m } = self;
+        [&e[..], g, nu, alpha, k, &[*k_plane_strain], m].concat()
+    }
+
+    /// What each error is taken relative to at least: [`NEGLIGIBLE`] of the natural size of its kind, all of it for those that vanish in
+    /// cells of some symmetry.
+    fn floors(&self) -> Vec<f64> {
+        let largest = |v: &[f64]| v.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let (alpha, k) = (largest(&self.alpha), largest(&self.k));
+        let size = |(name, value): (&str, f64)| match name {
+            "alpha_xy" => alpha,
+            "k_xy" => k,
+            "m_rxy" => 1.0,
+            _ if name.starts_with("alpha") || name == "m_rt" => NEGLIGIBLE * alpha,
+            _ if name.starts_with("nu") || name.starts_with("m_") => NEGLIGIBLE,
+            _ => NEGLIGIBLE * value.abs(),
+        };
+        self.named().into_iter().map(size).collect()
+    }
+}
+
+impl Response {
+    /// Engineering constants; `None` if the stiffness is singular.
+    pub fn constants(&self) -> Option<Directional> {
+        let compliance = self.stiffness.try_inverse()?;
+        let alpha = compliance * self.thermal_stress;
+        let contraction = |of: usize, per: usize| -compliance[(of, per)] / compliance[(per, per)];
+        let radial = |load: usize| (self.glass_strain[(0, load)] + self.glass_strain[(1, load)]) / 2.0;
+        let c = &self.stiffness;
+        Some(Directional {
+            e: [0, 1, 2].map(|i| 1.0 / compliance[(i, i)]),
+            g: [3, 4, 5].map(|i| 1.0 / compliance[(i, i)]),
+            nu: [contraction(0, 2), contraction(1, 2), contraction(1, 0)],
+            alpha: [alpha[0], alpha[1], alpha[2], alpha[5]],
+            k: [self.conductivity[(0, 0)], self.conductivity[(1, 1)], self.conductivity_z, self.conductivity[(0, 1)]],
+            k_plane_strain: (c[(0, 0)] + c[(1, 1)] + 2.0 * c[(0, 1)]) / 4.0,
+            m: [0, 1, 2, 5, TEMPERATURE].map(radial),
+        })
+    }
+
+    /// The nearest transversely isotropic constants, for a coil: those of the mean over all turns about z. `None` if that is singular.
+    pub fn transversely_isotropic(&self) -> Option<TransverselyIsotropic> {
+        let mean = mean_over_turns(&self.law());
+        let compliance: Matrix6<f64> = mean.stiffness.try_inverse()?;
+        let alpha = compliance * mean.thermal_stress;
+        Some(TransverselyIsotropic {
+            e_z: 1.0 / compliance[(2, 2)],
+            e_r: 1.0 / compliance[(0, 0)],
+            g_zr: mean.stiffness[(4, 4)],
+            nu_zr: -compliance[(0, 2)] / compliance[(2, 2)],
+            nu_r: -compliance[(0, 1)] / compliance[(0, 0)],
+            alpha_z: alpha[2],
+            alpha_r: alpha[0],
+        })
+    }
+}
+
+/// Effective constants of a cell with numerical errors, and the fields behind them.
+#[derive(Debug, Clone)]
+pub struct HomogenizedCell {
+    /// The constants.
+    pub constants: Directional,
+    /// Estimated relative error of each constant by name: [`SAFETY`] times the distance from its value two polynomial orders higher,
+    /// over itself, or over [`NEGLIGIBLE`] of the natural size of its kind if that is larger; of those that vanish in symmetric cells
+    /// (alpha_xy, k_xy, m_rxy) over all of that size.
+    pub relative_error: Vec<(&'static str, f64)>,
+    /// All of the response.
+    pub response: Response,
+    /// Mesh and fluctuations.
+    pub solution: Solution,
+}
+
+impl Cell {
+    /// Effective constants on elements of polynomial `order` (6 is standard) and a mesh of `fineness` (1 is standard).
+    ///
+    /// # Errors
+    /// [`Error`] names the constituent at fault, or the mesh or solve that failed.
+    pub fn homogenize(&self, order: usize, fineness: f64) -> Result<HomogenizedCell, Error> {
+        let singular =
+            || Error::Solve(fem_core::Error::NotPositiveDefinite { unknowns: 6, detail: "effective stiffness".into() });
+        let solution = self.solve(order, fineness)?;
+        let constants = solution.response().constants().ok_or_else(singular)?;
+        let finer = self.solve(order + 2, fineness)?.response().constants().ok_or_else(singular)?;
+        let error = |((a, b), floor): ((f64, f64), f64)| match SAFETY * (a - b).abs() {
+            0.0 => 0.0,
+            difference => difference / b.abs().max(floor),
+        };
+        let errors = constants.values().into_iter().zip(finer.values()).zip(finer.floors()).map(error);
+        let relative_error = NAMES.into_iter().zip(errors).collect();
+        Ok(HomogenizedCell { constants, relative_error, response: solution.response().clone(), solution })
+    }
+}

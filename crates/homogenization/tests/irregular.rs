@@ -1,0 +1,346 @@
+//! The route without symmetry: against the structured one, and against exact relations.
+
+#![allow(clippy::unwrap_used)] // helpers of tests
+
+mod common;
+
+use approx::assert_relative_eq;
+use common::{glass, reference, solid, varied};
+use fem_core::material::{Orthotropic, ThermoElastic};
+use homogenization::irregular::{
+    Arrangement, Cell, Inclusion, Layout, Outline, PeriodicMesh, Phase, Response, Solid, Solution, displace,
+};
+use homogenization::{Constituent, FibreCell, Packing, Role, homogenize};
+use nalgebra::{Matrix2, Matrix6, Vector6};
+
+fn phase(name: &str, solid: Solid, role: Role) -> Phase {
+    Phase { name: name.into(), solid, role }
+}
+
+fn isotropic(constituent: &Constituent) -> Solid {
+    Solid::isotropic(constituent).unwrap()
+}
+
+fn epoxy() -> Constituent {
+    solid(3e9, 0.38, 60e-6, 0.2)
+}
+
+/// Wood-like, turned by 0.6 rad about z.
+fn wood() -> Solid {
+    let law = Orthotropic {
+        e_x: 1.1e9,
+        e_y: 0.7e9,
+        e_z: 12e9,
+        g_yz: 0.8e9,
+        g_xz: 0.9e9,
+        g_xy: 0.1e9,
+        nu_yz: 0.021,
+        nu_xz: 0.027,
+        nu_xy: 0.55,
+        alpha_x: 40e-6,
+        alpha_y: 30e-6,
+        alpha_z: 4e-6,
+    };
+    Solid { law: law.law().unwrap(), conductivity: Matrix2::new(0.3, 0.0, 0.0, 0.2), conductivity_z: 0.5 }.turned(0.6)
+}
+
+/// Ellipses, an offset core and, if wanted, a void in a skew cell.
+fn skew(offset: [f64; 2], void: bool) -> Layout {
+    let at = |x: f64, y: f64| [x + offset[0], y + offset[1]];
+    let ellipse = Outline { centre: at(0.0, 0.0), semi_axes: [0.42, 0.25], angle: 0.5 };
+    let core = Outline { centre: at(0.05, -0.03), semi_axes: [0.14, 0.11], angle: 1.1 };
+    let round = Outline { centre: at(0.75, 0.5), semi_axes: [0.2, 0.15], angle: -0.4 };
+    let second = if void { Inclusion::void(round) } else { Inclusion { outlines: vec![round], phases: vec![Some(1)] } };
+    let first = Inclusion { outlines: vec![core, ellipse], phases: vec![Some(0), Some(1)] };
+    Layout::new([[1.3, 0.1], [0.4, 1.0]], vec![first, second], 2).unwrap()
+}
+
+fn skew_cell(offset: [f64; 2], void: bool) -> Cell {
+    let phases = vec![
+        phase("core", isotropic(&glass()), Role::Glass),
+        phase("shell", wood(), Role::Coating),
+        phase("matrix", isotropic(&epoxy()), Role::Coating),
+    ];
+    Cell { layout: skew(offset, void), phases }
+}
+
+/// Largest difference of stiffness, thermal stress and conductivity, each relative to the largest entry.
+fn difference(a: &Response, b: &Response) -> f64 {
+    let relative = |d: f64, size: f64| d / size;
+    relative((a.stiffness - b.stiffness).amax(), b.stiffness.amax())
+        .max(relative((a.thermal_stress - b.thermal_stress).amax(), b.thermal_stress.amax()))
+        .max(relative((a.conductivity - b.conductivity).amax(), b.conductivity.amax()))
+        .max(relative((a.glass_strain - b.glass_strain).amax(), 1.0))
+}
+
+/// The regular cell, by another mesh, without the use of its symmetry.
+#[test]
+fn exact_agreement_with_the_structured_route() {
+    for cell in varied().into_iter().chain([reference()]) {
+        let c = homogenize(&cell).unwrap().constants;
+        let irregular = Cell::of_fibres(&cell, &Arrangement::hexagonal(cell.pitch, 1, 1)).unwrap().homogenize(6, 1.0).unwrap();
+        let d = irregular.constants;
+        let pairs = [
+            (c.e_z, d.e[2]),
+            (c.e_r, d.e[0]),
+            (c.e_r, d.e[1]),
+            (c.g_zr, d.g[0]),
+            (c.g_zr, d.g[1]),
+            (c.g_r, d.g[2]),
+            (c.k_plane_strain, d.k_plane_strain),
+            (c.nu_zr, d.nu[0]),
+            (c.nu_r, d.nu[2]),
+            (c.alpha_z, d.alpha[2]),
+            (c.alpha_r, d.alpha[0]),
+            (c.k_z, d.k[2]),
+            (c.k_r, d.k[0]),
+            (c.m_rx, d.m[0]),
+            (c.m_ry, d.m[1]),
+            (c.m_rz, d.m[2]),
+            (c.m_rt, d.m[4]),
+        ];
+        for (structured, found) in pairs {
+            assert_relative_eq!(found, structured, max_relative = 1e-5);
+        }
+        assert!(irregular.response.anisotropy < 1e-6, "{:e}", irregular.response.anisotropy);
+        for (name, error) in irregular.relative_error {
+            assert!(error < 1e-5, "{name}: {error:e}");
+        }
+        let t = irregular.response.transversely_isotropic().unwrap();
+        assert_relative_eq!(t.e_r, c.e_r, max_relative = 1e-5);
+        assert_relative_eq!(t.alpha_r, c.alpha_r, max_relative = 1e-5);
+    }
+}
+
+/// Square packing: the same numbers, and as far from isotropic as the structured route says.
+#[test]
+fn exact_agreement_in_square_packing() {
+    let cell = FibreCell { packing: Packing::Square, ..reference() };
+    let structured = homogenize(&cell).unwrap();
+    let found = Cell::of_fibres(&cell, &Arrangement::square(cell.pitch, 1, 1)).unwrap().solve(6, 1.0).unwrap().response().clone();
+    let reference = structured.effective.stiffness;
+    assert!((found.stiffness - reference).amax() < 1e-5 * reference.amax());
+    assert_relative_eq!(found.stiffness[(5, 5)], reference[(5, 5)], max_relative = 1e-4);
+    assert_relative_eq!(found.constants().unwrap().e[0], structured.constants.e_r, max_relative = 1e-4);
+    // C66 and (C11 − C12)/2 are a and b: their mean over all turns is (a + b)/2, so the difference is |a − b|/(a + b)
+    let [a, b] = structured.effective.shear_moduli_across();
+    assert_relative_eq!(found.anisotropy, (a - b).abs() / (a + b), max_relative = 1e-3);
+}
+
+/// Four fibres are one: the cell may hold several repetitions.
+#[test]
+fn symmetry_several_fibres_are_one() {
+    let cell = &varied()[1];
+    let solve = |columns, rows| {
+        let arrangement = Arrangement::hexagonal(cell.pitch, columns, rows);
+        Cell::of_fibres(cell, &arrangement).unwrap().solve(6, 1.0).unwrap().response().clone()
+    };
+    let one = solve(1, 1);
+    for (columns, rows) in [(2, 2), (1, 3)] {
+        assert!(difference(&solve(columns, rows), &one) < 1e-6);
+    }
+}
+
+/// A cell of one solid, orthotropic and turned, whatever the shapes in it.
+#[test]
+fn exact_cell_of_one_material_is_that_material() {
+    let mut cell = skew_cell([0.0; 2], false);
+    cell.phases.iter_mut().for_each(|p| p.solid = wood());
+    let found = cell.solve(4, 1.0).unwrap().response().clone();
+    let law = wood().law;
+    assert!((found.stiffness - law.stiffness).amax() < 1e-10 * law.stiffness.amax());
+    assert!((found.thermal_stress - law.thermal_stress).amax() < 1e-10 * law.thermal_stress.amax());
+    assert!((found.conductivity - wood().conductivity).amax() < 1e-10);
+    for strain in &found.phase_strain {
+        assert!((strain.fixed_view::<6, 6>(0, 0) - Matrix6::identity()).amax() < 1e-10);
+        assert!(strain.column(6).amax() < 1e-14);
+    }
+}
+
+/// Where the cell begins does not matter.
+#[test]
+fn symmetry_moving_all_inclusions_changes_nothing() {
+    for void in [false, true] {
+        let here = skew_cell([0.0; 2], void).solve(5, 1.0).unwrap().response().clone();
+        let there = skew_cell([0.37, -5.21], void).solve(5, 1.0).unwrap().response().clone();
+        assert!(difference(&there, &here) < 1e-9, "{:e}", difference(&there, &here));
+        assert!((here.stiffness - here.stiffness.transpose()).amax() < 1e-12 * here.stiffness.amax());
+        assert!(here.anisotropy > 1e-3);
+    }
+}
+
+/// Turning the whole cell turns its response.
+#[test]
+fn symmetry_turning_the_cell_turns_its_response() {
+    let cell = skew_cell([0.0; 2], true);
+    let (angle, turn) = (0.8_f64, |p: [f64; 2]| {
+        let (s, c) = 0.8_f64.sin_cos();
+        [c * p[0] - s * p[1], s * p[0] + c * p[1]]
+    });
+    let turned = |o: &Outline| Outline { centre: turn(o.centre), semi_axes: o.semi_axes, angle: o.angle + angle };
+    let inclusions = cell
+        .layout
+        .inclusions()
+        .iter()
+        .map(|i| Inclusion { outlines: i.outlines.iter().map(turned).collect(), phases: i.phases.clone() });
+    let layout = Layout::new(cell.layout.lattice().map(turn), inclusions.collect(), 2).unwrap();
+    let mut phases = cell.phases.clone();
+    phases.iter_mut().for_each(|p| p.solid = p.solid.turned(angle));
+    let there = Cell { layout, phases }.solve(6, 1.0).unwrap().response().clone();
+    let here = cell.solve(6, 1.0).unwrap().response().clone();
+    let law = ThermoElastic { stiffness: here.stiffness, thermal_stress: here.thermal_stress }.turned(angle);
+    assert!((there.stiffness - law.stiffness).amax() < 1e-6 * law.stiffness.amax());
+    assert!((there.thermal_stress - law.thermal_stress).amax() < 1e-6 * law.thermal_stress.amax());
+    assert_relative_eq!(there.anisotropy, here.anisotropy, max_relative = 1e-5);
+}
+
+/// Voids: less than the mixture, more than nothing, and exactly linear along the fibre. A void is the limit of a soft inclusion.
+#[test]
+fn bounds_voids_are_the_limit_of_soft_inclusions() {
+    let layout = |second: Option<usize>| {
+        let fibre = Inclusion { outlines: vec![Outline::circle([0.0, 0.0], 0.3)], phases: vec![Some(0)] };
+        let pocket = Outline { centre: [0.5, 0.45], semi_axes: [0.22, 0.12], angle: 0.3 };
+        Layout::new([[1.0, 0.0], [0.0, 1.0]], vec![fibre, Inclusion { outlines: vec![pocket], phases: vec![second] }], 1).unwrap()
+    };
+    let soft = |factor: f64| isotropic(&solid(3e9 * factor, 0.1, 0.0, 0.2 * factor));
+    let phases = |factor: f64| {
+        vec![
+            phase("glass", isotropic(&glass()), Role::Glass),
+            phase("epoxy", isotropic(&epoxy()), Role::Coating),
+            phase("soft", soft(factor), Role::Coating),
+        ]
+    };
+    let solve =
+        |second, factor| Cell { layout: layout(second), phases: phases(factor) }.solve(6, 1.0).unwrap().response().clone();
+    let void = solve(None, 1.0);
+    let [first, second] = [1e-3, 1e-6].map(|factor| difference(&solve(Some(2), factor), &void));
+    assert!(second < 1e-5 && first > 100.0 * second, "{first:e} {second:e}");
+    assert_relative_eq!(void.fractions.iter().sum::<f64>(), 1.0 - std::f64::consts::PI * 0.22 * 0.12, max_relative = 1e-8);
+    let filled = solve(Some(1), 1.0).stiffness;
+    assert!((filled - void.stiffness).symmetric_eigenvalues().min() > 0.0 && void.stiffness.symmetric_eigenvalues().min() > 0.0);
+    // one solid with pores, pulled along them: E_z is the solid's times its share (the pores change nothing else)
+    let porous = |p: &mut Phase| p.solid = isotropic(&epoxy());
+    let mut cell = Cell { layout: layout(None), phases: phases(1.0) };
+    cell.phases.iter_mut().for_each(porous);
+    let c = cell.solve(6, 1.0).unwrap().response().constants().unwrap();
+    assert_relative_eq!(c.e[2], 3e9 * void.fractions.iter().sum::<f64>(), max_relative = 1e-8);
+    for (found, exact) in [(c.nu[0], 0.38), (c.nu[1], 0.38), (c.alpha[0], 60e-6), (c.alpha[1], 60e-6), (c.alpha[2], 60e-6)] {
+        assert_relative_eq!(found, exact, max_relative = 1e-8);
+    }
+}
+
+/// Two layers across x of solids orthotropic in turned axes: all fields are uniform in each layer, so its response is known in closed form.
+/// Strains yy, zz, yz and stresses xx, xy, xz are continuous.
+#[test]
+fn exact_laminate() {
+    let (one, two, share) = (wood(), wood().turned(1.1), 0.3);
+    let mesh = laminate(share);
+    let phases = [phase("one", one, Role::Glass), phase("two", two, Role::Coating)];
+    let solution = Solution::new(mesh, &phases).unwrap();
+    let found = solution.response();
+    let (expected, strains) = in_closed_form(&[(share, one.law), (1.0 - share, two.law)]);
+    assert!((found.stiffness - expected.stiffness).amax() < 1e-10 * expected.stiffness.amax());
+    assert!((found.thermal_stress - expected.thermal_stress).amax() < 1e-10 * expected.thermal_stress.amax());
+    assert!((found.phase_strain[0].fixed_view::<6, 6>(0, 0) - strains).amax() < 1e-10);
+    let [k1, k2] = [one.conductivity, two.conductivity];
+    let series = 1.0 / (share / k1[(0, 0)] + (1.0 - share) / k2[(0, 0)]);
+    assert_relative_eq!(found.conductivity[(0, 0)], series, max_relative = 1e-12);
+}
+
+/// One element for each layer of a unit square.
+fn laminate(share: f64) -> PeriodicMesh {
+    let x = [0.0, share / 2.0, share, (1.0 + share) / 2.0, 1.0];
+    let node = |i: usize, j: usize| j * 5 + i;
+    let nodes = (0..15).map(|k| [x[k % 5], (k / 5) as f64 / 2.0]).collect();
+    let element = |first: usize| (0..9).map(|k| node(first + k % 3, k / 3)).collect();
+    let mut periodic: Vec<[usize; 2]> = (0..3).map(|j| [node(4, j), node(0, j)]).collect();
+    periodic.extend((0..5).map(|i| [node(i, 2), node(i, 0)]));
+    PeriodicMesh {
+        order: 2,
+        nodes,
+        elements: vec![element(0), element(2)],
+        phases: vec![0, 1],
+        inclusions: vec![None, None],
+        centres: Vec::new(),
+        periodic,
+        lattice: [[1.0, 0.0], [0.0, 1.0]],
+        phase_areas: vec![share, 1.0 - share],
+    }
+}
+
+/// With σ_n the continuous stresses, ε_t the continuous strains: C_nn ε_n = σ_n − C_nt ε_t + β_n ΔT in each layer.
+fn in_closed_form(layers: &[(f64, ThermoElastic); 2]) -> (ThermoElastic, Matrix6<f64>) {
+    let (normal, tangent) = ([0, 5, 4], [1, 2, 3]);
+    let block =
+        |m: &Matrix6<f64>, rows: [usize; 3], columns: [usize; 3]| nalgebra::Matrix3::from_fn(|i, j| m[(rows[i], columns[j])]);
+    let part = |v: &Vector6<f64>, rows: [usize; 3]| nalgebra::Vector3::from_fn(|i, _| v[rows[i]]);
+    let parts = layers.map(|(f, l)| {
+        let inverse = block(&l.stiffness, normal, normal).try_inverse().unwrap();
+        (f, l, inverse, inverse * block(&l.stiffness, normal, tangent), inverse * part(&l.thermal_stress, normal))
+    });
+    let compliance = parts.iter().fold(nalgebra::Matrix3::zeros(), |s, (f, _, inverse, ..)| s + inverse * *f);
+    let stiff = compliance.try_inverse().unwrap();
+    let coupling = parts.iter().fold(nalgebra::Matrix3::zeros(), |s, (f, _, _, nt, _)| s + nt * *f);
+    let heat = parts.iter().fold(nalgebra::Vector3::zeros(), |s, (f, .., b)| s + b * *f);
+    let (mut stiffness, mut thermal_stress, mut first) = (Matrix6::zeros(), Vector6::zeros(), Matrix6::zeros());
+    for load in 0..7 {
+        let mut strain = Vector6::zeros();
+        let warmth = if load == 6 { 1.0 } else { 0.0 };
+        if load < 6 {
+            strain[load] = 1.0;
+        }
+        // mean normal strain: compliance σ_n − coupling ε_t + heat
+        let stress = stiff * (part(&strain, normal) + coupling * part(&strain, tangent) - heat * warmth);
+        let mut total = Vector6::zeros();
+        for (k, (f, law, inverse, nt, b)) in parts.iter().enumerate() {
+            let inside = inverse * stress - nt * part(&strain, tangent) + b * warmth;
+            let mut local = strain;
+            (0..3).for_each(|i| local[normal[i]] = inside[i]);
+            total += (law.stiffness * local - law.thermal_stress * warmth) * *f;
+            if k == 0 && load < 6 {
+                first.set_column(load, &local);
+            }
+        }
+        if load < 6 {
+            stiffness.set_column(load, &total);
+        } else {
+            thermal_stress = -total;
+        }
+    }
+    (ThermoElastic { stiffness, thermal_stress }, first)
+}
+
+/// Hill's energy condition and Levin's: the two ways to the thermal stress agree, ⟨β⟩ over strains of the phases and the cell's own.
+#[test]
+fn exact_thermal_stress_follows_from_the_mechanical_strains() {
+    let cell = skew_cell([0.0; 2], true);
+    let found = cell.solve(6, 1.0).unwrap().response().clone();
+    for load in 0..6 {
+        let levin: f64 = (0..3)
+            .map(|p| found.fractions[p] * cell.phases[p].solid.law.thermal_stress.dot(&found.phase_strain[p].column(load)))
+            .sum();
+        assert!((levin - found.thermal_stress[load]).abs() < 1e-9 * found.thermal_stress.amax(), "load {load}");
+    }
+    // the mean stress from the phases' mean strains is the cell's
+    let stress = (0..3).fold(Matrix6::zeros(), |sum, p| {
+        sum + cell.phases[p].solid.law.stiffness * found.phase_strain[p].fixed_view::<6, 6>(0, 0) * found.fractions[p]
+    });
+    assert!((stress - found.stiffness).amax() < 1e-9 * found.stiffness.amax());
+}
+
+/// Displaced fibres: films stay, the same seed gives the same cell, another another; the cell is no longer quite isotropic.
+#[test]
+fn bounds_displaced_fibres() {
+    let (cell, regular) = (reference(), Arrangement::hexagonal(170e-6, 2, 2));
+    let at = |seed| displace(&regular, 82.5e-6, 4e-6, 1e-6, seed).unwrap();
+    assert_eq!(at(7), at(7));
+    assert_ne!(at(7), at(8));
+    let displaced = Cell::of_fibres(&cell, &at(7)).unwrap().solve(5, 1.0).unwrap().response().clone();
+    let straight = homogenize(&cell).unwrap().constants;
+    let c = displaced.constants().unwrap();
+    // the rule of mixtures along the fibre does not know of places; across it they matter
+    assert_relative_eq!(c.e[2], straight.e_z, max_relative = 1e-4);
+    assert!((c.e[0] / straight.e_r - 1.0).abs() > 1e-3 && (c.e[0] / straight.e_r - 1.0).abs() < 0.2);
+    assert!(displaced.anisotropy > 1e-3 && displaced.anisotropy < 0.2, "{:e}", displaced.anisotropy);
+    assert!(displace(&regular, 84.8e-6, 4e-6, 1e-6, 1).is_err());
+}

@@ -1,0 +1,158 @@
+//! Multipoles against finite elements, which share nothing with them but the constituents; reduced integration against full.
+
+mod common;
+
+use common::{glass, on, reference, solid, two_phase, varied};
+use homogenization::{
+    Constants, Constituent, Error, Extent, FibreCell, Integration, Packing, Ring, effective, effective_with, homogenize_to,
+    multipoles,
+};
+
+const PACKINGS: [Packing; 2] = [Packing::Hexagonal, Packing::Square];
+
+fn cells() -> impl Iterator<Item = FibreCell> {
+    let hexagonal = varied().into_iter().chain([reference()]);
+    hexagonal.flat_map(|cell| PACKINGS.map(|packing| FibreCell { packing, ..cell.clone() }))
+}
+
+/// Largest relative distance of a constant.
+fn distance(a: &Constants, b: &Constants) -> f64 {
+    a.combine(b, |a, b| (a / b - 1.0).abs()).named().into_iter().fold(0.0, |m, (_, d)| m.max(d))
+}
+
+/// Every entry, not the constants alone: stiffness, thermal stress, conductivity, strain of the glass.
+#[test]
+fn exact_finite_elements_converge_to_the_multipoles() {
+    for cell in cells() {
+        let (a, b) = (multipoles(&cell, 81).unwrap(), effective(&cell, &on(&cell, 12, Extent::Quarter)).unwrap());
+        assert!((a.stiffness - b.stiffness).amax() < 1e-10 * b.stiffness.amax());
+        assert!((a.thermal_stress - b.thermal_stress).amax() < 1e-10 * b.thermal_stress.amax());
+        assert!((a.conductivity - b.conductivity).amax() < 1e-9 * b.conductivity.amax());
+        assert!((a.glass_strain - b.glass_strain).amax() < 1e-9);
+        assert!((a.conductivity_z / b.conductivity_z - 1.0).abs() < 1e-10);
+        for (a, b) in [(4, 4), (5, 5)].map(|i| (a.stiffness[i], b.stiffness[i])) {
+            assert!((a / b - 1.0).abs() < 1e-8, "{a} against {b}");
+        }
+        assert!(distance(&a.constants().unwrap(), &b.constants().unwrap()) < 1e-8);
+    }
+}
+
+/// The quarter and the whole of the square cell say the same; neither is isotropic across the fibre.
+#[test]
+fn symmetry_square_packing_is_tetragonal() {
+    for cell in cells().filter(|cell| cell.packing == Packing::Square) {
+        let [whole, quarter] = [Extent::Whole, Extent::Quarter].map(|extent| effective(&cell, &on(&cell, 5, extent)).unwrap());
+        assert!((whole.stiffness - quarter.stiffness).amax() < 1e-10 * whole.stiffness.amax());
+        assert!((whole.glass_strain - quarter.glass_strain).amax() < 1e-9);
+        let [axes, diagonal] = quarter.shear_moduli_across();
+        assert!((diagonal / axes - 1.0).abs() > 0.05, "{axes} along the axes, {diagonal} at 45 degrees");
+        assert!((quarter.stiffness[(0, 0)] / quarter.stiffness[(1, 1)] - 1.0).abs() < 1e-8);
+    }
+    let [axes, diagonal] = multipoles(&reference(), 61).unwrap().shear_moduli_across();
+    assert!((diagonal / axes - 1.0).abs() < 1e-9, "hexagonal packing is isotropic: {axes}, {diagonal}");
+}
+
+/// A lattice of fibres of the adhesive's own material is that material; rings of one material are one ring.
+#[test]
+fn exact_trivial_cells() {
+    for packing in PACKINGS {
+        let m = solid(870e6, 0.4118, 102.75e-6, 0.30);
+        let c = homogenize_to(&FibreCell { packing, ..two_phase(m, m) }, 1e-10).unwrap().constants;
+        for (found, exact) in
+            [(c.e_z, 870e6), (c.e_r, 870e6), (c.nu_r, 0.4118), (c.alpha_r, 102.75e-6), (c.k_r, 0.3), (c.m_rx, 0.5)]
+        {
+            assert!((found / exact - 1.0).abs() < 1e-12, "{found} against {exact}");
+        }
+    }
+    for cell in cells() {
+        let mut split = cell.clone();
+        for (i, ring) in cell.rings.iter().enumerate() {
+            split.rings.insert(2 * i, Ring { outer_radius: ring.outer_radius * 0.99, ..*ring });
+        }
+        let [a, b] = [&cell, &split].map(|cell| multipoles(cell, 61).unwrap().constants().unwrap());
+        assert!(distance(&a, &b) < 5e-12, "{:e}", distance(&a, &b));
+    }
+}
+
+/// From a fat film to one of 0.1 µm, compressible to four nines, any tolerance: the estimate holds against twice the order, the tolerance
+/// is met, and not by working to rounding always.
+#[test]
+fn bounds_estimates_cover_the_error_and_meet_the_tolerance() {
+    let film = |pitch: f64| FibreCell { pitch, ..reference() };
+    let mut soft = film(170e-6);
+    soft.adhesive = solid(5.6e6, 0.49999, 250e-6, 0.45);
+    soft.rings[1].constituent = solid(2e6, 0.49999, 250e-6, 0.15);
+    let mut crowd: Vec<FibreCell> = cells().chain([film(166e-6), film(165.1e-6), soft]).collect();
+    crowd.extend(PACKINGS.map(|packing| FibreCell { packing, ..two_phase(solid(400e9, 0.2, 1e-6, 400.0), glass()) }));
+    for cell in crowd {
+        let exact = multipoles(&cell, 401).unwrap().constants().unwrap();
+        let mut orders = Vec::new();
+        for tolerance in [1e-3, 1e-6, 1e-9] {
+            let result = homogenize_to(&cell, tolerance).unwrap();
+            orders.push(result.unknowns);
+            let errors = result.constants.combine(&exact, |a, b| (a / b - 1.0).abs()).named();
+            for ((name, error), (_, estimate)) in errors.into_iter().zip(result.relative_error.named()) {
+                assert!(
+                    error <= estimate && estimate <= tolerance,
+                    "{name}: {error:e}, estimated {estimate:e}, asked {tolerance:e}"
+                );
+            }
+        }
+        assert!(orders[0] < orders[2], "{orders:?}");
+    }
+}
+
+#[test]
+fn bounds_what_cannot_be_reached_is_said() {
+    for (cell, tolerance, cause) in [
+        (reference(), 1e-13, "rounding"),
+        (FibreCell { pitch: 165.0001e-6, ..reference() }, 1e-6, "too thin"),
+        (reference(), 0.0, "rounding"),
+    ] {
+        match homogenize_to(&cell, tolerance) {
+            Err(Error::Accuracy { reached, why, requested, .. }) => {
+                assert!(reached > requested && requested == tolerance && why.contains(cause), "{reached} {why}");
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+    assert!(matches!(multipoles(&reference(), 403), Err(Error::Multipoles { .. })));
+}
+
+/// With fewer points for the volumetric part low orders do not lock; at high order both ways agree.
+#[test]
+fn bounds_reduced_integration_helps_low_orders_and_leaves_high_ones() {
+    let rubber: Constituent = solid(5.6e6, 0.49999, 250e-6, 0.45);
+    for packing in PACKINGS {
+        let cell = FibreCell { packing, adhesive: rubber, ..reference() };
+        let exact = homogenize_to(&cell, 1e-9).unwrap().constants.e_r;
+        let error = |order: usize, volumetric| {
+            let found = effective_with(&cell, &on(&cell, order, Extent::Quarter), volumetric).unwrap().constants().unwrap().e_r;
+            (found / exact - 1.0).abs()
+        };
+        for order in [4, 5, 6] {
+            let (full, reduced) = (error(order, Integration::Full), error(order, Integration::Reduced));
+            assert!(reduced < full / 30.0 && full > 5e-7, "order {order}: {full:e} in full, {reduced:e} reduced");
+        }
+        let (full, reduced) = (error(11, Integration::Full), error(11, Integration::Reduced));
+        assert!(full < 2e-9 && reduced < 2e-9, "{full:e}, {reduced:e}");
+    }
+}
+
+/// Area means, only if every constituent has its own; a bad one is named.
+#[test]
+fn exact_densities_and_heat_capacities() {
+    let mut cell = reference();
+    assert_eq!((cell.density().unwrap(), cell.heat_capacity().unwrap()), (None, None));
+    let (areas, whole) = (cell.outline().unwrap().phase_areas(), cell.outline().unwrap().area());
+    for ring in &mut cell.rings {
+        (ring.constituent.density, ring.constituent.specific_heat) = (Some(2200.0), Some(700.0));
+    }
+    (cell.adhesive.density, cell.adhesive.specific_heat) = (Some(1000.0), Some(2000.0));
+    let share = areas[3] / whole;
+    assert!((cell.density().unwrap().unwrap() / (2200.0 - 1200.0 * share) - 1.0).abs() < 1e-12);
+    assert!((cell.heat_capacity().unwrap().unwrap() / (1.54e6 + 0.46e6 * share) - 1.0).abs() < 1e-12);
+    cell.rings[1].constituent.density = Some(-1.0);
+    let message = cell.heat_capacity().unwrap_err().to_string();
+    assert!(message.contains("ring 1") && message.contains("density"), "{message}");
+}

@@ -1,0 +1,262 @@
+//! `cargo xtask bench cell`: from the reference cell to its constants, ours and the peers', error against time.
+
+use super::peers::{self, Run};
+use super::{Failure, Options, Progress, Stopwatch, median, publish, root};
+use homogenization::{Constants, Discretization, FibreCell, Homogenized, TOLERANCE, effective, homogenize_to, multipoles};
+use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+/// Relative error of the converged constants, by their own estimate.
+const CONVERGED: f64 = 5e-11;
+/// Times that a process of ours does its work: the system's clock of a thread is too coarse for once.
+const REPEATED: usize = 40;
+/// Processes of ours that one measurement of the whole program takes: the system counts hundredths of a second.
+const PROCESSES: usize = 40;
+
+/// Names of the constants as the peers print them, and ours.
+const NAMES: [(&str, &str); 13] = [
+    ("E_z", "e_z"),
+    ("E_r", "e_r"),
+    ("G_zr", "g_zr"),
+    ("G_xy", "g_r"),
+    ("nu_zr", "nu_zr"),
+    ("nu_r", "nu_r"),
+    ("alpha_z", "alpha_z"),
+    ("alpha_r", "alpha_r"),
+    ("k_z", "k_z"),
+    ("k_r", "k_r"),
+    ("M_rx", "m_rx"),
+    ("M_rz", "m_rz"),
+    ("M_rT", "m_rt"),
+];
+
+/// Our ways: name, and what it computes.
+type Way = fn(&FibreCell) -> Result<(Constants, usize), homogenization::Error>;
+const OURS: [(&str, Way); 5] = [
+    ("fogcoil, to 1e-6 with its estimate", |cell| estimated(homogenize_to(cell, 1e-6)?)),
+    ("fogcoil, to 1e-4 with its estimate", |cell| estimated(homogenize_to(cell, 1e-4)?)),
+    ("fogcoil, to 1e-9 with its estimate", |cell| estimated(homogenize_to(cell, 1e-9)?)),
+    ("fogcoil, multipoles up to order 33, no estimate", |cell| alone(multipoles(cell, 33)?)),
+    ("fogcoil, finite elements of order 6, quarter, no estimate", |cell| {
+        alone(effective(cell, &Discretization::standard(cell))?)
+    }),
+];
+
+fn estimated(result: Homogenized) -> Result<(Constants, usize), homogenization::Error> {
+    Ok((result.constants, result.unknowns))
+}
+
+fn alone(effective: homogenization::Effective) -> Result<(Constants, usize), homogenization::Error> {
+    let singular = || homogenization::Error::Multipoles { order: 0, detail: "the effective stiffness is singular".into() };
+    Ok((effective.constants().ok_or_else(singular)?, effective.unknowns))
+}
+
+/// A peer's setting: what it is, module, arguments.
+struct Peer {
+    name: &'static str,
+    kind: Kind,
+    module: &'static str,
+    arguments: &'static [&'static str],
+}
+
+/// Who would run it so.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Expert,
+    Typical,
+}
+
+const PEERS: [Peer; 7] = [
+    ngsolve("NGSolve, quarter, curved blocks, condensed, order 5, 1 per 30°", Kind::Expert, &["5", "1", "quarter"]),
+    ngsolve("NGSolve, quarter, curved blocks, condensed, order 5, 2 per 30°", Kind::Expert, &["5", "2", "quarter"]),
+    ngsolve("NGSolve, whole cell, curved blocks, order 5, 2 per 30°", Kind::Typical, &["5", "2", "whole"]),
+    ngsolve("NGSolve, whole cell, free triangles, order 5", Kind::Typical, &["5", "30", "whole", "free"]),
+    ngsolve("NGSolve, whole cell, free triangles, order 6", Kind::Typical, &["6", "30", "whole", "free"]),
+    skfem("scikit-fem, quarter, P2 curved, 16 per 30°", &["16", "curved", "superlu"]),
+    skfem("scikit-fem, quarter, P2 curved, 26 per 30°", &["26", "curved", "superlu"]),
+];
+
+const fn ngsolve(name: &'static str, kind: Kind, arguments: &'static [&'static str]) -> Peer {
+    Peer { name, kind, module: "ngsolve", arguments }
+}
+
+const fn skfem(name: &'static str, arguments: &'static [&'static str]) -> Peer {
+    Peer { name, kind: Kind::Typical, module: "skfem", arguments }
+}
+
+/// A row of the table.
+struct Program {
+    name: String,
+    kind: Option<Kind>,
+    path: PathBuf,
+    arguments: Vec<OsString>,
+    runs: Vec<Run>,
+}
+
+impl Program {
+    fn compute(&self) -> f64 {
+        median(self.runs.iter().map(|r| r.printed.compute()).collect())
+    }
+
+    fn process(&self) -> f64 {
+        median(self.runs.iter().map(|r| r.cpu.unwrap_or(r.wall)).collect())
+    }
+
+    fn error(&self, exact: &Constants) -> f64 {
+        let exact: BTreeMap<_, _> = exact.named().into_iter().collect();
+        let out = &self.runs[0].printed.out;
+        let error = |(theirs, ours): &(&str, &str)| out.get(*theirs).map_or(f64::NAN, |v| (v / exact[ours] - 1.0).abs());
+        NAMES.iter().map(error).fold(0.0, |m, e| if e.is_nan() || m.is_nan() { f64::NAN } else { m.max(e) })
+    }
+}
+
+fn cell_file() -> PathBuf {
+    root().join("fixtures/cell-reference.ron")
+}
+
+/// Computes the constants in one of our ways and prints them as a peer does.
+///
+/// # Errors
+/// [`Failure`] if there is no such way, or it fails.
+pub(crate) fn child(name: &str) -> Result<(), Failure> {
+    let (_, way) = OURS.iter().find(|(own, _)| *own == name).ok_or_else(|| Failure(format!("no way is called {name:?}")))?;
+    let cell = fogcoil::input::read_cell(&cell_file())?.cell;
+    let mut watch = Stopwatch::start();
+    let mut last = way(&cell)?;
+    for _ in 1..REPEATED {
+        last = std::hint::black_box(way(std::hint::black_box(&cell))?);
+    }
+    let (seconds, (constants, unknowns)) = (watch.lap() / REPEATED as f64, last);
+    let values: BTreeMap<_, _> = constants.named().into_iter().collect();
+    let out: serde_json::Map<_, _> = NAMES.iter().map(|(theirs, ours)| (theirs.to_string(), values[ours].into())).collect();
+    println!("RESULT {}", serde_json::json!({ "dof": unknowns, "phases": { "compute": seconds }, "out": out }));
+    Ok(())
+}
+
+fn programs(options: &Options, progress: &Progress) -> Result<Vec<Program>, Failure> {
+    let own = std::env::current_exe()?;
+    let of_ours = |(name, _): &(&str, Way)| Program {
+        name: name.to_string(),
+        kind: None,
+        path: own.clone(),
+        arguments: ["bench", "cell-job", name].map(OsString::from).to_vec(),
+        runs: Vec::new(),
+    };
+    let mut programs: Vec<_> = OURS.iter().map(of_ours).collect();
+    let Some(python) = &options.python else {
+        progress.say("peers skipped: give --peers-python PATH or set FOGCOIL_PEERS_PYTHON");
+        return Ok(programs);
+    };
+    for peer in &PEERS {
+        if !peers::has(python, &format!("{}, numpy", peer.module)) {
+            progress.say(&format!("{} skipped: this Python lacks {} or numpy (benches/peers/README.md)", peer.name, peer.module));
+            continue;
+        }
+        let script = format!("rve_cell_{}.py", peer.module);
+        let arguments = [script.as_str()].iter().chain(peer.arguments).map(OsString::from).collect();
+        programs.push(Program {
+            name: peer.name.into(),
+            kind: Some(peer.kind),
+            path: python.clone(),
+            arguments,
+            runs: Vec::new(),
+        });
+    }
+    Ok(programs)
+}
+
+/// Seconds of CPU (wall, where the system does not tell) and of wall that `fogcoil homogenize CELL.ron --json` takes.
+fn whole_program(path: &Path) -> Result<[f64; 2], Failure> {
+    let (start, before) = (Instant::now(), peers::children());
+    for _ in 0..PROCESSES {
+        let mut command = Command::new(path);
+        let status = command.arg("homogenize").arg(cell_file()).arg("--json").stdout(Stdio::null()).status();
+        let status =
+            status.map_err(|e| Failure(format!("{}: {e}; `cargo build --release -p fogcoil` makes it", path.display())))?;
+        if !status.success() {
+            return Err(Failure(format!("{} homogenize: {status}", path.display())));
+        }
+    }
+    let wall = start.elapsed().as_secs_f64();
+    let cpu = peers::children().zip(before).map_or(wall, |(after, before)| after - before);
+    Ok([cpu, wall].map(|s| s / PROCESSES as f64))
+}
+
+/// `cargo xtask bench cell`.
+///
+/// # Errors
+/// [`Failure`] if one of our own runs fails; a peer that fails is left out with a message.
+pub(crate) fn run(options: &Options) -> Result<(), Failure> {
+    let progress = Progress::new();
+    let cell = fogcoil::input::read_cell(&cell_file())?.cell;
+    let exact = homogenize_to(&cell, CONVERGED)?.constants;
+    let fogcoil = std::env::current_exe()?.with_file_name("fogcoil");
+    let mut programs = programs(options, &progress)?;
+    let mut whole = Vec::new();
+    for repetition in 0..options.repetitions {
+        progress.say(&format!("run {} of {}", repetition + 1, options.repetitions));
+        whole.push(whole_program(&fogcoil)?);
+        let mut kept = Vec::new();
+        for mut program in programs {
+            match peers::run(&program.path, &program.arguments) {
+                Ok(run) => program.runs.push(run),
+                Err(error) if program.kind.is_none() => return Err(error),
+                Err(error) => {
+                    progress.say(&format!("{} is left out: {error}", program.name));
+                    continue;
+                }
+            }
+            kept.push(program);
+        }
+        programs = kept;
+    }
+    let whole = [0, 1].map(|k| median(whole.iter().map(|w| w[k]).collect()));
+    publish("cell", &section(&programs, &exact, whole, options.repetitions))
+}
+
+fn section(programs: &[Program], exact: &Constants, [cpu, wall]: [f64; 2], repetitions: usize) -> String {
+    let mut out = String::from(
+        "| program | unknowns | largest error | compute, ms | whole process, ms | compute ÷ ours |\n|---|---|---|---|---|---|\n",
+    );
+    let first = programs[0].compute();
+    for program in programs {
+        // ours are timed inside a process of the benchmark's own; the program itself is below
+        let process = program.kind.map_or("–".into(), |_| format!("{:.0}", 1e3 * program.process()));
+        let (unknowns, error, compute) = (program.runs[0].printed.dof, program.error(exact), program.compute());
+        let name = &program.name;
+        let _ =
+            writeln!(out, "| {name} | {unknowns} | {error:.1e} | {:.2} | {process} | {:.1} |", 1e3 * compute, compute / first);
+    }
+    let _ = writeln!(
+        out,
+        "| `fogcoil homogenize CELL.ron --json`, to 1e-6 with its estimate and bounds | | | | {:.1} (wall {:.1}) | |",
+        1e3 * cpu,
+        1e3 * wall
+    );
+    let _ = writeln!(
+        out,
+        "\nMedians of {repetitions} interleaved runs, CPU time of one thread; meshing counts for all, imports only for whole processes. \
+         Ours are means of {REPEATED} within one process. The error is the largest relative one of {} constants; the converged ones are \
+         known to {CONVERGED:.0e}.",
+        NAMES.len()
+    );
+    for (kind, who, goal) in [(Kind::Expert, "expert setting", 5), (Kind::Typical, "typical setting", 40)] {
+        let exact_enough = |p: &&Program| p.kind == Some(kind) && p.error(exact) <= TOLERANCE;
+        let Some(peer) = programs.iter().filter(exact_enough).min_by(|a, b| a.compute().total_cmp(&b.compute())) else {
+            let _ = writeln!(out, "\nNo {who} of a peer that was run reaches 1e-6.");
+            continue;
+        };
+        let (compute, process) = (peer.compute() / first, peer.process() / cpu);
+        let _ = writeln!(
+            out,
+            "\nFastest {who} to 1e-6: {}. Ours, with its estimate, takes 1/{compute:.0} of its compute time (asked: 1/{goal}) and \
+             1/{process:.0} of its whole process.",
+            peer.name
+        );
+    }
+    out
+}

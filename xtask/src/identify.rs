@@ -1,0 +1,181 @@
+//! `cargo xtask identify`: cells drawn from the priors, measured with noise, identified, and held against the truth.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+use std::time::Instant;
+
+use fogcoil::input;
+use fogcoil::input::TargetsCase;
+use homogenization::identify::{Family, Fit, Outcome, Random, Target, Uncertainty, identify};
+use homogenization::{FibreCell, homogenize};
+
+use crate::validate::Failure;
+
+const TARGETS: &str = "fixtures/identify/table-one.ron";
+const PAGE: &str = "docs/identify.md";
+/// Between these lines the page holds what this command writes.
+const BEGIN: &str = "<!-- measured: written by `cargo xtask identify` -->\n";
+const END: &str = "<!-- measured end -->\n";
+/// Relative standard deviation of each measured constant.
+const NOISE: f64 = 0.01;
+const SEED: u64 = 2026;
+/// Probability that the intervals are to hold.
+const PROBABILITY: f64 = 0.9;
+/// Table I is identified in less than this \[s\].
+const LONGEST: f64 = 60.0;
+/// Cells asked for, and how many of them at least must lie inside.
+const CELLS: usize = 10;
+const LEAST_INSIDE: f64 = 0.8;
+
+/// One synthetic cell, judged.
+struct Row {
+    family: String,
+    unknowns: usize,
+    /// Whether the truth lies in all simultaneous intervals.
+    inside: bool,
+    /// Parameters whose own interval holds the truth.
+    covered: usize,
+    rank: usize,
+    /// Median over parameters of what is left of the prior.
+    left: f64,
+    seconds: f64,
+}
+
+/// What the command was given.
+pub(crate) struct Command {
+    cells: usize,
+}
+
+impl Command {
+    pub(crate) fn parse(words: &[&str]) -> Result<Self, String> {
+        match words {
+            [] => Ok(Self { cells: CELLS }),
+            ["--cells", n] => {
+                let cells = n.parse().ok().filter(|n| (1..=1000).contains(n));
+                cells.map(|cells| Self { cells }).ok_or_else(|| format!("--cells {n}: give a number from 1 to 1000"))
+            }
+            other => Err(format!("`{}` is not an option of identify", other.join(" "))),
+        }
+    }
+
+    /// Judges the cells; writes the page's table if they are as many as it shows. `false` if too few truths lie inside.
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
+        let case = input::read_targets(TARGETS.as_ref())?;
+        let (paper, holds) = paper(&case)?;
+        eprintln!("{paper}");
+        let mut random = Random::new(SEED);
+        let mut rows = Vec::new();
+        while rows.len() < self.cells {
+            let family = &case.families[(rows.len() + 1) % case.families.len()];
+            let (truth, cell) = draw(family, &mut random);
+            let row = judge(family, &case.targets, &truth, &cell, &mut random)?;
+            eprintln!("{}: inside {}, {} of {} covered, {:.0} s", row.family, row.inside, row.covered, row.unknowns, row.seconds);
+            rows.push(row);
+        }
+        let text = format!("{paper}\n\n{}", table(&rows));
+        println!("{text}");
+        if self.cells == CELLS {
+            rewrite(PAGE.as_ref(), &text)?;
+        }
+        Ok(holds && rows.iter().filter(|row| row.inside).count() as f64 >= LEAST_INSIDE * rows.len() as f64)
+    }
+}
+
+/// Table I identified: what must be shown of it, and whether it holds.
+fn paper(case: &TargetsCase) -> Result<(String, bool), Failure> {
+    let start = Instant::now();
+    let found = fogcoil::identify::identify(case, &|_| {})?;
+    let seconds = start.elapsed().as_secs_f64();
+    let explains: Vec<bool> = found.outcomes.iter().map(Outcome::explains).collect();
+    let again = |set: &Fit| -> Result<bool, Failure> {
+        // as `fogcoil homogenize` solves it
+        let constants = homogenize(&set.cell).map_err(|error| Failure(error.to_string()))?.constants.named();
+        Ok(case.targets.iter().all(|t| constants.iter().any(|(name, value)| *name == t.name() && t.is_met(*value))))
+    };
+    let sets = found.alternatives.as_ref().map(|a| Ok::<_, Failure>(again(&a.sets[0])? && again(&a.sets[1])?)).transpose()?;
+    let dual = &found.outcomes[found.chosen];
+    let holds = explains == [false, true] && again(&dual.best)? && sets == Some(true) && seconds < LONGEST;
+    let regions: Vec<String> = found.posterior.iter().flat_map(|p| &p.regions).map(|r| format!("{:.3}", r.weight)).collect();
+    let text = format!(
+        "Table I in {seconds:.0} s: single coating explains it: {}; dual coating: {}, all constants within {:.1} prior sigma; regions of the posterior by \
+         probability: {}; two sets that give every entry again when solved anew: {}.",
+        explains[0],
+        explains[1],
+        dual.fit().farthest().1,
+        regions.join(", "),
+        sets == Some(true)
+    );
+    Ok((text, holds))
+}
+
+/// Parameters from the priors that make a cell.
+fn draw(family: &Family, random: &mut Random) -> (Vec<f64>, FibreCell) {
+    loop {
+        let u = random.normals(family.parameters().len());
+        if let Some(cell) = family.cell(&u) {
+            return (u, cell);
+        }
+    }
+}
+
+/// The constants of `like`, of a cell that is known, with noise; identified, and compared.
+fn judge(family: &Family, like: &[Target], truth: &[f64], cell: &FibreCell, random: &mut Random) -> Result<Row, Failure> {
+    let exact = homogenize(cell).map_err(|error| Failure(error.to_string()))?.constants.named();
+    let measured = like.iter().filter_map(|target| {
+        let value = exact.iter().find(|(name, _)| *name == target.name())?.1;
+        let sd = NOISE * value.abs();
+        Target::new(target.name(), value + sd * random.normal(), Uncertainty::Normal(sd))
+    });
+    let targets: Vec<Target> = measured.collect();
+    let start = Instant::now();
+    let found = identify(std::slice::from_ref(family), &targets, SEED, &|_| {});
+    let seconds = start.elapsed().as_secs_f64();
+    let unknowns = truth.len();
+    let mut row = Row { family: family.name.clone(), unknowns, inside: false, covered: 0, rank: 0, left: f64::NAN, seconds };
+    // a cell that is not explained counts as missed
+    if let Some(posterior) = found.and_then(|found| found.posterior) {
+        let within = |interval: [f64; 2], truth: f64| interval[0] <= truth && truth <= interval[1];
+        row.inside = posterior.simultaneous(PROBABILITY).into_iter().zip(truth).all(|(interval, u)| within(interval, *u));
+        row.covered = (0..unknowns).filter(|&j| within(posterior.interval(j, PROBABILITY), truth[j])).count();
+        row.rank = posterior.rank();
+        let mut left: Vec<f64> = (0..unknowns).map(|j| posterior.deviation(j)).collect();
+        left.sort_by(f64::total_cmp);
+        row.left = left[unknowns / 2];
+    }
+    Ok(row)
+}
+
+fn table(rows: &[Row]) -> String {
+    let mut out = String::from(
+        "| cell | unknowns | combinations fixed | median left of prior | truth in all simultaneous 90 % intervals | single 90 % intervals that hold it | s |\n\
+         |---|---|---|---|---|---|---|\n",
+    );
+    for (i, row) in rows.iter().enumerate() {
+        let Row { family, unknowns, inside, covered, rank, left, seconds } = row;
+        let inside = if *inside { "yes" } else { "no" };
+        let _ = writeln!(
+            out,
+            "| {}, {family} | {unknowns} | {rank} | {:.0} % | {inside} | {covered} of {unknowns} | {seconds:.0} |",
+            i + 1,
+            100.0 * left
+        );
+    }
+    let inside = rows.iter().filter(|row| row.inside).count();
+    let (covered, all) = rows.iter().fold((0, 0), |(covered, all), row| (covered + row.covered, all + row.unknowns));
+    let share = 100.0 * covered as f64 / all as f64;
+    let _ = writeln!(
+        out,
+        "\nTruth in all simultaneous 90 % intervals in {inside} of {} cells; single 90 % intervals hold it in {covered} of {all} cases ({share:.0} %).",
+        rows.len()
+    );
+    out
+}
+
+/// Puts `text` between the marks of the page.
+fn rewrite(page: &Path, text: &str) -> Result<(), Failure> {
+    let old = fs::read_to_string(page).map_err(|error| Failure(format!("{}: {error}", page.display())))?;
+    let ends = old.split_once(BEGIN).and_then(|(head, rest)| Some((head, rest.split_once(END)?.1)));
+    let Some((head, tail)) = ends else { return Err(Failure(format!("{}: lacks the marks {BEGIN}{END}", page.display()))) };
+    Ok(fs::write(page, format!("{head}{BEGIN}\n{}\n{END}{tail}", text.trim_end()))?)
+}
