@@ -309,7 +309,14 @@ fn a_mechanism_with_a_name_beside_a_structure_is_accepted_with_its_probability()
     let model = fit.hold_out(&bath, 1, &other, fit).expect("held out");
     let first = observed(&bath, &both(0), 61);
     let nominal = as_designed(&bath, (0, &first), (1, &other), fit).expect("held out");
-    assert!(nominal.clearly_worse_than(&model, 0), "{:?} {:?} {} {}", nominal.rmse, model.rmse, nominal.log_score, model.log_score);
+    assert!(
+        nominal.clearly_worse_than(&model, 0),
+        "{:?} {:?} {} {}",
+        nominal.rmse,
+        model.rmse,
+        nominal.log_score,
+        model.log_score
+    );
     assert!(model.within_noise(0), "{:?} {:?}", model.rmse, model.quiet);
     diagnosis.accept_beside(&bath);
     assert_eq!((diagnosis.verdict, diagnosis.mechanisms[0].0, diagnosis.set.as_slice()), (Verdict::Explained, 0, &[0][..]));
