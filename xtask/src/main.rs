@@ -63,7 +63,8 @@ fn main() -> ExitCode {
                 return ExitCode::from(2);
             }
         },
-        ["--help" | "-h" | "help"] | ["validate" | "prove" | "cells" | "figures" | "mechanisms" | "identify" | "bench", "--help" | "-h"] => {
+        ["--help" | "-h" | "help"]
+        | ["validate" | "prove" | "cells" | "figures" | "mechanisms" | "identify" | "bench", "--help" | "-h"] => {
             println!("{USAGE}");
             return ExitCode::SUCCESS;
         }

@@ -38,7 +38,11 @@ fn extras(case: &CellCase, result: &Homogenized) -> Vec<(&'static str, f64, [&'s
     [
         ("g_r_45", square, ["Pa", "shear modulus across the fibre at 45 deg to its rows"]),
         ("density_kg_per_m3", known(case.cell.density()), ["kg/m3", "density"]),
-        ("heat_capacity_j_per_m3k", known(case.cell.heat_capacity()), ["J/(m3 K)", "heat capacity of a volume, thermoelastic part neglected"]),
+        (
+            "heat_capacity_j_per_m3k",
+            known(case.cell.heat_capacity()),
+            ["J/(m3 K)", "heat capacity of a volume, thermoelastic part neglected"],
+        ),
     ]
     .into_iter()
     .filter_map(|(key, value, words)| Some((key, value?, words)))
@@ -57,7 +61,8 @@ pub fn text(case: &CellCase, result: &Homogenized) -> String {
     for (key, value, [unit, meaning]) in extras(case, result) {
         rows.push(vec![key.into(), significant(value, 6), String::new(), unit.into(), meaning.into()]);
     }
-    let beside = bounds(&case.cell).map_or_else(|error| format!("no bounds: {error}\n"), |found| crate::bounds::text(&found, result));
+    let beside =
+        bounds(&case.cell).map_or_else(|error| format!("no bounds: {error}\n"), |found| crate::bounds::text(&found, result));
     format!(
         "{}: effective constants; z = fibre (the coil's hoop), r = across it\n\n{}\n{} unknowns; the errors are numerical, they say \
          nothing about the constituents\n\n{beside}",

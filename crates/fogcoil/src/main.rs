@@ -18,9 +18,7 @@ use cli_check::Check;
 use coil::Drive;
 use fogcoil::cache::Cache;
 use fogcoil::output::Content;
-use fogcoil::{
-    Error, check, diagnose, figures, input, output, picture, report, sensitivity, simulate, summary, trim, wind,
-};
+use fogcoil::{Error, check, diagnose, figures, input, output, picture, report, sensitivity, simulate, summary, trim, wind};
 use progress::Progress;
 
 fn main() -> ExitCode {

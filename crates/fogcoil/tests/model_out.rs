@@ -176,6 +176,9 @@ fn simulated(design: &Design, time: &[f64], chamber: &[f64]) -> [Vec<f64>; 2] {
     [responses.iter().step_by(PARTS).map(|r| r.sensor).collect(), rate]
 }
 
+/// Below every chamber \[°C\].
+const COLDEST: f64 = -150.0;
+
 /// The part of a mechanism's effect by which simulating the file differs from what the diagnosis predicts.
 fn disagreement(gyro: &Gyro, found: (&str, &[f64], Option<f64>)) -> f64 {
     let (time, chamber) = record();
@@ -184,7 +187,14 @@ fn disagreement(gyro: &Gyro, found: (&str, &[f64], Option<f64>)) -> f64 {
     let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
     let predicted = gyro.respond(0, &middle, std::slice::from_ref(&active)).unwrap();
     let nominal = gyro.respond(0, &middle, &[]).unwrap();
-    let (with, without) = (simulated(&design, &time, &chamber), simulated(gyro.library().design(), &time, &chamber));
+    // a bond that can open is meshed more finely: without effect it is one that stays closed
+    let nominal_design = if found.0 == "debond" {
+        let values = [&[COLDEST], &found.1[1..]].concat();
+        back(&with_mechanism(gyro, gyro.library().design(), &self::active(gyro, (found.0, &values, None))).unwrap())
+    } else {
+        gyro.library().design().clone()
+    };
+    let (with, without) = (simulated(&design, &time, &chamber), simulated(&nominal_design, &time, &chamber));
     let (channel, of) = if found.0 == "sensor-lag" { (SPOOL, 0) } else { (RATE_CHANNEL, 1) };
     // a reading after a gap is a mean over its own span alone, which simulate has no notion of
     let rows: Vec<usize> = (1..time.len()).filter(|&n| time[n] - time[n - 1] < 45.0).collect();

@@ -27,9 +27,7 @@ mod mesh;
 
 pub use cell::{LatticeCell, Packing};
 pub use error::Error;
-pub use irregular::{
-    Arrangement, Inclusion, LEAST_FILM, Layout, LayoutError, Outline, PeriodicMesh, displace, periodic_mesh,
-};
+pub use irregular::{Arrangement, Inclusion, LEAST_FILM, Layout, LayoutError, Outline, PeriodicMesh, displace, periodic_mesh};
 pub use mesh::{CellMesh, Extent, Resolution, Symmetry, mesh};
 
 #[cfg(doctest)]

@@ -90,7 +90,8 @@ impl CellCase {
     /// # Errors
     /// [`Error::Homogenization`] if the cell cannot be solved to it.
     pub fn homogenize_to(&self, relative_error: f64) -> Result<Homogenized, Error> {
-        homogenization::homogenize_to(&self.cell, relative_error).map_err(|source| Error::Homogenization { file: self.file.clone(), source })
+        homogenization::homogenize_to(&self.cell, relative_error)
+            .map_err(|source| Error::Homogenization { file: self.file.clone(), source })
     }
 }
 

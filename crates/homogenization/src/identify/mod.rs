@@ -3,11 +3,11 @@
 //! The unknowns of a [`Family`] (moduli, expansions, conductivities, diameters within tolerance) are normal or log-normal before the
 //! measurement; u counts their standard deviations from the median. The entries ([`Target`]) are printed numbers, flat over their
 //! rounding interval, or values with a standard deviation. Every number reported rests on the finite elements; a composite-cylinder model
-//! with a Gaussian process through its differences from them ([`emulator`]) stands for them where thousands of cells are needed.
+//! with a Gaussian process through its differences from them (`emulator`) stands for them where thousands of cells are needed.
 //!
-//! 1. Starts from the priors alone, Levenberg–Marquardt on the emulator, refined until the finite elements agree ([`search`]).
-//! 2. Draws from the posterior about every minimum that counts, on an emulator trained where the draws lie ([`posterior`]).
-//! 3. The two draws farthest apart, moved onto the same entries with finite elements, and what would tell them apart ([`alternatives`]).
+//! 1. Starts from the priors alone, Levenberg–Marquardt on the emulator, refined until the finite elements agree (`search`).
+//! 2. Draws from the posterior about every minimum that counts, on an emulator trained where the draws lie (`posterior`).
+//! 3. The two draws farthest apart, moved onto the same entries with finite elements, and what would tell them apart (`alternatives`).
 
 mod alternatives;
 mod emulator;

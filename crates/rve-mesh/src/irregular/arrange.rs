@@ -61,7 +61,7 @@ const SWEEPS: usize = 60;
 /// Moves every fibre of bounding radius `radius` \[m\] at random within `most` \[m\] of its place, keeping films of at least `film` \[m\].
 ///
 /// Sweeps over the fibres propose a place, equidistributed in the disc, for one fibre at a time and take it if no film becomes too thin;
-/// after [`SWEEPS`] of them the arrangement is a sample of hard discs tied to their places. The same seed gives the same places.
+/// after `SWEEPS` of them the arrangement is a sample of hard discs tied to their places. The same seed gives the same places.
 ///
 /// # Errors
 /// [`LayoutError::Overlap`] if the arrangement itself leaves thinner films.

@@ -131,7 +131,15 @@ fn every_family_agrees_with_the_chain() {
         let plant = Plant::new(build, Some(&nominal)).unwrap();
         let ours = signal(&plant.run(&course.temperature), &even(&course), rest);
         let in_skin = family == effect::Family::HubResistance;
-        let (fidelity, base_chain) = if in_skin { (&fine_mesh, &fine) } else { (&STANDARD, &standard) };
+        // a bond that can open is meshed more finely: without effect it is one that stays closed
+        let closed = match effect {
+            Effect::Debond { hysteresis, fraction, .. } => {
+                Some(chained(Effect::Debond { below: -150.0, hysteresis, fraction }, &course, &STANDARD))
+            }
+            _ => None,
+        };
+        let (fidelity, base_chain) =
+            if in_skin { (&fine_mesh, &fine) } else { (&STANDARD, closed.as_ref().unwrap_or(&standard)) };
         let theirs = chained(effect, &course, fidelity);
         let change = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<f64>>();
         let pairs = [
