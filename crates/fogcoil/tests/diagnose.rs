@@ -86,14 +86,29 @@ fn the_report_holds_every_record_and_the_recommended_profile() {
     let folder = Folder::new();
     folder.write("coil.ron", COIL);
     let unit = CASE.replace("case_13", "case_03");
-    let [one, two] = ["fit.csv", "holdout.csv"].map(|name| format!("{unit}/{name}"));
-    let output = folder.run(&["diagnose", "coil.ron", "--fit", &one, "--fit", &two, "--json", "j.json", "--report", "r.html"]);
+    // ten hours of each: enough to see, quick to fit
+    for name in ["fit.csv", "holdout.csv"] {
+        let text = std::fs::read_to_string(format!("{unit}/{name}")).unwrap();
+        folder.write(name, text.lines().take(1200).map(|line| line.to_owned() + "\n").collect::<String>());
+    }
+    let output = folder.run(&[
+        "diagnose",
+        "coil.ron",
+        "--fit",
+        "fit.csv",
+        "--fit",
+        "holdout.csv",
+        "--json",
+        "j.json",
+        "--report",
+        "r.html",
+    ]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let json: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(folder.path("j.json")).unwrap()).unwrap();
     let set: Vec<&str> = json["set"].as_array().unwrap().iter().filter_map(|id| id.as_str()).collect();
     assert!(set.len() > 1, "{set:?}");
     let page = std::fs::read_to_string(folder.path("r.html")).unwrap();
-    for record in ["case_03/fit.csv", "case_03/holdout.csv"] {
+    for record in ["fit.csv", "holdout.csv"] {
         assert!(page.contains(&format!("recorded less nominal model, {record}</text>")), "{record}");
     }
     // the command of the page finds the profile of the page
@@ -117,7 +132,10 @@ fn exchanged_columns_and_a_reversed_rate_are_named() {
     let changed = |name: &str, row: &dyn Fn(&[&str]) -> String| {
         let text = std::fs::read_to_string(format!("{CASE}/{name}")).unwrap();
         let (head, rows) = text.split_once('\n').unwrap();
-        rows.lines().map(|line| row(&line.split(',').collect::<Vec<_>>()) + "\n").fold(head.to_owned() + "\n", |t, r| t + &r)
+        rows.lines()
+            .take(700)
+            .map(|line| row(&line.split(',').collect::<Vec<_>>()) + "\n")
+            .fold(head.to_owned() + "\n", |t, r| t + &r)
     };
     let negated =
         |f: &[&str]| format!("{},{},{},{}", f[0], f[1], f[2], f[3].parse::<f64>().map_or(String::new(), |r| (-r).to_string()));

@@ -108,7 +108,8 @@ fn recommended(out: &mut String, found: &Recommendation) {
         rows.push(row(&format!("size of {} (fitted alone)", size.id), nice(&values.join(", "))));
     }
     table(out, &rows);
-    out.push_str(&with_data(&figure(&found.course, &best.programme.name)));
+    let what = if best.odds.decides() { "The recommended test" } else { "The best within these limits, which does not decide" };
+    out.push_str(&with_data(&figure(&found.course, format!("{what}: {}", best.programme.name))));
 }
 
 fn brief(odds: &Odds) -> String {
@@ -131,7 +132,7 @@ fn meaning(odds: &Odds) -> String {
     )
 }
 
-fn figure(course: &Course, name: &str) -> Figure<'static> {
+fn figure(course: &Course, title: String) -> Figure<'static> {
     let Course { pair: [truth, rival], time, chamber, rate, spool } = course;
     let unit = DurationUnit::of(time.last().copied().unwrap_or(0.0));
     let over = |values: &[f64]| time.iter().zip(values).map(|(t, v)| (unit.of_seconds(*t), *v)).collect::<Vec<_>>();
@@ -165,7 +166,7 @@ fn figure(course: &Course, name: &str) -> Figure<'static> {
     }
     Figure {
         id: "next-test",
-        title: format!("The recommended test: {name}"),
+        title,
         description: format!(
             "Chamber temperature of the recommended profile over time, the rates that {truth} and {rival} add to the design's, and what tells \
              the two apart."
