@@ -3,12 +3,18 @@
 use std::path::Path;
 
 use fogcoil::cache::Cache;
-use fogcoil::{figures, input, picture, simulate};
+use fogcoil::homogenize::{Quantity, words};
+use fogcoil::{figures, input, picture, picture_cell, simulate};
+use homogenization::fields::{Component, Convention, Fields, Load};
+use homogenization::irregular::{Arrangement, Cell};
 
 use crate::validate::Failure;
 
 const COIL: &str = "fixtures/coil-reference.ron";
 const PROFILE: &str = "fixtures/profiles/paper.csv";
+const CELL: &str = "fixtures/cell-reference.ron";
+/// Divisions of an element's side in the picture of the cell.
+const DIVISIONS: usize = 12;
 
 /// Draws all figures into `folder`, which is made if it is not there; always `true`.
 pub(crate) fn run(folder: &Path) -> Result<bool, Failure> {
@@ -19,6 +25,7 @@ pub(crate) fn run(folder: &Path) -> Result<bool, Failure> {
     let mut documents = figures::documents(&simulation, Some(&fields));
     documents.push(figures::convergence(&case)?);
     documents.push(("winding", picture::svg(&case.name, &case.winding)));
+    documents.push(("cell", cell()?));
     std::fs::create_dir_all(folder)?;
     for (name, svg) in documents {
         let path = folder.join(format!("{name}.svg"));
@@ -26,4 +33,16 @@ pub(crate) fn run(folder: &Path) -> Result<bool, Failure> {
         println!("{} ({} kB)", path.display(), svg.len().div_ceil(1000));
     }
     Ok(true)
+}
+
+/// The reference cell held in all directions and 10 K warmer: its radial strain.
+fn cell() -> Result<String, Failure> {
+    let case = input::read_cell(CELL.as_ref())?;
+    let general = Cell::of_fibres(&case.cell, &Arrangement::hexagonal(case.cell.pitch, 1, 1))?;
+    let load = Load { temperature: 10.0, ..Load::default() };
+    let quantity = Quantity::Strain(Component::MeanRadial, Convention::Mechanical);
+    let solution = general.homogenize_to(homogenization::TOLERANCE)?.solution;
+    let caption = format!("{} under {}", quantity.label(), words(&load));
+    let sample = Fields::new(&solution, load).sample(DIVISIONS);
+    Ok(picture_cell::svg(&case.name, &caption, &solution, &sample, Some(quantity)))
 }

@@ -1,13 +1,16 @@
-//! Project chores: `cargo xtask validate [--json FILE]`, `cargo xtask prove`, `cargo xtask figures [--out DIR]`, `cargo xtask cells`, `cargo xtask mechanisms`,
-//! `cargo xtask identify [--cells N]`,
+//! Project chores: `cargo xtask validate [--json FILE]`, `cargo xtask prove`, `cargo xtask figures [--out DIR]`, `cargo xtask cells [--peers-python PATH]`,
+//! `cargo xtask mechanisms`,
+//! `cargo xtask identify [--cells N]`, `cargo xtask sabotage`,
 //! `cargo xtask bench NAME`.
 
 mod bench;
 mod cells;
+mod cells_peer;
 mod figures;
 mod identify;
 mod mechanisms;
 mod prove;
+mod sabotage;
 mod validate;
 
 use std::process::ExitCode;
@@ -15,7 +18,7 @@ use std::process::ExitCode;
 const USAGE: &str = "usage: cargo xtask validate [--json FILE]\n       cargo xtask prove [--case NN]...\n       \
     cargo xtask prove --sealed [--again DIR]\n       cargo xtask prove --recommended\n       cargo xtask prove --synthetic [--seed S] [--nulls N] [--concealed N]\n       \
     cargo xtask figures [--out DIR]\n       \
-    cargo xtask cells\n       cargo xtask mechanisms\n       cargo xtask identify [--cells N]\n       cargo xtask bench cell|coil|sensitivity [--peers-python PATH] [--repetitions N]\n       cargo xtask bench reduced|diagnose\n\n  \
+    cargo xtask cells [--peers-python PATH]\n       cargo xtask mechanisms\n       cargo xtask identify [--cells N]\n       cargo xtask sabotage\n       cargo xtask bench cell|coil|sensitivity [--peers-python PATH] [--repetitions N]\n       cargo xtask bench reduced|diagnose\n\n  \
     validate   run the whole chain, compare with the paper's Tables I to IV,\n             \
     write docs/validation.md and the README's headline table; exit 1 if a row that must hold does not\n  \
     prove      diagnose the units of fixtures/concealed/open, or those named, hold the answers against the truth,\n             \
@@ -24,11 +27,14 @@ const USAGE: &str = "usage: cargo xtask validate [--json FILE]\n       cargo xta
     mechanisms apart; --synthetic: units of the project's own generator,\n             \
     kept in target/prove, where a run that was stopped goes on\n  \
     figures    draw the reference coil's figures as SVG files into docs/pictures, or DIR\n  \
-    cells      cells of many kinds to 1e-6, each against a much finer solution and finite elements; writes docs/cells.md;\n             \
-    exit 1 if an error is above its estimate or the tolerance\n  \
+    cells      cells of many kinds to 1e-6, each against a much finer solution, finite elements and NGSolve; writes docs/cells.md;\n             \
+    exit 1 if an error is above its estimate or the tolerance, or NGSolve does not agree; with PATH, a Python that has it,\n             \
+    NGSolve is run anew (minutes), else its kept values are compared\n  \
     mechanisms measure which mechanisms are mistaken for which; the numbers of docs/mechanisms and its pictures\n  \
     identify   cells drawn from the priors, measured with 1 % noise, identified, held against the truth; writes the table of docs/identify.md;\n             \
     exit 1 if the truth lies in the 90 % intervals of fewer than 8 of 10\n  \
+    sabotage   break the cell's crates in a copy, one line at a time, and list the tests that turn red; writes\n             \
+    xtask/src/validate/sabotage.md; exit 1 if no test sees one of them\n  \
     bench      times beside errors into docs/benchmarks.md: the cell, the coil job and the steady sensitivity beside other programs,\n             \
     PATH being a Python with their packages (else FOGCOIL_PEERS_PYTHON; without it they are skipped); reduced and full model; whole diagnoses";
 
@@ -38,7 +44,9 @@ fn main() -> ExitCode {
     let outcome = match words[..] {
         ["validate"] => validate::run(None),
         ["validate", "--json", file] => validate::run(Some(file.as_ref())),
-        ["cells"] => cells::run(),
+        ["cells"] => cells::run(None),
+        ["cells", "--peers-python", python] => cells::run(Some(python.as_ref())),
+        ["sabotage"] => sabotage::run(),
         ["mechanisms"] => mechanisms::run(),
         ["figures"] => figures::run("docs/pictures".as_ref()),
         ["figures", "--out", folder] => figures::run(folder.as_ref()),
@@ -64,7 +72,7 @@ fn main() -> ExitCode {
             }
         },
         ["--help" | "-h" | "help"]
-        | ["validate" | "prove" | "cells" | "figures" | "mechanisms" | "identify" | "bench", "--help" | "-h"] => {
+        | ["validate" | "prove" | "cells" | "figures" | "mechanisms" | "identify" | "sabotage" | "bench", "--help" | "-h"] => {
             println!("{USAGE}");
             return ExitCode::SUCCESS;
         }

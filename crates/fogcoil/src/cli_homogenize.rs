@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use fogcoil::homogenize::{self, AtTemperature, Quantity, Strains, at_temperature, parse_load, parse_quantity};
-use fogcoil::input::{self, CellCase, GeneralCase};
+use fogcoil::input::{self, AnyCell, CellCase, GeneralCase, InputError};
 use fogcoil::output::{self, Content};
 use fogcoil::{Error, picture_cell};
 use homogenization::fields::{Fields, Load};
@@ -20,7 +20,7 @@ pub(crate) struct Homogenize {
     /// Case file of the cell
     #[arg(value_name = "CELL.ron")]
     cell: PathBuf,
-    /// Relative error that every constant of a regular cell must meet; others print the error they have
+    /// Relative error that every constant must meet
     #[arg(long, value_name = "ERROR", default_value = "1e-6", value_parser = relative_error)]
     tolerance: f64,
     /// Print one JSON object, in SI
@@ -45,6 +45,10 @@ pub(crate) struct Homogenize {
 
 /// Divisions of an element's side where a field is drawn.
 const FINE: usize = 12;
+/// Divisions where the mesh is.
+const COARSE: usize = 6;
+/// Least tolerance for the fields inside a regular cell, whose constants are not taken from them.
+const INSIDE: f64 = 1e-6;
 
 fn celsius(text: &str) -> Result<f64, String> {
     let number = text.trim().parse().ok().filter(|t: &f64| (-273.15..=1000.0).contains(t));
@@ -54,28 +58,30 @@ fn celsius(text: &str) -> Result<f64, String> {
 pub(crate) fn run(arguments: &Homogenize) -> Result<(), Error> {
     let Homogenize { cell, json, temperatures, vtu, svg, .. } = arguments;
     output::check_distinct(&[cell], &[vtu.as_deref(), svg.as_deref()])?;
-    let (general, regular) = input::read_any_cell(cell)?;
-    if !temperatures.is_empty() && general.temperatures().is_none() {
+    let any = input::read_any_cell(cell)?;
+    let has_tables = matches!(&any, AnyCell::General(general) if general.temperatures().is_some());
+    if !temperatures.is_empty() && !has_tables {
         let problem = "no constituent is a table over temperature: the constants are the same at all";
         return Err(Error::Usage(format!("{}: {problem}; leave --temperatures out", cell.display())));
     }
-    let (text, object) = match regular {
-        Some(case) => arguments.regular(&case, &general)?,
-        None => arguments.general(&general)?,
+    let (text, object) = match any {
+        AnyCell::Regular(case, general) => arguments.regular(&case, general)?,
+        AnyCell::General(general) => arguments.general(&general)?,
     };
     output::print(&if *json { format!("{object}\n") } else { text })
 }
 
 impl Homogenize {
     /// A regular cell: by the structured route, its fields by the other.
-    fn regular(&self, case: &CellCase, general: &GeneralCase) -> Result<(String, Value), Error> {
+    fn regular(&self, case: &CellCase, general: Result<GeneralCase, InputError>) -> Result<(String, Value), Error> {
         let result = case.homogenize_to(self.tolerance)?;
         let (mut text, mut object) = (homogenize::text(case, &result), homogenize::json(case, &result));
         if self.load.is_some() || self.svg.is_some() {
+            let general = general?;
             let cell = general.cell(&general.layouts[0], None)?;
             let failed = |source| Error::Homogenization { file: general.file.clone(), source };
-            let solution = cell.solve(homogenize::ORDER, homogenize::FINENESS).map_err(failed)?;
-            self.inside(general, None, &solution, &mut text, &mut object)?;
+            let solution = cell.homogenize_to(self.tolerance.max(INSIDE)).map_err(failed)?.solution;
+            self.inside(&general, None, &solution, &mut text, &mut object)?;
         }
         Ok((text, object))
     }
@@ -86,7 +92,7 @@ impl Homogenize {
         // all tables are asked before anything is solved
         wanted.iter().try_for_each(|t| case.cell(&case.layouts[0], *t).map(drop))?;
         let task = format!("homogenizing {} cells", wanted.len() * case.layouts.len());
-        let solve = || wanted.iter().map(|t| at_temperature(case, *t)).collect::<Result<Vec<AtTemperature>, _>>();
+        let solve = || wanted.iter().map(|t| at_temperature(case, *t, self.tolerance)).collect::<Result<Vec<AtTemperature>, _>>();
         let results = Progress::OnStandardError.during(&task, solve)?;
         let (mut texts, mut objects) = (Vec::new(), Vec::new());
         for (k, result) in results.iter().enumerate() {
@@ -122,7 +128,7 @@ impl Homogenize {
             _ => "phases and mesh".into(),
         };
         let fields = Fields::new(solution, self.load.unwrap_or_default());
-        let sample = fields.sample(if self.field.is_some() { FINE } else { homogenize::ORDER });
+        let sample = fields.sample(if self.field.is_some() { FINE } else { COARSE });
         let grid = |out: &mut dyn Write| output::vtu(out, &sample, &solution.periodic().inclusions);
         let mut files: Vec<(&Path, Content)> = Vec::new();
         if let Some(path) = &self.svg {

@@ -13,7 +13,7 @@ use crate::input::CellCase;
 use crate::table::{plus_minus, significant, table};
 use crate::units::{to_mpa, to_ppm};
 
-pub use general::{AtTemperature, FINENESS, ORDER, Spread, at_temperature};
+pub use general::{AtTemperature, Spread, at_temperature};
 pub use load::{parse_load, words};
 pub use quantity::{Quantity, parse_quantity};
 pub use strain::Strains;
@@ -52,10 +52,9 @@ fn extras(case: &CellCase, result: &Homogenized) -> Vec<(&'static str, f64, [&'s
 /// The constants as a table with units and numerical errors.
 pub fn text(case: &CellCase, result: &Homogenized) -> String {
     let mut rows = vec![["constant", "value", "numerical error", "unit", "meaning"].map(String::from).to_vec()];
-    for ((key, value), (_, relative)) in result.constants.named().into_iter().zip(result.relative_error.named()) {
+    for ((key, value), (_, error)) in result.constants.named().into_iter().zip(result.error().named()) {
         let (unit, convert, meaning) = presentation(key);
-        let value = convert(value);
-        let error = plus_minus(relative * value.abs());
+        let (value, error) = (convert(value), plus_minus(convert(error)));
         rows.push(vec![key.into(), significant(value, 6), error, unit.into(), meaning.into()]);
     }
     for (key, value, [unit, meaning]) in extras(case, result) {

@@ -103,11 +103,16 @@ fn fill(out: &mut String, view: &View, sample: &Sample, colours: Option<&(Quanti
         }
         return paths.iter().for_each(|(colour, path)| area(out, colour, path));
     };
-    for corners in &sample.quadrilaterals {
-        let states = corners.map(|k| &sample.states[k]);
-        let mean = states.iter().map(|s| quantity.of(s)).sum::<f64>() / 4.0;
-        let colour = if mean.is_finite() { colours.at(mean) } else { "#e8e8e8".into() };
-        line(paths.entry(colour).or_default(), view, states.iter().map(|s| s.position));
+    let colour = |corners: &[usize; 4]| {
+        let mean = corners.iter().map(|k| quantity.of(&sample.states[*k])).sum::<f64>() / 4.0;
+        if mean.is_finite() { colours.at(mean) } else { "#e8e8e8".into() }
+    };
+    let coloured: Vec<_> = sample.quadrilaterals.iter().map(|corners| (colour(corners), corners)).collect();
+    // neighbours of one colour in a row are one shape
+    for run in coloured.chunks(sample.divisions).flat_map(|row| row.chunk_by(|a, b| a.0 == b.0)) {
+        let near = run.iter().map(|(_, corners)| corners[0]).chain([run[run.len() - 1].1[1]]);
+        let far = run.iter().rev().map(|(_, corners)| corners[2]).chain([run[0].1[3]]);
+        line(paths.entry(run[0].0.clone()).or_default(), view, near.chain(far).map(|k| sample.states[k].position));
     }
     paths.iter().for_each(|(colour, path)| area(out, colour, path));
 }
@@ -116,10 +121,16 @@ fn area(out: &mut String, colour: &str, path: &str) {
     let _ = writeln!(out, "<path fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"0.5\" d=\"{path}\"/>");
 }
 
+/// Points in tenths of a pixel, each but the first relative to the one before it.
 fn line(path: &mut String, view: &View, positions: impl Iterator<Item = [f64; 2]>) {
-    for (k, position) in positions.enumerate() {
-        let [x, y] = view.pixel(position);
-        let _ = write!(path, "{}{x:.1} {y:.1}", if k == 0 { "M" } else { "L" });
+    let mut before = None;
+    for position in positions {
+        let [x, y] = view.pixel(position).map(|v| (10.0 * v).round() as i64);
+        match before.replace([x, y]) {
+            None => _ = write!(path, "M{} {}", x as f64 / 10.0, y as f64 / 10.0),
+            Some(last) if last == [x, y] => {}
+            Some([u, v]) => _ = write!(path, "l{} {}", (x - u) as f64 / 10.0, (y - v) as f64 / 10.0),
+        }
     }
 }
 

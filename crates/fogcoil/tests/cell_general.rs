@@ -4,7 +4,8 @@
 
 mod common;
 
-use common::{CELL, Folder, change, line_of, stderr};
+use common::{CELL, COIL, Folder, change, line_of, stderr};
+use fogcoil::input::read_coil;
 use serde_json::Value;
 
 const FAULTS: &str = include_str!("../../../fixtures/cells/faults.ron");
@@ -119,4 +120,53 @@ fn what_cannot_be_used_is_named_where_it_stands() {
     refuse(CELL.into(), &["--load", "dt=1", "--svg", "x.svg", "--field", "zzz"], None, "not a field");
     refuse(change(DISPLACED, "least_film_um: 1.0", "least_film_um: 6.0"), &[], Some(line_of(DISPLACED, "least_film_um")), "film");
     refuse(change(DISPLACED, "columns: 3", "columns: 0"), &[], Some(line_of(DISPLACED, "columns")), "at least 1");
+}
+
+/// Two fibres on the regular lattice are the regular cell; an offset coating too far from isotropic is refused with the number.
+#[test]
+fn a_coil_takes_a_general_cell_that_is_nearly_isotropic() {
+    let folder = Folder::new();
+    let start = COIL.find("Constants((").unwrap();
+    let end = start + COIL[start..].find("))").unwrap() + 2;
+    let matrix = "Matrix((m_rx: 0.0274, m_ry: 0.0270, m_rz: -0.17, m_rt_per_k: -9.98e-6))";
+    let coil = change(&change(COIL, &COIL[start..end], "FromCell(\"cell.ron\")"), matrix, "FromCell(\"cell.ron\")");
+    let coil = folder.write("coil.ron", coil);
+    folder.write("cell.ron", CELL);
+    let regular = read_coil(&coil).unwrap();
+    folder.write("cell.ron", change(CELL, "pitch_um: 170.0,", "pitch_um: 170.0, columns: 2,"));
+    let general = read_coil(&coil).unwrap();
+    let (a, b) = (general.design, regular.design);
+    let pairs = [
+        (a.body.elastic.e_r, b.body.elastic.e_r),
+        (a.body.elastic.nu_zr, b.body.elastic.nu_zr),
+        (a.body.elastic.alpha_r, b.body.elastic.alpha_r),
+        (a.body.conductivity_r, b.body.conductivity_r),
+        (a.dehomogenization.m_rx, b.dehomogenization.m_ry),
+        (a.dehomogenization.m_rz, b.dehomogenization.m_rz),
+        (a.dehomogenization.m_rt, b.dehomogenization.m_rt),
+    ];
+    pairs.iter().for_each(|(found, expected)| assert!((found / expected - 1.0).abs() < 1e-5, "{found:e} {expected:e}"));
+    assert!(general.warnings.iter().any(|w| w.contains("by 0.00 %")), "{:?}", general.warnings);
+    folder.write("cell.ron", FAULTS);
+    let refused = read_coil(&coil).unwrap_err().to_string();
+    assert!(refused.contains("coil.ron:") && refused.contains("% of strain energy, more than the 1 %"), "{refused}");
+    folder.write("cell.ron", TEMPERATURE);
+    assert!(read_coil(&coil).unwrap_err().to_string().contains("tables over temperature"));
+}
+
+/// A table and an orthotropic solid may have densities beside them.
+#[test]
+fn densities_of_general_cells() {
+    let folder = Folder::new();
+    let with = |text: &str| {
+        let heavy = "material: (density_kg_per_m3: 1200.0, specific_heat_j_per_kgk: 1500.0, ";
+        text.replace("material: (", heavy).replace("adhesive: (", &heavy.replace("material", "adhesive"))
+    };
+    let result = json(&folder, &[folder.write("f.ron", with(FAULTS)).to_str().unwrap(), "--tolerance", "1e-2"]);
+    let solid = 1.0 - number(&result, "void_fraction");
+    assert!((number(&result, "density_kg_per_m3") / (1200.0 * solid) - 1.0).abs() < 1e-6);
+    assert!((number(&result, "heat_capacity_j_per_m3k") / (1.8e6 * solid) - 1.0).abs() < 1e-6);
+    let file = folder.write("t.ron", with(TEMPERATURE));
+    let result = json(&folder, &[file.to_str().unwrap(), "--temperatures", "50", "--tolerance", "1e-2"]);
+    assert!((number(&result["temperatures"][0], "density_kg_per_m3") / 1200.0 - 1.0).abs() < 1e-6);
 }

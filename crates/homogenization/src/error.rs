@@ -49,7 +49,7 @@ pub enum Error {
     /// The constants cannot be computed to the accuracy that was asked for.
     #[error(
         "{constant} cannot be computed to a relative error of {requested:.1e}: the best estimate reached is {reached:.1e}, with \
-         multipoles up to order {order}; {why}"
+         {with}; {why}"
     )]
     Accuracy {
         /// The least accurate constant.
@@ -58,10 +58,10 @@ pub enum Error {
         requested: f64,
         /// What was reached.
         reached: f64,
-        /// Highest order of the multipoles.
-        order: usize,
+        /// What it was reached with: "multipoles up to order 41", "318 elements of order 12".
+        with: String,
         /// What stands in the way, and what to do.
-        why: &'static str,
+        why: String,
     },
     /// No ring is glass, so the dehomogenisation matrix has nothing to report on.
     #[error("no ring is glass; mark at least one so that the dehomogenisation matrix has a mean to report")]

@@ -1,10 +1,10 @@
 //! From a cell to its effective constants with an error beside each.
 
 use crate::cell::Phases;
-use crate::multipole::{self, HIGHEST_ORDER, multipoles};
+use crate::multipole::{self, HIGHEST_ORDER, Multipoles};
+use crate::rounding::{self, shaken};
 use crate::solve::{CellProblem, Integration};
 use crate::{Constants, Discretization, Effective, Error, FibreCell};
-use nalgebra::Matrix3;
 use rve_mesh::{Extent, Resolution};
 
 /// A constant below this fraction of its natural scale (1 for Poisson's ratios and strains of the glass per strain, the larger
@@ -14,8 +14,8 @@ pub const NEGLIGIBLE: f64 = 1e-6;
 /// By how much the multipoles fall from one order that is tried to the next.
 const STEP: f64 = 0.03;
 
-/// Roundings that add up in a constant: a few times what was seen when rings are split into rings of the same material.
-const ROUNDING: f64 = 128.0;
+/// A constant's estimate is at least this share of the worst one's: two orders may agree in one of them by chance.
+const SHARE: f64 = 0.1;
 
 /// Factor on the distance to two orders higher: it covers the true error as long as two orders halve it at least.
 pub const SAFETY: f64 = 2.0;
@@ -28,14 +28,21 @@ pub const TOLERANCE: f64 = 1e-6;
 pub struct Homogenized {
     /// The constants.
     pub constants: Constants,
-    /// Estimated relative error of each: [`SAFETY`] times its distance from its value with fewer multipoles ([`homogenize_to`]) or two
-    /// polynomial orders higher ([`homogenize_on`]), and what rounding may do. A constant that is nearly zero is compared with
-    /// [`NEGLIGIBLE`] of its natural scale instead.
+    /// Estimated relative error of each: [`SAFETY`] times its distance from its value with fewer multipoles ([`homogenize_to`], which
+    /// adds what rounding may do) or two polynomial orders higher ([`homogenize_on`]), and no less than a tenth of the worst one's. A
+    /// constant that is nearly zero is compared with [`NEGLIGIBLE`] of its natural scale instead.
     pub relative_error: Constants,
     /// Stiffness, thermal stress, conductivity and glass strain behind the constants.
     pub effective: Effective,
     /// Unknowns of the largest system behind the constants.
     pub unknowns: usize,
+}
+
+impl Homogenized {
+    /// Estimated error of each constant in its own unit.
+    pub fn error(&self) -> Constants {
+        self.relative_error.combine(&size(&self.constants), |relative, size| relative * size)
+    }
 }
 
 impl Discretization {
@@ -80,12 +87,24 @@ pub fn homogenize_on(cell: &FibreCell, discretization: &Discretization) -> Resul
     let effective = effective(cell, discretization)?;
     let finer = crate::effective(cell, &discretization.refined())?;
     let constants = constants(&effective)?;
-    let relative_error = relative_difference(&constants, &crate::homogenize::constants(&finer)?);
+    let relative_error = truncation(&constants, &crate::homogenize::constants(&finer)?);
     Ok(Homogenized { constants, relative_error, unknowns: effective.unknowns, effective })
 }
 
-/// [`SAFETY`] |a − b| of each constant over |b|, or over [`NEGLIGIBLE`] of its natural scale if that is larger.
-fn relative_difference(a: &Constants, b: &Constants) -> Constants {
+/// What is left out, from two results of which one leaves out less.
+fn truncation(a: &Constants, b: &Constants) -> Constants {
+    let difference = relative_difference(a, b);
+    let floor = SHARE * worst(&difference).1;
+    difference.combine(&difference, |d, _| SAFETY * d.max(floor))
+}
+
+/// The constant with the largest of some errors.
+fn worst(errors: &Constants) -> (&'static str, f64) {
+    errors.named().into_iter().fold(("", 0.0), |worst, one| if one.1 > worst.1 || one.1.is_nan() { one } else { worst })
+}
+
+/// What a constant's error is relative to: |b|, or [`NEGLIGIBLE`] of its natural scale if that is larger.
+fn size(b: &Constants) -> Constants {
     let expansion = b.alpha_z.abs().max(b.alpha_r.abs());
     let scale = Constants {
         nu_zr: 1.0,
@@ -99,10 +118,14 @@ fn relative_difference(a: &Constants, b: &Constants) -> Constants {
         m_rt: expansion,
         ..*b
     };
-    let size = b.combine(&scale, |b, scale| b.abs().max(NEGLIGIBLE * scale.abs()));
-    let difference = a.combine(b, |a, b| SAFETY * (a - b).abs());
+    b.combine(&scale, |b, scale| b.abs().max(NEGLIGIBLE * scale.abs()))
+}
+
+/// |a − b| of each constant over its [`size`].
+fn relative_difference(a: &Constants, b: &Constants) -> Constants {
+    let difference = a.combine(b, |a, b| (a - b).abs());
     // 0/0 where nothing expands
-    difference.combine(&size, |difference, size| if difference == 0.0 { 0.0 } else { difference / size })
+    difference.combine(&size(b), |difference, size| if difference == 0.0 { 0.0 } else { difference / size })
 }
 
 fn constants(effective: &Effective) -> Result<Constants, Error> {
@@ -127,41 +150,49 @@ pub fn homogenize(cell: &FibreCell) -> Result<Homogenized, Error> {
 pub fn homogenize_to(cell: &FibreCell, relative_error: f64) -> Result<Homogenized, Error> {
     Phases::new(cell)?;
     let decay = multipole::decay(cell);
-    let needed = |factor: f64| (factor.ln() / decay.ln()).ceil().clamp(1.0, HIGHEST_ORDER as f64) as usize;
-    let step = needed(STEP).max(2 * cell.packing.sides());
-    let mut order = needed(relative_error.clamp(f64::EPSILON, 1.0)).min(HIGHEST_ORDER - step.min(HIGHEST_ORDER - 1));
-    let mut last = constants(&multipoles(cell, order)?)?;
+    // orders of one residue modulo the symmetry converge evenly, those of −1 fastest
+    let period = cell.packing.sides();
+    let highest = (HIGHEST_ORDER + 1) / period * period - 1;
+    let needed = |factor: f64| ((factor.ln() / decay.ln()).clamp(1.0, HIGHEST_ORDER as f64) as usize).div_ceil(period) * period;
+    let step = needed(STEP);
+    let mut order = (needed(relative_error.clamp(f64::EPSILON, 1.0)) + step - 1).min(highest);
     loop {
-        order = (order + step).min(HIGHEST_ORDER);
-        let effective = multipoles(cell, order)?;
+        let multipoles = Multipoles::new(cell, order)?;
+        let effective = multipoles.effective(cell)?;
         let constants = constants(&effective)?;
-        let truncation = relative_difference(&last, &constants);
-        let rounding = rounding(&effective);
-        let relative = truncation.combine(&truncation, |t, _| t + rounding);
-        let worst = relative.named().into_iter().fold(("", 0.0), |worst, one| if one.1 > worst.1 { one } else { worst });
-        if worst.1 <= relative_error {
+        let rounding = rounding(&multipoles, cell, &effective, &constants);
+        let lower = multipoles.lowered(order.saturating_sub(step).max(1)).effective(cell)?;
+        let truncation = truncation(&crate::homogenize::constants(&lower)?, &constants);
+        let relative = truncation.combine(&rounding, |t, r| t + r);
+        let (constant, reached) = worst(&relative);
+        if reached <= relative_error {
             return Ok(Homogenized { constants, relative_error: relative, unknowns: effective.unknowns, effective });
         }
-        let rounded = worst.1 < 2.0 * rounding;
-        if rounded || order == HIGHEST_ORDER {
+        let rounded = reached < 2.0 * worst(&rounding).1;
+        if rounded || order == highest {
             let why = if rounded {
-                "rounding stands in the way: raise the tolerance above that"
+                "rounding stands in the way (a nearly incompressible phase, a great contrast): raise the tolerance above that"
             } else {
                 "the film between the fibres is too thin: raise the tolerance above that, or the pitch"
             };
-            return Err(Error::Accuracy { constant: worst.0, requested: relative_error, reached: worst.1, order, why });
+            let with = format!("multipoles up to order {order}");
+            return Err(Error::Accuracy { constant, requested: relative_error, reached, with, why: why.into() });
         }
-        last = constants;
+        order = (order + step).min(highest);
     }
 }
 
-/// What rounding may do to a constant: it grows with the condition of the effective stiffness, scaled to a unit diagonal, and is most
-/// where the cell is nearly incompressible.
-fn rounding(effective: &Effective) -> f64 {
-    let c = effective.stiffness.fixed_view::<3, 3>(0, 0);
-    let scaled = Matrix3::from_fn(|i, j| c[(i, j)] / (c[(i, i)] * c[(j, j)]).sqrt());
-    let condition = scaled.try_inverse().map_or(f64::INFINITY, |inverse| scaled.norm() * inverse.norm());
-    ROUNDING * f64::EPSILON * condition
+/// What rounding may do to each constant, relative; infinite where a rounding away there is no cell.
+fn rounding(multipoles: &Multipoles, cell: &FibreCell, effective: &Effective, exact: &Constants) -> Constants {
+    let least = rounding::least(effective);
+    let mut errors = exact.combine(exact, |_, _| least);
+    for seed in 0..rounding::CELLS {
+        let other = multipoles.effective(&shaken(cell, seed)).ok().and_then(|effective| effective.constants());
+        let distance = other.map_or(exact.combine(exact, |_, _| f64::INFINITY), |other| relative_difference(&other, exact));
+        errors = errors.combine(&distance, |error, d| error.max(rounding::SPREAD * d));
+    }
+    let floor = SHARE * worst(&errors).1;
+    errors.combine(&errors, |error, _| error.max(floor))
 }
 
 /// The traction-free cell one kelvin warmer, solved on its own.

@@ -27,7 +27,7 @@
 //! # Method
 //! [`homogenize_to`] works by multipoles ([`multipoles`]): in concentric rings the angular harmonics are solved exactly, in the adhesive
 //! the fields of multipoles at all fibres' axes converge exponentially with their order, the slower the thinner the film. Neither mesh nor
-//! incompressibility enters; the error is estimated from a lower order.
+//! incompressibility enters; the error is estimated from a lower order and from inputs a few roundings off.
 //!
 //! [`homogenize_on`] works by finite elements, curved quadrilaterals of high order (`rve-mesh`, `fem-core`), and shares nothing with the
 //! multipoles but the constituents' laws: each checks the other. [`Extent::Quarter`] uses the mirror and point symmetry of the lattice;
@@ -76,6 +76,7 @@ mod homogenize;
 pub mod identify;
 pub mod irregular;
 mod multipole;
+mod rounding;
 mod solve;
 
 pub use cell::{Constituent, FibreCell, Ring, Role};

@@ -60,6 +60,19 @@ fn exact_a_torus_without_voids_has_no_boundary() {
     assert!(fine.elements.len() > 2 * mesh.elements.len());
 }
 
+/// Far from the fibre of a tall cell the triangles are as wide as the cell: a point is joined to its own copies, and to two copies of
+/// another, by edges that are not the same.
+#[test]
+fn exact_a_cell_narrower_than_its_triangles() {
+    let fibre = Inclusion { outlines: vec![Outline::circle([0.0, 0.0], 0.2)], phases: vec![Some(1)] };
+    for skew in [0.0, 0.3] {
+        for fineness in [0.5, 1.0] {
+            let mesh = meshed(&Layout::new([[1.0, 0.0], [skew, 8.0]], vec![fibre.clone()], 0).unwrap(), 3, fineness);
+            check(&mesh);
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
     /// Whatever the layout accepts is meshed, all elements the right way round.

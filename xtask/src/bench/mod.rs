@@ -5,9 +5,11 @@ mod cell;
 mod coil;
 mod diagnose;
 mod job;
-mod peers;
+pub(crate) mod peers;
 mod reduced;
 mod sensitivity;
+
+pub(crate) use peers::own as processor;
 
 use crate::validate::Failure;
 use std::path::{Path, PathBuf};

@@ -9,6 +9,9 @@ mod row;
 mod spread;
 mod winding;
 
+pub(crate) use fixtures::root;
+pub(crate) use report::write;
+
 use fixtures::Fixtures;
 use row::{Row, Verdict};
 use std::path::Path;

@@ -89,6 +89,11 @@ pub(crate) fn markdown(sections: &[Section]) -> String {
             }
         }
     }
+    out.push_str("\n## Sabotage\n\n");
+    out.push_str(
+        "`cargo xtask sabotage` breaks the cell's crates on purpose, one line at a time, and lists the tests that turn red.\n\n",
+    );
+    out.push_str(include_str!("sabotage.md"));
     out.push('\n');
     out.push_str(include_str!("commands.md"));
     out
@@ -124,7 +129,7 @@ fn headline(sections: &[Section]) -> String {
 }
 
 /// Writes `text` to a temporary file beside `path`, then renames it.
-fn write(path: &Path, text: &str) -> Result<(), Failure> {
+pub(crate) fn write(path: &Path, text: &str) -> Result<(), Failure> {
     let failed = |e: std::io::Error| Failure(format!("{}: {e}", path.display()));
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut file = tempfile::Builder::new().tempfile_in(folder).map_err(failed)?;

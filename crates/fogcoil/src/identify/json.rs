@@ -21,7 +21,7 @@ pub fn json(case: &TargetsCase, result: &Identification) -> Value {
         let measurements = alternatives
             .measurements
             .iter()
-            .map(|m| object!({ "what": m.what, "predicted": m.values, "standard_error": m.error, "separation": m.separation() }));
+            .map(|m| object!({ "what": m.what, "predicted": m.values, "spread": m.spread, "standard_error": m.error, "separation": m.separation() }));
         object!({
             "sets": alternatives.sets.iter().map(|set| fit(chosen, &case.targets, set)).collect::<Vec<_>>(),
             "measurements": measurements.collect::<Vec<_>>(),

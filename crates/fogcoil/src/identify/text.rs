@@ -24,6 +24,9 @@ pub fn text(case: &TargetsCase, result: &Identification) -> String {
         Some(posterior) => {
             out += &determined(chosen, &result.outcomes[result.chosen].best, posterior);
         }
+        None if result.outcomes[result.chosen].explains() => {
+            out += "\nThe entries are explained, but by no cell from which the posterior can be sampled: what they determine is not known.\n";
+        }
         None => out += "\nNo kind of cell explains the constants with ordinary constituents, so there is nothing to bound.\n",
     }
     match (&result.alternatives, &result.posterior) {
@@ -143,7 +146,7 @@ fn apart(family: &Family, alternatives: &Alternatives) -> String {
         rows.push(vec![title(parameter), value(a), value(b), unit.into()]);
     }
     let mut out = format!(
-        "\nTwo sets that explain every entry alike (finite elements; all constants within {:.1} sigma)\n\n{}\nWhat would tell them apart:\n",
+        "\nTwo sets that explain every entry alike (solved anew; all constants within {:.1} sigma)\n\n{}\nWhat to measure next, by the spread of the posterior's predictions over the usual error:\n",
         a.farthest().1.max(b.farthest().1),
         table(&rows)
     );
@@ -151,9 +154,10 @@ fn apart(family: &Family, alternatives: &Alternatives) -> String {
         let [a, b] = measurement.values.map(|value| significant(value, 3));
         let _ = writeln!(
             out,
-            "  {}: {a} against {b} (SI), {:.0} times the usual error of {}",
+            "  {}: spread {} (SI), {:.1} times the usual error of {}; {a} in set A, {b} in set B",
             measurement.what,
-            measurement.separation(),
+            significant(measurement.spread, 2),
+            measurement.power(),
             significant(measurement.error, 1)
         );
     }

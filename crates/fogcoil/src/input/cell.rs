@@ -37,23 +37,35 @@ pub fn read_cell(path: &Path) -> Result<CellCase, InputError> {
     let source = Source::read(path)?;
     let file: CellFile = source.parse()?;
     if let Some(key) = file.general_key() {
-        let remedy = "homogenize it with `fogcoil homogenize` and give the coil the constants it prints";
-        return Err(Group::whole(&source).fault(&key, "a coil's cell must be regular", remedy));
+        let remedy = "leave the key out, or take `fogcoil homogenize`";
+        return Err(Group::whole(&source).fault(&key, "the cell must be regular here", remedy));
     }
     regular(&source, file, path)
 }
 
-/// Reads and checks a cell file of any arrangement; also as a regular cell, if it is one.
+/// A cell file of either kind.
+#[derive(Debug, Clone)]
+pub enum AnyCell {
+    /// One fibre of round rings, isotropic constituents; also as a general cell, unless a film or ring is too thin for that.
+    Regular(CellCase, Result<GeneralCase, InputError>),
+    /// Any other.
+    General(GeneralCase),
+}
+
+/// Reads and checks a cell file of any arrangement.
 ///
 /// # Errors
 /// What is wrong, in which file, line and field, and how to mend it.
-pub fn read_any_cell(path: &Path) -> Result<(GeneralCase, Option<CellCase>), InputError> {
+pub fn read_any_cell(path: &Path) -> Result<AnyCell, InputError> {
     let source = Source::read(path)?;
     let file: CellFile = source.parse()?;
-    let is_regular = file.general_key().is_none();
+    let general = || general(&Group::whole(&source), &file, path.to_owned(), source.fingerprint());
+    if file.general_key().is_some() {
+        return general().map(AnyCell::General);
+    }
     // a regular cell's own complaints come first
-    let regular = if is_regular { Some(regular(&source, source.parse()?, path)?) } else { None };
-    Ok((general(&Group::whole(&source), &file, path.to_owned(), source.fingerprint())?, regular))
+    let regular = regular(&source, source.parse()?, path)?;
+    Ok(AnyCell::Regular(regular, general()))
 }
 
 fn regular(source: &Source, file: CellFile, path: &Path) -> Result<CellCase, InputError> {

@@ -41,7 +41,7 @@ impl Material {
                 poisson_ratio: mean(|c| c.elastic.poisson_ratio),
                 thermal_expansion: mean(|c| c.elastic.thermal_expansion),
             };
-            Some(Constituent::new(elastic, mean(|c| c.conductivity)))
+            Some(Constituent { elastic, conductivity: mean(|c| c.conductivity), ..*below })
         };
         // a mean of valid constants is valid
         Solid::isotropic(&only.or_else(between)?).ok()
@@ -73,8 +73,12 @@ pub(super) fn material(at: &Group, file: &MaterialFile) -> Result<Material, Inpu
         }
     }
     match &file.orthotropic {
-        Some(orthotropic) => Ok(Material::Constant(Box::new(solid(&at.group("orthotropic"), orthotropic)?))),
-        None if !file.table.is_empty() => table(at, &file.table),
+        Some(orthotropic) => {
+            let (density, specific_heat) = heavy(at, file)?;
+            let solid = solid(&at.group("orthotropic"), orthotropic)?;
+            Ok(Material::Constant(Box::new(Solid { density, specific_heat, ..solid })))
+        }
+        None if !file.table.is_empty() => table(at, file),
         None => {
             let constituent = isotropic(at, file)?;
             Ok(Material::Constant(Box::new(at.law(Solid::isotropic(&constituent))?)))
@@ -95,12 +99,15 @@ pub(super) fn isotropic(at: &Group, file: &MaterialFile) -> Result<Constituent, 
         required("thermal_expansion_per_k", file.thermal_expansion_per_k)?,
         required("conductivity_w_per_mk", file.conductivity_w_per_mk)?,
     ];
+    let (density, specific_heat) = heavy(at, file)?;
+    Ok(Constituent { density, specific_heat, ..constituent(at, constants)? })
+}
+
+/// Density \[kg/m³\] and specific heat \[J/(kg K)\], as far as they are given: the same at all temperatures.
+fn heavy(at: &Group, file: &MaterialFile) -> Result<(Option<f64>, Option<f64>), InputError> {
     let optional = |key: &str, value: Option<f64>, limit| value.map(|value| at.number(key, value, limit)).transpose();
-    Ok(Constituent {
-        density: optional("density_kg_per_m3", file.density_kg_per_m3, &DENSITY)?,
-        specific_heat: optional("specific_heat_j_per_kgk", file.specific_heat_j_per_kgk, &SPECIFIC_HEAT)?,
-        ..constituent(at, constants)?
-    })
+    let density = optional("density_kg_per_m3", file.density_kg_per_m3, &DENSITY)?;
+    Ok((density, optional("specific_heat_j_per_kgk", file.specific_heat_j_per_kgk, &SPECIFIC_HEAT)?))
 }
 
 fn constituent(at: &Group, [modulus, ratio, expansion, conductivity]: [f64; 4]) -> Result<Constituent, InputError> {
@@ -113,7 +120,8 @@ fn constituent(at: &Group, [modulus, ratio, expansion, conductivity]: [f64; 4]) 
     Ok(Constituent::new(elastic, at.number("conductivity_w_per_mk", conductivity, &CONDUCTIVITY)?))
 }
 
-fn table(at: &Group, files: &[RowFile]) -> Result<Material, InputError> {
+fn table(at: &Group, file: &MaterialFile) -> Result<Material, InputError> {
+    let (files, (density, specific_heat)) = (&file.table, heavy(at, file)?);
     if files.len() > MOST_ROWS {
         let problem = format!("{} rows are given, at most {MOST_ROWS} are read", files.len());
         return Err(at.fault("table", problem, "thin the table out"));
@@ -127,10 +135,8 @@ fn table(at: &Group, files: &[RowFile]) -> Result<Material, InputError> {
             return Err(at.fault("temperature_c", problem, "list the rows by increasing temperature"));
         }
         let RowFile { youngs_modulus_mpa, poisson_ratio, thermal_expansion_per_k, conductivity_w_per_mk, .. } = *file;
-        rows.push((
-            temperature,
-            constituent(&at, [youngs_modulus_mpa, poisson_ratio, thermal_expansion_per_k, conductivity_w_per_mk])?,
-        ));
+        let plain = constituent(&at, [youngs_modulus_mpa, poisson_ratio, thermal_expansion_per_k, conductivity_w_per_mk])?;
+        rows.push((temperature, Constituent { density, specific_heat, ..plain }));
     }
     Ok(Material::Table(rows))
 }
@@ -157,5 +163,6 @@ fn solid(at: &Group, file: &OrthotropicFile) -> Result<Solid, InputError> {
     let (x, y) = (conductivity("k_x_w_per_mk", file.k_x_w_per_mk)?, conductivity("k_y_w_per_mk", file.k_y_w_per_mk)?);
     let conductivity_z = conductivity("k_z_w_per_mk", file.k_z_w_per_mk)?;
     let angle = at.number("angle_deg", file.angle_deg, &super::limits::ANGLE_DEG)?.to_radians();
-    Ok(Solid { law, conductivity: Matrix2::new(x, 0.0, 0.0, y), conductivity_z }.turned(angle))
+    let conductivity = Matrix2::new(x, 0.0, 0.0, y);
+    Ok(Solid { law, conductivity, conductivity_z, density: None, specific_heat: None }.turned(angle))
 }

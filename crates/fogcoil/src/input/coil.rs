@@ -4,9 +4,11 @@ use std::path::{Path, PathBuf};
 
 use coil::{Body, Dehomogenization, Design, Layout, Region, Sensor, SteadySensitivity};
 use fem_core::material::TransverselyIsotropic;
-use homogenization::{Constants, Packing};
+use homogenization::{Constants, Packing, TOLERANCE};
 use winding::Winding;
 
+use super::cell::{AnyCell, read_any_cell};
+use super::cell_general::GeneralCase;
 use super::coil_file::{CoilFile, ConstantsFile, DehomogenizationFile, MaterialFile, MatrixFile};
 use super::fingerprint::Fingerprint;
 use super::limits::{
@@ -15,8 +17,9 @@ use super::limits::{
 use super::mechanics::mechanics;
 use super::source::Source;
 use super::warnings::warnings;
-use super::{InputError, coil_parts as parts, heat, read_cell};
+use super::{InputError, coil_parts as parts, heat};
 use crate::Error;
+use crate::homogenize::at_temperature;
 use crate::units::{from_gpa, from_mm, from_mpa, to_mm};
 
 /// Table II of Osunluk, Ogut and Ozbay as printed; its exponents and the last sign are misprints (see the validation).
@@ -67,7 +70,12 @@ struct Cells<'a> {
     source: &'a Source,
     done: Vec<(PathBuf, Constants)>,
     fingerprints: Vec<Fingerprint>,
+    /// What was taken for something else.
+    notes: Vec<String>,
 }
+
+/// How far from transversely isotropic a coil's cell may be: a coil's law is.
+const MOST_ANISOTROPY: f64 = 0.01;
 
 /// Reads and checks a coil file; homogenises the cells it names.
 ///
@@ -105,7 +113,13 @@ fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
     }
     let optics = parts::optics(&top.group("optics"), &file.optics)?;
     let drifts = parts::drifts(&top.group("drifts"), &file.drifts)?;
-    let mut cells = Cells { top: top.clone(), source: &source, done: Vec::new(), fingerprints: vec![source.fingerprint()] };
+    let mut cells = Cells {
+        top: top.clone(),
+        source: &source,
+        done: Vec::new(),
+        fingerprints: vec![source.fingerprint()],
+        notes: Vec::new(),
+    };
     let (constants, material) = material(&mut cells, &file.coil.material)?;
     let (dehomogenization, row) = dehomogenization(&mut cells, &file.dehomogenization)?;
     let (outer_radius, height) = (from_mm(file.coil.outer_radius_mm), from_mm(file.coil.height_mm));
@@ -119,7 +133,8 @@ fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
     check_film(&top, &design, &layout)?;
     let name = file.name;
     let provenance = Provenance { material, dehomogenization: row };
-    let (file, fingerprints, warnings) = (path.to_owned(), cells.fingerprints, warnings(&design, &winding));
+    let (file, fingerprints) = (path.to_owned(), cells.fingerprints);
+    let warnings = [cells.notes, warnings(&design, &winding)].concat();
     Ok(CoilCase { file, name, design, winding, provenance, fingerprints, warnings })
 }
 
@@ -217,15 +232,45 @@ impl Cells<'_> {
         if let Some(done) = self.done.iter().find(|(known, _)| *known == path) {
             return Ok(done.clone());
         }
-        let cell =
-            read_cell(&path).map_err(|inner| self.top.fault(field, format!("the cell {named:?} cannot be used: {inner}"), ""))?;
-        if cell.cell.packing == Packing::Square {
-            let problem = format!("the cell {named:?} is packed square, but a coil's law is isotropic across the fibre");
-            return Err(self.top.fault(field, problem, "give a cell of hexagonal packing, or the constants themselves").into());
-        }
-        let constants = cell.homogenize()?.constants;
-        self.fingerprints.push(cell.fingerprint);
+        let unusable = |inner: InputError| self.top.fault(field, format!("the cell {named:?} cannot be used: {inner}"), "");
+        let (constants, fingerprint) = match read_any_cell(&path).map_err(unusable)? {
+            AnyCell::General(case) => (self.nearest(field, named, &case)?, case.fingerprint),
+            AnyCell::Regular(case, _) if case.cell.packing == Packing::Square => {
+                let problem = format!("the cell {named:?} is packed square, but a coil's law is isotropic across the fibre");
+                return Err(self
+                    .top
+                    .fault(field, problem, "give a cell of hexagonal packing, or the constants themselves")
+                    .into());
+            }
+            AnyCell::Regular(case, _) => (case.homogenize()?.constants, case.fingerprint),
+        };
+        self.fingerprints.push(fingerprint);
         self.done.push((path.clone(), constants));
         Ok((path, constants))
+    }
+
+    /// The nearest transversely isotropic constants of a general cell, with a note of how far they are.
+    fn nearest(&mut self, field: &str, named: &str, case: &GeneralCase) -> Result<Constants, Error> {
+        if case.temperatures().is_some() {
+            let problem = format!("the cell {named:?} has tables over temperature, but a coil has one set of constants");
+            let remedy = "give those of one temperature, as `fogcoil homogenize --temperatures` prints them";
+            return Err(self.top.fault(field, problem, remedy).into());
+        }
+        let found = at_temperature(case, None, TOLERANCE)?;
+        let far = 100.0 * found.anisotropy;
+        let constants = found.nearest.filter(|_| found.anisotropy <= MOST_ANISOTROPY).ok_or_else(|| {
+            let most = 100.0 * MOST_ANISOTROPY;
+            let problem = format!(
+                "the cell {named:?} is not isotropic across the fibre by {far:.2} % of strain energy, more than the {most} % that a \
+                 coil's law may leave out"
+            );
+            let remedy = "take a cell of more fibres, or give the constants themselves: `fogcoil homogenize` prints the nearest";
+            self.top.fault(field, problem, remedy)
+        })?;
+        self.notes.push(format!(
+            "{field}: the cell {named:?} is not isotropic across the fibre by {far:.2} % of strain energy; its mean over all turns about \
+             the fibre is taken"
+        ));
+        Ok(constants)
     }
 }

@@ -29,7 +29,7 @@ mod targets_file;
 mod timestamp;
 mod warnings;
 
-pub use cell::{CellCase, read_any_cell, read_cell};
+pub use cell::{AnyCell, CellCase, read_any_cell, read_cell};
 pub use cell_general::GeneralCase;
 pub use cell_material::Material;
 pub use coil::{CoilCase, Origin, PRINTED, Provenance, check_coil, read_coil};

@@ -82,6 +82,9 @@ fn entries(at: &Group, file: &Entries) -> Result<Vec<Target>, InputError> {
             }
             Entry::Measured(value, sd) => {
                 let remedy = "give the value and its standard deviation in the key's unit, e.g. Measured(14.5, 0.1)";
+                if !value.is_finite() {
+                    return Err(at.fault(key, format!("the value {value} is not a finite number"), remedy));
+                }
                 if !(sd.is_finite() && *sd >= value.abs() * FINEST && *sd > 0.0) {
                     let problem = format!("the standard deviation {sd} is not greater than {FINEST} of the value");
                     return Err(at.fault(key, problem, remedy));
@@ -96,7 +99,7 @@ fn entries(at: &Group, file: &Entries) -> Result<Vec<Target>, InputError> {
     Ok(targets)
 }
 
-/// Least relative standard deviation: the finite elements' own error is below it.
+/// Least relative standard deviation: the numerical error is below it.
 const FINEST: f64 = 1e-5;
 
 /// A printed number and half a unit of its last digit.

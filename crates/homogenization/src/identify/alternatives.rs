@@ -1,14 +1,10 @@
-//! Two sets of constituents that explain the entries alike, and the measurement that would tell them apart.
+//! Two sets of constituents that explain the entries alike.
 
 use super::emulator::Emulator;
 use super::fit::minimise;
-use super::response::{KNOWN, Known, Response, known, solved};
+use super::response::{Response, known, solved};
 use super::search::distance;
 use super::target::{Target, distances};
-use super::{Parameter, Quantity};
-use crate::bounds::cylinders;
-use crate::{FibreCell, Role};
-use std::f64::consts::PI;
 
 /// Draws that are moved onto the best fit's entries.
 const MOVED: usize = 120;
@@ -20,25 +16,7 @@ const HELD: f64 = 0.05;
 const AGREE: f64 = 0.3;
 const MOST_CORRECTIONS: usize = 10;
 
-/// A further measurement and what each set predicts for it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Measurement {
-    /// What is measured, and on what.
-    pub what: String,
-    /// What each of the two sets predicts, SI.
-    pub values: [f64; 2],
-    /// Standard deviation that such a measurement usually has, SI.
-    pub error: f64,
-}
-
-impl Measurement {
-    /// Distance of the two predictions in standard deviations of the measurement.
-    pub fn separation(&self) -> f64 {
-        (self.values[0] - self.values[1]).abs() / self.error
-    }
-}
-
-/// The two draws farthest apart that give the best fit's entries, with their finite-element responses; none if fewer can be moved there.
+/// The two draws farthest apart that give the best fit's entries, with their responses; none if fewer can be moved there.
 pub(crate) fn pair(
     emulator: &mut Emulator,
     targets: &[Target],
@@ -82,62 +60,4 @@ pub(crate) fn pair(
         }
     }
     None
-}
-
-/// Every further measurement that tells two sets apart, the most telling first.
-pub(crate) fn measurements(
-    parameters: &[Parameter],
-    targets: &[Target],
-    cells: [&FibreCell; 2],
-    values: [&[f64]; 2],
-    known: [&Known; 2],
-) -> Vec<Measurement> {
-    let mut all = Vec::new();
-    let mut add = |what: String, values: [f64; 2], relative: f64, absolute: f64| {
-        let error = (relative * (values[0].abs() + values[1].abs()) / 2.0).hypot(absolute);
-        all.push(Measurement { what, values, error });
-    };
-    for (i, name) in KNOWN.into_iter().enumerate().filter(|(_, name)| targets.iter().all(|t| t.name() != *name)) {
-        let (relative, absolute) = match name {
-            "nu_zr" | "nu_r" => (0.0, 0.01),
-            "nu_rz" => (0.05, 0.0),
-            "alpha_z" | "alpha_r" => (0.02, 0.0),
-            "k_z" | "k_r" => (0.05, 0.0),
-            _ => (0.03, 0.0),
-        };
-        add(format!("{name} of the coil"), [known[0][i], known[1][i]], relative, absolute);
-    }
-    if let [Some(a), Some(b)] = cells.map(fibre_alone) {
-        add("Young's modulus of the coated fibre alone (tensile test)".into(), [a[0], b[0]], 0.01, 0.0);
-        add("axial expansion of the coated fibre alone (dilatometer)".into(), [a[1], b[1]], 0.02, 0.02e-6);
-        add("swelling of the coated fibre alone (diameter over temperature)".into(), [a[2], b[2]], 0.05, 0.0);
-    }
-    let glass: Vec<bool> = cells[0].rings.iter().map(|ring| ring.role == Role::Glass).chain([false]).collect();
-    for (i, parameter) in parameters.iter().enumerate() {
-        let (what, relative, absolute) = match parameter.quantity {
-            Quantity::YoungsModulus => ("Young's modulus", 0.1, 0.0),
-            Quantity::BulkModulus => ("bulk modulus (ultrasound)", 0.05, 0.0),
-            Quantity::PoissonRatio => ("Poisson's ratio", 0.0, 0.01),
-            Quantity::ThermalExpansion => ("expansion", 0.05, 0.0),
-            Quantity::Conductivity => ("conductivity", 0.05, 0.0),
-            Quantity::OuterDiameter => ("outer diameter (microscope)", 0.0, 0.5e-6),
-        };
-        // the glass is known better than any of these measures it
-        if parameter.quantity == Quantity::OuterDiameter || !glass.get(i / 4).copied().unwrap_or(false) {
-            add(format!("{what} of the {}", parameter.phase), [values[0][i], values[1][i]], relative, absolute);
-        }
-    }
-    all.retain(|m| m.separation().is_finite());
-    all.sort_by(|a, b| b.separation().total_cmp(&a.separation()));
-    all
-}
-
-/// Young's modulus and the expansions along and across of the coated fibre without adhesive, exactly; `None` for a bare fibre.
-fn fibre_alone(cell: &FibreCell) -> Option<[f64; 3]> {
-    let (outer, inner) = cell.rings.split_last().filter(|(_, inner)| inner.iter().any(|ring| ring.role == Role::Glass))?;
-    // the cell whose circle of equal area is the fibre
-    let pitch = outer.outer_radius * (PI / 0.75_f64.sqrt()).sqrt();
-    let fibre = FibreCell { packing: crate::Packing::Hexagonal, pitch, rings: inner.to_vec(), adhesive: outer.constituent };
-    let constants = cylinders(&fibre).ok()?.constants()?;
-    Some([constants.e_z, constants.alpha_z, constants.alpha_r])
 }

@@ -1,4 +1,4 @@
-//! The finite-element response, predicted: composite cylinders plus a Gaussian process through the differences seen so far.
+//! The cell's response, predicted: composite cylinders plus a Gaussian process through the differences seen so far.
 
 use super::Family;
 use super::response::{RESPONSES, Response, estimated};
@@ -40,7 +40,7 @@ impl<'a> Emulator<'a> {
         Some(y)
     }
 
-    /// Learns what the finite elements answered; cells without an answer are left out.
+    /// Learns what cells answered when they were solved; those without an answer are left out.
     pub(crate) fn learn(&mut self, solved: impl IntoIterator<Item = (Vec<f64>, Option<Response>)>) {
         for (u, y) in solved {
             let Some((y, estimate)) = y.zip(self.family.cell(&u).as_ref().and_then(estimated)) else { continue };

@@ -9,7 +9,7 @@
 //!   US 5 371 593 and US 5 546 482).
 //! - Bulk modulus of rubbers: that of the liquid, 1.5 to 5 GPa (J. E. Mark, *Physical Properties of Polymers Handbook*, 2007).
 //!
-//! None of the ranges was chosen with an identified cell in sight.
+//! The ranges are judgements of ordinary materials, made once for all cells; they were not fitted to any.
 
 use super::{MaterialPrior, Prior, Volume};
 

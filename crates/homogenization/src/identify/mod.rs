@@ -2,18 +2,19 @@
 //!
 //! The unknowns of a [`Family`] (moduli, expansions, conductivities, diameters within tolerance) are normal or log-normal before the
 //! measurement; u counts their standard deviations from the median. The entries ([`Target`]) are printed numbers, flat over their
-//! rounding interval, or values with a standard deviation. Every number reported rests on the finite elements; a composite-cylinder model
+//! rounding interval, or values with a standard deviation. Every number reported rests on the solved cell ([`crate::homogenize`]); a composite-cylinder model
 //! with a Gaussian process through its differences from them (`emulator`) stands for them where thousands of cells are needed.
 //!
-//! 1. Starts from the priors alone, Levenberg–Marquardt on the emulator, refined until the finite elements agree (`search`).
+//! 1. Starts from the priors alone, Levenberg–Marquardt on the emulator, refined until the solved cell agrees (`search`).
 //! 2. Draws from the posterior about every minimum that counts, on an emulator trained where the draws lie (`posterior`).
-//! 3. The two draws farthest apart, moved onto the same entries with finite elements, and what would tell them apart (`alternatives`).
+//! 3. The two draws farthest apart, moved onto the same entries with solved cells, and what would tell them apart (`alternatives`).
 
 mod alternatives;
 mod emulator;
 mod family;
 mod fit;
 pub mod literature;
+mod measurement;
 mod posterior;
 mod prior;
 mod random;
@@ -23,13 +24,14 @@ mod sample;
 mod search;
 mod target;
 
-pub use alternatives::Measurement;
 pub use family::{Family, MaterialPrior, Parameter, Quantity, RingPrior, Volume};
+pub use measurement::Measurement;
 pub use posterior::{Direction, Posterior};
 pub use prior::{Prior, Scale, Z95};
 pub use random::Random;
 pub use region::Region;
 pub use response::Known;
+pub use search::starts;
 pub use target::{Target, Uncertainty};
 
 use crate::FibreCell;
@@ -48,7 +50,7 @@ pub struct Fit {
     pub values: Vec<f64>,
     /// The cell.
     pub cell: FibreCell,
-    /// Each target's constant, by finite elements.
+    /// Each target's constant, solved.
     pub entries: Vec<f64>,
     /// Whether each is met.
     pub met: Vec<bool>,
@@ -107,7 +109,7 @@ impl Outcome {
 pub struct Alternatives {
     /// The sets.
     pub sets: [Fit; 2],
-    /// What would tell them apart, the most telling first.
+    /// Further measurements, the one that would narrow the posterior most first.
     pub measurements: Vec<Measurement>,
 }
 
@@ -118,7 +120,7 @@ pub struct Identification {
     pub outcomes: Vec<Outcome>,
     /// The family that the rest is about: of those that explain the entries the one closest to its priors, else that with the least misfit.
     pub chosen: usize,
-    /// What is known of its parameters; `None` if no family explains the entries.
+    /// What is known of its parameters; `None` if no family explains the entries, or none of its minima that chains may start from does.
     pub posterior: Option<Posterior>,
     /// Two of its cells; `None` if they cannot be found.
     pub alternatives: Option<Alternatives>,
@@ -134,13 +136,13 @@ pub fn identify(families: &[Family], targets: &[Target], seed: u64, note: &dyn F
     for family in families {
         note(&format!("searching the cells of the {}", family.name));
         let mut emulator = Emulator::new(family);
-        let mut random = Random::new(seed);
+        let dimensions = family.parameters().len();
         let fit = |found: Found| Some((Fit::new(family, targets, found.u, found.response)?, found.cost));
-        let minima = search(&mut emulator, targets, Demand::Data, &mut random);
+        let minima = search(&mut emulator, targets, Demand::Data, &starts(dimensions, seed));
         let (best, cost) = fit(minima.first()?.clone())?;
         let mut ordinary = None;
         if !(best.reproduces() && best.is_ordinary()) {
-            ordinary = search(&mut emulator, targets, Demand::Ordinary, &mut random)
+            ordinary = search(&mut emulator, targets, Demand::Ordinary, &starts(dimensions, seed + 1))
                 .into_iter()
                 .next()
                 .and_then(fit)
@@ -164,13 +166,7 @@ pub fn identify(families: &[Family], targets: &[Target], seed: u64, note: &dyn F
     let alternatives = posterior.as_ref().and_then(|posterior| {
         let [a, b] = alternatives::pair(emulator, targets, &best.response, &posterior.draws)?;
         let [a, b] = [Fit::new(family, targets, a.0, a.1)?, Fit::new(family, targets, b.0, b.1)?];
-        let measurements = alternatives::measurements(
-            &family.parameters(),
-            targets,
-            [&a.cell, &b.cell],
-            [&a.values, &b.values],
-            [&a.known, &b.known],
-        );
+        let measurements = measurement::measurements(emulator, targets, [&a, &b], &posterior.draws);
         Some(Alternatives { sets: [a, b], measurements })
     });
     Some(Identification { outcomes, chosen, posterior, alternatives })

@@ -52,9 +52,12 @@ impl Direction {
 impl Posterior {
     /// The central interval of parameter `j` that holds `probability`, in prior standard deviations.
     pub fn interval(&self, j: usize, probability: f64) -> [f64; 2] {
-        let mut values: Vec<f64> = self.draws.iter().map(|u| u[j]).collect();
-        values.sort_by(f64::total_cmp);
-        [(1.0 - probability) / 2.0, (1.0 + probability) / 2.0].map(|p| quantile(&values, p))
+        central(self.draws.iter().map(|u| u[j]).collect(), probability)
+    }
+
+    /// The central interval of the combination `along` of parameters that holds `probability`, in prior standard deviations.
+    pub fn interval_along(&self, along: &[f64], probability: f64) -> [f64; 2] {
+        central(self.draws.iter().map(|u| u.iter().zip(along).map(|(u, a)| u * a).sum()).collect(), probability)
     }
 
     /// Directions along which the entries say more than the priors (gain above one).
@@ -87,6 +90,12 @@ impl Posterior {
         let tail = quantile(&least, 1.0 - probability);
         columns.iter().map(|values| [quantile(values, tail), quantile(values, 1.0 - tail)]).collect()
     }
+}
+
+/// The central interval that holds `probability` of some values.
+fn central(mut values: Vec<f64>, probability: f64) -> [f64; 2] {
+    values.sort_by(f64::total_cmp);
+    [(1.0 - probability) / 2.0, (1.0 + probability) / 2.0].map(|p| quantile(&values, p))
 }
 
 /// Of sorted values.

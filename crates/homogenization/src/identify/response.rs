@@ -1,7 +1,7 @@
 //! What a cell answers: nine independent numbers, from which the constants follow.
 
 use crate::bounds::cylinders;
-use crate::{Constants, Discretization, FibreCell, effective};
+use crate::{Constants, FibreCell, homogenize};
 use std::thread;
 
 /// Independent responses: ln k, ln g_r, ln g_zr, ln e_z, nu_zr, alpha_z and alpha_r in 1e-4/K, ln k_z, ln k_r.
@@ -44,12 +44,12 @@ pub(crate) fn estimated(cell: &FibreCell) -> Option<Response> {
     response(&cylinders(cell).ok()?.constants()?)
 }
 
-/// By finite elements; `None` where they fail.
+/// By multipoles, to 1e-6; `None` where they do not get there.
 pub(crate) fn solved(cell: &FibreCell) -> Option<Response> {
-    response(&effective(cell, &Discretization::standard(cell)).ok()?.constants()?)
+    response(&homogenize(cell).ok()?.constants)
 }
 
-/// Finite elements for many cells, on every core; the order does not depend on their number.
+/// [`solved`] for many cells, on every core; the order does not depend on their number.
 pub(crate) fn solved_all(cells: &[Option<FibreCell>]) -> Vec<Option<Response>> {
     let workers = thread::available_parallelism().map_or(1, |n| n.get());
     let chunk = cells.len().div_ceil(workers).max(1);

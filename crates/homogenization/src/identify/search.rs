@@ -1,4 +1,4 @@
-//! The best cell of a family: many starts on the emulator, the promising ones refined with finite elements.
+//! The best cell of a family: many starts on the emulator, the promising ones refined with the solved cell.
 
 use super::ORDINARY;
 use super::emulator::Emulator;
@@ -26,7 +26,7 @@ pub(crate) enum Demand {
     Ordinary,
 }
 
-/// A cell found, with its finite-element response.
+/// A cell found, with its response.
 #[derive(Debug, Clone)]
 pub(crate) struct Found {
     pub(crate) u: Vec<f64>,
@@ -48,21 +48,26 @@ fn residuals(targets: &[Target], demand: Demand, u: &[f64], y: &Response) -> Vec
     entries.chain(priors).collect()
 }
 
-/// The minima found, the best first; none if the finite elements answer for no cell.
-pub(crate) fn search(emulator: &mut Emulator, targets: &[Target], demand: Demand, random: &mut Random) -> Vec<Found> {
-    let dimensions = emulator.family().parameters().len();
+/// Starts drawn from the priors of `dimensions` parameters, in prior standard deviations.
+pub fn starts(dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
+    let mut random = Random::new(seed);
+    (0..STARTS).map(|_| random.normals(dimensions)).collect()
+}
+
+/// The minima found, the best first; none if no cell can be solved.
+pub(crate) fn search(emulator: &mut Emulator, targets: &[Target], demand: Demand, starts: &[Vec<f64>]) -> Vec<Found> {
     let on_emulator =
         |emulator: &Emulator, start: &[f64]| minimise(|u| emulator.predict(u).map(|y| residuals(targets, demand, u, &y)), start);
-    let mut minima: Vec<_> = (0..STARTS).filter_map(|_| on_emulator(emulator, &random.normals(dimensions))).collect();
+    let mut minima: Vec<_> = starts.iter().filter_map(|start| on_emulator(emulator, start)).collect();
     minima.sort_by(|a, b| a.1.total_cmp(&b.1));
-    let mut starts: Vec<Vec<f64>> = Vec::new();
+    let mut promising: Vec<Vec<f64>> = Vec::new();
     for (u, _) in minima {
-        if starts.len() < REFINED && starts.iter().all(|other| distance(other, &u) > SAME) {
-            starts.push(u);
+        if promising.len() < REFINED && promising.iter().all(|other| distance(other, &u) > SAME) {
+            promising.push(u);
         }
     }
     let mut found: Vec<Found> = Vec::new();
-    for mut start in starts {
+    for mut start in promising {
         let mut best: Option<Found> = None;
         for _ in 0..MOST_REFINEMENTS {
             let Some((u, _)) = on_emulator(emulator, &start) else { break };

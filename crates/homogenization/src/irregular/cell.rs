@@ -16,6 +16,10 @@ pub struct Solid {
     pub conductivity: Matrix2<f64>,
     /// Conductivity along z \[W/(m K)\].
     pub conductivity_z: f64,
+    /// Density \[kg/m³\], if it is known.
+    pub density: Option<f64>,
+    /// Specific heat \[J/(kg K)\], if it is known.
+    pub specific_heat: Option<f64>,
 }
 
 /// A phase of the cell.
@@ -44,15 +48,16 @@ impl Solid {
     /// # Errors
     /// [`fem_core::Error::Material`] names the constant that is out of range.
     pub fn isotropic(constituent: &Constituent) -> Result<Self, fem_core::Error> {
-        let conductivity = Matrix2::identity() * constituent.conductivity;
-        Ok(Self { law: constituent.elastic.law()?, conductivity, conductivity_z: constituent.conductivity })
+        let Constituent { elastic, conductivity, density, specific_heat } = *constituent;
+        let law = elastic.law()?;
+        Ok(Self { law, conductivity: Matrix2::identity() * conductivity, conductivity_z: conductivity, density, specific_heat })
     }
 
     /// The same solid turned by `angle` \[rad\] about z.
     pub fn turned(&self, angle: f64) -> Self {
         let rotation = Rotation2::new(angle);
         let conductivity = rotation.matrix() * self.conductivity * rotation.matrix().transpose();
-        Self { law: self.law.turned(angle), conductivity, conductivity_z: self.conductivity_z }
+        Self { law: self.law.turned(angle), conductivity, ..*self }
     }
 
     fn check(&self, constituent: &str) -> Result<(), Error> {
@@ -84,6 +89,37 @@ impl Cell {
             phases.push(Phase { name, solid, role });
         }
         Ok(Self { layout, phases })
+    }
+
+    /// Mean density \[kg/m³\], if that of every phase is known; voids weigh nothing.
+    ///
+    /// # Errors
+    /// [`Error::Property`] of a density that is not positive.
+    pub fn density(&self) -> Result<Option<f64>, Error> {
+        self.mean("density", "kg/m³", |solid| solid.density)
+    }
+
+    /// Mean heat capacity of a volume \[J/(m³ K)\], voids included, if density and specific heat of every phase are known; the
+    /// thermoelastic part is neglected, as in [`FibreCell::heat_capacity`].
+    ///
+    /// # Errors
+    /// As [`Self::density`], also of a specific heat.
+    pub fn heat_capacity(&self) -> Result<Option<f64>, Error> {
+        self.density()?;
+        self.mean("specific heat", "J/(kg K)", |solid| solid.specific_heat)?;
+        self.mean("heat capacity", "J/(m³ K)", |solid| Some(solid.density? * solid.specific_heat?))
+    }
+
+    fn mean(&self, what: &'static str, unit: &'static str, of: impl Fn(&Solid) -> Option<f64>) -> Result<Option<f64>, Error> {
+        let mut sum = Some(0.0);
+        for (phase, area) in self.phases.iter().zip(self.layout.phase_areas()).filter(|(_, area)| *area > 0.0) {
+            let value = of(&phase.solid);
+            if let Some(value) = value.filter(|v| !(v.is_finite() && *v > 0.0)) {
+                return Err(Error::Property { constituent: phase.name.clone(), what, unit, value });
+            }
+            sum = sum.zip(value).map(|(sum, value)| sum + value * area / self.layout.area());
+        }
+        Ok(sum)
     }
 
     /// Solves the cell problems on elements of polynomial `order`; `fineness` 1 is the standard mesh.

@@ -1,9 +1,8 @@
 //! Engineering constants of a cell that need not be isotropic across the fibre.
 
 use super::response::mean_over_turns;
-use super::{Cell, Response, Solution, TEMPERATURE};
-use crate::{Error, NEGLIGIBLE, SAFETY};
-use fem_core::material::TransverselyIsotropic;
+use super::{Response, TEMPERATURE};
+use crate::{Constants, NEGLIGIBLE, SAFETY};
 use nalgebra::Matrix6;
 
 /// Engineering constants along x, y, z (z = fibre). SI.
@@ -57,6 +56,15 @@ impl Directional {
         NAMES.into_iter().zip(self.values()).collect()
     }
 
+    /// [`SAFETY`] times the distance of each constant from its value `before`, over itself, or over its floor if that is larger.
+    pub(super) fn differences(&self, before: &Self) -> Vec<(&'static str, f64)> {
+        let error = |((a, b), floor): ((f64, f64), f64)| match SAFETY * (a - b).abs() {
+            0.0 => 0.0,
+            difference => difference / a.abs().max(floor),
+        };
+        NAMES.into_iter().zip(self.values().into_iter().zip(before.values()).zip(self.floors()).map(error)).collect()
+    }
+
     fn values(&self) -> Vec<f64> {
         let Self { e, g, nu, alpha, k, k_plane_strain, m } = self;
         [&e[..], g, nu, alpha, k, &[*k_plane_strain], m].concat()
@@ -85,7 +93,6 @@ impl Response {
         let compliance = self.stiffness.try_inverse()?;
         let alpha = compliance * self.thermal_stress;
         let contraction = |of: usize, per: usize| -compliance[(of, per)] / compliance[(per, per)];
-        let radial = |load: usize| (self.glass_strain[(0, load)] + self.glass_strain[(1, load)]) / 2.0;
         let c = &self.stiffness;
         Some(Directional {
             e: [0, 1, 2].map(|i| 1.0 / compliance[(i, i)]),
@@ -94,59 +101,42 @@ impl Response {
             alpha: [alpha[0], alpha[1], alpha[2], alpha[5]],
             k: [self.conductivity[(0, 0)], self.conductivity[(1, 1)], self.conductivity_z, self.conductivity[(0, 1)]],
             k_plane_strain: (c[(0, 0)] + c[(1, 1)] + 2.0 * c[(0, 1)]) / 4.0,
-            m: [0, 1, 2, 5, TEMPERATURE].map(radial),
+            m: [0, 1, 2, 5, TEMPERATURE].map(|load| self.glass_radial(load)),
         })
     }
 
-    /// The nearest transversely isotropic constants, for a coil: those of the mean over all turns about z. `None` if that is singular.
-    pub fn transversely_isotropic(&self) -> Option<TransverselyIsotropic> {
+    /// The nearest transversely isotropic constants and row M, for a coil: those of the mean over all turns about z. `None` if that is
+    /// singular.
+    pub fn transversely_isotropic(&self) -> Option<Constants> {
         let mean = mean_over_turns(&self.law());
-        let compliance: Matrix6<f64> = mean.stiffness.try_inverse()?;
+        let stiffness = &mean.stiffness;
+        let compliance: Matrix6<f64> = stiffness.try_inverse()?;
         let alpha = compliance * mean.thermal_stress;
-        Some(TransverselyIsotropic {
+        // (xx + yy)/2 is the same in any axes: turning the cell only mixes what xx and yy do to it
+        let [m_x, m_y, m_rz, m_rt] = [0, 1, 2, TEMPERATURE].map(|load| self.glass_radial(load));
+        let (m_rx, m_ry) = (f64::midpoint(m_x, m_y), f64::midpoint(m_x, m_y));
+        Some(Constants {
             e_z: 1.0 / compliance[(2, 2)],
             e_r: 1.0 / compliance[(0, 0)],
-            g_zr: mean.stiffness[(4, 4)],
+            g_zr: stiffness[(4, 4)],
+            g_r: stiffness[(5, 5)],
+            k_plane_strain: (stiffness[(0, 0)] + stiffness[(0, 1)]) / 2.0,
             nu_zr: -compliance[(0, 2)] / compliance[(2, 2)],
             nu_r: -compliance[(0, 1)] / compliance[(0, 0)],
+            nu_rz: -compliance[(2, 0)] / compliance[(0, 0)],
             alpha_z: alpha[2],
             alpha_r: alpha[0],
+            k_z: self.conductivity_z,
+            k_r: self.conductivity.trace() / 2.0,
+            m_rx,
+            m_ry,
+            m_rz,
+            m_rt,
         })
     }
-}
 
-/// Effective constants of a cell with numerical errors, and the fields behind them.
-#[derive(Debug, Clone)]
-pub struct HomogenizedCell {
-    /// The constants.
-    pub constants: Directional,
-    /// Estimated relative error of each constant by name: [`SAFETY`] times the distance from its value two polynomial orders higher,
-    /// over itself, or over [`NEGLIGIBLE`] of the natural size of its kind if that is larger; of those that vanish in symmetric cells
-    /// (alpha_xy, k_xy, m_rxy) over all of that size.
-    pub relative_error: Vec<(&'static str, f64)>,
-    /// All of the response.
-    pub response: Response,
-    /// Mesh and fluctuations.
-    pub solution: Solution,
-}
-
-impl Cell {
-    /// Effective constants on elements of polynomial `order` (6 is standard) and a mesh of `fineness` (1 is standard).
-    ///
-    /// # Errors
-    /// [`Error`] names the constituent at fault, or the mesh or solve that failed.
-    pub fn homogenize(&self, order: usize, fineness: f64) -> Result<HomogenizedCell, Error> {
-        let singular =
-            || Error::Solve(fem_core::Error::NotPositiveDefinite { unknowns: 6, detail: "effective stiffness".into() });
-        let solution = self.solve(order, fineness)?;
-        let constants = solution.response().constants().ok_or_else(singular)?;
-        let finer = self.solve(order + 2, fineness)?.response().constants().ok_or_else(singular)?;
-        let error = |((a, b), floor): ((f64, f64), f64)| match SAFETY * (a - b).abs() {
-            0.0 => 0.0,
-            difference => difference / b.abs().max(floor),
-        };
-        let errors = constants.values().into_iter().zip(finer.values()).zip(finer.floors()).map(error);
-        let relative_error = NAMES.into_iter().zip(errors).collect();
-        Ok(HomogenizedCell { constants, relative_error, response: solution.response().clone(), solution })
+    /// Mean radial strain (xx + yy)/2 of the glass under a unit load.
+    fn glass_radial(&self, load: usize) -> f64 {
+        f64::midpoint(self.glass_strain[(0, load)], self.glass_strain[(1, load)])
     }
 }

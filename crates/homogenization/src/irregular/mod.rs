@@ -1,6 +1,6 @@
 //! Cells without symmetry: any arrangement of elliptical or offset rings, voids and hollow cores, constituents orthotropic about z.
 //!
-//! [`Cell`] is a [`Layout`] and what its phases are made of; [`Cell::homogenize`] returns all of its effective response with numerical
+//! [`Cell`] is a [`Layout`] and what its phases are made of; [`Cell::homogenize_to`] returns all of its effective response with numerical
 //! errors, and the fluctuations behind it, from which [`crate::fields`] takes the strain at any point under any load.
 //!
 //! Periodicity is the only assumption. Voids carry no stress, count in the cell's area and have free surfaces.
@@ -21,18 +21,20 @@
 //!     Phase { name: "glass".into(), solid: Solid::isotropic(&solid(72e9, 0.17, 0.55e-6, 1.38))?, role: Role::Glass },
 //! ];
 //! let cell = Cell { layout: Layout::new([[100e-6, 0.0], [0.0, 100e-6]], vec![fibre, void], 0)?, phases };
-//! let result = cell.homogenize(4, 1.0)?;
+//! let result = cell.homogenize_to(1e-3)?;
 //! assert!(result.constants.e[2] > 0.28 * 72e9 && result.response.anisotropy > 0.01);
 //! # Ok::<(), homogenization::Error>(())
 //! ```
 
+mod accuracy;
 mod cell;
 mod constants;
 mod response;
 mod solve;
 
+pub use accuracy::HomogenizedCell;
 pub use cell::{Cell, Phase, Solid};
-pub use constants::{Directional, HomogenizedCell};
+pub use constants::Directional;
 pub use response::{LOADS, Response, TEMPERATURE};
 pub use rve_mesh::{Arrangement, Inclusion, Layout, LayoutError, Outline, PeriodicMesh, displace};
 pub use solve::Solution;

@@ -10,7 +10,9 @@ use std::f64::consts::TAU;
 const DIRECT: usize = 20;
 /// Shells that are summed then: 8.6 pitches to the power of −18 against 1.
 const SHELLS: i32 = 10;
-/// Terms of the series in q = e^{2πiτ}, |q| < 0.0044.
+/// What adds nothing to a sum, of which the nearest points contribute up to one each.
+const NOTHING: f64 = 1e-20;
+/// Highest power of q = e^{2πiτ}, |q| < 0.0044, in the series.
 const TERMS: usize = 24;
 /// Powers of 1/2 that the period's series needs.
 const PERIOD_POWERS: usize = 64;
@@ -66,7 +68,7 @@ fn rows(tau: [f64; 2], k: usize, weight: impl Fn(f64) -> f64) -> f64 {
         let power = TAU * (n * r) as f64;
         weight(n as f64) * (r as f64).powi(k as i32 - 1) * (-power * tau[1]).exp() * (power * tau[0]).cos()
     };
-    factor * (1..=TERMS).flat_map(|n| (1..=TERMS).map(move |r| (n, r))).map(|(n, r)| term(n, r)).sum::<f64>()
+    factor * (1..=TERMS).flat_map(|n| (1..=TERMS / n).map(move |r| (n, r))).map(|(n, r)| term(n, r)).sum::<f64>()
 }
 
 /// S_k of even k: the row through the origin, 2 ζ(k), and all others.
@@ -96,7 +98,7 @@ fn add_shells(tau: [f64; 2], s: &mut [f64], t: &mut [f64]) {
         let (radius, angle) = (x.hypot(y), y.atan2(x));
         for k in DIRECT..s.len() {
             let size = 2.0 * radius.powi(-(k as i32));
-            if size < f64::MIN_POSITIVE {
+            if size * radius < NOTHING {
                 break;
             }
             if k % 2 == 0 {

@@ -26,7 +26,7 @@ pub const HIGHEST_ORDER: usize = 401;
 const RESIDUAL_LIMIT: f64 = 1e-12;
 
 /// Multipoles of odd orders on a lattice of circles of unit radius: the regular parts of E_n and H_n.
-struct Multipoles {
+pub(crate) struct Multipoles {
     order: usize,
     /// `e[n][m]`: coefficient of z^m in E_n
     e: DMatrix<f64>,
@@ -39,8 +39,15 @@ struct Multipoles {
 }
 
 impl Multipoles {
-    /// Up to the odd `order` for circles of `radius` in units of the pitch.
-    fn new(cell: &FibreCell, order: usize) -> Self {
+    /// Up to `order` (made odd) on the lattice of `cell` around its outermost radius.
+    ///
+    /// # Errors
+    /// [`Error::Multipoles`] if `order` is above [`HIGHEST_ORDER`].
+    pub(crate) fn new(cell: &FibreCell, order: usize) -> Result<Self, Error> {
+        let order = order | 1;
+        if order > HIGHEST_ORDER {
+            return Err(Error::Multipoles { order, detail: format!("the highest order is {HIGHEST_ORDER}") });
+        }
         let radius = cell.outermost() / cell.pitch;
         let sums = LatticeSums::new(cell.packing, 2 * order + 4);
         let size = order + 3;
@@ -62,7 +69,36 @@ impl Multipoles {
                 binomial *= (n + m) as f64 / (m + 1) as f64;
             }
         }
-        multipoles
+        Ok(multipoles)
+    }
+
+    /// The same up to `order` (made odd) only, if that is lower.
+    pub(crate) fn lowered(self, order: usize) -> Self {
+        Self { order: self.order.min(order | 1), ..self }
+    }
+
+    /// Effective response of `cell`, which may differ from the one these are made for in all but its lattice and outermost radius.
+    ///
+    /// # Errors
+    /// As [`multipoles`].
+    pub(crate) fn effective(&self, cell: &FibreCell) -> Result<Effective, Error> {
+        let phases = Phases::new(cell)?;
+        let mut effective = Effective {
+            stiffness: Matrix6::zeros(),
+            thermal_stress: Vector6::zeros(),
+            conductivity: Matrix2::zeros(),
+            conductivity_z: phases.mean(|i| phases.conductivities[i]),
+            glass_strain: SMatrix::zeros(),
+            unknowns: 0,
+            area_error: 0.0,
+        };
+        plane::add(self, cell, &phases, &mut effective)?;
+        for (axis, sign) in [1.0, -1.0].into_iter().enumerate() {
+            let of = |values: &dyn Fn(usize) -> f64| scalar::effective(self, cell, values, sign);
+            effective.stiffness[(4 - axis, 4 - axis)] = of(&|i| phases.laws[i].stiffness[(4, 4)])?;
+            effective.conductivity[(axis, axis)] = of(&|i| phases.conductivities[i])?;
+        }
+        Ok(effective)
     }
 
     fn failed(&self, detail: &str) -> Error {
@@ -88,28 +124,8 @@ pub(crate) fn decay(cell: &FibreCell) -> f64 {
 /// [`Error`] names the constituent or the geometry at fault; [`Error::Multipoles`] if a solution leaves a residual or `order` is above
 /// [`HIGHEST_ORDER`].
 pub fn multipoles(cell: &FibreCell, order: usize) -> Result<Effective, Error> {
-    let phases = Phases::new(cell)?;
-    let order = order | 1;
-    if order > HIGHEST_ORDER {
-        return Err(Error::Multipoles { order, detail: format!("the highest order is {HIGHEST_ORDER}") });
-    }
-    let multipoles = Multipoles::new(cell, order);
-    let mut effective = Effective {
-        stiffness: Matrix6::zeros(),
-        thermal_stress: Vector6::zeros(),
-        conductivity: Matrix2::zeros(),
-        conductivity_z: phases.mean(|i| phases.conductivities[i]),
-        glass_strain: SMatrix::zeros(),
-        unknowns: 0,
-        area_error: 0.0,
-    };
-    plane::add(&multipoles, cell, &phases, &mut effective)?;
-    for (axis, sign) in [1.0, -1.0].into_iter().enumerate() {
-        let of = |values: &dyn Fn(usize) -> f64| scalar::effective(&multipoles, cell, values, sign);
-        effective.stiffness[(4 - axis, 4 - axis)] = of(&|i| phases.laws[i].stiffness[(4, 4)])?;
-        effective.conductivity[(axis, axis)] = of(&|i| phases.conductivities[i])?;
-    }
-    Ok(effective)
+    cell.outline()?;
+    Multipoles::new(cell, order)?.effective(cell)
 }
 
 /// Solves a dense system and checks the residual.

@@ -1,0 +1,113 @@
+//! Order and mesh that follow from the accuracy asked for.
+
+use super::{Cell, Directional, Response, Solution};
+use crate::Error;
+
+/// Polynomial order that is tried first.
+const FIRST_ORDER: usize = 4;
+/// Highest polynomial order; then the mesh is refined.
+const HIGHEST_ORDER: usize = 12;
+/// Where a step of the order leaves more than this of the error, the mesh is refined.
+const SLOW: f64 = 0.1;
+/// A step that leaves more than this of the error has not helped; after [`PATIENCE`] of them in a row nothing does.
+const STALLED: f64 = 0.5;
+/// A higher order, a finer mesh, and once more.
+const PATIENCE: usize = 3;
+/// Finest mesh that is tried.
+const FINEST: f64 = 4.0;
+/// A step is never trusted to leave less than this of the error that the step before left.
+const LEAST_RATIO: f64 = 0.1;
+/// Unknowns at most: about 5 GB.
+const MOST_UNKNOWNS: usize = 1_000_000;
+
+/// Effective constants of a cell with numerical errors, and the fields behind them.
+#[derive(Debug, Clone)]
+pub struct HomogenizedCell {
+    /// The constants.
+    pub constants: Directional,
+    /// Estimated relative error of each constant by name: [`SAFETY`](crate::SAFETY) times the distance from its value on elements two
+    /// orders lower or twice as large, less as the distances fall from step to step but no less than a tenth; over itself, or over
+    /// [`NEGLIGIBLE`](crate::NEGLIGIBLE) of the natural size of its kind if that is larger; of those that vanish in symmetric cells
+    /// (alpha_xy, k_xy, m_rxy) over all of that size.
+    pub relative_error: Vec<(&'static str, f64)>,
+    /// All of the response.
+    pub response: Response,
+    /// Mesh and fluctuations.
+    pub solution: Solution,
+    /// Fineness of the mesh; 1 is standard.
+    pub fineness: f64,
+}
+
+/// Elements that a cell is solved on.
+#[derive(Debug, Clone, Copy)]
+struct Level {
+    order: usize,
+    fineness: f64,
+}
+
+impl Level {
+    /// Two orders higher, or a mesh twice as fine if that did not help or the order is the highest.
+    fn next(self, stalled: bool) -> Self {
+        if stalled || self.order == HIGHEST_ORDER {
+            Self { fineness: 2.0 * self.fineness, ..self }
+        } else {
+            Self { order: self.order + 2, ..self }
+        }
+    }
+
+    /// Unknowns, from those of another level.
+    fn unknowns(self, of: usize, at: Self) -> usize {
+        let growth = (self.order as f64 / at.order as f64) * (self.fineness / at.fineness);
+        (of as f64 * growth * growth) as usize
+    }
+}
+
+impl Cell {
+    /// Effective constants, each to `relative_error` by its own estimate: the order of the elements is raised from 4 by twos up to 12 until
+    /// two solutions agree; where two orders do not bring the error to a tenth, the mesh is refined, twice at most.
+    ///
+    /// # Errors
+    /// [`Error::Accuracy`] with the best estimate reached if neither helps, or a million unknowns do not suffice; else [`Error`] names
+    /// the constituent at fault, or the mesh or solve that failed.
+    pub fn homogenize_to(&self, relative_error: f64) -> Result<HomogenizedCell, Error> {
+        let mut level = Level { order: FIRST_ORDER, fineness: 1.0 };
+        let mut last = constants(&self.solve(level.order, level.fineness)?)?;
+        let (mut before, mut best, mut stalls, mut refined) = (None, f64::INFINITY, 0, false);
+        level = level.next(false);
+        loop {
+            let solution = self.solve(level.order, level.fineness)?;
+            let constants = constants(&solution)?;
+            let mut errors = constants.differences(&last);
+            let worst = errors.iter().fold(("", 0.0), |worst, one| if one.1 > worst.1 { *one } else { worst });
+            let left = before.map(|before: f64| worst.1 / before);
+            let ratio = left.map_or(1.0, |left| left.clamp(LEAST_RATIO, 1.0));
+            errors.iter_mut().for_each(|(_, error)| *error *= ratio);
+            if worst.1 * ratio <= relative_error {
+                let response = solution.response().clone();
+                return Ok(HomogenizedCell { constants, relative_error: errors, response, solution, fineness: level.fineness });
+            }
+            best = best.min(worst.1 * ratio);
+            // a refinement is followed by a higher order
+            let next = level.next(!refined && left.is_some_and(|left| left > SLOW));
+            let unknowns = next.unknowns(solution.response().unknowns, level);
+            stalls = if left.is_some_and(|left| left > STALLED) { stalls + 1 } else { 0 };
+            let why = if stalls == PATIENCE || next.fineness > FINEST {
+                "neither a higher order nor a finer mesh brings it down: raise the tolerance above that".into()
+            } else if unknowns > MOST_UNKNOWNS {
+                let remedy = "raise the tolerance above that, or take fewer fibres";
+                format!("the next step would take {unknowns} unknowns, more than {MOST_UNKNOWNS}: {remedy}")
+            } else {
+                refined = next.fineness > level.fineness;
+                (level, last, before) = (next, constants, Some(worst.1));
+                continue;
+            };
+            let with = format!("{} elements of order {}", solution.mesh().elements().len(), level.order);
+            return Err(Error::Accuracy { constant: worst.0, requested: relative_error, reached: best, with, why });
+        }
+    }
+}
+
+fn constants(solution: &Solution) -> Result<Directional, Error> {
+    let singular = || Error::Solve(fem_core::Error::NotPositiveDefinite { unknowns: 6, detail: "effective stiffness".into() });
+    solution.response().constants().ok_or_else(singular)
+}

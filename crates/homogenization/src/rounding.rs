@@ -1,0 +1,44 @@
+//! What rounding may do to the constants: the cell is solved again with inputs that are a few roundings off, so that every one on the way
+//! falls out differently. Cancellation wherever it is (thermal stresses of a nearly incompressible phase against the far smaller one of
+//! the cell, a stack of rings of great contrast, the dense system) shows as spread.
+
+use crate::cell::Constituent;
+use crate::identify::Random;
+use crate::{Effective, FibreCell};
+use nalgebra::Matrix3;
+
+/// Cells solved anew.
+pub(crate) const CELLS: u64 = 3;
+/// Factor on their largest distance, so few that all may lie close by chance.
+pub(crate) const SPREAD: f64 = 6.0;
+/// Largest change of an input, in roundings.
+const ROUNDINGS: f64 = 4.0;
+/// Roundings that add up in the best-conditioned constant: a few times what was seen when rings are split into rings of one material.
+const LEAST: f64 = 128.0;
+
+/// `cell` with every input a few roundings off, another way for each `seed`; Poisson's ratio, whose last digit near 1/2 is a different solid,
+/// by one at most. Pitch and outermost radius stay, on which the lattice sums rest.
+pub(crate) fn shaken(cell: &FibreCell, seed: u64) -> FibreCell {
+    let mut random = Random::new(seed);
+    let mut shake = |value: &mut f64, most: f64| *value *= 1.0 + (2.0 * random.uniform() - 1.0) * most * f64::EPSILON;
+    let mut constituent = |c: &mut Constituent| {
+        shake(&mut c.elastic.youngs_modulus, ROUNDINGS);
+        shake(&mut c.elastic.poisson_ratio, 1.0);
+        shake(&mut c.elastic.thermal_expansion, ROUNDINGS);
+        shake(&mut c.conductivity, ROUNDINGS);
+    };
+    let mut shaken = cell.clone();
+    shaken.rings.iter_mut().for_each(|ring| constituent(&mut ring.constituent));
+    constituent(&mut shaken.adhesive);
+    let inner = shaken.rings.len().saturating_sub(1);
+    shaken.rings[..inner].iter_mut().for_each(|ring| shake(&mut ring.outer_radius, ROUNDINGS));
+    shaken
+}
+
+/// The least relative error of a constant: it grows with the condition of the effective stiffness, scaled to a unit diagonal.
+pub(crate) fn least(effective: &Effective) -> f64 {
+    let c = effective.stiffness.fixed_view::<3, 3>(0, 0);
+    let scaled = Matrix3::from_fn(|i, j| c[(i, j)] / (c[(i, i)] * c[(j, j)]).sqrt());
+    let condition = scaled.try_inverse().map_or(f64::INFINITY, |inverse| scaled.norm() * inverse.norm());
+    LEAST * f64::EPSILON * condition
+}

@@ -1,0 +1,121 @@
+//! `cargo xtask sabotage`: breaks the cell's crates on purpose, one line at a time, and notes which tests see it.
+
+mod kept;
+mod list;
+mod tree;
+
+use crate::validate::{Failure, root, write};
+use kept::Kept;
+use list::LIST;
+use std::fmt::Write as _;
+use std::path::Path;
+use std::time::Instant;
+use tree::{Outcome, Tree};
+
+/// The crates under test, each after those it depends on.
+const CRATES: [&str; 3] = ["fem-core", "rve-mesh", "homogenization"];
+/// The table, which `cargo xtask validate` takes over into docs/validation.md.
+const PAGE: &str = "xtask/src/validate/sabotage.md";
+/// Names of red tests that the table gives.
+const SHOWN: usize = 3;
+
+/// A change that makes the program wrong.
+struct Sabotage {
+    /// What is wrong then.
+    name: &'static str,
+    /// In which file of the workspace.
+    file: &'static str,
+    /// The text that is replaced; it must be there exactly once.
+    find: &'static str,
+    /// What it becomes.
+    replace: &'static str,
+}
+
+impl Sabotage {
+    /// The file's text with the change made.
+    fn apply(&self, root: &Path) -> Result<String, Failure> {
+        let path = root.join(self.file);
+        let text = std::fs::read_to_string(&path).map_err(|e| Failure(format!("{}: {e}", path.display())))?;
+        match text.matches(self.find).count() {
+            1 => Ok(text.replacen(self.find, self.replace, 1)),
+            count => Err(Failure(format!(
+                "sabotage \"{}\" is stale: {} holds its text {count} times instead of once; mend xtask/src/sabotage/list.rs",
+                self.name, self.file
+            ))),
+        }
+    }
+
+    /// The crates whose tests it may turn red.
+    fn reach(&self) -> &'static [&'static str] {
+        let of_file = |name: &&str| self.file.starts_with(&format!("crates/{name}/"));
+        &CRATES[CRATES.iter().position(of_file).unwrap_or(0)..]
+    }
+}
+
+/// The table of what is known so far.
+fn table(sound: &Outcome, outcomes: &[Option<Outcome>]) -> String {
+    let mut table = format!(
+        "Without sabotage all {} tests of {} pass. Documentation tests and those of other crates are not counted.\n\n\
+        | sabotage | where | red tests |\n|---|---|---|\n",
+        sound.count,
+        CRATES.join(", ")
+    );
+    for (sabotage, outcome) in LIST.iter().zip(outcomes) {
+        let place = sabotage.file.trim_start_matches("crates/");
+        let _ = writeln!(table, "| {} | `{place}` | {} |", sabotage.name, outcome.as_ref().map_or("not run yet".into(), verdict));
+    }
+    table
+}
+
+fn verdict(outcome: &Outcome) -> String {
+    let names: Vec<String> = outcome.red.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
+    match outcome.red.len() {
+        0 => "**none: no test sees it**".into(),
+        count => format!("{count}: {}{}", names.join(", "), if count > SHOWN { ", …" } else { "" }),
+    }
+}
+
+/// Breaks the crates in every way of the list, writes [`PAGE`], and says whether each was caught.
+///
+/// What was found for the same sources is kept in target/sabotage: a run that was stopped goes on.
+pub(crate) fn run() -> Result<bool, Failure> {
+    let (root, start) = (root(), Instant::now());
+    let step = |what: &str| eprintln!("[{:5.0} s] {what}", start.elapsed().as_secs_f64());
+    let broken = LIST.iter().map(|sabotage| sabotage.apply(&root)).collect::<Result<Vec<_>, _>>()?;
+    let tree = Tree::copy(&root)?;
+    let mut kept = Kept::open(root.join("target/sabotage/kept.json"));
+    step("no sabotage");
+    let sound = kept.or_find(tree.key(None), || tree.test(&CRATES))?;
+    if !sound.red.is_empty() {
+        return Err(Failure(format!("red without any sabotage: {}", sound.red.join(", "))));
+    }
+    let mut outcomes: Vec<Option<Outcome>> = vec![None; LIST.len()];
+    for ((sabotage, text), place) in LIST.iter().zip(&broken).zip(0..) {
+        step(sabotage.name);
+        let outcome = kept.or_find(tree.key(Some(sabotage)), || tree.sabotaged(sabotage, text))?;
+        eprintln!("          {}", verdict(&outcome));
+        outcomes[place] = Some(outcome);
+        write(&root.join(PAGE), &table(&sound, &outcomes))?;
+    }
+    step(&format!("{PAGE} is written; `cargo xtask validate` takes it over"));
+    let caught = outcomes.iter().flatten().filter(|outcome| !outcome.red.is_empty()).count();
+    println!("{caught} of {} sabotages are caught", LIST.len());
+    Ok(caught == LIST.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each is there to be made, makes a difference, and stands for itself.
+    #[test]
+    fn the_list_fits_the_sources() {
+        for (i, sabotage) in LIST.iter().enumerate() {
+            let text = sabotage.apply(&root()).unwrap_or_else(|failure| panic!("{failure}"));
+            assert!(text.contains(sabotage.replace) && sabotage.find != sabotage.replace, "{}", sabotage.name);
+            assert!(sabotage.reach().iter().any(|name| sabotage.file.contains(name)), "{}", sabotage.name);
+            assert!(LIST[..i].iter().all(|other| other.name != sabotage.name), "{}", sabotage.name);
+            assert!(!sabotage.name.contains('|'), "{}", sabotage.name);
+        }
+    }
+}
