@@ -56,5 +56,5 @@ pub(crate) fn text(bounds: &Bounds, result: &Homogenized) -> String {
     )
 }
 
-/// Relative rounding error of bounds that coincide.
-const ROUNDING: f64 = 1e-9;
+/// Relative rounding error of bounds that coincide: the root of a difference that should vanish.
+const ROUNDING: f64 = 1e-6;

@@ -15,7 +15,7 @@ pub const NEGLIGIBLE: f64 = 1e-6;
 const STEP: f64 = 0.03;
 
 /// A constant's estimate is at least this share of the worst one's: two orders may agree in one of them by chance.
-const SHARE: f64 = 0.1;
+pub(crate) const SHARE: f64 = 0.1;
 
 /// Factor on the distance to two orders higher: it covers the true error as long as two orders halve it at least.
 pub const SAFETY: f64 = 2.0;
@@ -173,7 +173,7 @@ pub fn homogenize_to(cell: &FibreCell, relative_error: f64) -> Result<Homogenize
             let why = if rounded {
                 "rounding stands in the way (a nearly incompressible phase, a great contrast): raise the tolerance above that"
             } else {
-                "the film between the fibres is too thin: raise the tolerance above that, or the pitch"
+                "the film between the fibres is too thin: make the pitch larger, or the tolerance greater than that"
             };
             let with = format!("multipoles up to order {order}");
             return Err(Error::Accuracy { constant, requested: relative_error, reached, with, why: why.into() });

@@ -4,18 +4,29 @@
 
 mod common;
 
-use common::{reference, solid, solve, two_phase, varied};
+use common::{on, reference, solid, solve, two_phase, varied};
 use fem_core::material::Isotropic;
-use homogenization::bounds::{Bounds, Range, bounds, cylinders};
-use homogenization::{Constants, Constituent, Extent, FibreCell, Packing, Ring, Role};
+use homogenization::bounds::{Range, bounds, cylinders};
+use homogenization::{
+    Constants, Constituent, Extent, FibreCell, Homogenized, Packing, Ring, Role, homogenize, homogenize_on, homogenize_to,
+};
 use proptest::prelude::*;
 
-/// Solved at order 8; relative slack for its error, absolute for constants near zero (Poisson's ratios; expansions in 1e-6/K).
-const SLACK: f64 = 2e-4;
+/// What rounding may do to closed forms, relative: they take differences of phases that may be a million times stiffer, and far stiffer
+/// still against compression; bounds that are attained lie at the root of a difference that should vanish.
+fn rounding(cell: &FibreCell) -> f64 {
+    let all = || cell.rings.iter().map(|ring| &ring.constituent).chain([&cell.adhesive]).map(|c| c.elastic);
+    let moduli = || all().map(|c| c.youngs_modulus);
+    let contrast = moduli().fold(0.0, f64::max) / moduli().fold(f64::INFINITY, f64::min);
+    let volume = all().map(|c| 1.0 - 2.0 * c.poisson_ratio).fold(1.0, f64::min);
+    (10.0 * f64::EPSILON * contrast / volume).sqrt()
+}
 
-fn inside(range: &Range, c: &Constants) -> Result<(), String> {
-    for ((name, [lower, upper]), (_, value)) in range.named().into_iter().zip(c.named()) {
-        let slack = SLACK * value.abs().max(lower.abs().min(upper.abs())) + 1e-12;
+/// `value` inside, but for its own `error` and rounding, that of expansions relative to the largest of a constituent.
+fn inside(range: &Range, value: &Constants, error: &Constants, rounding: f64) -> Result<(), String> {
+    for (((name, [lower, upper]), (_, value)), (_, error)) in range.named().into_iter().zip(value.named()).zip(error.named()) {
+        let scale = if name.starts_with("alpha") { 300e-6 } else { value.abs() };
+        let slack = error + rounding * scale;
         if !(lower - slack <= value && value <= upper + slack) {
             return Err(format!("{name}: {value} outside [{lower}, {upper}]"));
         }
@@ -23,12 +34,13 @@ fn inside(range: &Range, c: &Constants) -> Result<(), String> {
     Ok(())
 }
 
-/// Finite elements inside both pairs, the narrower pair inside the wider.
-fn check(cell: &FibreCell) -> Result<(Bounds, Constants), String> {
-    let (found, constants) = (bounds(cell).unwrap(), solve(cell, 8, Extent::Quarter).1);
-    inside(&found.hashin_shtrikman, &constants).map_err(|e| format!("Hashin-Shtrikman: {e}"))?;
-    inside(&found.reuss_voigt, &constants).map_err(|e| format!("Reuss-Voigt: {e}"))?;
-    inside(&found.hashin_shtrikman, &found.cylinders).map_err(|e| format!("cylinders: {e}"))?;
+/// The cell's constants, as far as their numerical errors go, and the composite cylinders inside both pairs, the narrower pair inside the wider.
+fn check(cell: &FibreCell, result: &Homogenized) -> Result<(), String> {
+    let (found, error, rounding) = (bounds(cell).unwrap(), result.error(), rounding(cell));
+    inside(&found.hashin_shtrikman, &result.constants, &error, rounding).map_err(|e| format!("Hashin-Shtrikman: {e}"))?;
+    inside(&found.reuss_voigt, &result.constants, &error, rounding).map_err(|e| format!("Reuss-Voigt: {e}"))?;
+    let exact = error.combine(&error, |_, _| 0.0);
+    inside(&found.hashin_shtrikman, &found.cylinders, &exact, rounding).map_err(|e| format!("cylinders: {e}"))?;
     for (narrow, wide) in
         [(&found.hashin_shtrikman.lower, &found.reuss_voigt), (&found.hashin_shtrikman.upper, &found.reuss_voigt)]
     {
@@ -40,12 +52,12 @@ fn check(cell: &FibreCell) -> Result<(Bounds, Constants), String> {
             }
         }
     }
-    Ok((found, constants))
+    Ok(())
 }
 
 fn constituent() -> impl Strategy<Value = Constituent> {
-    (5.0..11.0, -0.3..5.0, -20e-6..300e-6, -1.5..1.5).prop_map(|(e, p, alpha, k): (f64, f64, f64, f64)| {
-        // Poisson's ratio from −0.5 to 0.49999
+    (6.0..11.0, -0.3..4.3, -20e-6..300e-6, -1.5..1.5).prop_map(|(e, p, alpha, k): (f64, f64, f64, f64)| {
+        // Poisson's ratio from −0.5 to 0.499975
         solid(10_f64.powf(e), 0.5 - 10_f64.powf(-p) / 2.0, alpha, 10_f64.powf(k))
     })
 }
@@ -65,10 +77,12 @@ fn cell() -> impl Strategy<Value = FibreCell> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
     #[test]
-    fn finite_elements_lie_inside(cell in cell()) {
-        if let Err(e) = check(&cell) {
+    fn random_cells_lie_inside(cell in cell()) {
+        // rounding stands in the way of much in the extremes
+        let result = [1e-6, 1e-4, 1e-2].into_iter().find_map(|tolerance| homogenize_to(&cell, tolerance).ok()).unwrap();
+        if let Err(e) = check(&cell, &result) {
             return Err(TestCaseError::fail(e));
         }
     }
@@ -77,8 +91,9 @@ proptest! {
 #[test]
 fn known_cells_lie_inside() {
     for cell in varied().into_iter().chain([reference()]) {
-        check(&cell).unwrap();
-        check(&FibreCell { packing: Packing::Square, ..cell }).unwrap();
+        check(&cell, &homogenize_on(&cell, &on(&cell, 8, Extent::Quarter)).unwrap()).unwrap();
+        let square = FibreCell { packing: Packing::Square, ..cell };
+        check(&square, &homogenize(&square).unwrap()).unwrap();
     }
 }
 

@@ -386,3 +386,19 @@ fn exact_density_and_heat_capacity() {
     cell.phases[0].solid.density = Some(-1.0);
     assert!(matches!(cell.heat_capacity(), Err(Error::Property { what: "density", .. })));
 }
+
+/// Where rounding is what is left, the estimate says so: a matrix nine orders softer than the fibre.
+#[test]
+fn rounding_is_in_the_estimate() {
+    let cell = |youngs_modulus| FibreCell { adhesive: solid(youngs_modulus, 0.3, 250e-6, 0.45), ..reference() };
+    let found = |cell: &FibreCell| Cell::of_fibres(cell, &Arrangement::hexagonal(cell.pitch, 1, 1)).unwrap().homogenize_to(1e-6);
+    match found(&cell(1.0)) {
+        Err(Error::Accuracy { reached, why, .. }) => assert!(reached > 1e-5 && why.starts_with("rounding"), "{reached:e} {why}"),
+        other => panic!("{:?}", other.map(|found| found.relative_error)),
+    }
+    let soft = cell(1e3);
+    let (exact, found) = (homogenize(&soft).unwrap().constants, found(&soft).unwrap());
+    let estimate = found.relative_error.iter().find(|(name, _)| *name == "g_xz").unwrap().1;
+    let error = (found.constants.g[1] / exact.g_zr - 1.0).abs();
+    assert!(1e-9 < error && error < estimate, "{error:e} {estimate:e}");
+}

@@ -106,7 +106,7 @@ fn bounds_estimates_cover_the_error_and_meet_the_tolerance() {
 /// A cell of one to four rings of anything: moduli over nine decades, Poisson's ratio to six nines, a film from 1 % of the pitch on.
 fn anything(random: &mut Random) -> FibreCell {
     let mut log = |low: f64, high: f64| low * (high / low).powf(random.uniform());
-    let mut material = |log: &mut dyn FnMut(f64, f64) -> f64| {
+    let material = |log: &mut dyn FnMut(f64, f64) -> f64| {
         let poisson_ratio = if log(1.0, 4.0) < 2.0 { 0.5 - log(1e-6, 0.5) } else { log(0.01, 0.4) };
         solid(log(1e3, 1e12), poisson_ratio, log(1e-7, 1e-3), log(1e-2, 1e3))
     };

@@ -178,8 +178,7 @@ fn whole_program(path: &Path) -> Result<[f64; 2], Failure> {
     for _ in 0..PROCESSES {
         let mut command = Command::new(path);
         let status = command.arg("homogenize").arg(cell_file()).arg("--json").stdout(Stdio::null()).status();
-        let status =
-            status.map_err(|e| Failure(format!("{}: {e}; `cargo build --release -p fogcoil` makes it", path.display())))?;
+        let status = status.map_err(|e| Failure(format!("{}: {e}", path.display())))?;
         if !status.success() {
             return Err(Failure(format!("{} homogenize: {status}", path.display())));
         }
@@ -187,6 +186,17 @@ fn whole_program(path: &Path) -> Result<[f64; 2], Failure> {
     let wall = start.elapsed().as_secs_f64();
     let cpu = peers::children().zip(before).map_or(wall, |(after, before)| after - before);
     Ok([cpu, wall].map(|s| s / PROCESSES as f64))
+}
+
+/// The program beside this one, as it stands.
+fn program() -> Result<PathBuf, Failure> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let status =
+        Command::new(cargo).args(["build", "--quiet", "--release", "--package", "fogcoil"]).current_dir(root()).status()?;
+    if !status.success() {
+        return Err(Failure(format!("the program does not build: {status}")));
+    }
+    Ok(std::env::current_exe()?.with_file_name("fogcoil"))
 }
 
 /// `cargo xtask bench cell`.
@@ -197,7 +207,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let progress = Progress::new();
     let cell = fogcoil::input::read_cell(&cell_file())?.cell;
     let exact = homogenize_to(&cell, CONVERGED)?.constants;
-    let fogcoil = std::env::current_exe()?.with_file_name("fogcoil");
+    let fogcoil = program()?;
     let mut programs = programs(options, &progress)?;
     let mut whole = Vec::new();
     for repetition in 0..options.repetitions {

@@ -1,7 +1,9 @@
 //! Order and mesh that follow from the accuracy asked for.
 
 use super::{Cell, Directional, Response, Solution};
-use crate::Error;
+use crate::homogenize::SHARE;
+use crate::rounding::SPREAD;
+use crate::{Error, SAFETY};
 
 /// Polynomial order that is tried first.
 const FIRST_ORDER: usize = 4;
@@ -17,6 +19,8 @@ const PATIENCE: usize = 3;
 const FINEST: f64 = 4.0;
 /// A step is never trusted to leave less than this of the error that the step before left.
 const LEAST_RATIO: f64 = 0.1;
+/// Cells a rounding away that are solved, on the coarsest elements.
+const CELLS: u64 = 2;
 /// Unknowns at most: about 5 GB.
 const MOST_UNKNOWNS: usize = 1_000_000;
 
@@ -28,7 +32,7 @@ pub struct HomogenizedCell {
     /// Estimated relative error of each constant by name: [`SAFETY`](crate::SAFETY) times the distance from its value on elements two
     /// orders lower or twice as large, less as the distances fall from step to step but no less than a tenth; over itself, or over
     /// [`NEGLIGIBLE`](crate::NEGLIGIBLE) of the natural size of its kind if that is larger; of those that vanish in symmetric cells
-    /// (alpha_xy, k_xy, m_rxy) over all of that size.
+    /// (alpha_xy, k_xy, m_rxy) over all of that size. What rounding may do is added.
     pub relative_error: Vec<(&'static str, f64)>,
     /// All of the response.
     pub response: Response,
@@ -57,8 +61,12 @@ impl Level {
 
     /// Unknowns, from those of another level.
     fn unknowns(self, of: usize, at: Self) -> usize {
-        let growth = (self.order as f64 / at.order as f64) * (self.fineness / at.fineness);
-        (of as f64 * growth * growth) as usize
+        (of as f64 * self.growth(at)) as usize
+    }
+
+    /// By how much unknowns grow, and with them the condition and what rounding does.
+    fn growth(self, from: Self) -> f64 {
+        ((self.order as f64 / from.order as f64) * (self.fineness / from.fineness)).powi(2)
     }
 }
 
@@ -72,39 +80,68 @@ impl Cell {
     pub fn homogenize_to(&self, relative_error: f64) -> Result<HomogenizedCell, Error> {
         let mut level = Level { order: FIRST_ORDER, fineness: 1.0 };
         let mut last = constants(&self.solve(level.order, level.fineness)?)?;
+        let rounding = self.rounding(level, &last);
         let (mut before, mut best, mut stalls, mut refined) = (None, f64::INFINITY, 0, false);
         level = level.next(false);
         loop {
             let solution = self.solve(level.order, level.fineness)?;
             let constants = constants(&solution)?;
             let mut errors = constants.differences(&last);
-            let worst = errors.iter().fold(("", 0.0), |worst, one| if one.1 > worst.1 { *one } else { worst });
-            let left = before.map(|before: f64| worst.1 / before);
+            let step = worst(&errors).1;
+            let left = before.map(|before: f64| step / before);
             let ratio = left.map_or(1.0, |left| left.clamp(LEAST_RATIO, 1.0));
-            errors.iter_mut().for_each(|(_, error)| *error *= ratio);
-            if worst.1 * ratio <= relative_error {
+            let growth = level.growth(Level { order: FIRST_ORDER, fineness: 1.0 });
+            for ((_, error), rounding) in errors.iter_mut().zip(&rounding) {
+                *error = *error * ratio + rounding * growth;
+            }
+            let (constant, reached) = worst(&errors);
+            if reached <= relative_error {
                 let response = solution.response().clone();
                 return Ok(HomogenizedCell { constants, relative_error: errors, response, solution, fineness: level.fineness });
             }
-            best = best.min(worst.1 * ratio);
+            best = best.min(reached);
+            let rounded = growth * rounding.iter().fold(0.0, |most: f64, one| most.max(*one));
             // a refinement is followed by a higher order
             let next = level.next(!refined && left.is_some_and(|left| left > SLOW));
             let unknowns = next.unknowns(solution.response().unknowns, level);
             stalls = if left.is_some_and(|left| left > STALLED) { stalls + 1 } else { 0 };
-            let why = if stalls == PATIENCE || next.fineness > FINEST {
+            let why = if 2.0 * rounded > reached {
+                "rounding stands in the way (a nearly incompressible phase, a great contrast): raise the tolerance above that"
+                    .into()
+            } else if stalls == PATIENCE || next.fineness > FINEST {
                 "neither a higher order nor a finer mesh brings it down: raise the tolerance above that".into()
             } else if unknowns > MOST_UNKNOWNS {
                 let remedy = "raise the tolerance above that, or take fewer fibres";
                 format!("the next step would take {unknowns} unknowns, more than {MOST_UNKNOWNS}: {remedy}")
             } else {
                 refined = next.fineness > level.fineness;
-                (level, last, before) = (next, constants, Some(worst.1));
+                (level, last, before) = (next, constants, Some(step));
                 continue;
             };
             let with = format!("{} elements of order {}", solution.mesh().elements().len(), level.order);
-            return Err(Error::Accuracy { constant: worst.0, requested: relative_error, reached: best, with, why });
+            return Err(Error::Accuracy { constant, requested: relative_error, reached: best, with, why });
         }
     }
+
+    /// What rounding may do to each constant at `level`, relative: a few times the largest distance between constants whose inputs
+    /// differ by a rounding, as in [`crate::rounding`]; infinite where a rounding away there is no cell.
+    fn rounding(&self, level: Level, exact: &Directional) -> Vec<f64> {
+        let mut most = vec![0.0_f64; exact.named().len()];
+        for seed in 0..CELLS {
+            let shaken = self.shaken(seed).solve(level.order, level.fineness).and_then(|solution| constants(&solution));
+            let distances = shaken.map(|shaken| exact.differences(&shaken)).unwrap_or_default();
+            for (i, most) in most.iter_mut().enumerate() {
+                *most = distances.get(i).map_or(f64::INFINITY, |(_, distance)| most.max(SPREAD / SAFETY * distance));
+            }
+        }
+        let floor = SHARE * most.iter().fold(0.0, |worst: f64, one| worst.max(*one));
+        most.into_iter().map(|one| one.max(floor)).collect()
+    }
+}
+
+/// The constant with the largest of some errors.
+fn worst(errors: &[(&'static str, f64)]) -> (&'static str, f64) {
+    errors.iter().fold(("", 0.0), |worst, one| if one.1 > worst.1 || one.1.is_nan() { *one } else { worst })
 }
 
 fn constants(solution: &Solution) -> Result<Directional, Error> {

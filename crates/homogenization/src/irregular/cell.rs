@@ -1,6 +1,7 @@
 //! A layout and what its phases are made of.
 
 use super::Solution;
+use crate::identify::Random;
 use crate::{Constituent, Error, FibreCell, Role};
 use fem_core::material::ThermoElastic;
 use fem_core::polynomial;
@@ -58,6 +59,21 @@ impl Solid {
         let rotation = Rotation2::new(angle);
         let conductivity = rotation.matrix() * self.conductivity * rotation.matrix().transpose();
         Self { law: self.law.turned(angle), conductivity, ..*self }
+    }
+
+    /// Every number off by a rounding at most, another way for each state of `random`.
+    fn shaken(&self, random: &mut Random) -> Self {
+        let mut shaken = *self;
+        let mut shake = |value: f64| value * (1.0 + (2.0 * random.uniform() - 1.0) * f64::EPSILON);
+        for i in 0..6 {
+            shaken.law.thermal_stress[i] = shake(self.law.thermal_stress[i]);
+            for j in 0..=i {
+                let value = shake(self.law.stiffness[(i, j)]);
+                (shaken.law.stiffness[(i, j)], shaken.law.stiffness[(j, i)]) = (value, value);
+            }
+        }
+        shaken.conductivity *= shake(1.0);
+        shaken
     }
 
     fn check(&self, constituent: &str) -> Result<(), Error> {
@@ -120,6 +136,13 @@ impl Cell {
             sum = sum.zip(value).map(|(sum, value)| sum + value * area / self.layout.area());
         }
         Ok(sum)
+    }
+
+    /// The same cell of solids that are a rounding off.
+    pub(super) fn shaken(&self, seed: u64) -> Self {
+        let mut random = Random::new(seed);
+        let phase = |phase: &Phase| Phase { solid: phase.solid.shaken(&mut random), ..phase.clone() };
+        Self { phases: self.phases.iter().map(phase).collect(), ..self.clone() }
     }
 
     /// Solves the cell problems on elements of polynomial `order`; `fineness` 1 is the standard mesh.
