@@ -317,21 +317,21 @@ fn plans() {
     }
 }
 
-/// Ten units are made, answered and scored; a second run finds them done.
+/// A few units are made, answered and scored; a second run finds them done.
 #[test]
-fn ten_units_are_answered() {
+fn units_are_answered() {
     let folder = tempfile::tempdir().unwrap();
     let cache = fogcoil::cache::Cache::in_folder(folder.path().join("cache"));
-    let plan = Plan { seed: 2, nulls: 5, concealed: 5 };
+    let plan = Plan { seed: 2, nulls: 1, concealed: 3 };
     let run = || plan.cases(folder.path(), &cache).unwrap_or_else(|e| panic!("{}", e.0));
     let scored: Vec<_> = run().into_iter().map(|case| case.scored).collect();
     println!("{scored:#?}");
     let of = |kind: Kind| scored.iter().filter(move |s| s.kind == kind);
-    assert_eq!((scored.len(), of(Kind::Null).count()), (10, 5));
+    assert_eq!((scored.len(), of(Kind::Null).count()), (4, 1));
     assert_eq!(of(Kind::Null).filter(|s| s.detected).count(), 0, "falsely detected");
     assert!(scored.iter().all(|s| !s.misnamed), "confident and wrong");
     let strong = || of(Kind::Single).filter(|s| s.tier != Tier::Weak);
-    assert!(strong().all(|s| s.detected) && strong().filter(|s| s.right).count() + 1 >= strong().count());
+    assert!(strong().count() > 0 && strong().all(|s| s.detected && s.right));
     // nothing is made or answered anew
     let written = || -> Vec<_> {
         let files = |folder: std::path::PathBuf| std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
@@ -342,5 +342,5 @@ fn ten_units_are_answered() {
     };
     let before = written();
     let again: Vec<_> = run().into_iter().map(|case| case.scored).collect();
-    assert!(scored == again && before.len() == 20 && written() == before, "{before:?}");
+    assert!(scored == again && before.len() == 8 && written() == before, "{before:?}");
 }
