@@ -30,3 +30,7 @@ pub use model::{Active, Channel, ForwardModel, Mechanism, NoisePrior, Nuisance, 
 pub use parameter::{Parameter, Prior};
 pub use posterior::{Place, Posterior};
 pub use verdict::{Diagnosis, Verdict};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -21,3 +21,7 @@ pub use change::{
 pub use gyro::{Gyro, Located, RATE, REFERENCE_C, SPOOL};
 pub use library::Library;
 pub use record::Prepared;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
