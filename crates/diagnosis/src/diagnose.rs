@@ -41,6 +41,12 @@ pub struct Candidate {
     pub probability: f64,
 }
 
+/// Rounds of fitting all single mechanisms, at most.
+const ROUNDS: usize = 3;
+/// Tasks that are counted.
+const SINGLES: &str = "single mechanisms";
+const LIKELIEST: &str = "the likeliest mechanisms with their own noise";
+const PAIRS: &str = "pairs of mechanisms";
 /// Singles that are followed up with their own noise and as parts of pairs.
 const FOLLOWED: usize = 5;
 const LEADERS: usize = 5;
@@ -61,6 +67,8 @@ struct Pool<'a, M> {
 
 /// Compares everything that `model` may leave out on its records `records`, which observed `observations`.
 ///
+/// `progress` is told each task as it begins, and the long ones again with ` (k of n)` behind their name.
+///
 /// # Errors
 /// [`Error`] if the model or a fit fails.
 pub fn diagnose<M: ForwardModel>(
@@ -79,16 +87,19 @@ pub fn diagnose<M: ForwardModel>(
     let mut nominal = pool.fitter.fit_with_noise(&Hypothesis::NOMINAL, &first, 3)?;
     let singles: Vec<Vec<Hypothesis>> = (0..model.mechanisms().len()).map(|m| variants(model, m)).collect();
 
-    progress("single mechanisms");
+    progress(SINGLES);
     // noise fitted to the nominal residual has swallowed part of the effect: what is sought first is sought in calmer noise
     let calm = nominal.noise.calmed(model.channels(), observations)?;
     let mut leader = Fit { noise: calm, ..nominal.clone() };
     let mut fits: Vec<Fit> = Vec::new();
-    for round in 0..3 {
+    for round in 0..ROUNDS {
         fits = Vec::new();
-        for hypothesis in singles.iter().flatten() {
-            let known = (round > 0).then_some(&leader);
-            fits.push(pool.fitter.fit(hypothesis, &leader.noise, known.or(Some(&nominal)))?);
+        for (k, hypotheses) in singles.iter().enumerate() {
+            progress(&counted(SINGLES, round * singles.len() + k, ROUNDS * singles.len()));
+            for hypothesis in hypotheses {
+                let known = (round > 0).then_some(&leader);
+                fits.push(pool.fitter.fit(hypothesis, &leader.noise, known.or(Some(&nominal)))?);
+            }
         }
         let recalibrated = Hypothesis { constants_free: true, ..Hypothesis::NOMINAL };
         fits.push(pool.fitter.fit(&recalibrated, &leader.noise, Some(&leader))?);
@@ -98,7 +109,7 @@ pub fn diagnose<M: ForwardModel>(
         if round == 0 || gained > 0.5 {
             leader = best;
         }
-        if gained < 3.0 || round == 2 {
+        if gained < 3.0 || round + 1 == ROUNDS {
             break;
         }
     }
@@ -108,11 +119,13 @@ pub fn diagnose<M: ForwardModel>(
     let recalibrated = pool.fitter.fit_with_noise(&recalibrated, &leader_noise(&nominal, &leader), 2)?;
     pool.push(recalibrated, None);
 
-    progress("the likeliest mechanisms with their own noise");
+    progress(LIKELIEST);
     let lead = fits[0].log_evidence;
     let mut leaders: Vec<Fit> = Vec::new();
     let mut met: Vec<usize> = Vec::new();
-    for fit in fits.into_iter().filter(|f| !f.hypothesis.mechanisms.is_empty()) {
+    let count = fits.len();
+    for (k, fit) in fits.into_iter().enumerate().filter(|(_, f)| !f.hypothesis.mechanisms.is_empty()) {
+        progress(&counted(LIKELIEST, k, count));
         let mechanism = fit.hypothesis.mechanisms[0].0;
         let again = met.contains(&mechanism);
         // of a mechanism's choices the best alone has its own noise; the others lie close behind it
@@ -137,11 +150,12 @@ pub fn diagnose<M: ForwardModel>(
     }
     leaders.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
 
-    progress("pairs of mechanisms");
+    progress(PAIRS);
     let mut followed: Vec<usize> = Vec::new();
     for fit in leaders.iter().filter(|f| f.log_evidence - nominal.log_evidence > PAIRED) {
         let first = fit.hypothesis.mechanisms[0].0;
         if model.mechanisms()[first].named && !followed.contains(&first) && followed.len() < LEADERS {
+            progress(&counted(PAIRS, followed.len(), LEADERS));
             followed.push(first);
             pool.pairs(fit, &singles)?;
         }
@@ -150,6 +164,11 @@ pub fn diagnose<M: ForwardModel>(
     progress("what no mechanism explains");
     pool.rivals(&times)?;
     Diagnosis::conclude(&pool.fitter, settings, pool.candidates, nominal)
+}
+
+/// A task of which `k` of `n` parts are done.
+fn counted(task: &str, k: usize, n: usize) -> String {
+    format!("{task} ({k} of {n})")
 }
 
 /// The nominal fit, but under the leader's noise.

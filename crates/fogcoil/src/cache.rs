@@ -44,15 +44,23 @@ pub enum Source {
 pub struct Cache {
     folder: Option<PathBuf>,
     most: u64,
+    /// The file that holds this code; `None`: the executable.
+    code: Option<PathBuf>,
 }
 
 impl Cache {
     /// No cache: every model is built.
-    pub const NONE: Self = Self { folder: None, most: 0 };
+    pub const NONE: Self = Self { folder: None, most: 0, code: None };
 
     /// Models in `folder`, which is made when the first is kept.
     pub fn in_folder(folder: impl Into<PathBuf>) -> Self {
-        Self { folder: Some(folder.into()), most: MOST }
+        Self { folder: Some(folder.into()), most: MOST, code: None }
+    }
+
+    /// The same for code that is not in the executable but in a library that it loads, `file`.
+    #[must_use]
+    pub fn of_code_in(self, file: impl Into<PathBuf>) -> Self {
+        Self { code: Some(file.into()), ..self }
     }
 
     /// The user's: `$FOGCOIL_CACHE`, else `fogcoil` in `$XDG_CACHE_HOME`, else `.cache/fogcoil` in the home folder.
@@ -76,7 +84,7 @@ impl Cache {
         key: &impl Serialize,
         build: impl FnOnce() -> Result<T, E>,
     ) -> Result<(T, Source), E> {
-        let place = self.folder.as_ref().and_then(|folder| Some((folder, name(purpose, key)?)));
+        let place = self.folder.as_ref().and_then(|folder| Some((folder, name(self.code.as_deref(), purpose, key)?)));
         let Some((folder, name)) = place else { return Ok((build()?, Source::Built)) };
         let file = folder.join(hexadecimal(&name) + SUFFIX);
         if let Some(model) = load(&file, &name) {
@@ -91,14 +99,14 @@ impl Cache {
     }
 }
 
-/// What the executable is, so that no model outlives the code that made it: its length \[bytes\] and when it was written.
-fn this_build() -> Option<(u64, Duration)> {
-    let about = fs::metadata(env::current_exe().ok()?).ok()?;
+/// What the file of the code is, so that no model outlives the code that made it: its length \[bytes\] and when it was written.
+fn this_build(code: Option<&Path>) -> Option<(u64, Duration)> {
+    let about = fs::metadata(code.map_or_else(env::current_exe, |file| Ok(file.to_owned())).ok()?).ok()?;
     Some((about.len(), about.modified().ok()?.duration_since(UNIX_EPOCH).ok()?))
 }
 
-fn name(purpose: &str, key: &impl Serialize) -> Option<Name> {
-    let all = postcard::to_stdvec(&(FORMAT, env!("CARGO_PKG_VERSION"), this_build()?, purpose, key)).ok()?;
+fn name(code: Option<&Path>, purpose: &str, key: &impl Serialize) -> Option<Name> {
+    let all = postcard::to_stdvec(&(FORMAT, env!("CARGO_PKG_VERSION"), this_build(code)?, purpose, key)).ok()?;
     Some(Sha256::digest(all).into())
 }
 
@@ -273,7 +281,7 @@ mod tests {
             assert_eq!(get(&cache, key, &[0.0; 1000]).1, Source::Built);
         }
         assert_eq!(get(&cache, 1, &[]).1, Source::Cached, "used, so no longer the oldest");
-        let key_2 = folder.path().join("made/on/demand").join(hexadecimal(&name("test", &2u32).unwrap()) + SUFFIX);
+        let key_2 = folder.path().join("made/on/demand").join(hexadecimal(&name(None, "test", &2u32).unwrap()) + SUFFIX);
         touch(&key_2, 2);
         assert_eq!(get(&cache, 4, &[0.0; 1000]).1, Source::Built);
         assert!(stranger.exists() && !key_2.exists() && first.exists());
@@ -343,7 +351,7 @@ mod tests {
         ];
         for mechanics in all {
             let design = Design { mechanics, ..design.clone() };
-            let key = |design: &Design| name("dynamics", &(design, [Drive::Chamber], STANDARD)).unwrap();
+            let key = |design: &Design| name(None, "dynamics", &(design, [Drive::Chamber], STANDARD)).unwrap();
             let (plain, value) = (key(&design), serde_json::to_value(&design).unwrap());
             let same: Design = serde_json::from_value(value.clone()).unwrap();
             assert_eq!((&same, key(&same)), (&design, plain));
@@ -355,7 +363,7 @@ mod tests {
             });
             assert!(count > 50, "{count} numbers");
         }
-        let key = |drives: &[Drive], fidelity: &Fidelity| name("dynamics", &(&design, drives, fidelity)).unwrap();
+        let key = |drives: &[Drive], fidelity: &Fidelity| name(None, "dynamics", &(&design, drives, fidelity)).unwrap();
         let plain = key(&[Drive::Chamber], &STANDARD);
         assert_ne!(plain, key(&[Drive::Chamber, Drive::Heaters], &STANDARD));
         assert_ne!(plain, key(&[Drive::Chamber], &Fidelity { modes: 41, ..STANDARD }));

@@ -3,20 +3,25 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
 use fogcoil::input::Between;
 
 use crate::cli_check::{Check, Format};
 use crate::cli_explain::Explain;
 use crate::cli_homogenize::Homogenize;
 use crate::cli_identify::Identify;
+use crate::cli_new::New;
 use crate::cli_recommend::Recommend;
 
 /// Thermal bias of fibre-optic-gyroscope coils.
 #[derive(Parser)]
-#[command(version, after_help = "Exit status: 0 done; 2 bad usage or input; 1 the program's own failure.")]
+#[command(version, after_help = "Exit status: 0 done; 2 bad usage or input; 1 the program's own failure; 130 interrupted.")]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
+    /// No notes and no progress on standard error
+    #[arg(long, global = true)]
+    pub(crate) quiet: bool,
 }
 
 #[derive(Subcommand)]
@@ -36,6 +41,9 @@ pub(crate) enum Command {
         /// Draw the cross-section here
         #[arg(long, value_name = "FILE")]
         svg: Option<PathBuf>,
+        /// Print the summary as one JSON object
+        #[arg(long)]
+        json: bool,
     },
     /// Steady-ramp sensitivity in (deg/h)/(degC/min), by part
     Sensitivity {
@@ -64,10 +72,24 @@ pub(crate) enum Command {
     Diagnose(Diagnose),
     /// Which chamber programme, or which further sensor, tells mechanisms apart
     Recommend(Recommend),
-    /// Which change of the coil would give a measured sensitivity
+    /// What an id means, of a mechanism or of a warning; which change of a coil would give a measured sensitivity
     Explain(Explain),
     /// Is a recording usable? Gaps, units, outliers, noise, Allan deviation
     Check(Check),
+    /// A commented file to start from: a coil design, a cell, targets to identify, or a profile
+    New(New),
+    /// Completions of the command line, for a shell to read
+    Completions {
+        /// The shell
+        #[arg(value_enum)]
+        shell: Shell,
+    },
+    /// The manual: the program's page, or with --dir one for each command too
+    Man {
+        /// Write fogcoil.1, fogcoil-check.1 and so on into this folder
+        #[arg(long, value_name = "DIR")]
+        dir: Option<PathBuf>,
+    },
 }
 
 #[derive(Args)]
@@ -98,9 +120,6 @@ pub(crate) struct Diagnose {
     pub(crate) meta: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) format: Format,
-    /// No notes and no progress on standard error
-    #[arg(long)]
-    pub(crate) quiet: bool,
     /// Build the models anew and do not keep them
     #[arg(long)]
     pub(crate) no_cache: bool,
@@ -132,9 +151,6 @@ pub(crate) struct Simulate {
     /// Print the summary as one JSON object
     #[arg(long)]
     pub(crate) json: bool,
-    /// No notes and no progress on standard error
-    #[arg(long)]
-    pub(crate) quiet: bool,
     /// Build the model anew and do not keep it ($FOGCOIL_CACHE, else $XDG_CACHE_HOME/fogcoil, else ~/.cache/fogcoil)
     #[arg(long)]
     pub(crate) no_cache: bool,

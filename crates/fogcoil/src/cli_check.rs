@@ -22,9 +22,6 @@ pub(crate) struct Check {
     /// Draw the Allan deviation here
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,
-    /// Nothing but warnings and errors
-    #[arg(long)]
-    pub(crate) quiet: bool,
 }
 
 /// How a logger's file is read.

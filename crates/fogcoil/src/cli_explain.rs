@@ -1,42 +1,64 @@
 //! `explain`: its arguments, and what it does with them.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use fogcoil::cache::Cache;
-use fogcoil::{Error, diagnose, explain, output};
+use fogcoil::{Error, diagnose, explain, glossary, output};
 
+use crate::line;
 use crate::progress::Progress;
-use crate::{line, read_coil};
 
 #[derive(Args)]
 pub(crate) struct Explain {
-    /// Case file of the coil
-    #[arg(value_name = "COIL.ron")]
-    coil: PathBuf,
+    /// Id of a mechanism, a warning or a note; with --sensitivity the case file of a coil; without either all ids are listed
+    #[arg(value_name = "ID|COIL.ron", required_if_eq("signed", "true"))]
+    subject: Option<PathBuf>,
     /// Measured steady sensitivity in (deg/h)/(degC/min), a magnitude
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
-    sensitivity: f64,
+    #[arg(long, value_name = "S", allow_negative_numbers = true, requires = "subject")]
+    sensitivity: Option<f64>,
     /// The measured sensitivity's sign is that of this program's conventions
-    #[arg(long)]
+    #[arg(long, requires = "sensitivity")]
     signed: bool,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
-    /// No notes and no progress on standard error
-    #[arg(long)]
-    quiet: bool,
     /// Build the models anew and do not keep them
     #[arg(long)]
     no_cache: bool,
 }
 
-pub(crate) fn run(arguments: &Explain) -> Result<(), Error> {
-    let Explain { coil, sensitivity, signed, json, quiet, no_cache } = arguments;
-    let progress = if *quiet { Progress::Silent } else { Progress::OnStandardError };
-    let case = if *quiet { fogcoil::input::read_coil(coil)? } else { read_coil(coil)? };
-    diagnose::check_design(&case, coil)?;
-    let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
-    let result = explain::explain(&case, *sensitivity, !signed, &cache, &|task| progress.note(task))?;
-    output::print(&if *json { line(&explain::json(&result)) } else { explain::text(&case, &result) })
+pub(crate) fn run(arguments: &Explain, progress: &Progress) -> Result<(), Error> {
+    let Explain { subject, sensitivity, json, .. } = arguments;
+    let (object, text) = match (subject, sensitivity) {
+        (Some(coil), Some(measured)) => return arguments.sensitivity(coil, *measured, progress),
+        (Some(id), None) => {
+            let entry = look_up(id)?;
+            (entry.json(), entry.text())
+        }
+        (None, _) => (glossary::list_json(), glossary::list()),
+    };
+    output::print(&if *json { line(&object) } else { text })
+}
+
+fn look_up(id: &Path) -> Result<glossary::Entry, Error> {
+    let name = id.to_string_lossy();
+    glossary::look_up(&name).map_err(|near| {
+        Error::Usage(if id.extension().is_some() || id.is_file() {
+            format!("{name}: of a coil file a sensitivity is explained; add --sensitivity S, as it was measured")
+        } else {
+            let near = near.join(", ");
+            format!("{name}: is no id of a mechanism, a warning or a note; nearest: {near}; `fogcoil explain` lists all")
+        })
+    })
+}
+
+impl Explain {
+    fn sensitivity(&self, coil: &Path, measured: f64, progress: &Progress) -> Result<(), Error> {
+        let case = progress.read_coil(coil)?;
+        diagnose::check_design(&case, coil)?;
+        let cache = if self.no_cache { Cache::NONE } else { Cache::of_user() };
+        let result = progress.tasks(|tell| explain::explain(&case, measured, !self.signed, &cache, tell))?;
+        output::print(&if self.json { line(&explain::json(&result)) } else { explain::text(&case, &result) })
+    }
 }

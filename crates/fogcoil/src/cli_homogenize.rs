@@ -13,6 +13,7 @@ use homogenization::irregular::Solution;
 use serde_json::{Value, json};
 
 use crate::cli::relative_error;
+use crate::line;
 use crate::progress::Progress;
 
 #[derive(Args)]
@@ -21,7 +22,7 @@ pub(crate) struct Homogenize {
     #[arg(value_name = "CELL.ron")]
     cell: PathBuf,
     /// Relative error that every constant must meet
-    #[arg(long, value_name = "ERROR", default_value = "1e-6", value_parser = relative_error)]
+    #[arg(long, value_name = "ERROR", default_value = "1e-6", value_parser = relative_error, allow_negative_numbers = true)]
     tolerance: f64,
     /// Print one JSON object, in SI
     #[arg(long)]
@@ -55,7 +56,7 @@ fn celsius(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "give degC from -273.15 to 1000, e.g. -40,20,70".into())
 }
 
-pub(crate) fn run(arguments: &Homogenize) -> Result<(), Error> {
+pub(crate) fn run(arguments: &Homogenize, progress: &Progress) -> Result<(), Error> {
     let Homogenize { cell, json, temperatures, vtu, svg, .. } = arguments;
     output::check_distinct(&[cell], &[vtu.as_deref(), svg.as_deref()])?;
     let any = input::read_any_cell(cell)?;
@@ -65,40 +66,46 @@ pub(crate) fn run(arguments: &Homogenize) -> Result<(), Error> {
         return Err(Error::Usage(format!("{}: {problem}; leave --temperatures out", cell.display())));
     }
     let (text, object) = match any {
-        AnyCell::Regular(case, general) => arguments.regular(&case, general)?,
-        AnyCell::General(general) => arguments.general(&general)?,
+        AnyCell::Regular(case, general) => arguments.regular(&case, general, progress)?,
+        AnyCell::General(general) => arguments.general(&general, progress)?,
     };
-    output::print(&if *json { format!("{object}\n") } else { text })
+    output::print(&if *json { line(&object) } else { text })
 }
 
 impl Homogenize {
     /// A regular cell: by the structured route, its fields by the other.
-    fn regular(&self, case: &CellCase, general: Result<GeneralCase, InputError>) -> Result<(String, Value), Error> {
-        let result = case.homogenize_to(self.tolerance)?;
+    fn regular(
+        &self,
+        case: &CellCase,
+        general: Result<GeneralCase, InputError>,
+        progress: &Progress,
+    ) -> Result<(String, Value), Error> {
+        let result = progress.during("homogenizing the cell", || case.homogenize_to(self.tolerance))?;
         let (mut text, mut object) = (homogenize::text(case, &result), homogenize::json(case, &result));
         if self.load.is_some() || self.svg.is_some() {
             let general = general?;
             let cell = general.cell(&general.layouts[0], None)?;
             let failed = |source| Error::Homogenization { file: general.file.clone(), source };
-            let solution = cell.homogenize_to(self.tolerance.max(INSIDE)).map_err(failed)?.solution;
-            self.inside(&general, None, &solution, &mut text, &mut object)?;
+            let solve = || cell.homogenize_to(self.tolerance.max(INSIDE)).map_err(failed);
+            let solution = progress.during("solving for the fields inside", solve)?.solution;
+            self.inside(&general, None, &solution, (&mut text, &mut object), progress)?;
         }
         Ok((text, object))
     }
 
-    fn general(&self, case: &GeneralCase) -> Result<(String, Value), Error> {
+    fn general(&self, case: &GeneralCase, progress: &Progress) -> Result<(String, Value), Error> {
         let wanted: Vec<Option<f64>> =
             if self.temperatures.is_empty() { vec![None] } else { self.temperatures.iter().copied().map(Some).collect() };
         // all tables are asked before anything is solved
         wanted.iter().try_for_each(|t| case.cell(&case.layouts[0], *t).map(drop))?;
         let task = format!("homogenizing {} cells", wanted.len() * case.layouts.len());
         let solve = || wanted.iter().map(|t| at_temperature(case, *t, self.tolerance)).collect::<Result<Vec<AtTemperature>, _>>();
-        let results = Progress::OnStandardError.during(&task, solve)?;
+        let results = progress.during(&task, solve)?;
         let (mut texts, mut objects) = (Vec::new(), Vec::new());
         for (k, result) in results.iter().enumerate() {
             let (mut text, mut object) = (result.text(case), result.json());
             if k == 0 && (self.load.is_some() || self.svg.is_some()) {
-                self.inside(case, result.celsius, &result.first.solution, &mut text, &mut object)?;
+                self.inside(case, result.celsius, &result.first.solution, (&mut text, &mut object), progress)?;
             }
             texts.push(text);
             objects.push(object);
@@ -113,8 +120,8 @@ impl Homogenize {
         case: &GeneralCase,
         celsius: Option<f64>,
         solution: &Solution,
-        text: &mut String,
-        object: &mut Value,
+        (text, object): (&mut String, &mut Value),
+        progress: &Progress,
     ) -> Result<(), Error> {
         if let Some(load) = self.load {
             let failed = |source| Error::Homogenization { file: case.file.clone(), source };
@@ -135,6 +142,6 @@ impl Homogenize {
             files.push((path, Content::Text(picture_cell::svg(&case.name, &caption, solution, &sample, self.field))));
         }
         files.extend(self.vtu.as_deref().map(|path| (path, Content::Written(&grid))));
-        output::write_files(&files)
+        progress.save(&files)
     }
 }

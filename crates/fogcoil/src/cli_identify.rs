@@ -16,15 +16,11 @@ pub(crate) struct Identify {
     /// Print one JSON object, in SI
     #[arg(long)]
     json: bool,
-    /// No progress on standard error
-    #[arg(long)]
-    quiet: bool,
 }
 
-pub(crate) fn run(arguments: &Identify) -> Result<(), Error> {
-    let Identify { targets, json, quiet } = arguments;
-    let progress = if *quiet { Progress::Silent } else { Progress::OnStandardError };
+pub(crate) fn run(arguments: &Identify, progress: &Progress) -> Result<(), Error> {
+    let Identify { targets, json } = arguments;
     let case = input::read_targets(targets)?;
-    let result = identify::identify(&case, &|task| progress.note(task))?;
+    let result = progress.tasks(|tell| identify::identify(&case, &|task| tell(task)))?;
     output::print(&if *json { line(&identify::json(&case, &result)) } else { identify::text(&case, &result) })
 }

@@ -9,8 +9,8 @@ use fogcoil::recommend::Limits;
 use fogcoil::{Error, diagnose, input, output, recommend};
 
 use crate::cli_check::Format;
+use crate::line;
 use crate::progress::Progress;
-use crate::{line, read_coil};
 
 #[derive(Args)]
 pub(crate) struct Recommend {
@@ -46,9 +46,6 @@ pub(crate) struct Recommend {
     meta: Option<PathBuf>,
     #[command(flatten)]
     format: Format,
-    /// No notes and no progress on standard error
-    #[arg(long)]
-    quiet: bool,
     /// Build the models anew and do not keep them
     #[arg(long)]
     no_cache: bool,
@@ -59,21 +56,19 @@ fn id(text: &str) -> Result<String, std::convert::Infallible> {
     Ok(text.trim().to_owned())
 }
 
-pub(crate) fn run(arguments: &Recommend) -> Result<(), Error> {
-    let Recommend { coil, between, records, coldest, hottest, fastest, hours, out, json, meta, format, quiet, no_cache } =
-        arguments;
+pub(crate) fn run(arguments: &Recommend, progress: &Progress) -> Result<(), Error> {
+    let Recommend { coil, between, records, coldest, hottest, fastest, hours, out, json, meta, format, no_cache } = arguments;
     let inputs: Vec<&Path> = [coil].into_iter().chain(records).map(PathBuf::as_path).collect();
     output::check_distinct(&inputs, &[out.as_deref()])?;
-    let progress = if *quiet { Progress::Silent } else { Progress::OnStandardError };
-    let case = if *quiet { input::read_coil(coil)? } else { read_coil(coil)? };
+    let case = progress.read_coil(coil)?;
     diagnose::check_design(&case, coil)?;
     let options = format.options(meta.clone());
     let records = records.iter().map(|path| input::read_record(path, &options)).collect::<Result<Vec<_>, _>>()?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
     let limits = Limits { coldest: *coldest, hottest: *hottest, fastest: *fastest, hours: *hours };
-    let result = recommend::recommend(&case, between, &records, &limits, &cache, &|task| progress.note(task))?;
+    let result = progress.tasks(|tell| recommend::recommend(&case, between, &records, &limits, &cache, tell))?;
     if let Some(path) = out {
-        output::write_files(&[(path, Content::Text(result.profiles[0].programme.csv()))])?;
+        progress.save(&[(path, Content::Text(result.profiles[0].programme.csv()))])?;
     }
     output::print(&if *json { line(&recommend::json(&result)) } else { recommend::text(&result) })
 }

@@ -9,6 +9,8 @@
 //! - [`check`] judges a recording and identifies its noise.
 //! - [`diagnose`] compares recordings with a design and names what the design leaves out.
 //! - [`recommend`] finds the test that tells mechanisms apart; [`explain`] solves for what would give a measured sensitivity.
+//! - [`glossary`] explains the ids of mechanisms, warnings and notes.
+//! - [`schema`] tells whether JSON keeps a schema; [`input::schemas`] has those of the files that are read.
 //! - [`output`] writes a file whole or not at all.
 //!
 //! The functions neither print nor parse arguments; `main.rs` does.
@@ -34,6 +36,7 @@ pub mod diagnose;
 mod error;
 pub mod explain;
 pub mod figures;
+pub mod glossary;
 pub mod homogenize;
 pub mod identify;
 pub mod input;
@@ -43,6 +46,7 @@ pub mod picture_cell;
 mod plot;
 pub mod recommend;
 pub mod report;
+pub mod schema;
 pub mod sensitivity;
 pub mod simulate;
 pub mod summary;

@@ -5,6 +5,8 @@ mod cli_check;
 mod cli_explain;
 mod cli_homogenize;
 mod cli_identify;
+mod cli_manual;
+mod cli_new;
 mod cli_recommend;
 mod progress;
 
@@ -17,12 +19,13 @@ use cli::{Cli, Command, Diagnose, Simulate};
 use cli_check::Check;
 use coil::Drive;
 use fogcoil::cache::Cache;
+use fogcoil::glossary::Remark;
 use fogcoil::output::Content;
 use fogcoil::{Error, check, diagnose, figures, input, output, picture, report, sensitivity, simulate, summary, trim, wind};
 use progress::Progress;
 
 fn main() -> ExitCode {
-    match run(&Cli::parse().command) {
+    match run(&Cli::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             // nobody is left to tell if standard error is closed
@@ -32,49 +35,55 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(command: &Command) -> Result<(), Error> {
+fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
+    let progress = &Progress::new(*quiet);
     match command {
-        Command::Homogenize(arguments) => cli_homogenize::run(arguments),
-        Command::Check(arguments) => run_check(arguments),
-        Command::Diagnose(arguments) => run_diagnose(arguments),
-        Command::Explain(arguments) => cli_explain::run(arguments),
-        Command::Identify(arguments) => cli_identify::run(arguments),
-        Command::Recommend(arguments) => cli_recommend::run(arguments),
-        Command::Simulate(arguments) => run_simulate(arguments),
-        Command::Trim { coil, profile, json } => run_trim(coil, profile.as_deref(), *json),
-        Command::Wind { coil, csv, svg } => run_wind(coil, csv.as_deref(), svg.as_deref()),
+        Command::Homogenize(arguments) => cli_homogenize::run(arguments, progress),
+        Command::Check(arguments) => run_check(arguments, progress),
+        Command::Completions { shell } => cli_manual::completions(*shell),
+        Command::Diagnose(arguments) => run_diagnose(arguments, progress),
+        Command::Explain(arguments) => cli_explain::run(arguments, progress),
+        Command::Identify(arguments) => cli_identify::run(arguments, progress),
+        Command::Man { dir } => cli_manual::man(dir.as_deref(), progress),
+        Command::New(arguments) => cli_new::run(arguments, progress),
+        Command::Recommend(arguments) => cli_recommend::run(arguments, progress),
+        Command::Simulate(arguments) => run_simulate(arguments, progress),
+        Command::Trim { coil, profile, json } => run_trim(coil, profile.as_deref(), *json, progress),
+        Command::Wind { coil, csv, svg, json } => run_wind(coil, csv.as_deref(), svg.as_deref(), *json, progress),
         Command::Sensitivity { coil, json } => {
-            let case = read_coil(coil)?;
-            let result = case.steady_sensitivity()?;
+            let case = progress.read_coil(coil)?;
+            let result = progress.during("modelling the coil", || case.steady_sensitivity())?;
             output::print(&if *json { line(&sensitivity::json(&result)) } else { sensitivity::text(&case, &result) })
         }
     }
 }
 
-fn run_wind(coil: &Path, csv: Option<&Path>, svg: Option<&Path>) -> Result<(), Error> {
+fn run_wind(coil: &Path, csv: Option<&Path>, svg: Option<&Path>, json: bool, progress: &Progress) -> Result<(), Error> {
     output::check_distinct(&[coil], &[csv, svg])?;
-    let case = read_coil(coil)?;
-    let csv = csv.map(|path| (path, Content::Text(wind::csv(&case.winding))));
-    let svg = svg.map(|path| (path, Content::Text(picture::svg(&case.name, &case.winding))));
-    match (csv, svg) {
-        (None, None) => output::print(&wind::text(&case)),
-        (csv, svg) => output::write_files(&csv.into_iter().chain(svg).collect::<Vec<_>>()),
+    let case = progress.read_coil(coil)?;
+    let mut files = Vec::new();
+    files.extend(csv.map(|path| (path, Content::Text(wind::csv(&case.winding)))));
+    files.extend(svg.map(|path| (path, Content::Text(picture::svg(&case.name, &case.winding)))));
+    progress.save(&files)?;
+    match (json, files.is_empty()) {
+        (true, _) => output::print(&line(&wind::json(&case))),
+        (false, true) => output::print(&wind::text(&case)),
+        (false, false) => Ok(()),
     }
 }
 
-fn run_diagnose(arguments: &Diagnose) -> Result<(), Error> {
-    let Diagnose { coil, fits, holdouts, json, prediction, model_out, report, meta, format, quiet, no_cache } = arguments;
+fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> {
+    let Diagnose { coil, fits, holdouts, json, prediction, model_out, report, meta, format, no_cache } = arguments;
     let inputs: Vec<&Path> = [coil].into_iter().chain(fits).chain(holdouts).map(PathBuf::as_path).collect();
     let json_file = json.as_ref().and_then(Option::as_deref);
     output::check_distinct(&inputs, &[json_file, prediction.as_deref(), model_out.as_deref(), report.as_deref()])?;
-    let progress = if *quiet { Progress::Silent } else { Progress::OnStandardError };
-    let case = if *quiet { input::read_coil(coil)? } else { read_coil(coil)? };
+    let case = progress.read_coil(coil)?;
     diagnose::check_design(&case, coil)?;
     let options = format.options(meta.clone());
     let read = |paths: &[PathBuf]| paths.iter().map(|path| input::read_record(path, &options)).collect::<Result<Vec<_>, _>>();
     let (fits, holdouts) = progress.during("reading the records", || Ok::<_, Error>((read(fits)?, read(holdouts)?)))?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
-    let outcome = diagnose::diagnose(&case, &fits, &holdouts, &cache, &|task| progress.note(task))?;
+    let outcome = progress.tasks(|tell| diagnose::diagnose(&case, &fits, &holdouts, &cache, tell))?;
     outcome.notes().iter().for_each(|note| progress.note(note));
     let object = line(&outcome.json());
     let mut files = Vec::new();
@@ -83,21 +92,21 @@ fn run_diagnose(arguments: &Diagnose) -> Result<(), Error> {
     if let Some(path) = model_out {
         match outcome.model() {
             Ok(text) => files.push((path, Content::Text(text))),
-            Err(why) => progress.note(&format!("{}: nothing to write: {why}", path.display())),
+            Err(why) => progress.note(&Remark::NoModel.says(format!("{}: nothing to write: {why}", path.display()))),
         }
     }
     let page = || progress.during("drawing the report, with the test to make next", || outcome.report());
     files.extend(report.as_deref().map(|path| (path, Content::Text(page()))));
-    output::write_files(&files)?;
+    progress.save(&files)?;
     output::print(&if *json == Some(None) { object } else { outcome.text() })
 }
 
-fn run_check(arguments: &Check) -> Result<(), Error> {
-    let Check { record, json, svg, quiet, .. } = arguments;
+fn run_check(arguments: &Check, progress: &Progress) -> Result<(), Error> {
+    let Check { record, json, svg, .. } = arguments;
+    let quiet = progress.is_silent();
     output::check_distinct(&[record], &[svg.as_deref()])?;
-    let progress = if *quiet { Progress::Silent } else { Progress::OnStandardError };
     let case = progress.during(&format!("reading {}", record.display()), || input::read_record(record, &arguments.options()))?;
-    if *quiet && !*json && svg.is_none() {
+    if quiet && !*json && svg.is_none() {
         output::print(&check::warnings(&case))?;
         return Ok(case.require_usable()?);
     }
@@ -109,32 +118,24 @@ fn run_check(arguments: &Check) -> Result<(), Error> {
     })?;
     case.require_usable()?;
     match (svg, check::svg(&analysis)) {
-        (Some(path), Some(picture)) => output::write_files(&[(path, Content::Text(picture))]),
+        (Some(path), Some(picture)) => progress.save(&[(path, Content::Text(picture))]),
         (Some(path), None) => Err(Error::Usage(format!("{}: there is no Allan deviation to draw", path.display()))),
         (None, _) => Ok(()),
     }
 }
 
-fn run_trim(coil: &Path, profile: Option<&Path>, json: bool) -> Result<(), Error> {
-    let case = read_coil(coil)?;
+fn run_trim(coil: &Path, profile: Option<&Path>, json: bool, progress: &Progress) -> Result<(), Error> {
+    let case = progress.read_coil(coil)?;
     let profile = profile.map(|path| input::read_profile(path, &case.design)).transpose()?;
-    let result = Progress::OnStandardError.during("trimming", || trim::trim(&case, profile.as_ref()))?;
+    let result = progress.during("trimming", || trim::trim(&case, profile.as_ref()))?;
     output::print(&if json { line(&trim::json(&result)) } else { trim::text(&case, &result) })
 }
 
-/// Reads a coil file and says on standard error what in it looks like a mistake.
-fn read_coil(path: &Path) -> Result<input::CoilCase, Error> {
-    let case = input::read_coil(path)?;
-    case.warnings.iter().for_each(|warning| Progress::OnStandardError.note(&format!("warning: {}: {warning}", path.display())));
-    Ok(case)
-}
-
-fn run_simulate(arguments: &Simulate) -> Result<(), Error> {
-    let Simulate { coil, profile, between, spool, spool_noise, out, report, json, quiet, no_cache } = arguments;
+fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> {
+    let Simulate { coil, profile, between, spool, spool_noise, out, report, json, no_cache } = arguments;
     let inputs: Vec<&Path> = [Some(coil), profile.as_ref(), spool.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
     output::check_distinct(&inputs, &[Some(out), report.as_deref()])?;
-    let progress = if *quiet { Progress::Silent } else { Progress::OnStandardError };
-    let case = if *quiet { input::read_coil(coil)? } else { read_coil(coil)? };
+    let case = progress.read_coil(coil)?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
     let drawn = report.is_some() && case.winding.turns().len() <= figures::MOST_TURNS;
     let model = |drives: &[Drive]| {
@@ -167,7 +168,7 @@ fn run_simulate(arguments: &Simulate) -> Result<(), Error> {
         let measured = progress.during("solving on finer meshes", || figures::Convergence::measure(&case, &cache))?;
         files.push((path, Content::Text(report::html(&simulation, fields.as_ref(), Some(&measured)))));
     }
-    progress.during(&format!("writing {}", out.display()), || output::write_files(&files))?;
+    progress.during(&format!("writing {}", out.display()), || progress.save(&files))?;
     output::print(&if *json { line(&summary::json(&simulation)) } else { summary::text(&simulation) })
 }
 

@@ -57,8 +57,10 @@ pub fn svg(case_name: &str, winding: &Winding) -> String {
     let height = corners.iter().map(View::bottom).fold(overview.bottom(), f64::max) + 60.0;
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height:.0}\" width=\"{WIDTH}\" height=\"{height:.0}\" \
-         font-family=\"sans-serif\" font-size=\"15\" role=\"img\" aria-labelledby=\"title\">\n<title id=\"title\">Cross-section of \
-         the coil {}: {} turns of the CW half and {} of the CCW half</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+         font-family=\"sans-serif\" font-size=\"15\" role=\"img\" aria-labelledby=\"title desc\">\n<title id=\"title\">Cross-section of \
+         the coil {}: {} turns of the CW half and {} of the CCW half</title>\n<desc id=\"desc\">Every turn at its place over axial \
+         position and radius, blue for the CW half, vermilion for the CCW half, whose large discs have white centres; below, the two \
+         inner corners enlarged, layers numbered.</desc>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
         escape(case_name),
         winding.count(Half::Cw),
         winding.count(Half::Ccw)
@@ -221,7 +223,7 @@ fn enlarged(out: &mut String, overview: &View, corner: &View, winding: &Winding,
 }
 
 /// As text or attribute of a document; control characters are dropped.
-pub(crate) fn escape(content: &str) -> String {
+pub fn escape(content: &str) -> String {
     let printable = content.chars().filter(|c| !c.is_control());
     printable.fold(String::new(), |mut text, c| {
         match c {

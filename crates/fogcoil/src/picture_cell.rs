@@ -57,10 +57,15 @@ pub fn svg(name: &str, caption: &str, solution: &Solution, sample: &Sample, fiel
     let (width, height) = (LEFT + view.size[0] + LEGEND, TOP + view.size[1] + 70.0);
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" height=\"{height:.0}\" \
-         font-family=\"sans-serif\" font-size=\"15\" role=\"img\" aria-labelledby=\"title\">\n<title id=\"title\">{}</title>\n\
+         font-family=\"sans-serif\" font-size=\"15\" role=\"img\" aria-labelledby=\"title desc\">\n<title id=\"title\">{}</title>\n<desc id=\"desc\">{}</desc>\n\
          <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<text x=\"{LEFT}\" y=\"34\" font-size=\"20\" font-weight=\"bold\">{}</text>\n\
          <text x=\"{LEFT}\" y=\"60\">{}</text>\n",
         escape(&format!("{name}: {caption}")),
+        match field {
+            Some(_) =>
+                "The periodic cell with its mesh, coloured by the field, with the scale of its colours; copies of it around, pale.",
+            None => "The periodic cell with its mesh, coloured by its phases, which the legend names; copies of it around, pale.",
+        },
         escape(name),
         escape(caption)
     );

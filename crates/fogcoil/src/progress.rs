@@ -1,42 +1,197 @@
-//! Notes, and a line for what takes longer than a second, on standard error.
+//! What is going on, on standard error: notes, and a bar for what takes longer than a second; a line in its place where nobody watches.
 
-use std::io::Write;
+use std::io::{IsTerminal, Write};
+use std::path::Path;
+use std::process;
 use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
+
+use fogcoil::output::{self, Content};
+use fogcoil::{Error, input};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// What takes this long is named.
 const PATIENCE: Duration = Duration::from_secs(1);
+/// Interval between two pictures of a bar that turns.
+const TICK: Duration = Duration::from_millis(120);
+/// A bar, and what stands for it where nothing can be counted.
+const COUNTED: &str = "{spinner} {msg} [{bar:32}] {percent} % {elapsed}";
+const UNCOUNTED: &str = "{spinner} {msg} {elapsed}";
+/// Longest that an interrupt waits for files which are being written.
+const LEAVE: Duration = Duration::from_secs(5);
+/// Exit status of an interrupted program: 128 and the signal's number.
+const INTERRUPTED: i32 = 130;
 
-/// Whether to say what is going on.
-#[derive(Clone, Copy)]
-pub(crate) enum Progress {
-    OnStandardError,
+#[derive(Clone, Copy, PartialEq)]
+enum How {
+    /// Bars on a terminal.
+    Bars,
+    /// Lines into a file or a pipe.
+    Lines,
     Silent,
 }
 
+/// Tells the user, and keeps files whole that are being written when the user interrupts.
+pub(crate) struct Progress {
+    how: How,
+    /// The bar of what is being done.
+    bar: Mutex<Option<ProgressBar>>,
+    /// The task that was named last.
+    named: Mutex<String>,
+    saving: Arc<Mutex<()>>,
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 impl Progress {
+    /// Bars if standard error is a terminal that can draw them, else lines; nothing if `quiet`.
+    pub(crate) fn new(quiet: bool) -> Self {
+        let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+        let how = match (quiet, std::io::stderr().is_terminal() && !dumb) {
+            (true, _) => How::Silent,
+            (false, true) => How::Bars,
+            (false, false) => How::Lines,
+        };
+        let saving = Arc::new(Mutex::new(()));
+        let writing = Arc::clone(&saving);
+        let leave = move || {
+            let asked = Instant::now();
+            // whoever holds the lock is renaming whole files into place
+            while writing.try_lock().is_err() && asked.elapsed() < LEAVE {
+                thread::sleep(Duration::from_millis(10));
+            }
+            process::exit(INTERRUPTED);
+        };
+        // without a handler the system's own stops the program; what is lost is tidiness
+        let _ = ctrlc::set_handler(leave);
+        Self { how, bar: Mutex::new(None), named: Mutex::default(), saving }
+    }
+
+    /// Whether notes are not wanted.
+    pub(crate) fn is_silent(&self) -> bool {
+        self.how == How::Silent
+    }
+
     /// Says something.
-    pub(crate) fn note(self, text: &str) {
-        match self {
-            // nobody is left to tell if standard error is closed
-            Self::OnStandardError => drop(writeln!(std::io::stderr().lock(), "note: {text}")),
-            Self::Silent => {}
+    pub(crate) fn note(&self, text: &str) {
+        if self.is_silent() {
+            return;
+        }
+        // nobody is left to tell if standard error is closed
+        let say = || drop(writeln!(std::io::stderr().lock(), "note: {text}"));
+        match lock(&self.bar).as_ref() {
+            Some(bar) => bar.suspend(say),
+            None => say(),
         }
     }
 
+    /// A task begins, or goes on where ` (k of n)` stands behind its name.
+    fn task(&self, task: &str) {
+        let (name, share) = counted(task);
+        if let Some(bar) = lock(&self.bar).as_ref() {
+            if let Some((done, all)) = share {
+                bar.set_length(all);
+                bar.set_position(done);
+            }
+            bar.set_style(style(if share.is_some() { COUNTED } else { UNCOUNTED }));
+            bar.set_message(name.to_owned());
+            return;
+        }
+        let mut named = lock(&self.named);
+        if *named != name {
+            *named = name.to_owned();
+            self.note(name);
+        }
+    }
+
+    /// Does work that tells its tasks.
+    pub(crate) fn tasks<T>(&self, work: impl FnOnce(&(dyn Fn(&str) + Sync)) -> T) -> T {
+        self.watched(None, || work(&|task| self.task(task)))
+    }
+
     /// Does `work`, and names it if it takes long.
-    pub(crate) fn during<T>(self, name: &str, work: impl FnOnce() -> T) -> T {
+    pub(crate) fn during<T>(&self, name: &str, work: impl FnOnce() -> T) -> T {
+        self.watched(Some(name), work)
+    }
+
+    fn watched<T>(&self, name: Option<&str>, work: impl FnOnce() -> T) -> T {
+        let bar = (self.how == How::Bars).then(|| {
+            let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()).with_style(style(UNCOUNTED));
+            bar.with_message(name.unwrap_or_default().to_owned())
+        });
+        lock(&self.bar).clone_from(&bar);
         let (done, watch) = channel::<()>();
-        thread::scope(|scope| {
+        let result = thread::scope(|scope| {
+            let (bar, name) = (bar.as_ref(), name);
             scope.spawn(move || {
-                if watch.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
-                    self.note(&format!("{name} ..."));
+                if watch.recv_timeout(PATIENCE) != Err(RecvTimeoutError::Timeout) {
+                    return;
+                }
+                match (bar, name) {
+                    (Some(bar), _) => {
+                        bar.set_draw_target(ProgressDrawTarget::stderr());
+                        bar.enable_steady_tick(TICK);
+                    }
+                    (None, Some(name)) => self.note(&format!("{name} ...")),
+                    (None, None) => {}
                 }
             });
             let result = work();
             drop(done);
             result
-        })
+        });
+        *lock(&self.bar) = None;
+        if let Some(bar) = bar {
+            bar.finish_and_clear();
+        }
+        result
+    }
+
+    /// Writes files; an interrupt waits until they are whole.
+    pub(crate) fn save(&self, files: &[(&Path, Content)]) -> Result<(), Error> {
+        let _held = lock(&self.saving);
+        output::write_files(files)
+    }
+
+    /// Reads a coil file and says what in it looks like a mistake.
+    pub(crate) fn read_coil(&self, path: &Path) -> Result<input::CoilCase, Error> {
+        let case = self.during(&format!("reading {}", path.display()), || input::read_coil(path))?;
+        case.warnings.iter().for_each(|warning| self.note(&format!("warning: {}: {warning}", path.display())));
+        Ok(case)
+    }
+}
+
+fn style(template: &str) -> ProgressStyle {
+    // the templates are constants; were one wrong, the library's own would do
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> ")
+}
+
+/// A task's name and, of one that is counted, k of n.
+fn counted(task: &str) -> (&str, Option<(u64, u64)>) {
+    let parts = || {
+        let (name, rest) = task.rsplit_once(" (")?;
+        let (done, all) = rest.strip_suffix(')')?.split_once(" of ")?;
+        Some((name, (done.parse().ok()?, all.parse().ok()?)))
+    };
+    parts().map_or((task, None), |(name, share)| (name, Some(share)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_count_is_told_from_other_brackets() {
+        assert_eq!(counted("fitting (once) (3 of 14)"), ("fitting (once)", Some((3, 14))));
+        assert_eq!(counted("fitting (half a minute of it)"), ("fitting (half a minute of it)", None));
+    }
+
+    #[test]
+    fn the_templates_are_read() {
+        assert!([COUNTED, UNCOUNTED].iter().all(|template| ProgressStyle::with_template(template).is_ok()));
     }
 }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use serde_json::{Value, json};
 use winding::{Half, Winding};
 
 use crate::input::CoilCase;
@@ -22,11 +23,31 @@ pub fn csv(winding: &Winding) -> String {
 }
 
 /// `CW` or `CCW`.
-pub(crate) fn name(half: Half) -> &'static str {
+pub fn name(half: Half) -> &'static str {
     match half {
         Half::Cw => "CW",
         Half::Ccw => "CCW",
     }
+}
+
+/// What was wound; `fibre_m` holds the tails too, moments as in [`text`].
+pub fn json(case: &CoilCase) -> Value {
+    let (winding, spec) = (&case.winding, case.winding.spec());
+    json!({
+        "name": case.name,
+        "pattern": format!("{:?}", spec.pattern),
+        "fibre_m": winding.length(),
+        "tails_m": {"cw": spec.tails.cw, "ccw": spec.tails.ccw},
+        "layers": spec.layers,
+        "turns": winding.turns().len(),
+        "turns_cw": winding.count(Half::Cw),
+        "turns_ccw": winding.count(Half::Ccw),
+        "inner_diameter_mm": 2.0 * to_mm(spec.inner_radius),
+        "outer_diameter_mm": 2.0 * to_mm(winding.outer_radius()),
+        "height_mm": to_mm(winding.height()),
+        "radial_first_moment_m3": winding.moment(1, 0),
+        "axial_first_moment_m3": winding.moment(0, 1),
+    })
 }
 
 /// What was wound, in a few lines.

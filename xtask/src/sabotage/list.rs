@@ -123,7 +123,7 @@ pub(super) const LIST: &[Sabotage] = &[
         file: "crates/rve-mesh/src/mesh.rs",
         find: "    Ok(CellMesh { order, nodes: grid.positions(cell), elements,",
         replace: concat!(
-            "    let mut nodes = grid.positions(cell);\n",
+            "    let (mut nodes, elements): (_, Vec<Vec<usize>>) = (grid.positions(cell), elements);\n",
             straightened!(),
             "    Ok(CellMesh { order, nodes, elements,"
         ),

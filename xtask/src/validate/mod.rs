@@ -4,12 +4,14 @@ mod cell;
 mod coil;
 mod fixtures;
 mod nominal;
+mod page;
 mod report;
 mod row;
 mod spread;
 mod winding;
 
 pub(crate) use fixtures::root;
+pub(crate) use page::{PRINTED, on_spools};
 pub(crate) use report::write;
 
 use fixtures::Fixtures;
@@ -63,10 +65,40 @@ fn timed<T, E: Into<Failure>>(work: impl FnOnce() -> Result<T, E>) -> Result<(T,
     Ok((result, start.elapsed().as_secs_f64()))
 }
 
-/// Runs everything, writes the documents, and says whether every row that must hold does.
-pub(crate) fn run(json: Option<&Path>) -> Result<bool, Failure> {
+/// Runs everything, writes the documents, and a page to `html` if it is given, and says whether every row that must hold does.
+pub(crate) fn run(json: Option<&Path>, html: Option<&Path>) -> Result<bool, Failure> {
     let start = Instant::now();
     let step = |what: &str| eprintln!("[{:5.1} s] {what}", start.elapsed().as_secs_f64());
+    let sections = compared(step)?;
+    let failed: Vec<&Row> = sections.iter().flat_map(|s| &s.rows).filter(|row| row.verdict == Verdict::Fails).collect();
+    println!("{}", report::text(&sections));
+    report::write_documents(&sections)?;
+    if let Some(path) = json {
+        report::write_json(&sections, failed.is_empty(), path)?;
+    }
+    if let Some(path) = html {
+        write(path, &page::html(&sections)?)?;
+    }
+    step("docs/validation.md and the README's table are written");
+    for row in &failed {
+        eprintln!("FAILS: {} {}: {} {}; {}", row.id, row.quantity, row.computed_text(), row.unit, row.reason);
+    }
+    let must = sections.iter().flat_map(|s| &s.rows).filter(|row| row.must_hold).count();
+    println!("{} of {must} rows that must hold do", must - failed.len());
+    Ok(failed.is_empty())
+}
+
+/// The comparison as an HTML page; no document is written.
+pub(crate) fn html() -> Result<String, Failure> {
+    page::html(&compared(|_| ())?)
+}
+
+/// |S| over spools: (material, hub, flanges; S).
+pub(crate) fn over_spools() -> Result<Vec<(String, f64)>, Failure> {
+    Ok(spread::over_spools(&Fixtures::read()?)?.lines)
+}
+
+fn compared(step: impl Fn(&str)) -> Result<[Section; 5], Failure> {
     let fixtures = Fixtures::read()?;
     step("Table I: reference cell");
     let (table_1, cell) = cell::table_1(&fixtures)?;
@@ -78,18 +110,5 @@ pub(crate) fn run(json: Option<&Path>) -> Result<bool, Failure> {
     let table_4 = coil::table_4(&fixtures, &cell.constants)?;
     step("five profiles in time against an independent code (some 10 s)");
     let nominal = nominal::nominal(&fixtures)?;
-    let sections = [table_1, table_2, table_3, table_4, nominal];
-    let failed: Vec<&Row> = sections.iter().flat_map(|s| &s.rows).filter(|row| row.verdict == Verdict::Fails).collect();
-    println!("{}", report::text(&sections));
-    report::write_documents(&sections)?;
-    if let Some(path) = json {
-        report::write_json(&sections, failed.is_empty(), path)?;
-    }
-    step("docs/validation.md and the README's table are written");
-    for row in &failed {
-        eprintln!("FAILS: {} {}: {} {}; {}", row.id, row.quantity, row.computed_text(), row.unit, row.reason);
-    }
-    let must = sections.iter().flat_map(|s| &s.rows).filter(|row| row.must_hold).count();
-    println!("{} of {must} rows that must hold do", must - failed.len());
-    Ok(failed.is_empty())
+    Ok([table_1, table_2, table_3, table_4, nominal])
 }

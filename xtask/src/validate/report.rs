@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
 
-fn kind(kind: Kind) -> &'static str {
+pub(super) fn kind(kind: Kind) -> &'static str {
     match kind {
         Kind::Predicted => "predicted",
         Kind::Identified => "identified",
@@ -15,7 +15,7 @@ fn kind(kind: Kind) -> &'static str {
     }
 }
 
-fn verdict(row: &Row) -> &'static str {
+pub(super) fn verdict(row: &Row) -> &'static str {
     match row.verdict {
         Verdict::Holds => "holds",
         Verdict::Shown => "shown",

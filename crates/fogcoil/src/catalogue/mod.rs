@@ -49,7 +49,18 @@ pub struct Entry {
     /// Its parameters, its choice first.
     pub parameters: Vec<Row>,
     /// What it changes in each of [`Catalogue::programmes`] at its typical size: spool temperature \[K\] and rate \[deg/h\].
-    changes: Vec<[Vec<f64>; 2]>,
+    pub(crate) changes: Vec<[Vec<f64>; 2]>,
+}
+
+/// What the mechanisms of a design change, without their comparison.
+pub(crate) struct Responses {
+    /// The mechanisms.
+    pub(crate) entries: Vec<Entry>,
+    /// As [`Catalogue::programmes`].
+    pub(crate) programmes: Vec<Programme>,
+    gyro: Gyro,
+    contenders: Vec<Contender>,
+    truths: Vec<Active>,
 }
 
 /// All named mechanisms of a design.
@@ -72,22 +83,8 @@ impl Catalogue {
     /// # Errors
     /// [`Error::Coil`] if the design cannot be modelled.
     pub fn measure(case: &CoilCase, cache: &Cache, progress: &dyn Fn(&str)) -> Result<Self, Error> {
-        let coil = |source| Error::Coil { file: case.file.clone(), source };
-        let failed = |error: diagnosis::Error<coil::Error>| match error {
-            diagnosis::Error::Model(source) => coil(source),
-            other => Error::Diagnosis(other.to_string()),
-        };
-        let library = library(case, cache)?;
-        let mut programmes = programmes(&LIMITS);
-        programmes.dedup_by_key(|programme| programme.family);
-        let records = programmes.iter().map(|p| prepared(&library, p)).collect::<Result<Vec<_>, _>>().map_err(coil)?;
-        let gyro = Gyro::new(library, records).map_err(coil)?;
-        let mut contenders = Vec::new();
-        for mechanism in gyro.mechanisms().iter().filter(|m| m.named) {
-            contenders.extend(Contender::named(&gyro, &mechanism.id).map_err(failed)?);
-        }
-        let truths: Vec<Active> = contenders.iter().filter_map(|c| c.truth.clone()).collect();
-        let entries = truths.iter().map(|truth| entry(&gyro, truth, programmes.len())).collect::<Result<_, _>>().map_err(coil)?;
+        let Responses { entries, programmes, gyro, mut contenders, truths } = Responses::of(case, cache)?;
+        let failed = |error| failed(case, error);
         contenders.push(Contender::recalibrated());
         contenders.extend(Contender::named(&gyro, "nominal").map_err(failed)?);
         let noise = usual(&gyro);
@@ -111,6 +108,35 @@ impl Catalogue {
         }
         let rivals = contenders.into_iter().map(|c| c.id).collect();
         Ok(Self { design: case.name.clone(), entries, programmes, rivals, told })
+    }
+}
+
+impl Responses {
+    /// Runs every named mechanism at its typical size.
+    ///
+    /// # Errors
+    /// As [`Catalogue::measure`].
+    pub(crate) fn of(case: &CoilCase, cache: &Cache) -> Result<Self, Error> {
+        let coil = |source| Error::Coil { file: case.file.clone(), source };
+        let library = library(case, cache, &|_| ())?;
+        let mut programmes = programmes(&LIMITS);
+        programmes.dedup_by_key(|programme| programme.family);
+        let records = programmes.iter().map(|p| prepared(&library, p)).collect::<Result<Vec<_>, _>>().map_err(coil)?;
+        let gyro = Gyro::new(library, records).map_err(coil)?;
+        let mut contenders = Vec::new();
+        for mechanism in gyro.mechanisms().iter().filter(|m| m.named) {
+            contenders.extend(Contender::named(&gyro, &mechanism.id).map_err(|error| failed(case, error))?);
+        }
+        let truths: Vec<Active> = contenders.iter().filter_map(|c| c.truth.clone()).collect();
+        let entries = truths.iter().map(|truth| entry(&gyro, truth, programmes.len())).collect::<Result<_, _>>().map_err(coil)?;
+        Ok(Self { entries, programmes, gyro, contenders, truths })
+    }
+}
+
+fn failed(case: &CoilCase, error: diagnosis::Error<coil::Error>) -> Error {
+    match error {
+        diagnosis::Error::Model(source) => Error::Coil { file: case.file.clone(), source },
+        other => Error::Diagnosis(other.to_string()),
     }
 }
 

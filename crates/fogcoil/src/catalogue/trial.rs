@@ -54,7 +54,7 @@ impl Catalogue {
             diagnosis::Error::Model(source) => coil(source),
             other => Error::Diagnosis(other.to_string()),
         };
-        let library = library(case, cache)?;
+        let library = library(case, cache, &|_| ())?;
         let records = self.programmes.iter().map(|p| prepared(&library, p)).collect::<Result<Vec<_>, _>>().map_err(coil)?;
         let gyro = Gyro::new(library, records).map_err(coil)?;
         let contender = |id: &str| Contender::named(&gyro, id).map_err(failed).map(Option::into_iter);

@@ -1,11 +1,12 @@
 //! The result as one object.
 
 use bias::units::S_PER_H;
-use recording::check::{Finding, Kind, Repair};
+use recording::check::{Finding, Repair};
 use serde_json::{Value, json};
 
 use super::text::severity;
 use super::{Analysis, GyroNoise};
+use crate::glossary::Remark;
 
 /// The result; units in the keys, `null` where a number is not known.
 pub fn json(analysis: &Analysis) -> Value {
@@ -26,6 +27,7 @@ pub fn json(analysis: &Analysis) -> Value {
         "gaps": instants.map_or_else(Vec::new, |i| i.gaps.iter().map(gap).collect::<Vec<_>>()),
         "channels": report.channels.iter().map(channel).collect::<Vec<_>>(),
         "notes": case.notes,
+        "note_ids": Remark::ids(&case.notes),
         "findings": report.findings.iter().map(finding).collect::<Vec<_>>(),
         "noise": analysis.noise.as_ref().map(noise),
     })
@@ -47,7 +49,7 @@ fn channel(channel: &recording::check::ChannelSummary) -> Value {
 
 fn finding(finding: &Finding) -> Value {
     json!({
-        "kind": kind(&finding.kind),
+        "kind": Remark::of_finding(&finding.kind).id(),
         "severity": severity(finding.severity),
         "channel": finding.channel,
         "from_s": finding.span.map(|[from, _]| from),
@@ -60,28 +62,6 @@ fn finding(finding: &Finding) -> Value {
         },
         "text": finding.to_string(),
     })
-}
-
-fn kind(kind: &Kind) -> &'static str {
-    match kind {
-        Kind::Gap { .. } => "gap",
-        Kind::Jitter { .. } => "jitter",
-        Kind::Duplicate => "duplicate",
-        Kind::Conflict => "conflict",
-        Kind::Backwards { .. } => "backwards",
-        Kind::ClockStep { .. } => "clock-step",
-        Kind::Missing => "missing",
-        Kind::Outliers { .. } => "outliers",
-        Kind::Stuck { .. } => "stuck",
-        Kind::Saturation { .. } => "saturation",
-        Kind::Quantised { .. } => "quantised",
-        Kind::Unit { .. } => "unit",
-        Kind::Constant { .. } => "constant",
-        Kind::Empty => "empty",
-        Kind::TooShort { .. } => "too-short",
-        Kind::Offset { .. } => "offset",
-        _ => "other",
-    }
 }
 
 /// Errors are relative standard errors. A degree per hour times a second is an arc second.

@@ -7,6 +7,7 @@ use recording::check::{Finding, Severity};
 use recording::noise::{StandardErrors, Term};
 
 use super::{Analysis, GyroNoise};
+use crate::glossary::Remark;
 use crate::input::RecordCase;
 use crate::table::{significant, table};
 use crate::units::DurationUnit;
@@ -89,7 +90,7 @@ fn findings(out: &mut String, findings: &[&Finding]) {
     for (n, finding) in findings.iter().enumerate() {
         let before = (0..n).filter(alike(n)).count();
         if before < MOST_ALIKE {
-            let _ = writeln!(out, "{}: {finding}", severity(finding.severity));
+            let _ = writeln!(out, "{}: {}", severity(finding.severity), Remark::of_finding(&finding.kind).says(finding));
         } else if before == MOST_ALIKE {
             let more = (n..findings.len()).filter(alike(n)).count();
             let _ = writeln!(out, "{}: ... and {more} more of this kind (all with --json)", severity(finding.severity));

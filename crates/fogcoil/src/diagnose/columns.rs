@@ -4,6 +4,7 @@ use diagnosis::{ForwardModel, Observation};
 use mechanisms::{Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 
 use super::record::{Ready, WARNING, bridge};
+use crate::glossary::Remark;
 use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
 use crate::table::significant;
 
@@ -35,20 +36,20 @@ pub(super) fn warning(gyro: &Gyro, number: usize, ready: &Ready, case: &RecordCa
             let would = rms(thermometer, &thermometer_under(gyro.library(), time, chamber)?, 1.0);
             if SUSPECT * would < left {
                 let [left, would] = [left, would].map(|k| significant(k, 2));
-                return Ok(Some(format!(
+                return Ok(Some(Remark::ExchangedColumns.says(format!(
                     "{WARNING}{file}: {columns} seem to be exchanged: the model leaves {left} K rms of the thermometer as it stands, \
                      {would} K with them exchanged; check the header or --column"
-                )));
+                ))));
             }
         }
     }
     let [left, would] = [1.0, -1.0].map(|sign| rms(rate, &predicted[RATE_CHANNEL], sign));
     Ok((REVERSED * would < left).then(|| {
         let [left, would] = [left, would].map(|r| significant(r, 2));
-        format!(
+        Remark::ReversedRate.says(format!(
             "{WARNING}{file}: {RATE} seems to have the other sign: the nominal model leaves {left} deg/h rms as it stands, {would} \
              with the rate negated; check the sense of the gyro's axis and cw_climbs"
-        )
+        ))
     }))
 }
 

@@ -20,7 +20,8 @@ use mechanisms::{Gyro, Library, Located, Prepared, RATE as RATE_CHANNEL, SPOOL a
 
 use crate::Error;
 use crate::cache::Cache;
-use crate::input::{CoilCase, InputError, RecordCase};
+use crate::glossary::Remark;
+use crate::input::{CoilCase, Fingerprint, InputError, RecordCase};
 
 pub use extended::with_mechanism;
 pub use record::{FEWEST_ROWS, INTERVAL_S, MANY_ROWS, MOST_ROWS};
@@ -32,6 +33,8 @@ pub struct Outcome {
     name: String,
     /// Its file.
     coil: PathBuf,
+    /// What the files of the design were.
+    design: Vec<Fingerprint>,
     gyro: Gyro,
     diagnosis: Diagnosis,
     fits: Vec<Record>,
@@ -42,6 +45,7 @@ pub struct Outcome {
 /// A record that was used.
 struct Record {
     file: PathBuf,
+    fingerprint: Fingerprint,
     observed: Observation,
     chamber: Vec<f64>,
     averaging: f64,
@@ -57,6 +61,8 @@ struct Held {
 
 /// Diagnoses a unit of the design `case` from the records `fits`, judged on `holdouts`.
 ///
+/// `progress` is told each task as it begins; of one that can be counted again and again, with ` (k of n)` behind its name.
+///
 /// # Errors
 /// [`Error::Input`] names the record that cannot be used and why; [`Error::Coil`] if the design cannot be modelled.
 pub fn diagnose(
@@ -64,14 +70,13 @@ pub fn diagnose(
     fits: &[RecordCase],
     holdouts: &[RecordCase],
     cache: &Cache,
-    progress: &dyn Fn(&str),
+    progress: &(dyn Fn(&str) + Sync),
 ) -> Result<Outcome, Error> {
     let coil = |source| Error::Coil { file: case.file.clone(), source };
     refuse_copies(fits.iter().chain(holdouts))?;
     let mut notes = Vec::new();
     let read: Vec<Ready> = fits.iter().chain(holdouts).map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
-    progress("modelling the coil and what its model may leave out (half a minute, once for a design)");
-    let library = library(case, cache)?;
+    let library = library(case, cache, progress)?;
     progress("running every model under the recorded chamber");
     let prepared = |r: &Ready| Prepared::new(&library, &r.observation.time, &r.chamber, r.averaging);
     let prepared = read.iter().map(prepared).collect::<Result<Vec<_>, _>>().map_err(coil)?;
@@ -89,6 +94,7 @@ pub fn diagnose(
         diagnosis::diagnose(&gyro, &numbers, &observations[..fits.len()], &Settings::default(), progress).map_err(failed)?;
     let mut records = read.into_iter().zip(fits.iter().chain(holdouts)).map(|(ready, case)| Record {
         file: case.fingerprint.file.clone(),
+        fingerprint: case.fingerprint.clone(),
         observed: ready.observation,
         chamber: ready.chamber,
         averaging: ready.averaging,
@@ -116,17 +122,18 @@ pub fn diagnose(
         } else {
             "no better than by the nominal model, far from its noise"
         };
-        notes.push(format!(
-            "{file} is predicted {how}: the likeliest explanation is taken back; is it a record of the same unit?"
-        ));
+        let message =
+            format!("{file} is predicted {how}: the likeliest explanation is taken back; is it a record of the same unit?");
+        notes.push(Remark::TakenBack.says(message));
         diagnosis.take_back(held.nominal.within_noise(RATE_CHANNEL));
     }
-    Ok(Outcome { name: case.name.clone(), coil: case.file.clone(), gyro, diagnosis, fits: fitted, holdouts, notes })
+    let (name, coil, design) = (case.name.clone(), case.file.clone(), case.fingerprints.clone());
+    Ok(Outcome { name, coil, design, gyro, diagnosis, fits: fitted, holdouts, notes })
 }
 
 /// A record that is given twice would be counted, or judged, by itself.
 fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -> Result<(), Error> {
-    let mut known: Vec<&crate::input::Fingerprint> = Vec::new();
+    let mut known: Vec<&Fingerprint> = Vec::new();
     for RecordCase { fingerprint, .. } in records {
         if let Some(first) = known.iter().find(|k| (k.bytes, k.fnv1a) == (fingerprint.bytes, fingerprint.fnv1a)) {
             let problem = format!("is the same recording as {}", first.file.display());
@@ -139,9 +146,12 @@ fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -> Result<()
 }
 
 /// The library of a design, from the cache if it is there.
-pub(crate) fn library(case: &CoilCase, cache: &Cache) -> Result<Library, Error> {
+pub(crate) fn library(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(&str) + Sync)) -> Result<Library, Error> {
+    const TASK: &str = "modelling the coil and what its model may leave out (half a minute, once for a design)";
+    progress(TASK);
     let key = (&case.design, COARSE);
-    let built = cache.load_or_build("library", &key, || Library::build(&case.design, |_| ()));
+    let share = |share: f64| progress(&format!("{TASK} ({:.0} of 100)", 100.0 * share));
+    let built = cache.load_or_build("library", &key, || Library::build(&case.design, share));
     built.map(|(library, _)| library).map_err(|source| Error::Coil { file: case.file.clone(), source })
 }
 
@@ -197,14 +207,21 @@ impl Outcome {
         self.holdouts.iter().all(|held| held.accepted)
     }
 
-    /// What the accepted model predicts of the first record that was held out, `time_s,rate_deg_per_h`; `None` if there is none.
+    /// Instants \[s\], and what the accepted model predicts of the rate \[deg/h\], of the first record that was held out; `None` if
+    /// there is none.
     ///
     /// A model that predicts it worse than the nominal one is not accepted: then the nominal prediction is given.
-    pub fn prediction(&self) -> Option<String> {
+    pub fn predicted_rate(&self) -> Option<[&[f64]; 2]> {
         let held = self.holdouts.first()?;
         let chosen = if held.accepted { &held.model } else { &held.nominal };
+        Some([&held.record.observed.time, &chosen.prediction[RATE_CHANNEL]])
+    }
+
+    /// [`Self::predicted_rate`] as a table `time_s,rate_deg_per_h`.
+    pub fn prediction(&self) -> Option<String> {
+        let [time, rates] = self.predicted_rate()?;
         let mut text = "time_s,rate_deg_per_h\n".to_owned();
-        for (t, rate) in held.record.observed.time.iter().zip(&chosen.prediction[RATE_CHANNEL]) {
+        for (t, rate) in time.iter().zip(rates) {
             let _ = writeln!(text, "{t},{rate}");
         }
         Some(text)

@@ -5,6 +5,7 @@ use diagnosis::Observation;
 use recording::check::Severity;
 
 use crate::Error;
+use crate::glossary::Remark;
 use crate::input::{CHAMBER, InputError, RATE, RecordCase, SPOOL};
 
 /// Fewest rows with a rate from which anything is said.
@@ -60,17 +61,21 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<String>) -> Result<Ready,
     }
     let file = case.fingerprint.file.display();
     let warnings = case.report.findings.iter().filter(|finding| finding.severity == Severity::Warning);
-    notes.extend(warnings.map(|finding| format!("{WARNING}{file}: {finding}")));
+    notes.extend(warnings.map(|finding| Remark::of_finding(&finding.kind).says(format!("{WARNING}{file}: {finding}"))));
     let ends = |[low, high]: [f64; 2], t: &f64| [low.min(*t), high.max(*t)];
     let [low, high] = table.chamber.iter().fold([f64::INFINITY, f64::NEG_INFINITY], ends);
     if high - low < FEWEST_KELVIN {
-        notes.push(format!("{file}: the chamber moves by {:.1} K only: little that depends on temperature can show", high - low));
+        let range = high - low;
+        let message = format!("{file}: the chamber moves by {range:.1} K only: little that depends on temperature can show");
+        notes.push(Remark::NarrowRange.says(message));
     }
     if case.number(SPOOL).is_none() {
-        notes.push(format!("{file}: no spool_c: heat paths and the thermometer cannot be told apart"));
+        let message = format!("{file}: no spool_c: heat paths and the thermometer cannot be told apart");
+        notes.push(Remark::NoThermometer.says(message));
     }
     if let Some(off) = unrest(&table) {
-        notes.push(format!("{file}: does not start at rest ({off}), as the model does: what this leaves is no finding"));
+        let message = format!("{file}: does not start at rest ({off}), as the model does: what this leaves is no finding");
+        notes.push(Remark::NotAtRest.says(message));
     }
     let Table { time, chamber, spool, rate, averaging } = table;
     Ok(Ready { observation: Observation { time, channels: vec![spool, rate] }, chamber, averaging })
@@ -127,7 +132,8 @@ impl Table {
             first = n;
         }
         let (file, left) = (case.fingerprint.file.display(), thin.time.len());
-        notes.push(format!("{file}: {rows} rows are averaged by {every} to {left} of {:.3} s", interval * every as f64));
+        let message = format!("{file}: {rows} rows are averaged by {every} to {left} of {:.3} s", interval * every as f64);
+        notes.push(Remark::Averaged.says(message));
         thin
     }
 

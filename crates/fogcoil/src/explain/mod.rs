@@ -103,7 +103,7 @@ pub fn explain(
     measured: f64,
     magnitude: bool,
     cache: &Cache,
-    progress: &dyn Fn(&str),
+    progress: &(dyn Fn(&str) + Sync),
 ) -> Result<Explained, Error> {
     if !measured.is_finite() || measured.abs() > MOST || (magnitude && measured < 0.0) {
         let text = format!(
@@ -115,8 +115,7 @@ pub fn explain(
     let steady = case.steady_sensitivity()?;
     let nominal = steady.sensitivity.total();
     let measured = if magnitude { measured.copysign(nominal) } else { measured };
-    progress("modelling the coil and what its model may leave out (half a minute, once for a design)");
-    let library = library(case, cache)?;
+    let library = library(case, cache, progress)?;
     // one of each family
     let mut programmes = programmes(&LIMITS);
     programmes.dedup_by_key(|programme| programme.family);

@@ -83,10 +83,9 @@ pub(super) fn figure<'a>(simulation: &'a Simulation, fields: &TurnFields) -> Opt
                       ramp: total, Shupe, and elasto-optic from axial and radial strain."
                 .into(),
         caption: format!(
-            "Bias per temperature rate in a steady ramp, at its place in the cross-section. Left: of each turn; the two halves of the \
-             fibre have opposite signs and nearly all of it cancels. Right: summed over blocks of {BLOCK} layers by {BLOCK} turns, where \
-             most of it has cancelled; what is left adds up to the sum given on the left. One scale for all maps on the left, one for all \
-             on the right."
+            "Bias per temperature rate in a steady ramp, at its place in the cross-section. Of each turn: the two halves of the fibre have \
+             opposite signs and nearly all of it cancels. In blocks: summed over {BLOCK} layers by {BLOCK} turns, where most of it has \
+             cancelled; what is left adds up to the sum given. One scale for all maps of turns, one for all of blocks."
         ),
         columns: 2,
         panels,

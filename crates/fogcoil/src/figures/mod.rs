@@ -8,14 +8,19 @@ mod convergence;
 mod course;
 mod fields;
 mod model;
+mod signatures;
+mod spools;
 
 use coil::TurnFields;
 
 use crate::plot::{Figure, Size};
+use crate::report::with_data;
 use crate::simulate::Simulation;
 
 pub use contributions::contributions_in_ramp;
 pub use convergence::{Convergence, convergence};
+pub use signatures::signatures;
+pub use spools::{OnSpool, spools, spools_element};
 
 /// Most turns of which fields are drawn: twice a 5 km coil of 6 cm diameter; more would take gigabytes.
 pub const MOST_TURNS: usize = 50_000;
@@ -40,10 +45,10 @@ pub fn documents(simulation: &Simulation, fields: Option<&TurnFields>) -> Vec<Do
     all(simulation, fields).iter().map(|figure| (figure.id, figure.document())).collect()
 }
 
-/// All figures as elements of a page, in wide and narrow.
+/// All figures as elements of a page, in wide and narrow, each with its data.
 pub(crate) fn elements(simulation: &Simulation, fields: Option<&TurnFields>, convergence: Option<&Convergence>) -> String {
     let last = convergence.map(|measured| convergence::figure(simulation.case, measured));
-    all(simulation, fields).iter().chain(&last).map(element).collect()
+    all(simulation, fields).iter().chain(&last).map(with_data).collect()
 }
 
 /// A figure as an element of a page, in wide and narrow.

@@ -57,14 +57,25 @@ pub enum AnyCell {
 /// # Errors
 /// What is wrong, in which file, line and field, and how to mend it.
 pub fn read_any_cell(path: &Path) -> Result<AnyCell, InputError> {
-    let source = Source::read(path)?;
+    any(path, &Source::read(path)?)
+}
+
+/// Checks a cell file that is not written yet: the case that [`read_any_cell`] would read.
+///
+/// # Errors
+/// As [`read_any_cell`].
+pub fn check_any_cell(path: &Path, text: &str) -> Result<AnyCell, InputError> {
+    any(path, &Source::of(path, text.to_owned()))
+}
+
+fn any(path: &Path, source: &Source) -> Result<AnyCell, InputError> {
     let file: CellFile = source.parse()?;
-    let general = || general(&Group::whole(&source), &file, path.to_owned(), source.fingerprint());
+    let general = || general(&Group::whole(source), &file, path.to_owned(), source.fingerprint());
     if file.general_key().is_some() {
         return general().map(AnyCell::General);
     }
     // a regular cell's own complaints come first
-    let regular = regular(&source, source.parse()?, path)?;
+    let regular = regular(source, source.parse()?, path)?;
     Ok(AnyCell::Regular(regular, general()))
 }
 

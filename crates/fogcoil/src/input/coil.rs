@@ -19,6 +19,7 @@ use super::source::Source;
 use super::warnings::warnings;
 use super::{InputError, coil_parts as parts, heat};
 use crate::Error;
+use crate::glossary::Remark;
 use crate::homogenize::at_temperature;
 use crate::units::{from_gpa, from_mm, from_mpa, to_mm};
 
@@ -267,10 +268,10 @@ impl Cells<'_> {
             let remedy = "take a cell of more fibres, or give the constants themselves: `fogcoil homogenize` prints the nearest";
             self.top.fault(field, problem, remedy)
         })?;
-        self.notes.push(format!(
+        self.notes.push(Remark::AnisotropicCell.says(format!(
             "{field}: the cell {named:?} is not isotropic across the fibre by {far:.2} % of strain energy; its mean over all turns about \
              the fibre is taken"
-        ));
+        )));
         Ok(constants)
     }
 }

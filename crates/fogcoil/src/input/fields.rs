@@ -54,11 +54,11 @@ impl<'a> FieldMap<'a> {
                     frames.push(Frame { bracket, owner, current: None, index: 0 });
                 }
                 Token::Comma => {
-                    map.end(frame, at);
+                    map.close(frame, at);
                     frame.index += 1;
                 }
                 Token::Close => {
-                    map.end(frame, at);
+                    map.close(frame, at);
                     frames.pop();
                 }
                 Token::Open(_) => break,
@@ -81,12 +81,12 @@ impl<'a> FieldMap<'a> {
             _ if frame.bracket == b'[' && frame.current.is_none() => Segment::Index(frame.index),
             _ => return,
         };
-        self.end(frame, at);
+        self.close(frame, at);
         frame.current = Some(self.fields.len());
         self.fields.push(Field { parent: frame.owner, segment, start: at, end });
     }
 
-    fn end(&mut self, frame: &mut Frame, at: usize) {
+    fn close(&mut self, frame: &mut Frame, at: usize) {
         if let Some(field) = frame.current.take() {
             self.fields[field].end = at;
         }
@@ -114,6 +114,21 @@ impl<'a> FieldMap<'a> {
     /// Byte offset where a field begins.
     pub(crate) fn start(&self, field: usize) -> usize {
         self.fields[field].start
+    }
+
+    /// Byte offset of what follows a field's value.
+    pub(crate) fn end(&self, field: usize) -> usize {
+        self.fields[field].end
+    }
+
+    /// The first field inside another, or of the whole file.
+    pub(crate) fn first_inside(&self, parent: Option<usize>) -> Option<usize> {
+        self.fields.iter().position(|field| field.parent == parent)
+    }
+
+    /// Whether a field is an element of a list.
+    pub(crate) fn is_element(&self, field: usize) -> bool {
+        matches!(self.fields[field].segment, Segment::Index(_))
     }
 
     /// The field that `path` names, and what of the path the text does not have.

@@ -1,5 +1,8 @@
 //! What is accepted for each kind of number, in the unit of its key: wide enough for any coil, narrow enough to catch a wrong unit.
 
+use schemars::Schema;
+use serde_json::{Map, Value};
+
 use super::InputError;
 use super::fields::join;
 use super::source::Source;
@@ -45,6 +48,35 @@ pub(crate) const DRIFT_DEG_PER_H_PER_K: Limit = limit(-1e3, 1e3, "(deg/h)/K", "0
 pub(crate) const INDEX: Limit = limit(1.0, 5.0, "", "1.45 for silica");
 pub(crate) const PHOTOELASTIC: Limit = limit(-1.0, 1.0, "", "0.121 and 0.270 for silica");
 pub(crate) const STRAIN_RATIO: Limit = limit(-10.0, 10.0, "", "0.0274");
+pub(crate) const NOT_NEGATIVE: Limit = limit(0.0, f64::MAX, "", "0.01");
+
+/// Gives the schema of a field least and most of its numbers, and the unit.
+pub(crate) fn within(limit: &'static Limit) -> impl Fn(&mut Schema) {
+    move |schema| {
+        let object = schema.ensure_object();
+        if !limit.unit.is_empty() {
+            object.insert("x-unit".into(), limit.unit.into());
+        }
+        bound(object, limit);
+    }
+}
+
+fn bound(schema: &mut Map<String, Value>, limit: &Limit) {
+    let is_number = |kind: &Value| kind == "number" || kind.as_array().is_some_and(|kinds| kinds.iter().any(|k| k == "number"));
+    if schema.get("type").is_some_and(is_number) {
+        schema.insert("minimum".into(), limit.least.into());
+        if limit.most < f64::MAX {
+            schema.insert("maximum".into(), limit.most.into());
+        }
+    }
+    let items = ["items", "prefixItems"];
+    for (_, items) in schema.iter_mut().filter(|(key, _)| items.contains(&key.as_str())) {
+        match items {
+            Value::Array(items) => items.iter_mut().filter_map(Value::as_object_mut).for_each(|item| bound(item, limit)),
+            item => item.as_object_mut().into_iter().for_each(|item| bound(item, limit)),
+        }
+    }
+}
 
 impl Limit {
     fn problem(&self, value: f64) -> Option<String> {

@@ -1,17 +1,19 @@
 //! How a coil file says that stiffness or bond depends on temperature and time.
 
 use coil::{Body, FactorsAt, Mechanics, Opening};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::InputError;
 use super::coil_file::SideFile;
 use super::coil_parts::side;
-use super::limits::{FACTOR, Group, HYSTERESIS_K, SHARE, TEMPERATURE_C, TIME_S};
+use super::limits::{FACTOR, Group, HYSTERESIS_K, SHARE, TEMPERATURE_C, TIME_S, within};
 
 /// Rows of the longest temperature table accepted: each costs a model.
 const MOST_ROWS: usize = 100;
 
-#[derive(Deserialize, Default)]
+/// What of the coil's stiffness or bond depends on temperature or time.
+#[derive(Deserialize, JsonSchema, Default)]
 pub(crate) enum MechanicsFile {
     #[default]
     Elastic,
@@ -20,27 +22,47 @@ pub(crate) enum MechanicsFile {
     Opening(OpeningFile),
 }
 
-#[derive(Deserialize)]
+/// Factors at a mean temperature of the coil; linear between rows, constant beyond. At most 100 rows.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FactorsFile {
+    /// The temperature.
+    #[schemars(transform = within(&TEMPERATURE_C))]
     temperature_c: f64,
+    /// On E_r and G.
+    #[schemars(transform = within(&FACTOR))]
     transverse_modulus_factor: f64,
+    /// On alpha_r.
+    #[schemars(transform = within(&FACTOR))]
     transverse_expansion_factor: f64,
 }
 
-#[derive(Deserialize)]
+/// E(t)/E(0) = 1 - fraction + fraction exp(-t/time).
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RelaxingFile {
+    /// What relaxes.
+    #[schemars(transform = within(&SHARE))]
     fraction: f64,
+    /// In what time.
+    #[schemars(transform = within(&TIME_S))]
     time_s: f64,
 }
 
-#[derive(Deserialize)]
+/// The outer part of the bond to a flange opens in the cold.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OpeningFile {
+    /// Of the flange.
     side: SideFile,
+    /// Where it opens.
+    #[schemars(transform = within(&TEMPERATURE_C))]
     below_c: f64,
+    /// How much above it closes.
+    #[schemars(transform = within(&HYSTERESIS_K))]
     hysteresis_k: f64,
+    /// Share of the annulus' width.
+    #[schemars(transform = within(&SHARE))]
     fraction: f64,
 }
 

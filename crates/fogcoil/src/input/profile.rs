@@ -8,6 +8,7 @@ use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::profile_columns::{Columns, TIME};
 use super::rows::{Rows, quoted};
+use crate::glossary::Remark;
 
 /// Most rows of a profile: two and a half years at 4 s.
 const MOST_ROWS: usize = 20_000_000;
@@ -86,7 +87,18 @@ impl ProfileCase {
 /// # Errors
 /// What is wrong, in which file, line and column, and how to mend it.
 pub fn read_profile(path: &Path, design: &Design) -> Result<ProfileCase, InputError> {
-    let mut rows = Rows::open(path, "a profile (*.csv)")?;
+    read(Rows::open(path, "a profile (*.csv)")?, path, design)
+}
+
+/// Checks a profile that is not in a file: the case that [`read_profile`] would read from a file of this content.
+///
+/// # Errors
+/// As [`read_profile`]; messages call the text `path`.
+pub fn check_profile(path: &Path, text: String, design: &Design) -> Result<ProfileCase, InputError> {
+    read(Rows::of(path, text), path, design)
+}
+
+fn read(mut rows: Rows, path: &Path, design: &Design) -> Result<ProfileCase, InputError> {
     if !rows.advance()? {
         return Err(
             rows.whole_fault("is empty", "its first line names the columns, time_s,chamber_c; a row for each instant follows")
@@ -105,11 +117,11 @@ pub fn read_profile(path: &Path, design: &Design) -> Result<ProfileCase, InputEr
         let problem = format!(
             "rows are as close as {shortest:.6} s; means over less than {RESOLVED_S} s are not reliable just after a jump"
         );
-        notes.push(format!("{}: {problem}", path.display()));
+        notes.push(Remark::CloseRows.says(format!("{}: {problem}", path.display())));
     }
     if courses[0].iter().all(|celsius| *celsius > KELVIN_C) {
         let problem = format!("chamber_c never falls below {KELVIN_C} degC; if it is in kelvin, subtract 273.15");
-        notes.push(format!("{}: {problem}", path.display()));
+        notes.push(Remark::Kelvin.says(format!("{}: {problem}", path.display())));
     }
     Ok(ProfileCase {
         drives,

@@ -6,6 +6,7 @@ use coil::{Design, Drive, Side};
 
 use super::InputError;
 use super::rows::{Rows, quoted};
+use crate::glossary::Remark;
 
 pub(crate) const TIME: &str = "time_s";
 const CHAMBER: &str = "chamber_c";
@@ -78,7 +79,7 @@ impl Columns {
             [one] => format!("the column {one} drives nothing and is ignored"),
             more => format!("the columns {} drive nothing and are ignored", more.join(", ")),
         };
-        vec![format!("{}: {which}", path.display())]
+        vec![Remark::IgnoredColumn.says(format!("{}: {which}", path.display()))]
     }
 }
 

@@ -12,6 +12,7 @@ use super::record_format::{Key, RecordFormat, RecordOptions};
 use super::rows::{Rows, quoted};
 use super::{InputError, timestamp};
 use crate::Error;
+use crate::glossary::Remark;
 
 /// The chamber's temperature \[°C\].
 pub const CHAMBER: &str = "chamber_c";
@@ -89,17 +90,30 @@ pub fn read_record(path: &Path, options: &RecordOptions) -> Result<RecordCase, E
         Err(input) => Error::Input(input),
     })?;
     let meta = meta_path(path, options).map(|path| meta::read(&path)).transpose()?;
-    let mut rows = Rows::open_as(path, "a recording (*.csv)", format.dialect)?;
+    checked(Rows::open_as(path, "a recording (*.csv)", format.dialect)?, &format, meta)
+}
+
+/// Checks a recording that is not in a file, in the standard columns: the case that [`read_record`] would read from a file of this
+/// content with nothing beside it but `meta`, which is the path of a meta file.
+///
+/// # Errors
+/// As [`read_record`]; messages call the text `path`.
+pub fn check_record(path: &Path, text: String, meta: Option<&Path>) -> Result<RecordCase, Error> {
+    let meta = meta.map(meta::read).transpose()?;
+    checked(Rows::of(path, text), &RecordFormat::standard(), meta)
+}
+
+fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<Meta>) -> Result<RecordCase, Error> {
     if !rows.advance()? {
         let remedy = "its first line names the columns, time_s,chamber_c,spool_c,rate_deg_per_h; a row for each instant follows";
         return Err(rows.whole_fault("is empty", remedy).into());
     }
-    let columns = RecordColumns::read(&rows, &format)?;
-    let (recording, relative) = read_rows(&mut rows, &columns, &format)?;
-    let report = check(&recording, &expectations(&recording, &format));
+    let columns = RecordColumns::read(&rows, format)?;
+    let (recording, relative) = read_rows(&mut rows, &columns, format)?;
+    let report = check(&recording, &expectations(&recording, format));
     let interval = report.instants.as_ref().map_or(0.0, |instants| instants.interval);
     let averaging = meta.as_ref().map(|meta| meta.sample_interval_s).filter(|seconds| *seconds > 0.0).unwrap_or(interval);
-    let mut notes = notes(&columns, &format, relative);
+    let mut notes = notes(&columns, format, relative);
     notes.extend(meta.as_ref().and_then(|meta| interval_note(meta, interval)));
     Ok(RecordCase { recording, report, averaging, meta, notes, fingerprint: rows.fingerprint() })
 }
@@ -214,8 +228,13 @@ fn notes(columns: &RecordColumns, format: &RecordFormat, relative: bool) -> Vec<
     for key in Key::ALL {
         let Some(column) = columns.column(key) else {
             notes.push(match key {
-                Key::Time => "there is no column of instants: the interval that was declared stands for it".into(),
-                _ => format!("there is no column {}; a model can do without it, less surely", key.standard()),
+                Key::Time => {
+                    Remark::DeclaredInterval.says("there is no column of instants: the interval that was declared stands for it")
+                }
+                _ => {
+                    let message = format!("there is no column {}; a model can do without it, less surely", key.standard());
+                    Remark::AbsentColumn.says(message)
+                }
             });
             continue;
         };
@@ -223,16 +242,21 @@ fn notes(columns: &RecordColumns, format: &RecordFormat, relative: bool) -> Vec<
         let standard = key.units()[0];
         if name != key.standard() || form.unit != standard || form.count != 1.0 {
             let counts = if form.count == 1.0 { String::new() } else { format!("counts of {} ", form.count) };
-            notes.push(format!("{} is read from the column {}, in {counts}{}", key.name(), quoted(name), form.unit.names[0]));
+            let unit = form.unit.names[0];
+            let message = format!("{} is read from the column {}, in {counts}{unit}", key.name(), quoted(name));
+            notes.push(Remark::MappedColumn.says(message));
         }
     }
     if relative {
-        notes.push("instants are dates; they count from the first row".into());
+        notes.push(Remark::Dates.says("instants are dates; they count from the first row"));
     }
     match columns.ignored()[..] {
         [] => {}
-        [name] => notes.push(format!("the column {} is not used", quoted(name))),
-        ref names => notes.push(format!("{} columns are not used: {}", names.len(), names.join(", "))),
+        [name] => notes.push(Remark::IgnoredColumn.says(format!("the column {} is not used", quoted(name)))),
+        ref names => {
+            let message = format!("{} columns are not used: {}", names.len(), names.join(", "));
+            notes.push(Remark::IgnoredColumn.says(message));
+        }
     }
     notes
 }
@@ -240,5 +264,6 @@ fn notes(columns: &RecordColumns, format: &RecordFormat, relative: bool) -> Vec<
 fn interval_note(meta: &Meta, interval: f64) -> Option<String> {
     let nominal = meta.sample_interval_s;
     let differs = nominal > 0.0 && interval > 0.0 && (interval / nominal - 1.0).abs() > 0.02;
-    differs.then(|| format!("the rows are {interval} s apart, the meta file says {nominal} s"))
+    let message = || format!("the rows are {interval} s apart, the meta file says {nominal} s");
+    differs.then(|| Remark::IntervalDiffers.says(message()))
 }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use recording::check::Unit;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::InputError;
@@ -86,24 +87,35 @@ pub struct RecordOptions {
     pub interval: Option<f64>,
 }
 
-/// A map file; what is left out is standard.
-#[derive(Deserialize, Default)]
+/// How a logger's file is read, `RECORD.map.ron`; what is left out is standard.
+#[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields, default)]
-struct MapFile {
+pub(super) struct MapFile {
+    /// Between the fields: a character, or `tab`; empty: a comma.
     separator: String,
+    /// Whether numbers are written like 20,5.
     decimal_comma: bool,
+    /// Seconds between rows, for a file without instants; 0: it has them.
     interval_s: f64,
+    /// The instants: s, ms, us, ns, min, h; dates need no unit.
     time: ColumnFile,
+    /// The chamber's temperature: degC, K or degF.
     chamber: ColumnFile,
+    /// The spool's thermometer: degC, K or degF.
     spool: ColumnFile,
+    /// The rate: deg/h, deg/s, rad/s or mrad/s.
     rate: ColumnFile,
 }
 
-#[derive(Deserialize, Default, Clone)]
+/// A column of a logger's file.
+#[derive(Deserialize, JsonSchema, Default, Clone)]
 #[serde(deny_unknown_fields, default)]
 struct ColumnFile {
+    /// Its name in the file; empty: the standard one.
     column: String,
+    /// Its unit; empty: the standard one.
     unit: String,
+    /// Units in a count; 0: it holds no counts.
     scale: f64,
 }
 
@@ -134,10 +146,16 @@ impl RecordFormat {
         let path = options.map.clone().or_else(|| beside.is_file().then_some(beside));
         let mut format = match path {
             Some(path) => Self::from_file(&path).map_err(Err)?,
-            None => Self::of(&MapFile::default()).map_err(|(_, problem)| Ok(problem))?,
+            None => Self::standard(),
         };
         format.declare(options).map_err(Ok)?;
         Ok(format)
+    }
+
+    /// The format of a standard recording.
+    pub(super) fn standard() -> Self {
+        let columns = Key::ALL.map(|key| ColumnFormat { name: None, unit: key.units()[0], count: 1.0 });
+        Self { dialect: Dialect::STANDARD, interval: None, columns }
     }
 
     fn from_file(path: &Path) -> Result<Self, InputError> {

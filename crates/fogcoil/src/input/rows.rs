@@ -3,13 +3,13 @@
 //! Fields are separated by commas and not quoted with line ends inside; double quotes around a field are dropped.
 
 use std::fs::File;
-use std::io::{self, Chain, Read};
+use std::io::{self, Chain, Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use csv::{ErrorKind, StringRecord, Terminator};
 
 use super::InputError;
-use super::fingerprint::{Fingerprint, Fnv1a};
+use super::fingerprint::{Fingerprint, Hash};
 
 /// Largest table [bytes]: 2 GiB.
 pub(crate) const LARGEST: u64 = 2 << 30;
@@ -43,20 +43,18 @@ pub(crate) struct Rows {
     record: StringRecord,
 }
 
-/// A file that is hashed and measured while it is read.
+/// A file, or a text in memory, that is hashed and measured while it is read.
 struct Metered {
-    file: File,
-    hash: Fnv1a,
-    bytes: u64,
+    source: Box<dyn Read>,
+    hash: Hash,
     line: usize,
 }
 
 impl Read for Metered {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let count = self.file.read(buffer)?;
+        let count = self.source.read(buffer)?;
         let piece = &buffer[..count];
         self.hash.update(piece);
-        self.bytes += count as u64;
         for line in piece.split_inclusive(|&byte| byte == b'\n') {
             self.line += line.len();
             if self.line > LONGEST_LINE {
@@ -68,7 +66,7 @@ impl Read for Metered {
                 self.line = 0;
             }
         }
-        if self.bytes > LARGEST {
+        if self.hash.bytes > LARGEST {
             return Err(io::Error::other(format!("it is larger than {LARGEST} bytes; split it")));
         }
         Ok(count)
@@ -99,7 +97,16 @@ impl Rows {
         if about.len() > LARGEST {
             return Err(fault(format!("is larger than {LARGEST} bytes"), "split it"));
         }
-        let metered = Metered { file, hash: Fnv1a::new(), bytes: 0, line: 0 };
+        Ok(Self::new(path, Box::new(file), dialect))
+    }
+
+    /// A table in memory in the standard dialect, called `path` in messages.
+    pub(crate) fn of(path: &Path, text: String) -> Self {
+        Self::new(path, Box::new(Cursor::new(text)), Dialect::STANDARD)
+    }
+
+    fn new(path: &Path, source: Box<dyn Read>, dialect: Dialect) -> Self {
+        let metered = Metered { source, hash: Hash::new(), line: 0 };
         // a line feed ends the last line too, so the line of a record is always the one before the reader's
         let reader = csv::ReaderBuilder::new()
             .has_headers(false)
@@ -108,7 +115,7 @@ impl Rows {
             .delimiter(dialect.separator)
             .terminator(Terminator::Any(b'\n'))
             .from_reader(metered.chain(&b"\n"[..]));
-        Ok(Self { path: path.to_owned(), dialect, reader, record: StringRecord::new() })
+        Self { path: path.to_owned(), dialect, reader, record: StringRecord::new() }
     }
 
     /// Moves to the next row that is not blank; `false` at the end.
@@ -209,7 +216,7 @@ impl Rows {
     /// The content read so far.
     pub(crate) fn fingerprint(&self) -> Fingerprint {
         let metered = self.reader.get_ref().get_ref().0;
-        Fingerprint { file: self.path.clone(), bytes: metered.bytes, fnv1a: metered.hash.value() }
+        metered.hash.fingerprint(self.path.clone())
     }
 }
 

@@ -14,6 +14,14 @@ use super::syntax::explain;
 /// Largest case file [bytes]: some 300 times the reference files.
 const LARGEST: u64 = 1 << 20;
 
+/// The text of a case file, for [`check_coil`](super::check_coil) and the like.
+///
+/// # Errors
+/// Why it cannot be read.
+pub fn read_text(path: &Path) -> Result<String, InputError> {
+    Source::read(path).map(|source| source.text)
+}
+
 /// A case file in memory.
 #[derive(Debug, Clone)]
 pub(crate) struct Source {

@@ -9,6 +9,7 @@ use super::fingerprint::Fingerprint;
 use super::profile::{check_count, instant, temperature};
 use super::profile_columns::{DRIVES, RESULTS, TIME, check_separator};
 use super::rows::{Rows, quoted};
+use crate::glossary::Remark;
 
 const SPOOL: &str = "spool_c";
 /// Most rows of a record: the smoother holds some 300 bytes of each.
@@ -61,9 +62,10 @@ pub fn read_spool(path: &Path, design: &Design) -> Result<SpoolCase, InputError>
     let mut notes = Vec::new();
     let ignored: Vec<&str> = names.iter().map(String::as_str).filter(|name| ![TIME, SPOOL].contains(name)).collect();
     if !ignored.is_empty() {
-        notes.push(format!("{}: not read: {}; the chamber is inferred from {SPOOL}", path.display(), ignored.join(", ")));
+        let message = format!("{}: not read: {}; the chamber is inferred from {SPOOL}", path.display(), ignored.join(", "));
+        notes.push(Remark::IgnoredColumn.says(message));
     }
-    notes.extend(gap(&time).map(|gap| format!("{}: {gap}", path.display())));
+    notes.extend(gap(&time).map(|gap| Remark::Gap.says(format!("{}: {gap}", path.display()))));
     let drives = if design.heat.heaters.is_empty() { vec![Drive::Chamber] } else { vec![Drive::Chamber, Drive::Heaters] };
     Ok(SpoolCase { drives, time, spool, notes, fingerprint: rows.fingerprint() })
 }

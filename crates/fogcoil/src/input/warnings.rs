@@ -3,6 +3,7 @@
 use coil::Design;
 use winding::{Half, Winding};
 
+use crate::glossary::Remark;
 use crate::units::to_mm;
 
 /// Room between winding and rectangle that a drawing leaves, in pitches.
@@ -15,7 +16,8 @@ pub(crate) fn warnings(design: &Design, winding: &Winding) -> Vec<String> {
     let mut unfilled = |what: &str, field: &str, body: f64, winding: f64| {
         if body > winding + ROOM * pitch {
             let (body, winding) = (to_mm(body), to_mm(winding));
-            lines.push(format!("{field}: the coil {what} {body:.4} mm, but its turns end at {winding:.4} mm; is this meant?"));
+            let message = format!("{field}: the coil {what} {body:.4} mm, but its turns end at {winding:.4} mm; is this meant?");
+            lines.push(Remark::UnfilledCoil.says(message));
         }
     };
     unfilled("reaches to", "coil.outer_radius_mm", body.outer_radius, winding.outer_radius());
@@ -24,21 +26,21 @@ pub(crate) fn warnings(design: &Design, winding: &Winding) -> Vec<String> {
     let sagnac = design.optics.sagnac_diameter;
     if !(inner..=outer).contains(&sagnac) {
         let (sagnac, inner, outer) = (to_mm(sagnac), to_mm(inner), to_mm(outer));
-        lines.push(format!(
-            "optics.sagnac_diameter_mm: {sagnac} mm lies outside the coil, {inner:.3} to {outer:.3} mm; is this meant?"
-        ));
+        let message =
+            format!("optics.sagnac_diameter_mm: {sagnac} mm lies outside the coil, {inner:.3} to {outer:.3} mm; is this meant?");
+        lines.push(Remark::SagnacOutside.says(message));
     }
     let tails = design.winding.tails;
     if tails.cw.max(tails.ccw) > winding.wound_length() / 2.0 {
         let half = winding.turns().iter().filter(|t| t.half == Half::Cw).map(|t| t.length()).sum::<f64>();
-        lines.push(format!("winding.tails_m: a tail longer than half the winding ({half:.1} m); is this meant?"));
+        let message = format!("winding.tails_m: a tail longer than half the winding ({half:.1} m); is this meant?");
+        lines.push(Remark::LongTail.says(message));
     }
     let elastic = design.body.elastic;
     if elastic.e_r < 1e-4 * elastic.e_z {
-        lines.push(format!(
-            "coil.material: e_r is {:.1e} of e_z; is e_r_mpa in MPa and e_z_gpa in GPa?",
-            elastic.e_r / elastic.e_z
-        ));
+        let ratio = elastic.e_r / elastic.e_z;
+        let message = format!("coil.material: e_r is {ratio:.1e} of e_z; is e_r_mpa in MPa and e_z_gpa in GPa?");
+        lines.push(Remark::ModulusRatio.says(message));
     }
     lines
 }

@@ -256,6 +256,9 @@ impl Panel<'_> {
 
     /// Width of the labels of y.
     fn left(&self, m: &Measures, width: f64) -> f64 {
+        if self.y.names.is_some() {
+            return 0.8 * m.font;
+        }
         let guess = self.place(m, width, 4.0 * m.font);
         let y = Scale::new(&self.y, self.ranges()[1], [guess.plot[1], 0.0], m.apart[1]);
         let widest = y.ticks().iter().map(|(_, label)| label.chars().count()).max().unwrap_or(1);
@@ -321,7 +324,12 @@ impl Panel<'_> {
             let _ = write!(grid, "M{at:.1} 0V{height:.1}");
             labels.push_str(&text(at, height + 1.4 * m.font, "middle", &label));
         }
-        for (tick, label) in y.ticks() {
+        for (k, name) in self.y.names.iter().flatten().enumerate() {
+            let at = y.pixel(k as f64);
+            let _ = write!(grid, "M0 {at:.1}H{width:.1}");
+            labels.push_str(&text(0.4 * m.font, at - 0.8 * m.font, "start", name));
+        }
+        for (tick, label) in y.ticks().into_iter().filter(|_| self.y.names.is_none()) {
             let at = y.pixel(tick);
             let _ = write!(grid, "M0 {at:.1}H{width:.1}");
             labels.push_str(&text(-0.5 * m.font, at + 0.35 * m.font, "end", &label));
@@ -330,7 +338,7 @@ impl Panel<'_> {
         match &self.content {
             Content::Lines(series) => {
                 let _ = writeln!(out, "<path class=\"grid\" d=\"{grid}\"/>");
-                if y.holds(0.0) {
+                if y.holds(0.0) && self.y.names.is_none() {
                     let _ = write!(frame, "M0 {0:.1}H{width:.1}", y.pixel(0.0));
                 }
                 let _ = writeln!(out, "<path class=\"axis\" d=\"{frame}\"/>");

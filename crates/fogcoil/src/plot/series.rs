@@ -33,6 +33,8 @@ pub(crate) enum Style {
     Fine(u8),
     /// Points joined by a line: blue rings, vermilion squares.
     Marked(u8),
+    /// Marks alone, each of its own shape and colour: blue ring, vermilion square, green triangle, black diamond, blue cross.
+    Points(u8),
 }
 
 impl Style {
@@ -42,6 +44,7 @@ impl Style {
             Self::Total => "line total",
             Self::First | Self::Marked(0) => "line first",
             Self::Second | Self::Marked(_) => "line second",
+            Self::Points(kind) => MARKS[kind as usize % MARKS.len()],
             Self::Third => "line third",
             Self::Fine(0) => "line fine second",
             Self::Fine(1) => "line fine total",
@@ -50,6 +53,16 @@ impl Style {
         }
     }
 }
+
+impl Style {
+    /// Whether nothing joins the points.
+    pub(crate) fn is_points(self) -> bool {
+        matches!(self, Self::Points(_))
+    }
+}
+
+/// Classes of the marks.
+const MARKS: [&str; 5] = ["mark first", "mark second", "mark third", "mark total", "mark first"];
 
 /// How a line is thinned.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -64,17 +77,22 @@ impl Series<'_> {
     /// The line, and a mark at each point where the style has marks.
     pub(super) fn svg(&self, pixel: impl Fn((f64, f64)) -> (f64, f64)) -> String {
         let points = self.points(pixel);
-        let mut out = format!("<path class=\"{}\" d=\"{}\"/>\n", self.style.class(), path(&points));
-        if let Style::Marked(kind) = self.style {
-            points.iter().for_each(|point| out.push_str(&mark(kind, *point)));
+        let line = format!("<path class=\"{}\" d=\"{}\"/>\n", self.style.class(), path(&points));
+        match self.style {
+            Style::Points(kind) => points.iter().map(|point| mark(kind, *point)).collect(),
+            Style::Marked(kind) => points.iter().fold(line, |out, point| out + &mark(kind, *point)),
+            _ => line,
         }
-        out
     }
 
     /// A piece of it for a legend, 34 × 12 px.
     pub(super) fn sample(&self) -> String {
         let line = format!("<path class=\"{}\" d=\"M2 6H32\"/>", self.style.class());
-        line + &if let Style::Marked(kind) = self.style { mark(kind, (17.0, 6.0)) } else { String::new() }
+        match self.style {
+            Style::Points(kind) => mark(kind, (17.0, 6.0)),
+            Style::Marked(kind) => line + &mark(kind, (17.0, 6.0)),
+            _ => line,
+        }
     }
 
     /// Lowest and highest x, lowest and highest y; `None` without points.
@@ -114,10 +132,15 @@ fn path(points: &[(f64, f64)]) -> String {
 }
 
 fn mark(kind: u8, (x, y): (f64, f64)) -> String {
-    match kind {
-        0 => format!("<circle class=\"mark first\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\"/>\n"),
-        _ => format!("<path class=\"mark second\" d=\"M{:.1} {:.1}h8v8h-8z\"/>\n", x - 4.0, y - 4.0),
-    }
+    let class = MARKS[kind as usize % MARKS.len()];
+    let shape = match kind {
+        0 => return format!("<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\"/>\n"),
+        1 => format!("M{:.1} {:.1}h8v8h-8z", x - 4.0, y - 4.0),
+        2 => format!("M{x:.1} {:.1}l5 9h-10z", y - 5.5),
+        3 => format!("M{x:.1} {:.1}l5.5 5.5l-5.5 5.5l-5.5 -5.5z", y - 5.5),
+        _ => format!("M{:.1} {:.1}l9 9m0 -9l-9 9", x - 4.5, y - 4.5),
+    };
+    format!("<path class=\"{class}\" d=\"{shape}\"/>\n")
 }
 
 /// A point and its number.

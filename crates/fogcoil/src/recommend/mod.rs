@@ -36,13 +36,12 @@ pub fn recommend(
     records: &[RecordCase],
     limits: &Limits,
     cache: &Cache,
-    progress: &dyn Fn(&str),
+    progress: &(dyn Fn(&str) + Sync),
 ) -> Result<Recommendation, Error> {
     check(between, limits)?;
     let given = records.iter().map(|record| ready(record, &mut Vec::new())).collect::<Result<_, _>>()?;
     let question = Question { file: &case.file, between, records: given, limits: *limits, thorough: true };
-    progress("modelling the coil and what its model may leave out (half a minute, once for a design)");
-    question.answer(library(case, cache)?, progress)
+    question.answer(library(case, cache, progress)?, progress)
 }
 
 /// Refuses what leaves nothing to tell apart.

@@ -1,27 +1,13 @@
 //! What was simulated and how: the coil, the inputs, the options, the mesh.
 
-use std::fmt::Write;
-
 use coil::{CHECKS, Drive, STEADY, Side};
 
-use crate::picture::escape;
+use super::provenance::provenance;
+use super::tables::{facts, nice, row};
+use crate::input::Between;
 use crate::sensitivity::origin;
 use crate::simulate::Simulation;
 use crate::units::{to_mm, to_ppm};
-
-/// Names and values.
-pub(crate) fn table(out: &mut String, rows: &[(String, String)]) {
-    out.push_str("<table class=\"facts\">\n<tbody>\n");
-    for (name, value) in rows {
-        let _ = writeln!(out, "<tr><th scope=\"row\">{}</th><td>{}</td></tr>", escape(name), escape(value));
-    }
-    out.push_str("</tbody>\n</table>\n");
-}
-
-/// A row of [`table`].
-pub(crate) fn row(name: &str, value: impl Into<String>) -> (String, String) {
-    (name.to_owned(), value.into())
-}
 
 /// The coil in short.
 pub(super) fn coil(out: &mut String, simulation: &Simulation) {
@@ -42,7 +28,7 @@ pub(super) fn coil(out: &mut String, simulation: &Simulation) {
                 to_mm(design.body.height)
             ),
         ),
-        row("spool", spool(simulation)),
+        row("spool", nice(&spool(simulation))),
         row("thermometer", format!("radius {:.3} mm, y = {:.3} mm, lag {} s", to_mm(sensor.radius), to_mm(sensor.y), sensor.lag)),
         row("constants of the coil", origin(&case.provenance.material)),
         row("dehomogenisation row", origin(&case.provenance.dehomogenization)),
@@ -62,7 +48,7 @@ pub(super) fn coil(out: &mut String, simulation: &Simulation) {
         rows.push(row("film in place of the medium", format!("{film} W/(m² K)")));
     }
     out.push_str("<h2>Coil</h2>\n");
-    table(out, &rows);
+    facts(out, "The coil", &rows);
 }
 
 fn spool(simulation: &Simulation) -> String {
@@ -85,13 +71,10 @@ fn side(side: Side) -> &'static str {
     }
 }
 
-/// Program, inputs, options, mesh.
+/// Drives, mesh, modes, and what they leave out.
 pub(super) fn computation(out: &mut String, simulation: &Simulation) {
     let mesh = |r: coil::Resolution| format!("elements of order {}, {} layers towards each edge of the coil", r.order, r.layers);
-    let mut rows = vec![row("program", format!("fogcoil {}", env!("CARGO_PKG_VERSION")))];
-    for file in simulation.case.fingerprints.iter().chain([&simulation.profile.fingerprint]) {
-        rows.push(row("input", format!("{}, {} bytes, FNV-1a {file}", file.file.display(), file.bytes)));
-    }
+    let mut rows = Vec::new();
     rows.extend([
         row("driven by", simulation.profile.drives.iter().map(|drive| name(*drive)).collect::<Vec<_>>().join(", ")),
         row("start", "uniform at the first chamber temperature and free of stress; heaters off before the first row"),
@@ -120,11 +103,26 @@ pub(super) fn computation(out: &mut String, simulation: &Simulation) {
     }
     rows.extend(simulation.profile.notes.iter().map(|note| row("note", note.as_str())));
     out.push_str("<h2>Computation</h2>\n");
-    table(out, &rows);
+    facts(out, "The computation", &rows);
     out.push_str(
-        "<p>FNV-1a (64 bits) tells contents apart that differ by accident; it is no protection against intent. The numbers follow from \
-         the file's spool, bonding and materials; where one of them was chosen to match a measurement, so were these.</p>\n",
+        "<p>The numbers follow from the file's spool, bonding and materials; where one of them was chosen to match a measurement, so were \
+         these.</p>\n",
     );
+}
+
+/// Program, files, options.
+pub(super) fn sources(out: &mut String, simulation: &Simulation) {
+    let coils = simulation.case.fingerprints.iter().enumerate().map(|(n, file)| (if n == 0 { "coil" } else { "cell" }, file));
+    let inferred = simulation.profile.inferred;
+    let driven = if inferred.is_some() { "thermometer's record" } else { "profile" };
+    let files: Vec<_> = coils.chain([(driven, &simulation.profile.fingerprint)]).collect();
+    let between = match simulation.profile.between {
+        Between::Linear => "linear",
+        Between::Cubic => "cubic",
+    };
+    let mut options = vec![row("between rows", between)];
+    options.extend(inferred.map(|found| row("noise of the thermometer", format!("{} K", found.noise))));
+    provenance(out, "simulate", &files, &options);
 }
 
 fn name(drive: Drive) -> &'static str {

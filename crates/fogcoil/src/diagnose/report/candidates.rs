@@ -6,6 +6,7 @@ use diagnosis::{Candidate, ForwardModel};
 
 use crate::diagnose::Outcome;
 use crate::picture::escape;
+use crate::report::{Cells, grid, signed};
 use crate::table::significant;
 
 /// Most rows of the table of hypotheses.
@@ -24,12 +25,12 @@ struct Group<'a> {
 impl Outcome {
     pub(super) fn candidates(&self, out: &mut String) {
         let d = &self.diagnosis;
-        out.push_str("<h3>Explanations</h3>\n<table class=\"bars\">\n<tbody>\n");
+        out.push_str("<h3>Explanations</h3>\n<table class=\"bars\">\n<caption class=\"unseen\">Explanations and their probabilities</caption>\n<tbody>\n");
         for explanation in self.explanations() {
             let (mark, p) = (if explanation.open { " class=\"marked\"" } else { "" }, explanation.probability);
             let _ = writeln!(
                 out,
-                "<tr{mark}><th scope=\"row\">{}</th><td>{p:.3}</td><td class=\"bar\"><span style=\"width:{:.1}%\"></span></td></tr>",
+                "<tr{mark}><th scope=\"row\">{}</th><td>{p:.3}</td><td class=\"bar\" aria-hidden=\"true\"><span style=\"width:{:.1}%\"></span></td></tr>",
                 escape(explanation.name),
                 100.0 * p.clamp(0.0, 1.0)
             );
@@ -37,9 +38,10 @@ impl Outcome {
         let [.., library, _] = d.verdicts();
         let _ = writeln!(
             out,
-            "</tbody>\n</table>\n<p>Of a mechanism: the probability that it is at work, alone or with another; of any in the library: {library:.3}. \
+            "</tbody>\n</table>\n<p>Of a mechanism: the probability that it is at work, alone or with another; of any in the library: {}. \
              What is marked is not excluded. {} hypotheses were compared: {} mechanisms alone, their pairs, and each of the leading ones with free \
              structure; every choice (a layer, a second mechanism) is paid for by its share of the prior.</p>",
+            signed(library, 3),
             d.candidates.len(),
             self.gyro.mechanisms().len(),
         );
@@ -55,7 +57,7 @@ impl Outcome {
             .map(|group| vec![self.said(group), format!("{:.3}", group.probability), significant(group.log_weight - best, 2)])
             .collect();
         let _ = writeln!(out, "<details>\n<summary>The {} most probable hypotheses</summary>", rows.len());
-        super::grid(out, &["hypothesis", "probability", "ln odds to the first"], &rows);
+        grid(out, "The most probable hypotheses", Cells::Words, &["hypothesis", "probability", "ln odds to the first"], &rows);
         out.push_str("</details>\n");
     }
 

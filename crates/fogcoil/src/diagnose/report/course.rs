@@ -1,10 +1,10 @@
 //! The recordings with their models, and what is left.
 
-use super::data::with_data;
 use super::multiples::multiples;
 use super::{Clock, Quantity, Shown, line};
 use crate::diagnose::Outcome;
 use crate::plot::{Axis, Content, Figure, Height, Panel, Series, Style};
+use crate::report::with_data;
 
 impl Outcome {
     pub(super) fn course(&self, out: &mut String) {

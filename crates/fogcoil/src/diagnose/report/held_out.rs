@@ -3,11 +3,11 @@
 use diagnosis::{HeldOut, Verdict, whiteness};
 use mechanisms::RATE;
 
-use super::data::with_data;
 use super::multiples::multiples;
 use super::{course, line, spectrum};
 use crate::diagnose::{Held, NOMINAL, Outcome};
 use crate::plot::{Figure, Panel, Style};
+use crate::report::{Cells, grid, with_data};
 use crate::table::significant;
 
 impl Outcome {
@@ -28,7 +28,14 @@ impl Outcome {
                 ]);
             }
         }
-        super::grid(out, &["prediction", "rms error [°/h]", "noise as identified [°/h]", "Ljung–Box, 30 lags"], &rows);
+        let caption = "Errors of the predictions of the rate";
+        grid(
+            out,
+            caption,
+            Cells::Words,
+            &["prediction", "rms error [°/h]", "noise as identified [°/h]", "Ljung–Box, 30 lags"],
+            &rows,
+        );
         let said = if self.holdouts.iter().any(|held| !held.accepted) {
             "What was fitted predicts a held-out record worse than the nominal model: it is not accepted."
         } else if self.diagnosis.verdict == Verdict::None {
@@ -47,7 +54,7 @@ impl Outcome {
     }
 
     fn proof(&self) -> Figure<'static> {
-        let (columns, panels) = multiples(self.holdouts.iter().map(|held| self.predicted(held)).collect());
+        let (columns, panels) = multiples(self.holdouts.iter().map(|held| self.panels(held)).collect());
         let whose = match &self.holdouts[..] {
             [one] => one.record.name(),
             several => format!("{} records", several.len()),
@@ -63,7 +70,7 @@ impl Outcome {
     }
 
     /// One record's panels.
-    fn predicted(&self, held: &Held) -> Vec<Panel<'static>> {
+    fn panels(&self, held: &Held) -> Vec<Panel<'static>> {
         let (clock, time) = (self.clock(&held.record), &held.record.observed.time);
         let recorded = &held.record.observed.channels[RATE];
         let rows = |of: &dyn Fn(usize, f64) -> f64| -> Vec<(f64, f64)> {

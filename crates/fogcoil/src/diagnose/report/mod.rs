@@ -2,7 +2,6 @@
 
 mod candidates;
 mod course;
-mod data;
 mod held_out;
 mod multiples;
 mod next_test;
@@ -12,8 +11,6 @@ mod place;
 mod spectrum;
 mod stages;
 
-use std::fmt::Write;
-
 use diagnosis::{Fit, ForwardModel, Verdict};
 use mechanisms::{RATE, SPOOL};
 
@@ -21,7 +18,7 @@ use super::record::WARNING;
 use super::{NOMINAL, Outcome, Record};
 use crate::picture::escape;
 use crate::plot::{Axis, Series, Style, Thinning};
-use crate::report::{page, row, table};
+use crate::report::{facts, nice, page, provenance, row};
 use crate::units::DurationUnit;
 
 /// A fit beside the record that it is shown for.
@@ -111,6 +108,7 @@ impl Outcome {
         self.next_test(&mut out);
         self.noise(&mut out);
         self.limits(&mut out);
+        self.sources(&mut out);
         let title = format!("{}: what differs from the design", self.name);
         page(&title, &format!("<p>{}</p>\n", escape(&nice(&self.verdict()))), &out)
     }
@@ -167,13 +165,13 @@ impl Outcome {
             rows.push(row("held out", "no record: what was fitted is not proven on data that it has not seen"));
         }
         rows.extend(notes.into_iter().map(|note| row("note", note.as_str())));
-        table(out, &rows);
+        facts(out, "The finding", &rows);
     }
 
     fn limits(&self, out: &mut String) {
         out.push_str("<h2>Limits</h2>\n");
         let library: Vec<&str> = self.gyro.mechanisms().iter().map(|m| m.id.as_str()).collect();
-        let mut rows = vec![row("program", format!("fogcoil {}", env!("CARGO_PKG_VERSION"))), row("library", library.join(", "))];
+        let mut rows = vec![row("library", library.join(", "))];
         rows.push(row(
             "probabilities",
             "posterior, with all that was compared counted in; they hold if the library and the priors do. A mechanism outside the \
@@ -185,7 +183,20 @@ impl Outcome {
             "gain of the rate 0.3 %, gain of the Shupe part 1.5 %, conductivity of the surroundings 0.1 %, start off rest 0.015 K (1σ); \
              a constant offset of each channel is never a finding",
         ));
-        table(out, &rows);
+        facts(out, "Limits", &rows);
+    }
+
+    fn sources(&self, out: &mut String) {
+        let fitted = self.fits.iter().map(|record| ("fitted", &record.fingerprint));
+        let held = self.holdouts.iter().map(|held| ("held out", &held.record.fingerprint));
+        let design = self.design.iter().enumerate().map(|(n, file)| (if n == 0 { "coil" } else { "cell" }, file));
+        let files: Vec<_> = design.chain(fitted).chain(held).collect();
+        provenance(
+            out,
+            "diagnose",
+            &files,
+            &[row("settings", "the program's own; what is known of the records: meta.ron beside each, or --meta")],
+        );
     }
 }
 
@@ -196,48 +207,5 @@ impl Record {
         let seconds = time.first().zip(time.last()).map_or(0.0, |(a, b)| b - a);
         let unit = DurationUnit::of(seconds);
         format!("{} rows over {:.1} {}", time.len(), unit.of_seconds(seconds), unit.name())
-    }
-}
-
-/// Text for people in the page's signs: a true minus before a number, ° for deg.
-fn nice(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    let mut before = [' '; 2];
-    for (at, c) in text.char_indices() {
-        let number = c == '-' && text[at + 1..].starts_with(|next: char| next.is_ascii_digit());
-        // at the start of a word, or in an exponent
-        let minus = !before[1].is_alphanumeric() || (before[1] == 'e' && before[0].is_ascii_digit());
-        out.push(if number && minus { '\u{2212}' } else { c });
-        before = [before[1], c];
-    }
-    out.replace("degC", "°C").replace("deg/h", "°/h")
-}
-
-/// A table with a head, in a box that scrolls where it is too wide.
-fn grid(out: &mut String, head: &[&str], rows: &[Vec<String>]) {
-    out.push_str(
-        "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"table\">\n<table class=\"data named\">\n<thead>\n<tr>",
-    );
-    head.iter().for_each(|cell| {
-        let _ = write!(out, "<th scope=\"col\">{}</th>", escape(&nice(cell)));
-    });
-    out.push_str("</tr>\n</thead>\n<tbody>\n");
-    for row in rows {
-        out.push_str("<tr>");
-        for (n, cell) in row.iter().enumerate() {
-            let tag = if n == 0 { "th scope=\"row\"" } else { "td" };
-            let _ = write!(out, "<{tag}>{}</{}>", escape(&nice(cell)), &tag[..2]);
-        }
-        out.push_str("</tr>\n");
-    }
-    out.push_str("</tbody>\n</table>\n</div>\n");
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn numbers_have_a_true_minus_and_names_their_hyphen() {
-        let text = super::nice("file-3.csv: -7.1 to 4.8e-5 degC, rate-1");
-        assert_eq!(text, "file-3.csv: \u{2212}7.1 to 4.8e\u{2212}5 °C, rate-1");
     }
 }

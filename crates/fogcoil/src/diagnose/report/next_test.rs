@@ -4,14 +4,14 @@ use std::fmt::Write;
 
 use diagnosis::{Settings, Verdict};
 
-use super::data::with_data;
-use super::{line, nice};
+use super::line;
 use crate::diagnose::Outcome;
 use crate::diagnose::record::Ready;
 use crate::picture::escape;
 use crate::plot::{Axis, Content, Figure, Height, Panel, Style};
 use crate::recommend::{Course, Limits, Odds, Question, Recommendation, inspection, number, sentence};
-use crate::report::{row, table};
+use crate::report::with_data;
+use crate::report::{facts, nice, row};
 use crate::table::significant;
 use crate::units::DurationUnit;
 
@@ -107,7 +107,7 @@ fn recommended(out: &mut String, found: &Recommendation) {
         let values: Vec<String> = size.values.iter().map(|(name, v)| format!("{name} = {}", significant(*v, 3))).collect();
         rows.push(row(&format!("size of {} (fitted alone)", size.id), nice(&values.join(", "))));
     }
-    table(out, &rows);
+    facts(out, "The recommended test", &rows);
     let what = if best.odds.decides() { "The recommended test" } else { "The best within these limits, which does not decide" };
     out.push_str(&with_data(&figure(&found.course, format!("{what}: {}", best.programme.name))));
 }

@@ -5,11 +5,11 @@ use mechanisms::RATE;
 use recording::allan::{AllanPoint, allan};
 
 use super::Shown;
-use super::data::with_data;
 use super::spectrum::median_interval;
 use crate::check::Allan;
 use crate::diagnose::Outcome;
 use crate::plot::Figure;
+use crate::report::{Cells, grid, with_data};
 use crate::table::significant;
 
 impl Outcome {
@@ -33,7 +33,13 @@ impl Outcome {
                 ]);
             }
         }
-        super::grid(out, &["channel (fitted)", "white, of a sample", "drift", "its correlation time", "random walk"], &rows);
+        grid(
+            out,
+            "Noise by channel",
+            Cells::Words,
+            &["channel (fitted)", "white, of a sample", "drift", "its correlation time", "random walk"],
+            &rows,
+        );
         let left: Vec<(Shown, Vec<AllanPoint>)> =
             self.each().filter_map(|mut shown| shown.pop()).map(|shown| (shown, deviation(&shown))).collect();
         let figures = left.iter().filter_map(|(shown, points)| {

@@ -6,8 +6,8 @@ use diagnosis::{Place, Posterior, Role, Verdict};
 
 use super::line;
 use crate::diagnose::Outcome;
-use crate::figures::element;
 use crate::plot::{Axis, Content, Figure, Height, Panel, Style};
+use crate::report::{Cells, grid, with_data};
 use crate::table::significant;
 
 /// Points of a density.
@@ -40,7 +40,7 @@ impl Outcome {
             columns: 2,
             panels: fitted.iter().map(|p| panel(p, self.interval(p))).collect(),
         };
-        out.push_str(&element(&figure));
+        out.push_str(&with_data(&figure));
         let rows: Vec<Vec<String>> = fitted
             .iter()
             .map(|p| {
@@ -48,7 +48,7 @@ impl Outcome {
                 vec![p.name.clone(), significant(p.value(), 4), interval(self.interval(p)), interval(central(p, 0.0, 1.0))]
             })
             .collect();
-        super::grid(out, &["parameter", "value (fitted)", "90 % interval", "90 % of the prior"], &rows);
+        grid(out, "Fitted values", Cells::Words, &["parameter", "value (fitted)", "90 % interval", "90 % of the prior"], &rows);
         for (place, active) in self.diagnosis.best().fit.active.iter().enumerate() {
             if let (Some((name, value)), Some([low, high])) = (self.choice(active), self.diagnosis.choice(place)) {
                 let id = self.id(active.mechanism);
@@ -88,8 +88,8 @@ fn panel(p: &Posterior, [low, high]: [f64; 2]) -> Panel<'static> {
     let prior = scaled(&before, most(&before, 0.0, 1.0));
     let ends = |value: f64| line("", Style::Fine(2), vec![(value, 0.0), (value, 1.0)]);
     Panel {
-        heading: p.name.clone(),
-        x: Axis::tight("", 0.0),
+        heading: String::new(),
+        x: Axis::tight(p.name.clone(), 0.0),
         y: Axis::round("density, scaled", 0.1).covering([0.0, 1.0]),
         height: Height::Lines(10.0),
         content: Content::Lines(vec![

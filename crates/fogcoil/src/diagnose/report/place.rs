@@ -2,11 +2,11 @@
 
 use mechanisms::RATE;
 
-use super::data::with_data;
 use super::multiples::multiples;
 use super::{Shown, course, line};
 use crate::diagnose::Outcome;
 use crate::plot::{Axis, Colours, Content, Figure, HeatMap, Height, Panel, Style};
+use crate::report::with_data;
 use bias::units::S_PER_MIN;
 use diagnosis::{Cell, Spectrum};
 

@@ -2,10 +2,10 @@
 
 use diagnosis::whiteness;
 
-use super::data::with_data;
 use super::{Quantity, Shown, line};
 use crate::diagnose::Outcome;
 use crate::plot::{Axis, Content, Figure, Height, Panel, Style};
+use crate::report::{Cells, grid, with_data};
 use crate::table::significant;
 
 /// Rows of which one periodogram is made.
@@ -40,7 +40,13 @@ impl Outcome {
                 rows.push(vec![self.headed(&format!("{}, {}", fit.name, q.name), fit.record), significant(excess, 3), judged(p)]);
             }
         }
-        super::grid(out, &["residual", "mean square (noise: 1)", "Ljung–Box, 30 lags"], &rows);
+        grid(
+            out,
+            "Whiteness of the residuals",
+            Cells::Words,
+            &["residual", "mean square (noise: 1)", "Ljung–Box, 30 lags"],
+            &rows,
+        );
     }
 
     /// Of one channel of one record.

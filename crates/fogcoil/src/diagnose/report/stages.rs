@@ -5,10 +5,10 @@ use std::fmt::Write;
 use diagnosis::Resolution;
 use mechanisms::RATE;
 
-use super::data::with_data;
-use super::{grid, line, spectrum};
+use super::{line, spectrum};
 use crate::diagnose::Outcome;
 use crate::plot::{Axis, Content, Figure, Height, Panel, Style};
+use crate::report::{Cells, grid, with_data};
 use crate::table::significant;
 
 /// Turns that a layer may be off by beforehand, 1σ: as the library's.
@@ -27,7 +27,13 @@ impl Outcome {
                 })
                 .collect();
             out.push_str("<h3>Part of the chain</h3>\n");
-            grid(out, &["flexible input at", "ln evidence gained", "probability", "rate's residual, Ljung–Box"], &rows);
+            grid(
+                out,
+                "Parts of the chain compared",
+                Cells::Words,
+                &["flexible input at", "ln evidence gained", "probability", "rate's residual, Ljung–Box"],
+                &rows,
+            );
             let restored = stages.iter().any(|s| s.whiteness.get(RATE).is_some_and(|p| *p >= spectrum::WHITE));
             let said = if restored {
                 "Where several gain alike, this recording does not tell them apart."

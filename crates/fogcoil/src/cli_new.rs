@@ -1,0 +1,62 @@
+//! `new`: a commented file to start from.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use fogcoil::output::Content;
+use fogcoil::{Error, output};
+
+use crate::progress::Progress;
+
+#[derive(Args)]
+pub(crate) struct New {
+    /// The file to write; an existing one is left as it is
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// What it is to hold
+    #[arg(long, value_enum, default_value_t = Kind::Coil)]
+    kind: Kind,
+}
+
+/// What a file to start from may hold.
+#[derive(Clone, Copy, ValueEnum)]
+enum Kind {
+    /// A coil on its spool, for wind, sensitivity, trim, simulate, diagnose, recommend and explain
+    Coil,
+    /// A fibre's cell, for homogenize
+    Cell,
+    /// Measured constants and the cells to try, for identify
+    Targets,
+    /// A profile of the chamber's temperature, for simulate and trim
+    Profile,
+}
+
+impl Kind {
+    fn template(self) -> &'static str {
+        match self {
+            Self::Coil => include_str!("../templates/coil.ron"),
+            Self::Cell => include_str!("../templates/cell.ron"),
+            Self::Targets => include_str!("../templates/targets.ron"),
+            Self::Profile => include_str!("../templates/profile.csv"),
+        }
+    }
+
+    /// What to do with it first.
+    fn first(self) -> &'static str {
+        match self {
+            Self::Coil => "fogcoil sensitivity",
+            Self::Cell => "fogcoil homogenize",
+            Self::Targets => "fogcoil identify",
+            Self::Profile => "fogcoil simulate COIL.ron --out BIAS.csv --profile",
+        }
+    }
+}
+
+pub(crate) fn run(New { file, kind }: &New, progress: &Progress) -> Result<(), Error> {
+    if file.symlink_metadata().is_ok() {
+        let remedy = "give another name, or move it away first";
+        return Err(Error::Usage(format!("{}: exists and is left as it is; {remedy}", file.display())));
+    }
+    progress.save(&[(file, Content::Text(kind.template().to_owned()))])?;
+    output::print(&format!("{} is written; try `{} {0}`\n", file.display(), kind.first()))
+}

@@ -1,0 +1,148 @@
+//! `fogcoil explain ID`: what the ids mean that the program prints, of mechanisms and of its own remarks.
+
+mod mechanism;
+mod page;
+mod remark;
+
+pub use mechanism::{MECHANISMS, Mechanism};
+pub use remark::{Explanation, Remark};
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use crate::table::table;
+
+/// Something that has an id.
+#[derive(Debug, Clone, Copy)]
+pub enum Entry {
+    /// A mechanism of the library.
+    Mechanism(&'static Mechanism),
+    /// A warning or a note.
+    Remark(Remark),
+}
+
+/// Ids offered for one that is not known, at most.
+const OFFERED: usize = 3;
+/// All but the nearest differ from it in one of so many characters at most.
+const ALIKE: usize = 3;
+
+/// What an id stands for.
+///
+/// # Errors
+/// The nearest ids, best first, where none is this one.
+pub fn look_up(id: &str) -> Result<Entry, Vec<&'static str>> {
+    let all: Vec<Entry> = entries().collect();
+    if let Some(entry) = all.iter().find(|entry| entry.id() == id) {
+        return Ok(*entry);
+    }
+    let mut near: Vec<(usize, &str)> = all.iter().map(|entry| (distance(id, entry.id()), entry.id())).collect();
+    near.sort_unstable();
+    let alike = |(rank, (distance, known)): &(usize, (usize, &str))| *rank == 0 || *distance <= known.len() / ALIKE;
+    Err(near.into_iter().enumerate().take(OFFERED).filter(alike).map(|(_, (_, id))| id).collect())
+}
+
+fn entries() -> impl Iterator<Item = Entry> {
+    MECHANISMS.iter().map(Entry::Mechanism).chain(Remark::ALL.iter().copied().map(Entry::Remark))
+}
+
+impl Entry {
+    /// Its id.
+    pub fn id(&self) -> &'static str {
+        match self {
+            Self::Mechanism(mechanism) => mechanism.id,
+            Self::Remark(remark) => remark.id(),
+        }
+    }
+
+    /// The explanation for people.
+    pub fn text(&self) -> String {
+        match self {
+            Self::Mechanism(mechanism) => mechanism.text(),
+            Self::Remark(remark) => {
+                let Explanation { cause, consequence, remedy } = remark.explanation();
+                format!(
+                    "{}: a warning or note\n\nCause:       {cause}\nConsequence: {consequence}\nRemedy:      {remedy}\n",
+                    remark.id()
+                )
+            }
+        }
+    }
+
+    /// The explanation as one object.
+    pub fn json(&self) -> Value {
+        match self {
+            Self::Mechanism(mechanism) => mechanism.json(),
+            Self::Remark(remark) => {
+                let Explanation { cause, consequence, remedy } = remark.explanation();
+                json!({"id": remark.id(), "kind": "remark", "cause": cause, "consequence": consequence, "remedy": remedy})
+            }
+        }
+    }
+}
+
+/// All ids in two groups, a line each.
+pub fn list() -> String {
+    let mut out = "Mechanisms:\n\n".to_owned();
+    out.push_str(&table(&MECHANISMS.iter().map(|m| vec![m.id.to_owned(), m.title().to_owned()]).collect::<Vec<_>>()));
+    out.push_str("\nWarnings and notes:\n\n");
+    let row = |remark: &Remark| vec![remark.id().to_owned(), remark.explanation().cause.to_owned()];
+    out.push_str(&table(&Remark::ALL.iter().map(row).collect::<Vec<_>>()));
+    let _ = writeln!(out, "\n`fogcoil explain ID` says more of each.");
+    out
+}
+
+/// All ids with their explanations.
+pub fn list_json() -> Value {
+    let of = |remark: &Remark| Entry::Remark(*remark).json();
+    json!({
+        "mechanisms": MECHANISMS.iter().map(Mechanism::json).collect::<Vec<_>>(),
+        "remarks": Remark::ALL.iter().map(of).collect::<Vec<_>>(),
+    })
+}
+
+/// Characters to insert, remove or exchange to make one word of the other (Levenshtein).
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let exchanged = diagonal + usize::from(x != *y);
+            diagonal = row[j + 1];
+            row[j + 1] = exchanged.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_are_kebab_case_and_stand_once_and_are_found() {
+        let mut ids: Vec<&str> = entries().map(|entry| entry.id()).collect();
+        let kebab = |id: &&str| id.split('-').all(|word| !word.is_empty() && word.chars().all(|c| c.is_ascii_lowercase()));
+        let named = |id: &&str| kebab(&id.trim_start_matches("unknown:"));
+        assert!(ids.iter().all(named), "{ids:?}");
+        assert!(ids.iter().all(|id| look_up(id).is_ok_and(|entry| entry.id() == *id)));
+        ids.sort_unstable();
+        assert!(ids.windows(2).all(|pair| pair[0] != pair[1]), "{ids:?}");
+    }
+
+    #[test]
+    fn a_message_carries_its_id() {
+        for remark in Remark::ALL {
+            assert_eq!(Remark::of(&remark.says("a [b] c")), Some(*remark));
+        }
+        assert_eq!(Remark::of("winding.tails_m [no-such-id]"), None);
+    }
+
+    #[test]
+    fn distances_are_those_of_levenshtein() {
+        assert_eq!([("kitten", "sitting"), ("", "abc"), ("gap", "gap")].map(|(a, b)| distance(a, b)), [3, 3, 0]);
+        assert_eq!(look_up("debnd").unwrap_err()[0], "debond");
+    }
+}

@@ -1,0 +1,32 @@
+//! JSON Schemas of the files, made from the types that read them.
+
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+use serde_json::{Value, json};
+
+use super::cell_file::CellFile;
+use super::coil_file::CoilFile;
+use super::meta::Meta;
+use super::record_format::MapFile;
+use super::targets_file::TargetsFile;
+
+/// How the JSON that a schema speaks of is written as RON.
+const RON: &str = "The file is RON: an object is written (key: value, ...), a list [a, b] or, of fixed length, (a, b), an object with one \
+    capitalised key, {\"Name\": x}, is Name(x), a capitalised string is written without quotes, null is None. Numbers are in the unit x-unit.";
+
+/// JSON Schemas of the files that the program reads, by name: `coil`, `cell`, `targets`, `meta`, `map`.
+pub fn schemas() -> [(&'static str, Value); 5] {
+    [
+        ("coil", of::<CoilFile>()),
+        ("cell", of::<CellFile>()),
+        ("targets", of::<TargetsFile>()),
+        ("meta", of::<Meta>()),
+        ("map", of::<MapFile>()),
+    ]
+}
+
+fn of<T: JsonSchema>() -> Value {
+    let mut schema = SchemaSettings::draft2020_12().into_generator().into_root_schema_for::<T>();
+    schema.insert("$comment".into(), json!(RON));
+    schema.into()
+}

@@ -1,0 +1,134 @@
+//! What a figure shows, as tables that are folded away: for those who do not see it, and for those who want a number.
+
+use std::fmt::Write;
+
+use super::tables::{Cells, grid};
+use crate::figures::element;
+use crate::picture::escape;
+use crate::plot::{Content, Drawing, Figure, HeatMap, Panel, Series};
+use crate::table::significant;
+
+/// Most rows of a table, extremes not counted.
+const MOST_ROWS: usize = 40;
+/// Most columns and rows of a map's table.
+const MOST_CELLS: [usize; 2] = [12, 20];
+
+/// A figure with its data.
+pub(crate) fn with_data(figure: &Figure) -> String {
+    let mut out = element(figure);
+    let _ = writeln!(out, "<details>\n<summary>The data of this figure: {}</summary>", escape(&figure.title));
+    // of panels under one another the last alone names their axis
+    let shared = figure.panels.iter().rev().map(|p| p.x.label.as_str()).find(|label| !label.is_empty()).unwrap_or_default();
+    for panel in &figure.panels {
+        let x =
+            [panel.x.label.as_str(), shared, panel.heading.as_str(), "x"].into_iter().find(|x| !x.is_empty()).unwrap_or_default();
+        match &panel.content {
+            Content::Lines(series) => lines(&mut out, &name(figure, panel), panel, x, series),
+            Content::Map(map) => cells(&mut out, &name(figure, panel), panel, x, map),
+            Content::Drawing(drawing) => areas(&mut out, &name(figure, panel), drawing),
+        }
+    }
+    out.push_str("</details>\n");
+    out
+}
+
+/// Series that share their x in one table.
+fn lines(out: &mut String, name: &str, panel: &Panel, x: &str, series: &[Series]) {
+    if let Some(names) = &panel.y.names {
+        return named(out, name, &panel.y.label, names, x, series);
+    }
+    // a single point marks one of another series
+    let mut rest: Vec<&Series> = series.iter().filter(|s| s.count > 1).collect();
+    while let Some(first) = rest.first() {
+        let alike = |s: &&Series| s.count == first.count && (0..s.count).all(|n| (s.at)(n).0 == (first.at)(n).0);
+        let (group, others): (Vec<&Series>, Vec<&Series>) = rest.iter().partition(|s| alike(s));
+        let mut head = vec![x.to_owned()];
+        for (n, s) in group.iter().enumerate() {
+            // what has no name is the other half of what stands before it
+            let same = group[..n].iter().zip(&head[1..]).rev().find(|(before, _)| before.style == s.style);
+            let own = if s.name.is_empty() { same.map_or(&panel.y.label, |(_, name)| name) } else { &s.name };
+            head.push(own.clone());
+        }
+        let count = group[0].count;
+        let every = count.div_ceil(MOST_ROWS);
+        let mut chosen: Vec<usize> = (0..count).step_by(every).chain([count - 1]).collect();
+        for s in &group {
+            let by = |a: &usize, b: &usize| (s.at)(*a).1.total_cmp(&(s.at)(*b).1);
+            chosen.extend((0..count).filter(|_| every > 1).min_by(by));
+            chosen.extend((0..count).filter(|_| every > 1).max_by(by));
+        }
+        chosen.sort_unstable();
+        chosen.dedup();
+        let row = |n: usize| {
+            let values = group.iter().map(|s| number((s.at)(n).1));
+            std::iter::once(number((group[0].at)(n).0)).chain(values).collect()
+        };
+        let rows: Vec<Vec<String>> = chosen.into_iter().map(row).collect();
+        let which = if every > 1 { format!(" (one point in {every}, the last and the extremes)") } else { String::new() };
+        grid(
+            out,
+            &format!("{name}: {}{which}", panel.y.label),
+            Cells::Numbers,
+            &head.iter().map(String::as_str).collect::<Vec<_>>(),
+            &rows,
+        );
+        rest = others;
+    }
+}
+
+/// A row for each name, a column for each series.
+fn named(out: &mut String, name: &str, y: &str, names: &[String], x: &str, series: &[Series]) {
+    let named: Vec<&Series> = series.iter().filter(|s| s.style.is_points()).collect();
+    let head: Vec<&str> = [y].into_iter().chain(named.iter().map(|s| s.name.as_str())).collect();
+    let of = |s: &&Series, k: usize| {
+        (0..s.count).map(|n| (s.at)(n)).find(|(_, y)| *y == k as f64).map_or(String::new(), |(x, _)| number(x))
+    };
+    let row = |(k, own): (usize, &String)| std::iter::once(own.clone()).chain(named.iter().map(|s| of(s, k))).collect();
+    let rows: Vec<Vec<String>> = names.iter().enumerate().map(row).collect();
+    grid(out, &format!("{name}: {x}"), Cells::Numbers, &head, &rows);
+}
+
+/// A map's cells, its upper row first.
+fn cells(out: &mut String, name: &str, panel: &Panel, x: &str, map: &HeatMap) {
+    let (columns, rows) = (map.columns.max(1), map.values.len() / map.columns.max(1));
+    let [across, down] = [columns.div_ceil(MOST_CELLS[0]), rows.div_ceil(MOST_CELLS[1])];
+    let middle = |[low, high]: [f64; 2], k: usize, count: usize| low + (high - low) * (k as f64 + 0.5) / count as f64;
+    let corner = format!("{} \\ {x}", panel.y.label);
+    let chosen = || (0..columns).step_by(across);
+    let head: Vec<String> = std::iter::once(corner).chain(chosen().map(|k| significant(middle(map.x, k, columns), 3))).collect();
+    let row = |r: usize| {
+        let cell = |k: usize| {
+            let at = r * columns + k;
+            let stands_out = if map.marked.contains(&at) { " *" } else { "" };
+            if map.values[at].is_finite() { significant(map.values[at], 2) + stands_out } else { String::new() }
+        };
+        std::iter::once(significant(middle(map.y, r, rows), 3)).chain(chosen().map(cell)).collect()
+    };
+    let rows: Vec<Vec<String>> = (0..rows).step_by(down).map(row).rev().collect();
+    let thinned = if across * down > 1 { format!(" (one row in {down}, one column in {across})") } else { String::new() };
+    let marks = if map.marked.is_empty() { "" } else { "; * stands out" };
+    let caption = format!("{name}: {}{thinned}{marks}", map.colours.label);
+    grid(out, &caption, Cells::Numbers, &head.iter().map(String::as_str).collect::<Vec<_>>(), &rows);
+}
+
+/// What a drawing consists of.
+fn areas(out: &mut String, name: &str, drawing: &Drawing) {
+    let ends = |[low, high]: [f64; 2]| format!("{low:.3} to {high:.3}");
+    let named = drawing.areas.iter().filter(|area| !area.name.is_empty());
+    let mut rows: Vec<Vec<String>> = named.map(|area| vec![area.name.clone(), ends(area.x), ends(area.y)]).collect();
+    rows.extend(drawing.point.iter().map(|([x, y], name)| vec![name.clone(), format!("{x:.3}"), format!("{y:.3}")]));
+    grid(out, &format!("{name}: {} mesh elements", drawing.mesh.len()), Cells::Numbers, &["part", "y [mm]", "r [mm]"], &rows);
+}
+
+/// What a table of a panel is called, apart from the other tables of the page.
+fn name(figure: &Figure, panel: &Panel) -> String {
+    if panel.heading.is_empty() { figure.title.clone() } else { format!("{}, {}", figure.title, panel.heading) }
+}
+
+fn number(value: f64) -> String {
+    match value {
+        v if !v.is_finite() => String::new(),
+        v if v.fract() == 0.0 && v.abs() < 1e6 => format!("{v:.0}"),
+        v => significant(v, 4),
+    }
+}

@@ -1,0 +1,225 @@
+//! Every way a case file can be wrong ends in one message, exit status 2, and nothing written.
+
+use crate::common::{CELL, COIL, Folder, change, line_of, stderr};
+
+/// What is replaced, by what, the field the message names, and a part of what it says.
+type Case = (&'static str, &'static str, &'static str, &'static str);
+
+fn refuse(folder: &Folder, arguments: &[&str], expected: &[&str]) {
+    let before = folder.names();
+    let output = folder.run(arguments);
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(output.stdout.is_empty());
+    assert!(message.starts_with("error: ") && message.trim_end().lines().count() == 1, "{message}");
+    for part in expected {
+        assert!(message.contains(part), "`{part}` not in: {message}");
+    }
+    assert_eq!(folder.names(), before, "something was written");
+}
+
+fn refuse_all(reference: &str, file: &str, arguments: &[&str], cases: &[Case]) {
+    for (old, new, field, says) in cases {
+        let folder = Folder::new();
+        folder.write(file, change(reference, old, new));
+        let line = line_of(reference, old);
+        refuse(&folder, arguments, &[&format!("{file}:{line}: {field}: "), says]);
+    }
+}
+
+#[test]
+fn a_bad_value_in_a_cell_file() {
+    let cases: &[Case] = &[
+        ("pitch_um: 170.0", "pitch_um: -170.0", "pitch_um", "not greater than 0"),
+        ("pitch_um: 170.0", "pitch_um: NaN", "pitch_um", "NaN is not a finite number"),
+        ("pitch_um: 170.0", "pitch_um: 1e999", "pitch_um", "inf is not a finite number"),
+        ("pitch_um: 170.0", "pitch_um: \"170\"", "pitch_um", "a number is needed"),
+        ("pitch_um: 170.0", "pitch_um: 170.0, pitch_um: 1.0", "pitch_um", "twice"),
+        ("pitch_um: 170.0", "pitch_mm: 0.17", "pitch_mm", "unknown field `pitch_mm`; the fields here are name, pitch_um, rings"),
+        ("outer_diameter_um: 80.0", "outer_diameter_um: 0.0", "rings[0].outer_diameter_um", "not greater than 0"),
+        (
+            "outer_diameter_um: 112.0",
+            "outer_diameter_um: 79.0",
+            "rings[1].outer_diameter_um",
+            "79 um is not greater than the ring",
+        ),
+        ("outer_diameter_um: 165.0", "outer_diameter_um: 170.0", "rings[2].outer_diameter_um", "no adhesive is left"),
+        ("glass: true", "glass: false", "rings[0].glass", "no ring is glass"),
+        ("glass: true", "glass: yes", "rings[0].glass", "`true` or `false`"),
+        (
+            "poisson_ratio: 0.4998,",
+            "poisson_ratio: 0.5,",
+            "rings[1].material.poisson_ratio",
+            "0.5 is not greater than -1 and less than",
+        ),
+        ("poisson_ratio: 0.4998,", "poisson_ratio: -1,", "rings[1].material.poisson_ratio", "e.g. 0.4998"),
+        ("poisson_ratio: 0.4998,", "", "rings[1].material.poisson_ratio", "the field is missing"),
+        ("poisson_ratio: 0.49985", "poison: 0.49985", "adhesive.poison", "the fields here are youngs_modulus_mpa, poisson_ratio"),
+        ("youngs_modulus_mpa: 70200.0", "youngs_modulus_mpa: 70.2e9", "rings[0].material.youngs_modulus_mpa", "in MPa"),
+        ("expansion_per_k: 0.55e-6", "expansion_per_k: 0.55", "rings[0].material.thermal_expansion_per_k", "e.g. 0.55e-6"),
+        ("conductivity_w_per_mk: 0.45", "conductivity_w_per_mk: -1", "adhesive.conductivity_w_per_mk", "not greater than 0"),
+    ];
+    refuse_all(CELL, "cell.ron", &["homogenize", "cell.ron", "--json"], cases);
+}
+
+#[test]
+fn a_bad_value_in_the_winding() {
+    let cases: &[Case] = &[
+        ("layers: 36", "layers: 0", "winding.layers", "at least 1"),
+        ("layers: 36", "layers: 36.0", "winding.layers", "not whole"),
+        ("layers: 36", "layers: -36", "winding.layers", "a whole number"),
+        ("layers: 36", "layers: 99999999999999999999999", "winding.layers", "a whole number"),
+        ("layers: 36", "layers: 10001", "winding.layers", "more than 10000"),
+        ("turns_odd_layers: 106", "turns_odd_layers: 100001", "winding.turns_odd_layers", "more than 100000"),
+        ("turns_even_layers: 105", "turns_even_layers: 107", "winding.turns_even_layers", "set it to 106"),
+        ("pattern: PracticalQuadrupole", "pattern: Hexapole", "winding.pattern", "choose Cylindrical or Dipole or"),
+        ("cw_climbs: Right", "cw_climbs: Up", "winding.cw_climbs", "choose Left or Right"),
+        ("turn_length: True", "turn_length: true", "winding.turn_length", "choose True or Equal"),
+        ("pitch_mm: 0.170", "pitch_mm: 170.0", "winding.pitch_mm", "in mm, e.g. 0.170"),
+        ("pitch_mm: 0.170", "pitch_mm: 0.000170", "winding.pitch_mm", "in mm, e.g. 0.170"),
+        ("cw: 0.0, ccw", "cw: -0.1, ccw", "winding.tails_m.cw", "negative"),
+        ("inner_radius_mm: 43.5", "inner_radius_mm: inf", "winding.inner_radius_mm", "not a finite number"),
+    ];
+    refuse_all(COIL, "coil.ron", &["wind", "coil.ron", "--csv", "out.csv", "--svg", "out.svg"], cases);
+}
+
+#[test]
+fn a_bad_value_in_the_coil() {
+    let cases: &[Case] = &[
+        ("outer_radius_mm: 48.825", "outer_radius_mm: 48.0", "coil.outer_radius_mm", "the winding reaches 48.8229 mm"),
+        ("outer_radius_mm: 48.825", "outer_radius_mm: 5.325", "coil.outer_radius_mm", "not greater than winding.inner_radius_mm"),
+        ("height_mm: 18.02", "height_mm: 17.85", "coil.height_mm", "the winding reaches 18.0200 mm"),
+        ("e_r_mpa: 95.2", "e_r_mpa: 0.0", "coil.material.e_r_mpa", "not greater than 0"),
+        ("nu_r: 0.979", "nu_r: 0.999", "coil.material.nu_r", "0.997982"),
+        ("nu_r: 0.979", "nu_r: NaN", "coil.material.nu_r", "NaN is not"),
+        (
+            "k_z_w_per_mk: 0.51, k_r_w_per_mk: 0.34,\n        ))",
+            "k_r_w_per_mk: 0.34))",
+            "coil.material.k_z_w_per_mk",
+            "the field is missing",
+        ),
+        ("hub_thickness_mm: 4.0", "hub_thickness_mm: 43.5", "spool.hub_thickness_mm", "leaves no bore"),
+        ("hub_bonded: true", "hub_bonded: 1", "spool.hub_bonded", "`true` or `false`"),
+        ("overhang_mm: 1.0", "overhang_mm: -1.0", "spool.flanges[0].overhang_mm", "negative"),
+        ("poisson_ratio: 0.33", "poisson_ratio: 0.5", "spool.material.poisson_ratio", "0.5 is not"),
+        ("margin_mm: 10.0", "margin_mm: 0.0", "surroundings.margin_mm", "not greater than 0"),
+        ("radius_mm: 39.5", "radius_mm: 70.0", "sensor", "outside the chamber"),
+        ("refractive_index: 1.45", "refractive_index: 0.9", "optics.refractive_index", "less than 1"),
+        ("p11: 0.121", "p11: 12.1", "optics.p11", "more than 1"),
+        ("p12: 0.270", "p12: NaN", "optics.p12", "not a finite number"),
+        ("strain: Total", "strain: Elastic", "optics.strain", "choose Total or Mechanical"),
+        ("m_rz: -0.17,", "m_rz: -17.0,", "dehomogenization.m_rz", "less than -10"),
+    ];
+    refuse_all(COIL, "coil.ron", &["sensitivity", "coil.ron"], cases);
+}
+
+#[test]
+fn a_second_flange_at_a_side() {
+    let flange = "(side: Right, thickness_mm: 2.0, overhang_mm: 1.0, bonded: true)";
+    let folder = Folder::new();
+    folder.write("coil.ron", change(COIL, flange, &format!("{flange},\n{flange}")));
+    let line = 1 + line_of(COIL, flange);
+    refuse(&folder, &["sensitivity", "coil.ron"], &[&format!("coil.ron:{line}: spool.flanges[1].side: "), "at most one flange"]);
+}
+
+#[test]
+fn a_cell_that_cannot_be_used() {
+    let given = &COIL
+        [COIL.find("Constants((").unwrap()..COIL.find("k_r_w_per_mk: 0.34,").unwrap() + "k_r_w_per_mk: 0.34,\n        ))".len()];
+    let coil = change(COIL, given, "FromCell(\"inner.ron\")");
+    let line = line_of(&coil, "material: FromCell");
+    let folder = Folder::new();
+    folder.write("coil.ron", &coil);
+    let outer = format!("coil.ron:{line}: coil.material: ");
+    refuse(&folder, &["sensitivity", "coil.ron"], &[&outer, "inner.ron: cannot be read"]);
+    folder.write("inner.ron", change(CELL, "poisson_ratio: 0.17", "poisson_ratio: 0.7"));
+    let inner = format!("inner.ron:{}: rings[0].material.poisson_ratio: 0.7", line_of(CELL, "poisson_ratio: 0.17"));
+    refuse(&folder, &["sensitivity", "coil.ron"], &[&outer, &inner]);
+}
+
+#[test]
+fn a_file_that_is_no_case_file() {
+    let folder = Folder::new();
+    folder.write("empty.ron", "");
+    folder.write("blank.ron", " \n\n");
+    folder.write("latin.ron", b"(\n  name: \"\xe9\",\n)");
+    folder.write("large.ron", vec![b' '; (1 << 20) + 1]);
+    folder.write("deep.ron", "(".repeat(100_000));
+    folder.write("lists.ron", format!("(name: {}", "[".repeat(100_000)));
+    folder.write("cut.ron", &CELL[..CELL.len() / 2]);
+    folder.write("twice.ron", format!("{CELL}{CELL}"));
+    std::fs::create_dir(folder.path("folder.ron")).unwrap();
+    for command in ["homogenize", "wind", "sensitivity"] {
+        for (file, says) in [
+            ("empty.ron", "empty.ron: is empty"),
+            ("blank.ron", "blank.ron: is empty"),
+            ("latin.ron", "latin.ron:2: is not UTF-8"),
+            ("large.ron", "large.ron: is larger than"),
+            ("deep.ron", "deep.ron:1: the file is cut short, or a bracket is never closed"),
+            ("lists.ron", "lists.ron:1: name"),
+            ("missing.ron", "missing.ron: cannot be read"),
+            ("folder.ron", "folder.ron: is a directory"),
+        ] {
+            refuse(&folder, &[command, file], &[says]);
+        }
+    }
+    refuse(&folder, &["homogenize", "cut.ron"], &["cut.ron:"]);
+    let line = format!("twice.ron:{}: the file goes on", CELL.lines().count() + 1);
+    refuse(&folder, &["homogenize", "twice.ron"], &[&line]);
+}
+
+#[test]
+fn an_output_that_cannot_be_written() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    refuse(&folder, &["wind", "coil.ron", "--csv", "good.csv", "--svg", "none/x.svg"], &["none/x.svg: cannot be written"]);
+    refuse(&folder, &["wind", "coil.ron", "--csv", "coil.ron"], &["coil.ron: is given twice, or is an input"]);
+    assert_eq!(std::fs::read_to_string(folder.path("coil.ron")).unwrap(), COIL);
+}
+
+#[test]
+fn bad_usage() {
+    let folder = Folder::new();
+    for arguments in [&[][..], &["unwind", "x.ron"], &["wind"], &["wind", "x.ron", "--json"], &["homogenize", "a", "b"]] {
+        assert_eq!(folder.run(arguments).status.code(), Some(2));
+    }
+}
+
+#[test]
+fn a_file_that_is_cut_short_is_called_so_wherever_it_ends() {
+    let folder = Folder::new();
+    for (name, command, text) in [("cell.ron", "homogenize", CELL), ("coil.ron", "sensitivity", COIL)] {
+        for tenth in 3..10 {
+            let mut end = text.len() * tenth / 10;
+            while !text.is_char_boundary(end) {
+                end -= 1;
+            }
+            folder.write(name, &text[..end]);
+            let output = folder.run(&[command, name]);
+            assert_eq!(output.status.code(), Some(2));
+            assert!(stderr(&output).contains("cut short"), "{name} at {tenth}/10: {}", stderr(&output));
+        }
+    }
+}
+
+#[test]
+fn mechanics_that_cannot_be_are_refused() {
+    let folder = Folder::new();
+    for (mechanics, field) in [
+        ("Relaxing((fraction: 0.95, time_s: 600.0))", "mechanics"),
+        ("Relaxing((fraction: 0.5, time_s: -1.0))", "mechanics.time_s"),
+        ("TemperatureTable([])", "mechanics"),
+        ("Opening((side: Left, below_c: 0.0, hysteresis_k: 5.0, fraction: 0.4))", "mechanics"),
+        (
+            "TemperatureTable([(temperature_c: 0.0, transverse_modulus_factor: 30.0, transverse_expansion_factor: 1.0)])",
+            "mechanics[0].transverse_modulus_factor",
+        ),
+    ] {
+        let text = change(COIL, "    sensor: (", &format!("    mechanics: {mechanics},\n    sensor: ("));
+        folder.write("coil.ron", &text);
+        let output = folder.run(&["sensitivity", "coil.ron"]);
+        assert_eq!(output.status.code(), Some(2), "{mechanics}: {}", stderr(&output));
+        let line = 1 + text[..text.find("mechanics:").unwrap()].matches('\n').count();
+        assert!(stderr(&output).contains(&format!("coil.ron:{line}: {field}")), "{mechanics}: {}", stderr(&output));
+    }
+}

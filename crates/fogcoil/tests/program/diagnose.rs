@@ -1,0 +1,183 @@
+//! `fogcoil diagnose` as a user runs it, on a recording in which a bond opens.
+
+use crate::common::{COIL, Folder, change, stderr, stdout};
+use coil::{Design, Mechanics};
+use fogcoil::input::read_coil;
+
+const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/concealed/open/case_13");
+
+#[test]
+fn a_concealed_bond_is_named_and_the_held_out_record_predicted() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let (fit, holdout) = (format!("{CASE}/fit.csv"), format!("{CASE}/holdout.csv"));
+    let mut arguments =
+        vec!["diagnose", "coil.ron", "--fit", &fit, "--holdout", &holdout, "--json", "j.json", "--prediction", "p.csv"];
+    arguments.extend(["--model-out", "m.ron", "--report", "r.html"]);
+    let output = folder.run(&arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stdout(&output).starts_with("The recording differs") && stdout(&output).contains("Most likely: debond."));
+    let json: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(folder.path("j.json")).unwrap()).unwrap();
+    assert_eq!(json["verdict"], "explained");
+    assert_eq!(json["mechanisms"][0]["id"], "debond");
+    assert!(json["mechanisms"][0]["probability"].as_f64().unwrap() > 0.8);
+    assert_eq!(json["set"], serde_json::json!(["debond"]));
+    assert_eq!(json["located"]["stage"], "bond");
+    // what the recording was made with: -7.2073 degC
+    let at = &json["parameters"]["debond_c"];
+    assert!((at["value"].as_f64().unwrap() + 7.2073).abs() < 0.5 && at["ci90"].as_array().unwrap().len() == 2, "{at}");
+    let held = &json["holdout"];
+    assert!(held["rmse_model"].as_f64().unwrap() < 0.95 * held["rmse_nominal"].as_f64().unwrap(), "{held}");
+    let rows = |text: String| text.lines().map(|line| line.split(',').next().unwrap().to_owned()).collect::<Vec<_>>();
+    let predicted = rows(std::fs::read_to_string(folder.path("p.csv")).unwrap());
+    assert_eq!(predicted, rows(std::fs::read_to_string(holdout).unwrap()));
+    the_model_is_the_design_with_the_bond(&folder, at["value"].as_f64().unwrap());
+    the_page_stands_alone(&std::fs::read_to_string(folder.path("r.html")).unwrap());
+}
+
+fn the_model_is_the_design_with_the_bond(folder: &Folder, below: f64) {
+    let text = std::fs::read_to_string(folder.path("m.ron")).unwrap();
+    for part in ["fit.csv", "holdout.csv", "Fitted, not measured", "debond_c = ", " to ", "no worse than"] {
+        assert!(text.contains(part), "`{part}` in {text}");
+    }
+    let [model, design] = ["m.ron", "coil.ron"].map(|name| read_coil(&folder.path(name)).unwrap().design);
+    let Mechanics::Opening(bond) = model.mechanics else { panic!("{:?}", model.mechanics) };
+    assert_eq!(bond.below, below);
+    assert_eq!(Design { mechanics: Mechanics::Elastic, ..model }, design);
+}
+
+fn the_page_stands_alone(page: &str) {
+    for part in [
+        "Most likely: debond.",
+        "course-wide",
+        "residuals-narrow",
+        "spectrum-wide",
+        "state-wide",
+        "blocks-wide",
+        "coherence-wide",
+        "layers-wide",
+        "parameters-wide",
+        "held-out-wide",
+        "allan-wide",
+        "part of the chain: bond",
+        "Ljung",
+        "class=\"dot\"",
+        "No further test is needed to tell mechanisms apart: debond alone is left",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    for part in ["http://", "https://", "<script", "NaN", ">inf", "<img"] {
+        assert!(!page.contains(part), "{part}");
+    }
+    let mut ids: Vec<&str> = page.split(" id=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+    let count = ids.len();
+    ids.sort_unstable();
+    ids.dedup();
+    assert_eq!(ids.len(), count);
+    assert!(page.len() < 1_000_000, "{} bytes", page.len());
+}
+
+/// A unit that two records leave to several mechanisms: both records are drawn, and the profile that would tell the mechanisms apart.
+#[test]
+fn the_report_holds_every_record_and_the_recommended_profile() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let unit = CASE.replace("case_13", "case_03");
+    // ten hours of each: enough to see, quick to fit
+    for name in ["fit.csv", "holdout.csv"] {
+        let text = std::fs::read_to_string(format!("{unit}/{name}")).unwrap();
+        folder.write(name, text.lines().take(1200).map(|line| line.to_owned() + "\n").collect::<String>());
+    }
+    let output = folder.run(&[
+        "diagnose",
+        "coil.ron",
+        "--fit",
+        "fit.csv",
+        "--fit",
+        "holdout.csv",
+        "--json",
+        "j.json",
+        "--report",
+        "r.html",
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let json: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(folder.path("j.json")).unwrap()).unwrap();
+    let set: Vec<&str> = json["set"].as_array().unwrap().iter().filter_map(|id| id.as_str()).collect();
+    assert!(set.len() > 1, "{set:?}");
+    let page = std::fs::read_to_string(folder.path("r.html")).unwrap();
+    for record in ["fit.csv", "holdout.csv"] {
+        assert!(page.contains(&format!("recorded less nominal model, {record}</text>")), "{record}");
+    }
+    // the command of the page finds the profile of the page
+    let (_, rest) = page.split_once("<code>fogcoil recommend ").unwrap();
+    let command = rest.split("</code>").next().unwrap();
+    assert!(command.ends_with("--out next.csv") && set.iter().take(2).all(|id| command.contains(id)), "{command}");
+    let (_, rest) = page.split_once("<th scope=\"row\">profile</th><td>").unwrap();
+    let profile = rest.split("</td>").next().unwrap();
+    let output = folder.run(&[vec!["recommend", "--json", "--quiet"], command.split(' ').collect()].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let found: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(found["profiles"][0]["name"], profile);
+    assert!(folder.path("next.csv").exists() && page.contains("next-test-narrow") && page.contains("expected separation"));
+}
+
+/// What a mistake in the file's columns does, and no mechanism: said before the verdict.
+#[test]
+fn exchanged_columns_and_a_reversed_rate_are_named() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let changed = |name: &str, row: &dyn Fn(&[&str]) -> String| {
+        let text = std::fs::read_to_string(format!("{CASE}/{name}")).unwrap();
+        let (head, rows) = text.split_once('\n').unwrap();
+        rows.lines()
+            .take(700)
+            .map(|line| row(&line.split(',').collect::<Vec<_>>()) + "\n")
+            .fold(head.to_owned() + "\n", |t, r| t + &r)
+    };
+    let negated =
+        |f: &[&str]| format!("{},{},{},{}", f[0], f[1], f[2], f[3].parse::<f64>().map_or(String::new(), |r| (-r).to_string()));
+    folder.write("negated.csv", changed("fit.csv", &negated));
+    folder.write("exchanged.csv", changed("holdout.csv", &|f| format!("{},{},{},{}", f[0], f[2], f[1], f[3])));
+    let output = folder.run(&["diagnose", "coil.ron", "--fit", "negated.csv", "--holdout", "exchanged.csv"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let (text, says) = (stdout(&output), |line: &str, words: [&str; 2]| words.iter().all(|w| line.contains(w)));
+    let lines: Vec<&str> = text.lines().take_while(|line| line.starts_with("warning: ")).collect();
+    assert!(lines.iter().any(|l| says(l, ["negated.csv: rate_deg_per_h", "other sign"])), "{text}");
+    assert!(lines.iter().any(|l| says(l, ["exchanged.csv: chamber_c and spool_c", "exchanged"])), "{text}");
+    // what was not changed is not suspected: the other test's records have no warning
+    assert!(!lines.iter().any(|l| l.contains("negated.csv: chamber_c") || l.contains("exchanged.csv: rate")), "{text}");
+}
+
+#[test]
+fn what_cannot_be_diagnosed_is_said_at_once() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    folder.write("soft.ron", change(COIL, "sensor:", "mechanics: Relaxing((fraction: 0.3, time_s: 900.0)),\n    sensor:"));
+    let table = |rows: usize, head: &str, row: &dyn Fn(usize) -> String| {
+        (0..rows).map(|k| row(k) + "\n").fold(head.to_owned() + "\n", |text, row| text + &row)
+    };
+    let head = "time_s,chamber_c,spool_c,rate_deg_per_h";
+    let noisy = |k: usize| format!("{},20.0{},20.0{},0.0{}", 30 * k, k % 3, k % 5, k % 7);
+    folder.write("short.csv", table(30, head, &noisy));
+    folder.write("good.csv", table(300, head, &noisy));
+    folder.write("cold.csv", table(300, "time_s,spool_c,rate_deg_per_h", &|k| format!("{},20.0{},0.0{}", 30 * k, k % 5, k % 7)));
+    folder.write("empty.csv", head);
+    folder.write("words.csv", "once upon a time");
+    for (coil, record, says) in [
+        ("coil.ron", "short.csv", "too few"),
+        ("coil.ron", "cold.csv", "chamber"),
+        ("coil.ron", "empty.csv", "empty.csv"),
+        ("coil.ron", "words.csv", "words.csv"),
+        ("coil.ron", "none.csv", "none.csv"),
+        ("soft.ron", "good.csv", "mechanics"),
+    ] {
+        let output = folder.run(&["diagnose", coil, "--fit", record, "--json", "j.json"]);
+        assert_eq!(output.status.code(), Some(2), "{record}: {}", stderr(&output));
+        assert!(stderr(&output).contains(says), "{record}: {}", stderr(&output));
+        assert!(!folder.path("j.json").exists());
+    }
+    // a record cannot judge what was fitted to itself
+    let output = folder.run(&["diagnose", "coil.ron", "--fit", "good.csv", "--holdout", "good.csv"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("same recording"), "{}", stderr(&output));
+}

@@ -1,0 +1,244 @@
+//! The commands on good files: keys, headers, units, every variant of the file format.
+
+use crate::common::{CELL, COIL, Folder, change, stderr, stdout};
+use fogcoil::input::{Origin, read_cell, read_coil};
+
+const KEYS: [&str; 16] = [
+    "e_z",
+    "e_r",
+    "g_zr",
+    "g_r",
+    "k_plane_strain",
+    "nu_zr",
+    "nu_r",
+    "nu_rz",
+    "alpha_z",
+    "alpha_r",
+    "k_z",
+    "k_r",
+    "m_rx",
+    "m_ry",
+    "m_rz",
+    "m_rt",
+];
+
+fn run(folder: &Folder, arguments: &[&str]) -> String {
+    let output = folder.run(arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(output.stderr.is_empty());
+    stdout(&output)
+}
+
+fn json(text: &str) -> serde_json::Value {
+    assert_eq!(text.trim_end().lines().count(), 1);
+    serde_json::from_str(text).unwrap()
+}
+
+#[test]
+fn homogenize_reports_every_constant_with_its_error() {
+    let folder = Folder::new();
+    folder.write("cell.ron", CELL);
+    let result = json(&run(&folder, &["homogenize", "cell.ron", "--json"]));
+    for key in KEYS {
+        assert!(result[key].as_f64().unwrap().is_finite(), "{key}");
+        assert!(result["error_estimate"][key].as_f64().unwrap().abs() < 1e-4, "{key}");
+    }
+    assert_eq!(format!("{:.1e}", result["e_z"].as_f64().unwrap()), "1.5e10"); // Pa
+    let text = run(&folder, &["homogenize", "cell.ron"]);
+    assert!(KEYS.iter().all(|key| text.contains(key)) && text.contains("MPa"), "{text}");
+}
+
+#[test]
+fn sensitivity_reports_its_parts() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let result = json(&run(&folder, &["sensitivity", "coil.ron", "--json"]));
+    let keys = ["shupe", "eo_axial", "eo_radial", "total", "length_m", "error_estimate"];
+    let [shupe, axial, radial, total, length, error] = keys.map(|key| result[key].as_f64().unwrap());
+    assert!((shupe + axial + radial - total).abs() < 1e-12 && error > 0.0 && error < 0.01);
+    assert!((-2.74..-2.72).contains(&total), "{total}");
+    assert_eq!(format!("{length:.4}"), "1101.5666");
+    assert!(run(&folder, &["sensitivity", "coil.ron"]).contains("the sum of the three"));
+}
+
+#[test]
+fn wind_writes_the_turn_table_and_the_picture() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    assert_eq!(run(&folder, &["wind", "coil.ron", "--csv", "turns.csv", "--svg", "section.svg"]), "");
+    let case = read_coil(&folder.path("coil.ron")).unwrap();
+    let table = std::fs::read_to_string(folder.path("turns.csv")).unwrap();
+    let mut rows = table.lines();
+    assert_eq!(rows.next(), Some("half,layer,turn,y_mm,r_mm,z_start_m,z_end_m"));
+    for turn in case.winding.turns() {
+        let row: Vec<&str> = rows.next().unwrap().split(',').collect();
+        let number = |i: usize| row[i].parse::<f64>().unwrap();
+        assert_eq!((number(3), number(4), number(5), number(6)), (turn.y * 1e3, turn.r * 1e3, turn.z_start, turn.z_end));
+        assert_eq!(row[0], if turn.half == winding::Half::Cw { "CW" } else { "CCW" });
+        assert_eq!((row[1].parse(), row[2].parse()), (Ok(turn.layer), Ok(turn.turn)));
+    }
+    assert_eq!(rows.next(), None);
+    let picture = std::fs::read_to_string(folder.path("section.svg")).unwrap();
+    assert!(picture.contains("<title") && picture.matches("<circle").count() >= 3798 && picture.len() < 1_500_000);
+    assert_eq!(folder.names(), ["coil.ron", "section.svg", "turns.csv"]);
+    assert!(run(&folder, &["wind", "coil.ron"]).contains("1899, 1899"));
+}
+
+#[test]
+fn a_result_replaces_an_older_one_through_a_link() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    folder.write("old.csv", "old");
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("old.csv", folder.path("turns.csv")).unwrap();
+    run(&folder, &["wind", "coil.ron", "--csv", "turns.csv"]);
+    #[cfg(unix)]
+    assert!(std::fs::read_to_string(folder.path("old.csv")).unwrap().starts_with("half,"));
+}
+
+#[test]
+fn a_large_coil_makes_a_small_picture() {
+    let folder = Folder::new();
+    let large = change(&change(COIL, "layers: 36", "layers: 400"), "outer_radius_mm: 48.825", "outer_radius_mm: 102.5");
+    folder.write("coil.ron", large);
+    run(&folder, &["wind", "coil.ron", "--svg", "section.svg"]);
+    assert!(std::fs::metadata(folder.path("section.svg")).unwrap().len() < 500_000);
+}
+
+#[test]
+fn every_variant_parses() {
+    let variants = [
+        ("PracticalQuadrupole,  ", "Cylindrical,"),
+        ("PracticalQuadrupole,  ", "Dipole,"),
+        ("PracticalQuadrupole,  ", "Quadrupole,"),
+        ("PracticalQuadrupole,  ", "Octupole,"),
+        ("turn_length: True", "turn_length: Equal"),
+        ("cw_climbs: Right", "cw_climbs: Left"),
+        ("(cw: 0.0, ccw: 0.0)", "(cw: 1.5, ccw: 0.5)"),
+        ("strain: Total", "strain: Mechanical"),
+        ("hub_bonded: true", "hub_bonded: false"),
+        ("bonded: true)]", "bonded: false)]"),
+        ("bonded: true)]", "bonded: true), (side: Left, thickness_mm: 1.0, overhang_mm: 0.0, bonded: false)]"),
+        ("[(side: Right, thickness_mm: 2.0, overhang_mm: 1.0, bonded: true)]", "[]"),
+    ];
+    let folder = Folder::new();
+    let reference = read_coil(&folder.write("reference.ron", COIL)).unwrap();
+    for (old, new) in variants {
+        let case = read_coil(&folder.write("coil.ron", change(COIL, old, new))).unwrap();
+        assert_ne!(case.design, reference.design, "{new}");
+    }
+}
+
+#[test]
+fn without_a_spool_the_thermometer_sits_at_the_bore() {
+    let spool = &COIL[COIL.find("Some((").unwrap()..COIL.find("surroundings: (").unwrap()];
+    let folder = Folder::new();
+    let case = read_coil(&folder.write("coil.ron", change(COIL, spool, "None,\n    "))).unwrap();
+    assert_eq!(case.design.spool, None);
+    assert_eq!(case.design.sensor.radius, 43.5e-3);
+}
+
+#[test]
+fn constants_and_row_from_a_cell() {
+    let folder = Folder::new();
+    let start = COIL.find("Constants((").unwrap();
+    let end = start + COIL[start..].find("))").unwrap() + 2;
+    let coil = change(COIL, &COIL[start..end], "FromCell(\"cells/cell.ron\")");
+    std::fs::create_dir(folder.path("cells")).unwrap();
+    let cell_path = folder.write("cells/cell.ron", CELL);
+    let matrix = "Matrix((m_rx: 0.0274, m_ry: 0.0270, m_rz: -0.17, m_rt_per_k: -9.98e-6))";
+    let from_cell = change(&coil, matrix, &format!("FromCell({cell_path:?})"));
+    let case = read_coil(&folder.write("coil.ron", from_cell)).unwrap();
+    let expected = homogenization::homogenize(&read_cell(&cell_path).unwrap().cell).unwrap().constants;
+    assert_eq!(case.design.body.elastic, expected.elastic());
+    assert_eq!((case.design.body.conductivity_z, case.design.body.conductivity_r), (expected.k_z, expected.k_r));
+    assert_eq!(case.design.dehomogenization.m_rt, expected.m_rt);
+    assert_eq!(case.provenance.dehomogenization, Origin::Cell(cell_path));
+    let printed = read_coil(&folder.write("coil.ron", change(COIL, matrix, "Printed"))).unwrap();
+    assert_eq!(printed.design.dehomogenization.m_rx, 2.74e-6);
+    assert_eq!(printed.provenance.dehomogenization, Origin::Printed);
+}
+
+#[test]
+fn values_arrive_in_si() {
+    let folder = Folder::new();
+    let design = read_coil(&folder.write("coil.ron", COIL)).unwrap().design;
+    assert_eq!((design.winding.inner_radius, design.winding.pitch, design.body.height), (43.5e-3, 0.170e-3, 18.02e-3));
+    assert_eq!((design.body.elastic.e_z, design.body.elastic.e_r), (14.5e9, 95.2e6));
+    assert_eq!(design.spool.unwrap().material.elastic.youngs_modulus, 68.9e9);
+    assert_eq!(design.optics.sagnac_diameter, 92.325e-3);
+    let cell = read_cell(&folder.write("cell.ron", CELL)).unwrap().cell;
+    assert_eq!((cell.pitch, cell.rings[0].outer_radius), (170e-6, 40e-6));
+    assert_eq!(cell.rings[2].constituent.elastic.youngs_modulus, 870e6);
+}
+
+/// The reference coil with `mechanics`.
+fn with_mechanics(mechanics: &str) -> String {
+    change(COIL, "    sensor: (", &format!("    mechanics: {mechanics},\n    sensor: ("))
+}
+
+#[test]
+fn mechanics_are_read_and_change_the_bias_in_time() {
+    let folder = Folder::new();
+    folder.write("p.csv", "time_s,chamber_c\n0,-40\n3600,-40\n18000,60\n21600,60\n");
+    let peak = |name: &str, coil: &str| {
+        folder.write(name, coil);
+        let output = folder.run(&["simulate", name, "--profile", "p.csv", "--out", "b.csv", "--json", "--quiet"]);
+        assert!(output.status.success(), "{name}: {}", stderr(&output));
+        let rows = std::fs::read_to_string(folder.path("b.csv")).unwrap();
+        rows.lines().nth(3).unwrap().split(',').next_back().unwrap().parse::<f64>().unwrap()
+    };
+    let elastic = peak("elastic.ron", COIL);
+    assert_eq!(peak("named.ron", &with_mechanics("Elastic")), elastic);
+    let table = "TemperatureTable([(temperature_c: -40.0, transverse_modulus_factor: 0.5, transverse_expansion_factor: 1.0)])";
+    for (name, mechanics) in [
+        ("table.ron", table),
+        ("relaxing.ron", "Relaxing((fraction: 0.5, time_s: 600.0))"),
+        ("opening.ron", "Opening((side: Right, below_c: 100.0, hysteresis_k: 5.0, fraction: 0.4))"),
+    ] {
+        let other = peak(name, &with_mechanics(mechanics));
+        assert!((other / elastic - 1.0).abs() > 0.05, "{name}: {other} against {elastic}");
+    }
+    assert!(stdout(&folder.run(&["sensitivity", "table.ron"])).contains("nominal state"));
+    assert!(!stdout(&folder.run(&["sensitivity", "elastic.ron"])).contains("nominal state"));
+}
+
+#[test]
+fn trim_says_how_to_null_the_reference_coil() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let output = folder.run(&["trim", "coil.ron", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let tail = json["tail_cw_minus_ccw_m"].as_f64().unwrap();
+    let trimmed = change(COIL, "tails_m: (cw: 0.0", &format!("tails_m: (cw: {tail}"));
+    folder.write("trimmed.ron", trimmed);
+    let output = folder.run(&["sensitivity", "trimmed.ron", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert!(json["total"].as_f64().unwrap().abs() < 1e-5, "{json}");
+    assert!(stdout(&folder.run(&["trim", "coil.ron"])).contains("CW tail longer by 1.499"));
+}
+
+#[test]
+fn what_looks_like_a_mistake_is_said_and_not_refused() {
+    let folder = Folder::new();
+    for (old, new, word) in [
+        ("outer_radius_mm: 48.825", "outer_radius_mm: 97.65", "coil.outer_radius_mm"),
+        ("height_mm: 18.02", "height_mm: 25.0", "coil.height_mm"),
+        ("sagnac_diameter_mm: 92.325", "sagnac_diameter_mm: 0.092325", "optics.sagnac_diameter_mm"),
+        ("tails_m: (cw: 0.0", "tails_m: (cw: 2000.0", "winding.tails_m"),
+    ] {
+        folder.write("coil.ron", change(COIL, old, new));
+        let output = folder.run(&["wind", "coil.ron"]);
+        assert!(output.status.success(), "{new}: {}", stderr(&output));
+        assert!(stderr(&output).contains(word), "{new}: {}", stderr(&output));
+    }
+    folder.write("coil.ron", COIL);
+    assert_eq!(stderr(&folder.run(&["wind", "coil.ron"])), "");
+}
+
+#[test]
+fn a_byte_order_mark_is_no_part_of_the_file() {
+    let folder = Folder::new();
+    folder.write("coil.ron", format!("\u{feff}{COIL}"));
+    assert!(folder.run(&["wind", "coil.ron"]).status.success());
+}

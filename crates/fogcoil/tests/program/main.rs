@@ -1,0 +1,22 @@
+//! The program and its library from outside: one test program, so that the library is linked once.
+
+#![allow(clippy::unwrap_used)] // helpers of tests
+
+mod bad_diagnosis;
+mod bad_input;
+mod bad_profile;
+mod bad_record;
+mod cache;
+mod cell_general;
+mod check;
+mod common;
+mod diagnose;
+mod good_input;
+mod identify;
+mod model_out;
+mod mutated_input;
+mod recommend;
+mod report;
+mod simulate;
+mod spool;
+mod terminal;

@@ -1,0 +1,149 @@
+//! `fogcoil recommend` and `fogcoil explain` as a user runs them.
+
+use crate::common::{COIL, Folder, change, stderr, stdout};
+use serde_json::Value;
+
+const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/concealed/open/case_13");
+
+fn schema(name: &str) -> Value {
+    let path = format!("{}/../../docs/schema/{name}.schema.json", env!("CARGO_MANIFEST_DIR"));
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+/// Whether a value keeps a schema's `type`, `required`, `properties`, `additionalProperties`, `items`, `enum` and local `$ref`.
+fn keeps(value: &Value, schema: &Value, root: &Value, at: &str) {
+    if let Some(name) = schema["$ref"].as_str() {
+        return keeps(value, &root["$defs"][name.strip_prefix("#/$defs/").unwrap()], root, at);
+    }
+    let is = |kind: &str| match kind {
+        "object" => value.is_object(),
+        "array" => value.is_array(),
+        "string" => value.is_string(),
+        "number" => value.is_number(),
+        "integer" => value.is_u64(),
+        "boolean" => value.is_boolean(),
+        "null" => value.is_null(),
+        other => panic!("{at}: type {other}"),
+    };
+    match &schema["type"] {
+        Value::String(kind) => assert!(is(kind), "{at}: {value} is no {kind}"),
+        Value::Array(kinds) => assert!(kinds.iter().any(|k| is(k.as_str().unwrap())), "{at}: {value}"),
+        _ => {}
+    }
+    if let Some(allowed) = schema["enum"].as_array() {
+        assert!(allowed.contains(value), "{at}: {value}");
+    }
+    for name in schema["required"].as_array().into_iter().flatten() {
+        assert!(value.get(name.as_str().unwrap()).is_some(), "{at}: lacks {name}");
+    }
+    for (name, value) in value.as_object().into_iter().flatten() {
+        match schema["properties"].get(name).or(schema.get("additionalProperties")) {
+            Some(Value::Bool(false)) | None => panic!("{at}: {name} is not in the schema"),
+            Some(schema) => keeps(value, schema, root, &format!("{at}.{name}")),
+        }
+    }
+    for (k, value) in value.as_array().into_iter().flatten().enumerate() {
+        keeps(value, &schema["items"], root, &format!("{at}[{k}]"));
+    }
+}
+
+fn json(folder: &Folder, arguments: &[&str], name: &str) -> Value {
+    let output = folder.run(arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let object: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let schema = schema(name);
+    keeps(&object, &schema, &schema, name);
+    object
+}
+
+fn log_odds(of: &Value) -> f64 {
+    of["log_odds"].as_f64().unwrap()
+}
+
+#[test]
+fn a_fast_profile_is_recommended_and_can_be_simulated() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let between =
+        ["recommend", "coil.ron", "--between", "tail-asymmetry, adhesive-content", "--json", "--out", "p.csv", "--quiet"];
+    let r = json(&folder, &between, "recommend");
+    let profiles = r["profiles"].as_array().unwrap();
+    assert!(profiles.windows(2).all(|p| log_odds(&p[0]) >= log_odds(&p[1])));
+    assert!(profiles[0]["decides"] == true && r["repeat"]["decides"] == false, "{}", r["recommendation"]);
+    assert!(profiles[0]["gain_over_repeat"].as_f64().unwrap() > 5.0);
+    let out = folder.run(&["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv", "--quiet"]);
+    assert_eq!(out.status.code(), Some(0), "{}", stderr(&out));
+    let last = std::fs::read_to_string(folder.path("p.csv")).unwrap().lines().last().unwrap().to_owned();
+    assert!(last.starts_with("86400.0,"), "{last}");
+    // a chamber that hardly moves tells nothing
+    let narrow =
+        [&between[..4], &["--coldest", "19", "--hottest", "21", "--fastest", "0.05", "--hours", "12", "--json", "--quiet"]]
+            .concat();
+    let r = json(&folder, &narrow, "recommend");
+    assert_eq!(r["profiles"][0]["decides"], false);
+    let says = r["recommendation"].as_str().unwrap();
+    assert!(says.starts_with("No profile within the limits") && says.contains("tails' lengths"), "{says}");
+}
+
+#[test]
+fn a_record_gives_sizes_and_the_test_that_is_repeated() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let fit = format!("{CASE}/fit.csv");
+    let r = json(
+        &folder,
+        &["recommend", "coil.ron", "--between", "debond,nominal", "--from", &fit, "--json", "--quiet"],
+        "recommend",
+    );
+    assert!(r["fitted"] == true && r["repeat"]["name"] == "the recorded test");
+    // what the record was made with: -7.2073 degC
+    assert!((r["sizes"][0]["parameters"]["debond_c"].as_f64().unwrap() + 7.2073).abs() < 1.0, "{}", r["sizes"]);
+    assert!(log_odds(&r["repeat"]) > 3.5);
+}
+
+#[test]
+fn what_cannot_be_recommended_is_said_at_once() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    for (arguments, says) in [
+        (&["--between", "tail-asymmetry"][..], "two or more"),
+        (&["--between", "tail-asymmetry,tail-asymmetry"], "twice"),
+        (
+            &["--between", "tail-asymmetry,gremlins"],
+            "`gremlins` is not in this design's library; it holds tail-asymmetry, winding-defect",
+        ),
+        (&["--between", "nominal,recalibrate"], "a mechanism's"),
+        (&["--between", "debond,air-path", "--coldest", "60", "--hottest", "-40"], "--coldest 60 --hottest -40"),
+        (&["--between", "debond,air-path", "--fastest", "0"], "--fastest 0"),
+        (&["--between", "debond,air-path", "--hours", "nan"], "--hours NaN"),
+        (&["--between", "debond,air-path", "--from", "none.csv"], "none.csv"),
+        (&["--between", "debond,air-path", "--out", "coil.ron"], "coil.ron"),
+    ] {
+        let output = folder.run(&[&["recommend", "coil.ron", "--quiet"], arguments].concat());
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(says), "{arguments:?}: {}", stderr(&output));
+    }
+    assert_eq!(folder.names(), ["coil.ron"]);
+}
+
+#[test]
+fn the_paper_s_second_coil_is_explained_by_a_tail_and_hardly_by_its_constants() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let e = json(&folder, &["explain", "coil.ron", "--sensitivity", "1.39", "--json", "--quiet"], "explain");
+    let of = |id: &str| e["explanations"].as_array().unwrap().iter().find(|x| x["id"] == id).unwrap().clone();
+    let tail = of("tail-asymmetry");
+    // 0.74 m in an independent finite-element code
+    assert!((tail["value"].as_f64().unwrap() - 0.74).abs() < 0.01 && tail["verdict"] == "plausible", "{tail}");
+    assert!(e["recalibrate"]["verdict"] == "implausible");
+    for id in ["interface-resistance", "air-path", "axial-heat-path", "sensor-lag", "self-heating", "thermo-optic-curvature"] {
+        assert!(of(id)["able"] == false && of(id)["why"].is_string(), "{}", of(id));
+    }
+    // the solved tail gives the sensitivity
+    let tails = format!("tails_m: (cw: {}, ccw: 0.0)", tail["value"]);
+    folder.write("tail.ron", change(COIL, "tails_m: (cw: 0.0, ccw: 0.0)", &tails));
+    let s: Value = serde_json::from_str(&stdout(&folder.run(&["sensitivity", "tail.ron", "--json"]))).unwrap();
+    assert!((s["total"].as_f64().unwrap() + 1.39).abs() < 0.003, "{s}");
+    let output = folder.run(&["explain", "coil.ron", "--sensitivity", "-1.0"]);
+    assert!(output.status.code() == Some(2) && stderr(&output).contains("--signed"), "{}", stderr(&output));
+}

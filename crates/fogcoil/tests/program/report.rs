@@ -1,0 +1,153 @@
+//! The report: well-formed, and complete in itself.
+
+use crate::common::{COIL, Folder, change, stderr};
+
+fn report(coil: &str, profile: &str) -> String {
+    let folder = Folder::new();
+    folder.write("coil.ron", coil);
+    folder.write("p & <q>.csv", profile);
+    let output =
+        folder.run(&["simulate", "coil.ron", "--profile", "p & <q>.csv", "--out", "b.csv", "--report", "r.html", "--quiet"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    std::fs::read_to_string(folder.path("r.html")).unwrap()
+}
+
+/// Every element that is opened is closed in its turn, every attribute is quoted, every bare ampersand is an entity.
+fn assert_well_formed(page: &str) {
+    let page = page.strip_prefix("<!DOCTYPE html>").unwrap_or(page);
+    let mut open: Vec<&str> = Vec::new();
+    for (i, piece) in page.split('<').enumerate().skip(1) {
+        let (tag, text) = piece.split_once('>').unwrap_or_else(|| panic!("tag {i} is not closed: {piece}"));
+        assert_eq!(tag.matches('"').count() % 2, 0, "{tag}");
+        if let Some(name) = tag.strip_prefix('/') {
+            assert_eq!(open.pop(), Some(name), "tag {i}");
+        } else if !tag.ends_with('/') {
+            open.push(tag.split_whitespace().next().unwrap());
+        }
+        assert!(!text.contains('>') || open.last() == Some(&"style"), "{text}");
+        let entity = |rest: &str| ["amp;", "lt;", "gt;", "quot;"].iter().any(|entity| rest.starts_with(entity));
+        assert!(text.split('&').skip(1).all(entity), "{text}");
+    }
+    assert_eq!(open, [""; 0]);
+}
+
+#[test]
+fn the_report_is_well_formed_and_needs_nothing_else() {
+    let coil = change(COIL, "name: \"reference-coil\"", "name: \"a <b> & \\\"c\\\"\"");
+    let page = report(&coil, "time_s,chamber_c\n0,20\n60,21\n120,22\n600,22\n");
+    assert_well_formed(&page);
+    for banned in ["http://", "https://", "<script", "<link", "<img", "url(", "@import", "javascript:", "onclick", "NaN", "inf "]
+    {
+        assert!(!page.contains(banned), "{banned}");
+    }
+    assert!(page.contains("a &lt;b&gt; &amp; &quot;c&quot; under p &amp; &lt;q&gt;.csv"));
+    let ids: Vec<&str> = page.split(" id=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+    assert!(ids.iter().enumerate().all(|(i, id)| !ids[..i].contains(id)), "{ids:?}");
+    for labels in page.split("aria-labelledby=\"").skip(1) {
+        assert!(labels.split('"').next().unwrap().split(' ').all(|id| ids.contains(&id)));
+    }
+    let tables = page.matches("<table").count();
+    assert_eq!((page.matches("<caption").count(), page.matches("<details>").count()), (tables, 9), "a table for every figure");
+    assert_eq!(page.matches("<th ").count(), page.matches("<th scope=").count());
+    let levels: Vec<u32> = page.split("<h").skip(1).filter_map(|rest| rest.chars().next()?.to_digit(10)).collect();
+    assert!(levels[0] == 1 && levels.windows(2).all(|pair| pair[1] <= pair[0] + 1 && pair[1] > 1), "{levels:?}");
+    let figures = [
+        "model",
+        "temperatures",
+        "bias",
+        "bias-against-rate",
+        "temperature-along-fibre",
+        "radial-strain-along-fibre",
+        "axial-strain-along-fibre",
+        "contributions",
+        "convergence",
+    ];
+    assert_eq!(page.matches("role=\"img\"").count(), 2 * figures.len(), "each for wide and narrow paper");
+    for figure in figures {
+        for size in ["wide", "narrow"] {
+            assert!(ids.contains(&format!("{figure}-{size}-title").as_str()), "{figure}-{size}");
+        }
+    }
+    for part in ["°/h", "[°C]", "[°C/min]", "SHA-256", env!("CARGO_PKG_VERSION"), "prefers-color-scheme: dark", "<details>"] {
+        assert!(page.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn a_profile_of_any_length_and_size_has_a_report() {
+    for profile in ["0,20\n", "0,20\n30,20\n", "0,0\n1e-6,1000\n1e12,-273.15\n", "0,1e-300\n5,-1e-300\n"] {
+        let page = report(COIL, &format!("time_s,chamber_c\n{profile}"));
+        assert_well_formed(&page);
+        assert!(!page.contains("NaN") && !page.contains("inf "), "{profile}");
+    }
+}
+
+#[test]
+fn every_design_has_its_figures() {
+    let spool = |text: &str| {
+        let (before, rest) = COIL.split_once("    spool: Some((").unwrap();
+        let (_, after) = rest.split_once("    )),\n").unwrap();
+        format!("{before}    spool: {text},\n{after}")
+    };
+    let material = "material: (youngs_modulus_gpa: 68.9, poisson_ratio: 0.33, thermal_expansion_per_k: 23.6e-6, \
+                    conductivity_w_per_mk: 167.0, density_kg_per_m3: 2700.0, specific_heat_j_per_kgk: 896.0), hub_thickness_mm: 4.0, ";
+    let flange = |side: &str, bonded: bool| format!("(side: {side}, thickness_mm: 2.0, overhang_mm: 1.0, bonded: {bonded})");
+    let two = format!("Some(({material}hub_bonded: false, flanges: [{}, {}]))", flange("Left", false), flange("Right", true));
+    let bare = format!("Some(({material}hub_bonded: true, flanges: []))");
+    let few = |coil: String| {
+        change(
+            &change(&change(&coil, "layers: 36", "layers: 3"), "odd_layers: 106", "odd_layers: 3"),
+            "even_layers: 105",
+            "even_layers: 2",
+        )
+    };
+    let small =
+        change(&change(&spool("None"), "outer_radius_mm: 48.825", "outer_radius_mm: 44.1"), "height_mm: 18.02", "height_mm: 0.6");
+    let film = change(COIL, "sensor: (radius_mm", "heat: (film_w_per_m2k: Some(20.0)), sensor: (radius_mm");
+    for coil in [spool("None"), spool(&two), spool(&bare), few(small), film] {
+        let page = report(&coil, "time_s,chamber_c\n0,20\n600,30\n1200,15\n");
+        assert_well_formed(&page);
+        let numberless = ["NaN", "inf ", "inf<", "inf\"", "infL", "infV", "infH"].into_iter().find(|word| page.contains(word));
+        assert_eq!(numberless, None, "{coil}");
+        assert_eq!(page.matches("<figure>").count(), 9);
+    }
+}
+
+#[test]
+fn figures_alone_are_documents_and_the_contributions_add_up() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    folder.write("p.csv", "time_s,chamber_c\n0,20\n3600,40\n7200,30\n");
+    let case = fogcoil::input::read_coil(&folder.path("coil.ron")).unwrap();
+    let profile = fogcoil::input::read_profile(&folder.path("p.csv"), &case.design).unwrap();
+    let cache = fogcoil::cache::Cache::NONE;
+    let (model, fields) = fogcoil::simulate::model_with_fields(&case, &profile.drives, &cache).unwrap();
+    let simulation = fogcoil::simulate::simulate(&case, &profile, &model).unwrap();
+    let documents = fogcoil::figures::documents(&simulation, Some(&fields));
+    assert_eq!(documents.len(), 8);
+    let winding = ("winding", fogcoil::picture::svg(&case.name, &case.winding));
+    for (name, svg) in documents.iter().chain([&winding]) {
+        assert_well_formed(svg);
+        let said = |tag: &str| {
+            svg.split_once(&format!("<{tag} id=")).is_some_and(|(_, rest)| rest.split('<').next().unwrap().len() > 30)
+        };
+        assert!(svg.contains("role=\"img\"") && said("title") && said("desc"), "{name}");
+        assert!(svg.starts_with("<svg xmlns=") && svg.len() < 400_000, "{name}: {} bytes", svg.len());
+        assert!(!svg.contains("NaN") && !svg.contains("var(") && !svg.contains(">inf"), "{name}");
+    }
+    let turns = fogcoil::figures::contributions_in_ramp(&simulation, &fields).unwrap();
+    let sum = turns.iter().fold(bias::Bias::ZERO, |sum, turn| sum + *turn);
+    // on the mesh of the fields
+    let steady = coil::Model::new(&case.design, &coil::COARSE).unwrap().sensitivity().unwrap();
+    for (part, expected) in [(sum.shupe, steady.shupe), (sum.eo_axial, steady.eo_axial), (sum.eo_radial, steady.eo_radial)] {
+        assert!((part - expected).abs() < 1e-8, "{part} against {expected}");
+    }
+}
+
+#[test]
+fn the_report_names_what_heats_the_coil() {
+    let sensor = "sensor: (radius_mm";
+    let heat = "heat: (mounts: [(side: Right, conductance_w_per_m2k: 50.0)], heaters: [(side: Right, power_w: 0.25)]), ";
+    let page = report(&change(COIL, sensor, &format!("{heat}{sensor}")), "time_s,chamber_c\n0,20\n30,20\n");
+    assert!(page.contains("50 W/(m² K)") && page.contains("0.25 W, on from the first row") && page.contains("heaters"));
+}

@@ -1,0 +1,243 @@
+//! `simulate` on good profiles: the contract, the physics, the report.
+
+use crate::common::{COIL, Folder, change, stderr, stdout};
+use std::fmt::Write;
+
+const HEADER: &str = "time_s,chamber_c,spool_c,shupe_deg_per_h,eo_axial_deg_per_h,eo_radial_deg_per_h,rate_deg_per_h";
+const PAPER: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/profiles/paper.csv"));
+const SENSOR: &str = "sensor: (radius_mm: 39.5, y_mm: 10.01)";
+
+/// From 20 °C up by 1 °C/min for an hour, every minute.
+fn ramp() -> String {
+    (0..=60).fold("time_s,chamber_c\n".to_owned(), |mut text, k| {
+        let _ = writeln!(text, "{},{}", 60 * k, 20 + k);
+        text
+    })
+}
+
+fn with_heat(heat: &str) -> String {
+    change(COIL, SENSOR, &format!("heat: ({heat}),\n    {SENSOR}"))
+}
+
+/// Runs `profile` on `coil` and returns the rows.
+fn simulate(coil: &str, profile: &str) -> Vec<[f64; 7]> {
+    let folder = Folder::new();
+    folder.write("coil.ron", coil);
+    folder.write("p.csv", profile);
+    let output = folder.run(&["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv", "--quiet"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(output.stderr.is_empty());
+    rows(&std::fs::read_to_string(folder.path("b.csv")).unwrap())
+}
+
+fn rows(table: &str) -> Vec<[f64; 7]> {
+    let mut lines = table.lines();
+    assert_eq!(lines.next(), Some(HEADER));
+    let row = |line: &str| line.split(',').map(|field| field.parse().unwrap()).collect::<Vec<f64>>().try_into().unwrap();
+    lines.map(row).collect()
+}
+
+#[test]
+fn a_row_for_every_instant_and_a_summary() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    folder.write("p.csv", ramp());
+    let run = |more: &[&str]| {
+        let output = folder.run(&[&["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv"], more].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        stdout(&output)
+    };
+    let text = run(&[]);
+    assert!(
+        ["largest |rate|", "deg/h", "(deg/h)/(degC/min)", "-2.7335 ± 0.0014"].iter().all(|part| text.contains(part)),
+        "{text}"
+    );
+    let json: serde_json::Value = serde_json::from_str(&run(&["--json"])).unwrap();
+    let rows = rows(&std::fs::read_to_string(folder.path("b.csv")).unwrap());
+    assert_eq!((rows.len(), json["rows"].as_u64()), (61, Some(61)));
+    assert_eq!(rows[0][..2], [0.0, 20.0]);
+    assert_eq!(rows[0][3..], [0.0; 4]);
+    assert!((rows[0][2] - 20.0).abs() < 1e-6);
+    for row in &rows {
+        assert!((row[3] + row[4] + row[5] - row[6]).abs() <= 1e-12 && row[2] <= row[1] + 1e-6, "{row:?}");
+    }
+    let peak = rows.iter().map(|row| row[6].abs()).fold(0.0, f64::max);
+    assert_eq!(json["peak"]["rate_deg_per_h"].as_f64().map(f64::abs), Some(peak));
+    // equal intervals: the mean over time is the mean over the rows after the first
+    let rms = (rows.iter().map(|row| row[6] * row[6]).sum::<f64>() / 60.0).sqrt();
+    assert!((json["rms_deg_per_h"].as_f64().unwrap() / rms - 1.0).abs() < 1e-12);
+    assert_eq!(json["duration_s"].as_f64(), Some(3600.0));
+    assert_eq!(folder.names(), ["b.csv", "coil.ron", "p.csv"]);
+}
+
+#[test]
+fn paper_the_slope_over_the_ramps_is_the_steady_sensitivity() {
+    // rows every 30 s; ramps of 0.2 °C/min run from 7200 to 37200 s and from 44400 to 74400 s. The slowest thermal pole is 2200 s:
+    // ten of them after a ramp's start its transient is e^-10 of the first, so the last 8000 s of each ramp are taken.
+    let rows = simulate(COIL, PAPER);
+    assert_eq!(rows.len(), 2721);
+    let settled = |t: f64| (29_200.0..=37_200.0).contains(&t) || (66_400.0..=74_400.0).contains(&t);
+    let points: Vec<(f64, f64)> = rows
+        .windows(2)
+        .filter(|pair| settled(pair[0][0]) && settled(pair[1][0]))
+        .map(|pair| ((pair[1][2] - pair[0][2]) / 0.5, pair[1][6]))
+        .collect();
+    assert_eq!(points.len(), 2 * 266);
+    let count = points.len() as f64;
+    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let slope = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum::<f64>() / points.iter().map(|p| (p.0 - x).powi(2)).sum::<f64>();
+    let folder = Folder::new();
+    let case = fogcoil::input::read_coil(&folder.write("coil.ron", COIL)).unwrap();
+    let steady = case.steady_sensitivity().unwrap().sensitivity.total();
+    assert!((slope / steady - 1.0).abs() < 1e-3, "{slope} against {steady}");
+}
+
+#[test]
+fn exact_a_profile_may_come_from_any_program_and_start_at_any_time() {
+    let plain = simulate(COIL, &ramp());
+    let windows = format!("\u{feff}{}\r\n  \r\n\r\n", ramp().trim_end().replace('\n', "\r\n"));
+    assert_eq!(simulate(COIL, &windows), plain);
+    assert_eq!(simulate(COIL, &ramp().replace(',', " , ").replace("time_s", "\"time_s\"")), plain);
+    assert_eq!(simulate(COIL, ramp().trim_end()), plain);
+    let swapped: String = ramp().lines().map(|line| line.split_once(',').map(|(a, b)| format!("{b},{a}\n")).unwrap()).collect();
+    assert_eq!(simulate(COIL, &swapped), plain);
+    let later = ramp().lines().enumerate().fold(String::new(), |text, (i, line)| {
+        let moved = line.split_once(',').filter(|_| i > 0).map(|(t, c)| format!("{},{c}", t.parse::<f64>().unwrap() - 1e9));
+        text + &moved.unwrap_or_else(|| line.to_owned()) + "\n"
+    });
+    let moved = simulate(COIL, &later);
+    assert_eq!(moved[0][0], -1e9);
+    assert!(moved.iter().zip(&plain).all(|(a, b)| a[1..] == b[1..]));
+}
+
+#[test]
+fn exact_one_row_gives_one_row_and_a_gap_is_linear() {
+    assert_eq!(simulate(COIL, "time_s,chamber_c\n5,-40\n").len(), 1);
+    let (full, sparse) = (simulate(COIL, &ramp()), simulate(COIL, "time_s,chamber_c\n0,20\n3600,80\n"));
+    assert!((full[60][2] - sparse[1][2]).abs() < 1e-9);
+    let mean = full.iter().map(|row| row[6]).sum::<f64>() / 60.0;
+    assert!((sparse[1][6] / mean - 1.0).abs() < 1e-9, "the mean over a gap is the mean of the rows in it");
+}
+
+#[test]
+fn exact_a_large_jump_is_a_small_one_enlarged() {
+    let jump = |by: f64| simulate(COIL, &format!("time_s,chamber_c\n0,0\n0.001,{by}\n30,{by}\n600,{by}\n"));
+    for (large, small) in jump(500.0).iter().zip(jump(5.0)).skip(1) {
+        assert!((large[6] / small[6] / 100.0 - 1.0).abs() < 1e-9 && (large[2] / small[2] / 100.0 - 1.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn bounds_lag_and_heat_paths_act_in_the_right_direction() {
+    let last = |coil: &str| simulate(coil, &ramp())[60];
+    let plain = last(COIL);
+    let lagging = last(&change(COIL, SENSOR, "sensor: (radius_mm: 39.5, y_mm: 10.01, lag_s: 300.0)"));
+    assert!(lagging[2] < plain[2] - 1.0 && lagging[6] == plain[6], "a slow thermometer changes nothing else: {lagging:?}");
+    assert!(last(&with_heat("mounts: [(side: Right, conductance_w_per_m2k: 50.0)]"))[2] > plain[2] + 1.0);
+    assert!(last(&with_heat("heaters: [(side: Right, power_w: 0.5)]"))[2] > plain[2] + 1.0);
+    assert!(last(&with_heat("film_w_per_m2k: Some(20.0)"))[2] > plain[2] + 1.0);
+    let poor = last(&with_heat("hub_resistance_m2k_per_w: 0.01"));
+    assert!(poor[2] < plain[2] - 0.01, "the heat that enters at the coil's outside reaches the spool later: {poor:?}");
+    assert_eq!(last(&with_heat("")), plain);
+    assert_eq!(last(&with_heat("hub_resistance_m2k_per_w: 0.0, mounts: [], heaters: [], film_w_per_m2k: None")), plain);
+}
+
+#[test]
+fn exact_drives_that_follow_the_chamber_change_nothing() {
+    let coil = with_heat("mounts: [(side: Right, conductance_w_per_m2k: 50.0)]");
+    let columns = |columns: &str, course: fn(&str) -> String| {
+        let mut lines = ramp().lines().map(str::to_owned).collect::<Vec<_>>();
+        lines[0] += columns;
+        lines[1..].iter_mut().for_each(|line| *line += &course(line.split_once(',').unwrap().1));
+        simulate(&coil, &lines.join("\n"))
+    };
+    let one = simulate(&coil, &ramp());
+    let all = columns(",left_c,right_c,mount_right_c", |c| format!(",{c},{c},{c}"));
+    let peak = one.iter().map(|row| row[6].abs()).fold(0.0, f64::max);
+    for (a, b) in one.iter().zip(&all) {
+        assert!((a[2] - b[2]).abs() < 1e-3 && (a[6] - b[6]).abs() < 2e-3 * peak, "{a:?} {b:?}");
+    }
+    // a mount that stays cold holds the spool back
+    assert!(columns(",mount_right_c", |_| ",20".into())[60][2] < one[60][2] - 1.0);
+    assert!(columns(",left_c", |_| ",20".into())[60][2] < one[60][2] - 1.0);
+}
+
+#[test]
+fn notes_go_to_standard_error_unless_silenced() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    folder.write("p.csv", "time_s,chamber_c,spool_c,rate_deg_per_h\n0,293.15,x,\n30,293.2,,y\n");
+    let run =
+        |more: &[&str]| folder.run(&[&["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv", "--json"], more].concat());
+    let notes = stderr(&run(&[]));
+    assert!(notes.contains("p.csv: the columns spool_c, rate_deg_per_h drive nothing and are ignored"), "{notes}");
+    assert!(
+        notes.contains("if it is in kelvin, subtract 273.15") && notes.lines().all(|line| line.starts_with("note: ")),
+        "{notes}"
+    );
+    folder.write("p.csv", "time_s,chamber_c\n0,20\n0.01,500\n");
+    assert!(stderr(&run(&[])).contains("rows are as close as 0.010000 s"));
+    let quiet = run(&["--quiet"]);
+    assert!(quiet.stderr.is_empty() && stdout(&quiet).lines().count() == 1);
+}
+
+#[test]
+fn many_rows_are_quick_and_the_report_stays_small() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let profile = (0..200_000).fold("time_s,chamber_c\n".to_owned(), |mut text, k| {
+        let _ = writeln!(text, "{k},{:.3}", 20.0 + 30.0 * (f64::from(k) / 4000.0).sin());
+        text
+    });
+    folder.write("p.csv", profile);
+    let start = std::time::Instant::now();
+    let arguments = ["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv", "--report", "r.html"];
+    assert_eq!(folder.run(&arguments).status.code(), Some(0));
+    assert!(start.elapsed().as_secs() < 60);
+    assert_eq!(std::fs::read_to_string(folder.path("b.csv")).unwrap().lines().count(), 200_001);
+    assert!(std::fs::metadata(folder.path("r.html")).unwrap().len() < 1_500_000);
+}
+
+#[test]
+fn a_smooth_course_between_rows_agrees_with_its_rows_written_out() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let table = |step: u32| {
+        (0..=7200 / step).map(|k| f64::from(k * step)).fold("time_s,chamber_c\n".to_owned(), |mut text, t| {
+            let _ = writeln!(text, "{t},{}", 20.0 + 30.0 * (t / 1500.0).sin().powi(3));
+            text
+        })
+    };
+    folder.write("rows.csv", table(120));
+    folder.write("fine.csv", table(10));
+    let run = |profile: &str, between: &str| {
+        let output =
+            folder.run(&["simulate", "coil.ron", "--profile", profile, "--out", "b.csv", "--between", between, "--quiet"]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        rows(&std::fs::read_to_string(folder.path("b.csv")).unwrap())
+    };
+    // the truth: means over two minutes of ten-second rows
+    let fine = run("fine.csv", "linear");
+    let truth: Vec<f64> = fine[1..].chunks(12).map(|c| c.iter().map(|r| r[6]).sum::<f64>() / 12.0).collect();
+    let off = |rows: &[[f64; 7]]| rows[1..].iter().zip(&truth).map(|(r, t)| (r[6] - t).abs()).fold(0.0, f64::max);
+    let (linear, cubic) = (run("rows.csv", "linear"), run("rows.csv", "cubic"));
+    assert_eq!((linear.len(), cubic.len()), (61, 61));
+    assert!(off(&cubic) < 0.3 * off(&linear), "{} against {}", off(&cubic), off(&linear));
+}
+
+#[test]
+fn the_read_out_s_drift_is_named_and_the_parts_add_up() {
+    let folder = Folder::new();
+    let drifts = "drifts: (read_out_deg_per_h_per_k: 0.01),\n    sensor:";
+    folder.write("coil.ron", change(COIL, "sensor:", drifts));
+    folder.write("p.csv", ramp());
+    let output = folder.run(&["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv", "--json", "--quiet"]);
+    let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let of = |key: &str| json["peak"][key].as_f64().unwrap();
+    let parts = of("shupe_deg_per_h") + of("eo_axial_deg_per_h") + of("eo_radial_deg_per_h");
+    assert!(of("read_out_deg_per_h").abs() > 0.05);
+    assert!((parts + of("read_out_deg_per_h") - of("rate_deg_per_h")).abs() < 1e-12);
+    let text = stdout(&folder.run(&["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv", "--quiet"]));
+    assert!(text.contains("read-out") && text.contains("the sum of the four"), "{text}");
+}

@@ -1,0 +1,33 @@
+"""Thermal bias of fibre-optic-gyroscope coils: the program ``fogcoil``, with numpy arrays in and out.
+
+Every function takes a design as a path, as RON text, or as a :class:`Coil` (a :class:`Cell`), which ``replace`` alters::
+
+    coil = fogcoil.Coil("coil-reference.ron")
+    for hub in np.linspace(2.0, 6.0, 9):
+        print(hub, fogcoil.sensitivity(coil.replace({"spool.hub_thickness_mm": hub}))["total"])
+
+Keys and columns are those of the command line (``--json``, CSV) and carry their units; what has none in its name is SI, sensitivities are
+in (deg/h)/(degC/min). Signs: y = 0 is the coil's left face, z = 0 the outer end of the CCW half.
+
+Bad input is an :class:`InputError`, a :class:`ValueError` whose message says what, where and how to mend it; ``RuntimeError`` is a failure
+of the program's own. Other threads run while anything is computed, so that ``concurrent.futures.ThreadPoolExecutor`` makes sweeps parallel.
+"""
+
+from fogcoil._diagnose import Diagnosis, Record, diagnose
+from fogcoil._native import Cell, Coil, InputError
+from fogcoil._solve import Sensitivity, Simulation, homogenize, sensitivity, simulate, wind
+
+__all__ = [
+    "Cell",
+    "Coil",
+    "Diagnosis",
+    "InputError",
+    "Record",
+    "Sensitivity",
+    "Simulation",
+    "diagnose",
+    "homogenize",
+    "sensitivity",
+    "simulate",
+    "wind",
+]

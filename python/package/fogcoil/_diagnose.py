@@ -1,0 +1,96 @@
+"""Recordings against a design."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Sequence
+from typing import Any, TypedDict, Union, cast
+
+from fogcoil import _native
+from fogcoil._arrays import CODE, Array, arrays, table
+from fogcoil._native import Coil, InputError
+from fogcoil._solve import AnyCoil, coil_of
+
+Record = Union[str, "os.PathLike[str]", Any]
+"""A recording: the path of a CSV, or columns by name (a mapping, a DataFrame, a structured array): ``time_s``, ``rate_deg_per_h`` and, where
+there are thermometers, ``chamber_c``, ``spool_c``; NaN where a value is missing."""
+
+ESSENTIAL = ("time_s", "rate_deg_per_h")
+TEMPERATURES = ("chamber_c", "spool_c")
+
+
+class Diagnosis(TypedDict):
+    """What a unit's recordings say about its design."""
+
+    verdict: str
+    """``explained``, ``recalibrate``, ``unknown`` (structured, but nothing in the library explains it) or ``none`` (the design suffices)."""
+    verdicts: dict[str, float]
+    """Probability of each verdict."""
+    mechanisms: list[dict[str, Any]]
+    """``id`` and marginal ``probability``, the likeliest first."""
+    set: list[str]
+    """All that the data do not exclude, best first."""
+    parameters: dict[str, dict[str, Any]]
+    """``value`` and ``ci90`` of each parameter, fitted."""
+    located: dict[str, Any]
+    """``stage``, ``temperature_c``, ``time_s``, ``layers`` of the first mechanism; None where it cannot be located."""
+    structure: str | None
+    """What was seen, in words."""
+    holdout: dict[str, Any] | None
+    """Of the first record held out: ``rmse_nominal``, ``rmse_model``, ``noise_floor`` [deg/h] and more."""
+    notes: list[str]
+    """What a user should know besides."""
+    text: str
+    """The answer for people."""
+    prediction: dict[str, Array] | None
+    """Of the first record held out: ``time_s``, ``rate_deg_per_h``, the rate offset taken from the fit."""
+    model: Coil | None
+    """The extended design, for :func:`fogcoil.simulate`; None if a coil file cannot hold it."""
+
+
+def diagnose(
+    coil: AnyCoil,
+    fit: Sequence[Record],
+    holdout: Sequence[Record] = (),
+    *,
+    meta: str | os.PathLike[str] | None = None,
+    cache: bool = True,
+    progress: Callable[[str], object] | None = None,
+) -> Diagnosis:
+    """Which mechanism explains why recordings of one unit differ from its design, fitted to ``fit`` and judged on ``holdout``.
+
+    ``meta`` is the path of a meta file; without it, ``meta.ron`` beside a CSV is read. ``progress`` (e.g. ``print``) is called with what is
+    being done. The first diagnosis of a design takes half a minute longer; with ``cache`` its models are kept on disk.
+    """
+    fits = [record(f"fit[{n}]", given) for n, given in enumerate(sequence("fit", fit))]
+    held = [record(f"holdout[{n}]", given) for n, given in enumerate(sequence("holdout", holdout))]
+    if not fits:
+        raise InputError("fit: no record is given; give at least one")
+    code = CODE if cache else None
+    found, text, prediction, model = _native.diagnose(coil_of(coil), fits, held, meta, code, progress)
+    result: dict[str, Any] = json.loads(found)
+    result.update(text=text, prediction=None if prediction is None else arrays(prediction), model=model)
+    return cast(Diagnosis, result)
+
+
+def sequence(name: str, records: Sequence[Record]) -> list[Record]:
+    """The records; a single one is no sequence of them."""
+    if not isinstance(records, (list, tuple)):
+        raise InputError(f"{name}: is a {type(records).__name__}; give a list of records, e.g. {name}=[record]")
+    return list(records)
+
+
+def record(name: str, given: Record) -> _native.Record:
+    """A record for the compiled part; messages call columns in memory ``name``."""
+    if isinstance(given, (str, os.PathLike)):
+        return os.fspath(given), None
+    names = getattr(getattr(given, "dtype", None), "names", None) or given
+    try:
+        columns = {column: given[column] for column in (*ESSENTIAL, *TEMPERATURES) if column in names}
+    except (TypeError, LookupError) as error:
+        raise InputError(f"{name}: is neither a path nor columns by name ({error})") from None
+    missing = [column for column in ESSENTIAL if column not in columns]
+    if missing:
+        raise InputError(f"{name}: there is no {missing[0]}; a record has {', '.join(ESSENTIAL)} and {', '.join(TEMPERATURES)}")
+    return name, table(name, columns)

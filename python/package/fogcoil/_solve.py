@@ -1,0 +1,107 @@
+"""Cells, windings, ramps and profiles."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, TypedDict, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from fogcoil import _native
+from fogcoil._arrays import CODE, Array, arrays, table
+from fogcoil._native import Cell, Coil
+
+AnyCoil = Union[Coil, str, "os.PathLike[str]"]
+AnyCell = Union[Cell, str, "os.PathLike[str]"]
+
+
+def coil_of(design: AnyCoil) -> Coil:
+    """The design, read if it is a path or a text."""
+    return design if isinstance(design, Coil) else Coil(design)
+
+
+def homogenize(cell: AnyCell, tolerance: float = 1e-6, temperature_c: float | None = None) -> dict[str, Any]:
+    """Effective constants of a fibre's cell, each to the relative error ``tolerance``.
+
+    Keys: ``e_z e_r g_zr g_r k_plane_strain`` [Pa], ``nu_zr nu_r nu_rz``, ``alpha_z alpha_r`` [1/K], ``k_z k_r`` [W/(m K)], the mean radial
+    strain of the glass per macroscopic strain ``m_rx m_ry m_rz`` and per kelvin ``m_rt`` [1/K]; ``error_estimate``: the numerical relative
+    error of each; ``bounds``. z is the fibre, r across it.
+
+    A cell of another kind (displaced or several fibres, voids) has constants along x, y and z, arrays ``stiffness`` [Pa] and
+    ``thermal_stress`` [Pa/K], and ``transversely_isotropic``, the nearest constants. ``temperature_c`` is for constituents that are tables.
+    """
+    solved = _native.homogenize(cell if isinstance(cell, Cell) else Cell(cell), tolerance, temperature_c)
+    result: dict[str, Any] = json.loads(solved)
+    for key in ("stiffness", "thermal_stress"):
+        if key in result:
+            result[key] = np.array(result[key])
+    return result
+
+
+def wind(coil: AnyCoil) -> dict[str, npt.NDArray[Any]]:
+    """The turn table in order along the fibre: ``half`` ("CW", "CCW"), ``layer`` and ``turn`` from 1, ``y_mm``, ``r_mm``, ``z_start_m``,
+    ``z_end_m``."""
+    half, layer, turn, columns = _native.wind(coil_of(coil))
+    return {"half": np.array(half), "layer": np.array(layer), "turn": np.array(turn), **arrays(columns)}
+
+
+class Sensitivity(TypedDict):
+    """Bias per temperature rate in a steady ramp [(deg/h)/(degC/min)]."""
+
+    shupe: float
+    """Thermal phase, eq. (1)."""
+    eo_axial: float
+    """Strain along the fibre, eq. (2)."""
+    eo_radial: float
+    """Strain across the fibre, eq. (2)."""
+    total: float
+    """The sum of the three."""
+    length_m: float
+    """The fibre's length, tails included [m]."""
+    error_estimate: float
+    """Numerical error of the total."""
+    part_error_estimates: dict[str, float]
+    """Numerical error of each part."""
+
+
+def sensitivity(coil: AnyCoil) -> Sensitivity:
+    """Bias per temperature rate in a steady ramp, by part. Half a second."""
+    result: Sensitivity = json.loads(_native.sensitivity(coil_of(coil)))
+    return result
+
+
+class Simulation(dict[str, Array]):
+    """Columns in time: ``time_s``, ``chamber_c``, ``spool_c``, and the bias ``shupe_deg_per_h``, ``eo_axial_deg_per_h``,
+    ``eo_radial_deg_per_h``, ``rate_deg_per_h`` (their sum, with the read-out's drift), means since the row before. A dict of arrays, as
+    ``pandas.DataFrame`` takes it."""
+
+    summary: dict[str, Any]
+    """What it comes down to, with error estimates: the keys of ``fogcoil simulate --json``."""
+
+
+def simulate(
+    coil: AnyCoil,
+    time_s: npt.ArrayLike,
+    chamber_c: npt.ArrayLike,
+    *,
+    left_c: npt.ArrayLike | None = None,
+    right_c: npt.ArrayLike | None = None,
+    mount_left_c: npt.ArrayLike | None = None,
+    mount_right_c: npt.ArrayLike | None = None,
+    between: str = "linear",
+    cache: bool = True,
+) -> Simulation:
+    """Thermometer and bias while the chamber follows ``chamber_c`` [degC] at the instants ``time_s`` [s], from rest at the first.
+
+    End walls and mounts follow the chamber unless they are given. ``between``: how temperatures run between the instants, ``"linear"`` or
+    ``"cubic"`` (a recorded chamber). The coil's model takes seconds to build; with ``cache`` it is kept on disk for the next time.
+    """
+    given = {"left_c": left_c, "right_c": right_c, "mount_left_c": mount_left_c, "mount_right_c": mount_right_c}
+    drives = {name: values for name, values in given.items() if values is not None}
+    profile = table("profile", {"time_s": time_s, "chamber_c": chamber_c, **drives})
+    columns, summary = _native.simulate(coil_of(coil), profile, between, CODE if cache else None)
+    result = Simulation(arrays(columns))
+    result.summary = json.loads(summary)
+    return result

@@ -1,0 +1,158 @@
+//! What is computed. Every function frees the interpreter while it works.
+
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use fogcoil::cache::Cache;
+use fogcoil::homogenize::{self as cells, at_temperature};
+use fogcoil::input::{self, AnyCell, Between, RecordCase, RecordOptions};
+use fogcoil::units::to_mm;
+use fogcoil::{Error, diagnose as diagnosis, sensitivity as ramp, simulate as runs, summary, wind as turns};
+use pyo3::prelude::*;
+use pyo3::types::PyByteArray;
+use serde_json::{Value, json};
+
+use crate::case::{Cell, Coil};
+use crate::columns::{Column, at_element, bytes, table};
+use crate::error::{InputError, raised, warn};
+
+/// Columns by name, as the bytes of their doubles.
+type Columns<'py> = Vec<(&'static str, Bound<'py, PyByteArray>)>;
+
+/// The effective constants as JSON.
+#[pyfunction]
+pub(crate) fn homogenize(py: Python, cell: &Cell, tolerance: f64, temperature_c: Option<f64>) -> PyResult<String> {
+    let solve = || -> Result<Value, Error> {
+        match &cell.case {
+            AnyCell::Regular(case, _) => Ok(cells::json(case, &case.homogenize_to(tolerance)?)),
+            AnyCell::General(case) => Ok(at_temperature(case, temperature_c, tolerance)?.json()),
+        }
+    };
+    let tabulated = matches!(&cell.case, AnyCell::General(case) if case.temperatures().is_some());
+    if temperature_c.is_some() && !tabulated {
+        let problem = "no constituent is a table over temperature: the constants are the same at all; leave temperature_c out";
+        return Err(InputError::new_err(problem));
+    }
+    py.detach(solve).map(|object| object.to_string()).map_err(raised)
+}
+
+/// The turn table: halves, layers, turns, and the columns of lengths.
+#[pyfunction]
+pub(crate) fn wind<'py>(py: Python<'py>, coil: &Coil) -> (Vec<&'static str>, Vec<usize>, Vec<usize>, Columns<'py>) {
+    let all = coil.case.winding.turns();
+    let columns = vec![
+        ("y_mm", bytes(py, all.iter().map(|turn| to_mm(turn.y)))),
+        ("r_mm", bytes(py, all.iter().map(|turn| to_mm(turn.r)))),
+        ("z_start_m", bytes(py, all.iter().map(|turn| turn.z_start))),
+        ("z_end_m", bytes(py, all.iter().map(|turn| turn.z_end))),
+    ];
+    let halves = all.iter().map(|turn| turns::name(turn.half)).collect();
+    (halves, all.iter().map(|turn| turn.layer).collect(), all.iter().map(|turn| turn.turn).collect(), columns)
+}
+
+/// The steady sensitivity as JSON, with the errors of the parts.
+#[pyfunction]
+pub(crate) fn sensitivity(py: Python, coil: &Coil) -> PyResult<String> {
+    let result = py.detach(|| coil.case.steady_sensitivity()).map_err(raised)?;
+    let (mut object, errors) = (ramp::json(&result), result.part_errors);
+    object["part_error_estimates"] = json!({"shupe": errors.shupe, "eo_axial": errors.eo_axial, "eo_radial": errors.eo_radial});
+    Ok(object.to_string())
+}
+
+/// The user's cache for models that the library in the file `code` makes; none without it.
+fn cache(code: Option<PathBuf>) -> Cache {
+    code.map_or(Cache::NONE, |file| Cache::of_user().of_code_in(file))
+}
+
+/// The columns of the result, and its summary as JSON.
+#[pyfunction]
+pub(crate) fn simulate<'py>(
+    py: Python<'py>,
+    coil: &Coil,
+    profile: Vec<Column>,
+    between: &str,
+    code: Option<PathBuf>,
+) -> PyResult<(Columns<'py>, String)> {
+    let between = match between {
+        "linear" => Between::Linear,
+        "cubic" => Between::Cubic,
+        other => return Err(InputError::new_err(format!("between: {other:?} is not known; give \"linear\" or \"cubic\""))),
+    };
+    let case = &coil.case;
+    let read =
+        || input::check_profile("profile".as_ref(), table(&profile), &case.design).map_err(|error| at_element(error.into()));
+    let mut profile = py.detach(read).map_err(raised)?;
+    profile.between = between;
+    warn(py, "", &profile.notes)?;
+    let run = || {
+        let model = runs::model(case, &profile.drives, &cache(code))?;
+        let simulation = runs::simulate(case, &profile, &model)?;
+        let object = summary::json(&simulation).to_string();
+        Ok((simulation.rows().collect::<Vec<_>>(), object))
+    };
+    let (rows, object) = py.detach(run).map_err(|error: Error| raised(error))?;
+    let column = |of: fn(&runs::Row) -> f64| bytes(py, rows.iter().map(of));
+    let columns = vec![
+        ("time_s", column(|row| row.time)),
+        ("chamber_c", column(|row| row.chamber)),
+        ("spool_c", column(|row| row.spool)),
+        ("shupe_deg_per_h", column(|row| row.shupe)),
+        ("eo_axial_deg_per_h", column(|row| row.eo_axial)),
+        ("eo_radial_deg_per_h", column(|row| row.eo_radial)),
+        ("rate_deg_per_h", column(|row| row.rate)),
+    ];
+    Ok((columns, object))
+}
+
+/// A record: the file, or what messages call it, and its columns if it is no file.
+type Record = (PathBuf, Option<Vec<Column>>);
+
+fn read((path, columns): &Record, meta: Option<&Path>) -> Result<RecordCase, Error> {
+    match columns {
+        Some(columns) => input::check_record(path, table(columns), meta).map_err(at_element),
+        None => input::read_record(path, &RecordOptions { meta: meta.map(Path::to_owned), ..RecordOptions::default() }),
+    }
+}
+
+/// The outcome as JSON and in words, the prediction of the first record held out, and the extended design, where there is one.
+type Diagnosed<'py> = (String, String, Option<Columns<'py>>, Option<Coil>);
+
+/// What records of a unit say about its design.
+#[pyfunction]
+pub(crate) fn diagnose<'py>(
+    py: Python<'py>,
+    coil: &Coil,
+    fit: Vec<Record>,
+    holdout: Vec<Record>,
+    meta: Option<PathBuf>,
+    code: Option<PathBuf>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Diagnosed<'py>> {
+    let said = |task: &str| -> PyResult<()> {
+        Python::attach(|py| {
+            py.check_signals()?;
+            progress.as_ref().map_or(Ok(()), |call| call.call1(py, (task,)).map(drop))
+        })
+    };
+    // the first exception of the callback is raised at the end: a diagnosis cannot be stopped half way
+    let raised_by_callback = OnceLock::new();
+    let run = || -> Result<_, Error> {
+        diagnosis::check_design(&coil.case, &coil.case.file)?;
+        let all = |records: &[Record]| records.iter().map(|record| read(record, meta.as_deref())).collect::<Result<Vec<_>, _>>();
+        let note = |task: &str| {
+            if let Err(error) = said(task) {
+                let _ = raised_by_callback.set(error);
+            }
+        };
+        let outcome = diagnosis::diagnose(&coil.case, &all(&fit)?, &all(&holdout)?, &cache(code), &note)?;
+        let prediction = outcome.predicted_rate().map(|columns| columns.map(<[f64]>::to_vec));
+        Ok((outcome.json().to_string(), outcome.text(), prediction, outcome.model().ok()))
+    };
+    let result = py.detach(run);
+    if let Some(error) = raised_by_callback.into_inner() {
+        return Err(error);
+    }
+    let (object, text, prediction, model) = result.map_err(raised)?;
+    let prediction = prediction.map(|[time, rate]| vec![("time_s", bytes(py, time)), ("rate_deg_per_h", bytes(py, rate))]);
+    Ok((object, text, prediction, model.map(|text| coil.extended(py, text)).transpose()?))
+}

@@ -1,0 +1,32 @@
+//! Errors and warnings as Python's.
+
+use std::ffi::CString;
+
+use fogcoil::Error;
+use pyo3::exceptions::{PyRuntimeError, PyUserWarning, PyValueError};
+use pyo3::{PyErr, PyResult, Python, create_exception};
+
+create_exception!(
+    fogcoil,
+    InputError,
+    PyValueError,
+    "An input that cannot be used: what is wrong, where (file:line: field), and how to mend it."
+);
+
+/// `InputError` where the user can mend it, else `RuntimeError`; the message is the program's.
+pub(crate) fn raised(error: impl Into<Error>) -> PyErr {
+    let error = error.into();
+    match error.exit_code() {
+        2 => InputError::new_err(error.to_string()),
+        _ => PyRuntimeError::new_err(error.to_string()),
+    }
+}
+
+/// Warns of what is allowed but looks like a mistake.
+pub(crate) fn warn<'a>(py: Python, about: &str, all: impl IntoIterator<Item = &'a String>) -> PyResult<()> {
+    let category = py.get_type::<PyUserWarning>();
+    all.into_iter().try_for_each(|warning| {
+        let message = format!("{about}{warning}").replace('\0', "");
+        PyErr::warn(py, &category, &CString::new(message)?, 1)
+    })
+}

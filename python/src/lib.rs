@@ -1,0 +1,19 @@
+//! The Python module `fogcoil._native`: what the package's typed layer calls.
+//!
+//! Texts and arrays in, texts and bytes out: objects as JSON, columns as the bytes of their doubles, which numpy reads in place. The
+//! interpreter is free while anything is computed.
+
+mod case;
+mod columns;
+mod compute;
+mod error;
+
+#[pyo3::pymodule]
+mod _native {
+    #[pymodule_export]
+    use crate::case::{Cell, Coil};
+    #[pymodule_export]
+    use crate::compute::{diagnose, homogenize, sensitivity, simulate, wind};
+    #[pymodule_export]
+    use crate::error::InputError;
+}

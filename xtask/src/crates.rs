@@ -1,0 +1,99 @@
+//! `cargo xtask crates`: each library crate by itself, as another project would take it.
+
+use crate::validate::{Failure, root};
+use serde_json::Value;
+use std::path::Path;
+use std::process::Command;
+use std::time::Instant;
+
+/// A library of the workspace that other projects may take.
+struct Library {
+    name: String,
+    description: Option<String>,
+    features: bool,
+    folder: std::path::PathBuf,
+}
+
+fn cargo(arguments: &[&str]) -> Result<Vec<u8>, Failure> {
+    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let output = Command::new(program).args(arguments).current_dir(root()).output()?;
+    if output.status.success() {
+        return Ok(output.stdout);
+    }
+    let said = String::from_utf8_lossy(&output.stderr);
+    let tail: Vec<&str> = said.lines().rev().take(40).collect();
+    Err(Failure(format!("cargo {}: {}", arguments.join(" "), tail.into_iter().rev().collect::<Vec<_>>().join("\n"))))
+}
+
+fn workspace() -> Result<Vec<Value>, Failure> {
+    let metadata: Value = serde_json::from_slice(&cargo(&["metadata", "--no-deps", "--format-version", "1"])?)?;
+    metadata["packages"].as_array().cloned().ok_or_else(|| Failure("cargo metadata names no packages".into()))
+}
+
+/// Packages that are published: all but the chores and what has a home of its own. `publish = false` is an empty list of registries.
+fn published(package: &Value) -> bool {
+    package["publish"].as_array().is_none_or(|registries| !registries.is_empty())
+}
+
+fn library(package: &Value) -> Option<Library> {
+    let is_library = package["targets"].as_array()?.iter().any(|t| t["kind"] == serde_json::json!(["lib"]));
+    let folder = Path::new(package["manifest_path"].as_str()?).parent()?.to_path_buf();
+    let features = package["features"].as_object().is_some_and(|features| !features.is_empty());
+    let description = package["description"].as_str().map(str::to_owned);
+    is_library.then_some(Library { name: package["name"].as_str()?.to_owned(), description, features, folder })
+}
+
+impl Library {
+    /// What another project expects to find, and does not.
+    fn missing(&self, package: &Value) -> Vec<String> {
+        let readme = std::fs::read_to_string(self.folder.join("README.md")).unwrap_or_default();
+        let by_path = |d: &&Value| d["path"].is_string() && d["req"] == "*";
+        let alone = package["dependencies"].as_array().into_iter().flatten().filter(by_path);
+        let path_only = alone.map(|d| format!("{} is taken by its path only, give it a version", d["name"]));
+        let wanted = [
+            (self.description.is_some(), "no description in Cargo.toml"),
+            (readme.contains("```rust"), "no example in README.md"),
+            (readme.contains("Version 0."), "README.md does not say what a version promises"),
+        ];
+        wanted.into_iter().filter(|(found, _)| !found).map(|(_, missing)| missing.to_owned()).chain(path_only).collect()
+    }
+
+    /// Compiles it with its own features only; `deep` also with all of them, and runs its tests.
+    fn alone(&self, deep: bool) -> Result<(), Failure> {
+        cargo(&["check", "--quiet", "--package", &self.name])?;
+        if self.features {
+            cargo(&["check", "--quiet", "--package", &self.name, "--all-features"])?;
+        }
+        if deep {
+            cargo(&["test", "--quiet", "--package", &self.name])?;
+        }
+        Ok(())
+    }
+}
+
+/// Checks every library by itself; with `deep` packages all that is published, builds each package from what was packed, and runs the
+/// tests of each library by itself.
+///
+/// # Errors
+/// [`Failure`] if something is missing, or does not compile or pass by itself.
+pub(crate) fn run(deep: bool) -> Result<(), Failure> {
+    let start = Instant::now();
+    let packages = workspace()?;
+    for package in packages.iter().filter(|package| published(package)) {
+        let Some(library) = library(package) else { continue };
+        let missing = library.missing(package);
+        if !missing.is_empty() {
+            return Err(Failure(format!("{}: {}", library.name, missing.join("; "))));
+        }
+        library.alone(deep)?;
+        println!("[{:4.0} s] {} stands alone", start.elapsed().as_secs_f64(), library.name);
+    }
+    if deep {
+        let mut arguments = vec!["package", "--workspace", "--allow-dirty"];
+        let kept = packages.iter().filter(|package| !published(package)).filter_map(|package| package["name"].as_str());
+        arguments.extend(kept.flat_map(|name| ["--exclude", name]));
+        cargo(&arguments)?;
+        println!("[{:4.0} s] every package is complete", start.elapsed().as_secs_f64());
+    }
+    Ok(())
+}

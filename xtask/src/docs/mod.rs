@@ -1,0 +1,157 @@
+//! `cargo xtask docs-check`: the documents say what the program does.
+
+mod compare;
+mod links;
+mod notation;
+mod page;
+mod schema;
+mod shell;
+mod table;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command as Process;
+
+use fogcoil::input;
+use page::Page;
+use shell::{Shell, Tally};
+
+use crate::validate::{Failure, root};
+
+const TUTORIAL: &str = "docs/tutorial.md";
+const FORMATS: &str = "docs/formats.md";
+
+/// What is asked for.
+pub(crate) enum Command {
+    /// Every page, link, snippet and schema.
+    All,
+    /// The commands of the tutorial alone, and what costs no time.
+    Tutorial,
+    /// The commands of one page, and what costs no time.
+    Page(PathBuf),
+    /// Write what is made from the types: schemas of files and tables of fields.
+    Write,
+}
+
+impl Command {
+    /// From the words behind `docs-check`.
+    pub(crate) fn parse(words: &[&str]) -> Result<Self, String> {
+        match words {
+            [] => Ok(Self::All),
+            ["--tutorial"] => Ok(Self::Tutorial),
+            ["--page", path] => Ok(Self::Page(path.into())),
+            ["--write"] => Ok(Self::Write),
+            _ => Err(format!("`{}`: docs-check takes nothing, --tutorial, --page FILE.md or --write", words.join(" "))),
+        }
+    }
+
+    /// Does it; whether all is as it should be.
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
+        let root = root();
+        let root = root.as_ref();
+        if let Self::Write = self {
+            schema::write(root)?;
+            fs::write(root.join(FORMATS), formats(root)?)?;
+            return Ok(true);
+        }
+        let pages = pages(root)?;
+        let mut faults = links::faults(root, &pages);
+        faults.extend(pages.values().flat_map(snippets));
+        faults.extend(schema::files(root)?);
+        if formats(root)? != fs::read_to_string(root.join(FORMATS))? {
+            faults.push(format!(
+                "{FORMATS}: tables of fields are not what the types give; write them by `cargo xtask docs-check --write`"
+            ));
+        }
+        let (program, cache) = program()?;
+        let shell = Shell::new(root, &program, cache.clone())?;
+        let mut tally = Tally::default();
+        let wanted = |path: &Path| match self {
+            Self::All => true,
+            Self::Tutorial => path == Path::new(TUTORIAL),
+            Self::Page(page) => path == page,
+            Self::Write => false,
+        };
+        for page in pages.values().filter(|page| wanted(&page.path)) {
+            eprintln!("{}", page.path.display());
+            shell.run(page, &mut tally)?;
+        }
+        faults.append(&mut tally.faults);
+        if let Self::All = self {
+            eprintln!("outputs against their schemas");
+            faults.extend(schema::outputs(root, &program, &cache)?);
+        }
+        faults.iter().for_each(|fault| eprintln!("{fault}"));
+        println!("{} pages, {} blocks run, {} faults", pages.len(), tally.run, faults.len());
+        tally.ignored.iter().for_each(|place| println!("not run: {place}"));
+        Ok(faults.is_empty())
+    }
+}
+
+/// The pages that are checked, by path from the root.
+fn pages(root: &Path) -> Result<BTreeMap<PathBuf, Page>, Failure> {
+    let mut paths = vec![PathBuf::from("README.md"), "ARCHITECTURE.md".into()];
+    for entry in fs::read_dir(root.join("crates"))? {
+        paths.push(Path::new("crates").join(entry?.file_name()).join("README.md"));
+    }
+    let mut folders = vec![PathBuf::from("docs")];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(root.join(&folder))? {
+            let path = folder.join(entry?.file_name());
+            if root.join(&path).is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| e == "md") {
+                paths.push(path);
+            }
+        }
+    }
+    let there = paths.into_iter().filter(|path| root.join(path).exists());
+    there.map(|path| Ok((path.clone(), Page::read(root, &path)?))).collect()
+}
+
+/// RON and JSON of a page that cannot be read.
+fn snippets(page: &Page) -> Vec<String> {
+    let fault = |line: usize, problem: String| format!("{}:{line}: {problem}", page.path.display());
+    let check = |fence: &page::Fence| match fence.language() {
+        "ron" => {
+            let (value, of) = match (notation::json(&fence.text), fence.word("")) {
+                (Err((line, problem)), _) => return Some(fault(fence.line + line - 1, problem)),
+                (Ok(value), of) => (value, of),
+            };
+            let (_, schema) = input::schemas().into_iter().find(|(name, _)| Some(*name) == of)?;
+            fogcoil::schema::misfit(&value, &schema).map(|misfit| fault(fence.line, misfit))
+        }
+        "json" => {
+            let read: Result<serde_json::Value, _> = serde_json::from_str(&fence.text);
+            read.err().map(|error| fault(fence.line + error.line().saturating_sub(1), error.to_string()))
+        }
+        "console" => {
+            Some(fault(fence.line, "commands stand in a `sh` block, what they print in a `text` block behind it".into()))
+        }
+        _ => None,
+    };
+    page.fences.iter().filter_map(check).collect()
+}
+
+/// docs/formats.md with its tables made anew.
+fn formats(root: &Path) -> Result<String, Failure> {
+    let page = fs::read_to_string(root.join(FORMATS)).map_err(|e| Failure(format!("{FORMATS}: {e}")))?;
+    Ok(table::renewed(&page, &input::schemas()))
+}
+
+/// The program, built in the profile of this one, and where its tests keep their models.
+fn program() -> Result<(PathBuf, PathBuf), Failure> {
+    let this = std::env::current_exe()?;
+    let folder = this.parent().ok_or_else(|| Failure("this program has no folder".into()))?;
+    let mut build = Process::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    build.args(["build", "--quiet", "--package", "fogcoil"]).current_dir(root());
+    if folder.ends_with("release") {
+        build.arg("--release");
+    }
+    let target = folder.parent().unwrap_or(folder);
+    if !build.env("CARGO_TARGET_DIR", target).status()?.success() {
+        return Err(Failure("fogcoil cannot be built".into()));
+    }
+    Ok((folder.join("fogcoil"), target.join("tmp/cache")))
+}

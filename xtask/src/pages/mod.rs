@@ -1,0 +1,84 @@
+//! `cargo xtask pages`: the reports as readers have them, in a browser: on a phone, a tablet and a screen, in light and dark, on paper.
+
+mod axe;
+mod browser;
+mod look;
+mod make;
+mod table;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::validate::Failure;
+use browser::Browser;
+use look::{Look, Theme, WIDTHS};
+
+const FOLDER: &str = "target/pages";
+const DOCUMENT: &str = "docs/pages.md";
+
+/// What is asked for.
+pub(crate) struct Command {
+    axe: Option<PathBuf>,
+    kept: bool,
+    chromium: String,
+}
+
+impl Command {
+    /// # Errors
+    /// If a word is unknown, or no Chromium is there.
+    pub(crate) fn parse(words: &[&str]) -> Result<Self, Failure> {
+        let (mut axe, mut kept, mut rest) = (None, false, words);
+        loop {
+            rest = match rest {
+                [] => break,
+                ["--axe", path, rest @ ..] => {
+                    axe = Some(PathBuf::from(path));
+                    rest
+                }
+                ["--kept", rest @ ..] => {
+                    kept = true;
+                    rest
+                }
+                [word, ..] => return Err(Failure(format!("`pages` does not take `{word}`"))),
+            };
+        }
+        Ok(Self { axe, kept, chromium: browser::find()? })
+    }
+
+    /// Makes the pages, looks at each, writes docs/pages.md; whether there is nothing to complain of.
+    pub(crate) fn run(self) -> Result<bool, Failure> {
+        let folder = Path::new(FOLDER);
+        fs::create_dir_all(folder)?;
+        let folder = &folder.canonicalize()?;
+        let axe = axe::source(self.axe.as_deref(), &folder.join("axe"))?;
+        let files = if self.kept { kept(folder)? } else { make::all(folder)? };
+        let mut browser = Browser::launch(&self.chromium, &folder.join("browser"))?;
+        let mut looks: Vec<Look> = Vec::new();
+        for file in &files {
+            for width in WIDTHS {
+                for theme in [Theme::Light, Theme::Dark] {
+                    let look = look::look(&mut browser, &axe, file, width, theme, folder)?;
+                    let faults = look.faults();
+                    println!("{} {width} px {}: {}", look.page, theme.name(), if faults.is_empty() { "nothing" } else { "" });
+                    faults.iter().for_each(|fault| println!("    {fault}"));
+                    looks.push(look);
+                }
+            }
+            look::print(&mut browser, file, folder)?;
+        }
+        let holds = looks.iter().all(Look::holds);
+        if !self.kept {
+            crate::validate::write(DOCUMENT.as_ref(), &table::markdown(&looks, &browser.version))?;
+        }
+        println!("screenshots and prints are in {FOLDER}");
+        Ok(holds)
+    }
+}
+
+/// The pages that are there from the last run.
+fn kept(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let all = fs::read_dir(folder)?.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>()?;
+    let mut pages: Vec<PathBuf> = all.into_iter().filter(|path| path.extension().is_some_and(|e| e == "html")).collect();
+    pages.sort();
+    Ok(pages)
+}

@@ -1,0 +1,122 @@
+//! The comparison as one HTML page that needs nothing but itself.
+
+use std::fmt::Write as _;
+
+use fogcoil::figures::{OnSpool, spools_element};
+use fogcoil::input::Fingerprint;
+use fogcoil::picture::escape;
+use fogcoil::report::{Cells, facts, grid, nice, page, provenance, row};
+
+use super::report::{kind, verdict};
+use super::row::{Row, Verdict};
+use super::{Failure, Section, fixtures};
+
+/// What is read, besides the code.
+const INPUTS: [(&str, &str); 10] = [
+    ("cell", "fixtures/cell-reference.ron"),
+    ("coil", "fixtures/coil-reference.ron"),
+    ("the paper's tables", "fixtures/paper/tables.ron"),
+    ("independent values", "fixtures/independent.ron"),
+    ("spool materials", "fixtures/spool-materials.ron"),
+    ("independent response", "fixtures/nominal/P1.csv"),
+    ("independent response", "fixtures/nominal/P2.csv"),
+    ("independent response", "fixtures/nominal/P3.csv"),
+    ("independent response", "fixtures/nominal/P4.csv"),
+    ("independent response", "fixtures/nominal/P5.csv"),
+];
+
+/// The meaning of the words in the tables.
+const WORDS: [(&str, &str); 7] = [
+    ("predicted", "follows from inputs that owe nothing to the printed value"),
+    ("identified", "the inputs were identified from the printed values: the cell's constituents, which the paper does not print"),
+    ("calibrated", "an input that the paper leaves open was chosen to agree: the spool"),
+    ("misprint", "the printed value cannot be right as it stands; the reason is given"),
+    ("holds, differs, FAILS", "the outcome of a test; (must): the command fails with this row"),
+    ("shown", "nothing is tested"),
+    (
+        "± of a computed value",
+        "the program's own estimate of its numerical error; it says nothing about physics that a model leaves out",
+    ),
+];
+
+/// The page.
+pub(super) fn html(sections: &[Section]) -> Result<String, Failure> {
+    let mut out = String::from("<h2>Summary</h2>\n");
+    summary(&mut out, sections);
+    out.push_str("<h2>Words</h2>\n");
+    let words: Vec<_> = WORDS.iter().map(|(word, meaning)| row(word, *meaning)).collect();
+    facts(&mut out, "Words", &words);
+    for section in sections {
+        one(&mut out, section);
+    }
+    let read = |(role, file): (&'static str, &'static str)| {
+        let content = std::fs::read(fixtures::root().join(file)).map_err(|e| Failure(format!("{file}: {e}")))?;
+        Ok((role, Fingerprint::of(file.into(), &content)))
+    };
+    let files = INPUTS.into_iter().map(read).collect::<Result<Vec<_>, Failure>>()?;
+    let files: Vec<_> = files.iter().map(|(role, file)| (*role, file)).collect();
+    provenance(&mut out, "cargo xtask validate", &files, &[row("options", "none")]);
+    Ok(page("Validation against the paper's Tables I to IV", &lead(sections), &out))
+}
+
+fn rows(sections: &[Section]) -> impl Iterator<Item = &Row> {
+    sections.iter().flat_map(|section| &section.rows)
+}
+
+fn lead(sections: &[Section]) -> String {
+    let must = rows(sections).filter(|row| row.must_hold).count();
+    let failed = rows(sections).filter(|row| row.verdict == Verdict::Fails).count();
+    let differ = rows(sections).filter(|row| row.verdict == Verdict::Differs).count();
+    format!(
+        "<p>{} of {must} rows that must hold do; {differ} others differ, for the reasons given. Osunluk et al., Tables I to IV, and an \
+         independent finite-element code.</p>\n",
+        must - failed
+    )
+}
+
+/// Verdicts counted, table by table.
+fn summary(out: &mut String, sections: &[Section]) {
+    const VERDICTS: [Verdict; 4] = [Verdict::Holds, Verdict::Differs, Verdict::Fails, Verdict::Shown];
+    let count = |section: &Section, verdict| section.rows.iter().filter(|row| row.verdict == verdict).count().to_string();
+    let line = |section: &Section| {
+        std::iter::once(section.title.clone()).chain(VERDICTS.map(|verdict| count(section, verdict))).collect()
+    };
+    let lines: Vec<Vec<String>> = sections.iter().map(line).collect();
+    grid(out, "Rows by verdict", Cells::Words, &["table", "hold", "differ", "fail", "are shown"], &lines);
+}
+
+fn one(out: &mut String, section: &Section) {
+    let _ = writeln!(out, "<h2>{}</h2>", escape(&section.title));
+    for note in &section.notes {
+        let _ = writeln!(out, "<p>{}</p>", escape(&nice(note)).replace('`', ""));
+    }
+    let line = |row: &Row| {
+        vec![
+            row.quantity.clone(),
+            row.printed.clone().unwrap_or_else(|| "–".into()),
+            row.computed_text(),
+            if row.unit.starts_with('-') { row.unit.replacen('-', "1", 1) } else { row.unit.clone() },
+            format!("{}{}", verdict(row), if row.must_hold { " (must)" } else { "" }),
+            kind(row.kind).to_owned(),
+            row.reason.clone(),
+        ]
+    };
+    let lines: Vec<Vec<String>> = section.rows.iter().map(line).collect();
+    let head = ["quantity", "printed", "computed", "unit", "verdict", "kind", "reason"];
+    grid(out, &format!("{}, row by row", section.title), Cells::Words, &head, &lines);
+    if !section.lines.is_empty() {
+        out.push_str(&spools_element(&on_spools(&section.lines), PRINTED));
+    }
+}
+
+/// |S| of the paper's theoretical model (Table IV), (deg/h)/(degC/min).
+pub(crate) const PRINTED: (&str, f64) = ("printed, Table IV: 2.71", 2.71);
+
+/// Lines of the comparison of spools, "material, hub, flanges".
+pub(crate) fn on_spools(lines: &[(String, f64)]) -> Vec<OnSpool> {
+    let one = |(name, sensitivity): &(String, f64)| {
+        let (material, mounting) = name.split_once(", ").unwrap_or((name, ""));
+        OnSpool { material: material.into(), mounting: mounting.into(), sensitivity: *sensitivity }
+    };
+    lines.iter().map(one).collect()
+}
