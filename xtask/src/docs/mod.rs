@@ -64,6 +64,11 @@ impl Command {
                 "{FORMATS}: tables of fields are not what the types give; write them by `cargo xtask docs-check --write`"
             ));
         }
+        if let Self::Page(page) = self
+            && !pages.contains_key(page)
+        {
+            return Err(Failure(format!("{}: is no page; name it from the repository's root", page.display())));
+        }
         let (program, cache) = program()?;
         let shell = Shell::new(root, &program, cache.clone())?;
         let mut tally = Tally::default();

@@ -47,7 +47,7 @@ pub fn read_cell(path: &Path) -> Result<CellCase, InputError> {
 #[derive(Debug, Clone)]
 pub enum AnyCell {
     /// One fibre of round rings, isotropic constituents; also as a general cell, unless a film or ring is too thin for that.
-    Regular(CellCase, Result<GeneralCase, InputError>),
+    Regular(Box<CellCase>, Result<GeneralCase, InputError>),
     /// Any other.
     General(GeneralCase),
 }
@@ -76,7 +76,7 @@ fn any(path: &Path, source: &Source) -> Result<AnyCell, InputError> {
     }
     // a regular cell's own complaints come first
     let regular = regular(source, source.parse()?, path)?;
-    Ok(AnyCell::Regular(regular, general()))
+    Ok(AnyCell::Regular(Box::new(regular), general()))
 }
 
 fn regular(source: &Source, file: CellFile, path: &Path) -> Result<CellCase, InputError> {
