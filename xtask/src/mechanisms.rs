@@ -13,6 +13,8 @@ use crate::validate::Failure;
 
 const COIL: &str = "fixtures/coil-reference.ron";
 const PAGES: &str = "docs/mechanisms";
+/// Copies of them, which `fogcoil explain ID` prints.
+const GLOSSARY: &str = "crates/fogcoil/src/glossary/mechanisms";
 const PICTURES: &str = "docs/pictures/mechanisms";
 /// Measured sensitivities of Table IV, (deg/h)/(degC/min).
 const COILS: [f64; 3] = [3.01, 1.39, 1.98];
@@ -30,7 +32,9 @@ pub(crate) fn run() -> Result<bool, Failure> {
         let file = format!("{}.svg", entry.id);
         fs::write(pictures.join(&file), catalogue.signature(entry))?;
         let page = catalogue.page(entry, &format!("../pictures/mechanisms/{file}"));
-        rewrite(&Path::new(PAGES).join(format!("{}.md", entry.id)), &page)?;
+        let file = format!("{}.md", entry.id);
+        rewrite(&Path::new(PAGES).join(&file), &page)?;
+        fs::copy(Path::new(PAGES).join(&file), Path::new(GLOSSARY).join(&file))?;
     }
     let last = catalogue.programmes.len() - 1;
     fs::write(pictures.join("confusion.svg"), catalogue.confusion(&[0, last]))?;

@@ -3,10 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use fogcoil::output::Content;
 use fogcoil::{Error, output};
-
-use crate::progress::Progress;
 
 #[derive(Args)]
 pub(crate) struct New {
@@ -52,11 +49,7 @@ impl Kind {
     }
 }
 
-pub(crate) fn run(New { file, kind }: &New, progress: &Progress) -> Result<(), Error> {
-    if file.symlink_metadata().is_ok() {
-        let remedy = "give another name, or move it away first";
-        return Err(Error::Usage(format!("{}: exists and is left as it is; {remedy}", file.display())));
-    }
-    progress.save(&[(file, Content::Text(kind.template().to_owned()))])?;
+pub(crate) fn run(New { file, kind }: &New) -> Result<(), Error> {
+    output::write_new(file, kind.template())?;
     output::print(&format!("{} is written; try `{} {0}`\n", file.display(), kind.first()))
 }

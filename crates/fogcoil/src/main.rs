@@ -45,7 +45,7 @@ fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
         Command::Explain(arguments) => cli_explain::run(arguments, progress),
         Command::Identify(arguments) => cli_identify::run(arguments, progress),
         Command::Man { dir } => cli_manual::man(dir.as_deref(), progress),
-        Command::New(arguments) => cli_new::run(arguments, progress),
+        Command::New(arguments) => cli_new::run(arguments),
         Command::Recommend(arguments) => cli_recommend::run(arguments, progress),
         Command::Simulate(arguments) => run_simulate(arguments, progress),
         Command::Trim { coil, profile, json } => run_trim(coil, profile.as_deref(), *json, progress),

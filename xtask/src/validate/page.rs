@@ -88,7 +88,7 @@ fn summary(out: &mut String, sections: &[Section]) {
 fn one(out: &mut String, section: &Section) {
     let _ = writeln!(out, "<h2>{}</h2>", escape(&section.title));
     for note in &section.notes {
-        let _ = writeln!(out, "<p>{}</p>", escape(&nice(note)).replace('`', ""));
+        let _ = writeln!(out, "<p>{}</p>", escape(&nice(note)).replace(['`', '*'], ""));
     }
     let line = |row: &Row| {
         vec![

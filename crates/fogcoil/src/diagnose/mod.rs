@@ -145,8 +145,11 @@ fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -> Result<()
     Ok(())
 }
 
-/// The library of a design, from the cache if it is there.
-pub(crate) fn library(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(&str) + Sync)) -> Result<Library, Error> {
+/// The library of a design, from the cache if it is there; `progress` is told how far it is.
+///
+/// # Errors
+/// [`Error::Coil`] if the design cannot be modelled.
+pub fn library(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(&str) + Sync)) -> Result<Library, Error> {
     const TASK: &str = "modelling the coil and what its model may leave out (half a minute, once for a design)";
     progress(TASK);
     let key = (&case.design, COARSE);

@@ -62,6 +62,25 @@ pub fn write_files(files: &[(&Path, Content)]) -> Result<(), Error> {
     Ok(())
 }
 
+/// Writes a new file, whole or not at all; one that exists stays as it is.
+///
+/// # Errors
+/// [`Error::Usage`] if the file exists, [`Error::Output`] if it cannot be written.
+pub fn write_new(path: &Path, text: &str) -> Result<(), Error> {
+    let written = temporary(path).and_then(|mut file| {
+        file.write_all(text.as_bytes())?;
+        file.as_file().sync_all()?;
+        file.persist_noclobber(path).map(drop).map_err(|error| error.error)
+    });
+    written.map_err(|source| match source.kind() {
+        ErrorKind::AlreadyExists => {
+            let remedy = "give another name, or move it away first";
+            Error::Usage(format!("{}: exists and is left as it is; {remedy}", path.display()))
+        }
+        _ => Error::Output { file: path.to_owned(), source },
+    })
+}
+
 enum Staged {
     /// Complete under another name, to be renamed to the target.
     Temporary(NamedTempFile, PathBuf),
@@ -76,15 +95,15 @@ fn stage(path: &Path, content: &Content) -> io::Result<Staged> {
         Ok(_) => path.canonicalize()?, // replace what a link points to, not the link
         Err(_) => path.to_owned(),
     };
-    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = temporary(folder)?;
+    let mut file = temporary(&target)?;
     content.write_to(&mut file)?;
     file.as_file().sync_all()?;
     Ok(Staged::Temporary(file, target))
 }
 
-/// A temporary file with the permissions of an ordinary one.
-fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
+/// A temporary file beside `target` with the permissions of an ordinary one.
+fn temporary(target: &Path) -> io::Result<NamedTempFile> {
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     builder.prefix(".fogcoil-");
     #[cfg(unix)]

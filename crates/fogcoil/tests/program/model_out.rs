@@ -6,7 +6,8 @@ use std::sync::OnceLock;
 use crate::common::{CELL, COIL, Folder, change};
 use coil::{Design, Drive, Dynamics, Profile, STANDARD};
 use diagnosis::{Active, ForwardModel};
-use fogcoil::diagnose::with_mechanism;
+use fogcoil::cache::Cache;
+use fogcoil::diagnose::{library, with_mechanism};
 use fogcoil::input::{RATE, RecordOptions, check_coil, read_coil, read_record};
 use fogcoil::output::coil_file;
 use mechanisms::{Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL};
@@ -34,8 +35,9 @@ const ALL: [(&str, &[f64], Option<f64>); 13] = [
 fn gyro() -> Gyro {
     static LIBRARY: OnceLock<Library> = OnceLock::new();
     let library = LIBRARY.get_or_init(|| {
-        let design = check_coil(Path::new("coil.ron"), COIL).unwrap().design;
-        Library::build(&design, |_| ()).unwrap()
+        // the program's own, which other tests have it keep
+        let cache = Cache::in_folder(concat!(env!("CARGO_TARGET_TMPDIR"), "/cache")).of_code_in(env!("CARGO_BIN_EXE_fogcoil"));
+        library(&check_coil(Path::new("coil.ron"), COIL).unwrap(), &cache, &|_| ()).unwrap()
     });
     let library = library.clone();
     let (time, chamber) = record();
