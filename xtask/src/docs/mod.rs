@@ -150,9 +150,12 @@ fn program() -> Result<(PathBuf, PathBuf), Failure> {
     let this = std::env::current_exe()?;
     let folder = this.parent().ok_or_else(|| Failure("this program has no folder".into()))?;
     let mut build = Process::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    build.args(["build", "--quiet", "--package", "fogcoil"]).current_dir(root());
+    build.args(["build", "--quiet"]).current_dir(root());
     if folder.ends_with("release") {
-        build.arg("--release");
+        build.args(["--release", "--package", "fogcoil"]);
+    } else {
+        // so cargo takes what `cargo test --workspace` has built: for one package it would resolve the features anew
+        build.args(["--workspace", "--bins", "--tests"]);
     }
     let target = folder.parent().unwrap_or(folder);
     if !build.env("CARGO_TARGET_DIR", target).status()?.success() {
