@@ -19,7 +19,8 @@ fn rounding(cell: &FibreCell) -> f64 {
     let moduli = || all().map(|c| c.youngs_modulus);
     let contrast = moduli().fold(0.0, f64::max) / moduli().fold(f64::INFINITY, f64::min);
     let volume = all().map(|c| 1.0 - 2.0 * c.poisson_ratio).fold(1.0, f64::min);
-    (10.0 * f64::EPSILON * contrast / volume).sqrt()
+    // of 300 000 cells none needed more than 3e-6
+    (10.0 * f64::EPSILON * contrast / volume).sqrt().min(1e-5)
 }
 
 /// `value` inside, but for its own `error` and rounding, that of expansions relative to the largest of a constituent.
@@ -56,8 +57,8 @@ fn check(cell: &FibreCell, result: &Homogenized) -> Result<(), String> {
 }
 
 fn constituent() -> impl Strategy<Value = Constituent> {
-    (6.0..11.0, -0.3..4.3, -20e-6..300e-6, -1.5..1.5).prop_map(|(e, p, alpha, k): (f64, f64, f64, f64)| {
-        // Poisson's ratio from −0.5 to 0.499975
+    (5.0..11.0, -0.3..5.0, -20e-6..300e-6, -1.5..1.5).prop_map(|(e, p, alpha, k): (f64, f64, f64, f64)| {
+        // Poisson's ratio from −0.5 to 0.499995
         solid(10_f64.powf(e), 0.5 - 10_f64.powf(-p) / 2.0, alpha, 10_f64.powf(k))
     })
 }
@@ -94,6 +95,29 @@ fn known_cells_lie_inside() {
         check(&cell, &homogenize_on(&cell, &on(&cell, 8, Extent::Quarter)).unwrap()).unwrap();
         let square = FibreCell { packing: Packing::Square, ..cell };
         check(&square, &homogenize(&square).unwrap()).unwrap();
+    }
+}
+
+/// A constant added to every expansion is added to the bounds, and no more: also where the energies that temperature stores are
+/// large and nearly the same in both, in nearly incompressible polymers.
+#[test]
+fn a_common_expansion_only_shifts_the_bounds() {
+    const COMMON: f64 = 300e-6;
+    let mut cell = reference();
+    let polymers = cell.rings[1..].iter_mut().map(|ring| &mut ring.constituent).chain([&mut cell.adhesive]);
+    polymers.for_each(|c| c.elastic.poisson_ratio = 0.499_999);
+    let mut shifted = cell.clone();
+    let constituents = shifted.rings.iter_mut().map(|ring| &mut ring.constituent).chain([&mut shifted.adhesive]);
+    constituents.for_each(|c| c.elastic.thermal_expansion += COMMON);
+    let [plain, shifted] = [cell, shifted].map(|cell| bounds(&cell).unwrap());
+    for (plain, shifted) in [(&plain.reuss_voigt, &shifted.reuss_voigt), (&plain.hashin_shtrikman, &shifted.hashin_shtrikman)] {
+        for ((name, plain), (_, shifted)) in plain.named().into_iter().zip(shifted.named()) {
+            let common = if name.starts_with("alpha") { COMMON } else { 0.0 };
+            for (plain, shifted) in plain.into_iter().zip(shifted).filter(|(plain, _)| plain.is_finite()) {
+                let scale = if name.starts_with("alpha") { COMMON } else { plain.abs() };
+                assert!((shifted - common - plain).abs() <= 1e-12 * scale, "{name}: {plain} becomes {shifted}");
+            }
+        }
     }
 }
 

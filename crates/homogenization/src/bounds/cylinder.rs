@@ -60,7 +60,8 @@ fn axisymmetric(phases: &[Phase]) -> (SMatrix<f64, 2, 3>, RowVector3<f64>) {
     let (mut axial, mut glass, mut glass_share) = (RowVector3::zeros(), RowVector3::zeros(), 0.0);
     let mut inside = 0.0;
     for phase in phases {
-        let Phase { share, bulk, shear, lambda, beta, filled, .. } = *phase;
+        let Phase { share, bulk, shear, lambda, filled, .. } = *phase;
+        let beta = phase.thermal_stress();
         let held = unit(1) * lambda - unit(2) * beta;
         let a = if inside == 0.0 { strain } else { (stress - held + strain * (2.0 * shear)) / (2.0 * (bulk + shear)) };
         let b = (strain - a) * (inside / filled);

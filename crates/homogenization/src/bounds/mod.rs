@@ -18,7 +18,7 @@ pub(crate) mod phases;
 pub use cylinder::cylinders;
 
 use crate::{Constants, Error, FibreCell, Packing};
-use form::{Form, Interval, conjugate, embedded, entry, quotient, uniform_stress};
+use form::{Interval, Pair, embedded, entry, quotient, uniform_stress};
 use phases::{Phase, phases};
 
 /// Every constant's lower and upper bound; infinite where there is none.
@@ -61,7 +61,11 @@ pub fn bounds(cell: &FibreCell) -> Result<Bounds, Error> {
     cell.outline()?;
     let singular = || Error::Solve(fem_core::Error::NotPositiveDefinite { unknowns: 3, detail: "effective stiffness".into() });
     let cylinders = cylinders(cell)?.constants().ok_or_else(singular)?;
-    let phases = phases(cell)?;
+    let mut phases = phases(cell)?;
+    // expansions relative to that of the stiffest against compression: the same bounds, without the difference of its large terms
+    let stiffest = phases.iter().max_by(|a, b| (a.share * a.bulk).total_cmp(&(b.share * b.bulk)));
+    let reference = stiffest.map_or(0.0, |phase| phase.expansion);
+    phases.iter_mut().for_each(|phase| phase.expansion -= reference);
     let shear = extremes(&phases, |p| p.shear);
     let bulk = extremes(&phases, |p| p.bulk);
     let conductivity = extremes(&phases, |p| p.conductivity);
@@ -70,15 +74,21 @@ pub fn bounds(cell: &FibreCell) -> Result<Bounds, Error> {
         Packing::Hexagonal => [0, 1].map(|i| bulk[i] * shear[i] / (bulk[i] + 2.0 * shear[i])),
         Packing::Square => wide,
     };
-    let forms = [uniform_stress(&phases).ok_or_else(singular)?, embedded(&phases, f64::INFINITY)];
-    let range = |forms, g_r, g_zr, k_r| {
+    let range = |pair: Option<Pair>, g_r, g_zr, k_r| -> Result<Range, Error> {
         let scalars =
             [mixed(&phases, |p| p.shear, g_r), mixed(&phases, |p| p.shear, g_zr), mixed(&phases, |p| p.conductivity, k_r)];
-        enclosed(&phases, forms, scalars).ok_or_else(singular)
+        let mut range = enclosed(&phases, &pair.ok_or_else(singular)?, scalars);
+        for constants in [&mut range.lower, &mut range.upper] {
+            constants.alpha_z += reference;
+            constants.alpha_r += reference;
+        }
+        Ok(range)
     };
+    let reuss_voigt = Pair::from_conjugate(uniform_stress(&phases), embedded(&phases, f64::INFINITY));
+    let hashin_shtrikman = Pair::new(shear.map(|g| embedded(&phases, g)));
     Ok(Bounds {
-        reuss_voigt: range(forms, wide, wide, wide)?,
-        hashin_shtrikman: range(shear.map(|g| embedded(&phases, g)), environment, shear, conductivity)?,
+        reuss_voigt: range(reuss_voigt, wide, wide, wide)?,
+        hashin_shtrikman: range(hashin_shtrikman, environment, shear, conductivity)?,
         cylinders,
     })
 }
@@ -99,15 +109,14 @@ fn mixed(phases: &[Phase], modulus: impl Fn(&Phase) -> f64, environment: Interva
 }
 
 /// What follows for every constant from two forms and the intervals of `g_r`, `g_zr` and `k_r`.
-fn enclosed(phases: &[Phase], [lower, upper]: [Form; 2], [g_r, g_zr, k_r]: [Interval; 3]) -> Option<Range> {
-    let (soft, stiff) = (conjugate(&upper)?, conjugate(&lower)?);
-    let compliance = |i: usize, j: usize| entry(&soft, &stiff, i, j);
+fn enclosed(phases: &[Phase], pair: &Pair, [g_r, g_zr, k_r]: [Interval; 3]) -> Range {
+    let compliance = |i: usize, j: usize| entry(&pair.conjugates, i, j);
     let (across, along) = (compliance(0, 0), compliance(1, 1)); // e per 2σ, ε per σ
     let contraction = [-compliance(0, 1)[1], -compliance(0, 1)[0]]; // of the other direction, per σ_zz or per σ_xx
     // under σ_xx alone: 2σ = σ_xx, ε_xx − ε_yy = σ_xx/(2 g_r)
     let x = [across[0] + 0.25 / g_r[1], across[1] + 0.25 / g_r[0]];
     let poisson = |g: f64, s: f64| (0.25 / g - s) / (0.25 / g + s);
-    let k = entry(&lower, &upper, 0, 0).map(|h| h / 4.0);
+    let k = entry(&pair.forms, 0, 0).map(|h| h / 4.0);
     let k_z = phases.iter().map(|p| p.share * p.conductivity).sum();
     let rows = [
         [1.0 / along[1], 1.0 / along[0]],
@@ -144,5 +153,5 @@ fn enclosed(phases: &[Phase], [lower, upper]: [Form; 2], [g_r, g_zr, k_r]: [Inte
             m_rt: none,
         }
     };
-    Some(Range { lower: of(0, f64::NEG_INFINITY), upper: of(1, f64::INFINITY) })
+    Range { lower: of(0, f64::NEG_INFINITY), upper: of(1, f64::INFINITY) }
 }

@@ -14,14 +14,21 @@ pub(crate) struct Phase {
     pub(crate) shear: f64,
     /// First Lamé constant \[Pa\].
     pub(crate) lambda: f64,
-    /// Thermal stress \[Pa/K\].
-    pub(crate) beta: f64,
+    /// Thermal expansion \[1/K\].
+    pub(crate) expansion: f64,
     /// Conductivity \[W/(m K)\].
     pub(crate) conductivity: f64,
     /// Squared outer radius over that of the circle with the cell's area: the sum of the shares up to here.
     pub(crate) filled: f64,
     /// Whether the dehomogenisation row counts it.
     pub(crate) glass: bool,
+}
+
+impl Phase {
+    /// Thermal stress \[Pa/K\].
+    pub(crate) fn thermal_stress(&self) -> f64 {
+        self.expansion * (3.0 * self.lambda + 2.0 * self.shear)
+    }
 }
 
 /// The phases from the inside out.
@@ -40,8 +47,8 @@ pub(crate) fn phases(cell: &FibreCell) -> Result<Vec<Phase>, Error> {
         }
         let (lambda, shear) = (c.elastic.lame_lambda(), c.elastic.shear_modulus());
         let share = filled - phases.last().map_or(0.0, |p| p.filled);
-        let beta = c.elastic.thermal_expansion * (3.0 * lambda + 2.0 * shear);
-        phases.push(Phase { share, bulk: lambda + shear, shear, lambda, beta, conductivity: c.conductivity, filled, glass });
+        let (bulk, expansion) = (lambda + shear, c.elastic.thermal_expansion);
+        phases.push(Phase { share, bulk, shear, lambda, expansion, conductivity: c.conductivity, filled, glass });
     }
     if phases.iter().any(|p| p.glass) { Ok(phases) } else { Err(Error::NoGlass) }
 }

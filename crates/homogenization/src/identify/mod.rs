@@ -128,25 +128,24 @@ pub struct Identification {
 
 /// Identifies the constituents behind `targets` among `families`; `None` if a family has no cell that can be solved.
 ///
-/// `note` is told what is going on.
+/// `note` is told what is going on, and behind it in brackets, "(3 of 8)", how far.
 pub fn identify(families: &[Family], targets: &[Target], seed: u64, note: &dyn Fn(&str)) -> Option<Identification> {
     let mut searched = Vec::new();
     let mut outcomes = Vec::new();
     let mut costs = Vec::new();
     for family in families {
-        note(&format!("searching the cells of the {}", family.name));
+        let searching =
+            |what: &'static str| move |done, all| note(&format!("searching the {what} of the {} ({done} of {all})", family.name));
         let mut emulator = Emulator::new(family);
         let dimensions = family.parameters().len();
         let fit = |found: Found| Some((Fit::new(family, targets, found.u, found.response)?, found.cost));
-        let minima = search(&mut emulator, targets, Demand::Data, &starts(dimensions, seed));
+        let minima = search(&mut emulator, targets, Demand::Data, &starts(dimensions, seed), &searching("cells"));
         let (best, cost) = fit(minima.first()?.clone())?;
         let mut ordinary = None;
         if !(best.reproduces() && best.is_ordinary()) {
-            ordinary = search(&mut emulator, targets, Demand::Ordinary, &starts(dimensions, seed + 1))
-                .into_iter()
-                .next()
-                .and_then(fit)
-                .map(|(fit, _)| fit);
+            let starts = starts(dimensions, seed + 1);
+            let found = search(&mut emulator, targets, Demand::Ordinary, &starts, &searching("ordinary cells"));
+            ordinary = found.into_iter().next().and_then(fit).map(|(fit, _)| fit);
         }
         outcomes.push(Outcome { best, ordinary });
         costs.push(cost);
@@ -160,8 +159,8 @@ pub fn identify(families: &[Family], targets: &[Target], seed: u64, note: &dyn F
     }
     let (family, (emulator, minima)) = (&families[chosen], &mut searched[chosen]);
     let best = outcomes[chosen].fit();
-    note("sampling what else explains the entries");
-    let posterior = posterior::posterior(emulator, targets, minima, seed);
+    let sampling = |done, all| note(&format!("sampling what else explains the entries ({done} of {all})"));
+    let posterior = posterior::posterior(emulator, targets, minima, seed, &sampling);
     note("looking for two sets that explain them alike");
     let alternatives = posterior.as_ref().and_then(|posterior| {
         let [a, b] = alternatives::pair(emulator, targets, &best.response, &posterior.draws)?;

@@ -108,11 +108,20 @@ fn quantile(values: &[f64], p: f64) -> f64 {
     values[i] + share * (values[(i + 1).min(values.len() - 1)] - values[i])
 }
 
-/// Samples the posterior about the minima of the search, teaching the emulator on the way; `None` if nothing can be sampled.
-pub(crate) fn posterior(emulator: &mut Emulator, targets: &[Target], minima: &[Found], seed: u64) -> Option<Posterior> {
+/// Samples the posterior about the minima of the search, teaching the emulator on the way; `None` if nothing can be sampled. `told` how
+/// many of how many rounds are done.
+pub(crate) fn posterior(
+    emulator: &mut Emulator,
+    targets: &[Target],
+    minima: &[Found],
+    seed: u64,
+    told: &dyn Fn(usize, usize),
+) -> Option<Posterior> {
+    let rounds = TRAINING.len() + 1;
     let starts = region::starts(targets, minima);
     let mut emulator_error = f64::INFINITY;
     for (round, (trajectories, count)) in TRAINING.into_iter().enumerate() {
+        told(round, rounds);
         let regions = region::sample(emulator, targets, &starts, trajectories, seed + 10 * round as u64);
         let picked = region::pooled(&regions, count)?;
         let cells: Vec<_> = picked.iter().map(|u| emulator.family().cell(u)).collect();
@@ -123,6 +132,7 @@ pub(crate) fn posterior(emulator: &mut Emulator, targets: &[Target], minima: &[F
         emulator_error = quantile(&misses, 0.5);
         emulator.learn(picked.into_iter().zip(solved));
     }
+    told(rounds - 1, rounds);
     let regions = region::sample(emulator, targets, &starts, TRAJECTORIES, seed + 100);
     Some(Posterior {
         draws: region::pooled(&regions, DRAWS)?,

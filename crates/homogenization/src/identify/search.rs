@@ -54,8 +54,14 @@ pub fn starts(dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
     (0..STARTS).map(|_| random.normals(dimensions)).collect()
 }
 
-/// The minima found, the best first; none if no cell can be solved.
-pub(crate) fn search(emulator: &mut Emulator, targets: &[Target], demand: Demand, starts: &[Vec<f64>]) -> Vec<Found> {
+/// The minima found, the best first; none if no cell can be solved. `told` how many of how many starts are refined.
+pub(crate) fn search(
+    emulator: &mut Emulator,
+    targets: &[Target],
+    demand: Demand,
+    starts: &[Vec<f64>],
+    told: &dyn Fn(usize, usize),
+) -> Vec<Found> {
     let on_emulator =
         |emulator: &Emulator, start: &[f64]| minimise(|u| emulator.predict(u).map(|y| residuals(targets, demand, u, &y)), start);
     let mut minima: Vec<_> = starts.iter().filter_map(|start| on_emulator(emulator, start)).collect();
@@ -67,7 +73,9 @@ pub(crate) fn search(emulator: &mut Emulator, targets: &[Target], demand: Demand
         }
     }
     let mut found: Vec<Found> = Vec::new();
-    for mut start in promising {
+    let count = promising.len();
+    for (refined, mut start) in promising.into_iter().enumerate() {
+        told(refined, count);
         let mut best: Option<Found> = None;
         for _ in 0..MOST_REFINEMENTS {
             let Some((u, _)) = on_emulator(emulator, &start) else { break };

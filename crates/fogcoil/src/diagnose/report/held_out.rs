@@ -36,10 +36,10 @@ impl Outcome {
             &["prediction", "rms error [°/h]", "noise as identified [°/h]", "Ljung–Box, 30 lags"],
             &rows,
         );
-        let said = if self.holdouts.iter().any(|held| !held.accepted) {
+        let said = if self.diagnosis.verdict == Verdict::None {
+            "No effect was found, so the nominal model is the prediction."
+        } else if self.holdouts.iter().any(|held| !held.accepted) {
             "What was fitted predicts a held-out record worse than the nominal model: it is not accepted."
-        } else if self.diagnosis.verdict == Verdict::None {
-            "The nominal model predicts it."
         } else {
             "Nothing was adjusted to a held-out record, its offset neither: it is that of the first record that was fitted."
         };
