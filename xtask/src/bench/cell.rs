@@ -1,7 +1,7 @@
 //! `cargo xtask bench cell`: from the reference cell to its constants, ours and the peers', error against time.
 
 use super::peers::{self, Run};
-use super::{Failure, Options, Progress, Stopwatch, median, publish, root};
+use super::{Failure, Progress, Stopwatch, median, publish, root};
 use homogenization::{Constants, Discretization, FibreCell, Homogenized, TOLERANCE, effective, homogenize_to, multipoles};
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -140,7 +140,7 @@ pub(crate) fn child(name: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-fn programs(options: &Options, progress: &Progress) -> Result<Vec<Program>, Failure> {
+fn programs(python: Option<&Path>, progress: &Progress) -> Result<Vec<Program>, Failure> {
     let own = std::env::current_exe()?;
     let of_ours = |(name, _): &(&str, Way)| Program {
         name: name.to_string(),
@@ -150,7 +150,7 @@ fn programs(options: &Options, progress: &Progress) -> Result<Vec<Program>, Fail
         runs: Vec::new(),
     };
     let mut programs: Vec<_> = OURS.iter().map(of_ours).collect();
-    let Some(python) = &options.python else {
+    let Some(python) = python else {
         progress.say("peers skipped: give --peers-python PATH or set FOGCOIL_PEERS_PYTHON");
         return Ok(programs);
     };
@@ -164,7 +164,7 @@ fn programs(options: &Options, progress: &Progress) -> Result<Vec<Program>, Fail
         programs.push(Program {
             name: peer.name.into(),
             kind: Some(peer.kind),
-            path: python.clone(),
+            path: python.to_path_buf(),
             arguments,
             runs: Vec::new(),
         });
@@ -203,15 +203,15 @@ fn program() -> Result<PathBuf, Failure> {
 ///
 /// # Errors
 /// [`Failure`] if one of our own runs fails; a peer that fails is left out with a message.
-pub(crate) fn run(options: &Options) -> Result<(), Failure> {
+pub(crate) fn run(python: Option<&Path>, repetitions: u64) -> Result<(), Failure> {
     let progress = Progress::new();
     let cell = fogcoil::input::read_cell(&cell_file())?.cell;
     let exact = homogenize_to(&cell, CONVERGED)?.constants;
     let fogcoil = program()?;
-    let mut programs = programs(options, &progress)?;
+    let mut programs = programs(python, &progress)?;
     let mut whole = Vec::new();
-    for repetition in 0..options.repetitions {
-        progress.say(&format!("run {} of {}", repetition + 1, options.repetitions));
+    for repetition in 0..repetitions {
+        progress.say(&format!("run {} of {}", repetition + 1, repetitions));
         whole.push(whole_program(&fogcoil)?);
         let mut kept = Vec::new();
         for mut program in programs {
@@ -228,10 +228,10 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
         programs = kept;
     }
     let whole = [0, 1].map(|k| median(whole.iter().map(|w| w[k]).collect()));
-    publish("cell", &section(&programs, &exact, whole, options.repetitions))
+    publish("cell", &section(&programs, &exact, whole, repetitions))
 }
 
-fn section(programs: &[Program], exact: &Constants, [cpu, wall]: [f64; 2], repetitions: usize) -> String {
+fn section(programs: &[Program], exact: &Constants, [cpu, wall]: [f64; 2], repetitions: u64) -> String {
     let mut out = String::from(
         "| program | unknowns | largest error | compute, first call, ms | warm, CPU ms | whole process, CPU ms | first call ÷ ours |\n\
          |---|---|---|---|---|---|---|\n",

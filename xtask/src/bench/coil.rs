@@ -2,7 +2,7 @@
 
 use super::job::{self, Outcome, STORED, Setting};
 use super::peers::{self, Printed, Run};
-use super::{Failure, Options, Progress, median, publish};
+use super::{Failure, Progress, median, publish};
 use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -148,21 +148,21 @@ fn found(python: &Path, folder: &Path, progress: &Progress) -> Result<Vec<Progra
 ///
 /// # Errors
 /// [`Failure`] if one of our own runs fails; a peer that fails is left out with a message.
-pub(crate) fn run(options: &Options) -> Result<(), Failure> {
+pub(crate) fn run(python: Option<&Path>, repetitions: u64) -> Result<(), Failure> {
     let progress = Progress::new();
     progress.say("reference: orders 8 and 6 on a fine mesh (half a minute)");
     let reference = job::run(&REFERENCE)?.course;
     let uncertainty = errors(&job::run(&SECOND)?.course, &reference);
     let folder = tempfile::tempdir()?;
     let mut programs = ours()?;
-    match &options.python {
+    match python {
         Some(python) => programs.extend(found(python, folder.path(), &progress)?),
         None => progress.say("peers skipped: give --peers-python PATH or set FOGCOIL_PEERS_PYTHON"),
     }
-    for repetition in 0..options.repetitions {
+    for repetition in 0..repetitions {
         let mut kept = Vec::new();
         for mut program in programs {
-            progress.say(&format!("run {} of {}: {}", repetition + 1, options.repetitions, program.name));
+            progress.say(&format!("run {} of {}: {}", repetition + 1, repetitions, program.name));
             match peers::run(&program.path, &program.arguments) {
                 Ok(run) => program.runs.push(run),
                 Err(error) if kept.len() < OURS.len() => return Err(error),
@@ -175,10 +175,10 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
         }
         programs = kept;
     }
-    publish("coil", &section(&programs, &reference, uncertainty, options.repetitions))
+    publish("coil", &section(&programs, &reference, uncertainty, repetitions))
 }
 
-fn section(programs: &[Program], reference: &[[f64; 5]], uncertainty: Errors, repetitions: usize) -> String {
+fn section(programs: &[Program], reference: &[[f64; 5]], uncertainty: Errors, repetitions: u64) -> String {
     let mut out = String::from(
         "| program | unknowns, heat + strain | wall s | CPU s | compute s | error of temperatures, K | error of strains | CPU ÷ ours | compute ÷ ours |\n\
          |---|---|---|---|---|---|---|---|---|\n",

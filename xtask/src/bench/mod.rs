@@ -12,11 +12,12 @@ mod sensitivity;
 pub(crate) use peers::own as processor;
 
 use crate::validate::Failure;
+use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Fewest repetitions from which a median is taken.
-const FEWEST: usize = 3;
+const FEWEST: u64 = 3;
 
 /// CPU time of this thread, which does all the work, in laps \[s\]; wall time where the system does not tell.
 pub(crate) struct Stopwatch {
@@ -54,84 +55,56 @@ impl Progress {
     }
 }
 
-/// Options of a subcommand.
+/// Options of a comparison with other programs.
+#[derive(Debug, Args)]
 pub(crate) struct Options {
+    /// A Python with the other programs' packages; without it they are skipped
+    #[arg(long = "peers-python", value_name = "PATH", env = "FOGCOIL_PEERS_PYTHON", value_parser = file)]
     python: Option<PathBuf>,
-    repetitions: usize,
+    /// Runs of which the median is taken
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(FEWEST..))]
+    repetitions: Option<u64>,
 }
 
-impl Options {
-    /// # Errors
-    /// Names the word that is not understood.
-    fn parse(words: &[&str], repetitions: usize) -> Result<Self, Failure> {
-        let mut options = Self { python: std::env::var_os("FOGCOIL_PEERS_PYTHON").map(PathBuf::from), repetitions };
-        let mut words = words.iter();
-        while let Some(word) = words.next() {
-            let value = words.next().ok_or_else(|| Failure(format!("`{word}` needs a value")))?;
-            match *word {
-                "--peers-python" => options.python = Some(PathBuf::from(value)),
-                "--repetitions" => {
-                    let count = value.parse().ok().filter(|n| *n >= FEWEST);
-                    options.repetitions =
-                        count.ok_or_else(|| Failure(format!("--repetitions {value}: a number, at least {FEWEST}, is needed")))?;
-                }
-                _ => return Err(Failure(format!("`{word}` is not an option"))),
-            }
-        }
-        match &options.python {
-            Some(path) if !path.is_file() => Err(Failure(format!("--peers-python {}: no such file", path.display()))),
-            _ => Ok(options),
-        }
-    }
+fn file(path: &str) -> Result<PathBuf, String> {
+    Some(PathBuf::from(path)).filter(|path| path.is_file()).ok_or_else(|| "no such file".into())
 }
 
-/// A subcommand with its options.
-pub(crate) enum Command {
-    /// The reference cell, ours and the peers'.
+/// What is timed.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Bench {
+    /// The reference cell, ours and the other programs'
     Cell(Options),
-    /// Ours alone, as the process that [`Command::Cell`] starts.
-    CellJob(String),
-    /// The coil job, ours and the peers'.
+    /// The reference cell, ours alone
+    #[command(hide = true)]
+    CellJob { name: String },
+    /// The coil job, ours and the other programs'
     Coil(Options),
-    /// Ours alone under a named setting, as the process that [`Command::Coil`] starts.
-    CoilJob(String),
-    /// Whole diagnoses.
+    /// The coil job, ours alone under a named setting
+    #[command(hide = true)]
+    CoilJob { name: String },
+    /// Whole diagnoses
     Diagnose,
-    /// Reduced against full model.
+    /// The reduced against the full model
     Reduced,
-    /// Steady sensitivity beside NGSolve.
+    /// The steady sensitivity, ours and NGSolve's
     Sensitivity(Options),
 }
 
-impl Command {
-    /// # Errors
-    /// Names the word that is not understood.
-    pub(crate) fn parse(words: &[&str]) -> Result<Self, Failure> {
-        match words {
-            ["cell", rest @ ..] => Ok(Self::Cell(Options::parse(rest, 11)?)),
-            ["cell-job", name] => Ok(Self::CellJob(name.to_string())),
-            ["coil", rest @ ..] => Ok(Self::Coil(Options::parse(rest, FEWEST)?)),
-            ["coil-job", name] => Ok(Self::CoilJob(name.to_string())),
-            ["diagnose"] => Ok(Self::Diagnose),
-            ["reduced"] => Ok(Self::Reduced),
-            ["sensitivity", rest @ ..] => Ok(Self::Sensitivity(Options::parse(rest, 21)?)),
-            _ => Err(Failure(format!("`bench {}` is not a command", words.join(" ")))),
-        }
-    }
-
+impl Bench {
     /// Runs it; always `true`.
     ///
     /// # Errors
     /// [`Failure`] says what went wrong.
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         match self {
-            Self::Cell(options) => cell::run(options)?,
-            Self::CellJob(name) => cell::child(name)?,
-            Self::Coil(options) => coil::run(options)?,
-            Self::CoilJob(name) => coil::child(name)?,
+            Self::Cell(options) => cell::run(options.python.as_deref(), options.repetitions.unwrap_or(11))?,
+            Self::CellJob { name } => cell::child(name)?,
+            Self::Coil(options) => coil::run(options.python.as_deref(), options.repetitions.unwrap_or(FEWEST))?,
+            Self::CoilJob { name } => coil::child(name)?,
             Self::Diagnose => diagnose::run()?,
             Self::Reduced => reduced::run()?,
-            Self::Sensitivity(options) => sensitivity::run(options)?,
+            Self::Sensitivity(options) => sensitivity::run(options.python.as_deref(), options.repetitions.unwrap_or(21))?,
         }
         Ok(true)
     }

@@ -1,11 +1,12 @@
 //! `cargo xtask bench sensitivity`: from design to steady sensitivity, beside NGSolve.
 
-use super::{Failure, Options, Progress, Stopwatch, median, peers, publish, reference_coil};
+use super::{Failure, Progress, Stopwatch, median, peers, publish, reference_coil};
 use ::coil::{COARSE, Design, Layout, Model, Region, Resolution, steady_sensitivity};
 use bias::units::DEG_PER_H_PER_K_PER_MIN_PER_RAD_PER_K;
 use fem_core::material::ThermoElastic;
 use std::ffi::OsString;
 use std::fmt::Write as _;
+use std::path::Path;
 
 /// Mesh of the converged value.
 const CONVERGED: Resolution = Resolution { order: 11, layers: 6, ratio: 0.2 };
@@ -41,7 +42,7 @@ fn problem(design: &Design, model: &Model) -> Result<serde_json::Value, Failure>
 ///
 /// # Errors
 /// [`Failure`] if a solve fails.
-pub(crate) fn run(options: &Options) -> Result<(), Failure> {
+pub(crate) fn run(python: Option<&Path>, repetitions: u64) -> Result<(), Failure> {
     let progress = Progress::new();
     let design = reference_coil()?;
     progress.say("converged value");
@@ -50,20 +51,20 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let folder = tempfile::tempdir()?;
     let file = folder.path().join("problem.json");
     std::fs::write(&file, problem(&design, &model)?.to_string())?;
-    let python = options.python.as_ref().filter(|python| {
+    let python = python.filter(|python| {
         let found = peers::has(python, "ngsolve, numpy");
         if !found {
             progress.say("NGSolve skipped: this Python lacks ngsolve or numpy (benches/peers/README.md)");
         }
         found
     });
-    if options.python.is_none() {
+    if python.is_none() {
         progress.say("NGSolve skipped: give --peers-python PATH or set FOGCOIL_PEERS_PYTHON");
     }
     let (mut whole, mut coarse, mut last) = (Vec::new(), Vec::new(), None);
     let mut peer_runs = PEER.map(|_| Vec::new());
-    for repetition in 0..options.repetitions {
-        progress.say(&format!("run {} of {}", repetition + 1, options.repetitions));
+    for repetition in 0..repetitions {
+        progress.say(&format!("run {} of {}", repetition + 1, repetitions));
         let mut watch = Stopwatch::start();
         let model = Model::new(&design, &COARSE)?;
         let alone = (model.sensitivity()?.total(), model.unknowns());
@@ -100,7 +101,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
         out,
         "\nFrom the design to the number, mesh included (imports and start of an interpreter are not): medians of {} interleaved runs. \
          Converged value, order {} and {} layers: {converged:.6}.",
-        options.repetitions, CONVERGED.order, CONVERGED.layers
+        repetitions, CONVERGED.order, CONVERGED.layers
     );
     publish("sensitivity", &out)
 }

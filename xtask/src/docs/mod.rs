@@ -11,8 +11,9 @@ mod table;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command as Process;
+use std::process::Command;
 
+use clap::Args;
 use fogcoil::input;
 use page::Page;
 use shell::{Shell, Tally};
@@ -22,35 +23,29 @@ use crate::validate::{Failure, root};
 const TUTORIAL: &str = "docs/tutorial.md";
 const FORMATS: &str = "docs/formats.md";
 
-/// What is asked for.
-pub(crate) enum Command {
-    /// Every page, link, snippet and schema.
-    All,
-    /// The commands of the tutorial alone, and what costs no time.
-    Tutorial,
-    /// The commands of one page, and what costs no time.
-    Page(PathBuf),
-    /// Write what is made from the types: schemas of files and tables of fields.
-    Write,
+/// Run the commands of every page in a folder like a fresh clone, and compare what they print
+///
+/// The pages of README.md, docs and the crates; their links, snippets and schemas are checked, too. Exit status 1 at a fault.
+#[derive(Debug, Args)]
+#[group(multiple = false)]
+pub(crate) struct DocsCheck {
+    /// Run the commands of the tutorial alone
+    #[arg(long)]
+    tutorial: bool,
+    /// Run the commands of one page alone
+    #[arg(long, value_name = "FILE.md")]
+    page: Option<PathBuf>,
+    /// Write what is made from the types: docs/schema and the tables of docs/formats.md
+    #[arg(long)]
+    write: bool,
 }
 
-impl Command {
-    /// From the words behind `docs-check`.
-    pub(crate) fn parse(words: &[&str]) -> Result<Self, String> {
-        match words {
-            [] => Ok(Self::All),
-            ["--tutorial"] => Ok(Self::Tutorial),
-            ["--page", path] => Ok(Self::Page(path.into())),
-            ["--write"] => Ok(Self::Write),
-            _ => Err(format!("`{}`: docs-check takes nothing, --tutorial, --page FILE.md or --write", words.join(" "))),
-        }
-    }
-
+impl DocsCheck {
     /// Does it; whether all is as it should be.
-    pub(crate) fn run(&self) -> Result<bool, Failure> {
+    pub(crate) fn run(self) -> Result<bool, Failure> {
         let root = root();
         let root = root.as_ref();
-        if let Self::Write = self {
+        if self.write {
             schema::write(root)?;
             fs::write(root.join(FORMATS), formats(root)?)?;
             return Ok(true);
@@ -64,7 +59,8 @@ impl Command {
                 "{FORMATS}: tables of fields are not what the types give; write them by `cargo xtask docs-check --write`"
             ));
         }
-        if let Self::Page(page) = self
+        let only = if self.tutorial { Some(TUTORIAL.into()) } else { self.page };
+        if let Some(page) = &only
             && !pages.contains_key(page)
         {
             return Err(Failure(format!("{}: is no page; name it from the repository's root", page.display())));
@@ -72,18 +68,12 @@ impl Command {
         let (program, cache) = program()?;
         let shell = Shell::new(root, &program, cache.clone())?;
         let mut tally = Tally::default();
-        let wanted = |path: &Path| match self {
-            Self::All => true,
-            Self::Tutorial => path == Path::new(TUTORIAL),
-            Self::Page(page) => path == page,
-            Self::Write => false,
-        };
-        for page in pages.values().filter(|page| wanted(&page.path)) {
+        for page in pages.values().filter(|page| only.as_ref().is_none_or(|only| page.path == *only)) {
             eprintln!("{}", page.path.display());
             shell.run(page, &mut tally)?;
         }
         faults.append(&mut tally.faults);
-        if let Self::All = self {
+        if only.is_none() {
             eprintln!("outputs against their schemas");
             faults.extend(schema::outputs(root, &program, &cache)?);
         }
@@ -149,7 +139,7 @@ fn formats(root: &Path) -> Result<String, Failure> {
 fn program() -> Result<(PathBuf, PathBuf), Failure> {
     let this = std::env::current_exe()?;
     let folder = this.parent().ok_or_else(|| Failure("this program has no folder".into()))?;
-    let mut build = Process::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    let mut build = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     build.args(["build", "--quiet"]).current_dir(root());
     if folder.ends_with("release") {
         build.args(["--release", "--package", "fogcoil"]);

@@ -9,6 +9,8 @@ mod table;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use clap::Args;
+
 use crate::validate::Failure;
 use browser::Browser;
 use look::{Look, Theme, WIDTHS};
@@ -16,43 +18,30 @@ use look::{Look, Theme, WIDTHS};
 const FOLDER: &str = "target/pages";
 const DOCUMENT: &str = "docs/pages.md";
 
-/// What is asked for.
-pub(crate) struct Command {
+/// Make the reports from the fixtures and judge them in headless Chromium with axe-core
+///
+/// Chromium is found by name, or by $CHROMIUM. Writes docs/pages.md and, into target/pages, screenshots and prints. Exit status 1 if a
+/// page is turned down.
+#[derive(Debug, Args)]
+pub(crate) struct Pages {
+    /// axe.min.js or the folder that holds it; without it, npm fetches it into target/pages
+    #[arg(long, value_name = "PATH")]
     axe: Option<PathBuf>,
+    /// Judge the pages that are there from the last run
+    #[arg(long)]
     kept: bool,
-    chromium: String,
 }
 
-impl Command {
-    /// # Errors
-    /// If a word is unknown, or no Chromium is there.
-    pub(crate) fn parse(words: &[&str]) -> Result<Self, Failure> {
-        let (mut axe, mut kept, mut rest) = (None, false, words);
-        loop {
-            rest = match rest {
-                [] => break,
-                ["--axe", path, rest @ ..] => {
-                    axe = Some(PathBuf::from(path));
-                    rest
-                }
-                ["--kept", rest @ ..] => {
-                    kept = true;
-                    rest
-                }
-                [word, ..] => return Err(Failure(format!("`pages` does not take `{word}`"))),
-            };
-        }
-        Ok(Self { axe, kept, chromium: browser::find()? })
-    }
-
+impl Pages {
     /// Makes the pages, looks at each, writes docs/pages.md; whether there is nothing to complain of.
     pub(crate) fn run(self) -> Result<bool, Failure> {
+        let chromium = browser::find()?;
         let folder = Path::new(FOLDER);
         fs::create_dir_all(folder)?;
         let folder = &folder.canonicalize()?;
         let axe = axe::source(self.axe.as_deref(), &folder.join("axe"))?;
         let files = if self.kept { kept(folder)? } else { make::all(folder)? };
-        let mut browser = Browser::launch(&self.chromium, &folder.join("browser"))?;
+        let mut browser = Browser::launch(&chromium, &folder.join("browser"))?;
         let mut looks: Vec<Look> = Vec::new();
         for file in &files {
             for width in WIDTHS {

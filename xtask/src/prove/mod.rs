@@ -15,58 +15,59 @@ mod truth;
 
 use std::path::PathBuf;
 
+use clap::Args;
+
 use crate::validate::Failure;
 use score::Scored;
 
-/// What is to be done.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Command {
-    /// Answer and score the open units: those named, else all.
-    Open(Vec<String>),
-    /// Answer the sealed units, once.
-    Sealed,
-    /// Answer them again elsewhere and compare.
-    Again(PathBuf),
-    /// Try what is recommended for every pair of mechanisms.
-    Recommended,
-    /// Make, answer and score units of the project's own generator.
-    Synthetic(synthetic::Plan),
+/// Diagnose units that conceal something, and hold the answers against the truth
+///
+/// Writes docs/proof.md. Exit status 1 if a score is not as asked.
+#[derive(Debug, Args)]
+pub(crate) struct Prove {
+    /// An open unit by its number, instead of all of fixtures/concealed/open
+    #[arg(long = "case", value_name = "NN", value_parser = case, group = "units")]
+    cases: Vec<String>,
+    /// Answer the sealed units, once
+    #[arg(long, group = "units")]
+    sealed: bool,
+    /// Answer the sealed units again, into DIR, and compare with the answers that are there
+    #[arg(long, value_name = "DIR", requires = "sealed")]
+    again: Option<PathBuf>,
+    /// Whether what is recommended tells mechanisms apart
+    #[arg(long, group = "units")]
+    recommended: bool,
+    /// Units of the project's own generator, kept in target/prove, where a run that was stopped goes on
+    #[arg(long, group = "units")]
+    synthetic: bool,
+    #[command(flatten)]
+    plan: synthetic::Plan,
 }
 
-impl Command {
-    /// # Errors
-    /// Names the word that is not understood.
-    pub(crate) fn parse(words: &[&str]) -> Result<Self, Failure> {
-        match words {
-            ["--sealed"] => return Ok(Self::Sealed),
-            ["--recommended"] => return Ok(Self::Recommended),
-            ["--sealed", "--again", folder] => return Ok(Self::Again(folder.into())),
-            ["--synthetic", rest @ ..] => return Ok(Self::Synthetic(synthetic::Plan::parse(rest)?)),
-            _ => {}
-        }
-        let mut cases = Vec::new();
-        for pair in words.chunks(2) {
-            let ["--case", number] = pair else { return Err(Failure(format!("`prove {}` is not a command", words.join(" ")))) };
-            let case = format!("case_{:0>2}", number.trim_start_matches("case_"));
-            if !cases.contains(&case) {
-                cases.push(case);
-            }
-        }
-        Ok(Self::Open(cases))
-    }
+/// A unit's name from its number.
+fn case(number: &str) -> Result<String, std::num::ParseIntError> {
+    let number: u8 = number.trim_start_matches("case_").parse()?;
+    Ok(format!("case_{number:02}"))
+}
 
+impl Prove {
     /// Runs it: whether everything is as asked.
     ///
     /// # Errors
     /// [`Failure`] says what went wrong.
-    pub(crate) fn run(&self) -> Result<bool, Failure> {
-        match self {
-            Self::Open(cases) => open(cases),
-            Self::Sealed => concealed::sealed(),
-            Self::Recommended => recommended::run(),
-            Self::Again(folder) => concealed::sealed_again(folder),
-            Self::Synthetic(plan) => plan.run(),
+    pub(crate) fn run(mut self) -> Result<bool, Failure> {
+        if self.synthetic {
+            return self.plan.run();
         }
+        if self.recommended {
+            return recommended::run();
+        }
+        if self.sealed {
+            return self.again.map_or_else(concealed::sealed, |folder| concealed::sealed_again(&folder));
+        }
+        self.cases.sort();
+        self.cases.dedup();
+        open(&self.cases)
     }
 }
 
@@ -98,17 +99,9 @@ fn open(only: &[String]) -> Result<bool, Failure> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-
     #[test]
-    fn commands() {
-        let open = |cases: &[&str]| Command::Open(cases.iter().map(|c| (*c).to_owned()).collect());
-        assert_eq!(Command::parse(&[]).unwrap(), open(&[]));
-        assert_eq!(Command::parse(&["--case", "3", "--case", "case_12", "--case", "03"]).unwrap(), open(&["case_03", "case_12"]));
-        assert_eq!(Command::parse(&["--sealed"]).unwrap(), Command::Sealed);
-        assert_eq!(Command::parse(&["--sealed", "--again", "x"]).unwrap(), Command::Again("x".into()));
-        for bad in [&["--case"][..], &["3"], &["--sealed", "x"], &["--case", "3", "--sealed"]] {
-            assert!(Command::parse(bad).is_err(), "{bad:?}");
-        }
+    fn a_case_has_its_number_in_two_digits() {
+        assert_eq!(["3", "03", "case_12"].map(|number| super::case(number).unwrap()), ["case_03", "case_03", "case_12"]);
+        assert!(["", "x", "case_", "-1"].iter().all(|number| super::case(number).is_err()));
     }
 }

@@ -37,6 +37,8 @@ use super::chain;
 use super::concealed::{each, root};
 use super::score::{Scored, score};
 use super::truth::Truth;
+use clap::Args;
+
 use super::{program, report, summary};
 use crate::validate::Failure;
 use unit::{Generator, Which};
@@ -60,12 +62,16 @@ const SOURCES: [&str; 14] = [
 ];
 
 /// How many units of which seed.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Args)]
 pub(crate) struct Plan {
+    /// Of the synthetic units
+    #[arg(long, requires = "synthetic", default_value_t = 1)]
     pub(crate) seed: u64,
-    /// Units in which nothing is concealed.
+    /// Synthetic units in which nothing is concealed
+    #[arg(long, value_name = "N", requires = "synthetic", default_value_t = 300)]
     pub(crate) nulls: usize,
-    /// Units in which something is.
+    /// Synthetic units in which something is
+    #[arg(long, value_name = "N", requires = "synthetic", default_value_t = 200)]
     pub(crate) concealed: usize,
 }
 
@@ -77,25 +83,6 @@ pub(crate) struct Case {
 }
 
 impl Plan {
-    /// Reads what follows `--synthetic`.
-    ///
-    /// # Errors
-    /// Names the word that is not understood.
-    pub(crate) fn parse(words: &[&str]) -> Result<Self, Failure> {
-        let mut plan = Self { seed: 1, nulls: 300, concealed: 200 };
-        for pair in words.chunks(2) {
-            let [option, value] = pair else { return Err(Failure(format!("{} needs a number", pair.join(" ")))) };
-            let bad = |_| Failure(format!("{option} {value}: the number is not a whole one of 0 or more"));
-            match *option {
-                "--seed" => plan.seed = value.parse().map_err(bad)?,
-                "--nulls" => plan.nulls = value.parse().map_err(bad)?,
-                "--concealed" => plan.concealed = value.parse().map_err(bad)?,
-                _ => return Err(Failure(format!("--synthetic knows --seed, --nulls and --concealed, not {option}"))),
-            }
-        }
-        Ok(plan)
-    }
-
     /// Makes, answers and scores; writes the section of docs/proof.md. Whether all scores are as asked.
     ///
     /// # Errors

@@ -318,16 +318,6 @@ fn effects_outside_the_library_have_their_sizes() {
     }
 }
 
-#[test]
-fn plans() {
-    let plan = |seed, nulls, concealed| Plan { seed, nulls, concealed };
-    assert_eq!(Plan::parse(&[]).unwrap(), plan(1, 300, 200));
-    assert_eq!(Plan::parse(&["--nulls", "5", "--seed", "7", "--concealed", "0"]).unwrap(), plan(7, 5, 0));
-    for bad in [&["--nulls"][..], &["--nulls", "-1"], &["--units", "3"]] {
-        assert!(Plan::parse(bad).is_err(), "{bad:?}");
-    }
-}
-
 /// A few units are made, answered and scored; a second run finds them done.
 #[test]
 fn units_are_answered() {
