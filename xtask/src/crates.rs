@@ -11,6 +11,8 @@ struct Library {
     name: String,
     description: Option<String>,
     features: bool,
+    /// Whether it has a program, which takes what the workspace has anyway.
+    program: bool,
     folder: std::path::PathBuf,
 }
 
@@ -36,11 +38,12 @@ fn published(package: &Value) -> bool {
 }
 
 fn library(package: &Value) -> Option<Library> {
-    let is_library = package["targets"].as_array()?.iter().any(|t| t["kind"] == serde_json::json!(["lib"]));
+    let has = |kind: &str| package["targets"].as_array().is_some_and(|all| all.iter().any(|t| t["kind"][0] == kind));
     let folder = Path::new(package["manifest_path"].as_str()?).parent()?.to_path_buf();
     let features = package["features"].as_object().is_some_and(|features| !features.is_empty());
     let description = package["description"].as_str().map(str::to_owned);
-    is_library.then_some(Library { name: package["name"].as_str()?.to_owned(), description, features, folder })
+    let name = package["name"].as_str()?.to_owned();
+    has("lib").then(|| Library { name, description, features, program: has("bin"), folder })
 }
 
 impl Library {
@@ -58,14 +61,16 @@ impl Library {
         wanted.into_iter().filter(|(found, _)| !found).map(|(_, missing)| missing.to_owned()).chain(path_only).collect()
     }
 
-    /// Compiles it with its own features only; `deep` also with all of them, and runs its tests.
+    /// Checks it and its tests with its own features only, and with all of them; `deep` also runs its tests.
     fn alone(&self, deep: bool) -> Result<(), Failure> {
-        cargo(&["check", "--quiet", "--package", &self.name])?;
-        if self.features {
-            cargo(&["check", "--quiet", "--package", &self.name, "--all-features"])?;
+        let package = ["--quiet", "--package", self.name.as_str()];
+        let features = self.features.then_some(&["--all-features"][..]);
+        for (command, with) in [("check", Some(&[][..])), ("check", features), ("check", Some(&["--tests"]))] {
+            let Some(with) = with else { continue };
+            cargo(&[&[command], &package[..], with].concat())?;
         }
         if deep {
-            cargo(&["test", "--quiet", "--package", &self.name])?;
+            cargo(&[&["test"], &package[..]].concat())?;
         }
         Ok(())
     }
@@ -84,6 +89,9 @@ pub(crate) fn run(deep: bool) -> Result<(), Failure> {
         let missing = library.missing(package);
         if !missing.is_empty() {
             return Err(Failure(format!("{}: {}", library.name, missing.join("; "))));
+        }
+        if library.program && !deep {
+            continue;
         }
         library.alone(deep)?;
         println!("[{:4.0} s] {} stands alone", start.elapsed().as_secs_f64(), library.name);
