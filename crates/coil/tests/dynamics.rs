@@ -4,8 +4,8 @@ mod common;
 
 use bias::{Bias, Sensitivity};
 use coil::{
-    Contact, Drive, Dynamics, FactorsAt, Fidelity, Heater, Mechanics, Model, Mount, Opening, Profile, Resolution, Side,
-    ThermalModel, functionals,
+    COARSER, COARSER_SHARE, Contact, Drive, Dynamics, FactorsAt, Fidelity, Heater, Mechanics, Model, Mount, Opening, Profile,
+    Resolution, STANDARD, Side, ThermalModel, functionals,
 };
 use common::{changed, reference, spool};
 
@@ -42,6 +42,30 @@ fn exact_reduced_model_agrees_with_all_unknowns_on_steps_and_ramps() {
     let sensor = (0..reduced.len()).map(|n| (full.outputs[n][0] - reduced[n].sensor).abs()).fold(0.0, f64::max);
     // 2 K/s at most; beside the reduction stands the stepping's own 1e-5 K a step
     assert!(sensor < 2.0 * bound.sensor + 2e-3, "{sensor}");
+}
+
+/// The distance to the coarser mesh covers the error of the standard one, for a free and for a fixed hub.
+#[test]
+fn bounds_the_distance_to_a_coarser_mesh_covers_the_error() {
+    let free = changed(|d| d.spool.as_mut().expect("a spool").hub_contact = Contact::Gap);
+    let fine = Fidelity { resolution: Resolution { order: 8, layers: 3, ..STANDARD.resolution }, ..STANDARD };
+    for design in [reference(), free] {
+        let run = |fidelity: &Fidelity| {
+            Dynamics::new(&design, &[Drive::Chamber], fidelity).expect("model").simulate(&step_and_ramp(30.0)).expect("run")
+        };
+        let [coarse, standard, fine] = [COARSER, STANDARD, fine].map(|fidelity| run(&fidelity));
+        for (what, of) in [
+            ("thermometer", (|r| r.sensor) as fn(&coil::Response) -> f64),
+            ("axial strain", |r| r.bias.eo_axial),
+            ("radial strain", |r| r.bias.eo_radial),
+            ("rate", coil::Response::rate),
+        ] {
+            let distance =
+                |other: &[coil::Response]| standard.iter().zip(other).map(|(a, b)| (of(a) - of(b)).abs()).fold(0.0, f64::max);
+            let (error, estimate) = (distance(&fine), COARSER_SHARE * distance(&coarse));
+            assert!(error <= estimate && estimate <= 100.0 * error, "{what}: {error:.1e}, estimated {estimate:.1e}");
+        }
+    }
 }
 
 #[test]

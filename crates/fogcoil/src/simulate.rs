@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use bias::Bias;
 use bias::units::{DEG_PER_H_PER_RAD_PER_S, K_PER_MIN_PER_K_PER_S};
 use coil::{
-    CHECKS, Drive, Dynamics, Profile, ReductionError, Response, STANDARD, STEADY, SteadySensitivity, TurnFields,
+    CHECKS, COARSER, Drive, Dynamics, Profile, ReductionError, Response, STANDARD, STEADY, SteadySensitivity, TurnFields,
     chamber_from_sensor,
 };
 use serde::Serialize;
@@ -29,6 +29,8 @@ const JITTER: f64 = 0.1;
 #[derive(Debug, Clone)]
 pub struct Model {
     dynamics: Dynamics,
+    /// The same coil on a coarser mesh.
+    coarser: Dynamics,
     steady: SteadySensitivity,
     source: Source,
 }
@@ -49,6 +51,8 @@ pub struct Simulation<'a> {
     /// Whether the model was built or found in the cache.
     pub source: Source,
     responses: Vec<Response>,
+    /// On a coarser mesh.
+    coarser: Vec<Response>,
     samples: Vec<Sample>,
 }
 
@@ -105,7 +109,7 @@ pub struct Window {
 pub fn model(case: &CoilCase, drives: &[Drive], cache: &Cache) -> Result<Model, Error> {
     let build = || Dynamics::new(&case.design, drives, &STANDARD);
     let (dynamics, source) = load_or_build(case, drives, cache, "dynamics", build)?;
-    assembled(case, cache, dynamics, source)
+    assembled(case, drives, cache, dynamics, source)
 }
 
 /// Temperatures between which a chamber is believed \[°C\].
@@ -166,7 +170,7 @@ pub fn infer(record: SpoolCase, noise: f64, model: &Model) -> Result<ProfileCase
 pub fn model_with_fields(case: &CoilCase, drives: &[Drive], cache: &Cache) -> Result<(Model, TurnFields), Error> {
     let build = || Dynamics::with_fields(&case.design, drives, &STANDARD);
     let ((dynamics, fields), source) = load_or_build(case, drives, cache, "dynamics and fields", build)?;
-    Ok((assembled(case, cache, dynamics, source)?, fields))
+    Ok((assembled(case, drives, cache, dynamics, source)?, fields))
 }
 
 fn load_or_build<T: Serialize + DeserializeOwned>(
@@ -180,10 +184,11 @@ fn load_or_build<T: Serialize + DeserializeOwned>(
     cache.load_or_build(purpose, &(&case.design, drives, STANDARD), || build().map_err(at))
 }
 
-fn assembled(case: &CoilCase, cache: &Cache, dynamics: Dynamics, source: Source) -> Result<Model, Error> {
+fn assembled(case: &CoilCase, drives: &[Drive], cache: &Cache, dynamics: Dynamics, source: Source) -> Result<Model, Error> {
+    let (coarser, _) = load_or_build(case, drives, cache, "coarser dynamics", || Dynamics::new(&case.design, drives, &COARSER))?;
     let key = (&case.design, STEADY, CHECKS);
     let (steady, of_steady) = cache.load_or_build("steady sensitivity", &key, || case.steady_sensitivity())?;
-    Ok(Model { dynamics, steady, source: if of_steady == source { source } else { Source::Built } })
+    Ok(Model { dynamics, coarser, steady, source: if of_steady == source { source } else { Source::Built } })
 }
 
 /// Runs a profile from rest at its first instant.
@@ -196,12 +201,14 @@ pub fn simulate<'a>(case: &'a CoilCase, profile: &'a ProfileCase, model: &Model)
     let parts = profile.between.parts();
     let course = if parts == 1 { Cow::Borrowed(&profile.profile) } else { Cow::Owned(profile.profile.smoothed(parts)) };
     let responses = model.dynamics.simulate_with(&course, |n, u, q| sample(&mut samples, model, &course, (n, u, q)));
-    let responses = by_row(responses.map_err(|source| Error::Coil { file: file(), source })?, parts);
+    let at = |source| Error::Coil { file: file(), source };
+    let responses = by_row(responses.map_err(at)?, parts);
+    let coarser = by_row(model.coarser.simulate(&course).map_err(at)?, parts);
     if let Some(row) = responses.iter().position(|r| !(r.sensor.is_finite() && r.rate().is_finite())) {
         return Err(Error::NotFinite { file: file(), time: profile.profile.time[row] });
     }
     let (reduction, modes) = (model.dynamics.reduction_error(), model.dynamics.reduced().rates.len());
-    Ok(Simulation { case, profile, steady: model.steady, reduction, modes, source: model.source, responses, samples })
+    Ok(Simulation { case, profile, steady: model.steady, reduction, modes, source: model.source, responses, coarser, samples })
 }
 
 /// Responses at the rows of a course that was divided into `parts` between each two: the means of a row are those of its parts.
@@ -259,7 +266,11 @@ impl Simulation<'_> {
     /// # Panics
     /// If `n` is not less than [`Simulation::count`].
     pub fn row(&self, n: usize) -> Row {
-        let response = self.responses[n];
+        self.row_of(n, self.responses[n])
+    }
+
+    /// Row `n` with a response.
+    fn row_of(&self, n: usize, response: Response) -> Row {
         let Response { sensor, bias, .. } = response;
         let bias = bias * DEG_PER_H_PER_RAD_PER_S;
         Row {
@@ -272,6 +283,23 @@ impl Simulation<'_> {
             read_out: response.read_out * DEG_PER_H_PER_RAD_PER_S,
             rate: response.rate() * DEG_PER_H_PER_RAD_PER_S,
         }
+    }
+
+    /// Differences of the rows from those on a coarser mesh; of them [`coil::COARSER_SHARE`] is an estimate of the mesh's error.
+    pub fn differences(&self) -> impl Iterator<Item = Row> {
+        let row = |(n, coarser): (usize, &Response)| {
+            let (row, other) = (self.row(n), self.row_of(n, *coarser));
+            Row {
+                spool: row.spool - other.spool,
+                shupe: row.shupe - other.shupe,
+                eo_axial: row.eo_axial - other.eo_axial,
+                eo_radial: row.eo_radial - other.eo_radial,
+                read_out: row.read_out - other.read_out,
+                rate: row.rate - other.rate,
+                ..row
+            }
+        };
+        self.coarser.iter().enumerate().map(row)
     }
 
     /// All rows.

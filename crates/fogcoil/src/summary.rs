@@ -1,6 +1,6 @@
 //! What a simulation comes down to: peak, root mean square, and the slope on the thermometer's rate beside the steady sensitivity.
 
-use coil::Mechanics;
+use coil::{COARSER_SHARE, Mechanics};
 use serde_json::{Value, json};
 
 use crate::cache::Source;
@@ -27,6 +27,45 @@ pub struct Summary {
     /// Slope of the regression of the rate on the thermometer's rate over windows of [`WINDOW_S`], with intercept
     /// \[(deg/h)/(degC/min)\]; `None` if the thermometer's rate does not vary.
     pub slope: Option<f64>,
+    /// Numerical errors of the above.
+    pub errors: Errors,
+}
+
+/// Estimated numerical errors of a simulation, mesh and reduced model together; nothing of what the model itself leaves out.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Errors {
+    /// Of the thermometer in any row \[K\].
+    pub spool: f64,
+    /// Of the bias in any row: thermal phase, axial strain, radial strain, their sum \[deg/h\].
+    pub parts: [f64; 4],
+    /// Of the root of the mean square \[deg/h\].
+    pub rms: f64,
+    /// Of the slope \[(deg/h)/(degC/min)\].
+    pub slope: f64,
+}
+
+impl Errors {
+    /// Of a simulation whose rates are as large as `rms` and at most `peak` \[deg/h\].
+    fn of(simulation: &Simulation, rms: f64, peak: f64, slope: Option<f64>) -> Self {
+        let mut errors = Self::default();
+        let mut last = simulation.row(0).time;
+        for row in simulation.differences() {
+            errors.spool = errors.spool.max(row.spool.abs());
+            for (most, part) in errors.parts.iter_mut().zip([row.shupe, row.eo_axial, row.eo_radial, row.rate]) {
+                *most = most.max(part.abs());
+            }
+            errors.rms += row.rate * row.rate * (row.time - last);
+            last = row.time;
+        }
+        errors.spool *= COARSER_SHARE;
+        // what the modes leave out is stated of the sum's peak
+        errors.parts = errors.parts.map(|most| COARSER_SHARE * most + simulation.reduction.bias * peak);
+        let duration = simulation.duration();
+        errors.rms =
+            if duration > 0.0 { COARSER_SHARE * (errors.rms / duration).sqrt() } else { 0.0 } + simulation.reduction.bias * rms;
+        errors.slope = if rms > 0.0 { slope.map_or(0.0, |slope| slope.abs() * errors.rms / rms) } else { 0.0 };
+        errors
+    }
 }
 
 /// Least-squares line through points that come one by one (Welford's update).
@@ -76,13 +115,16 @@ impl Summary {
         simulation.windows().for_each(|window| regression.add(window.spool_rate, window.rate));
         let duration = simulation.duration();
         let rms = if duration > 0.0 { (squared / duration).sqrt() } else { 0.0 };
-        Self { rows: simulation.count(), duration, chamber, spool, peak, rms, slope: regression.slope() }
+        let slope = regression.slope();
+        let errors = Errors::of(simulation, rms, peak.rate.abs(), slope);
+        Self { rows: simulation.count(), duration, chamber, spool, peak, rms, slope, errors }
     }
 }
 
 /// The summary as one object, units in the keys; `slope` and sensitivities in (deg/h)/(degC/min).
 pub fn json(simulation: &Simulation) -> Value {
-    let Summary { rows, duration, chamber, spool, peak, rms, slope } = Summary::of(simulation);
+    let Summary { rows, duration, chamber, spool, peak, rms, slope, errors } = Summary::of(simulation);
+    let [shupe, eo_axial, eo_radial, rate] = errors.parts;
     let steady = simulation.steady;
     json!({
         "rows": rows,
@@ -102,6 +144,15 @@ pub fn json(simulation: &Simulation) -> Value {
         "slope_window_s": WINDOW_S,
         "steady_sensitivity": steady.sensitivity.total(),
         "steady_sensitivity_error_estimate": steady.error_estimate,
+        "numerical_error": {
+            "spool_k": errors.spool,
+            "shupe_deg_per_h": shupe,
+            "eo_axial_deg_per_h": eo_axial,
+            "eo_radial_deg_per_h": eo_radial,
+            "rate_deg_per_h": rate,
+            "rms_deg_per_h": errors.rms,
+            "slope": errors.slope,
+        },
         "reduction_error": simulation.reduction.bias,
         "inferred": simulation.profile.inferred.map(inferred),
         "cached": simulation.source == Source::Cached,
@@ -135,10 +186,12 @@ pub fn text(simulation: &Simulation) -> String {
 
 /// Name, value and unit of each number, for people.
 pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
-    let Summary { rows, duration, chamber, spool, peak, rms, slope } = Summary::of(simulation);
+    let Summary { rows, duration, chamber, spool, peak, rms, slope, errors } = Summary::of(simulation);
+    let [shupe, eo_axial, eo_radial, sum] = errors.parts;
     let entry = |name: &str, value: String, unit: &str| [name.to_owned(), value, unit.to_owned()];
     let range = |[low, high]: [f64; 2]| format!("{:.2} to {:.2}", low + 0.0, high + 0.0);
-    let rate = |value: f64| format!("{:.4}", (value * 1e4).round() / 1e4 + 0.0);
+    let rounded = |value: f64| format!("{:.4}", (value * 1e4).round() / 1e4 + 0.0);
+    let rate = |value: f64, error: f64| format!("{} ± {}", rounded(value), significant(error, 2));
     let unit = DurationUnit::of(duration);
     let after = format!("s, {:.2} {} after the first row", unit.of_seconds(peak.time - simulation.row(0).time), unit.name());
     let slope_name = format!("slope of the rate on the spool's rate, {WINDOW_S}-s differences");
@@ -147,23 +200,27 @@ pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
         entry("rows", rows.to_string(), ""),
         entry("duration", format!("{:.2}", unit.of_seconds(duration)), unit.name()),
         entry("chamber", range(chamber), "degC"),
-        entry("spool", range(spool), "degC"),
-        entry("largest |rate|", rate(peak.rate.abs()), "deg/h"),
+        entry("spool", format!("{} ± {}", range(spool), significant(errors.spool, 2)), "degC"),
+        entry("largest |rate|", rate(peak.rate.abs(), sum), "deg/h"),
         entry("  at", format!("{}", peak.time), &after),
-        entry("  shupe", rate(peak.shupe), "deg/h"),
-        entry("  eo_axial", rate(peak.eo_axial), "deg/h"),
-        entry("  eo_radial", rate(peak.eo_radial), "deg/h"),
+        entry("  shupe", rate(peak.shupe, shupe), "deg/h"),
+        entry("  eo_axial", rate(peak.eo_axial, eo_axial), "deg/h"),
+        entry("  eo_radial", rate(peak.eo_radial, eo_radial), "deg/h"),
     ];
     let drifting = simulation.case.design.drifts.read_out != 0.0;
     if drifting {
-        all.push(entry("  read-out", rate(peak.read_out), "deg/h"));
+        all.push(entry("  read-out", rounded(peak.read_out), "deg/h"));
     }
     let changing = simulation.case.design.mechanics != Mechanics::Elastic;
     let nominal = if changing { "(deg/h)/(degC/min), of the nominal state" } else { "(deg/h)/(degC/min)" };
     all.extend([
-        entry("  rate", rate(peak.rate), if drifting { "deg/h, the sum of the four" } else { "deg/h, the sum of the three" }),
-        entry("root mean square of the rate", rate(rms), "deg/h, over time"),
-        entry(&slope_name, slope.map_or("none".into(), rate), "(deg/h)/(degC/min)"),
+        entry(
+            "  rate",
+            rate(peak.rate, sum),
+            if drifting { "deg/h, the sum of the four" } else { "deg/h, the sum of the three" },
+        ),
+        entry("root mean square of the rate", rate(rms, errors.rms), "deg/h, over time"),
+        entry(&slope_name, slope.map_or("none".into(), |slope| rate(slope, errors.slope)), "(deg/h)/(degC/min)"),
         entry("steady-ramp sensitivity", steady, nominal),
     ]);
     if let Some(Inference { noise, sensor_residual_rms, chamber_sd: [median, largest], .. }) = simulation.profile.inferred {

@@ -1,6 +1,6 @@
 //! What was simulated and how: the coil, the inputs, the options, the mesh.
 
-use coil::{CHECKS, Drive, STEADY, Side};
+use coil::{CHECKS, COARSER_SHARE, Drive, STEADY, Side};
 
 use super::provenance::provenance;
 use super::tables::{facts, nice, row};
@@ -79,6 +79,13 @@ pub(super) fn computation(out: &mut String, simulation: &Simulation) {
         row("driven by", simulation.profile.drives.iter().map(|drive| name(*drive)).collect::<Vec<_>>().join(", ")),
         row("start", "uniform at the first chamber temperature and free of stress; heaters off before the first row"),
         row("mesh", mesh(coil::STANDARD.resolution)),
+        row(
+            "numerical errors (±)",
+            format!(
+                "{COARSER_SHARE} of the largest difference in any row to {}, and what the modes leave out",
+                mesh(coil::COARSER.resolution)
+            ),
+        ),
         row("modes", format!("{} in all; the drives are linear between rows, the modes exact", simulation.modes)),
         row(
             "left out by the modes",

@@ -13,6 +13,7 @@ use crate::picture::escape;
 use crate::plot::page_style;
 use crate::simulate::Simulation;
 use crate::summary::{Summary, entries};
+use crate::table::significant;
 
 pub(crate) use data::with_data;
 pub use provenance::provenance;
@@ -54,16 +55,19 @@ fn lead(simulation: &Simulation) -> String {
     let peak = summary.peak;
     let slope = summary.slope.map_or(String::new(), |slope| {
         format!(
-            " Regressed on the spool's temperature rate, the bias has a slope of {} (°/h)/(°C/min); in a steady ramp it would be {} ± {}.",
+            " Regressed on the spool's temperature rate, the bias has a slope of {} ± {} (°/h)/(°C/min); in a steady ramp it would be {} ± {}.",
             signed(slope, 3),
+            significant(summary.errors.slope, 2),
             signed(simulation.steady.sensitivity.total(), 4),
-            crate::table::significant(simulation.steady.error_estimate, 2),
+            significant(simulation.steady.error_estimate, 2),
         )
     });
     format!(
-        "<p>Computed thermal bias of a fibre-optic gyroscope's coil at rest. It is largest at {} s, {} °/h.{slope}</p>\n",
+        "<p>Computed thermal bias of a fibre-optic gyroscope's coil at rest. It is largest at {} s, {} ± {} °/h.{slope} The \
+         errors are those of the computation.</p>\n",
         peak.time,
-        signed(peak.rate, 4)
+        signed(peak.rate, 4),
+        significant(summary.errors.parts[3], 2),
     )
 }
 
