@@ -136,13 +136,16 @@ pub(crate) struct Simulate {
     /// How the temperatures run between the profile's rows
     #[arg(long, value_enum, default_value_t = Between::Linear, conflicts_with = "spool")]
     pub(crate) between: Between,
+    /// Add rows on the straight lines between the profile's, so that none lasts longer than this many seconds
+    #[arg(long, value_name = "S", value_parser = step, conflicts_with = "spool")]
+    pub(crate) step: Option<f64>,
     /// In place of a profile: a record time_s,spool_c of the spool's thermometer, from rest, to infer the chamber from
     #[arg(long, value_name = "RECORD.csv", conflicts_with = "profile")]
     pub(crate) spool: Option<PathBuf>,
     /// Standard deviation of the record's readings in K, rounding included
     #[arg(long, value_name = "K", conflicts_with = "profile", value_parser = noise, default_value = "0.01")]
     pub(crate) spool_noise: f64,
-    /// Write the result here, a row for each of the profile's
+    /// Write the result here, a row for each of the profile's (and of --step)
     #[arg(long, value_name = "B.csv")]
     pub(crate) out: PathBuf,
     /// Write a page with plots here
@@ -163,6 +166,14 @@ fn noise(text: &str) -> Result<f64, String> {
     let least = coil::LEAST_NOISE;
     let number = text.parse().ok().filter(|noise| (least..=MOST_NOISE).contains(noise));
     number.ok_or_else(|| format!("give kelvins from {least} to {MOST_NOISE}"))
+}
+
+/// Steps \[s\] that a profile can be divided into.
+const STEPS_S: std::ops::RangeInclusive<f64> = 1.0..=1e6;
+
+fn step(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|step| STEPS_S.contains(step));
+    number.ok_or_else(|| format!("give seconds from {} to {}", STEPS_S.start(), STEPS_S.end()))
 }
 
 pub(crate) fn relative_error(text: &str) -> Result<f64, String> {

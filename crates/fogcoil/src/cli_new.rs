@@ -44,7 +44,7 @@ impl Kind {
             Self::Coil => "fogcoil sensitivity",
             Self::Cell => "fogcoil homogenize",
             Self::Targets => "fogcoil identify",
-            Self::Profile => "fogcoil simulate COIL.ron --out BIAS.csv --profile",
+            Self::Profile => "fogcoil simulate COIL.ron --step 30 --out BIAS.csv --profile",
         }
     }
 }

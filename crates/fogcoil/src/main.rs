@@ -20,6 +20,7 @@ use cli_check::Check;
 use coil::Drive;
 use fogcoil::cache::Cache;
 use fogcoil::glossary::Remark;
+use fogcoil::input::Between;
 use fogcoil::output::Content;
 use fogcoil::{Error, check, diagnose, figures, input, output, picture, report, sensitivity, simulate, summary, trim, wind};
 use progress::Progress;
@@ -126,13 +127,17 @@ fn run_check(arguments: &Check, progress: &Progress) -> Result<(), Error> {
 
 fn run_trim(coil: &Path, profile: Option<&Path>, json: bool, progress: &Progress) -> Result<(), Error> {
     let case = progress.read_coil(coil)?;
-    let profile = profile.map(|path| input::read_profile(path, &case.design)).transpose()?;
+    let mut profile = profile.map(|path| input::read_profile(path, &case.design)).transpose()?;
+    if let Some(profile) = &mut profile {
+        profile.divide(None)?;
+        profile.notes.iter().for_each(|note| progress.note(note));
+    }
     let result = progress.during("trimming", || trim::trim(&case, profile.as_ref()))?;
     output::print(&if json { line(&trim::json(&result)) } else { trim::text(&case, &result) })
 }
 
 fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> {
-    let Simulate { coil, profile, between, spool, spool_noise, out, report, json, no_cache } = arguments;
+    let Simulate { coil, profile, between, step, spool, spool_noise, out, report, json, no_cache } = arguments;
     let inputs: Vec<&Path> = [Some(coil), profile.as_ref(), spool.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
     output::check_distinct(&inputs, &[Some(out), report.as_deref()])?;
     let case = progress.read_coil(coil)?;
@@ -155,6 +160,10 @@ fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> 
             let mut profile =
                 progress.during(&format!("reading {}", profile.display()), || input::read_profile(profile, &case.design))?;
             profile.between = *between;
+            if step.is_some() && *between == Between::Cubic {
+                return Err(Error::Usage("--step adds rows on straight lines: it does not go with --between cubic".into()));
+            }
+            profile.divide(*step)?;
             (model(&profile.drives)?, profile)
         }
         (None, None) => return Err(Error::Usage("give a profile (--profile) or a thermometer's record (--spool)".into())),

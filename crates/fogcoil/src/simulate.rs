@@ -160,6 +160,7 @@ pub fn infer(record: SpoolCase, noise: f64, model: &Model) -> Result<ProfileCase
         notes,
         fingerprint,
         between: Between::Linear,
+        step: None,
     })
 }
 

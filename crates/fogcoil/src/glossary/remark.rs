@@ -55,6 +55,18 @@ remarks! {
         "In `coil.material` e_r is less than a ten-thousandth of e_z; potted coils have about a hundredth.",
         "The strain across the fibre, and with it the radial elasto-optic part, is far off.",
         "e_z is in GPa, e_r and g_zr are in MPa.";
+    OtherPitch "other-pitch":
+        "The cell that `FromCell` names has another pitch than the winding.",
+        "Stiffness and expansion are those of a coil wound more closely or more loosely than this one: the sensitivity may change by half.",
+        "Make the cell's `pitch_um` and the coil's `winding.pitch_mm` the same distance between neighbouring turns.";
+    BrokenPattern "broken-pattern":
+        "The number of layers is no multiple of the pattern's period: 2 of a dipole, 4 of a quadrupole, 8 of an octupole.",
+        "The two halves of the fibre are not balanced; the sensitivity may be several times as large.",
+        "Check `winding.layers` against the winding programme.";
+    SensorInMedium "sensor-in-medium":
+        "The thermometer is neither on the spool nor in the coil, but in the medium around them.",
+        "It reads the medium there, which follows the chamber faster than the spool does.",
+        "Give the place on the part that it is fixed to; after a change of the hub's thickness the bore is elsewhere.";
     AnisotropicCell "anisotropic-cell":
         "The cell that `FromCell` names is not isotropic across the fibre, as a coil's law is; the message says by how much strain energy.",
         "Its mean over all turns about the fibre is taken: right for a coil in which the cell's orientation varies.",
@@ -68,6 +80,10 @@ remarks! {
         "Rows of a profile lie closer together than the model resolves a jump.",
         "Means over such intervals are not reliable just after the chamber's temperature changes suddenly.",
         "Thin the profile out, or let the temperature change over some seconds.";
+    LongRows "long-rows":
+        "Rows of a profile last longer than a coil takes to answer.",
+        "A row's rate is the mean since the row before: peaks, and the slope on the thermometer's rate, come out too small.",
+        "Give `simulate` --step 30, which adds rows on the straight lines between them.";
     Kelvin "kelvin":
         "A profile's chamber_c never falls to what would be usual in degC: it may be in kelvin.",
         "Differences are right all the same; what depends on the temperature itself (transitions, bonds that open) is not.",

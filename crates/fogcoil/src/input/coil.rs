@@ -73,7 +73,12 @@ struct Cells<'a> {
     fingerprints: Vec<Fingerprint>,
     /// What was taken for something else.
     notes: Vec<String>,
+    /// Of the winding \[m\].
+    pitch: f64,
 }
+
+/// Largest relative difference between the pitches of cell and winding that passes without a word.
+const SAME_PITCH: f64 = 0.01;
 
 /// How far from transversely isotropic a coil's cell may be: a coil's law is.
 const MOST_ANISOTROPY: f64 = 0.01;
@@ -120,6 +125,7 @@ fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
         done: Vec::new(),
         fingerprints: vec![source.fingerprint()],
         notes: Vec::new(),
+        pitch: winding.spec().pitch,
     };
     let (constants, material) = material(&mut cells, &file.coil.material)?;
     let (dehomogenization, row) = dehomogenization(&mut cells, &file.dehomogenization)?;
@@ -135,7 +141,7 @@ fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
     let name = file.name;
     let provenance = Provenance { material, dehomogenization: row };
     let (file, fingerprints) = (path.to_owned(), cells.fingerprints);
-    let warnings = [cells.notes, warnings(&design, &winding)].concat();
+    let warnings = [cells.notes, warnings(&design, &layout, &winding)].concat();
     Ok(CoilCase { file, name, design, winding, provenance, fingerprints, warnings })
 }
 
@@ -243,11 +249,24 @@ impl Cells<'_> {
                     .fault(field, problem, "give a cell of hexagonal packing, or the constants themselves")
                     .into());
             }
-            AnyCell::Regular(case, _) => (case.homogenize()?.constants, case.fingerprint),
+            AnyCell::Regular(case, _) => {
+                self.compare_pitch(field, named, case.cell.pitch);
+                (case.homogenize()?.constants, case.fingerprint)
+            }
         };
         self.fingerprints.push(fingerprint);
         self.done.push((path.clone(), constants));
         Ok((path, constants))
+    }
+
+    /// Notes a cell that is not the winding's.
+    fn compare_pitch(&mut self, field: &str, named: &str, pitch: f64) {
+        if (pitch / self.pitch - 1.0).abs() > SAME_PITCH {
+            let (cell, winding) = (1e3 * to_mm(pitch), 1e3 * to_mm(self.pitch));
+            self.notes.push(Remark::OtherPitch.says(format!(
+                "{field}: the cell {named:?} has a pitch of {cell:.2} um, the winding (winding.pitch_mm) one of {winding:.2} um; is this meant?"
+            )));
+        }
     }
 
     /// The nearest transversely isotropic constants of a general cell, with a note of how far they are.

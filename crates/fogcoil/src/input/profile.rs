@@ -25,6 +25,9 @@ const SHORTEST_S: f64 = 1e-6;
 /// Rows closer than this \[s\] are noted: the model's fastest modes last about as long, and what a jump does within it is not resolved.
 const RESOLVED_S: f64 = 1.0;
 
+/// Rows longer than this \[s\] are noted: what a coil does within them is averaged away.
+const COARSE_S: f64 = 120.0;
+
 /// How a profile's drives run between its rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
 pub enum Between {
@@ -60,6 +63,8 @@ pub struct ProfileCase {
     pub fingerprint: Fingerprint,
     /// How the drives run between its rows.
     pub between: Between,
+    /// Longest part \[s\] into which its rows were divided, if they were.
+    pub step: Option<f64>,
 }
 
 /// How well a thermometer's record determines the chamber's course.
@@ -79,6 +84,44 @@ impl ProfileCase {
     /// Temperature of the chamber at every instant \[°C\].
     pub fn chamber(&self) -> &[f64] {
         &self.profile.drives[0]
+    }
+
+    /// Divides the intervals between rows into equal parts of `step` seconds at most, on the straight lines between them. A profile whose
+    /// rows last long is noted.
+    ///
+    /// # Errors
+    /// If these are too many rows.
+    pub fn divide(&mut self, step: Option<f64>) -> Result<(), InputError> {
+        let time = &self.profile.time;
+        let parts = |pair: &[f64]| step.map_or(1.0, |step| ((pair[1] - pair[0]) / step - 1e-9).ceil().max(1.0));
+        let rows = 1.0 + time.windows(2).map(parts).sum::<f64>();
+        if rows > MOST_ROWS as f64 {
+            let problem = format!("has {rows:.0} rows with this --step, more than {MOST_ROWS}");
+            let (file, remedy) = (self.fingerprint.file.clone(), "give a longer step".to_owned());
+            return Err(InputError { file, line: None, field: None, problem, remedy });
+        }
+        let parts: Vec<usize> = time.windows(2).map(|pair| parts(pair) as usize).collect();
+        let divided = |values: &[f64]| -> Vec<f64> {
+            let between = parts.iter().zip(values.windows(2)).flat_map(|(&parts, pair)| {
+                // the rows themselves keep their bits
+                let at = move |part: usize| pair[0] + (pair[1] - pair[0]) * (part as f64 / parts as f64);
+                (1..=parts).map(move |part| if part == parts { pair[1] } else { at(part) })
+            });
+            values.first().copied().into_iter().chain(between).collect()
+        };
+        self.profile = Profile {
+            drives: self.profile.drives.iter().map(|course| divided(course)).collect(),
+            time: divided(&self.profile.time),
+        };
+        self.step = step;
+        let longest = self.profile.time.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        if longest > COARSE_S {
+            let problem = format!(
+                "rows last up to {longest:.0} s, and a row's rate is its mean: peaks within it do not show; give --step 30"
+            );
+            self.notes.push(Remark::LongRows.says(format!("{}: {problem}", self.fingerprint.file.display())));
+        }
+        Ok(())
     }
 }
 
@@ -130,6 +173,7 @@ fn read(mut rows: Rows, path: &Path, design: &Design) -> Result<ProfileCase, Inp
         notes,
         fingerprint: rows.fingerprint(),
         between: Between::Linear,
+        step: None,
     })
 }
 

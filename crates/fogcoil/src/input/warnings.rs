@@ -1,7 +1,7 @@
 //! What a coil file may say but rarely means.
 
-use coil::Design;
-use winding::{Half, Winding};
+use coil::{Design, Layout, Region};
+use winding::{Half, Pattern, Winding};
 
 use crate::glossary::Remark;
 use crate::units::to_mm;
@@ -9,8 +9,18 @@ use crate::units::to_mm;
 /// Room between winding and rectangle that a drawing leaves, in pitches.
 const ROOM: f64 = 1.0;
 
+/// Layers after which a pattern begins anew.
+fn period(pattern: Pattern) -> usize {
+    match pattern {
+        Pattern::Cylindrical => 1,
+        Pattern::Dipole => 2,
+        Pattern::Quadrupole | Pattern::PracticalQuadrupole => 4,
+        Pattern::Octupole => 8,
+    }
+}
+
 /// A line for each thing that is allowed but looks like a mistake.
-pub(crate) fn warnings(design: &Design, winding: &Winding) -> Vec<String> {
+pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> Vec<String> {
     let mut lines = Vec::new();
     let (body, pitch) = (&design.body, design.winding.pitch);
     let mut unfilled = |what: &str, field: &str, body: f64, winding: f64| {
@@ -29,6 +39,22 @@ pub(crate) fn warnings(design: &Design, winding: &Winding) -> Vec<String> {
         let message =
             format!("optics.sagnac_diameter_mm: {sagnac} mm lies outside the coil, {inner:.3} to {outer:.3} mm; is this meant?");
         lines.push(Remark::SagnacOutside.says(message));
+    }
+    let (pattern, layers) = (design.winding.pattern, design.winding.layers);
+    let period = period(pattern);
+    if layers % period != 0 {
+        let message = format!(
+            "winding.layers: {layers} layers are no whole number of the {period} after which a {pattern:?} begins anew: the halves of the \
+             fibre lie differently; is this meant?"
+        );
+        lines.push(Remark::BrokenPattern.says(message));
+    }
+    let sensor = design.sensor;
+    if layout.region(sensor.radius, sensor.y) == Region::Medium {
+        let (radius, y) = (to_mm(sensor.radius), to_mm(sensor.y));
+        let message =
+            format!("sensor: radius {radius:.3} mm, y {y:.3} mm is in the medium, on no part of spool or coil; is this meant?");
+        lines.push(Remark::SensorInMedium.says(message));
     }
     let tails = design.winding.tails;
     if tails.cw.max(tails.ccw) > winding.wound_length() / 2.0 {

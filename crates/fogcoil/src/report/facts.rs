@@ -128,6 +128,7 @@ pub(super) fn sources(out: &mut String, simulation: &Simulation) {
         Between::Cubic => "cubic",
     };
     let mut options = vec![row("between rows", between)];
+    options.extend(simulation.profile.step.map(|step| row("rows divided", format!("into parts of {step} s at most"))));
     options.extend(inferred.map(|found| row("noise of the thermometer", format!("{} K", found.noise))));
     provenance(out, "simulate", &files, &options);
 }

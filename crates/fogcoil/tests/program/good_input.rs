@@ -154,6 +154,12 @@ fn constants_and_row_from_a_cell() {
     assert_eq!((case.design.body.conductivity_z, case.design.body.conductivity_r), (expected.k_z, expected.k_r));
     assert_eq!(case.design.dehomogenization.m_rt, expected.m_rt);
     assert_eq!(case.provenance.dehomogenization, Origin::Cell(cell_path));
+    assert_eq!(case.warnings, [""; 0]);
+    folder.write("cells/cell.ron", change(CELL, "pitch_um: 170.0", "pitch_um: 172.0"));
+    let [warning] = &read_coil(&folder.path("coil.ron")).unwrap().warnings[..] else {
+        panic!("one warning, though it is named twice")
+    };
+    assert!(warning.contains("172.00 um") && warning.ends_with("[other-pitch]"), "{warning}");
     let printed = read_coil(&folder.write("coil.ron", change(COIL, matrix, "Printed"))).unwrap();
     assert_eq!(printed.design.dehomogenization.m_rx, 2.74e-6);
     assert_eq!(printed.provenance.dehomogenization, Origin::Printed);
@@ -226,6 +232,8 @@ fn what_looks_like_a_mistake_is_said_and_not_refused() {
         ("height_mm: 18.02", "height_mm: 25.0", "coil.height_mm"),
         ("sagnac_diameter_mm: 92.325", "sagnac_diameter_mm: 0.092325", "optics.sagnac_diameter_mm"),
         ("tails_m: (cw: 0.0", "tails_m: (cw: 2000.0", "winding.tails_m"),
+        ("layers: 36", "layers: 35", "[broken-pattern]"),
+        ("hub_thickness_mm: 4.0", "hub_thickness_mm: 3.9", "[sensor-in-medium]"),
     ] {
         folder.write("coil.ron", change(COIL, old, new));
         let output = folder.run(&["wind", "coil.ron"]);

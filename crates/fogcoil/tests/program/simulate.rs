@@ -37,6 +37,37 @@ fn rows(table: &str) -> Vec<[f64; 7]> {
     lines.map(row).collect()
 }
 
+/// Rows on the straight lines of a profile are those of a profile that has them.
+#[test]
+fn long_rows_are_noted_and_can_be_divided() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    folder.write("long.csv", "time_s,chamber_c\n0,20\n3600,80\n");
+    folder.write("short.csv", ramp());
+    let run = |arguments: &[&str]| {
+        let output = folder.run(&[&["simulate", "coil.ron", "--out", "b.csv"], arguments].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        (std::fs::read_to_string(folder.path("b.csv")).unwrap(), stderr(&output))
+    };
+    let (short, silent) = run(&["--profile", "short.csv"]);
+    let (divided, also_silent) = run(&["--profile", "long.csv", "--step", "60"]);
+    let (long, noted) = run(&["--profile", "long.csv"]);
+    let far = |(a, b): (&[f64; 7], &[f64; 7])| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let (divided, short) = (rows(&divided), rows(&short));
+    assert!(divided.len() == short.len() && divided.iter().zip(&short).map(far).fold(0.0, f64::max) < 1e-9);
+    assert_eq!(rows(&long).len(), 2);
+    assert!(noted.contains("[long-rows]") && !(silent + &also_silent).contains("long-rows"), "{noted}");
+    let refused = |more: &[&str]| {
+        let output = folder.run(&[&["simulate", "coil.ron", "--profile", "long.csv", "--out", "c.csv"], more].concat());
+        assert_eq!(output.status.code(), Some(2));
+        stderr(&output)
+    };
+    assert!(refused(&["--step", "60", "--between", "cubic"]).contains("does not go with --between cubic"));
+    assert!(refused(&["--step", "0"]).contains("give seconds from 1 to"));
+    folder.write("long.csv", "time_s,chamber_c\n0,20\n1e12,80\n");
+    assert!(refused(&["--step", "30"]).contains("long.csv: has 33333333335 rows with this --step"));
+}
+
 #[test]
 fn a_row_for_every_instant_and_a_summary() {
     let folder = Folder::new();
