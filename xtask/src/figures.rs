@@ -8,7 +8,7 @@ use fogcoil::{figures, input, picture, picture_cell, simulate};
 use homogenization::fields::{Component, Convention, Fields, Load};
 use homogenization::irregular::{Arrangement, Cell};
 
-use crate::validate::{Failure, PRINTED, on_spools, over_spools};
+use crate::validate::{Failure, on_spools, over_spools, printed};
 
 const COIL: &str = "fixtures/coil-reference.ron";
 const PROFILE: &str = "fixtures/profiles/paper.csv";
@@ -26,7 +26,8 @@ pub(crate) fn run(folder: &Path) -> Result<bool, Failure> {
     documents.push(figures::convergence(&case)?);
     documents.push(("winding", picture::svg(&case.name, &case.winding)));
     documents.push(("cell", cell()?));
-    documents.push(figures::spools(&on_spools(&over_spools()?), PRINTED));
+    let (label, value) = printed()?;
+    documents.push(figures::spools(&on_spools(&over_spools()?), (&label, value)));
     documents.push(figures::signatures(&case, &Cache::of_user())?);
     std::fs::create_dir_all(folder)?;
     for (name, svg) in documents {

@@ -11,7 +11,7 @@ mod spread;
 mod winding;
 
 pub(crate) use fixtures::root;
-pub(crate) use page::{PRINTED, on_spools};
+pub(crate) use page::{on_spools, printed};
 pub(crate) use report::write;
 
 use fixtures::Fixtures;
@@ -74,7 +74,7 @@ pub(crate) fn run(json: Option<&Path>, html: Option<&Path>) -> Result<bool, Fail
     println!("{}", report::text(&sections));
     report::write_documents(&sections)?;
     if let Some(path) = json {
-        report::write_json(&sections, failed.is_empty(), path)?;
+        write(path, &format!("{:#}\n", report::json(&sections, failed.is_empty())))?;
     }
     if let Some(path) = html {
         write(path, &page::html(&sections)?)?;

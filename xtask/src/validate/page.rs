@@ -7,6 +7,7 @@ use fogcoil::input::Fingerprint;
 use fogcoil::picture::escape;
 use fogcoil::report::{Cells, facts, grid, nice, page, provenance, row};
 
+use super::fixtures::Fixtures;
 use super::report::{kind, verdict};
 use super::row::{Row, Verdict};
 use super::{Failure, Section, fixtures};
@@ -47,7 +48,7 @@ pub(super) fn html(sections: &[Section]) -> Result<String, Failure> {
     let words: Vec<_> = WORDS.iter().map(|(word, meaning)| row(word, *meaning)).collect();
     facts(&mut out, "Words", &words);
     for section in sections {
-        one(&mut out, section);
+        one(&mut out, section)?;
     }
     let read = |(role, file): (&'static str, &'static str)| {
         let content = std::fs::read(fixtures::root().join(file)).map_err(|e| Failure(format!("{file}: {e}")))?;
@@ -85,7 +86,7 @@ fn summary(out: &mut String, sections: &[Section]) {
     grid(out, "Rows by verdict", Cells::Words, &["table", "hold", "differ", "fail", "are shown"], &lines);
 }
 
-fn one(out: &mut String, section: &Section) {
+fn one(out: &mut String, section: &Section) -> Result<(), Failure> {
     let _ = writeln!(out, "<h2>{}</h2>", escape(&section.title));
     for note in &section.notes {
         let _ = writeln!(out, "<p>{}</p>", escape(&nice(note)).replace(['`', '*'], ""));
@@ -105,12 +106,17 @@ fn one(out: &mut String, section: &Section) {
     let head = ["quantity", "printed", "computed", "unit", "verdict", "kind", "reason"];
     grid(out, &format!("{}, row by row", section.title), Cells::Words, &head, &lines);
     if !section.lines.is_empty() {
-        out.push_str(&spools_element(&on_spools(&section.lines), PRINTED));
+        let (label, value) = printed()?;
+        out.push_str(&spools_element(&on_spools(&section.lines), (&label, value)));
     }
+    Ok(())
 }
 
-/// |S| of the paper's theoretical model (Table IV), (deg/h)/(degC/min).
-pub(crate) const PRINTED: (&str, f64) = ("printed, Table IV: 2.71", 2.71);
+/// |S| of the paper's theoretical model (Table IV), (deg/h)/(degC/min), and its label.
+pub(crate) fn printed() -> Result<(String, f64), Failure> {
+    let row = Fixtures::read()?.printed("IV.theory")?.clone();
+    Ok((format!("printed, Table {}: {}", row.table, row.printed), row.printed.parse()?))
+}
 
 /// Lines of the comparison of spools, "material, hub, flanges".
 pub(crate) fn on_spools(lines: &[(String, f64)]) -> Vec<OnSpool> {
@@ -119,4 +125,47 @@ pub(crate) fn on_spools(lines: &[(String, f64)]) -> Vec<OnSpool> {
         OnSpool { material: material.into(), mounting: mounting.into(), sensitivity: *sensitivity }
     };
     lines.iter().map(one).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::validate::row::{Kind, Row};
+
+    /// Two rows and a comparison of spools.
+    fn sections() -> [Section; 1] {
+        let row = Row {
+            id: "IV.theory".into(),
+            quantity: "S of <a> & b".into(),
+            printed: Some("2.71".into()),
+            computed: -2.7335,
+            numerical_error: 1.4e-3,
+            unit: "(deg/h)/(degC/min)".into(),
+            verdict: Verdict::Shown,
+            kind: Kind::Calibrated,
+            must_hold: false,
+            reason: String::new(),
+        };
+        let mut section = Section::new("Table IV");
+        section.note("`Notes` stand *above*.");
+        section.rows = vec![row.clone(), Row { printed: None, ..row }.required(true)];
+        section.lines = vec![("aluminium, 2 mm hub, two flanges".into(), -1.0), ("steel, 4 mm hub, none".into(), 3.5)];
+        [section]
+    }
+
+    #[test]
+    fn the_page_is_whole() {
+        let page = html(&sections()).unwrap();
+        assert_eq!(fogcoil::report::faults(&page), [""; 0]);
+        assert!(page.contains("−2.7335 ± 1.4e−3"), "{page}");
+        assert!(page.contains("printed, Table IV: 2.71") && page.contains("1 of 1 rows that must hold do"));
+    }
+
+    #[test]
+    fn the_json_keeps_its_schema() {
+        let schema = std::fs::read_to_string(fixtures::root().join("docs/schema/validate.schema.json")).unwrap();
+        let schema = serde_json::from_str(&schema).unwrap();
+        let json = crate::validate::report::json(&sections(), true);
+        assert_eq!(fogcoil::schema::misfit(&json, &schema), None);
+    }
 }

@@ -154,9 +154,7 @@ pub(crate) fn write_documents(sections: &[Section]) -> Result<(), Failure> {
 }
 
 /// The rows as JSON (docs/schema/validate.schema.json).
-pub(crate) fn write_json(sections: &[Section], holds: bool, path: &Path) -> Result<(), Failure> {
+pub(crate) fn json(sections: &[Section], holds: bool) -> serde_json::Value {
     let rows: Vec<&Row> = sections.iter().flat_map(|s| &s.rows).collect();
-    let json = serde_json::json!({ "version": env!("CARGO_PKG_VERSION"), "holds": holds, "rows": rows });
-    let text = serde_json::to_string_pretty(&json).map_err(|e| Failure(e.to_string()))?;
-    write(path, &(text + "\n"))
+    serde_json::json!({ "version": env!("CARGO_PKG_VERSION"), "holds": holds, "rows": rows })
 }

@@ -5,6 +5,7 @@ mod data;
 mod facts;
 mod provenance;
 mod tables;
+mod whole;
 
 use coil::TurnFields;
 
@@ -18,6 +19,7 @@ use crate::table::significant;
 pub(crate) use data::with_data;
 pub use provenance::provenance;
 pub use tables::{Cells, facts, grid, nice, row};
+pub use whole::faults;
 
 /// Parts of the bias, in words.
 const PARTS: [(&str, &str); 3] =
