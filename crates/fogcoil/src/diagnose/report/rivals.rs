@@ -33,9 +33,9 @@ impl Outcome {
         let rows: Vec<Vec<String>> = rows.into_iter().map(|(_, row)| row).collect();
         let _ = writeln!(
             out,
-            "<h3>Rivals</h3>\n<p>What else could it be? Of each rival the most probable hypothesis that does without {}, and the evidence against \
-             it: ln of the odds of the one over the other, by the records that were fitted, with the priors counted in. A mechanism is \
-             excluded from {:.1} on.</p>",
+            "<h3>Rivals</h3>\n<p>What else could it be? Of each rival the most probable hypothesis that does without what leads, {}, and the \
+             evidence against it: ln of the odds of the one over the other, by the records that were fitted, with the priors counted in. A \
+             mechanism is excluded from {:.1} on.</p>",
             escape(&name),
             -Settings::default().excluded.ln(),
         );
