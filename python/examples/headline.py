@@ -14,6 +14,10 @@ import numpy as np
 
 import fogcoil
 
+# a notebook has arguments of its own
+folder = Path(sys.argv[1]) if len(sys.argv) == 2 and "ipykernel" not in sys.modules else Path.cwd()
+if not folder.is_dir():
+    sys.exit(f"{folder}: is no folder; make it, or give another")
 fixtures = Path(__file__).resolve().parents[2] / "fixtures"
 coil = fogcoil.Coil(fixtures / "coil-reference.ron")
 profile = np.genfromtxt(fixtures / "profiles" / "paper.csv", delimiter=",", names=True)
@@ -71,6 +75,5 @@ sweep.axvline(float(coil["spool.hub_thickness_mm"]), color="0.6", linewidth=0.8)
 sweep.set_xlabel("thickness of the hub [mm]")
 sweep.set_ylabel("sensitivity [(°/h)/(°C/min)]")
 
-folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path.cwd()
 figure.savefig(folder / "headline.svg")
 figure.savefig(folder / "headline.png", dpi=150)

@@ -16,8 +16,15 @@ struct Text {
     text: String,
 }
 
-/// What a text is called that is not the content of a file.
-const UNSAVED: &str = "RON text";
+/// What a text is called that is not the content of a file, in the folder that its own paths are relative to.
+const UNSAVED: &str = "the text";
+/// What is behind the name of a file whose values were replaced.
+const ALTERED: &str = " (altered)";
+
+/// What messages call a path: a text is in no folder.
+pub(crate) fn called(path: &Path) -> &Path {
+    if path.file_name().is_some_and(|name| name == UNSAVED) { Path::new(UNSAVED) } else { path }
+}
 
 impl Text {
     /// A path, or a RON text: what starts with a bracket or has more than one line.
@@ -52,9 +59,12 @@ impl Text {
             let (field, value): (String, Bound<PyAny>) = item.extract()?;
             values.push((field, ron(&value)?));
         }
-        let path = self.folder().join(UNSAVED);
         let text = input::with_fields(&self.path, &self.text, &values).map_err(raised)?;
-        Ok(Self { path, text })
+        let mut name = self.path.file_name().unwrap_or_default().to_os_string();
+        if name != UNSAVED && !name.to_string_lossy().ends_with(ALTERED) {
+            name.push(ALTERED);
+        }
+        Ok(Self { path: self.path.with_file_name(name), text })
     }
 
     fn folder(&self) -> &Path {
@@ -94,7 +104,7 @@ impl Coil {
 
     fn of(py: Python, text: Text) -> PyResult<Self> {
         let coil = Self::checked(py, text)?;
-        warn(py, &format!("{}: ", coil.text.path.display()), &coil.case.warnings)?;
+        warn(py, &format!("{}: ", called(&coil.text.path).display()), &coil.case.warnings)?;
         Ok(coil)
     }
 
@@ -131,12 +141,16 @@ impl Coil {
         self.text.get(py, field)
     }
 
+    /// The design with other values, `{"spool.hub_thickness_mm": 3.0}`; all are put in before it is checked.
+    ///
+    /// Values are numbers, booleans, or a string of RON: `{"winding.cw_climbs": "Left", "name": '"thin hub"'}`. A field that may be left
+    /// out, and is, is added. Raises InputError.
     fn replace(&self, py: Python, changes: &Bound<PyMapping>) -> PyResult<Self> {
         Self::of(py, self.text.replace(changes)?)
     }
 
     fn __repr__(&self) -> String {
-        format!("<Coil {:?} from {}>", self.case.name, self.text.path.display())
+        format!("<Coil {:?} from {}>", self.case.name, called(&self.text.path).display())
     }
 
     fn __getnewargs__(&self) -> (&str, &Path) {
@@ -183,12 +197,13 @@ impl Cell {
         self.text.get(py, field)
     }
 
+    /// The cell with other values, `{"pitch_um": 172.0}`; all are put in before it is checked. As `Coil.replace`.
     fn replace(&self, changes: &Bound<PyMapping>) -> PyResult<Self> {
         Self::of(self.text.replace(changes)?)
     }
 
     fn __repr__(&self) -> String {
-        format!("<Cell {:?} from {}>", self.name(), self.text.path.display())
+        format!("<Cell {:?} from {}>", self.name(), called(&self.text.path).display())
     }
 
     fn __getnewargs__(&self) -> (&str, &Path) {

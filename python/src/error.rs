@@ -2,9 +2,11 @@
 
 use std::ffi::CString;
 
-use fogcoil::Error;
+use fogcoil::{Error, input};
 use pyo3::exceptions::{PyRuntimeError, PyUserWarning, PyValueError};
 use pyo3::{PyErr, PyResult, Python, create_exception};
+
+use crate::case::called;
 
 create_exception!(
     fogcoil,
@@ -16,6 +18,12 @@ create_exception!(
 /// `InputError` where the user can mend it, else `RuntimeError`; the message is the program's.
 pub(crate) fn raised(error: impl Into<Error>) -> PyErr {
     let error = error.into();
+    let error = match error {
+        Error::Input(at) => Error::Input(input::InputError { file: called(&at.file).to_owned(), ..at }),
+        Error::Coil { file, source } => Error::Coil { file: called(&file).to_owned(), source },
+        Error::Homogenization { file, source } => Error::Homogenization { file: called(&file).to_owned(), source },
+        other => other,
+    };
     match error.exit_code() {
         2 => InputError::new_err(error.to_string()),
         _ => PyRuntimeError::new_err(error.to_string()),

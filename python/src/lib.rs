@@ -16,4 +16,10 @@ mod _native {
     use crate::compute::{diagnose, homogenize, sensitivity, simulate, wind};
     #[pymodule_export]
     use crate::error::InputError;
+    use pyo3::prelude::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
 }

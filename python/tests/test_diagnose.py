@@ -45,6 +45,9 @@ def test_a_concealed_drift_is_found_and_the_extended_design_simulates(coil: fogc
     found = fogcoil.diagnose(design, [fit], [held], progress=tasks.append)
     assert found["verdict"] == "explained" and found["set"] == ["rate-temperature-coefficient"]
     assert found["located"]["stage"] == "electronics" and "rate-temperature-coefficient" in found["text"] and tasks
+    # each task as it begins, and its tenths
+    names = [task.rsplit(" (", 1)[0] if task.endswith(")") and " of " in task else task for task in tasks]
+    assert len(set(names)) > 5 and max(map(names.count, names)) <= 11, tasks
     drift = found["parameters"]["coefficient_deg_per_h_per_k"]
     assert drift["ci90"][0] < drift["value"] < drift["ci90"][1] and abs(drift["value"] - DRIFT) < 1e-4
     prediction, holdout, model = found["prediction"], found["holdout"], found["model"]

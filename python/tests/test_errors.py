@@ -23,10 +23,11 @@ def said(call: Callable[[], object]) -> str:
 def test_a_design_that_cannot_be_used_is_named_with_line_and_remedy(coil: fogcoil.Coil, fixtures: Path, tmp_path: Path) -> None:
     assert "cannot be read" in said(lambda: fogcoil.wind(tmp_path / "none.ron"))
     assert "is a directory" in said(lambda: fogcoil.homogenize(str(tmp_path)))
-    assert "RON text:2: " in said(lambda: fogcoil.Coil("(\n  nome: 1,\n)"))
+    assert said(lambda: fogcoil.Coil("(\n  nome: 1,\n)", folder=fixtures)).startswith("the text:2: ")
+    assert "the text:2: " in said(lambda: fogcoil.Coil("(\n  nome: 1,\n)"))
     assert "folder" in said(lambda: fogcoil.Coil(fixtures / "coil-reference.ron", folder=fixtures))
     thin = said(lambda: coil.replace({"spool.hub_thickness_mm": -1.0}))
-    assert "RON text:29: spool.hub_thickness_mm: -1 is not greater than 0; give the value in mm" in thin
+    assert "coil-reference.ron (altered):29: spool.hub_thickness_mm: -1 is not greater than 0; give the value in mm" in thin
     assert "there is spool.hub_thickness_mm" in said(lambda: coil.replace({"spool.hub_thickness": 1.0}))
     assert "is no field here" in said(lambda: coil["spool.hub"])
     assert "is no value" in said(lambda: coil.replace({"spool": [1, 2]}))  # type: ignore[dict-item]

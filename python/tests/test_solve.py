@@ -83,6 +83,13 @@ def test_designs_are_altered_in_sweeps_and_threads(coil: fogcoil.Coil, fixtures:
     assert fogcoil.Coil(coil.text, folder=fixtures).text == coil.text
 
 
+def test_the_package_says_its_version_and_what_replace_does(fixtures: Path) -> None:
+    manifest = (fixtures.parent / "Cargo.toml").read_text()
+    assert f'version = "{fogcoil.__version__}"' in manifest
+    for kind in (fogcoil.Coil, fogcoil.Cell):
+        assert kind.replace.__doc__ and "other values" in kind.replace.__doc__
+
+
 def test_other_threads_run_while_a_coil_is_solved(coil: fogcoil.Coil) -> None:
     ticks: list[float] = []
     done = threading.Event()

@@ -48,6 +48,27 @@ pub fn to_ppm(ratio: f64) -> f64 {
     ratio * 1e6
 }
 
+/// The unit of a mechanism's parameter, by the end of its name; 1 if it has none.
+pub(crate) fn parameter_unit(name: &str) -> &'static str {
+    const UNITS: [(&str, &str); 13] = [
+        ("_m2k_per_w", "m² K/W"),
+        ("_w_per_m2k", "W/(m² K)"),
+        ("deg_per_h_per_k_per_h", "(deg/h)/(K/h)"),
+        ("_deg_per_h_per_k", "(deg/h)/K"),
+        ("_deg_per_h", "deg/h"),
+        // of what is relative already
+        ("_per_k2_relative", "1/K"),
+        ("_per_k2", "1/K²"),
+        ("_per_k", "1/K"),
+        ("_m", "m"),
+        ("_c", "degC"),
+        ("_k", "K"),
+        ("_s", "s"),
+        ("_w", "W"),
+    ];
+    UNITS.iter().find(|(end, _)| name.ends_with(end)).map_or("1", |(_, unit)| unit)
+}
+
 /// A unit of a recording's column: value in the standard unit = scale · value + offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ColumnUnit {

@@ -14,7 +14,7 @@ of the program's own. Other threads run while anything is computed, so that ``co
 """
 
 from fogcoil._diagnose import Diagnosis, Record, diagnose
-from fogcoil._native import Cell, Coil, InputError
+from fogcoil._native import Cell, Coil, InputError, __version__
 from fogcoil._solve import Sensitivity, Simulation, homogenize, sensitivity, simulate, wind
 
 __all__ = [
@@ -25,6 +25,7 @@ __all__ = [
     "Record",
     "Sensitivity",
     "Simulation",
+    "__version__",
     "diagnose",
     "homogenize",
     "sensitivity",

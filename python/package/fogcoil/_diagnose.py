@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Callable, Sequence
 from typing import Any, TypedDict, Union, cast
 
@@ -60,18 +61,34 @@ def diagnose(
 ) -> Diagnosis:
     """Which mechanism explains why recordings of one unit differ from its design, fitted to ``fit`` and judged on ``holdout``.
 
-    ``meta`` is the path of a meta file; without it, ``meta.ron`` beside a CSV is read. ``progress`` (e.g. ``print``) is called with what is
-    being done. The first diagnosis of a design takes half a minute longer; with ``cache`` its models are kept on disk.
+    ``meta`` is the path of a meta file; without it, ``meta.ron`` beside a CSV is read. ``progress`` (e.g. ``print``) is called with
+    what is being done, and at each tenth of a long task. The first diagnosis of a design takes half a minute longer; with ``cache`` its models are kept on disk.
     """
     fits = [record(f"fit[{n}]", given) for n, given in enumerate(sequence("fit", fit))]
     held = [record(f"holdout[{n}]", given) for n, given in enumerate(sequence("holdout", holdout))]
     if not fits:
         raise InputError("fit: no record is given; give at least one")
     code = CODE if cache else None
-    found, text, prediction, model = _native.diagnose(coil_of(coil), fits, held, meta, code, progress)
+    told = None if progress is None else by_tenths(progress)
+    found, text, prediction, model = _native.diagnose(coil_of(coil), fits, held, meta, code, told)
     result: dict[str, Any] = json.loads(found)
     result.update(text=text, prediction=None if prediction is None else arrays(prediction), model=model)
     return cast(Diagnosis, result)
+
+
+def by_tenths(progress: Callable[[str], object]) -> Callable[[str], None]:
+    """Tells ``progress`` a task as it begins, and again at each tenth of one that is counted, ``task (k of n)``."""
+    last = ("", 0)
+
+    def told(task: str) -> None:
+        nonlocal last
+        counted = re.fullmatch(r"(.*) \((\d+) of (\d+)\)", task)
+        name, tenth = (counted[1], 10 * int(counted[2]) // int(counted[3])) if counted else (task, 0)
+        if name != last[0] or tenth > last[1]:
+            last = (name, tenth)
+            progress(task)
+
+    return told
 
 
 def sequence(name: str, records: Sequence[Record]) -> list[Record]:

@@ -12,6 +12,8 @@ Columns = list[tuple[str, bytearray]]
 Table = list[tuple[str, list[float]]]
 Record = tuple[str, Union[Table, None]]
 
+__version__: str
+
 class InputError(ValueError):
     """An input that cannot be used: what is wrong, where (``file:line: field``), and how to mend it."""
 
@@ -39,9 +41,10 @@ class Coil:
     def __getitem__(self, field: str) -> float | int | bool | str:
         """A value: a number, a boolean, or RON text as it stands."""
     def replace(self, changes: Mapping[str, Value]) -> Coil:
-        """The design with other values; all are put in before it is checked.
+        """The design with other values, ``{"spool.hub_thickness_mm": 3.0}``; all are put in before it is checked.
 
-        A string is RON: ``{"winding.cw_climbs": "Left", "name": '"thin hub"'}``. A field that may be left out, and is, is added.
+        Values are numbers, booleans, or a string of RON: ``{"winding.cw_climbs": "Left", "name": '"thin hub"'}``. A field that may be left
+        out, and is, is added. Raises :class:`InputError`.
         """
 
 class Cell:
@@ -57,7 +60,7 @@ class Cell:
     def __getitem__(self, field: str) -> float | int | bool | str:
         """A value: a number, a boolean, or RON text as it stands."""
     def replace(self, changes: Mapping[str, Value]) -> Cell:
-        """The cell with other values; all are put in before it is checked."""
+        """The cell with other values, ``{"pitch_um": 172.0}``; all are put in before it is checked. As :meth:`Coil.replace`."""
 
 def homogenize(cell: Cell, tolerance: float, temperature_c: float | None) -> str: ...
 def wind(coil: Coil) -> tuple[list[str], list[int], list[int], Columns]: ...

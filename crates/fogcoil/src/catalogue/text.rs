@@ -6,6 +6,7 @@ use diagnosis::{Prior, Settings};
 
 use super::{Catalogue, Entry, Told};
 use crate::table::significant;
+use crate::units::parameter_unit;
 
 /// Rivals in a page's table.
 const NEAREST: usize = 5;
@@ -20,22 +21,6 @@ fn prior(prior: Option<&Prior>) -> String {
         }
         Some(Prior::Uniform { low, high }) => format!("uniform, {} to {}", n(*low), n(*high)),
     }
-}
-
-/// Splits a name like `tau_s` into itself and its unit.
-fn unit(name: &str) -> &'static str {
-    const UNITS: [(&str, &str); 9] = [
-        ("_m2k_per_w", "m² K/W"),
-        ("_w_per_m2k", "W/(m² K)"),
-        ("_deg_per_h_per_k", "(deg/h)/K"),
-        ("_per_k2", "1/K²"),
-        ("_m", "m"),
-        ("_c", "°C"),
-        ("_k", "K"),
-        ("_s", "s"),
-        ("_w", "W"),
-    ];
-    UNITS.iter().find(|(end, _)| name.ends_with(end)).map_or("1", |(_, unit)| unit)
 }
 
 fn odds(told: Told) -> String {
@@ -58,7 +43,7 @@ impl Catalogue {
                 out,
                 "| `{}` | {} | {} | {} |",
                 row.name,
-                unit(&row.name),
+                parameter_unit(&row.name).replace("degC", "°C"),
                 prior(row.prior.as_ref()),
                 significant(row.typical, 3)
             );

@@ -46,7 +46,8 @@ impl<'a> Allan<'a> {
                 y: Axis::logarithmic("Allan deviation [°/h]"),
                 height: Height::Lines(24.0),
                 content: Content::Lines(vec![
-                    self.ends(),
+                    self.curve(&format!("{:.0} % interval", 100.0 * CONFIDENCE), Style::Third, |_, point| point.low),
+                    self.curve("", Style::Third, |_, point| point.high),
                     self.curve("fitted model", Style::Marked(1), |allan, point| {
                         allan.model.allan_deviation(point.tau, allan.interval)
                     }),
@@ -54,17 +55,6 @@ impl<'a> Allan<'a> {
                 ]),
             }],
         })
-    }
-
-    /// Out along the lower ends, back along the upper.
-    fn ends(self) -> Series<'a> {
-        let count = self.points.len();
-        let at = move |n: usize| {
-            let point = self.points[n.min(2 * count - 1 - n)];
-            (point.tau, if n < count { point.low } else { point.high })
-        };
-        let name = format!("{:.0} % interval", 100.0 * CONFIDENCE);
-        Series { name, style: Style::Third, count: 2 * count, at: Box::new(at), thinning: Thinning::Distance }
     }
 
     fn curve(self, name: &str, style: Style, of: fn(&Self, &AllanPoint) -> f64) -> Series<'a> {

@@ -7,7 +7,7 @@ use recording::check::{Finding, Severity};
 use recording::noise::{StandardErrors, Term};
 
 use super::{Analysis, GyroNoise};
-use crate::glossary::Remark;
+use crate::glossary::{Remark, WARNING};
 use crate::input::RecordCase;
 use crate::table::{significant, table};
 use crate::units::DurationUnit;
@@ -17,7 +17,7 @@ const MOST_ALIKE: usize = 8;
 
 /// What is wrong with a recording, line by line; empty if nothing is.
 pub fn warnings(case: &RecordCase) -> String {
-    let mut out = String::new();
+    let mut out: String = case.notes.iter().filter(|note| note.starts_with(WARNING)).map(|note| format!("{note}\n")).collect();
     let wrong: Vec<&Finding> = case.report.findings.iter().filter(|finding| finding.severity != Severity::Note).collect();
     findings(&mut out, &wrong);
     out
@@ -32,7 +32,8 @@ pub fn text(analysis: &Analysis) -> String {
     out.push('\n');
     out.push_str(&channels(analysis));
     for note in &case.notes {
-        let _ = writeln!(out, "note: {note}");
+        let kind = if note.starts_with(WARNING) { "" } else { "note: " };
+        let _ = writeln!(out, "{kind}{note}");
     }
     let found: Vec<&Finding> = case.report.findings.iter().collect();
     if found.is_empty() {

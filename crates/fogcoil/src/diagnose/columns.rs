@@ -3,8 +3,8 @@
 use diagnosis::{ForwardModel, Observation};
 use mechanisms::{Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 
-use super::record::{Ready, WARNING, bridge};
-use crate::glossary::Remark;
+use super::record::{Ready, bridge};
+use crate::glossary::{Remark, WARNING};
 use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
 use crate::table::significant;
 

@@ -5,7 +5,7 @@ use diagnosis::Observation;
 use recording::check::Severity;
 
 use crate::Error;
-use crate::glossary::Remark;
+use crate::glossary::{Remark, WARNING};
 use crate::input::{CHAMBER, InputError, RATE, RecordCase, SPOOL};
 
 /// Fewest rows with a rate from which anything is said.
@@ -24,9 +24,6 @@ const AT_REST: f64 = 0.5;
 const REST_S: f64 = 600.0;
 /// Intervals longer than this many usual ones are gaps.
 const GAP: f64 = 1.5;
-
-/// What a note begins with that may make the whole answer void.
-pub(super) const WARNING: &str = "warning: ";
 
 /// A record as the engine wants it.
 pub(crate) struct Ready {
@@ -62,6 +59,8 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<String>) -> Result<Ready,
     let file = case.fingerprint.file.display();
     let warnings = case.report.findings.iter().filter(|finding| finding.severity == Severity::Warning);
     notes.extend(warnings.map(|finding| Remark::of_finding(&finding.kind).says(format!("{WARNING}{file}: {finding}"))));
+    // how the file was read, where that is doubtful
+    notes.extend(case.notes.iter().filter_map(|note| note.strip_prefix(WARNING)).map(|note| format!("{WARNING}{file}: {note}")));
     let ends = |[low, high]: [f64; 2], t: &f64| [low.min(*t), high.max(*t)];
     let [low, high] = table.chamber.iter().fold([f64::INFINITY, f64::NEG_INFINITY], ends);
     if high - low < FEWEST_KELVIN {

@@ -7,10 +7,11 @@ use diagnosis::Verdict;
 use mechanisms::{Located, RATE as RATE_CHANNEL};
 
 use super::meaning::meaning;
-use super::record::WARNING;
 use super::{NOMINAL, Outcome};
+use crate::glossary::WARNING;
 use crate::recommend::inspection;
 use crate::table::{significant, table};
+use crate::units::parameter_unit;
 
 impl Outcome {
     /// For people: verdict, place, alternatives, parameters, held-out errors.
@@ -43,33 +44,40 @@ impl Outcome {
         if let Some(alternatives) = self.alternatives() {
             let _ = writeln!(out, "{alternatives}");
         }
-        let mut rows = vec![vec!["explanation".to_owned(), "probability".to_owned(), String::new()]];
-        rows.extend(self.explanations().iter().map(|e| vec![e.name.to_owned(), format!("{:.3}", e.probability), String::new()]));
+        // of the third column, the units, the heading says nothing
+        let line = |name: &str, value: String, unit: &str| vec![name.to_owned(), value, unit.to_owned(), String::new()];
+        let mut rows = vec![line("explanation", "probability".into(), "")];
+        rows.extend(self.explanations().iter().map(|e| line(e.name, format!("{:.3}", e.probability), "")));
         if d.verdict == Verdict::Explained {
-            rows.push(vec!["parameter (fitted)".to_owned(), "value".to_owned(), "90 % interval".to_owned()]);
+            rows.push(["parameter (fitted)", "value", "", "90 % interval"].map(str::to_owned).to_vec());
             for estimate in d.parameters.iter().flatten() {
                 let interval = estimate.ci90.map(|end| significant(end, 4)).join(" to ");
-                rows.push(vec![estimate.name.clone(), significant(estimate.value, 4), interval]);
+                let unit = parameter_unit(&estimate.name).to_owned();
+                rows.push(vec![estimate.name.clone(), significant(estimate.value, 4), unit, interval]);
             }
         }
         for held in &self.holdouts {
             let file = held.record.name();
-            rows.push(vec![format!("held-out record {file}"), "rms, deg/h".to_owned(), String::new()]);
-            rows.push(vec![format!("  {NOMINAL}"), significant(held.nominal.rmse[RATE_CHANNEL], 3), String::new()]);
+            rows.push(line(&format!("held-out record {file}"), "rms, deg/h".into(), ""));
+            rows.push(line(&format!("  {NOMINAL}"), significant(held.nominal.rmse[RATE_CHANNEL], 3), ""));
             if let Some(name) = self.found() {
-                rows.push(vec![format!("  {name}"), significant(held.model.rmse[RATE_CHANNEL], 3), String::new()]);
+                rows.push(line(&format!("  {name}"), significant(held.model.rmse[RATE_CHANNEL], 3), ""));
             }
-            let floor = significant(held.model.noise_floor[RATE_CHANNEL], 3);
-            rows.push(vec!["  noise as identified".to_owned(), floor, String::new()]);
+            rows.push(line("  noise as identified", significant(held.model.noise_floor[RATE_CHANNEL], 3), ""));
             if let Some(([nominal, model], name)) = self.thermometer(held).zip(self.found()) {
-                rows.push(vec![format!("  thermometer, {NOMINAL}"), significant(nominal, 3), "K".to_owned()]);
-                rows.push(vec![format!("  thermometer, {name}"), significant(model, 3), "K".to_owned()]);
+                rows.push(line(&format!("  thermometer, {NOMINAL}"), significant(nominal, 3), "K"));
+                rows.push(line(&format!("  thermometer, {name}"), significant(model, 3), "K"));
             }
             if !held.accepted && d.verdict != Verdict::None {
-                rows.push(vec!["  what was fitted is worse here: not accepted".to_owned(), String::new(), String::new()]);
+                rows.push(line("  what was fitted is worse here: not accepted", String::new(), ""));
             }
         }
         out.push_str(&table(&rows));
+        if self.likely().next().is_some() {
+            out.push_str(
+                "(probability of a mechanism: that it takes part, alone or with others, so that they may add up to more than 1)\n",
+            );
+        }
         out
     }
 

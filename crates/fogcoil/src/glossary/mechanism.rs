@@ -48,6 +48,13 @@ pub const MECHANISMS: &[Mechanism] = mechanisms! {
     "nominal" "nominal"
 };
 
+/// How many have a name, how many have none, and how many stand among them in tables alone.
+pub(super) fn counts() -> [usize; 3] {
+    let [named, unnamed] = [|m: &Mechanism| m.stage().is_some(), |m: &Mechanism| m.id.starts_with("unknown:")]
+        .map(|of| MECHANISMS.iter().filter(|m| of(m)).count());
+    [named, unnamed, MECHANISMS.len() - named - unnamed]
+}
+
 /// Words before the pages' table of rivals.
 const RIVALS: &str = "fitted in its place";
 

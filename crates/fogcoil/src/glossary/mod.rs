@@ -5,6 +5,7 @@ mod page;
 mod remark;
 
 pub use mechanism::{MECHANISMS, Mechanism};
+pub(crate) use remark::WARNING;
 pub use remark::{Explanation, Remark};
 
 use std::fmt::Write;
@@ -83,7 +84,10 @@ impl Entry {
 
 /// All ids in two groups, a line each.
 pub fn list() -> String {
-    let mut out = "Mechanisms:\n\n".to_owned();
+    let [named, unnamed, beside] = mechanism::counts();
+    let mut out = format!(
+        "Mechanisms: {named} with a name; {unnamed} without one, unknown:..., which describe what has none; {beside} that stand among them in tables:\n\n"
+    );
     out.push_str(&table(&MECHANISMS.iter().map(|m| vec![m.id.to_owned(), m.title().to_owned()]).collect::<Vec<_>>()));
     out.push_str("\nWarnings and notes:\n\n");
     let row = |remark: &Remark| vec![remark.id().to_owned(), remark.explanation().cause.to_owned()];
@@ -130,6 +134,13 @@ mod tests {
         assert!(ids.iter().all(|id| look_up(id).is_ok_and(|entry| entry.id() == *id)));
         ids.sort_unstable();
         assert!(ids.windows(2).all(|pair| pair[0] != pair[1]), "{ids:?}");
+    }
+
+    /// The documents say them in words.
+    #[test]
+    fn the_mechanisms_are_counted() {
+        assert_eq!(mechanism::counts(), [13, 6, 2]);
+        assert!(list().starts_with("Mechanisms: 13 with a name; 6 without one, unknown:..., "));
     }
 
     #[test]

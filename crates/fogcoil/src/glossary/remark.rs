@@ -105,6 +105,10 @@ remarks! {
         "A quantity is read from a column of another name or unit, as the flags or the map file say.",
         "None if it is the right one.",
         "Check name and unit.";
+    UnitInName "unit-in-name":
+        "The name of a recording's column ends in a unit in brackets, and the column is read in another.",
+        "Everything that follows is off by the ratio of the units, if the name is right.",
+        "Give the unit with --unit KEY=UNIT, or in the map file.";
     Dates "dates":
         "Instants are dates.",
         "They count in seconds from the first row.",
@@ -216,6 +220,9 @@ remarks! {
         "The file is not written.",
         "None is needed; the reason stands in the message.";
 }
+
+/// What a note begins with that may make the whole answer void.
+pub(crate) const WARNING: &str = "warning: ";
 
 impl Remark {
     /// The message with its id behind it: `message [id]`.

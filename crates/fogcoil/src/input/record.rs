@@ -5,14 +5,15 @@ use std::path::{Path, PathBuf};
 use recording::check::{Expectation, Expectations, Offset, Report, Severity, check};
 use recording::{Channel, Recording, Sampling};
 
+use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::meta::{self, Meta};
 use super::record_columns::RecordColumns;
 use super::record_format::{Key, RecordFormat, RecordOptions};
 use super::rows::{Rows, quoted};
-use super::{InputError, timestamp};
+use super::timestamp::{self, FORMS, is_ambiguous};
 use crate::Error;
-use crate::glossary::Remark;
+use crate::glossary::{Remark, WARNING};
 
 /// The chamber's temperature \[°C\].
 pub const CHAMBER: &str = "chamber_c";
@@ -194,13 +195,27 @@ impl<'a> Clock<'a> {
         let name = columns.name(column);
         if self.first.is_some() {
             let problem = format!("{} is not a date and time like that of the first row", quoted(rows.field(column)));
-            return Err(rows.fault(Some(name), problem, "write it like 2024-05-01T12:00:00.5Z"));
+            return Err(rows.fault(Some(name), problem, format!("write it like {FORMS}")));
         }
-        match rows.value(column, name)? {
+        match rows.value(column, name).map_err(|error| not_an_instant(error, rows.field(column)))? {
             Some(value) => Ok(self.format.column(Key::Time).standard(value)),
             None => Err(rows.fault(Some(name), "is empty", "every row needs an instant; remove the row")),
         }
     }
+}
+
+/// The complaint about a field that is no number, where it may be a date.
+fn not_an_instant(error: InputError, text: &str) -> InputError {
+    if text.parse::<f64>().is_ok() || error.remedy.contains("--decimal-comma") {
+        return error;
+    }
+    let problem = if is_ambiguous(text) {
+        format!("{} does not say whether the day or the month is first", quoted(text))
+    } else {
+        error.problem
+    };
+    let remedy = format!("write seconds like 20.5, or dates like {FORMS}; with no column of instants, --interval SECONDS");
+    InputError { problem, remedy, ..error }
 }
 
 /// What a gyro's record holds.
@@ -245,6 +260,12 @@ fn notes(columns: &RecordColumns, format: &RecordFormat, relative: bool) -> Vec<
             let unit = form.unit.names[0];
             let message = format!("{} is read from the column {}, in {counts}{unit}", key.name(), quoted(name));
             notes.push(Remark::MappedColumn.says(message));
+        }
+        if let Some(named) = key.unit_in(name).filter(|named| *named != form.unit) {
+            let (named, unit, key) = (named.names[0], form.unit.names[0], key.name());
+            let message =
+                format!("the column {} is read in {unit}; if its name is right, add --unit {key}={named}", quoted(name));
+            notes.push(Remark::UnitInName.says(format!("{WARNING}{message}")));
         }
     }
     if relative {

@@ -48,6 +48,12 @@ impl Key {
         }
     }
 
+    /// The unit that a column's name ends in, like `T [K]` or `Zeit (min)`, if it is one of the key's.
+    pub(super) fn unit_in(self, name: &str) -> Option<ColumnUnit> {
+        let pair = [('[', ']'), ('(', ')')].into_iter().find_map(|(open, close)| name.strip_suffix(close)?.rsplit_once(open))?;
+        self.unit(pair.1.trim()).ok()
+    }
+
     fn unit(self, name: &str) -> Result<ColumnUnit, String> {
         let found = self.units().iter().find(|unit| unit.names.contains(&name));
         let choices = || self.units().iter().map(|unit| unit.names[0]).collect::<Vec<_>>().join(", ");

@@ -1,6 +1,7 @@
 //! A CSV table row by row: every complaint knows its line, and no file is held whole.
 //!
-//! Fields are separated by commas and not quoted with line ends inside; double quotes around a field are dropped.
+//! Fields are separated by commas and not quoted with line ends inside; double quotes around a field are dropped. Lines above the first row
+//! that begin with # are a logger's remarks and skipped.
 
 use std::fs::File;
 use std::io::{self, Chain, Cursor, Read};
@@ -41,6 +42,8 @@ pub(crate) struct Rows {
     dialect: Dialect,
     reader: csv::Reader<Chain<Metered, &'static [u8]>>,
     record: StringRecord,
+    /// Whether a row was met.
+    begun: bool,
 }
 
 /// A file, or a text in memory, that is hashed and measured while it is read.
@@ -115,7 +118,7 @@ impl Rows {
             .delimiter(dialect.separator)
             .terminator(Terminator::Any(b'\n'))
             .from_reader(metered.chain(&b"\n"[..]));
-        Self { path: path.to_owned(), dialect, reader, record: StringRecord::new() }
+        Self { path: path.to_owned(), dialect, reader, record: StringRecord::new(), begun: false }
     }
 
     /// Moves to the next row that is not blank; `false` at the end.
@@ -124,7 +127,11 @@ impl Rows {
             match self.reader.read_record(&mut self.record) {
                 Ok(false) => return Ok(false),
                 Ok(true) if self.count() == 1 && self.field(0).is_empty() => {}
-                Ok(true) => return Ok(true),
+                Ok(true) if !self.begun && self.field(0).starts_with('#') => {}
+                Ok(true) => {
+                    self.begun = true;
+                    return Ok(true);
+                }
                 Err(error) => return Err(self.unreadable(&error)),
             }
         }

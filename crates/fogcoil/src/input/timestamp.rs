@@ -1,23 +1,38 @@
 //! Instants as date and time of day.
 
-/// Seconds since 1970-01-01T00:00:00Z of `2024-05-01T12:00:00.5+02:00`; a blank may stand for the T, and the zone, then UTC, be absent.
+/// How instants are written that are dates, for messages.
+pub(crate) const FORMS: &str = "2024-05-01T12:00:00.5Z, or day first 01.05.2024 12:00:00.5";
+
+/// Seconds since 1970-01-01T00:00:00Z of `2024-05-01T12:00:00.5+02:00` or `01.05.2024 12:00:00.5`; a blank may stand for the T, a comma for
+/// the point, and the zone, then UTC, be absent.
 pub(crate) fn seconds(text: &str) -> Option<f64> {
     let (date, rest) = (text.get(..10)?, text.get(11..)?);
     if !matches!(text.as_bytes()[10], b'T' | b't' | b' ') {
         return None;
     }
-    let mut parts = date.split('-');
-    let (year, month, day) = (whole(parts.next()?)?, whole(parts.next()?)?, whole(parts.next()?)?);
+    let (year, month, day) = match date.as_bytes() {
+        [_, _, b'.', _, _, b'.', ..] => (&date[6..], &date[3..5], &date[..2]),
+        [_, _, _, _, b'-', _, _, b'-', ..] => (&date[..4], &date[5..7], &date[8..]),
+        _ => return None,
+    };
+    let (year, month, day) = (whole(year)?, whole(month)?, whole(day)?);
     let (clock, zone) = match rest.find(['Z', 'z', '+', '-']) {
         Some(at) => (&rest[..at], zone(&rest[at..])?),
         None => (rest, 0.0),
     };
     let mut parts = clock.split(':');
     let (hour, minute) = (whole(parts.next()?)?, whole(parts.next()?)?);
-    let second: f64 = parts.next().unwrap_or("0").parse().ok()?;
+    let second: f64 = parts.next().unwrap_or("0").replace(',', ".").parse().ok()?;
     let valid = (1..=12).contains(&month) && (1..=31).contains(&day) && hour < 24 && minute < 60 && (0.0..61.0).contains(&second);
     let seconds = |days: i64| (days * 86_400 + hour * 3600 + minute * 60) as f64 + second - zone;
     (valid && parts.next().is_none()).then(|| seconds(days(year, month, day)))
+}
+
+/// Whether a text seems to be a date of which it is not said whether the day or the month is first: `02/03/2026 08:00`.
+pub(crate) fn is_ambiguous(text: &str) -> bool {
+    let mut parts = text.split('/');
+    let short = |part: Option<&str>| part.is_some_and(|part| matches!(part.len(), 1 | 2) && whole(part).is_some());
+    short(parts.next()) && short(parts.next()) && parts.next().is_some_and(|year| year.starts_with(|c: char| c.is_ascii_digit()))
 }
 
 fn whole(text: &str) -> Option<i64> {
@@ -46,7 +61,7 @@ fn days(year: i64, month: i64, day: i64) -> i64 {
 
 #[cfg(test)]
 mod tests {
-    use super::seconds;
+    use super::{is_ambiguous, seconds};
 
     #[test]
     fn instants() {
@@ -57,6 +72,9 @@ mod tests {
             ("2024-05-01T12:00:00-0030", 1_714_566_600.0),
             ("2024-05-01t10:00+00", 1_714_557_600.0),
             ("1969-12-31T23:59:59Z", -1.0),
+            ("01.05.2024 12:00:00.5+02:00", 1_714_557_600.5),
+            ("29.02.2000 12:00", 951_825_600.0),
+            ("01.01.1970T00:00:01,25", 1.25),
         ];
         for (text, expected) in cases {
             assert_eq!(seconds(text), Some(expected), "{text}");
@@ -73,8 +91,18 @@ mod tests {
             "2024-05-01_10:00:00",
             "2024-05-0\u{e9}T10:00:00",
             "2024-05-01T10:00:00+0\u{e9}",
+            "05/01/2024 10:00:00",
+            "2024.05.01 10:00:00",
+            "01-05-2024 10:00:00",
+            "01.13.2024 10:00:00",
+            "01.5.20241 10:00:00",
         ] {
             assert_eq!(seconds(text), None, "{text}");
+        }
+        for (text, ambiguous) in
+            [("05/01/2024 10:00", true), ("5/1/24", true), ("2024/05/01", false), ("1/2", false), ("20.5", false)]
+        {
+            assert_eq!(is_ambiguous(text), ambiguous, "{text}");
         }
     }
 }

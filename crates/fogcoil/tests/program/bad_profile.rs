@@ -47,6 +47,7 @@ fn a_header_that_names_no_profile() {
             "heat.mounts",
         ),
         (COIL, "p.csv:1: unknown column", ""),
+        ("# by hand\n# slow\ntime_s,temp\n0,1\n", "p.csv:3: unknown column `temp`", "a profile has"),
     ]);
 }
 

@@ -70,6 +70,20 @@ fn rows_that_cannot_be_read() {
         &[],
         &["r.csv:3: time_s: `30` is not a date and time like that of the first row"],
     );
+    refuse(
+        format!("{HEADER}02/03/2026 08:00:00,20,20,1\n"),
+        &[],
+        &[
+            "r.csv:2: time_s: `02/03/2026 08:00:00` does not say whether the day or the month is first",
+            "01.05.2024",
+            "--interval",
+        ],
+    );
+    refuse(format!("{HEADER}noon,20,20,1\n"), &[], &["time_s: `noon` is not a number", "2024-05-01T12:00:00.5Z", "--interval"]);
+    // a logger's remarks count as lines
+    refuse(format!("# logger 7\n\n#a, b\n{}", bad("30,20,20,fast")), &[], &["r.csv:6: rate_deg_per_h: `fast`"]);
+    refuse(bad("# paused"), &[], &["r.csv:3: `# paused` has 1 field"]);
+    refuse("# logger 7\n", &[], &["r.csv: is empty"]);
 }
 
 #[test]

@@ -200,6 +200,12 @@ fn dates_fahrenheit_radians_and_no_instants() {
     assert!((rate[2] - 2e-6 * 206_264.806_247_096_36).abs() < 1e-12 && rate[1].is_nan());
     assert!(case.notes.iter().any(|note| note.contains("count from the first row")));
 
+    folder.write(
+        "g.csv",
+        "# logger 7\ntime_s,rate_deg_per_h\n31.12.2026 23:59:30,1\n01.01.2027 00:00,2\n01.01.2027 00:00:30.5,3\n",
+    );
+    assert_eq!(read(&folder, "g.csv", &RecordOptions::default()).recording.time(), [0.0, 30.0, 60.5]);
+
     folder.write("n.csv", "rate_deg_per_h\n1\n2\n3\n");
     let case = read(&folder, "n.csv", &RecordOptions { interval: Some(4.0), ..RecordOptions::default() });
     assert_eq!(case.recording.time(), [0.0, 4.0, 8.0]);
@@ -220,6 +226,23 @@ fn mislabelled_units_are_suspected() {
     let units = vec![(Key::Chamber, "K".to_owned()), (Key::Rate, "deg/s".to_owned())];
     let declared = texts(&read(&folder, "u.csv", &RecordOptions { units, ..RecordOptions::default() }));
     assert_eq!(declared, "");
+}
+
+/// What is read in another unit than a column's name says is a warning, also for `--quiet`.
+#[test]
+fn a_unit_in_a_columns_name_is_heard() {
+    let folder = Folder::new();
+    let mut text = String::from("Zeit [min],T (K),rate_deg_per_h\n");
+    rows(600).iter().for_each(|[t, a, _, r]| writeln!(text, "{},{:.2},{r:.5}", t / 60.0, a + 273.15).unwrap());
+    folder.write("r.csv", text);
+    let columns = ["check", "r.csv", "--quiet", "--column", "time=Zeit [min]", "--column", "chamber=T (K)"];
+    let said = stdout(&folder.run(&columns));
+    for part in ["`Zeit [min]` is read in s; ", "add --unit time=min [unit-in-name]", "--unit chamber=K"] {
+        assert!(said.lines().any(|line| line.starts_with("warning: ") && line.contains(part)), "{part}: {said}");
+    }
+    assert_eq!(said.lines().filter(|line| line.ends_with("[unit-in-name]")).count(), 2, "{said}");
+    let declared = folder.run(&[&columns[..], &["--unit", "time=min", "--unit", "chamber=K"]].concat());
+    assert_eq!(stdout(&declared), "");
 }
 
 #[test]

@@ -17,6 +17,11 @@ fn a_concealed_bond_is_named_and_the_held_out_record_predicted() {
     let output = folder.run(&arguments);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert!(stdout(&output).starts_with("The recording differs") && stdout(&output).contains("Most likely: debond."));
+    let row = |name: &str| stdout(&output).lines().find(|line| line.starts_with(name)).unwrap().to_owned();
+    for (name, unit) in [("debond_c ", "degC"), ("hysteresis_k ", "K"), ("fraction ", "1")] {
+        assert_eq!(row(name).split_whitespace().nth(2), Some(unit), "{}", row(name));
+    }
+    assert!(stdout(&output).contains("takes part, alone or with others"));
     let json: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(folder.path("j.json")).unwrap()).unwrap();
     assert_eq!(json["verdict"], "explained");
     assert_eq!(json["mechanisms"][0]["id"], "debond");
@@ -62,11 +67,33 @@ fn the_page_stands_alone(page: &str) {
         "part of the chain: bond",
         "Ljung",
         "class=\"dot\"",
+        // as docs/diagnosis.md says
+        "gain of the rate 0.3 %, conductivity of the surroundings 0.1 %, start off rest 0.012 K, gain of the Shupe part 0.6 %",
+        "ln odds of debond over it",
+        "13 mechanisms with a name and 6 without one alone",
         "No further test is needed to tell mechanisms apart: debond alone is left",
     ] {
         assert!(page.contains(part), "{part}");
     }
     assert_eq!(fogcoil::report::faults(page), [""; 0]);
+    // a row for every mechanism but debond, the design, its constants and a structure; each rival does without debond
+    let (_, rivals) = page.split_once("ln odds of debond over it</th>").unwrap();
+    let rows: Vec<&str> = rivals.split("</table>").next().unwrap().split("<tr>").skip(1).collect();
+    assert_eq!(rows.len(), 21, "{rows:?}");
+    for row in rows {
+        let cells: Vec<&str> = row.split("<td>").map(|cell| cell.split("</").next().unwrap()).collect();
+        assert!(!cells[1].contains("debond") || (cells[1] == "not tried without debond" && cells[2] == "–"), "{row}");
+        assert!(cells[2] == "–" || cells[2].parse::<f64>().unwrap() > 3.5, "{row}");
+    }
+    // the interval is two lines, neither of which turns back
+    let (_, allan) = page.split_once("id=\"allan-wide").unwrap();
+    let dotted: Vec<&str> = allan.split("</svg>").next().unwrap().split("<path class=\"line third\" d=\"M").skip(1).collect();
+    assert_eq!(dotted.len(), 3, "a legend and two lines");
+    for line in dotted {
+        let x: Vec<f64> =
+            line.split('"').next().unwrap().split(['L', 'H']).map(|p| p.split(' ').next().unwrap().parse().unwrap()).collect();
+        assert!(x.windows(2).all(|pair| pair[1] > pair[0]), "{x:?}");
+    }
     assert!(page.len() < 1_000_000, "{} bytes", page.len());
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use diagnosis::{Candidate, ForwardModel};
+use diagnosis::{Candidate, ForwardModel, Structure};
 
 use crate::diagnose::Outcome;
 use crate::picture::escape;
@@ -13,13 +13,13 @@ use crate::table::significant;
 const MOST: usize = 8;
 
 /// Hypotheses that differ in a choice alone.
-struct Group<'a> {
+pub(super) struct Group<'a> {
     /// The most probable of them.
-    first: &'a Candidate,
+    pub(super) first: &'a Candidate,
     count: usize,
     probability: f64,
     /// ln of the sum of their weights.
-    log_weight: f64,
+    pub(super) log_weight: f64,
 }
 
 impl Outcome {
@@ -36,14 +36,15 @@ impl Outcome {
             );
         }
         let [.., library, _] = d.verdicts();
+        let unnamed = self.gyro.mechanisms().iter().filter(|m| !m.named).count();
         let _ = writeln!(
             out,
             "</tbody>\n</table>\n<p>Of a mechanism: the probability that it is at work, alone or with another; of any in the library: {}. \
-             What is marked is not excluded. {} hypotheses were compared: {} mechanisms alone, their pairs, and each of the leading ones with free \
-             structure; every choice (a layer, a second mechanism) is paid for by its share of the prior.</p>",
+             What is marked is not excluded. {} hypotheses were compared: {} mechanisms with a name and {unnamed} without one alone, pairs of them, and the leading ones \
+             with free structure; every choice (a layer, a second mechanism) is paid for by its share of the prior.</p>",
             signed(library, 3),
             d.candidates.len(),
-            self.gyro.mechanisms().len(),
+            self.gyro.mechanisms().len() - unnamed,
         );
         self.hypotheses(out);
     }
@@ -62,7 +63,7 @@ impl Outcome {
     }
 
     /// All candidates, most probable first.
-    fn groups(&self) -> Vec<Group<'_>> {
+    pub(super) fn groups(&self) -> Vec<Group<'_>> {
         let mut groups: Vec<Group> = Vec::new();
         for candidate in &self.diagnosis.candidates {
             let Candidate { probability, log_weight, .. } = *candidate;
@@ -84,7 +85,7 @@ impl Outcome {
     }
 
     /// A hypothesis in words.
-    fn said(&self, group: &Group) -> String {
+    pub(super) fn said(&self, group: &Group) -> String {
         let h = &group.first.fit.hypothesis;
         let mechanism = |(m, choice): &(usize, Option<f64>)| match choice {
             Some(value) if group.count > 1 => format!("{} (best at {value})", self.id(*m)),
@@ -106,10 +107,14 @@ impl Outcome {
     }
 }
 
+/// What was added to a candidate, and where.
+pub(super) fn structure(candidate: &Candidate) -> Option<(Structure, usize)> {
+    candidate.rival.as_ref().map(|rival| (rival.structure, rival.channel))
+}
+
 /// Whether two candidates differ in their choices alone.
-fn alike(a: &Candidate, b: &Candidate) -> bool {
+pub(super) fn alike(a: &Candidate, b: &Candidate) -> bool {
     let (x, y) = (&a.fit.hypothesis, &b.fit.hypothesis);
-    let structure = |c: &Candidate| c.rival.as_ref().map(|rival| (rival.structure, rival.channel));
     x.constants_free == y.constants_free
         && x.mechanisms.len() == y.mechanisms.len()
         && x.mechanisms.iter().all(|(m, _)| y.mechanisms.iter().any(|(n, _)| n == m))

@@ -8,17 +8,19 @@ mod next_test;
 mod noise;
 mod parameters;
 mod place;
+mod rivals;
 mod spectrum;
 mod stages;
 
-use diagnosis::{Fit, ForwardModel, Verdict};
+use diagnosis::{Fit, ForwardModel, Nuisance, Prior, Role, Verdict};
 use mechanisms::{RATE, SPOOL};
 
-use super::record::WARNING;
 use super::{NOMINAL, Outcome, Record};
+use crate::glossary::WARNING;
 use crate::picture::escape;
 use crate::plot::{Axis, Series, Style, Thinning};
 use crate::report::{facts, nice, page, provenance, row};
+use crate::table::significant;
 use crate::units::DurationUnit;
 
 /// A fit beside the record that it is shown for.
@@ -96,6 +98,7 @@ impl Outcome {
         out.push_str("<h2>Finding</h2>\n");
         self.finding(&mut out);
         self.candidates(&mut out);
+        self.rivals(&mut out);
         self.parameters(&mut out);
         out.push_str("<h2>Recording and model</h2>\n");
         self.course(&mut out);
@@ -178,10 +181,10 @@ impl Outcome {
              library shows as structure that nothing explains",
         ));
         rows.push(row("values", "fitted through the whole chain, most probable values with 90 % intervals; not measured"));
+        let errors: Vec<String> = self.gyro.nuisances().iter().filter(|n| n.role == Role::ModelError).map(sized).collect();
         rows.push(row(
             "model errors allowed for",
-            "gain of the rate 0.3 %, gain of the Shupe part 1.5 %, conductivity of the surroundings 0.1 %, start off rest 0.015 K (1σ); \
-             a constant offset of each channel is never a finding",
+            format!("{} (1σ); a constant offset of each channel is never a finding", errors.join(", ")),
         ));
         facts(out, "Limits", &rows);
     }
@@ -197,6 +200,20 @@ impl Outcome {
             &files,
             &[row("settings", "the program's own; what is known of the records: meta.ron beside each, or --meta")],
         );
+    }
+}
+
+/// A number of the nominal model with its uncertainty: of what has a unit in that, else relative.
+fn sized(nuisance: &Nuisance) -> String {
+    let name = nuisance.parameter.name.trim_end_matches(" (model)");
+    let spread = match nuisance.parameter.prior {
+        Prior::Normal { sd, .. } => sd,
+        Prior::LogNormal { spread, .. } => spread,
+        Prior::Uniform { low, high } => (high - low) / 12.0_f64.sqrt(),
+    };
+    match name.strip_suffix(" [K]") {
+        Some(name) => format!("{name} {spread} K"),
+        None => format!("{name} {} %", significant(100.0 * spread, 1)),
     }
 }
 

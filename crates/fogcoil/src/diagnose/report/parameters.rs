@@ -9,6 +9,7 @@ use crate::diagnose::Outcome;
 use crate::plot::{Axis, Content, Figure, Height, Panel, Style};
 use crate::report::{Cells, grid, with_data};
 use crate::table::significant;
+use crate::units::parameter_unit;
 
 /// Points of a density.
 const POINTS: usize = 400;
@@ -45,10 +46,18 @@ impl Outcome {
             .iter()
             .map(|p| {
                 let interval = |ends: [f64; 2]| ends.map(|end| significant(end, 4)).join(" to ");
-                vec![p.name.clone(), significant(p.value(), 4), interval(self.interval(p)), interval(central(p, 0.0, 1.0))]
+                let unit = parameter_unit(&p.name).to_owned();
+                let [after, before] = [self.interval(p), central(p, 0.0, 1.0)].map(interval);
+                vec![p.name.clone(), significant(p.value(), 4), unit, after, before]
             })
             .collect();
-        grid(out, "Fitted values", Cells::Words, &["parameter", "value (fitted)", "90 % interval", "90 % of the prior"], &rows);
+        grid(
+            out,
+            "Fitted values",
+            Cells::Words,
+            &["parameter", "value (fitted)", "unit", "90 % interval", "90 % of the prior"],
+            &rows,
+        );
         for (place, active) in self.diagnosis.best().fit.active.iter().enumerate() {
             if let (Some((name, value)), Some([low, high])) = (self.choice(active), self.diagnosis.choice(place)) {
                 let id = self.id(active.mechanism);
