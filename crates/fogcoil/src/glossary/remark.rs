@@ -68,6 +68,10 @@ remarks! {
         "Rows of a profile lie closer together than the model resolves a jump.",
         "Means over such intervals are not reliable just after the chamber's temperature changes suddenly.",
         "Thin the profile out, or let the temperature change over some seconds.";
+    OneRow "one-row":
+        "A profile has one row.",
+        "Nothing can happen in it: the model starts at rest, and the result is one row at rest.",
+        "Give rows from the start to the end of what the chamber does.";
     Kelvin "kelvin":
         "A profile's chamber_c never falls to what would be usual in degC: it may be in kelvin.",
         "Differences are right all the same; what depends on the temperature itself (transitions, bonds that open) is not.",

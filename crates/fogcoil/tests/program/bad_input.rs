@@ -237,6 +237,33 @@ fn a_path_is_checked_before_anything_is_read() {
 }
 
 #[test]
+fn a_file_of_another_kind_is_named() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    folder.write("cell.ron", CELL);
+    folder.write("p.csv", "time_s,chamber_c\n0,20\n");
+    folder.write("p.txt", "0;20,5\n");
+    folder.write("comment.ron", "// nothing yet\n");
+    folder.run(&["new", "t.ron", "--kind", "targets"]);
+    for (command, file, says) in [
+        ("homogenize", "coil.ron", "is a coil file, but a cell file is read here; `fogcoil new --kind cell FILE` writes one"),
+        ("sensitivity", "cell.ron", "is a cell file, but a coil file is read here; `fogcoil new FILE` writes one"),
+        ("sensitivity", "t.ron", "is a file of targets, but a coil file"),
+        ("identify", "cell.ron", "is a cell file, but a file of targets is read here; `fogcoil new --kind targets FILE`"),
+        ("sensitivity", "p.csv", "looks like a table, not a RON file; `fogcoil new FILE` writes one"),
+        ("homogenize", "p.txt", "looks like a table, not a RON file"),
+        ("sensitivity", "comment.ron", "is empty; `fogcoil new FILE` writes one to start from"),
+        ("check", "coil.ron", "begins like a RON file, but a table (CSV) is read here; its first line names the columns"),
+    ] {
+        refuse(&folder, &[command, file], &[&format!("error: {file}: {says}")]);
+    }
+    let simulate = ["simulate", "coil.ron", "--out", "b.csv"];
+    for flag in ["--profile", "--spool"] {
+        refuse(&folder, &[&simulate[..], &[flag, "coil.ron"]].concat(), &["error: coil.ron: begins like a RON file"]);
+    }
+}
+
+#[test]
 fn bad_usage() {
     let folder = Folder::new();
     for arguments in [&[][..], &["unwind", "x.ron"], &["wind"], &["wind", "x.ron", "--json"], &["homogenize", "a", "b"]] {
