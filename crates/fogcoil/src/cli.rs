@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{ArgGroup, Args, Parser, Subcommand};
 use clap_complete::Shell;
 use fogcoil::input::Between;
 
@@ -126,12 +126,13 @@ pub(crate) struct Diagnose {
 }
 
 #[derive(Args)]
+#[command(group(ArgGroup::new("drive").required(true).args(["profile", "spool"])))]
 pub(crate) struct Simulate {
     /// Case file of the coil
     #[arg(value_name = "COIL.ron")]
     pub(crate) coil: PathBuf,
     /// Profile: time_s,chamber_c and, where wanted, left_c, right_c, mount_left_c, mount_right_c
-    #[arg(long, value_name = "P.csv", required_unless_present = "spool")]
+    #[arg(long, value_name = "P.csv")]
     pub(crate) profile: Option<PathBuf>,
     /// How the temperatures run between the profile's rows
     #[arg(long, value_enum, default_value_t = Between::Linear, conflicts_with = "spool")]
@@ -140,7 +141,7 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "S", value_parser = step, conflicts_with = "spool")]
     pub(crate) step: Option<f64>,
     /// In place of a profile: a record time_s,spool_c of the spool's thermometer, from rest, to infer the chamber from
-    #[arg(long, value_name = "RECORD.csv", conflicts_with = "profile")]
+    #[arg(long, value_name = "RECORD.csv")]
     pub(crate) spool: Option<PathBuf>,
     /// Standard deviation of the record's readings in K, rounding included
     #[arg(long, value_name = "K", conflicts_with = "profile", value_parser = noise, default_value = "0.01")]

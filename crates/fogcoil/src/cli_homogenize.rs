@@ -58,7 +58,7 @@ fn celsius(text: &str) -> Result<f64, String> {
 
 pub(crate) fn run(arguments: &Homogenize, progress: &Progress) -> Result<(), Error> {
     let Homogenize { cell, json, temperatures, vtu, svg, .. } = arguments;
-    output::check_distinct(&[cell], &[vtu.as_deref(), svg.as_deref()])?;
+    output::check_outputs(&[cell], &[vtu.as_deref(), svg.as_deref()])?;
     let any = input::read_any_cell(cell)?;
     let has_tables = matches!(&any, AnyCell::General(general) if general.temperatures().is_some());
     if !temperatures.is_empty() && !has_tables {
@@ -98,7 +98,10 @@ impl Homogenize {
             if self.temperatures.is_empty() { vec![None] } else { self.temperatures.iter().copied().map(Some).collect() };
         // all tables are asked before anything is solved
         wanted.iter().try_for_each(|t| case.cell(&case.layouts[0], *t).map(drop))?;
-        let task = format!("homogenizing {} cells", wanted.len() * case.layouts.len());
+        let task = match wanted.len() * case.layouts.len() {
+            1 => "homogenizing the cell".to_owned(),
+            cells => format!("homogenizing {cells} cells"),
+        };
         let solve = || wanted.iter().map(|t| at_temperature(case, *t, self.tolerance)).collect::<Result<Vec<AtTemperature>, _>>();
         let results = progress.during(&task, solve)?;
         let (mut texts, mut objects) = (Vec::new(), Vec::new());

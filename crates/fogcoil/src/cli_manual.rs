@@ -37,8 +37,11 @@ pub(crate) fn man(dir: Option<&Path>, progress: &Progress) -> Result<(), Error> 
     progress.save(&files)
 }
 
-fn page(command: Command) -> Result<String, Error> {
+fn page(mut command: Command) -> Result<String, Error> {
     let mut page = Vec::new();
+    // the page's own synopsis would show options without their values
+    let usage = command.render_usage().to_string();
+    let command = command.override_usage(usage.trim_start_matches("Usage: ").to_owned());
     Man::new(command).source(concat!("fogcoil ", env!("CARGO_PKG_VERSION"))).render(&mut page).map_err(Error::Stdout)?;
     Ok(String::from_utf8_lossy(&page).into_owned())
 }

@@ -59,7 +59,7 @@ fn id(text: &str) -> Result<String, std::convert::Infallible> {
 pub(crate) fn run(arguments: &Recommend, progress: &Progress) -> Result<(), Error> {
     let Recommend { coil, between, records, coldest, hottest, fastest, hours, out, json, meta, format, no_cache } = arguments;
     let inputs: Vec<&Path> = [coil].into_iter().chain(records).map(PathBuf::as_path).collect();
-    output::check_distinct(&inputs, &[out.as_deref()])?;
+    output::check_outputs(&inputs, &[out.as_deref()])?;
     let case = progress.read_coil(coil)?;
     diagnose::check_design(&case, coil)?;
     let options = format.options(meta.clone());

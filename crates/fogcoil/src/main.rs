@@ -60,7 +60,7 @@ fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
 }
 
 fn run_wind(coil: &Path, csv: Option<&Path>, svg: Option<&Path>, json: bool, progress: &Progress) -> Result<(), Error> {
-    output::check_distinct(&[coil], &[csv, svg])?;
+    output::check_outputs(&[coil], &[csv, svg])?;
     let case = progress.read_coil(coil)?;
     let mut files = Vec::new();
     files.extend(csv.map(|path| (path, Content::Text(wind::csv(&case.winding)))));
@@ -77,7 +77,7 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
     let Diagnose { coil, fits, holdouts, json, prediction, model_out, report, meta, format, no_cache } = arguments;
     let inputs: Vec<&Path> = [coil].into_iter().chain(fits).chain(holdouts).map(PathBuf::as_path).collect();
     let json_file = json.as_ref().and_then(Option::as_deref);
-    output::check_distinct(&inputs, &[json_file, prediction.as_deref(), model_out.as_deref(), report.as_deref()])?;
+    output::check_outputs(&inputs, &[json_file, prediction.as_deref(), model_out.as_deref(), report.as_deref()])?;
     let case = progress.read_coil(coil)?;
     diagnose::check_design(&case, coil)?;
     let options = format.options(meta.clone());
@@ -105,7 +105,7 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
 fn run_check(arguments: &Check, progress: &Progress) -> Result<(), Error> {
     let Check { record, json, svg, .. } = arguments;
     let quiet = progress.is_silent();
-    output::check_distinct(&[record], &[svg.as_deref()])?;
+    output::check_outputs(&[record], &[svg.as_deref()])?;
     let case = progress.during(&format!("reading {}", record.display()), || input::read_record(record, &arguments.options()))?;
     if quiet && !*json && svg.is_none() {
         output::print(&check::warnings(&case))?;
@@ -139,7 +139,7 @@ fn run_trim(coil: &Path, profile: Option<&Path>, json: bool, progress: &Progress
 fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> {
     let Simulate { coil, profile, between, step, spool, spool_noise, out, report, json, no_cache } = arguments;
     let inputs: Vec<&Path> = [Some(coil), profile.as_ref(), spool.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
-    output::check_distinct(&inputs, &[Some(out), report.as_deref()])?;
+    output::check_outputs(&inputs, &[Some(out), report.as_deref()])?;
     let case = progress.read_coil(coil)?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
     let drawn = report.is_some() && case.winding.turns().len() <= figures::MOST_TURNS;

@@ -4,7 +4,7 @@ use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::process;
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -37,10 +37,11 @@ enum How {
 pub(crate) struct Progress {
     how: How,
     /// The bar of what is being done.
-    bar: Mutex<Option<ProgressBar>>,
+    bar: Arc<Mutex<Option<ProgressBar>>>,
     /// The task that was named last.
     named: Mutex<String>,
-    saving: Arc<Mutex<()>>,
+    /// The files that are written; locked while some are being written.
+    written: Arc<Mutex<Vec<String>>>,
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -56,19 +57,11 @@ impl Progress {
             (false, true) => How::Bars,
             (false, false) => How::Lines,
         };
-        let saving = Arc::new(Mutex::new(()));
-        let writing = Arc::clone(&saving);
-        let leave = move || {
-            let asked = Instant::now();
-            // whoever holds the lock is renaming whole files into place
-            while writing.try_lock().is_err() && asked.elapsed() < LEAVE {
-                thread::sleep(Duration::from_millis(10));
-            }
-            process::exit(INTERRUPTED);
-        };
+        let progress = Self { how, bar: Arc::default(), named: Mutex::default(), written: Arc::default() };
+        let (bar, written) = (Arc::clone(&progress.bar), Arc::clone(&progress.written));
         // without a handler the system's own stops the program; what is lost is tidiness
-        let _ = ctrlc::set_handler(leave);
-        Self { how, bar: Mutex::new(None), named: Mutex::default(), saving }
+        let _ = ctrlc::set_handler(move || leave(&bar, &written));
+        progress
     }
 
     /// Whether notes are not wanted.
@@ -76,13 +69,14 @@ impl Progress {
         self.how == How::Silent
     }
 
-    /// Says something.
+    /// Says something: a note, unless it begins as a warning.
     pub(crate) fn note(&self, text: &str) {
         if self.is_silent() {
             return;
         }
         // nobody is left to tell if standard error is closed
-        let say = || drop(writeln!(std::io::stderr().lock(), "note: {text}"));
+        let kind = if text.starts_with("warning: ") { "" } else { "note: " };
+        let say = || drop(writeln!(std::io::stderr().lock(), "{kind}{text}"));
         match lock(&self.bar).as_ref() {
             Some(bar) => bar.suspend(say),
             None => say(),
@@ -151,10 +145,19 @@ impl Progress {
         result
     }
 
-    /// Writes files; an interrupt waits until they are whole.
+    /// Writes files, if any, and says so; an interrupt waits until they are whole.
     pub(crate) fn save(&self, files: &[(&Path, Content)]) -> Result<(), Error> {
-        let _held = lock(&self.saving);
-        output::write_files(files)
+        if files.is_empty() {
+            return Ok(());
+        }
+        let names: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
+        {
+            let mut written = lock(&self.written);
+            output::write_files(files)?;
+            written.extend_from_slice(&names);
+        }
+        self.note(&are_written(&names));
+        Ok(())
     }
 
     /// Reads a coil file and says what in it looks like a mistake.
@@ -162,6 +165,33 @@ impl Progress {
         let case = self.during(&format!("reading {}", path.display()), || input::read_coil(path))?;
         case.warnings.iter().for_each(|warning| self.note(&format!("warning: {}: {warning}", path.display())));
         Ok(case)
+    }
+}
+
+/// Ends the program that was interrupted, as soon as no file is being written, and says what is written.
+fn leave(bar: &Mutex<Option<ProgressBar>>, written: &Mutex<Vec<String>>) -> ! {
+    let asked = Instant::now();
+    let mut files = written.try_lock();
+    while matches!(files, Err(TryLockError::WouldBlock)) && asked.elapsed() < LEAVE {
+        thread::sleep(Duration::from_millis(10));
+        files = written.try_lock();
+    }
+    let state = files.as_ref().map_or("each file that was being written is whole or absent".into(), |files| are_written(files));
+    if let Some(bar) = lock(bar).take() {
+        bar.finish_and_clear();
+    }
+    // nobody is left to tell if standard error is closed
+    let _ = writeln!(std::io::stderr().lock(), "interrupted; {state}");
+    process::exit(INTERRUPTED)
+}
+
+/// Says that files are written; of more than four it names the first.
+fn are_written(files: &[String]) -> String {
+    match files {
+        [] => "nothing is written".into(),
+        [file] => format!("{file} is written"),
+        [first, more @ ..] if more.len() > 3 => format!("{first} and {} more files are written", more.len()),
+        [files @ .., last] => format!("{} and {last} are written", files.join(", ")),
     }
 }
 
@@ -188,6 +218,20 @@ mod tests {
     fn a_count_is_told_from_other_brackets() {
         assert_eq!(counted("fitting (once) (3 of 14)"), ("fitting (once)", Some((3, 14))));
         assert_eq!(counted("fitting (half a minute of it)"), ("fitting (half a minute of it)", None));
+    }
+
+    #[test]
+    fn a_few_files_are_named() {
+        let files = ["a", "b", "c", "d", "e"].map(str::to_owned);
+        let said = [0, 1, 2, 4, 5].map(|count| are_written(&files[..count]));
+        let expected = [
+            "nothing is written",
+            "a is written",
+            "a and b are written",
+            "a, b, c and d are written",
+            "a and 4 more files are written",
+        ];
+        assert_eq!(said, expected);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use winding::{Half, Winding};
 
 use crate::input::CoilCase;
-use crate::table::table;
+use crate::table::{significant, table};
 use crate::units::to_mm;
 
 /// Columns of the turn table.
@@ -63,8 +63,8 @@ pub fn text(case: &CoilCase) -> String {
         row("inner diameter", format!("{:.4}", 2.0 * to_mm(spec.inner_radius)), "mm"),
         row("outer diameter", format!("{:.4}", 2.0 * to_mm(winding.outer_radius())), "mm, half a pitch beyond the last layer"),
         row("height", format!("{:.4}", to_mm(winding.height())), "mm, half a pitch beyond the last turn"),
-        row("radial first moment", format!("{:.6e}", winding.moment(1, 0)), "m^3, sum of W (r - mean r), W = int (L - 2z) dz"),
-        row("axial first moment", format!("{:.6e}", winding.moment(0, 1)), "m^3, sum of W (y - mean y)"),
+        row("radial first moment", significant(winding.moment(1, 0), 7), "m^3, sum of W (r - mean r), W = int (L - 2z) dz"),
+        row("axial first moment", significant(winding.moment(0, 1), 7), "m^3, sum of W (y - mean y)"),
     ];
     format!("{}: {:?} winding\n\n{}", case.name, spec.pattern, table(&rows))
 }

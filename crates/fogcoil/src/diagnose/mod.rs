@@ -150,11 +150,13 @@ fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -> Result<()
 /// # Errors
 /// [`Error::Coil`] if the design cannot be modelled.
 pub fn library(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(&str) + Sync)) -> Result<Library, Error> {
-    const TASK: &str = "modelling the coil and what its model may leave out (half a minute, once for a design)";
-    progress(TASK);
+    const TASK: &str = "modelling the coil and what its model may leave out (about a minute, once for a design)";
     let key = (&case.design, COARSE);
     let share = |share: f64| progress(&format!("{TASK} ({:.0} of 100)", 100.0 * share));
-    let built = cache.load_or_build("library", &key, || Library::build(&case.design, share));
+    let built = cache.load_or_build("library", &key, || {
+        progress(TASK);
+        Library::build(&case.design, share)
+    });
     built.map(|(library, _)| library).map_err(|source| Error::Coil { file: case.file.clone(), source })
 }
 

@@ -62,10 +62,7 @@ impl Entry {
             Self::Mechanism(mechanism) => mechanism.text(),
             Self::Remark(remark) => {
                 let Explanation { cause, consequence, remedy } = remark.explanation();
-                format!(
-                    "{}: a warning or note\n\nCause:       {cause}\nConsequence: {consequence}\nRemedy:      {remedy}\n",
-                    remark.id()
-                )
+                format!("{}: {cause}\n\nConsequence: {consequence}\nRemedy:      {remedy}\n", remark.id())
             }
         }
     }

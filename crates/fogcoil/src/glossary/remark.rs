@@ -84,6 +84,10 @@ remarks! {
         "Rows of a profile last longer than a coil takes to answer.",
         "A row's rate is the mean since the row before: peaks, and the slope on the thermometer's rate, come out too small.",
         "Give `simulate` --step 30, which adds rows on the straight lines between them.";
+    OneRow "one-row":
+        "A profile has one row.",
+        "Nothing can happen in it: the model starts at rest, and the result is one row at rest.",
+        "Give rows from the start to the end of what the chamber does.";
     Kelvin "kelvin":
         "A profile's chamber_c never falls to what would be usual in degC: it may be in kelvin.",
         "Differences are right all the same; what depends on the temperature itself (transitions, bonds that open) is not.",

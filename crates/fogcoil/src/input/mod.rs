@@ -12,6 +12,7 @@ mod error;
 mod fields;
 mod fingerprint;
 mod heat;
+mod kind;
 mod limits;
 mod mechanics;
 mod meta;

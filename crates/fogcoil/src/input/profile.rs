@@ -142,11 +142,7 @@ pub fn check_profile(path: &Path, text: String, design: &Design) -> Result<Profi
 }
 
 fn read(mut rows: Rows, path: &Path, design: &Design) -> Result<ProfileCase, InputError> {
-    if !rows.advance()? {
-        return Err(
-            rows.whole_fault("is empty", "its first line names the columns, time_s,chamber_c; a row for each instant follows")
-        );
-    }
+    rows.header("time_s,chamber_c")?;
     let columns = Columns::read(&rows, design)?;
     let (time, mut courses) = read_rows(&mut rows, &columns)?;
     let mut drives: Vec<Drive> = columns.drives.iter().map(|(_, drive)| *drive).collect();
@@ -155,6 +151,9 @@ fn read(mut rows: Rows, path: &Path, design: &Design) -> Result<ProfileCase, Inp
         courses.push(vec![1.0; time.len()]);
     }
     let mut notes = columns.notes(path);
+    if time.len() == 1 {
+        notes.push(Remark::OneRow.says(format!("{}: has one row, in which nothing can happen", path.display())));
+    }
     let shortest = time.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
     if shortest < RESOLVED_S * (1.0 - 1e-6) {
         let problem = format!(

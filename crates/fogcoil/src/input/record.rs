@@ -105,10 +105,7 @@ pub fn check_record(path: &Path, text: String, meta: Option<&Path>) -> Result<Re
 }
 
 fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<Meta>) -> Result<RecordCase, Error> {
-    if !rows.advance()? {
-        let remedy = "its first line names the columns, time_s,chamber_c,spool_c,rate_deg_per_h; a row for each instant follows";
-        return Err(rows.whole_fault("is empty", remedy).into());
-    }
+    rows.header("time_s,chamber_c,spool_c,rate_deg_per_h")?;
     let columns = RecordColumns::read(&rows, format)?;
     let (recording, relative) = read_rows(&mut rows, &columns, format)?;
     let report = check(&recording, &expectations(&recording, format));

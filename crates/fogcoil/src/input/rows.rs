@@ -137,6 +137,19 @@ impl Rows {
         }
     }
 
+    /// Moves to the first row, which names the columns, such as `columns`.
+    pub(crate) fn header(&mut self, columns: &str) -> Result<(), InputError> {
+        let remedy = format!("its first line names the columns, {columns}; a row for each instant follows");
+        if !self.advance()? {
+            return Err(self.whole_fault("is empty", remedy));
+        }
+        let first = self.field(0);
+        if first.starts_with("//") || first.starts_with("/*") || first == "(" || (first.starts_with('(') && first.contains(':')) {
+            return Err(self.whole_fault("begins like a RON file, but a table (CSV) is read here", remedy));
+        }
+        Ok(())
+    }
+
     fn unreadable(&self, error: &csv::Error) -> InputError {
         match error.kind() {
             ErrorKind::Utf8 { .. } => self.fault(None, "is not UTF-8 text", "save the file as \"CSV UTF-8\""),

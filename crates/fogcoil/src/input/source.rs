@@ -4,11 +4,11 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use ron::error::SpannedError;
-use serde::de::DeserializeOwned;
 
 use super::InputError;
 use super::fields::{FieldMap, join};
 use super::fingerprint::Fingerprint;
+use super::kind::{CaseFile, mistaken};
 use super::syntax::explain;
 
 /// Largest case file [bytes]: some 300 times the reference files.
@@ -48,9 +48,6 @@ impl Source {
             InputError { line: Some(line), ..fault("is not UTF-8 text".into(), "save the file as UTF-8") }
         })?;
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
-        if text.trim().is_empty() {
-            return Err(fault("is empty".into(), "copy the reference file and change its numbers"));
-        }
         Ok(Self { path: path.to_owned(), text })
     }
 
@@ -68,8 +65,11 @@ impl Source {
         Fingerprint::of(self.path.clone(), self.text.as_bytes())
     }
 
-    pub(crate) fn parse<T: DeserializeOwned>(&self) -> Result<T, InputError> {
-        ron::from_str(&self.text).map_err(|error| self.syntax_fault(&error))
+    pub(crate) fn parse<T: CaseFile>(&self) -> Result<T, InputError> {
+        ron::from_str(&self.text).map_err(|error| match mistaken(&self.text, T::kind()) {
+            Some((problem, remedy)) => whole_file(&self.path, problem, &remedy),
+            None => self.syntax_fault(&error),
+        })
     }
 
     fn syntax_fault(&self, error: &SpannedError) -> InputError {

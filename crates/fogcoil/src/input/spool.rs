@@ -38,10 +38,7 @@ pub struct SpoolCase {
 /// What is wrong, in which file, line and column, and how to mend it.
 pub fn read_spool(path: &Path, design: &Design) -> Result<SpoolCase, InputError> {
     let mut rows = Rows::open(path, "a record (*.csv)")?;
-    if !rows.advance()? {
-        let remedy = "its first line names the columns, time_s,spool_c; a row for each instant follows";
-        return Err(rows.whole_fault("is empty", remedy));
-    }
+    rows.header("time_s,spool_c")?;
     let names = columns(&rows)?;
     let [at_time, at_spool] = [TIME, SPOOL].map(|wanted| names.iter().position(|name| name == wanted));
     let missing = |name| rows.fault(Some(name), "the column is missing", format!("a record starts with a line {TIME},{SPOOL}"));

@@ -172,9 +172,95 @@ fn a_file_that_is_no_case_file() {
 fn an_output_that_cannot_be_written() {
     let folder = Folder::new();
     folder.write("coil.ron", COIL);
-    refuse(&folder, &["wind", "coil.ron", "--csv", "good.csv", "--svg", "none/x.svg"], &["none/x.svg: cannot be written"]);
-    refuse(&folder, &["wind", "coil.ron", "--csv", "coil.ron"], &["coil.ron: is given twice, or is an input"]);
+    std::fs::create_dir(folder.path("folder")).unwrap();
+    for (path, says) in [
+        ("none/x.svg", "none/x.svg: there is no folder none; make it, or name another"),
+        ("coil.ron/x.svg", "coil.ron/x.svg: there is no folder coil.ron"),
+        ("./coil.ron", "coil.ron: is given twice, or is an input"),
+        ("folder/../good.csv", "good.csv: is given twice, or is an input"),
+        ("folder", "folder: is a folder; name a file in it"),
+        ("..", "..: names no file"),
+        ("-", "-: is no file; name one"),
+    ] {
+        refuse(&folder, &["wind", "coil.ron", "--csv", "good.csv", "--svg", path], &[says]);
+    }
     assert_eq!(std::fs::read_to_string(folder.path("coil.ron")).unwrap(), COIL);
+}
+
+/// A file behind standard output would be replaced, and what else goes there lost.
+#[cfg(target_os = "linux")]
+#[test]
+fn streams_and_devices_are_no_outputs() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    folder.write("log", "kept\n");
+    for path in ["/dev/stdout", "/dev/null", "/dev/fd/1", "/proc/self/fd/1"] {
+        let log = std::fs::File::options().append(true).open(folder.path("log")).unwrap();
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_fogcoil"));
+        let output =
+            command.args(["wind", "coil.ron", "--csv", path]).current_dir(folder.path(".")).stdout(log).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{path}");
+        assert!(
+            stderr(&output).starts_with(&format!("error: {path}: is a device or a pipe; name a file")),
+            "{}",
+            stderr(&output)
+        );
+    }
+    assert_eq!(std::fs::read_to_string(folder.path("log")).unwrap(), "kept\n");
+    assert!(std::process::Command::new("mkfifo").arg(folder.path("pipe")).status().unwrap().success());
+    refuse(&folder, &["wind", "coil.ron", "--svg", "pipe"], &["pipe: is a device or a pipe"]);
+    // where nobody may write, the message has the file's own name alone
+    let output = folder.run(&["wind", "coil.ron", "--svg", "/sys/x.svg"]);
+    let message = stderr(&output);
+    assert!(message.starts_with("error: /sys/x.svg: cannot be written: ") && !message.contains(".fogcoil-"), "{message}");
+}
+
+#[test]
+fn a_path_is_checked_before_anything_is_read() {
+    let folder = Folder::new();
+    let out = "none/f: there is no folder none";
+    for arguments in [
+        &["simulate", "c.ron", "--profile", "p.csv", "--out", "none/f"][..],
+        &["simulate", "c.ron", "--profile", "p.csv", "--out", "b.csv", "--report", "none/f"],
+        &["diagnose", "c.ron", "--fit", "r.csv", "--model-out", "none/f"],
+        &["diagnose", "c.ron", "--fit", "r.csv", "--report", "none/f"],
+        &["diagnose", "c.ron", "--fit", "r.csv", "--json", "none/f"],
+        &["diagnose", "c.ron", "--fit", "r.csv", "--holdout", "h.csv", "--prediction", "none/f"],
+        &["recommend", "c.ron", "--between", "a,b", "--out", "none/f"],
+        &["homogenize", "c.ron", "--svg", "none/f"],
+        &["homogenize", "c.ron", "--load", "dt=1", "--vtu", "none/f"],
+        &["check", "r.csv", "--svg", "none/f"],
+        &["new", "none/f"],
+    ] {
+        refuse(&folder, arguments, &[out]);
+    }
+}
+
+#[test]
+fn a_file_of_another_kind_is_named() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    folder.write("cell.ron", CELL);
+    folder.write("p.csv", "time_s,chamber_c\n0,20\n");
+    folder.write("p.txt", "0;20,5\n");
+    folder.write("comment.ron", "// nothing yet\n");
+    folder.run(&["new", "t.ron", "--kind", "targets"]);
+    for (command, file, says) in [
+        ("homogenize", "coil.ron", "is a coil file, but a cell file is read here; `fogcoil new --kind cell FILE` writes one"),
+        ("sensitivity", "cell.ron", "is a cell file, but a coil file is read here; `fogcoil new FILE` writes one"),
+        ("sensitivity", "t.ron", "is a file of targets, but a coil file"),
+        ("identify", "cell.ron", "is a cell file, but a file of targets is read here; `fogcoil new --kind targets FILE`"),
+        ("sensitivity", "p.csv", "looks like a table, not a RON file; `fogcoil new FILE` writes one"),
+        ("homogenize", "p.txt", "looks like a table, not a RON file"),
+        ("sensitivity", "comment.ron", "is empty; `fogcoil new FILE` writes one to start from"),
+        ("check", "coil.ron", "begins like a RON file, but a table (CSV) is read here; its first line names the columns"),
+    ] {
+        refuse(&folder, &[command, file], &[&format!("error: {file}: {says}")]);
+    }
+    let simulate = ["simulate", "coil.ron", "--out", "b.csv"];
+    for flag in ["--profile", "--spool"] {
+        refuse(&folder, &[&simulate[..], &[flag, "coil.ron"]].concat(), &["error: coil.ron: begins like a RON file"]);
+    }
 }
 
 #[test]

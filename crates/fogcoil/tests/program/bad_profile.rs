@@ -46,8 +46,8 @@ fn a_header_that_names_no_profile() {
             "p.csv:1: mount_left_c: the design has no mount at the side Left",
             "heat.mounts",
         ),
-        (COIL, "p.csv:1: unknown column", ""),
         ("# by hand\n# slow\ntime_s,temp\n0,1\n", "p.csv:3: unknown column `temp`", "a profile has"),
+        (COIL, "p.csv: begins like a RON file", "time_s,chamber_c"),
     ]);
 }
 
@@ -104,7 +104,7 @@ fn an_output_that_cannot_be_written() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         stderr(&output)
     };
-    assert!(run(&["--out", "b.csv", "--report", "none/r.html"]).contains("none/r.html: cannot be written"));
+    assert!(run(&["--out", "b.csv", "--report", "none/r.html"]).contains("none/r.html: there is no folder none"));
     assert!(run(&["--out", "p.csv"]).contains("p.csv: is given twice, or is an input"));
     assert!(run(&["--out", "b.csv", "--report", "coil.ron"]).contains("coil.ron: is given twice, or is an input"));
     assert!(run(&[]).contains("--out"));

@@ -25,7 +25,7 @@ const KEYS: [&str; 16] = [
 fn run(folder: &Folder, arguments: &[&str]) -> String {
     let output = folder.run(arguments);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(output.stderr.is_empty());
+    assert!(stderr(&output).lines().all(|line| line.ends_with(" written")), "{}", stderr(&output));
     stdout(&output)
 }
 
@@ -241,7 +241,23 @@ fn what_looks_like_a_mistake_is_said_and_not_refused() {
         assert!(stderr(&output).contains(word), "{new}: {}", stderr(&output));
     }
     folder.write("coil.ron", COIL);
-    assert_eq!(stderr(&folder.run(&["wind", "coil.ron"])), "");
+    let output = folder.run(&["wind", "coil.ron"]);
+    assert_eq!(stderr(&output), "");
+    assert!(stdout(&output).contains("-2.272064  m^3"), "{}", stdout(&output));
+}
+
+#[test]
+fn what_is_written_is_said() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    folder.write("p.csv", "time_s,chamber_c\n0,20\n");
+    let wind = ["wind", "coil.ron", "--csv", "t.csv", "--svg", "t.svg"];
+    assert_eq!(stderr(&folder.run(&wind)), "note: t.csv and t.svg are written\n");
+    assert_eq!(stderr(&folder.run(&[&wind[..], &["--quiet"]].concat())), "");
+    // and that nothing happens in a profile of one row
+    let said = stderr(&folder.run(&["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv"]));
+    assert!(said.contains("note: p.csv: has one row, in which nothing can happen [one-row]\n"), "{said}");
+    assert!(said.ends_with("note: b.csv is written\n"), "{said}");
 }
 
 #[test]

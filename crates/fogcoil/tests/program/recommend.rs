@@ -39,9 +39,10 @@ fn a_fast_profile_is_recommended_and_can_be_simulated() {
     assert!(last.starts_with("86400.0,"), "{last}");
     // a chamber that hardly moves tells nothing
     let narrow =
-        [&between[..4], &["--coldest", "19", "--hottest", "21", "--fastest", "0.05", "--hours", "12", "--json", "--quiet"]]
-            .concat();
-    let r = json(&folder, &narrow, "recommend");
+        [&between[..4], &["--coldest", "19", "--hottest", "21", "--fastest", "0.05", "--hours", "12", "--json"]].concat();
+    let output = folder.run(&narrow);
+    assert!(!stderr(&output).contains("modelling"), "the library is in the cache: {}", stderr(&output));
+    let r: Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(r["profiles"][0]["decides"], false);
     let says = r["recommendation"].as_str().unwrap();
     assert!(says.starts_with("No profile within the limits") && says.contains("tails' lengths"), "{says}");

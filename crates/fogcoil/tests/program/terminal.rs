@@ -92,6 +92,8 @@ fn every_id_is_explained_and_a_wrong_one_is_answered_with_the_nearest() {
     for id in MECHANISMS.iter().map(|m| m.id).chain(Remark::ALL.iter().map(|r| r.id())) {
         assert!(list.lines().any(|line| line.split_whitespace().next() == Some(id)), "{id}");
     }
+    let head = stdout(&folder.run(&["explain", "kelvin"])).lines().next().unwrap().to_owned();
+    assert!(head.starts_with("kelvin: A profile's chamber_c never falls"), "{head}");
     let debond = stdout(&folder.run(&["explain", "debond"]));
     for part in ["Equation", "debond_c", "hysteresis_k", "Place in the chain", "confused with", "ultrasound", "Hutchinson"] {
         assert!(debond.contains(part), "{part}: {debond}");
@@ -124,6 +126,7 @@ fn a_warning_ends_in_its_id_and_quiet_silences_it_everywhere() {
     folder.write("c.ron", change(COIL, "(cw: 0.0, ccw: 0.0)", "(cw: 800.0, ccw: 0.0)"));
     let loud = folder.run(&["wind", "c.ron", "--json"]);
     assert!(stderr(&loud).ends_with("is this meant? [long-tail]\n"), "{}", stderr(&loud));
+    assert!(stderr(&loud).starts_with("warning: c.ron: "), "{}", stderr(&loud));
     let object: Value = serde_json::from_str(&stdout(&loud)).unwrap();
     assert_eq!((&object["turns"], &object["tails_m"]["cw"]), (&Value::from(3798), &Value::from(800.0)));
     for arguments in [["--quiet", "wind", "c.ron", "--json"], ["wind", "c.ron", "--json", "--quiet"]] {
@@ -144,12 +147,17 @@ fn completions_and_manual_name_every_command() {
     }
     let page = stdout(&folder.run(&["man"]));
     assert!(page.contains(".TH fogcoil 1") && page.contains("Exit status: 0 done"), "{page}");
-    assert_eq!(folder.run(&["man", "--dir", "man"]).status.code(), Some(0));
+    let written = folder.run(&["man", "--dir", "man"]);
+    assert_eq!(written.status.code(), Some(0));
+    assert!(stderr(&written).starts_with("note: man/fogcoil.1 and ") && stderr(&written).ends_with(" more files are written\n"));
     let help = stdout(&folder.run(&["--help"]));
     let commands = help.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
     for command in commands.map(|line| line.split_whitespace().next().unwrap()).filter(|command| *command != "help") {
         let page = fs::read_to_string(folder.path(&format!("man/fogcoil-{command}.1"))).unwrap();
         assert!(page.contains(&format!("fogcoil\\-{command}")), "{page}");
+        let synopsis = page.split(".SH").find(|section| section.starts_with(" SYNOPSIS")).unwrap();
+        let shown = command != "simulate" || synopsis.contains("\\-\\-out <B.csv>");
+        assert!(shown && synopsis.contains(&format!("fogcoil {command}")), "{synopsis}");
     }
 }
 
@@ -162,10 +170,12 @@ fn an_interrupt_leaves_nothing_and_a_closed_pipe_is_no_failure() {
     let program = env!("CARGO_BIN_EXE_fogcoil");
     let mut command = Command::new(program);
     command.args(["simulate", "c.ron", "--profile", "p.csv", "--out", "b.csv", "--no-cache"]).current_dir(folder.path("."));
-    let mut running = command.stderr(Stdio::null()).stdout(Stdio::null()).spawn().unwrap();
+    let running = command.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
     thread::sleep(Duration::from_millis(150));
     Command::new("kill").args(["-INT", &running.id().to_string()]).status().unwrap();
-    assert_eq!(running.wait().unwrap().code(), Some(130));
+    let output = running.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    assert!(stderr(&output).ends_with("interrupted; nothing is written\n"), "{}", stderr(&output));
     assert_eq!(folder.names(), ["c.ron", "p.csv"]);
     let list = Command::new(program).arg("explain").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
     let mut closed = list.unwrap();

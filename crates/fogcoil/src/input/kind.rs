@@ -1,0 +1,69 @@
+//! Kinds of case files, told from one another and from tables.
+
+use serde::de::DeserializeOwned;
+
+use super::cell_file::CellFile;
+use super::coil_file::CoilFile;
+use super::fields::FieldMap;
+use super::meta::Meta;
+use super::record_format::MapFile;
+use super::scanner::{Scanner, Token};
+use super::targets_file::TargetsFile;
+
+/// A kind of case file that `fogcoil new` writes.
+pub(crate) struct Kind {
+    name: &'static str,
+    /// A field that each has at its top, and no other kind.
+    mark: &'static str,
+    /// What writes one.
+    command: &'static str,
+}
+
+static COIL: Kind = Kind { name: "a coil file", mark: "winding", command: "fogcoil new FILE" };
+static CELL: Kind = Kind { name: "a cell file", mark: "adhesive", command: "fogcoil new --kind cell FILE" };
+static TARGETS: Kind = Kind { name: "a file of targets", mark: "targets", command: "fogcoil new --kind targets FILE" };
+
+/// What a case file is read as.
+pub(crate) trait CaseFile: DeserializeOwned {
+    /// Its kind, if `fogcoil new` writes such files.
+    fn kind() -> Option<&'static Kind>;
+}
+
+macro_rules! kinds {
+    ($($file:ty: $kind:expr;)*) => {
+        $(impl CaseFile for $file {
+            fn kind() -> Option<&'static Kind> {
+                $kind
+            }
+        })*
+    };
+}
+
+kinds! {
+    CoilFile: Some(&COIL);
+    CellFile: Some(&CELL);
+    TargetsFile: Some(&TARGETS);
+    MapFile: None;
+    Meta: None;
+}
+
+/// Problem and remedy if `text` is not of the kind that is wanted but of another, a table, or nothing.
+pub(super) fn mistaken(text: &str, wanted: Option<&Kind>) -> Option<(String, String)> {
+    let mut tokens = Scanner::new(text).map(|(_, token)| token);
+    let start = [tokens.next(), tokens.next()];
+    let opens = start.iter().any(|token| matches!(token, Some(Token::Open(_))));
+    let problem = if start[0].is_none() {
+        "is empty".to_owned()
+    } else if !opens && text.trim_start().lines().next().is_some_and(|line| line.contains([',', ';', '\t'])) {
+        "looks like a table, not a RON file".to_owned()
+    } else {
+        let (map, wanted) = (FieldMap::new(text), wanted?);
+        let is = |kind: &Kind| matches!(map.find(kind.mark), (Some(_), ""));
+        let found = [&COIL, &CELL, &TARGETS].into_iter().find(|kind| is(kind)).filter(|_| !is(wanted))?;
+        format!("is {}, but {} is read here", found.name, wanted.name)
+    };
+    let remedy = wanted.map_or("write fields in parentheses, (name: value, ...)".to_owned(), |kind| {
+        format!("`{}` writes one to start from", kind.command)
+    });
+    Some((problem, remedy))
+}
