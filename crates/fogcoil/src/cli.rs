@@ -20,7 +20,7 @@ pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
     /// No notes and no progress on standard error
-    #[arg(long, global = true)]
+    #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
 }
 
