@@ -16,7 +16,8 @@ impl Outcome {
     pub(super) fn rivals(&self, out: &mut String) {
         let (groups, best) = (self.groups(), self.diagnosis.best());
         let Some(winner) = groups.iter().find(|group| alike(group.first, best)) else { return };
-        let name = self.said(winner);
+        let ids: Vec<&str> = best.fit.hypothesis.mechanisms.iter().map(|(number, _)| self.id(*number)).collect();
+        let name = if ids.is_empty() { self.said(winner) } else { ids.join(" + ") };
         // best first; what was not tried comes last
         let mut rows: Vec<(f64, Vec<String>)> = self
             .contenders(best)
@@ -24,9 +25,9 @@ impl Outcome {
             .map(|(rival, fits)| match groups.iter().find(|group| !holds(group.first, best) && fits(group.first)) {
                 Some(group) => {
                     let odds = winner.log_weight - group.log_weight;
-                    (odds, vec![rival, self.said(group), signed(odds, 1)])
+                    (odds, vec![rival, signed(odds, 1), self.said(group)])
                 }
-                None => (f64::INFINITY, vec![rival, format!("not tried without {name}"), "–".into()]),
+                None => (f64::INFINITY, vec![rival, "–".into(), format!("not tried without {name}")]),
             })
             .collect();
         rows.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -41,9 +42,9 @@ impl Outcome {
         );
         grid(
             out,
-            &format!("Rivals of {name}"),
+            &format!("ln odds of {name} over each rival"),
             Cells::Words,
-            &["rival", "its best hypothesis", &format!("ln odds of {name} over it")],
+            &["rival", "ln odds", "its best hypothesis"],
             &rows,
         );
     }
