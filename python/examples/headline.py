@@ -32,7 +32,7 @@ from concurrent.futures import ThreadPoolExecutor  # noqa: E402
 
 thickness = np.linspace(2.0, 8.0, 7)
 with ThreadPoolExecutor() as pool:
-    hubs = pool.map(lambda mm: fogcoil.sensitivity(coil.replace({"spool.hub_thickness_mm": mm})), thickness)
+    hubs = pool.map(lambda mm: fogcoil.sensitivity(coil.replace({"spool.hub_thickness_mm": mm, "sensor.radius_mm": 43.5 - mm})), thickness)
     totals = np.array([hub["total"] for hub in hubs])
 
 # %% The picture

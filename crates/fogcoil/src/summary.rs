@@ -194,7 +194,7 @@ pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
     let rate = |value: f64, error: f64| format!("{} ± {}", rounded(value), significant(error, 2));
     let unit = DurationUnit::of(duration);
     let after = format!("s, {:.2} {} after the first row", unit.of_seconds(peak.time - simulation.row(0).time), unit.name());
-    let slope_name = format!("slope of the rate on the spool's rate, over {WINDOW_S} s or a row");
+    let slope_name = format!("slope of the bias on the spool's degC/min, over {WINDOW_S} s or a row");
     let steady = format!("{:.4} ± {}", simulation.steady.sensitivity.total(), significant(simulation.steady.error_estimate, 2));
     let mut all = vec![
         entry("rows", rows.to_string(), ""),

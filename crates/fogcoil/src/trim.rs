@@ -88,7 +88,7 @@ pub fn text(case: &CoilCase, trim: &Trim) -> String {
     let (longer, difference) = if *cw_minus_ccw >= 0.0 { ("CW", *cw_minus_ccw) } else { ("CCW", -cw_minus_ccw) };
     let mut text = format!(
         "{}: sensitivity {before:.4} (deg/h)/(degC/min); null it by either\n\n\
-         tails: the {longer} tail longer by {difference:.3} ± {uncertainty:.3} m (standard uncertainty); each metre adds {slope:.3}\n\n",
+         tails: the {longer} tail longer by {difference:.3} ± {uncertainty:.3} m (standard uncertainty); each metre adds {slope:.3} (deg/h)/(degC/min)\n\n",
         case.name
     );
     let rows: Vec<Vec<String>> = PRIORS

@@ -34,7 +34,7 @@ impl Outcome {
         let set: Vec<&str> = d.set.iter().map(|m| self.id(*m)).collect();
         let mechanisms = self.likely().take(MOST);
         all.extend(mechanisms.map(|(name, probability)| Explanation { name, probability, open: set.contains(&name) }));
-        all.push(of("nothing that has a name here", unknown, Verdict::Unknown));
+        all.push(of("something without a name", unknown, Verdict::Unknown));
         all
     }
 }

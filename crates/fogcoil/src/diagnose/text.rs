@@ -75,7 +75,8 @@ impl Outcome {
         out.push_str(&table(&rows));
         if self.likely().next().is_some() {
             out.push_str(
-                "(probability of a mechanism: that it takes part, alone or with others, so that they may add up to more than 1)\n",
+                "(probability of a mechanism: that it takes part, alone or with others of the library, so that they may add up to more than 1; \
+                 what has no name may stand alone or beside one that has)\n",
             );
         }
         out

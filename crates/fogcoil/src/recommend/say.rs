@@ -138,5 +138,9 @@ pub fn text(r: &Recommendation) -> String {
     rows.extend(r.sensors.iter().map(|s| row(&format!("{} with {}", s.programme, s.sensor), &s.odds)));
     out.push('\n');
     out.push_str(&table(&rows));
+    out.push_str(
+        "(sigma: what the profile shows of the difference, in standard deviations of the noise; ln odds: expected, of the truth over what may \
+         be taken for it, of the pair that is hardest to tell apart; gain: over the last record's test done again)\n",
+    );
     out
 }

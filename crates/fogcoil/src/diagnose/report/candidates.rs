@@ -39,8 +39,8 @@ impl Outcome {
         let unnamed = self.gyro.mechanisms().iter().filter(|m| !m.named).count();
         let _ = writeln!(
             out,
-            "</tbody>\n</table>\n<p>Of a mechanism: the probability that it is at work, alone or with another; of any in the library: {}. \
-             What is marked is not excluded. {} hypotheses were compared: {} mechanisms with a name and {unnamed} without one alone, pairs of them, and the leading ones \
+            "</tbody>\n</table>\n<p>Of a mechanism: the probability that it is at work, alone or with another of the library; of any in the library: {}. \
+             Something without a name may stand alone or beside one that has a name. What is in bold is not excluded. {} hypotheses were compared: {} mechanisms with a name and {unnamed} without one alone, pairs of them, and the leading ones \
              with free structure; every choice (a layer, a second mechanism) is paid for by its share of the prior.</p>",
             signed(library, 3),
             d.candidates.len(),
