@@ -22,12 +22,11 @@ pub struct Fidelity {
 /// The mesh and the modes behind a simulation.
 pub const STANDARD: Fidelity = Fidelity { resolution: crate::COARSE, modes: 40 };
 
-/// A coarser mesh for a fifth of the time: [`COARSER_SHARE`] of the distance to it is the estimate of the error of [`STANDARD`].
+/// A coarser mesh for a sixth of the time: the distance to it is the estimate of the error of [`STANDARD`].
+///
+/// Of 84 designs (spools of many kinds, coils of 10 to 100 mm radius, 45 of them drawn at random; under a ramp or a step) the error took 0.95 of
+/// the distance at most, of the rate a tenth usually, of the thermometer a third: an estimate, not a bound.
 pub const COARSER: Fidelity = Fidelity { resolution: Resolution { order: 4, layers: 2, ..STANDARD.resolution }, ..STANDARD };
-
-/// Share of the distance between [`STANDARD`] and [`COARSER`] that covers the error of [`STANDARD`]: of ten designs about the reference coil
-/// (spools of two metals, thin, thick, free, with none, one and two flanges) the error took 0.4 of the distance at most, a tenth usually.
-pub const COARSER_SHARE: f64 = 0.5;
 
 /// A design ready to be simulated: its thermometer, mean coil temperature and bias parts as a few exponentials.
 #[derive(Debug, Clone, PartialEq)]

@@ -40,9 +40,7 @@ pub use design::{
     Body, Contact, Dehomogenization, Design, Drifts, FactorsAt, Flange, HeatPaths, Heater, Mechanics, Mount, Opening, Sensor,
     Side, Solid, Spool, Surroundings,
 };
-pub use dynamics::{
-    COARSER, COARSER_SHARE, Dynamics, Fidelity, Profile, REDUCTION_SAFETY, ReductionError, Response, STANDARD, functionals,
-};
+pub use dynamics::{COARSER, Dynamics, Fidelity, Profile, REDUCTION_SAFETY, ReductionError, Response, STANDARD, functionals};
 pub use error::Error;
 pub use fields::{TurnFields, TurnValues};
 pub use grid::{Bonds, Domain, Grid, Resolution};

@@ -4,7 +4,7 @@ use crate::grid::Grading;
 use crate::{Design, Error, MechanicalState, Model, Resolution};
 use bias::Sensitivity;
 
-/// The mesh behind numbers without an error of their own: trims, profiles, comparisons of designs.
+/// The mesh behind trims, comparisons of designs and [`crate::STANDARD`].
 pub const COARSE: Resolution = Resolution { order: 6, layers: 3, ratio: 0.2 };
 /// A mesh two orders and one layer finer, with about a fifteenth of the error.
 pub const FINE: Resolution = Resolution { order: 8, layers: 4, ratio: 0.2 };

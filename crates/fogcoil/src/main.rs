@@ -125,11 +125,14 @@ fn run_check(arguments: &Check, progress: &Progress) -> Result<(), Error> {
     }
 }
 
+/// The remedy for rows that last long where --step is none.
+const CLOSER: &str = "give the profile closer rows";
+
 fn run_trim(coil: &Path, profile: Option<&Path>, json: bool, progress: &Progress) -> Result<(), Error> {
     let case = progress.read_coil(coil)?;
     let mut profile = profile.map(|path| input::read_profile(path, &case.design)).transpose()?;
     if let Some(profile) = &mut profile {
-        profile.divide(None)?;
+        profile.note_long_rows(CLOSER);
         profile.notes.iter().for_each(|note| progress.note(note));
     }
     let result = progress.during("trimming", || trim::trim(&case, profile.as_ref()))?;
@@ -160,10 +163,14 @@ fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> 
             let mut profile =
                 progress.during(&format!("reading {}", profile.display()), || input::read_profile(profile, &case.design))?;
             profile.between = *between;
-            if step.is_some() && *between == Between::Cubic {
-                return Err(Error::Usage("--step adds rows on straight lines: it does not go with --between cubic".into()));
+            match (step, between) {
+                (Some(step), Between::Linear) => profile.divide(*step)?,
+                (Some(_), Between::Cubic) => {
+                    return Err(Error::Usage("--step adds rows on straight lines: it does not go with --between cubic".into()));
+                }
+                (None, _) => {}
             }
-            profile.divide(*step)?;
+            profile.note_long_rows(if *between == Between::Linear { "give --step 30" } else { CLOSER });
             (model(&profile.drives)?, profile)
         }
         (None, None) => return Err(Error::Usage("give a profile (--profile) or a thermometer's record (--spool)".into())),

@@ -182,7 +182,7 @@ fn load_or_build<T: Serialize + DeserializeOwned>(
     build: impl FnOnce() -> Result<T, coil::Error>,
 ) -> Result<(T, Source), Error> {
     let at = |source| Error::Coil { file: case.file.clone(), source };
-    cache.load_or_build(purpose, &(&case.design, drives, STANDARD), || build().map_err(at))
+    cache.load_or_build(purpose, &(&case.design, drives, STANDARD, COARSER), || build().map_err(at))
 }
 
 fn assembled(case: &CoilCase, drives: &[Drive], cache: &Cache, dynamics: Dynamics, source: Source) -> Result<Model, Error> {
@@ -286,7 +286,7 @@ impl Simulation<'_> {
         }
     }
 
-    /// Differences of the rows from those on a coarser mesh; of them [`coil::COARSER_SHARE`] is an estimate of the mesh's error.
+    /// Differences of the rows from those on a coarser mesh; an estimate of the mesh's error.
     pub fn differences(&self) -> impl Iterator<Item = Row> {
         let row = |(n, coarser): (usize, &Response)| {
             let (row, other) = (self.row(n), self.row_of(n, *coarser));
@@ -315,8 +315,18 @@ impl Simulation<'_> {
 
     /// The rows in windows.
     pub fn windows(&self) -> impl Iterator<Item = Window> {
-        let (mut start, mut last, mut turned) = (self.row(0), self.row(0), 0.0);
-        self.rows().skip(1).filter_map(move |row| {
+        Self::windowed(self.row(0), self.rows().skip(1))
+    }
+
+    /// The rows on a coarser mesh in windows.
+    pub fn coarser_windows(&self) -> impl Iterator<Item = Window> {
+        let row = |(n, response): (usize, &Response)| self.row_of(n, *response);
+        Self::windowed(self.row(0), self.coarser.iter().enumerate().skip(1).map(row))
+    }
+
+    fn windowed(first: Row, rows: impl Iterator<Item = Row>) -> impl Iterator<Item = Window> {
+        let (mut start, mut last, mut turned) = (first, first, 0.0);
+        rows.filter_map(move |row| {
             turned += row.rate * (row.time - last.time);
             last = row;
             let span = row.time - start.time;

@@ -1,11 +1,11 @@
 //! What a simulation comes down to: peak, root mean square, and the slope on the thermometer's rate beside the steady sensitivity.
 
-use coil::{COARSER_SHARE, Mechanics};
+use coil::Mechanics;
 use serde_json::{Value, json};
 
 use crate::cache::Source;
 use crate::input::Inference;
-use crate::simulate::{Row, Simulation, WINDOW_S};
+use crate::simulate::{Row, Simulation, WINDOW_S, Window};
 use crate::table::{significant, table};
 use crate::units::DurationUnit;
 
@@ -31,42 +31,52 @@ pub struct Summary {
     pub errors: Errors,
 }
 
-/// Estimated numerical errors of a simulation, mesh and reduced model together; nothing of what the model itself leaves out.
+/// Estimated numerical errors of a simulation at the chamber it is driven by: the distance to the same run on a coarser mesh and, of the bias,
+/// what the reduced model leaves out; nothing of what the model itself leaves out.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Errors {
     /// Of the thermometer in any row \[K\].
     pub spool: f64,
-    /// Of the bias in any row: thermal phase, axial strain, radial strain, their sum \[deg/h\].
-    pub parts: [f64; 4],
+    /// Of the bias in any row: thermal phase, axial strain, radial strain, read-out, their sum \[deg/h\].
+    pub parts: [f64; 5],
     /// Of the root of the mean square \[deg/h\].
     pub rms: f64,
-    /// Of the slope \[(deg/h)/(degC/min)\].
-    pub slope: f64,
+    /// Of the slope \[(deg/h)/(degC/min)\]; `None` if there is none.
+    pub slope: Option<f64>,
 }
 
 impl Errors {
-    /// Of a simulation whose rates are as large as `rms` and at most `peak` \[deg/h\].
-    fn of(simulation: &Simulation, rms: f64, peak: f64, slope: Option<f64>) -> Self {
+    /// Of a simulation with these rates \[deg/h\] and this regression.
+    fn of(simulation: &Simulation, rms: f64, peak: f64, regression: &Regression) -> Self {
         let mut errors = Self::default();
-        let mut last = simulation.row(0).time;
+        let (mut last, mut squared) = (simulation.row(0).time, 0.0);
         for row in simulation.differences() {
             errors.spool = errors.spool.max(row.spool.abs());
-            for (most, part) in errors.parts.iter_mut().zip([row.shupe, row.eo_axial, row.eo_radial, row.rate]) {
+            let parts = [row.shupe, row.eo_axial, row.eo_radial, row.read_out, row.rate];
+            for (most, part) in errors.parts.iter_mut().zip(parts) {
                 *most = most.max(part.abs());
             }
-            errors.rms += row.rate * row.rate * (row.time - last);
+            squared += row.rate * row.rate * (row.time - last);
             last = row.time;
         }
-        errors.spool *= COARSER_SHARE;
         // what the modes leave out is stated of the sum's peak
-        errors.parts = errors.parts.map(|most| COARSER_SHARE * most + simulation.reduction.bias * peak);
+        let reduced = simulation.reduction.bias;
+        for (n, most) in errors.parts.iter_mut().enumerate() {
+            *most += if n == READ_OUT { 0.0 } else { reduced * peak };
+        }
         let duration = simulation.duration();
-        errors.rms =
-            if duration > 0.0 { COARSER_SHARE * (errors.rms / duration).sqrt() } else { 0.0 } + simulation.reduction.bias * rms;
-        errors.slope = if rms > 0.0 { slope.map_or(0.0, |slope| slope.abs() * errors.rms / rms) } else { 0.0 };
+        errors.rms = if duration > 0.0 { (squared / duration).sqrt() } else { 0.0 } + reduced * rms;
+        let coarser = Regression::of(simulation.coarser_windows());
+        errors.slope = regression.slope().zip(coarser.slope()).map(|(slope, other)| {
+            // the modes' errors, however they lie, turn the line by no more than their rms over that of its abscissa
+            (slope - other).abs() + reduced * rms / (regression.xx / regression.count).sqrt()
+        });
         errors
     }
 }
+
+/// Where the read-out stands in [`Errors::parts`]; it follows the thermometer, no strain.
+const READ_OUT: usize = 3;
 
 /// Least-squares line through points that come one by one (Welford's update).
 #[derive(Default)]
@@ -81,6 +91,13 @@ struct Regression {
 const STILL: f64 = 1e-9;
 
 impl Regression {
+    /// Of the rate on the thermometer's rate.
+    fn of(windows: impl Iterator<Item = Window>) -> Self {
+        let mut regression = Self::default();
+        windows.for_each(|window| regression.add(window.spool_rate, window.rate));
+        regression
+    }
+
     fn add(&mut self, x: f64, y: f64) {
         self.count += 1.0;
         let (dx, dy) = (x - self.mean[0], y - self.mean[1]);
@@ -111,12 +128,11 @@ impl Summary {
             squared += row.rate * row.rate * (row.time - last);
             last = row.time;
         }
-        let mut regression = Regression::default();
-        simulation.windows().for_each(|window| regression.add(window.spool_rate, window.rate));
+        let regression = Regression::of(simulation.windows());
         let duration = simulation.duration();
         let rms = if duration > 0.0 { (squared / duration).sqrt() } else { 0.0 };
         let slope = regression.slope();
-        let errors = Errors::of(simulation, rms, peak.rate.abs(), slope);
+        let errors = Errors::of(simulation, rms, peak.rate.abs(), &regression);
         Self { rows: simulation.count(), duration, chamber, spool, peak, rms, slope, errors }
     }
 }
@@ -124,7 +140,7 @@ impl Summary {
 /// The summary as one object, units in the keys; `slope` and sensitivities in (deg/h)/(degC/min).
 pub fn json(simulation: &Simulation) -> Value {
     let Summary { rows, duration, chamber, spool, peak, rms, slope, errors } = Summary::of(simulation);
-    let [shupe, eo_axial, eo_radial, rate] = errors.parts;
+    let [shupe, eo_axial, eo_radial, read_out, rate] = errors.parts;
     let steady = simulation.steady;
     json!({
         "rows": rows,
@@ -136,7 +152,7 @@ pub fn json(simulation: &Simulation) -> Value {
             "shupe_deg_per_h": peak.shupe,
             "eo_axial_deg_per_h": peak.eo_axial,
             "eo_radial_deg_per_h": peak.eo_radial,
-            "read_out_deg_per_h": peak.read_out,
+            "read_out_deg_per_h": peak.read_out + 0.0,
             "rate_deg_per_h": peak.rate,
         },
         "rms_deg_per_h": rms,
@@ -149,6 +165,7 @@ pub fn json(simulation: &Simulation) -> Value {
             "shupe_deg_per_h": shupe,
             "eo_axial_deg_per_h": eo_axial,
             "eo_radial_deg_per_h": eo_radial,
+            "read_out_deg_per_h": read_out,
             "rate_deg_per_h": rate,
             "rms_deg_per_h": errors.rms,
             "slope": errors.slope,
@@ -187,7 +204,7 @@ pub fn text(simulation: &Simulation) -> String {
 /// Name, value and unit of each number, for people.
 pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
     let Summary { rows, duration, chamber, spool, peak, rms, slope, errors } = Summary::of(simulation);
-    let [shupe, eo_axial, eo_radial, sum] = errors.parts;
+    let [shupe, eo_axial, eo_radial, read_out, sum] = errors.parts;
     let entry = |name: &str, value: String, unit: &str| [name.to_owned(), value, unit.to_owned()];
     let range = |[low, high]: [f64; 2]| format!("{:.2} to {:.2}", low + 0.0, high + 0.0);
     let rounded = |value: f64| format!("{:.4}", (value * 1e4).round() / 1e4 + 0.0);
@@ -209,7 +226,7 @@ pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
     ];
     let drifting = simulation.case.design.drifts.read_out != 0.0;
     if drifting {
-        all.push(entry("  read-out", rounded(peak.read_out), "deg/h"));
+        all.push(entry("  read-out", rate(peak.read_out, read_out), "deg/h"));
     }
     let changing = simulation.case.design.mechanics != Mechanics::Elastic;
     let nominal = if changing { "(deg/h)/(degC/min), of the nominal state" } else { "(deg/h)/(degC/min)" };
@@ -220,7 +237,11 @@ pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
             if drifting { "deg/h, the sum of the four" } else { "deg/h, the sum of the three" },
         ),
         entry("root mean square of the rate", rate(rms, errors.rms), "deg/h, over time"),
-        entry(&slope_name, slope.map_or("none".into(), |slope| rate(slope, errors.slope)), "(deg/h)/(degC/min)"),
+        entry(
+            &slope_name,
+            slope.zip(errors.slope).map_or("none".into(), |(slope, error)| rate(slope, error)),
+            "(deg/h)/(degC/min)",
+        ),
         entry("steady-ramp sensitivity", steady, nominal),
     ]);
     if let Some(Inference { noise, sensor_residual_rms, chamber_sd: [median, largest], .. }) = simulation.profile.inferred {

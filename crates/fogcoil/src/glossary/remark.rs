@@ -83,7 +83,7 @@ remarks! {
     LongRows "long-rows":
         "Rows of a profile last longer than a coil takes to answer.",
         "A row's rate is the mean since the row before: peaks, and the slope on the thermometer's rate, come out too small.",
-        "Give `simulate` --step 30, which adds rows on the straight lines between them.";
+        "Give the profile closer rows, or `simulate` --step 30, which adds them on the straight lines between its own.";
     OneRow "one-row":
         "A profile has one row.",
         "Nothing can happen in it: the model starts at rest, and the result is one row at rest.",

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use coil::{Body, Dehomogenization, Design, Layout, Region, Sensor, SteadySensitivity};
+use coil::{Body, Dehomogenization, Design, Layout, SteadySensitivity};
 use fem_core::material::TransverselyIsotropic;
 use homogenization::{Constants, Packing, TOLERANCE};
 use winding::Winding;
@@ -16,7 +16,7 @@ use super::limits::{
 };
 use super::mechanics::mechanics;
 use super::source::Source;
-use super::warnings::warnings;
+use super::warnings::{in_medium, warnings};
 use super::{InputError, coil_parts as parts, heat};
 use crate::Error;
 use crate::glossary::Remark;
@@ -157,8 +157,7 @@ impl CoilCase {
 
 /// With a film there is no medium for the thermometer to sit in.
 fn check_film(top: &Group, design: &Design, layout: &Layout) -> Result<(), InputError> {
-    let Sensor { radius, y, .. } = design.sensor;
-    if design.heat.film.is_some() && layout.region(radius, y) == Region::Medium {
+    if design.heat.film.is_some() && in_medium(layout, design.sensor) {
         let remedy = "move it into the spool or the coil, or remove heat.film_w_per_m2k";
         return Err(top.fault(
             "sensor",

@@ -86,14 +86,26 @@ impl ProfileCase {
         &self.profile.drives[0]
     }
 
-    /// Divides the intervals between rows into equal parts of `step` seconds at most, on the straight lines between them. A profile whose
-    /// rows last long is noted.
+    /// Notes rows in which, or before which, something changes, and which last so long that what the coil does is averaged away.
+    pub fn note_long_rows(&mut self, remedy: &str) {
+        let Profile { time, drives } = &self.profile;
+        let changes = |n: usize| n > 0 && drives.iter().any(|course| course[n] != course[n - 1]);
+        let seen = (1..time.len()).filter(|&n| changes(n) || changes(n - 1));
+        let longest = seen.map(|n| time[n] - time[n - 1]).fold(0.0, f64::max);
+        if longest > COARSE_S {
+            let problem =
+                format!("rows last up to {longest:.0} s, and a row's rate is its mean: peaks within it do not show; {remedy}");
+            self.notes.push(Remark::LongRows.says(format!("{}: {problem}", self.fingerprint.file.display())));
+        }
+    }
+
+    /// Divides the intervals between rows into equal parts of `step` seconds at most, on the straight lines between them.
     ///
     /// # Errors
     /// If these are too many rows.
-    pub fn divide(&mut self, step: Option<f64>) -> Result<(), InputError> {
+    pub fn divide(&mut self, step: f64) -> Result<(), InputError> {
         let time = &self.profile.time;
-        let parts = |pair: &[f64]| step.map_or(1.0, |step| ((pair[1] - pair[0]) / step - 1e-9).ceil().max(1.0));
+        let parts = |pair: &[f64]| ((pair[1] - pair[0]) / step - 1e-9).ceil().max(1.0);
         let rows = 1.0 + time.windows(2).map(parts).sum::<f64>();
         if rows > MOST_ROWS as f64 {
             let problem = format!("has {rows:.0} rows with this --step, more than {MOST_ROWS}");
@@ -113,14 +125,7 @@ impl ProfileCase {
             drives: self.profile.drives.iter().map(|course| divided(course)).collect(),
             time: divided(&self.profile.time),
         };
-        self.step = step;
-        let longest = self.profile.time.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-        if longest > COARSE_S {
-            let problem = format!(
-                "rows last up to {longest:.0} s, and a row's rate is its mean: peaks within it do not show; give --step 30"
-            );
-            self.notes.push(Remark::LongRows.says(format!("{}: {problem}", self.fingerprint.file.display())));
-        }
+        self.step = Some(step);
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! What a coil file may say but rarely means.
 
-use coil::{Design, Layout, Region};
+use coil::{Design, Layout, Region, Sensor};
 use winding::{Half, Pattern, Winding};
 
 use crate::glossary::Remark;
@@ -8,6 +8,15 @@ use crate::units::to_mm;
 
 /// Room between winding and rectangle that a drawing leaves, in pitches.
 const ROOM: f64 = 1.0;
+
+/// How far from a solid a thermometer may be and still be on it \[m\]: what a drawing's decimals leave.
+const ON: f64 = 1e-6;
+
+/// Whether a thermometer is on no solid.
+pub(crate) fn in_medium(layout: &Layout, sensor: Sensor) -> bool {
+    let near = [-ON, 0.0, ON];
+    near.iter().all(|dr| near.iter().all(|dy| layout.region(sensor.radius + dr, sensor.y + dy) == Region::Medium))
+}
 
 /// Layers after which a pattern begins anew.
 fn period(pattern: Pattern) -> usize {
@@ -50,7 +59,7 @@ pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> V
         lines.push(Remark::BrokenPattern.says(message));
     }
     let sensor = design.sensor;
-    if layout.region(sensor.radius, sensor.y) == Region::Medium {
+    if in_medium(layout, sensor) {
         let (radius, y) = (to_mm(sensor.radius), to_mm(sensor.y));
         let message =
             format!("sensor: radius {radius:.3} mm, y {y:.3} mm is in the medium, on no part of spool or coil; is this meant?");

@@ -1,6 +1,6 @@
 //! What was simulated and how: the coil, the inputs, the options, the mesh.
 
-use coil::{CHECKS, COARSER_SHARE, Drive, STEADY, Side};
+use coil::{CHECKS, Drive, STEADY, Side};
 
 use super::provenance::provenance;
 use super::tables::{facts, nice, row};
@@ -82,7 +82,7 @@ pub(super) fn computation(out: &mut String, simulation: &Simulation) {
         row(
             "numerical errors (±)",
             format!(
-                "{COARSER_SHARE} of the largest difference in any row to {}, and what the modes leave out",
+                "the largest difference in any row to {}, and what the modes leave out of the bias",
                 mesh(coil::COARSER.resolution)
             ),
         ),

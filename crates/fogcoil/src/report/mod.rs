@@ -59,7 +59,7 @@ fn lead(simulation: &Simulation) -> String {
         format!(
             " Regressed on the spool's temperature rate, the bias has a slope of {} ± {} (°/h)/(°C/min); in a steady ramp it would be {} ± {}.",
             signed(slope, 3),
-            significant(summary.errors.slope, 2),
+            significant(summary.errors.slope.unwrap_or_default(), 2),
             signed(simulation.steady.sensitivity.total(), 4),
             significant(simulation.steady.error_estimate, 2),
         )
@@ -69,7 +69,7 @@ fn lead(simulation: &Simulation) -> String {
          errors are those of the computation.</p>\n",
         peak.time,
         signed(peak.rate, 4),
-        significant(summary.errors.parts[3], 2),
+        significant(summary.errors.parts[4], 2),
     )
 }
 

@@ -240,6 +240,10 @@ fn what_looks_like_a_mistake_is_said_and_not_refused() {
         assert!(output.status.success(), "{new}: {}", stderr(&output));
         assert!(stderr(&output).contains(word), "{new}: {}", stderr(&output));
     }
+    // exactly at the bore, but for rounding
+    let thicker = change(COIL, "hub_thickness_mm: 4.0", "hub_thickness_mm: 5.2");
+    folder.write("coil.ron", change(&thicker, "radius_mm: 39.5", "radius_mm: 38.3"));
+    assert_eq!(stderr(&folder.run(&["wind", "coil.ron"])), "");
     folder.write("coil.ron", COIL);
     let output = folder.run(&["wind", "coil.ron"]);
     assert_eq!(stderr(&output), "");

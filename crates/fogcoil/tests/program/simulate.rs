@@ -37,6 +37,24 @@ fn rows(table: &str) -> Vec<[f64; 7]> {
     lines.map(row).collect()
 }
 
+/// A slope that trimmed tails bring near zero keeps the error that the parts bring along; without a slope there is none.
+#[test]
+fn the_error_of_a_slope_is_not_relative_to_it() {
+    let folder = Folder::new();
+    folder.write("coil.ron", change(COIL, "tails_m: (cw: 0.0", "tails_m: (cw: 1.4999"));
+    folder.write("p.csv", PAPER);
+    folder.write("still.csv", "time_s,chamber_c\n0,20\n60,20\n120,20\n");
+    let run = |profile: &str| -> serde_json::Value {
+        let output = folder.run(&["simulate", "coil.ron", "--profile", profile, "--out", "b.csv", "--json", "--quiet"]);
+        serde_json::from_str(&stdout(&output)).unwrap()
+    };
+    let [trimmed, still] = ["p.csv", "still.csv"].map(run);
+    let number = |value: &serde_json::Value| value.as_f64().unwrap().abs();
+    // elements of order 9 give a slope 5.6e-4 away
+    assert!(number(&trimmed["slope"]) < 5e-3 && number(&trimmed["numerical_error"]["slope"]) > 5.6e-4, "{trimmed}");
+    assert!(still["slope"].is_null() && still["numerical_error"]["slope"].is_null(), "{still}");
+}
+
 /// Rows on the straight lines of a profile are those of a profile that has them.
 #[test]
 fn long_rows_are_noted_and_can_be_divided() {

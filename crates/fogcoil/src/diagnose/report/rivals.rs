@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use diagnosis::{Candidate, ForwardModel, Settings};
+use diagnosis::{Candidate, ForwardModel};
 
 use super::candidates::{alike, structure};
 use crate::diagnose::Outcome;
@@ -36,9 +36,8 @@ impl Outcome {
             out,
             "<h3>Rivals</h3>\n<p>What else could it be? Of each rival the most probable hypothesis that does without what leads, {}, and the \
              evidence against it: ln of the odds of the one over the other, by the records that were fitted, with the priors counted in. A \
-             mechanism is excluded from {:.1} on.</p>",
+             mechanism is excluded by its probability in all hypotheses together, as under Explanations.</p>",
             escape(&name),
-            -Settings::default().excluded.ln(),
         );
         grid(
             out,
