@@ -63,7 +63,7 @@ fn bounds_the_distance_to_a_coarser_mesh_covers_the_error() {
             let distance =
                 |other: &[coil::Response]| standard.iter().zip(other).map(|(a, b)| (of(a) - of(b)).abs()).fold(0.0, f64::max);
             let (error, estimate) = (distance(&fine), distance(&coarse));
-            assert!(error <= estimate && estimate <= 200.0 * error, "{what}: {error:.1e}, estimated {estimate:.1e}");
+            assert!(error <= estimate && estimate <= 100.0 * error, "{what}: {error:.1e}, estimated {estimate:.1e}");
         }
     }
 }
