@@ -5,16 +5,17 @@ use std::fs;
 use std::path::Path;
 
 use fogcoil::cache::Cache;
-use fogcoil::catalogue::Catalogue;
+use fogcoil::comparison::Comparison;
 use fogcoil::explain::{Explained, Explanation, Outcome, explain};
+use fogcoil::glossary::mechanisms;
 use fogcoil::input;
 
 use crate::validate::Failure;
 
 const COIL: &str = "fixtures/coil-reference.ron";
 const PAGES: &str = "docs/mechanisms";
-/// Copies of them, which `fogcoil explain ID` prints.
-const GLOSSARY: &str = "crates/fogcoil/src/glossary/mechanisms";
+/// Their numbers, which `fogcoil explain ID` prints.
+const MEASURED: &str = "crates/fogcoil/src/glossary/measured.md";
 const PICTURES: &str = "docs/pictures/mechanisms";
 /// Measured sensitivities of Table IV, (deg/h)/(degC/min).
 const COILS: [f64; 3] = [3.01, 1.39, 1.98];
@@ -25,24 +26,27 @@ const END: &str = "<!-- measured end -->\n";
 /// Writes the measured part of every page and all pictures; always `true`.
 pub(crate) fn run() -> Result<bool, Failure> {
     let case = input::read_coil(COIL.as_ref())?;
-    let catalogue = Catalogue::measure(&case, &Cache::of_user(), &|task| eprintln!("{task}"))?;
+    let comparison = Comparison::measure(&case, &Cache::of_user(), &|task| eprintln!("{task}"))?;
     fs::create_dir_all(PICTURES)?;
     let pictures = Path::new(PICTURES);
-    for entry in &catalogue.entries {
+    let mut measured = String::new();
+    for entry in &comparison.entries {
         let file = format!("{}.svg", entry.id);
-        fs::write(pictures.join(&file), catalogue.signature(entry))?;
-        let page = catalogue.page(entry, &format!("../pictures/mechanisms/{file}"));
-        let file = format!("{}.md", entry.id);
-        rewrite(&Path::new(PAGES).join(&file), &page)?;
-        fs::copy(Path::new(PAGES).join(&file), Path::new(GLOSSARY).join(&file))?;
+        fs::write(pictures.join(&file), comparison.signature(entry))?;
+        let numbers = comparison.page(entry, &format!("../pictures/mechanisms/{file}"));
+        let _ = write!(measured, "# {}\n\n{}\n\n", entry.id, numbers.trim());
+        let mechanism =
+            mechanisms().find(|m| m.id == entry.id).ok_or_else(|| Failure(format!("{}: no such mechanism", entry.id)))?;
+        fs::write(Path::new(PAGES).join(format!("{}.md", entry.id)), mechanism.page(&numbers))?;
     }
-    let last = catalogue.programmes.len() - 1;
-    fs::write(pictures.join("confusion.svg"), catalogue.confusion(&[0, last]))?;
-    rewrite(&Path::new(PAGES).join("README.md"), &catalogue.overview())?;
+    fs::write(MEASURED, format!("{}\n", measured.trim_end()))?;
+    let last = comparison.programmes.len() - 1;
+    fs::write(pictures.join("confusion.svg"), comparison.confusion(&[0, last]))?;
+    rewrite(&Path::new(PAGES).join("README.md"), &comparison.overview())?;
     let coils = COILS.map(|measured| explain(&case, measured, true, &Cache::of_user(), &|task| eprintln!("{measured}: {task}")));
     let [a, b, c] = coils;
     rewrite(&Path::new(PAGES).join("paper-coils.md"), &coils_text(&[a?, b?, c?]))?;
-    println!("{PAGES} and {PICTURES}: {} mechanisms", catalogue.entries.len());
+    println!("{PAGES} and {PICTURES}: {} mechanisms", comparison.entries.len());
     Ok(true)
 }
 

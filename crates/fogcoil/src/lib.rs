@@ -30,8 +30,9 @@
 
 mod bounds;
 pub mod cache;
-pub mod catalogue;
+
 pub mod check;
+pub mod comparison;
 pub mod diagnose;
 mod error;
 pub mod explain;

@@ -1,12 +1,13 @@
 //! The coil's chain as a forward model for diagnosis: nominal constants, their uncertainties, and the library of mechanisms.
 
-use crate::catalogue::{Law, entries};
-use crate::laws::{Change, Laws, add, lagged, share};
-use crate::library::{Library, Path};
+use crate::catalogue::air_path;
+use crate::chain::{Chain, add};
+use crate::library::Library;
+use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Sight};
 use crate::nuisances::{self, channels, nuisances};
 use crate::record::{Parts, Prepared};
-use coil::Error;
-use diagnosis::{Active, Channel, ForwardModel, Latent, Mechanism, Nuisance, State};
+use coil::{Design, Error};
+use diagnosis::{Active, Channel, ForwardModel, Latent, Nuisance, State};
 use std::cell::RefCell;
 use std::sync::Arc;
 
@@ -18,57 +19,55 @@ pub const SPOOL: usize = 0;
 /// Order of the channels.
 pub const RATE: usize = 1;
 
-/// Where a mechanism acts; `None` where the question makes no sense.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Located {
-    /// Part of the chain.
-    pub stage: String,
-    /// Temperatures of the coil \[°C\].
-    pub temperature: Option<[f64; 2]>,
-    /// Instants \[s\].
-    pub time: Option<[f64; 2]>,
-    /// Layers, 1 = innermost.
-    pub layers: Option<[usize; 2]>,
-}
-
 /// A design's library and the recordings it is compared with.
-pub struct Gyro {
-    laws: Laws,
+pub struct Gyro<'m> {
+    chain: Chain,
     records: Vec<Prepared>,
     channels: Vec<Channel>,
     nuisances: Vec<Nuisance>,
-    kinds: Vec<Law>,
-    mechanisms: Vec<Mechanism>,
-    /// the last changes that were worked out, by record and mechanism
-    known: RefCell<Vec<(usize, Active, Arc<Change>)>>,
+    kinds: Vec<&'m dyn Mechanism>,
+    mechanisms: Vec<diagnosis::Mechanism>,
+    /// the last effects that were worked out, by record and mechanism
+    known: RefCell<Vec<(usize, Active, Arc<Known>)>>,
 }
 
-/// Share of its final rise at which a heated unit has settled.
-const RISEN: f64 = 0.95;
-/// Changes that are kept.
+/// An effect, and what share of every nominal part is in its change of that part.
+struct Known {
+    effect: Effect,
+    gain: [f64; 3],
+}
+
+/// Effects that are kept.
 const KEPT: usize = 12;
 
-impl Gyro {
-    /// A forward model of `records`, each prepared by [`Prepared::new`].
+impl<'m> Gyro<'m> {
+    /// A forward model of `records`, each prepared by [`Prepared::new`], with those of the `mechanisms` that the design leaves a place.
     ///
     /// # Errors
     /// [`Error`] names the dimension or property at fault.
-    pub fn new(library: Library, records: Vec<Prepared>) -> Result<Self, Error> {
+    pub fn new(library: Library, mechanisms: &[&'m dyn Mechanism], records: Vec<Prepared>) -> Result<Self, Error> {
         let all = records.len();
-        Self::fitted_to(library, records, all)
+        Self::fitted_to(library, mechanisms, records, all)
     }
 
     /// The same where only the first `fitted` of the records are fitted: the others' temperatures say nothing beforehand.
     ///
     /// # Errors
     /// [`Error`] names the dimension or property at fault.
-    pub fn fitted_to(library: Library, records: Vec<Prepared>, fitted: usize) -> Result<Self, Error> {
+    pub fn fitted_to(
+        library: Library,
+        mechanisms: &[&'m dyn Mechanism],
+        records: Vec<Prepared>,
+        fitted: usize,
+    ) -> Result<Self, Error> {
         let temperatures = || records.iter().take(fitted).flat_map(|r| r.coil.iter().copied());
-        let range = [temperatures().fold(f64::INFINITY, f64::min), temperatures().fold(f64::NEG_INFINITY, f64::max)];
-        let (kinds, mechanisms) = entries(&library, range).into_iter().unzip();
+        let coldest = temperatures().fold(f64::INFINITY, f64::min);
+        let range = [coldest, temperatures().fold(f64::NEG_INFINITY, f64::max).max(coldest + 1e-3)];
+        let offered = mechanisms.iter().filter_map(|m| Some((*m, entry(*m, library.design(), range)?)));
+        let (kinds, mechanisms) = offered.unzip();
         let averaging = records.first().map_or(0.0, |r| r.averaging);
         Ok(Self {
-            laws: Laws::new(library)?,
+            chain: Chain::new(library)?,
             records,
             channels: channels(averaging),
             nuisances: nuisances(),
@@ -78,9 +77,9 @@ impl Gyro {
         })
     }
 
-    /// The design.
+    /// The models of the design.
     pub fn library(&self) -> &Library {
-        &self.laws.library
+        self.chain.library()
     }
 
     /// Number of a mechanism by its id.
@@ -88,34 +87,22 @@ impl Gyro {
         self.mechanisms.iter().position(|m| m.id == id)
     }
 
-    /// Where a mechanism acts; `layers` are those that are not excluded, where it acts on one of them.
-    pub fn located(&self, active: &Active, layers: Option<[f64; 2]>) -> Located {
-        let v = &active.values;
-        let none =
-            Located { stage: self.mechanisms[active.mechanism].stage.clone(), temperature: None, time: None, layers: None };
-        match self.kinds[active.mechanism] {
-            // nearly nine tenths of a logistic step lie within two widths
-            Law::GlassTransition => Located { temperature: Some([v[0] - 2.0 * v[1], v[0] + 2.0 * v[1]]), ..none },
-            Law::Debond => Located { temperature: Some([v[0], v[0] + v[1]]), ..none },
-            // a layer among all is not located
-            Law::Defect => {
-                let half = self.laws.library.design().winding.layers as f64 / 2.0;
-                let few = layers.filter(|[first, last]| last - first < half);
-                Located { layers: few.map(|ends| ends.map(|layer| layer as usize)), ..none }
-            }
-            Law::SelfHeating => Located { time: self.heating(active), ..none },
-            _ => none,
-        }
+    /// A mechanism by its number, with all that is known of it.
+    pub fn mechanism(&self, number: usize) -> &'m dyn Mechanism {
+        self.kinds[number]
     }
 
-    /// From the switch-on until the thermometer has risen by nearly all that it ever will in the first record.
-    fn heating(&self, active: &Active) -> Option<[f64; 2]> {
-        let record = self.records.first()?;
-        let change = self.change(0, active).ok()?;
-        let rise = change.sensor.as_ref()?;
-        let settled = RISEN * rise.last()?;
-        let at = rise.iter().position(|r| r.abs() >= settled.abs())?;
-        Some([record.time[0], record.time[at]])
+    /// Where a mechanism acts; `choices` are the first and the last value of its choice that are not excluded.
+    pub fn extent(&self, active: &Active, choices: Option<[f64; 2]>) -> Extent {
+        let known = (!self.records.is_empty()).then(|| self.effect(0, active).ok()).flatten();
+        let change = known.as_ref().and_then(|known| known.change());
+        let first = self.records.first().zip(change);
+        self.kinds[active.mechanism].extent(active, &Sight { design: self.library().design(), choices, first })
+    }
+
+    /// A design with a mechanism put in at its place; `None` if a design has no place for it, or the place is taken.
+    pub fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
+        self.kinds[active.mechanism].extended(design, active)
     }
 
     /// Parts and thermometer of the nominal model with its uncertain numbers at `u`.
@@ -126,7 +113,7 @@ impl Gyro {
             (0..3).filter(|_| by != 0.0).for_each(|p| add(&mut parts[p], &of[p], by));
         }
         let thermo_optic = {
-            let o = &self.laws.library.design().optics;
+            let o = &self.library().design().optics;
             let (a, b) = (o.thermo_optic, o.refractive_index * o.thermal_expansion);
             (a * u[nuisances::THERMO_OPTIC] + b) / (a + b)
         };
@@ -141,35 +128,62 @@ impl Gyro {
         change(&record.off_rest.parts, Some(&record.off_rest.sensor), u[nuisances::REST]);
         let (modulus, alpha) = (u[nuisances::MODULUS], u[nuisances::ALPHA_R]);
         if (modulus != 1.0 || alpha != 1.0) && !record.modulus.is_empty() {
-            change(&self.laws.softened(record, |_| (modulus, alpha)), None, 1.0);
+            change(&self.chain.softened(record, |_| (modulus, alpha)), None, 1.0);
         }
         let air = u[nuisances::AIR] * u[nuisances::CONDUCTIVITY];
         if air != 1.0 {
-            let path = self.laws.path(record, Path::Air, air);
-            change(&path.parts, path.sensor.as_ref(), 1.0);
+            let path = self.chain.along(record, air_path::ID, air_path::coordinate(air));
+            change(&path.parts, path.thermometer.as_ref(), 1.0);
         }
         (parts, sensor)
     }
 
-    /// What a mechanism changes in the chain up to the optics; kept for as long as other unknowns are varied.
-    fn change(&self, record: usize, active: &Active) -> Result<Arc<Change>, Error> {
+    /// What a mechanism does in a record; kept for as long as other unknowns are varied.
+    fn effect(&self, record: usize, active: &Active) -> Result<Arc<Known>, Error> {
         let mut known = self.known.borrow_mut();
-        if let Some((.., change)) = known.iter().find(|(r, a, _)| *r == record && a == active) {
-            return Ok(Arc::clone(change));
+        if let Some((.., effect)) = known.iter().find(|(r, a, _)| *r == record && a == active) {
+            return Ok(Arc::clone(effect));
         }
         let prepared = &self.records[record];
-        let mut change = self.laws.change(prepared, self.kinds[active.mechanism], active)?;
-        change.gain = [0, 1, 2].map(|p: usize| share(&change.parts[p], &prepared.nominal.parts[p]));
-        let change = Arc::new(change);
+        let effect = self.kinds[active.mechanism].effect(&self.chain, prepared, active)?;
+        let gain = match &effect {
+            Effect::Coil(change) => [0, 1, 2].map(|p: usize| share(&change.parts[p], &prepared.nominal.parts[p])),
+            Effect::Readings(_) => [0.0; 3],
+        };
+        let effect = Arc::new(Known { effect, gain });
         if known.len() == KEPT {
             known.remove(0);
         }
-        known.push((record, active.clone(), Arc::clone(&change)));
-        Ok(change)
+        known.push((record, active.clone(), Arc::clone(&effect)));
+        Ok(effect)
     }
 }
 
-impl ForwardModel for Gyro {
+/// A mechanism as the engine knows it; `None` if the design leaves it no place.
+fn entry(mechanism: &dyn Mechanism, design: &Design, range: [f64; 2]) -> Option<diagnosis::Mechanism> {
+    let words = mechanism.words();
+    let Offer { parameters, choice, starts } = mechanism.offer(design, range)?;
+    let (id, stage, named) = (words.id.to_owned(), words.stage.name().to_owned(), matches!(words.naming, Naming::Named { .. }));
+    Some(diagnosis::Mechanism { id, stage, parameters, choice, starts, named, weight: 1.0 })
+}
+
+impl Known {
+    fn change(&self) -> Option<&Change> {
+        match &self.effect {
+            Effect::Coil(change) => Some(change),
+            Effect::Readings(_) => None,
+        }
+    }
+}
+
+/// How much of a series another one is: ⟨a, b⟩/⟨b, b⟩.
+fn share(a: &[f64], b: &[f64]) -> f64 {
+    let of = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let size = of(b, b);
+    if size > 0.0 { of(a, b) / size } else { 0.0 }
+}
+
+impl ForwardModel for Gyro<'_> {
     type Error = Error;
 
     fn channels(&self) -> &[Channel] {
@@ -180,7 +194,7 @@ impl ForwardModel for Gyro {
         &self.nuisances
     }
 
-    fn mechanisms(&self) -> &[Mechanism] {
+    fn mechanisms(&self) -> &[diagnosis::Mechanism] {
         &self.mechanisms
     }
 
@@ -188,49 +202,45 @@ impl ForwardModel for Gyro {
         let number = record;
         let record = &self.records[number];
         let nominal = &record.nominal.parts;
-        let (mut parts, mut sensor) = self.recalibrated(record, u);
-        let changes = active.iter().map(|a| self.change(number, a)).collect::<Result<Vec<_>, _>>()?;
+        let (mut parts, mut thermometer) = self.recalibrated(record, u);
+        let effects = active.iter().map(|a| self.effect(number, a)).collect::<Result<Vec<_>, _>>()?;
         // mechanisms act on a coil that has the others: each one's gain on a part acts on the others' changes, too
         let mut gain: [f64; 3] = [0, 1, 2].map(|p: usize| share(&parts[p], &nominal[p]));
-        for change in &changes {
+        let changes = || effects.iter().filter_map(|known| known.change().map(|change| (change, known.gain)));
+        for (change, own) in changes() {
             for p in 0..3 {
-                let (own, scaled) = (change.gain[p], gain[p]);
+                let (own, scaled) = (own[p], gain[p]);
                 // what was there grows by this one's gain; what this adds beyond its gain grows by what was there
                 for ((part, changed), nominal) in parts[p].iter_mut().zip(&change.parts[p]).zip(&nominal[p]) {
                     *part += own * *part + scaled * (changed - own * nominal);
                 }
                 gain[p] *= 1.0 + own;
             }
-            if let Some(s) = &change.sensor {
-                add(&mut sensor, s, 1.0);
+            if let Some(of_thermometer) = &change.thermometer {
+                add(&mut thermometer, of_thermometer, 1.0);
             }
         }
         let mut rate: Vec<f64> =
-            (0..sensor.len()).map(|n| u[nuisances::GAIN] * (parts[0][n] + parts[1][n] + parts[2][n])).collect();
-        for added in changes.iter().filter_map(|c| c.rate.as_ref()) {
+            (0..thermometer.len()).map(|n| u[nuisances::GAIN] * (parts[0][n] + parts[1][n] + parts[2][n])).collect();
+        for added in changes().filter_map(|(change, _)| change.rate.as_ref()) {
             add(&mut rate, added, 1.0);
         }
-        for active in active {
-            match self.kinds[active.mechanism] {
-                Law::ReadOut => {
-                    for (n, rate) in rate.iter_mut().enumerate() {
-                        *rate += active.values[0] * ((sensor[n] + sensor[n.saturating_sub(1)]) / 2.0 - REFERENCE_C);
-                    }
-                }
-                Law::SensorLag => sensor = lagged(&record.time, &sensor, active.values[0]),
-                _ => {}
+        let mut readings = Readings { time: &record.time, thermometer, rate };
+        for known in &effects {
+            if let Effect::Readings(act) = &known.effect {
+                act(&mut readings);
             }
         }
-        Ok(vec![sensor, rate])
+        Ok(vec![readings.thermometer, readings.rate])
     }
 
     fn latent(&self, record: usize) -> Result<Vec<Latent>, Error> {
-        self.laws.latent(&self.records[record])
+        self.chain.latent(&self.kinds, &self.records[record])
     }
 
     /// The layers, innermost first, with one turn more.
     fn members(&self, record: usize) -> Result<Option<Latent>, Error> {
-        self.laws.layers(&self.records[record]).map(Some)
+        self.chain.layers(&self.records[record]).map(Some)
     }
 
     fn state(&self, record: usize) -> &State {

@@ -1,18 +1,15 @@
 //! Flexible inputs at every stage of a coil's chain, and what single layers do.
 
-use crate::catalogue::Law;
-use crate::laws::{Change, Laws, lagged};
-use crate::library::Path;
+use crate::chain::Chain;
+use crate::mechanism::{Change, Mechanism, Stage, lagged};
 use crate::record::{Parts, Prepared};
 use coil::Error;
-use diagnosis::{Active, Latent};
+use diagnosis::Latent;
 
 /// Smooth functions of temperature that a flexible input is made of.
 const HATS: usize = 9;
 /// Time constants with which a material may lag behind \[s\].
 const LAGS: [f64; 3] = [1000.0, 4000.0, 12000.0];
-/// Small changes of heat paths: of the air's conductivity, of the resistance at the hub \[m²K/W\], of the flange's coupling \[W/(m²K)\].
-const PATHS: [(Path, f64); 3] = [(Path::Air, 1.02), (Path::HubResistance, 2e-4), (Path::Mount, 0.1)];
 /// A heater's power \[W\], and when it may have been switched on before the record \[s\].
 const POWER: f64 = 0.1;
 const SWITCHED_ON: [f64; 4] = [1.0, 60.0, 300.0, 1500.0];
@@ -51,68 +48,73 @@ fn times(a: &[f64], b: &[f64]) -> Vec<f64> {
 fn shaped(change: &Change, hats: &[Vec<f64>]) -> Functions {
     let rate = sum(&change.parts);
     let still = vec![0.0; rate.len()];
-    let sensor = change.sensor.as_ref().unwrap_or(&still);
+    let sensor = change.thermometer.as_ref().unwrap_or(&still);
     hats.iter().map(|h| vec![times(sensor, h), times(&rate, h)]).collect()
 }
 
-impl Laws {
+impl Chain {
     /// A flexible input at every stage.
-    pub(crate) fn latent(&self, record: &Prepared) -> Result<Vec<Latent>, Error> {
+    pub(crate) fn latent(&self, mechanisms: &[&dyn Mechanism], record: &Prepared) -> Result<Vec<Latent>, Error> {
         let hats = hats(&record.coil);
         let rows = record.time.len();
-        let parts = |parts: Parts| Change { parts, ..Change::none(record) };
         let of_rate = |series: Vec<f64>| vec![vec![0.0; rows], series];
         let mut stages = Vec::new();
-        let mut add = |stage: &str, functions: Functions| stages.push(Latent { stage: stage.to_owned(), functions });
+        let mut add = |stage: Stage, functions: Functions| stages.push(Latent { stage: stage.name().to_owned(), functions });
 
-        let mut thermal: Functions =
-            PATHS.iter().flat_map(|(path, value)| shaped(&self.path(record, *path, *value), &hats)).collect();
-        for before in SWITCHED_ON {
-            let heater = Active { mechanism: 0, values: vec![POWER, before], choice: None };
-            let heated = self.change(record, Law::SelfHeating, &heater)?;
-            thermal.push(vec![heated.sensor.clone().unwrap_or_else(|| vec![0.0; rows]), sum(&heated.parts)]);
+        let mut thermal = Functions::new();
+        for mechanism in mechanisms {
+            if let Some(nudge) = mechanism.heat_path().and_then(|path| path.nudge) {
+                thermal.extend(shaped(&self.along(record, mechanism.words().id, nudge), &hats));
+            }
         }
-        add("thermal", thermal);
+        for before in SWITCHED_ON {
+            let scaled = |series: &[f64]| series.iter().map(|x| POWER * x).collect();
+            thermal.push(self.heated(record, before).map_or_else(
+                || vec![vec![0.0; rows]; 2],
+                |heated| vec![scaled(&heated.sensor), sum(&[0, 1, 2].map(|p: usize| scaled(&heated.parts[p])))],
+            ));
+        }
+        add(Stage::Thermal, thermal);
 
-        let softer = parts(self.softened(record, |_| (SOFTER, 1.0)));
-        let wider = parts(self.softened(record, |_| (1.0, WIDER)));
+        let softer = Change::of_parts(self.softened(record, |_| (SOFTER, 1.0)));
+        let wider = Change::of_parts(self.softened(record, |_| (1.0, WIDER)));
         let mut material: Functions = shaped(&softer, &hats);
         material.extend(shaped(&wider, &hats));
         material.extend(LAGS.iter().map(|lag| of_rate(lagged(&record.time, &sum(&softer.parts), *lag))));
         material.extend(record.constants.iter().map(|c| of_rate(sum(c))));
-        add("material", material);
+        add(Stage::Material, material);
 
         let bond = record.openings.iter().step_by((record.openings.len() / 2).max(1));
-        add("bond", bond.flat_map(|(_, open)| shaped(&parts(open.clone()), &hats)).collect());
+        add(Stage::Bond, bond.flat_map(|(_, open)| shaped(&Change::of_parts(open.clone()), &hats)).collect());
 
-        let layers = self.library.design().winding.layers;
-        let mut winding = vec![of_rate(sum(&self.rewound(record, TAIL, None)?))];
+        let layers = self.library().design().winding.layers;
+        let mut winding = vec![of_rate(sum(&self.with_tail(record, TAIL)?))];
         for layer in (1..=layers).step_by(EVERY) {
-            winding.push(of_rate(sum(&self.rewound(record, 0.0, Some((layer, 1.0)))?)));
+            winding.push(of_rate(sum(&self.with_turns(record, layer, 1.0)?)));
         }
-        add("winding", winding);
+        add(Stage::Winding, winding);
 
         let [shupe, ..] = &record.nominal.parts;
         let mut optics: Functions = hats.iter().map(|h| of_rate(times(shupe, h))).collect();
         optics.push(of_rate(self.curved(record)));
-        add("optics", optics);
+        add(Stage::Optics, optics);
 
-        add("electronics", hats.iter().map(|h| of_rate(h.clone())).collect());
+        add(Stage::Electronics, hats.iter().map(|h| of_rate(h.clone())).collect());
 
         let spool = &record.nominal.sensor;
         let behind: Vec<f64> = lagged(&record.time, spool, LAG).iter().zip(spool).map(|(a, b)| a - b).collect();
         let of_spool = |series: Vec<f64>| vec![series, vec![0.0; rows]];
         let mut sensor = vec![of_spool(behind)];
         sensor.extend(hats.iter().map(|h| of_spool(h.clone())));
-        add("sensor", sensor);
+        add(Stage::Sensor, sensor);
         Ok(stages)
     }
 
     /// What one turn more in each layer does.
     pub(crate) fn layers(&self, record: &Prepared) -> Result<Latent, Error> {
         let rows = record.time.len();
-        let layers = 1..=self.library.design().winding.layers;
-        let of = |layer| Ok(vec![vec![0.0; rows], sum(&self.rewound(record, 0.0, Some((layer, 1.0)))?)]);
-        Ok(Latent { stage: "winding".to_owned(), functions: layers.map(of).collect::<Result<_, Error>>()? })
+        let layers = 1..=self.library().design().winding.layers;
+        let of = |layer| Ok(vec![vec![0.0; rows], sum(&self.with_turns(record, layer, 1.0)?)]);
+        Ok(Latent { stage: Stage::Winding.name().to_owned(), functions: layers.map(of).collect::<Result<_, Error>>()? })
     }
 }

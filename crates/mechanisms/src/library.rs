@@ -1,7 +1,8 @@
 //! Everything of a design that does not depend on a recording: reduced models at chosen values of every mechanism's parameters.
 
-use crate::change;
+use crate::catalogue::{debond, self_heating, tail_asymmetry};
 use crate::interpolation::{cubic_weights, nodes};
+use crate::mechanism::{HeatPath, Mechanism};
 use coil::{
     COARSE, Design, Drive, Dynamics, Error, Fidelity, MechanicalState, Mechanics, Model, Reduced, Reduction, ThermalModel,
     TurnFields, functionals,
@@ -31,73 +32,18 @@ const OPEN: [f64; 23] = [
 /// The three bias parts as functionals of drives and modes.
 pub(crate) type Functionals = [DVector<f64>; 3];
 
-/// A one-parameter family of heat flows.
+/// The coil along a path of heat.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct Family {
-    /// Nodes in the family's own coordinate, increasing.
+pub(crate) struct Tabulated {
+    /// Id of the mechanism whose path it is.
+    pub(crate) id: String,
+    /// Nodes in the path's coordinate, increasing.
     pub(crate) nodes: Vec<f64>,
     /// Which node is the nominal design.
     pub(crate) nominal: usize,
     /// A model at every other node, in their order.
     pub(crate) models: Vec<Reduced>,
-}
-
-/// A family of heat flows in a coordinate x(parameter).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Path {
-    HubResistance,
-    Air,
-    Mount,
-    Polymer,
-}
-
-/// Contact resistance at which the family's coordinate is one half \[m² K/W\].
-const RESISTANCE: f64 = 2e-3;
-/// Conductance of a mount at which its coordinate is one half [W/(m² K)].
-const CONDUCTANCE: f64 = 2.0;
-
-impl Path {
-    pub(crate) const ALL: [Self; 4] = [Self::HubResistance, Self::Air, Self::Mount, Self::Polymer];
-
-    /// Coordinate of a parameter.
-    pub(crate) fn coordinate(self, value: f64) -> f64 {
-        match self {
-            Self::HubResistance => value.max(0.0) / (value.max(0.0) + RESISTANCE),
-            Self::Air => value.max(1e-3).ln(),
-            Self::Mount => value.max(0.0) / (value.max(0.0) + CONDUCTANCE),
-            Self::Polymer => value,
-        }
-    }
-
-    fn nodes(self) -> Vec<f64> {
-        match self {
-            Self::HubResistance => nodes(0.0, 0.85, 7),
-            Self::Air => nodes(-0.9, 0.9, 9),
-            Self::Mount => nodes(0.0, 0.9, 12),
-            Self::Polymer => nodes(-0.12, 0.12, 5),
-        }
-    }
-
-    fn design(self, design: &Design, x: f64) -> Design {
-        match self {
-            Self::HubResistance => change::with_hub_resistance(design, RESISTANCE * x / (1.0 - x)),
-            Self::Air => change::with_air(design, x.exp()),
-            Self::Mount => change::with_mount(design, CONDUCTANCE * x / (1.0 - x)),
-            Self::Polymer => change::with_polymer(design, x),
-        }
-    }
-
-    fn applies(self, design: &Design) -> bool {
-        let spool = design.spool.as_ref();
-        match self {
-            Self::HubResistance => spool.is_some_and(|s| s.hub_contact == coil::Contact::Bonded),
-            // a film takes the place of the still medium
-            Self::Air => design.heat.film.is_none(),
-            Self::Mount => change::flange(design).is_some() && design.heat.mounts.is_empty(),
-            Self::Polymer => true,
-        }
-    }
 }
 
 /// Reduced models of a design and of what it may leave out.
@@ -115,7 +61,7 @@ pub struct Library {
     pub(crate) modulus: Vec<(f64, Functionals, Functionals)>,
     /// parts per relative change of E_z, α_z and the spool's expansion
     pub(crate) constants: Vec<Functionals>,
-    pub(crate) paths: Vec<Option<Family>>,
+    pub(crate) paths: Vec<Tabulated>,
     /// thermometer, mean of the coil, closed parts, open parts at each open share
     pub(crate) openings: Vec<(f64, Reduced)>,
     /// driven by the chamber and by a heater of 1 W
@@ -135,7 +81,7 @@ fn fidelity() -> Fidelity {
 
 /// What a job of the build makes.
 enum Made {
-    Path(Path, usize, Reduced),
+    Path(usize, usize, Reduced),
     Opening(usize, f64, Reduced),
     Heater(Reduced),
     Modulus(usize, f64, Functionals, Functionals),
@@ -144,7 +90,7 @@ enum Made {
 
 #[derive(Clone, Copy)]
 enum Job {
-    Path(Path, usize, f64),
+    Path(usize, usize, f64),
     Opening(usize, f64),
     Heater,
     Modulus(usize, f64),
@@ -152,26 +98,28 @@ enum Job {
 }
 
 impl Library {
-    /// Makes every model; `progress` is told the share done.
+    /// Makes every model that the `mechanisms` need; `progress` is told the share done.
     ///
     /// # Errors
     /// [`Error`] names the dimension or property at fault, or the solve that failed.
-    pub fn build(design: &Design, progress: impl Fn(f64) + Sync) -> Result<Self, Error> {
+    pub fn build(design: &Design, mechanisms: &[&dyn Mechanism], progress: impl Fn(f64) + Sync) -> Result<Self, Error> {
         let thermal = ThermalModel::new(design, &COARSE, &chamber())?;
         let model = Model::new(design, &COARSE)?;
         let Reduction { reduced: base, modes, .. } = Reduction::new(&thermal, &functionals(design, &model, &thermal)?, MODES)?;
         let fields = TurnFields::new(&model, &thermal, &modes)?;
         let elastic = design.mechanics == Mechanics::Elastic;
         let mut jobs: Vec<Job> = Vec::new();
-        for path in Path::ALL.into_iter().filter(|p| p.applies(design)) {
-            let nominal = path.coordinate(if path == Path::Air { 1.0 } else { 0.0 });
-            let others = path.nodes().into_iter().enumerate().filter(|(_, x)| (x - nominal).abs() > 1e-12);
-            jobs.extend(others.map(|(k, x)| Job::Path(path, k, x)));
+        let of = |m: &&dyn Mechanism| m.heat_path().map(|path| (m.words().id.to_owned(), path));
+        let paths: Vec<(String, HeatPath)> =
+            mechanisms.iter().filter_map(of).filter(|(_, path)| (path.applies)(design)).collect();
+        for (number, (_, path)) in paths.iter().enumerate() {
+            let others = path.nodes.iter().enumerate().filter(|(_, x)| !same(**x, path.nominal));
+            jobs.extend(others.map(|(k, x)| Job::Path(number, k, *x)));
         }
-        if elastic && change::bonded_flange(design).is_some() {
+        if debond::applies(design) {
             jobs.extend(OPEN.iter().enumerate().map(|(k, share)| Job::Opening(k, *share)));
         }
-        if change::flange(design).is_some() && design.heat.heaters.is_empty() {
+        if self_heating::applies(design) {
             jobs.push(Job::Heater);
         }
         if elastic {
@@ -189,12 +137,15 @@ impl Library {
                 bias_functionals(design, model.winding(), &TurnFields::new(&model, &thermal, &modes)?)
             };
             let made = match *job {
-                Job::Path(path, k, x) => Made::Path(path, k, dynamics(&path.design(design, x), &chamber())?),
+                Job::Path(path, k, x) => Made::Path(path, k, dynamics(&(paths[path].1.design)(design, x), &chamber())?),
                 // temperatures at which the bond opens do not matter: both states are outputs
                 Job::Opening(k, share) => {
-                    Made::Opening(k, share, dynamics(&change::with_opening(design, 0.0, 1.0, share), &chamber())?)
+                    let [below, hysteresis] = debond::OPENS;
+                    Made::Opening(k, share, dynamics(&debond::with_opening(design, below, hysteresis, share), &chamber())?)
                 }
-                Job::Heater => Made::Heater(dynamics(&change::with_heater(design, 1.0), &[Drive::Chamber, Drive::Heaters])?),
+                Job::Heater => {
+                    Made::Heater(dynamics(&self_heating::with_heater(design, 1.0), &[Drive::Chamber, Drive::Heaters])?)
+                }
                 Job::Modulus(k, x) => {
                     let state = MechanicalState { transverse_modulus: x.exp(), ..MechanicalState::NOMINAL };
                     let nominal = parts(design, &state)?;
@@ -225,19 +176,13 @@ impl Library {
             fields,
             modulus: Vec::new(),
             constants: Vec::new(),
-            paths: vec![None; Path::ALL.len()],
+            paths: paths.into_iter().map(|(id, path)| Tabulated::new(id, path)).collect(),
             openings: Vec::new(),
             heater: None,
         };
         for made in made {
             match made {
-                Made::Path(path, _, model) => {
-                    let nodes = path.nodes();
-                    let nominal = path.coordinate(if path == Path::Air { 1.0 } else { 0.0 });
-                    let nominal = nodes.iter().position(|x| (x - nominal).abs() <= 1e-12).unwrap_or(0);
-                    let family = library.paths[path as usize].get_or_insert(Family { nodes, nominal, models: Vec::new() });
-                    family.models.push(model);
-                }
+                Made::Path(path, _, model) => library.paths[path].models.push(model),
                 Made::Opening(_, share, model) => library.openings.push((share, model)),
                 Made::Heater(model) => library.heater = Some(model),
                 Made::Modulus(_, x, nominal, per_factor) => library.modulus.push((x, nominal, per_factor)),
@@ -254,7 +199,7 @@ impl Library {
 
     /// The bias parts with another winding of the same fields.
     pub(crate) fn rewound(&self, tail: f64, defect: Option<LayerDefect>) -> Result<Functionals, Error> {
-        let mut design = change::with_tail(&self.design, tail);
+        let mut design = tail_asymmetry::with_tail(&self.design, tail);
         let sound = winding::wind(&self.design.winding)?;
         if defect.is_none() {
             return bias_functionals(&design, &winding::wind(&design.winding)?, &self.fields);
@@ -263,6 +208,17 @@ impl Library {
         let wound = winding::wind(&design.winding)?;
         bias_functionals(&design, &wound, &moved(&self.fields, &sound, &wound, defect.map_or(0, |d| d.layer)))
     }
+}
+
+impl Tabulated {
+    fn new(id: String, HeatPath { nodes, nominal, .. }: HeatPath) -> Self {
+        Self { id, nominal: nodes.iter().position(|x| same(*x, nominal)).unwrap_or(0), nodes, models: Vec::new() }
+    }
+}
+
+/// Whether two coordinates of a path, which are of the size of one, are the same.
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-12
 }
 
 fn with_constant(design: &Design, k: usize, factor: f64) -> Design {

@@ -1,5 +1,6 @@
 //! Channels of the recording, and what of the nominal model is uncertain.
 
+use coil::Design;
 use diagnosis::{Channel, NoisePrior, Nuisance, Parameter, Prior, Role};
 
 // order of the nuisances
@@ -49,4 +50,28 @@ pub(crate) fn nuisances() -> Vec<Nuisance> {
         Nuisance::normal("dn/dT", 1.0, 0.10, Role::Constant),
         Nuisance::normal("gain of the Shupe part (model)", 1.0, SHUPE_ERROR, Role::ModelError),
     ]
+}
+
+/// A constant of the design times a factor, by the name that [`nuisances`] gives it; `None` for a name of something else.
+pub fn with_constant(design: &Design, name: &str, factor: f64) -> Option<Design> {
+    let mut changed = design.clone();
+    let elastic = &mut changed.body.elastic;
+    match name {
+        "E_r and G" => {
+            elastic.e_r *= factor;
+            elastic.g_zr *= factor;
+        }
+        "alpha_r" => elastic.alpha_r *= factor,
+        "E_z" => elastic.e_z *= factor,
+        "alpha_z" => elastic.alpha_z *= factor,
+        "spool expansion" => {
+            if let Some(spool) = &mut changed.spool {
+                spool.material.elastic.thermal_expansion *= factor;
+            }
+        }
+        "conductivity of the surroundings" => changed.surroundings.conductivity *= factor,
+        "dn/dT" => changed.optics.thermo_optic *= factor,
+        _ => return None,
+    }
+    Some(changed)
 }

@@ -7,7 +7,7 @@ use diagnosis::State;
 use nalgebra::{DMatrix, DVector};
 
 /// Mean bias parts in every row \[deg/h\]: Shupe, elasto-optic axial and radial.
-pub(crate) type Parts = [Vec<f64>; 3];
+pub type Parts = [Vec<f64>; 3];
 
 /// Rows that end this much later than the averaging span after the row before are gaps \[spans\].
 const GAP: f64 = 1.5;
@@ -169,8 +169,8 @@ pub struct Prepared {
     /// parts at each node of the transverse modulus, with the nominal α_r and per unit of its factor
     pub(crate) modulus: Vec<(f64, Parts, Parts)>,
     pub(crate) constants: Vec<Parts>,
-    /// changes at every node of each path, zero at the nominal one
-    pub(crate) paths: Vec<Option<(Vec<f64>, Vec<Series>)>>,
+    /// changes at every node of each mechanism's path, zero at the nominal one
+    pub(crate) paths: Vec<(String, Vec<f64>, Vec<Series>)>,
     /// open minus closed
     pub(crate) openings: Vec<(f64, Parts)>,
     pub(crate) heater: Option<Heating>,
@@ -207,6 +207,31 @@ impl Heating {
 }
 
 impl Prepared {
+    /// Instants \[s\].
+    pub fn time(&self) -> &[f64] {
+        &self.time
+    }
+
+    /// Temperature of the chamber in every row, freed of its sensor's noise \[°C\].
+    pub fn chamber(&self) -> &[f64] {
+        &self.chamber
+    }
+
+    /// Mean temperature of the coil as designed in every row \[°C\].
+    pub fn coil(&self) -> &[f64] {
+        &self.coil
+    }
+
+    /// Temperature of the spool's thermometer as designed in every row \[°C\].
+    pub fn spool(&self) -> &[f64] {
+        &self.nominal.sensor
+    }
+
+    /// Bias parts as designed in every row \[deg/h\].
+    pub fn parts(&self) -> &Parts {
+        &self.nominal.parts
+    }
+
     /// Runs every model of `library` under a recorded chamber temperature \[°C\], first freed of its sensor's noise
     /// ([`recording::smooth`]): passed through the model, that noise would be correlated with every mechanism. Readings of the rate are means
     /// over `averaging` seconds, or since the row before where that is nearer.
@@ -229,12 +254,11 @@ impl Prepared {
             parts: [part(|b| b.shupe), part(|b| b.eo_axial), part(|b| b.eo_radial)],
         };
         let off = Course::new(&library.base, &clock, std::slice::from_ref(&clock.chamber), &[first + OFF_REST]);
-        let paths = library.paths.iter().map(|family| {
-            let family = family.as_ref()?;
+        let paths = library.paths.iter().map(|path| {
             let mut changes: Vec<Series> =
-                family.models.iter().map(|model| minus(&run(model).series(model, PARTS), &base)).collect();
-            changes.insert(family.nominal, minus(&base, &base));
-            Some((family.nodes.clone(), changes))
+                path.models.iter().map(|model| minus(&run(model).series(model, PARTS), &base)).collect();
+            changes.insert(path.nominal, minus(&base, &base));
+            (path.id.clone(), path.nodes.clone(), changes)
         });
         let opening = |(share, model): &(f64, Reduced)| {
             let course = run(model);

@@ -1,11 +1,14 @@
 //! The library's interpolated responses against the chain itself: every mechanism as a changed design, modelled anew.
 
+mod read_out_curvature;
+
 use coil::{
     Body, Contact, Dehomogenization, Design, Drifts, Drive, Dynamics, Flange, HeatPaths, Mechanics, Profile, STANDARD, Sensor,
     Side, Solid, Spool, Surroundings,
 };
 use diagnosis::{Active, ForwardModel};
-use mechanisms::{Gyro, Library, Prepared, RATE, SPOOL};
+use mechanisms::{CATALOGUE, Gyro, Library, Mechanism, Prepared, RATE, REFERENCE_C, SPOOL};
+use read_out_curvature::ReadOutCurvature;
 use std::sync::OnceLock;
 
 fn design() -> Design {
@@ -79,14 +82,18 @@ fn course() -> (Vec<f64>, Vec<f64>) {
     (time, chamber)
 }
 
-fn gyro() -> &'static std::sync::Mutex<Gyro> {
-    static GYRO: OnceLock<std::sync::Mutex<Gyro>> = OnceLock::new();
+fn gyro() -> &'static std::sync::Mutex<Gyro<'static>> {
+    static GYRO: OnceLock<std::sync::Mutex<Gyro<'static>>> = OnceLock::new();
     GYRO.get_or_init(|| {
-        let library = Library::build(&design(), |_| ()).expect("library");
-        let (time, chamber) = course();
-        let prepared = Prepared::new(&library, &time, &chamber, 60.0).expect("prepared");
-        std::sync::Mutex::new(Gyro::new(library, vec![prepared]).expect("gyro"))
+        let library = Library::build(&design(), CATALOGUE, |_| ()).expect("library");
+        std::sync::Mutex::new(of(library, CATALOGUE))
     })
+}
+
+fn of(library: Library, mechanisms: &[&'static dyn Mechanism]) -> Gyro<'static> {
+    let (time, chamber) = course();
+    let prepared = Prepared::new(&library, &time, &chamber, 60.0).expect("prepared");
+    Gyro::new(library, mechanisms, vec![prepared]).expect("gyro")
 }
 
 /// Thermometer and rate \[deg/h\] of a design modelled anew.
@@ -112,17 +119,18 @@ fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
 /// Largest share of a mechanism's effect by which the library may differ from the chain.
 const SHARE: f64 = 0.02;
 
-fn agrees(id: &str, values: &[f64], choice: Option<f64>, changed: &Design, channels: &[usize]) {
+/// The design with a mechanism put in, modelled anew, against the library's interpolation.
+fn agrees(id: &str, values: &[f64], choice: Option<f64>, channels: &[usize]) {
     static NOMINAL: OnceLock<[Vec<f64>; 2]> = OnceLock::new();
-    let responses = || {
+    let (changed, [nominal, with]) = {
         let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         let mechanism = gyro.find(id).expect("a mechanism");
         let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
         let active = Active { mechanism, values: values.to_vec(), choice };
-        [&[][..], &[active]].map(|active| gyro.respond(0, &middle, active).expect("response"))
+        let changed = gyro.extended(&design(), &active).expect("a place in the design");
+        (changed, [&[][..], &[active]].map(|active| gyro.respond(0, &middle, active).expect("response")))
     };
-    // modelled anew while another test has the library
-    let (exact, [nominal, with]) = (anew(changed), responses());
+    let exact = anew(&changed);
     let exact_nominal = NOMINAL.get_or_init(|| anew(&design()));
     for &channel in channels {
         let effect = minus(&exact[channel], &exact_nominal[channel]);
@@ -134,46 +142,108 @@ fn agrees(id: &str, values: &[f64], choice: Option<f64>, changed: &Design, chann
 
 #[test]
 fn winding_type_mechanisms_follow_the_chain() {
-    let d = design();
-    agrees("tail-asymmetry", &[-0.63], None, &mechanisms::with_tail(&d, -0.63), &[RATE]);
-    let mut defective = d.clone();
-    defective.winding.defect = Some(winding::LayerDefect { layer: 24, turns: -3 });
-    agrees("winding-defect", &[-3.0], Some(24.0), &defective, &[RATE]);
+    agrees("tail-asymmetry", &[-0.63], None, &[RATE]);
+    agrees("winding-defect", &[-3.0], Some(24.0), &[RATE]);
 }
 
 #[test]
 fn material_mechanisms_follow_the_chain() {
-    let d = design();
-    agrees("adhesive-content", &[0.037], None, &mechanisms::with_polymer(&d, 0.037), &[RATE, SPOOL]);
-    agrees("viscoelastic-relaxation", &[0.3, 5000.0], None, &mechanisms::with_relaxation(&d, 0.3, 5000.0), &[RATE]);
-    let transition = mechanisms::with_glass_transition(&d, 28.0, 6.0, 0.65, 1.08);
-    agrees("glass-transition", &[28.0, 6.0, 0.65, 1.08], None, &transition, &[RATE]);
+    agrees("adhesive-content", &[0.037], None, &[RATE, SPOOL]);
+    agrees("viscoelastic-relaxation", &[0.3, 5000.0], None, &[RATE]);
+    agrees("glass-transition", &[28.0, 6.0, 0.65, 1.08], None, &[RATE]);
 }
 
 #[test]
 fn a_bond_that_opens_follows_the_chain() {
-    let d = design();
-    agrees("debond", &[28.0, 8.0, 0.24], None, &mechanisms::with_opening(&d, 28.0, 8.0, 0.24), &[RATE]);
+    agrees("debond", &[28.0, 8.0, 0.24], None, &[RATE]);
 }
 
 #[test]
 fn heat_paths_follow_the_chain() {
-    let d = design();
-    agrees("interface-resistance", &[1.3e-3], None, &mechanisms::with_hub_resistance(&d, 1.3e-3), &[RATE, SPOOL]);
-    agrees("air-path", &[1.17], None, &mechanisms::with_air(&d, 1.17), &[RATE, SPOOL]);
-    agrees("axial-heat-path", &[0.9], None, &mechanisms::with_mount(&d, 0.9), &[RATE, SPOOL]);
+    agrees("interface-resistance", &[1.3e-3], None, &[RATE, SPOOL]);
+    agrees("air-path", &[1.17], None, &[RATE, SPOOL]);
+    agrees("axial-heat-path", &[0.9], None, &[RATE, SPOOL]);
 }
 
 #[test]
 fn optics_read_out_and_sensor_follow_the_chain() {
-    let d = design();
-    let mut changed = d.clone();
-    changed.drifts.thermo_optic_curvature = 2.5e-8;
-    agrees("thermo-optic-curvature", &[2.5e-8], None, &changed, &[RATE]);
-    let mut changed = d.clone();
-    changed.drifts.read_out = 2e-3 / bias::units::DEG_PER_H_PER_RAD_PER_S;
-    agrees("rate-temperature-coefficient", &[2e-3], None, &changed, &[RATE]);
-    let mut changed = d;
-    changed.sensor.lag = 70.0;
-    agrees("sensor-lag", &[70.0], None, &changed, &[SPOOL]);
+    agrees("thermo-optic-curvature", &[2.5e-8], None, &[RATE]);
+    agrees("rate-temperature-coefficient", &[2e-3], None, &[RATE]);
+    agrees("sensor-lag", &[70.0], None, &[SPOOL]);
+}
+
+/// What each mechanism does to a design, by hand.
+#[test]
+fn exact_the_extended_design_has_the_change_at_its_place() {
+    let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let with = |id: &str, values: &[f64], choice: Option<f64>| {
+        let active = Active { mechanism: gyro.find(id).expect("a mechanism"), values: values.to_vec(), choice };
+        gyro.extended(&design(), &active).expect("a place in the design")
+    };
+    let of = |change: &dyn Fn(&mut Design)| {
+        let mut changed = design();
+        change(&mut changed);
+        changed
+    };
+    assert_eq!(with("tail-asymmetry", &[-0.63], None), of(&|d| d.winding.tails.ccw = 0.63));
+    let defect = Some(winding::LayerDefect { layer: 24, turns: -3 });
+    assert_eq!(with("winding-defect", &[-3.0], Some(24.0)), of(&|d| d.winding.defect = defect));
+    assert_eq!(with("interface-resistance", &[1.3e-3], None), of(&|d| d.heat.hub_resistance = 1.3e-3));
+    assert_eq!(with("air-path", &[1.17], None), of(&|d| d.surroundings.conductivity = 0.026 * 1.17));
+    let mount = coil::Mount { side: Side::Right, conductance: 0.9 };
+    assert_eq!(with("axial-heat-path", &[0.9], None), of(&|d| d.heat.mounts.push(mount)));
+    let heater = coil::Heater { side: Side::Right, power: 0.2 };
+    assert_eq!(with("self-heating", &[0.2, 60.0], None), of(&|d| d.heat.heaters.push(heater)));
+    assert_eq!(with("sensor-lag", &[70.0], None), of(&|d| d.sensor.lag = 70.0));
+    assert_eq!(with("thermo-optic-curvature", &[2.5e-8], None), of(&|d| d.drifts.thermo_optic_curvature = 2.5e-8));
+    let read_out = 2e-3 / bias::units::DEG_PER_H_PER_RAD_PER_S;
+    assert_eq!(with("rate-temperature-coefficient", &[2e-3], None), of(&|d| d.drifts.read_out = read_out));
+    assert_eq!(
+        with("viscoelastic-relaxation", &[0.3, 5000.0], None).mechanics,
+        Mechanics::Relaxing { fraction: 0.3, time: 5000.0 }
+    );
+    // rule of mixtures: the glass that the polymer takes the place of carries the load along the fibre
+    let [glass, share, more] = [70.2e9, 0.8, 0.837];
+    let polymer = (14.5e9 - (1.0 - share) * glass) / share;
+    let e_z = with("adhesive-content", &[0.037], None).body.elastic.e_z;
+    assert!((e_z - (1.0 - more) * glass - more * polymer).abs() < 1e-6 * e_z);
+    // one kind of changing mechanics has the place of another
+    let relaxing = Design { mechanics: Mechanics::Relaxing { fraction: 0.1, time: 1.0 }, ..design() };
+    let opening = Active { mechanism: gyro.find("debond").expect("a mechanism"), values: vec![0.0, 1.0, 0.2], choice: None };
+    assert_eq!(gyro.extended(&relaxing, &opening), None);
+}
+
+/// docs/adding-a-mechanism.md: a mechanism that the crate does not know is fitted, compared and named like any other.
+#[test]
+fn a_mechanism_of_one_s_own_is_named() {
+    let library = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner).library().clone();
+    let known = ["tail-asymmetry", "thermo-optic-curvature", "rate-temperature-coefficient"];
+    let known = known.map(|id| mechanisms::find(id).expect("in the catalogue"));
+    let gyro = of(library, &[&known[..], &[&ReadOutCurvature]].concat());
+    let own = gyro.find("read-out-curvature").expect("its own");
+    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let respond = |active: &[Active]| gyro.respond(0, &middle, active).expect("response");
+    let active = Active { mechanism: own, values: vec![6e-5], choice: None };
+    let (with, without) = (respond(std::slice::from_ref(&active)), respond(&[]));
+    let hot = (0..with[SPOOL].len()).max_by(|a, b| with[SPOOL][*a].total_cmp(&with[SPOOL][*b])).expect("rows");
+    let expected = 6e-5 * (with[SPOOL][hot] - REFERENCE_C).powi(2);
+    assert!(expected > 0.01 && (with[RATE][hot] - without[RATE][hot] - expected).abs() < 1e-12);
+
+    // a record of a unit that has it: white noise of the size that the channels' priors expect
+    let mut state = 1_u64;
+    let mut uniform = move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut noise = move |sd: f64| sd * ((0..12).map(|_| uniform()).sum::<f64>() - 6.0);
+    let noisy = |(series, channel): (&Vec<f64>, &diagnosis::Channel)| -> Vec<f64> {
+        series.iter().map(|x| x + noise(channel.noise.white.0)).collect()
+    };
+    let channels = with.iter().zip(gyro.channels()).map(noisy).collect();
+    let record = diagnosis::Observation { time: course().0, channels };
+    let found = diagnosis::diagnose(&gyro, &[0], &[record], &diagnosis::Settings::default(), &|_| ()).expect("diagnosis");
+    assert_eq!(found.verdict, diagnosis::Verdict::Explained);
+    assert_eq!(found.set, [own]);
+    let estimate = &found.parameters[0][0];
+    assert!((estimate.ci90[0]..estimate.ci90[1]).contains(&6e-5), "{estimate:?}");
 }

@@ -6,7 +6,7 @@ use coil::COARSE;
 use diagnosis::{Active, ForwardModel, State};
 use fogcoil::cache::Cache;
 use fogcoil::input::{CHAMBER, CoilCase, RATE, RecordCase, SPOOL};
-use mechanisms::{Gyro, Library, Prepared};
+use mechanisms::{CATALOGUE, Gyro, Library, Prepared};
 
 use super::answer::record;
 use super::score::HeldOut;
@@ -24,7 +24,7 @@ const UNNAMED: [f64; 9] = [-4.0, -3.0, -2.0, -1.5, -1.0, -0.5, 0.0, 1.0, 2.0];
 
 /// The design's library, from the cache if it is there.
 pub(crate) fn library(coil: &CoilCase, cache: &Cache) -> Result<Library, Failure> {
-    Ok(cache.load_or_build("library", &(&coil.design, COARSE), || Library::build(&coil.design, |_| ()))?.0)
+    Ok(cache.load_or_build("library", &(&coil.design, COARSE), || Library::build(&coil.design, CATALOGUE, |_| ()))?.0)
 }
 
 /// What was recorded in a channel; NaN where it cannot be used.
@@ -32,7 +32,7 @@ pub(crate) type Series = Vec<f64>;
 
 /// A unit's records and their model.
 pub(crate) struct Unit {
-    pub(crate) gyro: Gyro,
+    pub(crate) gyro: Gyro<'static>,
     /// Channels of both records, in the order of the model's.
     pub(crate) recorded: [[Series; 2]; 2],
     /// Instants of both records.
@@ -81,7 +81,7 @@ impl Unit {
             Ok(Prepared::new(library, case.kept().time(), &held(used(case, CHAMBER)?), case.averaging)?)
         };
         let recorded = |case: &RecordCase| -> Result<[Series; 2], Failure> { Ok([used(case, SPOOL)?, used(case, RATE)?]) };
-        let gyro = Gyro::new(library.clone(), cases.iter().map(prepared).collect::<Result<_, _>>()?)?;
+        let gyro = Gyro::new(library.clone(), CATALOGUE, cases.iter().map(prepared).collect::<Result<_, _>>()?)?;
         let time = cases.each_ref().map(|case| case.kept().time().to_vec());
         Ok(Self { gyro, recorded: [recorded(&cases[FIT])?, recorded(&cases[HOLDOUT])?], time, averaging: cases[FIT].averaging })
     }

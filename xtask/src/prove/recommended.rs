@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use fogcoil::cache::Cache;
-use fogcoil::catalogue::{Catalogue, Trial};
+use fogcoil::comparison::{Comparison, Trial};
 use fogcoil::input;
 
 use super::concealed::root;
@@ -20,9 +20,9 @@ pub(super) fn run() -> Result<bool, Failure> {
     let program = program::hash(&root())?;
     let (coil, cache) = (input::read_coil(&root().join("fixtures/coil-reference.ron"))?, Cache::of_user());
     let say = |task: &str| eprintln!("{task}");
-    let catalogue = Catalogue::measure(&coil, &cache, &say)?;
+    let comparison = Comparison::measure(&coil, &cache, &say)?;
     let mut random = Random::new(SEED, 0);
-    let trials = catalogue.trials(&coil, &cache, &mut || random.normal(), &say)?;
+    let trials = comparison.trials(&coil, &cache, &mut || random.normal(), &say)?;
     let separable: Vec<&Trial> = trials.iter().filter(|t| t.is_separable()).collect();
     let share = |which: usize| {
         let count = separable.iter().filter(|t| t.separated()[which]).count();

@@ -1,7 +1,7 @@
 //! Records whose columns are exchanged, or whose rate has the other sign: what a mechanism would hardly do, and a mistake does.
 
 use diagnosis::{ForwardModel, Observation};
-use mechanisms::{Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
+use mechanisms::{CATALOGUE, Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 
 use super::record::{Ready, bridge};
 use crate::glossary::{Remark, WARNING};
@@ -58,7 +58,7 @@ fn thermometer_under(library: &Library, time: &[f64], chamber: &[f64]) -> Result
     let mut chamber = chamber.to_vec();
     bridge(time, &mut chamber);
     let prepared = Prepared::new(library, time, &chamber, 0.0)?;
-    Ok(Gyro::new(library.clone(), vec![prepared])?.state(0).level.clone())
+    Ok(Gyro::new(library.clone(), CATALOGUE, vec![prepared])?.state(0).level.clone())
 }
 
 /// Standard deviation of what is recorded less `sign` times what is predicted; 0 where nothing is recorded.

@@ -1,12 +1,7 @@
 //! The extended model: the design with what was found put in at its place, as a coil file.
 
-use coil::{Design, Drifts, Mechanics};
 use diagnosis::{Active, ForwardModel, Place, Posterior, Role, Verdict};
-use mechanisms::{
-    Gyro, REFERENCE_C, with_air, with_glass_transition, with_heater, with_hub_resistance, with_mount, with_opening, with_polymer,
-    with_relaxation, with_tail,
-};
-use winding::LayerDefect;
+use mechanisms::with_constant;
 
 use super::{Outcome, Record};
 use crate::input::check_coil;
@@ -41,12 +36,12 @@ impl Outcome {
             }
         }
         for (place, active) in best.active.iter().enumerate() {
-            let id = self.id(active.mechanism);
             if let (Some((name, value)), Some([low, high])) = (self.choice(active), self.diagnosis.choice(place)) {
                 comments.push(format!("  {name} = {value} ({low} to {high}), compared with every other"));
             }
-            comments.extend(caveat(id, nominal).map(str::to_owned));
-            match with_mechanism(&self.gyro, &design, active) {
+            let caveat = self.gyro.mechanism(active.mechanism).caveat(nominal);
+            comments.extend(caveat.map(|caveat| format!("  {caveat}")));
+            match self.gyro.extended(&design, active) {
                 Some(changed) => design = changed,
                 None => return Err(format!("a coil file cannot hold {}", self.names().join(" and "))),
             }
@@ -113,92 +108,4 @@ fn said(posterior: &Posterior, ci90: [f64; 2]) -> String {
         Place::Nominal(Role::ModelError) => ", allowed for the model's own error, not in this file",
     };
     format!("  {} = {} ({low} to {high}){what}", posterior.name, significant(posterior.value(), 5))
-}
-
-/// What a file says less exactly than the fit.
-fn caveat(id: &str, nominal: &Design) -> Option<&'static str> {
-    match id {
-        "winding-defect" => Some("  turns are whole in this file"),
-        "self-heating" => Some("  simulate switches the heater on at the first row, not before_s earlier"),
-        "glass-transition" => Some("  the transition is tabulated, linear between the rows"),
-        "sensor-lag" if nominal.sensor.lag > 0.0 => Some("  the thermometer's own lag and this one are added"),
-        _ => None,
-    }
-}
-
-/// A wide transition is tabulated between these \[°C\]; no coil goes there.
-const COLDEST_C: f64 = -250.0;
-const HOTTEST_C: f64 = 500.0;
-
-/// A mechanism of the library in the design; `None` if a coil file has no place for it, or the place is taken.
-pub fn with_mechanism(gyro: &Gyro, design: &Design, active: &Active) -> Option<Design> {
-    let mechanism = &gyro.mechanisms()[active.mechanism];
-    let of = |name: &str| mechanism.parameters.iter().position(|p| p.name == name).map(|at| active.values[at]);
-    let one = |name: &str, with: &dyn Fn(f64) -> Design| of(name).map(with);
-    let elastic = design.mechanics == Mechanics::Elastic;
-    let mut changed = design.clone();
-    match mechanism.id.as_str() {
-        "tail-asymmetry" => return one("tail_m", &|v| with_tail(design, v)),
-        "adhesive-content" => return one("polymer_fraction_change", &|v| with_polymer(design, v)),
-        "interface-resistance" => return one("resistance_m2k_per_w", &|v| with_hub_resistance(design, v)),
-        "air-path" => return one("conductivity_factor", &|v| with_air(design, v)),
-        "axial-heat-path" => return one("conductance_w_per_m2k", &|v| with_mount(design, v)),
-        "self-heating" => return one("power_w", &|v| with_heater(design, v)),
-        "glass-transition" if elastic => {
-            let (modulus, expansion) = (of("e_r_factor")?, of("alpha_r_factor")?);
-            changed = with_glass_transition(design, of("tg_c")?, of("width_k")?, modulus, expansion);
-            if let Mechanics::TemperatureTable(rows) = &mut changed.mechanics {
-                rows.retain(|row| (COLDEST_C..HOTTEST_C).contains(&row.temperature));
-            }
-        }
-        "viscoelastic-relaxation" if elastic => return Some(with_relaxation(design, of("relaxing_fraction")?, of("tau_s")?)),
-        "debond" if elastic => {
-            return Some(with_opening(design, of("debond_c")?, of("hysteresis_k")?, of("fraction")?));
-        }
-        "winding-defect" => {
-            let (layer, turns) = (active.choice? as usize, of("turns")?.round() as i32);
-            changed.winding.defect = (turns != 0).then_some(LayerDefect { layer, turns });
-        }
-        "sensor-lag" => changed.sensor.lag += of("lag_s")?,
-        "thermo-optic-curvature" => {
-            changed.drifts = about_reference(design.drifts)?;
-            changed.drifts.thermo_optic_curvature += of("curvature_per_k2")?;
-        }
-        "rate-temperature-coefficient" => {
-            changed.drifts = about_reference(design.drifts)?;
-            changed.drifts.read_out += of("coefficient_deg_per_h_per_k")? / bias::units::DEG_PER_H_PER_RAD_PER_S;
-        }
-        _ => return None,
-    }
-    Some(changed)
-}
-
-/// The drifts about the library's reference temperature, if the design's own vanish there or nowhere.
-fn about_reference(own: Drifts) -> Option<Drifts> {
-    let none = own.thermo_optic_curvature == 0.0 && own.read_out == 0.0;
-    (none || own.reference == REFERENCE_C).then_some(Drifts { reference: REFERENCE_C, ..own })
-}
-
-/// A constant of the design times a factor, by the name that the forward model gives it.
-fn with_constant(design: &Design, name: &str, factor: f64) -> Option<Design> {
-    let mut changed = design.clone();
-    let elastic = &mut changed.body.elastic;
-    match name {
-        "E_r and G" => {
-            elastic.e_r *= factor;
-            elastic.g_zr *= factor;
-        }
-        "alpha_r" => elastic.alpha_r *= factor,
-        "E_z" => elastic.e_z *= factor,
-        "alpha_z" => elastic.alpha_z *= factor,
-        "spool expansion" => {
-            if let Some(spool) = &mut changed.spool {
-                spool.material.elastic.thermal_expansion *= factor;
-            }
-        }
-        "conductivity of the surroundings" => changed.surroundings.conductivity *= factor,
-        "dn/dT" => changed.optics.thermo_optic *= factor,
-        _ => return None,
-    }
-    Some(changed)
 }

@@ -18,8 +18,8 @@ impl Outcome {
         for estimate in d.parameters.iter().flatten().filter(|_| explained) {
             parameters.insert(estimate.name.clone(), json!({"value": estimate.value, "ci90": estimate.ci90}));
         }
-        let located = self.places().next().filter(|_| explained).map(|(_, place)| {
-            json!({"stage": place.stage, "temperature_c": place.temperature, "time_s": place.time, "layers": place.layers})
+        let located = self.places().next().filter(|_| explained).map(|(_, stage, place)| {
+            json!({"stage": stage, "temperature_c": place.temperature, "time_s": place.time, "layers": place.layers})
         });
         let held = self.holdouts.first().map(|held| {
             let of = |h: &HeldOut| h.rmse[RATE_CHANNEL];

@@ -5,7 +5,6 @@ mod columns;
 mod explanations;
 mod extended;
 mod json;
-mod meaning;
 mod record;
 mod report;
 mod structure;
@@ -16,14 +15,13 @@ use std::path::{Path, PathBuf};
 
 use coil::COARSE;
 use diagnosis::{Diagnosis, ForwardModel, HeldOut, Hypothesis, Observation, Settings, Verdict, as_designed};
-use mechanisms::{Gyro, Library, Located, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
+use mechanisms::{CATALOGUE, Extent, Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 
 use crate::Error;
 use crate::cache::Cache;
 use crate::glossary::Remark;
 use crate::input::{CoilCase, Fingerprint, InputError, RecordCase};
 
-pub use extended::with_mechanism;
 pub use record::{FEWEST_ROWS, INTERVAL_S, MANY_ROWS, MOST_ROWS};
 pub(crate) use record::{Ready, ready};
 
@@ -35,7 +33,7 @@ pub struct Outcome {
     coil: PathBuf,
     /// What the files of the design were.
     design: Vec<Fingerprint>,
-    gyro: Gyro,
+    gyro: Gyro<'static>,
     diagnosis: Diagnosis,
     fits: Vec<Record>,
     holdouts: Vec<Held>,
@@ -80,7 +78,7 @@ pub fn diagnose(
     progress("running every model under the recorded chamber");
     let prepared = |r: &Ready| Prepared::new(&library, &r.observation.time, &r.chamber, r.averaging);
     let prepared = read.iter().map(prepared).collect::<Result<Vec<_>, _>>().map_err(coil)?;
-    let gyro = Gyro::fitted_to(library, prepared, fits.len()).map_err(coil)?;
+    let gyro = Gyro::fitted_to(library, CATALOGUE, prepared, fits.len()).map_err(coil)?;
     for (number, (record, case)) in read.iter().zip(fits.iter().chain(holdouts)).enumerate() {
         notes.extend(columns::warning(&gyro, number, record, case).map_err(coil)?);
     }
@@ -155,7 +153,7 @@ pub fn library(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(&str) + Sync))
     let share = |share: f64| progress(&format!("{TASK} ({:.0} of 100)", 100.0 * share));
     let built = cache.load_or_build("library", &key, || {
         progress(TASK);
-        Library::build(&case.design, share)
+        Library::build(&case.design, CATALOGUE, share)
     });
     built.map(|(library, _)| library).map_err(|source| Error::Coil { file: case.file.clone(), source })
 }
@@ -194,10 +192,13 @@ impl Outcome {
         self.diagnosis.best().fit.active.iter().map(|a| self.id(a.mechanism)).collect()
     }
 
-    /// Where each of the best candidate's mechanisms acts.
-    fn places(&self) -> impl Iterator<Item = (&str, Located)> {
+    /// Id and stage of each of the best candidate's mechanisms, and where it acts.
+    fn places(&self) -> impl Iterator<Item = (&str, &str, Extent)> {
         let active = self.diagnosis.best().fit.active.iter().enumerate();
-        active.map(|(n, a)| (self.id(a.mechanism), self.gyro.located(a, self.diagnosis.choice(n))))
+        active.map(|(n, a)| {
+            let mechanism = &self.gyro.mechanisms()[a.mechanism];
+            (mechanism.id.as_str(), mechanism.stage.as_str(), self.gyro.extent(a, self.diagnosis.choice(n)))
+        })
     }
 
     /// Root mean squares of recorded less predicted thermometer in a record held out, of the design and of what was fitted \[K\]; `None` if

@@ -2,6 +2,7 @@
 
 use bias::units::S_PER_H;
 use diagnosis::{Active, ForwardModel, Rival, Structure};
+use mechanisms::Naming;
 
 use super::Outcome;
 use crate::table::significant;
@@ -10,8 +11,7 @@ impl Outcome {
     /// What the residual looks like where nothing explains it.
     pub(super) fn structure(&self) -> Option<String> {
         let best = self.diagnosis.best();
-        let beyond = best.fit.active.iter().filter(|a| !self.gyro.mechanisms()[a.mechanism].named);
-        let mut parts: Vec<String> = beyond.map(|active| self.like(active)).collect();
+        let mut parts: Vec<String> = best.fit.active.iter().filter_map(|active| self.like(active)).collect();
         if let Some(rival) = &best.rival {
             let channel = &self.gyro.channels()[rival.channel].name;
             parts.push(format!("what is left in {channel} is {}", self.describe(rival)));
@@ -19,28 +19,12 @@ impl Outcome {
         (!parts.is_empty()).then(|| parts.join("; "))
     }
 
-    /// The shape of a mechanism that is no explanation, and what it is known from.
-    fn like(&self, active: &Active) -> String {
-        let entry = &self.gyro.mechanisms()[active.mechanism];
-        let of = |name: &str| entry.parameters.iter().position(|p| p.name == name).map_or(f64::NAN, |at| active.values[at]);
-        let short = entry.id.trim_start_matches("unknown:");
-        let percent = |name: &str| format!("by {} % a kelvin", significant(100.0 * of(name), 2));
-        let shape = match short {
-            "polarisation-ripple" => format!(
-                "periodic in the spool's temperature, with a period of {} K and an amplitude of {} deg/h",
-                significant(of("period_k"), 3),
-                significant(of("sine_deg_per_h").hypot(of("cosine_deg_per_h")), 2)
-            ),
-            "moisture" => format!("decaying with time, over {} h", significant(of("time_s") / S_PER_H, 2)),
-            "ratcheting" => "present where a temperature is reached for the first time".into(),
-            "spool-expansion" => {
-                format!("like the spool's expansion changing with temperature, {}", percent("expansion_per_k2_relative"))
-            }
-            "racket" => format!("a sensitivity that changes with temperature, {}", percent("relative_per_k")),
-            "magnetic" => "proportional to the rate of the chamber's temperature".into(),
-            _ => return format!("the difference looks like {short}"),
-        };
-        format!("the difference is {shape} (as of {short})")
+    /// The structure that a mechanism describes, and the id it is known by; `None` for one that explains.
+    fn like(&self, active: &Active) -> Option<String> {
+        let words = self.gyro.mechanism(active.mechanism).words();
+        let Naming::Described { likeness } = words.naming else { return None };
+        let short = words.id.trim_start_matches("unknown:");
+        Some(format!("the difference is {} (as of {short})", likeness(&active.values, &significant)))
     }
 
     pub(super) fn describe(&self, rival: &Rival) -> String {

@@ -4,12 +4,10 @@ use std::fmt::Write;
 
 use bias::units::S_PER_H;
 use diagnosis::Verdict;
-use mechanisms::{Located, RATE as RATE_CHANNEL};
+use mechanisms::{Extent, Naming, RATE as RATE_CHANNEL};
 
-use super::meaning::meaning;
 use super::{NOMINAL, Outcome};
 use crate::glossary::WARNING;
-use crate::recommend::inspection;
 use crate::table::{significant, table};
 use crate::units::parameter_unit;
 
@@ -24,14 +22,10 @@ impl Outcome {
         out.push_str(&self.verdict());
         out.push('\n');
         if d.verdict == Verdict::Explained {
-            for (n, active) in d.best().fit.active.iter().enumerate() {
-                let id = self.id(active.mechanism);
-                let _ = writeln!(out, "{id}: {}.", place(&self.gyro.located(active, d.choice(n))));
-                if let Some(meaning) = meaning(id) {
-                    let _ = writeln!(out, "  What it is: {meaning}.");
-                }
-                if let Some(inspection) = inspection(id) {
-                    let _ = writeln!(out, "  What would show it: {inspection}.");
+            for ((id, stage, extent), active) in self.places().zip(&d.best().fit.active) {
+                let _ = writeln!(out, "{id}: {}.", place(stage, &extent));
+                if let Naming::Named { meaning, inspection } = self.gyro.mechanism(active.mechanism).words().naming {
+                    let _ = writeln!(out, "  What it is: {meaning}.\n  What would show it: {inspection}.");
                 }
             }
             if let Some(structure) = self.structure() {
@@ -113,15 +107,15 @@ impl Outcome {
 }
 
 /// Where in the chain, at which temperatures, in which layers, when.
-pub(super) fn place(located: &Located) -> String {
-    let mut place = format!("part of the chain: {}", located.stage);
-    if let Some([low, high]) = located.temperature {
+pub(super) fn place(stage: &str, extent: &Extent) -> String {
+    let mut place = format!("part of the chain: {stage}");
+    if let Some([low, high]) = extent.temperature {
         let _ = write!(place, ", at a coil temperature between {} and {} degC", significant(low, 3), significant(high, 3));
     }
-    if let Some([low, high]) = located.layers {
+    if let Some([low, high]) = extent.layers {
         let _ = if low == high { write!(place, ", layer {low}") } else { write!(place, ", layers {low} to {high}") };
     }
-    if let Some([from, to]) = located.time {
+    if let Some([from, to]) = extent.time {
         let _ = write!(place, ", from {} to {} h", significant(from / S_PER_H, 3), significant(to / S_PER_H, 3));
     }
     place

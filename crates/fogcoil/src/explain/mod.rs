@@ -1,20 +1,18 @@
 //! `fogcoil explain`: which change of a coil would give a measured sensitivity, and how far it is from what is expected.
 
-mod law;
 mod say;
 mod solve;
 mod test;
 
 use coil::{COARSE, Design, MechanicalState, Model};
 use diagnosis::{Active, ForwardModel, Prior, Role};
-use mechanisms::{Gyro, Prepared, RATE};
+use mechanisms::{CATALOGUE, Gyro, Mechanism, Prepared, RATE, Steady};
 
 use crate::Error;
 use crate::cache::Cache;
 use crate::diagnose::library;
 use crate::input::CoilCase;
 use crate::recommend::{Limits, prepared, programmes};
-use law::{EVEN, Law, laws, rewound};
 
 pub use say::{json, text};
 pub use test::Test;
@@ -124,12 +122,12 @@ pub fn explain(
     for programme in &programmes {
         records.push(prepared(&library, programme).map_err(coil)?);
     }
-    let gyro = Gyro::new(library, records).map_err(coil)?;
+    let gyro = Gyro::new(library, CATALOGUE, records).map_err(coil)?;
     progress("solving for every mechanism");
     let problem = Problem { design: &case.design, target: measured, error: steady.error_estimate, nominal: None };
     let problem = Problem { nominal: problem.sensitivity(&case.design, &MechanicalState::NOMINAL), ..problem };
-    let named = gyro.mechanisms().iter().filter(|m| m.named);
-    let explanations: Vec<Explanation> = named.flat_map(|m| problem.explanations(m)).collect();
+    let all = gyro.mechanisms().iter().enumerate();
+    let explanations: Vec<Explanation> = all.flat_map(|(k, entry)| problem.explanations(entry, gyro.mechanism(k))).collect();
     let constants = constants(&gyro).map_err(coil)?;
     let tests = test::tests(&gyro, &explanations, &programmes, progress).map_err(|error| match error {
         diagnosis::Error::Model(source) => coil(source),
@@ -179,6 +177,9 @@ fn constants(gyro: &Gyro) -> Result<f64, coil::Error> {
     Ok(square.sqrt())
 }
 
+/// Why a mechanism that leaves the fields of a steady ramp as they are cannot change the sensitivity.
+const EVEN: &str = "in a steady ramp everything warms at the same rate: no heat path matters";
+
 struct Problem<'a> {
     design: &'a Design,
     target: f64,
@@ -194,19 +195,18 @@ impl Problem<'_> {
         Some(Model::in_state(design, &COARSE, state).ok()?.sensitivity().ok()?.total())
     }
 
-    fn explanations(&self, mechanism: &diagnosis::Mechanism) -> Vec<Explanation> {
-        let of = |law: Law| {
-            let (outcome, parameter, when) = match law {
-                Law::Nothing(why) => (Outcome::Unable { why }, None, ""),
-                Law::Rewinds => (self.rewinding(&mechanism.parameters[0].prior), Some(0), ""),
-                Law::Changes { parameter, changed, when } => {
-                    (self.change(&mechanism.parameters[parameter].prior, changed), Some(parameter), when)
-                }
+    fn explanations(&self, entry: &diagnosis::Mechanism, mechanism: &dyn Mechanism) -> Vec<Explanation> {
+        let of = |steady: Steady| {
+            let prior = |parameter: usize| &entry.parameters[parameter].prior;
+            let (outcome, parameter, when) = match steady {
+                Steady::Nothing(why) => (Outcome::Unable { why }, None, ""),
+                Steady::Rewinds { turns, changed } => (self.rewinding(prior(turns), changed), Some(turns), ""),
+                Steady::Changes { parameter, changed, when } => (self.change(prior(parameter), changed), Some(parameter), when),
             };
-            let parameter = parameter.map_or(String::new(), |p| mechanism.parameters[p].name.clone());
-            Explanation { id: mechanism.id.clone(), parameter, when, outcome }
+            let parameter = parameter.map_or(String::new(), |p| entry.parameters[p].name.clone());
+            Explanation { id: entry.id.clone(), parameter, when, outcome }
         };
-        laws(&mechanism.id).into_iter().map(of).collect()
+        mechanism.steady().into_iter().map(of).collect()
     }
 
     fn change(&self, prior: &Prior, changed: fn(&Design, f64) -> (Design, MechanicalState)) -> Outcome {
@@ -231,12 +231,12 @@ impl Problem<'_> {
     }
 
     /// The fewest turns in any layer.
-    fn rewinding(&self, prior: &Prior) -> Outcome {
+    fn rewinding(&self, prior: &Prior, changed: fn(&Design, usize, i32) -> Design) -> Outcome {
         let most = prior.value(solve::REACH).floor() as i32;
         let mut best: Option<(i32, usize, f64)> = None;
         let (mut plausible, mut range) = (0, [f64::INFINITY, f64::NEG_INFINITY]);
         for layer in 1..=self.design.winding.layers {
-            let at = |turns: i32| self.sensitivity(&rewound(self.design, layer, turns), &MechanicalState::NOMINAL);
+            let at = |turns: i32| self.sensitivity(&changed(self.design, layer, turns), &MechanicalState::NOMINAL);
             let Some((turns, slope)) = solve::whole(self.target, most, self.nominal, &at, &mut range) else { continue };
             plausible += usize::from(prior.standard(f64::from(turns)).abs() <= PLAUSIBLE);
             if best.is_none_or(|(least, ..)| turns.abs() < least.abs()) {

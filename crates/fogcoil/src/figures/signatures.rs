@@ -3,7 +3,7 @@
 use super::Document;
 use crate::Error;
 use crate::cache::Cache;
-use crate::catalogue::{Entry, Responses};
+use crate::comparison::{Entry, Responses};
 use crate::input::CoilCase;
 use crate::plot::{Axis, Content, Figure, Height, Panel, Series, Style, Thinning};
 use crate::table::significant;

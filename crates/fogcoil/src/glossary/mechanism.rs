@@ -1,115 +1,139 @@
-//! The library's mechanisms: their pages, as `docs/mechanisms` has them.
+//! The library's mechanisms: what they say of themselves, with the numbers that `cargo xtask mechanisms` measured.
 
 use std::fmt::Write;
 
+use mechanisms::{CATALOGUE, Naming};
 use serde_json::{Value, json};
 
-use super::page::{rows, section, title};
+use super::page::rows;
 use crate::recommend::inspection;
 use crate::table::table;
 
-/// A mechanism.
-#[derive(Debug)]
+/// Parameters and rivals of the mechanisms with a name, for the reference coil: Markdown, each below a heading that is its id.
+const MEASURED: &str = include_str!("measured.md");
+/// Words before the measured table of rivals.
+const RIVALS: &str = "fitted in its place";
+
+/// A mechanism, or what stands among the mechanisms in tables, in words; Markdown.
+#[derive(Debug, Clone, Copy)]
 pub struct Mechanism {
     /// Its id.
     pub id: &'static str,
-    /// Its page: Markdown with the sections Equation, Place in the chain, What it looks like, Source and, of a named one, Measured.
-    pub page: &'static str,
+    /// What it is called.
+    pub title: &'static str,
+    stage: Option<&'static str>,
+    equation: &'static str,
+    place: &'static str,
+    signature: &'static str,
+    source: &'static str,
 }
 
-macro_rules! mechanisms {
-    ($($id:literal $file:literal)*) => {
-        &[$(Mechanism { id: $id, page: include_str!(concat!("mechanisms/", $file, ".md")) },)*]
+/// What stands among the mechanisms in tables.
+const BESIDE: [Mechanism; 2] = [
+    Mechanism {
+        id: "recalibrate",
+        title: "The design as it is, its constants re-estimated",
+        stage: None,
+        equation: "The constants of the design times factors that are fitted; beforehand 1 ± 10 % (E_r and G together; ∂n/∂T), 5 % (conductivity of the surroundings),\n\
+                   3 % (E_z, alpha_z, alpha_r) and 2 % (expansion of the spool).",
+        place: "None of its own: nothing is added to the design, its numbers were off.",
+        signature: "A gain on parts of the bias, and another time scale of the heat flow: the same at all temperatures and in every run.",
+        source: "The priors are in `crates/mechanisms/src/nuisances.rs`.",
+    },
+    Mechanism {
+        id: "nominal",
+        title: "The design as it is",
+        stage: None,
+        equation: "Eqs. (1) and (2) of Osunluk, Ogut and Ozbay with the coil file's numbers; offsets of gyro and thermometer are fitted.",
+        place: "None: nothing is left out.",
+        signature: "What is recorded less what is predicted is noise. As a rival it tells whether a mechanism is seen at all.",
+        source: "B. Osunluk, S. Ogut and E. Ozbay, *Thermally Induced Bias Errors for a Fiber Coil with Practical Quadrupole Winding*.",
+    },
+];
+
+/// All mechanisms, in the order of the library; then those without a name, and what stands among them in tables.
+pub fn all() -> impl Iterator<Item = Mechanism> {
+    let of = |mechanism: &&'static dyn mechanisms::Mechanism| {
+        let words = mechanism.words();
+        Mechanism {
+            id: words.id,
+            title: words.title,
+            stage: matches!(words.naming, Naming::Named { .. }).then(|| words.stage.name()),
+            equation: words.equation,
+            place: words.place,
+            signature: words.signature,
+            source: words.source,
+        }
     };
+    CATALOGUE.iter().map(of).chain(BESIDE)
 }
-
-/// All of them, in the order of the library; then those without a name, and what stands among them in tables.
-pub const MECHANISMS: &[Mechanism] = mechanisms! {
-    "tail-asymmetry" "tail-asymmetry"
-    "winding-defect" "winding-defect"
-    "adhesive-content" "adhesive-content"
-    "glass-transition" "glass-transition"
-    "viscoelastic-relaxation" "viscoelastic-relaxation"
-    "debond" "debond"
-    "interface-resistance" "interface-resistance"
-    "air-path" "air-path"
-    "axial-heat-path" "axial-heat-path"
-    "self-heating" "self-heating"
-    "sensor-lag" "sensor-lag"
-    "thermo-optic-curvature" "thermo-optic-curvature"
-    "rate-temperature-coefficient" "rate-temperature-coefficient"
-    "unknown:polarisation-ripple" "unknown-polarisation-ripple"
-    "unknown:moisture" "unknown-moisture"
-    "unknown:ratcheting" "unknown-ratcheting"
-    "unknown:spool-expansion" "unknown-spool-expansion"
-    "unknown:racket" "unknown-racket"
-    "unknown:magnetic" "unknown-magnetic"
-    "recalibrate" "recalibrate"
-    "nominal" "nominal"
-};
 
 /// How many have a name, how many have none, and how many stand among them in tables alone.
 pub(super) fn counts() -> [usize; 3] {
-    let [named, unnamed] = [|m: &Mechanism| m.stage().is_some(), |m: &Mechanism| m.id.starts_with("unknown:")]
-        .map(|of| MECHANISMS.iter().filter(|m| of(m)).count());
-    [named, unnamed, MECHANISMS.len() - named - unnamed]
+    let named = all().filter(|m| m.stage.is_some()).count();
+    [named, CATALOGUE.len() - named, BESIDE.len()]
 }
 
-/// Words before the pages' table of rivals.
-const RIVALS: &str = "fitted in its place";
-
 impl Mechanism {
-    /// What it is called.
-    pub fn title(&self) -> &'static str {
-        title(self.page)
+    /// Its parameters, effect and rivals as they were measured, in Markdown; empty of one without a name.
+    fn measured(&self) -> &'static str {
+        let mut sections = MEASURED.trim_start_matches("# ").split("\n# ");
+        sections.find_map(|section| section.strip_prefix(self.id)?.strip_prefix('\n')).unwrap_or("").trim()
     }
 
-    fn stage(&self) -> Option<&'static str> {
-        let line = self.page.lines().find_map(|line| line.strip_prefix("Stage: "))?;
-        Some(line.trim_end_matches('.'))
+    /// Its page of docs/mechanisms, with `measured` numbers between the marks.
+    pub fn page(&self, measured: &str) -> String {
+        let Self { id, title, equation, place, signature, source, .. } = self;
+        format!(
+            "# {title}\n\n`{id}`\n\n## Equation\n\n{equation}\n\n## Place in the chain\n\n{place}\n\n## What it looks like\n\n{signature}\n\n\
+             ## Source\n\n{source}\n\n## Measured\n\n<!-- measured: written by `cargo xtask mechanisms` -->\n\n{}\n<!-- measured end -->\n",
+            measured.trim()
+        )
     }
 
     pub(super) fn text(&self) -> String {
-        let mut out = format!("{}: {}\n", self.id, self.title());
+        let mut out = format!("{}: {}\n", self.id, self.title);
         let mut say = |name: &str, text: &str| {
             if !text.is_empty() {
                 let _ = write!(out, "\n{name}\n{}\n", indented(text));
             }
         };
-        say("Equation", section(self.page, "Equation"));
-        say("Place in the chain", section(self.page, "Place in the chain"));
-        say("Parameters (prior and typical size as for the reference coil)", &table(&rows(self.page, "parameter")));
-        say("What it looks like", section(self.page, "What it looks like"));
+        let measured = self.measured();
+        say("Equation", self.equation);
+        say("Place in the chain", self.place);
+        say("Parameters (prior and typical size as for the reference coil)", &table(&rows(measured, "parameter")));
+        say("What it looks like", self.signature);
         say(
             "What it is confused with: expected ln odds for it over what is fitted in its place, by test; above 3.5 they are told apart",
-            &table(&rows(self.page, RIVALS)),
+            &table(&rows(measured, RIVALS)),
         );
         if let Some(inspection) = inspection(self.id) {
             let chamber = "In the chamber: the best test above; `fogcoil recommend` finds it for your design.";
             say("How to test it", &format!("{chamber}\nOn the unit: {inspection}."));
         }
-        say("Source", section(self.page, "Source"));
+        say("Source", self.source);
         out
     }
 
     pub(super) fn json(&self) -> Value {
+        let measured = self.measured();
         let objects = |first: &str| -> Vec<Value> {
-            let rows = rows(self.page, first);
+            let rows = rows(measured, first);
             let Some((header, rows)) = rows.split_first() else { return Vec::new() };
             rows.iter().map(|row| header.iter().cloned().zip(row.iter().cloned().map(Value::String)).collect()).collect()
         };
         json!({
             "id": self.id,
             "kind": "mechanism",
-            "title": self.title(),
-            "stage": self.stage(),
-            "equation": section(self.page, "Equation"),
-            "place": section(self.page, "Place in the chain"),
+            "title": self.title,
+            "stage": self.stage,
+            "equation": self.equation,
+            "place": self.place,
             "parameters": objects("parameter"),
-            "signature": section(self.page, "What it looks like"),
+            "signature": self.signature,
             "confused_with": objects(RIVALS),
             "inspection": inspection(self.id),
-            "source": section(self.page, "Source"),
+            "source": self.source,
         })
     }
 }
@@ -124,29 +148,25 @@ mod tests {
 
     use super::*;
 
-    fn page_in_docs(mechanism: &Mechanism) -> String {
-        format!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/mechanisms/{}.md"), mechanism.id)
-    }
-
     #[test]
-    fn every_page_has_its_parts() {
-        for mechanism in MECHANISMS {
-            for name in ["Equation", "Place in the chain", "What it looks like", "Source"] {
-                assert!(!section(mechanism.page, name).is_empty(), "{}: {name}", mechanism.id);
+    fn whatever_has_a_name_was_measured() {
+        for mechanism in all() {
+            let measured = mechanism.measured();
+            let whole = rows(measured, "parameter").len() > 1 && rows(measured, RIVALS).len() > 1;
+            assert_eq!(whole, mechanism.stage.is_some() && inspection(mechanism.id).is_some(), "{}", mechanism.id);
+            if let Some(stage) = mechanism.stage {
+                assert!(measured.starts_with(&format!("Stage: {stage}.")), "{}", mechanism.id);
             }
-            assert!(mechanism.page.contains(&format!("\n`{}`\n", mechanism.id)), "{}", mechanism.id);
-            let named = fs::exists(page_in_docs(mechanism)).unwrap();
-            assert_eq!(named, mechanism.stage().is_some() && inspection(mechanism.id).is_some(), "{}", mechanism.id);
-            assert_eq!(named, rows(mechanism.page, "parameter").len() > 1 && rows(mechanism.page, RIVALS).len() > 1);
         }
     }
 
-    /// A crate is packaged alone, so it has copies; `cp docs/mechanisms/ID.md crates/fogcoil/src/glossary/mechanisms/` renews one.
+    /// `cargo xtask mechanisms` renews the pages.
     #[test]
-    fn the_pages_are_those_of_the_documentation() {
-        for mechanism in MECHANISMS.iter().filter(|m| m.stage().is_some()) {
-            let page = fs::read_to_string(page_in_docs(mechanism)).unwrap();
-            assert!(page == mechanism.page, "{}: copy the page from docs/mechanisms", mechanism.id);
+    fn the_pages_of_the_documentation_say_the_same() {
+        for mechanism in all().filter(|m| m.stage.is_some()) {
+            let page = format!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/mechanisms/{}.md"), mechanism.id);
+            let page = fs::read_to_string(page).unwrap();
+            assert!(page == mechanism.page(mechanism.measured()), "{}: differs from docs/mechanisms", mechanism.id);
         }
     }
 }

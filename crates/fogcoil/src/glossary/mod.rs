@@ -4,7 +4,7 @@ mod mechanism;
 mod page;
 mod remark;
 
-pub use mechanism::{MECHANISMS, Mechanism};
+pub use mechanism::{Mechanism, all as mechanisms};
 pub(crate) use remark::WARNING;
 pub use remark::{Explanation, Remark};
 
@@ -18,7 +18,7 @@ use crate::table::table;
 #[derive(Debug, Clone, Copy)]
 pub enum Entry {
     /// A mechanism of the library.
-    Mechanism(&'static Mechanism),
+    Mechanism(Mechanism),
     /// A warning or a note.
     Remark(Remark),
 }
@@ -44,7 +44,7 @@ pub fn look_up(id: &str) -> Result<Entry, Vec<&'static str>> {
 }
 
 fn entries() -> impl Iterator<Item = Entry> {
-    MECHANISMS.iter().map(Entry::Mechanism).chain(Remark::ALL.iter().copied().map(Entry::Remark))
+    mechanisms().map(Entry::Mechanism).chain(Remark::ALL.iter().copied().map(Entry::Remark))
 }
 
 impl Entry {
@@ -85,7 +85,7 @@ pub fn list() -> String {
     let mut out = format!(
         "Mechanisms: {named} with a name; {unnamed} without one, unknown:..., which describe what has none; {beside} that stand among them in tables:\n\n"
     );
-    out.push_str(&table(&MECHANISMS.iter().map(|m| vec![m.id.to_owned(), m.title().to_owned()]).collect::<Vec<_>>()));
+    out.push_str(&table(&mechanisms().map(|m| vec![m.id.to_owned(), m.title.to_owned()]).collect::<Vec<_>>()));
     out.push_str("\nWarnings and notes:\n\n");
     let row = |remark: &Remark| vec![remark.id().to_owned(), remark.explanation().cause.to_owned()];
     out.push_str(&table(&Remark::ALL.iter().map(row).collect::<Vec<_>>()));
@@ -97,7 +97,7 @@ pub fn list() -> String {
 pub fn list_json() -> Value {
     let of = |remark: &Remark| Entry::Remark(*remark).json();
     json!({
-        "mechanisms": MECHANISMS.iter().map(Mechanism::json).collect::<Vec<_>>(),
+        "mechanisms": mechanisms().map(|m| m.json()).collect::<Vec<_>>(),
         "remarks": Remark::ALL.iter().map(of).collect::<Vec<_>>(),
     })
 }

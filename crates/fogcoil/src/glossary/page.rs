@@ -1,15 +1,4 @@
-//! A page of Markdown, taken apart.
-
-/// What stands below the heading `## name`, up to the next; empty if there is none.
-pub(super) fn section<'a>(page: &'a str, name: &str) -> &'a str {
-    let mut parts = page.split("\n## ").skip(1);
-    parts.find_map(|part| part.strip_prefix(name)?.strip_prefix('\n')).unwrap_or("").trim()
-}
-
-/// The heading of the page.
-pub(super) fn title(page: &str) -> &str {
-    page.lines().next().unwrap_or("").trim_start_matches("# ")
-}
+//! Tables in Markdown.
 
 /// The rows of the table whose first header cell is `first`, its header among them, without marks of code.
 pub(super) fn rows(page: &str, first: &str) -> Vec<Vec<String>> {

@@ -2,7 +2,6 @@
 
 mod bench;
 mod course;
-mod inspection;
 mod limits;
 mod programme;
 mod question;
@@ -17,13 +16,12 @@ use crate::input::{CoilCase, RecordCase};
 pub use bench::Odds;
 pub(crate) use bench::{Contender, everything, odds, prepared, told_apart, usual};
 pub use course::{Course, Trace};
-pub(crate) use inspection::inspection;
 pub use limits::Limits;
 pub use programme::{Programme, programmes};
 pub(crate) use question::Question;
 pub use recommendation::{Ranked, Recommendation, Size, WithSensor};
+pub(crate) use say::{inspection, number, sentence};
 pub use say::{json, text};
-pub(crate) use say::{number, sentence};
 
 /// Finds what tells the mechanisms `between` apart; `records` of the unit, if there are any, give sizes, noise, and the test that is repeated.
 ///

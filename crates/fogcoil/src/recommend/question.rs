@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use diagnosis::{Active, ForwardModel, Observation, Plan, fitted};
-use mechanisms::{Gyro, Library, Prepared, RATE, SPOOL};
+use mechanisms::{CATALOGUE, Gyro, Library, Prepared, RATE, SPOOL};
 use recording::noise::NoiseModel;
 
 use super::bench::{self, Contender, everything, odds, prepared, usual};
@@ -57,7 +57,7 @@ impl Question<'_> {
         let recorded = given.iter().map(|r| Prepared::new(&library, &r.observation.time, &r.chamber, r.averaging));
         let all = recorded.chain(programmes.iter().map(|programme| prepared(&library, programme)));
         let all = all.collect::<Result<Vec<_>, _>>().map_err(coil)?;
-        let gyro = Gyro::new(library, all).map_err(coil)?;
+        let gyro = Gyro::new(library, CATALOGUE, all).map_err(coil)?;
         let mut contenders = contenders(&gyro, between, failed)?;
         let observations: Vec<Observation> = given.into_iter().map(|r| r.observation).collect();
         let recorded = observations.len();

@@ -7,10 +7,10 @@ use crate::common::{CELL, COIL, Folder, change};
 use coil::{Design, Drive, Dynamics, Profile, STANDARD};
 use diagnosis::{Active, ForwardModel};
 use fogcoil::cache::Cache;
-use fogcoil::diagnose::{library, with_mechanism};
+use fogcoil::diagnose::library;
 use fogcoil::input::{RATE, RecordOptions, check_coil, read_coil, read_record};
 use fogcoil::output::coil_file;
-use mechanisms::{Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL};
+use mechanisms::{CATALOGUE, Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL};
 
 const RECORD: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/concealed/open/case_13/fit.csv");
 
@@ -32,7 +32,7 @@ const ALL: [(&str, &[f64], Option<f64>); 13] = [
 ];
 
 /// The reference coil's library and one record's chamber.
-fn gyro() -> Gyro {
+fn gyro() -> Gyro<'static> {
     static LIBRARY: OnceLock<Library> = OnceLock::new();
     let library = LIBRARY.get_or_init(|| {
         // the program's own, which other tests have it keep
@@ -42,7 +42,7 @@ fn gyro() -> Gyro {
     let library = library.clone();
     let (time, chamber) = record();
     let prepared = Prepared::new(&library, &time, &chamber, 30.0).unwrap();
-    Gyro::new(library, vec![prepared]).unwrap()
+    Gyro::new(library, CATALOGUE, vec![prepared]).unwrap()
 }
 
 /// Instants and chamber, its thermometer's noise averaged away: it shakes fast modes that each model has its own number of.
@@ -130,7 +130,7 @@ fn every_mechanism_reads_back_as_it_was() {
     assert_eq!(gyro.mechanisms().iter().filter(|m| m.named).count(), ALL.len());
     let nominal = gyro.library().design().clone();
     for found in ALL {
-        let design = with_mechanism(&gyro, &nominal, &active(&gyro, found)).unwrap();
+        let design = gyro.extended(&nominal, &active(&gyro, found)).unwrap();
         assert_ne!(design, nominal, "{}", found.0);
         let read = back(&design);
         assert!(near(&read, &design), "{}: {read:?} against {design:?}", found.0);
@@ -138,8 +138,8 @@ fn every_mechanism_reads_back_as_it_was() {
     }
     // two mechanisms in two places are both there; two laws of the mechanics have one place
     let both = |a: usize, b: usize| {
-        let one = with_mechanism(&gyro, &nominal, &active(&gyro, ALL[a])).unwrap();
-        with_mechanism(&gyro, &one, &active(&gyro, ALL[b]))
+        let one = gyro.extended(&nominal, &active(&gyro, ALL[a])).unwrap();
+        gyro.extended(&one, &active(&gyro, ALL[b]))
     };
     let pair = both(0, 5).unwrap();
     assert_eq!(pair.winding.tails.ccw, 0.317);
@@ -151,7 +151,7 @@ fn every_mechanism_reads_back_as_it_was() {
 fn a_wide_transition_is_one_that_a_file_holds() {
     let gyro = gyro();
     let wide = active(&gyro, ("glass-transition", &[-60.0, 40.0, 0.7, 1.1], None));
-    back(&with_mechanism(&gyro, gyro.library().design(), &wide).unwrap());
+    back(&gyro.extended(gyro.library().design(), &wide).unwrap());
 }
 
 /// Root mean square.
@@ -182,14 +182,14 @@ const COLDEST: f64 = -150.0;
 fn disagreement(gyro: &Gyro, found: (&str, &[f64], Option<f64>)) -> f64 {
     let (time, chamber) = record();
     let active = active(gyro, found);
-    let design = back(&with_mechanism(gyro, gyro.library().design(), &active).unwrap());
+    let design = back(&gyro.extended(gyro.library().design(), &active).unwrap());
     let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
     let predicted = gyro.respond(0, &middle, std::slice::from_ref(&active)).unwrap();
     let nominal = gyro.respond(0, &middle, &[]).unwrap();
     // a bond that can open is meshed more finely: without effect it is one that stays closed
     let nominal_design = if found.0 == "debond" {
         let values = [&[COLDEST], &found.1[1..]].concat();
-        back(&with_mechanism(gyro, gyro.library().design(), &self::active(gyro, (found.0, &values, None))).unwrap())
+        back(&gyro.extended(gyro.library().design(), &self::active(gyro, (found.0, &values, None))).unwrap())
     } else {
         gyro.library().design().clone()
     };

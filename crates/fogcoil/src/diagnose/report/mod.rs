@@ -151,8 +151,8 @@ impl Outcome {
         // what may make the rest void comes first
         let (warnings, notes): (Vec<&String>, Vec<&String>) = self.notes.iter().partition(|note| note.starts_with(WARNING));
         let mut rows: Vec<_> = warnings.iter().map(|note| row("warning", note.trim_start_matches(WARNING))).collect();
-        for (n, active) in d.best().fit.active.iter().enumerate().filter(|_| d.verdict == Verdict::Explained) {
-            rows.push(row(self.id(active.mechanism), nice(&super::text::place(&self.gyro.located(active, d.choice(n))))));
+        for (id, stage, extent) in self.places().filter(|_| d.verdict == Verdict::Explained) {
+            rows.push(row(id, nice(&super::text::place(stage, &extent))));
         }
         if let Some(alternatives) = self.alternatives() {
             rows.push(row("not told apart", format!("{alternatives} (see the next test)")));

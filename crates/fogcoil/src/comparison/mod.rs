@@ -1,0 +1,156 @@
+//! The library's mechanisms as pictures and tables: what each changes, and what it is mistaken for.
+
+mod confusion;
+mod signature;
+mod text;
+mod trial;
+
+use diagnosis::{Active, ForwardModel, Plan, Prior, separation};
+use mechanisms::{CATALOGUE, Gyro, RATE, SPOOL};
+
+use crate::Error;
+use crate::cache::Cache;
+use crate::diagnose::library;
+use crate::input::CoilCase;
+use crate::recommend::{Contender, Limits, Programme, everything, prepared, programmes, usual};
+
+pub use trial::Trial;
+
+/// The chamber of the tests: `recommend` has others.
+pub const LIMITS: Limits = Limits { coldest: -40.0, hottest: 60.0, fastest: 2.0, hours: 24.0 };
+
+/// What a test tells of a truth against a rival.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Told {
+    /// Distance in standard deviations of the noise, priors included.
+    pub sigma: f64,
+    /// Expected ln of the odds for the truth.
+    pub log_odds: f64,
+}
+
+/// A parameter of a mechanism.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Name with its unit.
+    pub name: String,
+    /// What is known of it; `None` of a choice, of which every value is as likely.
+    pub prior: Option<Prior>,
+    /// A size that is neither small nor large.
+    pub typical: f64,
+}
+
+/// A mechanism.
+#[derive(Debug, Clone)]
+pub struct Entry {
+    /// Its id.
+    pub id: String,
+    /// Where in the chain it acts.
+    pub stage: String,
+    /// Its parameters, its choice first.
+    pub parameters: Vec<Row>,
+    /// What it changes in each of [`Comparison::programmes`] at its typical size: spool temperature \[K\] and rate \[deg/h\].
+    pub(crate) changes: Vec<[Vec<f64>; 2]>,
+}
+
+/// What the mechanisms of a design change, without their comparison.
+pub(crate) struct Responses {
+    /// The mechanisms.
+    pub(crate) entries: Vec<Entry>,
+    /// As [`Comparison::programmes`].
+    pub(crate) programmes: Vec<Programme>,
+    gyro: Gyro<'static>,
+    contenders: Vec<Contender>,
+    truths: Vec<Active>,
+}
+
+/// All named mechanisms of a design.
+pub struct Comparison {
+    /// Name of the design.
+    pub design: String,
+    /// The mechanisms.
+    pub entries: Vec<Entry>,
+    /// One programme of each family, the slow ramp first, the fast one second.
+    pub programmes: Vec<Programme>,
+    /// Ids of the rivals: the mechanisms, the recalibrated design, and the nominal one, which tells whether anything is seen.
+    pub rivals: Vec<String>,
+    /// `[programme][truth][rival]`; `None` of a mechanism against itself.
+    pub told: Vec<Vec<Vec<Option<Told>>>>,
+}
+
+impl Comparison {
+    /// Measures every mechanism of a design against every other one.
+    ///
+    /// # Errors
+    /// [`Error::Coil`] if the design cannot be modelled.
+    pub fn measure(case: &CoilCase, cache: &Cache, progress: &dyn Fn(&str)) -> Result<Self, Error> {
+        let Responses { entries, programmes, gyro, mut contenders, truths } = Responses::of(case, cache)?;
+        let failed = |error| failed(case, error);
+        contenders.push(Contender::recalibrated());
+        contenders.extend(Contender::named(&gyro, "nominal").map_err(failed)?);
+        let noise = usual(&gyro);
+        let mut told = Vec::with_capacity(programmes.len());
+        for (k, programme) in programmes.iter().enumerate() {
+            let plan = Plan { records: &[k], instants: &[everything(programme)], noise: Some(&noise) };
+            let mut of_programme = Vec::with_capacity(truths.len());
+            for truth in &truths {
+                let id = &gyro.mechanisms()[truth.mechanism].id;
+                progress(&format!("{}: {id}", programme.family));
+                let against = |rival: &Contender| -> Result<Option<Told>, Error> {
+                    if rival.id == *id {
+                        return Ok(None);
+                    }
+                    let found = separation(&gyro, &plan, std::slice::from_ref(truth), &rival.hypotheses).map_err(failed)?;
+                    Ok(Some(Told { sigma: found.sigma(), log_odds: found.log_odds() }))
+                };
+                of_programme.push(contenders.iter().map(against).collect::<Result<Vec<_>, _>>()?);
+            }
+            told.push(of_programme);
+        }
+        let rivals = contenders.into_iter().map(|c| c.id).collect();
+        Ok(Self { design: case.name.clone(), entries, programmes, rivals, told })
+    }
+}
+
+impl Responses {
+    /// Runs every named mechanism at its typical size.
+    ///
+    /// # Errors
+    /// As [`Comparison::measure`].
+    pub(crate) fn of(case: &CoilCase, cache: &Cache) -> Result<Self, Error> {
+        let coil = |source| Error::Coil { file: case.file.clone(), source };
+        let library = library(case, cache, &|_| ())?;
+        let mut programmes = programmes(&LIMITS);
+        programmes.dedup_by_key(|programme| programme.family);
+        let records = programmes.iter().map(|p| prepared(&library, p)).collect::<Result<Vec<_>, _>>().map_err(coil)?;
+        let gyro = Gyro::new(library, CATALOGUE, records).map_err(coil)?;
+        let mut contenders = Vec::new();
+        for mechanism in gyro.mechanisms().iter().filter(|m| m.named) {
+            contenders.extend(Contender::named(&gyro, &mechanism.id).map_err(|error| failed(case, error))?);
+        }
+        let truths: Vec<Active> = contenders.iter().filter_map(|c| c.truth.clone()).collect();
+        let entries = truths.iter().map(|truth| entry(&gyro, truth, programmes.len())).collect::<Result<_, _>>().map_err(coil)?;
+        Ok(Self { entries, programmes, gyro, contenders, truths })
+    }
+}
+
+fn failed(case: &CoilCase, error: diagnosis::Error<coil::Error>) -> Error {
+    match error {
+        diagnosis::Error::Model(source) => Error::Coil { file: case.file.clone(), source },
+        other => Error::Diagnosis(other.to_string()),
+    }
+}
+
+fn entry(gyro: &Gyro, truth: &Active, programmes: usize) -> Result<Entry, coil::Error> {
+    let mechanism = &gyro.mechanisms()[truth.mechanism];
+    let choice = mechanism.choice.iter().zip(truth.choice);
+    let choice = choice.map(|((name, _), typical)| Row { name: name.clone(), prior: None, typical });
+    let of = |(p, v): (&diagnosis::Parameter, &f64)| Row { name: p.name.clone(), prior: Some(p.prior), typical: *v };
+    let parameters = choice.chain(mechanism.parameters.iter().zip(&truth.values).map(of)).collect();
+    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let change = |record: usize| -> Result<[Vec<f64>; 2], coil::Error> {
+        let (with, without) = (gyro.respond(record, &middle, std::slice::from_ref(truth))?, gyro.respond(record, &middle, &[])?);
+        Ok([SPOOL, RATE].map(|c: usize| with[c].iter().zip(&without[c]).map(|(a, b)| a - b).collect()))
+    };
+    let changes = (0..programmes).map(change).collect::<Result<_, _>>()?;
+    Ok(Entry { id: mechanism.id.clone(), stage: mechanism.stage.clone(), parameters, changes })
+}

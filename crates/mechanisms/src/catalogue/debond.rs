@@ -1,0 +1,129 @@
+//! A bond of coil and flange whose outer part opens in the cold.
+
+use crate::design::bonded_flange;
+use crate::interpolation::cubic_weights;
+use crate::mechanism::{Change, across, grid};
+use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::record::Parts;
+use crate::{Chain, Prepared};
+use coil::{Bonds, Design, Error, MechanicalState, Mechanics, Opening};
+use diagnosis::{Active, Parameter, Prior};
+
+pub(crate) const ID: &str = "debond";
+
+pub(super) struct Debond;
+
+impl Mechanism for Debond {
+    fn words(&self) -> Words<'_> {
+        Words {
+            id: ID,
+            title: "A bond that opens in the cold",
+            stage: Stage::Bond,
+            equation: "Below T_d the outer part of the bond between coil and flange, a share f of the annulus' width, carries no force; above T_d + h it carries again. Heat\n\
+                passes in either state, and nothing jumps at the switch: only rates change.",
+            place: "The bond of coil and flange: `mechanics: Opening(...)`.",
+            signature: "The sensitivity has two values, by temperature, with hysteresis, and is not monotonic in f. A profile that passes both thresholds shows it; one that stays\n\
+                below T_d shows a gain.",
+            source: "J. W. Hutchinson and Z. Suo, *Advances in Applied Mechanics* 29, 63 (1992).",
+            naming: Naming::Named {
+                meaning: "below debond_c the outer part of the bond between coil and flange, fraction of its width, carries no force; it closes \
+                          hysteresis_k above",
+                inspection: "look at the flange's bond with ultrasound",
+            },
+        }
+    }
+
+    fn offer(&self, design: &Design, range: [f64; 2]) -> Option<Offer> {
+        applies(design).then(|| Offer {
+            parameters: vec![
+                Parameter::new("debond_c", Prior::Uniform { low: range[0], high: range[1] })
+                    .with_step(0.02)
+                    .with_search(&AROUND_K),
+                Parameter::new("hysteresis_k", Prior::LogNormal { median: 6.0, spread: 0.6 })
+                    .with_step(0.1)
+                    .with_search(&AROUND_K),
+                Parameter::new("fraction", Prior::Uniform { low: 0.01, high: 0.9 }).with_step(0.05),
+            ],
+            choice: None,
+            starts: grid(&[&across(range, 40), &[3.0, 9.0], &[0.05, 0.15, 0.35, 0.6]]),
+        })
+    }
+
+    fn heat_path(&self) -> Option<HeatPath> {
+        None
+    }
+
+    fn effect(&self, _: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
+        let v = &active.values;
+        Ok(Effect::Coil(Change::of_parts(opened(record, v[0], v[1], v[2]))))
+    }
+
+    fn extent(&self, active: &Active, _: &Sight) -> Extent {
+        let (opens, hysteresis) = (active.values[0], active.values[1]);
+        Extent { temperature: Some([opens, opens + hysteresis]), ..Extent::default() }
+    }
+
+    fn steady(&self) -> Vec<Steady> {
+        let open = |d: &Design, share: f64| {
+            (with_opening(d, OPENS[0], OPENS[1], share), MechanicalState { bonds: Bonds::Opened, ..MechanicalState::NOMINAL })
+        };
+        vec![Steady::Changes { parameter: 2, changed: open, when: "while the bond is open" }]
+    }
+
+    fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
+        let v = &active.values;
+        (design.mechanics == Mechanics::Elastic).then(|| with_opening(design, v[0], v[1], v[2]))
+    }
+
+    fn caveat(&self, _: &Design) -> Option<&'static str> {
+        None
+    }
+}
+
+/// Distances from a fitted switching temperature at which a better one is sought \[K\]: whether a row is before the switch is all or nothing.
+const AROUND_K: [f64; 6] = [0.06, 0.15, 0.4, 1.0, 2.2, 4.5];
+/// A flange's bond is taken as open below this \[°C\], with this hysteresis \[K\]; in a steady state neither matters.
+pub(crate) const OPENS: [f64; 2] = [0.0, 1.0];
+
+/// Whether a design has a bond that can open.
+pub(crate) fn applies(design: &Design) -> bool {
+    design.mechanics == Mechanics::Elastic && bonded_flange(design).is_some()
+}
+
+/// A bond of coil and flange whose outer part opens in the cold.
+pub(crate) fn with_opening(design: &Design, below: f64, hysteresis: f64, fraction: f64) -> Design {
+    match bonded_flange(design) {
+        Some(side) => Design { mechanics: Mechanics::Opening(Opening { side, below, hysteresis, fraction }), ..design.clone() },
+        None => design.clone(),
+    }
+}
+
+/// Parts of a coil whose bond opens, less those of one whose bond holds.
+fn opened(record: &Prepared, below: f64, hysteresis: f64, share: f64) -> Parts {
+    // nothing open changes nothing
+    let nodes: Vec<f64> = std::iter::once(0.0).chain(record.openings.iter().map(|(share, _)| *share)).collect();
+    let w = &cubic_weights(&nodes, share.clamp(0.0, nodes[nodes.len() - 1]))[1..];
+    let mut change: Parts = [0, 1, 2].map(|_| vec![0.0; record.time.len()]);
+    let mut open = record.coil[0] < below;
+    for n in 1..record.time.len() {
+        // part of the interval after a threshold is crossed, the temperature being linear in it
+        let (from, to) = (record.coil[n - 1], record.coil[n]);
+        let after = |threshold: f64| if to == from { 0.0 } else { ((to - threshold) / (to - from)).clamp(0.0, 1.0) };
+        let part = if open {
+            let closes = to > below + hysteresis;
+            open = !closes;
+            if closes { 1.0 - after(below + hysteresis) } else { 1.0 }
+        } else {
+            open = to < below;
+            if open { after(below) } else { 0.0 }
+        };
+        if part > 0.0 {
+            for (w, (_, parts)) in w.iter().zip(&record.openings).filter(|(w, _)| **w != 0.0) {
+                for p in 0..3 {
+                    change[p][n] += part * w * parts[p][n];
+                }
+            }
+        }
+    }
+    change
+}

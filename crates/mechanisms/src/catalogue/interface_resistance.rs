@@ -1,0 +1,82 @@
+//! A thermal contact resistance between hub and coil.
+
+use crate::interpolation::nodes;
+use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::{Chain, Prepared};
+use coil::{Contact, Design, Error, MechanicalState};
+use diagnosis::{Active, Prior};
+
+pub(crate) const ID: &str = "interface-resistance";
+
+pub(super) struct InterfaceResistance;
+
+impl Mechanism for InterfaceResistance {
+    fn words(&self) -> Words<'_> {
+        Words {
+            id: ID,
+            title: "Contact resistance between hub and coil",
+            stage: Stage::Thermal,
+            equation: "A resistance R between hub and coil: the heat flux is q = ΔT/R across the interface.",
+            place: "The heat flow: `heat.hub_resistance_m2k_per_w`.",
+            signature: "The coil lags behind the hub; neither moves the steady ramp's sensitivity, in which the lag is constant. Steps and turning points show it.",
+            source: "C. V. Madhusudana, *Thermal Contact Conductance*, Springer (1996).",
+            naming: Naming::Named {
+                meaning: "heat passes between hub and coil through a contact resistance",
+                inspection: "heat the hub and record a thermometer on the coil's outer surface",
+            },
+        }
+    }
+
+    fn offer(&self, design: &Design, _: [f64; 2]) -> Option<Offer> {
+        applies(design).then(|| Offer::one("resistance_m2k_per_w", Prior::LogNormal { median: 7e-4, spread: 0.9 }, &[5e-4]))
+    }
+
+    fn heat_path(&self) -> Option<HeatPath> {
+        Some(HeatPath {
+            applies,
+            nodes: nodes(0.0, 0.85, 7),
+            nominal: 0.0,
+            design: |design, x| with_hub_resistance(design, RESISTANCE * x / (1.0 - x)),
+            nudge: Some(coordinate(2e-4)),
+        })
+    }
+
+    fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
+        Ok(Effect::Coil(chain.along(record, ID, coordinate(active.values[0]))))
+    }
+
+    fn extent(&self, _: &Active, _: &Sight) -> Extent {
+        Extent::default()
+    }
+
+    fn steady(&self) -> Vec<Steady> {
+        vec![Steady::Changes { parameter: 0, changed: |d, x| (with_hub_resistance(d, x), MechanicalState::NOMINAL), when: "" }]
+    }
+
+    fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
+        Some(with_hub_resistance(design, active.values[0]))
+    }
+
+    fn caveat(&self, _: &Design) -> Option<&'static str> {
+        None
+    }
+}
+
+/// Resistance at which the coordinate is one half \[m² K/W\].
+const RESISTANCE: f64 = 2e-3;
+
+fn applies(design: &Design) -> bool {
+    design.spool.as_ref().is_some_and(|s| s.hub_contact == Contact::Bonded)
+}
+
+/// Coordinate in which the response is smooth.
+fn coordinate(resistance: f64) -> f64 {
+    resistance.max(0.0) / (resistance.max(0.0) + RESISTANCE)
+}
+
+/// More thermal resistance between hub and coil \[m² K/W\].
+fn with_hub_resistance(design: &Design, resistance: f64) -> Design {
+    let mut changed = design.clone();
+    changed.heat.hub_resistance += resistance;
+    changed
+}

@@ -1,0 +1,93 @@
+//! Power that is dissipated in a flange since the unit was switched on.
+
+use crate::design::flange;
+use crate::mechanism::{Change, grid};
+use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::{Chain, Prepared};
+use coil::{Design, Error, Heater};
+use diagnosis::{Active, Parameter, Prior};
+
+pub(crate) const ID: &str = "self-heating";
+
+pub(super) struct SelfHeating;
+
+impl Mechanism for SelfHeating {
+    fn words(&self) -> Words<'_> {
+        Words {
+            id: ID,
+            title: "Power dissipated in a flange",
+            stage: Stage::Thermal,
+            equation: "A constant power P in the flange since `before_s` ahead of the record's first row.",
+            place: "The heat flow: `heat.heaters`.",
+            signature: "A settling at the start of the record, whatever the chamber does, and a constant offset of the spool's temperature after it. A chamber that rests while the\n\
+                unit is switched on shows it best.",
+            source: "H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed., Oxford (1959), ch. 3.",
+            naming: Naming::Named {
+                meaning: "power is dissipated at the flange; it was switched on before_s before the first row",
+                inspection: "switch the electronics on at a steady chamber temperature",
+            },
+        }
+    }
+
+    fn offer(&self, design: &Design, _: [f64; 2]) -> Option<Offer> {
+        applies(design).then(|| Offer {
+            parameters: vec![
+                Parameter::new("power_w", Prior::LogNormal { median: 0.05, spread: 1.4 }),
+                Parameter::new("before_s", Prior::LogNormal { median: 30.0, spread: 1.0 }),
+            ],
+            choice: None,
+            starts: grid(&[&[0.005, 0.05], &[10.0, 60.0, 300.0]]),
+        })
+    }
+
+    fn heat_path(&self) -> Option<HeatPath> {
+        None
+    }
+
+    fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
+        let Some(series) = chain.heated(record, active.values[1]) else { return Ok(Effect::Coil(Change::none(record))) };
+        let scaled = |s: &[f64]| s.iter().map(|x| active.values[0] * x).collect::<Vec<f64>>();
+        let parts = [0, 1, 2].map(|p: usize| scaled(&series.parts[p]));
+        Ok(Effect::Coil(Change { thermometer: Some(scaled(&series.sensor)), ..Change::of_parts(parts) }))
+    }
+
+    /// From the switch-on until the thermometer has risen by nearly all that it ever will in the first record.
+    fn extent(&self, _: &Active, sight: &Sight) -> Extent {
+        let time = sight.first.as_ref().and_then(|(record, change)| {
+            let rise = change.thermometer.as_ref()?;
+            let settled = RISEN * rise.last()?;
+            let at = rise.iter().position(|r| r.abs() >= settled.abs())?;
+            Some([record.time[0], record.time[at]])
+        });
+        Extent { time, ..Extent::default() }
+    }
+
+    fn steady(&self) -> Vec<Steady> {
+        vec![Steady::Nothing("a constant power makes a constant field, whose rate is zero")]
+    }
+
+    fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
+        Some(with_heater(design, active.values[0]))
+    }
+
+    fn caveat(&self, _: &Design) -> Option<&'static str> {
+        Some("simulate switches the heater on at the first row, not before_s earlier")
+    }
+}
+
+/// Share of its final rise at which a heated unit has settled.
+const RISEN: f64 = 0.95;
+
+/// Whether a design has a flange to heat, and no heater of its own.
+pub(crate) fn applies(design: &Design) -> bool {
+    flange(design).is_some() && design.heat.heaters.is_empty()
+}
+
+/// Power in the first flange \[W\].
+pub(crate) fn with_heater(design: &Design, power: f64) -> Design {
+    let mut changed = design.clone();
+    if let Some(side) = flange(design) {
+        changed.heat.heaters.push(Heater { side, power });
+    }
+    changed
+}

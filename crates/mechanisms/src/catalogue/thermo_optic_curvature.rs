@@ -1,0 +1,62 @@
+//! ∂n/∂T that depends on temperature.
+
+use crate::design::drifts_about_reference;
+use crate::mechanism::Change;
+use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::{Chain, Prepared};
+use coil::{Design, Error};
+use diagnosis::{Active, Prior};
+
+pub(crate) const ID: &str = "thermo-optic-curvature";
+
+pub(super) struct ThermoOpticCurvature;
+
+impl Mechanism for ThermoOpticCurvature {
+    fn words(&self) -> Words<'_> {
+        Words {
+            id: ID,
+            title: "∂n/∂T that depends on temperature",
+            stage: Stage::Optics,
+            equation: "∂n/∂T = nominal + b (T − 20 °C), with the local temperature of every turn.",
+            place: "The optics: `drifts.thermo_optic_curvature_per_k2`.",
+            signature: "It scales the Shupe part with temperature: nothing in steady ramps, where that part is zero, and little elsewhere. Transients far from 20 °C show it.",
+            source: "D. B. Leviton and B. J. Frey, *Proc. SPIE* 6273, 62732K (2006), for fused silica.",
+            naming: Naming::Named {
+                meaning: "the fibre's dn/dT depends on temperature",
+                inspection: "measure the fibre's dn/dT at both ends of the range",
+            },
+        }
+    }
+
+    fn offer(&self, _: &Design, _: [f64; 2]) -> Option<Offer> {
+        Some(Offer::one("curvature_per_k2", Prior::Normal { mean: 0.0, sd: 6e-8 }, &[0.0]))
+    }
+
+    fn heat_path(&self) -> Option<HeatPath> {
+        None
+    }
+
+    fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
+        let zero = vec![0.0; record.time.len()];
+        let shupe = chain.curved(record).iter().map(|c| active.values[0] * c).collect();
+        Ok(Effect::Coil(Change::of_parts([shupe, zero.clone(), zero])))
+    }
+
+    fn extent(&self, _: &Active, _: &Sight) -> Extent {
+        Extent::default()
+    }
+
+    fn steady(&self) -> Vec<Steady> {
+        vec![Steady::Nothing("dn/dT changes alike along the fibre where the temperature is even, and cancels")]
+    }
+
+    fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
+        let mut changed = drifts_about_reference(design)?;
+        changed.drifts.thermo_optic_curvature += active.values[0];
+        Some(changed)
+    }
+
+    fn caveat(&self, _: &Design) -> Option<&'static str> {
+        None
+    }
+}

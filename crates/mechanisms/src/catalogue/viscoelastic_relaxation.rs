@@ -1,0 +1,90 @@
+//! Transverse stiffness that relaxes with a time constant.
+
+use crate::interpolation::weights;
+use crate::mechanism::{Change, grid};
+use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::record::Parts;
+use crate::{Chain, Prepared};
+use coil::{Design, Error, MechanicalState, Mechanics, Relaxation};
+use diagnosis::{Active, Parameter, Prior};
+
+pub(crate) const ID: &str = "viscoelastic-relaxation";
+
+pub(super) struct ViscoelasticRelaxation;
+
+impl Mechanism for ViscoelasticRelaxation {
+    fn words(&self) -> Words<'_> {
+        Words {
+            id: ID,
+            title: "Relaxation of the adhesive",
+            stage: Stage::Material,
+            equation: "E_r and G relax with one time constant: E(t)/E_0 = 1 − g + g e^{−t/τ}. The nominal value is the unrelaxed one.",
+            place: "The material of the coil: `mechanics: Relaxing(...)`.",
+            signature: "In ramps much slower than τ the coil is merely softer. A rate that goes on changing for τ after the chamber has come to rest is its mark; heat that\n\
+                still flows does the same on its own scale.",
+            source: "J. D. Ferry, *Viscoelastic Properties of Polymers*, 3rd ed., Wiley (1980), ch. 1 to 3.",
+            naming: Naming::Named {
+                meaning: "the transverse stiffness relaxes by relaxing_fraction with the time constant tau_s",
+                inspection: "measure the adhesive's stress relaxation (DMA)",
+            },
+        }
+    }
+
+    fn offer(&self, design: &Design, _: [f64; 2]) -> Option<Offer> {
+        (design.mechanics == Mechanics::Elastic).then(|| Offer {
+            parameters: vec![
+                Parameter::new("relaxing_fraction", Prior::Uniform { low: 0.0, high: 0.8 }),
+                Parameter::new("tau_s", Prior::LogNormal { median: 4000.0, spread: 1.0 }),
+            ],
+            choice: None,
+            starts: grid(&[&[0.2], &[700.0, 2500.0, 9000.0, 25000.0]]),
+        })
+    }
+
+    fn heat_path(&self) -> Option<HeatPath> {
+        None
+    }
+
+    fn effect(&self, _: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
+        Ok(Effect::Coil(Change::of_parts(relaxed(record, active.values[0], active.values[1]))))
+    }
+
+    fn extent(&self, _: &Active, _: &Sight) -> Extent {
+        Extent::default()
+    }
+
+    fn steady(&self) -> Vec<Steady> {
+        let relaxed =
+            |d: &Design, x: f64| (d.clone(), MechanicalState { transverse_modulus: 1.0 - x, ..MechanicalState::NOMINAL });
+        vec![Steady::Changes { parameter: 0, changed: relaxed, when: "in ramps much slower than the relaxation" }]
+    }
+
+    fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
+        let (fraction, time) = (active.values[0], active.values[1]);
+        let relaxing = || Design { mechanics: Mechanics::Relaxing { fraction, time }, ..design.clone() };
+        (design.mechanics == Mechanics::Elastic).then(relaxing)
+    }
+
+    fn caveat(&self, _: &Design) -> Option<&'static str> {
+        None
+    }
+}
+
+/// Parts of a coil whose transverse moduli relax, less the nominal ones.
+fn relaxed(record: &Prepared, fraction: f64, time: f64) -> Parts {
+    let nodes: Vec<f64> = record.modulus.iter().map(|(x, ..)| *x).collect();
+    let at: Vec<Vec<f64>> = Relaxation::nodes().iter().map(|x| weights(&nodes, (1.0 - fraction * x).ln())).collect();
+    let nominal = weights(&nodes, 0.0);
+    let mut relaxation = Relaxation::new(time);
+    let mut change: Parts = [0, 1, 2].map(|_| vec![0.0; record.time.len()]);
+    #[expect(clippy::needless_range_loop, reason = "rows of many series")]
+    for n in 1..record.time.len() {
+        let of = |w: &[f64]| [0, 1, 2].map(|p: usize| w.iter().zip(&record.modulus).map(|(w, m)| w * m.1[p][n]).sum::<f64>());
+        let states: Vec<[f64; 3]> = at.iter().map(|w| of(w)).collect();
+        let (relaxed, unrelaxed) = (relaxation.rates(&states, record.time[n] - record.time[n - 1]), of(&nominal));
+        for p in 0..3 {
+            change[p][n] = relaxed[p] - unrelaxed[p];
+        }
+    }
+    change
+}

@@ -1,0 +1,155 @@
+//! The tools that mechanisms' laws are written with: a library's models under the chamber of a recording, changed.
+
+use crate::REFERENCE_C;
+use crate::interpolation::weights;
+use crate::library::{Functionals, Library};
+use crate::mechanism::Change;
+use crate::record::{Parts, Prepared, Series};
+use bias::units::DEG_PER_H_PER_RAD_PER_S;
+use coil::Error;
+use nalgebra::DVector;
+use std::cell::RefCell;
+use std::collections::HashMap;
+use winding::LayerDefect;
+
+pub(crate) fn add(to: &mut [f64], what: &[f64], factor: f64) {
+    to.iter_mut().zip(what).for_each(|(t, w)| *t += factor * w);
+}
+
+/// A library with what is worked out from it once for all recordings.
+pub struct Chain {
+    library: Library,
+    /// quadratic form of ∂n/∂T's curvature: phase per curvature \[deg/h s K²\] from drives and modes
+    curvature: (nalgebra::DMatrix<f64>, DVector<f64>),
+    /// functionals of rewound coils by layer (0 for none) and size, as they were asked for
+    rewound: RefCell<HashMap<(usize, u64), Functionals>>,
+}
+
+impl Chain {
+    pub(crate) fn new(library: Library) -> Result<Self, Error> {
+        Ok(Self { curvature: curvature(&library)?, library, rewound: RefCell::default() })
+    }
+
+    /// The models.
+    pub fn library(&self) -> &Library {
+        &self.library
+    }
+
+    /// What the coil does at a coordinate of the heat path of mechanism `id`, less what it does as designed.
+    pub fn along(&self, record: &Prepared, id: &str, coordinate: f64) -> Change {
+        let mut change = Change { thermometer: Some(vec![0.0; record.time.len()]), ..Change::none(record) };
+        if let Some((_, nodes, series)) = record.paths.iter().find(|(path, ..)| path == id) {
+            for (w, series) in weights(nodes, coordinate).into_iter().zip(series) {
+                for p in 0..3 {
+                    add(&mut change.parts[p], &series.parts[p], w);
+                }
+                if let Some(thermometer) = &mut change.thermometer {
+                    add(thermometer, &series.sensor, w);
+                }
+            }
+        }
+        change
+    }
+
+    /// What a watt in the first flange does that is switched on `before` \[s\] the first row; `None` without a flange, or if it has a heater.
+    pub(crate) fn heated(&self, record: &Prepared, before: f64) -> Option<Series> {
+        Some(record.heater.as_ref()?.at(self.library.heater.as_ref()?, before))
+    }
+
+    /// Parts of a coil whose CW tail is longer than its CCW tail by so much more \[m\], less the nominal ones \[deg/h\].
+    ///
+    /// # Errors
+    /// [`Error::Winding`] if there is no such winding.
+    pub fn with_tail(&self, record: &Prepared, tail: f64) -> Result<Parts, Error> {
+        self.less_nominal(record, &self.library.rewound(tail, None)?)
+    }
+
+    /// Parts of a coil with so many turns more in a layer, less the nominal ones \[deg/h\]; between whole numbers of turns the response is
+    /// interpolated.
+    ///
+    /// # Errors
+    /// [`Error::Winding`] if there is no such winding.
+    pub fn with_turns(&self, record: &Prepared, layer: usize, turns: f64) -> Result<Parts, Error> {
+        let low = turns.floor();
+        let at = |turns: f64| self.with_defect(layer, turns as i32);
+        let (a, b) = (at(low)?, at(low + 1.0)?);
+        self.less_nominal(record, &[0, 1, 2].map(|p: usize| &a[p] + (&b[p] - &a[p]) * (turns - low)))
+    }
+
+    fn less_nominal(&self, record: &Prepared, functionals: &Functionals) -> Result<Parts, Error> {
+        let nominal = self.with_defect(0, 0)?;
+        Ok(record.course.parts(&[0, 1, 2].map(|p: usize| &functionals[p] - &nominal[p])))
+    }
+
+    fn with_defect(&self, layer: usize, turns: i32) -> Result<Functionals, Error> {
+        let key = (layer, turns as u64);
+        if let Some(known) = self.rewound.borrow().get(&key) {
+            return Ok(known.clone());
+        }
+        let defect = (layer > 0 && turns != 0).then_some(LayerDefect { layer, turns });
+        let functionals = self.library.rewound(0.0, defect)?;
+        self.rewound.borrow_mut().insert(key, functionals.clone());
+        Ok(functionals)
+    }
+
+    /// Parts of a coil whose transverse moduli and α_r have factors that vary from row to row, less the nominal ones \[deg/h\].
+    pub fn softened(&self, record: &Prepared, factors: impl Fn(usize) -> (f64, f64)) -> Parts {
+        let nodes: Vec<f64> = record.modulus.iter().map(|(x, ..)| *x).collect();
+        let nominal = weights(&nodes, 0.0);
+        let mut change: Parts = [0, 1, 2].map(|_| vec![0.0; record.time.len()]);
+        let mut known: (f64, Vec<f64>) = (f64::NAN, Vec::new());
+        for n in 0..record.time.len() {
+            let (modulus, expansion) = factors(n);
+            if modulus == 1.0 && expansion == 1.0 {
+                continue;
+            }
+            if modulus != known.0 {
+                known = (modulus, weights(&nodes, modulus.ln()));
+            }
+            for (k, (_, at_nominal, per_factor)) in record.modulus.iter().enumerate() {
+                let (w, w0) = (known.1[k], nominal[k]);
+                for p in 0..3 {
+                    change[p][n] += (w - w0) * at_nominal[p][n] + w * (expansion - 1.0) * per_factor[p][n];
+                }
+            }
+        }
+        change
+    }
+
+    /// Phase of a curved ∂n/∂T in every row, differenced \[deg/h per 1/K²\].
+    pub fn curved(&self, record: &Prepared) -> Vec<f64> {
+        let (form, linear) = &self.curvature;
+        let states = &record.course.states;
+        let phases: Vec<f64> = (0..states.nrows())
+            .map(|n| {
+                let s = states.row(n).transpose();
+                (&s.transpose() * form * &s)[(0, 0)] / 2.0 - REFERENCE_C * linear.dot(&s)
+            })
+            .collect();
+        // d/dt of the phase at the middle of a row's span: exact for the mean where rows are evenly spaced
+        let rates = &record.course.rates;
+        (0..states.nrows())
+            .map(|n| {
+                let dt = if n > 0 { record.time[n] - record.time[n - 1] } else { 0.0 };
+                let span = if record.averaging > 0.0 { dt.min(record.averaging) } else { dt };
+                if n == 0 || span < dt {
+                    // after a gap: the mean over the span from the state at its end
+                    let (s, r) = (states.row(n).transpose(), rates.row(n).transpose());
+                    let middle = s - &r * (span / 2.0);
+                    (middle.transpose() * form * &r)[(0, 0)] - REFERENCE_C * linear.dot(&r)
+                } else {
+                    (phases[n] - phases[n - 1]) / dt
+                }
+            })
+            .collect()
+    }
+}
+
+/// Sums that make the phase of a curved ∂n/∂T, times n/(L D) in deg/h.
+fn curvature(library: &Library) -> Result<(nalgebra::DMatrix<f64>, DVector<f64>), Error> {
+    let design = library.design();
+    let winding = winding::wind(&design.winding)?;
+    let (form, linear) = library.fields.moments(&winding);
+    let scale = DEG_PER_H_PER_RAD_PER_S * design.optics.refractive_index / (winding.length() * design.optics.sagnac_diameter);
+    Ok((form * scale, linear * scale))
+}

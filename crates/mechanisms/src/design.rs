@@ -1,0 +1,27 @@
+//! Places of a design at which mechanisms act.
+
+use crate::REFERENCE_C;
+use coil::{Contact, Design, Side};
+
+/// The first flange whose bond to the coil holds.
+pub(crate) fn bonded_flange(design: &Design) -> Option<Side> {
+    let flanges = &design.spool.as_ref()?.flanges;
+    flanges.iter().find(|f| f.contact == Contact::Bonded).map(|f| f.side)
+}
+
+/// The first flange.
+pub(crate) fn flange(design: &Design) -> Option<Side> {
+    design.spool.as_ref()?.flanges.first().map(|f| f.side)
+}
+
+/// The design with its drifts about [`REFERENCE_C`], if its own vanish there or nowhere.
+pub(crate) fn drifts_about_reference(design: &Design) -> Option<Design> {
+    let mut changed = design.clone();
+    let drifts = &mut changed.drifts;
+    let none = drifts.thermo_optic_curvature == 0.0 && drifts.read_out == 0.0;
+    if !none && drifts.reference != REFERENCE_C {
+        return None;
+    }
+    drifts.reference = REFERENCE_C;
+    Some(changed)
+}

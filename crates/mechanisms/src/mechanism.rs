@@ -1,0 +1,281 @@
+//! Mechanisms: all that the program needs to know of one, as a trait that one file implements.
+
+use crate::record::Parts;
+use crate::{Chain, Prepared, REFERENCE_C};
+use bias::units::S_PER_H;
+use coil::{Design, Error, MechanicalState};
+use diagnosis::{Active, Parameter, Prior};
+
+/// Part of the chain in which a mechanism acts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// Heat flow of coil, spool and surroundings.
+    Thermal,
+    /// Constants of coil and spool.
+    Material,
+    /// Bond of coil and spool.
+    Bond,
+    /// Length and place of every turn.
+    Winding,
+    /// Index of refraction, polarisation, magnetic fields.
+    Optics,
+    /// Read-out.
+    Electronics,
+    /// Thermometer.
+    Sensor,
+}
+
+impl Stage {
+    /// Its name in every output.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Thermal => "thermal",
+            Self::Material => "material",
+            Self::Bond => "bond",
+            Self::Winding => "winding",
+            Self::Optics => "optics",
+            Self::Electronics => "electronics",
+            Self::Sensor => "sensor",
+        }
+    }
+}
+
+/// A mechanism in words, for people; Markdown where it is longer than a sentence.
+#[derive(Debug, Clone)]
+pub struct Words<'a> {
+    /// Short name in every file and output, in kebab case; `unknown:` stands before the id of one that only describes.
+    pub id: &'a str,
+    /// Heading of its page.
+    pub title: &'a str,
+    /// Where it acts.
+    pub stage: Stage,
+    /// Its law.
+    pub equation: &'a str,
+    /// What of the model it changes, and which key of a coil file holds it.
+    pub place: &'a str,
+    /// What a record shows of it.
+    pub signature: &'a str,
+    /// Literature.
+    pub source: &'a str,
+    /// Whether it is an explanation.
+    pub naming: Naming<'a>,
+}
+
+/// Formats a number to so many significant digits.
+pub type Digits<'a> = &'a dyn Fn(f64, usize) -> String;
+
+/// Whether a mechanism counts as an explanation.
+#[derive(Debug, Clone)]
+pub enum Naming<'a> {
+    /// It explains.
+    Named {
+        /// The mechanism in a sentence, by the names of its parameters.
+        meaning: &'a str,
+        /// A check of the unit itself that decides about it.
+        inspection: &'a str,
+    },
+    /// It describes a structure that nothing explains: the verdict stays unknown.
+    Described {
+        /// The structure in words, from the values of the parameters.
+        likeness: fn(&[f64], Digits) -> String,
+    },
+}
+
+/// A mechanism as it is offered for a design: its unknowns and where fits of them start.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Offer {
+    /// Its parameters, whose names end in their units.
+    pub parameters: Vec<Parameter>,
+    /// A further, whole-numbered parameter with its candidates.
+    pub choice: Option<(String, Vec<f64>)>,
+    /// Values of the parameters from which fits start.
+    pub starts: Vec<Vec<f64>>,
+}
+
+impl Offer {
+    /// One parameter on which the response depends smoothly.
+    pub fn one(name: &str, prior: Prior, starts: &[f64]) -> Self {
+        let starts = starts.iter().map(|v| vec![*v]).collect();
+        Self { parameters: vec![Parameter::new(name, prior)], choice: None, starts }
+    }
+}
+
+/// A path of heat whose strength is a mechanism's parameter: the library tabulates the coil along it.
+#[derive(Debug, Clone)]
+pub struct HeatPath {
+    /// Whether a design has it.
+    pub applies: fn(&Design) -> bool,
+    /// Values of the path's coordinate that are tabulated, increasing; the response is smooth in it.
+    pub nodes: Vec<f64>,
+    /// The coordinate of the design as it is, one of the nodes.
+    pub nominal: f64,
+    /// The design at a coordinate.
+    pub design: fn(&Design, f64) -> Design,
+    /// Coordinate of a small change by which a mismatch is sought in the heat flow; `None` where it is sought elsewhere.
+    pub nudge: Option<f64>,
+}
+
+/// What a mechanism does in a record.
+pub enum Effect {
+    /// It changes the coil's response.
+    Coil(Change),
+    /// It acts on the readings, after everything that changes the coil, in the order of the hypothesis.
+    Readings(Box<dyn Fn(&mut Readings) + Send + Sync>),
+}
+
+/// Change of a coil's response, a value for each row of a record.
+#[derive(Debug, Clone)]
+pub struct Change {
+    /// Of the bias: Shupe, elasto-optic axial and radial \[deg/h\].
+    pub parts: Parts,
+    /// Of the spool's thermometer \[K\]; `None` if there is none.
+    pub thermometer: Option<Vec<f64>>,
+    /// Of the rate beside the bias \[deg/h\]; `None` if there is none.
+    pub rate: Option<Vec<f64>>,
+}
+
+impl Change {
+    /// Nothing changes.
+    pub fn none(record: &Prepared) -> Self {
+        Self::of_parts([0, 1, 2].map(|_| vec![0.0; record.time.len()]))
+    }
+
+    /// The bias changes alone.
+    pub fn of_parts(parts: Parts) -> Self {
+        Self { parts, thermometer: None, rate: None }
+    }
+
+    /// The rate changes, but no part of the bias.
+    pub fn of_rate(record: &Prepared, rate: Vec<f64>) -> Self {
+        Self { rate: Some(rate), ..Self::none(record) }
+    }
+}
+
+/// What thermometer and gyroscope say, a value for each row of a record.
+pub struct Readings<'a> {
+    /// Instants \[s\].
+    pub time: &'a [f64],
+    /// Of the spool's thermometer \[°C\].
+    pub thermometer: Vec<f64>,
+    /// Of the gyroscope \[deg/h\].
+    pub rate: Vec<f64>,
+}
+
+/// How a mechanism enters the sensitivity in a steady ramp.
+pub enum Steady {
+    /// One parameter changes the design, or the mechanical state it is in.
+    Changes {
+        /// Its place among the parameters.
+        parameter: usize,
+        /// The changed design.
+        changed: fn(&Design, f64) -> (Design, MechanicalState),
+        /// Under which condition; empty if under any.
+        when: &'static str,
+    },
+    /// A number of turns changes one layer.
+    Rewinds {
+        /// Place of the number among the parameters.
+        turns: usize,
+        /// The design with that layer so rewound.
+        changed: fn(&Design, usize, i32) -> Design,
+    },
+    /// Not at all, for this reason.
+    Nothing(&'static str),
+}
+
+/// Where in a record a mechanism acts; `None` where the question makes no sense.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Extent {
+    /// Temperatures of the coil \[°C\].
+    pub temperature: Option<[f64; 2]>,
+    /// Instants \[s\].
+    pub time: Option<[f64; 2]>,
+    /// Layers, 1 = innermost.
+    pub layers: Option<[usize; 2]>,
+}
+
+/// What is known when a mechanism is asked for its [`Extent`].
+pub struct Sight<'a> {
+    /// The design.
+    pub design: &'a Design,
+    /// First and last value of the mechanism's choice that is not excluded.
+    pub choices: Option<[f64; 2]>,
+    /// The first record and what the mechanism changes in it.
+    pub first: Option<(&'a Prepared, &'a Change)>,
+}
+
+/// Physics that a coil's nominal model may leave out: everything that the program says, computes and writes of it.
+///
+/// No method has a default, so that a forgotten part is an error of the compiler.
+pub trait Mechanism: Send + Sync {
+    /// The mechanism in words.
+    fn words(&self) -> Words<'_>;
+
+    /// Its unknowns with their priors; `range` is the coldest and hottest that the coil was \[°C\]. `None` if the design leaves it no place.
+    fn offer(&self, design: &Design, range: [f64; 2]) -> Option<Offer>;
+
+    /// The path of heat that it is, if it is one.
+    fn heat_path(&self) -> Option<HeatPath>;
+
+    /// Its law: what it does in a record.
+    ///
+    /// # Errors
+    /// [`Error`] if a changed coil cannot be modelled.
+    fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error>;
+
+    /// Where it acts.
+    fn extent(&self, active: &Active, sight: &Sight) -> Extent;
+
+    /// What it does in a steady ramp: a law for each parameter that matters. Empty for one that only describes.
+    fn steady(&self) -> Vec<Steady>;
+
+    /// The design with it put in at its place; `None` if a design has no place for it, or the place is taken.
+    fn extended(&self, design: &Design, active: &Active) -> Option<Design>;
+
+    /// What the extended design says less exactly than the fit.
+    fn caveat(&self, design: &Design) -> Option<&'static str>;
+}
+
+/// Every combination of a value from each list.
+pub(crate) fn grid(lists: &[&[f64]]) -> Vec<Vec<f64>> {
+    lists.iter().fold(vec![Vec::new()], |grid, list| {
+        grid.iter().flat_map(|v| list.iter().map(|x| [v.as_slice(), &[*x]].concat())).collect()
+    })
+}
+
+/// So many values evenly over a range.
+pub(crate) fn across(range: [f64; 2], count: u32) -> Vec<f64> {
+    (0..count).map(|k| range[0] + (range[1] - range[0]) * (f64::from(k) + 0.5) / f64::from(count)).collect()
+}
+
+/// Mean of a function over the interval that ends at each row, from its values at the ends.
+pub fn middles(series: &[f64], of: impl Fn(f64) -> f64) -> Vec<f64> {
+    (0..series.len()).map(|n| (of(series[n]) + of(series[n.saturating_sub(1)])) / 2.0).collect()
+}
+
+/// Rate of a series since the row before \[per hour\]; 0 in the first row.
+pub fn rates_per_hour(time: &[f64], series: &[f64]) -> Vec<f64> {
+    let rate = |n: usize| if n > 0 { (series[n] - series[n - 1]) / (time[n] - time[n - 1]) * S_PER_H } else { 0.0 };
+    (0..time.len()).map(rate).collect()
+}
+
+/// Parts times slope (T − [`REFERENCE_C`]) of a temperature \[°C\].
+pub(crate) fn growing(parts: &Parts, temperature: &[f64], slope: f64) -> Parts {
+    let factor = middles(temperature, |t| slope * (t - REFERENCE_C));
+    [0, 1, 2].map(|p: usize| parts[p].iter().zip(&factor).map(|(x, f)| x * f).collect())
+}
+
+/// A first-order follower of a series that is linear between its instants, exact; it starts settled. `lag` \[s\] > 0.
+pub fn lagged(time: &[f64], series: &[f64], lag: f64) -> Vec<f64> {
+    let mut x = series[0];
+    let mut followed = vec![x];
+    for n in 1..series.len() {
+        let dt = time[n] - time[n - 1];
+        let slope = (series[n] - series[n - 1]) / dt;
+        let forget = (-dt / lag).exp();
+        // x − (series − slope lag) decays
+        x = series[n] - slope * lag + (x - series[n - 1] + slope * lag) * forget;
+        followed.push(x);
+    }
+    followed
+}

@@ -1,0 +1,62 @@
+//! A read-out whose bias bends with temperature.
+
+use coil::{Design, Error};
+use diagnosis::{Active, Prior};
+use mechanisms::{Chain, Effect, Extent, HeatPath, Mechanism, Naming, Offer, Prepared, REFERENCE_C, Sight, Stage, Steady, Words};
+
+pub(crate) struct ReadOutCurvature;
+
+impl Mechanism for ReadOutCurvature {
+    fn words(&self) -> Words<'_> {
+        Words {
+            id: "read-out-curvature",
+            title: "A read-out whose bias bends with temperature",
+            stage: Stage::Electronics,
+            equation: "The read-out adds q (T − 20 °C)², T at the spool's thermometer.",
+            place: "The electronics, after the coil.",
+            signature: "The rate follows the square of the temperature, whatever its rate: it shows in the soaks.",
+            source: "An amplifier's data sheet: offset against temperature.",
+            naming: Naming::Named {
+                meaning: "the read-out adds a rate proportional to the square of the temperature from 20 degC",
+                inspection: "warm the electronics alone",
+            },
+        }
+    }
+
+    /// One parameter, its unit in its name; as likely negative as positive, and a hundredth of a degree per hour at 10 K is much.
+    fn offer(&self, _: &Design, _: [f64; 2]) -> Option<Offer> {
+        Some(Offer::one("curvature_deg_per_h_per_k2", Prior::Normal { mean: 0.0, sd: 1e-4 }, &[0.0]))
+    }
+
+    fn heat_path(&self) -> Option<HeatPath> {
+        None
+    }
+
+    /// It acts on the readings; one that changes the coil returns [`Effect::Coil`].
+    fn effect(&self, _: &Chain, _: &Prepared, active: &Active) -> Result<Effect, Error> {
+        let q = active.values[0];
+        Ok(Effect::Readings(Box::new(move |readings| {
+            for (rate, t) in readings.rate.iter_mut().zip(&readings.thermometer) {
+                *rate += q * (t - REFERENCE_C).powi(2);
+            }
+        })))
+    }
+
+    /// At all temperatures, at all times.
+    fn extent(&self, _: &Active, _: &Sight) -> Extent {
+        Extent::default()
+    }
+
+    fn steady(&self) -> Vec<Steady> {
+        vec![Steady::Nothing("it follows the temperature, not its rate")]
+    }
+
+    /// A coil file has no key for it.
+    fn extended(&self, _: &Design, _: &Active) -> Option<Design> {
+        None
+    }
+
+    fn caveat(&self, _: &Design) -> Option<&'static str> {
+        None
+    }
+}
