@@ -2,8 +2,8 @@
 
 use crate::mechanics::Blend;
 use crate::{
-    BiasOperator, Design, Drifts, Drive, Error, Grid, MechanicalState, Model, Reduced, Reduction, Resolution, ThermalModel,
-    TurnFields,
+    BiasOperator, Design, Drifts, Drive, Error, Grid, MechanicalState, MeshFineness, Model, Output, Outputs, Reduced, Reduction,
+    Steps, ThermalModel, ThermalState, TurnFields,
 };
 use bias::Bias;
 use nalgebra::{DMatrix, DVector};
@@ -14,7 +14,7 @@ use std::collections::HashMap;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fidelity {
     /// Mesh of heat flow and mechanics.
-    pub resolution: Resolution,
+    pub resolution: MeshFineness,
     /// Modes of the reduced model for each drive.
     pub modes: usize,
 }
@@ -27,7 +27,7 @@ pub const STANDARD: Fidelity = Fidelity { resolution: crate::COARSE, modes: 40 }
 /// An estimate, not a bound, and made for designs like the reference coil: there a test holds it against a finer mesh. In a survey that is not
 /// kept with the tests (74 runs of made-up and random designs, against order 9, the worst against order 12) the error took 0.95 of the distance
 /// at most; in the median 0.06 for the rate and 0.2 for the thermometer.
-pub const COARSER: Fidelity = Fidelity { resolution: Resolution { order: 4, layers: 2, ..STANDARD.resolution }, ..STANDARD };
+pub const COARSER: Fidelity = Fidelity { resolution: MeshFineness { order: 4, layers: 2, ..STANDARD.resolution }, ..STANDARD };
 
 /// A design ready to be simulated: its thermometer, mean coil temperature and bias parts as a few exponentials.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +36,6 @@ pub struct Dynamics {
     reduced: Reduced,
     error: ReductionError,
     blend: Blend,
-    states: usize,
     pub(crate) sensor_lag: f64,
     pub(crate) drives: Vec<Drive>,
     drifts: Drifts,
@@ -61,8 +60,8 @@ impl Curvature {
         Ok(Self { form: form * (scale / 2.0), linear: linear * (-scale * design.drifts.reference) })
     }
 
-    fn phase(&self, u: &[f64], q: &[f64]) -> f64 {
-        let state = DVector::from_iterator(u.len() + q.len(), u.iter().chain(q).copied());
+    fn phase(&self, state: &ThermalState) -> f64 {
+        let state = state.vector();
         state.dot(&(&self.form * &state)) + self.linear.dot(&state)
     }
 }
@@ -89,7 +88,7 @@ pub struct ReductionError {
 }
 
 impl ReductionError {
-    fn between(reduced: &Reduced, smaller: &Reduced, drives: usize, states: usize) -> Self {
+    fn between(reduced: &Reduced, smaller: &Reduced, drives: usize) -> Self {
         let times: Vec<f64> = [0.0].into_iter().chain(reduced.instants()).collect();
         let variation = |f: &dyn Fn(f64) -> f64| {
             let values: Vec<f64> = times.iter().map(|&t| f(t)).collect();
@@ -97,14 +96,16 @@ impl ReductionError {
         };
         let mut worst = Self { sensor: 0.0, bias: 0.0 };
         for drive in 0..drives {
-            let off = |t: f64| (reduced.step_response(SENSOR, drive, t) - smaller.step_response(SENSOR, drive, t)).abs();
+            let thermometer = |model: &Reduced, t: f64| model.step_response(model.thermometer(), drive, t);
+            let off = |t: f64| (thermometer(reduced, t) - thermometer(smaller, t)).abs();
             let sensor: f64 = times.windows(2).map(|w| (w[1] - w[0]) * off(w[0]).max(off(w[1]))).sum();
             worst.sensor = worst.sensor.max(REDUCTION_SAFETY * sensor);
-            for state in 0..states {
-                let first = SHUPE + 3 * state;
-                let bias = |model: &Reduced, t: f64| (first..first + 3).map(|k| model.step_response(k, drive, t)).sum::<f64>();
-                let missing = variation(&|t| bias(reduced, t) - bias(smaller, t));
-                worst.bias = worst.bias.max(REDUCTION_SAFETY * missing / variation(&|t| bias(reduced, t)));
+            for (parts, of_smaller) in reduced.outputs().parts.iter().zip(&smaller.outputs().parts) {
+                let bias = |model: &Reduced, parts: &[Output; 3], t: f64| {
+                    parts.iter().map(|part| model.step_response(part, drive, t)).sum::<f64>()
+                };
+                let missing = variation(&|t| bias(reduced, parts, t) - bias(smaller, of_smaller, t));
+                worst.bias = worst.bias.max(REDUCTION_SAFETY * missing / variation(&|t| bias(reduced, parts, t)));
             }
         }
         worst
@@ -140,11 +141,6 @@ impl Response {
     }
 }
 
-/// Outputs of the reduced model, in this order.
-pub(crate) const SENSOR: usize = 0;
-const COIL: usize = 1;
-const SHUPE: usize = 2;
-
 /// For each node of the mechanical mesh the node of the thermal mesh at its place: the thermal mesh holds them all.
 pub(crate) fn shared_nodes(mechanical: &Grid, thermal: &Grid) -> Result<Vec<usize>, Error> {
     // a tenth of a nanometre: far above rounding, far below any element
@@ -157,25 +153,30 @@ pub(crate) fn shared_nodes(mechanical: &Grid, thermal: &Grid) -> Result<Vec<usiz
     mechanical.mesh().nodes().iter().map(of).collect()
 }
 
-/// Outputs of a coil as functionals of the temperature at the nodes of `thermal`'s mesh: thermometer and mean coil temperature \[K\],
-/// then the Shupe, elasto-optic axial and radial parts, whose increase per time is the bias \[rad\].
+/// Outputs of a coil in the mechanical state of `model`, as functionals of the temperature at the nodes of `thermal`'s mesh.
 ///
 /// # Errors
-/// [`Error`] names the dimension or property at fault; both models must be made on one [`Resolution`].
-pub fn functionals(design: &Design, model: &Model, thermal: &ThermalModel) -> Result<Vec<Vec<f64>>, Error> {
-    let nodes = thermal.grid().mesh().nodes().len();
-    let mut sensor = vec![0.0; nodes];
-    thermal.grid().probe("sensor", design.sensor.radius, design.sensor.y)?.add_value(&mut sensor, 1.0);
+/// [`Error`] names the dimension or property at fault; both models must be made on one [`MeshFineness`].
+pub fn functionals(design: &Design, model: &Model, thermal: &ThermalModel) -> Result<Outputs<Vec<f64>>, Error> {
+    Ok(Outputs { parts: vec![parts(model, thermal)?], ..temperatures(design, thermal)? })
+}
+
+fn temperatures(design: &Design, thermal: &ThermalModel) -> Result<Outputs<Vec<f64>>, Error> {
+    let mut thermometer = vec![0.0; thermal.grid().mesh().nodes().len()];
+    thermal.grid().probe("sensor", design.sensor.radius, design.sensor.y)?.add_value(&mut thermometer, 1.0);
+    Ok(Outputs { thermometer, coil_mean: thermal.grid().coil_mean()?, parts: Vec::new() })
+}
+
+fn parts(model: &Model, thermal: &ThermalModel) -> Result<[Vec<f64>; 3], Error> {
     let BiasOperator { shupe, eo_axial, eo_radial } = model.bias_operator()?;
     let shared = shared_nodes(model.grid(), thermal.grid())?;
     let embed = |part: Vec<f64>| {
-        let mut embedded = vec![0.0; nodes];
+        let mut embedded = vec![0.0; thermal.grid().mesh().nodes().len()];
         // both faces of an opened bond lie at one place
         shared.iter().zip(part).for_each(|(&node, value)| embedded[node] += value);
         embedded
     };
-    let parts = [shupe, eo_axial, eo_radial].map(embed);
-    Ok([sensor, thermal.grid().coil_mean()?].into_iter().chain(parts).collect())
+    Ok([shupe, eo_axial, eo_radial].map(embed))
 }
 
 impl Dynamics {
@@ -205,17 +206,16 @@ impl Dynamics {
         }
         let thermal = ThermalModel::new(design, &fidelity.resolution, drives)?;
         let (states, blend) = design.states();
-        let (mut outputs, mut nominal) = (Vec::new(), None);
+        let (mut outputs, mut nominal) = (temperatures(design, &thermal)?, None);
         for state in &states {
             let model = Model::in_state(design, &fidelity.resolution, state)?;
-            let of_state = functionals(design, &model, &thermal)?;
-            outputs.extend(of_state.into_iter().skip(if outputs.is_empty() { 0 } else { SHUPE }));
+            outputs.parts.push(parts(&model, &thermal)?);
             if *state == MechanicalState::NOMINAL {
                 nominal = Some(model);
             }
         }
         let Reduction { reduced, smaller, modes } = Reduction::new(&thermal, &outputs, fidelity.modes * drives.len())?;
-        let error = ReductionError::between(&reduced, &smaller, drives.len(), states.len());
+        let error = ReductionError::between(&reduced, &smaller, drives.len());
         let curvature = if design.drifts.thermo_optic_curvature == 0.0 {
             None
         } else {
@@ -229,7 +229,6 @@ impl Dynamics {
             reduced,
             error,
             blend,
-            states: states.len(),
             sensor_lag: design.sensor.lag,
             drives: drives.to_vec(),
             drifts: design.drifts,
@@ -248,68 +247,42 @@ impl Dynamics {
         &self.reduced
     }
 
-    /// The three bias parts' phases \[rad\] in each mechanical state.
-    fn phases(&self, u: &[f64], q: &[f64]) -> Vec<[f64; 3]> {
-        let first = |state: usize| SHUPE + 3 * state;
-        (0..self.states).map(|s| [0, 1, 2].map(|part| self.reduced.output(first(s) + part, u, q))).collect()
-    }
-
-    /// Runs a profile from rest at its first instant: heaters, if any, are off before it.
+    /// Drives and modes along a profile from rest at its first instant: heaters, if any, are off before it. [`TurnFields::at`] makes
+    /// fields of them.
     ///
     /// # Errors
     /// [`Error::Profile`] names the instant that is out of order or not finite.
-    pub fn simulate(&self, profile: &Profile) -> Result<Vec<Response>, Error> {
-        self.simulate_with(profile, |_, _, _| ())
+    pub fn steps<'a>(&'a self, profile: &'a Profile) -> Result<Steps<'a>, Error> {
+        profile.check(self.drives.len())?;
+        Ok(self.reduced.steps(&profile.time, &profile.drives, &profile.rest(&self.drives)))
     }
 
-    /// As [`Self::simulate`]; `visit(n, u, q)` sees the drives and the modes' amplitudes at every instant n, from which
-    /// [`TurnFields::at`] makes fields.
+    /// Runs a profile from rest at its first instant, as [`Self::steps`].
     ///
     /// # Errors
-    /// As [`Self::simulate`].
-    pub fn simulate_with(&self, profile: &Profile, mut visit: impl FnMut(usize, &[f64], &[f64])) -> Result<Vec<Response>, Error> {
-        profile.check(self.drives.len())?;
-        let at = |n: usize| -> Vec<f64> { profile.drives.iter().map(|d| d[n]).collect() };
-        let mut q = vec![0.0; self.reduced.rates.len()];
-        let mut u = at(0);
-        // rest: at the first temperature everywhere, heaters off
-        let rest: Vec<f64> = self.drives.iter().zip(&u).map(|(d, u)| if *d == Drive::Heaters { 0.0 } else { *u }).collect();
-        let jump: Vec<f64> = u.iter().zip(&rest).map(|(u, r)| u - r).collect();
-        self.reduced.jump(&mut q, &jump);
-        visit(0, &u, &q);
-        let mut lagging = self.reduced.output(SENSOR, &u, &q);
+    /// As [`Self::steps`].
+    pub fn simulate(&self, profile: &Profile) -> Result<Vec<Response>, Error> {
+        let mut steps = self.steps(profile)?;
+        let read = |state: &ThermalState| self.reduced.outputs().map(|output| output.of(state));
+        let curved = |state: &ThermalState| self.curvature.as_ref().map_or(0.0, |c| c.phase(state));
         // the read-out's temperature is that of the thermometer's place, whatever the thermometer's lag
         let read_out = |mean: f64| self.drifts.read_out * (mean - self.drifts.reference);
-        let coil = self.reduced.output(COIL, &u, &q);
-        let mut rows = vec![Response { sensor: lagging, coil, bias: Bias::ZERO, read_out: read_out(lagging) }];
-        let (mut interval, mut blend) = (self.reduced.interval(0.0), self.blend.clone());
-        for n in 1..profile.time.len() {
-            let dt = profile.time[n] - profile.time[n - 1];
-            let next = at(n);
-            let slope: Vec<f64> = next.iter().zip(&u).map(|(b, a)| (b - a) / dt).collect();
-            let before = self.phases(&u, &q);
-            let curved = self.curvature.as_ref().map(|c| c.phase(&u, &q));
-            let from = self.reduced.output(COIL, &u, &q);
-            if self.sensor_lag > 0.0 {
-                lagging = self.reduced.lagged(SENSOR, &u, &q, &slope, dt, self.sensor_lag, lagging);
-            }
-            if interval.dt != dt {
-                interval = self.reduced.interval(dt);
-            }
-            let place = self.reduced.mean(SENSOR, &u, &q, &slope, dt);
-            self.reduced.advance(&mut q, &slope, &interval);
-            u = next;
-            visit(n, &u, &q);
-            if self.sensor_lag == 0.0 {
-                lagging = self.reduced.output(SENSOR, &u, &q);
-            }
-            let coil = self.reduced.output(COIL, &u, &q);
-            let rates: Vec<[f64; 3]> =
-                self.phases(&u, &q).iter().zip(before).map(|(a, b)| [0, 1, 2].map(|p| (a[p] - b[p]) / dt)).collect();
-            let [shupe, eo_axial, eo_radial] = blend.rates(&rates, from, coil, dt);
-            let curved = self.curvature.as_ref().zip(curved).map_or(0.0, |(c, before)| (c.phase(&u, &q) - before) / dt);
-            let bias = Bias { shupe: shupe + curved, eo_axial, eo_radial };
-            rows.push(Response { sensor: lagging, coil, bias, read_out: read_out(place) });
+        let (mut now, mut curved_now) = (read(steps.state()), curved(steps.state()));
+        let mut sensor = now.thermometer;
+        let mut rows = vec![Response { sensor, coil: now.coil_mean, bias: Bias::ZERO, read_out: read_out(sensor) }];
+        let (thermometer, mut blend) = (self.reduced.thermometer(), self.blend.clone());
+        while let Some(step) = steps.next() {
+            let before = std::mem::replace(&mut now, read(steps.state()));
+            let curved_before = std::mem::replace(&mut curved_now, curved(steps.state()));
+            sensor = match self.sensor_lag {
+                0.0 => now.thermometer,
+                lag => self.reduced.lagged(thermometer, &step, lag, sensor),
+            };
+            let rates = now.parts.iter().zip(&before.parts).map(|(a, b)| [0, 1, 2].map(|p| (a[p] - b[p]) / step.dt));
+            let [shupe, eo_axial, eo_radial] = blend.rates(&rates.collect::<Vec<_>>(), before.coil_mean, now.coil_mean, step.dt);
+            let bias = Bias { shupe: shupe + (curved_now - curved_before) / step.dt, eo_axial, eo_radial };
+            let read_out = read_out(self.reduced.mean(thermometer, &step));
+            rows.push(Response { sensor, coil: now.coil_mean, bias, read_out });
         }
         Ok(rows)
     }

@@ -1,8 +1,8 @@
 //! Temperature and strain of the glass at every turn, for any state of a reduced model.
 
 use crate::dynamics::shared_nodes;
-use crate::{Error, Model, ThermalModel, TurnStrain};
-use bias::Slice;
+use crate::{Error, Model, ThermalModel, ThermalState, TurnStrain};
+use bias::{Optics, Slice};
 use nalgebra::{DMatrix, DVector};
 use winding::Winding;
 
@@ -69,7 +69,7 @@ impl TurnFields {
     ///
     /// # Errors
     /// [`Error::Solve`] if a solve leaves a residual; [`Error::Resolution`] if the two models differ in their
-    /// [`crate::Resolution`].
+    /// [`crate::MeshFineness`].
     pub fn new(model: &Model, thermal: &ThermalModel, modes: &[Vec<f64>]) -> Result<Self, Error> {
         let shared = shared_nodes(model.grid(), thermal.grid())?;
         let onto = |field: &Vec<f64>| shared.iter().map(|&node| field[node]).collect::<Vec<f64>>();
@@ -86,6 +86,24 @@ impl TurnFields {
         })
     }
 
+    /// The parts of the bias as functionals of drives and modes, for these turns in a fibre wound as `winding`: phases \[rad\] whose
+    /// increase per time is the Shupe, the elasto-optic axial and the elasto-optic radial part.
+    ///
+    /// # Errors
+    /// [`Error::Bias`] if an optical constant is out of range.
+    pub fn bias_parts(&self, optics: &Optics, winding: &Winding) -> Result<[DVector<f64>; 3], Error> {
+        let (c, w) = (optics.coefficients(winding.length())?, DVector::from_vec(winding.weights()));
+        let bore = DVector::from_column_slice(&self.bore) * winding.tail_weight();
+        let temperature = self.temperature.tr_mul(&w) + &bore;
+        let free = bore * optics.thermal_expansion;
+        let (axial, radial) = (self.axial.tr_mul(&w) + &free, self.radial.tr_mul(&w) + free);
+        Ok([
+            &temperature * c.shupe,
+            axial * c.axial + &temperature * c.axial_per_temperature_rate,
+            radial * c.radial + temperature * c.radial_per_temperature_rate,
+        ])
+    }
+
     /// Sums over the fibre, tails included, that make the phase of a curved ∂n/∂T: Σ W t tᵀ and Σ W t \[m²\], with t the temperature of a
     /// turn from drives and modes and W = ∫ (L − 2z) dz.
     pub fn moments(&self, winding: &Winding) -> (DMatrix<f64>, DVector<f64>) {
@@ -94,19 +112,17 @@ impl TurnFields {
         for (mut row, w) in weighted.row_iter_mut().zip(w.iter()) {
             row *= *w;
         }
-        let (ccw, cw) = winding.tail_spans();
-        let tail: f64 = [ccw, cw].iter().map(|(start, end)| (end - start) * (winding.length() - start - end)).sum();
-        let bore = DVector::from_column_slice(&self.bore);
+        let (bore, tail) = (DVector::from_column_slice(&self.bore), winding.tail_weight());
         (self.temperature.tr_mul(&weighted) + &bore * bore.transpose() * tail, self.temperature.tr_mul(&w) + bore * tail)
     }
 
-    /// Values for the drives `u` and the modes `q`, or rates for their rates: `(u₂ − u₁)/dt`, `(q₂ − q₁)/dt` give means over an interval,
-    /// [`crate::Reduced::mode_rates`] the rates at an instant.
+    /// Values in a state, or rates for rates of drives and amplitudes: their differences over an interval give means,
+    /// [`crate::Reduced::rates_of`] the rates at an instant.
     ///
     /// # Panics
-    /// If `u` and `q` together are not as many as the columns.
-    pub fn at(&self, u: &[f64], q: &[f64]) -> TurnValues {
-        let state = DVector::from_iterator(u.len() + q.len(), u.iter().chain(q).copied());
+    /// If drives and amplitudes together are not as many as the columns.
+    pub fn at(&self, state: &ThermalState) -> TurnValues {
+        let state = state.vector();
         let of = |matrix: &DMatrix<f64>| (matrix * &state).as_slice().to_vec();
         TurnValues {
             temperature: of(&self.temperature),

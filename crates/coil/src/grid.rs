@@ -8,7 +8,7 @@ use fem_core::{Edge, Measure, Mesh, ReferenceElement};
 /// Order and grading of a coil mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Resolution {
+pub struct MeshFineness {
     /// Polynomial order of the elements, 1 to 20.
     pub order: usize,
     /// Geometric layers towards each edge of the coil, 0 to 20.
@@ -28,6 +28,7 @@ pub enum Domain {
 
 /// Whether a bond that can open is open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Bonds {
     /// All bonds hold.
     Closed,
@@ -115,7 +116,7 @@ fn lines(
     edges: &[f64],
     coil: [f64; 2],
     domain: Domain,
-    resolution: &Resolution,
+    resolution: &MeshFineness,
     finest: Option<f64>,
 ) -> Vec<f64> {
     let edge = |x: f64| edges.iter().any(|e| (e - x).abs() < COINCIDENT);
@@ -147,19 +148,19 @@ impl Grid {
     ///
     /// # Errors
     /// [`Error::Resolution`] if a number is out of range.
-    pub fn new(layout: &Layout, resolution: &Resolution, domain: Domain, bonds: Bonds) -> Result<Self, Error> {
+    pub fn new(layout: &Layout, resolution: &MeshFineness, domain: Domain, bonds: Bonds) -> Result<Self, Error> {
         Self::graded(layout, resolution, Grading::Even, domain, bonds)
     }
 
     /// As [`Self::new`], with a grading.
     pub(crate) fn graded(
         layout: &Layout,
-        resolution: &Resolution,
+        resolution: &MeshFineness,
         grading: Grading,
         domain: Domain,
         bonds: Bonds,
     ) -> Result<Self, Error> {
-        let Resolution { order, layers, ratio } = *resolution;
+        let MeshFineness { order, layers, ratio } = *resolution;
         if !(1..=20).contains(&order) || layers > 20 || !(0.05..=0.7).contains(&ratio) {
             let given = format!("order {order}, {layers} layers, ratio {ratio}");
             return Err(Error::Resolution(format!("{given}; needs order 1 to 20, at most 20 layers, ratio 0.05 to 0.7")));
@@ -172,7 +173,7 @@ impl Grid {
         let short = (coil.r[1] - coil.r[0]).min(coil.y[1] - coil.y[0]);
         let finest = (grading == Grading::Strain).then(|| short / 2.0 * ratio.powi(layers as i32));
         // where a bond opens the stress is sharpest: with a layer more the effect of a short opening is 0.3 % off, without it 2.5 %
-        let resolution = &Resolution { layers: layers + usize::from(tip.is_some()), ..*resolution };
+        let resolution = &MeshFineness { layers: layers + usize::from(tip.is_some()), ..*resolution };
         let r = distinct(rectangles().flat_map(|s| s.r).chain(tip).collect());
         let y = distinct(rectangles().flat_map(|s| s.y).collect());
         let r_lines = lines(&r, &r_edges, coil.r, domain, resolution, finest);
@@ -343,7 +344,7 @@ mod tests {
         let coil = crate::Rectangle { region: Region::Coil, r: [a, b], y: [0.0, 0.02] };
         let chamber = crate::Rectangle { region: Region::Medium, r: [0.0, 0.06], y: [-0.01, 0.03] };
         let layout = Layout { solids: vec![coil], chamber, bore: a, lasting_bond: None };
-        let resolution = Resolution { order: 3, layers: 1, ratio: 0.2 };
+        let resolution = MeshFineness { order: 3, layers: 1, ratio: 0.2 };
         let grid = Grid::new(&layout, &resolution, Domain::Chamber, Bonds::Closed).unwrap();
         let mean: f64 = grid.coil_mean().unwrap().iter().zip(grid.mesh().nodes()).map(|(m, [r, _])| m * r).sum();
         let exact = 2.0 / 3.0 * (b.powi(3) - a.powi(3)) / (b * b - a * a);

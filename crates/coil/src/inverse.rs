@@ -6,8 +6,8 @@
 //! row observes it with white noise. Smoothing by P. de Jong, *Biometrika* 75, 594 (1988); the roughness by maximum likelihood
 //! (F. C. Schweppe, *IEEE Trans. Inf. Theory* 11, 61 (1965)).
 
-use crate::dynamics::SENSOR;
-use crate::{Drive, Dynamics, Error, Interval, Profile, Reduced, ReducedOutput};
+use crate::thermal::dot;
+use crate::{Drive, Dynamics, Error, Profile, Reduced, Step, ThermalState};
 
 /// Fewest rows of a record.
 pub const FEWEST_ROWS: usize = 10;
@@ -74,19 +74,11 @@ pub fn chamber_from_sensor(dynamics: &Dynamics, time: &[f64], sensor: &[f64], no
 
 /// Chamber to thermometer alone, on the modes with the largest lags.
 fn truncated(full: &Reduced) -> Reduced {
-    let output = &full.outputs[SENSOR];
-    let lag = |i: &usize| (output.modal[*i] * full.drive[*i][0] / full.rates[*i]).abs();
+    let lag = |i: &usize| (full.thermometer().modal[*i] * full.drive[*i][0] / full.rates[*i]).abs();
     let mut chosen: Vec<usize> = (0..full.rates.len()).collect();
     chosen.sort_by(|a, b| lag(b).total_cmp(&lag(a)));
     chosen.truncate(MODES);
-    Reduced {
-        rates: chosen.iter().map(|&i| full.rates[i]).collect(),
-        drive: chosen.iter().map(|&i| vec![full.drive[i][0]]).collect(),
-        outputs: vec![ReducedOutput {
-            at_rest: vec![output.at_rest[0]],
-            modal: chosen.iter().map(|&i| output.modal[i]).collect(),
-        }],
-    }
+    full.truncated(&chosen)
 }
 
 /// Modes, then the chamber, its slope over the interval that ends here, and the lagging thermometer if it lags.
@@ -99,7 +91,7 @@ struct Filter<'a> {
 }
 
 /// The transition over one interval: `x ↦ A x`, then a change of the slope acts along `push`.
-struct Step {
+struct Transition {
     dt: f64,
     decay: Vec<f64>,
     /// What a slope of 1 adds to each entry of the state.
@@ -149,11 +141,7 @@ impl Square {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-impl Step {
+impl Transition {
     fn apply(&self, x: &mut [f64]) {
         let (m, slope) = (self.decay.len(), x[self.decay.len() + 1]);
         let follower = self.follow.as_ref().map(|f| dot(f, x) + self.push[m + 2] * slope);
@@ -207,26 +195,27 @@ impl Filter<'_> {
         if self.lag > 0.0 {
             h[m + 2] = 1.0;
         } else {
-            h[..m].copy_from_slice(&self.model.outputs[0].modal);
-            h[m] = self.model.outputs[0].at_rest[0];
+            h[..m].copy_from_slice(&self.model.thermometer().modal);
+            h[m] = self.model.thermometer().at_rest[0];
         }
         h
     }
 
-    fn step(&self, dt: f64) -> Step {
+    fn transition(&self, dt: f64) -> Transition {
         let (n, m) = (self.size(), self.chamber());
-        let interval: Interval = self.model.interval(dt);
+        let interval = self.model.interval(dt);
         let (mut decay, mut push) = (vec![1.0; m], vec![0.0; m]);
         self.model.advance(&mut decay, &[0.0], &interval);
         self.model.advance(&mut push, &[1.0], &interval);
         push.extend([dt, 1.0]);
-        let mut step = Step { dt, decay, push, follow: None };
+        let mut step = Transition { dt, decay, push, follow: None };
         if self.lag > 0.0 {
             // linear in its arguments: the response to each alone
             let response = |entry: usize| {
                 let unit = |i: usize| f64::from(i == entry);
-                let q: Vec<f64> = (0..m).map(unit).collect();
-                self.model.lagged(0, &[unit(m)], &q, &[unit(m + 1)], dt, self.lag, unit(m + 2))
+                let from = ThermalState { drives: vec![unit(m)], amplitudes: (0..m).map(unit).collect() };
+                let step = Step { from, slope: vec![unit(m + 1)], dt };
+                self.model.lagged(self.model.thermometer(), &step, self.lag, unit(m + 2))
             };
             let mut follow: Vec<f64> = (0..n).map(response).collect();
             step.push.push(follow[m + 1]);
@@ -239,21 +228,21 @@ impl Filter<'_> {
     /// Runs the filter and returns the logarithm of the record's likelihood, up to a constant.
     fn run(&self, roughness: f64, mut visit: impl FnMut(Visit)) -> f64 {
         let (n, at, h) = (self.size(), self.chamber(), self.observation());
-        let rest = self.readings[0] / self.model.outputs[0].at_rest[0];
+        let rest = self.readings[0] / self.model.thermometer().at_rest[0];
         let mut at_rest = vec![0.0; n];
         at_rest[at] = 1.0;
         if self.lag > 0.0 {
-            at_rest[at + 2] = self.model.outputs[0].at_rest[0];
+            at_rest[at + 2] = self.model.thermometer().at_rest[0];
         }
         let mut state: Vec<f64> = at_rest.iter().map(|unit| unit * rest).collect();
         let mut covariance = Square::zeros(n);
         covariance.add_outer((UNKNOWN * self.noise).powi(2), &at_rest, &at_rest);
-        let (mut step, mut likelihood) = (self.step(0.0), 0.0);
+        let (mut step, mut likelihood) = (self.transition(0.0), 0.0);
         for (k, reading) in self.readings.iter().enumerate() {
             if k > 0 {
                 let dt = self.time[k] - self.time[k - 1];
                 if step.dt != dt {
-                    step = self.step(dt);
+                    step = self.transition(dt);
                 }
                 step.apply(&mut state);
                 covariance.congruence(|x| step.apply(x));
@@ -289,12 +278,12 @@ impl Filter<'_> {
         self.run(roughness, |visit| rows.push(visit));
         let (mut chamber, mut sd) = (vec![0.0; rows.len()], vec![0.0; rows.len()]);
         let (mut score, mut information) = (vec![0.0; n], Square::zeros(n));
-        let mut step = self.step(0.0);
+        let mut step = self.transition(0.0);
         for (k, Visit { predicted, with, innovation, variance, gain }) in rows.iter().enumerate().rev() {
             if k + 1 < rows.len() {
                 let dt = self.time[k + 1] - self.time[k];
                 if step.dt != dt {
-                    step = self.step(dt);
+                    step = self.transition(dt);
                 }
                 step.apply_transposed(&mut score);
                 information.congruence(|x| step.apply_transposed(x));

@@ -10,7 +10,7 @@
 //! gives the strain of the glass at the centre of every turn, and by one adjoint solve per part the bias as a linear functional of
 //! the temperature rate at every node ([`BiasOperator`]). In a steady ramp that rate is uniform and its sum is the sensitivity:
 //! [`steady_sensitivity`], with an error measured on a finer mesh. [`ThermalModel`] is the heat flow, stepped in full or reduced to
-//! a few exponentials ([`Reduced`]); [`Dynamics`] runs a chamber profile through both, and [`TurnFields`] gives temperature and strain
+//! a few exponentials ([`Reduced`], stepped by [`Steps`]); [`Dynamics`] runs a chamber profile through both, and [`TurnFields`] gives temperature and strain
 //! of every turn back.
 //!
 //! Conventions: SI units; y = 0 is the coil's left face, +y its right; the strain-free state is ΔT = 0; surfaces are free of
@@ -43,13 +43,15 @@ pub use design::{
 pub use dynamics::{COARSER, Dynamics, Fidelity, Profile, REDUCTION_SAFETY, ReductionError, Response, STANDARD, functionals};
 pub use error::Error;
 pub use fields::{TurnFields, TurnValues};
-pub use grid::{Bonds, Domain, Grid, Resolution};
+pub use grid::{Bonds, Domain, Grid, MeshFineness};
 pub use inverse::{FEWEST_ROWS, Inferred, LEAST_NOISE, chamber_from_sensor};
 pub use layout::{Layout, Rectangle, Region};
 pub use mechanics::{MechanicalState, Relaxation};
 pub use model::{BiasOperator, Model, TurnStrain};
 pub use sensitivity::{CHECKS, COARSE, FINE, SAFETY, SHARE, STEADY, SteadySensitivity, steady_sensitivity};
-pub use thermal::{Drive, FullRun, Interval, RampLag, Reduced, ReducedOutput, Reduction, ThermalModel, ramp_lag};
+pub use thermal::{
+    Drive, FullRun, Output, Outputs, RampLag, Reduced, Reduction, Step, Steps, ThermalModel, ThermalState, ramp_lag,
+};
 pub use trim::{PRIORS, TailTrim, TurnTrim, tail_asymmetry, trim_tails, trim_turns};
 
 #[cfg(doctest)]

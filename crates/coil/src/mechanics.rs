@@ -54,7 +54,7 @@ pub(crate) enum Blend {
     Elastic,
     Table(Vec<f64>),
     Relaxing(Relaxation),
-    Opening { below: f64, above: f64, open: bool },
+    Opening { below: f64, above: f64, bond: Bonds },
 }
 
 /// A response that follows a relaxing modulus, put together from the responses at constant moduli.
@@ -162,7 +162,7 @@ impl Design {
             }
             Mechanics::Opening(o) => {
                 let opened = MechanicalState { bonds: Bonds::Opened, ..nominal };
-                (vec![nominal, opened], Blend::Opening { below: o.below, above: o.below + o.hysteresis, open: false })
+                (vec![nominal, opened], Blend::Opening { below: o.below, above: o.below + o.hysteresis, bond: Bonds::Closed })
             }
         }
     }
@@ -183,9 +183,10 @@ impl Blend {
                 [0, 1, 2].map(|p| (1.0 - share) * states[lower][p] + share * states[upper][p])
             }
             Self::Relaxing(relaxation) => relaxation.rates(states, dt),
-            Self::Opening { below, above, open } => {
-                *open = if middle < *below { true } else { *open && middle <= *above };
-                states[usize::from(*open)]
+            Self::Opening { below, above, bond } => {
+                let stays_open = *bond == Bonds::Opened && middle <= *above;
+                *bond = if middle < *below || stays_open { Bonds::Opened } else { Bonds::Closed };
+                states[*bond as usize]
             }
         }
     }

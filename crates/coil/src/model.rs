@@ -2,7 +2,7 @@
 
 use crate::grid::Grading;
 use crate::probe::{Probe, Prober, Sums};
-use crate::{Dehomogenization, Design, Domain, Error, Grid, Layout, MechanicalState, Region, Resolution, TurnValues};
+use crate::{Dehomogenization, Design, Domain, Error, Grid, Layout, MechanicalState, MeshFineness, Region, TurnValues};
 use bias::{Bias, Coefficients, Slice};
 use fem_core::material::ThermoElastic;
 use fem_core::{Condensed, Constraints, Coupling, DofMap, Form, Problem};
@@ -63,7 +63,7 @@ impl Model {
     ///
     /// # Errors
     /// [`Error`] names the dimension, property, winding or optical constant at fault, or the solve that failed.
-    pub fn new(design: &Design, resolution: &Resolution) -> Result<Self, Error> {
+    pub fn new(design: &Design, resolution: &MeshFineness) -> Result<Self, Error> {
         Self::in_state(design, resolution, &MechanicalState::NOMINAL)
     }
 
@@ -71,14 +71,14 @@ impl Model {
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn in_state(design: &Design, resolution: &Resolution, state: &MechanicalState) -> Result<Self, Error> {
+    pub fn in_state(design: &Design, resolution: &MeshFineness, state: &MechanicalState) -> Result<Self, Error> {
         Self::graded(design, resolution, Grading::Even, state)
     }
 
     /// As [`Self::in_state`], on a mesh of the given grading.
     pub(crate) fn graded(
         design: &Design,
-        resolution: &Resolution,
+        resolution: &MeshFineness,
         grading: Grading,
         state: &MechanicalState,
     ) -> Result<Self, Error> {
@@ -205,8 +205,7 @@ impl Model {
             radial[2 * node] = c.radial * (m.m_rx * turns.d_r[node] + m.m_rz * turns.over_r[node]);
             radial[2 * node + 1] = c.radial * m.m_ry * turns.d_y[node];
         }
-        let (length, (ccw, cw)) = (self.winding.length(), self.winding.tail_spans());
-        let w: f64 = [ccw, cw].iter().map(|(start, end)| (end - start) * (length - start - end)).sum();
+        let w = self.winding.tail_weight();
         self.bore.add_value(&mut direct.shupe, w * c.shupe);
         self.bore.add_value(&mut direct.eo_axial, w * (c.axial * self.fibre_expansion + c.axial_per_temperature_rate));
         self.bore.add_value(&mut direct.eo_radial, w * (c.radial * self.fibre_expansion + c.radial_per_temperature_rate));

@@ -1,19 +1,19 @@
 //! Steady-ramp sensitivity with its own numerical error.
 
 use crate::grid::Grading;
-use crate::{Design, Error, MechanicalState, Model, Resolution};
+use crate::{Design, Error, MechanicalState, MeshFineness, Model};
 use bias::Sensitivity;
 
 /// The mesh behind trims, comparisons of designs and [`crate::STANDARD`].
-pub const COARSE: Resolution = Resolution { order: 6, layers: 3, ratio: 0.2 };
+pub const COARSE: MeshFineness = MeshFineness { order: 6, layers: 3, ratio: 0.2 };
 /// A mesh two orders and one layer finer, with about a fifteenth of the error.
-pub const FINE: Resolution = Resolution { order: 8, layers: 4, ratio: 0.2 };
+pub const FINE: MeshFineness = MeshFineness { order: 8, layers: 4, ratio: 0.2 };
 /// The distance between the two meshes is nearly all of the coarse one's error; the factor covers the rest.
 pub const SAFETY: f64 = 2.0;
 /// The mesh behind a [`SteadySensitivity`], graded as the coil's strain needs it.
-pub const STEADY: Resolution = Resolution { order: 7, layers: 2, ratio: 0.15 };
+pub const STEADY: MeshFineness = MeshFineness { order: 7, layers: 2, ratio: 0.15 };
 /// The meshes that measure its error: the same elements at lower orders.
-pub const CHECKS: [Resolution; 2] = [Resolution { order: 4, ..STEADY }, Resolution { order: 5, ..STEADY }];
+pub const CHECKS: [MeshFineness; 2] = [MeshFineness { order: 4, ..STEADY }, MeshFineness { order: 5, ..STEADY }];
 /// Share of the distances to the [`CHECKS`], both elasto-optic parts and both meshes together, that is stated as the error. Fitted:
 /// over 204 designs of all kinds the largest error of the total or of a part was 0.31 of the distances, the median 0.04; of 140 others it
 /// covered all but one, which it missed by rounding before a least error was added.

@@ -2,7 +2,7 @@
 
 mod common;
 
-use coil::{Bonds, COARSE, Contact, Design, Domain, Error, Flange, Grid, Layout, Model, Region, Resolution, Side, ramp_lag};
+use coil::{Bonds, COARSE, Contact, Design, Domain, Error, Flange, Grid, Layout, MeshFineness, Model, Region, Side, ramp_lag};
 use common::{changed, reference, spool};
 
 #[test]
@@ -54,7 +54,7 @@ fn bounds_each_bad_design_names_its_field() {
         let error = Model::new(&changed(change), &COARSE).err().unwrap_or_else(|| panic!("{field} must be refused"));
         assert!(error.to_string().contains(field), "{field}: {error}");
     }
-    let coarse = Resolution { order: 0, ..COARSE };
+    let coarse = MeshFineness { order: 0, ..COARSE };
     assert!(matches!(Model::new(&reference(), &coarse), Err(Error::Resolution(_))));
 }
 
@@ -101,19 +101,19 @@ fn exact_ramp_lag_of_a_homogeneous_cylinder() {
         let s = &mut d.surroundings;
         (s.conductivity, s.density, s.specific_heat) = (k, density, specific_heat);
     });
-    let lag = ramp_lag(&design, &Resolution { order: 8, layers: 1, ratio: 0.2 }).expect("solve");
+    let lag = ramp_lag(&design, &MeshFineness { order: 8, layers: 1, ratio: 0.2 }).expect("solve");
     let exact = cylinder_lag(1400.0 * 1300.0 / 0.34, 59.825e-3, 40.02e-3, 39.5e-3, 20.01e-3);
     assert!((lag.sensor / exact - 1.0).abs() < 1e-6, "{} against {exact}", lag.sensor);
 }
 
 #[test]
 fn bounds_ramp_lag_of_the_reference_coil_is_near_its_slowest_time_constant() {
-    let lag = ramp_lag(&reference(), &Resolution { order: 6, layers: 2, ratio: 0.2 }).expect("solve");
+    let lag = ramp_lag(&reference(), &MeshFineness { order: 6, layers: 2, ratio: 0.2 }).expect("solve");
     assert!((lag.sensor / 2185.0 - 1.0).abs() < 0.01, "{}", lag.sensor);
     let spread = lag.turns.iter().fold((f64::MAX, f64::MIN), |(a, b), t| (a.min(*t), b.max(*t)));
     assert!(spread.0 > 0.85 * lag.sensor && spread.1 < 1.01 * lag.sensor, "{spread:?}");
     let loose = changed(|d| spool(d).flanges[0].side = Side::Left);
-    assert!(ramp_lag(&loose, &Resolution { order: 4, layers: 1, ratio: 0.2 }).is_ok());
+    assert!(ramp_lag(&loose, &MeshFineness { order: 4, layers: 1, ratio: 0.2 }).is_ok());
 }
 
 #[test]
@@ -125,7 +125,7 @@ fn exact_no_wall_is_lost_to_rounding() {
                 spool(d).flanges.clear();
                 d.surroundings.margin = margin;
             });
-            ramp_lag(&design, &Resolution { order: 4, layers: 2, ratio: 0.2 }).expect("solve").sensor
+            ramp_lag(&design, &MeshFineness { order: 4, layers: 2, ratio: 0.2 }).expect("solve").sensor
         };
         assert!(
             (lag(margin) / lag(margin + 1e-6) - 1.0).abs() < 1e-3,

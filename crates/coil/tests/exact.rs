@@ -3,8 +3,8 @@
 mod common;
 
 use coil::{
-    Drive, Dynamics, Error, Fidelity, Heater, Model, Mount, Profile, Reduction, Resolution, STANDARD, Side, ThermalModel,
-    functionals,
+    Drive, Dynamics, Error, Fidelity, Heater, MeshFineness, Model, Mount, Outputs, Profile, Reduction, STANDARD, Side,
+    ThermalModel, functionals,
 };
 use common::{changed, reference};
 use fem_core::material::ThermoElastic;
@@ -12,7 +12,7 @@ use fem_core::{Constraints, Form, Mesh, Problem, State, Transient, polynomial};
 use nalgebra::{DMatrix, Matrix4, Vector4};
 use std::f64::consts::PI;
 
-const QUICK: Resolution = Resolution { order: 3, layers: 1, ratio: 0.2 };
+const QUICK: MeshFineness = MeshFineness { order: 3, layers: 1, ratio: 0.2 };
 
 /// A tube's wall in (r, y): one region between each two of `lines`, one element high.
 fn wall(order: usize, lines: &[f64], height: f64) -> Mesh {
@@ -352,7 +352,7 @@ fn heated() -> ThermalModel {
         d.heat.mounts.push(Mount { side: Side::Right, conductance: 20.0 });
         d.heat.heaters.push(Heater { side: Side::Right, power: POWER });
     });
-    ThermalModel::new(&design, &Resolution { order: 2, layers: 0, ratio: 0.2 }, &DRIVES).expect("model")
+    ThermalModel::new(&design, &MeshFineness { order: 2, layers: 0, ratio: 0.2 }, &DRIVES).expect("model")
 }
 
 /// Instants after each corner at the Gauss points of panels that double in length, with their weights; the corners have none.
@@ -391,25 +391,24 @@ fn exact_the_full_run_keeps_the_energy() {
 #[test]
 fn exact_the_reduced_model_keeps_the_energy() {
     let thermal = heated();
-    let reduced = Reduction::new(&thermal, &heat(&thermal), 24).expect("reduction").reduced;
-    let mut q = vec![0.0; reduced.rates.len()];
+    let [content, flow]: [Vec<f64>; 2] = heat(&thermal).try_into().expect("two functionals");
+    // read in the places of thermometer and coil
+    let outputs = Outputs { thermometer: content, coil_mean: flow, parts: Vec::new() };
+    let reduced = Reduction::new(&thermal, &outputs, 24).expect("reduction").reduced;
+    let (content, flow) = (reduced.thermometer(), reduced.coil_mean());
     let instants = instants();
-    let drives = |n: usize| [instants[n].1, 1.0];
-    reduced.jump(&mut q, &drives(0));
-    let content = |n: usize, q: &[f64]| reduced.output(0, &drives(n), q);
-    let (start, mut out) = (content(0, &q), 0.0);
-    for n in 1..instants.len() {
-        let dt = instants[n].0 - instants[n - 1].0;
-        if dt > 0.0 {
-            let slope = [(instants[n].1 - instants[n - 1].1) / dt, 0.0];
-            reduced.advance(&mut q, &slope, &reduced.interval(dt));
-        }
-        out += instants[n].2 * reduced.output(1, &drives(n), &q);
-        let put_in = POWER * instants[n].0;
+    let time: Vec<f64> = instants.iter().map(|i| i.0).collect();
+    let courses = [instants.iter().map(|i| i.1).collect(), vec![1.0; time.len()]];
+    let mut steps = reduced.steps(&time, &courses, &[0.0, 0.0]);
+    let (start, mut out) = (content.of(steps.state()), 0.0);
+    for (t, _, weight) in &instants[1..] {
+        steps.next().expect("a step an instant");
+        out += weight * flow.of(steps.state());
+        let put_in = POWER * t;
         // at every corner, in the middle of a transient or at rest
-        if CORNERS[1..].iter().any(|corner| corner.0 == instants[n].0) {
-            let off = (put_in - out - (content(n, &q) - start)) / put_in;
-            assert!(off.abs() < 1e-8, "until {} s: {off:e}", instants[n].0);
+        if CORNERS[1..].iter().any(|corner| corner.0 == *t) {
+            let off = (put_in - out - (content.of(steps.state()) - start)) / put_in;
+            assert!(off.abs() < 1e-8, "until {t} s: {off:e}");
         }
     }
 }
@@ -467,17 +466,18 @@ fn exact_reduced_and_full_runs_agree_on_a_staircase() {
     let thermal = ThermalModel::new(&design, &QUICK, &[Drive::Chamber]).expect("model");
     let outputs = functionals(&design, &Model::new(&design, &QUICK).expect("model"), &thermal).expect("outputs");
     let profile = staircase();
-    let full = thermal.run(&profile, &outputs, 1e-5).expect("run").outputs;
+    let [shupe, eo_axial, eo_radial] = outputs.parts[0].clone();
+    let full = thermal.run(&profile, &[shupe, eo_axial, eo_radial, outputs.thermometer], 1e-5).expect("run").outputs;
     let fidelity = Fidelity { resolution: QUICK, ..STANDARD };
     let reduced = Dynamics::new(&design, &[Drive::Chamber], &fidelity).expect("model").simulate(&profile).expect("run");
-    let rate = |n: usize, part: usize| (full[n][part + 2] - full[n - 1][part + 2]) / 30.0;
+    let rate = |n: usize, part: usize| (full[n][part] - full[n - 1][part]) / 30.0;
     let mut worst = [0.0_f64; 4];
     let peak = |f: &dyn Fn(usize) -> f64| (1..reduced.len()).map(|n| f(n).abs()).fold(0.0, f64::max);
     for (part, worst) in worst[..3].iter_mut().enumerate() {
         let of = |n: usize| [reduced[n].bias.shupe, reduced[n].bias.eo_axial, reduced[n].bias.eo_radial][part];
         *worst = peak(&|n| rate(n, part) - of(n)) / peak(&|n| rate(n, part));
     }
-    worst[3] = peak(&|n| full[n][0] - reduced[n].sensor) / peak(&|n| full[n][0]);
+    worst[3] = peak(&|n| full[n][3] - reduced[n].sensor) / peak(&|n| full[n][3]);
     assert!(worst.iter().all(|w| *w < 1e-3), "{worst:?}");
 }
 

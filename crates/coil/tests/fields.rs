@@ -3,11 +3,13 @@
 mod common;
 
 use bias::{Bias, bias};
-use coil::{Drive, Dynamics, FactorsAt, Fidelity, Mechanics, Model, Profile, Resolution, Side, ThermalModel};
+use coil::{
+    Drive, Dynamics, FactorsAt, Fidelity, Mechanics, MeshFineness, Model, Profile, Side, Step, ThermalModel, ThermalState,
+};
 use common::{changed, reference};
 use winding::Tails;
 
-const QUICK: Fidelity = Fidelity { resolution: Resolution { order: 3, layers: 1, ratio: 0.2 }, modes: 24 };
+const QUICK: Fidelity = Fidelity { resolution: MeshFineness { order: 3, layers: 1, ratio: 0.2 }, modes: 24 };
 
 /// Rest, a ramp of 1 K/min for ten minutes, a soak.
 fn ramp_and_soak(drives: usize) -> Profile {
@@ -17,21 +19,22 @@ fn ramp_and_soak(drives: usize) -> Profile {
 }
 
 /// Drives and modes at every instant of a profile, and the mean bias that `simulate` gives since the one before.
-type Course = (Vec<(Vec<f64>, Vec<f64>)>, Vec<Bias>);
+type Course = (Vec<ThermalState>, Vec<Bias>);
 
 fn course(dynamics: &Dynamics, profile: &Profile) -> Course {
-    let mut states = Vec::new();
-    let rows = dynamics.simulate_with(profile, |n, u, q| {
-        assert_eq!(n, states.len());
-        states.push((u.to_vec(), q.to_vec()));
-    });
-    let rows = rows.expect("run");
-    assert_eq!(rows, dynamics.simulate(profile).expect("run"), "looking on changes nothing");
+    let mut steps = dynamics.steps(profile).expect("steps");
+    let mut states = vec![steps.state().clone()];
+    while steps.next().is_some() {
+        states.push(steps.state().clone());
+    }
+    let rows = dynamics.simulate(profile).expect("run");
+    assert_eq!(rows.len(), states.len());
     (states, rows.iter().map(|r| r.bias).collect())
 }
 
-fn rates(a: &[f64], b: &[f64], dt: f64) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| (b - a) / dt).collect()
+fn rates(a: &ThermalState, b: &ThermalState, dt: f64) -> ThermalState {
+    let of = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (b - a) / dt).collect();
+    ThermalState { drives: of(&a.drives, &b.drives), amplitudes: of(&a.amplitudes, &b.amplitudes) }
 }
 
 #[test]
@@ -47,8 +50,7 @@ fn exact_the_bias_of_the_turns_is_the_bias_of_the_model() {
         let peak = [0, 1, 2].map(|p| expected.iter().map(|b| parts(b)[p].abs()).fold(0.0, f64::max));
         for n in 1..states.len() {
             let dt = profile.time[n] - profile.time[n - 1];
-            let ((u0, q0), (u1, q1)) = (&states[n - 1], &states[n]);
-            let slices = fields.at(&rates(u0, u1, dt), &rates(q0, q1, dt)).slices(&winding, design.optics.thermal_expansion);
+            let slices = fields.at(&rates(&states[n - 1], &states[n], dt)).slices(&winding, design.optics.thermal_expansion);
             let found = bias(&design.optics, winding.length(), &slices).expect("bias");
             for (p, peak) in peak.iter().enumerate() {
                 let error = (parts(&found)[p] - parts(&expected[n])[p]).abs();
@@ -62,8 +64,8 @@ fn exact_the_bias_of_the_turns_is_the_bias_of_the_model() {
 fn exact_a_coil_at_rest_has_one_temperature_and_the_strain_of_uniform_warming() {
     let design = reference();
     let (dynamics, fields) = Dynamics::with_fields(&design, &[Drive::Chamber], &QUICK).expect("model");
-    let modes = dynamics.reduced().rates.len();
-    let rest = fields.at(&[1.0], &vec![0.0; modes]);
+    let amplitudes = vec![0.0; dynamics.reduced().rates().len()];
+    let rest = fields.at(&ThermalState { drives: vec![1.0], amplitudes });
     assert!(rest.temperature.iter().all(|t| (t - 1.0).abs() < 1e-12) && (rest.bore - 1.0).abs() < 1e-12);
     let model = Model::new(&design, &QUICK.resolution).expect("model");
     let strain = model.strain_at_turns(&vec![1.0; model.grid().mesh().nodes().len()]).expect("solve");
@@ -90,11 +92,10 @@ fn exact_turn_temperatures_agree_with_all_unknowns() {
     let functional = (0..nodes.len()).map(|i| f64::from(u8::from(i == nearest))).collect();
     let full = thermal.run(&profile, &[functional], 1e-5).expect("run");
     for n in [10, 30, 59] {
-        let (u, q) = &states[n];
-        let at_turn = fields.at(u, q).temperature[turn];
+        let at_turn = fields.at(&states[n]).temperature[turn];
         // the node is a millimetre away at most; the coil lags by kelvins
         assert!((at_turn - full.outputs[n][0]).abs() < 0.05, "{at_turn} against {} °C", full.outputs[n][0]);
-        assert!(n != 30 || u[0] - at_turn > 0.5, "the coil lags: {at_turn} against {} °C", u[0]);
+        assert!(n != 30 || states[n].drives[0] - at_turn > 0.5, "the coil lags: {at_turn} °C");
     }
 }
 
@@ -102,17 +103,35 @@ fn exact_turn_temperatures_agree_with_all_unknowns() {
 fn exact_mode_rates_are_the_limit_of_differences() {
     let dynamics = Dynamics::new(&reference(), &[Drive::Chamber], &QUICK).expect("model");
     let reduced = dynamics.reduced();
-    let slope = [0.02];
-    let mut q = vec![0.0; reduced.rates.len()];
-    reduced.advance(&mut q, &slope, &reduced.interval(300.0));
-    let (start, rate, dt) = (q.clone(), reduced.mode_rates(&q, &slope), 1e-3);
-    reduced.advance(&mut q, &slope, &reduced.interval(dt));
-    for i in 0..q.len() {
+    let slope = vec![0.02];
+    let at_rest = ThermalState { drives: vec![0.0], amplitudes: vec![0.0; reduced.rates().len()] };
+    let pushed = reduced.rates_of(&at_rest, &slope).amplitudes;
+    let from = reduced.within(&Step { from: at_rest, slope: slope.clone(), dt: 300.0 }, 300.0);
+    let (rate, dt) = (reduced.rates_of(&from, &slope).amplitudes, 1e-3);
+    let step = Step { from, slope, dt };
+    let to = reduced.within(&step, dt);
+    for (i, decay) in reduced.rates().iter().enumerate() {
         // q'' = −rate q'
-        let expected = rate[i] * (1.0 - reduced.rates[i] * dt / 2.0);
-        let scale = reduced.drive[i][0].abs() * slope[0];
-        let second = (reduced.rates[i] * dt).powi(2);
-        assert!(((q[i] - start[i]) / dt - expected).abs() < (1e-6 + second) * scale, "mode {i}");
+        let expected = rate[i] * (1.0 - decay * dt / 2.0);
+        let second = (decay * dt).powi(2);
+        let found = (to.amplitudes[i] - step.from.amplitudes[i]) / dt;
+        assert!((found - expected).abs() < (1e-6 + second) * pushed[i].abs(), "mode {i}");
+    }
+}
+
+/// The functionals of the reduced model, made by adjoints, are those that the turns' own fields give.
+#[test]
+fn exact_the_bias_parts_of_the_turns_are_the_models() {
+    let design = changed(|d| {
+        d.winding.tails = Tails { cw: 1.5, ccw: 0.4 };
+        d.optics.strain = bias::StrainConvention::Mechanical;
+    });
+    let (dynamics, fields) = Dynamics::with_fields(&design, &[Drive::Chamber], &QUICK).expect("model");
+    let winding = winding::wind(&design.winding).expect("winding");
+    let of_turns = fields.bias_parts(&design.optics, &winding).expect("optics");
+    for (part, (turns, model)) in of_turns.iter().zip(dynamics.reduced().parts()).enumerate() {
+        let (off, size) = ((turns - model.vector()).amax(), turns.amax());
+        assert!(off < 1e-9 * size, "part {part}: {off:.1e} of {size:.1e}");
     }
 }
 
@@ -142,8 +161,8 @@ fn exact_a_curved_thermo_optic_coefficient_and_a_read_out_act_as_their_definitio
     let rows = drifting(0.0).simulate(&profile).expect("run");
     let winding = winding::wind(&plain.winding).expect("winding");
     // phase Σ n b/(L D) W (T²/2 − T_ref T), tails at the bore's temperature
-    let phase = |(u, q): &(Vec<f64>, Vec<f64>)| {
-        let at = fields.at(u, q);
+    let phase = |state: &ThermalState| {
+        let at = fields.at(state);
         let term = |w: f64, t: f64| w * (t * t / 2.0 - reference_c * t);
         let turns: f64 = winding.weights().iter().zip(&at.temperature).map(|(w, t)| term(*w, *t)).sum();
         let (ccw, cw) = winding.tail_spans();

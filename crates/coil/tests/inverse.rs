@@ -2,11 +2,11 @@
 
 mod common;
 
-use coil::{Drive, Dynamics, Error, Fidelity, Heater, Profile, Resolution, STANDARD, Side, chamber_from_sensor};
+use coil::{Drive, Dynamics, Error, Fidelity, Heater, MeshFineness, Profile, STANDARD, Side, chamber_from_sensor};
 use common::{changed, reference};
 use nalgebra::{DMatrix, DVector};
 
-const QUICK: Fidelity = Fidelity { resolution: Resolution { order: 3, layers: 1, ratio: 0.2 }, modes: 24 };
+const QUICK: Fidelity = Fidelity { resolution: MeshFineness { order: 3, layers: 1, ratio: 0.2 }, modes: 24 };
 
 fn dynamics(design: &coil::Design, drives: &[Drive], fidelity: &Fidelity) -> Dynamics {
     Dynamics::new(design, drives, fidelity).expect("model")

@@ -3,13 +3,13 @@
 mod common;
 
 use bias::{Bias, Sensitivity, StrainConvention};
-use coil::{COARSE, Contact, Design, FINE, Flange, Model, Resolution, Side, steady_sensitivity};
+use coil::{COARSE, Contact, Design, FINE, Flange, MeshFineness, Model, Side, steady_sensitivity};
 use common::{changed, reference, spool};
 use fem_core::material::{Isotropic, TransverselyIsotropic};
 use winding::{ClimbSide, Pattern, Tails, TurnLength};
 
 /// Enough for identities that hold on any mesh.
-const QUICK: Resolution = Resolution { order: 4, layers: 1, ratio: 0.2 };
+const QUICK: MeshFineness = MeshFineness { order: 4, layers: 1, ratio: 0.2 };
 
 fn total(design: &Design) -> f64 {
     Model::new(design, &QUICK).expect("model").sensitivity().expect("solve").total()
@@ -184,7 +184,7 @@ fn bounds_error_estimate_covers_the_true_error_of_total_and_parts_at_most_tenfol
             }),
         ),
     ];
-    let truth_mesh = Resolution { order: FINE.order + 1, ..FINE };
+    let truth_mesh = MeshFineness { order: FINE.order + 1, ..FINE };
     for (name, design) in designs {
         let s = steady_sensitivity(&design).expect("solve");
         let truth: Sensitivity = Model::new(&design, &truth_mesh).expect("model").sensitivity().expect("solve");

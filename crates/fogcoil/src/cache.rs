@@ -177,12 +177,12 @@ mod tests {
     use super::*;
     use crate::input::read_coil;
     use coil::{
-        Design, Drive, Dynamics, FactorsAt, Fidelity, Heater, Mechanics, Mount, Opening, Profile, Resolution, STANDARD, Side,
+        Design, Drive, Dynamics, FactorsAt, Fidelity, Heater, Mechanics, MeshFineness, Mount, Opening, Profile, STANDARD, Side,
     };
     use serde_json::Value;
     use std::convert::Infallible;
 
-    const QUICK: Fidelity = Fidelity { resolution: Resolution { order: 2, layers: 1, ratio: 0.2 }, modes: 6 };
+    const QUICK: Fidelity = Fidelity { resolution: MeshFineness { order: 2, layers: 1, ratio: 0.2 }, modes: 6 };
 
     fn reference() -> Design {
         read_coil(concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/coil-reference.ron").as_ref()).unwrap().design

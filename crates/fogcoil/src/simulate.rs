@@ -6,8 +6,8 @@ use std::io::{self, Write};
 use bias::Bias;
 use bias::units::{DEG_PER_H_PER_RAD_PER_S, K_PER_MIN_PER_K_PER_S};
 use coil::{
-    CHECKS, COARSER, Drive, Dynamics, Profile, ReductionError, Response, STANDARD, STEADY, SteadySensitivity, TurnFields,
-    chamber_from_sensor,
+    CHECKS, COARSER, Drive, Dynamics, Profile, ReductionError, Response, STANDARD, STEADY, SteadySensitivity, ThermalState,
+    TurnFields, chamber_from_sensor,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -64,10 +64,8 @@ const SAMPLES: usize = 150;
 pub(crate) struct Sample {
     /// Instant \[s\].
     pub(crate) time: f64,
-    /// Drives.
-    pub(crate) u: Vec<f64>,
-    /// Amplitudes of the modes.
-    pub(crate) q: Vec<f64>,
+    /// Drives and modes.
+    pub(crate) state: ThermalState,
 }
 
 /// One row of the result, in the units of its header; rates are means since the previous row, 0 in the first.
@@ -198,17 +196,16 @@ fn assembled(case: &CoilCase, drives: &[Drive], cache: &Cache, dynamics: Dynamic
 /// [`Error::Coil`] if the profile cannot be run; [`Error::NotFinite`] if the model gives no number.
 pub fn simulate<'a>(case: &'a CoilCase, profile: &'a ProfileCase, model: &Model) -> Result<Simulation<'a>, Error> {
     let file = || profile.fingerprint.file.clone();
-    let mut samples = Vec::new();
     let parts = profile.between.parts();
     let course = if parts == 1 { Cow::Borrowed(&profile.profile) } else { Cow::Owned(profile.profile.smoothed(parts)) };
-    let responses = model.dynamics.simulate_with(&course, |n, u, q| sample(&mut samples, model, &course, (n, u, q)));
     let at = |source| Error::Coil { file: file(), source };
-    let responses = by_row(responses.map_err(at)?, parts);
+    let responses = by_row(model.dynamics.simulate(&course).map_err(at)?, parts);
     let coarser = by_row(model.coarser.simulate(&course).map_err(at)?, parts);
     if let Some(row) = responses.iter().position(|r| !(r.sensor.is_finite() && r.rate().is_finite())) {
         return Err(Error::NotFinite { file: file(), time: profile.profile.time[row] });
     }
-    let (reduction, modes) = (model.dynamics.reduction_error(), model.dynamics.reduced().rates.len());
+    let samples = samples(&model.dynamics, &course).map_err(at)?;
+    let (reduction, modes) = (model.dynamics.reduction_error(), model.dynamics.reduced().rates().len());
     Ok(Simulation { case, profile, steady: model.steady, reduction, modes, source: model.source, responses, coarser, samples })
 }
 
@@ -226,23 +223,18 @@ fn by_row(responses: Vec<Response>, parts: usize) -> Vec<Response> {
     responses[..1].iter().copied().chain(responses[1..].chunks(parts).map(mean)).collect()
 }
 
-/// Adds the samples between row n and the next, from the state at row n.
-fn sample(samples: &mut Vec<Sample>, model: &Model, course: &Profile, (n, u, q): (usize, &[f64], &[f64])) {
-    let (time, reduced) = (&course.time, model.dynamics.reduced());
-    let [Some(next), Some(last)] = [time.get(n + 1), time.last()] else { return };
-    loop {
-        let at = time[0] + (last - time[0]) * (samples.len() as f64 + 0.5) / SAMPLES as f64;
-        if samples.len() == SAMPLES || at >= *next {
-            return;
+/// The states at the middles of [`SAMPLES`] equal intervals.
+fn samples(dynamics: &Dynamics, course: &Profile) -> Result<Vec<Sample>, coil::Error> {
+    let (time, mut samples) = (&course.time, Vec::with_capacity(SAMPLES));
+    let instant = |k: usize| time[0] + (time[time.len() - 1] - time[0]) * (k as f64 + 0.5) / SAMPLES as f64;
+    for (step, ends) in dynamics.steps(course)?.zip(time.windows(2)) {
+        while samples.len() < SAMPLES && instant(samples.len()) < ends[1] {
+            let time = instant(samples.len());
+            // a sample that rounding puts before its row is taken at the row
+            samples.push(Sample { time, state: dynamics.reduced().within(&step, (time - ends[0]).max(0.0)) });
         }
-        // a sample that rounding puts before its row is taken at the row
-        let since = (at - time[n]).max(0.0);
-        let slope: Vec<f64> = course.drives.iter().map(|d| (d[n + 1] - d[n]) / (next - time[n])).collect();
-        let mut q = q.to_vec();
-        reduced.advance(&mut q, &slope, &reduced.interval(since));
-        let u = u.iter().zip(&slope).map(|(u, s)| u + s * since).collect();
-        samples.push(Sample { time: at, u, q });
     }
+    Ok(samples)
 }
 
 impl Simulation<'_> {
@@ -258,8 +250,7 @@ impl Simulation<'_> {
 
     /// The drives at rest before the first row: its temperatures, heaters off.
     pub(crate) fn rest(&self) -> Vec<f64> {
-        let of = |(drive, course): (&Drive, &Vec<f64>)| if *drive == Drive::Heaters { 0.0 } else { course[0] };
-        self.profile.drives.iter().zip(&self.profile.profile.drives).map(of).collect()
+        self.profile.profile.rest(&self.profile.drives)
     }
 
     /// A row.

@@ -14,11 +14,6 @@ use winding::{Half, LayerDefect, Winding};
 /// Modes of every reduced model.
 const MODES: usize = 32;
 
-/// Places of a reduced model's outputs.
-pub(crate) const SENSOR: usize = 0;
-pub(crate) const COIL: usize = 1;
-pub(crate) const PARTS: usize = 2;
-
 /// Range of the factor on the transverse moduli that is tabulated.
 const MODULUS: [f64; 2] = [0.15, 2.2];
 const MODULUS_NODES: usize = 9;
@@ -134,7 +129,7 @@ impl Library {
             };
             let parts = |design: &Design, state: &MechanicalState| -> Result<Functionals, Error> {
                 let model = Model::in_state(design, &COARSE, state)?;
-                bias_functionals(design, model.winding(), &TurnFields::new(&model, &thermal, &modes)?)
+                TurnFields::new(&model, &thermal, &modes)?.bias_parts(&design.optics, model.winding())
             };
             let made = match *job {
                 Job::Path(path, k, x) => Made::Path(path, k, dynamics(&(paths[path].1.design)(design, x), &chamber())?),
@@ -155,7 +150,7 @@ impl Library {
                 }
                 Job::Constant(k) => {
                     let changed = parts(&with_constant(design, k, 1.0 + CONSTANT_STEPS[k]), &MechanicalState::NOMINAL)?;
-                    let nominal = bias_functionals(design, model.winding(), &fields)?;
+                    let nominal = fields.bias_parts(&design.optics, model.winding())?;
                     Made::Constant(k, [0, 1, 2].map(|p: usize| (&changed[p] - &nominal[p]) / CONSTANT_STEPS[k]))
                 }
             };
@@ -202,11 +197,11 @@ impl Library {
         let mut design = tail_asymmetry::with_tail(&self.design, tail);
         let sound = winding::wind(&self.design.winding)?;
         if defect.is_none() {
-            return bias_functionals(&design, &winding::wind(&design.winding)?, &self.fields);
+            return self.fields.bias_parts(&design.optics, &winding::wind(&design.winding)?);
         }
         design.winding.defect = defect;
         let wound = winding::wind(&design.winding)?;
-        bias_functionals(&design, &wound, &moved(&self.fields, &sound, &wound, defect.map_or(0, |d| d.layer)))
+        moved(&self.fields, &sound, &wound, defect.map_or(0, |d| d.layer)).bias_parts(&design.optics, &wound)
     }
 }
 
@@ -233,23 +228,6 @@ fn with_constant(design: &Design, k: usize, factor: f64) -> Design {
         }
     }
     changed
-}
-
-/// The parts of the bias from the fields at the turns of a winding.
-pub(crate) fn bias_functionals(design: &Design, winding: &Winding, fields: &TurnFields) -> Result<Functionals, Error> {
-    let c = design.optics.coefficients(winding.length())?;
-    let w = DVector::from_vec(winding.weights());
-    let (ccw, cw) = winding.tail_spans();
-    let tail: f64 = [ccw, cw].iter().map(|(start, end)| (end - start) * (winding.length() - start - end)).sum();
-    let bore = DVector::from_column_slice(&fields.bore) * tail;
-    let temperature = fields.temperature.tr_mul(&w) + &bore;
-    let free = &bore * design.optics.thermal_expansion;
-    let (axial, radial) = (fields.axial.tr_mul(&w) + &free, fields.radial.tr_mul(&w) + free);
-    Ok([
-        &temperature * c.shupe,
-        axial * c.axial + &temperature * c.axial_per_temperature_rate,
-        radial * c.radial + temperature * c.radial_per_temperature_rate,
-    ])
 }
 
 /// Fields at the turns of a winding with a defect in one layer: cubic along that layer, as they are elsewhere.

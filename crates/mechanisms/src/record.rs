@@ -1,10 +1,10 @@
 //! A library's responses to the chamber of one recording.
 
-use crate::library::{COIL, Functionals, Library, PARTS, SENSOR};
+use crate::library::{Functionals, Library};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
-use coil::{Error, Profile, Reduced};
+use coil::{Bonds, Error, Output, Profile, Reduced};
 use diagnosis::State;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 /// Mean bias parts in every row \[deg/h\]: Shupe, elasto-optic axial and radial.
 pub type Parts = [Vec<f64>; 3];
@@ -89,33 +89,20 @@ pub(crate) struct Course {
 impl Course {
     /// Runs `drives` from rest at `rest`; both in the order of the model's drives.
     pub(crate) fn new(model: &Reduced, clock: &Clock, drives: &[Vec<f64>], rest: &[f64]) -> Self {
-        let at = |n: usize| -> Vec<f64> { drives.iter().map(|d| d[n]).collect() };
-        let mut q = vec![0.0; model.rates.len()];
-        let mut u = at(0);
-        model.jump(&mut q, &u.iter().zip(rest).map(|(u, r)| u - r).collect::<Vec<_>>());
-        let width = u.len() + q.len();
-        let (mut states, mut rates) = (DMatrix::zeros(clock.rows.len(), width), DMatrix::zeros(clock.rows.len(), width));
-        let joined = |u: &[f64], q: &[f64]| u.iter().chain(q).copied().collect::<Vec<f64>>();
-        let mut row = 0;
+        let mut steps = model.steps(&clock.time, drives, rest);
         // where the reading of the row began
-        let (mut began, mut before) = (0, joined(&u, &q));
-        let mut interval = model.interval(0.0);
+        let (mut began, mut before) = (0, steps.state().vector());
+        let mut states = DMatrix::zeros(clock.rows.len(), before.len());
+        let (mut rates, mut row) = (states.clone(), 0);
         for n in 0..clock.time.len() {
-            let dt = if n > 0 { clock.time[n] - clock.time[n - 1] } else { 0.0 };
             if n > 0 {
-                let next = at(n);
-                let slope: Vec<f64> = next.iter().zip(&u).map(|(b, a)| (b - a) / dt).collect();
-                if interval.dt != dt {
-                    interval = model.interval(dt);
-                }
-                model.advance(&mut q, &slope, &interval);
-                u = next;
+                steps.next();
             }
-            let now = joined(&u, &q);
+            let now = steps.state().vector();
             if clock.rows.get(row) == Some(&n) {
-                for k in 0..width {
-                    states[(row, k)] = now[k];
-                    rates[(row, k)] = if n > 0 { (now[k] - before[k]) / (clock.time[n] - clock.time[began]) } else { 0.0 };
+                states.set_row(row, &now.transpose());
+                if n > 0 {
+                    rates.set_row(row, &((&now - before) / (clock.time[n] - clock.time[began])).transpose());
                 }
                 row += 1;
                 (began, before) = (n, now);
@@ -127,8 +114,8 @@ impl Course {
     }
 
     /// An output in every row.
-    pub(crate) fn output(&self, model: &Reduced, k: usize) -> Vec<f64> {
-        (&self.states * functional(model, k)).as_slice().to_vec()
+    pub(crate) fn output(&self, output: &Output) -> Vec<f64> {
+        (&self.states * output.vector()).as_slice().to_vec()
     }
 
     /// Mean bias parts in every row.
@@ -136,20 +123,22 @@ impl Course {
         [0, 1, 2].map(|p: usize| (&self.rates * (&functionals[p] * DEG_PER_H_PER_RAD_PER_S)).as_slice().to_vec())
     }
 
-    fn series(&self, model: &Reduced, first: usize) -> Series {
-        Series { sensor: self.output(model, SENSOR), parts: self.parts(&[0, 1, 2].map(|p| functional(model, first + p))) }
+    fn series(&self, model: &Reduced) -> Series {
+        Series { sensor: self.output(model.thermometer()), parts: self.parts(&model.parts().each_ref().map(Output::vector)) }
     }
-}
-
-fn functional(model: &Reduced, k: usize) -> DVector<f64> {
-    let output = &model.outputs[k];
-    DVector::from_iterator(output.at_rest.len() + output.modal.len(), output.at_rest.iter().chain(&output.modal).copied())
 }
 
 /// Differences of two series.
 fn minus(a: &Series, b: &Series) -> Series {
-    let of = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect();
-    Series { sensor: of(&a.sensor, &b.sensor), parts: [0, 1, 2].map(|p: usize| of(&a.parts[p], &b.parts[p])) }
+    Series { sensor: less(&a.sensor, &b.sensor), parts: difference(&a.parts, &b.parts) }
+}
+
+fn difference(a: &Parts, b: &Parts) -> Parts {
+    [0, 1, 2].map(|p: usize| less(&a[p], &b[p]))
+}
+
+fn less(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
 /// A recording's instants and chamber, and what every model of a library does under it.
@@ -193,8 +182,8 @@ impl Heating {
     /// Response to 1 W that is switched on `before` the first row \[s\].
     pub(crate) fn at(&self, model: &Reduced, before: f64) -> Series {
         let mut course = self.course.clone();
-        let drives = course.states.ncols() - model.rates.len();
-        for (i, rate) in model.rates.iter().enumerate() {
+        let drives = course.states.ncols() - model.rates().len();
+        for (i, rate) in model.rates().iter().enumerate() {
             let (k, decayed) = (drives + i, (-rate * before).exp());
             // the first reading began before its row, but sees nothing from before the heater was on
             let began = course.states[(0, k)] * (-rate * (before - self.averaging).max(0.0)).exp();
@@ -202,7 +191,7 @@ impl Heating {
             course.rates.column_mut(k).scale_mut(decayed);
             course.rates[(0, k)] = if self.averaging > 0.0 { (course.states[(0, k)] - began) / self.averaging } else { 0.0 };
         }
-        course.series(model, PARTS)
+        course.series(model)
     }
 }
 
@@ -247,7 +236,7 @@ impl Prepared {
         let first = clock.chamber[0];
         let run = |model: &Reduced| Course::new(model, &clock, std::slice::from_ref(&clock.chamber), &[first]);
         let course = run(&library.base);
-        let base = course.series(&library.base, PARTS);
+        let base = course.series(&library.base);
         let part = |f: fn(&bias::Bias) -> f64| -> Vec<f64> { clock.means(|n| f(&responses[n].bias) * DEG_PER_H_PER_RAD_PER_S) };
         let nominal = Series {
             sensor: clock.rows.iter().map(|&n| responses[n].sensor).collect(),
@@ -255,18 +244,17 @@ impl Prepared {
         };
         let off = Course::new(&library.base, &clock, std::slice::from_ref(&clock.chamber), &[first + OFF_REST]);
         let paths = library.paths.iter().map(|path| {
-            let mut changes: Vec<Series> =
-                path.models.iter().map(|model| minus(&run(model).series(model, PARTS), &base)).collect();
+            let mut changes: Vec<Series> = path.models.iter().map(|model| minus(&run(model).series(model), &base)).collect();
             changes.insert(path.nominal, minus(&base, &base));
             (path.id.clone(), path.nodes.clone(), changes)
         });
         let opening = |(share, model): &(f64, Reduced)| {
             let course = run(model);
-            let change = minus(&course.series(model, PARTS + 3), &course.series(model, PARTS));
-            (*share, change.parts)
+            let parts = |bond| course.parts(&model.parts_with(bond).each_ref().map(Output::vector));
+            (*share, difference(&parts(Bonds::Opened), &parts(Bonds::Closed)))
         };
         let heater = library.heater.as_ref().map(|model| Heating::new(model, &clock, averaging));
-        let coil = course.output(&library.base, COIL);
+        let coil = course.output(library.base.coil_mean());
         let level = nominal.sensor.clone();
         let rate = (0..time.len())
             .map(|n| {
@@ -278,7 +266,7 @@ impl Prepared {
             time: time.to_vec(),
             chamber: clock.rows.iter().map(|&n| clock.chamber[n]).collect(),
             averaging,
-            off_rest: minus(&off.series(&library.base, PARTS), &base),
+            off_rest: minus(&off.series(&library.base), &base),
             modulus: library.modulus.iter().map(|(x, n, f)| (*x, course.parts(n), course.parts(f))).collect(),
             constants: library.constants.iter().map(|f| course.parts(f)).collect(),
             paths: paths.collect(),

@@ -92,9 +92,15 @@ impl Winding {
 
     /// Weight of every turn in the bias, W = ∫ (L − 2z) dz \[m²\], in the order of [`turns`](Self::turns).
     ///
-    /// With the weights of the [`tail_spans`](Self::tail_spans) they add up to 0.
+    /// With the [`tail_weight`](Self::tail_weight) they add up to 0.
     pub fn weights(&self) -> Vec<f64> {
         self.turns.iter().map(|turn| turn.weight(self.length)).collect()
+    }
+
+    /// Weight of both bare tails together, W = ∫ (L − 2z) dz \[m²\].
+    pub fn tail_weight(&self) -> f64 {
+        let (ccw, cw) = self.tail_spans();
+        [ccw, cw].iter().map(|(start, end)| (end - start) * (self.length - start - end)).sum()
     }
 
     /// The spans (`z_start`, `z_end`) of the bare tails \[m\]: first the CCW tail, then the CW tail. Empty spans for no tails.

@@ -138,6 +138,7 @@ proptest! {
         let rounding = (coil.turns().len() as f64 + 6.0) * f64::EPSILON * length * length;
         let turns: f64 = coil.turns().iter().map(|turn| turn.length() * (length - 2.0 * turn.z_mid())).sum();
         prop_assert!((turns + tails).abs() < rounding);
+        prop_assert!((coil.tail_weight() - tails).abs() < rounding);
         prop_assert!((coil.weights().iter().sum::<f64>() + tails).abs() < rounding);
         prop_assert!((coil.moment(0, 0) + tails).abs() < rounding);
     }

@@ -1,7 +1,7 @@
 //! `cargo xtask bench sensitivity`: from design to steady sensitivity, beside NGSolve.
 
 use super::{Failure, Progress, Stopwatch, median, peers, publish, reference_coil};
-use ::coil::{COARSE, Design, Layout, Model, Region, Resolution, steady_sensitivity};
+use ::coil::{COARSE, Design, Layout, MeshFineness, Model, Region, steady_sensitivity};
 use bias::units::DEG_PER_H_PER_K_PER_MIN_PER_RAD_PER_K;
 use fem_core::material::ThermoElastic;
 use std::ffi::OsString;
@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 /// Mesh of the converged value.
-const CONVERGED: Resolution = Resolution { order: 11, layers: 6, ratio: 0.2 };
+const CONVERGED: MeshFineness = MeshFineness { order: 11, layers: 6, ratio: 0.2 };
 /// Orders and sizes that the peer is run with: order, element at the coil's corners, largest element \[mm\], grading.
 const PEER: [[&str; 4]; 3] = [["4", "0.05", "4", "0.4"], ["4", "0.01", "6", "0.7"], ["4", "0.003", "6", "0.3"]];
 

@@ -6,14 +6,14 @@ use super::row::{Kind, Row, Verdict};
 use super::spread::{self, Spread};
 use super::{Failure, Section, timed};
 use bias::{Bias, Sensitivity, Slice};
-use coil::{COARSE, Dehomogenization, Design, FINE, Model, Resolution, steady_sensitivity};
+use coil::{COARSE, Dehomogenization, Design, FINE, MeshFineness, Model, steady_sensitivity};
 use homogenization::Constants;
 use rayon::prelude::*;
 use winding::{ClimbSide, Pattern, Tails};
 
 const UNIT: &str = "(deg/h)/(degC/min)";
 /// Two refinements beyond the reported mesh.
-const TRUTH: Resolution = Resolution { order: FINE.order + 2, layers: FINE.layers + 1, ratio: FINE.ratio };
+const TRUTH: MeshFineness = MeshFineness { order: FINE.order + 2, layers: FINE.layers + 1, ratio: FINE.ratio };
 /// Largest Shupe part of a steady ramp that rounding explains.
 const SHUPE: f64 = 1e-9;
 /// Half a unit of Table IV's last digit.
@@ -21,7 +21,7 @@ const HALF_DIGIT: f64 = 0.005;
 /// Adjoint against brute force, relative to the parts' size.
 const ADJOINT: f64 = 1e-8;
 
-fn total(design: &Design, resolution: &Resolution) -> Result<f64, Failure> {
+fn total(design: &Design, resolution: &MeshFineness) -> Result<f64, Failure> {
     Ok(Model::new(design, resolution)?.sensitivity()?.total())
 }
 

@@ -1,5 +1,6 @@
 //! The heat flow without reduction: every unknown stepped in time.
 
+use super::outputs::dot;
 use super::{Drive, ThermalModel};
 use crate::{Error, Profile};
 use fem_core::{Effort, State, Transient};
@@ -59,8 +60,4 @@ impl ThermalModel {
         }
         Ok(FullRun { outputs, effort: transient.effort() })
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -1,7 +1,7 @@
 //! The lag behind the chamber in a steady ramp.
 
 use super::{Drive, ThermalModel};
-use crate::{Design, Error, Resolution};
+use crate::{Design, Error, MeshFineness};
 
 /// How far each place lags behind the chamber wall when that has been warming at a constant rate for long.
 ///
@@ -20,7 +20,7 @@ pub struct RampLag {
 ///
 /// # Errors
 /// [`Error`] names the dimension or property at fault, or the solve that failed.
-pub fn ramp_lag(design: &Design, resolution: &Resolution) -> Result<RampLag, Error> {
+pub fn ramp_lag(design: &Design, resolution: &MeshFineness) -> Result<RampLag, Error> {
     let winding = winding::wind(&design.winding)?;
     let model = ThermalModel::new(design, resolution, &[Drive::Chamber])?;
     let solution = model.conductivity().solve(model.stored()).map_err(|source| Error::Solve { part: "chamber", source })?;

@@ -5,11 +5,15 @@ mod full;
 mod lag;
 mod modal;
 mod model;
+mod outputs;
 mod reduced;
+mod steps;
 
 pub use drive::Drive;
 pub use full::FullRun;
 pub use lag::{RampLag, ramp_lag};
-pub use modal::Interval;
 pub use model::ThermalModel;
-pub use reduced::{Reduced, ReducedOutput, Reduction};
+pub(crate) use outputs::dot;
+pub use outputs::{Output, Outputs};
+pub use reduced::{Reduced, Reduction};
+pub use steps::{Step, Steps, ThermalState};

@@ -2,7 +2,7 @@
 
 use super::Drive;
 use crate::grid::COINCIDENT;
-use crate::{Bonds, Design, Domain, Error, Grid, Layout, Region, Resolution, Side};
+use crate::{Bonds, Design, Domain, Error, Grid, Layout, MeshFineness, Region, Side};
 use fem_core::{Constraints, DofMap, Edge, Factor, Form, Mesh, Problem, SparseMatrix};
 use nalgebra::DMatrix;
 
@@ -77,7 +77,7 @@ impl ThermalModel {
     ///
     /// # Errors
     /// [`Error`] names the dimension or property at fault, or the solve that failed.
-    pub fn new(design: &Design, resolution: &Resolution, drives: &[Drive]) -> Result<Self, Error> {
+    pub fn new(design: &Design, resolution: &MeshFineness, drives: &[Drive]) -> Result<Self, Error> {
         if drives.first() != Some(&Drive::Chamber) {
             return Err(Error::Resolution("the first drive must be the chamber".into()));
         }

@@ -1,21 +1,21 @@
 //! Krylov-reduced heat flow: a few exponentials that reproduce chosen outputs for any course of the drives.
 
 use super::modal::settled;
-use super::{Drive, ThermalModel};
-use crate::Error;
+use super::outputs::dot;
+use super::{Drive, Output, Outputs, ThermalModel};
+use crate::{Bonds, Error};
 use fem_core::{Factor, SparseMatrix};
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// Decaying modes `q̇_i = −rate_i q_i − Σ_k drive_ik u̇_k` and outputs `y_j = Σ_k static_jk u_k + Σ_i modal_ji q_i`.
+/// Decaying modes `q̇_i = −rate_i q_i − Σ_k drive_ik u̇_k` and outputs `y = Σ_k at_rest_k u_k + Σ_i modal_i q_i`.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Reduced {
-    /// Decay rates \[1/s\], increasing.
-    pub rates: Vec<f64>,
+    /// Increasing.
+    pub(crate) rates: Vec<f64>,
     /// Coupling of each mode (outer index) to each drive.
-    pub drive: Vec<Vec<f64>>,
-    /// The outputs, in the order of the functionals they were made from.
-    pub outputs: Vec<ReducedOutput>,
+    pub(crate) drive: Vec<Vec<f64>>,
+    pub(crate) outputs: Outputs<Output>,
 }
 
 /// A heat flow reduced, with what measures the reduction and what gives the temperature back everywhere.
@@ -28,16 +28,6 @@ pub struct Reduction {
     /// Temperature of each mode of [`Self::reduced`] at all nodes of the thermal grid: `T = Σ_k u_k φ_k + Σ_i q_i modes_i` with the
     /// shapes φ of the [`ThermalModel`].
     pub modes: Vec<Vec<f64>>,
-}
-
-/// One output of a reduced model.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct ReducedOutput {
-    /// Value per unit of each drive at rest.
-    pub at_rest: Vec<f64>,
-    /// Value per unit of each mode.
-    pub modal: Vec<f64>,
 }
 
 /// Time scale of the fast modes \[s\]: the shortest interval at which a bias is usually read.
@@ -93,11 +83,11 @@ impl Basis<'_> {
 impl Reduction {
     /// Projects `model` on `size` vectors of the rational Krylov space of K⁻¹C and (K + C/1 s)⁻¹C.
     ///
-    /// `functionals` are output functionals of the nodal temperature (all nodes of the model's grid).
+    /// `functionals` of the nodal temperature (all nodes of the model's grid) become the outputs.
     ///
     /// # Errors
     /// [`Error::Solve`] if a solve leaves a residual.
-    pub fn new(model: &ThermalModel, functionals: &[Vec<f64>], size: usize) -> Result<Self, Error> {
+    pub fn new(model: &ThermalModel, functionals: &Outputs<Vec<f64>>, size: usize) -> Result<Self, Error> {
         let failed = |source| Error::Solve { part: "chamber", source };
         let mut basis = Basis { model, vectors: Vec::new(), weighted: Vec::new() };
         // a heater jumps when it is switched on: its space starts from the jump itself, the others from the response to a ramp
@@ -129,13 +119,61 @@ impl Reduction {
 }
 
 impl Reduced {
-    /// Mean response of output `k` to a unit step of drive `d` over the second that begins `t` \[s\] after it: no reading is shorter.
-    pub fn step_response(&self, k: usize, d: usize, t: f64) -> f64 {
-        let output = &self.outputs[k];
+    /// Decay rate of each mode \[1/s\], increasing.
+    pub fn rates(&self) -> &[f64] {
+        &self.rates
+    }
+
+    /// All outputs.
+    pub fn outputs(&self) -> &Outputs<Output> {
+        &self.outputs
+    }
+
+    /// Temperature at the thermometer's place \[K\].
+    pub fn thermometer(&self) -> &Output {
+        &self.outputs.thermometer
+    }
+
+    /// Mean temperature of the coil \[K\].
+    pub fn coil_mean(&self) -> &Output {
+        &self.outputs.coil_mean
+    }
+
+    /// Phases \[rad\] whose increase per time is the Shupe, the elasto-optic axial and the elasto-optic radial part of the bias, at rest:
+    /// bonds hold, nothing has relaxed, the first row of a table.
+    ///
+    /// # Panics
+    /// If the model was made without.
+    pub fn parts(&self) -> &[Output; 3] {
+        &self.outputs.parts[0]
+    }
+
+    /// As [`Self::parts`], of a design of [`crate::Mechanics::Opening`] while its bond is closed or opened.
+    ///
+    /// # Panics
+    /// If the design has no bond that can open.
+    pub fn parts_with(&self, bond: Bonds) -> &[Output; 3] {
+        &self.outputs.parts[bond as usize]
+    }
+
+    /// Mean response of an output to a unit step of drive `d` over the second that begins `t` \[s\] after it: no reading is shorter.
+    pub fn step_response(&self, output: &Output, d: usize, t: f64) -> f64 {
         let decaying = self.rates.iter().zip(&self.drive).zip(&output.modal);
         let mode =
             |((rate, drive), modal): ((&f64, &Vec<f64>), &f64)| modal * drive[d] * (-rate * t).exp() * settled(rate * FAST);
         output.at_rest[d] - decaying.map(mode).sum::<f64>()
+    }
+
+    /// The same model of these modes alone, under its first drive alone.
+    pub(crate) fn truncated(&self, modes: &[usize]) -> Self {
+        Self {
+            rates: modes.iter().map(|&i| self.rates[i]).collect(),
+            drive: modes.iter().map(|&i| vec![self.drive[i][0]]).collect(),
+            outputs: self.outputs.map(|output| Output {
+                at_rest: vec![output.at_rest[0]],
+                modal: modes.iter().map(|&i| output.modal[i]).collect(),
+            }),
+        }
     }
 
     /// Instants that resolve every mode, evenly spaced in the logarithm of time \[s\].
@@ -149,7 +187,7 @@ impl Reduced {
 }
 
 /// The model on the first `n` vectors of `basis`, and each of its modes as a combination of them.
-fn project(model: &ThermalModel, basis: &Basis, functionals: &[Vec<f64>], n: usize) -> (Reduced, Vec<Vec<f64>>) {
+fn project(model: &ThermalModel, basis: &Basis, functionals: &Outputs<Vec<f64>>, n: usize) -> (Reduced, Vec<Vec<f64>>) {
     let flows: Vec<Vec<f64>> = basis.vectors[..n].iter().map(|v| model.conductivity().matrix().multiply(v)).collect();
     let small = DMatrix::from_fn(n, n, |i, j| (dot(&basis.vectors[i], &flows[j]) + dot(&basis.vectors[j], &flows[i])) / 2.0);
     let SymmetricEigen { eigenvalues, eigenvectors } = small.symmetric_eigen();
@@ -160,7 +198,7 @@ fn project(model: &ThermalModel, basis: &Basis, functionals: &[Vec<f64>], n: usi
     let drives: Vec<_> = model.stored().iter().map(|w| along(w)).collect();
     let output = |functional: &Vec<f64>| {
         let onto = along(&model.map().restrict(functional));
-        ReducedOutput {
+        Output {
             at_rest: model.shapes().iter().map(|shape| dot(shape, functional)).collect(),
             modal: order.iter().map(|&mode| modal(&onto, mode)).collect(),
         }
@@ -168,7 +206,7 @@ fn project(model: &ThermalModel, basis: &Basis, functionals: &[Vec<f64>], n: usi
     let reduced = Reduced {
         rates: order.iter().map(|&mode| eigenvalues[mode]).collect(),
         drive: order.iter().map(|&mode| drives.iter().map(|d| modal(d, mode)).collect()).collect(),
-        outputs: functionals.iter().map(output).collect(),
+        outputs: functionals.map(output),
     };
     (reduced, order.iter().map(|&mode| eigenvectors.column(mode).iter().copied().collect()).collect())
 }
@@ -180,8 +218,4 @@ fn combined(vectors: &[Vec<f64>], c: &[f64]) -> Vec<f64> {
         sum.iter_mut().zip(v).for_each(|(s, v)| *s += c * v);
     }
     sum
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

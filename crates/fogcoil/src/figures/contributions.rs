@@ -2,7 +2,7 @@
 
 use bias::Bias;
 use bias::units::{DEG_PER_H_PER_RAD_PER_S, K_PER_MIN_PER_K_PER_S};
-use coil::{Drive, TurnFields};
+use coil::{Drive, ThermalState, TurnFields};
 use winding::Winding;
 
 use super::MOST_TURNS;
@@ -32,9 +32,9 @@ pub fn contributions_in_ramp(simulation: &Simulation, fields: &TurnFields) -> Re
     let (case, winding) = (simulation.case, &simulation.case.winding);
     let coefficients = case.design.optics.coefficients(winding.length())?;
     // every wall and mount warms by 1 K/s, the heaters stay as they are
-    let together: Vec<f64> = simulation.profile.drives.iter().map(|d| f64::from(u8::from(*d != Drive::Heaters))).collect();
-    let modes = fields.temperature.ncols() - together.len();
-    let rates = fields.at(&together, &vec![0.0; modes]);
+    let drives: Vec<f64> = simulation.profile.drives.iter().map(|d| f64::from(u8::from(*d != Drive::Heaters))).collect();
+    let amplitudes = vec![0.0; fields.temperature.ncols() - drives.len()];
+    let rates = fields.at(&ThermalState { drives, amplitudes });
     let unit = DEG_PER_H_PER_RAD_PER_S / K_PER_MIN_PER_K_PER_S;
     let of = |(i, w): (usize, f64)| coefficients.bias(w, rates.temperature[i], rates.axial[i], rates.radial[i]) * unit;
     Ok(winding.weights().into_iter().enumerate().map(of).collect())

@@ -1,6 +1,6 @@
 //! Error of the steady sensitivity against the number of unknowns, beside an estimate from the next finer mesh.
 
-use coil::{COARSE, Model, Resolution, SAFETY};
+use coil::{COARSE, MeshFineness, Model, SAFETY};
 
 use serde::{Deserialize, Serialize};
 
@@ -14,8 +14,8 @@ use crate::plot::{Axis, Content, Figure, Height, Panel, Series, Style, Thinning}
 const ORDERS: std::ops::RangeInclusive<usize> = 3..=8;
 
 /// A mesh of this order with as many layers towards the coil's edges as the program's own meshes have: half the order.
-fn mesh(order: usize) -> Resolution {
-    Resolution { order, layers: order / 2, ratio: COARSE.ratio }
+fn mesh(order: usize) -> MeshFineness {
+    MeshFineness { order, layers: order / 2, ratio: COARSE.ratio }
 }
 
 /// What is taken for exact: two orders and a layer beyond the finest mesh behind an estimate.

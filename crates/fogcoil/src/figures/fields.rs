@@ -1,6 +1,6 @@
 //! Temperature and strain along the fibre, in time and at chosen instants (Figs. 4 to 6).
 
-use coil::{Mechanics, TurnFields, TurnValues};
+use coil::{Mechanics, ThermalState, TurnFields, TurnValues};
 use winding::Winding;
 
 use super::MOST_TURNS;
@@ -116,18 +116,18 @@ impl<'a> Course<'a> {
         let shares: Vec<f64> = winding.turns().iter().map(|t| (t.z_end - t.z_start) / winding.wound_length()).collect();
         let mean_of_column = |j: usize| fields.temperature.column(j).iter().zip(&shares).map(|(t, share)| t * share).sum::<f64>();
         let mean_of: Vec<f64> = (0..fields.temperature.ncols()).map(mean_of_column).collect();
-        let mean = |sample: &Sample| sample.u.iter().chain(&sample.q).zip(&mean_of).map(|(a, b)| a * b).sum::<f64>();
+        let mean = |sample: &Sample| sample.state.vector().iter().zip(&mean_of).map(|(a, b)| a * b).sum::<f64>();
         let means: Vec<f64> = samples.iter().map(mean).collect();
         let chosen = chosen(samples, &means);
         Self { winding, fields, samples, rest: simulation.rest(), means, chosen }
     }
 
     fn at(&self, sample: usize) -> At {
-        let Sample { time, u, q } = &self.samples[sample];
-        let since: Vec<f64> = u.iter().zip(&self.rest).map(|(u, rest)| u - rest).collect();
-        let mut values = self.fields.at(&since, q);
+        let Sample { time, state } = &self.samples[sample];
+        let since = state.drives.iter().zip(&self.rest).map(|(u, rest)| u - rest).collect();
+        let mut values = self.fields.at(&ThermalState { drives: since, ..state.clone() });
         // temperatures count from 0 °C
-        values.temperature = self.fields.at(u, q).temperature;
+        values.temperature = self.fields.at(state).temperature;
         At { time: *time, values, mean: self.means[sample] }
     }
 

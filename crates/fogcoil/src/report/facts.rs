@@ -73,7 +73,8 @@ fn side(side: Side) -> &'static str {
 
 /// Drives, mesh, modes, and what they leave out.
 pub(super) fn computation(out: &mut String, simulation: &Simulation) {
-    let mesh = |r: coil::Resolution| format!("elements of order {}, {} layers towards each edge of the coil", r.order, r.layers);
+    let mesh =
+        |r: coil::MeshFineness| format!("elements of order {}, {} layers towards each edge of the coil", r.order, r.layers);
     let mut rows = Vec::new();
     rows.extend([
         row("driven by", simulation.profile.drives.iter().map(|drive| name(*drive)).collect::<Vec<_>>().join(", ")),

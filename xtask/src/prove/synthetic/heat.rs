@@ -1,11 +1,11 @@
 //! The heat flow of a design as decaying modes, on a mesh and from a space of vectors that no other part of the program uses.
 
-use coil::{Design, Drive, Error, Resolution, ThermalModel};
+use coil::{Design, Drive, Error, MeshFineness, ThermalModel};
 use fem_core::{SparseMatrix, SymbolicFactor};
 use nalgebra::{DMatrix, SymmetricEigen};
 
 /// Finer than what the diagnosis works on, of another order and another grading.
-pub(super) const MESH: Resolution = Resolution { order: 5, layers: 5, ratio: 0.2 };
+pub(super) const MESH: MeshFineness = MeshFineness { order: 5, layers: 5, ratio: 0.2 };
 /// Shifts of the rational Krylov space in turn \[1/s\]: slower than the air, the air, the coil.
 const SHIFTS: [f64; 3] = [0.0, 2e-3, 0.05];
 /// Vectors for each drive: twice as many change no reading by 2e-5 of the peak (tests).

@@ -4,7 +4,7 @@ use super::chamber::STEP;
 use super::heat::{Heat, MESH, VECTORS};
 use super::law::Law;
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
-use coil::{Design, Error, Model, functionals};
+use coil::{Design, Error, Model, Outputs, functionals};
 use nalgebra::{DMatrix, DVector};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -96,7 +96,7 @@ impl Plant {
         let nominal = functionals(design, &model, &heat.model)?;
         let law = Law::new(&build, &heat, total(&heat, &nominal))?;
         let curvature = if build.curvature == 0.0 { None } else { Some(phase_of_curvature(design, &model, &heat)) };
-        Ok(Self { sensor: heat.onto(&nominal[0]), coil: heat.onto(&nominal[1]), law, curvature, heat, build })
+        Ok(Self { sensor: heat.onto(&nominal.thermometer), coil: heat.onto(&nominal.coil_mean), law, curvature, heat, build })
     }
 
     /// Runs a chamber's course from rest; a heater is switched on at its start.
@@ -163,8 +163,8 @@ fn radau(z: f64) -> f64 {
 }
 
 /// The sum of the three bias parts on drives and modes \[rad\].
-pub(super) fn total(heat: &Heat, functionals: &[Vec<f64>]) -> Vec<f64> {
-    let parts: Vec<Vec<f64>> = functionals[2..].iter().map(|part| heat.onto(part)).collect();
+pub(super) fn total(heat: &Heat, functionals: &Outputs<Vec<f64>>) -> Vec<f64> {
+    let parts: Vec<Vec<f64>> = functionals.parts.iter().flatten().map(|part| heat.onto(part)).collect();
     (0..parts[0].len()).map(|k| parts.iter().map(|p| p[k]).sum()).collect()
 }
 

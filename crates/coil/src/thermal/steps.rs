@@ -1,0 +1,107 @@
+//! A reduced model stepped through a course of its drives, from rest.
+
+use super::modal::Interval;
+use super::{Drive, Reduced};
+use crate::Profile;
+use nalgebra::DVector;
+
+/// State of a [`Reduced`] at an instant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ThermalState {
+    /// Drives: temperatures \[K or °C\], heaters in parts of their power.
+    pub drives: Vec<f64>,
+    /// Amplitude of each mode.
+    pub amplitudes: Vec<f64>,
+}
+
+impl ThermalState {
+    /// Drives, then amplitudes.
+    pub fn vector(&self) -> DVector<f64> {
+        let (drives, amplitudes) = (&self.drives, &self.amplitudes);
+        DVector::from_iterator(drives.len() + amplitudes.len(), drives.iter().chain(amplitudes).copied())
+    }
+}
+
+/// An interval between two instants, over which the drives are linear.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Step {
+    /// State at its start.
+    pub from: ThermalState,
+    /// Change of each drive per second.
+    pub slope: Vec<f64>,
+    /// Its length \[s\], > 0.
+    pub dt: f64,
+}
+
+/// Steps a reduced model through a course, exactly; made by [`Reduced::steps`]. Yields each step after it is made: the state is then
+/// that at its end.
+#[derive(Debug, Clone)]
+pub struct Steps<'a> {
+    model: &'a Reduced,
+    time: &'a [f64],
+    courses: &'a [Vec<f64>],
+    /// The instant of `state`.
+    at: usize,
+    state: ThermalState,
+    /// What the last step's length does: kept for as many steps as have it.
+    interval: Interval,
+}
+
+fn drives_at(courses: &[Vec<f64>], n: usize) -> Vec<f64> {
+    courses.iter().map(|course| course[n]).collect()
+}
+
+impl Reduced {
+    /// From rest with the drives at `rest` through `courses`, one a drive, at the instants `time` \[s\], increasing: at the first
+    /// instant the drives jump to where the courses begin.
+    ///
+    /// # Panics
+    /// If there is no instant, or a course is shorter than `time`.
+    pub fn steps<'a>(&'a self, time: &'a [f64], courses: &'a [Vec<f64>], rest: &[f64]) -> Steps<'a> {
+        let drives = drives_at(courses, 0);
+        let mut amplitudes = vec![0.0; self.rates.len()];
+        self.jump(&mut amplitudes, &drives.iter().zip(rest).map(|(u, rest)| u - rest).collect::<Vec<_>>());
+        let state = ThermalState { drives, amplitudes };
+        Steps { model: self, time, courses, at: 0, state, interval: self.interval(0.0) }
+    }
+
+    /// The state `since` seconds after the start of a step.
+    pub fn within(&self, step: &Step, since: f64) -> ThermalState {
+        let mut state = step.from.clone();
+        self.advance(&mut state.amplitudes, &step.slope, &self.interval(since));
+        state.drives.iter_mut().zip(&step.slope).for_each(|(u, slope)| *u += slope * since);
+        state
+    }
+}
+
+impl Steps<'_> {
+    /// The state at the end of the last step; before the first, at the first instant.
+    pub fn state(&self) -> &ThermalState {
+        &self.state
+    }
+}
+
+impl Iterator for Steps<'_> {
+    type Item = Step;
+
+    fn next(&mut self) -> Option<Step> {
+        let dt = self.time.get(self.at + 1)? - self.time[self.at];
+        self.at += 1;
+        let drives = drives_at(self.courses, self.at);
+        let slope: Vec<f64> = drives.iter().zip(&self.state.drives).map(|(b, a)| (b - a) / dt).collect();
+        if self.interval.dt != dt {
+            self.interval = self.model.interval(dt);
+        }
+        let mut amplitudes = self.state.amplitudes.clone();
+        self.model.advance(&mut amplitudes, &slope, &self.interval);
+        Some(Step { from: std::mem::replace(&mut self.state, ThermalState { drives, amplitudes }), slope, dt })
+    }
+}
+
+impl Profile {
+    /// The drives at rest before the first instant: its temperatures everywhere, heaters off.
+    pub fn rest(&self, drives: &[Drive]) -> Vec<f64> {
+        let of = |(drive, course): (&Drive, &Vec<f64>)| if *drive == Drive::Heaters { 0.0 } else { course[0] };
+        drives.iter().zip(&self.drives).map(of).collect()
+    }
+}
