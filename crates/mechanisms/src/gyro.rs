@@ -97,7 +97,7 @@ impl<'m> Gyro<'m> {
         let known = (!self.records.is_empty()).then(|| self.effect(0, active).ok()).flatten();
         let change = known.as_ref().and_then(|known| known.change());
         let first = self.records.first().zip(change);
-        self.kinds[active.mechanism].extent(active, &Sight { design: self.library().design(), choices, first })
+        (self.kinds[active.mechanism].facts().extent)(active, &Sight { design: self.library().design(), choices, first })
     }
 
     /// A design with a mechanism put in at its place; `None` if a design has no place for it, or the place is taken.
@@ -161,9 +161,9 @@ impl<'m> Gyro<'m> {
 
 /// A mechanism as the engine knows it; `None` if the design leaves it no place.
 fn entry(mechanism: &dyn Mechanism, design: &Design, range: [f64; 2]) -> Option<diagnosis::Mechanism> {
-    let words = mechanism.words();
+    let facts = mechanism.facts();
     let Offer { parameters, choice, starts } = mechanism.offer(design, range)?;
-    let (id, stage, named) = (words.id.to_owned(), words.stage.name().to_owned(), matches!(words.naming, Naming::Named { .. }));
+    let (id, stage, named) = (facts.id.to_owned(), facts.stage.name().to_owned(), matches!(facts.naming, Naming::Named { .. }));
     Some(diagnosis::Mechanism { id, stage, parameters, choice, starts, named, weight: 1.0 })
 }
 

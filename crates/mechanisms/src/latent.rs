@@ -63,8 +63,9 @@ impl Chain {
 
         let mut thermal = Functions::new();
         for mechanism in mechanisms {
-            if let Some(nudge) = mechanism.heat_path().and_then(|path| path.nudge) {
-                thermal.extend(shaped(&self.along(record, mechanism.words().id, nudge), &hats));
+            let facts = mechanism.facts();
+            if let Some(nudge) = facts.heat_path.and_then(|path| path.nudge) {
+                thermal.extend(shaped(&self.along(record, facts.id, nudge), &hats));
             }
         }
         for before in SWITCHED_ON {

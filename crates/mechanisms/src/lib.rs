@@ -19,7 +19,7 @@ pub use chain::Chain;
 pub use gyro::{Gyro, RATE, REFERENCE_C, SPOOL};
 pub use library::Library;
 pub use mechanism::{
-    Change, Digits, Effect, Extent, HeatPath, Mechanism, Naming, Offer, Readings, Sight, Stage, Steady, Words, lagged, middles,
+    Change, Digits, Effect, Extent, Facts, HeatPath, Mechanism, Naming, Offer, Readings, Sight, Stage, Steady, lagged, middles,
     rates_per_hour,
 };
 pub use nuisances::with_constant;

@@ -104,7 +104,10 @@ impl Library {
         let fields = TurnFields::new(&model, &thermal, &modes)?;
         let elastic = design.mechanics == Mechanics::Elastic;
         let mut jobs: Vec<Job> = Vec::new();
-        let of = |m: &&dyn Mechanism| m.heat_path().map(|path| (m.words().id.to_owned(), path));
+        let of = |m: &&dyn Mechanism| {
+            let facts = m.facts();
+            facts.heat_path.map(|path| (facts.id.to_owned(), path))
+        };
         let paths: Vec<(String, HeatPath)> =
             mechanisms.iter().filter_map(of).filter(|(_, path)| (path.applies)(design)).collect();
         for (number, (_, path)) in paths.iter().enumerate() {

@@ -40,9 +40,8 @@ impl Stage {
     }
 }
 
-/// A mechanism in words, for people; Markdown where it is longer than a sentence.
-#[derive(Debug, Clone)]
-pub struct Words<'a> {
+/// All of a mechanism but its unknowns and its law; the words are Markdown where they are longer than a sentence.
+pub struct Facts<'a> {
     /// Short name in every file and output, in kebab case; `unknown:` stands before the id of one that only describes.
     pub id: &'a str,
     /// Heading of its page.
@@ -59,6 +58,14 @@ pub struct Words<'a> {
     pub source: &'a str,
     /// Whether it is an explanation.
     pub naming: Naming<'a>,
+    /// The path of heat that it is, if it is one.
+    pub heat_path: Option<HeatPath>,
+    /// What it does in a steady ramp: a law for each parameter that matters. Empty for one that only describes.
+    pub steady: Vec<Steady>,
+    /// Where in a record it acts.
+    pub extent: fn(&Active, &Sight) -> Extent,
+    /// What the extended design says less exactly than the fit.
+    pub caveat: fn(&Design) -> Option<&'static str>,
 }
 
 /// Formats a number to so many significant digits.
@@ -194,6 +201,13 @@ pub struct Extent {
     pub layers: Option<[usize; 2]>,
 }
 
+impl Extent {
+    /// No temperatures, instants or layers in particular.
+    pub fn everywhere(_: &Active, _: &Sight) -> Self {
+        Self::default()
+    }
+}
+
 /// What is known when a mechanism is asked for its [`Extent`].
 pub struct Sight<'a> {
     /// The design.
@@ -206,16 +220,13 @@ pub struct Sight<'a> {
 
 /// Physics that a coil's nominal model may leave out: everything that the program says, computes and writes of it.
 ///
-/// No method has a default, so that a forgotten part is an error of the compiler.
+/// No method has a default and no field of [`Facts`] either, so that a forgotten part is an error of the compiler.
 pub trait Mechanism: Send + Sync {
-    /// The mechanism in words.
-    fn words(&self) -> Words<'_>;
+    /// All but its unknowns and its law.
+    fn facts(&self) -> Facts<'_>;
 
     /// Its unknowns with their priors; `range` is the coldest and hottest that the coil was \[°C\]. `None` if the design leaves it no place.
     fn offer(&self, design: &Design, range: [f64; 2]) -> Option<Offer>;
-
-    /// The path of heat that it is, if it is one.
-    fn heat_path(&self) -> Option<HeatPath>;
 
     /// Its law: what it does in a record.
     ///
@@ -223,17 +234,8 @@ pub trait Mechanism: Send + Sync {
     /// [`Error`] if a changed coil cannot be modelled.
     fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error>;
 
-    /// Where it acts.
-    fn extent(&self, active: &Active, sight: &Sight) -> Extent;
-
-    /// What it does in a steady ramp: a law for each parameter that matters. Empty for one that only describes.
-    fn steady(&self) -> Vec<Steady>;
-
     /// The design with it put in at its place; `None` if a design has no place for it, or the place is taken.
     fn extended(&self, design: &Design, active: &Active) -> Option<Design>;
-
-    /// What the extended design says less exactly than the fit.
-    fn caveat(&self, design: &Design) -> Option<&'static str>;
 }
 
 /// Every combination of a value from each list.

@@ -39,7 +39,7 @@ impl Outcome {
             if let (Some((name, value)), Some([low, high])) = (self.choice(active), self.diagnosis.choice(place)) {
                 comments.push(format!("  {name} = {value} ({low} to {high}), compared with every other"));
             }
-            let caveat = self.gyro.mechanism(active.mechanism).caveat(nominal);
+            let caveat = (self.gyro.mechanism(active.mechanism).facts().caveat)(nominal);
             comments.extend(caveat.map(|caveat| format!("  {caveat}")));
             match self.gyro.extended(&design, active) {
                 Some(changed) => design = changed,

@@ -21,9 +21,9 @@ impl Outcome {
 
     /// The structure that a mechanism describes, and the id it is known by; `None` for one that explains.
     fn like(&self, active: &Active) -> Option<String> {
-        let words = self.gyro.mechanism(active.mechanism).words();
-        let Naming::Described { likeness } = words.naming else { return None };
-        let short = words.id.trim_start_matches("unknown:");
+        let facts = self.gyro.mechanism(active.mechanism).facts();
+        let Naming::Described { likeness } = facts.naming else { return None };
+        let short = facts.id.trim_start_matches("unknown:");
         Some(format!("the difference is {} (as of {short})", likeness(&active.values, &significant)))
     }
 

@@ -24,7 +24,7 @@ impl Outcome {
         if d.verdict == Verdict::Explained {
             for ((id, stage, extent), active) in self.places().zip(&d.best().fit.active) {
                 let _ = writeln!(out, "{id}: {}.", place(stage, &extent));
-                if let Naming::Named { meaning, inspection } = self.gyro.mechanism(active.mechanism).words().naming {
+                if let Naming::Named { meaning, inspection } = self.gyro.mechanism(active.mechanism).facts().naming {
                     let _ = writeln!(out, "  What it is: {meaning}.\n  What would show it: {inspection}.");
                 }
             }

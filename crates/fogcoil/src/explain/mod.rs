@@ -206,7 +206,7 @@ impl Problem<'_> {
             let parameter = parameter.map_or(String::new(), |p| entry.parameters[p].name.clone());
             Explanation { id: entry.id.clone(), parameter, when, outcome }
         };
-        mechanism.steady().into_iter().map(of).collect()
+        mechanism.facts().steady.into_iter().map(of).collect()
     }
 
     fn change(&self, prior: &Prior, changed: fn(&Design, f64) -> (Design, MechanicalState)) -> Outcome {

@@ -54,15 +54,15 @@ const BESIDE: [Mechanism; 2] = [
 /// All mechanisms, in the order of the library; then those without a name, and what stands among them in tables.
 pub fn all() -> impl Iterator<Item = Mechanism> {
     let of = |mechanism: &&'static dyn mechanisms::Mechanism| {
-        let words = mechanism.words();
+        let facts = mechanism.facts();
         Mechanism {
-            id: words.id,
-            title: words.title,
-            stage: matches!(words.naming, Naming::Named { .. }).then(|| words.stage.name()),
-            equation: words.equation,
-            place: words.place,
-            signature: words.signature,
-            source: words.source,
+            id: facts.id,
+            title: facts.title,
+            stage: matches!(facts.naming, Naming::Named { .. }).then(|| facts.stage.name()),
+            equation: facts.equation,
+            place: facts.place,
+            signature: facts.signature,
+            source: facts.source,
         }
     };
     CATALOGUE.iter().map(of).chain(BESIDE)

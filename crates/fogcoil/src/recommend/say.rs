@@ -64,7 +64,7 @@ pub fn json(r: &Recommendation) -> Value {
 
 /// A check of the unit itself that decides about a mechanism.
 pub(crate) fn inspection(id: &str) -> Option<&'static str> {
-    match mechanisms::find(id)?.words().naming {
+    match mechanisms::find(id)?.facts().naming {
         Naming::Named { inspection, .. } => Some(inspection),
         Naming::Described { .. } => None,
     }

@@ -1,7 +1,7 @@
 //! More or less adhesive than designed: other effective constants of the coil.
 
 use crate::interpolation::nodes;
-use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Effect, Extent, Facts, HeatPath, Mechanism, Naming, Offer, Stage, Steady};
 use crate::{Chain, Prepared};
 use coil::{Design, Error, MechanicalState};
 use diagnosis::{Active, Prior};
@@ -11,8 +11,8 @@ pub(crate) const ID: &str = "adhesive-content";
 pub(super) struct AdhesiveContent;
 
 impl Mechanism for AdhesiveContent {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "More or less adhesive",
             stage: Stage::Material,
@@ -34,6 +34,20 @@ impl Mechanism for AdhesiveContent {
                 meaning: "the coil holds more (+) or less (−) polymer than designed, as a share of its volume",
                 inspection: "weigh the coil before and after potting, or section a sister unit",
             },
+            heat_path: Some(HeatPath {
+                applies,
+                nodes: nodes(-0.12, 0.12, 5),
+                nominal: 0.0,
+                design: |design, x| with_polymer(design, x),
+                nudge: None,
+            }),
+            steady: vec![Steady::Changes {
+                parameter: 0,
+                changed: |d, x| (with_polymer(d, x), MechanicalState::NOMINAL),
+                when: "",
+            }],
+            extent: Extent::everywhere,
+            caveat: |_| None,
         }
     }
 
@@ -41,34 +55,12 @@ impl Mechanism for AdhesiveContent {
         applies(design).then(|| Offer::one("polymer_fraction_change", Prior::Normal { mean: 0.0, sd: 0.03 }, &[0.0]))
     }
 
-    fn heat_path(&self) -> Option<HeatPath> {
-        Some(HeatPath {
-            applies,
-            nodes: nodes(-0.12, 0.12, 5),
-            nominal: 0.0,
-            design: |design, x| with_polymer(design, x),
-            nudge: None,
-        })
-    }
-
     fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
         Ok(Effect::Coil(chain.along(record, ID, coordinate(active.values[0]))))
     }
 
-    fn extent(&self, _: &Active, _: &Sight) -> Extent {
-        Extent::default()
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        vec![Steady::Changes { parameter: 0, changed: |d, x| (with_polymer(d, x), MechanicalState::NOMINAL), when: "" }]
-    }
-
     fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
         Some(with_polymer(design, active.values[0]))
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
-        None
     }
 }
 

@@ -1,7 +1,7 @@
 //! Surroundings that conduct heat better or worse than still air.
 
 use crate::interpolation::nodes;
-use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Effect, Extent, Facts, HeatPath, Mechanism, Naming, Offer, Stage, Steady};
 use crate::{Chain, Prepared};
 use coil::{Design, Error, MechanicalState};
 use diagnosis::{Active, Prior};
@@ -11,8 +11,8 @@ pub(crate) const ID: &str = "air-path";
 pub(super) struct AirPath;
 
 impl Mechanism for AirPath {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "Surroundings that conduct better or worse",
             stage: Stage::Thermal,
@@ -25,6 +25,16 @@ impl Mechanism for AirPath {
                 meaning: "the surroundings conduct heat better or worse than designed, by conductivity_factor",
                 inspection: "repeat the test in vacuum or in another gas",
             },
+            heat_path: Some(HeatPath {
+                applies,
+                nodes: nodes(-0.9, 0.9, 9),
+                nominal: 0.0,
+                design: |design, x| with_air(design, x.exp()),
+                nudge: Some(coordinate(1.02)),
+            }),
+            steady: vec![Steady::Changes { parameter: 0, changed: |d, x| (with_air(d, x), MechanicalState::NOMINAL), when: "" }],
+            extent: Extent::everywhere,
+            caveat: |_| None,
         }
     }
 
@@ -32,34 +42,12 @@ impl Mechanism for AirPath {
         applies(design).then(|| Offer::one("conductivity_factor", Prior::LogNormal { median: 1.0, spread: 0.2 }, &[1.0]))
     }
 
-    fn heat_path(&self) -> Option<HeatPath> {
-        Some(HeatPath {
-            applies,
-            nodes: nodes(-0.9, 0.9, 9),
-            nominal: 0.0,
-            design: |design, x| with_air(design, x.exp()),
-            nudge: Some(coordinate(1.02)),
-        })
-    }
-
     fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
         Ok(Effect::Coil(chain.along(record, ID, coordinate(active.values[0]))))
     }
 
-    fn extent(&self, _: &Active, _: &Sight) -> Extent {
-        Extent::default()
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        vec![Steady::Changes { parameter: 0, changed: |d, x| (with_air(d, x), MechanicalState::NOMINAL), when: "" }]
-    }
-
     fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
         Some(with_air(design, active.values[0]))
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
-        None
     }
 }
 

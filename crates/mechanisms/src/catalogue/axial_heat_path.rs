@@ -2,7 +2,7 @@
 
 use crate::design::flange;
 use crate::interpolation::nodes;
-use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Effect, Extent, Facts, HeatPath, Mechanism, Naming, Offer, Stage, Steady};
 use crate::{Chain, Prepared};
 use coil::{Design, Error, MechanicalState, Mount};
 use diagnosis::{Active, Prior};
@@ -12,8 +12,8 @@ pub(crate) const ID: &str = "axial-heat-path";
 pub(super) struct AxialHeatPath;
 
 impl Mechanism for AxialHeatPath {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "A flange that is coupled to its mount",
             stage: Stage::Thermal,
@@ -25,6 +25,20 @@ impl Mechanism for AxialHeatPath {
                 meaning: "the flange's outer face exchanges heat with the chamber through its mount",
                 inspection: "repeat the test with the flange insulated from its mount",
             },
+            heat_path: Some(HeatPath {
+                applies,
+                nodes: nodes(0.0, 0.9, 12),
+                nominal: 0.0,
+                design: |design, x| with_mount(design, CONDUCTANCE * x / (1.0 - x)),
+                nudge: Some(coordinate(0.1)),
+            }),
+            steady: vec![Steady::Changes {
+                parameter: 0,
+                changed: |d, x| (with_mount(d, x), MechanicalState::NOMINAL),
+                when: "",
+            }],
+            extent: Extent::everywhere,
+            caveat: |_| None,
         }
     }
 
@@ -32,34 +46,12 @@ impl Mechanism for AxialHeatPath {
         applies(design).then(|| Offer::one("conductance_w_per_m2k", Prior::LogNormal { median: 1.5, spread: 1.2 }, &[0.5, 4.0]))
     }
 
-    fn heat_path(&self) -> Option<HeatPath> {
-        Some(HeatPath {
-            applies,
-            nodes: nodes(0.0, 0.9, 12),
-            nominal: 0.0,
-            design: |design, x| with_mount(design, CONDUCTANCE * x / (1.0 - x)),
-            nudge: Some(coordinate(0.1)),
-        })
-    }
-
     fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
         Ok(Effect::Coil(chain.along(record, ID, coordinate(active.values[0]))))
     }
 
-    fn extent(&self, _: &Active, _: &Sight) -> Extent {
-        Extent::default()
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        vec![Steady::Changes { parameter: 0, changed: |d, x| (with_mount(d, x), MechanicalState::NOMINAL), when: "" }]
-    }
-
     fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
         Some(with_mount(design, active.values[0]))
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
-        None
     }
 }
 

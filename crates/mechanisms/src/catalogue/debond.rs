@@ -3,7 +3,7 @@
 use crate::design::bonded_flange;
 use crate::interpolation::cubic_weights;
 use crate::mechanism::{Change, across, grid};
-use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
 use crate::record::Parts;
 use crate::{Chain, Prepared};
 use coil::{Bonds, Design, Error, MechanicalState, Mechanics, Opening};
@@ -14,8 +14,8 @@ pub(crate) const ID: &str = "debond";
 pub(super) struct Debond;
 
 impl Mechanism for Debond {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "A bond that opens in the cold",
             stage: Stage::Bond,
@@ -30,6 +30,21 @@ impl Mechanism for Debond {
                           hysteresis_k above",
                 inspection: "look at the flange's bond with ultrasound",
             },
+            heat_path: None,
+            steady: {
+                let open = |d: &Design, share: f64| {
+                    (
+                        with_opening(d, OPENS[0], OPENS[1], share),
+                        MechanicalState { bonds: Bonds::Opened, ..MechanicalState::NOMINAL },
+                    )
+                };
+                vec![Steady::Changes { parameter: 2, changed: open, when: "while the bond is open" }]
+            },
+            extent: |active, _| {
+                let (opens, hysteresis) = (active.values[0], active.values[1]);
+                Extent { temperature: Some([opens, opens + hysteresis]), ..Extent::default() }
+            },
+            caveat: |_| None,
         }
     }
 
@@ -49,34 +64,14 @@ impl Mechanism for Debond {
         })
     }
 
-    fn heat_path(&self) -> Option<HeatPath> {
-        None
-    }
-
     fn effect(&self, _: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
         let v = &active.values;
         Ok(Effect::Coil(Change::of_parts(opened(record, v[0], v[1], v[2]))))
     }
 
-    fn extent(&self, active: &Active, _: &Sight) -> Extent {
-        let (opens, hysteresis) = (active.values[0], active.values[1]);
-        Extent { temperature: Some([opens, opens + hysteresis]), ..Extent::default() }
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        let open = |d: &Design, share: f64| {
-            (with_opening(d, OPENS[0], OPENS[1], share), MechanicalState { bonds: Bonds::Opened, ..MechanicalState::NOMINAL })
-        };
-        vec![Steady::Changes { parameter: 2, changed: open, when: "while the bond is open" }]
-    }
-
     fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
         let v = &active.values;
         (design.mechanics == Mechanics::Elastic).then(|| with_opening(design, v[0], v[1], v[2]))
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
-        None
     }
 }
 

@@ -1,7 +1,7 @@
 //! Transverse stiffness and expansion that change around a temperature.
 
 use crate::mechanism::{Change, across, grid};
-use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
 use crate::{Chain, Prepared};
 use coil::{Design, Error, FactorsAt, MechanicalState, Mechanics};
 use diagnosis::{Active, Parameter, Prior};
@@ -11,8 +11,8 @@ pub(crate) const ID: &str = "glass-transition";
 pub(super) struct GlassTransition;
 
 impl Mechanism for GlassTransition {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "A glass transition",
             stage: Stage::Material,
@@ -30,6 +30,24 @@ impl Mechanism for GlassTransition {
                 meaning: "transverse stiffness and expansion change around tg_c, by the factors, over some width_k to either side",
                 inspection: "measure the adhesive's storage modulus against temperature (DMA)",
             },
+            heat_path: None,
+            steady: {
+                let changes = |parameter, changed| Steady::Changes { parameter, changed, when: "above the transition" };
+                vec![
+                    changes(2, |d, transverse_modulus| {
+                        (d.clone(), MechanicalState { transverse_modulus, ..MechanicalState::NOMINAL })
+                    }),
+                    changes(3, |d, transverse_expansion| {
+                        (d.clone(), MechanicalState { transverse_expansion, ..MechanicalState::NOMINAL })
+                    }),
+                ]
+            },
+            extent: |active, _| {
+                // nearly nine tenths of a logistic step lie within two widths
+                let (tg, width) = (active.values[0], active.values[1]);
+                Extent { temperature: Some([tg - 2.0 * width, tg + 2.0 * width]), ..Extent::default() }
+            },
+            caveat: |_| Some("the transition is tabulated, linear between the rows"),
         }
     }
 
@@ -47,10 +65,6 @@ impl Mechanism for GlassTransition {
         })
     }
 
-    fn heat_path(&self) -> Option<HeatPath> {
-        None
-    }
-
     fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
         let (v, coil) = (&active.values, record.coil());
         let parts = chain.softened(record, |n| {
@@ -61,32 +75,12 @@ impl Mechanism for GlassTransition {
         Ok(Effect::Coil(Change::of_parts(parts)))
     }
 
-    fn extent(&self, active: &Active, _: &Sight) -> Extent {
-        // nearly nine tenths of a logistic step lie within two widths
-        let (tg, width) = (active.values[0], active.values[1]);
-        Extent { temperature: Some([tg - 2.0 * width, tg + 2.0 * width]), ..Extent::default() }
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        let changes = |parameter, changed| Steady::Changes { parameter, changed, when: "above the transition" };
-        vec![
-            changes(2, |d, transverse_modulus| (d.clone(), MechanicalState { transverse_modulus, ..MechanicalState::NOMINAL })),
-            changes(3, |d, transverse_expansion| {
-                (d.clone(), MechanicalState { transverse_expansion, ..MechanicalState::NOMINAL })
-            }),
-        ]
-    }
-
     fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
         if design.mechanics != Mechanics::Elastic {
             return None;
         }
         let v = &active.values;
         Some(with_transition(design, v[0], v[1], v[2], v[3]))
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
-        Some("the transition is tabulated, linear between the rows")
     }
 }
 

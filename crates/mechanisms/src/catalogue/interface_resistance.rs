@@ -1,7 +1,7 @@
 //! A thermal contact resistance between hub and coil.
 
 use crate::interpolation::nodes;
-use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Effect, Extent, Facts, HeatPath, Mechanism, Naming, Offer, Stage, Steady};
 use crate::{Chain, Prepared};
 use coil::{Contact, Design, Error, MechanicalState};
 use diagnosis::{Active, Prior};
@@ -11,8 +11,8 @@ pub(crate) const ID: &str = "interface-resistance";
 pub(super) struct InterfaceResistance;
 
 impl Mechanism for InterfaceResistance {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "Contact resistance between hub and coil",
             stage: Stage::Thermal,
@@ -24,6 +24,20 @@ impl Mechanism for InterfaceResistance {
                 meaning: "heat passes between hub and coil through a contact resistance",
                 inspection: "heat the hub and record a thermometer on the coil's outer surface",
             },
+            heat_path: Some(HeatPath {
+                applies,
+                nodes: nodes(0.0, 0.85, 7),
+                nominal: 0.0,
+                design: |design, x| with_hub_resistance(design, RESISTANCE * x / (1.0 - x)),
+                nudge: Some(coordinate(2e-4)),
+            }),
+            steady: vec![Steady::Changes {
+                parameter: 0,
+                changed: |d, x| (with_hub_resistance(d, x), MechanicalState::NOMINAL),
+                when: "",
+            }],
+            extent: Extent::everywhere,
+            caveat: |_| None,
         }
     }
 
@@ -31,34 +45,12 @@ impl Mechanism for InterfaceResistance {
         applies(design).then(|| Offer::one("resistance_m2k_per_w", Prior::LogNormal { median: 7e-4, spread: 0.9 }, &[5e-4]))
     }
 
-    fn heat_path(&self) -> Option<HeatPath> {
-        Some(HeatPath {
-            applies,
-            nodes: nodes(0.0, 0.85, 7),
-            nominal: 0.0,
-            design: |design, x| with_hub_resistance(design, RESISTANCE * x / (1.0 - x)),
-            nudge: Some(coordinate(2e-4)),
-        })
-    }
-
     fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
         Ok(Effect::Coil(chain.along(record, ID, coordinate(active.values[0]))))
     }
 
-    fn extent(&self, _: &Active, _: &Sight) -> Extent {
-        Extent::default()
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        vec![Steady::Changes { parameter: 0, changed: |d, x| (with_hub_resistance(d, x), MechanicalState::NOMINAL), when: "" }]
-    }
-
     fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
         Some(with_hub_resistance(design, active.values[0]))
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
-        None
     }
 }
 

@@ -36,5 +36,5 @@ catalogue! {
 
 /// A mechanism of the [`CATALOGUE`] by its id.
 pub fn find(id: &str) -> Option<&'static dyn Mechanism> {
-    CATALOGUE.iter().copied().find(|mechanism| mechanism.words().id == id)
+    CATALOGUE.iter().copied().find(|mechanism| mechanism.facts().id == id)
 }

@@ -1,6 +1,6 @@
 //! Water that the adhesive gives off or takes up, at a rate that decays as in diffusion.
 
-use crate::mechanism::{Change, Digits, Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
 use crate::{Chain, Prepared};
 use bias::units::S_PER_H;
 use coil::{Design, Error};
@@ -11,8 +11,8 @@ pub(crate) const ID: &str = "unknown:moisture";
 pub(super) struct Moisture;
 
 impl Mechanism for Moisture {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "Water that leaves or enters the adhesive",
             stage: Stage::Material,
@@ -21,6 +21,10 @@ impl Mechanism for Moisture {
             signature: "A decay over hours that does not repeat in a second run, whatever the chamber does.",
             source: "J. Crank, *The Mathematics of Diffusion*, 2nd ed., Oxford (1975).",
             naming: Naming::Described { likeness },
+            heat_path: None,
+            steady: Vec::new(),
+            extent: Extent::everywhere,
+            caveat: |_| None,
         }
     }
 
@@ -35,29 +39,13 @@ impl Mechanism for Moisture {
         })
     }
 
-    fn heat_path(&self) -> Option<HeatPath> {
-        None
-    }
-
     fn effect(&self, _: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
         let (v, start) = (&active.values, record.time.first().copied().unwrap_or(0.0));
         let decay = record.time.iter().map(|t| v[0] * (-(t - start) / v[1]).exp()).collect();
         Ok(Effect::Coil(Change::of_rate(record, decay)))
     }
 
-    fn extent(&self, _: &Active, _: &Sight) -> Extent {
-        Extent::default()
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        Vec::new()
-    }
-
     fn extended(&self, _: &Design, _: &Active) -> Option<Design> {
-        None
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
         None
     }
 }

@@ -1,6 +1,6 @@
 //! Two polarisation paths that interfere as their birefringence changes: a bias a sin(2πT/P) + b cos(2πT/P) of the spool's temperature T.
 
-use crate::mechanism::{Change, Digits, Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
 use crate::mechanism::{grid, middles};
 use crate::{Chain, Prepared};
 use coil::{Design, Error};
@@ -12,8 +12,8 @@ pub(crate) const ID: &str = "unknown:polarisation-ripple";
 pub(super) struct PolarisationRipple;
 
 impl Mechanism for PolarisationRipple {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "A ripple of two polarisation paths",
             stage: Stage::Optics,
@@ -22,6 +22,10 @@ impl Mechanism for PolarisationRipple {
             signature: "The rate waves with the temperature itself, not with its rate: a slow ramp shows several waves.",
             source: "H. C. Lefèvre, *The Fiber-Optic Gyroscope*, 2nd ed., Artech House (2014), ch. 5.",
             naming: Naming::Described { likeness },
+            heat_path: None,
+            steady: Vec::new(),
+            extent: Extent::everywhere,
+            caveat: |_| None,
         }
     }
 
@@ -39,10 +43,6 @@ impl Mechanism for PolarisationRipple {
         })
     }
 
-    fn heat_path(&self) -> Option<HeatPath> {
-        None
-    }
-
     fn effect(&self, _: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
         let v = &active.values;
         let ripple = middles(record.spool(), |t| {
@@ -52,19 +52,7 @@ impl Mechanism for PolarisationRipple {
         Ok(Effect::Coil(Change::of_rate(record, ripple)))
     }
 
-    fn extent(&self, _: &Active, _: &Sight) -> Extent {
-        Extent::default()
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        Vec::new()
-    }
-
     fn extended(&self, _: &Design, _: &Active) -> Option<Design> {
-        None
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
         None
     }
 }

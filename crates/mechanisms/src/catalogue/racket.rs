@@ -1,7 +1,7 @@
 //! A sensitivity that depends on temperature: all of the bias times 1 + b (T − 20 °C).
 
 use crate::mechanism::growing;
-use crate::mechanism::{Change, Digits, Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
 use crate::{Chain, Prepared};
 use coil::{Design, Error};
 use diagnosis::{Active, Prior};
@@ -11,8 +11,8 @@ pub(crate) const ID: &str = "unknown:racket";
 pub(super) struct Racket;
 
 impl Mechanism for Racket {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "A sensitivity that depends on temperature",
             stage: Stage::Material,
@@ -21,6 +21,10 @@ impl Mechanism for Racket {
             signature: "The same ramp gives more bias at one end of the range than at the other.",
             source: "An empirical description; no source.",
             naming: Naming::Described { likeness },
+            heat_path: None,
+            steady: Vec::new(),
+            extent: Extent::everywhere,
+            caveat: |_| None,
         }
     }
 
@@ -28,27 +32,11 @@ impl Mechanism for Racket {
         Some(Offer::one("relative_per_k", Prior::Normal { mean: 0.0, sd: 1e-3 }, &[0.0]))
     }
 
-    fn heat_path(&self) -> Option<HeatPath> {
-        None
-    }
-
     fn effect(&self, _: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
         Ok(Effect::Coil(Change::of_parts(growing(&record.nominal.parts, record.spool(), active.values[0]))))
     }
 
-    fn extent(&self, _: &Active, _: &Sight) -> Extent {
-        Extent::default()
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        Vec::new()
-    }
-
     fn extended(&self, _: &Design, _: &Active) -> Option<Design> {
-        None
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
         None
     }
 }

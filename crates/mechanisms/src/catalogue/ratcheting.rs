@@ -1,7 +1,7 @@
 //! What sets for good the first time a temperature is reached.
 
 use crate::mechanism::rates_per_hour;
-use crate::mechanism::{Change, Digits, Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
 use crate::{Chain, Prepared};
 use coil::{Design, Error};
 use diagnosis::{Active, Parameter, Prior};
@@ -11,8 +11,8 @@ pub(crate) const ID: &str = "unknown:ratcheting";
 pub(super) struct Ratcheting;
 
 impl Mechanism for Ratcheting {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "What sets for good when a temperature is first reached",
             stage: Stage::Bond,
@@ -21,6 +21,10 @@ impl Mechanism for Ratcheting {
             signature: "The first cycle differs from all later ones.",
             source: "An empirical description; no source.",
             naming: Naming::Described { likeness },
+            heat_path: None,
+            steady: Vec::new(),
+            extent: Extent::everywhere,
+            caveat: |_| None,
         }
     }
 
@@ -28,10 +32,6 @@ impl Mechanism for Ratcheting {
         let size = Prior::Normal { mean: 0.0, sd: 2e-3 };
         let names = ["hot_deg_per_h_per_k_per_h", "cold_deg_per_h_per_k_per_h"];
         Some(Offer { parameters: names.map(|n| Parameter::new(n, size)).into(), choice: None, starts: vec![vec![0.0, 0.0]] })
-    }
-
-    fn heat_path(&self) -> Option<HeatPath> {
-        None
     }
 
     fn effect(&self, _: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
@@ -48,19 +48,7 @@ impl Mechanism for Ratcheting {
         Ok(Effect::Coil(Change::of_rate(record, rate)))
     }
 
-    fn extent(&self, _: &Active, _: &Sight) -> Extent {
-        Extent::default()
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        Vec::new()
-    }
-
     fn extended(&self, _: &Design, _: &Active) -> Option<Design> {
-        None
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
         None
     }
 }

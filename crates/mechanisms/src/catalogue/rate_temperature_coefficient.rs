@@ -2,7 +2,7 @@
 
 use crate::REFERENCE_C;
 use crate::design::drifts_about_reference;
-use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
 use crate::{Chain, Prepared};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::{Design, Error};
@@ -13,8 +13,8 @@ pub(crate) const ID: &str = "rate-temperature-coefficient";
 pub(super) struct RateTemperatureCoefficient;
 
 impl Mechanism for RateTemperatureCoefficient {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "A read-out that drifts with temperature",
             stage: Stage::Electronics,
@@ -26,15 +26,15 @@ impl Mechanism for RateTemperatureCoefficient {
                 meaning: "the read-out adds a rate proportional to the temperature, from 20 degC",
                 inspection: "exchange the electronics, or warm them alone",
             },
+            heat_path: None,
+            steady: vec![Steady::Nothing("it follows the temperature, not its rate")],
+            extent: Extent::everywhere,
+            caveat: |_| None,
         }
     }
 
     fn offer(&self, _: &Design, _: [f64; 2]) -> Option<Offer> {
         Some(Offer::one("coefficient_deg_per_h_per_k", Prior::Normal { mean: 0.0, sd: 1.5e-3 }, &[0.0]))
-    }
-
-    fn heat_path(&self) -> Option<HeatPath> {
-        None
     }
 
     fn effect(&self, _: &Chain, _: &Prepared, active: &Active) -> Result<Effect, Error> {
@@ -46,21 +46,9 @@ impl Mechanism for RateTemperatureCoefficient {
         })))
     }
 
-    fn extent(&self, _: &Active, _: &Sight) -> Extent {
-        Extent::default()
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        vec![Steady::Nothing("it follows the temperature, not its rate")]
-    }
-
     fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
         let mut changed = drifts_about_reference(design)?;
         changed.drifts.read_out += active.values[0] / DEG_PER_H_PER_RAD_PER_S;
         Some(changed)
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
-        None
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::design::flange;
 use crate::mechanism::{Change, grid};
-use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
 use crate::{Chain, Prepared};
 use coil::{Design, Error, Heater};
 use diagnosis::{Active, Parameter, Prior};
@@ -12,8 +12,8 @@ pub(crate) const ID: &str = "self-heating";
 pub(super) struct SelfHeating;
 
 impl Mechanism for SelfHeating {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "Power dissipated in a flange",
             stage: Stage::Thermal,
@@ -26,6 +26,19 @@ impl Mechanism for SelfHeating {
                 meaning: "power is dissipated at the flange; it was switched on before_s before the first row",
                 inspection: "switch the electronics on at a steady chamber temperature",
             },
+            heat_path: None,
+            steady: vec![Steady::Nothing("a constant power makes a constant field, whose rate is zero")],
+            // From the switch-on until the thermometer has risen by nearly all that it ever will in the first record.
+            extent: |_, sight| {
+                let time = sight.first.as_ref().and_then(|(record, change)| {
+                    let rise = change.thermometer.as_ref()?;
+                    let settled = RISEN * rise.last()?;
+                    let at = rise.iter().position(|r| r.abs() >= settled.abs())?;
+                    Some([record.time[0], record.time[at]])
+                });
+                Extent { time, ..Extent::default() }
+            },
+            caveat: |_| Some("simulate switches the heater on at the first row, not before_s earlier"),
         }
     }
 
@@ -40,10 +53,6 @@ impl Mechanism for SelfHeating {
         })
     }
 
-    fn heat_path(&self) -> Option<HeatPath> {
-        None
-    }
-
     fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
         let Some(series) = chain.heated(record, active.values[1]) else { return Ok(Effect::Coil(Change::none(record))) };
         let scaled = |s: &[f64]| s.iter().map(|x| active.values[0] * x).collect::<Vec<f64>>();
@@ -51,27 +60,8 @@ impl Mechanism for SelfHeating {
         Ok(Effect::Coil(Change { thermometer: Some(scaled(&series.sensor)), ..Change::of_parts(parts) }))
     }
 
-    /// From the switch-on until the thermometer has risen by nearly all that it ever will in the first record.
-    fn extent(&self, _: &Active, sight: &Sight) -> Extent {
-        let time = sight.first.as_ref().and_then(|(record, change)| {
-            let rise = change.thermometer.as_ref()?;
-            let settled = RISEN * rise.last()?;
-            let at = rise.iter().position(|r| r.abs() >= settled.abs())?;
-            Some([record.time[0], record.time[at]])
-        });
-        Extent { time, ..Extent::default() }
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        vec![Steady::Nothing("a constant power makes a constant field, whose rate is zero")]
-    }
-
     fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
         Some(with_heater(design, active.values[0]))
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
-        Some("simulate switches the heater on at the first row, not before_s earlier")
     }
 }
 

@@ -1,7 +1,7 @@
 //! A spool thermometer with a time constant of its own.
 
 use crate::mechanism::lagged;
-use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
 use crate::{Chain, Prepared};
 use coil::{Design, Error};
 use diagnosis::{Active, Prior};
@@ -11,8 +11,8 @@ pub(crate) const ID: &str = "sensor-lag";
 pub(super) struct SensorLag;
 
 impl Mechanism for SensorLag {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "A slow spool thermometer",
             stage: Stage::Sensor,
@@ -24,6 +24,10 @@ impl Mechanism for SensorLag {
                 meaning: "the spool's thermometer follows the bore with a time constant of its own",
                 inspection: "dip the thermometer alone into a bath",
             },
+            heat_path: None,
+            steady: vec![Steady::Nothing("it acts on the thermometer alone and shifts the temperature, not its rate")],
+            extent: Extent::everywhere,
+            caveat: |design| (design.sensor.lag > 0.0).then_some("the thermometer's own lag and this one are added"),
         }
     }
 
@@ -31,30 +35,14 @@ impl Mechanism for SensorLag {
         Some(Offer::one("lag_s", Prior::LogNormal { median: 30.0, spread: 0.9 }, &[20.0, 60.0]))
     }
 
-    fn heat_path(&self) -> Option<HeatPath> {
-        None
-    }
-
     fn effect(&self, _: &Chain, _: &Prepared, active: &Active) -> Result<Effect, Error> {
         let lag = active.values[0];
         Ok(Effect::Readings(Box::new(move |r| r.thermometer = lagged(r.time, &r.thermometer, lag))))
-    }
-
-    fn extent(&self, _: &Active, _: &Sight) -> Extent {
-        Extent::default()
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        vec![Steady::Nothing("it acts on the thermometer alone and shifts the temperature, not its rate")]
     }
 
     fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
         let mut changed = design.clone();
         changed.sensor.lag += active.values[0];
         Some(changed)
-    }
-
-    fn caveat(&self, design: &Design) -> Option<&'static str> {
-        (design.sensor.lag > 0.0).then_some("the thermometer's own lag and this one are added")
     }
 }

@@ -1,7 +1,7 @@
 //! A spool whose expansion depends on temperature, as that of metals does.
 
 use crate::mechanism::growing;
-use crate::mechanism::{Change, Digits, Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
 use crate::{Chain, Prepared};
 use coil::{Design, Error};
 use diagnosis::{Active, Prior};
@@ -11,8 +11,8 @@ pub(crate) const ID: &str = "unknown:spool-expansion";
 pub(super) struct SpoolExpansion;
 
 impl Mechanism for SpoolExpansion {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "A spool whose expansion depends on temperature",
             stage: Stage::Material,
@@ -21,15 +21,15 @@ impl Mechanism for SpoolExpansion {
             signature: "The sensitivity changes linearly with temperature, by part as the spool's expansion does.",
             source: "An empirical description; no source.",
             naming: Naming::Described { likeness },
+            heat_path: None,
+            steady: Vec::new(),
+            extent: Extent::everywhere,
+            caveat: |_| None,
         }
     }
 
     fn offer(&self, _: &Design, _: [f64; 2]) -> Option<Offer> {
         Some(Offer::one("expansion_per_k2_relative", Prior::Normal { mean: 0.0, sd: 1e-3 }, &[0.0]))
-    }
-
-    fn heat_path(&self) -> Option<HeatPath> {
-        None
     }
 
     fn effect(&self, _: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
@@ -38,19 +38,7 @@ impl Mechanism for SpoolExpansion {
         Ok(Effect::Coil(change.unwrap_or_else(|| Change::none(record))))
     }
 
-    fn extent(&self, _: &Active, _: &Sight) -> Extent {
-        Extent::default()
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        Vec::new()
-    }
-
     fn extended(&self, _: &Design, _: &Active) -> Option<Design> {
-        None
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
         None
     }
 }

@@ -1,7 +1,7 @@
 //! Tails of unequal length outside the winding: they shift every z.
 
 use crate::mechanism::Change;
-use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
 use crate::{Chain, Prepared};
 use coil::MechanicalState;
 use coil::{Design, Error};
@@ -12,8 +12,8 @@ pub(crate) const ID: &str = "tail-asymmetry";
 pub(super) struct TailAsymmetry;
 
 impl Mechanism for TailAsymmetry {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "Tails of unequal length",
             stage: Stage::Winding,
@@ -33,6 +33,10 @@ impl Mechanism for TailAsymmetry {
                 meaning: "the fibre's tails outside the winding are of unequal length; tail_m is the CW one less the CCW one",
                 inspection: "measure both tails' lengths outside the winding",
             },
+            heat_path: None,
+            steady: vec![Steady::Changes { parameter: 0, changed: |d, x| (with_tail(d, x), MechanicalState::NOMINAL), when: "" }],
+            extent: Extent::everywhere,
+            caveat: |_| None,
         }
     }
 
@@ -40,28 +44,12 @@ impl Mechanism for TailAsymmetry {
         Some(Offer::one("tail_m", Prior::Normal { mean: 0.0, sd: 0.5 }, &[0.0]))
     }
 
-    fn heat_path(&self) -> Option<HeatPath> {
-        None
-    }
-
     fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
         Ok(Effect::Coil(Change::of_parts(chain.with_tail(record, active.values[0])?)))
     }
 
-    fn extent(&self, _: &Active, _: &Sight) -> Extent {
-        Extent::default()
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        vec![Steady::Changes { parameter: 0, changed: |d, x| (with_tail(d, x), MechanicalState::NOMINAL), when: "" }]
-    }
-
     fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
         Some(with_tail(design, active.values[0]))
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
-        None
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::design::drifts_about_reference;
 use crate::mechanism::Change;
-use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
 use crate::{Chain, Prepared};
 use coil::{Design, Error};
 use diagnosis::{Active, Prior};
@@ -12,8 +12,8 @@ pub(crate) const ID: &str = "thermo-optic-curvature";
 pub(super) struct ThermoOpticCurvature;
 
 impl Mechanism for ThermoOpticCurvature {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "∂n/∂T that depends on temperature",
             stage: Stage::Optics,
@@ -25,15 +25,15 @@ impl Mechanism for ThermoOpticCurvature {
                 meaning: "the fibre's dn/dT depends on temperature",
                 inspection: "measure the fibre's dn/dT at both ends of the range",
             },
+            heat_path: None,
+            steady: vec![Steady::Nothing("dn/dT changes alike along the fibre where the temperature is even, and cancels")],
+            extent: Extent::everywhere,
+            caveat: |_| None,
         }
     }
 
     fn offer(&self, _: &Design, _: [f64; 2]) -> Option<Offer> {
         Some(Offer::one("curvature_per_k2", Prior::Normal { mean: 0.0, sd: 6e-8 }, &[0.0]))
-    }
-
-    fn heat_path(&self) -> Option<HeatPath> {
-        None
     }
 
     fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
@@ -42,21 +42,9 @@ impl Mechanism for ThermoOpticCurvature {
         Ok(Effect::Coil(Change::of_parts([shupe, zero.clone(), zero])))
     }
 
-    fn extent(&self, _: &Active, _: &Sight) -> Extent {
-        Extent::default()
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        vec![Steady::Nothing("dn/dT changes alike along the fibre where the temperature is even, and cancels")]
-    }
-
     fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
         let mut changed = drifts_about_reference(design)?;
         changed.drifts.thermo_optic_curvature += active.values[0];
         Some(changed)
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
-        None
     }
 }

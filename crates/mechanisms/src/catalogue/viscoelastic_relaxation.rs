@@ -2,7 +2,7 @@
 
 use crate::interpolation::weights;
 use crate::mechanism::{Change, grid};
-use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
 use crate::record::Parts;
 use crate::{Chain, Prepared};
 use coil::{Design, Error, MechanicalState, Mechanics, Relaxation};
@@ -13,8 +13,8 @@ pub(crate) const ID: &str = "viscoelastic-relaxation";
 pub(super) struct ViscoelasticRelaxation;
 
 impl Mechanism for ViscoelasticRelaxation {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "Relaxation of the adhesive",
             stage: Stage::Material,
@@ -27,6 +27,14 @@ impl Mechanism for ViscoelasticRelaxation {
                 meaning: "the transverse stiffness relaxes by relaxing_fraction with the time constant tau_s",
                 inspection: "measure the adhesive's stress relaxation (DMA)",
             },
+            heat_path: None,
+            steady: {
+                let relaxed =
+                    |d: &Design, x: f64| (d.clone(), MechanicalState { transverse_modulus: 1.0 - x, ..MechanicalState::NOMINAL });
+                vec![Steady::Changes { parameter: 0, changed: relaxed, when: "in ramps much slower than the relaxation" }]
+            },
+            extent: Extent::everywhere,
+            caveat: |_| None,
         }
     }
 
@@ -41,32 +49,14 @@ impl Mechanism for ViscoelasticRelaxation {
         })
     }
 
-    fn heat_path(&self) -> Option<HeatPath> {
-        None
-    }
-
     fn effect(&self, _: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
         Ok(Effect::Coil(Change::of_parts(relaxed(record, active.values[0], active.values[1]))))
-    }
-
-    fn extent(&self, _: &Active, _: &Sight) -> Extent {
-        Extent::default()
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        let relaxed =
-            |d: &Design, x: f64| (d.clone(), MechanicalState { transverse_modulus: 1.0 - x, ..MechanicalState::NOMINAL });
-        vec![Steady::Changes { parameter: 0, changed: relaxed, when: "in ramps much slower than the relaxation" }]
     }
 
     fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
         let (fraction, time) = (active.values[0], active.values[1]);
         let relaxing = || Design { mechanics: Mechanics::Relaxing { fraction, time }, ..design.clone() };
         (design.mechanics == Mechanics::Elastic).then(relaxing)
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
-        None
     }
 }
 

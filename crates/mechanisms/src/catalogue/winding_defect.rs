@@ -1,7 +1,7 @@
 //! One layer that holds turns too many or too few.
 
 use crate::mechanism::Change;
-use crate::mechanism::{Effect, Extent, HeatPath, Mechanism, Naming, Offer, Sight, Stage, Steady, Words};
+use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
 use crate::{Chain, Prepared};
 use coil::{Design, Error};
 use diagnosis::{Active, Prior};
@@ -12,8 +12,8 @@ pub(crate) const ID: &str = "winding-defect";
 pub(super) struct WindingDefect;
 
 impl Mechanism for WindingDefect {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: ID,
             title: "A layer with turns too many or too few",
             stage: Stage::Winding,
@@ -27,6 +27,15 @@ impl Mechanism for WindingDefect {
                 meaning: "one layer has turns too many (+) or too few (−)",
                 inspection: "count the turns of each layer in the winding record, or section a sister unit",
             },
+            heat_path: None,
+            steady: vec![Steady::Rewinds { turns: 0, changed: with_defect }],
+            extent: |_, sight| {
+                // a layer among all is not located
+                let half = sight.design.winding.layers as f64 / 2.0;
+                let few = sight.choices.filter(|[first, last]| last - first < half);
+                Extent { layers: few.map(|ends| ends.map(|layer| layer as usize)), ..Extent::default() }
+            },
+            caveat: |_| Some("turns are whole in this file"),
         }
     }
 
@@ -36,33 +45,14 @@ impl Mechanism for WindingDefect {
         Some(Offer { choice, ..Offer::one("turns", Prior::Normal { mean: 0.0, sd: 3.0 }, &[0.0]) })
     }
 
-    fn heat_path(&self) -> Option<HeatPath> {
-        None
-    }
-
     fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
         let layer = active.choice.unwrap_or(1.0) as usize;
         let most = MOST_TURNS.min((chain.library().design().winding.turns_even_layers / 2) as f64 - 1.0).max(0.0);
         Ok(Effect::Coil(Change::of_parts(chain.with_turns(record, layer, active.values[0].clamp(-most, most))?)))
     }
 
-    fn extent(&self, _: &Active, sight: &Sight) -> Extent {
-        // a layer among all is not located
-        let half = sight.design.winding.layers as f64 / 2.0;
-        let few = sight.choices.filter(|[first, last]| last - first < half);
-        Extent { layers: few.map(|ends| ends.map(|layer| layer as usize)), ..Extent::default() }
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        vec![Steady::Rewinds { turns: 0, changed: with_defect }]
-    }
-
     fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
         Some(with_defect(design, active.choice? as usize, active.values[0].round() as i32))
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
-        Some("turns are whole in this file")
     }
 }
 

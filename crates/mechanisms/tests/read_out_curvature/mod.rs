@@ -7,8 +7,8 @@ use mechanisms::{Chain, Effect, Extent, HeatPath, Mechanism, Naming, Offer, Prep
 pub(crate) struct ReadOutCurvature;
 
 impl Mechanism for ReadOutCurvature {
-    fn words(&self) -> Words<'_> {
-        Words {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
             id: "read-out-curvature",
             title: "A read-out whose bias bends with temperature",
             stage: Stage::Electronics,
@@ -20,16 +20,16 @@ impl Mechanism for ReadOutCurvature {
                 meaning: "the read-out adds a rate proportional to the square of the temperature from 20 degC",
                 inspection: "warm the electronics alone",
             },
+            heat_path: None,
+            steady: vec![Steady::Nothing("it follows the temperature, not its rate")],
+            extent: Extent::everywhere,
+            caveat: |_| None,
         }
     }
 
     /// One parameter, its unit in its name; as likely negative as positive, and a hundredth of a degree per hour at 10 K is much.
     fn offer(&self, _: &Design, _: [f64; 2]) -> Option<Offer> {
         Some(Offer::one("curvature_deg_per_h_per_k2", Prior::Normal { mean: 0.0, sd: 1e-4 }, &[0.0]))
-    }
-
-    fn heat_path(&self) -> Option<HeatPath> {
-        None
     }
 
     /// It acts on the readings; one that changes the coil returns [`Effect::Coil`].
@@ -42,21 +42,8 @@ impl Mechanism for ReadOutCurvature {
         })))
     }
 
-    /// At all temperatures, at all times.
-    fn extent(&self, _: &Active, _: &Sight) -> Extent {
-        Extent::default()
-    }
-
-    fn steady(&self) -> Vec<Steady> {
-        vec![Steady::Nothing("it follows the temperature, not its rate")]
-    }
-
     /// A coil file has no key for it.
     fn extended(&self, _: &Design, _: &Active) -> Option<Design> {
-        None
-    }
-
-    fn caveat(&self, _: &Design) -> Option<&'static str> {
         None
     }
 }
