@@ -33,8 +33,10 @@
 
 pub mod allan;
 pub mod check;
+pub mod condition;
 mod error;
 pub mod lag;
+pub mod minimise;
 pub mod noise;
 mod record;
 mod series;
