@@ -1,6 +1,4 @@
-//! When a simulation and a recording differ: locate the mismatch, name what was left out, prove it on a held-out recording.
-//!
-//! Knows nothing of what is modelled: a [`ForwardModel`] gives channels, uncertain constants, a library of mechanisms, and responses.
+#![doc = include_str!("../README.md")]
 
 mod discriminate;
 mod error;
@@ -31,7 +29,3 @@ pub use rival::Rival;
 pub use search::{Candidate, Settings, diagnose};
 pub use structure::Structure;
 pub use verdict::{Contradiction, Diagnosis, Judged, Judgement, Ruling, Verdict};
-
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

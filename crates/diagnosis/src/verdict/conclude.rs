@@ -93,7 +93,7 @@ fn decide([none, recalibrate, explained, unknown]: [f64; 4], gain: f64) -> Verdi
 }
 
 /// Puts the best candidate of the verdict first.
-fn lead<M: ForwardModel>(model: &M, candidates: &mut Vec<Candidate>, verdict: Verdict, mechanisms: &[(usize, f64)]) {
+fn lead<M: ForwardModel>(model: &M, candidates: &mut [Candidate], verdict: Verdict, mechanisms: &[(usize, f64)]) {
     // of those that hold the likeliest mechanism, many small candidates together may outweigh a large one
     let likeliest = mechanisms.iter().map(|(m, _)| *m).find(|m| model.mechanisms()[*m].named);
     let fits = |c: &Candidate| {

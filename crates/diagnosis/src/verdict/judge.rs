@@ -154,14 +154,14 @@ mod tests {
         let [good, worse, nothing] = [judged(5.0, 1.0, 50.0), judged(1.0, 3.0, -50.0), judged(3.0, 2.9, 3.0)];
         for verdict in [Verdict::Explained, Verdict::Recalibrate] {
             assert_eq!(ruled(verdict, &[]), Ruling::Stands);
-            assert_eq!(ruled(verdict, &[good.clone()]), Ruling::Stands);
+            assert_eq!(ruled(verdict, std::slice::from_ref(&good)), Ruling::Stands);
             let records = [good.clone(), nothing.clone(), worse.clone()];
             assert_eq!(ruled(verdict, &records), Ruling::TakenBack { record: 1, why: NOTHING });
             assert_eq!(ruled(verdict, &records[2..]), Ruling::TakenBack { record: 0, why: WORSE });
         }
         // where nothing was claimed nothing is taken back
         for verdict in [Verdict::None, Verdict::Unknown] {
-            assert_eq!(ruled(verdict, &[worse.clone()]), Ruling::Stands);
+            assert_eq!(ruled(verdict, std::slice::from_ref(&worse)), Ruling::Stands);
         }
     }
 
