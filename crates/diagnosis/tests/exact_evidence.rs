@@ -1,10 +1,10 @@
 //! Evidence, posterior and separation of linear models under white noise, against the Gaussian integrals in closed form.
 
-#[path = "models/lines.rs"]
-mod lines;
+mod common;
 
+use common::lines::{Lines, PRIOR_SD, WHITE, alone};
+use common::normal;
 use diagnosis::{Fit, Hypothesis, Observation, Plan, Settings, Verdict, diagnose, fitted, separation};
-use lines::{Lines, PRIOR_SD, WHITE, alone};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -37,16 +37,10 @@ fn fit(lines: &Lines, y: &[f64], hypothesis: &Hypothesis) -> Fit {
     fitted(lines, &[0], &[lines.observed(y)], std::slice::from_ref(hypothesis)).expect("a fit")
 }
 
-/// Normal numbers times WHITE.
+/// Noise of the model.
 fn noise(rows: usize, seed: u64) -> Vec<f64> {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    let mut uniform = move || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    (0..rows).map(|_| WHITE * (-2.0 * uniform().max(1e-300).ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos()).collect()
+    let mut normal = normal(seed);
+    (0..rows).map(|_| WHITE * normal()).collect()
 }
 
 proptest! {

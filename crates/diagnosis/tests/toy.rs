@@ -1,5 +1,7 @@
 //! A thermometer in a bath, of which the nominal model knows the bath and the gain: the engine must name what is left out, and only then.
 
+mod common;
+
 use diagnosis::{
     Active, Channel, Contradiction, Diagnosis, ForwardModel, Judged, Latent, Mechanism, NoisePrior, Nuisance, Observation,
     Parameter, Prior, Role, Ruling, Settings, State, Structure, Verdict, diagnose,
@@ -115,14 +117,7 @@ impl ForwardModel for Bath {
 
 /// White noise of 0.1 and a drift of 0.03 over 1500 s.
 fn noise(seed: u64) -> Vec<f64> {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    let mut uniform = move || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    let mut normal = move || (-2.0 * uniform().max(1e-300).ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos();
+    let mut normal = common::normal(seed);
     let keep = (-STEP_S / 1500.0_f64).exp();
     let mut drift = 0.03 * normal();
     (0..ROWS)

@@ -71,6 +71,11 @@ fn few_rows_and_long_intervals_stay() {
 }
 
 #[test]
+fn gaps_are_bridged_in_time_not_by_rows() {
+    assert_eq!(bridged(&[0.0, 1.0, 2.0, 5.0, 6.0], &[NAN, 1.0, NAN, 9.0, NAN]), Some(vec![1.0, 1.0, 3.0, 9.0, 9.0]));
+}
+
+#[test]
 fn what_a_check_masks_or_drops_is_not_used() {
     let time: Vec<f64> = [0.0, 1.0, 1.0].into_iter().chain((2..60).map(f64::from)).collect();
     let mut noisy: Vec<f64> = time.iter().map(|t| (t * t) % 7.0).collect();

@@ -1,4 +1,5 @@
-//! A linear model under white noise, of which everything is known in closed form: two mechanisms, each a size times a column of its own.
+//! A linear model under white noise, of which everything is known in closed form: two mechanisms, each a size times a column of its own;
+//! a third, if it is asked for, chooses between their columns.
 
 use diagnosis::{
     Active, Channel, ForwardModel, Hypothesis, Mechanism, NoisePrior, Nuisance, Observation, Parameter, Prior, State,
@@ -55,6 +56,20 @@ impl Lines {
         }
     }
 
+    /// The same with a third mechanism that chooses between the columns of the others.
+    pub(crate) fn with_either(rows: usize) -> Self {
+        let mut lines = Self::new(rows);
+        let choice = Some(("column".to_owned(), vec![0.0, 1.0]));
+        lines.mechanisms.push(Mechanism { id: "either".into(), choice, ..lines.mechanisms[0].clone() });
+        lines
+    }
+
+    /// The same with an offset that is known to be 0.
+    pub(crate) fn without_offset(mut self) -> Self {
+        self.channels[0].offset_sd = TINY;
+        self
+    }
+
     pub(crate) fn offset_sd(&self) -> f64 {
         self.channels[0].offset_sd
     }
@@ -92,7 +107,9 @@ impl ForwardModel for Lines {
     fn respond(&self, _: usize, _: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
         let mut y = vec![0.0; self.state.level.len()];
         for active in active {
-            y.iter_mut().zip(self.column(active.mechanism)).for_each(|(y, x)| *y += active.values[0] * x);
+            y.iter_mut()
+                .zip(self.column(active.choice.map_or(active.mechanism, |c| c as usize)))
+                .for_each(|(y, x)| *y += active.values[0] * x);
         }
         Ok(vec![y])
     }
