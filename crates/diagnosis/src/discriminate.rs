@@ -72,15 +72,6 @@ impl<M: ForwardModel> ForwardModel for Under<'_, M> {
     }
 }
 
-/// The hypotheses of one mechanism alone, one for each of its choices.
-pub fn alternatives<M: ForwardModel>(model: &M, mechanism: usize) -> Vec<Hypothesis> {
-    let of = |choice| Hypothesis { mechanisms: vec![(mechanism, choice)], constants_free: false };
-    match &model.mechanisms()[mechanism].choice {
-        None => vec![of(None)],
-        Some((_, values)) => values.iter().map(|v| of(Some(*v))).collect(),
-    }
-}
-
 /// How well the records of `plan` can tell `truth` (nothing at work: the nominal model) from the nearest of `rivals`, each of them fitted to the
 /// noise-free response of the truth with its parameters, the model's errors and every offset free.
 ///

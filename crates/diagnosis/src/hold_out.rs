@@ -19,16 +19,19 @@ pub struct HeldOut {
     pub log_score: f64,
 }
 
-/// ln of a likelihood ratio beyond which it is no matter of chance.
+/// ln of a likelihood ratio beyond which it is no matter of chance: if the other prediction were right, e⁵ or more would have a probability
+/// of at most e⁻⁵ = 1/148 (Markov's inequality).
 const CLEAR: f64 = 5.0;
-/// Error over the noise identified elsewhere that is still noise: drift differs from record to record.
+/// Error over the noise identified elsewhere that is still noise. A record of a dozen correlation times of the drift holds some six
+/// independent stretches of it, from which its size is known to 1/√(2·6) = 0.29 (1σ).
 const NOISE: f64 = 1.3;
-/// Error over the noise that is far more, and error over the nominal one that is hardly less.
+/// Error over the noise that is far more: beyond three times that uncertainty, 1 + 3·0.29, rounded.
 const FAR: f64 = 2.0;
+/// Error over the nominal model's that is hardly less: a tenth of the variance explained, 1 − 0.95².
 const BARELY: f64 = 0.95;
-/// Largest drift that is usual, over the median of its prior.
+/// Largest drift that is usual, over the median of its prior: about one standard deviation of its logarithm (0.7) above.
 const USUAL: f64 = 2.0;
-/// Share of the error beyond which one prediction is worse than another.
+/// Share of the error beyond which one prediction is worse than another, by convention: two digits of it.
 const WORSE: f64 = 0.01;
 
 impl HeldOut {

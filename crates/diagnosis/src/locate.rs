@@ -60,25 +60,12 @@ fn discoveries(p: &[f64]) -> Vec<bool> {
     found
 }
 
-/// Probability that noise has a larger sum of products of neighbours (Ljung and Box 1978), from whitened values.
+/// Probability that noise has a larger sum of products of neighbours at 30 lags, from whitened values ([`recording::statistics::whiteness`]);
+/// NaN for fewer than twice as many.
 pub fn whiteness(whitened: &[f64]) -> f64 {
     const LAGS: usize = 30;
-    let n = whitened.len() as f64;
-    if whitened.len() <= 2 * LAGS {
-        return f64::NAN;
-    }
-    let mean = whitened.iter().sum::<f64>() / n;
-    let x: Vec<f64> = whitened.iter().map(|w| w - mean).collect();
-    let power: f64 = x.iter().map(|x| x * x).sum();
-    let q: f64 = (1..=LAGS)
-        .map(|lag| {
-            let r = x.iter().zip(&x[lag..]).map(|(a, b)| a * b).sum::<f64>() / power;
-            r * r / (n - lag as f64)
-        })
-        .sum::<f64>()
-        * n
-        * (n + 2.0);
-    ChiSquared::new(LAGS as f64).map_or(f64::NAN, |d| d.sf(q))
+    let enough = (whitened.len() > 2 * LAGS).then_some(whitened);
+    enough.and_then(|values| recording::statistics::whiteness(values, LAGS)).unwrap_or(f64::NAN)
 }
 
 /// Edges of equal steps over the range of x.
@@ -92,6 +79,12 @@ fn bin(edges: &[f64], x: f64) -> usize {
 }
 
 impl Fit {
+    /// A channel's residual in a record that was not fitted, whitened by the noise of the first record that was; only the rows that
+    /// were observed. Empty where the instants do not increase.
+    pub fn whiten(&self, channel: usize, observed: &Observation, residual: &[f64]) -> Vec<f64> {
+        Noise::of_record(&self.noise, 0, observed).map_or(Vec::new(), |noise| noise.whiten(0, channel, residual))
+    }
+
     /// The whitened residual of a channel in one of the records fitted, under the noise of `judge`, with the rows it belongs to.
     pub fn whitened_residual(
         &self,

@@ -1,8 +1,7 @@
 //! Parameters of the best explanation, with the doubt about a mechanism's choice in their intervals.
 
-use crate::diagnose::Candidate;
-use crate::fit::{Estimate, Unknown};
-use crate::{ForwardModel, Prior};
+use crate::fit::Unknown;
+use crate::{Candidate, Estimate, ForwardModel, Prior};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 /// Shares of the posterior below the ends of an interval.

@@ -2,6 +2,7 @@
 
 use crate::model::NoisePrior;
 use crate::{Channel, Observation};
+use recording::minimise::{Effort, nelder_mead};
 use recording::noise::{NoiseModel, Whitener};
 
 /// The noise models of some records with their whiteners: `[record][channel]`.
@@ -40,6 +41,19 @@ fn standard(prior: &NoisePrior, model: &NoiseModel) -> Standard {
 
 fn log_prior(x: &Standard) -> f64 {
     -x.iter().map(|x| x * x).sum::<f64>() / 2.0
+}
+
+/// Effort of a fit of the noise: enough to bring ln p within some hundredths of its maximum.
+const EFFORT: Effort = Effort { tolerance: 1e-2, evaluations: 90 };
+/// Edge of the first simplex, in standard deviations of the priors, towards their middles.
+const EDGE: f64 = 0.4;
+
+/// The parameters near `start` at which `cost` is least.
+fn least(cost: impl Fn(&Standard) -> f64, start: Standard) -> Standard {
+    let standard = |x: &[f64]| -> Standard { std::array::from_fn(|i| x[i]) };
+    let edges = start.map(|x| if x > 0.0 { -EDGE } else { EDGE });
+    let anywhere = [[f64::NEG_INFINITY, f64::INFINITY]; 4];
+    standard(&nelder_mead(|x| cost(&standard(x)), &start, &edges, &anywhere, EFFORT).0)
 }
 
 fn mask(series: &[f64]) -> Vec<bool> {
@@ -111,7 +125,7 @@ impl Noise {
                     let whitener = Whitener::new(&model(&channel.noise, channel.averaging, x), &observation.time, &used);
                     whitener.map_or(f64::INFINITY, |w| -log_likelihood(&w, residual) - log_prior(x))
                 };
-                let best = minimise(objective, standard(&channel.noise, &models[record][c]));
+                let best = least(objective, standard(&channel.noise, &models[record][c]));
                 models[record][c] = model(&channel.noise, channel.averaging, &best);
                 sum += log_prior(&best);
             }
@@ -140,65 +154,15 @@ impl Noise {
     }
 }
 
-/// Evaluations that a fit of the noise may take: enough to bring ln p within some hundredths of its maximum.
-const EVALUATIONS: usize = 90;
-
-/// The simplex method (Nelder and Mead 1965) in four dimensions.
-fn minimise(f: impl Fn(&Standard) -> f64, start: Standard) -> Standard {
-    let mut simplex: Vec<(f64, Standard)> = vec![(f(&start), start)];
-    for i in 0..start.len() {
-        let mut x = start;
-        x[i] += if x[i] > 0.0 { -0.4 } else { 0.4 };
-        simplex.push((f(&x), x));
-    }
-    let between = |a: &Standard, b: &Standard, t: f64| -> Standard { std::array::from_fn(|i| a[i] + t * (b[i] - a[i])) };
-    let mut spent = simplex.len();
-    while spent < EVALUATIONS {
-        simplex.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let worst = simplex[start.len()];
-        if worst.0 - simplex[0].0 < 1e-2 {
-            break;
-        }
-        let centre: Standard =
-            std::array::from_fn(|i| simplex[..start.len()].iter().map(|p| p.1[i]).sum::<f64>() / start.len() as f64);
-        let mut tried = |t: f64| {
-            let x = between(&centre, &worst.1, t);
-            spent += 1;
-            (f(&x), x)
-        };
-        let reflected = tried(-1.0);
-        let new = if reflected.0 < simplex[0].0 {
-            let expanded = tried(-2.0);
-            if expanded.0 < reflected.0 { expanded } else { reflected }
-        } else if reflected.0 < simplex[start.len() - 1].0 {
-            reflected
-        } else {
-            tried(if reflected.0 < worst.0 { -0.5 } else { 0.5 })
-        };
-        if new.0 < worst.0 {
-            simplex[start.len()] = new;
-        } else {
-            let best = simplex[0].1;
-            for point in &mut simplex[1..] {
-                let x = between(&best, &point.1, 0.5);
-                *point = (f(&x), x);
-            }
-            spent += start.len();
-        }
-    }
-    simplex.sort_by(|a, b| a.0.total_cmp(&b.0));
-    simplex[0].1
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn the_simplex_finds_a_minimum() {
+    fn the_least_cost_is_found_from_the_middles_of_the_priors() {
         let target = [1.0, -0.5, 0.2, 2.0];
-        let f = |x: &Standard| 50.0 * x.iter().zip(target).map(|(x, t)| (x - t).powi(2)).sum::<f64>();
-        let found = minimise(f, [0.0; 4]);
-        assert!(f(&found) < 1.0, "{found:?}");
+        let cost = |x: &Standard| 50.0 * x.iter().zip(target).map(|(x, t)| (x - t).powi(2)).sum::<f64>();
+        let found = least(cost, [0.0; 4]);
+        assert!(cost(&found) < 1.0, "{found:?}");
     }
 }

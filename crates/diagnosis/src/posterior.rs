@@ -1,10 +1,19 @@
 //! What a fit knows of its unknowns: normal in the coordinate in which each one's prior is standard normal.
 
-use crate::fit::{Fit, Unknown};
-use crate::{ForwardModel, Parameter, Prior, Role};
+use crate::fit::{Fit, Unknown, parameter};
+use crate::{ForwardModel, Prior, Role};
+use recording::statistics::normal_quantile;
 
-/// 95th percentile of the standard normal distribution.
-const Z95: f64 = 1.644_853_626_951_472_2;
+/// A parameter with its 90 % interval.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimate {
+    /// Name with unit.
+    pub name: String,
+    /// Most probable value.
+    pub value: f64,
+    /// Ends of the interval that holds it with probability 0.9.
+    pub ci90: [f64; 2],
+}
 
 /// What an unknown of a fit stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,7 +49,8 @@ impl Posterior {
 
     /// Ends of the interval that holds it with probability 0.9.
     pub fn ci90(&self) -> [f64; 2] {
-        [-Z95, Z95].map(|z| self.prior.value(self.u + z * self.sd))
+        let half = normal_quantile(0.95) * self.sd;
+        [-half, half].map(|by| self.prior.value(self.u + by))
     }
 }
 
@@ -48,20 +58,24 @@ impl Fit {
     /// Every unknown but the channels' offsets.
     pub fn posteriors<M: ForwardModel>(&self, model: &M) -> Vec<Posterior> {
         let of = |(i, unknown): (usize, &Unknown)| {
-            let (parameter, place, record): (&Parameter, Place, Option<usize>) = match *unknown {
-                Unknown::Nuisance { number, record } => {
-                    let nuisance = &model.nuisances()[number];
-                    (&nuisance.parameter, Place::Nominal(nuisance.role), record)
-                }
-                Unknown::Mechanism { place, parameter } => {
-                    let mechanism = &model.mechanisms()[self.hypothesis.mechanisms[place].0];
-                    (&mechanism.parameters[parameter], Place::Mechanism(place), None)
-                }
+            let (place, record) = match *unknown {
+                Unknown::Nuisance { number, record } => (Place::Nominal(model.nuisances()[number].role), record),
+                Unknown::Mechanism { place, .. } => (Place::Mechanism(place), None),
                 Unknown::Offset { .. } => return None,
             };
+            let crate::Parameter { name, prior, .. } = parameter(model, &self.hypothesis, *unknown)?;
             let sd = self.covariance[(i, i)].max(0.0).sqrt();
-            Some(Posterior { name: parameter.name.clone(), place, record, prior: parameter.prior, u: self.u[i], sd })
+            Some(Posterior { name: name.clone(), place, record, prior: *prior, u: self.u[i], sd })
         };
         self.layout.iter().enumerate().filter_map(of).collect()
+    }
+
+    /// Parameters of the mechanism at `place` in the hypothesis, its choice before them.
+    pub fn estimates<M: ForwardModel>(&self, model: &M, place: usize) -> Vec<Estimate> {
+        let Some(active) = self.active.get(place) else { return Vec::new() };
+        let choice = model.mechanisms()[active.mechanism].choice.as_ref().zip(active.choice);
+        let choice = choice.map(|((name, _), value)| Estimate { name: name.clone(), value, ci90: [value, value] });
+        let own = self.posteriors(model).into_iter().filter(|p| p.place == Place::Mechanism(place));
+        choice.into_iter().chain(own.map(|p| Estimate { value: p.value(), ci90: p.ci90(), name: p.name })).collect()
     }
 }

@@ -1,5 +1,6 @@
 //! The models of the examples, which know no coil, on data made in miniature: `cargo run --example` needs a file, this does not.
 
+mod common;
 #[path = "../examples/models/tanks.rs"]
 #[allow(dead_code)] // the example uses the rest
 mod tanks;
@@ -7,21 +8,10 @@ mod tanks;
 #[allow(dead_code)]
 mod thermal;
 
+use common::normal;
 use diagnosis::{Active, Diagnosis, ForwardModel, Hypothesis, Observation, Settings, Verdict, diagnose, fitted};
 use tanks::{Feed, Tanks, UPPER_OVERFLOW};
 use thermal::{RIPPLE, SLOW_PART, Thermal, coloured};
-
-/// Normal numbers with a fixed seed.
-fn normal(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    let mut uniform = move || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    move || (-2.0 * uniform().max(1e-300).ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos()
-}
 
 fn noisy(series: &[f64], white: f64, seed: u64) -> Vec<f64> {
     let mut normal = normal(seed);

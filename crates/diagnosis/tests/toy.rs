@@ -1,8 +1,10 @@
 //! A thermometer in a bath, of which the nominal model knows the bath and the gain: the engine must name what is left out, and only then.
 
+mod common;
+
 use diagnosis::{
-    Active, Channel, Diagnosis, ForwardModel, Latent, Mechanism, NoisePrior, Nuisance, Observation, Parameter, Prior, Role,
-    Settings, State, Structure, Verdict, as_designed, diagnose,
+    Active, Channel, Contradiction, Diagnosis, ForwardModel, Judged, Latent, Mechanism, NoisePrior, Nuisance, Observation,
+    Parameter, Prior, Role, Ruling, Settings, State, Structure, Verdict, diagnose,
 };
 
 const ROWS: usize = 600;
@@ -115,14 +117,7 @@ impl ForwardModel for Bath {
 
 /// White noise of 0.1 and a drift of 0.03 over 1500 s.
 fn noise(seed: u64) -> Vec<f64> {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    let mut uniform = move || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    let mut normal = move || (-2.0 * uniform().max(1e-300).ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos();
+    let mut normal = common::normal(seed);
     let keep = (-STEP_S / 1500.0_f64).exp();
     let mut drift = 0.03 * normal();
     (0..ROWS)
@@ -263,21 +258,33 @@ fn an_explanation_by_an_unnamed_mechanism_stays_unknown_and_a_choice_has_an_inte
 }
 
 #[test]
-fn an_explanation_that_a_held_out_record_contradicts_is_clearly_worse() {
+fn an_explanation_that_a_held_out_record_contradicts_is_taken_back() {
     let bath = Bath::new();
-    let mut diagnosis = run(&bath, &bath.truth(0, Some((1, 1.5))), 43);
-    let fit = &diagnosis.best().fit;
+    let with_bend = |record: usize, seed: u64| observed(&bath, &bath.truth(record, Some((1, 1.5))), seed);
+    let first = with_bend(0, 43);
+    let found = diagnose(&bath, &[0], std::slice::from_ref(&first), &Settings::default(), &|_| ()).expect("a diagnosis");
+    let judged = |held: &[(usize, &Observation)]| {
+        let mut diagnosis = found.clone();
+        let judgement = diagnosis.judge(&bath, (0, &first), held, 0).expect("a judgement");
+        (diagnosis, judgement)
+    };
+    // the same unit: the explanation stands
+    let own = with_bend(1, 45);
+    let (kept, judgement) = judged(&[(1, &own)]);
+    assert_eq!((judgement.ruling, kept.verdict, kept.set.len()), (Ruling::Stands, Verdict::Explained, found.set.len()));
+    assert!(judgement.records[0].accepted);
     // another unit, without what the first had
     let other = observed(&bath, &bath.truth(1, None), 44);
-    let model = fit.hold_out(&bath, 1, &other, fit).expect("held out");
-    let first = observed(&bath, &bath.truth(0, Some((1, 1.5))), 43);
-    let nominal = as_designed(&bath, (0, &first), (1, &other), fit).expect("held out");
-    assert!(nominal.within_noise(0) && !model.within_noise(0));
-    assert!(model.clearly_worse_than(&nominal, 0) && !nominal.clearly_worse_than(&model, 0), "{model:?}");
-    diagnosis.take_back(false);
-    assert_eq!((diagnosis.verdict, diagnosis.set.len()), (Verdict::Unknown, 0));
-    diagnosis.take_back(true);
-    assert_eq!(diagnosis.verdict, Verdict::None);
+    let (taken, judgement) = judged(&[(1, &own), (1, &other)]);
+    assert_eq!(judgement.ruling, Ruling::TakenBack { record: 1, why: Contradiction::ClearlyWorse });
+    let Judged { nominal, model, accepted } = &judgement.records[1];
+    assert!(nominal.within_noise(0) && !model.within_noise(0) && !accepted);
+    assert_eq!((taken.verdict, taken.set.len(), taken.mechanisms.len()), (Verdict::None, 0, 0));
+    // a third that neither explains: what there is is unknown
+    let bent = observed(&bath, &bath.truth(1, Some((1, -1.5))), 46);
+    let (taken, judgement) = judged(&[(1, &bent)]);
+    assert_eq!(judgement.ruling, Ruling::TakenBack { record: 0, why: Contradiction::ClearlyWorse });
+    assert_eq!(taken.verdict, Verdict::Unknown);
 }
 
 #[test]
@@ -304,21 +311,11 @@ fn a_mechanism_with_a_name_beside_a_structure_is_accepted_with_its_probability()
     let mut diagnosis = run(&bath, &both(0), 61);
     assert_eq!(diagnosis.verdict, Verdict::Unknown);
     assert!(diagnosis.is_beside_named(&bath) && diagnosis.mechanisms[0].1 < 0.5);
-    let fit = &diagnosis.best().fit;
-    let other = observed(&bath, &both(1), 62);
-    let model = fit.hold_out(&bath, 1, &other, fit).expect("held out");
-    let first = observed(&bath, &both(0), 61);
-    let nominal = as_designed(&bath, (0, &first), (1, &other), fit).expect("held out");
-    assert!(
-        nominal.clearly_worse_than(&model, 0),
-        "{:?} {:?} {} {}",
-        nominal.rmse,
-        model.rmse,
-        nominal.log_score,
-        model.log_score
-    );
-    assert!(model.within_noise(0), "{:?} {:?}", model.rmse, model.quiet);
-    diagnosis.accept_beside(&bath);
+    let [first, other] = [(0, 61), (1, 62)].map(|(record, seed)| observed(&bath, &both(record), seed));
+    let judgement = diagnosis.judge(&bath, (0, &first), &[(1, &other)], 0).expect("a judgement");
+    assert_eq!(judgement.ruling, Ruling::AcceptedBeside);
+    let Judged { nominal, model, .. } = &judgement.records[0];
+    assert!(nominal.clearly_worse_than(model, 0) && model.within_noise(0));
     assert_eq!((diagnosis.verdict, diagnosis.mechanisms[0].0, diagnosis.set.as_slice()), (Verdict::Explained, 0, &[0][..]));
     assert!(diagnosis.mechanisms[0].1 > 0.9 && !diagnosis.is_beside_named(&bath));
     // a ripple alone stands beside nothing

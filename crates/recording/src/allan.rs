@@ -5,6 +5,7 @@
 //! where rate random walk does. A deterministic signal in the series shows as noise: take it off first.
 
 use crate::Error;
+use crate::series::GAP;
 use crate::statistics::{chi_square_quantile, median};
 
 /// One point of an Allan plot.
@@ -35,8 +36,6 @@ const COMPLETE: f64 = 0.9;
 const MOST_SLOTS: usize = 20;
 /// Shortest series \[rows\].
 const SHORTEST: usize = 8;
-/// Intervals, in median ones, that end a stretch.
-const GAP: f64 = 1.5;
 
 /// Overlapping Allan deviation of a series at about evenly spaced instants, from one interval to a third of its length.
 ///

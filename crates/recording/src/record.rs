@@ -65,13 +65,24 @@ impl Recording {
         self.channels.iter().find(|channel| channel.name == name)
     }
 
+    /// Makes NaN of values that are not used.
+    pub(crate) fn mask(&mut self, masks: &[Vec<bool>]) {
+        for (channel, mask) in self.channels.iter_mut().zip(masks) {
+            channel.values.iter_mut().zip(mask).filter(|(_, used)| !**used).for_each(|(value, _)| *value = f64::NAN);
+        }
+    }
+
+    /// The same channels at other instants, each made by `of`, which keeps names apart and gives one value for each.
+    pub(crate) fn with(&self, time: Vec<f64>, of: impl Fn(&Channel) -> Channel) -> Self {
+        Self { channels: self.channels.iter().map(of).collect(), time }
+    }
+
     /// Some rows in a given order, e.g. those that a [`crate::check::Report`] keeps.
     ///
     /// # Panics
     /// If a row is not less than the number of instants.
     pub fn select(&self, rows: &[usize]) -> Self {
         let of = |series: &[f64]| rows.iter().map(|&row| series[row]).collect();
-        let channels = self.channels.iter().map(|channel| Channel { values: of(&channel.values), ..channel.clone() });
-        Self { time: of(&self.time), channels: channels.collect() }
+        self.with(of(&self.time), |channel| Channel { values: of(&channel.values), ..channel.clone() })
     }
 }

@@ -2,6 +2,9 @@
 
 use crate::Error;
 
+/// Longest interval between rows that are neighbours, in usual intervals: beyond it a row is missing.
+pub(crate) const GAP: f64 = 1.5;
+
 /// Checks that instants increase.
 pub(crate) fn check_time(time: &[f64]) -> Result<(), Error> {
     let mut previous = f64::NEG_INFINITY;

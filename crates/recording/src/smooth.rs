@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::series::check_series;
+use nalgebra::{Matrix2, Vector2};
 
 /// Degrees of freedom of the disturbances' Student distribution: a programme turns seldom, but then sharply.
 const FREEDOM: f64 = 2.0;
@@ -15,8 +16,8 @@ const UNKNOWN: f64 = 1e8;
 /// Fewest rows that can be smoothed.
 pub const FEWEST_ROWS: usize = 8;
 
-type Vector = [f64; 2];
-type Matrix = [[f64; 2]; 2];
+type Vector = Vector2<f64>;
+type Matrix = Matrix2<f64>;
 
 /// A course freed of white noise.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,34 +81,18 @@ fn most_likely(steps: &[f64], values: &[f64], weights: &[f64]) -> f64 {
     ((a + b) / 2.0).exp()
 }
 
-fn times(a: &Matrix, b: &Matrix) -> Matrix {
-    std::array::from_fn(|i| std::array::from_fn(|j| a[i][0] * b[0][j] + a[i][1] * b[1][j]))
-}
-
-fn apply(a: &Matrix, x: &Vector) -> Vector {
-    std::array::from_fn(|i| a[i][0] * x[0] + a[i][1] * x[1])
-}
-
-fn transposed(a: &Matrix) -> Matrix {
-    [[a[0][0], a[1][0]], [a[0][1], a[1][1]]]
-}
-
-fn plus(a: &Matrix, b: &Matrix, factor: f64) -> Matrix {
-    std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + factor * b[i][j]))
-}
-
 fn inverse(a: &Matrix) -> Matrix {
-    let det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
-    [[a[1][1] / det, -a[0][1] / det], [-a[1][0] / det, a[0][0] / det]]
+    let det = a[(0, 0)] * a[(1, 1)] - a[(0, 1)] * a[(1, 0)];
+    Matrix::new(a[(1, 1)], -a[(0, 1)], -a[(1, 0)], a[(0, 0)]) / det
 }
 
 fn forward(dt: f64) -> Matrix {
-    [[1.0, dt], [0.0, 1.0]]
+    Matrix::new(1.0, dt, 0.0, 1.0)
 }
 
 /// Covariance of what a random walk of the slope, of unit intensity, adds over an interval.
 fn wander(dt: f64) -> Matrix {
-    [[dt.powi(3) / 3.0, dt * dt / 2.0], [dt * dt / 2.0, dt]]
+    Matrix::new(dt.powi(3) / 3.0, dt * dt / 2.0, dt * dt / 2.0, dt)
 }
 
 /// Kalman's filter, variances in units of the noise's.
@@ -125,24 +110,24 @@ struct Filter<'a> {
 impl<'a> Filter<'a> {
     fn new(steps: &'a [f64], values: &[f64], ratio: f64, weights: &'a [f64]) -> Self {
         let mut states = Vec::with_capacity(values.len());
-        let (mut x, mut p): (Vector, Matrix) = ([values[0], 0.0], [[UNKNOWN, 0.0], [0.0, UNKNOWN]]);
+        let (mut x, mut p) = (Vector::new(values[0], 0.0), UNKNOWN * Matrix::identity());
         let (mut squares, mut log_det, mut count) = (0.0, 0.0, 0);
         for (n, value) in values.iter().enumerate() {
             if n > 0 {
                 let f = forward(steps[n - 1]);
-                x = apply(&f, &x);
-                p = plus(&times(&times(&f, &p), &transposed(&f)), &wander(steps[n - 1]), ratio / weights[n - 1]);
+                x = f * x;
+                p = f * p * f.transpose() + ratio / weights[n - 1] * wander(steps[n - 1]);
             }
-            let (surprise, s) = (value - x[0], p[0][0] + 1.0);
+            let (surprise, s) = (value - x[0], p[(0, 0)] + 1.0);
             // the first two say where it starts
             if n > 1 {
                 squares += surprise * surprise / s;
                 log_det += s.ln();
                 count += 1;
             }
-            let gain = [p[0][0] / s, p[1][0] / s];
-            x = [x[0] + gain[0] * surprise, x[1] + gain[1] * surprise];
-            p = std::array::from_fn(|i| std::array::from_fn(|j| p[i][j] - gain[i] * gain[j] * s));
+            let gain: Vector = p.column(0) / s;
+            x += gain * surprise;
+            p -= gain * gain.transpose() * s;
             states.push((x, p));
         }
         Self { steps, ratio, weights, states, squares, log_det, count }
@@ -169,26 +154,16 @@ impl<'a> Filter<'a> {
         for n in (0..last).rev() {
             let (f, q) = (forward(self.steps[n]), wander(self.steps[n]));
             let (here, here_p) = &self.states[n];
-            let ahead = apply(&f, here);
-            let ahead_p = plus(&times(&times(&f, here_p), &transposed(&f)), &q, self.ratio / self.weights[n]);
-            let gain = times(&times(here_p, &transposed(&f)), &inverse(&ahead_p));
-            let off = [x[0] - ahead[0], x[1] - ahead[1]];
-            let correction = apply(&gain, &off);
-            let smooth = [here[0] + correction[0], here[1] + correction[1]];
-            let smooth_p = plus(here_p, &times(&times(&gain, &plus(&p, &ahead_p, -1.0)), &transposed(&gain)), 1.0);
+            let (ahead, ahead_p) = (f * here, f * here_p * f.transpose() + self.ratio / self.weights[n] * q);
+            let gain = here_p * f.transpose() * inverse(&ahead_p);
+            let smooth = here + gain * (x - ahead);
+            let smooth_p = here_p + gain * (p - ahead_p) * gain.transpose();
             // the disturbance is x(n+1) − F x(n); x(n) and x(n+1) share the covariance gain · p
-            let shared = times(&f, &times(&gain, &p));
-            let from = apply(&f, &smooth);
-            let d = [x[0] - from[0], x[1] - from[1]];
-            let spread = plus(
-                &plus(&p, &plus(&shared, &transposed(&shared), 1.0), -1.0),
-                &times(&times(&f, &smooth_p), &transposed(&f)),
-                1.0,
-            );
+            let shared = f * (gain * p);
+            let d = x - f * smooth;
+            let spread = p - (shared + shared.transpose()) + f * smooth_p * f.transpose();
             let q = inverse(&q);
-            let mean = d[0] * (q[0][0] * d[0] + q[0][1] * d[1]) + d[1] * (q[1][0] * d[0] + q[1][1] * d[1]);
-            let trace = times(&q, &spread);
-            squares[n] = (mean + self.variance() * (trace[0][0] + trace[1][1])).max(0.0) / self.ratio;
+            squares[n] = (d.dot(&(q * d)) + self.variance() * (q * spread).trace()).max(0.0) / self.ratio;
             (x, p) = (smooth, smooth_p);
             values[n] = x[0];
         }

@@ -2,8 +2,9 @@
 
 use diagnosis::{ForwardModel, Observation};
 use mechanisms::{CATALOGUE, Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
+use recording::condition::bridged;
 
-use super::record::{Ready, bridge};
+use super::record::Ready;
 use crate::glossary::{Remark, WARNING};
 use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
 use crate::table::significant;
@@ -55,9 +56,8 @@ pub(super) fn warning(gyro: &Gyro, number: usize, ready: &Ready, case: &RecordCa
 
 /// The thermometer under another chamber temperature, over its gaps on straight lines.
 fn thermometer_under(library: &Library, time: &[f64], chamber: &[f64]) -> Result<Vec<f64>, coil::Error> {
-    let mut chamber = chamber.to_vec();
-    bridge(time, &mut chamber);
-    let prepared = Prepared::new(library, time, &chamber, 0.0)?;
+    let bridged = bridged(time, chamber);
+    let prepared = Prepared::new(library, time, bridged.as_deref().unwrap_or(chamber), 0.0)?;
     Ok(Gyro::new(library.clone(), CATALOGUE, vec![prepared])?.state(0).level.clone())
 }
 

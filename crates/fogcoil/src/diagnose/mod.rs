@@ -14,7 +14,9 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use coil::COARSE;
-use diagnosis::{Diagnosis, ForwardModel, HeldOut, Hypothesis, Observation, Settings, Verdict, as_designed};
+use diagnosis::{
+    Contradiction, Diagnosis, ForwardModel, HeldOut, Hypothesis, Judged, Judgement, Observation, Ruling, Settings, Verdict,
+};
 use mechanisms::{CATALOGUE, Extent, Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 
 use crate::Error;
@@ -98,35 +100,29 @@ pub fn diagnose(
         averaging: ready.averaging,
     });
     let fitted: Vec<Record> = records.by_ref().take(fits.len()).collect();
-    let best = &diagnosis.best().fit;
-    let held = |(n, record): (usize, Record)| -> Result<Held, Error> {
-        let model = best.hold_out(&gyro, n, &record.observed, best).map_err(failed)?;
-        let nominal = as_designed(&gyro, (0, &fitted[0].observed), (n, &record.observed), best).map_err(failed)?;
-        let accepted = model.rmse[RATE_CHANNEL] <= nominal.rmse[RATE_CHANNEL];
-        Ok(Held { record, nominal, model, accepted })
-    };
-    let holdouts = records.enumerate().map(|(n, record)| held((fits.len() + n, record))).collect::<Result<Vec<_>, _>>()?;
-    let proves = |h: &Held| h.nominal.clearly_worse_than(&h.model, RATE_CHANNEL) && h.model.within_noise(RATE_CHANNEL);
-    if diagnosis.is_beside_named(&gyro) && !holdouts.is_empty() && holdouts.iter().all(proves) {
-        diagnosis.accept_beside(&gyro);
+    let held: Vec<Record> = records.collect();
+    let numbered: Vec<(usize, &Observation)> = (fits.len()..).zip(held.iter().map(|record| &record.observed)).collect();
+    let Judgement { records, ruling } =
+        diagnosis.judge(&gyro, (0, &fitted[0].observed), &numbered, RATE_CHANNEL).map_err(failed)?;
+    if let Ruling::TakenBack { record, why } = ruling {
+        notes.push(taken_back(&held[record].file, why));
     }
-    let found = matches!(diagnosis.verdict, Verdict::Explained | Verdict::Recalibrate);
-    let worse = |h: &&Held| h.model.clearly_worse_than(&h.nominal, RATE_CHANNEL);
-    let unproven = |h: &&Held| h.model.proves_nothing(&h.nominal, RATE_CHANNEL);
-    if let Some(held) = holdouts.iter().find(|h| found && (worse(h) || unproven(h))) {
-        let file = held.record.file.display();
-        let how = if worse(&held) {
-            "clearly worse than by the nominal model"
-        } else {
-            "no better than by the nominal model, far from its noise"
-        };
-        let message =
-            format!("{file} is predicted {how}: the likeliest explanation is taken back; is it a record of the same unit?");
-        notes.push(Remark::TakenBack.says(message));
-        diagnosis.take_back(held.nominal.within_noise(RATE_CHANNEL));
-    }
+    let with_predictions =
+        |(record, Judged { nominal, model, accepted }): (Record, Judged)| Held { record, nominal, model, accepted };
+    let holdouts = held.into_iter().zip(records).map(with_predictions).collect();
     let (name, coil, design) = (case.name.clone(), case.file.clone(), case.fingerprints.clone());
     Ok(Outcome { name, coil, design, gyro, diagnosis, fits: fitted, holdouts, notes })
+}
+
+/// The note on an explanation that a record contradicts.
+fn taken_back(file: &Path, why: Contradiction) -> String {
+    let how = match why {
+        Contradiction::ClearlyWorse => "clearly worse than by the nominal model",
+        Contradiction::ProvesNothing => "no better than by the nominal model, far from its noise",
+    };
+    let file = file.display();
+    Remark::TakenBack
+        .says(format!("{file} is predicted {how}: the likeliest explanation is taken back; is it a record of the same unit?"))
 }
 
 /// A record that is given twice would be counted, or judged, by itself.

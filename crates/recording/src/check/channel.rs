@@ -2,7 +2,7 @@
 
 use super::{Expectation, Finding, Instants, Kind, Repair, Severity, outliers, runs, units};
 use crate::Channel;
-use crate::statistics::{median, robust_sd};
+use crate::statistics::{median, normal_quantile, robust_sd};
 
 /// What there is to say about a channel.
 #[derive(Debug, Clone, PartialEq)]
@@ -133,7 +133,8 @@ const CURVED: f64 = 0.7;
 fn inner_sd(values: &[f64]) -> Option<f64> {
     let robust = robust_sd(values.iter().copied(), 0.0)?;
     // of a coarsely resolved series the median may be 0: then the size that 5 % exceed, 1.96 standard deviations, takes its place
-    let scale = if robust > 0.0 { robust } else { largest_but(0.05, values.iter().map(|value| value.abs()).collect()) / 1.96 };
+    let exceeded = || largest_but(0.05, values.iter().map(|value| value.abs()).collect()) / normal_quantile(0.975);
+    let scale = if robust > 0.0 { robust } else { exceeded() };
     let inner = || values.iter().filter(|value| value.abs() <= INNER * scale);
     Some((inner().map(|value| value * value).sum::<f64>() / inner().count() as f64).sqrt())
 }

@@ -2,6 +2,7 @@
 
 use super::{Finding, Kind, Repair, Severity};
 use crate::Recording;
+use crate::series::GAP;
 use crate::statistics::median;
 
 /// Rows that are missing between two that are not.
@@ -30,8 +31,6 @@ pub struct Instants {
     pub gaps: Vec<Gap>,
 }
 
-/// Intervals, in median ones, from which on rows are missing.
-const GAP: f64 = 1.5;
 /// Jitter worth a note, in intervals.
 const NOTED_JITTER: f64 = 1e-3;
 /// Distance of an interval from a whole number of intervals that makes it a clock step: in intervals, and in largest jitters.

@@ -45,6 +45,16 @@ impl Report {
     pub fn usable(&self) -> bool {
         self.findings.iter().all(|finding| finding.severity != Severity::Error)
     }
+
+    /// What is to be used of the recording that was checked: the rows that are kept, NaN where a value is not used.
+    ///
+    /// # Panics
+    /// If the report is of a recording with more rows or channels.
+    pub fn used(&self, recording: &Recording) -> Recording {
+        let mut kept = recording.select(&self.rows);
+        kept.mask(&self.masks);
+        kept
+    }
 }
 
 /// Fewest rows of a recording.

@@ -3,15 +3,13 @@
 use super::regression::independent;
 use super::{NoiseModel, Series};
 use crate::Error;
-use crate::series::check_series;
+use crate::series::{GAP, check_series};
 use crate::statistics::median;
 
 /// Most rows before groups of them are averaged: white noise is then known to half a percent, and a fit takes a second.
 const MOST_ROWS: usize = 20_000;
 /// Fewest rows beyond the columns.
 const FEWEST_ROWS: usize = 16;
-/// Longest interval within a group, in median intervals.
-const GAP: f64 = 1.5;
 
 /// A series with its independent columns, perhaps thinned.
 pub(super) struct Data {

@@ -1,11 +1,12 @@
 //! The noise of a recording from the recording itself, by maximum likelihood.
 
 use super::data::Data;
-use super::minimise::nelder_mead;
-use super::regression::{Regression, inverse};
+use super::regression::Regression;
 use super::{NoiseModel, Whitener};
 use crate::Error;
+use crate::minimise::{Effort, nelder_mead};
 use crate::statistics::median;
+use nalgebra::{Cholesky, DMatrix};
 
 /// A series whose noise is sought.
 #[derive(Debug, Clone, Copy)]
@@ -102,8 +103,10 @@ pub struct NoiseEstimate {
 
 /// Sizes of terms relative to the white noise of a value.
 const RELATIVE: [f64; 2] = [1e-3, 1e4];
-/// Accuracy of a log likelihood: far below what decides anything.
-const TOLERANCE: f64 = 1e-5;
+/// Accuracy of a log likelihood, far below what decides anything, and evaluations that reach it several times over.
+const EFFORT: Effort = Effort { tolerance: 1e-5, evaluations: 1000 };
+/// Edge of the first simplex: the variables are logarithms.
+const EDGE: f64 = 0.7;
 
 /// Finds the noise model that makes a series most likely, with as many terms as the BIC allows.
 ///
@@ -141,15 +144,11 @@ pub fn identify(series: &Series, bounds: &Bounds) -> Result<NoiseEstimate, Error
 pub fn residual(series: &Series, model: &NoiseModel) -> Result<Vec<f64>, Error> {
     let data = Data::new(series)?;
     let whitener = Whitener::new(&data.model(model), &data.time, &data.mask)?;
-    // a unit for each column, carried along, ends as minus its amount
-    let count = data.columns.len();
-    let unit = |number: usize| (0..count).map(move |other| f64::from(u8::from(other == number)));
-    let columns = data.columns.iter().enumerate().map(|(n, column)| whitener.apply(column).into_iter().chain(unit(n)).collect());
-    let values = whitener.apply(&data.values).into_iter().chain(vec![0.0; count]).collect();
-    let amounts = Regression::new(columns.collect(), values, whitener.rows().len()).rest.split_off(whitener.rows().len());
+    let columns = data.columns.iter().map(|column| whitener.apply(column)).collect();
+    let amounts = Regression::new(columns, whitener.apply(&data.values)).amounts;
     let rest = |row: usize| {
         let taken = |(amount, &number): (&f64, &usize)| amount * series.columns[number][row];
-        series.values[row] + amounts.iter().zip(&data.numbers).map(taken).sum::<f64>()
+        series.values[row] - amounts.iter().zip(&data.numbers).map(taken).sum::<f64>()
     };
     Ok((0..series.time.len()).map(|row| if series.mask[row] { rest(row) } else { f64::NAN }).collect())
 }
@@ -232,7 +231,7 @@ impl Problem<'_> {
     fn squares(&self, model: &NoiseModel) -> Result<(f64, f64), Error> {
         let whitener = Whitener::new(&self.data.model(model), &self.data.time, &self.data.mask)?;
         let columns = self.data.columns.iter().map(|column| whitener.apply(column)).collect();
-        let regression = Regression::new(columns, whitener.apply(&self.data.values), whitener.rows().len());
+        let regression = Regression::new(columns, whitener.apply(&self.data.values));
         Ok((regression.squares, whitener.log_det() + regression.log_det))
     }
 
@@ -262,11 +261,13 @@ impl Problem<'_> {
         }
         let limits = self.shape_bounds(terms);
         // every model in the box is valid, so that the function is finite; infinity is refused like a wall
-        let mut cost = |shape: &[f64]| self.profile(terms, shape).map_or(f64::INFINITY, |(_, log_likelihood)| -log_likelihood);
+        let cost = |shape: &[f64]| self.profile(terms, shape).map_or(f64::INFINITY, |(_, log_likelihood)| -log_likelihood);
         let grid = self.grid(terms);
         let start = grid.into_iter().map(|point| (cost(&point), point)).min_by(|a, b| a.0.total_cmp(&b.0));
         let start = start.map_or_else(Vec::new, |(_, point)| point);
-        let (shape, _) = nelder_mead(&mut cost, &start, &limits, TOLERANCE);
+        let edges: Vec<f64> =
+            start.iter().zip(&limits).map(|(x, [_, high])| if x + EDGE <= *high { EDGE } else { -EDGE }).collect();
+        let (shape, _) = nelder_mead(cost, &start, &edges, &limits, EFFORT);
         let (white, log_likelihood) = self.profile(terms, &shape)?;
         let parameters = 1.0 + shape.len() as f64;
         let bic = -2.0 * log_likelihood + parameters * self.rows().ln();
@@ -280,8 +281,9 @@ impl Problem<'_> {
         let margin = 2.0 * CURVATURE_STEP;
         let inside =
             shape.iter().zip(self.shape_bounds(&best.terms)).all(|(x, [low, high])| *x > low + margin && *x < high - margin);
-        let Some(covariance) = inverse(&self.curvature(best)?).filter(|_| inside) else { return Ok(errors) };
-        let mut sds = covariance.iter().enumerate().map(|(i, row)| row[i].sqrt());
+        let Some(factor) = Cholesky::new(self.curvature(best)?).filter(|_| inside) else { return Ok(errors) };
+        let variances = factor.inverse().diagonal();
+        let mut sds = variances.iter().map(|variance| variance.sqrt());
         errors.white = sds.next();
         for term in &best.terms {
             match term {
@@ -294,7 +296,7 @@ impl Problem<'_> {
     }
 
     /// Minus the second derivatives, by central differences; order: white, then as in the terms.
-    fn curvature(&self, best: &Candidate) -> Result<Vec<Vec<f64>>, Error> {
+    fn curvature(&self, best: &Candidate) -> Result<DMatrix<f64>, Error> {
         let count = 1 + self.shape_bounds(&best.terms).len();
         let at = |changes: &[(usize, f64)]| -> Result<f64, Error> {
             let mut model = best.model;
@@ -312,7 +314,10 @@ impl Problem<'_> {
             Ok((corner(1.0, -1.0)? + corner(-1.0, 1.0)? - corner(1.0, 1.0)? - corner(-1.0, -1.0)?) / (4.0 * h * h))
         };
         // symmetric by construction: both halves are the same differences
-        (0..count).map(|i| (0..count).map(|j| second(i.max(j), i.min(j))).collect()).collect()
+        let rows: Vec<f64> = (0..count * count)
+            .map(|k| second((k / count).max(k % count), (k / count).min(k % count)))
+            .collect::<Result<_, _>>()?;
+        Ok(DMatrix::from_vec(count, count, rows))
     }
 
     fn parameter<'m>(&self, model: &'m mut NoiseModel, terms: &[Term], number: usize) -> &'m mut f64 {
@@ -352,7 +357,7 @@ mod tests {
         let problem = Problem { data: &data, bounds: &bounds };
         let (best, _) = problem.fit(&[Term::Drift]).unwrap();
         let curvature = problem.curvature(&best).unwrap();
-        let along: f64 = [0, 1].iter().map(|&i| curvature[i][0] + curvature[i][1]).sum();
+        let along: f64 = curvature.view((0, 0), (2, 2)).sum();
         assert!((along / (2.0 * problem.freedom()) - 1.0).abs() < 0.01, "{along}");
     }
 }

@@ -2,7 +2,6 @@
 
 mod data;
 mod identify;
-mod minimise;
 mod model;
 mod regression;
 mod whitener;

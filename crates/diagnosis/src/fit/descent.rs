@@ -1,0 +1,66 @@
+//! The way to the least objective: Levenberg's (1944) and Marquardt's (1963) method on whitened residuals and standard-normal priors.
+
+use super::objective::{Objective, Point};
+use crate::{Error, ForwardModel};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+/// Steps at most.
+const MOST_STEPS: usize = 12;
+/// Change of ln p at which a fit has settled: far below what odds can tell.
+const SETTLED: f64 = 5e-3;
+/// Largest step of a mechanism's unknown [u]: half of a prior's reach.
+const STRIDE: f64 = 2.0;
+/// Damping at first, at least, and where no step is left; relative to the diagonal.
+const DAMPING: [f64; 3] = [1e-3, 1e-9, 1e8];
+
+/// JᵀJ + I, the curvature of the objective where the prediction is nearly linear.
+pub(super) fn curvature(jacobian: &DMatrix<f64>) -> DMatrix<f64> {
+    jacobian.tr_mul(jacobian) + DMatrix::identity(jacobian.ncols(), jacobian.ncols())
+}
+
+impl<M: ForwardModel> Objective<'_, M> {
+    /// The nearest minimum below a point, with the derivatives there.
+    pub(super) fn descend(&self, from: Point) -> Result<(Point, DMatrix<f64>), Error<M::Error>> {
+        let mut at = from;
+        let mut damping = DAMPING[0];
+        let mut jacobian = self.jacobian(&at, None)?;
+        for _ in 0..MOST_STEPS {
+            let before = at.value;
+            at = self.step(at, &jacobian, &mut damping)?;
+            if before - at.value < SETTLED {
+                break;
+            }
+            jacobian = self.jacobian(&at, Some(&jacobian))?;
+        }
+        let jacobian = self.jacobian(&at, None)?;
+        Ok((at, jacobian))
+    }
+
+    /// One step down, damped as little as leads down; the same point if none does.
+    fn step(&self, at: Point, jacobian: &DMatrix<f64>, damping: &mut f64) -> Result<Point, Error<M::Error>> {
+        let normal = curvature(jacobian);
+        let gradient = jacobian.tr_mul(&at.whitened) - &at.u;
+        let [_, least, most] = DAMPING;
+        while *damping < most {
+            let mut damped = normal.clone();
+            for i in 0..self.layout.len() {
+                damped[(i, i)] += *damping * normal[(i, i)];
+            }
+            let factor: Cholesky<f64, Dyn> = Cholesky::new(damped).ok_or(Error::NotFinite)?;
+            let mut step = factor.solve(&gradient);
+            self.shorten(&mut step, |i| self.layout[i].is_mechanism());
+            let tried = self.point(&at.u + step)?;
+            if tried.value < at.value {
+                *damping = (*damping / 10.0).max(least);
+                return Ok(tried);
+            }
+            *damping *= 10.0;
+        }
+        Ok(at)
+    }
+
+    /// Keeps a step of some unknowns within a stride.
+    pub(super) fn shorten(&self, step: &mut DVector<f64>, which: impl Fn(usize) -> bool) {
+        (0..step.len()).filter(|i| which(*i)).for_each(|i| step[i] = step[i].clamp(-STRIDE, STRIDE));
+    }
+}

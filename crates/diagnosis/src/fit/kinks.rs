@@ -1,0 +1,84 @@
+//! A second look around a fit whose responses have kinks, which make local minima.
+
+use super::descent::curvature;
+use super::objective::{Objective, Point};
+use super::{Fit, Fitter};
+use crate::{Error, ForwardModel};
+use nalgebra::{Cholesky, DVector};
+
+/// Rounds of the search around a fit.
+const SEARCHES: usize = 6;
+/// Gain of ln p that makes a round worth while.
+const WORTH: f64 = 0.3;
+
+impl<M: ForwardModel> Fitter<'_, M> {
+    /// Looks for a better minimum around a fit: each parameter that asks for it ([`crate::Parameter::around`]) is set aside by its distances.
+    pub(super) fn searched(&self, mut best: Fit) -> Result<Fit, Error<M::Error>> {
+        for _ in 0..SEARCHES {
+            let (hypothesis, noise) = (best.hypothesis.clone(), best.noise.clone());
+            let objective = Objective::new(self, &hypothesis, &noise);
+            let value = (best.whitened.norm_squared() + best.u.norm_squared()) / 2.0;
+            let Some(found) = objective.beside(&best)?.filter(|found| found.value <= value - WORTH) else { break };
+            let fit = objective.concluded(objective.descend(found)?)?;
+            if fit.log_evidence <= best.log_evidence {
+                break;
+            }
+            best = fit;
+        }
+        Ok(best)
+    }
+}
+
+impl<M: ForwardModel> Objective<'_, M> {
+    /// The least of the points around a fit; `None` if no parameter asks for any.
+    fn beside(&self, best: &Fit) -> Result<Option<Point>, Error<M::Error>> {
+        let asks =
+            |i: &usize| self.layout[*i].is_mechanism() && self.parameter(self.layout[*i]).is_some_and(|p| !p.around.is_empty());
+        let searched: Vec<usize> = (0..self.layout.len()).filter(asks).collect();
+        // one alone, or one against another: the sum of two may be what the records know
+        let moves = searched
+            .iter()
+            .flat_map(|i| std::iter::once((*i, None)).chain(searched.iter().filter(move |j| *j != i).map(|j| (*i, Some(*j)))));
+        let mut found: Option<Point> = None;
+        for (i, other) in moves {
+            let distances = self.parameter(self.layout[i]).map_or(&[][..], |p| &p.around);
+            for by in distances.iter().flat_map(|d| [-d, *d]) {
+                let mut u = best.u.clone();
+                self.shift(&mut u, i, by);
+                other.iter().for_each(|j| self.shift(&mut u, *j, -by));
+                if let Some(point) = self.followed(best, u, (i, other))?
+                    && found.as_ref().is_none_or(|least| point.value < least.value)
+                {
+                    found = Some(point);
+                }
+            }
+        }
+        Ok(found)
+    }
+
+    /// Moves an unknown by a distance in its parameter's own unit.
+    fn shift(&self, u: &mut DVector<f64>, i: usize, by: f64) {
+        if let Some(parameter) = self.parameter(self.layout[i]) {
+            u[i] = parameter.prior.standard(parameter.prior.value(u[i]) + by);
+        }
+    }
+
+    /// The point to which the other unknowns follow by one linear step when those of `moved` are held.
+    fn followed(
+        &self,
+        best: &Fit,
+        u: DVector<f64>,
+        (i, other): (usize, Option<usize>),
+    ) -> Result<Option<Point>, Error<M::Error>> {
+        let held = || std::iter::once(i).chain(other);
+        let at = self.point(u)?;
+        let mut jacobian = self.jacobian(&at, Some(&best.jacobian))?;
+        let gradient = jacobian.tr_mul(&at.whitened) - &at.u;
+        held().for_each(|k| jacobian.column_mut(k).fill(0.0));
+        let Some(factor) = Cholesky::new(curvature(&jacobian)) else { return Ok(None) };
+        let mut step = factor.solve(&gradient);
+        held().for_each(|k| step[k] = 0.0);
+        self.shorten(&mut step, |_| true);
+        self.point(at.u + step).map(Some)
+    }
+}

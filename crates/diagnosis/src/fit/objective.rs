@@ -1,0 +1,116 @@
+//! What a fit makes least: −ln p(data, u) = ½ ‖r(u)‖² + ½ ‖u‖², up to a constant, with the whitened residual r of all records and channels.
+
+use super::{Fitter, Hypothesis, Layout, Unknown};
+use crate::noise::Noise;
+use crate::{Error, ForwardModel, Observation};
+use nalgebra::{DMatrix, DVector};
+
+/// Series `[record][channel][row]`.
+pub(super) type Series = Vec<Vec<Vec<f64>>>;
+
+/// A hypothesis under a known noise.
+pub(super) struct Objective<'a, M> {
+    pub(super) fitter: &'a Fitter<'a, M>,
+    pub(super) hypothesis: &'a Hypothesis,
+    pub(super) noise: &'a Noise,
+    pub(super) layout: Layout,
+}
+
+/// Unknowns, and what follows from them.
+pub(super) struct Point {
+    pub(super) u: DVector<f64>,
+    pub(super) responses: Series,
+    /// Whitened residual.
+    pub(super) whitened: DVector<f64>,
+    /// The objective.
+    pub(super) value: f64,
+}
+
+impl<'a, M: ForwardModel> Objective<'a, M> {
+    pub(super) fn new(fitter: &'a Fitter<'a, M>, hypothesis: &'a Hypothesis, noise: &'a Noise) -> Self {
+        Self { fitter, hypothesis, noise, layout: fitter.layout(hypothesis) }
+    }
+
+    /// Runs the model at some unknowns.
+    pub(super) fn point(&self, u: DVector<f64>) -> Result<Point, Error<M::Error>> {
+        let responses = self.responses(&u)?;
+        let whitened = self.whiten(&self.residuals(&u, &responses));
+        let value = (whitened.norm_squared() + u.norm_squared()) / 2.0;
+        Ok(Point { u, responses, whitened, value })
+    }
+
+    fn responses(&self, u: &DVector<f64>) -> Result<Series, Error<M::Error>> {
+        let (nuisances, active) = self.at(u);
+        let of = |(record, n): (&usize, &Vec<f64>)| self.fitter.model.respond(*record, n, &active).map_err(Error::Model);
+        self.fitter.records.iter().zip(&nuisances).map(of).collect()
+    }
+
+    /// Series of all records and channels, whitened, one behind another.
+    fn whiten(&self, series: &Series) -> DVector<f64> {
+        let mut all = Vec::new();
+        for (record, channels) in series.iter().enumerate() {
+            for (channel, series) in channels.iter().enumerate() {
+                all.extend(self.noise.whiten(record, channel, series));
+            }
+        }
+        DVector::from_vec(all)
+    }
+
+    /// What was observed less responses and offsets.
+    pub(super) fn residuals(&self, u: &DVector<f64>, responses: &Series) -> Series {
+        let difference = |(r, y): (&Vec<f64>, &Vec<f64>)| y.iter().zip(r).map(|(y, r)| y - r).collect();
+        let of = |(response, o): (&Vec<Vec<f64>>, &Observation)| response.iter().zip(&o.channels).map(difference).collect();
+        let mut residuals: Series = responses.iter().zip(self.fitter.observations).map(of).collect();
+        for (record, channels) in self.offsets(u).iter().enumerate() {
+            for (channel, offset) in channels.iter().enumerate() {
+                residuals[record][channel].iter_mut().for_each(|r| *r -= offset);
+            }
+        }
+        residuals
+    }
+
+    /// Offset of every channel of every record.
+    pub(super) fn offsets(&self, u: &DVector<f64>) -> Vec<Vec<f64>> {
+        let channels = self.fitter.model.channels();
+        let mut offsets = vec![vec![0.0; channels.len()]; self.fitter.observations.len()];
+        for (unknown, u) in self.layout.iter().zip(u.iter()) {
+            if let Unknown::Offset { record, channel } = *unknown {
+                offsets[record][channel] = channels[channel].offset_sd * u;
+            }
+        }
+        offsets
+    }
+
+    /// Whitened derivatives of the prediction by every unknown; by those that are no mechanism's, which hardly change on the way, from `known`.
+    pub(super) fn jacobian(&self, at: &Point, known: Option<&DMatrix<f64>>) -> Result<DMatrix<f64>, Error<M::Error>> {
+        let mut columns = Vec::with_capacity(self.layout.len());
+        for (i, unknown) in self.layout.iter().enumerate() {
+            columns.push(match (known, *unknown) {
+                (Some(known), unknown) if !unknown.is_mechanism() => known.column(i).into_owned(),
+                (_, Unknown::Offset { record, channel }) => self.whiten(&self.constant(record, channel)),
+                (_, unknown) => self.whiten(&self.derivative(at, i, self.parameter(unknown).map_or(1.0, |p| p.step))?),
+            });
+        }
+        Ok(DMatrix::from_columns(&columns))
+    }
+
+    /// Derivative by unknown `i`, by a difference away from the end of the range that is looked at.
+    fn derivative(&self, at: &Point, i: usize, step: f64) -> Result<Series, Error<M::Error>> {
+        let mut beside = at.u.clone();
+        let step = if at.u[i] > 0.0 { -step } else { step };
+        beside[i] += step;
+        let mut there = self.responses(&beside)?;
+        for (there, here) in there.iter_mut().flatten().flatten().zip(at.responses.iter().flatten().flatten()) {
+            *there = (*there - here) / step;
+        }
+        Ok(there)
+    }
+
+    /// An offset of one standard deviation in one channel of one record.
+    fn constant(&self, record: usize, channel: usize) -> Series {
+        let offset = self.fitter.model.channels()[channel].offset_sd;
+        let of = |at: (usize, usize), rows: usize| vec![if at == (record, channel) { offset } else { 0.0 }; rows];
+        let channels = |(r, o): (usize, &Observation)| (0..o.channels.len()).map(|c| of((r, c), o.time.len())).collect();
+        self.fitter.observations.iter().enumerate().map(channels).collect()
+    }
+}

@@ -1,0 +1,133 @@
+//! The search: everything a model may leave out is fitted and weighed.
+//!
+//! [`singles`] fits every mechanism alone, in noise that the leader leaves; [`likeliest`] gives those that matter noise of their own; [`pairs`] looks
+//! for what may stand beside them; [`rivals`] for what no mechanism explains.
+
+mod likeliest;
+mod pairs;
+mod rivals;
+mod settings;
+mod singles;
+
+pub use settings::Settings;
+
+use crate::fit::{Fit, Fitter, Hypothesis, alternatives};
+use crate::noise::Noise;
+use crate::{Diagnosis, Error, ForwardModel, Observation, Rival};
+
+/// A hypothesis that was compared.
+#[derive(Debug, Clone)]
+pub struct Candidate {
+    /// At its most probable parameters.
+    pub fit: Fit,
+    /// Structure that was added to it, if any.
+    pub rival: Option<Rival>,
+    /// ln of evidence times prior probability.
+    pub log_weight: f64,
+    /// Probability among all that were compared.
+    pub probability: f64,
+}
+
+impl Candidate {
+    /// ln of the evidence, with that of its structure.
+    pub(crate) fn log_evidence(&self) -> f64 {
+        self.fit.log_evidence + self.rival.as_ref().map_or(0.0, |r| r.gain)
+    }
+}
+
+/// Singles, and pairs, that are followed up with their own noise and, if named, as parts of pairs.
+const FOLLOWED: usize = 5;
+/// Singles that are parts of pairs, and candidates to which structures are added.
+const LEADERS: usize = 5;
+/// ln evidence behind the best beyond which a candidate is not worth its own noise.
+const BEHIND: f64 = 25.0;
+
+/// What is being compared.
+struct Pool<'a, M> {
+    fitter: Fitter<'a, M>,
+    settings: Settings,
+    /// Every mechanism alone, once for each of its choices.
+    singles: Vec<Vec<Hypothesis>>,
+    candidates: Vec<Candidate>,
+    /// Told each task as it begins, and the long ones as they go.
+    progress: &'a dyn Fn(&str),
+}
+
+/// Compares everything that `model` may leave out on its records `records`, which observed `observations`.
+///
+/// `progress` is told each task as it begins, and the long ones again with ` (k of n)` behind their name.
+///
+/// # Errors
+/// [`Error`] if the model or a fit fails.
+pub fn diagnose<M: ForwardModel>(
+    model: &M,
+    records: &[usize],
+    observations: &[Observation],
+    settings: &Settings,
+    progress: &dyn Fn(&str),
+) -> Result<Diagnosis, Error<M::Error>> {
+    let fitter = Fitter { model, observations, records };
+    let singles = (0..model.mechanisms().len()).map(|m| alternatives(model, m)).collect();
+    let mut pool = Pool { fitter, settings: *settings, singles, candidates: Vec::new(), progress };
+    progress("nominal model and noise");
+    let nominal = pool.nominal()?;
+    progress(singles::TASK);
+    let (leader, fits) = pool.singles(&nominal)?;
+    let nominal = pool.without_mechanisms(nominal, &leader)?;
+    progress(likeliest::TASK);
+    let likeliest = pool.likeliest(fits)?;
+    progress(pairs::TASK);
+    pool.pairs(&nominal, &likeliest)?;
+    progress("what no mechanism explains");
+    pool.rivals()?;
+    Diagnosis::conclude(&pool.fitter, settings, pool.candidates, nominal)
+}
+
+fn better(a: Fit, b: Fit) -> Fit {
+    if b.log_evidence > a.log_evidence { b } else { a }
+}
+
+/// Best first.
+fn sort(fits: &mut [Fit]) {
+    fits.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+}
+
+impl<M: ForwardModel> Pool<'_, M> {
+    /// The nominal model with the noise that it leaves.
+    fn nominal(&self) -> Result<Fit, Error<M::Error>> {
+        let typical = Noise::typical(self.fitter.model.channels(), self.fitter.observations)?;
+        let first = self.fitter.fit(&Hypothesis::NOMINAL, &typical, None)?;
+        self.fitter.fit_with_noise(&Hypothesis::NOMINAL, &first, 3)
+    }
+
+    /// Takes in the nominal model, its constants given or re-estimated, each with its own noise found from the leader's; the former.
+    fn without_mechanisms(&mut self, nominal: Fit, leader: &Fit) -> Result<Fit, Error<M::Error>> {
+        let under_leader = |nominal: &Fit| Fit { noise: leader.noise.clone(), ..nominal.clone() };
+        let again = self.fitter.fit_with_noise(&Hypothesis::NOMINAL, &under_leader(&nominal), 2)?;
+        let nominal = better(nominal, again);
+        self.push(nominal.clone(), None);
+        let recalibrated = self.fitter.fit_with_noise(&Hypothesis::RECALIBRATED, &under_leader(&nominal), 2)?;
+        self.push(recalibrated, None);
+        Ok(nominal)
+    }
+
+    fn push(&mut self, fit: Fit, rival: Option<Rival>) {
+        self.push_for(fit, rival, 0.0);
+    }
+
+    /// The same for a candidate that stands for others like it, too: `kin` is the ln of their number.
+    fn push_for(&mut self, fit: Fit, rival: Option<Rival>, kin: f64) {
+        let log_prior = self.settings.log_prior(self.fitter.model, &fit.hypothesis, rival.is_some());
+        let log_weight = log_prior + fit.log_evidence + rival.as_ref().map_or(0.0, |r| r.gain) + kin;
+        self.candidates.push(Candidate { fit, rival, log_weight, probability: 0.0 });
+    }
+
+    fn named(&self, mechanism: usize) -> bool {
+        self.fitter.model.mechanisms()[mechanism].named
+    }
+
+    /// Says that `k` of `n` parts of a task are done.
+    fn done(&self, task: &str, k: usize, n: usize) {
+        (self.progress)(&format!("{task} ({k} of {n})"));
+    }
+}

@@ -1,0 +1,81 @@
+//! What may be at work beside the likeliest mechanisms.
+
+use super::{BEHIND, Candidate, FOLLOWED, LEADERS, Pool};
+use crate::fit::{Fit, Hypothesis};
+use crate::{Error, ForwardModel};
+
+pub(super) const TASK: &str = "pairs of mechanisms";
+/// Choices of a mechanism that are fitted beside another.
+const CHOICES: usize = 6;
+/// Gain of ln evidence of one mechanism below which it is not sought what may stand beside it, and of a pair below which it is not worth
+/// its own noise.
+const PAIRED: f64 = 1.0;
+
+impl<M: ForwardModel> Pool<'_, M> {
+    /// Takes in pairs of each of the `likeliest` mechanisms that has a name and gains on the nominal model.
+    pub(super) fn pairs(&mut self, nominal: &Fit, likeliest: &[Fit]) -> Result<(), Error<M::Error>> {
+        let mut followed: Vec<usize> = Vec::new();
+        for fit in likeliest.iter().filter(|f| f.log_evidence - nominal.log_evidence > PAIRED) {
+            let first = fit.hypothesis.mechanisms[0].0;
+            if self.named(first) && !followed.contains(&first) && followed.len() < LEADERS {
+                self.done(TASK, followed.len(), LEADERS);
+                followed.push(first);
+                self.pairs_of(fit)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The mechanism of `fit` with every other one.
+    fn pairs_of(&mut self, fit: &Fit) -> Result<(), Error<M::Error>> {
+        let kin_of_first = self.kin(fit);
+        let mut fits = Vec::new();
+        for (pair, kin) in self.beside(fit.hypothesis.mechanisms[0]) {
+            fits.push((self.fitter.fit(&pair, &fit.noise, Some(fit))?, kin));
+        }
+        fits.sort_by(|a, b| b.0.log_evidence.total_cmp(&a.0.log_evidence));
+        let lead = fits.first().map_or(0.0, |f| f.0.log_evidence);
+        for (rank, (pair, kin)) in fits.into_iter().enumerate() {
+            let promising = pair.log_evidence - fit.log_evidence > PAIRED && lead - pair.log_evidence < BEHIND;
+            let own = if rank < FOLLOWED && promising { self.fitter.fit_with_noise(&pair.hypothesis, &pair, 2)? } else { pair };
+            self.push_for(own, None, kin + kin_of_first);
+        }
+        Ok(())
+    }
+
+    /// ln of the number of choices for which a single mechanism's best one stands: those that explain nearly as much.
+    fn kin(&self, fit: &Fit) -> f64 {
+        let mechanism = fit.hypothesis.mechanisms[0].0;
+        let alone = |c: &&Candidate| {
+            let Hypothesis { mechanisms, constants_free } = &c.fit.hypothesis;
+            c.rival.is_none() && !constants_free && matches!(mechanisms[..], [one] if one.0 == mechanism)
+        };
+        let likeness = |c: &Candidate| (c.fit.log_evidence - fit.log_evidence).min(0.0).exp();
+        self.candidates.iter().filter(alone).map(likeness).sum::<f64>().max(1.0).ln()
+    }
+
+    /// Pairs of a mechanism with others that have a name and that it was not paired with, and ln of the choices for which each stands: the choice
+    /// of a second mechanism is hardly determined, so that a few stand for all.
+    fn beside(&self, first: (usize, Option<f64>)) -> Vec<(Hypothesis, f64)> {
+        let mut pairs = Vec::new();
+        for hypotheses in &self.singles {
+            let second = hypotheses[0].mechanisms[0].0;
+            if second == first.0 || !self.named(second) {
+                continue;
+            }
+            let every = if hypotheses.len() > CHOICES { hypotheses.len().div_ceil(CHOICES) } else { 1 };
+            let kin = (hypotheses.len() as f64 / hypotheses.len().div_ceil(every) as f64).ln();
+            let pair = |h: &Hypothesis| Hypothesis { mechanisms: vec![first, h.mechanisms[0]], constants_free: false };
+            let known = |pair: &Hypothesis| self.candidates.iter().any(|c| same(&c.fit.hypothesis, pair));
+            pairs.extend(hypotheses.iter().step_by(every).map(pair).filter(|pair| !known(pair)).map(|pair| (pair, kin)));
+        }
+        pairs
+    }
+}
+
+/// Whether two hypotheses hold the same mechanisms, in any order and with any choices.
+fn same(a: &Hypothesis, b: &Hypothesis) -> bool {
+    a.constants_free == b.constants_free
+        && a.mechanisms.len() == b.mechanisms.len()
+        && a.mechanisms.iter().all(|(mechanism, _)| b.has(*mechanism))
+}

@@ -1,0 +1,59 @@
+//! What is thought of hypotheses before any recording is seen.
+
+use crate::fit::Hypothesis;
+use crate::{ForwardModel, Structure};
+
+/// Probabilities before any recording is seen, and what counts as excluded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Of the nominal model.
+    pub none: f64,
+    /// Of constants that must be re-estimated.
+    pub recalibrate: f64,
+    /// Of one mechanism, all together.
+    pub single: f64,
+    /// Of two mechanisms, all pairs together.
+    pub pair: f64,
+    /// Of something that is not in the library.
+    pub unknown: f64,
+    /// Smallest probability of a mechanism, relative to the best, at which it is not excluded.
+    pub excluded: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { none: 0.38, recalibrate: 0.02, single: 0.45, pair: 0.07, unknown: 0.08, excluded: 0.03 }
+    }
+}
+
+/// Share of the unknown that the unnamed mechanisms have; the rest is the structures'.
+const DESCRIBED: f64 = 0.5;
+
+impl Settings {
+    /// ln of the probability of a hypothesis, beside a structure or alone, before anything is seen.
+    pub(super) fn log_prior<M: ForwardModel>(&self, model: &M, hypothesis: &Hypothesis, rival: bool) -> f64 {
+        let library = model.mechanisms();
+        // among those of its kind
+        let share = |&(m, _): &(usize, Option<f64>)| {
+            let all: f64 = library.iter().filter(|other| other.named == library[m].named).map(|m| m.weight).sum();
+            let choices = library[m].choice.as_ref().map_or(1, |(_, values)| values.len());
+            library[m].weight / all / choices as f64
+        };
+        let base = match hypothesis.mechanisms.as_slice() {
+            [] if hypothesis.constants_free => self.recalibrate,
+            [] => self.none,
+            [one] if library[one.0].named => self.single * share(one),
+            [one] => self.unknown * DESCRIBED * share(one),
+            // each pair is met in two orders
+            many => self.pair * 2.0 * many.iter().map(share).product::<f64>(),
+        };
+        let constants = if hypothesis.mechanisms.is_empty() {
+            1.0
+        } else {
+            let odds = self.recalibrate / (self.none + self.recalibrate);
+            if hypothesis.constants_free { odds } else { 1.0 - odds }
+        };
+        let structures = (Structure::ALL.len() * model.channels().len()) as f64;
+        (base * constants * if rival { self.unknown * (1.0 - DESCRIBED) / structures } else { 1.0 }).ln()
+    }
+}

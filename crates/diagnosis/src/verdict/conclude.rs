@@ -1,0 +1,174 @@
+//! From weighed candidates to a verdict.
+
+use super::set::{likely, marginals, named};
+use super::{Diagnosis, Verdict};
+use crate::fit::{Fit, Fitter, Hypothesis};
+use crate::{Candidate, Error, ForwardModel, Settings};
+
+/// Probability of the nominal model from which nothing is called a finding: odds of about 2 to 1. Set with the open recordings, so that of a
+/// hundred units without an effect at most one raises an alarm.
+const SUFFICES: f64 = 0.65;
+/// Least gain of ln evidence over the nominal model of anything that is called a finding. Under the nominal model a likelihood ratio of e² = 7.4
+/// or more has a probability of at most 1/7.4 (Markov's inequality); on the scale of Kass and Raftery (1995) it is positive evidence.
+const FINDING: f64 = 2.0;
+
+impl Diagnosis {
+    /// Concludes from the weighed `candidates`; `nominal` is the fit of the nominal model alone.
+    pub(crate) fn conclude<M: ForwardModel>(
+        fitter: &Fitter<M>,
+        settings: &Settings,
+        mut candidates: Vec<Candidate>,
+        nominal: Fit,
+    ) -> Result<Self, Error<M::Error>> {
+        let model = fitter.model;
+        weigh(&mut candidates);
+        let verdicts = verdicts(model, &candidates);
+        // many hypotheses that a record says nothing about are no finding: one of them has to stand out
+        let gain = |c: &Candidate| c.log_evidence() - nominal.log_evidence;
+        let verdict = decide(verdicts, candidates.iter().map(gain).fold(f64::NEG_INFINITY, f64::max));
+        let mechanisms = marginals(model, &candidates, plain);
+        lead(model, &mut candidates, verdict, &mechanisms);
+        let set = match verdict {
+            // of those of the verdict's kind
+            Verdict::Explained | Verdict::Unknown => {
+                let of_kind = |m: usize| model.mechanisms()[m].named == (verdict == Verdict::Explained);
+                likely(&mechanisms, &candidates, plain, settings.excluded, of_kind)
+            }
+            Verdict::None | Verdict::Recalibrate => Vec::new(),
+        };
+        let best = &candidates[0].fit;
+        let parameters = (0..best.active.len()).map(|place| crate::marginal::estimates(model, &candidates, place)).collect();
+        let mismatch = fitter.fit(&Hypothesis::NOMINAL, &best.noise, Some(&nominal))?;
+        let stages = mismatch.stages(model, fitter.records, fitter.observations)?;
+        let excluded = settings.excluded;
+        Ok(Self { verdict, mechanisms, set, parameters, nominal, mismatch, stages, verdicts, excluded, candidates })
+    }
+}
+
+/// Sorts candidates by their weights, best first, and makes probabilities of them.
+fn weigh(candidates: &mut [Candidate]) {
+    candidates.sort_by(|a, b| b.log_weight.total_cmp(&a.log_weight));
+    let most = candidates[0].log_weight;
+    let sum: f64 = candidates.iter().map(|c| (c.log_weight - most).exp()).sum();
+    candidates.iter_mut().for_each(|c| c.probability = (c.log_weight - most).exp() / sum);
+}
+
+/// Whether no structure was added to a candidate.
+fn plain(candidate: &Candidate) -> bool {
+    candidate.rival.is_none()
+}
+
+/// Probabilities of the verdicts none, recalibrate, explained and unknown.
+fn verdicts<M: ForwardModel>(model: &M, candidates: &[Candidate]) -> [f64; 4] {
+    let of = |verdict: Verdict| -> f64 { candidates.iter().filter(|c| kind(model, c) == verdict).map(|c| c.probability).sum() };
+    let [none, recalibrate, unknown] = [Verdict::None, Verdict::Recalibrate, Verdict::Unknown].map(of);
+    [none, recalibrate, 1.0 - none - unknown - recalibrate, unknown]
+}
+
+/// The verdict that a candidate speaks for.
+fn kind<M: ForwardModel>(model: &M, candidate: &Candidate) -> Verdict {
+    let hypothesis = &candidate.fit.hypothesis;
+    if !plain(candidate) || !named(model, candidate) {
+        Verdict::Unknown
+    } else if *hypothesis == Hypothesis::NOMINAL {
+        Verdict::None
+    } else if *hypothesis == Hypothesis::RECALIBRATED {
+        Verdict::Recalibrate
+    } else {
+        Verdict::Explained
+    }
+}
+
+/// The verdict by the probabilities of all four, and the largest gain of ln evidence over the nominal model.
+fn decide([none, recalibrate, explained, unknown]: [f64; 4], gain: f64) -> Verdict {
+    if none > SUFFICES || gain < FINDING {
+        Verdict::None
+    } else if unknown > explained.max(recalibrate) {
+        Verdict::Unknown
+    } else if recalibrate > explained {
+        Verdict::Recalibrate
+    } else {
+        Verdict::Explained
+    }
+}
+
+/// Puts the best candidate of the verdict first.
+fn lead<M: ForwardModel>(model: &M, candidates: &mut [Candidate], verdict: Verdict, mechanisms: &[(usize, f64)]) {
+    // of those that hold the likeliest mechanism, many small candidates together may outweigh a large one
+    let likeliest = mechanisms.iter().map(|(m, _)| *m).find(|m| model.mechanisms()[*m].named);
+    let fits = |c: &Candidate| {
+        kind(model, c) == verdict
+            && (verdict != Verdict::Explained || likeliest.is_some_and(|mechanism| c.fit.hypothesis.has(mechanism)))
+    };
+    if let Some(at) = candidates.iter().position(fits) {
+        candidates[..=at].rotate_right(1);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::set::tests::{candidate, library};
+    use super::*;
+    use crate::{Rival, Structure};
+
+    #[test]
+    fn a_verdict_needs_probability_and_one_hypothesis_that_stands_out() {
+        assert_eq!(decide([0.66, 0.0, 0.34, 0.0], 9.0), Verdict::None);
+        assert_eq!(decide([0.64, 0.0, 0.36, 0.0], 9.0), Verdict::Explained);
+        assert_eq!(decide([0.1, 0.0, 0.9, 0.0], 1.9), Verdict::None);
+        assert_eq!(decide([0.1, 0.5, 0.4, 0.0], 9.0), Verdict::Recalibrate);
+        assert_eq!(decide([0.1, 0.3, 0.2, 0.4], 9.0), Verdict::Unknown);
+        // equal shares speak for what has a name
+        assert_eq!(decide([0.2, 0.0, 0.4, 0.4], 9.0), Verdict::Explained);
+    }
+
+    #[test]
+    fn weights_become_probabilities_whatever_is_added_to_all() {
+        for shift in [0.0, -1e5, 1e5] {
+            let weighed = |ln: f64| Candidate { log_weight: ln + shift, ..candidate(&[0], 0.0) };
+            let mut candidates = vec![weighed(0.0), weighed(3.0_f64.ln()), weighed(f64::NEG_INFINITY)];
+            weigh(&mut candidates);
+            for (candidate, expected) in candidates.iter().zip([0.75, 0.25, 0.0]) {
+                assert!((candidate.probability - expected).abs() < 1e-10, "{} {expected}", candidate.probability);
+            }
+        }
+    }
+
+    #[test]
+    fn every_candidate_speaks_for_one_verdict() {
+        let model = library(&[true, true, false]);
+        let rival = Some(Rival { structure: Structure::Step, channel: 0, at: None, gain: 0.0 });
+        let mut recalibrated = candidate(&[], 0.2);
+        recalibrated.fit.hypothesis.constants_free = true;
+        let candidates = [
+            candidate(&[], 0.1),
+            recalibrated,
+            candidate(&[0], 0.3),
+            candidate(&[0, 1], 0.15),
+            candidate(&[2], 0.05),
+            candidate(&[0, 2], 0.08),
+            Candidate { rival, ..candidate(&[1], 0.12) },
+        ];
+        for (found, expected) in verdicts(&model, &candidates).iter().zip([0.1, 0.2, 0.45, 0.25]) {
+            assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        }
+    }
+
+    #[test]
+    fn the_best_candidate_of_the_verdict_leads_and_the_others_keep_their_order() {
+        let model = library(&[true, true, false]);
+        let shares = |candidates: &[Candidate]| candidates.iter().map(|c| c.probability).collect::<Vec<_>>();
+        // the first mechanism alone is the largest candidate, the second in two pairs has more together
+        let all = || vec![candidate(&[], 0.3), candidate(&[0], 0.25), candidate(&[1], 0.24), candidate(&[1, 1], 0.21)];
+        let order = |verdict| {
+            let mut candidates = all();
+            let mechanisms = marginals(&model, &candidates, plain);
+            lead(&model, &mut candidates, verdict, &mechanisms);
+            shares(&candidates)
+        };
+        assert_eq!(order(Verdict::None), [0.3, 0.25, 0.24, 0.21]);
+        assert_eq!(order(Verdict::Explained), [0.24, 0.3, 0.25, 0.21]);
+        // none speaks for it: as they were
+        assert_eq!(order(Verdict::Unknown), [0.3, 0.25, 0.24, 0.21]);
+    }
+}

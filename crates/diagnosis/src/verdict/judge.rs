@@ -1,0 +1,188 @@
+//! The verdict before records that were held out: what they prove, and what they contradict.
+
+use super::set::{likely, marginals, named};
+use super::{Diagnosis, Verdict};
+use crate::{Candidate, Error, ForwardModel, HeldOut, Observation, as_designed};
+
+/// A record that was held out, predicted twice.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judged {
+    /// By the nominal model as it is designed, its offsets fitted ([`as_designed`]).
+    pub nominal: HeldOut,
+    /// By the best candidate, nothing fitted anew ([`crate::Fit::hold_out`]).
+    pub model: HeldOut,
+    /// Whether the best candidate's error of the channel that judges is no larger than the nominal model's.
+    pub accepted: bool,
+}
+
+/// What the records that were held out do to a verdict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ruling {
+    /// Nothing.
+    Stands,
+    /// Mechanisms beside which a structure was left are proven: unknown becomes explained.
+    AcceptedBeside,
+    /// The explanation is taken back: none or unknown remains.
+    TakenBack {
+        /// Number of the first record that contradicts it, among those held out.
+        record: usize,
+        /// How.
+        why: Contradiction,
+    },
+}
+
+/// How a record contradicts an explanation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Contradiction {
+    /// It is predicted clearly worse than by the nominal model ([`HeldOut::clearly_worse_than`]).
+    ClearlyWorse,
+    /// It is predicted hardly better, and far from its noise ([`HeldOut::proves_nothing`]).
+    ProvesNothing,
+}
+
+/// What became of a diagnosis before the records that were held out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judgement {
+    /// Their predictions, in their order.
+    pub records: Vec<Judged>,
+    /// What followed.
+    pub ruling: Ruling,
+}
+
+impl Diagnosis {
+    /// Predicts the records `held` (numbers of the model's, with what was observed) and lets them judge the verdict by `channel`; `fitted` is the first
+    /// record that was fitted.
+    ///
+    /// - A structure beside mechanisms that have a name is no bar to naming them if *every* record is predicted to within its noise, and clearly
+    ///   better than by the nominal model: the verdict becomes [`Verdict::Explained`], and their probabilities count the candidates with a
+    ///   structure.
+    /// - An explanation, or a recalibration, is taken back if *any* record contradicts it ([`Contradiction`]). Then there is nothing to explain if
+    ///   the nominal model predicts that record to within noise, else what there is is unknown; the mechanisms lose their probabilities, which
+    ///   were of the fitted records alone.
+    ///
+    /// # Errors
+    /// [`Error`] if the model fails.
+    pub fn judge<M: ForwardModel>(
+        &mut self,
+        model: &M,
+        fitted: (usize, &Observation),
+        held: &[(usize, &Observation)],
+        channel: usize,
+    ) -> Result<Judgement, Error<M::Error>> {
+        let best = &self.best().fit;
+        let predicted = |&(record, observed): &(usize, &Observation)| -> Result<Judged, Error<M::Error>> {
+            let by_model = best.hold_out(model, record, observed, best)?;
+            let nominal = as_designed(model, fitted, (record, observed), best)?;
+            Ok(Judged { accepted: by_model.rmse[channel] <= nominal.rmse[channel], nominal, model: by_model })
+        };
+        let records = held.iter().map(predicted).collect::<Result<Vec<_>, _>>()?;
+        let ruling = rule(self.verdict, self.is_beside_named(model), &records, channel);
+        match ruling {
+            Ruling::Stands => {}
+            Ruling::AcceptedBeside => self.accept_beside(model),
+            Ruling::TakenBack { record, .. } => self.take_back(records[record].nominal.within_noise(channel)),
+        }
+        Ok(Judgement { records, ruling })
+    }
+
+    /// Takes back what a held-out record contradicts; `suffices` says whether the nominal model does for it.
+    fn take_back(&mut self, suffices: bool) {
+        self.verdict = if suffices { Verdict::None } else { Verdict::Unknown };
+        self.set.clear();
+        self.mechanisms.clear();
+    }
+
+    /// Whether what is called unknown is a structure beside mechanisms that have a name.
+    pub fn is_beside_named<M: ForwardModel>(&self, model: &M) -> bool {
+        let best = self.best();
+        let something = best.rival.is_some() && !best.fit.hypothesis.mechanisms.is_empty();
+        self.verdict == Verdict::Unknown && something && named(model, best)
+    }
+
+    /// Accepts the mechanisms beside which a structure was left.
+    fn accept_beside<M: ForwardModel>(&mut self, model: &M) {
+        self.verdict = Verdict::Explained;
+        let counted = |c: &Candidate| named(model, c);
+        self.mechanisms = marginals(model, &self.candidates, counted);
+        self.set = likely(&self.mechanisms, &self.candidates, counted, self.excluded, |m| model.mechanisms()[m].named);
+    }
+}
+
+/// The rules of [`Diagnosis::judge`]: `beside_named` says whether the unknown is a structure beside mechanisms that have a name.
+fn rule(verdict: Verdict, beside_named: bool, records: &[Judged], channel: usize) -> Ruling {
+    let proves = |r: &Judged| r.nominal.clearly_worse_than(&r.model, channel) && r.model.within_noise(channel);
+    if beside_named && !records.is_empty() && records.iter().all(proves) {
+        return Ruling::AcceptedBeside;
+    }
+    let contradicts = |r: &Judged| {
+        if r.model.clearly_worse_than(&r.nominal, channel) {
+            Some(Contradiction::ClearlyWorse)
+        } else {
+            r.model.proves_nothing(&r.nominal, channel).then_some(Contradiction::ProvesNothing)
+        }
+    };
+    let found = matches!(verdict, Verdict::Explained | Verdict::Recalibrate);
+    let first = records.iter().enumerate().find_map(|(record, r)| Some((record, contradicts(r)?)));
+    first.filter(|_| found).map_or(Ruling::Stands, |(record, why)| Ruling::TakenBack { record, why })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Errors of the nominal model and of the best candidate where noise is 1, and by how much the likelihood is for the latter.
+    fn judged(nominal: f64, model: f64, gain: f64) -> Judged {
+        let of = |rmse: f64, log_score: f64| HeldOut {
+            prediction: Vec::new(),
+            rmse: vec![f64::NAN, rmse],
+            noise_floor: vec![1.0; 2],
+            quiet: vec![1.0; 2],
+            log_score,
+        };
+        Judged { nominal: of(nominal, 0.0), model: of(model, gain), accepted: model <= nominal }
+    }
+
+    fn ruled(verdict: Verdict, records: &[Judged]) -> Ruling {
+        rule(verdict, false, records, 1)
+    }
+
+    const WORSE: Contradiction = Contradiction::ClearlyWorse;
+    const NOTHING: Contradiction = Contradiction::ProvesNothing;
+
+    #[test]
+    fn one_record_takes_back_and_the_first_is_named() {
+        let [good, worse, nothing] = [judged(5.0, 1.0, 50.0), judged(1.0, 3.0, -50.0), judged(3.0, 2.9, 3.0)];
+        for verdict in [Verdict::Explained, Verdict::Recalibrate] {
+            assert_eq!(ruled(verdict, &[]), Ruling::Stands);
+            assert_eq!(ruled(verdict, std::slice::from_ref(&good)), Ruling::Stands);
+            let records = [good.clone(), nothing.clone(), worse.clone()];
+            assert_eq!(ruled(verdict, &records), Ruling::TakenBack { record: 1, why: NOTHING });
+            assert_eq!(ruled(verdict, &records[2..]), Ruling::TakenBack { record: 0, why: WORSE });
+        }
+        // where nothing was claimed nothing is taken back
+        for verdict in [Verdict::None, Verdict::Unknown] {
+            assert_eq!(ruled(verdict, std::slice::from_ref(&worse)), Ruling::Stands);
+        }
+    }
+
+    #[test]
+    fn worse_is_by_error_and_by_likelihood() {
+        let taken_back = |nominal, model, gain| ruled(Verdict::Explained, &[judged(nominal, model, gain)]) != Ruling::Stands;
+        assert!(taken_back(1.0, 1.02, -5.1));
+        assert!(!taken_back(1.0, 1.02, -4.9) && !taken_back(1.0, 1.009, -50.0));
+        // no proof: beyond twice the noise, and by less than a twentieth better
+        assert!(taken_back(2.2, 2.1, 50.0));
+        assert!(!taken_back(2.2, 2.08, 50.0) && !taken_back(2.05, 1.99, 50.0));
+    }
+
+    #[test]
+    fn what_stands_beside_a_structure_is_proven_by_all_records_or_none() {
+        let [proof, loud, even] = [judged(2.0, 1.2, 6.0), judged(5.0, 1.4, 50.0), judged(1.2, 1.15, 4.0)];
+        let of = |records: &[Judged]| rule(Verdict::Unknown, true, records, 1);
+        assert_eq!(of(&[proof.clone(), proof.clone()]), Ruling::AcceptedBeside);
+        assert_eq!(of(&[]), Ruling::Stands);
+        assert_eq!(of(&[proof.clone(), loud]), Ruling::Stands);
+        assert_eq!(of(&[even, proof.clone()]), Ruling::Stands);
+        assert_eq!(rule(Verdict::Unknown, false, &[proof], 1), Ruling::Stands);
+    }
+}

@@ -1,0 +1,153 @@
+//! Which mechanisms the recordings do not exclude.
+
+use crate::{Candidate, ForwardModel};
+
+/// Marginal probability from which a mechanism beside another is reported, though the other alone explains all.
+const BESIDE: f64 = 0.15;
+
+/// Whether all mechanisms of a candidate have a name.
+pub(super) fn named<M: ForwardModel>(model: &M, candidate: &Candidate) -> bool {
+    candidate.fit.hypothesis.mechanisms.iter().all(|(m, _)| model.mechanisms()[*m].named)
+}
+
+/// Probability of every mechanism in the candidates that are `counted`, most probable first.
+pub(super) fn marginals<M: ForwardModel>(
+    model: &M,
+    candidates: &[Candidate],
+    counted: impl Fn(&Candidate) -> bool,
+) -> Vec<(usize, f64)> {
+    let has = |c: &&Candidate, m: usize| counted(c) && c.fit.hypothesis.has(m);
+    let of = |m| (m, candidates.iter().filter(|c| has(c, m)).map(|c| c.probability).sum());
+    let mut all: Vec<(usize, f64)> = (0..model.mechanisms().len()).map(of).collect();
+    all.sort_by(|a, b| b.1.total_cmp(&a.1));
+    all
+}
+
+/// Mechanisms that are not excluded, best first: of those `of_kind`, whoever has at least the share `excluded` of the best one's probability, and
+/// is either likely of itself or needed.
+pub(super) fn likely(
+    marginals: &[(usize, f64)],
+    candidates: &[Candidate],
+    counted: impl Fn(&Candidate) -> bool,
+    excluded: f64,
+    of_kind: impl Fn(usize) -> bool,
+) -> Vec<usize> {
+    let kind = || marginals.iter().filter(|(m, _)| of_kind(*m));
+    // what is all but excluded is no member, even of a set of one
+    let least = excluded * kind().next().map_or(0.0, |m| m.1).max(excluded);
+    let counted: Vec<&Candidate> = candidates.iter().filter(|c| counted(c)).collect();
+    let member = |(m, p): &&(usize, f64)| *p >= least && (*p >= BESIDE || needed(&counted, *m, excluded));
+    kind().filter(member).map(|(m, _)| *m).collect()
+}
+
+/// Whether a mechanism stands in some likely candidate that loses by leaving it out: not merely beside another that explains all.
+fn needed(candidates: &[&Candidate], mechanism: usize, excluded: f64) -> bool {
+    let weight = |wanted: &[usize]| {
+        let is = |c: &&&Candidate| {
+            let has = &c.fit.hypothesis.mechanisms;
+            has.len() == wanted.len() && has.iter().all(|(m, _)| wanted.contains(m))
+        };
+        candidates.iter().filter(is).map(|c| c.probability).sum::<f64>()
+    };
+    let least = excluded * candidates.iter().map(|c| c.probability).fold(0.0, f64::max);
+    candidates.iter().any(|c| {
+        let all: Vec<usize> = c.fit.hypothesis.mechanisms.iter().map(|(m, _)| *m).collect();
+        let others: Vec<usize> = all.iter().copied().filter(|m| *m != mechanism).collect();
+        all.contains(&mechanism) && weight(&all) > least && (others.is_empty() || weight(&all) > weight(&others))
+    })
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::fit::{Fit, Hypothesis};
+    use crate::noise::Noise;
+    use crate::{Active, Channel, Mechanism, Nuisance, State};
+
+    /// A library alone: mechanisms with or without a name.
+    pub(crate) struct Library(Vec<Mechanism>);
+
+    pub(crate) fn library(named: &[bool]) -> Library {
+        let of = |(n, named): (usize, &bool)| Mechanism {
+            id: n.to_string(),
+            stage: String::new(),
+            parameters: Vec::new(),
+            choice: None,
+            starts: vec![Vec::new()],
+            named: *named,
+            weight: 1.0,
+        };
+        Library(named.iter().enumerate().map(of).collect())
+    }
+
+    impl ForwardModel for Library {
+        type Error = std::convert::Infallible;
+        fn channels(&self) -> &[Channel] {
+            &[]
+        }
+        fn nuisances(&self) -> &[Nuisance] {
+            &[]
+        }
+        fn mechanisms(&self) -> &[Mechanism] {
+            &self.0
+        }
+        fn respond(&self, _: usize, _: &[f64], _: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
+            Ok(Vec::new())
+        }
+        fn state(&self, _: usize) -> &State {
+            const { &State { level: Vec::new(), rate: Vec::new() } }
+        }
+    }
+
+    /// A candidate of which only mechanisms and probability are told.
+    pub(crate) fn candidate(mechanisms: &[usize], probability: f64) -> Candidate {
+        let hypothesis = Hypothesis { mechanisms: mechanisms.iter().map(|m| (*m, None)).collect(), constants_free: false };
+        let fit = Fit {
+            hypothesis,
+            log_evidence: 0.0,
+            nuisances: Vec::new(),
+            active: Vec::new(),
+            offsets: Vec::new(),
+            residuals: Vec::new(),
+            u: nalgebra::DVector::zeros(0),
+            layout: Vec::new(),
+            covariance: nalgebra::DMatrix::zeros(0, 0),
+            noise: Noise::typical(&[], &[]).expect("no noise"),
+            whitened: nalgebra::DVector::zeros(0),
+            jacobian: nalgebra::DMatrix::zeros(0, 0),
+        };
+        Candidate { fit, rival: None, log_weight: 0.0, probability }
+    }
+
+    /// The set of named mechanisms, with 3 % of the likeliest one's probability as the limit.
+    fn set(named: &[bool], candidates: &[Candidate]) -> Vec<usize> {
+        let model = library(named);
+        likely(&marginals(&model, candidates, |_| true), candidates, |_| true, 0.03, |m| named[m])
+    }
+
+    #[test]
+    fn a_set_holds_what_is_not_excluded_best_first() {
+        let candidates = [candidate(&[], 0.02), candidate(&[1], 0.6), candidate(&[0], 0.361), candidate(&[2], 0.019)];
+        assert_eq!(set(&[true; 3], &candidates), [1, 0, 2]);
+        // the limit is 3 % of 0.6
+        let candidates = [candidate(&[], 0.022), candidate(&[1], 0.6), candidate(&[0], 0.361), candidate(&[2], 0.017)];
+        assert_eq!(set(&[true; 3], &candidates), [1, 0]);
+        // what has no name is no member of theirs
+        assert_eq!(set(&[false, true, true], &candidates), [1]);
+    }
+
+    #[test]
+    fn what_stands_beside_one_that_explains_all_is_no_member_unless_it_is_likely() {
+        let pair = |p: f64| [candidate(&[0], 0.9 - p), candidate(&[0, 1], p), candidate(&[], 0.1)];
+        assert_eq!(set(&[true; 2], &pair(0.1)), [0]);
+        assert_eq!(set(&[true; 2], &pair(0.2)), [0, 1]);
+        // needed: the pair has more than the first alone, though little beside a third
+        let candidates = [candidate(&[2], 0.8), candidate(&[0, 1], 0.1), candidate(&[0], 0.05), candidate(&[1], 0.05)];
+        assert_eq!(set(&[true; 3], &candidates), [2, 0, 1]);
+    }
+
+    #[test]
+    fn even_the_best_is_no_member_where_it_is_all_but_excluded() {
+        assert_eq!(set(&[true], &[candidate(&[], 0.9995), candidate(&[0], 0.0005)]), []);
+    }
+}

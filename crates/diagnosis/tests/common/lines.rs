@@ -1,0 +1,120 @@
+//! A linear model under white noise, of which everything is known in closed form: two mechanisms, each a size times a column of its own;
+//! a third, if it is asked for, chooses between their columns.
+
+use diagnosis::{
+    Active, Channel, ForwardModel, Hypothesis, Mechanism, NoisePrior, Nuisance, Observation, Parameter, Prior, State,
+};
+
+/// Standard deviation of the noise.
+pub(crate) const WHITE: f64 = 0.5;
+/// Standard deviation of a size beforehand.
+pub(crate) const PRIOR_SD: f64 = 2.0;
+const STEP_S: f64 = 30.0;
+/// A spread of the noise's priors that hardly lets it move.
+const KNOWN: f64 = 1e-4;
+const TINY: f64 = 1e-9;
+
+pub(crate) struct Lines {
+    channels: Vec<Channel>,
+    mechanisms: Vec<Mechanism>,
+    state: State,
+    unit: f64,
+}
+
+/// One mechanism alone.
+pub(crate) fn alone(mechanism: usize) -> Hypothesis {
+    Hypothesis { mechanisms: vec![(mechanism, None)], constants_free: false }
+}
+
+impl Lines {
+    pub(crate) fn new(rows: usize) -> Self {
+        Self::in_unit(rows, 1.0)
+    }
+
+    /// The same in a unit of which `unit` make one.
+    pub(crate) fn in_unit(rows: usize, unit: f64) -> Self {
+        let noise = NoisePrior {
+            white: (WHITE * unit, KNOWN),
+            drift: (TINY * unit, KNOWN),
+            drift_time: (1000.0, KNOWN),
+            walk: (TINY * unit, KNOWN),
+        };
+        let mechanism = |id: &str| Mechanism {
+            id: id.into(),
+            stage: "any".into(),
+            parameters: vec![Parameter::new("size", Prior::Normal { mean: 0.0, sd: PRIOR_SD })],
+            choice: None,
+            starts: vec![vec![0.0]],
+            named: true,
+            weight: 1.0,
+        };
+        Self {
+            channels: vec![Channel { name: "y".into(), unit: "1".into(), offset_sd: 3.0 * unit, averaging: 0.0, noise }],
+            mechanisms: vec![mechanism("wave"), mechanism("bend")],
+            state: State { level: vec![0.0; rows], rate: vec![0.0; rows] },
+            unit,
+        }
+    }
+
+    /// The same with a third mechanism that chooses between the columns of the others.
+    pub(crate) fn with_either(rows: usize) -> Self {
+        let mut lines = Self::new(rows);
+        let choice = Some(("column".to_owned(), vec![0.0, 1.0]));
+        lines.mechanisms.push(Mechanism { id: "either".into(), choice, ..lines.mechanisms[0].clone() });
+        lines
+    }
+
+    /// The same with an offset that is known to be 0.
+    pub(crate) fn without_offset(mut self) -> Self {
+        self.channels[0].offset_sd = TINY;
+        self
+    }
+
+    pub(crate) fn offset_sd(&self) -> f64 {
+        self.channels[0].offset_sd
+    }
+
+    /// Response to a size of 1.
+    pub(crate) fn column(&self, mechanism: usize) -> Vec<f64> {
+        let rows = self.state.level.len();
+        let of = |n: usize| {
+            let x = n as f64 / rows as f64;
+            self.unit * if mechanism == 0 { (7.0 * x).sin() } else { (7.0 * x).sin() + x * x }
+        };
+        (0..rows).map(of).collect()
+    }
+
+    pub(crate) fn observed(&self, y: &[f64]) -> Observation {
+        Observation { time: (0..y.len()).map(|n| STEP_S * n as f64).collect(), channels: vec![y.to_vec()] }
+    }
+}
+
+impl ForwardModel for Lines {
+    type Error = std::convert::Infallible;
+
+    fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    fn nuisances(&self) -> &[Nuisance] {
+        &[]
+    }
+
+    fn mechanisms(&self) -> &[Mechanism] {
+        &self.mechanisms
+    }
+
+    fn respond(&self, _: usize, _: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
+        let mut y = vec![0.0; self.state.level.len()];
+        for active in active {
+            y.iter_mut()
+                .zip(self.column(active.choice.map_or(active.mechanism, |c| c as usize)))
+                .for_each(|(y, x)| *y += active.values[0] * x);
+        }
+        Ok(vec![y])
+    }
+
+    fn state(&self, _: usize) -> &State {
+        &self.state
+    }
+}

@@ -1,0 +1,146 @@
+//! Evidence, posterior and separation of linear models under white noise, against the Gaussian integrals in closed form.
+
+mod common;
+
+use common::lines::{Lines, PRIOR_SD, WHITE, alone};
+use common::normal;
+use diagnosis::{Fit, Hypothesis, Observation, Plan, Settings, Verdict, diagnose, fitted, separation};
+use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
+
+/// What a linear Gaussian model y = A x + e says exactly, with x ~ N(0, P) and e ~ N(0, WHITE²).
+struct Exact {
+    /// ln N(y; 0, A P Aᵀ + WHITE² I) + n/2 ln 2π
+    log_evidence: f64,
+    mean: DVector<f64>,
+    covariance: DMatrix<f64>,
+}
+
+/// By the dense covariance matrix of the data: another route than the engine's.
+fn exact(columns: &[Vec<f64>], prior_sds: &[f64], y: &[f64]) -> Exact {
+    let a = DMatrix::from_vec(y.len(), columns.len(), columns.concat());
+    let prior = DMatrix::from_diagonal(&DVector::from_iterator(prior_sds.len(), prior_sds.iter().map(|sd| sd * sd)));
+    let covariance = &a * &prior * a.transpose() + DMatrix::identity(y.len(), y.len()) * WHITE.powi(2);
+    let factor = covariance.cholesky().expect("positive definite");
+    let y = DVector::from_column_slice(y);
+    let solved = factor.solve(&y);
+    let half_log_det: f64 = factor.l().diagonal().iter().map(|d| d.ln()).sum();
+    let gain = &prior * a.transpose();
+    Exact {
+        log_evidence: -y.dot(&solved) / 2.0 - half_log_det,
+        mean: &gain * solved,
+        covariance: &prior - &gain * factor.solve(&(&a * &prior)),
+    }
+}
+
+fn fit(lines: &Lines, y: &[f64], hypothesis: &Hypothesis) -> Fit {
+    fitted(lines, &[0], &[lines.observed(y)], std::slice::from_ref(hypothesis)).expect("a fit")
+}
+
+/// Noise of the model.
+fn noise(rows: usize, seed: u64) -> Vec<f64> {
+    let mut normal = normal(seed);
+    (0..rows).map(|_| WHITE * normal()).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    #[test]
+    fn laplace_is_exact_for_a_linear_model(seed in any::<u64>(), sizes in prop::array::uniform2(-3.0..3.0_f64), both in any::<bool>()) {
+        let lines = Lines::new(40);
+        let y: Vec<f64> = noise(40, seed)
+            .iter()
+            .enumerate()
+            .map(|(n, e)| e + sizes[0] * lines.column(0)[n] + if both { sizes[1] * lines.column(1)[n] } else { 0.0 })
+            .collect();
+        // ln evidence is up to a constant: that of the nominal model is taken off, whose offset is its only unknown
+        let offset = vec![1.0; 40];
+        let nominal = fit(&lines, &y, &Hypothesis::NOMINAL);
+        let nothing = exact(std::slice::from_ref(&offset), &[lines.offset_sd()], &y);
+        for mechanisms in [vec![0], vec![1], vec![0, 1]] {
+            let hypothesis = Hypothesis { mechanisms: mechanisms.iter().map(|m| (*m, None)).collect(), constants_free: false };
+            let found = fit(&lines, &y, &hypothesis);
+            let columns: Vec<Vec<f64>> = mechanisms.iter().map(|m| lines.column(*m)).chain([offset.clone()]).collect();
+            let sds: Vec<f64> = mechanisms.iter().map(|_| PRIOR_SD).chain([lines.offset_sd()]).collect();
+            let closed = exact(&columns, &sds, &y);
+            let (gain, expected) = (found.log_evidence - nominal.log_evidence, closed.log_evidence - nothing.log_evidence);
+            prop_assert!((gain - expected).abs() < 1e-4 * (1.0 + expected.abs()), "{gain} {expected}");
+            for (place, active) in found.active.iter().enumerate() {
+                let sd = closed.covariance[(place, place)].sqrt();
+                prop_assert!((active.values[0] - closed.mean[place]).abs() < 1e-3 * sd, "{} {}", active.values[0], closed.mean[place]);
+                let [low, high] = found.estimates(&lines, place)[0].ci90;
+                // 2 × 1.6449 standard deviations
+                prop_assert!(((high - low) / sd - 3.289_707).abs() < 1e-3, "{low} {high} {sd}");
+            }
+        }
+    }
+
+    /// Neither the zero of time, nor the order of rows that are not used, nor the unit of the channel changes what is found.
+    #[test]
+    fn the_clock_s_zero_and_the_channel_s_unit_do_not_matter(seed in any::<u64>(), shift in -1e4..1e4_f64, unit in 0.1..50.0_f64) {
+        let lines = Lines::new(40);
+        let y: Vec<f64> = noise(40, seed).iter().zip(lines.column(0)).map(|(e, x)| e + 0.7 * x).collect();
+        let plain = fit(&lines, &y, &alone(0));
+        let scaled = Lines::in_unit(40, unit);
+        let mut observed = scaled.observed(&y.iter().map(|y| unit * y).collect::<Vec<_>>());
+        observed.time.iter_mut().for_each(|t| *t += shift);
+        let other = fitted(&scaled, &[0], &[observed], &[alone(0)]).expect("a fit");
+        prop_assert!((plain.active[0].values[0] - other.active[0].values[0]).abs() < 1e-6);
+        // the density of the data changes with its unit
+        let density = other.log_evidence + 40.0 * unit.ln();
+        prop_assert!((plain.log_evidence - density).abs() < 1e-6 * (1.0 + density.abs()), "{} {density}", plain.log_evidence);
+    }
+
+    #[test]
+    fn separation_is_the_distance_of_least_squares(size in 0.5..3.0_f64, every in 1..4_usize) {
+        let lines = Lines::new(60);
+        let recorded: Vec<f64> = (0..60).map(|n| if n % every == 0 { 0.0 } else { f64::NAN }).collect();
+        let instants = [lines.observed(&recorded)];
+        let truth = [diagnosis::Active { mechanism: 0, values: vec![size], choice: None }];
+        let plan = Plan { records: &[0], instants: &instants, noise: None };
+        let found = separation(&lines, &plan, &truth, &[alone(1)]).expect("a separation");
+        let rows = || (0..60).step_by(every);
+        let pick = |m: usize| rows().map(|n| lines.column(m)[n]).collect::<Vec<_>>();
+        let response: Vec<f64> = pick(0).iter().map(|x| size * x).collect();
+        // least of ‖y − A x‖²/σ² + Σ (x/sd)² is yᵀ (A P Aᵀ + σ² I)⁻¹ y = −2 (ln evidence + ½ ln det)
+        let sds = [PRIOR_SD, lines.offset_sd()];
+        let columns = [pick(1), rows().map(|_| 1.0).collect()];
+        let zero = exact(&columns, &sds, &vec![0.0; response.len()]).log_evidence;
+        let squared = -2.0 * (exact(&columns, &sds, &response).log_evidence - zero);
+        prop_assert!((found.squared / squared - 1.0).abs() < 1e-4, "{} {squared}", found.squared);
+        prop_assert!((found.own - (size / PRIOR_SD).powi(2)).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn verdicts_and_probabilities_follow_the_exact_odds() {
+    let lines = Lines::new(120);
+    for (size, verdict) in [(0.0, Verdict::None), (0.6, Verdict::Explained)] {
+        let y: Vec<f64> = noise(120, 3).iter().zip(lines.column(0)).map(|(e, x)| e + size * x).collect();
+        let settings = Settings::default();
+        let found = diagnose(&lines, &[0], &[lines.observed(&y)], &settings, &|_| ()).expect("a diagnosis");
+        assert_eq!(found.verdict, verdict, "{:?}", found.verdicts());
+        // odds of the first mechanism alone over the nominal model: the exact Bayes factor times the odds beforehand, each of two
+        // mechanisms with half of what singles have, less the share with constants free
+        let of = |test: &dyn Fn(&Hypothesis) -> bool| {
+            let plain = found.candidates.iter().filter(|c| c.rival.is_none() && test(&c.fit.hypothesis));
+            plain.map(|c| c.log_weight).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let odds = of(&|h| *h == alone(0)) - of(&|h| *h == Hypothesis::NOMINAL);
+        let offset = || vec![1.0; 120];
+        let bayes = exact(&[lines.column(0), offset()], &[PRIOR_SD, lines.offset_sd()], &y).log_evidence
+            - exact(&[offset()], &[lines.offset_sd()], &y).log_evidence;
+        let given = settings.none / (settings.none + settings.recalibrate);
+        let expected = bayes + (settings.single / 2.0 * given / settings.none).ln();
+        // the noise is fitted anew to each hypothesis, within a prior that hardly lets it
+        assert!((odds - expected).abs() < 0.02 * (1.0 + expected.abs()), "{odds} {expected}");
+    }
+}
+
+#[test]
+fn a_record_of_nothing_says_nothing() {
+    let lines = Lines::new(40);
+    let empty = Observation { time: lines.observed(&[0.0; 40]).time, channels: vec![vec![f64::NAN; 40]] };
+    let found = diagnose(&lines, &[0], &[empty], &Settings::default(), &|_| ()).expect("a diagnosis");
+    assert_eq!((found.verdict, found.set.len()), (Verdict::None, 0));
+}

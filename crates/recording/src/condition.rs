@@ -1,0 +1,176 @@
+//! A recording made ready for a model: neighbours averaged where there are very many, gaps bridged, and whether it starts at rest.
+//!
+//! Nothing here knows what was recorded: what "many", "steady" and "apart" mean is the caller's to say, in its own units. Every function is
+//! indifferent to where time begins and to the unit of a channel.
+
+use std::ops::Range;
+
+use crate::series::GAP;
+use crate::{Channel, Recording, Sampling};
+
+/// When neighbouring rows are averaged, and how far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Thinning {
+    /// Rows up to which a recording stays as it is.
+    pub many_rows: usize,
+    /// Interval to which rows are averaged \[s\], > 0.
+    pub interval: f64,
+    /// Most rows that are wished for; of more, the interval grows. At least 1.
+    pub most_rows: usize,
+}
+
+/// A recording of which neighbouring rows were averaged.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Thinned {
+    /// What is left.
+    pub recording: Recording,
+    /// Rows of the original in one of these, at least 2.
+    pub every: usize,
+    /// Rows of the original.
+    pub rows: usize,
+}
+
+/// Means over whole numbers of rows; `None` where the recording stays as it is, because it has few rows or long intervals.
+///
+/// `interval` is the usual time between its rows \[s\] ([`crate::check::Instants::interval`]). A group of `every` rows without a gap (an interval over 1.5 usual ones) becomes
+/// one, at its last instant: what a gap cuts short is no mean over the interval, and is left out. A channel of means
+/// ([`Sampling::Mean`]) is averaged over the group; momentary values over as many rows on either side of the instant as are there, at most
+/// half a group, which is a reading at that instant with less noise. A mean of which less than half is finite is NaN.
+pub fn thinned(recording: &Recording, interval: f64, rule: &Thinning) -> Option<Thinned> {
+    let time = recording.time();
+    let rows = time.len();
+    let wished = if interval > 0.0 { (rule.interval / interval).round() as usize } else { 1 };
+    let every = wished.max(rows.div_ceil(rule.most_rows));
+    if rows <= rule.many_rows || every < 2 {
+        return None;
+    }
+    let neighbours = |row: usize| time[row] - time[row - 1] <= GAP * interval;
+    let groups = groups(rows, every, neighbours);
+    let about = |last: usize| {
+        let side = (1..=every / 2).take_while(|k| last + k < rows && neighbours(last + k)).count();
+        last - side..last + side + 1
+    };
+    let of = |channel: &Channel| {
+        let value = |group: &Range<usize>| match channel.sampling {
+            Sampling::Mean => mean(&channel.values[group.clone()]),
+            Sampling::Momentary => mean(&channel.values[about(group.end - 1)]),
+        };
+        Channel { values: groups.iter().map(value).collect(), ..channel.clone() }
+    };
+    let left = groups.iter().map(|group| time[group.end - 1]).collect();
+    Some(Thinned { recording: recording.with(left, of), every, rows })
+}
+
+/// Groups of `every` rows between gaps.
+fn groups(rows: usize, every: usize, neighbours: impl Fn(usize) -> bool) -> Vec<Range<usize>> {
+    let (mut whole, mut first) = (Vec::new(), 0);
+    for row in 1..=rows {
+        if row < rows && neighbours(row) && row - first < every {
+            continue;
+        }
+        if row - first == every {
+            whole.push(first..row);
+        }
+        first = row;
+    }
+    whole
+}
+
+/// Mean of what is there; NaN if that is less than half.
+fn mean(values: &[f64]) -> f64 {
+    let (sum, count) = values.iter().filter(|v| v.is_finite()).fold((0.0, 0), |(s, n), v| (s + v, n + 1));
+    if 2 * count < values.len() { f64::NAN } else { sum / count as f64 }
+}
+
+/// A series with what is not finite filled in: on straight lines in time between what is, and with the nearest value at its ends; `None`
+/// if nothing is finite.
+///
+/// ```
+/// use recording::condition::bridged;
+///
+/// let nan = f64::NAN;
+/// assert_eq!(bridged(&[0.0, 1.0, 2.0, 4.0, 5.0], &[nan, 1.0, nan, 4.0, nan]), Some(vec![1.0, 1.0, 2.0, 4.0, 4.0]));
+/// assert_eq!(bridged(&[0.0], &[nan]), None);
+/// ```
+///
+/// # Panics
+/// If there are fewer instants than values.
+pub fn bridged(time: &[f64], values: &[f64]) -> Option<Vec<f64>> {
+    let known: Vec<usize> = (0..values.len()).filter(|&n| values[n].is_finite()).collect();
+    let (&first, &last) = known.first().zip(known.last())?;
+    let filled = |n: usize| {
+        if values[n].is_finite() {
+            return values[n];
+        }
+        let at = known.partition_point(|k| *k < n);
+        match (at.checked_sub(1).map(|k| known[k]), known.get(at)) {
+            (Some(a), Some(&b)) => values[a] + (values[b] - values[a]) * (time[n] - time[a]) / (time[b] - time[a]),
+            (Some(_), None) => values[last],
+            _ => values[first],
+        }
+    };
+    Some((0..values.len()).map(filled).collect())
+}
+
+/// What counts as rest at the beginning.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rest {
+    /// How long what drives should be steady \[s\].
+    pub duration: f64,
+    /// What it may move by, and differ by from what follows it \[u\]: offsets and noise of sensors.
+    pub tolerance: f64,
+}
+
+/// Why a recording does not start at rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Unrest {
+    /// What drives and what follows differ at first.
+    Apart {
+        /// By how much \[u\].
+        by: f64,
+    },
+    /// What drives moves at first.
+    Moving {
+        /// By how much within the duration \[u\].
+        by: f64,
+    },
+}
+
+/// Why a recording does not start at rest, if it does not: from `driver`, which is finite, and `follower`, NaN where it is not known.
+///
+/// At rest both have one value: a model that starts from equilibrium has no other. The follower's first finite value counts; that the two differ
+/// is said before that the driver moves.
+pub fn unrest(time: &[f64], driver: &[f64], follower: &[f64], rest: &Rest) -> Option<Unrest> {
+    let (start, first) = (*time.first()?, *driver.first()?);
+    let apart = follower.iter().find(|value| value.is_finite()).map_or(0.0, |value| (value - first).abs());
+    let early = time.iter().zip(driver).take_while(|(t, _)| *t - start <= rest.duration);
+    let moved = early.fold(0.0_f64, |most, (_, value)| most.max((value - first).abs()));
+    if apart > rest.tolerance {
+        Some(Unrest::Apart { by: apart })
+    } else {
+        (moved > rest.tolerance).then_some(Unrest::Moving { by: moved })
+    }
+}
+
+/// Largest less smallest of the values, those that are NaN left out; −∞ of nothing.
+pub fn span(values: &[f64]) -> f64 {
+    let [low, high] = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(*v), high.max(*v)]);
+    high - low
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_a_mean_is_none() {
+        assert_eq!(mean(&[1.0, f64::NAN, 3.0, 5.0]), 3.0);
+        assert!(mean(&[1.0, f64::NAN, f64::NAN]).is_nan() && mean(&[]).is_nan());
+    }
+
+    #[test]
+    fn what_a_gap_cuts_short_is_no_group() {
+        assert_eq!(groups(11, 3, |row| row != 5), [0..3, 5..8, 8..11]);
+        assert_eq!(groups(2, 3, |_| true), []);
+    }
+}
