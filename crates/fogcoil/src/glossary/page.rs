@@ -1,9 +1,13 @@
 //! A page of Markdown, taken apart.
 
+use pulldown_cmark::{Event, HeadingLevel, Options, Parser, Tag, TagEnd};
+
 /// What stands below the heading `## name`, up to the next; empty if there is none.
 pub(super) fn section<'a>(page: &'a str, name: &str) -> &'a str {
-    let mut parts = page.split("\n## ").skip(1);
-    parts.find_map(|part| part.strip_prefix(name)?.strip_prefix('\n')).unwrap_or("").trim()
+    let is_heading = |event: &Event| matches!(event, Event::Start(Tag::Heading { level: HeadingLevel::H2, .. }));
+    let mut headings = Parser::new(page).into_offset_iter().filter(|(event, _)| is_heading(event)).map(|(_, place)| place);
+    let Some(heading) = headings.find(|place| page[place.clone()].trim_matches(['#', ' ', '\n']) == name) else { return "" };
+    page[heading.end..headings.next().map_or(page.len(), |next| next.start)].trim()
 }
 
 /// The heading of the page.
@@ -13,8 +17,22 @@ pub(super) fn title(page: &str) -> &str {
 
 /// The rows of the table whose first header cell is `first`, its header among them, without marks of code.
 pub(super) fn rows(page: &str, first: &str) -> Vec<Vec<String>> {
-    let cells =
-        |line: &str| line.trim().trim_matches('|').split('|').map(|cell| cell.trim().replace('`', "")).collect::<Vec<_>>();
-    let table = page.lines().skip_while(|line| !line.starts_with(&format!("| {first} |")));
-    table.take_while(|line| line.starts_with('|')).filter(|line| !line.starts_with("|--")).map(cells).collect()
+    let mut table: Vec<Vec<String>> = Vec::new();
+    for (event, place) in Parser::new_ext(page, Options::ENABLE_TABLES).into_offset_iter() {
+        match event {
+            Event::Start(Tag::Table(_)) => table.clear(),
+            Event::Start(Tag::TableHead | Tag::TableRow) => table.push(Vec::new()),
+            Event::Start(Tag::TableCell) => {
+                let cell = page[place].trim_matches(['|', ' ']).replace('`', "");
+                if let Some(row) = table.last_mut() {
+                    row.push(cell);
+                }
+            }
+            Event::End(TagEnd::Table) if table.first().is_some_and(|head| head.first().is_some_and(|cell| cell == first)) => {
+                return table;
+            }
+            _ => {}
+        }
+    }
+    Vec::new()
 }
