@@ -1,6 +1,7 @@
 //! `cargo xtask crates`: each library crate by itself, as another project would take it.
 
-use crate::validate::{Failure, root};
+use proof::Failure;
+use proof::files::root;
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;

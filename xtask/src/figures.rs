@@ -8,7 +8,9 @@ use fogcoil::{figures, input, picture, picture_cell, simulate};
 use homogenization::fields::{Component, Convention, Fields, Load};
 use homogenization::irregular::{Arrangement, Cell};
 
-use crate::validate::{Failure, on_spools, over_spools, printed};
+use crate::validate::on_spools;
+use proof::Failure;
+use proof::validation::{over_spools, printed};
 
 const COIL: &str = "fixtures/coil-reference.ron";
 const PROFILE: &str = "fixtures/profiles/paper.csv";

@@ -1,15 +1,11 @@
 //! Project chores.
 
 mod bench;
-mod cells;
-mod cells_peer;
 mod crates;
 mod docs;
 mod figures;
-mod identify;
 mod mechanisms;
 mod pages;
-mod prove;
 mod sabotage;
 mod validate;
 
@@ -33,7 +29,7 @@ enum Chore {
         #[arg(long, value_name = "FILE.html")]
         report: Option<PathBuf>,
     },
-    Prove(prove::Prove),
+    Prove(proof::Prove),
     /// Draw the reference coil's figures as SVG files
     Figures {
         /// Where they go
@@ -52,10 +48,10 @@ enum Chore {
     /// Measure which mechanisms are mistaken for which: the numbers and pictures of docs/mechanisms
     Mechanisms,
     DocsCheck(docs::DocsCheck),
-    Identify(identify::Identify),
+    Identify(proof::Identify),
     /// Break the cell's crates in a copy, one line at a time, and list the tests that turn red
     ///
-    /// Writes xtask/src/validate/sabotage.md. Exit status 1 if no test sees one of the breaks.
+    /// Writes crates/proof/src/validation/sabotage.md. Exit status 1 if no test sees one of the breaks.
     Sabotage,
     /// Each library by itself: what it promises, its own features, its tests, its package
     Crates {
@@ -74,7 +70,7 @@ fn main() -> ExitCode {
         Chore::Prove(prove) => prove.run(),
         Chore::Figures { out } => figures::run(&out),
         Chore::Pages(pages) => pages.run(),
-        Chore::Cells { peers_python } => cells::run(peers_python.as_deref()),
+        Chore::Cells { peers_python } => proof::cells::run(peers_python.as_deref()),
         Chore::Mechanisms => mechanisms::run(),
         Chore::DocsCheck(check) => check.run(),
         Chore::Identify(identify) => identify.run(),

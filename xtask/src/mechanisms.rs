@@ -10,7 +10,7 @@ use fogcoil::explain::{Explained, Explanation, Outcome, explain};
 use fogcoil::glossary::mechanisms;
 use fogcoil::input;
 
-use crate::validate::Failure;
+use proof::{Failure, files};
 
 const COIL: &str = "fixtures/coil-reference.ron";
 const PAGES: &str = "docs/mechanisms";
@@ -20,8 +20,7 @@ const PICTURES: &str = "docs/pictures/mechanisms";
 /// Measured sensitivities of Table IV, (deg/h)/(degC/min).
 const COILS: [f64; 3] = [3.01, 1.39, 1.98];
 /// Between these lines a page holds what this command writes.
-const BEGIN: &str = "<!-- measured: written by `cargo xtask mechanisms` -->\n";
-const END: &str = "<!-- measured end -->\n";
+const MARKS: [&str; 2] = ["<!-- measured: written by `cargo xtask mechanisms` -->", "<!-- measured end -->"];
 
 /// Writes the measured part of every page and all pictures; always `true`.
 pub(crate) fn run() -> Result<bool, Failure> {
@@ -92,8 +91,5 @@ fn outcome(explanation: &Explanation) -> String {
 
 /// Puts `text` between the marks of a page.
 fn rewrite(page: &Path, text: &str) -> Result<(), Failure> {
-    let old = fs::read_to_string(page).map_err(|error| Failure(format!("{}: {error}", page.display())))?;
-    let ends = old.split_once(BEGIN).and_then(|(head, rest)| Some((head, rest.split_once(END)?.1)));
-    let Some((head, tail)) = ends else { return Err(Failure(format!("{}: lacks the marks {BEGIN}{END}", page.display()))) };
-    Ok(fs::write(page, format!("{head}{BEGIN}\n{}\n{END}{tail}", text.trim_end()))?)
+    files::renew(page, MARKS, &format!("\n\n{}\n", text.trim_end()))
 }

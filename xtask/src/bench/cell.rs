@@ -1,10 +1,9 @@
 //! `cargo xtask bench cell`: from the reference cell to its constants, ours and the peers', error against time.
 
-use super::peers::{self, Run};
 use super::{Failure, Progress, Stopwatch, median, publish, root};
 use homogenization::{Constants, Discretization, FibreCell, Homogenized, TOLERANCE, effective, homogenize_to, multipoles};
+use proof::peers::{self, Program};
 use std::collections::BTreeMap;
-use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -88,30 +87,17 @@ const fn skfem(name: &'static str, arguments: &'static [&'static str]) -> Peer {
     Peer { name, kind: Kind::Typical, module: "skfem", arguments }
 }
 
-/// A row of the table.
-struct Program {
-    name: String,
-    kind: Option<Kind>,
-    path: PathBuf,
-    arguments: Vec<OsString>,
-    runs: Vec<Run>,
+/// Who would run a program so; `None` of ours.
+fn kind(program: &Program) -> Option<Kind> {
+    PEERS.iter().find(|peer| peer.name == program.name).map(|peer| peer.kind)
 }
 
-impl Program {
-    fn compute(&self) -> f64 {
-        median(self.runs.iter().map(|r| r.printed.compute()).collect())
-    }
-
-    fn process(&self) -> f64 {
-        median(self.runs.iter().map(|r| r.cpu.unwrap_or(r.wall)).collect())
-    }
-
-    fn error(&self, exact: &Constants) -> f64 {
-        let exact: BTreeMap<_, _> = exact.named().into_iter().collect();
-        let out = &self.runs[0].printed.out;
-        let error = |(theirs, ours): &(&str, &str)| out.get(*theirs).map_or(f64::NAN, |v| (v / exact[ours] - 1.0).abs());
-        NAMES.iter().map(error).fold(0.0, |m, e| if e.is_nan() || m.is_nan() { f64::NAN } else { m.max(e) })
-    }
+/// Largest relative error of a program's constants.
+fn error(program: &Program, exact: &Constants) -> f64 {
+    let exact: BTreeMap<_, _> = exact.named().into_iter().collect();
+    let out = &program.printed().out;
+    let error = |(theirs, ours): &(&str, &str)| out.get(*theirs).map_or(f64::NAN, |v| (v / exact[ours] - 1.0).abs());
+    NAMES.iter().map(error).fold(0.0, |m, e| if e.is_nan() || m.is_nan() { f64::NAN } else { m.max(e) })
 }
 
 fn cell_file() -> PathBuf {
@@ -142,14 +128,7 @@ pub(crate) fn child(name: &str) -> Result<(), Failure> {
 
 fn programs(python: Option<&Path>, progress: &Progress) -> Result<Vec<Program>, Failure> {
     let own = std::env::current_exe()?;
-    let of_ours = |(name, _): &(&str, Way)| Program {
-        name: name.to_string(),
-        kind: None,
-        path: own.clone(),
-        arguments: ["bench", "cell-job", name].map(OsString::from).to_vec(),
-        runs: Vec::new(),
-    };
-    let mut programs: Vec<_> = OURS.iter().map(of_ours).collect();
+    let mut programs: Vec<_> = OURS.iter().map(|(name, _)| Program::new(*name, &own, ["bench", "cell-job", name])).collect();
     let Some(python) = python else {
         progress.say("peers skipped: give --peers-python PATH or set FOGCOIL_PEERS_PYTHON");
         return Ok(programs);
@@ -160,14 +139,7 @@ fn programs(python: Option<&Path>, progress: &Progress) -> Result<Vec<Program>, 
             continue;
         }
         let script = format!("rve_cell_{}.py", peer.module);
-        let arguments = [script.as_str()].iter().chain(peer.arguments).map(OsString::from).collect();
-        programs.push(Program {
-            name: peer.name.into(),
-            kind: Some(peer.kind),
-            path: python.to_path_buf(),
-            arguments,
-            runs: Vec::new(),
-        });
+        programs.push(Program::new(peer.name, python, [script.as_str()].iter().chain(peer.arguments)));
     }
     Ok(programs)
 }
@@ -213,19 +185,7 @@ pub(crate) fn run(python: Option<&Path>, repetitions: u64) -> Result<(), Failure
     for repetition in 0..repetitions {
         progress.say(&format!("run {} of {}", repetition + 1, repetitions));
         whole.push(whole_program(&fogcoil)?);
-        let mut kept = Vec::new();
-        for mut program in programs {
-            match peers::run(&program.path, &program.arguments) {
-                Ok(run) => program.runs.push(run),
-                Err(error) if program.kind.is_none() => return Err(error),
-                Err(error) => {
-                    progress.say(&format!("{} is left out: {error}", program.name));
-                    continue;
-                }
-            }
-            kept.push(program);
-        }
-        programs = kept;
+        peers::run_each(&mut programs, OURS.len(), |said| progress.say(said))?;
     }
     let whole = [0, 1].map(|k| median(whole.iter().map(|w| w[k]).collect()));
     publish("cell", &section(&programs, &exact, whole, repetitions))
@@ -239,9 +199,9 @@ fn section(programs: &[Program], exact: &Constants, [cpu, wall]: [f64; 2], repet
     let first = programs[0].compute();
     for program in programs {
         // ours are timed inside a process of the benchmark's own; the program itself is below
-        let process = program.kind.map_or("–".into(), |_| format!("{:.0}", 1e3 * program.process()));
-        let (unknowns, error, compute) = (program.runs[0].printed.dof, program.error(exact), program.compute());
-        let (name, clock) = (&program.name, program.kind.map_or("wall", |_| "CPU"));
+        let process = kind(program).map_or("–".into(), |_| format!("{:.0}", 1e3 * program.process()));
+        let (unknowns, error, compute) = (program.printed().dof, error(program, exact), program.compute());
+        let (name, clock) = (&program.name, kind(program).map_or("wall", |_| "CPU"));
         let warm: Vec<f64> = program.runs.iter().filter_map(|run| run.printed.warm).collect();
         let warm = if warm.is_empty() { "–".into() } else { format!("{:.2}", 1e3 * median(warm)) };
         let (compute, ratio) = (1e3 * compute, compute / first);
@@ -262,7 +222,7 @@ fn section(programs: &[Program], exact: &Constants, [cpu, wall]: [f64; 2], repet
         NAMES.len()
     );
     for (kind, who, goal) in [(Kind::Expert, "expert setting", 5), (Kind::Typical, "typical setting", 40)] {
-        let exact_enough = |p: &&Program| p.kind == Some(kind) && p.error(exact) <= TOLERANCE;
+        let exact_enough = |p: &&Program| self::kind(p) == Some(kind) && error(p, exact) <= TOLERANCE;
         let Some(peer) = programs.iter().filter(exact_enough).min_by(|a, b| a.compute().total_cmp(&b.compute())) else {
             let _ = writeln!(out, "\nNo {who} of a peer that was run reaches 1e-6.");
             continue;

@@ -1,11 +1,11 @@
 //! `cargo xtask bench coil`: the coil job of `benches/peers`, ours and the peers found, interleaved, times beside errors.
 
-use super::job::{self, Outcome, STORED, Setting};
-use super::peers::{self, Printed, Run};
-use super::{Failure, Progress, median, publish};
+use super::{Failure, Progress, publish};
+use proof::coil_job::{self as job, JobResult, STORED, Setting};
+use proof::peers::{self, Program};
 use std::ffi::OsString;
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Our settings by name; the first is what every ratio is against.
 const OURS: [(&str, Setting); 3] = [
@@ -41,33 +41,6 @@ const PYTHON: [Peer; 3] = [
     Peer { name: "NGSolve, P4", module: "ngsolve", script: "coil_ngsolve.py", arguments: &["sparsecholesky", "4"], meshes: &[1] },
 ];
 
-/// A program with its runs.
-struct Program {
-    name: String,
-    path: PathBuf,
-    arguments: Vec<OsString>,
-    runs: Vec<Run>,
-}
-
-impl Program {
-    fn median(&self, of: impl Fn(&Run) -> f64) -> f64 {
-        median(self.runs.iter().map(of).collect())
-    }
-
-    fn compute(&self) -> f64 {
-        self.median(|r| r.printed.compute())
-    }
-
-    /// CPU time of the process, or wall time where the system does not tell.
-    fn process(&self) -> f64 {
-        self.median(|r| r.cpu.unwrap_or(r.wall))
-    }
-
-    fn printed(&self) -> &Printed {
-        &self.runs[0].printed
-    }
-}
-
 /// Largest errors over all stored instants: mean temperatures \[K\], mean strains relative to the largest of each.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Errors {
@@ -87,7 +60,7 @@ fn errors(course: &[[f64; 5]], reference: &[[f64; 5]]) -> Errors {
 /// [`Failure`] if there is no such setting, or a solve fails.
 pub(crate) fn child(name: &str) -> Result<(), Failure> {
     let setting = OURS.iter().find(|(own, _)| *own == name).ok_or_else(|| Failure(format!("no setting is called {name:?}")))?;
-    let Outcome { unknowns, phases, course } = job::run(&setting.1)?;
+    let JobResult { unknowns, phases, course } = job::run(&setting.1)?;
     let phases: serde_json::Map<_, _> = phases.into_iter().map(|(name, s)| (name.to_string(), s.into())).collect();
     let mut out = serde_json::Map::new();
     for n in [STORED / 2, STORED] {
@@ -101,13 +74,7 @@ pub(crate) fn child(name: &str) -> Result<(), Failure> {
 
 fn ours() -> Result<Vec<Program>, Failure> {
     let path = std::env::current_exe()?;
-    let program = |name: &str| Program {
-        name: name.into(),
-        path: path.clone(),
-        arguments: ["bench", "coil-job", name].map(OsString::from).to_vec(),
-        runs: Vec::new(),
-    };
-    Ok(OURS.iter().map(|(name, _)| program(name)).collect())
+    Ok(OURS.iter().map(|(name, _)| Program::new(*name, &path, ["bench", "coil-job", name])).collect())
 }
 
 /// Every peer that is found, with its meshes made in `folder`.
@@ -133,14 +100,13 @@ fn found(python: &Path, folder: &Path, progress: &Progress) -> Result<Vec<Progra
             let mut arguments: Vec<OsString> = vec![peer.script.into(), mesh(k).with_extension("npz").into()];
             arguments.extend(peer.arguments.iter().map(OsString::from));
             let name = format!("{}, {}", peer.name, MESHES[k].0);
-            programs.push(Program { name, path: python.into(), arguments, runs: Vec::new() });
+            programs.push(Program::new(name, python, arguments));
         }
     }
     let graded = MESHES.len() - 1;
-    let words = ["-nw", "-v", "0", "coil.edp", "-solver", "CHOLMOD", "-mesh"].map(OsString::from);
-    let arguments = words.into_iter().chain([mesh(graded).with_extension("msh").into_os_string()]).collect();
-    let name = format!("FreeFem, CHOLMOD, P2, {}", MESHES[graded].0);
-    programs.push(Program { name, path: "FreeFem++".into(), arguments, runs: Vec::new() });
+    let mut arguments: Vec<OsString> = ["-nw", "-v", "0", "coil.edp", "-solver", "CHOLMOD", "-mesh"].map(OsString::from).into();
+    arguments.push(mesh(graded).with_extension("msh").into());
+    programs.push(Program::new(format!("FreeFem, CHOLMOD, P2, {}", MESHES[graded].0), "FreeFem++", arguments));
     Ok(programs)
 }
 
@@ -160,20 +126,8 @@ pub(crate) fn run(python: Option<&Path>, repetitions: u64) -> Result<(), Failure
         None => progress.say("peers skipped: give --peers-python PATH or set FOGCOIL_PEERS_PYTHON"),
     }
     for repetition in 0..repetitions {
-        let mut kept = Vec::new();
-        for mut program in programs {
-            progress.say(&format!("run {} of {}: {}", repetition + 1, repetitions, program.name));
-            match peers::run(&program.path, &program.arguments) {
-                Ok(run) => program.runs.push(run),
-                Err(error) if kept.len() < OURS.len() => return Err(error),
-                Err(error) => {
-                    progress.say(&format!("{} is left out: {error}", program.name));
-                    continue;
-                }
-            }
-            kept.push(program);
-        }
-        programs = kept;
+        progress.say(&format!("run {} of {}", repetition + 1, repetitions));
+        peers::run_each(&mut programs, OURS.len(), |said| progress.say(said))?;
     }
     publish("coil", &section(&programs, &reference, uncertainty, repetitions))
 }

@@ -4,43 +4,19 @@
 mod cell;
 mod coil;
 mod diagnose;
-mod job;
-pub(crate) mod peers;
 mod reduced;
 mod sensitivity;
 
-pub(crate) use peers::own as processor;
-
-use crate::validate::Failure;
 use clap::{Args, Subcommand};
-use std::path::{Path, PathBuf};
+use proof::Failure;
+use proof::files::{renew, root};
+use proof::peers::Stopwatch;
+use proof::statistics::middle as median;
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// Fewest repetitions from which a median is taken.
 const FEWEST: u64 = 3;
-
-/// CPU time of this thread, which does all the work, in laps \[s\]; wall time where the system does not tell.
-pub(crate) struct Stopwatch {
-    start: Instant,
-    last: f64,
-}
-
-impl Stopwatch {
-    /// Starts.
-    pub(crate) fn start() -> Self {
-        let mut watch = Self { start: Instant::now(), last: 0.0 };
-        watch.lap();
-        watch
-    }
-
-    /// Seconds since the start or the last lap.
-    pub(crate) fn lap(&mut self) -> f64 {
-        let nanoseconds =
-            std::fs::read_to_string("/proc/thread-self/schedstat").ok().and_then(|s| s.split(' ').next()?.parse::<f64>().ok());
-        let now = nanoseconds.map_or(self.start.elapsed().as_secs_f64(), |n| n * 1e-9);
-        now - std::mem::replace(&mut self.last, now)
-    }
-}
 
 /// Prints what is going on, with the seconds since the start.
 struct Progress(Instant);
@@ -110,30 +86,13 @@ impl Bench {
     }
 }
 
-/// The workspace's root.
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_path_buf)
-}
-
 fn reference_coil() -> Result<::coil::Design, Failure> {
     Ok(fogcoil::input::read_coil(&root().join("fixtures/coil-reference.ron"))?.design)
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let n = values.len();
-    if n == 0 { f64::NAN } else { (values[(n - 1) / 2] + values[n / 2]) / 2.0 }
 }
 
 /// Prints a section and puts it into docs/benchmarks.md.
 fn publish(name: &str, section: &str) -> Result<(), Failure> {
     println!("\n{section}");
-    let path = root().join("docs/benchmarks.md");
-    let failed = |e: std::io::Error| Failure(format!("{}: {e}", path.display()));
-    let text = std::fs::read_to_string(&path).map_err(failed)?;
-    let (begin, end) = (format!("<!-- {name}: written by `cargo xtask bench {name}` -->"), format!("<!-- {name} end -->"));
-    let missing = || Failure(format!("docs/benchmarks.md lacks the lines {begin:?} and {end:?}"));
-    let (before, rest) = text.split_once(&begin).ok_or_else(missing)?;
-    let (_, after) = rest.split_once(&end).ok_or_else(missing)?;
-    std::fs::write(&path, format!("{before}{begin}\n\n{section}\n{end}{after}")).map_err(failed)
+    let marks = [&format!("<!-- {name}: written by `cargo xtask bench {name}` -->")[..], &format!("<!-- {name} end -->")];
+    renew(&root().join("docs/benchmarks.md"), marks, &format!("\n\n{section}\n"))
 }

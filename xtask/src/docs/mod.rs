@@ -18,7 +18,8 @@ use fogcoil::input;
 use page::Page;
 use shell::{Shell, Tally};
 
-use crate::validate::{Failure, root};
+use proof::Failure;
+use proof::files::root;
 
 const TUTORIAL: &str = "docs/tutorial.md";
 const FORMATS: &str = "docs/formats.md";

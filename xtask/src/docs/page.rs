@@ -1,10 +1,11 @@
 //! A page of Markdown: its fences, links and anchors.
 
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::validate::Failure;
+use proof::Failure;
+use proof::files;
+use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 
 /// A page.
 pub(super) struct Page {
@@ -47,73 +48,55 @@ impl Fence {
 impl Page {
     /// Reads the page at `path`, from `root`.
     pub(super) fn read(root: &Path, path: &Path) -> Result<Self, Failure> {
-        let text = fs::read_to_string(root.join(path)).map_err(|e| Failure(format!("{}: {e}", path.display())))?;
-        Self::parse(path, &text).map_err(|(line, problem)| Failure(format!("{}:{line}: {problem}", path.display())))
+        Self::parse(path, &files::read(&root.join(path))?)
+            .map_err(|(line, problem)| Failure(format!("{}:{line}: {problem}", path.display())))
     }
 
     fn parse(path: &Path, text: &str) -> Result<Self, (usize, String)> {
         let mut page = Self { path: path.to_owned(), fences: Vec::new(), links: Vec::new(), anchors: BTreeSet::new() };
-        let (mut open, mut between) = (None::<Fence>, true);
-        for (line, content) in (1..).zip(text.lines()) {
-            let info = content.strip_prefix("```");
-            match (&mut open, info) {
-                (Some(_), Some("")) => {
-                    page.fences.extend(open.take());
-                    between = true;
-                }
-                (Some(fence), _) => fence.text.extend([content, "\n"]),
-                (None, Some(info)) => {
+        let line = |at: usize| 1 + text[..at].matches('\n').count();
+        let (mut open, mut heading, mut last_end) = (None::<Fence>, None::<String>, None);
+        for (event, range) in Parser::new_ext(text, Options::ENABLE_TABLES).into_offset_iter() {
+            match event {
+                Event::Start(Tag::CodeBlock(CodeBlockKind::Fenced(info))) => {
+                    if text[range.clone()].trim_end().lines().skip(1).last().is_none_or(|last| last.trim() != "```") {
+                        return Err((line(range.start), "the fence is not closed".into()));
+                    }
                     let words = info.split(',').map(|word| word.trim().to_owned()).collect();
-                    open =
-                        Some(Fence { line: line + 1, words, text: String::new(), follows: between && !page.fences.is_empty() });
+                    let follows = last_end.replace(range.end).is_some_and(|end: usize| text[end..range.start].trim().is_empty());
+                    open = Some(Fence { line: line(range.start) + 1, words, text: String::new(), follows });
                 }
-                (None, None) => {
-                    between &= content.trim().is_empty();
-                    page.prose(line, content);
+                Event::End(TagEnd::CodeBlock) => page.fences.extend(open.take()),
+                Event::Start(Tag::Heading { .. }) => heading = Some(String::new()),
+                Event::End(TagEnd::Heading(_)) => page.anchor(&slug(&heading.take().unwrap_or_default())),
+                Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
+                    page.links.push(Link { line: line(range.start), target: dest_url.into_string() });
                 }
+                Event::Text(words) | Event::Code(words) => match (&mut open, &mut heading) {
+                    (Some(Fence { text, .. }), _) | (None, Some(text)) => text.push_str(&words),
+                    (None, None) => {}
+                },
+                _ => {}
             }
         }
-        open.map_or(Ok(page), |fence| Err((fence.line - 1, "the fence is not closed".into())))
+        Ok(page)
     }
 
-    fn prose(&mut self, line: usize, content: &str) {
-        if let Some(heading) = content.strip_prefix('#') {
-            let (slug, mut number) = (slug(heading.trim_start_matches('#')), 0);
-            let mut name = slug.clone();
-            while !self.anchors.insert(name.clone()) {
-                number += 1;
-                name = format!("{slug}-{number}");
-            }
-        }
-        let links = without_code(content);
-        for (at, _) in links.match_indices("](") {
-            if let Some(end) = links[at..].find(')') {
-                self.links.push(Link { line, target: links[at + 2..at + end].to_owned() });
-            }
-        }
+    fn anchor(&mut self, slug: &str) {
+        let numbered = (1..).map(|number| format!("{slug}-{number}"));
+        let free = std::iter::once(slug.to_owned()).chain(numbered).find(|name| !self.anchors.contains(name));
+        self.anchors.extend(free);
     }
-}
-
-/// The line without what is between backticks.
-fn without_code(line: &str) -> String {
-    line.split('`').step_by(2).collect()
 }
 
 /// A heading's anchor, as code hosts and mdBook make it.
 fn slug(heading: &str) -> String {
-    let mut text = String::new();
-    let mut rest = heading.trim();
-    while let Some((before, after)) = rest.split_once("](") {
-        text += before;
-        rest = after.split_once(')').map_or("", |(_, after)| after);
-    }
-    text += rest;
     let kept = |c: char| match c {
         ' ' => Some('-'),
         '-' | '_' => Some(c),
         _ => c.is_alphanumeric().then_some(c),
     };
-    text.chars().filter_map(kept).flat_map(char::to_lowercase).collect()
+    heading.chars().filter_map(kept).flat_map(char::to_lowercase).collect()
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use fogcoil::{input, schema};
 use serde_json::Value;
 
 use super::notation;
-use crate::validate::Failure;
+use proof::Failure;
 
 const FOLDER: &str = "docs/schema";
 

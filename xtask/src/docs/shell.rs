@@ -9,7 +9,7 @@ use tempfile::TempDir;
 
 use super::compare::{TOLERANCE, compare};
 use super::page::{Fence, Page};
-use crate::validate::Failure;
+use proof::Failure;
 
 /// What of the repository the commands may see.
 const SEEN: [&str; 6] = ["README.md", "ARCHITECTURE.md", "crates", "docs", "fixtures", "python"];

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::validate::Failure;
+use proof::Failure;
 
 /// The version that is fetched.
 pub(super) const VERSION: &str = "4.11.0";

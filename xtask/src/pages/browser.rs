@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use crate::validate::Failure;
+use proof::Failure;
 
 /// Names under which Chromium is looked for, after $CHROMIUM.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::browser::{Browser, decoded};
-use crate::validate::Failure;
+use proof::Failure;
 
 /// Widths of a phone, a tablet and a screen [CSS px].
 pub(super) const WIDTHS: [u32; 3] = [360, 768, 1280];

@@ -9,7 +9,8 @@ use fogcoil::figures::Convergence;
 use fogcoil::input::{self, RecordOptions};
 use fogcoil::{report, simulate};
 
-use crate::validate::{self, Failure};
+use crate::validate;
+use proof::Failure;
 
 const COIL: &str = "fixtures/coil-reference.ron";
 const PROFILE: &str = "fixtures/profiles/paper.csv";

@@ -11,9 +11,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::validate::Failure;
 use browser::Browser;
 use look::{Look, Theme, WIDTHS};
+use proof::Failure;
 
 const FOLDER: &str = "target/pages";
 const DOCUMENT: &str = "docs/pages.md";
@@ -61,7 +61,7 @@ impl Pages {
         }
         let holds = looks.iter().all(Look::holds);
         if !self.kept {
-            crate::validate::write(DOCUMENT.as_ref(), &table::markdown(&looks, &browser.version))?;
+            proof::files::write(DOCUMENT.as_ref(), &table::markdown(&looks, &browser.version))?;
         }
         println!("screenshots and prints are in {FOLDER}");
         Ok(holds)

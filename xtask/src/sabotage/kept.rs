@@ -1,14 +1,15 @@
 //! Outcomes that need not be found again.
 
-use super::tree::Outcome;
-use crate::validate::{Failure, write};
+use super::tree::TestRun;
+use proof::Failure;
+use proof::files::write;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Outcomes by the key of their sources, in a file.
 pub(super) struct Kept {
     path: PathBuf,
-    outcomes: BTreeMap<String, Outcome>,
+    outcomes: BTreeMap<String, TestRun>,
 }
 
 impl Kept {
@@ -19,7 +20,7 @@ impl Kept {
     }
 
     /// The outcome kept under `key`, or what `find` finds, which is kept then.
-    pub(super) fn or_find(&mut self, key: String, find: impl FnOnce() -> Result<Outcome, Failure>) -> Result<Outcome, Failure> {
+    pub(super) fn or_find(&mut self, key: String, find: impl FnOnce() -> Result<TestRun, Failure>) -> Result<TestRun, Failure> {
         if let Some(outcome) = self.outcomes.get(&key) {
             return Ok(outcome.clone());
         }

@@ -4,18 +4,19 @@ mod kept;
 mod list;
 mod tree;
 
-use crate::validate::{Failure, root, write};
 use kept::Kept;
 use list::LIST;
+use proof::Failure;
+use proof::files::{root, write};
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Instant;
-use tree::{Outcome, Tree};
+use tree::{TestRun, Tree};
 
 /// The crates under test, each after those it depends on.
 const CRATES: [&str; 3] = ["fem-core", "rve-mesh", "homogenization"];
 /// The table, which `cargo xtask validate` takes over into docs/validation.md.
-const PAGE: &str = "xtask/src/validate/sabotage.md";
+const PAGE: &str = "crates/proof/src/validation/sabotage.md";
 /// Names of red tests that the table gives.
 const SHOWN: usize = 3;
 
@@ -53,7 +54,7 @@ impl Sabotage {
 }
 
 /// The table of what is known so far.
-fn table(sound: &Outcome, outcomes: &[Option<Outcome>]) -> String {
+fn table(sound: &TestRun, outcomes: &[Option<TestRun>]) -> String {
     let mut table = format!(
         "Without sabotage all {} tests of {} pass. Documentation tests and those of other crates are not counted.\n\n\
         | sabotage | where | red tests |\n|---|---|---|\n",
@@ -67,7 +68,7 @@ fn table(sound: &Outcome, outcomes: &[Option<Outcome>]) -> String {
     table
 }
 
-fn verdict(outcome: &Outcome) -> String {
+fn verdict(outcome: &TestRun) -> String {
     let names: Vec<String> = outcome.red.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
     match outcome.red.len() {
         0 => "**none: no test sees it**".into(),
@@ -89,7 +90,7 @@ pub(crate) fn run() -> Result<bool, Failure> {
     if !sound.red.is_empty() {
         return Err(Failure(format!("red without any sabotage: {}", sound.red.join(", "))));
     }
-    let mut outcomes: Vec<Option<Outcome>> = vec![None; LIST.len()];
+    let mut outcomes: Vec<Option<TestRun>> = vec![None; LIST.len()];
     for ((sabotage, text), place) in LIST.iter().zip(&broken).zip(0..) {
         step(sabotage.name);
         let outcome = kept.or_find(tree.key(Some(sabotage)), || tree.sabotaged(sabotage, text))?;

@@ -1,7 +1,7 @@
 //! A copy of the crates, broken, built and tested.
 
 use super::{CRATES, Sabotage};
-use crate::validate::Failure;
+use proof::Failure;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::fs;
@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 
 /// How many tests ran and the names (crate, binary, test) of those that failed.
 #[derive(Clone, serde::Serialize, serde::Deserialize)]
-pub(super) struct Outcome {
+pub(super) struct TestRun {
     pub(super) count: usize,
     pub(super) red: Vec<String>,
 }
@@ -100,7 +100,7 @@ impl Tree {
     }
 
     /// The tests of what `sabotage` reaches while its file holds `text`.
-    pub(super) fn sabotaged(&self, sabotage: &Sabotage, text: &str) -> Result<Outcome, Failure> {
+    pub(super) fn sabotaged(&self, sabotage: &Sabotage, text: &str) -> Result<TestRun, Failure> {
         let path = self.root.join(sabotage.file);
         let sound = fs::read(&path).map_err(failed(&path))?;
         update(&path, text.as_bytes())?;
@@ -111,8 +111,8 @@ impl Tree {
     }
 
     /// Builds and runs all tests of `crates`.
-    pub(super) fn test(&self, crates: &[&str]) -> Result<Outcome, Failure> {
-        let mut outcome = Outcome { count: 0, red: Vec::new() };
+    pub(super) fn test(&self, crates: &[&str]) -> Result<TestRun, Failure> {
+        let mut outcome = TestRun { count: 0, red: Vec::new() };
         for (name, program) in self.build(crates)? {
             // nothing depends on chance: what random cases find must be found again
             let output = Command::new(&program)

@@ -7,10 +7,9 @@ use fogcoil::input::Fingerprint;
 use fogcoil::picture::escape;
 use fogcoil::report::{Cells, facts, grid, nice, page, provenance, row};
 
-use super::fixtures::Fixtures;
-use super::report::{kind, verdict};
-use super::row::{Row, Verdict};
-use super::{Failure, Section, fixtures};
+use proof::validation::report::{kind, verdict};
+use proof::validation::{ComparisonRow, Section, Verdict, printed};
+use proof::{Failure, files};
 
 /// What is read, besides the code.
 const INPUTS: [(&str, &str); 10] = [
@@ -51,7 +50,7 @@ pub(super) fn html(sections: &[Section]) -> Result<String, Failure> {
         one(&mut out, section)?;
     }
     let read = |(role, file): (&'static str, &'static str)| {
-        let content = std::fs::read(fixtures::root().join(file)).map_err(|e| Failure(format!("{file}: {e}")))?;
+        let content = std::fs::read(files::root().join(file)).map_err(|e| Failure(format!("{file}: {e}")))?;
         Ok((role, Fingerprint::of(file.into(), &content)))
     };
     let files = INPUTS.into_iter().map(read).collect::<Result<Vec<_>, Failure>>()?;
@@ -60,7 +59,7 @@ pub(super) fn html(sections: &[Section]) -> Result<String, Failure> {
     Ok(page("Validation against the paper's Tables I to IV", &lead(sections), &out))
 }
 
-fn rows(sections: &[Section]) -> impl Iterator<Item = &Row> {
+fn rows(sections: &[Section]) -> impl Iterator<Item = &ComparisonRow> {
     sections.iter().flat_map(|section| &section.rows)
 }
 
@@ -91,7 +90,7 @@ fn one(out: &mut String, section: &Section) -> Result<(), Failure> {
     for note in &section.notes {
         let _ = writeln!(out, "<p>{}</p>", escape(&nice(note)).replace(['`', '*'], ""));
     }
-    let line = |row: &Row| {
+    let line = |row: &ComparisonRow| {
         vec![
             row.quantity.clone(),
             row.printed.clone().unwrap_or_else(|| "–".into()),
@@ -112,12 +111,6 @@ fn one(out: &mut String, section: &Section) -> Result<(), Failure> {
     Ok(())
 }
 
-/// |S| of the paper's theoretical model (Table IV), (deg/h)/(degC/min), and its label.
-pub(crate) fn printed() -> Result<(String, f64), Failure> {
-    let row = Fixtures::read()?.printed("IV.theory")?.clone();
-    Ok((format!("printed, Table {}: {}", row.table, row.printed), row.printed.parse()?))
-}
-
 /// Lines of the comparison of spools, "material, hub, flanges".
 pub(crate) fn on_spools(lines: &[(String, f64)]) -> Vec<OnSpool> {
     let one = |(name, sensitivity): &(String, f64)| {
@@ -130,11 +123,11 @@ pub(crate) fn on_spools(lines: &[(String, f64)]) -> Vec<OnSpool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::validate::row::{Kind, Row};
+    use proof::validation::Agreement;
 
     /// Two rows and a comparison of spools.
     fn sections() -> [Section; 1] {
-        let row = Row {
+        let row = ComparisonRow {
             id: "IV.theory".into(),
             quantity: "S of <a> & b".into(),
             printed: Some("2.71".into()),
@@ -142,13 +135,13 @@ mod tests {
             numerical_error: 1.4e-3,
             unit: "(deg/h)/(degC/min)".into(),
             verdict: Verdict::Shown,
-            kind: Kind::Calibrated,
+            kind: Agreement::Calibrated,
             must_hold: false,
             reason: String::new(),
         };
         let mut section = Section::new("Table IV");
         section.note("`Notes` stand *above*.");
-        section.rows = vec![row.clone(), Row { printed: None, ..row }.required(true)];
+        section.rows = vec![row.clone(), ComparisonRow { printed: None, ..row }.required(true)];
         section.lines = vec![("aluminium, 2 mm hub, two flanges".into(), -1.0), ("steel, 4 mm hub, none".into(), 3.5)];
         [section]
     }
@@ -163,9 +156,9 @@ mod tests {
 
     #[test]
     fn the_json_keeps_its_schema() {
-        let schema = std::fs::read_to_string(fixtures::root().join("docs/schema/validate.schema.json")).unwrap();
+        let schema = std::fs::read_to_string(files::root().join("docs/schema/validate.schema.json")).unwrap();
         let schema = serde_json::from_str(&schema).unwrap();
-        let json = crate::validate::report::json(&sections(), true);
+        let json = proof::validation::report::json(&sections(), true);
         assert_eq!(fogcoil::schema::misfit(&json, &schema), None);
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use homogenization::identify::{Alternatives, Family, Fit, Identification, ORDINARY, Outcome, Posterior, Target, Uncertainty};
+use homogenization::identify::{Alternatives, Family, FamilyFit, Fit, Identification, ORDINARY, Posterior, Target, Uncertainty};
 
 use super::quantity::{in_words, presentation, title};
 use crate::homogenize::presentation as of_constant;
@@ -37,7 +37,7 @@ pub fn text(case: &TargetsCase, result: &Identification) -> String {
     out
 }
 
-fn verdict(family: &Family, outcome: &Outcome) -> String {
+fn verdict(family: &Family, outcome: &FamilyFit) -> String {
     let (j, sigma) = outcome.best.farthest();
     let farthest = || {
         let parameter = &family.parameters()[j];
@@ -67,7 +67,7 @@ fn verdict(family: &Family, outcome: &Outcome) -> String {
     }
 }
 
-fn entries(targets: &[Target], outcome: &Outcome) -> String {
+fn entries(targets: &[Target], outcome: &FamilyFit) -> String {
     let ordinary = outcome.ordinary.is_some();
     let mut rows = vec![
         ["entry", "target", "within", if ordinary { "best ordinary cell" } else { "best cell" }, "unit", ""]

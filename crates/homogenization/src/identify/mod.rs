@@ -85,14 +85,14 @@ impl Fit {
 
 /// What a family can do.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Outcome {
+pub struct FamilyFit {
     /// The cell that meets the entries best, however far from the priors.
     pub best: Fit,
     /// Where that is not ordinary or does not meet all: the ordinary cell that misses least.
     pub ordinary: Option<Fit>,
 }
 
-impl Outcome {
+impl FamilyFit {
     /// An ordinary cell that meets every entry.
     pub fn explains(&self) -> bool {
         self.fit().reproduces() && self.fit().is_ordinary()
@@ -117,7 +117,7 @@ pub struct Alternatives {
 #[derive(Debug, Clone)]
 pub struct Identification {
     /// Of each family in the order given.
-    pub outcomes: Vec<Outcome>,
+    pub outcomes: Vec<FamilyFit>,
     /// The family that the rest is about: of those that explain the entries the one closest to its priors, else that with the least misfit.
     pub chosen: usize,
     /// What is known of its parameters; `None` if no family explains the entries, or none of its minima that chains may start from does.
@@ -147,7 +147,7 @@ pub fn identify(families: &[Family], targets: &[Target], seed: u64, note: &dyn F
             let found = search(&mut emulator, targets, Demand::Ordinary, &starts, &searching("ordinary cells"));
             ordinary = found.into_iter().next().and_then(fit).map(|(fit, _)| fit);
         }
-        outcomes.push(Outcome { best, ordinary });
+        outcomes.push(FamilyFit { best, ordinary });
         costs.push(cost);
         searched.push((emulator, minima));
     }

@@ -1,0 +1,111 @@
+//! What the program says of a unit, read back from what it writes.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use fogcoil::cache::Cache;
+use fogcoil::diagnose;
+use fogcoil::input::{self, CoilCase, RecordCase, RecordOptions};
+use serde::Deserialize;
+
+use crate::Failure;
+
+/// Probability from which something is said to be there.
+pub(crate) const MORE_THAN_NOT: f64 = 0.5;
+
+/// The files that `fogcoil diagnose COIL --fit F --holdout H --json J --prediction P` writes.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Files {
+    /// J.
+    pub(crate) json: String,
+    /// P.
+    pub(crate) prediction: String,
+}
+
+/// The scored part of J.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+pub(crate) struct Answer {
+    /// `none`, `recalibrate`, `explained` or `unknown`.
+    pub(crate) verdict: String,
+    /// Most probable first.
+    pub(crate) mechanisms: Vec<Probable>,
+    /// What is not excluded.
+    pub(crate) set: Vec<String>,
+    /// By name.
+    pub(crate) parameters: BTreeMap<String, Fitted>,
+    /// Where the first mechanism acts.
+    pub(crate) located: Place,
+    /// What was seen, in words.
+    pub(crate) structure: Option<String>,
+    /// Of the record held out.
+    #[serde(default)]
+    pub(crate) holdout: Option<Held>,
+}
+
+/// What was fitted, held against the record held out, whether it was accepted or not.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+pub(crate) struct Held {
+    pub(crate) rmse_model: f64,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+pub(crate) struct Probable {
+    pub(crate) id: String,
+    pub(crate) probability: f64,
+}
+
+/// A value with its 90 % interval.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+pub(crate) struct Fitted {
+    pub(crate) value: f64,
+    pub(crate) ci90: [f64; 2],
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+pub(crate) struct Place {
+    pub(crate) stage: Option<String>,
+}
+
+/// Reads a record that can be used.
+pub(crate) fn record(file: &Path) -> Result<RecordCase, Failure> {
+    let record = input::read_record(file, &RecordOptions::default())?;
+    record.require_usable()?;
+    Ok(record)
+}
+
+/// Runs the diagnosis as `fogcoil diagnose` does.
+pub(crate) fn answer(coil: &CoilCase, fit: &Path, holdout: &Path, cache: &Cache) -> Result<Files, Failure> {
+    let outcome = diagnose::diagnose(coil, &[record(fit)?], &[record(holdout)?], cache, &|_| ())?;
+    let prediction = outcome.prediction().ok_or_else(|| Failure(format!("{}: nothing is predicted", holdout.display())))?;
+    Ok(Files { json: format!("{}\n", outcome.json()), prediction })
+}
+
+impl Answer {
+    pub(crate) fn parse(json: &str) -> Result<Self, Failure> {
+        Ok(serde_json::from_str(json)?)
+    }
+
+    /// Mechanisms that are said to be there: the first if the verdict is `explained`, and every other more probable than not.
+    pub(crate) fn named(&self) -> impl Iterator<Item = &str> {
+        let explained = self.verdict == "explained";
+        let said = self.mechanisms.iter().enumerate().filter(move |(n, m)| explained && (*n == 0 || m.probability >= 0.5));
+        said.map(|(_, m)| m.id.as_str())
+    }
+
+    /// Of all mechanisms that are `like` something, together; those in a pair count each.
+    pub(crate) fn probability(&self, like: impl Fn(&str) -> bool) -> f64 {
+        self.mechanisms.iter().filter(|m| like(&m.id)).map(|m| m.probability).sum()
+    }
+
+    /// The mechanism named first.
+    pub(crate) fn first(&self) -> Option<&str> {
+        self.named().next()
+    }
+}
+
+/// The rates of a prediction, row by row \[deg/h\].
+pub(crate) fn rates(prediction: &str) -> Result<Vec<f64>, Failure> {
+    let rate = |line: &str| -> Option<f64> { line.split_once(',')?.1.parse().ok() };
+    let read = |line| rate(line).ok_or_else(|| Failure(format!("a prediction has the row {line:?}")));
+    prediction.lines().skip(1).map(read).collect()
+}

@@ -1,0 +1,100 @@
+//! `cargo xtask prove`: units that conceal something, diagnosed and then held against the truth.
+
+mod answer;
+mod baselines;
+mod chain;
+mod inseparable;
+mod recommended;
+mod report;
+mod score;
+mod section;
+mod summary;
+mod synthetic;
+#[cfg(test)]
+mod tests;
+mod units;
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::files::root;
+use crate::{Failure, program};
+use score::Scored;
+
+/// Diagnose units that conceal something, and hold the answers against the truth
+///
+/// Writes docs/proof.md. Exit status 1 if a score is not as asked.
+#[derive(Debug, Args)]
+pub struct Prove {
+    /// An open unit by its number, instead of all of fixtures/concealed/open
+    #[arg(long = "case", value_name = "NN", value_parser = case, group = "units")]
+    cases: Vec<String>,
+    /// Answer the sealed units, once
+    #[arg(long, group = "units")]
+    sealed: bool,
+    /// Answer the sealed units again, into DIR, and compare with the answers that are there
+    #[arg(long, value_name = "DIR", requires = "sealed")]
+    again: Option<PathBuf>,
+    /// Whether what is recommended tells mechanisms apart
+    #[arg(long, group = "units")]
+    recommended: bool,
+    /// Units of the project's own generator, kept in target/prove, where a run that was stopped goes on
+    #[arg(long, group = "units")]
+    synthetic: bool,
+    #[command(flatten)]
+    plan: synthetic::Plan,
+}
+
+/// A unit's name from its number.
+fn case(number: &str) -> Result<String, std::num::ParseIntError> {
+    let number: u8 = number.trim_start_matches("case_").parse()?;
+    Ok(format!("case_{number:02}"))
+}
+
+impl Prove {
+    /// Runs it: whether everything is as asked.
+    ///
+    /// # Errors
+    /// [`Failure`] says what went wrong.
+    pub fn run(mut self) -> Result<bool, Failure> {
+        if self.synthetic {
+            return self.plan.run();
+        }
+        if self.recommended {
+            return recommended::run();
+        }
+        if self.sealed {
+            return self.again.map_or_else(units::sealed, |folder| units::sealed_again(&folder));
+        }
+        self.cases.sort();
+        self.cases.dedup();
+        open(&self.cases)
+    }
+}
+
+/// Scores the open units; docs/proof.md is written when all were scored.
+fn open(only: &[String]) -> Result<bool, Failure> {
+    let program = program::hash(&root())?;
+    let cases = units::open(only)?;
+    let scored: Vec<Scored> = cases.iter().map(|case| case.scored.clone()).collect();
+    let table = summary::summary(&scored);
+    if only.is_empty() {
+        report::publish("open", &program, &report::open(&cases, &table))?;
+        eprintln!("docs/proof.md is written");
+    } else {
+        println!("{}", report::details(&cases));
+    }
+    println!("{}", report::lines(&table));
+    for unit in &scored {
+        let faults = report::faults(unit);
+        if !faults.is_empty() {
+            println!("{}: {}", unit.unit, faults.join("; "));
+        }
+    }
+    let failures: Vec<_> = table.failures().collect();
+    let asked = table.rows.iter().filter(|row| row.holds().is_some()).count();
+    println!("\n{} of {asked} scores that were measured are as asked", asked - failures.len());
+    failures.iter().for_each(|row| eprintln!("FAILS: {}: {}", row.group, row.quantity));
+    Ok(failures.is_empty())
+}

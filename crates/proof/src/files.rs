@@ -1,0 +1,56 @@
+//! The repository's files: read whole, written whole, renewed between two marks.
+
+use std::path::{Path, PathBuf};
+
+use fogcoil::output::{self, Content};
+
+use crate::Failure;
+
+/// The repository's root.
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).map_or_else(PathBuf::new, Path::to_path_buf)
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// [`Failure`] names the file.
+pub fn read(path: &Path) -> Result<String, Failure> {
+    std::fs::read_to_string(path).map_err(|e| Failure(format!("{}: {e}", path.display())))
+}
+
+/// Writes a file, whole or not at all.
+///
+/// # Errors
+/// [`Failure`] names the file.
+pub fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    Ok(output::write_files(&[(path, Content::Text(text.to_owned()))])?)
+}
+
+/// Puts `text` between the lines `begin` and `end` of the page at `path`.
+///
+/// # Errors
+/// [`Failure`] if the page cannot be read or written, or lacks a mark.
+pub fn renew(path: &Path, [begin, end]: [&str; 2], text: &str) -> Result<(), Failure> {
+    let old = read(path)?;
+    let missing = || Failure(format!("{} lacks the lines {begin:?} and {end:?}", path.display()));
+    let (before, rest) = old.split_once(begin).ok_or_else(missing)?;
+    let (_, after) = rest.split_once(end).ok_or_else(missing)?;
+    write(path, &format!("{before}{begin}{text}{end}{after}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_is_renewed_between_its_marks_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let page = folder.path().join("page.md");
+        write(&page, "head\n<!-- a -->old<!-- a end -->\ntail").unwrap();
+        renew(&page, ["<!-- a -->", "<!-- a end -->"], "\nnew\n").unwrap();
+        assert_eq!(read(&page).unwrap(), "head\n<!-- a -->\nnew\n<!-- a end -->\ntail");
+        assert!(renew(&page, ["<!-- b -->", "<!-- b end -->"], "").unwrap_err().0.contains("lacks the lines"));
+        assert!(read(&folder.path().join("none")).unwrap_err().0.contains("none: "));
+    }
+}

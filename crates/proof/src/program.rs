@@ -1,0 +1,83 @@
+//! Which program answered: a hash over everything it is made from.
+
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+use crate::Failure;
+
+/// The crate that is no part of the program: this one.
+const PROOF: &str = "proof";
+
+/// SHA-256 of the workspace's manifests, its lock file and the sources of its crates but this one, in the order of their paths: of each the path, a NUL,
+/// its length in eight bytes (little-endian) and its content.
+///
+/// # Errors
+/// [`Failure`] names the file that cannot be read.
+pub fn hash(root: &Path) -> Result<String, Failure> {
+    let mut files: Vec<PathBuf> = vec!["Cargo.toml".into(), "Cargo.lock".into()];
+    for krate in entries(&root.join("crates"))?.iter().filter(|krate| *krate != PROOF) {
+        let krate = Path::new("crates").join(krate);
+        files.push(krate.join("Cargo.toml"));
+        collect(root, &krate.join("src"), &mut files)?;
+    }
+    files.sort();
+    let mut hash = Sha256::new();
+    for file in &files {
+        let path = root.join(file);
+        let content = std::fs::read(&path).map_err(|e| Failure(format!("{}: {e}", path.display())))?;
+        hash.update(file.to_string_lossy().replace('\\', "/"));
+        hash.update([0]);
+        hash.update((content.len() as u64).to_le_bytes());
+        hash.update(&content);
+    }
+    Ok(hex(hash))
+}
+
+/// A digest in hexadecimal digits.
+pub fn hex(hash: Sha256) -> String {
+    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Names in a folder.
+fn entries(folder: &Path) -> Result<Vec<String>, Failure> {
+    let failed = |e: std::io::Error| Failure(format!("{}: {e}", folder.display()));
+    let name = |entry: std::io::Result<std::fs::DirEntry>| Ok(entry.map_err(failed)?.file_name().to_string_lossy().into_owned());
+    std::fs::read_dir(folder).map_err(failed)?.map(name).collect()
+}
+
+/// Adds every file below `folder`, which is relative to `root`.
+fn collect(root: &Path, folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    for name in entries(&root.join(folder))? {
+        let path = folder.join(name);
+        if root.join(&path).is_dir() { collect(root, &path, files)? } else { files.push(path) }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_source_counts_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let root = folder.path();
+        std::fs::create_dir_all(root.join("crates/a/src/deep")).unwrap();
+        for file in ["Cargo.toml", "Cargo.lock", "crates/a/Cargo.toml", "crates/a/src/lib.rs", "crates/a/src/deep/x.rs"] {
+            std::fs::write(root.join(file), file).unwrap();
+        }
+        let first = hash(root).unwrap();
+        assert_eq!((first.len(), hash(root).unwrap()), (64, first.clone()));
+        std::fs::write(root.join("crates/a/README.md"), "words").unwrap();
+        assert_eq!(hash(root).unwrap(), first);
+        std::fs::write(root.join("crates/a/src/deep/x.rs"), "more").unwrap();
+        let changed = hash(root).unwrap();
+        assert_ne!(changed, first);
+        std::fs::create_dir_all(root.join("crates/proof/src")).unwrap();
+        std::fs::write(root.join("crates/proof/Cargo.toml"), "who scores is not who answers").unwrap();
+        assert_eq!(hash(root).unwrap(), changed);
+        std::fs::rename(root.join("crates/a/src/deep/x.rs"), root.join("crates/a/src/deep/y.rs")).unwrap();
+        assert_ne!(hash(root).unwrap(), changed);
+    }
+}

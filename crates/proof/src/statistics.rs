@@ -1,0 +1,111 @@
+//! Rates, medians and means with their 90 % intervals.
+
+use std::sync::LazyLock;
+
+use statrs::distribution::{ContinuousCDF, Normal};
+
+/// Normal quantile beyond which a twentieth lies: the two ends of a 90 % interval.
+static Z95: LazyLock<f64> = LazyLock::new(|| Normal::standard().inverse_cdf(0.95));
+/// Resamples of a bootstrap.
+const RESAMPLES: usize = 4000;
+
+/// A measured number with its 90 % interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured {
+    /// The number.
+    pub value: f64,
+    /// It lies between these with 90 % probability.
+    pub interval: [f64; 2],
+    /// Cases that it was measured on.
+    pub cases: usize,
+}
+
+/// `hits` of `cases`; interval after Wilson (1927). `None` for no case.
+pub fn rate(hits: usize, cases: usize) -> Option<Measured> {
+    if cases == 0 {
+        return None;
+    }
+    let (n, p, z2) = (cases as f64, hits as f64 / cases as f64, *Z95 * *Z95);
+    let centre = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
+    let half = *Z95 / (1.0 + z2 / n) * (p * (1.0 - p) / n + z2 / (4.0 * n * n)).sqrt();
+    // at the ends the two terms are equal but for rounding
+    let low = if hits == 0 { 0.0 } else { centre - half };
+    let high = if hits == cases { 1.0 } else { centre + half };
+    Some(Measured { value: p, interval: [low, high], cases })
+}
+
+/// The median; `None` for no value.
+pub fn median(values: &[f64]) -> Option<Measured> {
+    bootstrap(values, |sorted| middle(sorted.to_vec()))
+}
+
+/// The median alone; NaN of no value.
+pub fn middle(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let n = values.len();
+    if n == 0 { f64::NAN } else { (values[(n - 1) / 2] + values[n / 2]) / 2.0 }
+}
+
+/// The mean; `None` for no value.
+pub fn mean(values: &[f64]) -> Option<Measured> {
+    bootstrap(values, |sorted| sorted.iter().sum::<f64>() / sorted.len() as f64)
+}
+
+/// A statistic of sorted values, with the percentile interval of a bootstrap (Efron 1979) that always draws the same.
+fn bootstrap(values: &[f64], statistic: impl Fn(&[f64]) -> f64) -> Option<Measured> {
+    let sorted = |mut values: Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        values
+    };
+    let values = sorted(values.to_vec());
+    if values.is_empty() {
+        return None;
+    }
+    let mut draws = Draws(1);
+    let again = |_| statistic(&sorted((0..values.len()).map(|_| values[draws.below(values.len())]).collect()));
+    let resampled = sorted((0..RESAMPLES).map(again).collect());
+    let interval = [0.05, 0.95].map(|share| resampled[(share * (RESAMPLES - 1) as f64).round() as usize]);
+    Some(Measured { value: statistic(&values), interval, cases: values.len() })
+}
+
+/// The generator splitmix64 (Steele, Lea and Flood 2014).
+struct Draws(u64);
+
+impl Draws {
+    fn below(&mut self, bound: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) % bound as u64) as usize
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wilson_s_interval_is_the_tabulated_one() {
+        // 8 of 10 at 90 %: roots of (p − 0.8)² = z² p (1 − p)/10
+        let of = rate(8, 10).unwrap();
+        for p in of.interval {
+            assert!(((p - 0.8).powi(2) - Z95.powi(2) * p * (1.0 - p) / 10.0).abs() < 1e-12, "{of:?}");
+        }
+        assert_eq!(rate(0, 5).unwrap().interval[0], 0.0);
+        assert_eq!(rate(5, 5).unwrap().interval[1], 1.0);
+        assert!(rate(0, 0).is_none());
+    }
+
+    #[test]
+    fn a_bootstrap_s_interval_has_the_width_of_theory() {
+        let values: Vec<f64> = (0..400).map(|k| f64::from(k) / 400.0).collect();
+        let Measured { value, interval, cases } = mean(&values).unwrap();
+        assert!((value - 0.49875).abs() < 1e-12 && cases == 400);
+        // uniform: standard deviation of the mean 1/√(12 n)
+        let expected = 2.0 * *Z95 / (12.0 * 400.0_f64).sqrt();
+        assert!(((interval[1] - interval[0]) / expected - 1.0).abs() < 0.1, "{interval:?}");
+        assert_eq!(median(&[3.0, 1.0, 2.0, 10.0]).unwrap().value, 2.5);
+        assert!(median(&[]).is_none());
+    }
+}

@@ -1,0 +1,105 @@
+//! What the comparison reads: the two reference files, the paper's tables, the independent values, the spool materials.
+
+use super::row::decimals;
+use crate::Failure;
+use crate::files::{self, root};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// One printed number.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Printed {
+    pub(crate) id: String,
+    pub(crate) table: String,
+    pub(crate) quantity: String,
+    pub(crate) printed: String,
+    pub(crate) unit: String,
+    pub(crate) scale: f64,
+}
+
+impl Printed {
+    /// Half a unit of the last printed digit, in SI.
+    pub(crate) fn half_digit(&self) -> f64 {
+        let exponent = self.printed.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
+        0.5 * 10f64.powi(exponent - decimals(&self.printed) as i32) * self.scale
+    }
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Tables {
+    rows: Vec<Printed>,
+}
+
+/// A value of an independent code.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Known {
+    pub(crate) value: f64,
+    pub(crate) relative_tolerance: f64,
+}
+
+impl Known {
+    pub(crate) fn holds(&self, computed: f64) -> bool {
+        (computed / self.value - 1.0).abs() <= self.relative_tolerance
+    }
+}
+
+/// Values of independent codes.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Independent {
+    pub(crate) cell: BTreeMap<String, f64>,
+    pub(crate) cell_tolerance: f64,
+    pub(crate) sensitivity: Known,
+    pub(crate) eo_axial: Known,
+    pub(crate) ideal_quadrupole: Known,
+}
+
+/// A material that spools are made of.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SpoolMaterial {
+    pub(crate) name: String,
+    pub(crate) youngs_modulus_gpa: f64,
+    pub(crate) poisson_ratio: f64,
+    pub(crate) thermal_expansion_per_k: f64,
+}
+
+/// Everything that is read.
+pub(crate) struct Fixtures {
+    pub(crate) cell: homogenization::FibreCell,
+    pub(crate) coil: coil::Design,
+    pub(crate) independent: Independent,
+    pub(crate) spools: Vec<SpoolMaterial>,
+    printed: Vec<Printed>,
+}
+
+fn read<T: for<'de> Deserialize<'de>>(path: &Path) -> Result<T, Failure> {
+    ron::from_str(&files::read(path)?).map_err(|e| Failure(format!("{}: {e}", path.display())))
+}
+
+impl Fixtures {
+    pub(crate) fn read() -> Result<Self, Failure> {
+        let at = root().join("fixtures");
+        Ok(Self {
+            cell: fogcoil::input::read_cell(&at.join("cell-reference.ron"))?.cell,
+            coil: fogcoil::input::read_coil(&at.join("coil-reference.ron"))?.design,
+            independent: read(&at.join("independent.ron"))?,
+            spools: read(&at.join("spool-materials.ron"))?,
+            printed: read::<Tables>(&at.join("paper/tables.ron"))?.rows,
+        })
+    }
+
+    /// The printed number of this id.
+    pub(crate) fn printed(&self, id: &str) -> Result<&Printed, Failure> {
+        self.printed.iter().find(|row| row.id == id).ok_or_else(|| Failure(format!("fixtures/paper/tables.ron has no row {id}")))
+    }
+
+    /// The printed numbers of a table, in order.
+    pub(crate) fn table(&self, table: &str) -> impl Iterator<Item = &Printed> {
+        self.printed.iter().filter(move |row| row.table == table)
+    }
+}

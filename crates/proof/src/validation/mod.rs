@@ -1,0 +1,90 @@
+//! The whole chain once, against the paper's Tables I to IV and an independent code.
+
+mod cell;
+mod coil;
+mod fixtures;
+mod nominal;
+pub mod report;
+mod row;
+mod spread;
+mod winding;
+
+pub use row::{Agreement, ComparisonRow, Verdict};
+
+use crate::Failure;
+use fixtures::Fixtures;
+use std::time::Instant;
+
+/// The rows of one table.
+#[derive(Debug, Clone)]
+pub struct Section {
+    /// Heading.
+    pub title: String,
+    /// Paragraphs above the rows, in Markdown.
+    pub notes: Vec<String>,
+    /// What took how long, for the terminal.
+    pub timings: Vec<String>,
+    /// The comparisons.
+    pub rows: Vec<ComparisonRow>,
+    /// |S| over spools where the section has them: material, hub, flanges; S \[(deg/h)/(degC/min)\].
+    pub lines: Vec<(String, f64)>,
+}
+
+impl Section {
+    /// One without rows.
+    pub fn new(title: &str) -> Self {
+        Self { title: title.into(), notes: Vec::new(), timings: Vec::new(), rows: Vec::new(), lines: Vec::new() }
+    }
+
+    /// Adds a paragraph.
+    pub fn note(&mut self, text: impl Into<String>) {
+        self.notes.push(text.into());
+    }
+
+    fn timing(&mut self, text: String) {
+        self.timings.push(text);
+    }
+}
+
+/// A result with the seconds it took.
+fn timed<T, E: Into<Failure>>(work: impl FnOnce() -> Result<T, E>) -> Result<(T, f64), Failure> {
+    let start = Instant::now();
+    let result = work().map_err(Into::into)?;
+    Ok((result, start.elapsed().as_secs_f64()))
+}
+
+/// S over spools: (material, hub, flanges; S \[(deg/h)/(degC/min)\]).
+///
+/// # Errors
+/// [`Failure`] if a fixture cannot be read or a system not be solved.
+pub fn over_spools() -> Result<Vec<(String, f64)>, Failure> {
+    Ok(spread::over_spools(&Fixtures::read()?)?.lines)
+}
+
+/// |S| of the paper's theoretical model (Table IV) \[(deg/h)/(degC/min)\], and its label.
+///
+/// # Errors
+/// [`Failure`] if a fixture cannot be read.
+pub fn printed() -> Result<(String, f64), Failure> {
+    let row = Fixtures::read()?.printed("IV.theory")?.clone();
+    Ok((format!("printed, Table {}: {}", row.table, row.printed), row.printed.parse()?))
+}
+
+/// Everything computed and compared, table by table; `step` is told what comes next.
+///
+/// # Errors
+/// [`Failure`] if a fixture cannot be read or a system not be solved.
+pub fn compared(step: impl Fn(&str)) -> Result<[Section; 5], Failure> {
+    let fixtures = Fixtures::read()?;
+    step("Table I: reference cell");
+    let (table_1, cell) = cell::table_1(&fixtures)?;
+    step("Table II: dehomogenisation");
+    let table_2 = cell::table_2(&fixtures, &cell)?;
+    step("Table III: winding");
+    let table_3 = winding::table_3(&fixtures)?;
+    step("Table IV: sensitivity, spools, tails, error estimates (some 10 s)");
+    let table_4 = coil::table_4(&fixtures, &cell.constants)?;
+    step("five profiles in time against an independent code (some 10 s)");
+    let nominal = nominal::nominal(&fixtures)?;
+    Ok([table_1, table_2, table_3, table_4, nominal])
+}

@@ -1,0 +1,132 @@
+//! One comparison: printed, computed ± numerical error, verdict, kind of agreement, reason.
+
+use serde::Serialize;
+
+/// What stands behind an agreement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Agreement {
+    /// Follows from inputs that owe nothing to the printed value.
+    Predicted,
+    /// The inputs were identified from the printed values.
+    Identified,
+    /// An input the paper leaves open was chosen to agree.
+    Calibrated,
+    /// The printed value cannot be right as it stands.
+    Misprint,
+}
+
+/// How printed and computed compare.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// They agree by a test.
+    Holds,
+    /// Nothing is tested: the number is shown for what it is.
+    Shown,
+    /// They differ, for the reason given.
+    Differs,
+    /// They had to agree and do not.
+    Fails,
+}
+
+/// One row of the comparison.
+#[derive(Debug, Clone, Serialize)]
+pub struct ComparisonRow {
+    /// Permanent, with the table in front.
+    pub id: String,
+    /// What is compared.
+    pub quantity: String,
+    /// The paper's number, digit by digit; `None` where it has none.
+    pub printed: Option<String>,
+    /// Ours, in `unit`.
+    pub computed: f64,
+    /// Absolute, in `unit`.
+    pub numerical_error: f64,
+    /// Of both.
+    pub unit: String,
+    /// How they compare.
+    pub verdict: Verdict,
+    /// What stands behind an agreement.
+    pub kind: Agreement,
+    /// Whether the command fails with this row.
+    pub must_hold: bool,
+    /// Why they differ, or what the agreement means.
+    pub reason: String,
+}
+
+impl ComparisonRow {
+    /// A row that agrees or fails.
+    pub fn required(mut self, holds: bool) -> Self {
+        self.must_hold = true;
+        self.verdict = if holds { Verdict::Holds } else { Verdict::Fails };
+        self
+    }
+
+    /// A row that may differ, with its reason.
+    pub fn compared(mut self, holds: bool, reason: impl Into<String>) -> Self {
+        self.verdict = if holds { Verdict::Holds } else { Verdict::Differs };
+        self.reason = reason.into();
+        self
+    }
+
+    /// With its reason.
+    pub fn because(mut self, reason: impl Into<String>) -> Self {
+        self.reason = reason.into();
+        self
+    }
+}
+
+/// Decimals of a printed number.
+pub(super) fn decimals(printed: &str) -> usize {
+    printed.split_once('.').map_or(0, |(_, fraction)| fraction.bytes().take_while(u8::is_ascii_digit).count())
+}
+
+/// Whether `value`, anywhere within its numerical error, rounds to the printed digits.
+pub(super) fn rounds_to(printed: &str, value: f64, error: f64) -> bool {
+    let round = |v: f64| format!("{v:.*}", decimals(printed));
+    round(value - error) == printed && round(value + error) == printed
+}
+
+/// `value ± error`: as many decimals as the error justifies, at least `at_least`.
+fn with_error(value: f64, error: f64, at_least: usize) -> String {
+    if error == 0.0 {
+        return plain(value);
+    }
+    let digits = (1.0 - error.log10().floor()).clamp(at_least as f64, 15.0) as usize;
+    format!("{value:.digits$} ± {error:.1e}")
+}
+
+/// A count, or a number of no stated error to four digits.
+fn plain(value: f64) -> String {
+    if value.fract() == 0.0 {
+        format!("{value:.0}")
+    } else if value.abs() < 0.01 {
+        format!("{value:.1e}")
+    } else {
+        format!("{value:.3}")
+    }
+}
+
+impl ComparisonRow {
+    /// Computed ± numerical error, with the digits that are justified.
+    pub fn computed_text(&self) -> String {
+        with_error(self.computed, self.numerical_error, self.printed.as_deref().map_or(0, decimals))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_rounding_respects_printed_digits_and_the_error() {
+        assert!(rounds_to("0.392", 0.39183723, 1e-7));
+        assert!(rounds_to("193", 193.2, 0.1) && !rounds_to("193", 193.45, 0.1));
+        assert!(!rounds_to("95.2", 95.2, 0.06) && rounds_to("-0.17", -0.1703, 1e-4));
+        assert_eq!(with_error(95.2049940, 0.0000804, 1), "95.204994 ± 8.0e-5");
+        assert_eq!(with_error(1101.566598648, 1e-10, 2), "1101.56659864800 ± 1.0e-10");
+        assert_eq!(decimals("2.74e-6"), 2);
+        assert_eq!((plain(3798.0).as_str(), plain(-4e-12).as_str(), plain(1.8834).as_str()), ("3798", "-4.0e-12", "1.883"));
+    }
+}

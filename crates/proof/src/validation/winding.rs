@@ -1,0 +1,85 @@
+//! Table III: the winding, from the pattern alone.
+
+use super::Section;
+use super::cell::NINE_DIGITS;
+use super::fixtures::{Fixtures, Printed};
+use super::row::{Agreement, ComparisonRow, Verdict, rounds_to};
+use crate::Failure;
+use winding::{Half, Pattern, Spec, wind};
+
+fn row(printed: &Printed, computed: f64, kind: Agreement) -> ComparisonRow {
+    ComparisonRow {
+        id: printed.id.clone(),
+        quantity: printed.quantity.clone(),
+        printed: Some(printed.printed.clone()),
+        computed: computed / printed.scale,
+        // counts are exact
+        numerical_error: if printed.unit == "-" { 0.0 } else { (computed / printed.scale * NINE_DIGITS).abs() },
+        unit: printed.unit.clone(),
+        verdict: Verdict::Differs,
+        kind,
+        must_hold: false,
+        reason: String::new(),
+    }
+}
+
+fn must_round(row: ComparisonRow) -> ComparisonRow {
+    let printed = row.printed.clone().unwrap_or_default();
+    let holds = rounds_to(&printed, row.computed, row.numerical_error);
+    row.required(holds)
+}
+
+fn counted(id: &str, quantity: &str, computed: usize, expected: usize, reason: &str) -> ComparisonRow {
+    ComparisonRow {
+        id: id.into(),
+        quantity: quantity.into(),
+        printed: None,
+        computed: computed as f64,
+        numerical_error: 0.0,
+        unit: "-".into(),
+        verdict: Verdict::Fails,
+        kind: Agreement::Predicted,
+        must_hold: true,
+        reason: reason.into(),
+    }
+    .required(computed == expected)
+}
+
+pub(crate) fn table_3(fixtures: &Fixtures) -> Result<Section, Failure> {
+    let spec = fixtures.coil.winding;
+    let coil = wind(&spec)?;
+    let mut section = Section::new("Table III: winding");
+    section.note(
+        "From pitch, layers, loops and inner radius by the practical pattern. Layers, loops and inner radius are inputs; the pitch is \
+         the printed height over 106 loops; length, turn counts and outer diameter follow. Three entries are printed wrongly.",
+    );
+    let at = |id: &str| fixtures.printed(id);
+    let full = wind(&Spec { pattern: Pattern::Quadrupole, turns_even_layers: spec.turns_odd_layers, ..spec })?;
+    let length = format!(
+        "an orthocyclic even layer sits in the grooves of the one below and holds one turn fewer, {}; {} everywhere would give {:.2} m",
+        spec.turns_even_layers,
+        spec.turns_odd_layers,
+        full.length()
+    );
+    section.rows.push(must_round(row(at("III.length")?, coil.length(), Agreement::Predicted)).because(&length));
+    let layers = coil.turns().iter().map(|t| t.layer).max().unwrap_or(0);
+    section.rows.push(must_round(row(at("III.layers")?, layers as f64, Agreement::Identified)).because("an input"));
+    let loops = |layer: usize| coil.turns().iter().filter(|t| t.layer == layer).count();
+    let text = format!("holds for odd layers; even layers have {} (see the length)", loops(2));
+    section
+        .rows
+        .push(row(at("III.loops")?, loops(1) as f64, Agreement::Misprint).compared(loops(1) == 106 && loops(2) == 106, text));
+    let diameter = "printed as a radius, but it is the diameter";
+    section.rows.push(must_round(row(at("III.inner")?, 2.0 * spec.inner_radius, Agreement::Misprint)).because(diameter));
+    section.rows.push(must_round(row(at("III.outer")?, 2.0 * coil.outer_radius(), Agreement::Misprint)).because(diameter));
+    section.rows.push(
+        must_round(row(at("III.height")?, coil.height(), Agreement::Identified))
+            .because("the pitch is this height over 106 loops"),
+    );
+    let turns = coil.turns().len();
+    section.rows.push(counted("III.turns", "turns", turns, 3798, "18 layers of 106 and 18 of 105"));
+    let (cw, ccw) = (coil.count(Half::Cw), coil.count(Half::Ccw));
+    section.rows.push(counted("III.cw", "turns of the CW half", cw, 1899, "the first turn of each layer is CCW, the last CW"));
+    section.rows.push(counted("III.ccw", "turns of the CCW half", ccw, 1899, "the first turn of each layer is CCW, the last CW"));
+    Ok(section)
+}
