@@ -44,7 +44,6 @@ pub mod input;
 pub mod output;
 pub mod picture;
 pub mod picture_cell;
-mod plot;
 pub mod recommend;
 pub mod report;
 pub mod schema;

@@ -2,8 +2,7 @@
 //!
 //! The colours are those of Okabe and Ito, told apart by colour-blind readers; large CCW turns carry a white centre as well.
 
-use std::fmt::Write;
-
+use charts::{Frame, Svg, attributes};
 use winding::{Half, Turn, Winding};
 
 use crate::units::to_mm;
@@ -55,24 +54,25 @@ pub fn svg(case_name: &str, winding: &Winding) -> String {
     let overview = View { y: [0.0, width], r: [inner, outer], left: LEFT, top: TOP, scale };
     let corners = corners(winding, overview.bottom() + 130.0);
     let height = corners.iter().map(View::bottom).fold(overview.bottom(), f64::max) + 60.0;
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height:.0}\" width=\"{WIDTH}\" height=\"{height:.0}\" \
-         font-family=\"sans-serif\" font-size=\"15\" role=\"img\" aria-labelledby=\"title desc\">\n<title id=\"title\">Cross-section of \
-         the coil {}: {} turns of the CW half and {} of the CCW half</title>\n<desc id=\"desc\">Every turn at its place over axial \
-         position and radius, blue for the CW half, vermilion for the CCW half, whose large discs have white centres; below, the two \
-         inner corners enlarged, layers numbered.</desc>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-        escape(case_name),
-        winding.count(Half::Cw),
-        winding.count(Half::Ccw)
-    );
-    heading(&mut out, case_name, winding);
-    turns(&mut out, &overview, winding);
-    axes(&mut out, &overview);
-    for (corner, side) in corners.iter().zip(["left", "right"]) {
-        enlarged(&mut out, &overview, corner, winding, side);
-    }
-    out.push_str("</svg>\n");
-    out
+    let [cw, ccw] = [Half::Cw, Half::Ccw].map(|half| winding.count(half));
+    let frame = Frame {
+        ids: ["title", "desc"],
+        size: [WIDTH, height],
+        font: 15.0,
+        title: &format!("Cross-section of the coil {case_name}: {cw} turns of the CW half and {ccw} of the CCW half"),
+        description: "Every turn at its place over axial position and radius, blue for the CW half, vermilion for the CCW half, whose large \
+                      discs have white centres; below, the two inner corners enlarged, layers numbered.",
+        attributes: &[],
+        style: "",
+    };
+    frame.document(|svg| {
+        heading(svg, case_name, winding);
+        turns(svg, &overview, winding);
+        axes(svg, &overview);
+        for (corner, side) in corners.iter().zip(["left", "right"]) {
+            enlarged(svg, &overview, corner, winding, side);
+        }
+    })
 }
 
 /// The enlarged inner corners at the left and the right end; none where they would meet.
@@ -91,20 +91,17 @@ fn corners(winding: &Winding, top: f64) -> Vec<View> {
     vec![View { y: [0.0, across], r, left: LEFT, top, scale }, right]
 }
 
-fn heading(out: &mut String, case_name: &str, winding: &Winding) {
+fn heading(svg: &mut Svg, case_name: &str, winding: &Winding) {
     let (spec, count) = (winding.spec(), winding.turns().len());
-    text(
-        out,
-        LEFT,
-        34.0,
-        "start\" font-size=\"20\" font-weight=\"bold",
-        &escape(&format!("{case_name}: {:?} winding", spec.pattern)),
+    svg.element(
+        "text",
+        attributes! { "x": "{LEFT:.1}", "y": "34.0", "text-anchor": "start", "font-size": "20", "font-weight": "bold" },
+        &format!("{case_name}: {:?} winding", spec.pattern),
     );
-    let line = format!("{} layers, {count} turns, {:.2} m of fibre", spec.layers, winding.length());
-    text(out, LEFT, 58.0, "start", &line);
+    svg.text([LEFT, 58.0], "start", &format!("{} layers, {count} turns, {:.2} m of fibre", spec.layers, winding.length()));
     for (half, x) in [(Half::Cw, LEFT + 8.0), (Half::Ccw, LEFT + 250.0)] {
-        disc(out, (x, 82.0), 8.0, half);
-        text(out, x + 16.0, 87.0, "start", &format!("{} half, {} turns", name(half), winding.count(half)));
+        disc(svg, (x, 82.0), 8.0, half);
+        svg.text([x + 16.0, 87.0], "start", &format!("{} half, {} turns", name(half), winding.count(half)));
     }
 }
 
@@ -115,70 +112,68 @@ fn colour(half: Half) -> &'static str {
     }
 }
 
-fn disc(out: &mut String, (x, y): (f64, f64), radius: f64, half: Half) {
-    let _ = writeln!(out, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" fill=\"{}\"/>", colour(half));
+fn disc(svg: &mut Svg, (x, y): (f64, f64), radius: f64, half: Half) {
+    svg.leaf("circle", attributes! { "cx": "{x:.2}", "cy": "{y:.2}", "r": "{radius:.2}", "fill": "{}"(colour(half)) });
     if half == Half::Ccw {
-        let _ = writeln!(out, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{:.2}\" fill=\"#fff\"/>", 0.3 * radius);
+        svg.leaf("circle", attributes! { "cx": "{x:.2}", "cy": "{y:.2}", "r": "{:.2}"(0.3 * radius), "fill": "#fff" });
     }
 }
 
-fn text(out: &mut String, x: f64, y: f64, anchor: &str, content: &str) {
-    let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{content}</text>");
-}
-
-fn turns(out: &mut String, view: &View, winding: &Winding) {
+fn turns(svg: &mut Svg, view: &View, winding: &Winding) {
     let radius = to_mm(winding.spec().pitch) / 2.0 * view.scale;
     for half in [Half::Cw, Half::Ccw] {
-        let _ = writeln!(out, "<g fill=\"{}\">", colour(half));
         let own: Vec<&Turn> = winding.turns().iter().filter(|turn| turn.half == half).collect();
-        if winding.turns().len() <= MOST_DISCS {
+        svg.group(attributes! { "fill": "{}"(colour(half)) }, |svg| {
+            if winding.turns().len() > MOST_DISCS {
+                return bars(svg, view, radius, &own);
+            }
             for turn in own {
                 let (x, v) = (view.x(to_mm(turn.y)), view.v(to_mm(turn.r)));
                 if radius > LARGE_DISC {
-                    disc(out, (x, v), radius, half);
-                    continue;
+                    disc(svg, (x, v), radius, half);
+                } else {
+                    svg.leaf("circle", attributes! { "cx": "{x:.2}", "cy": "{v:.2}", "r": "{radius:.2}" });
                 }
-                let _ = writeln!(out, "<circle cx=\"{x:.2}\" cy=\"{v:.2}\" r=\"{radius:.2}\"/>");
             }
-        } else {
-            bars(out, view, radius, &own);
-        }
-        out.push_str("</g>\n");
+        });
     }
 }
 
 /// Draws turns that follow one another in a layer as one bar.
-fn bars(out: &mut String, view: &View, radius: f64, turns: &[&Turn]) {
+fn bars(svg: &mut Svg, view: &View, radius: f64, turns: &[&Turn]) {
     for run in turns.chunk_by(|a, b| a.layer == b.layer && a.turn.abs_diff(b.turn) == 1) {
         let ys = || run.iter().map(|turn| view.x(to_mm(turn.y)));
         let (x0, x1) = (ys().fold(f64::INFINITY, f64::min) - radius, ys().fold(0.0, f64::max) + radius);
         let top = run.first().map_or(0.0, |turn| view.v(to_mm(turn.r))) - radius;
         let (width, height) = (x1 - x0, 2.0 * radius);
-        let _ = writeln!(out, "<rect x=\"{x0:.2}\" y=\"{top:.2}\" width=\"{width:.2}\" height=\"{height:.3}\"/>");
+        svg.leaf("rect", attributes! { "x": "{x0:.2}", "y": "{top:.2}", "width": "{width:.2}", "height": "{height:.3}" });
     }
 }
 
-fn axes(out: &mut String, view: &View) {
+fn axes(svg: &mut Svg, view: &View) {
     let (bottom, right) = (view.bottom() + 8.0, view.left + view.width());
     let left = view.left - 8.0;
-    let _ = writeln!(
-        out,
-        "<path d=\"M{left:.1} {:.1}V{bottom:.1}H{right:.1}\" fill=\"none\" stroke=\"#000\" stroke-width=\"1\"/>",
-        view.top
+    svg.leaf(
+        "path",
+        attributes! { "d": "M{left:.1} {:.1}V{bottom:.1}H{right:.1}"(view.top), "fill": "none", "stroke": "#000", "stroke-width": "1" },
     );
     for y in ticks(view.y, view.scale) {
         let x = view.x(y);
-        let _ = writeln!(out, "<path d=\"M{x:.1} {bottom:.1}v6\" stroke=\"#000\"/>");
-        text(out, x, bottom + 22.0, "middle", &label(y));
+        svg.leaf("path", attributes! { "d": "M{x:.1} {bottom:.1}v6", "stroke": "#000" });
+        svg.text([x, bottom + 22.0], "middle", &label(y));
     }
     for r in ticks(view.r, view.scale) {
         let v = view.v(r);
-        let _ = writeln!(out, "<path d=\"M{left:.1} {v:.1}h-6\" stroke=\"#000\"/>");
-        text(out, left - 10.0, v + 5.0, "end", &label(r));
+        svg.leaf("path", attributes! { "d": "M{left:.1} {v:.1}h-6", "stroke": "#000" });
+        svg.text([left - 10.0, v + 5.0], "end", &label(r));
     }
-    text(out, view.left + view.width() / 2.0, bottom + 44.0, "middle", "axial position y [mm], 0 at the left face");
+    svg.text([view.left + view.width() / 2.0, bottom + 44.0], "middle", "axial position y [mm], 0 at the left face");
     let (x, y) = (left - 55.0, (view.top + view.bottom()) / 2.0);
-    let _ = writeln!(out, "<text transform=\"translate({x:.1} {y:.1}) rotate(-90)\" text-anchor=\"middle\">radius r [mm]</text>");
+    svg.element(
+        "text",
+        attributes! { "transform": "translate({x:.1} {y:.1}) rotate(-90)", "text-anchor": "middle" },
+        "radius r [mm]",
+    );
 }
 
 /// Round numbers (steps of 1, 2 or 5) some 60 px apart.
@@ -195,12 +190,14 @@ fn label(tick: f64) -> String {
     rounded.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-fn enlarged(out: &mut String, overview: &View, corner: &View, winding: &Winding, side: &str) {
+fn enlarged(svg: &mut Svg, overview: &View, corner: &View, winding: &Winding, side: &str) {
     let (x, v) = (overview.x(corner.y[0]), overview.v(corner.r[1]));
     let (w, h) = ((corner.y[1] - corner.y[0]) * overview.scale, (corner.r[1] - corner.r[0]) * overview.scale);
-    let _ = writeln!(
-        out,
-        "<rect x=\"{x:.1}\" y=\"{v:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"none\" stroke=\"#000\" stroke-width=\"2\"/>"
+    svg.leaf(
+        "rect",
+        attributes! {
+            "x": "{x:.1}", "y": "{v:.1}", "width": "{w:.1}", "height": "{h:.1}", "fill": "none", "stroke": "#000", "stroke-width": "2"
+        },
     );
     let radius = to_mm(winding.spec().pitch) / 2.0;
     let inside = |turn: &&Turn| {
@@ -208,7 +205,7 @@ fn enlarged(out: &mut String, overview: &View, corner: &View, winding: &Winding,
         corner.y[0] < y - reach && y + reach < corner.y[1] && r + reach < corner.r[1]
     };
     for turn in winding.turns().iter().filter(inside) {
-        disc(out, (corner.x(to_mm(turn.y)), corner.v(to_mm(turn.r))), 0.96 * radius * corner.scale, turn.half);
+        disc(svg, (corner.x(to_mm(turn.y)), corner.v(to_mm(turn.r))), 0.96 * radius * corner.scale, turn.half);
     }
     let right = corner.left + corner.width();
     let (label_x, anchor, caption_x, towards) =
@@ -216,23 +213,8 @@ fn enlarged(out: &mut String, overview: &View, corner: &View, winding: &Winding,
     let step = 3_f64.sqrt() * radius;
     for layer in 1..=winding.spec().layers.min(CORNER.0) {
         let v = corner.v(corner.r[0] + radius + (layer - 1) as f64 * step);
-        text(out, label_x, v + 5.0, anchor, &layer.to_string());
+        svg.text([label_x, v + 5.0], anchor, &layer.to_string());
     }
     let caption = format!("{side} end enlarged, y = {:.2} to {:.2} mm, by layer", corner.y[0], corner.y[1]);
-    text(out, caption_x, corner.top - 14.0, towards, &caption);
-}
-
-/// As text or attribute of a document; control characters are dropped.
-pub fn escape(content: &str) -> String {
-    let printable = content.chars().filter(|c| !c.is_control());
-    printable.fold(String::new(), |mut text, c| {
-        match c {
-            '&' => text.push_str("&amp;"),
-            '<' => text.push_str("&lt;"),
-            '>' => text.push_str("&gt;"),
-            '"' => text.push_str("&quot;"),
-            c => text.push(c),
-        }
-        text
-    })
+    svg.text([caption_x, corner.top - 14.0], towards, &caption);
 }

@@ -3,12 +3,11 @@
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write;
 
+use charts::{Colours, Frame, Svg, attributes, significant};
 use homogenization::fields::Sample;
 use homogenization::irregular::Solution;
 
 use crate::homogenize::Quantity;
-use crate::picture::escape;
-use crate::plot::Colours;
 
 /// Phases in Okabe and Ito's colours, pale enough to carry a mesh.
 const PHASES: [&str; 8] = ["#9ecae9", "#f2cf7d", "#8fd0b5", "#e6b3cf", "#f0a881", "#bcbddc", "#f7f0a8", "#c8c8c8"];
@@ -55,40 +54,42 @@ fn corners([a, b]: [[f64; 2]; 2]) -> [[f64; 2]; 4] {
 pub fn svg(name: &str, caption: &str, solution: &Solution, sample: &Sample, field: Option<Quantity>) -> String {
     let view = View::new(sample, solution.periodic().lattice);
     let (width, height) = (LEFT + view.size[0] + LEGEND, TOP + view.size[1] + 70.0);
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" height=\"{height:.0}\" \
-         font-family=\"sans-serif\" font-size=\"15\" role=\"img\" aria-labelledby=\"title desc\">\n<title id=\"title\">{}</title>\n<desc id=\"desc\">{}</desc>\n\
-         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<text x=\"{LEFT}\" y=\"34\" font-size=\"20\" font-weight=\"bold\">{}</text>\n\
-         <text x=\"{LEFT}\" y=\"60\">{}</text>\n",
-        escape(&format!("{name}: {caption}")),
-        match field {
-            Some(_) =>
-                "The periodic cell with its mesh, coloured by the field, with the scale of its colours; copies of it around, pale.",
+    let frame = Frame {
+        ids: ["title", "desc"],
+        size: [width, height],
+        font: 15.0,
+        title: &format!("{name}: {caption}"),
+        description: match field {
+            Some(_) => {
+                "The periodic cell with its mesh, coloured by the field, with the scale of its colours; copies of it around, pale."
+            }
             None => "The periodic cell with its mesh, coloured by its phases, which the legend names; copies of it around, pale.",
         },
-        escape(name),
-        escape(caption)
-    );
+        attributes: &[],
+        style: "",
+    };
     let colours = field.map(|quantity| (quantity, colours(quantity, sample)));
-    let _ = writeln!(
-        out,
-        "<clipPath id=\"frame\"><rect width=\"{:.1}\" height=\"{:.1}\"/></clipPath>\n<g transform=\"translate({LEFT} {TOP})\" \
-         clip-path=\"url(#frame)\">\n<defs><g id=\"cell\">",
-        view.size[0], view.size[1]
-    );
-    fill(&mut out, &view, sample, colours.as_ref());
-    mesh(&mut out, &view, solution, sample);
-    out.push_str("</g></defs>\n");
-    copies(&mut out, &view, solution);
-    out.push_str("</g>\n");
-    let right = LEFT + view.size[0] + 24.0;
-    match &colours {
-        Some((quantity, colours)) => bar(&mut out, right, *quantity, colours),
-        None => legend(&mut out, right, solution),
-    }
-    scale_bar(&mut out, &view);
-    out.push_str("</svg>\n");
-    out
+    frame.document(|svg| {
+        svg.element("text", attributes! { "x": "{LEFT}", "y": "34", "font-size": "20", "font-weight": "bold" }, name);
+        svg.element("text", attributes! { "x": "{LEFT}", "y": "60" }, caption);
+        svg.open("clipPath", attributes! { "id": "frame" });
+        let [w, h] = view.size;
+        svg.leaf("rect", attributes! { "width": "{w:.1}", "height": "{h:.1}" }).joined().close("clipPath");
+        svg.group(attributes! { "transform": "translate({LEFT} {TOP})", "clip-path": "url(#frame)" }, |svg| {
+            svg.open("defs", &[]).group(attributes! { "id": "cell" }, |svg| {
+                fill(svg, &view, sample, colours.as_ref());
+                mesh(svg, &view, solution, sample);
+            });
+            svg.joined().close("defs");
+            copies(svg, &view, solution);
+        });
+        let right = LEFT + view.size[0] + 24.0;
+        match &colours {
+            Some((quantity, colours)) => bar(svg, right, *quantity, colours),
+            None => legend(svg, right, solution),
+        }
+        scale_bar(svg, &view);
+    })
 }
 
 fn colours(quantity: Quantity, sample: &Sample) -> Colours {
@@ -98,7 +99,7 @@ fn colours(quantity: Quantity, sample: &Sample) -> Colours {
 }
 
 /// All of one colour as one path; edges of their own colour hide the seams. Without a field an element is filled as a whole.
-fn fill(out: &mut String, view: &View, sample: &Sample, colours: Option<&(Quantity, Colours)>) {
+fn fill(svg: &mut Svg, view: &View, sample: &Sample, colours: Option<&(Quantity, Colours)>) {
     let mut paths: BTreeMap<String, String> = BTreeMap::new();
     let Some((quantity, colours)) = colours else {
         let of_element = (sample.divisions + 1) * (sample.divisions + 1);
@@ -106,7 +107,7 @@ fn fill(out: &mut String, view: &View, sample: &Sample, colours: Option<&(Quanti
             let path = paths.entry(PHASES[states[0].phase % PHASES.len()].to_owned()).or_default();
             line(path, view, (0..4).flat_map(|side| along(sample, side)).map(|k| states[k].position));
         }
-        return paths.iter().for_each(|(colour, path)| area(out, colour, path));
+        return paths.iter().for_each(|(colour, path)| area(svg, colour, path));
     };
     let colour = |corners: &[usize; 4]| {
         let mean = corners.iter().map(|k| quantity.of(&sample.states[*k])).sum::<f64>() / 4.0;
@@ -119,11 +120,11 @@ fn fill(out: &mut String, view: &View, sample: &Sample, colours: Option<&(Quanti
         let far = run.iter().rev().map(|(_, corners)| corners[2]).chain([run[0].1[3]]);
         line(paths.entry(run[0].0.clone()).or_default(), view, near.chain(far).map(|k| sample.states[k].position));
     }
-    paths.iter().for_each(|(colour, path)| area(out, colour, path));
+    paths.iter().for_each(|(colour, path)| area(svg, colour, path));
 }
 
-fn area(out: &mut String, colour: &str, path: &str) {
-    let _ = writeln!(out, "<path fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"0.5\" d=\"{path}\"/>");
+fn area(svg: &mut Svg, colour: &str, path: &str) {
+    svg.leaf("path", attributes! { "fill": "{colour}", "stroke": "{colour}", "stroke-width": "0.5", "d": "{path}" });
 }
 
 /// Points in tenths of a pixel, each but the first relative to the one before it.
@@ -151,7 +152,7 @@ fn along(sample: &Sample, side: usize) -> impl Iterator<Item = usize> {
 }
 
 /// Outlines of the elements, thicker where the phase changes or ends.
-fn mesh(out: &mut String, view: &View, solution: &Solution, sample: &Sample) {
+fn mesh(svg: &mut Svg, view: &View, solution: &Solution, sample: &Sample) {
     let (mesh, of_element) = (solution.mesh(), (sample.divisions + 1) * (sample.divisions + 1));
     let mut original: Vec<usize> = (0..mesh.nodes().len()).collect();
     solution.periodic().periodic.iter().for_each(|[copy, first]| original[*copy] = *first);
@@ -179,70 +180,76 @@ fn mesh(out: &mut String, view: &View, solution: &Solution, sample: &Sample) {
         let start = e * of_element;
         line(path, view, along(sample, side).map(|k| sample.states[start + k].position));
     }
-    let _ = writeln!(out, "<path fill=\"none\" stroke=\"#000\" stroke-opacity=\"0.35\" stroke-width=\"0.6\" d=\"{lines}\"/>");
-    let _ = writeln!(out, "<path fill=\"none\" stroke=\"#000\" stroke-width=\"1\" d=\"{interfaces}\"/>");
+    svg.leaf(
+        "path",
+        attributes! { "fill": "none", "stroke": "#000", "stroke-opacity": "0.35", "stroke-width": "0.6", "d": "{lines}" },
+    );
+    svg.leaf("path", attributes! { "fill": "none", "stroke": "#000", "stroke-width": "1", "d": "{interfaces}" });
 }
 
 /// The cell, pale copies around it, and its lattice vectors.
-fn copies(out: &mut String, view: &View, solution: &Solution) {
+fn copies(svg: &mut Svg, view: &View, solution: &Solution) {
     let [a, b] = solution.periodic().lattice;
-    out.push_str("<g opacity=\"0.3\">\n");
-    for (i, j) in (-2..=2).flat_map(|i| (-2..=2).map(move |j| (i, j))).filter(|ij| *ij != (0, 0)) {
-        let (i, j) = (f64::from(i) * view.scale, f64::from(j) * view.scale);
-        let _ = writeln!(out, "<use href=\"#cell\" x=\"{:.2}\" y=\"{:.2}\"/>", i * a[0] + j * b[0], -(i * a[1] + j * b[1]));
-    }
-    out.push_str("</g>\n<use href=\"#cell\"/>\n");
+    svg.group(attributes! { "opacity": "0.3" }, |svg| {
+        for (i, j) in (-2..=2).flat_map(|i| (-2..=2).map(move |j| (i, j))).filter(|ij| *ij != (0, 0)) {
+            let (i, j) = (f64::from(i) * view.scale, f64::from(j) * view.scale);
+            let (x, y) = (i * a[0] + j * b[0], -(i * a[1] + j * b[1]));
+            svg.leaf("use", attributes! { "href": "#cell", "x": "{x:.2}", "y": "{y:.2}" });
+        }
+    });
+    svg.leaf("use", attributes! { "href": "#cell" });
     let path: Vec<String> = corners([a, b]).map(|p| view.pixel(p)).iter().map(|[x, y]| format!("{x:.2} {y:.2}")).collect();
-    let _ = writeln!(
-        out,
-        "<path fill=\"none\" stroke=\"#c00000\" stroke-width=\"1.5\" stroke-dasharray=\"7 4\" d=\"M{}z\"/>",
-        path.join("L")
+    svg.leaf(
+        "path",
+        attributes! {
+            "fill": "none", "stroke": "#c00000", "stroke-width": "1.5", "stroke-dasharray": "7 4", "d": "M{}z"(path.join("L"))
+        },
     );
 }
 
-fn legend(out: &mut String, x: f64, solution: &Solution) {
+/// What the dashed line is.
+fn dashed(svg: &mut Svg, x: f64, y: f64) {
+    svg.element("text", attributes! { "x": "{x:.1}", "y": "{y:.1}", "fill": "#c00000" }, "dashed: the lattice cell");
+}
+
+fn legend(svg: &mut Svg, x: f64, solution: &Solution) {
     for (k, phase) in solution.phases().iter().enumerate() {
         let y = TOP + 20.0 + 28.0 * k as f64;
         let share = solution.response().fractions.get(k).copied().unwrap_or(0.0);
-        let _ = writeln!(
-            out,
-            "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"18\" height=\"18\" fill=\"{}\" stroke=\"#000\"/>\n<text x=\"{:.1}\" y=\"{y:.1}\">{}, {:.2} %</text>",
-            y - 14.0,
-            PHASES[k % PHASES.len()],
-            x + 28.0,
-            escape(&phase.name),
-            100.0 * share
+        let (top, colour) = (y - 14.0, PHASES[k % PHASES.len()]);
+        svg.leaf(
+            "rect",
+            attributes! { "x": "{x:.1}", "y": "{top:.1}", "width": "18", "height": "18", "fill": "{colour}", "stroke": "#000" },
         );
+        let said = format!("{}, {:.2} %", phase.name, 100.0 * share);
+        svg.element("text", attributes! { "x": "{:.1}"(x + 28.0), "y": "{y:.1}" }, &said);
     }
     let y = TOP + 30.0 + 28.0 * solution.phases().len() as f64;
-    let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" fill=\"#c00000\">dashed: the lattice cell</text>");
-    let elements = solution.mesh().elements().len();
-    let order = solution.mesh().order();
-    let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{:.1}\">{elements} elements of order {order}</text>", y + 26.0);
+    dashed(svg, x, y);
+    let said = format!("{} elements of order {}", solution.mesh().elements().len(), solution.mesh().order());
+    svg.element("text", attributes! { "x": "{x:.1}", "y": "{:.1}"(y + 26.0) }, &said);
 }
 
-fn bar(out: &mut String, x: f64, quantity: Quantity, colours: &Colours) {
+fn bar(svg: &mut Svg, x: f64, quantity: Quantity, colours: &Colours) {
     let (width, y) = (LEGEND - 110.0, TOP + 34.0);
-    let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{:.1}\">{}</text>", TOP + 14.0, escape(&quantity.label()));
-    let _ = writeln!(out, "<g transform=\"translate({x:.1} {y:.1}) scale({width:.1} 18)\">{}</g>", colours.bar());
+    svg.element("text", attributes! { "x": "{x:.1}", "y": "{:.1}"(TOP + 14.0) }, &quantity.label());
+    svg.open("g", attributes! { "transform": "translate({x:.1} {y:.1}) scale({width:.1} 18)" });
+    colours.bar(svg);
+    svg.close("g");
     for (k, anchor) in [(0.0, "start"), (0.5, "middle"), (1.0, "end")] {
         let value = colours.range[0] + k * (colours.range[1] - colours.range[0]);
-        let label = crate::table::significant(value, 4);
-        let _ = writeln!(out, "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\">{label}</text>", x + k * width, y + 38.0);
+        svg.text([x + k * width, y + 38.0], anchor, &significant(value, 4));
     }
-    let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{:.1}\" fill=\"#c00000\">dashed: the lattice cell</text>", y + 76.0);
+    dashed(svg, x, y + 76.0);
 }
 
 /// A round length below the picture.
-fn scale_bar(out: &mut String, view: &View) {
+fn scale_bar(svg: &mut Svg, view: &View) {
     let metres = 0.25 * view.size[0] / view.scale;
     let decade = 10_f64.powf(metres.log10().floor());
     let length = [5.0, 2.0, 1.0].into_iter().map(|m| m * decade).find(|l| *l <= metres).unwrap_or(decade);
     let (y, pixels) = (TOP + view.size[1] + 24.0, length * view.scale);
-    let _ = writeln!(
-        out,
-        "<path d=\"M{LEFT} {y:.1}h{pixels:.1}\" stroke=\"#000\" stroke-width=\"3\"/>\n<text x=\"{LEFT}\" y=\"{:.1}\">{} µm; x to the right, y upwards</text>",
-        y + 22.0,
-        crate::table::significant(length * 1e6, 3)
-    );
+    svg.leaf("path", attributes! { "d": "M{LEFT} {y:.1}h{pixels:.1}", "stroke": "#000", "stroke-width": "3" });
+    let said = format!("{} µm; x to the right, y upwards", significant(length * 1e6, 3));
+    svg.element("text", attributes! { "x": "{LEFT}", "y": "{:.1}"(y + 22.0) }, &said);
 }

@@ -44,7 +44,7 @@ impl Pages {
         let mut browser = Browser::launch(&chromium, &folder.join("browser"))?;
         let mut looks: Vec<Look> = Vec::new();
         for file in &files {
-            let faults = fogcoil::report::faults(&fs::read_to_string(file)?);
+            let faults = charts::faults(&fs::read_to_string(file)?);
             if !faults.is_empty() {
                 return Err(Failure(format!("{}: {}", file.display(), faults.join("; "))));
             }

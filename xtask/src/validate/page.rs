@@ -1,11 +1,10 @@
 //! The comparison as one HTML page that needs nothing but itself.
 
-use std::fmt::Write as _;
-
+use charts::{Cells, facts, grid, nice, page, row};
 use fogcoil::figures::{OnSpool, spools_element};
 use fogcoil::input::Fingerprint;
-use fogcoil::picture::escape;
-use fogcoil::report::{Cells, facts, grid, nice, page, provenance, row};
+use fogcoil::report::provenance;
+use maud::{Markup, html};
 
 use proof::validation::report::{kind, verdict};
 use proof::validation::{ComparisonRow, Section, Verdict, printed};
@@ -41,55 +40,53 @@ const WORDS: [(&str, &str); 7] = [
 
 /// The page.
 pub(super) fn html(sections: &[Section]) -> Result<String, Failure> {
-    let mut out = String::from("<h2>Summary</h2>\n");
-    summary(&mut out, sections);
-    out.push_str("<h2>Words</h2>\n");
     let words: Vec<_> = WORDS.iter().map(|(word, meaning)| row(word, *meaning)).collect();
-    facts(&mut out, "Words", &words);
-    for section in sections {
-        one(&mut out, section)?;
-    }
     let read = |(role, file): (&'static str, &'static str)| {
         let content = std::fs::read(files::root().join(file)).map_err(|e| Failure(format!("{file}: {e}")))?;
         Ok((role, Fingerprint::of(file.into(), &content)))
     };
     let files = INPUTS.into_iter().map(read).collect::<Result<Vec<_>, Failure>>()?;
     let files: Vec<_> = files.iter().map(|(role, file)| (*role, file)).collect();
-    provenance(&mut out, "cargo xtask validate", &files, &[row("options", "none")]);
-    Ok(page("Validation against the paper's Tables I to IV", &lead(sections), &out))
+    let printed = printed()?;
+    let body = html! {
+        h2 { "Summary" } "\n"
+        (summary(sections))
+        h2 { "Words" } "\n"
+        (facts("Words", &words))
+        @for section in sections { (one(section, &printed)) }
+        (provenance("cargo xtask validate", &files, &[row("options", "none")]))
+    };
+    Ok(page("Validation against the paper's Tables I to IV", &lead(sections), &body))
 }
 
 fn rows(sections: &[Section]) -> impl Iterator<Item = &ComparisonRow> {
     sections.iter().flat_map(|section| &section.rows)
 }
 
-fn lead(sections: &[Section]) -> String {
+fn lead(sections: &[Section]) -> Markup {
     let must = rows(sections).filter(|row| row.must_hold).count();
     let failed = rows(sections).filter(|row| row.verdict == Verdict::Fails).count();
     let differ = rows(sections).filter(|row| row.verdict == Verdict::Differs).count();
-    format!(
-        "<p>{} of {must} rows that must hold do; {differ} others differ, for the reasons given. Osunluk et al., Tables I to IV, and an \
-         independent finite-element code.</p>\n",
-        must - failed
-    )
+    html! {
+        p {
+            (must - failed) " of " (must) " rows that must hold do; " (differ) " others differ, for the reasons given. Osunluk et al., \
+            Tables I to IV, and an independent finite-element code."
+        }
+    }
 }
 
 /// Verdicts counted, table by table.
-fn summary(out: &mut String, sections: &[Section]) {
+fn summary(sections: &[Section]) -> Markup {
     const VERDICTS: [Verdict; 4] = [Verdict::Holds, Verdict::Differs, Verdict::Fails, Verdict::Shown];
     let count = |section: &Section, verdict| section.rows.iter().filter(|row| row.verdict == verdict).count().to_string();
     let line = |section: &Section| {
         std::iter::once(section.title.clone()).chain(VERDICTS.map(|verdict| count(section, verdict))).collect()
     };
     let lines: Vec<Vec<String>> = sections.iter().map(line).collect();
-    grid(out, "Rows by verdict", Cells::Words, &["table", "hold", "differ", "fail", "are shown"], &lines);
+    grid("Rows by verdict", Cells::Words, &["table", "hold", "differ", "fail", "are shown"], &lines)
 }
 
-fn one(out: &mut String, section: &Section) -> Result<(), Failure> {
-    let _ = writeln!(out, "<h2>{}</h2>", escape(&section.title));
-    for note in &section.notes {
-        let _ = writeln!(out, "<p>{}</p>", escape(&nice(note)).replace(['`', '*'], ""));
-    }
+fn one(section: &Section, (label, value): &(String, f64)) -> Markup {
     let line = |row: &ComparisonRow| {
         vec![
             row.quantity.clone(),
@@ -103,12 +100,12 @@ fn one(out: &mut String, section: &Section) -> Result<(), Failure> {
     };
     let lines: Vec<Vec<String>> = section.rows.iter().map(line).collect();
     let head = ["quantity", "printed", "computed", "unit", "verdict", "kind", "reason"];
-    grid(out, &format!("{}, row by row", section.title), Cells::Words, &head, &lines);
-    if !section.lines.is_empty() {
-        let (label, value) = printed()?;
-        out.push_str(&spools_element(&on_spools(&section.lines), (&label, value)));
+    html! {
+        h2 { (section.title) } "\n"
+        @for note in &section.notes { p { (nice(note).replace(['`', '*'], "")) } "\n" }
+        (grid(&format!("{}, row by row", section.title), Cells::Words, &head, &lines))
+        @if !section.lines.is_empty() { (spools_element(&on_spools(&section.lines), (label, *value))) }
     }
-    Ok(())
 }
 
 /// Lines of the comparison of spools, "material, hub, flanges".
@@ -149,7 +146,7 @@ mod tests {
     #[test]
     fn the_page_is_whole() {
         let page = html(&sections()).unwrap();
-        assert_eq!(fogcoil::report::faults(&page), [""; 0]);
+        assert_eq!(charts::faults(&page), [""; 0]);
         assert!(page.contains("−2.7335 ± 1.4e−3"), "{page}");
         assert!(page.contains("printed, Table IV: 2.71") && page.contains("1 of 1 rows that must hold do"));
     }

@@ -1,11 +1,11 @@
 //! The Allan deviation as a picture.
 
+use charts::{Axis, Figure, Panel, Series, Style};
 use recording::allan::{AllanPoint, CONFIDENCE};
 use recording::noise::NoiseModel;
 
 use super::Analysis;
 use super::text::taken_off;
-use crate::plot::{Axis, Content, Figure, Height, Panel, Series, Style, Thinning};
 
 /// The Allan deviation with its intervals and the fitted model, as an SVG document; `None` without identified noise.
 pub fn svg(analysis: &Analysis) -> Option<String> {
@@ -40,30 +40,23 @@ impl<'a> Allan<'a> {
                     .into(),
             caption,
             columns: 1,
-            panels: vec![Panel {
-                heading: String::new(),
-                x: Axis::logarithmic("averaging time [s]"),
-                y: Axis::logarithmic("Allan deviation [°/h]"),
-                height: Height::Lines(24.0),
-                content: Content::Lines(vec![
+            panels: vec![Panel::lines(
+                Axis::logarithmic("averaging time [s]"),
+                Axis::logarithmic("Allan deviation [°/h]"),
+                24.0,
+                vec![
                     self.curve(&format!("{:.0} % interval", 100.0 * CONFIDENCE), Style::Third, |_, point| point.low),
                     self.curve("", Style::Third, |_, point| point.high),
                     self.curve("fitted model", Style::Marked(1), |allan, point| {
                         allan.model.allan_deviation(point.tau, allan.interval)
                     }),
                     self.curve("recording", Style::Marked(0), |_, point| point.deviation),
-                ]),
-            }],
+                ],
+            )],
         })
     }
 
     fn curve(self, name: &str, style: Style, of: fn(&Self, &AllanPoint) -> f64) -> Series<'a> {
-        Series {
-            name: name.to_owned(),
-            style,
-            count: self.points.len(),
-            at: Box::new(move |n| (self.points[n].tau, of(&self, &self.points[n]))),
-            thinning: Thinning::Distance,
-        }
+        Series::new(name, style, self.points.iter().map(|point| (point.tau, of(&self, point))).collect())
     }
 }

@@ -1,9 +1,8 @@
 //! Who is mistaken for whom: expected ln odds as a chequered table.
 
-use std::fmt::Write;
+use charts::{Frame, Svg, attributes};
 
 use super::Comparison;
-use crate::picture::escape;
 
 /// Measures [px]: side of a cell, room for the names, room above for the slanted names, gap between two tables.
 const CELL: f64 = 30.0;
@@ -38,60 +37,55 @@ impl Comparison {
         let (rows, columns) = (self.entries.len() as f64, self.rivals.len() as f64);
         let table = ABOVE + rows * CELL + GAP;
         let (width, height) = (NAMES + columns * CELL + 110.0, 70.0 + which.len() as f64 * table + 40.0);
-        let mut out = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
-             font-family=\"sans-serif\" font-size=\"12\" fill=\"#1a1d21\" role=\"img\" aria-labelledby=\"t d\">\n\
-             <title id=\"t\">Which mechanisms are mistaken for which</title>\n\
-             <desc id=\"d\">Expected ln of the odds for the mechanism of the row over that of the column, fitted in its place; typical size, 24 h.</desc>\n\
-             <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n\
-             <text x=\"8\" y=\"24\" font-size=\"18\" font-weight=\"bold\">Which mechanisms are mistaken for which</text>\n\
-             <text x=\"8\" y=\"46\">Expected ln odds for the truth (row) over what is fitted in its place (column); typical sizes, typical noise.</text>\n"
-        );
-        for (n, k) in which.iter().enumerate() {
-            let top = 70.0 + n as f64 * table;
-            let _ = writeln!(out, "<g transform=\"translate(0 {top})\">\n{}</g>", self.chequered(*k));
-        }
-        let mut x = 8.0;
-        for (_, fill, _, name) in CLASSES {
-            let y = height - 30.0;
-            let _ = writeln!(
-                out,
-                "<rect x=\"{x}\" y=\"{y}\" width=\"16\" height=\"16\" fill=\"{fill}\"/><text x=\"{}\" y=\"{}\">{}</text>",
-                x + 22.0,
-                y + 12.0,
-                escape(name)
-            );
-            x += 160.0;
-        }
-        out + "</svg>\n"
+        let frame = Frame {
+            ids: ["t", "d"],
+            size: [width, height],
+            font: 12.0,
+            title: "Which mechanisms are mistaken for which",
+            description: "Expected ln of the odds for the mechanism of the row over that of the column, fitted in its place; typical size, \
+                          24 h.",
+            attributes: attributes! { "fill": "#1a1d21" },
+            style: "",
+        };
+        frame.document(|svg| {
+            svg.element("text", attributes! { "x": "8", "y": "24", "font-size": "18", "font-weight": "bold" }, frame.title);
+            let said =
+                "Expected ln odds for the truth (row) over what is fitted in its place (column); typical sizes, typical noise.";
+            svg.element("text", attributes! { "x": "8", "y": "46" }, said);
+            for (n, k) in which.iter().enumerate() {
+                let top = 70.0 + n as f64 * table;
+                svg.group(attributes! { "transform": "translate(0 {top})" }, |svg| self.chequered(svg, *k));
+            }
+            for (n, (_, fill, _, name)) in CLASSES.into_iter().enumerate() {
+                let (x, y) = (8.0 + 160.0 * n as f64, height - 30.0);
+                svg.leaf("rect", attributes! { "x": "{x}", "y": "{y}", "width": "16", "height": "16", "fill": "{fill}" })
+                    .joined();
+                svg.element("text", attributes! { "x": "{}"(x + 22.0), "y": "{}"(y + 12.0) }, name);
+            }
+        })
     }
 
-    fn chequered(&self, k: usize) -> String {
-        let mut out = format!("<text x=\"8\" y=\"14\" font-weight=\"bold\">{}</text>\n", escape(&self.programmes[k].name));
+    fn chequered(&self, svg: &mut Svg, k: usize) {
+        svg.element("text", attributes! { "x": "8", "y": "14", "font-weight": "bold" }, &self.programmes[k].name);
         for (j, rival) in self.rivals.iter().enumerate() {
             let (x, y) = (NAMES + (j as f64 + 0.6) * CELL, ABOVE - 6.0);
-            let _ = writeln!(out, "<text x=\"{x}\" y=\"{y}\" transform=\"rotate(-60 {x} {y})\">{}</text>", escape(rival));
+            svg.element("text", attributes! { "x": "{x}", "y": "{y}", "transform": "rotate(-60 {x} {y})" }, rival);
         }
         for (i, entry) in self.entries.iter().enumerate() {
             let y = ABOVE + i as f64 * CELL;
-            let _ =
-                writeln!(out, "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>", NAMES - 8.0, y + 19.0, escape(&entry.id));
+            let below = y + 19.0;
+            svg.element("text", attributes! { "x": "{}"(NAMES - 8.0), "y": "{below}", "text-anchor": "end" }, &entry.id);
             for (j, told) in self.told[k][i].iter().enumerate() {
-                let x = NAMES + j as f64 * CELL;
                 let Some(told) = told else { continue };
-                let (fill, ink) = class(told.log_odds);
-                let _ = writeln!(
-                    out,
-                    "<rect x=\"{x}\" y=\"{y}\" width=\"{}\" height=\"{}\" fill=\"{fill}\"/>\
-                     <text x=\"{}\" y=\"{}\" text-anchor=\"middle\" font-size=\"11\" fill=\"{ink}\">{}</text>",
-                    CELL - 1.0,
-                    CELL - 1.0,
-                    x + CELL / 2.0 - 0.5,
-                    y + 19.0,
-                    escape(&number(told.log_odds))
+                let (x, side, (fill, ink)) = (NAMES + j as f64 * CELL, CELL - 1.0, class(told.log_odds));
+                svg.leaf("rect", attributes! { "x": "{x}", "y": "{y}", "width": "{side}", "height": "{side}", "fill": "{fill}" });
+                let middle = x + CELL / 2.0 - 0.5;
+                svg.joined().element(
+                    "text",
+                    attributes! { "x": "{middle}", "y": "{below}", "text-anchor": "middle", "font-size": "11", "fill": "{ink}" },
+                    &number(told.log_odds),
                 );
             }
         }
-        out
     }
 }

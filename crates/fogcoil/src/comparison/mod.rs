@@ -14,6 +14,7 @@ use crate::diagnose::library;
 use crate::input::CoilCase;
 use crate::recommend::{Contender, Limits, Programme, everything, prepared, programmes, usual};
 
+pub(crate) use signature::{CHANNELS, chamber};
 pub use trial::Trial;
 
 /// The chamber of the tests: `recommend` has others.

@@ -1,70 +1,66 @@
 //! What a mechanism changes, drawn.
 
+use charts::{Axis, Figure, Panel, Series, Style, significant};
+use mechanisms::{RATE, SPOOL};
+
 use super::{Comparison, Entry};
-use crate::plot::{Axis, Content, Figure, Height, Panel, Series, Style, Thinning};
-use crate::table::significant;
+use crate::recommend::Programme;
 
 const HOUR: f64 = 3600.0;
-/// Changes less than these are no changes: rounding \[deg/h\], \[K\].
-const LEAST: [f64; 2] = [1e-4, 0.02];
+
+/// How the change of a channel is drawn: its number, label, line, and what is no change but rounding \[deg/h\], \[K\].
+type Channel = (usize, &'static str, Style, f64);
+
+/// Rate and thermometer.
+pub(crate) const CHANNELS: [Channel; 2] =
+    [(RATE, "change of the rate [°/h]", Style::First, 1e-4), (SPOOL, "change of the spool's reading [K]", Style::Second, 0.02)];
+
+/// The chamber's course.
+pub(crate) fn chamber(programme: &Programme, time: Axis, high: f64) -> Panel<'static> {
+    let corners = programme.corners.iter().map(|(t, c)| (t / HOUR, *c)).collect();
+    Panel::lines(time, Axis::round("chamber [°C]", 1.0), high, vec![Series::new("", Style::Total, corners)])
+}
+
+impl Entry {
+    /// What the mechanism changes in a channel under a programme, the `number`th of its comparison.
+    pub(crate) fn change<'a>(
+        &'a self,
+        (number, programme): (usize, &Programme),
+        (channel, label, style, least): Channel,
+        time: Axis,
+        high: f64,
+    ) -> Panel<'a> {
+        let change = &self.changes[number][channel];
+        let interval = programme.duration() / (change.len().max(2) - 1) as f64;
+        let line = Series::computed("", style, change.len(), move |n| (n as f64 * interval / HOUR, change[n]));
+        Panel::lines(time, Axis::round(label, least), high, vec![line])
+    }
+
+    /// Its parameters' typical values.
+    pub(crate) fn typical(&self, digits: usize) -> String {
+        let values = self.parameters.iter().map(|p| format!("{} = {}", p.name, significant(p.typical, digits)));
+        format!("{}: {}", self.id, values.collect::<Vec<_>>().join(", "))
+    }
+}
 
 impl Comparison {
     /// Change of rate and of spool temperature by a mechanism of typical size, under the slow ramp and the fast one: an SVG document.
     pub fn signature(&self, entry: &Entry) -> String {
-        let both = [0, 1].map(|k: usize| &self.programmes[k]);
-        let mut panels = Vec::new();
-        for programme in both {
-            let corners = &programme.corners;
-            let line = Series {
-                name: String::new(),
-                style: Style::Total,
-                count: corners.len(),
-                at: Box::new(|n| (corners[n].0 / HOUR, corners[n].1)),
-                thinning: Thinning::Distance,
-            };
-            panels.push(panel(programme.name.clone(), "chamber [°C]", 5.0, 1.0, line));
+        let (both, time) = ([0, 1].map(|k: usize| (k, &self.programmes[k])), || Axis::tight("time [h]", 1.0));
+        let mut panels: Vec<Panel> = both.iter().map(|(_, p)| chamber(p, time(), 5.0).headed(&p.name)).collect();
+        for channel in CHANNELS {
+            panels.extend(both.iter().map(|programme| entry.change(*programme, channel, time(), 8.0)));
         }
-        let (interval, rows) =
-            (self.programmes[0].duration() / (entry.changes[0][0].len() - 1) as f64, entry.changes[0][0].len());
-        for (channel, label, least, style) in [
-            (1, "change of the rate [°/h]", LEAST[0], Style::First),
-            (0, "change of the spool's reading [K]", LEAST[1], Style::Second),
-        ] {
-            for changes in &entry.changes[..2] {
-                let change = &changes[channel];
-                let line = Series {
-                    name: String::new(),
-                    style,
-                    count: rows,
-                    at: Box::new(move |n| (n as f64 * interval / HOUR, change[n])),
-                    thinning: Thinning::Columns,
-                };
-                panels.push(panel(String::new(), label, 8.0, least, line));
-            }
-        }
-        let values: Vec<String> =
-            entry.parameters.iter().map(|p| format!("{} = {}", p.name, significant(p.typical, 3))).collect();
         let figure = Figure {
             id: "signature",
-            title: format!("{}: {}", entry.id, values.join(", ")),
-            description:
-                "Left under a slow ramp, right under a fast one; from top to bottom the chamber, the change of the gyro's \
-                          rate, the change of the spool thermometer's reading."
-                    .into(),
+            title: entry.typical(3),
+            description: "Left under a slow ramp, right under a fast one; from top to bottom the chamber, the change of the gyro's rate, the \
+                          change of the spool thermometer's reading."
+                .into(),
             caption: format!("{}; what the mechanism adds to the nominal response, without noise.", self.design),
             columns: 2,
             panels,
         };
         figure.document()
-    }
-}
-
-fn panel<'a>(heading: String, label: &str, lines: f64, least: f64, series: Series<'a>) -> Panel<'a> {
-    Panel {
-        heading,
-        x: Axis::tight("time [h]", 1.0),
-        y: Axis::round(label, least),
-        height: Height::Lines(lines),
-        content: Content::Lines(vec![series]),
     }
 }

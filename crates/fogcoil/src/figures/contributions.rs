@@ -2,12 +2,11 @@
 
 use bias::Bias;
 use bias::units::{DEG_PER_H_PER_RAD_PER_S, K_PER_MIN_PER_K_PER_S};
+use charts::{Axis, Colours, Figure, HeatMap, Height, Panel, signed};
 use coil::{Drive, ThermalState, TurnFields};
 use winding::Winding;
 
 use super::MOST_TURNS;
-use crate::plot::{Axis, Colours, Content, Figure, HeatMap, Height, Panel};
-use crate::report::signed;
 use crate::simulate::Simulation;
 use crate::units::to_mm;
 
@@ -66,13 +65,9 @@ pub(super) fn figure<'a>(simulation: &'a Simulation, fields: &TurnFields) -> Opt
         for ((colours, maps), heading) in columns.iter().zip(headings) {
             let Cells { columns, values, y, r } = maps[k].clone();
             let (x, y, colours) = (y.map(to_mm), r.map(to_mm), colours.clone());
-            panels.push(Panel {
-                heading,
-                x: Axis::tight("axial position y [mm]", 1e-6),
-                y: Axis::tight("radius r [mm]", 1e-6),
-                height: Height::ToScale(20.0),
-                content: Content::Map(HeatMap { columns, values, x, y, colours, bar: k == 0, marked: Vec::new() }),
-            });
+            let map = HeatMap { columns, values, x, y, colours, bar: k == 0, marked: Vec::new() };
+            let [axial, radial] = ["axial position y [mm]", "radius r [mm]"].map(|label| Axis::tight(label, 1e-6));
+            panels.push(Panel::map(axial, radial, Height::ToScale(20.0), map).headed(heading));
         }
     }
     Some(Figure {

@@ -1,14 +1,13 @@
 //! Error of the steady sensitivity against the number of unknowns, beside an estimate from the next finer mesh.
 
+use charts::{Axis, Figure, Panel, Series, Style};
 use coil::{COARSE, MeshFineness, Model, SAFETY};
-
 use serde::{Deserialize, Serialize};
 
 use super::Document;
 use crate::Error;
 use crate::cache::Cache;
 use crate::input::CoilCase;
-use crate::plot::{Axis, Content, Figure, Height, Panel, Series, Style, Thinning};
 
 /// Orders whose error is shown.
 const ORDERS: std::ops::RangeInclusive<usize> = 3..=8;
@@ -63,14 +62,8 @@ pub(super) fn figure(case: &CoilCase, measured: &Convergence) -> Figure<'static>
     let (unknowns, exact) = measured.reference;
     let floor = f64::EPSILON * exact.abs();
     let series = |name: &str, kind: u8, error: fn(&(f64, f64, f64), f64) -> f64| {
-        let points: Vec<(f64, f64)> = measured.meshes.iter().map(|s| (s.0, error(s, exact).max(floor))).collect();
-        Series {
-            name: name.to_owned(),
-            style: Style::Marked(kind),
-            count: points.len(),
-            at: Box::new(move |n| points[n]),
-            thinning: Thinning::Distance,
-        }
+        let points = measured.meshes.iter().map(|s| (s.0, error(s, exact).max(floor))).collect();
+        Series::new(name, Style::Marked(kind), points)
     };
     let truth = format!("distance to order {REFERENCE}; from left to right orders {} to {}", ORDERS.start(), ORDERS.end());
     Figure {
@@ -91,15 +84,14 @@ pub(super) fn figure(case: &CoilCase, measured: &Convergence) -> Figure<'static>
             REFERENCE / 2
         ),
         columns: 1,
-        panels: vec![Panel {
-            heading: String::new(),
-            x: Axis::logarithmic("unknowns"),
-            y: Axis::logarithmic("error of the steady sensitivity [(°/h)/(°C/min)]"),
-            height: Height::Lines(24.0),
-            content: Content::Lines(vec![
+        panels: vec![Panel::lines(
+            Axis::logarithmic("unknowns"),
+            Axis::logarithmic("error of the steady sensitivity [(°/h)/(°C/min)]"),
+            24.0,
+            vec![
                 series("twice the distance to the next finer mesh", 1, |(_, s, finer), _| SAFETY * (s - finer).abs()),
                 series(&truth, 0, |(_, s, _), exact| (s - exact).abs()),
-            ]),
-        }],
+            ],
+        )],
     }
 }

@@ -1,10 +1,9 @@
 //! Temperatures and bias in time, and the bias against the temperature rate (Fig. 7).
 
-use crate::plot::{Axis, Content, Figure, Height, Panel, Series, Style, Thinning};
-use crate::report::signed;
+use charts::{Axis, Figure, Panel, Series, Style, signed, significant};
+
 use crate::simulate::{Row, Simulation, WINDOW_S, Window};
 use crate::summary::Summary;
-use crate::table::significant;
 use crate::units::DurationUnit;
 
 /// Smallest spans that are drawn: less is rounding or noise.
@@ -26,15 +25,11 @@ pub(super) fn time_axis(simulation: &Simulation) -> (Axis, impl Fn(f64) -> f64 +
 
 fn temperatures<'a>(simulation: &'a Simulation) -> Figure<'a> {
     let (x, time) = time_axis(simulation);
-    let series = |name: &str, style, value: fn(&Row) -> f64| Series {
-        name: name.to_owned(),
-        style,
-        count: simulation.count(),
-        at: Box::new(move |n| {
+    let series = |name: &str, style, value: fn(&Row) -> f64| {
+        Series::computed(name, style, simulation.count(), move |n| {
             let row = simulation.row(n);
             (time(row.time), value(&row))
-        }),
-        thinning: Thinning::Columns,
+        })
     };
     Figure {
         id: "temperatures",
@@ -49,31 +44,23 @@ fn temperatures<'a>(simulation: &'a Simulation) -> Figure<'a> {
             }
         },
         columns: 1,
-        panels: vec![Panel {
-            heading: String::new(),
+        panels: vec![Panel::lines(
             x,
-            y: Axis::round("temperature [°C]", LEAST_C),
-            height: Height::Lines(20.0),
-            content: Content::Lines(vec![
-                series("chamber", Style::Second, |row| row.chamber),
-                series("spool thermometer", Style::First, |row| row.spool),
-            ]),
-        }],
+            Axis::round("temperature [°C]", LEAST_C),
+            20.0,
+            vec![series("chamber", Style::Second, |row| row.chamber), series("spool thermometer", Style::First, |row| row.spool)],
+        )],
     }
 }
 
 fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<'a> {
     let (x, time) = time_axis(simulation);
-    let series = |name: &str, style, value: fn(&Row) -> f64| Series {
-        name: name.to_owned(),
-        style,
-        count: simulation.count(),
-        at: Box::new(move |n| {
+    let series = |name: &str, style, value: fn(&Row) -> f64| {
+        Series::computed(name, style, simulation.count(), move |n| {
             // the first row has no rate: it repeats the second's, and a lone row shows its zero
             let row = simulation.row(if n == 0 { 1.min(simulation.count() - 1) } else { n });
             (time(simulation.row(n).time), value(&row))
-        }),
-        thinning: Thinning::Columns,
+        })
     };
     let bias = vec![
         series("Shupe", Style::First, |row| row.shupe),
@@ -82,20 +69,7 @@ fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<'a> {
         series("total", Style::Total, |row| row.rate),
     ];
     let ends = [simulation.row(0).time, simulation.row(simulation.count() - 1).time].map(time);
-    let rate = Series {
-        name: String::new(),
-        style: Style::First,
-        count: windows.len(),
-        at: Box::new(move |n| (time(windows[n].time), windows[n].spool_rate)),
-        thinning: Thinning::Columns,
-    };
-    let panel = |x: Axis, y: Axis, lines: f64, series| Panel {
-        heading: String::new(),
-        x,
-        y,
-        height: Height::Lines(lines),
-        content: Content::Lines(series),
-    };
+    let rate = Series::computed("", Style::First, windows.len(), move |n| (time(windows[n].time), windows[n].spool_rate));
     let unlabelled = Axis::tight("", x.least_span).covering(ends);
     Figure {
         id: "bias",
@@ -111,8 +85,13 @@ fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<'a> {
         ),
         columns: 1,
         panels: vec![
-            panel(unlabelled, Axis::round("bias [°/h]", LEAST_DEG_PER_H), 18.0, bias),
-            panel(x.covering(ends), Axis::round("rate of the spool's temperature [°C/min]", LEAST_C_PER_MIN), 9.0, vec![rate]),
+            Panel::lines(unlabelled, Axis::round("bias [°/h]", LEAST_DEG_PER_H), 18.0, bias),
+            Panel::lines(
+                x.covering(ends),
+                Axis::round("rate of the spool's temperature [°C/min]", LEAST_C_PER_MIN),
+                9.0,
+                vec![rate],
+            ),
         ],
     }
 }
@@ -123,30 +102,19 @@ fn against_rate<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<
     let count = windows.len();
     let mean = |of: fn(&Window) -> f64| windows.iter().map(of).sum::<f64>() / count.max(1) as f64;
     let (mean_rate, mean_bias) = (mean(|w| w.spool_rate), mean(|w| w.rate));
-    let line = |name: String, style, value: Box<dyn Fn(f64) -> f64>| Series {
-        name,
-        style,
-        count: 2,
-        at: Box::new(move |n| (ends[n], value(ends[n]))),
-        thinning: Thinning::Distance,
-    };
+    let line = |name: String, style, value: &dyn Fn(f64) -> f64| Series::new(name, style, ends.map(|x| (x, value(x))).to_vec());
     let error = significant(simulation.steady.error_estimate, 2);
     let unit = "(°/h)/(°C/min)";
     let steady_name = format!("steady ramp: slope {} ± {error} {unit}", signed(steady, 4));
     let slope = Summary::of(simulation).slope;
-    let mut series = vec![Series {
-        name: "course".into(),
-        style: Style::First,
-        count,
-        at: Box::new(move |n| (windows[n].spool_rate, windows[n].rate)),
-        thinning: Thinning::Distance,
-    }];
+    let course = Series::computed("course", Style::First, count, move |n| (windows[n].spool_rate, windows[n].rate));
+    let mut series = vec![course.anywhere()];
     if let Some(slope) = slope {
         let name = format!("regression: slope {} {unit}", signed(slope, 4));
-        series.push(line(name, Style::Total, Box::new(move |x| mean_bias + slope * (x - mean_rate))));
+        series.push(line(name, Style::Total, &|x| mean_bias + slope * (x - mean_rate)));
     }
     // where the two agree its dashes lie on the regression
-    series.push(line(steady_name, Style::Second, Box::new(move |x| steady * x)));
+    series.push(line(steady_name, Style::Second, &|x| steady * x));
     Figure {
         id: "bias-against-rate",
         title: "Bias against the spool's temperature rate".into(),
@@ -159,12 +127,11 @@ fn against_rate<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<
              intercept through all points."
         ),
         columns: 1,
-        panels: vec![Panel {
-            heading: String::new(),
-            x: Axis::round("spool temperature rate [°C/min]", LEAST_C_PER_MIN),
-            y: Axis::round("bias [°/h]", LEAST_DEG_PER_H),
-            height: Height::Lines(22.0),
-            content: Content::Lines(series),
-        }],
+        panels: vec![Panel::lines(
+            Axis::round("spool temperature rate [°C/min]", LEAST_C_PER_MIN),
+            Axis::round("bias [°/h]", LEAST_DEG_PER_H),
+            22.0,
+            series,
+        )],
     }
 }

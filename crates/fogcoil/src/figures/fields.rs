@@ -1,12 +1,11 @@
 //! Temperature and strain along the fibre, in time and at chosen instants (Figs. 4 to 6).
 
+use charts::{Axis, Colours, Figure, HeatMap, Height, Panel, Series, Style, signed};
 use coil::{Mechanics, ThermalState, TurnFields, TurnValues};
 use winding::Winding;
 
 use super::MOST_TURNS;
 use super::course::time_axis;
-use crate::plot::{Axis, Colours, Content, Figure, HeatMap, Height, Panel, Series, Style, Thinning};
-use crate::report::signed;
 use crate::simulate::{Sample, Simulation};
 use crate::units::{DurationUnit, to_ppm};
 
@@ -40,53 +39,46 @@ pub(super) fn all<'a>(simulation: &'a Simulation, fields: &TurnFields) -> Vec<Fi
         Mechanics::Elastic => "",
         _ => " The mechanics change in time; these are the strains of the nominal state.",
     };
-    let strain = "Strain of the glass at the centre of each turn since the first row.";
     let instants = "Below: along the fibre at chosen instants; the pattern repeats from layer to layer.";
-    let temperature = course.figure(
-        simulation,
-        Words {
-            id: "temperature-along-fibre",
-            title: "Temperature along the fibre",
-            quantity: "temperature less the fibre's mean [K]",
-            absolute: Some("fibre's mean temperature [°C]"),
-            caption: format!(
-                "Deviation of each turn from the fibre's mean, which is drawn above: a rate that all turns share drops out of the \
-                 Shupe bias. {instants} Counterpart of the paper's Fig. 4."
-            ),
-        },
-        |at| at.values.temperature.iter().map(|t| t - at.mean).collect(),
-        LEAST_K,
-    );
-    let radial = course.figure(
-        simulation,
-        Words {
-            id: "radial-strain-along-fibre",
-            title: "Radial strain of the glass along the fibre",
-            quantity: "radial strain [10⁻⁶]",
-            absolute: None,
-            caption: format!("{strain}{state} Dehomogenised, across the fibre. {instants} Counterpart of the paper's Fig. 5."),
-        },
+    let temperature = Words {
+        id: "temperature-along-fibre",
+        title: "Temperature along the fibre",
+        quantity: "temperature less the fibre's mean [K]",
+        absolute: Some("fibre's mean temperature [°C]"),
+        caption: format!(
+            "Deviation of each turn from the fibre's mean, which is drawn above: a rate that all turns share drops out of the Shupe \
+             bias. {instants} Counterpart of the paper's Fig. 4."
+        ),
+        field: |at| at.values.temperature.iter().map(|t| t - at.mean).collect(),
+        least: LEAST_K,
+    };
+    let strain = |id, title, quantity, along: &str, number: u8, field: Field| {
+        let caption = format!(
+            "Strain of the glass at the centre of each turn since the first row.{state} {along} {instants} Counterpart of the paper's \
+             Fig. {number}."
+        );
+        Words { id, title, quantity, absolute: None, caption, field, least: LEAST_STRAIN }
+    };
+    let radial = strain(
+        "radial-strain-along-fibre",
+        "Radial strain of the glass along the fibre",
+        "radial strain [10⁻⁶]",
+        "Dehomogenised, across the fibre.",
+        5,
         |at| at.values.radial.iter().copied().map(to_ppm).collect(),
-        LEAST_STRAIN,
     );
-    let axial = course.figure(
-        simulation,
-        Words {
-            id: "axial-strain-along-fibre",
-            title: "Axial strain of the glass along the fibre",
-            quantity: "axial strain [10⁻⁶]",
-            absolute: None,
-            caption: format!(
-                "{strain}{state} Along the fibre: the coil's hoop strain. {instants} Counterpart of the paper's Fig. 6."
-            ),
-        },
+    let axial = strain(
+        "axial-strain-along-fibre",
+        "Axial strain of the glass along the fibre",
+        "axial strain [10⁻⁶]",
+        "Along the fibre: the coil's hoop strain.",
+        6,
         |at| at.values.axial.iter().copied().map(to_ppm).collect(),
-        LEAST_STRAIN,
     );
-    vec![temperature, radial, axial]
+    [temperature, radial, axial].map(|words| course.figure(simulation, words)).into()
 }
 
-/// What is said of a figure.
+/// A quantity, and what is said of it.
 struct Words {
     id: &'static str,
     title: &'static str,
@@ -94,6 +86,9 @@ struct Words {
     /// Label of the mean temperature, where that is drawn too.
     absolute: Option<&'static str>,
     caption: String,
+    field: Field,
+    /// Smallest span that is drawn.
+    least: f64,
 }
 
 /// The samples of a simulation with all that is needed to see the turns at each.
@@ -154,53 +149,32 @@ impl<'a> Course<'a> {
         values
     }
 
-    fn figure<'b>(&self, simulation: &'b Simulation, words: Words, field: Field, least: f64) -> Figure<'b> {
+    fn figure<'b>(&self, simulation: &'b Simulation, words: Words) -> Figure<'b> {
         let (x, time) = time_axis(simulation);
         let length = self.winding.length();
         let ends = [simulation.row(0).time, simulation.row(simulation.count() - 1).time].map(time);
-        let values = self.map(field);
+        let values = self.map(words.field);
         let range =
             values.iter().filter(|v| v.is_finite()).fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(*v), b.max(*v)]);
         let mut panels = Vec::new();
         if let Some(label) = words.absolute {
-            let points: Vec<(f64, f64)> = self.samples.iter().zip(&self.means).map(|(s, mean)| (time(s.time), *mean)).collect();
-            let series = Series {
-                name: String::new(),
-                style: Style::First,
-                count: points.len(),
-                at: Box::new(move |n| points[n]),
-                thinning: Thinning::Columns,
-            };
-            panels.push(Panel {
-                heading: String::new(),
-                x: Axis::tight("", x.least_span).covering(ends),
-                y: Axis::round(label, 0.1),
-                height: Height::Lines(7.0),
-                content: Content::Lines(vec![series]),
-            });
+            let points = self.samples.iter().zip(&self.means).map(|(s, mean)| (time(s.time), *mean)).collect();
+            let unlabelled = Axis::tight("", x.least_span).covering(ends);
+            panels.push(Panel::lines(unlabelled, Axis::round(label, 0.1), 7.0, vec![Series::new("", Style::First, points)]));
         }
-        panels.push(Panel {
-            heading: String::new(),
-            x,
-            y: Axis::tight("place along the fibre z [m]", 1e-6),
-            height: Height::Lines(18.0),
-            content: Content::Map(HeatMap {
-                columns: self.samples.len(),
-                values,
-                x: ends,
-                y: [0.0, length],
-                colours: Colours::of(words.quantity, range, least),
-                bar: true,
-                marked: Vec::new(),
-            }),
-        });
-        panels.push(Panel {
-            heading: String::new(),
-            x: Axis::tight("place along the fibre z [m]", 1e-6).covering([0.0, length]),
-            y: Axis::round(words.quantity, least),
-            height: Height::Lines(18.0),
-            content: Content::Lines(self.chosen.iter().map(|chosen| self.curve(simulation, *chosen, field)).collect()),
-        });
+        let map = HeatMap {
+            columns: self.samples.len(),
+            values,
+            x: ends,
+            y: [0.0, length],
+            colours: Colours::of(words.quantity, range, words.least),
+            bar: true,
+            marked: Vec::new(),
+        };
+        let along = Axis::tight("place along the fibre z [m]", 1e-6);
+        panels.push(Panel::map(x, along.clone(), Height::Lines(18.0), map));
+        let curves = self.chosen.iter().map(|chosen| self.curve(simulation, *chosen, words.field)).collect();
+        panels.push(Panel::lines(along.covering([0.0, length]), Axis::round(words.quantity, words.least), 18.0, curves));
         Figure {
             id: words.id,
             title: words.title.into(),
@@ -217,17 +191,11 @@ impl<'a> Course<'a> {
     fn curve<'b>(&self, simulation: &Simulation, Chosen { sample, kind, what }: Chosen, field: Field) -> Series<'b> {
         let at = self.at(sample);
         let values = field(&at);
-        let places: Vec<f64> = self.winding.turns().iter().map(|t| (t.z_start + t.z_end) / 2.0).collect();
+        let places = self.winding.turns().iter().map(|t| (t.z_start + t.z_end) / 2.0);
         let unit = DurationUnit::of(simulation.duration());
         let since = unit.of_seconds(at.time - simulation.row(0).time);
         let name = format!("{what}, after {since:.2} {}, mean {} °C", unit.name(), signed(at.mean, 1));
-        Series {
-            name,
-            style: Style::Fine(kind),
-            count: values.len(),
-            at: Box::new(move |n| (places[n], values[n])),
-            thinning: Thinning::Columns,
-        }
+        Series::new(name, Style::Fine(kind), places.zip(values).collect())
     }
 }
 

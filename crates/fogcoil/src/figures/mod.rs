@@ -11,10 +11,10 @@ mod model;
 mod signatures;
 mod spools;
 
+use charts::Figure;
 use coil::TurnFields;
+use maud::{Markup, html};
 
-use crate::plot::{Figure, Size};
-use crate::report::with_data;
 use crate::simulate::Simulation;
 
 pub use contributions::contributions_in_ramp;
@@ -46,18 +46,7 @@ pub fn documents(simulation: &Simulation, fields: Option<&TurnFields>) -> Vec<Do
 }
 
 /// All figures as elements of a page, in wide and narrow, each with its data.
-pub(crate) fn elements(simulation: &Simulation, fields: Option<&TurnFields>, convergence: Option<&Convergence>) -> String {
+pub(crate) fn elements(simulation: &Simulation, fields: Option<&TurnFields>, convergence: Option<&Convergence>) -> Markup {
     let last = convergence.map(|measured| convergence::figure(simulation.case, measured));
-    all(simulation, fields).iter().chain(&last).map(with_data).collect()
-}
-
-/// A figure as an element of a page, in wide and narrow.
-pub(crate) fn element(figure: &Figure) -> String {
-    format!(
-        "<figure>\n<h3>{}</h3>\n{}{}<figcaption>{}</figcaption>\n</figure>\n",
-        crate::picture::escape(&figure.title),
-        figure.svg(Size::Wide),
-        figure.svg(Size::Narrow),
-        crate::picture::escape(&figure.caption)
-    )
+    html! { @for figure in all(simulation, fields).iter().chain(&last) { (figure.element()) } }
 }

@@ -1,9 +1,9 @@
 //! The model: coil, spool, medium, chamber wall, thermometer and mesh, to scale (Fig. 2).
 
+use charts::{Area, Arrow, Axis, Drawing, Figure, Panel};
 use coil::{Bonds, COARSE, Contact, Domain, Grid, Layout, Rectangle, Region, Side};
 
 use crate::input::CoilCase;
-use crate::plot::{Area, Arrow, Axis, Content, Drawing, Figure, Height, Panel};
 use crate::units::to_mm;
 
 /// Highest drawing, in font sizes.
@@ -46,13 +46,8 @@ fn solids(layout: &Layout, name: impl Fn(&Rectangle) -> String) -> Vec<Area> {
 }
 
 fn panel(heading: &str, drawing: Drawing) -> Panel<'static> {
-    Panel {
-        heading: heading.into(),
-        x: Axis::tight("axial position y [mm]", 1e-6),
-        y: Axis::tight("radius r [mm]", 1e-6),
-        height: Height::ToScale(MOST_HIGH),
-        content: Content::Drawing(drawing),
-    }
+    let [axial, radial] = ["axial position y [mm]", "radius r [mm]"].map(|label| Axis::tight(label, 1e-6));
+    Panel::drawing(axial, radial, MOST_HIGH, drawing).headed(heading)
 }
 
 /// Outlines of the mesh's elements.

@@ -1,8 +1,9 @@
 //! The steady sensitivity over spools of other materials, mounted otherwise.
 
+use charts::{Axis, Figure, Panel, Series, Style};
+use maud::Markup;
+
 use super::Document;
-use crate::plot::{Axis, Content, Figure, Height, Panel, Series, Style, Thinning};
-use crate::report::with_data;
 
 /// A coil on a spool.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,8 +23,8 @@ pub fn spools(all: &[OnSpool], printed: (&str, f64)) -> Document {
 }
 
 /// The comparison as an element of a page, with its data.
-pub fn spools_element(all: &[OnSpool], printed: (&str, f64)) -> String {
-    with_data(&figure(all, printed))
+pub fn spools_element(all: &[OnSpool], printed: (&str, f64)) -> Markup {
+    figure(all, printed).element()
 }
 
 fn figure<'a>(all: &[OnSpool], (name, printed): (&str, f64)) -> Figure<'a> {
@@ -39,11 +40,11 @@ fn figure<'a>(all: &[OnSpool], (name, printed): (&str, f64)) -> Figure<'a> {
     mountings.reverse();
     let row = |mounting: &String| mountings.iter().position(|m| m == mounting).unwrap_or_default() as f64;
     let most = mountings.len() as f64;
-    let mut series = vec![line(name.to_owned(), Style::Second, vec![(printed, -0.4), (printed, most - 0.2)])];
+    let mut series = vec![Series::new(name, Style::Second, vec![(printed, -0.4), (printed, most - 0.2)])];
     for (kind, material) in materials.into_iter().enumerate() {
         let own = all.iter().filter(|s| s.material == material);
         let points = own.map(|s| (s.sensitivity.abs(), row(&s.mounting))).collect();
-        series.push(line(material, Style::Points(kind as u8), points));
+        series.push(Series::new(material, Style::Points(kind as u8), points));
     }
     Figure {
         id: "spools",
@@ -56,16 +57,11 @@ fn figure<'a>(all: &[OnSpool], (name, printed): (&str, f64)) -> Figure<'a> {
                   (°/h)/(°C/min). The paper does not say which spool it has: that of the reference design was chosen to agree (calibrated)."
             .into(),
         columns: 1,
-        panels: vec![Panel {
-            heading: String::new(),
-            x: Axis::round("|S|, magnitude of the steady sensitivity [(°/h)/(°C/min)]", 0.1).covering([0.0, printed]),
-            y: Axis::named("flanges and bonds of the spool", mountings),
-            height: Height::Lines(2.6 * most),
-            content: Content::Lines(series),
-        }],
+        panels: vec![Panel::lines(
+            Axis::round("|S|, magnitude of the steady sensitivity [(°/h)/(°C/min)]", 0.1).covering([0.0, printed]),
+            Axis::named("flanges and bonds of the spool", mountings),
+            2.6 * most,
+            series,
+        )],
     }
-}
-
-fn line(name: String, style: Style, points: Vec<(f64, f64)>) -> Series<'static> {
-    Series { name, style, count: points.len(), at: Box::new(move |n| points[n]), thinning: Thinning::Distance }
 }

@@ -1,16 +1,17 @@
 //! What was simulated and how: the coil, the inputs, the options, the mesh.
 
+use charts::{facts, nice, row};
 use coil::{CHECKS, Drive, STEADY, Side};
+use maud::Markup;
 
-use super::provenance::provenance;
-use super::tables::{facts, nice, row};
+use super::provenance;
 use crate::input::Between;
 use crate::sensitivity::origin;
 use crate::simulate::Simulation;
 use crate::units::{to_mm, to_ppm};
 
 /// The coil in short.
-pub(super) fn coil(out: &mut String, simulation: &Simulation) {
+pub(super) fn coil(simulation: &Simulation) -> Markup {
     let (case, design) = (simulation.case, &simulation.case.design);
     let (spec, sensor) = (case.winding.spec(), design.sensor);
     let mut rows = vec![
@@ -47,8 +48,7 @@ pub(super) fn coil(out: &mut String, simulation: &Simulation) {
     if let Some(film) = heat.film {
         rows.push(row("film in place of the medium", format!("{film} W/(m² K)")));
     }
-    out.push_str("<h2>Coil</h2>\n");
-    facts(out, "The coil", &rows);
+    facts("The coil", &rows)
 }
 
 fn spool(simulation: &Simulation) -> String {
@@ -72,11 +72,9 @@ fn side(side: Side) -> &'static str {
 }
 
 /// Drives, mesh, modes, and what they leave out.
-pub(super) fn computation(out: &mut String, simulation: &Simulation) {
-    let mesh =
-        |r: coil::MeshFineness| format!("elements of order {}, {} layers towards each edge of the coil", r.order, r.layers);
-    let mut rows = Vec::new();
-    rows.extend([
+pub(super) fn computation(simulation: &Simulation) -> Markup {
+    let mesh = |r: coil::MeshFineness| format!("elements of order {}, {} layers towards each edge of the coil", r.order, r.layers);
+    let mut rows = vec![
         row("driven by", simulation.profile.drives.iter().map(|drive| name(*drive)).collect::<Vec<_>>().join(", ")),
         row("start", "uniform at the first chamber temperature and free of stress; heaters off before the first row"),
         row("mesh", mesh(coil::STANDARD.resolution)),
@@ -99,7 +97,7 @@ pub(super) fn computation(out: &mut String, simulation: &Simulation) {
             "steady-ramp sensitivity",
             format!("mesh: {}; its error from orders {} and {} on it", mesh(STEADY), CHECKS[0].order, CHECKS[1].order),
         ),
-    ]);
+    ];
     if let Some(inference) = simulation.profile.inferred {
         let [median, largest] = inference.chamber_sd;
         let course = format!(
@@ -110,16 +108,11 @@ pub(super) fn computation(out: &mut String, simulation: &Simulation) {
         rows.push(row("chamber", course));
     }
     rows.extend(simulation.profile.notes.iter().map(|note| row("note", note.as_str())));
-    out.push_str("<h2>Computation</h2>\n");
-    facts(out, "The computation", &rows);
-    out.push_str(
-        "<p>The numbers follow from the file's spool, bonding and materials; where one of them was chosen to match a measurement, so were \
-         these.</p>\n",
-    );
+    facts("The computation", &rows)
 }
 
 /// Program, files, options.
-pub(super) fn sources(out: &mut String, simulation: &Simulation) {
+pub(super) fn sources(simulation: &Simulation) -> Markup {
     let coils = simulation.case.fingerprints.iter().enumerate().map(|(n, file)| (if n == 0 { "coil" } else { "cell" }, file));
     let inferred = simulation.profile.inferred;
     let driven = if inferred.is_some() { "thermometer's record" } else { "profile" };
@@ -131,7 +124,7 @@ pub(super) fn sources(out: &mut String, simulation: &Simulation) {
     let mut options = vec![row("between rows", between)];
     options.extend(simulation.profile.step.map(|step| row("rows divided", format!("into parts of {step} s at most"))));
     options.extend(inferred.map(|found| row("noise of the thermometer", format!("{} K", found.noise))));
-    provenance(out, "simulate", &files, &options);
+    provenance("simulate", &files, &options)
 }
 
 fn name(drive: Drive) -> &'static str {

@@ -74,7 +74,7 @@ fn the_page_stands_alone(page: &str) {
     ] {
         assert!(page.contains(part), "{part}");
     }
-    assert_eq!(fogcoil::report::faults(page), [""; 0]);
+    assert_eq!(charts::faults(page), [""; 0]);
     // a row for every mechanism but debond, the design, its constants and a structure; each rival does without debond
     let (_, rivals) = page.split_once("ln odds of debond over each rival</caption>").unwrap();
     // the first row holds the heads
@@ -126,7 +126,7 @@ fn the_report_holds_every_record_and_the_recommended_profile() {
     let set: Vec<&str> = json["set"].as_array().unwrap().iter().filter_map(|id| id.as_str()).collect();
     assert!(set.len() > 1, "{set:?}");
     let page = std::fs::read_to_string(folder.path("r.html")).unwrap();
-    assert_eq!(fogcoil::report::faults(&page), [""; 0]);
+    assert_eq!(charts::faults(&page), [""; 0]);
     for record in ["fit.csv", "holdout.csv"] {
         assert!(page.contains(&format!("recorded less nominal model, {record}</text>")), "{record}");
     }

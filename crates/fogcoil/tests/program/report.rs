@@ -1,6 +1,6 @@
 //! The report: well-formed, and complete in itself.
 
-use fogcoil::report::faults;
+use charts::faults;
 
 use crate::common::{COIL, Folder, change, stderr};
 

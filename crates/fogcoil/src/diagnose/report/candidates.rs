@@ -1,13 +1,11 @@
 //! What was compared, and how probable each is.
 
-use std::fmt::Write;
-
+use charts::{Cells, grid, signed, significant};
 use diagnosis::{Candidate, ForwardModel, Structure};
+use maud::{Markup, html};
 
 use crate::diagnose::Outcome;
-use crate::picture::escape;
-use crate::report::{Cells, grid, signed};
-use crate::table::significant;
+use crate::diagnose::explanations::Explanation;
 
 /// Most rows of the table of hypotheses.
 const MOST: usize = 8;
@@ -23,43 +21,49 @@ pub(super) struct Group<'a> {
 }
 
 impl Outcome {
-    pub(super) fn candidates(&self, out: &mut String) {
+    pub(super) fn candidates(&self) -> Markup {
         let d = &self.diagnosis;
-        out.push_str("<h3>Explanations</h3>\n<table class=\"bars\">\n<caption class=\"unseen\">Explanations and their probabilities</caption>\n<tbody>\n");
-        for explanation in self.explanations() {
-            let (mark, p) = (if explanation.open { " class=\"marked\"" } else { "" }, explanation.probability);
-            let _ = writeln!(
-                out,
-                "<tr{mark}><th scope=\"row\">{}</th><td>{p:.3}</td><td class=\"bar\" aria-hidden=\"true\"><span style=\"width:{:.1}%\"></span></td></tr>",
-                escape(explanation.name),
-                100.0 * p.clamp(0.0, 1.0)
-            );
-        }
         let [.., library, _] = d.verdicts();
         let unnamed = self.gyro.mechanisms().iter().filter(|m| !m.named).count();
-        let _ = writeln!(
-            out,
-            "</tbody>\n</table>\n<p>Of a mechanism: the probability that it is at work, alone or with another of the library; of any in the library: {}. \
-             Something without a name may stand alone or beside one that has a name. What is in bold is not excluded. {} hypotheses were compared: {} mechanisms with a name and {unnamed} without one alone, pairs of them, and the leading ones \
-             with free structure; every choice (a layer, a second mechanism) is paid for by its share of the prior.</p>",
-            signed(library, 3),
-            d.candidates.len(),
-            self.gyro.mechanisms().len() - unnamed,
-        );
-        self.hypotheses(out);
+        html! {
+            h3 { "Explanations" } "\n"
+            table.bars {
+                caption.unseen { "Explanations and their probabilities" }
+                tbody {
+                    @for Explanation { name, probability, open } in self.explanations() {
+                        tr class=[open.then_some("marked")] {
+                            th scope="row" { (name) }
+                            td { (format!("{probability:.3}")) }
+                            td.bar aria-hidden="true" {
+                                span style=(format!("width:{:.1}%", 100.0 * probability.clamp(0.0, 1.0))) {}
+                            }
+                        } "\n"
+                    }
+                }
+            } "\n"
+            p {
+                "Of a mechanism: the probability that it is at work, alone or with another of the library; of any in the library: "
+                (signed(library, 3)) ". Something without a name may stand alone or beside one that has a name. What is in bold is not \
+                excluded. " (d.candidates.len()) " hypotheses were compared: " (self.gyro.mechanisms().len() - unnamed) " mechanisms with \
+                a name and " (unnamed) " without one alone, pairs of them, and the leading ones with free structure; every choice (a \
+                layer, a second mechanism) is paid for by its share of the prior."
+            }
+            (self.hypotheses())
+        }
     }
 
-    fn hypotheses(&self, out: &mut String) {
+    fn hypotheses(&self) -> Markup {
         let groups = self.groups();
         let best = groups.first().map_or(0.0, |group| group.log_weight);
-        let rows: Vec<Vec<String>> = groups
-            .iter()
-            .take(MOST)
-            .map(|group| vec![self.said(group), format!("{:.3}", group.probability), significant(group.log_weight - best, 2)])
-            .collect();
-        let _ = writeln!(out, "<details>\n<summary>The {} most probable hypotheses</summary>", rows.len());
-        grid(out, "The most probable hypotheses", Cells::Words, &["hypothesis", "probability", "ln odds to the first"], &rows);
-        out.push_str("</details>\n");
+        let said =
+            |group: &Group| vec![self.said(group), format!("{:.3}", group.probability), significant(group.log_weight - best, 2)];
+        let rows: Vec<Vec<String>> = groups.iter().take(MOST).map(said).collect();
+        html! {
+            details {
+                summary { "The " (rows.len()) " most probable hypotheses" } "\n"
+                (grid("The most probable hypotheses", Cells::Words, &["hypothesis", "probability", "ln odds to the first"], &rows))
+            } "\n"
+        }
     }
 
     /// All candidates, most probable first.

@@ -1,15 +1,15 @@
 //! The recordings with their models, and what is left.
 
+use charts::{Axis, Figure, Panel, Series, Style};
+use maud::{Markup, html};
+
 use super::multiples::multiples;
-use super::{Clock, Quantity, Shown, line};
+use super::{Clock, Quantity, Shown};
 use crate::diagnose::Outcome;
-use crate::plot::{Axis, Content, Figure, Height, Panel, Series, Style};
-use crate::report::with_data;
 
 impl Outcome {
-    pub(super) fn course(&self, out: &mut String) {
-        out.push_str(&with_data(&self.recording()));
-        out.push_str(&with_data(&self.residuals()));
+    pub(super) fn course(&self) -> Markup {
+        html! { (self.recording().element()) (self.residuals().element()) }
     }
 
     fn recording(&self) -> Figure<'static> {
@@ -35,15 +35,15 @@ impl Outcome {
         let Some(Shown { record, .. }) = shown.first() else { return Vec::new() };
         let (clock, time) = (self.clock(record), &record.observed.time);
         let chamber = time.iter().zip(&record.chamber).map(|(t, c)| (clock.at(*t), *c)).collect();
-        let mut panels = vec![panel(&clock, "chamber [°C]", 0.1, 9.0, vec![line("", Style::First, chamber)])];
+        let mut panels = vec![panel(&clock, "chamber [°C]", 0.1, 9.0, vec![Series::new("", Style::First, chamber)])];
         for q in self.quantities() {
             let recorded = &record.observed.channels[q.channel];
             let rows = || time.iter().zip(recorded).filter(|(_, y)| y.is_finite()).map(|(t, y)| (clock.at(*t), *y));
-            let mut series = vec![line("recording", Style::Fine(2), rows().collect())];
+            let mut series = vec![Series::new("recording", Style::Fine(2), rows().collect())];
             for (n, fit) in shown.iter().enumerate() {
                 let left = fit.residual(q.channel);
                 let predicted = rows().zip(left).map(|((t, y), (_, r))| (t, y - r)).collect();
-                series.push(line(fit.name, if n + 1 == shown.len() { Style::Second } else { Style::Third }, predicted));
+                series.push(Series::new(fit.name, if n + 1 == shown.len() { Style::Second } else { Style::Third }, predicted));
             }
             panels.push(panel(&clock, q.label, q.least, 14.0, series));
         }
@@ -80,9 +80,9 @@ impl Outcome {
             for (n, fit) in shown.iter().enumerate() {
                 let style = if n + 1 == shown.len() { Style::Fine(2) } else { Style::Fine(0) };
                 let label = format!("{} [{}]", q.name, unit(q));
-                let mut panel = panel(&clock, &label, q.least, 9.0, vec![line("", style, of(fit))]);
-                panel.heading = self.headed(&format!("recorded less {}", fit.name), record);
-                panel.y = panel.y.covering([-most, most]);
+                let heading = self.headed(&format!("recorded less {}", fit.name), record);
+                let mut panel = panel(&clock, &label, q.least, 9.0, vec![Series::new("", style, of(fit))]).headed(heading);
+                panel.y.covers = Some([-most, most]);
                 panels.push(panel);
             }
         }
@@ -96,9 +96,7 @@ fn unit(q: Quantity) -> &'static str {
 }
 
 pub(super) fn panel(clock: &Clock, label: &str, least: f64, lines: f64, series: Vec<Series<'static>>) -> Panel<'static> {
-    let x = Axis { label: String::new(), ..clock.axis() };
-    let y = Axis::round(label, least);
-    Panel { heading: String::new(), x, y, height: Height::Lines(lines), content: Content::Lines(series) }
+    Panel::lines(Axis { label: String::new(), ..clock.axis() }, Axis::round(label, least), lines, series)
 }
 
 /// Of panels over one axis of time the last alone carries its label.

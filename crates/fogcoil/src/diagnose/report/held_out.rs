@@ -1,41 +1,30 @@
 //! The proof: a record that was not fitted.
 
+use charts::{Cells, Figure, Panel, Series, Style, grid, significant};
 use diagnosis::{HeldOut, Verdict, whiteness};
+use maud::{Markup, html};
 use mechanisms::RATE;
 
 use super::multiples::multiples;
-use super::{course, line, spectrum};
+use super::{course, spectrum};
 use crate::diagnose::{Held, NOMINAL, Outcome};
-use crate::plot::{Figure, Panel, Style};
-use crate::report::{Cells, grid, with_data};
-use crate::table::significant;
 
 impl Outcome {
-    pub(super) fn held_out(&self, out: &mut String) {
+    pub(super) fn held_out(&self) -> Markup {
         if self.holdouts.is_empty() {
-            return;
+            return Markup::default();
         }
-        out.push_str("<h2>Proof on a record that was held out</h2>\n");
-        let mut rows = Vec::new();
-        for held in &self.holdouts {
-            for (name, prediction) in self.predictions(held) {
-                let white = judged(self, held, prediction);
-                rows.push(vec![
-                    format!("{}: {name}", held.record.name()),
-                    significant(prediction.rmse[RATE], 3),
-                    significant(prediction.noise_floor[RATE], 3),
-                    white,
-                ]);
-            }
-        }
-        let caption = "Errors of the predictions of the rate";
-        grid(
-            out,
-            caption,
-            Cells::Words,
-            &["prediction", "rms error [°/h]", "noise as identified [°/h]", "Ljung–Box, 30 lags"],
-            &rows,
-        );
+        let all = self.holdouts.iter().flat_map(|held| self.predictions(held).into_iter().map(move |shown| (held, shown)));
+        let row = |(held, (name, prediction)): (&Held, (&str, &HeldOut))| {
+            vec![
+                format!("{}: {name}", held.record.name()),
+                significant(prediction.rmse[RATE], 3),
+                significant(prediction.noise_floor[RATE], 3),
+                judged(self, held, prediction),
+            ]
+        };
+        let rows: Vec<Vec<String>> = all.map(row).collect();
+        let head = ["prediction", "rms error [°/h]", "noise as identified [°/h]", "Ljung–Box, 30 lags"];
         let said = if self.diagnosis.verdict == Verdict::None {
             "No effect was found, so the nominal model is the prediction."
         } else if self.holdouts.iter().any(|held| !held.accepted) {
@@ -43,8 +32,12 @@ impl Outcome {
         } else {
             "Nothing was adjusted to a held-out record, its offset neither: it is that of the first record that was fitted."
         };
-        out.push_str(&format!("<p>{said}</p>\n"));
-        out.push_str(&with_data(&self.proof()));
+        html! {
+            h2 { "Proof on a record that was held out" } "\n"
+            (grid("Errors of the predictions of the rate", Cells::Words, &head, &rows))
+            p { (said) } "\n"
+            (self.proof().element())
+        }
     }
 
     /// What is shown of a held-out record: the nominal model and what was found, where that is another.
@@ -71,32 +64,29 @@ impl Outcome {
 
     /// One record's panels.
     fn panels(&self, held: &Held) -> Vec<Panel<'static>> {
-        let (clock, time) = (self.clock(&held.record), &held.record.observed.time);
-        let recorded = &held.record.observed.channels[RATE];
+        let (clock, observed) = (self.clock(&held.record), &held.record.observed);
+        let recorded: Vec<(usize, f64)> =
+            observed.channels[RATE].iter().copied().enumerate().filter(|(_, y)| y.is_finite()).collect();
         let rows = |of: &dyn Fn(usize, f64) -> f64| -> Vec<(f64, f64)> {
-            let used = (0..time.len()).filter(|n| recorded[*n].is_finite());
-            used.map(|n| (clock.at(time[n]), of(n, recorded[n]))).collect()
+            recorded.iter().map(|(n, y)| (clock.at(observed.time[*n]), of(*n, *y))).collect()
         };
         let predictions = self.predictions(held);
-        let mut both = vec![line("recording", Style::Fine(2), rows(&|_, y| y))];
-        let mut panels = Vec::new();
+        let mut both = vec![Series::new("recording", Style::Fine(2), rows(&|_, y| y))];
+        let (mut panels, mut most) = (Vec::new(), 0.0_f64);
         for (n, (name, held)) in predictions.iter().enumerate() {
             let predicted = &held.prediction[RATE];
-            let last = n + 1 == predictions.len();
-            both.push(line(*name, if last { Style::Second } else { Style::Third }, rows(&|n, _| predicted[n])));
-            let style = if last { Style::Fine(2) } else { Style::Fine(0) };
-            let mut panel = course::panel(&clock, "rate [°/h]", 1e-4, 9.0, vec![line("", style, rows(&|n, y| y - predicted[n]))]);
-            panel.heading = format!("recorded less {name}");
-            panels.push(panel);
+            let [style, of_left] =
+                if n + 1 == predictions.len() { [Style::Second, Style::Fine(2)] } else { [Style::Third, Style::Fine(0)] };
+            both.push(Series::new(*name, style, rows(&|n, _| predicted[n])));
+            let left = rows(&|n, y| y - predicted[n]);
+            most = left.iter().fold(most, |most, (_, r)| most.max(r.abs()));
+            let left = vec![Series::new("", of_left, left)];
+            panels.push(course::panel(&clock, "rate [°/h]", 1e-4, 9.0, left).headed(format!("recorded less {name}")));
         }
         // both differences on one scale
-        let most = predictions.iter().flat_map(|(_, held)| rows(&|n, y| (y - held.prediction[RATE][n]).abs()));
-        let most = most.fold(0.0, |most: f64, (_, r)| most.max(r));
         panels.iter_mut().for_each(|panel| panel.y.covers = Some([-most, most]));
-        panels.insert(0, course::panel(&clock, "rate [°/h]", 1e-4, 16.0, both));
-        if self.holdouts.len() > 1 {
-            panels[0].heading = held.record.name();
-        }
+        let name = if self.holdouts.len() > 1 { held.record.name() } else { String::new() };
+        panels.insert(0, course::panel(&clock, "rate [°/h]", 1e-4, 16.0, both).headed(name));
         course::label_last(&mut panels, &clock);
         panels
     }

@@ -12,15 +12,14 @@ mod rivals;
 mod spectrum;
 mod stages;
 
+use charts::{Axis, facts, nice, page, row, significant};
 use diagnosis::{Fit, ForwardModel, Nuisance, Prior, Role, Verdict};
+use maud::{Markup, html};
 use mechanisms::{RATE, SPOOL};
 
 use super::{NOMINAL, Outcome, Record};
 use crate::glossary::WARNING;
-use crate::picture::escape;
-use crate::plot::{Axis, Series, Style, Thinning};
-use crate::report::{facts, nice, page, provenance, row};
-use crate::table::significant;
+use crate::report::provenance;
 use crate::units::DurationUnit;
 
 /// A fit beside the record that it is shown for.
@@ -85,35 +84,26 @@ impl Clock {
     }
 }
 
-/// A line through points.
-fn line<'a>(name: impl Into<String>, style: Style, points: Vec<(f64, f64)>) -> Series<'a> {
-    let count = points.len();
-    Series { name: name.into(), style, count, at: Box::new(move |n| points[n]), thinning: Thinning::Columns }
-}
-
 impl Outcome {
     /// A page that needs nothing but itself.
     pub fn report(&self) -> String {
-        let mut out = String::new();
-        out.push_str("<h2>Finding</h2>\n");
-        self.finding(&mut out);
-        self.candidates(&mut out);
-        self.rivals(&mut out);
-        self.parameters(&mut out);
-        out.push_str("<h2>Recording and model</h2>\n");
-        self.course(&mut out);
-        out.push_str("<h2>Is what is left noise?</h2>\n");
-        self.spectra(&mut out);
-        out.push_str("<h2>Where the difference is</h2>\n");
-        self.stages(&mut out);
-        self.place(&mut out);
-        self.held_out(&mut out);
-        self.next_test(&mut out);
-        self.noise(&mut out);
-        self.limits(&mut out);
-        self.sources(&mut out);
-        let title = format!("{}: what differs from the design", self.name);
-        page(&title, &format!("<p>{}</p>\n", escape(&nice(&self.verdict()))), &out)
+        let body = html! {
+            h2 { "Finding" } "\n"
+            (self.finding()) (self.candidates()) (self.rivals()) (self.parameters())
+            h2 { "Recording and model" } "\n"
+            (self.course())
+            h2 { "Is what is left noise?" } "\n"
+            (self.spectra())
+            h2 { "Where the difference is" } "\n"
+            (self.stages()) (self.place()) (self.held_out())
+            h2 { "The next test" } "\n"
+            (self.next_test())
+            h2 { "Noise" } "\n"
+            (self.noise())
+            h2 { "Limits" } "\n"
+            (self.limits()) (self.sources())
+        };
+        page(&format!("{}: what differs from the design", self.name), &html! { p { (nice(&self.verdict())) } }, &body)
     }
 
     /// The nominal model and, where it is another, what the verdict rests on, for a record that was fitted.
@@ -146,7 +136,7 @@ impl Outcome {
         Clock { unit: DurationUnit::of(longest), start, end }
     }
 
-    fn finding(&self, out: &mut String) {
+    fn finding(&self) -> Markup {
         let d = &self.diagnosis;
         // what may make the rest void comes first
         let (warnings, notes): (Vec<&String>, Vec<&String>) = self.notes.iter().partition(|note| note.starts_with(WARNING));
@@ -168,38 +158,35 @@ impl Outcome {
             rows.push(row("held out", "no record: what was fitted is not proven on data that it has not seen"));
         }
         rows.extend(notes.into_iter().map(|note| row("note", note.as_str())));
-        facts(out, "The finding", &rows);
+        facts("The finding", &rows)
     }
 
-    fn limits(&self, out: &mut String) {
-        out.push_str("<h2>Limits</h2>\n");
+    fn limits(&self) -> Markup {
         let library: Vec<&str> = self.gyro.mechanisms().iter().map(|m| m.id.as_str()).collect();
-        let mut rows = vec![row("library", library.join(", "))];
-        rows.push(row(
-            "probabilities",
-            "posterior, with all that was compared counted in; they hold if the library and the priors do. A mechanism outside the \
-             library shows as structure that nothing explains",
-        ));
-        rows.push(row("values", "fitted through the whole chain, most probable values with 90 % intervals; not measured"));
         let errors: Vec<String> = self.gyro.nuisances().iter().filter(|n| n.role == Role::ModelError).map(sized).collect();
-        rows.push(row(
-            "model errors allowed for",
-            format!("{} (1σ); a constant offset of each channel is never a finding", errors.join(", ")),
-        ));
-        facts(out, "Limits", &rows);
+        let rows = [
+            row("library", library.join(", ")),
+            row(
+                "probabilities",
+                "posterior, with all that was compared counted in; they hold if the library and the priors do. A mechanism outside \
+                 the library shows as structure that nothing explains",
+            ),
+            row("values", "fitted through the whole chain, most probable values with 90 % intervals; not measured"),
+            row(
+                "model errors allowed for",
+                format!("{} (1σ); a constant offset of each channel is never a finding", errors.join(", ")),
+            ),
+        ];
+        facts("Limits", &rows)
     }
 
-    fn sources(&self, out: &mut String) {
+    fn sources(&self) -> Markup {
         let fitted = self.fits.iter().map(|record| ("fitted", &record.fingerprint));
         let held = self.holdouts.iter().map(|held| ("held out", &held.record.fingerprint));
         let design = self.design.iter().enumerate().map(|(n, file)| (if n == 0 { "coil" } else { "cell" }, file));
         let files: Vec<_> = design.chain(fitted).chain(held).collect();
-        provenance(
-            out,
-            "diagnose",
-            &files,
-            &[row("settings", "the program's own; what is known of the records: meta.ron beside each, or --meta")],
-        );
+        let settings = row("settings", "the program's own; what is known of the records: meta.ron beside each, or --meta");
+        provenance("diagnose", &files, &[settings])
     }
 }
 

@@ -1,7 +1,8 @@
 //! Several records in one figure: each has the same panels, on the same scales.
 
+use charts::{Content, Panel, Series};
+
 use crate::diagnose::{Outcome, Record};
-use crate::plot::{Content, Panel, Series};
 
 impl Outcome {
     /// A heading, with the record's name where several were fitted.

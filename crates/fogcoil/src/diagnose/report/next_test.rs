@@ -1,30 +1,22 @@
 //! The test to make next: the profile that tells apart what the records do not, what it is expected to show, and how to get it.
 
-use std::fmt::Write;
-
+use charts::{Axis, Figure, Panel, Series, Style, facts, nice, row, significant};
 use diagnosis::{Settings, Verdict};
+use maud::{Markup, html};
 
-use super::line;
 use crate::diagnose::Outcome;
 use crate::diagnose::record::Ready;
-use crate::picture::escape;
-use crate::plot::{Axis, Content, Figure, Height, Panel, Style};
 use crate::recommend::{Course, Limits, Odds, Question, Recommendation, inspection, number, sentence};
-use crate::report::with_data;
-use crate::report::{facts, nice, row};
-use crate::table::significant;
 use crate::units::DurationUnit;
 
 /// Share of the squared distance from which a thermometer's course is drawn.
 const WORTH_DRAWING: f64 = 0.05;
 
 impl Outcome {
-    pub(super) fn next_test(&self, out: &mut String) {
-        out.push_str("<h2>The next test</h2>\n");
+    pub(super) fn next_test(&self) -> Markup {
         let between = self.apart();
         if between.is_empty() {
-            let _ = writeln!(out, "<p>{}</p>", escape(&self.nothing_to_tell_apart()));
-            return;
+            return html! { p { (self.nothing_to_tell_apart()) } };
         }
         let command = format!("{} --out next.csv", self.recommend(&between));
         let records = self.fits.iter().map(|record| Ready {
@@ -34,18 +26,17 @@ impl Outcome {
         });
         let question =
             Question { file: &self.coil, between: &between, records: records.collect(), limits: Limits::USUAL, thorough: false };
-        match question.answer(self.gyro.library().clone(), &|_| ()) {
-            Ok(found) => recommended(out, &found),
-            Err(error) => {
-                let _ = writeln!(out, "<p>It could not be worked out: {}</p>", escape(&error.to_string()));
+        html! {
+            @match question.answer(self.gyro.library().clone(), &|_| ()) {
+                Ok(found) => (recommended(&found)),
+                Err(error) => p { "It could not be worked out: " (error) },
             }
+            p {
+                "This writes the profile, as " code { "fogcoil simulate --profile" } " reads it; other limits of the chamber are flags of \
+                the same command:"
+            } "\n"
+            p { code { (command) } }
         }
-        let _ = writeln!(
-            out,
-            "<p>This writes the profile, as <code>fogcoil simulate --profile</code> reads it; other limits of the chamber are flags \
-             of the same command:</p>\n<p><code>{}</code></p>",
-            escape(&command)
-        );
     }
 
     /// What would confirm or sharpen, where no two mechanisms are left.
@@ -88,10 +79,9 @@ impl Outcome {
     }
 }
 
-fn recommended(out: &mut String, found: &Recommendation) {
+fn recommended(found: &Recommendation) -> Markup {
     let said = nice(&sentence(found));
     let capital: String = said.chars().take(1).flat_map(char::to_uppercase).chain(said.chars().skip(1)).collect();
-    let _ = writeln!(out, "<p>{}</p>", escape(&capital));
     let (best, limits) = (&found.profiles[0], &found.limits);
     let mut rows = vec![
         row("told apart", found.between.join(", ")),
@@ -107,9 +97,12 @@ fn recommended(out: &mut String, found: &Recommendation) {
         let values: Vec<String> = size.values.iter().map(|(name, v)| format!("{name} = {}", significant(*v, 3))).collect();
         rows.push(row(&format!("size of {} (fitted alone)", size.id), nice(&values.join(", "))));
     }
-    facts(out, "The recommended test", &rows);
     let what = if best.odds.decides() { "The recommended test" } else { "The best within these limits, which does not decide" };
-    out.push_str(&with_data(&figure(&found.course, format!("{what}: {}", best.programme.name))));
+    html! {
+        p { (capital) } "\n"
+        (facts("The recommended test", &rows))
+        (figure(&found.course, format!("{what}: {}", best.programme.name)).element())
+    }
 }
 
 fn brief(odds: &Odds) -> String {
@@ -136,30 +129,27 @@ fn figure(course: &Course, title: String) -> Figure<'static> {
     let Course { pair: [truth, rival], time, chamber, rate, spool } = course;
     let unit = DurationUnit::of(time.last().copied().unwrap_or(0.0));
     let over = |values: &[f64]| time.iter().zip(values).map(|(t, v)| (unit.of_seconds(*t), *v)).collect::<Vec<_>>();
-    let panel = |heading: String, label: &str, least: f64, lines: f64, series| Panel {
-        heading,
-        x: Axis::tight("", 1e-6),
-        y: Axis::round(label, least),
-        height: Height::Lines(lines),
-        content: Content::Lines(series),
+    let panel = |heading: &str, label: &str, least: f64, lines: f64, series| {
+        Panel::lines(Axis::tight("", 1e-6), Axis::round(label, least), lines, series).headed(heading)
     };
-    let mut panels = vec![panel("the profile".into(), "chamber [°C]", 0.1, 10.0, vec![line("", Style::First, over(chamber))])];
+    let mut panels = vec![panel("the profile", "chamber [°C]", 0.1, 10.0, vec![Series::new("", Style::First, over(chamber))])];
     for (trace, label, of, least) in [(rate, "rate [°/h]", "°/h", 1e-4), (spool, "spool thermometer [K]", "K", 0.01)] {
         if trace.share < WORTH_DRAWING && label != "rate [°/h]" {
             continue;
         }
         let [own, other] = &trace.added;
-        let both = vec![line(truth.clone(), Style::First, over(own)), line(rival.clone(), Style::Second, over(other))];
-        panels.push(panel("what each adds to the design".into(), label, least, 14.0, both));
+        let both =
+            vec![Series::new(truth.clone(), Style::First, over(own)), Series::new(rival.clone(), Style::Second, over(other))];
+        panels.push(panel("what each adds to the design", label, least, 14.0, both));
         let noise = trace.noise;
         let at = |level: f64| over(&vec![level; time.len()]);
         let noise_name = format!("± noise of a reading, {} {of}", significant(noise, 2));
         let left = vec![
-            line(noise_name, Style::Third, at(noise)),
-            line("", Style::Third, at(-noise)),
-            line(format!("left of {truth}"), Style::First, over(&trace.left)),
+            Series::new(noise_name, Style::Third, at(noise)),
+            Series::new("", Style::Third, at(-noise)),
+            Series::new(format!("left of {truth}"), Style::First, over(&trace.left)),
         ];
-        panels.push(panel("what tells them apart".into(), label, least, 10.0, left));
+        panels.push(panel("what tells them apart", label, least, 10.0, left));
     }
     if let Some(last) = panels.last_mut() {
         last.x.label = format!("time [{}]", unit.name());

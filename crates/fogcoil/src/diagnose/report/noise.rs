@@ -1,6 +1,8 @@
 //! The noise that the diagnosis identified, channel by channel.
 
 use bias::units::S_PER_H;
+use charts::{Cells, Figure, grid, significant};
+use maud::{Markup, html};
 use mechanisms::RATE;
 use recording::allan::{AllanPoint, allan};
 
@@ -8,13 +10,9 @@ use super::Shown;
 use super::spectrum::median_interval;
 use crate::check::Allan;
 use crate::diagnose::Outcome;
-use crate::plot::Figure;
-use crate::report::{Cells, grid, with_data};
-use crate::table::significant;
 
 impl Outcome {
-    pub(super) fn noise(&self, out: &mut String) {
-        out.push_str("<h2>Noise</h2>\n");
+    pub(super) fn noise(&self) -> Markup {
         let best = &self.diagnosis.best().fit;
         let mut rows = Vec::new();
         for (n, record) in self.fits.iter().enumerate() {
@@ -33,13 +31,7 @@ impl Outcome {
                 ]);
             }
         }
-        grid(
-            out,
-            "Noise by channel",
-            Cells::Words,
-            &["channel (fitted)", "white, of a sample", "drift", "its correlation time", "random walk"],
-            &rows,
-        );
+        let head = ["channel (fitted)", "white, of a sample", "drift", "its correlation time", "random walk"];
         let left: Vec<(Shown, Vec<AllanPoint>)> =
             self.each().filter_map(|mut shown| shown.pop()).map(|shown| (shown, deviation(&shown))).collect();
         let figures = left.iter().filter_map(|(shown, points)| {
@@ -55,7 +47,10 @@ impl Outcome {
             all.panels.extend(one.panels);
             Figure { columns: 2, ..all }
         });
-        out.extend(all.iter().map(with_data));
+        html! {
+            (grid("Noise by channel", Cells::Words, &head, &rows))
+            @if let Some(figure) = all { (figure.element()) }
+        }
     }
 }
 

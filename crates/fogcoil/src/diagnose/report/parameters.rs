@@ -1,14 +1,10 @@
 //! What was fitted: densities after the recording beside those before.
 
-use std::fmt::Write;
-
+use charts::{Axis, Cells, Figure, Panel, Series, Style, grid, significant};
 use diagnosis::{Place, Posterior, Role, Verdict};
+use maud::{Markup, html};
 
-use super::line;
 use crate::diagnose::Outcome;
-use crate::plot::{Axis, Content, Figure, Height, Panel, Style};
-use crate::report::{Cells, grid, with_data};
-use crate::table::significant;
 use crate::units::parameter_unit;
 
 /// Points of a density.
@@ -17,7 +13,7 @@ const POINTS: usize = 400;
 const REACH: f64 = 5.0;
 
 impl Outcome {
-    pub(super) fn parameters(&self, out: &mut String) {
+    pub(super) fn parameters(&self) -> Markup {
         let all = self.diagnosis.best().fit.posteriors(&self.gyro);
         let wanted = |p: &&Posterior| match self.diagnosis.verdict {
             Verdict::Explained | Verdict::Unknown => matches!(p.place, Place::Mechanism(_)),
@@ -26,7 +22,7 @@ impl Outcome {
         };
         let fitted: Vec<&Posterior> = all.iter().filter(wanted).collect();
         if fitted.is_empty() {
-            return;
+            return Markup::default();
         }
         let figure = Figure {
             id: "parameters",
@@ -41,7 +37,6 @@ impl Outcome {
             columns: 2,
             panels: fitted.iter().map(|p| panel(p, self.interval(p))).collect(),
         };
-        out.push_str(&with_data(&figure));
         let rows: Vec<Vec<String>> = fitted
             .iter()
             .map(|p| {
@@ -51,19 +46,16 @@ impl Outcome {
                 vec![p.name.clone(), significant(p.value(), 4), unit, after, before]
             })
             .collect();
-        grid(
-            out,
-            "Fitted values",
-            Cells::Words,
-            &["parameter", "value (fitted)", "unit", "90 % interval", "90 % of the prior"],
-            &rows,
-        );
-        for (place, active) in self.diagnosis.best().fit.active.iter().enumerate() {
-            if let (Some((name, value)), Some([low, high])) = (self.choice(active), self.diagnosis.choice(place)) {
-                let id = self.id(active.mechanism);
-                let _ =
-                    writeln!(out, "<p>{id}: {name} {value}, each compared with every other; 90 % lies in {low} to {high}.</p>");
-            }
+        let head = ["parameter", "value (fitted)", "unit", "90 % interval", "90 % of the prior"];
+        let chosen = self.diagnosis.best().fit.active.iter().enumerate().filter_map(|(place, active)| {
+            let ((name, value), [low, high]) = (self.choice(active)?, self.diagnosis.choice(place)?);
+            let id = self.id(active.mechanism);
+            Some(format!("{id}: {name} {value}, each compared with every other; 90 % lies in {low} to {high}."))
+        });
+        html! {
+            (figure.element())
+            (grid("Fitted values", Cells::Words, &head, &rows))
+            @for choice in chosen { p { (choice) } "\n" }
         }
     }
 }
@@ -95,17 +87,16 @@ fn panel(p: &Posterior, [low, high]: [f64; 2]) -> Panel<'static> {
     let (after, before) = (density(p.u, p.sd), density(0.0, 1.0));
     let posterior = scaled(&after, most(&after, p.u, p.sd));
     let prior = scaled(&before, most(&before, 0.0, 1.0));
-    let ends = |value: f64| line("", Style::Fine(2), vec![(value, 0.0), (value, 1.0)]);
-    Panel {
-        heading: String::new(),
-        x: Axis::tight(p.name.clone(), 0.0),
-        y: Axis::round("density, scaled", 0.1).covering([0.0, 1.0]),
-        height: Height::Lines(10.0),
-        content: Content::Lines(vec![
-            line("prior", Style::Second, prior),
+    let ends = |value: f64| Series::new("", Style::Fine(2), vec![(value, 0.0), (value, 1.0)]);
+    Panel::lines(
+        Axis::tight(p.name.clone(), 0.0),
+        Axis::round("density, scaled", 0.1).covering([0.0, 1.0]),
+        10.0,
+        vec![
+            Series::new("prior", Style::Second, prior),
             ends(low),
             ends(high),
-            line("posterior", Style::First, posterior),
-        ]),
-    }
+            Series::new("posterior", Style::First, posterior),
+        ],
+    )
 }

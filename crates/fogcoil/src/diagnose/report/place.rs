@@ -1,27 +1,27 @@
 //! Where the difference is: over temperature and its rate, in time, in frequency.
 
+use bias::units::S_PER_MIN;
+use charts::{Axis, Colours, Figure, HeatMap, Height, Panel, Series, Style};
+use diagnosis::{Cell, Spectrum};
+use maud::{Markup, html};
 use mechanisms::RATE;
 
 use super::multiples::multiples;
-use super::{Shown, course, line};
+use super::{Shown, course};
 use crate::diagnose::Outcome;
-use crate::plot::{Axis, Colours, Content, Figure, HeatMap, Height, Panel, Style};
-use crate::report::with_data;
-use bias::units::S_PER_MIN;
-use diagnosis::{Cell, Spectrum};
 
 /// z at which the colours end.
 const MOST_Z: f64 = 10.0;
 
 impl Outcome {
-    pub(super) fn place(&self, out: &mut String) {
-        out.push_str(&self.map());
-        out.push_str(&self.blocks());
-        out.push_str(&self.coherence());
+    pub(super) fn place(&self) -> Markup {
+        // a figure of one record needs a panel at least
+        let drawn = [self.map(), self.blocks(), self.coherence()].into_iter().filter(|figure| !figure.panels.is_empty());
+        html! { @for figure in drawn { (figure.element()) } }
     }
 
     /// Mean residual over temperature and its rate.
-    fn map(&self) -> String {
+    fn map(&self) -> Figure<'static> {
         let cells = |fit: Shown| {
             let cells = fit.fit.over_state(&self.gyro, (fit.number, fit.number), RATE, &fit.record.observed, fit.judge);
             (self.headed(fit.name, fit.record), cells)
@@ -29,10 +29,7 @@ impl Outcome {
         let all: Vec<(String, Vec<Cell>)> = self.each().flatten().map(cells).collect();
         let most = all.iter().flat_map(|(_, cells)| cells).fold(3.0_f64, |most, cell| cell.z.abs().max(most)).min(MOST_Z);
         let panels: Vec<Panel> = all.iter().filter_map(|(name, cells)| grid(name, cells, most)).collect();
-        if panels.is_empty() {
-            return String::new();
-        }
-        with_data(&Figure {
+        Figure {
             id: "state",
             title: "The rate's residual over temperature and its rate".into(),
             description: "Map of the mean whitened residual over the spool's temperature and its rate; dots mark cells that stand out.".into(),
@@ -42,13 +39,13 @@ impl Outcome {
                 .into(),
             columns: 2,
             panels,
-        })
+        }
     }
 
     /// Stretches of equal length.
-    fn blocks(&self) -> String {
+    fn blocks(&self) -> Figure<'static> {
         let (columns, panels) = multiples(self.each().map(|shown| self.stretches(&shown)).collect());
-        with_data(&Figure {
+        Figure {
             id: "blocks",
             title: "When the residual is larger than noise".into(),
             description: "Mean square of the whitened residual in stretches of equal length; those that stand out are marked."
@@ -57,7 +54,7 @@ impl Outcome {
                 .into(),
             columns,
             panels,
-        })
+        }
     }
 
     /// Of one record.
@@ -71,49 +68,45 @@ impl Outcome {
                 let last = n + 1 == shown.len();
                 let blocks = fit.fit.in_time(fit.number, q.channel, &fit.record.observed, fit.judge);
                 let middle = |b: &diagnosis::Block| (clock.at((b.time[0] + b.time[1]) / 2.0), b.excess);
-                series.push(line(fit.name, if last { Style::First } else { Style::Second }, blocks.iter().map(middle).collect()));
+                series.push(Series::new(
+                    fit.name,
+                    if last { Style::First } else { Style::Second },
+                    blocks.iter().map(middle).collect(),
+                ));
                 // each mark is a series of its own: none is joined to the next
                 let marks = blocks.iter().filter(|b| b.significant).enumerate();
                 series.extend(marks.map(|(k, b)| {
                     let name = if k == 0 { format!("stands out, {}", fit.name) } else { String::new() };
-                    line(name, Style::Marked(u8::from(!last)), vec![middle(b)])
+                    Series::new(name, Style::Marked(u8::from(!last)), vec![middle(b)])
                 }));
             }
-            let mut panel = course::panel(&clock, "mean square over that of noise", 0.5, 10.0, series);
-            panel.heading = self.headed(q.name, record);
-            panel.y = Axis::logarithmic("mean square over that of noise");
-            panel.x = panel.x.covering(clock.ends());
-            panels.push(panel);
+            let (time, excess) = (clock.axis().covering(clock.ends()), Axis::logarithmic("mean square over that of noise"));
+            let time = Axis { label: String::new(), ..time };
+            panels.push(Panel::lines(time, excess, 10.0, series).headed(self.headed(q.name, record)));
         }
         course::label_last(&mut panels, &clock);
         panels
     }
 
     /// With which state it goes.
-    fn coherence(&self) -> String {
+    fn coherence(&self) -> Figure<'static> {
         let panel = |fit: Shown| -> Option<Panel<'static>> {
             let spectra = fit.fit.in_frequency(&self.gyro, (fit.number, fit.number), RATE, &fit.record.observed);
             let threshold = spectra.first()?.threshold;
             let of = |k: usize| spectra.iter().map(|s: &Spectrum| (s.frequency, s.coherence[k])).collect::<Vec<_>>();
             let ends = [spectra.first()?.frequency, spectra.last()?.frequency];
-            Some(Panel {
-                heading: self.headed(fit.name, fit.record),
-                x: Axis::logarithmic("frequency [Hz]"),
-                y: Axis::round("squared coherence", 0.1).covering([0.0, 1.0]),
-                height: Height::Lines(14.0),
-                content: Content::Lines(vec![
-                    line("noise exceeds it once in twenty", Style::Fine(1), ends.map(|f| (f, threshold)).to_vec()),
-                    line("with the temperature", Style::First, of(0)),
-                    line("with its rate", Style::Second, of(1)),
-                    line("with the change of its rate", Style::Third, of(2)),
-                ]),
-            })
+            let series = vec![
+                Series::new("noise exceeds it once in twenty", Style::Fine(1), ends.map(|f| (f, threshold)).to_vec()),
+                Series::new("with the temperature", Style::First, of(0)),
+                Series::new("with its rate", Style::Second, of(1)),
+                Series::new("with the change of its rate", Style::Third, of(2)),
+            ];
+            let coherence = Axis::round("squared coherence", 0.1).covering([0.0, 1.0]);
+            let panel = Panel::lines(Axis::logarithmic("frequency [Hz]"), coherence, 14.0, series);
+            Some(panel.headed(self.headed(fit.name, fit.record)))
         };
         let panels: Vec<Panel> = self.each().flatten().filter_map(panel).collect();
-        if panels.is_empty() {
-            return String::new();
-        }
-        with_data(&Figure {
+        Figure {
             id: "coherence",
             title: "Coherence of the rate's residual with the spool's temperature".into(),
             description:
@@ -125,7 +118,7 @@ impl Outcome {
                     .into(),
             columns: 2,
             panels,
-        })
+        }
     }
 }
 
@@ -151,19 +144,8 @@ fn grid(name: &str, cells: &[Cell], most: f64) -> Option<Panel<'static>> {
             marked.extend(cell.significant.then_some(at));
         }
     }
-    Some(Panel {
-        heading: name.to_owned(),
-        x: Axis::tight("spool temperature [°C]", 0.1),
-        y: Axis::tight("its rate [°C/min]", 1e-6),
-        height: Height::Lines(16.0),
-        content: Content::Map(HeatMap {
-            columns,
-            values,
-            x,
-            y: y.map(|rate| rate * S_PER_MIN),
-            colours: Colours::diverging("z", most, 1.0),
-            bar: true,
-            marked,
-        }),
-    })
+    let (y, colours) = (y.map(|rate| rate * S_PER_MIN), Colours::diverging("z", most, 1.0));
+    let map = HeatMap { columns, values, x, y, colours, bar: true, marked };
+    let (level, rate) = (Axis::tight("spool temperature [°C]", 0.1), Axis::tight("its rate [°C/min]", 1e-6));
+    Some(Panel::map(level, rate, Height::Lines(16.0), map).headed(name))
 }

@@ -1,21 +1,19 @@
 //! The evidence against each rival of what leads: the best hypothesis in which a rival does without it.
 
-use std::fmt::Write;
-
+use charts::{Cells, grid, signed};
 use diagnosis::{Candidate, ForwardModel};
+use maud::{Markup, html};
 
 use super::candidates::{alike, structure};
 use crate::diagnose::Outcome;
-use crate::picture::escape;
-use crate::report::{Cells, grid, signed};
 
 /// What a rival's hypotheses are known by.
 type Fits = Box<dyn Fn(&Candidate) -> bool>;
 
 impl Outcome {
-    pub(super) fn rivals(&self, out: &mut String) {
+    pub(super) fn rivals(&self) -> Markup {
         let (groups, best) = (self.groups(), self.diagnosis.best());
-        let Some(winner) = groups.iter().find(|group| alike(group.first, best)) else { return };
+        let Some(winner) = groups.iter().find(|group| alike(group.first, best)) else { return Markup::default() };
         let ids: Vec<&str> = best.fit.hypothesis.mechanisms.iter().map(|(number, _)| self.id(*number)).collect();
         let name = if ids.is_empty() { self.said(winner) } else { ids.join(" + ") };
         // best first; what was not tried comes last
@@ -32,20 +30,15 @@ impl Outcome {
             .collect();
         rows.sort_by(|a, b| a.0.total_cmp(&b.0));
         let rows: Vec<Vec<String>> = rows.into_iter().map(|(_, row)| row).collect();
-        let _ = writeln!(
-            out,
-            "<h3>Rivals</h3>\n<p>What else could it be? Of each rival the most probable hypothesis that does without what leads, {}, and the \
-             evidence against it: ln of the odds of the one over the other, by the records that were fitted, with the priors counted in. A \
-             mechanism is excluded by its probability in all hypotheses together, as under Explanations.</p>",
-            escape(&name),
-        );
-        grid(
-            out,
-            &format!("ln odds of {name} over each rival"),
-            Cells::Words,
-            &["rival", "ln odds", "its best hypothesis"],
-            &rows,
-        );
+        html! {
+            h3 { "Rivals" } "\n"
+            p {
+                "What else could it be? Of each rival the most probable hypothesis that does without what leads, " (name) ", and the \
+                evidence against it: ln of the odds of the one over the other, by the records that were fitted, with the priors counted \
+                in. A mechanism is excluded by its probability in all hypotheses together, as under Explanations."
+            } "\n"
+            (grid(&format!("ln odds of {name} over each rival"), Cells::Words, &["rival", "ln odds", "its best hypothesis"], &rows))
+        }
     }
 
     /// Who stands against `best`.

@@ -1,12 +1,11 @@
 //! Whether what is left is noise: periodograms of the whitened residuals, and their whiteness.
 
+use charts::{Axis, Cells, Figure, Panel, Series, Style, grid, significant};
 use diagnosis::whiteness;
+use maud::{Markup, html};
 
-use super::{Quantity, Shown, line};
+use super::{Quantity, Shown};
 use crate::diagnose::Outcome;
-use crate::plot::{Axis, Content, Figure, Height, Panel, Style};
-use crate::report::{Cells, grid, with_data};
-use crate::table::significant;
 
 /// Rows of which one periodogram is made.
 const SEGMENT: usize = 4096;
@@ -17,10 +16,9 @@ const WIDER: f64 = 1.25;
 pub(super) const WHITE: f64 = 0.01;
 
 impl Outcome {
-    pub(super) fn spectra(&self, out: &mut String) {
-        let of = |shown: &Vec<Shown>| self.quantities().map(|q| self.spectrum(shown, q)).collect::<Vec<_>>();
-        let panels = self.each().flat_map(|shown| of(&shown)).collect();
-        out.push_str(&with_data(&Figure {
+    pub(super) fn spectra(&self) -> Markup {
+        let of = |shown: Vec<Shown>| self.quantities().map(|q| self.spectrum(&shown, q)).collect::<Vec<_>>();
+        let figure = Figure {
             id: "spectrum",
             title: "Spectrum of the whitened residuals".into(),
             description: "Mean periodogram of the whitened residual of rate and spool thermometer against frequency, which is 1 for noise."
@@ -29,8 +27,8 @@ impl Outcome {
                       at 95 % of the frequencies. An excess at low frequencies is what a model leaves out."
                 .into(),
             columns: 2,
-            panels,
-        }));
+            panels: self.each().flat_map(of).collect(),
+        };
         let mut rows = Vec::new();
         for fit in self.each().flatten() {
             for q in self.quantities() {
@@ -40,13 +38,11 @@ impl Outcome {
                 rows.push(vec![self.headed(&format!("{}, {}", fit.name, q.name), fit.record), significant(excess, 3), judged(p)]);
             }
         }
-        grid(
-            out,
-            "Whiteness of the residuals",
-            Cells::Words,
-            &["residual", "mean square (noise: 1)", "Ljung–Box, 30 lags"],
-            &rows,
-        );
+        let head = ["residual", "mean square (noise: 1)", "Ljung–Box, 30 lags"];
+        html! {
+            (figure.element())
+            (grid("Whiteness of the residuals", Cells::Words, &head, &rows))
+        }
     }
 
     /// Of one channel of one record.
@@ -58,19 +54,15 @@ impl Outcome {
             let bands = bands(&fit.whitened(q.channel), interval);
             if n == 0 {
                 let edge = |z: f64| bands.iter().map(|b| (b.frequency, chi_square(2.0 * b.count, z) / (2.0 * b.count))).collect();
-                series.push(line("95 % band of noise", Style::Third, edge(-Z975)));
-                series.push(line("", Style::Third, edge(Z975)));
+                series.push(Series::new("95 % band of noise", Style::Third, edge(-Z975)));
+                series.push(Series::new("", Style::Third, edge(Z975)));
             }
             let style = if n + 1 == shown.len() { Style::First } else { Style::Second };
-            series.push(line(fit.name, style, bands.iter().map(|b| (b.frequency, b.power)).collect()));
+            series.push(Series::new(fit.name, style, bands.iter().map(|b| (b.frequency, b.power)).collect()));
         }
-        Panel {
-            heading: shown.first().map_or(String::new(), |fit| self.headed(q.name, fit.record)),
-            x: Axis::logarithmic("frequency [Hz]"),
-            y: Axis::logarithmic("power over that of noise"),
-            height: Height::Lines(16.0),
-            content: Content::Lines(series),
-        }
+        let (frequency, power) = (Axis::logarithmic("frequency [Hz]"), Axis::logarithmic("power over that of noise"));
+        let heading = shown.first().map_or(String::new(), |fit| self.headed(q.name, fit.record));
+        Panel::lines(frequency, power, 16.0, series).headed(heading)
     }
 }
 

@@ -2,6 +2,9 @@
 
 use std::fmt::Write;
 
+use crate::attributes;
+use crate::svg::Svg;
+
 /// Steps of colour; odd, so that a diverging map has a middle.
 const STEPS: usize = 41;
 
@@ -16,12 +19,12 @@ const DIVERGING: [u32; 11] =
     [0x053061, 0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b, 0x67001f];
 
 /// Values to colours.
-#[derive(Clone)]
-pub(crate) struct Colours {
+#[derive(Debug, Clone, PartialEq)]
+pub struct Colours {
     /// Quantity and unit, e.g. "strain [10⁻⁶]".
-    pub(crate) label: String,
+    pub label: String,
     /// Value at either end.
-    pub(crate) range: [f64; 2],
+    pub range: [f64; 2],
     stops: &'static [u32],
     /// Whether the colours run from high to low.
     reversed: bool,
@@ -29,13 +32,13 @@ pub(crate) struct Colours {
 
 impl Colours {
     /// From blue to red, white at 0, for values of at most `most` either side; never less than `least`.
-    pub(crate) fn diverging(label: impl Into<String>, most: f64, least: f64) -> Self {
+    pub fn diverging(label: impl Into<String>, most: f64, least: f64) -> Self {
         let most = most.max(least);
         Self { label: label.into(), range: [-most, most], stops: &DIVERGING, reversed: false }
     }
 
     /// From dark near 0 to bright for a range of one sign, diverging about 0 if the values lie on both sides of it; at least `least` wide.
-    pub(crate) fn of(label: impl Into<String>, [low, high]: [f64; 2], least: f64) -> Self {
+    pub fn of(label: impl Into<String>, [low, high]: [f64; 2], least: f64) -> Self {
         // a hundredth on the other side is no reason to give half the colours to it
         if low.min(-high) < 0.0 && (-low).min(high) > 0.01 * (-low).max(high) {
             return Self::diverging(label, (-low).max(high), least);
@@ -46,7 +49,7 @@ impl Colours {
     }
 
     /// Colour of a value.
-    pub(crate) fn at(&self, value: f64) -> String {
+    pub fn at(&self, value: f64) -> String {
         self.colour(self.step(value))
     }
 
@@ -67,31 +70,33 @@ impl Colours {
     }
 
     /// All colours as a bar in a box of 1 × 1, from left to right.
-    pub(crate) fn bar(&self) -> String {
-        let mut out = String::new();
-        for step in 0..STEPS {
-            let _ = writeln!(out, "<path fill=\"{}\" d=\"M{step} 0h1v1h-1z\"/>", self.colour(step));
-        }
-        format!("<g transform=\"scale({:.6} 1)\" shape-rendering=\"crispEdges\">\n{out}</g>\n", 1.0 / STEPS as f64)
+    pub fn bar(&self, svg: &mut Svg) {
+        let each = 1.0 / STEPS as f64;
+        svg.group(attributes! { "transform": "scale({each:.6} 1)", "shape-rendering": "crispEdges" }, |svg| {
+            for step in 0..STEPS {
+                svg.leaf("path", attributes! { "fill": "{}"(self.colour(step)), "d": "M{step} 0h1v1h-1z" });
+            }
+        });
     }
 }
 
 /// Values on a grid of equal cells.
-pub(crate) struct HeatMap {
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeatMap {
     /// Cells along x.
-    pub(crate) columns: usize,
+    pub columns: usize,
     /// Value of each cell, row by row from the bottom, as many as fill whole rows; not a number where there is nothing.
-    pub(crate) values: Vec<f64>,
+    pub values: Vec<f64>,
     /// Ends along x.
-    pub(crate) x: [f64; 2],
+    pub x: [f64; 2],
     /// Ends along y.
-    pub(crate) y: [f64; 2],
+    pub y: [f64; 2],
     /// Its colours.
-    pub(crate) colours: Colours,
+    pub colours: Colours,
     /// Whether the colour bar is drawn with it.
-    pub(crate) bar: bool,
+    pub bar: bool,
     /// Numbers of the cells that stand out, in the order of the values; each carries a dot.
-    pub(crate) marked: Vec<usize>,
+    pub marked: Vec<usize>,
 }
 
 impl HeatMap {
@@ -101,28 +106,32 @@ impl HeatMap {
 
     /// The cells in a box of `width` × `height`. The first drawing of a map gives them the name `id`, later ones on the same page only
     /// refer to it.
-    pub(super) fn cells(&self, width: f64, height: f64, id: &str, first: bool) -> String {
+    pub(crate) fn cells(&self, svg: &mut Svg, [width, height]: [f64; 2], id: &str, first: bool) {
         let (across, down) = (width / self.columns.max(1) as f64, height / self.rows().max(1) as f64);
-        let cells = if first { format!("<g id=\"{id}\">\n{}</g>", self.runs()) } else { format!("<use href=\"#{id}\"/>") };
         let thick = 1.0 + OVERLAP / down;
-        format!(
-            "<g class=\"cells\" stroke-width=\"{thick:.3}\" transform=\"scale({across:.6} {down:.6})\" shape-rendering=\"crispEdges\">\n{cells}\n</g>\n"
-        )
+        let scale = format!("scale({across:.6} {down:.6})");
+        let draw = |svg: &mut Svg| match first {
+            true => svg.group(attributes! { "id": "{id}" }, |svg| self.runs(svg)),
+            false => _ = svg.leaf("use", attributes! { "href": "#{id}" }),
+        };
+        svg.group(
+            attributes! { "class": "cells", "stroke-width": "{thick:.3}", "transform": "{scale}", "shape-rendering": "crispEdges" },
+            draw,
+        );
     }
 
     /// A dot in the middle of each cell that stands out, in a box of `width` × `height`.
-    pub(super) fn dots(&self, width: f64, height: f64) -> String {
+    pub(crate) fn dots(&self, svg: &mut Svg, [width, height]: [f64; 2]) {
         let (columns, rows) = (self.columns.max(1), self.rows().max(1));
-        self.marked.iter().fold(String::new(), |mut out, cell| {
+        for cell in &self.marked {
             let (x, y) = ((cell % columns) as f64 + 0.5, (rows - 1 - cell / columns) as f64 + 0.5);
             let (x, y) = (x * width / columns as f64, y * height / rows as f64);
-            let _ = writeln!(out, "<circle class=\"dot\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"/>");
-            out
-        })
+            svg.leaf("circle", attributes! { "class": "dot", "cx": "{x:.1}", "cy": "{y:.1}", "r": "3.5" });
+        }
     }
 
     /// Runs of cells of one colour as lines as thick as a row, one path for each colour; a cell is a unit square.
-    fn runs(&self) -> String {
+    fn runs(&self, svg: &mut Svg) {
         let rows = self.rows();
         let mut paths = vec![String::new(); STEPS];
         for (row, values) in self.values.chunks_exact(self.columns.max(1)).enumerate() {
@@ -135,11 +144,9 @@ impl HeatMap {
                 start += run.len();
             }
         }
-        let mut out = String::new();
         for (step, path) in paths.iter().enumerate().filter(|(_, path)| !path.is_empty()) {
-            let _ = writeln!(out, "<path stroke=\"{}\" d=\"{path}\"/>", self.colours.colour(step));
+            svg.leaf("path", attributes! { "stroke": "{}"(self.colours.colour(step)), "d": "{path}" });
         }
-        out
     }
 }
 
@@ -170,12 +177,17 @@ mod tests {
         let colours = Colours::diverging("", 1.0, 0.0);
         let values = vec![1.0, 1.0, -1.0, f64::NAN, 1.0, 1.0];
         let map = HeatMap { columns: 3, values, x: [0.0, 1.0], y: [0.0, 1.0], colours, bar: true, marked: vec![1] };
-        let cells = map.cells(30.0, 20.0, "m", true);
+        let drawn = |draw: &dyn Fn(&mut Svg)| {
+            let mut svg = Svg::default();
+            draw(&mut svg);
+            svg.into_string()
+        };
+        let cells = drawn(&|svg| map.cells(svg, [30.0, 20.0], "m", true));
         assert!(cells.contains("scale(10.000000 10.000000)") && cells.contains("id=\"m\""), "{cells}");
         assert!(cells.contains("d=\"M0 1.5h2M1 0.5h2\"") && cells.contains("d=\"M2 1.5h1\""), "{cells}");
-        let dots = map.dots(30.0, 20.0);
+        let dots = drawn(&|svg| map.dots(svg, [30.0, 20.0]));
         assert!(dots.contains("cx=\"15.0\" cy=\"15.0\"") && dots.lines().count() == 1, "{dots}");
-        let again = map.cells(15.0, 20.0, "m", false);
+        let again = drawn(&|svg| map.cells(svg, [15.0, 20.0], "m", false));
         assert!(
             again.contains("scale(5.000000 10.000000)") && again.contains("href=\"#m\"") && !again.contains("<path"),
             "{again}"

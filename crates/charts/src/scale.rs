@@ -1,22 +1,23 @@
 //! From values to pixels, and round numbers along an axis.
 
 /// One of the two axes of a figure.
-pub(crate) struct Axis {
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
     /// Quantity and unit, e.g. "time [h]".
-    pub(crate) label: String,
+    pub label: String,
     /// The smallest span that is drawn, in the axis' unit: less would blow rounding up to a picture.
-    pub(crate) least_span: f64,
+    pub least_span: f64,
     /// Where the drawn range ends.
-    pub(crate) ends: Ends,
+    pub ends: Ends,
     /// What is drawn in any case: both ends, in the axis' unit.
-    pub(crate) covers: Option<[f64; 2]>,
+    pub covers: Option<[f64; 2]>,
     /// Names of 0, 1, … in place of numbers, written above the line of each; upwards only.
-    pub(crate) names: Option<Vec<String>>,
+    pub names: Option<Vec<String>>,
 }
 
 /// Where the drawn range of an axis ends.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Ends {
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ends {
     /// At the data's own.
     Data,
     /// At the round numbers around them.
@@ -27,29 +28,29 @@ pub(crate) enum Ends {
 
 impl Axis {
     /// An axis that ends where the data end.
-    pub(crate) fn tight(label: impl Into<String>, least_span: f64) -> Self {
+    pub fn tight(label: impl Into<String>, least_span: f64) -> Self {
         Self { label: label.into(), least_span, ends: Ends::Data, covers: None, names: None }
     }
 
     /// An axis that ends at round numbers.
-    pub(crate) fn round(label: impl Into<String>, least_span: f64) -> Self {
-        Self { label: label.into(), least_span, ends: Ends::Ticks, covers: None, names: None }
-    }
-
-    /// The axis with `ends` within what is drawn.
-    pub(crate) fn covering(self, ends: [f64; 2]) -> Self {
-        Self { covers: Some(ends), ..self }
-    }
-
-    /// An axis of names, the first at the bottom.
-    pub(crate) fn named(label: impl Into<String>, names: Vec<String>) -> Self {
-        let covers = Some([-0.4, names.len() as f64 - 0.2]);
-        Self { label: label.into(), least_span: 1.0, ends: Ends::Data, covers, names: Some(names) }
+    pub fn round(label: impl Into<String>, least_span: f64) -> Self {
+        Self { ends: Ends::Ticks, ..Self::tight(label, least_span) }
     }
 
     /// A logarithmic axis for positive numbers.
-    pub(crate) fn logarithmic(label: impl Into<String>) -> Self {
-        Self { label: label.into(), least_span: 0.0, ends: Ends::Logarithmic, covers: None, names: None }
+    pub fn logarithmic(label: impl Into<String>) -> Self {
+        Self { ends: Ends::Logarithmic, ..Self::tight(label, 0.0) }
+    }
+
+    /// An axis of names, the first at the bottom.
+    pub fn named(label: impl Into<String>, names: Vec<String>) -> Self {
+        let covers = Some([-0.4, names.len() as f64 - 0.2]);
+        Self { covers, names: Some(names), ..Self::tight(label, 1.0) }
+    }
+
+    /// The axis with `ends` within what is drawn.
+    pub fn covering(self, ends: [f64; 2]) -> Self {
+        Self { covers: Some(ends), ..self }
     }
 }
 

@@ -36,7 +36,7 @@ pub(crate) fn page_style() -> String {
 }
 
 /// Style sheet of a figure that stands alone: in light, without custom properties, which not every program knows.
-pub(super) fn document_style() -> String {
+pub(crate) fn document_style() -> String {
     PALETTE.iter().fold(STYLE.to_owned(), |style, (name, light, _)| style.replace(&format!("var(--{name})"), light))
 }
 

@@ -2,25 +2,26 @@
 
 use std::fmt::Write;
 
-use super::MOST_POINTS;
+use crate::svg::Svg;
+use crate::{MOST_POINTS, attributes};
 
 /// A line through points that are computed when they are needed.
-pub(crate) struct Series<'a> {
+pub struct Series<'a> {
     /// Its name in the legend, with what it stands for; none if empty.
-    pub(crate) name: String,
+    pub name: String,
     /// How it looks.
-    pub(crate) style: Style,
+    pub style: Style,
     /// Number of its points.
-    pub(crate) count: usize,
+    pub count: usize,
     /// The point of a number below `count`.
-    pub(crate) at: Box<dyn Fn(usize) -> (f64, f64) + 'a>,
+    pub at: Box<dyn Fn(usize) -> (f64, f64) + 'a>,
     /// How it is thinned.
-    pub(crate) thinning: Thinning,
+    pub thinning: Thinning,
 }
 
 /// How a line looks; each differs from the others in colour and in dash.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Style {
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Style {
     /// Black or white, heavy.
     Total,
     /// Blue.
@@ -52,9 +53,7 @@ impl Style {
             Self::Fine(_) => "line fine third",
         }
     }
-}
 
-impl Style {
     /// Whether nothing joins the points.
     pub(crate) fn is_points(self) -> bool {
         matches!(self, Self::Points(_))
@@ -65,38 +64,65 @@ impl Style {
 const MARKS: [&str; 5] = ["mark first", "mark second", "mark third", "mark total", "mark first"];
 
 /// How a line is thinned.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Thinning {
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Thinning {
     /// The line runs from left to right: its lowest and highest point in every column of pixels.
     Columns,
     /// The line runs anywhere: the points that are a pixel from the one before, evenly thinned if they are still too many.
     Distance,
 }
 
-impl Series<'_> {
+impl<'a> Series<'a> {
+    /// A line through points, from left to right.
+    pub fn new(name: impl Into<String>, style: Style, points: Vec<(f64, f64)>) -> Self {
+        Self::computed(name, style, points.len(), move |n| points[n])
+    }
+
+    /// A line through `count` points, from left to right.
+    pub fn computed(name: impl Into<String>, style: Style, count: usize, at: impl Fn(usize) -> (f64, f64) + 'a) -> Self {
+        Self { name: name.into(), style, count, at: Box::new(at), thinning: Thinning::Columns }
+    }
+
+    /// The line, if it runs anywhere.
+    pub fn anywhere(self) -> Self {
+        Self { thinning: Thinning::Distance, ..self }
+    }
+
     /// The line, and a mark at each point where the style has marks.
-    pub(super) fn svg(&self, pixel: impl Fn((f64, f64)) -> (f64, f64)) -> String {
+    pub(crate) fn draw(&self, svg: &mut Svg, pixel: impl Fn((f64, f64)) -> (f64, f64)) {
         let points = self.points(pixel);
-        let line = format!("<path class=\"{}\" d=\"{}\"/>\n", self.style.class(), path(&points));
-        match self.style {
-            Style::Points(kind) => points.iter().map(|point| mark(kind, *point)).collect(),
-            Style::Marked(kind) => points.iter().fold(line, |out, point| out + &mark(kind, *point)),
-            _ => line,
+        if !self.style.is_points() {
+            svg.leaf("path", attributes! { "class": "{}"(self.style.class()), "d": "{}"(path(&points)) });
         }
+        points.iter().for_each(|point| self.mark(svg, *point));
     }
 
     /// A piece of it for a legend, 34 × 12 px.
-    pub(super) fn sample(&self) -> String {
-        let line = format!("<path class=\"{}\" d=\"M2 6H32\"/>", self.style.class());
-        match self.style {
-            Style::Points(kind) => mark(kind, (17.0, 6.0)),
-            Style::Marked(kind) => line + &mark(kind, (17.0, 6.0)),
-            _ => line,
+    pub(crate) fn sample(&self, svg: &mut Svg) {
+        if !self.style.is_points() {
+            svg.leaf("path", attributes! { "class": "{}"(self.style.class()), "d": "M2 6H32" }).joined();
         }
+        self.mark(svg, (17.0, 6.0));
+    }
+
+    fn mark(&self, svg: &mut Svg, (x, y): (f64, f64)) {
+        let (Style::Points(kind) | Style::Marked(kind)) = self.style else { return };
+        let class = MARKS[kind as usize % MARKS.len()];
+        let shape = match kind {
+            0 => {
+                svg.leaf("circle", attributes! { "class": "{class}", "cx": "{x:.1}", "cy": "{y:.1}", "r": "4" });
+                return;
+            }
+            1 => format!("M{:.1} {:.1}h8v8h-8z", x - 4.0, y - 4.0),
+            2 => format!("M{x:.1} {:.1}l5 9h-10z", y - 5.5),
+            3 => format!("M{x:.1} {:.1}l5.5 5.5l-5.5 5.5l-5.5 -5.5z", y - 5.5),
+            _ => format!("M{:.1} {:.1}l9 9m0 -9l-9 9", x - 4.5, y - 4.5),
+        };
+        svg.leaf("path", attributes! { "class": "{class}", "d": "{shape}" });
     }
 
     /// Lowest and highest x, lowest and highest y; `None` without points.
-    pub(crate) fn ranges(&self) -> Option<[[f64; 2]; 2]> {
+    pub fn ranges(&self) -> Option<[[f64; 2]; 2]> {
         (0..self.count).map(&self.at).fold(None, |ranges, (x, y)| {
             let [[x0, x1], [y0, y1]] = ranges.unwrap_or([[x, x], [y, y]]);
             Some([[x0.min(x), x1.max(x)], [y0.min(y), y1.max(y)]])
@@ -129,18 +155,6 @@ fn path(points: &[(f64, f64)]) -> String {
         let _ = write!(data, "L{x:.1} {y:.1}"); // a lone point is a dot: its line caps are round
     }
     data
-}
-
-fn mark(kind: u8, (x, y): (f64, f64)) -> String {
-    let class = MARKS[kind as usize % MARKS.len()];
-    let shape = match kind {
-        0 => return format!("<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\"/>\n"),
-        1 => format!("M{:.1} {:.1}h8v8h-8z", x - 4.0, y - 4.0),
-        2 => format!("M{x:.1} {:.1}l5 9h-10z", y - 5.5),
-        3 => format!("M{x:.1} {:.1}l5.5 5.5l-5.5 5.5l-5.5 -5.5z", y - 5.5),
-        _ => format!("M{:.1} {:.1}l9 9m0 -9l-9 9", x - 4.5, y - 4.5),
-    };
-    format!("<path class=\"{class}\" d=\"{shape}\"/>\n")
 }
 
 /// A point and its number.
@@ -197,7 +211,7 @@ mod tests {
     use super::*;
 
     fn series<'a>(count: usize, at: &'a dyn Fn(usize) -> (f64, f64), thinning: Thinning) -> Series<'a> {
-        Series { name: String::new(), style: Style::Total, count, at: Box::new(at), thinning }
+        Series { thinning, ..Series::computed("", Style::Total, count, at) }
     }
 
     #[test]

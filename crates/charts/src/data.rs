@@ -1,42 +1,43 @@
 //! What a figure shows, as tables that are folded away: for those who do not see it, and for those who want a number.
 
-use std::fmt::Write;
+use maud::{Markup, html};
 
-use super::tables::{Cells, grid};
-use crate::figures::element;
-use crate::picture::escape;
-use crate::plot::{Content, Drawing, Figure, HeatMap, Panel, Series};
-use crate::table::significant;
+use crate::number::significant;
+use crate::tables::{Cells, grid};
+use crate::{Content, Drawing, Figure, HeatMap, Panel, Series};
 
 /// Most rows of a table, extremes not counted.
 const MOST_ROWS: usize = 40;
 /// Most columns and rows of a map's table.
 const MOST_CELLS: [usize; 2] = [12, 20];
 
-/// A figure with its data.
-pub(crate) fn with_data(figure: &Figure) -> String {
-    let mut out = element(figure);
-    let _ = writeln!(out, "<details>\n<summary>The data of this figure: {}</summary>", escape(&figure.title));
+/// The tables of a figure.
+pub(crate) fn data(figure: &Figure) -> Markup {
     // of panels under one another the last alone names their axis
     let shared = figure.panels.iter().rev().map(|p| p.x.label.as_str()).find(|label| !label.is_empty()).unwrap_or_default();
-    for panel in &figure.panels {
-        let x =
-            [panel.x.label.as_str(), shared, panel.heading.as_str(), "x"].into_iter().find(|x| !x.is_empty()).unwrap_or_default();
-        match &panel.content {
-            Content::Lines(series) => lines(&mut out, &name(figure, panel), panel, x, series),
-            Content::Map(map) => cells(&mut out, &name(figure, panel), panel, x, map),
-            Content::Drawing(drawing) => areas(&mut out, &name(figure, panel), drawing),
-        }
+    html! {
+        details {
+            summary { "The data of this figure: " (figure.title) } "\n"
+            @for panel in &figure.panels { (table(figure, panel, shared)) }
+        } "\n"
     }
-    out.push_str("</details>\n");
-    out
+}
+
+fn table(figure: &Figure, panel: &Panel, shared: &str) -> Markup {
+    // apart from the other tables of the page
+    let name = if panel.heading.is_empty() { figure.title.clone() } else { format!("{}, {}", figure.title, panel.heading) };
+    let x = [panel.x.label.as_str(), shared, panel.heading.as_str(), "x"].into_iter().find(|x| !x.is_empty()).unwrap_or_default();
+    match (&panel.content, &panel.y.names) {
+        (Content::Lines(series), Some(names)) => named(&name, &panel.y.label, names, x, series),
+        (Content::Lines(series), None) => lines(&name, &panel.y.label, x, series),
+        (Content::Map(map), _) => cells(&name, &panel.y.label, x, map),
+        (Content::Drawing(drawing), _) => areas(&name, drawing),
+    }
 }
 
 /// Series that share their x in one table.
-fn lines(out: &mut String, name: &str, panel: &Panel, x: &str, series: &[Series]) {
-    if let Some(names) = &panel.y.names {
-        return named(out, name, &panel.y.label, names, x, series);
-    }
+fn lines(name: &str, y: &str, x: &str, series: &[Series]) -> Markup {
+    let mut groups = Vec::new();
     // a single point marks one of another series
     let mut rest: Vec<&Series> = series.iter().filter(|s| s.count > 1).collect();
     while let Some(first) = rest.first() {
@@ -46,8 +47,8 @@ fn lines(out: &mut String, name: &str, panel: &Panel, x: &str, series: &[Series]
         for (n, s) in group.iter().enumerate() {
             // what has no name is the other half of what stands before it
             let same = group[..n].iter().zip(&head[1..]).rev().find(|(before, _)| before.style == s.style);
-            let own = if s.name.is_empty() { same.map_or(&panel.y.label, |(_, name)| name) } else { &s.name };
-            head.push(own.clone());
+            let own = if s.name.is_empty() { same.map_or(y, |(_, name)| name) } else { &s.name };
+            head.push(own.to_owned());
         }
         let count = group[0].count;
         let every = count.div_ceil(MOST_ROWS);
@@ -65,19 +66,14 @@ fn lines(out: &mut String, name: &str, panel: &Panel, x: &str, series: &[Series]
         };
         let rows: Vec<Vec<String>> = chosen.into_iter().map(row).collect();
         let which = if every > 1 { format!(" (one point in {every}, the last and the extremes)") } else { String::new() };
-        grid(
-            out,
-            &format!("{name}: {}{which}", panel.y.label),
-            Cells::Numbers,
-            &head.iter().map(String::as_str).collect::<Vec<_>>(),
-            &rows,
-        );
+        groups.push(grid(&format!("{name}: {y}{which}"), Cells::Numbers, &head, &rows));
         rest = others;
     }
+    html! { @for group in groups { (group) } }
 }
 
 /// A row for each name, a column for each series.
-fn named(out: &mut String, name: &str, y: &str, names: &[String], x: &str, series: &[Series]) {
+fn named(name: &str, y: &str, names: &[String], x: &str, series: &[Series]) -> Markup {
     let named: Vec<&Series> = series.iter().filter(|s| s.style.is_points()).collect();
     let head: Vec<&str> = [y].into_iter().chain(named.iter().map(|s| s.name.as_str())).collect();
     let of = |s: &&Series, k: usize| {
@@ -85,15 +81,15 @@ fn named(out: &mut String, name: &str, y: &str, names: &[String], x: &str, serie
     };
     let row = |(k, own): (usize, &String)| std::iter::once(own.clone()).chain(named.iter().map(|s| of(s, k))).collect();
     let rows: Vec<Vec<String>> = names.iter().enumerate().map(row).collect();
-    grid(out, &format!("{name}: {x}"), Cells::Numbers, &head, &rows);
+    grid(&format!("{name}: {x}"), Cells::Numbers, &head, &rows)
 }
 
 /// A map's cells, its upper row first.
-fn cells(out: &mut String, name: &str, panel: &Panel, x: &str, map: &HeatMap) {
+fn cells(name: &str, y: &str, x: &str, map: &HeatMap) -> Markup {
     let (columns, rows) = (map.columns.max(1), map.values.len() / map.columns.max(1));
     let [across, down] = [columns.div_ceil(MOST_CELLS[0]), rows.div_ceil(MOST_CELLS[1])];
     let middle = |[low, high]: [f64; 2], k: usize, count: usize| low + (high - low) * (k as f64 + 0.5) / count as f64;
-    let corner = format!("{} \\ {x}", panel.y.label);
+    let corner = format!("{y} \\ {x}");
     let chosen = || (0..columns).step_by(across);
     let head: Vec<String> = std::iter::once(corner).chain(chosen().map(|k| significant(middle(map.x, k, columns), 3))).collect();
     let row = |r: usize| {
@@ -108,21 +104,16 @@ fn cells(out: &mut String, name: &str, panel: &Panel, x: &str, map: &HeatMap) {
     let thinned = if across * down > 1 { format!(" (one row in {down}, one column in {across})") } else { String::new() };
     let marks = if map.marked.is_empty() { "" } else { "; * stands out" };
     let caption = format!("{name}: {}{thinned}{marks}", map.colours.label);
-    grid(out, &caption, Cells::Numbers, &head.iter().map(String::as_str).collect::<Vec<_>>(), &rows);
+    grid(&caption, Cells::Numbers, &head, &rows)
 }
 
 /// What a drawing consists of.
-fn areas(out: &mut String, name: &str, drawing: &Drawing) {
+fn areas(name: &str, drawing: &Drawing) -> Markup {
     let ends = |[low, high]: [f64; 2]| format!("{low:.3} to {high:.3}");
     let named = drawing.areas.iter().filter(|area| !area.name.is_empty());
     let mut rows: Vec<Vec<String>> = named.map(|area| vec![area.name.clone(), ends(area.x), ends(area.y)]).collect();
     rows.extend(drawing.point.iter().map(|([x, y], name)| vec![name.clone(), format!("{x:.3}"), format!("{y:.3}")]));
-    grid(out, &format!("{name}: {} mesh elements", drawing.mesh.len()), Cells::Numbers, &["part", "y [mm]", "r [mm]"], &rows);
-}
-
-/// What a table of a panel is called, apart from the other tables of the page.
-fn name(figure: &Figure, panel: &Panel) -> String {
-    if panel.heading.is_empty() { figure.title.clone() } else { format!("{}, {}", figure.title, panel.heading) }
+    grid(&format!("{name}: {} mesh elements", drawing.mesh.len()), Cells::Numbers, &["part", "y [mm]", "r [mm]"], &rows)
 }
 
 fn number(value: f64) -> String {

@@ -1,0 +1,135 @@
+//! A figure: panels under one another or side by side.
+
+use maud::{Markup, html};
+
+use crate::attributes;
+use crate::data::data;
+use crate::panel::{Panel, Place};
+use crate::style::document_style;
+use crate::svg::{Frame, Svg};
+
+/// A figure.
+pub struct Figure<'a> {
+    /// Unique on its page and among files; the names of its parts start with it.
+    pub id: &'static str,
+    /// What it shows.
+    pub title: String,
+    /// What there is to see in it, for those who do not see it.
+    pub description: String,
+    /// What one must know to read it.
+    pub caption: String,
+    /// Panels side by side, where the paper is wide enough.
+    pub columns: usize,
+    /// In reading order.
+    pub panels: Vec<Panel<'a>>,
+}
+
+/// For which paper a figure is drawn; a page holds both and shows one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Size {
+    /// Screens and paper.
+    Wide,
+    /// Phones.
+    Narrow,
+}
+
+/// Measures of a size \[px\].
+pub(crate) struct Measures {
+    class: &'static str,
+    width: f64,
+    pub(crate) font: f64,
+    /// Least distance of ticks along x and y.
+    pub(crate) apart: [f64; 2],
+    /// Most panels side by side.
+    columns: usize,
+    /// Whether it comes first on a page.
+    pub(crate) first: bool,
+}
+
+impl Size {
+    fn measures(self) -> Measures {
+        match self {
+            Self::Wide => Measures { class: "wide", width: 900.0, font: 14.0, apart: [75.0, 42.0], columns: 2, first: true },
+            Self::Narrow => Measures { class: "narrow", width: 360.0, font: 12.0, apart: [55.0, 30.0], columns: 1, first: false },
+        }
+    }
+}
+
+/// Height of the title above a document's panels \[px\].
+const HEAD: f64 = 36.0;
+
+impl Figure<'_> {
+    /// The figure for a [`page`](crate::page), drawn for wide and for narrow paper, with its caption and, folded away, tables of its data.
+    pub fn element(&self) -> Markup {
+        html! {
+            figure {
+                h3 { (self.title) } "\n"
+                (self.svg(Size::Wide)) (self.svg(Size::Narrow))
+                figcaption { (self.caption) }
+            } "\n"
+            (data(self))
+        }
+    }
+
+    /// One drawing of it; the narrow one comes after the wide one, whose maps it shows.
+    fn svg(&self, size: Size) -> Svg {
+        let m = size.measures();
+        let ((body, height), id) = (self.body(&m), format!("{}-{}", self.id, m.class));
+        let mut svg = Svg::default();
+        svg.open(
+            "svg",
+            attributes! {
+                "class": "plot {}"(m.class), "viewBox": "0 0 {} {height:.0}"(m.width), "font-size": "{}"(m.font), "role": "img",
+                "aria-labelledby": "{id}-title {id}-desc"
+            },
+        );
+        svg.line();
+        svg.element("title", attributes! { "id": "{id}-title" }, &self.title);
+        svg.element("desc", attributes! { "id": "{id}-desc" }, &self.description);
+        svg.append(&body).close("svg");
+        svg
+    }
+
+    /// As a document of its own, with its title.
+    pub fn document(&self) -> String {
+        let m = Size::Wide.measures();
+        let (body, height) = self.body(&m);
+        let ids = ["title", "desc"].map(|part| format!("{}-{part}", self.id));
+        let frame = Frame {
+            ids: [&ids[0], &ids[1]],
+            size: [m.width, height + HEAD],
+            font: m.font,
+            title: &self.title,
+            description: &format!("{} {}", self.description, self.caption),
+            attributes: attributes! { "class": "plot" },
+            style: &document_style(),
+        };
+        frame.document(|svg| {
+            svg.element("text", attributes! { "x": "4", "y": "22", "font-size": "18", "font-weight": "bold" }, &self.title);
+            svg.group(attributes! { "transform": "translate(0 {HEAD})" }, |svg| _ = svg.append(&body));
+        })
+    }
+
+    /// Everything but title and style, and its height.
+    fn body(&self, m: &Measures) -> (Svg, f64) {
+        let columns = self.columns.clamp(1, m.columns);
+        let gap = 1.5 * m.font;
+        let width = (m.width - gap * (columns - 1) as f64) / columns as f64;
+        let (mut svg, mut top) = (Svg::default(), 0.0);
+        // axes of panels under one another begin at one place
+        let left = |column: usize| {
+            let own = self.panels.iter().skip(column).step_by(columns).map(|panel| panel.left(m, width));
+            own.fold(0.0, f64::max)
+        };
+        let lefts: Vec<f64> = (0..columns).map(left).collect();
+        for (number, row) in self.panels.chunks(columns).enumerate() {
+            let places: Vec<Place> = row.iter().zip(&lefts).map(|(panel, left)| panel.place(m, width, *left)).collect();
+            for (column, (panel, place)) in row.iter().zip(&places).enumerate() {
+                let id = format!("{}-map-{}", self.id, number * columns + column);
+                svg.moved([column as f64 * (width + gap), top], |svg| panel.draw(svg, m, width, place, &id));
+            }
+            top += places.iter().map(Place::height).fold(0.0, f64::max);
+        }
+        (svg, top)
+    }
+}

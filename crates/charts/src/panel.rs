@@ -1,0 +1,283 @@
+//! A panel of a figure: axes, and between them lines, a map or a drawing; above them its legend or colour bar.
+
+use std::fmt::Write;
+
+use crate::figure::Measures;
+use crate::scale::Scale;
+use crate::svg::Svg;
+use crate::{Axis, Colours, Drawing, HeatMap, Series, attributes};
+
+/// A plot within a figure.
+pub struct Panel<'a> {
+    /// Above it; none if empty.
+    pub heading: String,
+    /// To the right.
+    pub x: Axis,
+    /// Upwards.
+    pub y: Axis,
+    /// How high it is.
+    pub height: Height,
+    /// What is in it.
+    pub content: Content<'a>,
+}
+
+/// Height of a panel between its axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Height {
+    /// In font sizes.
+    Lines(f64),
+    /// A unit of y is as long as a unit of x; at most this many font sizes high.
+    ToScale(f64),
+}
+
+/// What a panel shows.
+pub enum Content<'a> {
+    /// Lines, the first at the back.
+    Lines(Vec<Series<'a>>),
+    /// A heat map.
+    Map(HeatMap),
+    /// A drawing.
+    Drawing(Drawing),
+}
+
+/// Width of a digit in font sizes, a little more than the usual fonts have.
+const DIGIT: f64 = 0.62;
+/// Mean width of a letter in font sizes, a little more than the usual fonts have.
+const LETTER: f64 = 0.56;
+/// Length of a legend's sample \[px\].
+const SAMPLE: f64 = 34.0;
+/// Widest colour bar \[px\].
+const BAR: f64 = 420.0;
+
+/// Where the parts of a panel lie \[px\].
+pub(crate) struct Place {
+    /// From the panel's left to its axes.
+    left: f64,
+    /// Width and height between the axes.
+    plot: [f64; 2],
+    /// Height of what stands above the axes.
+    above: f64,
+    below: f64,
+}
+
+impl Place {
+    pub(crate) fn height(&self) -> f64 {
+        self.above + self.plot[1] + self.below
+    }
+}
+
+/// How wide text is \[px\].
+fn width_of(content: &str, m: &Measures) -> f64 {
+    LETTER * m.font * content.chars().count() as f64
+}
+
+/// A colour bar under its label, `left` from the panel's left, above axes as wide as `across`.
+fn colour_bar(svg: &mut Svg, colours: &Colours, m: &Measures, left: f64, across: f64) {
+    let inset = 2.0 * m.font;
+    let width = BAR.min(across - inset);
+    let scale = Scale::new(&Axis::tight("", 0.0), colours.range, [0.0, width], m.apart[0]);
+    svg.group(attributes! { "transform": "translate({:.1} 0)"(left.max(inset)) }, |svg| {
+        svg.text([0.0, 1.1 * m.font], "start", &colours.label);
+        let (top, high) = (1.6 * m.font, 0.8 * m.font);
+        svg.group(attributes! { "transform": "translate(0 {top:.1}) scale({width:.1} {high:.1})" }, |svg| colours.bar(svg));
+        let mut marks = format!("M0 {top:.1}h{width:.1}v{high:.1}h-{width:.1}z");
+        for (tick, label) in scale.ticks() {
+            let at = scale.pixel(tick);
+            let _ = write!(marks, "M{at:.1} {:.1}v4", top + high);
+            svg.text([at, top + high + 1.25 * m.font], "middle", &label);
+        }
+        svg.leaf("path", attributes! { "class": "axis", "d": "{marks}" });
+    });
+}
+
+/// What a legend names: its sample in a box of [`SAMPLE`] × 12, and its name.
+struct Entry<'a>(Svg, &'a str);
+
+impl<'a> Panel<'a> {
+    /// Lines, the first at the back, `high` font sizes high.
+    pub fn lines(x: Axis, y: Axis, high: f64, series: Vec<Series<'a>>) -> Self {
+        Self { heading: String::new(), x, y, height: Height::Lines(high), content: Content::Lines(series) }
+    }
+
+    /// A heat map.
+    pub fn map(x: Axis, y: Axis, height: Height, map: HeatMap) -> Self {
+        Self { heading: String::new(), x, y, height, content: Content::Map(map) }
+    }
+
+    /// A drawing to scale, at most `high` font sizes high.
+    pub fn drawing(x: Axis, y: Axis, high: f64, drawing: Drawing) -> Self {
+        Self { heading: String::new(), x, y, height: Height::ToScale(high), content: Content::Drawing(drawing) }
+    }
+
+    /// The panel with a heading.
+    pub fn headed(self, heading: impl Into<String>) -> Self {
+        Self { heading: heading.into(), ..self }
+    }
+
+    fn ranges(&self) -> [[f64; 2]; 2] {
+        let join = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        let all = |ranges: &mut dyn Iterator<Item = [[f64; 2]; 2]>| {
+            ranges.reduce(|a, b| [join(a[0], b[0]), join(a[1], b[1])]).unwrap_or([[0.0, 0.0]; 2])
+        };
+        match &self.content {
+            Content::Lines(series) => all(&mut series.iter().filter_map(Series::ranges)),
+            Content::Map(map) => [map.x, map.y],
+            Content::Drawing(drawing) => all(&mut drawing.areas.iter().map(|area| [area.x, area.y])),
+        }
+    }
+
+    fn legend(&self) -> Vec<Entry<'_>> {
+        let drawn = |draw: &dyn Fn(&mut Svg)| {
+            let mut svg = Svg::default();
+            draw(&mut svg);
+            svg
+        };
+        match &self.content {
+            Content::Lines(series) => {
+                let named = series.iter().filter(|s| !s.name.is_empty());
+                named.map(|s| Entry(drawn(&|svg| s.sample(svg)), &s.name)).collect()
+            }
+            Content::Map(_) => Vec::new(),
+            Content::Drawing(drawing) => {
+                let first = |i: usize, name: &str| !drawing.areas[..i].iter().any(|a| a.name == name);
+                let named = drawing.areas.iter().enumerate().filter(|(i, a)| !a.name.is_empty() && first(*i, &a.name));
+                let area = |svg: &mut Svg, class| {
+                    svg.leaf("path", attributes! { "class": "area {class}", "d": "M8 0H28V12H8z" }).joined();
+                };
+                let dot = |svg: &mut Svg| {
+                    svg.leaf("circle", attributes! { "class": "point", "cx": "18", "cy": "6", "r": "5" }).joined();
+                };
+                let areas = named.map(|(_, a)| Entry(drawn(&|svg| area(svg, a.class)), a.name.as_str()));
+                areas.chain(drawing.point.iter().map(|(_, name)| Entry(drawn(&dot), name))).collect()
+            }
+        }
+    }
+
+    /// Where each entry of the legend begins, in rows.
+    fn legend_places(entries: &[Entry], m: &Measures, width: f64) -> Vec<(usize, f64)> {
+        let (mut row, mut x) = (0, 0.0);
+        let mut places = Vec::new();
+        for Entry(_, name) in entries {
+            let wide = SAMPLE + 0.5 * m.font + width_of(name, m);
+            if x > 0.0 && x + wide > width {
+                (row, x) = (row + 1, 0.0);
+            }
+            places.push((row, x));
+            x += wide + 1.4 * m.font;
+        }
+        places
+    }
+
+    /// Width of the labels of y.
+    pub(crate) fn left(&self, m: &Measures, width: f64) -> f64 {
+        if self.y.names.is_some() {
+            return 0.8 * m.font;
+        }
+        let guess = self.place(m, width, 4.0 * m.font);
+        let y = Scale::new(&self.y, self.ranges()[1], [guess.plot[1], 0.0], m.apart[1]);
+        let widest = y.ticks().iter().map(|(_, label)| label.chars().count()).max().unwrap_or(1);
+        (widest as f64 * DIGIT + 1.0) * m.font
+    }
+
+    pub(crate) fn place(&self, m: &Measures, width: f64, left: f64) -> Place {
+        let rows = Self::legend_places(&self.legend(), m, width).last().map_or(0, |(row, _)| row + 1);
+        let bar = match &self.content {
+            Content::Map(map) if map.bar => 4.2 * m.font,
+            _ => 0.0,
+        };
+        let heading = if self.heading.is_empty() { 0.0 } else { 1.8 * m.font };
+        let [x, y] = self.ranges();
+        let across = width - left - 1.6 * m.font;
+        let plot = match self.height {
+            Height::Lines(lines) => [across, lines * m.font],
+            Height::ToScale(most) => {
+                let high = across * (y[1] - y[0]) / (x[1] - x[0]);
+                let most = most * m.font;
+                // too high: narrower; too flat to be seen: stretched
+                if high > most { [across * most / high, most] } else { [across, high.max(3.0 * m.font)] }
+            }
+        };
+        let below = if self.x.label.is_empty() { 2.2 } else { 3.8 } * m.font;
+        Place { left, plot, above: heading + 1.5 * m.font * rows as f64 + bar + 2.1 * m.font, below }
+    }
+
+    /// The panel, as wide as `width`; `id` names a map's cells.
+    pub(crate) fn draw(&self, svg: &mut Svg, m: &Measures, width: f64, place: &Place, id: &str) {
+        let mut at = 0.0;
+        if !self.heading.is_empty() {
+            svg.element("text", attributes! { "class": "heading", "x": "4", "y": "{:.1}"(1.2 * m.font) }, &self.heading);
+            at += 1.8 * m.font;
+        }
+        let entries = self.legend();
+        for (Entry(sample, name), (row, x)) in entries.iter().zip(Self::legend_places(&entries, m, width)) {
+            let y = at + 1.5 * m.font * row as f64;
+            svg.open("g", attributes! { "transform": "translate({x:.1} {:.1})"(y + 0.75 * m.font - 6.0) })
+                .append(sample)
+                .close("g");
+            svg.text([x + SAMPLE + 0.5 * m.font, y + 1.1 * m.font], "start", name);
+        }
+        if let Content::Map(map) = &self.content
+            && map.bar
+        {
+            svg.group(attributes! { "transform": "translate(0 {at:.1})" }, |svg| {
+                colour_bar(svg, &map.colours, m, place.left, place.plot[0]);
+            });
+        }
+        svg.text([0.2 * m.font, place.above - 0.9 * m.font], "start", &self.y.label);
+        svg.moved([place.left, place.above], |svg| self.plot(svg, m, place, id));
+    }
+
+    /// What lies between the axes, and the axes; the origin is the upper left corner.
+    fn plot(&self, svg: &mut Svg, m: &Measures, place: &Place, id: &str) {
+        let ([x_range, y_range], [width, height]) = (self.ranges(), place.plot);
+        let x = Scale::new(&self.x, x_range, [0.0, width], m.apart[0]);
+        let y = Scale::new(&self.y, y_range, [height, 0.0], m.apart[1]);
+        let (mut grid, mut labels) = (String::new(), Svg::default());
+        for (tick, label) in x.ticks() {
+            let at = x.pixel(tick);
+            let _ = write!(grid, "M{at:.1} 0V{height:.1}");
+            labels.text([at, height + 1.4 * m.font], "middle", &label);
+        }
+        for (k, name) in self.y.names.iter().flatten().enumerate() {
+            let at = y.pixel(k as f64);
+            let _ = write!(grid, "M0 {at:.1}H{width:.1}");
+            labels.text([0.4 * m.font, at - 0.8 * m.font], "start", name);
+        }
+        for (tick, label) in y.ticks().into_iter().filter(|_| self.y.names.is_none()) {
+            let at = y.pixel(tick);
+            let _ = write!(grid, "M0 {at:.1}H{width:.1}");
+            labels.text([-0.5 * m.font, at + 0.35 * m.font], "end", &label);
+        }
+        let frame = format!("M0 0V{height:.1}H{width:.1}");
+        let axes = |svg: &mut Svg, more: &str| _ = svg.leaf("path", attributes! { "class": "axis", "d": "{frame}{more}" });
+        match &self.content {
+            Content::Lines(series) => {
+                svg.leaf("path", attributes! { "class": "grid", "d": "{grid}" });
+                let zero = y.holds(0.0) && self.y.names.is_none();
+                axes(svg, &if zero { format!("M0 {:.1}H{width:.1}", y.pixel(0.0)) } else { String::new() });
+                series.iter().for_each(|series| series.draw(svg, |(a, b)| (x.pixel(a), y.pixel(b))));
+            }
+            Content::Map(map) => {
+                map.cells(svg, place.plot, id, m.first);
+                map.dots(svg, place.plot);
+                axes(svg, &outward_ticks(&x, &y, height));
+            }
+            Content::Drawing(drawing) => {
+                drawing.draw(svg, (&x, &y), m.font);
+                axes(svg, &outward_ticks(&x, &y, height));
+            }
+        }
+        svg.append(&labels);
+        if !self.x.label.is_empty() {
+            // a long label may not reach beyond the axes
+            let middle = (width / 2.0).max(width_of(&self.x.label, m) / 2.0 - place.left);
+            svg.text([middle, height + 3.0 * m.font], "middle", &self.x.label);
+        }
+    }
+}
+
+/// Ticks outside the axes, where a grid would hide what is shown.
+fn outward_ticks(x: &Scale, y: &Scale, height: f64) -> String {
+    let along = x.ticks().into_iter().map(|(tick, _)| format!("M{:.1} {height:.1}v4", x.pixel(tick)));
+    along.chain(y.ticks().into_iter().map(|(tick, _)| format!("M0 {:.1}h-4", y.pixel(tick)))).collect()
+}
