@@ -13,6 +13,11 @@ pub fn from_um(value: f64) -> f64 {
     value / 1e6
 }
 
+/// Metres to micrometres.
+pub fn to_um(metres: f64) -> f64 {
+    metres * 1e6
+}
+
 /// Millimetres to metres.
 pub fn from_mm(value: f64) -> f64 {
     value / 1e3

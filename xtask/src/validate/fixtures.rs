@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::row::decimals;
+use fogcoil::input::{read_cell, read_coil, read_ron};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -81,20 +82,15 @@ pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_path_buf)
 }
 
-fn read<T: for<'de> Deserialize<'de>>(path: &Path) -> Result<T, Failure> {
-    let text = std::fs::read_to_string(path).map_err(|e| Failure(format!("{}: {e}", path.display())))?;
-    ron::from_str(&text).map_err(|e| Failure(format!("{}: {e}", path.display())))
-}
-
 impl Fixtures {
     pub(crate) fn read() -> Result<Self, Failure> {
         let at = root().join("fixtures");
         Ok(Self {
-            cell: fogcoil::input::read_cell(&at.join("cell-reference.ron"))?.cell,
-            coil: fogcoil::input::read_coil(&at.join("coil-reference.ron"))?.design,
-            independent: read(&at.join("independent.ron"))?,
-            spools: read(&at.join("spool-materials.ron"))?,
-            printed: read::<Tables>(&at.join("paper/tables.ron"))?.rows,
+            cell: read_cell(&at.join("cell-reference.ron"))?.cell,
+            coil: read_coil(&at.join("coil-reference.ron"))?.design,
+            independent: read_ron(&at.join("independent.ron"))?,
+            spools: read_ron(&at.join("spool-materials.ron"))?,
+            printed: read_ron::<Tables>(&at.join("paper/tables.ron"))?.rows,
         })
     }
 

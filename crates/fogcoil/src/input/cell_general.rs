@@ -5,13 +5,15 @@ use std::path::PathBuf;
 use homogenization::Role;
 use homogenization::irregular::{Arrangement, Cell, Inclusion, Layout, LayoutError, Outline, Phase, displace};
 
-use super::cell_file::{CellFile, DisplacedFile, PackingFile, RingFile};
-use super::cell_material::{Material, material};
+use super::cell::MISSING;
+use super::cell_file::{CellFile, PackingFile, RingFile, VoidFile};
+use super::cell_material::Material;
 use super::fingerprint::Fingerprint;
-use super::limits::{ANGLE_DEG, FIBRE_UM, Group, PLACE_UM};
-use super::{InputError, MOST_FIBRES, MOST_RINGS};
+use super::group::Group;
+use super::mirror::Mirror;
+use super::quantity::FibreUm;
+use super::{InputError, MOST_FIBRES};
 use crate::Error;
-use crate::units::from_um;
 
 /// Realisations of a random arrangement at most.
 const MOST_REALISATIONS: usize = 1000;
@@ -60,98 +62,68 @@ impl GeneralCase {
     }
 }
 
-pub(super) fn general(top: &Group, file: &CellFile, path: PathBuf, fingerprint: Fingerprint) -> Result<GeneralCase, InputError> {
-    let outlines = outlines(top, &file.rings)?;
-    let mut phases = Vec::new();
-    for (i, ring) in file.rings.iter().enumerate() {
-        let role = if ring.glass { Role::Glass } else { Role::Coating };
-        phases.push((ring.name.clone(), role, material(&top.group(&format!("rings[{i}].material")), &ring.material)?));
+/// The layouts of a cell whose rings have these outlines about the fibre's axis.
+pub(super) fn layouts(top: &Group, file: &CellFile, outlines: &[Outline]) -> Result<Vec<Layout>, InputError> {
+    if file.voids.len() > MOST_FIBRES {
+        let problem = format!("{} voids are given, at most {MOST_FIBRES} are read", file.voids.len());
+        return Err(top.fault("voids", problem, "leave some out"));
     }
-    phases.push(("adhesive".into(), Role::Coating, material(&top.group("adhesive"), &file.adhesive)?));
-    if phases.iter().all(|(_, role, _)| *role == Role::Coating) {
-        let remedy = "mark the fibre's silica with `glass: true`";
-        return Err(top.fault("rings[0].glass", "no ring is glass, so the M row has no strain to report", remedy));
-    }
-    let voids = voids(top, file)?;
-    let mut layouts = Vec::new();
-    for arrangement in arrangements(top, file, &outlines)? {
+    let layout = |arrangement: Arrangement| {
         let fibre = |centre: &[f64; 2]| Inclusion {
             outlines: outlines.iter().map(|o| o.moved(*centre)).collect(),
             phases: (0..outlines.len()).map(Some).collect(),
         };
         let fibres = arrangement.centres.len();
-        let inclusions = arrangement.centres.iter().map(fibre).chain(voids.iter().cloned()).collect();
+        let inclusions = arrangement.centres.iter().map(fibre).chain(file.voids.iter().map(void)).collect();
         let layout = Layout::new(arrangement.lattice, inclusions, outlines.len());
-        layouts.push(layout.map_err(|error| misplaced(top, file, fibres, &error))?);
-    }
-    Ok(GeneralCase { file: path, name: file.name.clone(), layouts, phases, fingerprint })
+        layout.map_err(|error| misplaced(top, file, fibres, &error))
+    };
+    arrangements(top, file, outlines)?.into_iter().map(layout).collect()
 }
 
-/// Outlines of the rings about the fibre's axis.
-fn outlines(top: &Group, files: &[RingFile]) -> Result<Vec<Outline>, InputError> {
-    if files.is_empty() || files.len() > MOST_RINGS {
-        let problem = format!("{} rings are given, but a fibre has 1 to {MOST_RINGS}", files.len());
-        return Err(top.fault("rings", problem, "list the fibre's rings from the inside out"));
-    }
-    let outline = |(i, file): (usize, &RingFile)| {
-        let at = top.group(&format!("rings[{i}]"));
-        let (key, (a, b)) = match (file.outer_diameter_um, file.outer_diameters_um) {
-            (Some(d), None) => ("outer_diameter_um", (d, d)),
-            (None, Some(both)) => ("outer_diameters_um", both),
-            (Some(_), Some(_)) => {
-                return Err(at.fault("outer_diameters_um", "is given beside `outer_diameter_um`", "keep one of the two"));
-            }
-            (None, None) => {
-                let remedy = "add it to the group, or `outer_diameters_um: (a, b)` for an ellipse";
-                return Err(at.fault("outer_diameter_um", "the field is missing", remedy));
-            }
-        };
-        let radius = |d: f64| at.number(key, d, &FIBRE_UM).map(|d| from_um(d) / 2.0);
-        let (x, y) = file.offset_um;
-        let place = |v: f64| at.number("offset_um", v, &PLACE_UM).map(from_um);
-        let angle = at.number("angle_deg", file.angle_deg, &ANGLE_DEG)?.to_radians();
-        Ok(Outline { centre: [place(x)?, place(y)?], semi_axes: [radius(a)?, radius(b)?], angle })
+/// Outline of a ring about the fibre's axis.
+pub(super) fn outline(at: &Group, file: &RingFile) -> Result<Outline, InputError> {
+    let diameters = match (*file.outer_diameter_um, *file.outer_diameters_um) {
+        (Some(d), None) => (d, d),
+        (None, Some(both)) => both,
+        (Some(_), Some(_)) => {
+            return Err(at.fault("outer_diameters_um", "is given beside `outer_diameter_um`", "keep one of the two"));
+        }
+        (None, None) => {
+            let remedy = "add it to the group, or `outer_diameters_um: (a, b)` for an ellipse";
+            return Err(at.fault("outer_diameter_um", MISSING, remedy));
+        }
     };
-    files.iter().enumerate().map(outline).collect()
+    let semi_axes = diameters.model().map(|d| d / 2.0);
+    Ok(Outline { centre: file.offset_um.model(), semi_axes, angle: file.angle_deg.model() })
 }
 
-fn voids(top: &Group, file: &CellFile) -> Result<Vec<Inclusion>, InputError> {
-    if file.voids.len() > MOST_FIBRES {
-        return Err(top.fault(
-            "voids",
-            format!("{} voids are given, at most {MOST_FIBRES} are read", file.voids.len()),
-            "leave some out",
-        ));
-    }
-    let void = |(i, file): (usize, &super::cell_file::VoidFile)| {
-        let at = top.group(&format!("voids[{i}]"));
-        let place = |v: f64| at.number("centre_um", v, &PLACE_UM).map(from_um);
-        let radius = |d: f64| at.number("diameters_um", d, &FIBRE_UM).map(|d| from_um(d) / 2.0);
-        let angle = at.number("angle_deg", file.angle_deg, &ANGLE_DEG)?.to_radians();
-        let centre = [place(file.centre_um.0)?, place(file.centre_um.1)?];
-        let semi_axes = [radius(file.diameters_um.0)?, radius(file.diameters_um.1)?];
-        Ok(Inclusion::void(Outline { centre, semi_axes, angle }))
-    };
-    file.voids.iter().enumerate().map(void).collect()
+fn void(file: &VoidFile) -> Inclusion {
+    let semi_axes = file.diameters_um.model().map(|d| d / 2.0);
+    Inclusion::void(Outline { centre: file.centre_um.model(), semi_axes, angle: file.angle_deg.model() })
 }
 
 fn arrangements(top: &Group, file: &CellFile, outlines: &[Outline]) -> Result<Vec<Arrangement>, InputError> {
     let regular = if file.centres_um.is_empty() && file.cell_um.is_none() { lattice(top, file)? } else { given(top, file)? };
-    let Some(DisplacedFile { most_um, least_film_um, seed, realisations }) = file.displaced else { return Ok(vec![regular]) };
+    let Some(displaced) = *file.displaced else { return Ok(vec![regular]) };
     let at = top.group("displaced");
-    let most = from_um(at.number("most_um", most_um, &FIBRE_UM)?);
-    let film = from_um(at.number("least_film_um", least_film_um, &FIBRE_UM)?);
-    let count = at.count("realisations", realisations, MOST_REALISATIONS)?;
+    let (most, film) = (displaced.most_um.model(), displaced.least_film_um.model());
+    let count = at.count("realisations", displaced.realisations, MOST_REALISATIONS)?;
     // the circle about the axis that holds the fibre however its rings are shaped
     let reach = |o: &Outline| o.centre[0].hypot(o.centre[1]) + o.reach();
     let radius = outlines.iter().map(reach).fold(0.0, f64::max);
     let too_close = |error: LayoutError| at.fault("least_film_um", error.to_string(), "make it less than the regular film");
-    (0..count as u64).map(|k| displace(&regular, radius, most, film, seed.wrapping_add(k)).map_err(too_close)).collect()
+    let realisation = |k| displace(&regular, radius, most, film, displaced.seed.wrapping_add(k)).map_err(too_close);
+    (0..count as u64).map(realisation).collect()
+}
+
+/// Distance of neighbouring fibres in the file's unit, which a lattice needs.
+pub(super) fn pitch(top: &Group, file: &CellFile) -> Result<FibreUm, InputError> {
+    file.pitch_um.ok_or_else(|| top.fault("pitch_um", MISSING, "add it to the group that ends here"))
 }
 
 fn lattice(top: &Group, file: &CellFile) -> Result<Arrangement, InputError> {
-    let missing = || top.fault("pitch_um", "the field is missing", "add it to the group that ends here");
-    let pitch = from_um(top.number("pitch_um", file.pitch_um.ok_or_else(missing)?, &FIBRE_UM)?);
+    let pitch = pitch(top, file)?.model();
     let (columns, rows) = (file.columns.unwrap_or(1), file.rows.unwrap_or(1));
     top.count("columns", columns, MOST_FIBRES)?;
     top.count("rows", rows, MOST_FIBRES)?;
@@ -167,12 +139,9 @@ fn lattice(top: &Group, file: &CellFile) -> Result<Arrangement, InputError> {
 
 /// Places and lattice vectors as given.
 fn given(top: &Group, file: &CellFile) -> Result<Arrangement, InputError> {
-    let Some(vectors) = file.cell_um else {
-        return Err(top.fault(
-            "cell_um",
-            "the field is missing",
-            "`centres_um` needs the cell's two lattice vectors, e.g. ((340.0, 0.0), (170.0, 294.4))",
-        ));
+    let Some([a, b]) = *file.cell_um else {
+        let remedy = "`centres_um` needs the cell's two lattice vectors, e.g. ((340.0, 0.0), (170.0, 294.4))";
+        return Err(top.fault("cell_um", MISSING, remedy));
     };
     let beside = [
         ("pitch_um", file.pitch_um.is_some()),
@@ -181,23 +150,14 @@ fn given(top: &Group, file: &CellFile) -> Result<Arrangement, InputError> {
         ("rows", file.rows.is_some()),
     ];
     if let Some((key, _)) = beside.into_iter().find(|(_, given)| *given) {
-        return Err(top.fault(
-            key,
-            "is given beside `cell_um`, which sets the places",
-            "remove it, or `cell_um` and `centres_um`",
-        ));
+        let problem = "is given beside `cell_um`, which sets the places";
+        return Err(top.fault(key, problem, "remove it, or `cell_um` and `centres_um`"));
     }
     if file.centres_um.is_empty() || file.centres_um.len() > MOST_FIBRES {
         let problem = format!("{} fibres are placed, but a cell has 1 to {MOST_FIBRES}", file.centres_um.len());
         return Err(top.fault("centres_um", problem, "list the places of the fibre axes, e.g. [(0.0, 0.0)]"));
     }
-    let place = |key: &str, (x, y): (f64, f64)| {
-        Ok::<_, InputError>([from_um(top.number(key, x, &PLACE_UM)?), from_um(top.number(key, y, &PLACE_UM)?)])
-    };
-    let lattice = [place("cell_um", vectors[0])?, place("cell_um", vectors[1])?];
-    let centres =
-        file.centres_um.iter().enumerate().map(|(i, c)| place(&format!("centres_um[{i}]"), *c)).collect::<Result<_, _>>()?;
-    Ok(Arrangement { lattice, centres })
+    Ok(Arrangement { lattice: [a.model(), b.model()], centres: file.centres_um.model() })
 }
 
 /// What is wrong with an arrangement, at the field that is to blame.

@@ -6,9 +6,9 @@ use homogenization::irregular::Solid;
 use nalgebra::Matrix2;
 
 use super::InputError;
-use super::cell_file::{MaterialFile, OrthotropicFile, RowFile};
-use super::limits::{CONDUCTIVITY, DENSITY, EXPANSION_PER_K, Group, MODULUS_MPA, RATIO, SPECIFIC_HEAT, TEMPERATURE_C};
-use crate::units::from_mpa;
+use super::cell_file::{MaterialFile, OrthotropicFile};
+use super::group::Group;
+use super::mirror::Mirror;
 
 /// Rows of the longest table accepted.
 const MOST_ROWS: usize = 1000;
@@ -16,8 +16,10 @@ const MOST_ROWS: usize = 1000;
 /// What a phase is made of.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Material {
-    /// The same at all temperatures.
-    Constant(Box<Solid>),
+    /// Isotropic, the same at all temperatures.
+    Isotropic(Constituent),
+    /// Orthotropic, the same at all temperatures.
+    Orthotropic(Box<Solid>),
     /// Isotropic constants at increasing temperatures \[°C\], linear between them.
     Table(Vec<(f64, Constituent)>),
 }
@@ -26,7 +28,9 @@ impl Material {
     /// Its constants at a temperature \[°C\], or at any if they are constant. `None` outside its table.
     pub(crate) fn at(&self, celsius: Option<f64>) -> Option<Solid> {
         let rows = match self {
-            Self::Constant(solid) => return Some(**solid),
+            // it was valid when it was read
+            Self::Isotropic(constituent) => return Solid::isotropic(constituent).ok(),
+            Self::Orthotropic(solid) => return Some(**solid),
             Self::Table(rows) => rows,
         };
         let wanted = celsius?;
@@ -50,119 +54,93 @@ impl Material {
     /// Temperatures \[°C\] it is given for; none if constant.
     pub(crate) fn range(&self) -> Option<[f64; 2]> {
         match self {
-            Self::Constant(_) => None,
+            Self::Isotropic(_) | Self::Orthotropic(_) => None,
             Self::Table(rows) => Some([rows.first()?.0, rows.last()?.0]),
         }
     }
 }
 
+/// Checks a constituent.
 pub(super) fn material(at: &Group, file: &MaterialFile) -> Result<Material, InputError> {
     let plain = [
-        ("youngs_modulus_mpa", file.youngs_modulus_mpa),
-        ("poisson_ratio", file.poisson_ratio),
-        ("thermal_expansion_per_k", file.thermal_expansion_per_k),
-        ("conductivity_w_per_mk", file.conductivity_w_per_mk),
+        ("youngs_modulus_mpa", file.youngs_modulus_mpa.map(|value| value.model())),
+        ("poisson_ratio", *file.poisson_ratio),
+        ("thermal_expansion_per_k", file.thermal_expansion_per_k.map(|value| value.model())),
+        ("conductivity_w_per_mk", file.conductivity_w_per_mk.map(|value| value.model())),
     ];
-    let group = if file.orthotropic.is_some() { "orthotropic" } else { "table" };
-    if file.orthotropic.is_some() || !file.table.is_empty() {
-        if file.orthotropic.is_some() && !file.table.is_empty() {
-            return Err(at.fault("table", "is given beside `orthotropic`", "keep one of the two"));
-        }
-        if let Some((key, _)) = plain.iter().find(|(_, value)| value.is_some()) {
-            return Err(at.fault(key, format!("is given beside `{group}`"), "keep one of the two"));
-        }
+    if file.orthotropic.is_some() && !file.table.is_empty() {
+        return Err(at.fault("table", "is given beside `orthotropic`", "keep one of the two"));
     }
-    match &file.orthotropic {
-        Some(orthotropic) => {
-            let (density, specific_heat) = heavy(at, file)?;
-            let solid = solid(&at.group("orthotropic"), orthotropic)?;
-            Ok(Material::Constant(Box::new(Solid { density, specific_heat, ..solid })))
-        }
-        None if !file.table.is_empty() => table(at, file),
-        None => {
-            let constituent = isotropic(at, file)?;
-            Ok(Material::Constant(Box::new(at.law(Solid::isotropic(&constituent))?)))
-        }
+    if let Some(group) = file.general_key()
+        && let Some((key, _)) = plain.iter().find(|(_, value)| value.is_some())
+    {
+        return Err(at.fault(key, format!("is given beside `{group}`"), "keep one of the two"));
     }
-}
-
-/// The isotropic constituent of a material that has neither table nor orthotropic constants.
-pub(super) fn isotropic(at: &Group, file: &MaterialFile) -> Result<Constituent, InputError> {
-    let required = |key: &str, value: Option<f64>| {
-        value.ok_or_else(|| {
-            at.fault(key, "the field is missing", "add it to the group, or give `orthotropic` or `table` in place of all")
-        })
+    // the same at all temperatures
+    let density = file.density_kg_per_m3.map(|value| value.model());
+    let specific_heat = file.specific_heat_j_per_kgk.map(|value| value.model());
+    if let Some(orthotropic) = &*file.orthotropic {
+        let solid = solid(&at.group("orthotropic"), orthotropic)?;
+        return Ok(Material::Orthotropic(Box::new(Solid { density, specific_heat, ..solid })));
+    }
+    if !file.table.is_empty() {
+        let rows = table(at, file)?.into_iter();
+        return Ok(Material::Table(rows.map(|(t, plain)| (t, Constituent { density, specific_heat, ..plain })).collect()));
+    }
+    let given = |i: usize| {
+        let (key, value) = plain[i];
+        let remedy = "add it to the group, or give `orthotropic` or `table` in place of all";
+        value.ok_or_else(|| at.fault(key, "the field is missing", remedy))
     };
-    let constants = [
-        required("youngs_modulus_mpa", file.youngs_modulus_mpa)?,
-        required("poisson_ratio", file.poisson_ratio)?,
-        required("thermal_expansion_per_k", file.thermal_expansion_per_k)?,
-        required("conductivity_w_per_mk", file.conductivity_w_per_mk)?,
-    ];
-    let (density, specific_heat) = heavy(at, file)?;
-    Ok(Constituent { density, specific_heat, ..constituent(at, constants)? })
+    let plain = constituent(at, [given(0)?, given(1)?, given(2)?, given(3)?])?;
+    Ok(Material::Isotropic(Constituent { density, specific_heat, ..plain }))
 }
 
-/// Density \[kg/m³\] and specific heat \[J/(kg K)\], as far as they are given: the same at all temperatures.
-fn heavy(at: &Group, file: &MaterialFile) -> Result<(Option<f64>, Option<f64>), InputError> {
-    let optional = |key: &str, value: Option<f64>, limit| value.map(|value| at.number(key, value, limit)).transpose();
-    let density = optional("density_kg_per_m3", file.density_kg_per_m3, &DENSITY)?;
-    Ok((density, optional("specific_heat_j_per_kgk", file.specific_heat_j_per_kgk, &SPECIFIC_HEAT)?))
-}
-
+/// Of modulus, ratio, expansion and conductivity, SI.
 fn constituent(at: &Group, [modulus, ratio, expansion, conductivity]: [f64; 4]) -> Result<Constituent, InputError> {
-    let elastic = Isotropic {
-        youngs_modulus: from_mpa(at.number("youngs_modulus_mpa", modulus, &MODULUS_MPA)?),
-        poisson_ratio: ratio,
-        thermal_expansion: at.number("thermal_expansion_per_k", expansion, &EXPANSION_PER_K)?,
-    };
+    let elastic = Isotropic { youngs_modulus: modulus, poisson_ratio: ratio, thermal_expansion: expansion };
     at.law(elastic.law())?;
-    Ok(Constituent::new(elastic, at.number("conductivity_w_per_mk", conductivity, &CONDUCTIVITY)?))
+    Ok(Constituent::new(elastic, conductivity))
 }
 
-fn table(at: &Group, file: &MaterialFile) -> Result<Material, InputError> {
-    let (files, (density, specific_heat)) = (&file.table, heavy(at, file)?);
-    if files.len() > MOST_ROWS {
-        let problem = format!("{} rows are given, at most {MOST_ROWS} are read", files.len());
+fn table(at: &Group, file: &MaterialFile) -> Result<Vec<(f64, Constituent)>, InputError> {
+    if file.table.len() > MOST_ROWS {
+        let problem = format!("{} rows are given, at most {MOST_ROWS} are read", file.table.len());
         return Err(at.fault("table", problem, "thin the table out"));
     }
-    let mut rows: Vec<(f64, Constituent)> = Vec::with_capacity(files.len());
-    for (i, file) in files.iter().enumerate() {
-        let at = at.group(&format!("table[{i}]"));
-        let temperature = at.number("temperature_c", file.temperature_c, &TEMPERATURE_C)?;
+    let mut rows: Vec<(f64, Constituent)> = Vec::with_capacity(file.table.len());
+    for (at, file) in at.each("table", &file.table) {
+        let temperature = file.temperature_c.model();
         if let Some((before, _)) = rows.last().filter(|(before, _)| temperature <= *before) {
             let problem = format!("{temperature} degC is not greater than the row before it, {before} degC");
             return Err(at.fault("temperature_c", problem, "list the rows by increasing temperature"));
         }
-        let RowFile { youngs_modulus_mpa, poisson_ratio, thermal_expansion_per_k, conductivity_w_per_mk, .. } = *file;
-        let plain = constituent(&at, [youngs_modulus_mpa, poisson_ratio, thermal_expansion_per_k, conductivity_w_per_mk])?;
-        rows.push((temperature, Constituent { density, specific_heat, ..plain }));
+        let (expansion, conductivity) = (file.thermal_expansion_per_k.model(), file.conductivity_w_per_mk.model());
+        rows.push((
+            temperature,
+            constituent(&at, [file.youngs_modulus_mpa.model(), file.poisson_ratio, expansion, conductivity])?,
+        ));
     }
-    Ok(Material::Table(rows))
+    Ok(rows)
 }
 
 fn solid(at: &Group, file: &OrthotropicFile) -> Result<Solid, InputError> {
-    let modulus = |key: &str, value: f64| at.number(key, value, &MODULUS_MPA).map(from_mpa);
-    let expansion = |key: &str, value: f64| at.number(key, value, &EXPANSION_PER_K);
     let law = Orthotropic {
-        e_x: modulus("e_x_mpa", file.e_x_mpa)?,
-        e_y: modulus("e_y_mpa", file.e_y_mpa)?,
-        e_z: modulus("e_z_mpa", file.e_z_mpa)?,
-        g_yz: modulus("g_yz_mpa", file.g_yz_mpa)?,
-        g_xz: modulus("g_xz_mpa", file.g_xz_mpa)?,
-        g_xy: modulus("g_xy_mpa", file.g_xy_mpa)?,
-        nu_yz: at.number("nu_yz", file.nu_yz, &RATIO)?,
-        nu_xz: at.number("nu_xz", file.nu_xz, &RATIO)?,
-        nu_xy: at.number("nu_xy", file.nu_xy, &RATIO)?,
-        alpha_x: expansion("alpha_x_per_k", file.alpha_x_per_k)?,
-        alpha_y: expansion("alpha_y_per_k", file.alpha_y_per_k)?,
-        alpha_z: expansion("alpha_z_per_k", file.alpha_z_per_k)?,
+        e_x: file.e_x_mpa.model(),
+        e_y: file.e_y_mpa.model(),
+        e_z: file.e_z_mpa.model(),
+        g_yz: file.g_yz_mpa.model(),
+        g_xz: file.g_xz_mpa.model(),
+        g_xy: file.g_xy_mpa.model(),
+        nu_yz: file.nu_yz.model(),
+        nu_xz: file.nu_xz.model(),
+        nu_xy: file.nu_xy.model(),
+        alpha_x: file.alpha_x_per_k.model(),
+        alpha_y: file.alpha_y_per_k.model(),
+        alpha_z: file.alpha_z_per_k.model(),
     };
     let law = at.law(law.law())?;
-    let conductivity = |key: &str, value: f64| at.number(key, value, &CONDUCTIVITY);
-    let (x, y) = (conductivity("k_x_w_per_mk", file.k_x_w_per_mk)?, conductivity("k_y_w_per_mk", file.k_y_w_per_mk)?);
-    let conductivity_z = conductivity("k_z_w_per_mk", file.k_z_w_per_mk)?;
-    let angle = at.number("angle_deg", file.angle_deg, &super::limits::ANGLE_DEG)?.to_radians();
-    let conductivity = Matrix2::new(x, 0.0, 0.0, y);
-    Ok(Solid { law, conductivity, conductivity_z, density: None, specific_heat: None }.turned(angle))
+    let conductivity = Matrix2::new(file.k_x_w_per_mk.model(), 0.0, 0.0, file.k_y_w_per_mk.model());
+    let conductivity_z = file.k_z_w_per_mk.model();
+    Ok(Solid { law, conductivity, conductivity_z, density: None, specific_heat: None }.turned(file.angle_deg.model()))
 }

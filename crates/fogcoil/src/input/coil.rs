@@ -2,26 +2,27 @@
 
 use std::path::{Path, PathBuf};
 
-use coil::{Body, Dehomogenization, Design, Layout, SteadySensitivity};
+use coil::{Body, Dehomogenization, Design, Layout, Sensor, SteadySensitivity};
 use fem_core::material::TransverselyIsotropic;
 use homogenization::{Constants, Packing, TOLERANCE};
 use winding::Winding;
 
 use super::cell::{AnyCell, read_any_cell};
 use super::cell_general::GeneralCase;
-use super::coil_file::{CoilFile, ConstantsFile, DehomogenizationFile, MaterialFile, MatrixFile};
+use super::coil_file::{BodyFile, CoilFile, DehomogenizationFile, MaterialFile};
 use super::fingerprint::Fingerprint;
-use super::limits::{
-    CONDUCTIVITY, DENSITY, EXPANSION_PER_K, Group, MODULUS_GPA, MODULUS_MPA, RATIO, SPECIFIC_HEAT, STRAIN_RATIO,
-};
+use super::group::Group;
 use super::mechanics::mechanics;
+use super::mirror::Mirror;
 use super::source::Source;
+use super::spool_file::spool;
 use super::warnings::{in_medium, warnings};
-use super::{InputError, coil_parts as parts, heat};
+use super::winding_file::winding;
+use super::{InputError, heat};
 use crate::Error;
 use crate::glossary::Remark;
 use crate::homogenize::at_temperature;
-use crate::units::{from_gpa, from_mm, from_mpa, to_mm};
+use crate::units::to_mm;
 
 /// Table II of Osunluk, Ogut and Ozbay as printed; its exponents and the last sign are misprints (see the validation).
 pub const PRINTED: Dehomogenization = Dehomogenization { m_rx: 2.74e-6, m_ry: 2.70e-6, m_rz: -0.17, m_rt: 9.98e-6 };
@@ -77,6 +78,9 @@ struct Cells<'a> {
     pitch: f64,
 }
 
+/// How far the winding may reach beyond the coil's rectangle, in pitches: drawings round to hundredths of a millimetre.
+const SLACK: f64 = 0.1;
+
 /// Largest relative difference between the pitches of cell and winding that passes without a word.
 const SAME_PITCH: f64 = 0.01;
 
@@ -105,20 +109,14 @@ pub fn check_coil(path: &Path, text: &str) -> Result<CoilCase, Error> {
 fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
     let file: CoilFile = source.parse()?;
     let top = Group::whole(&source);
-    let winding = parts::winding(&top.group("winding"), &file.winding)?;
+    let winding = winding(&top.group("winding"), &file.winding)?;
     let inner_radius = winding.spec().inner_radius;
-    let at = top.group("coil");
-    parts::check_rectangle(&at, &file.coil, &winding)?;
-    let density = at.number("density_kg_per_m3", file.coil.density_kg_per_m3, &DENSITY)?;
-    let specific_heat = at.number("specific_heat_j_per_kgk", file.coil.specific_heat_j_per_kgk, &SPECIFIC_HEAT)?;
-    let spool = file.spool.as_ref().map(|spool| parts::spool(&top.group("spool"), spool, inner_radius)).transpose()?;
-    let surroundings = parts::surroundings(&top.group("surroundings"), &file.surroundings)?;
-    let mut sensor = parts::sensor(&top.group("sensor"), &file.sensor)?;
+    check_rectangle(&top.group("coil"), &file.coil, &winding)?;
+    let spool = file.spool.as_ref().map(|file| spool(&top.group("spool"), file, inner_radius)).transpose()?;
+    let mut sensor: Sensor = file.sensor.model();
     if spool.is_none() {
         sensor.radius = inner_radius;
     }
-    let optics = parts::optics(&top.group("optics"), &file.optics)?;
-    let drifts = parts::drifts(&top.group("drifts"), &file.drifts)?;
     let mut cells = Cells {
         top: top.clone(),
         source: &source,
@@ -129,13 +127,28 @@ fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
     };
     let (constants, material) = material(&mut cells, &file.coil.material)?;
     let (dehomogenization, row) = dehomogenization(&mut cells, &file.dehomogenization)?;
-    let (outer_radius, height) = (from_mm(file.coil.outer_radius_mm), from_mm(file.coil.height_mm));
     let (elastic, conductivity_z, conductivity_r) = constants;
-    let body = Body { outer_radius, height, density, specific_heat, elastic, conductivity_z, conductivity_r };
-    let heat = heat::paths(&top.group("heat"), &file.heat, spool.as_ref())?;
-    let mechanics = mechanics(&top.group("mechanics"), &file.mechanics, &body)?;
-    let design =
-        Design { winding: *winding.spec(), body, spool, surroundings, mechanics, heat, sensor, optics, drifts, dehomogenization };
+    let body = Body {
+        outer_radius: file.coil.outer_radius_mm.model(),
+        height: file.coil.height_mm.model(),
+        density: file.coil.density_kg_per_m3.model(),
+        specific_heat: file.coil.specific_heat_j_per_kgk.model(),
+        elastic,
+        conductivity_z,
+        conductivity_r,
+    };
+    let design = Design {
+        winding: *winding.spec(),
+        body,
+        surroundings: file.surroundings.model(),
+        mechanics: mechanics(&top.group("mechanics"), &file.mechanics, &body)?,
+        heat: heat::paths(&top.group("heat"), &file.heat, spool.as_ref())?,
+        spool,
+        sensor,
+        optics: file.optics.model(),
+        drifts: file.drifts.model(),
+        dehomogenization,
+    };
     let layout = Layout::new(&design).map_err(|error| design_fault(&top, &design, &error))?;
     check_film(&top, &design, &layout)?;
     let name = file.name;
@@ -182,54 +195,50 @@ fn design_fault(top: &Group, design: &Design, error: &coil::Error) -> InputError
     }
 }
 
+/// Checks the coil's rectangle against its winding.
+fn check_rectangle(at: &Group, file: &BodyFile, winding: &Winding) -> Result<(), InputError> {
+    let (inner, outer) = (to_mm(winding.spec().inner_radius), file.outer_radius_mm.0);
+    if outer <= inner {
+        let problem = format!("{outer} mm is not greater than winding.inner_radius_mm, {inner} mm");
+        return Err(at.fault("outer_radius_mm", problem, "give the radius, not the thickness, of the wound coil"));
+    }
+    let slack = SLACK * to_mm(winding.spec().pitch);
+    let extents = [("outer_radius_mm", outer, winding.outer_radius()), ("height_mm", file.height_mm.0, winding.height())];
+    for (key, given, wound) in extents {
+        let wound = to_mm(wound);
+        if wound > given + slack {
+            let problem = format!("the winding reaches {wound:.4} mm, outside the coil's {given} mm");
+            let remedy = format!("set it to {wound:.4} or more, or check layers, turns and pitch_mm");
+            return Err(at.fault(key, problem, remedy));
+        }
+    }
+    Ok(())
+}
+
+/// Elastic constants, and conductivities along and across the fibre.
 type Material = (TransverselyIsotropic, f64, f64);
 
 fn material(cells: &mut Cells, file: &MaterialFile) -> Result<(Material, Origin), Error> {
-    let at = cells.top.group("coil.material");
-    match file {
-        MaterialFile::Constants(file) => Ok((constants(&at, file)?, Origin::Given)),
+    let (material, origin): (Material, _) = match file {
+        MaterialFile::Constants(file) => (file.model(), Origin::Given),
         MaterialFile::FromCell(path) => {
             let (path, constants) = cells.constants("coil.material", path)?;
-            let elastic = constants.elastic();
-            at.law(elastic.law())?;
-            Ok(((elastic, constants.k_z, constants.k_r), Origin::Cell(path)))
+            ((constants.elastic(), constants.k_z, constants.k_r), Origin::Cell(path))
         }
-    }
-}
-
-fn constants(at: &Group, file: &ConstantsFile) -> Result<Material, InputError> {
-    let elastic = TransverselyIsotropic {
-        e_z: from_gpa(at.number("e_z_gpa", file.e_z_gpa, &MODULUS_GPA)?),
-        e_r: from_mpa(at.number("e_r_mpa", file.e_r_mpa, &MODULUS_MPA)?),
-        g_zr: from_mpa(at.number("g_zr_mpa", file.g_zr_mpa, &MODULUS_MPA)?),
-        nu_zr: at.number("nu_zr", file.nu_zr, &RATIO)?,
-        nu_r: file.nu_r,
-        alpha_z: at.number("alpha_z_per_k", file.alpha_z_per_k, &EXPANSION_PER_K)?,
-        alpha_r: at.number("alpha_r_per_k", file.alpha_r_per_k, &EXPANSION_PER_K)?,
     };
-    at.law(elastic.law())?;
-    let k_z = at.number("k_z_w_per_mk", file.k_z_w_per_mk, &CONDUCTIVITY)?;
-    Ok((elastic, k_z, at.number("k_r_w_per_mk", file.k_r_w_per_mk, &CONDUCTIVITY)?))
+    cells.top.group("coil.material").law(material.0.law())?;
+    Ok((material, origin))
 }
 
 fn dehomogenization(cells: &mut Cells, file: &DehomogenizationFile) -> Result<(Dehomogenization, Origin), Error> {
     match file {
-        DehomogenizationFile::Matrix(file) => Ok((matrix(&cells.top.group("dehomogenization"), file)?, Origin::Given)),
+        DehomogenizationFile::Matrix(file) => Ok((file.model(), Origin::Given)),
         DehomogenizationFile::Printed => Ok((PRINTED, Origin::Printed)),
         DehomogenizationFile::FromCell(path) => {
             let (path, Constants { m_rx, m_ry, m_rz, m_rt, .. }) = cells.constants("dehomogenization", path)?;
             Ok((Dehomogenization { m_rx, m_ry, m_rz, m_rt }, Origin::Cell(path)))
         }
     }
-}
-
-fn matrix(at: &Group, file: &MatrixFile) -> Result<Dehomogenization, InputError> {
-    Ok(Dehomogenization {
-        m_rx: at.number("m_rx", file.m_rx, &STRAIN_RATIO)?,
-        m_ry: at.number("m_ry", file.m_ry, &STRAIN_RATIO)?,
-        m_rz: at.number("m_rz", file.m_rz, &STRAIN_RATIO)?,
-        m_rt: at.number("m_rt_per_k", file.m_rt_per_k, &EXPANSION_PER_K)?,
-    })
 }
 
 impl Cells<'_> {

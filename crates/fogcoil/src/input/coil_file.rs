@@ -1,17 +1,23 @@
-//! The fields of `COIL.ron` as they are written: coil, winding, optics.
+//! `COIL.ron` as it is written: the whole, the winding as a body, optics, drifts, dehomogenisation.
 
+use bias::{Optics, StrainConvention};
+use coil::{Dehomogenization, Design, Drifts};
+use fem_core::material::TransverselyIsotropic;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
-use super::limits::{
-    CONDUCTIVITY, CURVATURE_PER_K2, DENSITY, DRIFT_DEG_PER_H_PER_K, EXPANSION_PER_K, INDEX, LENGTH_MM, MODULUS_GPA, MODULUS_MPA,
-    PHOTOELASTIC, PITCH_MM, RATIO, SPECIFIC_HEAT, STRAIN_RATIO, TAIL_M, TEMPERATURE_C, within,
-};
+use super::heat::HeatFile;
 use super::mechanics::MechanicsFile;
-pub(crate) use super::spool_file::{FlangeFile, HeatFile, SensorFile, SolidFile, SpoolFile, SurroundingsFile};
+use super::mirror::{Mirror, mirror, mirror_choice};
+use super::quantity::{
+    Conductivity, CurvaturePerK2, Density, DriftDegPerHPerK, ExpansionPerK, Index, LengthMm, ModulusGpa, ModulusMpa,
+    Photoelastic, Ratio, SpecificHeat, StrainRatio, TemperatureC,
+};
+use super::spool_file::{SensorFile, SpoolFile, SurroundingsFile};
+use super::winding_file::WindingFile;
 
 /// A coil on its spool, `COIL.ron`.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CoilFile {
     /// Its name.
@@ -25,212 +31,122 @@ pub(crate) struct CoilFile {
     /// The medium around the solids.
     pub(crate) surroundings: SurroundingsFile,
     /// What of stiffness and bond depends on temperature or time; Elastic unless given.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "MechanicsFile::is_elastic")]
     pub(crate) mechanics: MechanicsFile,
     /// Heat paths besides conduction.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "HeatFile::is_none")]
     pub(crate) heat: HeatFile,
     /// The spool's thermometer.
     pub(crate) sensor: SensorFile,
     /// The fibre's optics.
     pub(crate) optics: OpticsFile,
     /// What vanishes at a reference temperature.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "DriftsFile::is_none")]
     pub(crate) drifts: DriftsFile,
     /// From the coil's strains to those of the glass.
     pub(crate) dehomogenization: DehomogenizationFile,
 }
 
-/// How the fibre lies.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct WindingFile {
-    /// Which layer belongs to which half.
-    pub(crate) pattern: PatternFile,
-    /// Number of layers, 1 to 10000.
-    pub(crate) layers: usize,
-    /// Turns of layers 1, 3, 5, ..., 1 to 100000.
-    pub(crate) turns_odd_layers: usize,
-    /// Turns of layers 2, 4, 6, ...: as many, or one fewer.
-    pub(crate) turns_even_layers: usize,
-    /// Radius on which the first layer lies.
-    #[schemars(transform = within(&LENGTH_MM))]
-    pub(crate) inner_radius_mm: f64,
-    /// Distance of neighbouring turns.
-    #[schemars(transform = within(&PITCH_MM))]
-    pub(crate) pitch_mm: f64,
-    /// Side at which the CW half passes from layer to layer; Right is +y.
-    pub(crate) cw_climbs: SideFile,
-    /// True: 2 pi r; Equal: every turn the mean length.
-    pub(crate) turn_length: TurnLengthFile,
-    /// Bare fibre beyond the winding.
-    pub(crate) tails_m: TailsFile,
-    /// A layer wound wrongly; None unless given.
-    #[serde(default)]
-    pub(crate) defect: Option<DefectFile>,
-}
-
-/// A layer wound wrongly.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct DefectFile {
-    /// Which, from 1, outwards.
-    pub(crate) layer: usize,
-    /// Turns too many, or if negative too few, of the half that owns the layer.
-    pub(crate) turns: i32,
-}
-
 /// What vanishes at a reference temperature.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema, PartialEq)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct DriftsFile {
     /// The temperature; 20 unless given.
-    #[schemars(transform = within(&TEMPERATURE_C))]
-    pub(crate) reference_c: f64,
+    pub(crate) reference_c: TemperatureC,
     /// b of dn/dT = (dn/dT)0 + b (T - reference); 0 unless given.
-    #[schemars(transform = within(&CURVATURE_PER_K2))]
-    pub(crate) thermo_optic_curvature_per_k2: f64,
+    pub(crate) thermo_optic_curvature_per_k2: CurvaturePerK2,
     /// Bias of the read-out per kelvin of the thermometer's place; 0 unless given.
-    #[schemars(transform = within(&DRIFT_DEG_PER_H_PER_K))]
-    pub(crate) read_out_deg_per_h_per_k: f64,
+    pub(crate) read_out_deg_per_h_per_k: DriftDegPerHPerK,
 }
 
 impl Default for DriftsFile {
     fn default() -> Self {
-        Self { reference_c: 20.0, thermo_optic_curvature_per_k2: 0.0, read_out_deg_per_h_per_k: 0.0 }
+        Self::of(&Drifts::default())
     }
 }
 
-/// Which layer belongs to which half.
-#[derive(Deserialize, JsonSchema)]
-pub(crate) enum PatternFile {
-    Cylindrical,
-    Dipole,
-    Quadrupole,
-    PracticalQuadrupole,
-    Octupole,
-}
-
-/// An end of the coil: Left is y = 0, Right +y.
-#[derive(Deserialize, JsonSchema, Clone, Copy)]
-pub(crate) enum SideFile {
-    Left,
-    Right,
-}
-
-/// How long a turn is.
-#[derive(Deserialize, JsonSchema)]
-pub(crate) enum TurnLengthFile {
-    True,
-    Equal,
-}
-
-/// Bare fibre beyond the winding, at the temperature of the hub's bore.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct TailsFile {
-    /// At the CW half's outer end.
-    #[schemars(transform = within(&TAIL_M))]
-    pub(crate) cw: f64,
-    /// At the CCW half's outer end.
-    #[schemars(transform = within(&TAIL_M))]
-    pub(crate) ccw: f64,
+impl DriftsFile {
+    fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// The potted winding as a body.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BodyFile {
     /// Its outer radius.
-    #[schemars(transform = within(&LENGTH_MM))]
-    pub(crate) outer_radius_mm: f64,
+    pub(crate) outer_radius_mm: LengthMm,
     /// From y = 0 to its right face.
-    #[schemars(transform = within(&LENGTH_MM))]
-    pub(crate) height_mm: f64,
+    pub(crate) height_mm: LengthMm,
     /// Density.
-    #[schemars(transform = within(&DENSITY))]
-    pub(crate) density_kg_per_m3: f64,
+    pub(crate) density_kg_per_m3: Density,
     /// Specific heat.
-    #[schemars(transform = within(&SPECIFIC_HEAT))]
-    pub(crate) specific_heat_j_per_kgk: f64,
+    pub(crate) specific_heat_j_per_kgk: SpecificHeat,
     /// Its effective constants.
     pub(crate) material: MaterialFile,
 }
 
 /// Effective constants: written, or of a cell file, whose path is relative to this file.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 pub(crate) enum MaterialFile {
     Constants(ConstantsFile),
     FromCell(String),
 }
 
 /// Effective constants, transversely isotropic; z is the fibre (hoop), r across it.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ConstantsFile {
     /// Young's modulus along the fibre.
-    #[schemars(transform = within(&MODULUS_GPA))]
-    pub(crate) e_z_gpa: f64,
+    pub(crate) e_z_gpa: ModulusGpa,
     /// Young's modulus across it.
-    #[schemars(transform = within(&MODULUS_MPA))]
-    pub(crate) e_r_mpa: f64,
+    pub(crate) e_r_mpa: ModulusMpa,
     /// Shear modulus along the fibre.
-    #[schemars(transform = within(&MODULUS_MPA))]
-    pub(crate) g_zr_mpa: f64,
+    pub(crate) g_zr_mpa: ModulusMpa,
     /// Contraction across per extension along the fibre.
-    #[schemars(transform = within(&RATIO))]
-    pub(crate) nu_zr: f64,
+    pub(crate) nu_zr: Ratio,
     /// Poisson's ratio across; the stiffness must be positive definite.
     pub(crate) nu_r: f64,
     /// Expansion along the fibre.
-    #[schemars(transform = within(&EXPANSION_PER_K))]
-    pub(crate) alpha_z_per_k: f64,
+    pub(crate) alpha_z_per_k: ExpansionPerK,
     /// Expansion across it.
-    #[schemars(transform = within(&EXPANSION_PER_K))]
-    pub(crate) alpha_r_per_k: f64,
+    pub(crate) alpha_r_per_k: ExpansionPerK,
     /// Conductivity along the fibre.
-    #[schemars(transform = within(&CONDUCTIVITY))]
-    pub(crate) k_z_w_per_mk: f64,
+    pub(crate) k_z_w_per_mk: Conductivity,
     /// Conductivity across it.
-    #[schemars(transform = within(&CONDUCTIVITY))]
-    pub(crate) k_r_w_per_mk: f64,
+    pub(crate) k_r_w_per_mk: Conductivity,
 }
 
 /// The fibre's optics.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OpticsFile {
     /// n.
-    #[schemars(transform = within(&INDEX))]
-    pub(crate) refractive_index: f64,
+    pub(crate) refractive_index: Index,
     /// dn/dT.
-    #[schemars(transform = within(&EXPANSION_PER_K))]
-    pub(crate) thermo_optic_per_k: f64,
+    pub(crate) thermo_optic_per_k: ExpansionPerK,
     /// Expansion of the glass.
-    #[schemars(transform = within(&EXPANSION_PER_K))]
-    pub(crate) thermal_expansion_per_k: f64,
+    pub(crate) thermal_expansion_per_k: ExpansionPerK,
     /// Photoelastic constant.
-    #[schemars(transform = within(&PHOTOELASTIC))]
-    pub(crate) p11: f64,
+    pub(crate) p11: Photoelastic,
     /// Photoelastic constant.
-    #[schemars(transform = within(&PHOTOELASTIC))]
-    pub(crate) p12: f64,
+    pub(crate) p12: Photoelastic,
     /// Effective diameter D.
-    #[schemars(transform = within(&LENGTH_MM))]
-    pub(crate) sagnac_diameter_mm: f64,
+    pub(crate) sagnac_diameter_mm: LengthMm,
     /// The strain in eq. (2).
     pub(crate) strain: StrainFile,
 }
 
 /// The strain in eq. (2): as printed, or without the free expansion.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 pub(crate) enum StrainFile {
     Total,
     Mechanical,
 }
 
 /// The row M: written, of a cell file, or as the paper prints it.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 pub(crate) enum DehomogenizationFile {
     Matrix(MatrixFile),
     FromCell(String),
@@ -238,19 +154,89 @@ pub(crate) enum DehomogenizationFile {
 }
 
 /// eps_r of the glass = m_rx eps_rr + m_ry eps_yy + m_rz eps_hoop + m_rt dT, with total strains.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MatrixFile {
     /// Of the coil's radial strain.
-    #[schemars(transform = within(&STRAIN_RATIO))]
-    pub(crate) m_rx: f64,
+    pub(crate) m_rx: StrainRatio,
     /// Of the coil's axial strain.
-    #[schemars(transform = within(&STRAIN_RATIO))]
-    pub(crate) m_ry: f64,
+    pub(crate) m_ry: StrainRatio,
     /// Of the hoop strain.
-    #[schemars(transform = within(&STRAIN_RATIO))]
-    pub(crate) m_rz: f64,
+    pub(crate) m_rz: StrainRatio,
     /// Of the temperature difference.
-    #[schemars(transform = within(&EXPANSION_PER_K))]
-    pub(crate) m_rt_per_k: f64,
+    pub(crate) m_rt_per_k: ExpansionPerK,
+}
+
+mirror!(DriftsFile is Drifts {
+    reference_c = reference,
+    thermo_optic_curvature_per_k2 = thermo_optic_curvature,
+    read_out_deg_per_h_per_k = read_out,
+});
+mirror!(OpticsFile is Optics {
+    refractive_index = refractive_index,
+    thermo_optic_per_k = thermo_optic,
+    thermal_expansion_per_k = thermal_expansion,
+    p11 = p11,
+    p12 = p12,
+    sagnac_diameter_mm = sagnac_diameter,
+    strain = strain,
+});
+mirror_choice!(StrainFile is StrainConvention { Total, Mechanical });
+mirror!(MatrixFile is Dehomogenization { m_rx = m_rx, m_ry = m_ry, m_rz = m_rz, m_rt_per_k = m_rt });
+
+impl Mirror<(TransverselyIsotropic, f64, f64)> for ConstantsFile {
+    fn model(&self) -> (TransverselyIsotropic, f64, f64) {
+        let elastic = TransverselyIsotropic {
+            e_z: self.e_z_gpa.model(),
+            e_r: self.e_r_mpa.model(),
+            g_zr: self.g_zr_mpa.model(),
+            nu_zr: self.nu_zr.model(),
+            nu_r: self.nu_r,
+            alpha_z: self.alpha_z_per_k.model(),
+            alpha_r: self.alpha_r_per_k.model(),
+        };
+        (elastic, self.k_z_w_per_mk.model(), self.k_r_w_per_mk.model())
+    }
+
+    fn of((elastic, k_z, k_r): &(TransverselyIsotropic, f64, f64)) -> Self {
+        Self {
+            e_z_gpa: Mirror::of(&elastic.e_z),
+            e_r_mpa: Mirror::of(&elastic.e_r),
+            g_zr_mpa: Mirror::of(&elastic.g_zr),
+            nu_zr: Mirror::of(&elastic.nu_zr),
+            nu_r: elastic.nu_r,
+            alpha_z_per_k: Mirror::of(&elastic.alpha_z),
+            alpha_r_per_k: Mirror::of(&elastic.alpha_r),
+            k_z_w_per_mk: Mirror::of(k_z),
+            k_r_w_per_mk: Mirror::of(k_r),
+        }
+    }
+}
+
+impl CoilFile {
+    /// The file that says `design`, its constants written out.
+    pub(crate) fn new(name: &str, design: &Design) -> Self {
+        let body = &design.body;
+        let constants = ConstantsFile::of(&(body.elastic, body.conductivity_z, body.conductivity_r));
+        let coil = BodyFile {
+            outer_radius_mm: Mirror::of(&body.outer_radius),
+            height_mm: Mirror::of(&body.height),
+            density_kg_per_m3: Mirror::of(&body.density),
+            specific_heat_j_per_kgk: Mirror::of(&body.specific_heat),
+            material: MaterialFile::Constants(constants),
+        };
+        Self {
+            name: name.to_owned(),
+            winding: Mirror::of(&design.winding),
+            coil,
+            spool: Mirror::of(&design.spool),
+            surroundings: Mirror::of(&design.surroundings),
+            mechanics: Mirror::of(&design.mechanics),
+            heat: Mirror::of(&design.heat),
+            sensor: Mirror::of(&design.sensor),
+            optics: Mirror::of(&design.optics),
+            drifts: Mirror::of(&design.drifts),
+            dehomogenization: DehomogenizationFile::Matrix(Mirror::of(&design.dehomogenization)),
+        }
+    }
 }

@@ -1,19 +1,20 @@
-//! How a coil file says that stiffness or bond depends on temperature and time.
+//! What `COIL.ron` says of stiffness and bond that depend on temperature and time.
 
 use coil::{Body, FactorsAt, Mechanics, Opening};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::InputError;
-use super::coil_file::SideFile;
-use super::coil_parts::side;
-use super::limits::{FACTOR, Group, HYSTERESIS_K, SHARE, TEMPERATURE_C, TIME_S, within};
+use super::group::Group;
+use super::mirror::{Mirror, mirror};
+use super::quantity::{Factor, HysteresisK, Share, TemperatureC, TimeS};
+use super::winding_file::SideFile;
 
 /// Rows of the longest temperature table accepted: each costs a model.
 const MOST_ROWS: usize = 100;
 
 /// What of the coil's stiffness or bond depends on temperature or time.
-#[derive(Deserialize, JsonSchema, Default)]
+#[derive(Serialize, Deserialize, JsonSchema, Default)]
 pub(crate) enum MechanicsFile {
     #[default]
     Elastic,
@@ -23,86 +24,94 @@ pub(crate) enum MechanicsFile {
 }
 
 /// Factors at a mean temperature of the coil; linear between rows, constant beyond. At most 100 rows.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FactorsFile {
     /// The temperature.
-    #[schemars(transform = within(&TEMPERATURE_C))]
-    temperature_c: f64,
+    temperature_c: TemperatureC,
     /// On E_r and G.
-    #[schemars(transform = within(&FACTOR))]
-    transverse_modulus_factor: f64,
+    transverse_modulus_factor: Factor,
     /// On alpha_r.
-    #[schemars(transform = within(&FACTOR))]
-    transverse_expansion_factor: f64,
+    transverse_expansion_factor: Factor,
 }
 
 /// E(t)/E(0) = 1 - fraction + fraction exp(-t/time).
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RelaxingFile {
     /// What relaxes.
-    #[schemars(transform = within(&SHARE))]
-    fraction: f64,
+    fraction: Share,
     /// In what time.
-    #[schemars(transform = within(&TIME_S))]
-    time_s: f64,
+    time_s: TimeS,
 }
 
 /// The outer part of the bond to a flange opens in the cold.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OpeningFile {
     /// Of the flange.
     side: SideFile,
     /// Where it opens.
-    #[schemars(transform = within(&TEMPERATURE_C))]
-    below_c: f64,
+    below_c: TemperatureC,
     /// How much above it closes.
-    #[schemars(transform = within(&HYSTERESIS_K))]
-    hysteresis_k: f64,
+    hysteresis_k: HysteresisK,
     /// Share of the annulus' width.
-    #[schemars(transform = within(&SHARE))]
-    fraction: f64,
+    fraction: Share,
 }
 
-pub(crate) fn mechanics(at: &Group, file: &MechanicsFile, body: &Body) -> Result<Mechanics, InputError> {
-    match file {
-        MechanicsFile::Elastic => Ok(Mechanics::Elastic),
-        MechanicsFile::TemperatureTable(rows) => table(at, rows, body).map(Mechanics::TemperatureTable),
-        MechanicsFile::Relaxing(file) => Ok(Mechanics::Relaxing {
-            fraction: at.number("fraction", file.fraction, &SHARE)?,
-            time: at.number("time_s", file.time_s, &TIME_S)?,
-        }),
-        MechanicsFile::Opening(file) => Ok(Mechanics::Opening(Opening {
-            side: side(file.side),
-            below: at.number("below_c", file.below_c, &TEMPERATURE_C)?,
-            hysteresis: at.number("hysteresis_k", file.hysteresis_k, &HYSTERESIS_K)?,
-            fraction: at.number("fraction", file.fraction, &SHARE)?,
-        })),
+mirror!(FactorsFile is FactorsAt {
+    temperature_c = temperature,
+    transverse_modulus_factor = transverse_modulus,
+    transverse_expansion_factor = transverse_expansion,
+});
+mirror!(OpeningFile is Opening { side = side, below_c = below, hysteresis_k = hysteresis, fraction = fraction });
+
+impl Mirror<Mechanics> for MechanicsFile {
+    fn model(&self) -> Mechanics {
+        match self {
+            Self::Elastic => Mechanics::Elastic,
+            Self::TemperatureTable(rows) => Mechanics::TemperatureTable(rows.model()),
+            Self::Relaxing(file) => Mechanics::Relaxing { fraction: file.fraction.model(), time: file.time_s.model() },
+            Self::Opening(file) => Mechanics::Opening(file.model()),
+        }
+    }
+
+    fn of(model: &Mechanics) -> Self {
+        match model {
+            Mechanics::Elastic => Self::Elastic,
+            Mechanics::TemperatureTable(rows) => Self::TemperatureTable(Mirror::of(rows)),
+            Mechanics::Relaxing { fraction, time } => {
+                Self::Relaxing(RelaxingFile { fraction: Mirror::of(fraction), time_s: Mirror::of(time) })
+            }
+            Mechanics::Opening(opening) => Self::Opening(Mirror::of(opening)),
+        }
     }
 }
 
-fn table(at: &Group, files: &[FactorsFile], body: &Body) -> Result<Vec<FactorsAt>, InputError> {
-    if files.is_empty() || files.len() > MOST_ROWS {
-        return Err(at.fault("", format!("{} rows are given", files.len()), format!("give 1 to {MOST_ROWS}")));
+impl MechanicsFile {
+    pub(super) fn is_elastic(&self) -> bool {
+        matches!(self, Self::Elastic)
     }
-    let mut rows: Vec<FactorsAt> = Vec::with_capacity(files.len());
-    for (i, file) in files.iter().enumerate() {
-        let at = at.group(&format!("[{i}]"));
-        let temperature = at.number("temperature_c", file.temperature_c, &TEMPERATURE_C)?;
-        if let Some(before) = rows.last().filter(|before| before.temperature >= temperature) {
+}
+
+/// The law, if its table rises and keeps the coil's stiffness definite.
+pub(super) fn mechanics(at: &Group, file: &MechanicsFile, body: &Body) -> Result<Mechanics, InputError> {
+    let law = file.model();
+    let Mechanics::TemperatureTable(rows) = &law else { return Ok(law) };
+    if rows.is_empty() || rows.len() > MOST_ROWS {
+        return Err(at.fault("", format!("{} rows are given", rows.len()), format!("give 1 to {MOST_ROWS}")));
+    }
+    let limit = body.elastic.indefinite_at_e_r_factor();
+    for (i, row) in rows.iter().enumerate() {
+        let (at, temperature, factor) = (at.group(&format!("[{i}]")), row.temperature, row.transverse_modulus);
+        if let Some(before) = rows[..i].last().filter(|before| before.temperature >= temperature) {
             let problem = format!("{temperature} C is not above the row before, {} C", before.temperature);
             return Err(at.fault("temperature_c", problem, "order the rows by rising temperature"));
         }
-        let transverse_modulus = at.number("transverse_modulus_factor", file.transverse_modulus_factor, &FACTOR)?;
-        let limit = body.elastic.indefinite_at_e_r_factor();
-        if transverse_modulus >= limit {
-            let problem = format!("{transverse_modulus} makes the coil's stiffness indefinite, from {limit:.4} on");
+        if factor >= limit {
+            let problem = format!("{factor} makes the coil's stiffness indefinite, from {limit:.4} on");
             return Err(at.fault("transverse_modulus_factor", problem, "give a smaller factor"));
         }
-        let transverse_expansion = at.number("transverse_expansion_factor", file.transverse_expansion_factor, &FACTOR)?;
-        rows.push(FactorsAt { temperature, transverse_modulus, transverse_expansion });
     }
-    Ok(rows)
+    Ok(law)
 }

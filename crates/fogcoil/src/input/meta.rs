@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::InputError;
-use super::limits::{NOT_NEGATIVE, within};
+use super::quantity::NotNegative;
 use super::source::Source;
 
 /// What a meta file may say; everything may be left out.
@@ -16,14 +16,14 @@ pub struct Meta {
     /// Name of the design that the unit was built to.
     pub design: String,
     /// Nominal interval between rows \[s\]; 0 if it is not given.
-    #[schemars(transform = within(&NOT_NEGATIVE))]
+    #[schemars(with = "NotNegative")]
     pub sample_interval_s: f64,
     /// In words, what a row's rate is.
     pub rate_is: String,
     /// The thermometers.
     pub temperature_sensor: TemperatureSensor,
     /// Angle random walk from a bench test \[deg/√h\].
-    #[schemars(transform = within(&NOT_NEGATIVE))]
+    #[schemars(with = "Option<NotNegative>")]
     pub nominal_arw_deg_per_sqrt_h: Option<f64>,
 }
 
@@ -32,13 +32,13 @@ pub struct Meta {
 #[serde(deny_unknown_fields, default)]
 pub struct TemperatureSensor {
     /// Standard deviation of a reading \[°C\].
-    #[schemars(transform = within(&NOT_NEGATIVE))]
+    #[schemars(with = "NotNegative")]
     pub noise_c: f64,
     /// Resolution of the chamber's \[°C\].
-    #[schemars(transform = within(&NOT_NEGATIVE))]
+    #[schemars(with = "NotNegative")]
     pub chamber_quantisation_c: f64,
     /// Resolution of the spool's \[°C\].
-    #[schemars(transform = within(&NOT_NEGATIVE))]
+    #[schemars(with = "NotNegative")]
     pub spool_quantisation_c: f64,
 }
 

@@ -4,11 +4,12 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use ron::error::SpannedError;
+use serde::de::DeserializeOwned;
 
 use super::InputError;
 use super::fields::{FieldMap, join};
 use super::fingerprint::Fingerprint;
-use super::kind::{CaseFile, mistaken};
+use super::kind::{CaseFile, Kind, mistaken};
 use super::syntax::explain;
 
 /// Largest case file [bytes]: some 300 times the reference files.
@@ -20,6 +21,14 @@ const LARGEST: u64 = 1 << 20;
 /// Why it cannot be read.
 pub fn read_text(path: &Path) -> Result<String, InputError> {
     Source::read(path).map(|source| source.text)
+}
+
+/// Reads a RON file of any type: the reader of case files for a program's own.
+///
+/// # Errors
+/// What is wrong, in which file, line and field, and how to mend it.
+pub fn read_ron<T: DeserializeOwned>(path: &Path) -> Result<T, InputError> {
+    Source::read(path)?.parse_as(None)
 }
 
 /// A case file in memory.
@@ -66,7 +75,11 @@ impl Source {
     }
 
     pub(crate) fn parse<T: CaseFile>(&self) -> Result<T, InputError> {
-        ron::from_str(&self.text).map_err(|error| match mistaken(&self.text, T::kind()) {
+        self.parse_as(T::kind())
+    }
+
+    fn parse_as<T: DeserializeOwned>(&self, kind: Option<&'static Kind>) -> Result<T, InputError> {
+        ron::from_str(&self.text).map_err(|error| match mistaken(&self.text, kind) {
             Some((problem, remedy)) => whole_file(&self.path, problem, &remedy),
             None => self.syntax_fault(&error),
         })

@@ -1,23 +1,27 @@
-//! The fields of `COIL.ron` as they are written: spool, surroundings, heat.
+//! The spool of `COIL.ron`, what is around it, and its thermometer: as they are written, and in SI.
 
+use coil::{Contact, Flange, Sensor, Solid, Spool, Surroundings};
+use fem_core::material::Isotropic;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
-use super::coil_file::SideFile;
-use super::limits::{
-    CONDUCTANCE, CONDUCTIVITY, DENSITY, EXPANSION_PER_K, EXTRA_LENGTH_MM, LAG_S, LENGTH_MM, MODULUS_GPA, POSITION_MM, POWER_W,
-    RESISTANCE, SPECIFIC_HEAT, within,
+use super::InputError;
+use super::group::Group;
+use super::mirror::{Mirror, mirror};
+use super::quantity::{
+    Conductivity, Density, ExpansionPerK, ExtraLengthMm, LagS, LengthMm, ModulusGpa, PositionMm, SpecificHeat,
 };
+use super::winding_file::SideFile;
+use crate::units::to_mm;
 
 /// What the coil is wound on.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SpoolFile {
     /// What it is made of.
     pub(crate) material: SolidFile,
     /// Radial thickness of the hub.
-    #[schemars(transform = within(&LENGTH_MM))]
-    pub(crate) hub_thickness_mm: f64,
+    pub(crate) hub_thickness_mm: LengthMm,
     /// Whether the coil is bonded to the hub; if not, a gap of 0.2 mm.
     pub(crate) hub_bonded: bool,
     /// None, one or two.
@@ -25,120 +29,145 @@ pub(crate) struct SpoolFile {
 }
 
 /// An isotropic solid.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SolidFile {
     /// Young's modulus.
-    #[schemars(transform = within(&MODULUS_GPA))]
-    pub(crate) youngs_modulus_gpa: f64,
+    pub(crate) youngs_modulus_gpa: ModulusGpa,
     /// Greater than -1 and less than 0.5.
     pub(crate) poisson_ratio: f64,
     /// Linear expansion.
-    #[schemars(transform = within(&EXPANSION_PER_K))]
-    pub(crate) thermal_expansion_per_k: f64,
+    pub(crate) thermal_expansion_per_k: ExpansionPerK,
     /// Thermal conductivity.
-    #[schemars(transform = within(&CONDUCTIVITY))]
-    pub(crate) conductivity_w_per_mk: f64,
+    pub(crate) conductivity_w_per_mk: Conductivity,
     /// Density.
-    #[schemars(transform = within(&DENSITY))]
-    pub(crate) density_kg_per_m3: f64,
+    pub(crate) density_kg_per_m3: Density,
     /// Specific heat.
-    #[schemars(transform = within(&SPECIFIC_HEAT))]
-    pub(crate) specific_heat_j_per_kgk: f64,
+    pub(crate) specific_heat_j_per_kgk: SpecificHeat,
 }
 
 /// A flange.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FlangeFile {
     /// On which side of the coil.
     pub(crate) side: SideFile,
     /// Along y.
-    #[schemars(transform = within(&LENGTH_MM))]
-    pub(crate) thickness_mm: f64,
+    pub(crate) thickness_mm: LengthMm,
     /// Beyond the coil's outer radius.
-    #[schemars(transform = within(&EXTRA_LENGTH_MM))]
-    pub(crate) overhang_mm: f64,
+    pub(crate) overhang_mm: ExtraLengthMm,
     /// Whether the coil is bonded to it; if not, a gap of 0.2 mm.
     pub(crate) bonded: bool,
 }
 
 /// The medium around the solids.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SurroundingsFile {
     /// Still air, or what else there is.
     pub(crate) medium: MediumFile,
     /// From the solids' bounding box to the chamber's wall.
-    #[schemars(transform = within(&LENGTH_MM))]
-    pub(crate) margin_mm: f64,
+    pub(crate) margin_mm: LengthMm,
 }
 
 /// A medium that conducts heat and carries no stress.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MediumFile {
     /// Thermal conductivity.
-    #[schemars(transform = within(&CONDUCTIVITY))]
-    pub(crate) conductivity_w_per_mk: f64,
+    pub(crate) conductivity_w_per_mk: Conductivity,
     /// Density.
-    #[schemars(transform = within(&DENSITY))]
-    pub(crate) density_kg_per_m3: f64,
+    pub(crate) density_kg_per_m3: Density,
     /// Specific heat.
-    #[schemars(transform = within(&SPECIFIC_HEAT))]
-    pub(crate) specific_heat_j_per_kgk: f64,
+    pub(crate) specific_heat_j_per_kgk: SpecificHeat,
 }
 
 /// The spool's thermometer.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SensorFile {
     /// Where it is.
-    #[schemars(transform = within(&EXTRA_LENGTH_MM))]
-    pub(crate) radius_mm: f64,
+    pub(crate) radius_mm: ExtraLengthMm,
     /// Where it is.
-    #[schemars(transform = within(&POSITION_MM))]
-    pub(crate) y_mm: f64,
+    pub(crate) y_mm: PositionMm,
     /// Its own first-order lag; 0 unless given.
-    #[serde(default)]
-    #[schemars(transform = within(&LAG_S))]
-    pub(crate) lag_s: f64,
+    #[serde(default, skip_serializing_if = "LagS::is_zero")]
+    #[schemars(!skip_serializing_if)]
+    pub(crate) lag_s: LagS,
 }
 
-/// Heat paths besides conduction.
-#[derive(Deserialize, JsonSchema, Default)]
-#[serde(deny_unknown_fields, default)]
-pub(crate) struct HeatFile {
-    /// Contact resistance between hub and coil, where they are bonded; 0 unless given.
-    #[schemars(transform = within(&RESISTANCE))]
-    pub(crate) hub_resistance_m2k_per_w: f64,
-    /// Paths from a flange to its mount; none unless given.
-    pub(crate) mounts: Vec<MountFile>,
-    /// Heat dissipated in a flange; none unless given.
-    pub(crate) heaters: Vec<HeaterFile>,
-    /// Film coefficient of every surface to the chamber, in place of the still medium; None unless given.
-    #[schemars(transform = within(&CONDUCTANCE))]
-    pub(crate) film_w_per_m2k: Option<f64>,
+mirror!(SpoolFile is Spool {
+    material = material,
+    hub_thickness_mm = hub_thickness,
+    hub_bonded = hub_contact,
+    flanges = flanges,
+});
+mirror!(FlangeFile is Flange { side = side, thickness_mm = thickness, overhang_mm = overhang, bonded = contact });
+mirror!(SensorFile is Sensor { radius_mm = radius, y_mm = y, lag_s = lag });
+
+impl Mirror<Solid> for SolidFile {
+    fn model(&self) -> Solid {
+        let elastic = Isotropic {
+            youngs_modulus: self.youngs_modulus_gpa.model(),
+            poisson_ratio: self.poisson_ratio,
+            thermal_expansion: self.thermal_expansion_per_k.model(),
+        };
+        Solid {
+            elastic,
+            conductivity: self.conductivity_w_per_mk.model(),
+            density: self.density_kg_per_m3.model(),
+            specific_heat: self.specific_heat_j_per_kgk.model(),
+        }
+    }
+
+    fn of(solid: &Solid) -> Self {
+        Self {
+            youngs_modulus_gpa: Mirror::of(&solid.elastic.youngs_modulus),
+            poisson_ratio: solid.elastic.poisson_ratio,
+            thermal_expansion_per_k: Mirror::of(&solid.elastic.thermal_expansion),
+            conductivity_w_per_mk: Mirror::of(&solid.conductivity),
+            density_kg_per_m3: Mirror::of(&solid.density),
+            specific_heat_j_per_kgk: Mirror::of(&solid.specific_heat),
+        }
+    }
 }
 
-/// A path from a flange's outer face to its mount, or to the chamber.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct MountFile {
-    /// Of the flange.
-    pub(crate) side: SideFile,
-    /// Conductance per area.
-    #[schemars(transform = within(&CONDUCTANCE))]
-    pub(crate) conductance_w_per_m2k: f64,
+impl Mirror<Surroundings> for SurroundingsFile {
+    fn model(&self) -> Surroundings {
+        Surroundings {
+            conductivity: self.medium.conductivity_w_per_mk.model(),
+            density: self.medium.density_kg_per_m3.model(),
+            specific_heat: self.medium.specific_heat_j_per_kgk.model(),
+            margin: self.margin_mm.model(),
+        }
+    }
+
+    fn of(around: &Surroundings) -> Self {
+        let medium = MediumFile {
+            conductivity_w_per_mk: Mirror::of(&around.conductivity),
+            density_kg_per_m3: Mirror::of(&around.density),
+            specific_heat_j_per_kgk: Mirror::of(&around.specific_heat),
+        };
+        Self { medium, margin_mm: Mirror::of(&around.margin) }
+    }
 }
 
-/// Heat dissipated evenly in a flange, on from the first row of the profile.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct HeaterFile {
-    /// Of the flange.
-    pub(crate) side: SideFile,
-    /// Power.
-    #[schemars(transform = within(&POWER_W))]
-    pub(crate) power_w: f64,
+/// The spool, if it has room inside a coil of `inner_radius` and at most one flange a side.
+pub(super) fn spool(at: &Group, file: &SpoolFile, inner_radius: f64) -> Result<Spool, InputError> {
+    let contact: Contact = file.hub_bonded.model();
+    let (thickness, room) = (file.hub_thickness_mm.0, to_mm(inner_radius - contact.gap()));
+    if thickness >= room {
+        let problem = format!("{thickness} mm leaves no bore inside the coil's inner radius");
+        return Err(at.fault("hub_thickness_mm", problem, format!("make it less than {room} mm")));
+    }
+    let spool: Spool = file.model();
+    for (i, flange) in spool.flanges.iter().enumerate() {
+        if spool.flanges[..i].iter().any(|other| other.side == flange.side) {
+            let problem = format!("a second flange at the side {:?}", flange.side);
+            let remedy = "give at most one flange a side, or set the other side";
+            return Err(at.fault(&format!("flanges[{i}].side"), problem, remedy));
+        }
+    }
+    at.group("material").law(spool.material.elastic.law())?;
+    Ok(spool)
 }

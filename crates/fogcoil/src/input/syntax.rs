@@ -11,6 +11,8 @@ pub(crate) fn explain(error: &Error, rest: &str) -> (String, String) {
         Error::NoSuchEnumVariant { expected, found, .. } => {
             return (format!("`{found}` is not a choice here"), format!("choose {}", expected.join(" or ")));
         }
+        // a number that its kind does not accept: problem and remedy
+        Error::InvalidValueForType { expected, found } => return (found.clone(), expected.clone()),
         Error::MissingStructField { .. } => ("the field is missing", "add it to the group that ends here"),
         Error::DuplicateStructField { .. } => ("the field is given twice", "remove one of the two"),
         Error::ExpectedComma if rest.starts_with('.') => ("the number is not whole", "write a whole number, e.g. 36"),

@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use homogenization::Role;
-use homogenization::identify::literature::Kind;
 use homogenization::identify::{Family, MaterialPrior, Prior, RingPrior, Target, Uncertainty, Volume};
 
 use super::InputError;
-use super::limits::{CONDUCTIVITY, EXPANSION_PER_K, FIBRE_UM, Group, Limit, MODULUS_GPA, MODULUS_MPA, RATIO};
+use super::group::Group;
+use super::mirror::Mirror;
+use super::quantity::{Conductivity, ExpansionPerK, FibreUm, ModulusGpa, ModulusMpa, Quantity, Ratio};
 use super::source::Source;
-use super::targets_file::{CellPrior, Entries, Entry, KindFile, MaterialFile, RangeFile, TargetsFile};
-use crate::units::{from_gpa, from_mpa, from_um};
+use super::targets_file::{CellPrior, Entries, Entry, MaterialFile, RangeFile, TargetsFile};
 
 /// Kinds of cells in one file.
 const MOST_CELLS: usize = 6;
@@ -38,7 +38,7 @@ pub fn read_targets(path: &Path) -> Result<TargetsCase, InputError> {
     let source = Source::read(path)?;
     let file: TargetsFile = source.parse()?;
     let top = Group::whole(&source);
-    let pitch = from_um(top.number("pitch_um", file.pitch_um, &FIBRE_UM)?);
+    let pitch = file.pitch_um.model();
     let targets = entries(&top.group("targets"), &file.targets)?;
     if targets.is_empty() {
         return Err(top.fault("targets", "no constant is given", "give at least one, e.g. e_z_gpa: Printed(\"14.5\")"));
@@ -52,51 +52,52 @@ pub fn read_targets(path: &Path) -> Result<TargetsCase, InputError> {
     Ok(TargetsCase { file: path.to_owned(), name: file.name, targets, families })
 }
 
-/// Key in the file, constant, what the file says, conversion to SI, and what is accepted.
-type Row<'a> = (&'a str, &'a str, &'a Entry, fn(f64) -> f64, &'a Limit);
-
 fn entries(at: &Group, file: &Entries) -> Result<Vec<Target>, InputError> {
-    let same: fn(f64) -> f64 = |value| value;
-    let all: [Row; 12] = [
-        ("e_z_gpa", "e_z", &file.e_z_gpa, from_gpa, &MODULUS_GPA),
-        ("e_r_mpa", "e_r", &file.e_r_mpa, from_mpa, &MODULUS_MPA),
-        ("g_zr_mpa", "g_zr", &file.g_zr_mpa, from_mpa, &MODULUS_MPA),
-        ("g_r_mpa", "g_r", &file.g_r_mpa, from_mpa, &MODULUS_MPA),
-        ("k_plane_strain_mpa", "k_plane_strain", &file.k_plane_strain_mpa, from_mpa, &MODULUS_MPA),
-        ("nu_zr", "nu_zr", &file.nu_zr, same, &RATIO),
-        ("nu_r", "nu_r", &file.nu_r, same, &RATIO),
-        ("nu_rz", "nu_rz", &file.nu_rz, same, &RATIO),
-        ("alpha_z_per_k", "alpha_z", &file.alpha_z_per_k, same, &EXPANSION_PER_K),
-        ("alpha_r_per_k", "alpha_r", &file.alpha_r_per_k, same, &EXPANSION_PER_K),
-        ("k_z_w_per_mk", "k_z", &file.k_z_w_per_mk, same, &CONDUCTIVITY),
-        ("k_r_w_per_mk", "k_r", &file.k_r_w_per_mk, same, &CONDUCTIVITY),
+    // key in the file, constant, what the file says, and its kind
+    let all: [(&str, &str, &Entry, Quantity); 12] = [
+        ("e_z_gpa", "e_z", &file.e_z_gpa, ModulusGpa::KIND),
+        ("e_r_mpa", "e_r", &file.e_r_mpa, ModulusMpa::KIND),
+        ("g_zr_mpa", "g_zr", &file.g_zr_mpa, ModulusMpa::KIND),
+        ("g_r_mpa", "g_r", &file.g_r_mpa, ModulusMpa::KIND),
+        ("k_plane_strain_mpa", "k_plane_strain", &file.k_plane_strain_mpa, ModulusMpa::KIND),
+        ("nu_zr", "nu_zr", &file.nu_zr, Ratio::KIND),
+        ("nu_r", "nu_r", &file.nu_r, Ratio::KIND),
+        ("nu_rz", "nu_rz", &file.nu_rz, Ratio::KIND),
+        ("alpha_z_per_k", "alpha_z", &file.alpha_z_per_k, ExpansionPerK::KIND),
+        ("alpha_r_per_k", "alpha_r", &file.alpha_r_per_k, ExpansionPerK::KIND),
+        ("k_z_w_per_mk", "k_z", &file.k_z_w_per_mk, Conductivity::KIND),
+        ("k_r_w_per_mk", "k_r", &file.k_r_w_per_mk, Conductivity::KIND),
     ];
     let mut targets = Vec::new();
-    for (key, name, entry, si, limit) in all {
-        let (value, uncertainty) = match entry {
-            Entry::Absent => continue,
-            Entry::Printed(text) => {
-                let remedy = "give the printed number in quotes, e.g. Printed(\"14.5\") or Printed(\"3.36e-6\")";
-                let (value, half) = printed(text).ok_or_else(|| at.fault(key, format!("`{text}` is not a number"), remedy))?;
-                (value, Uncertainty::Rounded(si(half)))
-            }
-            Entry::Measured(value, sd) => {
-                let remedy = "give the value and its standard deviation in the key's unit, e.g. Measured(14.5, 0.1)";
-                if !value.is_finite() {
-                    return Err(at.fault(key, format!("the value {value} is not a finite number"), remedy));
-                }
-                if !(sd.is_finite() && *sd >= value.abs() * FINEST && *sd > 0.0) {
-                    let problem = format!("the standard deviation {sd} is not greater than {FINEST} of the value");
-                    return Err(at.fault(key, problem, remedy));
-                }
-                (*value, Uncertainty::Normal(si(*sd)))
-            }
-        };
-        at.number(key, value, limit)?;
-        let target = Target::new(name, si(value), uncertainty);
+    for (key, name, entry, kind) in all {
+        let Some((value, uncertainty)) = measured(at, key, entry, &kind)? else { continue };
+        let target = Target::new(name, at.number(key, value, &kind)?, uncertainty);
         targets.push(target.ok_or_else(|| at.fault(key, "cannot be a target", "remove it"))?);
     }
     Ok(targets)
+}
+
+/// A constant in the file's unit, and its uncertainty in SI; `None` if it is absent.
+fn measured(at: &Group, key: &str, entry: &Entry, kind: &Quantity) -> Result<Option<(f64, Uncertainty)>, InputError> {
+    match entry {
+        Entry::Absent => Ok(None),
+        Entry::Printed(text) => {
+            let remedy = "give the printed number in quotes, e.g. Printed(\"14.5\") or Printed(\"3.36e-6\")";
+            let (value, half) = printed(text).ok_or_else(|| at.fault(key, format!("`{text}` is not a number"), remedy))?;
+            Ok(Some((value, Uncertainty::Rounded((kind.si)(half)))))
+        }
+        Entry::Measured(value, sd) => {
+            let problem = if !value.is_finite() {
+                format!("the value {value} is not a finite number")
+            } else if !(sd.is_finite() && *sd >= value.abs() * FINEST && *sd > 0.0) {
+                format!("the standard deviation {sd} is not greater than {FINEST} of the value")
+            } else {
+                return Ok(Some((*value, Uncertainty::Normal((kind.si)(*sd)))));
+            };
+            let remedy = "give the value and its standard deviation in the key's unit, e.g. Measured(14.5, 0.1)";
+            Err(at.fault(key, problem, remedy))
+        }
+    }
 }
 
 /// Least relative standard deviation: the numerical error is below it.
@@ -120,9 +121,9 @@ fn family(at: &Group, file: &CellPrior, pitch: f64) -> Result<Family, InputError
     }
     let mut rings = Vec::new();
     let mut inside = 0.0;
-    for (i, ring) in file.rings.iter().enumerate() {
-        let here = at.group(&format!("rings[{i}]"));
-        let outer_diameter = range(&here, "outer_diameter_um", ring.outer_diameter_um, &FIBRE_UM, Prior::linear, from_um)?;
+    for (here, ring) in at.each("rings", &file.rings) {
+        let (low, high) = (ring.outer_diameter_um.0.0, ring.outer_diameter_um.1.0);
+        let outer_diameter = range(&here, "outer_diameter_um", (low, high), &FibreUm::KIND, Prior::linear)?;
         let middle = (outer_diameter.low + outer_diameter.high) / 2.0;
         if middle <= inside || middle >= pitch {
             let problem = "its middle is not between the ring inside it and the pitch";
@@ -155,61 +156,47 @@ fn family(at: &Group, file: &CellPrior, pitch: f64) -> Result<Family, InputError
 }
 
 fn material(at: &Group, file: &MaterialFile) -> Result<MaterialPrior, InputError> {
-    let kind = match file.kind {
-        KindFile::Silica => Kind::Silica,
-        KindFile::SoftPrimary => Kind::SoftPrimary,
-        KindFile::HardSecondary => Kind::HardSecondary,
-        KindFile::AnyCoating => Kind::AnyCoating,
-        KindFile::Adhesive => Kind::Adhesive,
+    let mut prior = file.kind.model().prior();
+    let given = |key: &str, file: RangeFile, kind: Quantity, prior: fn(f64, f64) -> Prior| match file {
+        RangeFile::Literature => Ok(None),
+        RangeFile::Between(low, high) => range(at, key, (low, high), &kind, prior).map(Some),
     };
-    let mut prior = kind.prior();
-    let same: fn(f64) -> f64 = |value| value;
-    if let RangeFile::Between(low, high) = file.youngs_modulus_mpa {
-        prior.youngs_modulus = range(at, "youngs_modulus_mpa", (low, high), &MODULUS_MPA, Prior::log, from_mpa)?;
+    let modulus = given("youngs_modulus_mpa", file.youngs_modulus_mpa, ModulusMpa::KIND, Prior::log)?;
+    prior.youngs_modulus = modulus.unwrap_or(prior.youngs_modulus);
+    let bulk = given("bulk_modulus_mpa", file.bulk_modulus_mpa, ModulusMpa::KIND, Prior::log)?;
+    let ratio = given("poisson_ratio", file.poisson_ratio, Ratio::KIND, Prior::linear)?;
+    match (bulk, ratio) {
+        (None, None) => {}
+        (Some(bulk), None) => prior.volume = Volume::BulkModulus(bulk),
+        (None, Some(ratio)) => prior.volume = Volume::PoissonRatio(ratio),
+        _ => return Err(at.fault("poisson_ratio", "is given beside bulk_modulus_mpa", "remove one of the two")),
     }
-    match (file.bulk_modulus_mpa, file.poisson_ratio) {
-        (RangeFile::Literature, RangeFile::Literature) => {}
-        (RangeFile::Between(low, high), RangeFile::Literature) => {
-            prior.volume = Volume::BulkModulus(range(at, "bulk_modulus_mpa", (low, high), &MODULUS_MPA, Prior::log, from_mpa)?);
-        }
-        (RangeFile::Literature, RangeFile::Between(low, high)) => {
-            prior.volume = Volume::PoissonRatio(range(at, "poisson_ratio", (low, high), &RATIO, Prior::linear, same)?);
-        }
-        _ => {
-            return Err(at.fault("poisson_ratio", "is given beside bulk_modulus_mpa", "remove one of the two"));
-        }
+    // a prior for materials that expand on warming: all of a coil's do
+    if let RangeFile::Between(low, _) = file.thermal_expansion_per_k
+        && low <= 0.0
+    {
+        let remedy = "give a range of positive expansions, e.g. Between(50e-6, 150e-6)";
+        return Err(at.fault("thermal_expansion_per_k", format!("{low} is not greater than 0"), remedy));
     }
-    if let RangeFile::Between(low, high) = file.thermal_expansion_per_k {
-        // a prior for materials that expand on warming: all of a coil's do
-        if low <= 0.0 {
-            let problem = format!("{low} is not greater than 0");
-            return Err(at.fault(
-                "thermal_expansion_per_k",
-                problem,
-                "give a range of positive expansions, e.g. Between(50e-6, 150e-6)",
-            ));
-        }
-        prior.thermal_expansion = range(at, "thermal_expansion_per_k", (low, high), &EXPANSION_PER_K, Prior::log, same)?;
-    }
-    if let RangeFile::Between(low, high) = file.conductivity_w_per_mk {
-        prior.conductivity = range(at, "conductivity_w_per_mk", (low, high), &CONDUCTIVITY, Prior::log, same)?;
-    }
+    let expansion = given("thermal_expansion_per_k", file.thermal_expansion_per_k, ExpansionPerK::KIND, Prior::log)?;
+    prior.thermal_expansion = expansion.unwrap_or(prior.thermal_expansion);
+    let conductivity = given("conductivity_w_per_mk", file.conductivity_w_per_mk, Conductivity::KIND, Prior::log)?;
+    prior.conductivity = conductivity.unwrap_or(prior.conductivity);
     Ok(prior)
 }
 
+/// A prior in SI from a range in the file's unit.
 fn range(
     at: &Group,
     key: &str,
     (low, high): (f64, f64),
-    limit: &Limit,
+    kind: &Quantity,
     prior: fn(f64, f64) -> Prior,
-    si: fn(f64) -> f64,
 ) -> Result<Prior, InputError> {
-    at.number(key, low, limit)?;
-    at.number(key, high, limit)?;
+    let ends = [at.number(key, low, kind)?, at.number(key, high, kind)?];
     if low >= high {
         let problem = format!("the range from {low} to {high} is empty");
         return Err(at.fault(key, problem, "give the lower end first; 90 % of the expectation lies inside"));
     }
-    Ok(prior(si(low), si(high)))
+    Ok(prior(ends[0], ends[1]))
 }

@@ -1,19 +1,20 @@
 //! A file of targets as it is written.
 
+use homogenization::identify::literature::Kind;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
-use super::limits::{FIBRE_UM, within};
+use super::mirror::mirror_choice;
+use super::quantity::FibreUm;
 
 /// Measured effective constants and the cells to try, `TARGETS.ron`.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TargetsFile {
     /// Its name.
     pub(crate) name: String,
     /// Distance of neighbouring fibres, hexagonal.
-    #[schemars(transform = within(&FIBRE_UM))]
-    pub(crate) pitch_um: f64,
+    pub(crate) pitch_um: FibreUm,
     /// What was measured.
     pub(crate) targets: Entries,
     /// Kinds of cell to try.
@@ -21,7 +22,7 @@ pub(crate) struct TargetsFile {
 }
 
 /// A measured constant: Absent; Printed("14.5"), known to its last digit; Measured(value, standard deviation).
-#[derive(Deserialize, JsonSchema, Default)]
+#[derive(Serialize, Deserialize, JsonSchema, Default)]
 pub(crate) enum Entry {
     #[default]
     Absent,
@@ -30,7 +31,7 @@ pub(crate) enum Entry {
 }
 
 /// Effective constants, any of them, in the unit of the key.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[derive(Default)]
 pub(crate) struct Entries {
@@ -61,7 +62,7 @@ pub(crate) struct Entries {
 }
 
 /// A kind of cell.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CellPrior {
     /// Its name.
@@ -73,14 +74,13 @@ pub(crate) struct CellPrior {
 }
 
 /// A ring.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RingFile {
     /// Its name.
     pub(crate) name: String,
     /// Range that holds 90 % of the expectation.
-    #[schemars(transform = within(&FIBRE_UM))]
-    pub(crate) outer_diameter_um: (f64, f64),
+    pub(crate) outer_diameter_um: (FibreUm, FibreUm),
     /// Whether it is of the glass.
     pub(crate) glass: bool,
     /// What it is expected to be made of.
@@ -88,7 +88,7 @@ pub(crate) struct RingFile {
 }
 
 /// What a constituent is expected to be.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MaterialFile {
     /// Sets the ranges that are not given.
@@ -111,7 +111,7 @@ pub(crate) struct MaterialFile {
 }
 
 /// A kind of material, with ranges from the literature.
-#[derive(Deserialize, JsonSchema, Clone, Copy)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy)]
 pub(crate) enum KindFile {
     Silica,
     SoftPrimary,
@@ -121,9 +121,11 @@ pub(crate) enum KindFile {
 }
 
 /// A range that holds 90 % of the expectation: from the literature, or Between(low, high).
-#[derive(Deserialize, JsonSchema, Clone, Copy, Default)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Default)]
 pub(crate) enum RangeFile {
     #[default]
     Literature,
     Between(f64, f64),
 }
+
+mirror_choice!(KindFile is Kind { Silica, SoftPrimary, HardSecondary, AnyCoating, Adhesive });
