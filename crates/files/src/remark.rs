@@ -226,7 +226,7 @@ remarks! {
 }
 
 /// What a note begins with that may make the whole answer void.
-pub(crate) const WARNING: &str = "warning: ";
+pub const WARNING: &str = "warning: ";
 
 impl Remark {
     /// The message with its id behind it: `message [id]`.
@@ -264,7 +264,7 @@ impl Remark {
     }
 
     /// Ids of messages, in their order; `null` where one has none.
-    pub(crate) fn ids(messages: &[String]) -> Vec<Option<&'static str>> {
+    pub fn ids(messages: &[String]) -> Vec<Option<&'static str>> {
         messages.iter().map(|message| Self::of(message).map(Self::id)).collect()
     }
 }

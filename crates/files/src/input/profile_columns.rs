@@ -6,7 +6,7 @@ use coil::{Design, Drive, Side};
 
 use super::InputError;
 use super::rows::{Rows, quoted};
-use crate::glossary::Remark;
+use crate::remark::Remark;
 
 pub(crate) const TIME: &str = "time_s";
 const CHAMBER: &str = "chamber_c";
@@ -39,13 +39,9 @@ pub(crate) struct Columns {
 impl Columns {
     /// Reads them from the row at which `rows` stands.
     pub(crate) fn read(rows: &Rows, design: &Design) -> Result<Self, InputError> {
-        check_separator(rows, "time_s,chamber_c")?;
-        let names: Vec<String> = rows.fields().map(str::to_owned).collect();
+        let names = names(rows, "time_s,chamber_c")?;
         let mut ignored = Vec::new();
-        for (i, name) in names.iter().enumerate() {
-            if names[..i].contains(name) {
-                return Err(rows.fault(Some(name), "the column is given twice", "remove one of the two"));
-            }
+        for name in &names {
             if let Some((_, drive)) = DRIVES.iter().find(|(known, _)| known == name) {
                 check_drive(rows, name, *drive, design)?;
             } else if RESULTS.contains(&name.as_str()) {
@@ -83,7 +79,17 @@ impl Columns {
     }
 }
 
-pub(super) fn check_separator(rows: &Rows, example: &str) -> Result<(), InputError> {
+/// The names of the columns, none twice.
+pub(super) fn names(rows: &Rows, example: &str) -> Result<Vec<String>, InputError> {
+    check_separator(rows, example)?;
+    let names: Vec<String> = rows.fields().map(str::to_owned).collect();
+    match (1..names.len()).find(|&i| names[..i].contains(&names[i])) {
+        Some(i) => Err(rows.fault(Some(&names[i]), "the column is given twice", "remove one of the two")),
+        None => Ok(names),
+    }
+}
+
+fn check_separator(rows: &Rows, example: &str) -> Result<(), InputError> {
     let line = rows.fields().collect::<Vec<_>>().join(",");
     let fault = |problem: &str, remedy: &str| Err(rows.fault(None, problem, remedy));
     if line.contains(';') {

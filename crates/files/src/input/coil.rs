@@ -8,6 +8,7 @@ use homogenization::{Constants, Packing, TOLERANCE};
 use winding::Winding;
 
 use super::cell::{AnyCell, read_any_cell};
+use super::cell_constants::at_temperature;
 use super::cell_general::GeneralCase;
 use super::coil_file::{BodyFile, CoilFile, DehomogenizationFile, MaterialFile};
 use super::fingerprint::Fingerprint;
@@ -20,8 +21,7 @@ use super::warnings::{in_medium, warnings};
 use super::winding_file::winding;
 use super::{InputError, heat};
 use crate::Error;
-use crate::glossary::Remark;
-use crate::homogenize::at_temperature;
+use crate::remark::Remark;
 use crate::units::to_mm;
 
 /// Table II of Osunluk, Ogut and Ozbay as printed; its exponents and the last sign are misprints (see the validation).

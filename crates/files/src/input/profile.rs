@@ -8,7 +8,7 @@ use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::profile_columns::{Columns, TIME};
 use super::rows::{Rows, quoted};
-use crate::glossary::Remark;
+use crate::remark::Remark;
 
 /// Most rows of a profile: two and a half years at 4 s.
 const MOST_ROWS: usize = 20_000_000;
@@ -29,7 +29,8 @@ const RESOLVED_S: f64 = 1.0;
 const COARSE_S: f64 = 120.0;
 
 /// How a profile's drives run between its rows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Between {
     /// Straight: what a programme says.
     #[default]
@@ -40,7 +41,7 @@ pub enum Between {
 
 impl Between {
     /// Parts into which an interval is divided.
-    pub(crate) fn parts(self) -> usize {
+    pub fn parts(self) -> usize {
         match self {
             Self::Linear => 1,
             Self::Cubic => 6,
@@ -109,8 +110,7 @@ impl ProfileCase {
         let rows = 1.0 + time.windows(2).map(parts).sum::<f64>();
         if rows > MOST_ROWS as f64 {
             let problem = format!("has {rows:.0} rows with this --step, more than {MOST_ROWS}");
-            let (file, remedy) = (self.fingerprint.file.clone(), "give a longer step".to_owned());
-            return Err(InputError { file, line: None, field: None, problem, remedy });
+            return Err(InputError::whole(&self.fingerprint.file, problem, "give a longer step"));
         }
         let parts: Vec<usize> = time.windows(2).map(|pair| parts(pair) as usize).collect();
         let divided = |values: &[f64]| -> Vec<f64> {
@@ -149,7 +149,11 @@ pub fn check_profile(path: &Path, text: String, design: &Design) -> Result<Profi
 fn read(mut rows: Rows, path: &Path, design: &Design) -> Result<ProfileCase, InputError> {
     rows.header("time_s,chamber_c")?;
     let columns = Columns::read(&rows, design)?;
-    let (time, mut courses) = read_rows(&mut rows, &columns)?;
+    let read: Vec<(usize, &str)> = columns.drives.iter().map(|(column, _)| (*column, columns.name(*column))).collect();
+    let (time, mut courses) = read_rows(&mut rows, columns.count, columns.time, &read, (MOST_ROWS, "profile"))?;
+    if time.is_empty() {
+        return Err(rows.whole_fault("has no row below its header", "give one for each instant, e.g. 0,20.0"));
+    }
     let mut drives: Vec<Drive> = columns.drives.iter().map(|(_, drive)| *drive).collect();
     if !design.heat.heaters.is_empty() {
         drives.push(Drive::Heaters);
@@ -181,26 +185,30 @@ fn read(mut rows: Rows, path: &Path, design: &Design) -> Result<ProfileCase, Inp
     })
 }
 
-fn read_rows(rows: &mut Rows, columns: &Columns) -> Result<(Vec<f64>, Vec<Vec<f64>>), InputError> {
+/// Instants, and the courses of some columns, by their names, of at most so many rows below a header of `count` columns.
+pub(super) fn read_rows(
+    rows: &mut Rows,
+    count: usize,
+    at_time: usize,
+    columns: &[(usize, &str)],
+    (most, kind): (usize, &str),
+) -> Result<(Vec<f64>, Vec<Vec<f64>>), InputError> {
     let mut time: Vec<f64> = Vec::new();
-    let mut courses = vec![Vec::new(); columns.drives.len()];
+    let mut courses = vec![Vec::new(); columns.len()];
     while rows.advance()? {
-        check_count(rows, columns.count)?;
-        if time.len() == MOST_ROWS {
-            return Err(rows.fault(None, format!("more than {MOST_ROWS} rows"), "split the profile, or thin it out"));
+        check_count(rows, count)?;
+        if time.len() == most {
+            return Err(rows.fault(None, format!("more than {most} rows"), format!("split the {kind}, or thin it out")));
         }
-        time.push(instant(rows, columns.time, time.last().copied())?);
-        for ((column, _), course) in columns.drives.iter().zip(&mut courses) {
-            course.push(temperature(rows, *column, columns.name(*column))?);
+        time.push(instant(rows, at_time, time.last().copied())?);
+        for ((column, name), course) in columns.iter().zip(&mut courses) {
+            course.push(temperature(rows, *column, name)?);
         }
-    }
-    if time.is_empty() {
-        return Err(rows.whole_fault("has no row below its header", "give one for each instant, e.g. 0,20.0"));
     }
     Ok((time, courses))
 }
 
-pub(super) fn check_count(rows: &Rows, expected: usize) -> Result<(), InputError> {
+fn check_count(rows: &Rows, expected: usize) -> Result<(), InputError> {
     let found = rows.count();
     if found == expected {
         return Ok(());
@@ -218,7 +226,7 @@ pub(super) fn check_count(rows: &Rows, expected: usize) -> Result<(), InputError
     Err(rows.fault(None, problem, remedy))
 }
 
-pub(super) fn instant(rows: &Rows, column: usize, last: Option<f64>) -> Result<f64, InputError> {
+fn instant(rows: &Rows, column: usize, last: Option<f64>) -> Result<f64, InputError> {
     let time = rows.number(column, TIME)?;
     let fault = |problem: String, remedy: &str| Err(rows.fault(Some(TIME), problem, remedy));
     if time.abs() > MOST_S {
@@ -238,7 +246,7 @@ pub(super) fn instant(rows: &Rows, column: usize, last: Option<f64>) -> Result<f
     }
 }
 
-pub(super) fn temperature(rows: &Rows, column: usize, name: &str) -> Result<f64, InputError> {
+fn temperature(rows: &Rows, column: usize, name: &str) -> Result<f64, InputError> {
     let celsius = rows.number(column, name)?;
     let fault = |problem: String, remedy: &str| Err(rows.fault(Some(name), problem, remedy));
     if celsius < ABSOLUTE_ZERO_C {

@@ -13,7 +13,7 @@ use super::record_format::{Key, RecordFormat, RecordOptions};
 use super::rows::{Rows, quoted};
 use super::timestamp::{self, FORMS, is_ambiguous};
 use crate::Error;
-use crate::glossary::{Remark, WARNING};
+use crate::remark::{Remark, WARNING};
 
 /// The chamber's temperature \[°C\].
 pub const CHAMBER: &str = "chamber_c";
@@ -77,7 +77,7 @@ impl RecordCase {
             more => format!(" (and {more} more)"),
         };
         let problem = format!("cannot be used: {first}{more}");
-        Err(InputError { file: self.fingerprint.file.clone(), line: None, field: None, problem, remedy: String::new() })
+        Err(InputError::whole(&self.fingerprint.file, problem, ""))
     }
 }
 

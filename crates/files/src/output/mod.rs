@@ -1,4 +1,4 @@
-//! Results on their way out: files whole or not at all, standard output without complaint when its reader has left.
+//! Results on their way out: files whole or not at all.
 
 mod design;
 mod vtu;
@@ -110,19 +110,6 @@ fn temporary(target: &Path) -> io::Result<NamedTempFile> {
     builder.permissions(permissions);
     // the whole error would name the temporary file
     builder.tempfile_in(target.parent().unwrap_or(target)).map_err(|error| error.kind().into())
-}
-
-/// Writes to standard output; a reader that has left is no error.
-///
-/// # Errors
-/// [`Error::Stdout`] if it cannot be written for another reason.
-pub fn print(text: &str) -> Result<(), Error> {
-    let mut stdout = io::stdout().lock();
-    unless_reader_left(stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush())).map_err(Error::Stdout)
-}
-
-fn unless_reader_left(written: io::Result<()>) -> io::Result<()> {
-    written.or_else(|error| if error.kind() == ErrorKind::BrokenPipe { Ok(()) } else { Err(error) })
 }
 
 /// Checks before anything is computed that every result can be written, and would overwrite neither an input nor another result.

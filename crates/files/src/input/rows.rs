@@ -84,13 +84,7 @@ impl Rows {
 
     /// Opens a table.
     pub(crate) fn open_as(path: &Path, kind: &str, dialect: Dialect) -> Result<Self, InputError> {
-        let fault = |problem: String, remedy: &str| InputError {
-            file: path.to_owned(),
-            line: None,
-            field: None,
-            problem,
-            remedy: remedy.into(),
-        };
+        let fault = |problem: String, remedy: &str| InputError::whole(path, problem, remedy);
         let unreadable = |error: io::Error| fault(format!("cannot be read: {error}"), "check the path and its permissions");
         let file = File::open(path).map_err(unreadable)?;
         let about = file.metadata().map_err(unreadable)?;
@@ -153,10 +147,7 @@ impl Rows {
     fn unreadable(&self, error: &csv::Error) -> InputError {
         match error.kind() {
             ErrorKind::Utf8 { .. } => self.fault(None, "is not UTF-8 text", "save the file as \"CSV UTF-8\""),
-            ErrorKind::Io(error) => {
-                let problem = format!("cannot be read: {error}");
-                InputError { file: self.path.clone(), line: None, field: None, problem, remedy: String::new() }
-            }
+            ErrorKind::Io(error) => InputError::whole(&self.path, format!("cannot be read: {error}"), ""),
             _ => self.fault(None, error.to_string(), ""),
         }
     }
@@ -219,13 +210,7 @@ impl Rows {
     /// A complaint about this row.
     pub(crate) fn fault(&self, column: Option<&str>, problem: impl Into<String>, remedy: impl Into<String>) -> InputError {
         let line = usize::try_from(self.reader.position().line().saturating_sub(1)).unwrap_or(usize::MAX);
-        InputError {
-            file: self.path.clone(),
-            line: Some(line.max(1)),
-            field: column.map(str::to_owned),
-            problem: problem.into(),
-            remedy: remedy.into(),
-        }
+        InputError { line: Some(line.max(1)), field: column.map(str::to_owned), ..InputError::whole(&self.path, problem, remedy) }
     }
 
     /// A complaint about the file as a whole.

@@ -54,7 +54,7 @@ pub fn to_ppm(ratio: f64) -> f64 {
 }
 
 /// The unit of a mechanism's parameter, by the end of its name; 1 if it has none.
-pub(crate) fn parameter_unit(name: &str) -> &'static str {
+pub fn parameter_unit(name: &str) -> &'static str {
     const UNITS: [(&str, &str); 13] = [
         ("_m2k_per_w", "m² K/W"),
         ("_w_per_m2k", "W/(m² K)"),

@@ -40,7 +40,7 @@ pub(crate) struct Source {
 
 impl Source {
     pub(crate) fn read(path: &Path) -> Result<Self, InputError> {
-        let fault = |problem: String, remedy: &str| whole_file(path, problem, remedy);
+        let fault = |problem: String, remedy: &str| InputError::whole(path, problem, remedy);
         let unreadable = |error: std::io::Error| fault(format!("cannot be read: {error}"), "check the path and its permissions");
         let kind = std::fs::metadata(path).map_err(unreadable)?;
         if kind.is_dir() {
@@ -80,7 +80,7 @@ impl Source {
 
     fn parse_as<T: DeserializeOwned>(&self, kind: Option<&'static Kind>) -> Result<T, InputError> {
         ron::from_str(&self.text).map_err(|error| match mistaken(&self.text, kind) {
-            Some((problem, remedy)) => whole_file(&self.path, problem, &remedy),
+            Some((problem, remedy)) => InputError::whole(&self.path, problem, remedy),
             None => self.syntax_fault(&error),
         })
     }
@@ -98,7 +98,7 @@ impl Source {
             remedy = "close every bracket, or get the whole file".into();
         }
         let line = Some(error.span.start.line);
-        InputError { line, field: Some(field).filter(|f| !f.is_empty()), ..whole_file(&self.path, problem, &remedy) }
+        InputError { line, field: Some(field).filter(|f| !f.is_empty()), ..InputError::whole(&self.path, problem, remedy) }
     }
 
     /// Byte offset of a line and column, both from 1.
@@ -115,10 +115,6 @@ impl Source {
         let line = found.map_or(1, |f| 1 + self.text[..map.start(f)].matches('\n').count());
         let path = map.path(found);
         let field = if rest.is_empty() { path } else { join(&path, rest) };
-        InputError { line: Some(line), field: Some(field), ..whole_file(&self.path, problem.into(), &remedy.into()) }
+        InputError { line: Some(line), field: Some(field), ..InputError::whole(&self.path, problem, remedy) }
     }
-}
-
-fn whole_file(path: &Path, problem: String, remedy: &str) -> InputError {
-    InputError { file: path.to_owned(), line: None, field: None, problem, remedy: remedy.into() }
 }

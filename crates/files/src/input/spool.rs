@@ -6,10 +6,10 @@ use coil::{Design, Drive, FEWEST_ROWS};
 
 use super::InputError;
 use super::fingerprint::Fingerprint;
-use super::profile::{check_count, instant, temperature};
-use super::profile_columns::{DRIVES, RESULTS, TIME, check_separator};
+use super::profile::read_rows;
+use super::profile_columns::{DRIVES, RESULTS, TIME, names};
 use super::rows::{Rows, quoted};
-use crate::glossary::Remark;
+use crate::remark::Remark;
 
 const SPOOL: &str = "spool_c";
 /// Most rows of a record: the smoother holds some 300 bytes of each.
@@ -43,15 +43,8 @@ pub fn read_spool(path: &Path, design: &Design) -> Result<SpoolCase, InputError>
     let [at_time, at_spool] = [TIME, SPOOL].map(|wanted| names.iter().position(|name| name == wanted));
     let missing = |name| rows.fault(Some(name), "the column is missing", format!("a record starts with a line {TIME},{SPOOL}"));
     let (at_time, at_spool) = (at_time.ok_or_else(|| missing(TIME))?, at_spool.ok_or_else(|| missing(SPOOL))?);
-    let (mut time, mut spool): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
-    while rows.advance()? {
-        check_count(&rows, names.len())?;
-        if time.len() == MOST_ROWS {
-            return Err(rows.fault(None, format!("more than {MOST_ROWS} rows"), "split the record, or thin it out"));
-        }
-        time.push(instant(&rows, at_time, time.last().copied())?);
-        spool.push(temperature(&rows, at_spool, SPOOL)?);
-    }
+    let (time, mut courses) = read_rows(&mut rows, names.len(), at_time, &[(at_spool, SPOOL)], (MOST_ROWS, "record"))?;
+    let spool = courses.pop().unwrap_or_default();
     if time.len() < FEWEST_ROWS {
         let problem = format!("has {} rows below its header, too few to infer the chamber from", time.len());
         return Err(rows.whole_fault(&problem, format!("give {FEWEST_ROWS} or more")));
@@ -69,18 +62,15 @@ pub fn read_spool(path: &Path, design: &Design) -> Result<SpoolCase, InputError>
 
 /// The names of the columns, all known and none twice.
 fn columns(rows: &Rows) -> Result<Vec<String>, InputError> {
-    check_separator(rows, "time_s,spool_c")?;
-    let names: Vec<String> = rows.fields().map(str::to_owned).collect();
-    for (i, name) in names.iter().enumerate() {
-        if names[..i].contains(name) {
-            return Err(rows.fault(Some(name), "the column is given twice", "remove one of the two"));
-        }
-        if name != TIME && !RESULTS.contains(&name.as_str()) && DRIVES.iter().all(|(known, _)| known != name) {
+    let names = names(rows, "time_s,spool_c")?;
+    let known = |name: &str| name == TIME || RESULTS.contains(&name) || DRIVES.iter().any(|(drive, _)| *drive == name);
+    match names.iter().find(|name| !known(name)) {
+        Some(name) => {
             let remedy = format!("a record has {TIME},{SPOOL}; the other columns of profiles and results may stand beside them");
-            return Err(rows.fault(None, format!("unknown column {}", quoted(name)), remedy));
+            Err(rows.fault(None, format!("unknown column {}", quoted(name)), remedy))
         }
+        None => Ok(names),
     }
-    Ok(names)
 }
 
 /// What to say of the longest gap.

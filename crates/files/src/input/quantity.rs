@@ -27,6 +27,7 @@ macro_rules! quantities {
     ($($name:ident: $least:literal to $most:expr, $unit:literal, $example:literal, $si:expr, $from_si:expr;)*) => {$(
         #[doc = concat!("A number in the unit \"", $unit, "\", like ", $example, ", as it is written.")]
         #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+        #[serde(transparent)]
         pub(crate) struct $name(pub(crate) f64);
 
         impl $name {

@@ -38,6 +38,7 @@ pub(super) struct CellFile {
     pub(super) cell_um: Given<[(PlaceUm, PlaceUm); 2]>,
     /// Fibre axes (x, y), with `cell_um`, at most 100.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(!skip_serializing_if)]
     pub(super) centres_um: Vec<(PlaceUm, PlaceUm)>,
     /// Pockets without adhesive; none unless given.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

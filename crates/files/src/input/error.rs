@@ -20,6 +20,13 @@ pub struct InputError {
     pub remedy: String,
 }
 
+impl InputError {
+    /// A complaint about a file as a whole.
+    pub fn whole(file: impl Into<PathBuf>, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self { file: file.into(), line: None, field: None, problem: problem.into(), remedy: remedy.into() }
+    }
+}
+
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.file.display())?;

@@ -1,6 +1,7 @@
 //! Case files, profiles and recordings: read, checked to the last value, and turned into SI.
 
 mod cell;
+mod cell_constants;
 mod cell_file;
 mod cell_general;
 mod cell_material;
@@ -37,6 +38,7 @@ mod warnings;
 mod winding_file;
 
 pub use cell::{AnyCell, CellCase, check_any_cell, read_any_cell, read_cell};
+pub use cell_constants::{AtTemperature, Spread, at_temperature};
 pub use cell_general::GeneralCase;
 pub use cell_material::Material;
 pub use coil::{CoilCase, Origin, PRINTED, Provenance, check_coil, read_coil};
