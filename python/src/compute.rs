@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use fogcoil::cache::Cache;
-use fogcoil::homogenize::{self as cells, at_temperature};
-use fogcoil::input::{self, AnyCell, Between, RecordCase, RecordOptions};
+use fogcoil::homogenize as cells;
+use fogcoil::input::{self, AnyCell, Between, RecordCase, RecordOptions, at_temperature};
 use fogcoil::units::to_mm;
 use fogcoil::{Error, diagnose as diagnosis, sensitivity as ramp, simulate as runs, summary, wind as turns};
 use pyo3::prelude::*;
@@ -25,7 +25,7 @@ pub(crate) fn homogenize(py: Python, cell: &Cell, tolerance: f64, temperature_c:
     let solve = || -> Result<Value, Error> {
         match &cell.case {
             AnyCell::Regular(case, _) => Ok(cells::json(case, &case.homogenize_to(tolerance)?)),
-            AnyCell::General(case) => Ok(at_temperature(case, temperature_c, tolerance)?.json()),
+            AnyCell::General(case) => Ok(cells::general::json(&at_temperature(case, temperature_c, tolerance)?)),
         }
     };
     let tabulated = matches!(&cell.case, AnyCell::General(case) if case.temperatures().is_some());
@@ -109,8 +109,11 @@ type Record = (PathBuf, Option<Vec<Column>>);
 
 fn read((path, columns): &Record, meta: Option<&Path>) -> Result<RecordCase, Error> {
     match columns {
-        Some(columns) => input::check_record(path, table(columns), meta).map_err(at_element),
-        None => input::read_record(path, &RecordOptions { meta: meta.map(Path::to_owned), ..RecordOptions::default() }),
+        Some(columns) => input::check_record(path, table(columns), meta).map_err(|error| at_element(error.into())),
+        None => {
+            let options = RecordOptions { meta: meta.map(Path::to_owned), ..RecordOptions::default() };
+            Ok(input::read_record(path, &options)?)
+        }
     }
 }
 

@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use fogcoil::cache::Cache;
-use fogcoil::{Error, diagnose, explain, glossary, output};
+use fogcoil::{Error, diagnose, explain, glossary};
 
 use crate::line;
+use crate::print::print;
 use crate::progress::Progress;
 
 #[derive(Args)]
@@ -38,7 +39,7 @@ pub(crate) fn run(arguments: &Explain, progress: &Progress) -> Result<(), Error>
         }
         (None, _) => (glossary::list_json(), glossary::list()),
     };
-    output::print(&if *json { line(&object) } else { text })
+    print(&if *json { line(&object) } else { text })
 }
 
 fn look_up(id: &Path) -> Result<glossary::Entry, Error> {
@@ -59,6 +60,6 @@ impl Explain {
         diagnose::check_design(&case, coil)?;
         let cache = if self.no_cache { Cache::NONE } else { Cache::of_user() };
         let result = progress.tasks(|tell| explain::explain(&case, measured, !self.signed, &cache, tell))?;
-        output::print(&if self.json { line(&explain::json(&result)) } else { explain::text(&case, &result) })
+        print(&if self.json { line(&explain::json(&result)) } else { explain::text(&case, &result) })
     }
 }

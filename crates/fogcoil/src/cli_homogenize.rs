@@ -4,8 +4,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use fogcoil::homogenize::{self, AtTemperature, Quantity, Strains, at_temperature, parse_load, parse_quantity};
-use fogcoil::input::{self, AnyCell, CellCase, GeneralCase, InputError};
+use fogcoil::homogenize::{self, Quantity, Strains, general, parse_load, parse_quantity};
+use fogcoil::input::{self, AnyCell, AtTemperature, CellCase, GeneralCase, InputError, at_temperature};
 use fogcoil::output::{self, Content};
 use fogcoil::{Error, picture_cell};
 use homogenization::fields::{Fields, Load};
@@ -14,6 +14,7 @@ use serde_json::{Value, json};
 
 use crate::cli::relative_error;
 use crate::line;
+use crate::print::print;
 use crate::progress::Progress;
 
 #[derive(Args)]
@@ -69,7 +70,7 @@ pub(crate) fn run(arguments: &Homogenize, progress: &Progress) -> Result<(), Err
         AnyCell::Regular(case, general) => arguments.regular(&case, general, progress)?,
         AnyCell::General(general) => arguments.general(&general, progress)?,
     };
-    output::print(&if *json { line(&object) } else { text })
+    print(&if *json { line(&object) } else { text })
 }
 
 impl Homogenize {
@@ -106,7 +107,7 @@ impl Homogenize {
         let results = progress.during(&task, solve)?;
         let (mut texts, mut objects) = (Vec::new(), Vec::new());
         for (k, result) in results.iter().enumerate() {
-            let (mut text, mut object) = (result.text(case), result.json());
+            let (mut text, mut object) = (general::text(result, case), general::json(result));
             if k == 0 && (self.load.is_some() || self.svg.is_some()) {
                 self.inside(case, result.celsius, &result.first.solution, (&mut text, &mut object), progress)?;
             }

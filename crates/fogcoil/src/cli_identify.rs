@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use fogcoil::{Error, identify, input, output};
+use fogcoil::{Error, identify, input};
 
 use crate::line;
+use crate::print::print;
 use crate::progress::Progress;
 
 #[derive(Args)]
@@ -22,5 +23,5 @@ pub(crate) fn run(arguments: &Identify, progress: &Progress) -> Result<(), Error
     let Identify { targets, json } = arguments;
     let case = input::read_targets(targets)?;
     let result = progress.tasks(|tell| identify::identify(&case, &|task| tell(task)))?;
-    output::print(&if *json { line(&identify::json(&case, &result)) } else { identify::text(&case, &result) })
+    print(&if *json { line(&identify::json(&case, &result)) } else { identify::text(&case, &result) })
 }

@@ -6,23 +6,24 @@ use clap::{Command, CommandFactory};
 use clap_complete::Shell;
 use clap_mangen::Man;
 use fogcoil::Error;
-use fogcoil::output::{self, Content};
+use fogcoil::output::Content;
 
 use crate::cli::Cli;
+use crate::print::print;
 use crate::progress::Progress;
 
 /// Prints the completions for a shell.
 pub(crate) fn completions(shell: Shell) -> Result<(), Error> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Cli::command(), "fogcoil", &mut script);
-    output::print(&String::from_utf8_lossy(&script))
+    print(&String::from_utf8_lossy(&script))
 }
 
 /// Prints the program's page, or writes it and one for each command into a folder.
 pub(crate) fn man(dir: Option<&Path>, progress: &Progress) -> Result<(), Error> {
     let mut program = Cli::command();
     program.build();
-    let Some(dir) = dir else { return output::print(&page(program)?) };
+    let Some(dir) = dir else { return print(&page(program)?) };
     let commands = program.get_subcommands().filter(|command| command.get_name() != "help").cloned();
     let named = commands.map(|command| {
         let name: &'static str = format!("fogcoil-{}", command.get_name()).leak();

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use fogcoil::{Error, output};
 
+use crate::print::print;
+
 #[derive(Args)]
 pub(crate) struct New {
     /// The file to write; an existing one is left as it is
@@ -51,5 +53,5 @@ impl Kind {
 
 pub(crate) fn run(New { file, kind }: &New) -> Result<(), Error> {
     output::write_new(file, kind.template())?;
-    output::print(&format!("{} is written; try `{} {0}`\n", file.display(), kind.first()))
+    print(&format!("{} is written; try `{} {0}`\n", file.display(), kind.first()))
 }

@@ -10,6 +10,7 @@ use fogcoil::{Error, diagnose, input, output, recommend};
 
 use crate::cli_check::Format;
 use crate::line;
+use crate::print::print;
 use crate::progress::Progress;
 
 #[derive(Args)]
@@ -70,5 +71,5 @@ pub(crate) fn run(arguments: &Recommend, progress: &Progress) -> Result<(), Erro
     if let Some(path) = out {
         progress.save(&[(path, Content::Text(result.profiles[0].programme.csv()))])?;
     }
-    output::print(&if *json { line(&recommend::json(&result)) } else { recommend::text(&result) })
+    print(&if *json { line(&recommend::json(&result)) } else { recommend::text(&result) })
 }

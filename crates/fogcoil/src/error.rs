@@ -60,6 +60,18 @@ pub enum Error {
     },
 }
 
+impl From<files::Error> for Error {
+    fn from(error: files::Error) -> Self {
+        match error {
+            files::Error::Input(error) => Self::Input(error),
+            files::Error::Usage(text) => Self::Usage(text),
+            files::Error::Output { file, source } => Self::Output { file, source },
+            files::Error::Homogenization { file, source } => Self::Homogenization { file, source },
+            files::Error::Coil { file, source } => Self::Coil { file, source },
+        }
+    }
+}
+
 impl Error {
     /// Exit status: 2 where the user can mend it (arguments, case files, paths), 1 where the program failed.
     pub fn exit_code(&self) -> u8 {

@@ -1,6 +1,6 @@
 //! `fogcoil homogenize`: effective constants and the M row of a cell, and the strains inside it.
 
-mod general;
+pub mod general;
 mod load;
 mod quantity;
 mod strain;
@@ -13,7 +13,6 @@ use crate::input::CellCase;
 use crate::table::{plus_minus, significant, table};
 use crate::units::{to_mpa, to_ppm};
 
-pub use general::{AtTemperature, Spread, at_temperature};
 pub use load::{parse_load, words};
 pub use quantity::{Quantity, parse_quantity};
 pub use strain::Strains;

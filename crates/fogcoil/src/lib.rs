@@ -1,7 +1,6 @@
 //! Case files in; tables, pictures and JSON out: the program `fogcoil` as a library.
 //!
-//! - [`input`] reads `CELL.ron`, `COIL.ron` and profiles. Every value is checked; what is wrong is said once, with file, line, field and
-//!   remedy ([`input::InputError`]). The keys carry their units, the result is SI; [`units`] holds every conversion.
+//! - [`input`], [`output`], [`units`] and [`schema`] are those of the crate [`files`]: case files, profiles and recordings in, designs out.
 //! - [`simulate`] runs a profile; [`summary`], [`figures`] and [`report`] say what came out.
 //! - [`homogenize`], [`wind`], [`sensitivity`] render what the physics crates compute: as text for people and as JSON, CSV or SVG.
 //! - [`identify`] finds constituents behind measured effective constants.
@@ -10,8 +9,6 @@
 //! - [`diagnose`] compares recordings with a design and names what the design leaves out.
 //! - [`recommend`] finds the test that tells mechanisms apart; [`explain`] solves for what would give a measured sensitivity.
 //! - [`glossary`] explains the ids of mechanisms, warnings and notes.
-//! - [`schema`] tells whether JSON keeps a schema; [`input::schemas`] has those of the files that are read.
-//! - [`output`] writes a file whole or not at all.
 //!
 //! The functions neither print nor parse arguments; `main.rs` does.
 //!
@@ -40,22 +37,19 @@ pub mod figures;
 pub mod glossary;
 pub mod homogenize;
 pub mod identify;
-pub mod input;
-pub mod output;
 pub mod picture;
 pub mod picture_cell;
 pub mod recommend;
 pub mod report;
-pub mod schema;
 pub mod sensitivity;
 pub mod simulate;
 pub mod summary;
 mod table;
 pub mod trim;
-pub mod units;
 pub mod wind;
 
 pub use error::Error;
+pub use files::{input, output, schema, units};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -8,6 +8,7 @@ mod cli_identify;
 mod cli_manual;
 mod cli_new;
 mod cli_recommend;
+mod print;
 mod progress;
 
 use std::io::Write;
@@ -23,6 +24,7 @@ use fogcoil::glossary::Remark;
 use fogcoil::input::Between;
 use fogcoil::output::Content;
 use fogcoil::{Error, check, diagnose, figures, input, output, picture, report, sensitivity, simulate, summary, trim, wind};
+use print::print;
 use progress::Progress;
 
 fn main() -> ExitCode {
@@ -54,7 +56,7 @@ fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
         Command::Sensitivity { coil, json } => {
             let case = progress.read_coil(coil)?;
             let result = progress.during("modelling the coil", || case.steady_sensitivity())?;
-            output::print(&if *json { line(&sensitivity::json(&result)) } else { sensitivity::text(&case, &result) })
+            print(&if *json { line(&sensitivity::json(&result)) } else { sensitivity::text(&case, &result) })
         }
     }
 }
@@ -67,8 +69,8 @@ fn run_wind(coil: &Path, csv: Option<&Path>, svg: Option<&Path>, json: bool, pro
     files.extend(svg.map(|path| (path, Content::Text(picture::svg(&case.name, &case.winding)))));
     progress.save(&files)?;
     match (json, files.is_empty()) {
-        (true, _) => output::print(&line(&wind::json(&case))),
-        (false, true) => output::print(&wind::text(&case)),
+        (true, _) => print(&line(&wind::json(&case))),
+        (false, true) => print(&wind::text(&case)),
         (false, false) => Ok(()),
     }
 }
@@ -99,7 +101,7 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
     let page = || progress.during("drawing the report, with the test to make next", || outcome.report());
     files.extend(report.as_deref().map(|path| (path, Content::Text(page()))));
     progress.save(&files)?;
-    output::print(&if *json == Some(None) { object } else { outcome.text() })
+    print(&if *json == Some(None) { object } else { outcome.text() })
 }
 
 fn run_check(arguments: &Check, progress: &Progress) -> Result<(), Error> {
@@ -108,11 +110,11 @@ fn run_check(arguments: &Check, progress: &Progress) -> Result<(), Error> {
     output::check_outputs(&[record], &[svg.as_deref()])?;
     let case = progress.during(&format!("reading {}", record.display()), || input::read_record(record, &arguments.options()))?;
     if quiet && !*json && svg.is_none() {
-        output::print(&check::warnings(&case))?;
+        print(&check::warnings(&case))?;
         return Ok(case.require_usable()?);
     }
     let analysis = progress.during("identifying the noise", || check::Analysis::new(&case));
-    output::print(&match (json, quiet) {
+    print(&match (json, quiet) {
         (true, _) => line(&check::json(&analysis)),
         (false, true) => check::warnings(&case),
         (false, false) => check::text(&analysis),
@@ -136,7 +138,7 @@ fn run_trim(coil: &Path, profile: Option<&Path>, json: bool, progress: &Progress
         profile.notes.iter().for_each(|note| progress.note(note));
     }
     let result = progress.during("trimming", || trim::trim(&case, profile.as_ref()))?;
-    output::print(&if json { line(&trim::json(&result)) } else { trim::text(&case, &result) })
+    print(&if json { line(&trim::json(&result)) } else { trim::text(&case, &result) })
 }
 
 fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> {
@@ -185,7 +187,7 @@ fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> 
         files.push((path, Content::Text(report::html(&simulation, fields.as_ref(), Some(&measured)))));
     }
     progress.during(&format!("writing {}", out.display()), || progress.save(&files))?;
-    output::print(&if *json { line(&summary::json(&simulation)) } else { summary::text(&simulation) })
+    print(&if *json { line(&summary::json(&simulation)) } else { summary::text(&simulation) })
 }
 
 fn line(json: &serde_json::Value) -> String {

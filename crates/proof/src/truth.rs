@@ -114,9 +114,7 @@ const UNSEEN: f64 = 3.0;
 impl Truth {
     /// Reads a truth file.
     pub(crate) fn read(file: &Path) -> Result<Self, Failure> {
-        let failed = |e: &dyn std::fmt::Display| Failure(format!("{}: {e}", file.display()));
-        let text = std::fs::read_to_string(file).map_err(|e| failed(&e))?;
-        ron::from_str(&text).map_err(|e| failed(&e))
+        Ok(fogcoil::input::read_ron(file)?)
     }
 
     /// What was built in, `none` left out.

@@ -2,11 +2,10 @@
 
 mod mechanism;
 mod page;
-mod remark;
 
+pub(crate) use files::WARNING;
+pub use files::{Explanation, Remark};
 pub use mechanism::{Mechanism, all as mechanisms};
-pub(crate) use remark::WARNING;
-pub use remark::{Explanation, Remark};
 
 use std::fmt::Write;
 

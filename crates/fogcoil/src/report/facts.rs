@@ -73,7 +73,8 @@ fn side(side: Side) -> &'static str {
 
 /// Drives, mesh, modes, and what they leave out.
 pub(super) fn computation(simulation: &Simulation) -> Markup {
-    let mesh = |r: coil::MeshFineness| format!("elements of order {}, {} layers towards each edge of the coil", r.order, r.layers);
+    let mesh =
+        |r: coil::MeshFineness| format!("elements of order {}, {} layers towards each edge of the coil", r.order, r.layers);
     let mut rows = vec![
         row("driven by", simulation.profile.drives.iter().map(|drive| name(*drive)).collect::<Vec<_>>().join(", ")),
         row("start", "uniform at the first chamber temperature and free of stress; heaters off before the first row"),

@@ -1,7 +1,7 @@
 //! A bias by the stray field of the chamber's heaters and coolers, proportional to the rate of the chamber.
 
 use crate::mechanism::rates_per_hour;
-use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
+use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage};
 use crate::{Chain, Prepared};
 use coil::{Design, Error};
 use diagnosis::{Active, Prior};

@@ -1,6 +1,6 @@
 //! Water that the adhesive gives off or takes up, at a rate that decays as in diffusion.
 
-use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
+use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage};
 use crate::{Chain, Prepared};
 use bias::units::S_PER_H;
 use coil::{Design, Error};

@@ -1,6 +1,6 @@
 //! Two polarisation paths that interfere as their birefringence changes: a bias a sin(2πT/P) + b cos(2πT/P) of the spool's temperature T.
 
-use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
+use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage};
 use crate::mechanism::{grid, middles};
 use crate::{Chain, Prepared};
 use coil::{Design, Error};

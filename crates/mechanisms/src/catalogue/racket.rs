@@ -1,7 +1,7 @@
 //! A sensitivity that depends on temperature: all of the bias times 1 + b (T − 20 °C).
 
 use crate::mechanism::growing;
-use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
+use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage};
 use crate::{Chain, Prepared};
 use coil::{Design, Error};
 use diagnosis::{Active, Prior};

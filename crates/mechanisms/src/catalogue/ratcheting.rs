@@ -1,7 +1,7 @@
 //! What sets for good the first time a temperature is reached.
 
 use crate::mechanism::rates_per_hour;
-use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
+use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage};
 use crate::{Chain, Prepared};
 use coil::{Design, Error};
 use diagnosis::{Active, Parameter, Prior};

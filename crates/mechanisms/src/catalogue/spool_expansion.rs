@@ -1,7 +1,7 @@
 //! A spool whose expansion depends on temperature, as that of metals does.
 
 use crate::mechanism::growing;
-use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
+use crate::mechanism::{Change, Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Stage};
 use crate::{Chain, Prepared};
 use coil::{Design, Error};
 use diagnosis::{Active, Prior};

@@ -2,7 +2,7 @@
 
 use coil::{Design, Error};
 use diagnosis::{Active, Prior};
-use mechanisms::{Chain, Effect, Extent, HeatPath, Mechanism, Naming, Offer, Prepared, REFERENCE_C, Sight, Stage, Steady, Words};
+use mechanisms::{Chain, Effect, Extent, Facts, Mechanism, Naming, Offer, Prepared, REFERENCE_C, Stage, Steady};
 
 pub(crate) struct ReadOutCurvature;
 

@@ -2,10 +2,10 @@
 
 use super::row::decimals;
 use crate::Failure;
-use crate::files::{self, root};
+use crate::files::root;
+use fogcoil::input::{read_cell, read_coil, read_ron};
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::path::Path;
 
 /// One printed number.
 #[derive(Debug, Clone, Deserialize)]
@@ -77,19 +77,15 @@ pub(crate) struct Fixtures {
     printed: Vec<Printed>,
 }
 
-fn read<T: for<'de> Deserialize<'de>>(path: &Path) -> Result<T, Failure> {
-    ron::from_str(&files::read(path)?).map_err(|e| Failure(format!("{}: {e}", path.display())))
-}
-
 impl Fixtures {
     pub(crate) fn read() -> Result<Self, Failure> {
         let at = root().join("fixtures");
         Ok(Self {
-            cell: fogcoil::input::read_cell(&at.join("cell-reference.ron"))?.cell,
-            coil: fogcoil::input::read_coil(&at.join("coil-reference.ron"))?.design,
-            independent: read(&at.join("independent.ron"))?,
-            spools: read(&at.join("spool-materials.ron"))?,
-            printed: read::<Tables>(&at.join("paper/tables.ron"))?.rows,
+            cell: read_cell(&at.join("cell-reference.ron"))?.cell,
+            coil: read_coil(&at.join("coil-reference.ron"))?.design,
+            independent: read_ron(&at.join("independent.ron"))?,
+            spools: read_ron(&at.join("spool-materials.ron"))?,
+            printed: read_ron::<Tables>(&at.join("paper/tables.ron"))?.rows,
         })
     }
 

@@ -1,0 +1,40 @@
+//! Why a file was not read or written.
+
+use std::path::PathBuf;
+
+use crate::input::InputError;
+
+/// Errors of reading and writing. Complete on purpose: a program gives each its exit status.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A file cannot be used.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// What was asked for contradicts itself or the file.
+    #[error("{0}")]
+    Usage(String),
+    /// A result cannot be written.
+    #[error("{}: cannot be written: {source}; give a path in a folder that exists and is writable", file.display())]
+    Output {
+        /// The file.
+        file: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// A cell could not be solved.
+    #[error("{}: {source}", file.display())]
+    Homogenization {
+        /// The cell file.
+        file: PathBuf,
+        /// What went wrong.
+        source: homogenization::Error,
+    },
+    /// A coil could not be solved.
+    #[error("{}: {source}", file.display())]
+    Coil {
+        /// The coil file.
+        file: PathBuf,
+        /// What went wrong.
+        source: coil::Error,
+    },
+}

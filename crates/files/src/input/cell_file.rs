@@ -1,0 +1,229 @@
+//! The fields of `CELL.ron` as they are written.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::given::Given;
+use super::quantity::{
+    AngleDeg, Conductivity, Density, ExpansionPerK, FibreUm, ModulusMpa, PlaceUm, Ratio, SpecificHeat, TemperatureC,
+};
+
+/// A fibre's cell, `CELL.ron`.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CellFile {
+    /// Its name.
+    pub(super) name: String,
+    /// Distance of neighbouring fibres; not beside `cell_um`.
+    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    pub(super) pitch_um: Given<FibreUm>,
+    /// Concentric rings of the fibre, from the inside out, 1 to 16.
+    pub(super) rings: Vec<RingFile>,
+    /// What fills the rest of the cell.
+    pub(super) adhesive: MaterialFile,
+    /// Lattice; hexagonal unless given.
+    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    pub(super) packing: Given<PackingFile>,
+    /// Fibres of a cell along x; 1 unless given.
+    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    pub(super) columns: Given<usize>,
+    /// Fibres of a cell along y; 1 unless given.
+    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    pub(super) rows: Given<usize>,
+    /// Fibres moved at random from the lattice.
+    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    pub(super) displaced: Given<DisplacedFile>,
+    /// Two lattice vectors (x, y), in place of `pitch_um` and `packing`.
+    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    pub(super) cell_um: Given<[(PlaceUm, PlaceUm); 2]>,
+    /// Fibre axes (x, y), with `cell_um`, at most 100.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(!skip_serializing_if)]
+    pub(super) centres_um: Vec<(PlaceUm, PlaceUm)>,
+    /// Pockets without adhesive; none unless given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) voids: Vec<VoidFile>,
+}
+
+/// Lattice of the fibres.
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, PartialEq)]
+pub(super) enum PackingFile {
+    Hexagonal,
+    Square,
+}
+
+/// Fibres displaced at random.
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DisplacedFile {
+    /// Farthest move of an axis.
+    pub(super) most_um: FibreUm,
+    /// Thinnest film left between two fibres.
+    pub(super) least_film_um: FibreUm,
+    /// Of the random numbers; realisation k takes `seed` + k.
+    pub(super) seed: u64,
+    /// How many cells are solved and averaged; 1 unless given.
+    #[serde(default = "one")]
+    pub(super) realisations: usize,
+}
+
+/// A pocket without adhesive.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct VoidFile {
+    /// Its centre (x, y).
+    pub(super) centre_um: (PlaceUm, PlaceUm),
+    /// Its two axes.
+    pub(super) diameters_um: (FibreUm, FibreUm),
+    /// Of the first axis from x; 0 unless given.
+    #[serde(default)]
+    pub(super) angle_deg: AngleDeg,
+}
+
+/// A ring of the fibre.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RingFile {
+    /// Its name.
+    pub(super) name: String,
+    /// Of a round ring.
+    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    pub(super) outer_diameter_um: Given<FibreUm>,
+    /// The two axes of an ellipse, in place of `outer_diameter_um`.
+    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    pub(super) outer_diameters_um: Given<(FibreUm, FibreUm)>,
+    /// Of the ellipse's first axis from x; 0 unless given.
+    #[serde(default)]
+    pub(super) angle_deg: AngleDeg,
+    /// Its centre (x, y) from the fibre's axis; (0, 0) unless given.
+    #[serde(default)]
+    pub(super) offset_um: (PlaceUm, PlaceUm),
+    /// Whether the row M reports its mean strain.
+    pub(super) glass: bool,
+    /// What it is made of.
+    pub(super) material: MaterialFile,
+}
+
+/// A constituent: isotropic constants, or `orthotropic`, or `table`.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MaterialFile {
+    /// Young's modulus; isotropic.
+    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    pub(super) youngs_modulus_mpa: Given<ModulusMpa>,
+    /// Poisson's ratio, greater than -1 and less than 0.5; isotropic.
+    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    pub(super) poisson_ratio: Given<f64>,
+    /// Linear expansion; isotropic.
+    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    pub(super) thermal_expansion_per_k: Given<ExpansionPerK>,
+    /// Thermal conductivity; isotropic.
+    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    pub(super) conductivity_w_per_mk: Given<Conductivity>,
+    /// Optional, for the cell's mean density.
+    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    pub(super) density_kg_per_m3: Given<Density>,
+    /// Optional, for the cell's mean heat capacity.
+    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    pub(super) specific_heat_j_per_kgk: Given<SpecificHeat>,
+    /// Orthotropic constants, in place of the isotropic ones.
+    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    pub(super) orthotropic: Given<OrthotropicFile>,
+    /// Isotropic constants by rising temperature, linear between the rows, in place of one set.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) table: Vec<RowFile>,
+}
+
+/// Orthotropic constants in axes x, y, z, z along the fibre; `nu_xz` is the contraction along z per extension along x under stress along x.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct OrthotropicFile {
+    /// Young's modulus along x.
+    pub(super) e_x_mpa: ModulusMpa,
+    /// Young's modulus along y.
+    pub(super) e_y_mpa: ModulusMpa,
+    /// Young's modulus along z.
+    pub(super) e_z_mpa: ModulusMpa,
+    /// Shear modulus yz.
+    pub(super) g_yz_mpa: ModulusMpa,
+    /// Shear modulus xz.
+    pub(super) g_xz_mpa: ModulusMpa,
+    /// Shear modulus xy.
+    pub(super) g_xy_mpa: ModulusMpa,
+    /// Poisson's ratio yz.
+    pub(super) nu_yz: Ratio,
+    /// Poisson's ratio xz.
+    pub(super) nu_xz: Ratio,
+    /// Poisson's ratio xy.
+    pub(super) nu_xy: Ratio,
+    /// Expansion along x.
+    pub(super) alpha_x_per_k: ExpansionPerK,
+    /// Expansion along y.
+    pub(super) alpha_y_per_k: ExpansionPerK,
+    /// Expansion along z.
+    pub(super) alpha_z_per_k: ExpansionPerK,
+    /// Conductivity along x.
+    pub(super) k_x_w_per_mk: Conductivity,
+    /// Conductivity along y.
+    pub(super) k_y_w_per_mk: Conductivity,
+    /// Conductivity along z.
+    pub(super) k_z_w_per_mk: Conductivity,
+    /// Of the material's x from the cell's; 0 unless given.
+    #[serde(default)]
+    pub(super) angle_deg: AngleDeg,
+}
+
+/// Isotropic constants at a temperature.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RowFile {
+    /// The temperature.
+    pub(super) temperature_c: TemperatureC,
+    /// Young's modulus.
+    pub(super) youngs_modulus_mpa: ModulusMpa,
+    /// Poisson's ratio, greater than -1 and less than 0.5.
+    pub(super) poisson_ratio: f64,
+    /// Linear expansion.
+    pub(super) thermal_expansion_per_k: ExpansionPerK,
+    /// Thermal conductivity.
+    pub(super) conductivity_w_per_mk: Conductivity,
+}
+
+fn one() -> usize {
+    1
+}
+
+impl CellFile {
+    /// The first key that a regular cell of concentric round rings does not have.
+    pub(super) fn general_key(&self) -> Option<String> {
+        let ring = |(i, ring): (usize, &RingFile)| {
+            let at = |key: &str| format!("rings[{i}].{key}");
+            let key = if ring.outer_diameters_um.is_some() {
+                "outer_diameters_um"
+            } else if ring.offset_um != Default::default() {
+                "offset_um"
+            } else {
+                return ring.material.general_key().map(|key| at(&format!("material.{key}")));
+            };
+            Some(at(key))
+        };
+        let alone = [
+            ("columns", self.columns.is_some_and(|n| n > 1)),
+            ("rows", self.rows.is_some_and(|n| n > 1)),
+            ("displaced", self.displaced.is_some()),
+            ("cell_um", self.cell_um.is_some()),
+            ("centres_um", !self.centres_um.is_empty()),
+            ("voids", !self.voids.is_empty()),
+        ];
+        let of_cell = alone.into_iter().find(|(_, given)| *given).map(|(key, _)| key.to_owned());
+        let of_adhesive = || self.adhesive.general_key().map(|key| format!("adhesive.{key}"));
+        of_cell.or_else(|| self.rings.iter().enumerate().find_map(ring)).or_else(of_adhesive)
+    }
+}
+
+impl MaterialFile {
+    /// What it has in place of one set of isotropic constants.
+    pub(super) fn general_key(&self) -> Option<&'static str> {
+        if self.orthotropic.is_some() { Some("orthotropic") } else { (!self.table.is_empty()).then_some("table") }
+    }
+}

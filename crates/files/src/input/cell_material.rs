@@ -1,0 +1,146 @@
+//! Constituents of a cell: isotropic, orthotropic, or tables over temperature.
+
+use fem_core::material::{Isotropic, Orthotropic};
+use homogenization::Constituent;
+use homogenization::irregular::Solid;
+use nalgebra::Matrix2;
+
+use super::InputError;
+use super::cell_file::{MaterialFile, OrthotropicFile};
+use super::group::Group;
+use super::mirror::Mirror;
+
+/// Rows of the longest table accepted.
+const MOST_ROWS: usize = 1000;
+
+/// What a phase is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Material {
+    /// Isotropic, the same at all temperatures.
+    Isotropic(Constituent),
+    /// Orthotropic, the same at all temperatures.
+    Orthotropic(Box<Solid>),
+    /// Isotropic constants at increasing temperatures \[°C\], linear between them.
+    Table(Vec<(f64, Constituent)>),
+}
+
+impl Material {
+    /// Its constants at a temperature \[°C\], or at any if they are constant. `None` outside its table.
+    pub(crate) fn at(&self, celsius: Option<f64>) -> Option<Solid> {
+        let rows = match self {
+            // it was valid when it was read
+            Self::Isotropic(constituent) => return Solid::isotropic(constituent).ok(),
+            Self::Orthotropic(solid) => return Some(**solid),
+            Self::Table(rows) => rows,
+        };
+        let wanted = celsius?;
+        let (_, only) = rows.first().filter(|(t, _)| *t == wanted).copied().unzip();
+        let between = || {
+            let pair = rows.windows(2).find(|pair| pair[0].0 <= wanted && wanted <= pair[1].0)?;
+            let (below, above) = (&pair[0].1, &pair[1].1);
+            let share = (wanted - pair[0].0) / (pair[1].0 - pair[0].0);
+            let mean = |f: fn(&Constituent) -> f64| f(below) + share * (f(above) - f(below));
+            let elastic = Isotropic {
+                youngs_modulus: mean(|c| c.elastic.youngs_modulus),
+                poisson_ratio: mean(|c| c.elastic.poisson_ratio),
+                thermal_expansion: mean(|c| c.elastic.thermal_expansion),
+            };
+            Some(Constituent { elastic, conductivity: mean(|c| c.conductivity), ..*below })
+        };
+        // a mean of valid constants is valid
+        Solid::isotropic(&only.or_else(between)?).ok()
+    }
+
+    /// Temperatures \[°C\] it is given for; none if constant.
+    pub(crate) fn range(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Isotropic(_) | Self::Orthotropic(_) => None,
+            Self::Table(rows) => Some([rows.first()?.0, rows.last()?.0]),
+        }
+    }
+}
+
+/// Checks a constituent.
+pub(super) fn material(at: &Group, file: &MaterialFile) -> Result<Material, InputError> {
+    let plain = [
+        ("youngs_modulus_mpa", file.youngs_modulus_mpa.map(|value| value.model())),
+        ("poisson_ratio", *file.poisson_ratio),
+        ("thermal_expansion_per_k", file.thermal_expansion_per_k.map(|value| value.model())),
+        ("conductivity_w_per_mk", file.conductivity_w_per_mk.map(|value| value.model())),
+    ];
+    if file.orthotropic.is_some() && !file.table.is_empty() {
+        return Err(at.fault("table", "is given beside `orthotropic`", "keep one of the two"));
+    }
+    if let Some(group) = file.general_key()
+        && let Some((key, _)) = plain.iter().find(|(_, value)| value.is_some())
+    {
+        return Err(at.fault(key, format!("is given beside `{group}`"), "keep one of the two"));
+    }
+    // the same at all temperatures
+    let density = file.density_kg_per_m3.map(|value| value.model());
+    let specific_heat = file.specific_heat_j_per_kgk.map(|value| value.model());
+    if let Some(orthotropic) = &*file.orthotropic {
+        let solid = solid(&at.group("orthotropic"), orthotropic)?;
+        return Ok(Material::Orthotropic(Box::new(Solid { density, specific_heat, ..solid })));
+    }
+    if !file.table.is_empty() {
+        let rows = table(at, file)?.into_iter();
+        return Ok(Material::Table(rows.map(|(t, plain)| (t, Constituent { density, specific_heat, ..plain })).collect()));
+    }
+    let given = |i: usize| {
+        let (key, value) = plain[i];
+        let remedy = "add it to the group, or give `orthotropic` or `table` in place of all";
+        value.ok_or_else(|| at.fault(key, "the field is missing", remedy))
+    };
+    let plain = constituent(at, [given(0)?, given(1)?, given(2)?, given(3)?])?;
+    Ok(Material::Isotropic(Constituent { density, specific_heat, ..plain }))
+}
+
+/// Of modulus, ratio, expansion and conductivity, SI.
+fn constituent(at: &Group, [modulus, ratio, expansion, conductivity]: [f64; 4]) -> Result<Constituent, InputError> {
+    let elastic = Isotropic { youngs_modulus: modulus, poisson_ratio: ratio, thermal_expansion: expansion };
+    at.law(elastic.law())?;
+    Ok(Constituent::new(elastic, conductivity))
+}
+
+fn table(at: &Group, file: &MaterialFile) -> Result<Vec<(f64, Constituent)>, InputError> {
+    if file.table.len() > MOST_ROWS {
+        let problem = format!("{} rows are given, at most {MOST_ROWS} are read", file.table.len());
+        return Err(at.fault("table", problem, "thin the table out"));
+    }
+    let mut rows: Vec<(f64, Constituent)> = Vec::with_capacity(file.table.len());
+    for (at, file) in at.each("table", &file.table) {
+        let temperature = file.temperature_c.model();
+        if let Some((before, _)) = rows.last().filter(|(before, _)| temperature <= *before) {
+            let problem = format!("{temperature} degC is not greater than the row before it, {before} degC");
+            return Err(at.fault("temperature_c", problem, "list the rows by increasing temperature"));
+        }
+        let (expansion, conductivity) = (file.thermal_expansion_per_k.model(), file.conductivity_w_per_mk.model());
+        rows.push((
+            temperature,
+            constituent(&at, [file.youngs_modulus_mpa.model(), file.poisson_ratio, expansion, conductivity])?,
+        ));
+    }
+    Ok(rows)
+}
+
+fn solid(at: &Group, file: &OrthotropicFile) -> Result<Solid, InputError> {
+    let law = Orthotropic {
+        e_x: file.e_x_mpa.model(),
+        e_y: file.e_y_mpa.model(),
+        e_z: file.e_z_mpa.model(),
+        g_yz: file.g_yz_mpa.model(),
+        g_xz: file.g_xz_mpa.model(),
+        g_xy: file.g_xy_mpa.model(),
+        nu_yz: file.nu_yz.model(),
+        nu_xz: file.nu_xz.model(),
+        nu_xy: file.nu_xy.model(),
+        alpha_x: file.alpha_x_per_k.model(),
+        alpha_y: file.alpha_y_per_k.model(),
+        alpha_z: file.alpha_z_per_k.model(),
+    };
+    let law = at.law(law.law())?;
+    let conductivity = Matrix2::new(file.k_x_w_per_mk.model(), 0.0, 0.0, file.k_y_w_per_mk.model());
+    let conductivity_z = file.k_z_w_per_mk.model();
+    Ok(Solid { law, conductivity, conductivity_z, density: None, specific_heat: None }.turned(file.angle_deg.model()))
+}

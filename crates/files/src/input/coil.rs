@@ -1,0 +1,304 @@
+//! The coil's case file: `COIL.ron`.
+
+use std::path::{Path, PathBuf};
+
+use coil::{Body, Dehomogenization, Design, Layout, Sensor, SteadySensitivity};
+use fem_core::material::TransverselyIsotropic;
+use homogenization::{Constants, Packing, TOLERANCE};
+use winding::Winding;
+
+use super::cell::{AnyCell, read_any_cell};
+use super::cell_constants::at_temperature;
+use super::cell_general::GeneralCase;
+use super::coil_file::{BodyFile, CoilFile, DehomogenizationFile, MaterialFile};
+use super::fingerprint::Fingerprint;
+use super::group::Group;
+use super::mechanics::mechanics;
+use super::mirror::Mirror;
+use super::source::Source;
+use super::spool_file::spool;
+use super::warnings::{in_medium, warnings};
+use super::winding_file::winding;
+use super::{InputError, heat};
+use crate::Error;
+use crate::remark::Remark;
+use crate::units::to_mm;
+
+/// Table II of Osunluk, Ogut and Ozbay as printed; its exponents and the last sign are misprints (see the validation).
+pub const PRINTED: Dehomogenization = Dehomogenization { m_rx: 2.74e-6, m_ry: 2.70e-6, m_rz: -0.17, m_rt: 9.98e-6 };
+
+/// A coil file that has been read and checked.
+#[derive(Debug, Clone)]
+pub struct CoilCase {
+    /// The file it was read from.
+    pub file: PathBuf,
+    /// Its name.
+    pub name: String,
+    /// What it describes, in SI.
+    pub design: Design,
+    /// Its turns.
+    pub winding: Winding,
+    /// Where its numbers come from.
+    pub provenance: Provenance,
+    /// The content of the file and of the cells it names, in this order.
+    pub fingerprints: Vec<Fingerprint>,
+    /// What is allowed but looks like a mistake, a line each.
+    pub warnings: Vec<String>,
+}
+
+/// Where the numbers of a design come from that a file can give in several ways.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Provenance {
+    /// Of the coil's constants.
+    pub material: Origin,
+    /// Of the dehomogenisation row.
+    pub dehomogenization: Origin,
+}
+
+/// Where a set of numbers comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Origin {
+    /// Written in the coil file.
+    Given,
+    /// Homogenised from this cell file.
+    Cell(PathBuf),
+    /// As the paper prints it.
+    Printed,
+}
+
+/// Cells that have been homogenised, by path: each once.
+struct Cells<'a> {
+    top: Group<'a>,
+    source: &'a Source,
+    done: Vec<(PathBuf, Constants)>,
+    fingerprints: Vec<Fingerprint>,
+    /// What was taken for something else.
+    notes: Vec<String>,
+    /// Of the winding \[m\].
+    pitch: f64,
+}
+
+/// How far the winding may reach beyond the coil's rectangle, in pitches: drawings round to hundredths of a millimetre.
+const SLACK: f64 = 0.1;
+
+/// Largest relative difference between the pitches of cell and winding that passes without a word.
+const SAME_PITCH: f64 = 0.01;
+
+/// How far from transversely isotropic a coil's cell may be: a coil's law is.
+const MOST_ANISOTROPY: f64 = 0.01;
+
+/// Reads and checks a coil file; homogenises the cells it names.
+///
+/// Without a spool the thermometer sits at the coil's bore, whatever radius the file gives.
+///
+/// # Errors
+/// [`Error::Input`] says what is wrong, in which file, line and field, and how to mend it; [`Error::Homogenization`] if a sound
+/// cell cannot be solved.
+pub fn read_coil(path: &Path) -> Result<CoilCase, Error> {
+    checked(path, Source::read(path)?)
+}
+
+/// Checks a coil file that is yet to be written: the case that [`read_coil`] would read.
+///
+/// # Errors
+/// As [`read_coil`].
+pub fn check_coil(path: &Path, text: &str) -> Result<CoilCase, Error> {
+    checked(path, Source::of(path, text.to_owned()))
+}
+
+fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
+    let file: CoilFile = source.parse()?;
+    let top = Group::whole(&source);
+    let winding = winding(&top.group("winding"), &file.winding)?;
+    let inner_radius = winding.spec().inner_radius;
+    check_rectangle(&top.group("coil"), &file.coil, &winding)?;
+    let spool = file.spool.as_ref().map(|file| spool(&top.group("spool"), file, inner_radius)).transpose()?;
+    let mut sensor: Sensor = file.sensor.model();
+    if spool.is_none() {
+        sensor.radius = inner_radius;
+    }
+    let mut cells = Cells {
+        top: top.clone(),
+        source: &source,
+        done: Vec::new(),
+        fingerprints: vec![source.fingerprint()],
+        notes: Vec::new(),
+        pitch: winding.spec().pitch,
+    };
+    let (constants, material) = material(&mut cells, &file.coil.material)?;
+    let (dehomogenization, row) = dehomogenization(&mut cells, &file.dehomogenization)?;
+    let (elastic, conductivity_z, conductivity_r) = constants;
+    let body = Body {
+        outer_radius: file.coil.outer_radius_mm.model(),
+        height: file.coil.height_mm.model(),
+        density: file.coil.density_kg_per_m3.model(),
+        specific_heat: file.coil.specific_heat_j_per_kgk.model(),
+        elastic,
+        conductivity_z,
+        conductivity_r,
+    };
+    let design = Design {
+        winding: *winding.spec(),
+        body,
+        surroundings: file.surroundings.model(),
+        mechanics: mechanics(&top.group("mechanics"), &file.mechanics, &body)?,
+        heat: heat::paths(&top.group("heat"), &file.heat, spool.as_ref())?,
+        spool,
+        sensor,
+        optics: file.optics.model(),
+        drifts: file.drifts.model(),
+        dehomogenization,
+    };
+    let layout = Layout::new(&design).map_err(|error| design_fault(&top, &design, &error))?;
+    check_film(&top, &design, &layout)?;
+    let name = file.name;
+    let provenance = Provenance { material, dehomogenization: row };
+    let (file, fingerprints) = (path.to_owned(), cells.fingerprints);
+    let warnings = [cells.notes, warnings(&design, &layout, &winding)].concat();
+    Ok(CoilCase { file, name, design, winding, provenance, fingerprints, warnings })
+}
+
+impl CoilCase {
+    /// Bias per temperature rate in a steady ramp.
+    ///
+    /// # Errors
+    /// [`Error::Coil`] if the coil cannot be solved.
+    pub fn steady_sensitivity(&self) -> Result<SteadySensitivity, Error> {
+        coil::steady_sensitivity(&self.design).map_err(|source| Error::Coil { file: self.file.clone(), source })
+    }
+}
+
+/// With a film there is no medium for the thermometer to sit in.
+fn check_film(top: &Group, design: &Design, layout: &Layout) -> Result<(), InputError> {
+    if design.heat.film.is_some() && in_medium(layout, design.sensor) {
+        let remedy = "move it into the spool or the coil, or remove heat.film_w_per_m2k";
+        return Err(top.fault(
+            "sensor",
+            "the thermometer lies outside the solids, and a film stands in place of the medium",
+            remedy,
+        ));
+    }
+    Ok(())
+}
+
+/// A complaint about the design as a whole, at the field it names.
+fn design_fault(top: &Group, design: &Design, error: &coil::Error) -> InputError {
+    match error {
+        coil::Error::Design { field, .. } if field == "sensor" => {
+            let hub = design.spool.as_ref().map_or(0.0, |spool| spool.hub_contact.gap() + spool.hub_thickness);
+            let (bore, middle) = (to_mm(design.winding.inner_radius - hub), to_mm(design.body.height / 2.0));
+            let remedy = format!("at the bore, mid height, it would be (radius_mm: {bore:.3}, y_mm: {middle:.3})");
+            top.fault(field, "the thermometer lies outside the chamber", remedy)
+        }
+        coil::Error::Design { field, problem } => top.fault(field, problem.as_str(), ""),
+        other => top.fault("", other.to_string(), ""),
+    }
+}
+
+/// Checks the coil's rectangle against its winding.
+fn check_rectangle(at: &Group, file: &BodyFile, winding: &Winding) -> Result<(), InputError> {
+    let (inner, outer) = (to_mm(winding.spec().inner_radius), file.outer_radius_mm.0);
+    if outer <= inner {
+        let problem = format!("{outer} mm is not greater than winding.inner_radius_mm, {inner} mm");
+        return Err(at.fault("outer_radius_mm", problem, "give the radius, not the thickness, of the wound coil"));
+    }
+    let slack = SLACK * to_mm(winding.spec().pitch);
+    let extents = [("outer_radius_mm", outer, winding.outer_radius()), ("height_mm", file.height_mm.0, winding.height())];
+    for (key, given, wound) in extents {
+        let wound = to_mm(wound);
+        if wound > given + slack {
+            let problem = format!("the winding reaches {wound:.4} mm, outside the coil's {given} mm");
+            let remedy = format!("set it to {wound:.4} or more, or check layers, turns and pitch_mm");
+            return Err(at.fault(key, problem, remedy));
+        }
+    }
+    Ok(())
+}
+
+/// Elastic constants, and conductivities along and across the fibre.
+type Material = (TransverselyIsotropic, f64, f64);
+
+fn material(cells: &mut Cells, file: &MaterialFile) -> Result<(Material, Origin), Error> {
+    let (material, origin): (Material, _) = match file {
+        MaterialFile::Constants(file) => (file.model(), Origin::Given),
+        MaterialFile::FromCell(path) => {
+            let (path, constants) = cells.constants("coil.material", path)?;
+            ((constants.elastic(), constants.k_z, constants.k_r), Origin::Cell(path))
+        }
+    };
+    cells.top.group("coil.material").law(material.0.law())?;
+    Ok((material, origin))
+}
+
+fn dehomogenization(cells: &mut Cells, file: &DehomogenizationFile) -> Result<(Dehomogenization, Origin), Error> {
+    match file {
+        DehomogenizationFile::Matrix(file) => Ok((file.model(), Origin::Given)),
+        DehomogenizationFile::Printed => Ok((PRINTED, Origin::Printed)),
+        DehomogenizationFile::FromCell(path) => {
+            let (path, Constants { m_rx, m_ry, m_rz, m_rt, .. }) = cells.constants("dehomogenization", path)?;
+            Ok((Dehomogenization { m_rx, m_ry, m_rz, m_rt }, Origin::Cell(path)))
+        }
+    }
+}
+
+impl Cells<'_> {
+    fn constants(&mut self, field: &str, named: &str) -> Result<(PathBuf, Constants), Error> {
+        let path = self.source.neighbour(named);
+        if let Some(done) = self.done.iter().find(|(known, _)| *known == path) {
+            return Ok(done.clone());
+        }
+        let unusable = |inner: InputError| self.top.fault(field, format!("the cell {named:?} cannot be used: {inner}"), "");
+        let (constants, fingerprint) = match read_any_cell(&path).map_err(unusable)? {
+            AnyCell::General(case) => (self.nearest(field, named, &case)?, case.fingerprint),
+            AnyCell::Regular(case, _) if case.cell.packing == Packing::Square => {
+                let problem = format!("the cell {named:?} is packed square, but a coil's law is isotropic across the fibre");
+                return Err(self
+                    .top
+                    .fault(field, problem, "give a cell of hexagonal packing, or the constants themselves")
+                    .into());
+            }
+            AnyCell::Regular(case, _) => {
+                self.compare_pitch(field, named, case.cell.pitch);
+                (case.homogenize()?.constants, case.fingerprint)
+            }
+        };
+        self.fingerprints.push(fingerprint);
+        self.done.push((path.clone(), constants));
+        Ok((path, constants))
+    }
+
+    /// Notes a cell that is not the winding's.
+    fn compare_pitch(&mut self, field: &str, named: &str, pitch: f64) {
+        if (pitch / self.pitch - 1.0).abs() > SAME_PITCH {
+            let (cell, winding) = (1e3 * to_mm(pitch), 1e3 * to_mm(self.pitch));
+            self.notes.push(Remark::OtherPitch.says(format!(
+                "{field}: the cell {named:?} has a pitch of {cell:.2} um, the winding (winding.pitch_mm) one of {winding:.2} um; is this meant?"
+            )));
+        }
+    }
+
+    /// The nearest transversely isotropic constants of a general cell, with a note of how far they are.
+    fn nearest(&mut self, field: &str, named: &str, case: &GeneralCase) -> Result<Constants, Error> {
+        if case.temperatures().is_some() {
+            let problem = format!("the cell {named:?} has tables over temperature, but a coil has one set of constants");
+            let remedy = "give those of one temperature, as `fogcoil homogenize --temperatures` prints them";
+            return Err(self.top.fault(field, problem, remedy).into());
+        }
+        let found = at_temperature(case, None, TOLERANCE)?;
+        let far = 100.0 * found.anisotropy;
+        let constants = found.nearest.filter(|_| found.anisotropy <= MOST_ANISOTROPY).ok_or_else(|| {
+            let most = 100.0 * MOST_ANISOTROPY;
+            let problem = format!(
+                "the cell {named:?} is not isotropic across the fibre by {far:.2} % of strain energy, more than the {most} % that a \
+                 coil's law may leave out"
+            );
+            let remedy = "take a cell of more fibres, or give the constants themselves: `fogcoil homogenize` prints the nearest";
+            self.top.fault(field, problem, remedy)
+        })?;
+        self.notes.push(Remark::AnisotropicCell.says(format!(
+            "{field}: the cell {named:?} is not isotropic across the fibre by {far:.2} % of strain energy; its mean over all turns about \
+             the fibre is taken"
+        )));
+        Ok(constants)
+    }
+}

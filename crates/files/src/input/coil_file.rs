@@ -1,0 +1,242 @@
+//! `COIL.ron` as it is written: the whole, the winding as a body, optics, drifts, dehomogenisation.
+
+use bias::{Optics, StrainConvention};
+use coil::{Dehomogenization, Design, Drifts};
+use fem_core::material::TransverselyIsotropic;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::heat::HeatFile;
+use super::mechanics::MechanicsFile;
+use super::mirror::{Mirror, mirror, mirror_choice};
+use super::quantity::{
+    Conductivity, CurvaturePerK2, Density, DriftDegPerHPerK, ExpansionPerK, Index, LengthMm, ModulusGpa, ModulusMpa,
+    Photoelastic, Ratio, SpecificHeat, StrainRatio, TemperatureC,
+};
+use super::spool_file::{SensorFile, SpoolFile, SurroundingsFile};
+use super::winding_file::WindingFile;
+
+/// A coil on its spool, `COIL.ron`.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CoilFile {
+    /// Its name.
+    pub(crate) name: String,
+    /// How the fibre lies.
+    pub(crate) winding: WindingFile,
+    /// The potted winding as a body.
+    pub(crate) coil: BodyFile,
+    /// What it is wound on; none is a free coil.
+    pub(crate) spool: Option<SpoolFile>,
+    /// The medium around the solids.
+    pub(crate) surroundings: SurroundingsFile,
+    /// What of stiffness and bond depends on temperature or time; Elastic unless given.
+    #[serde(default, skip_serializing_if = "MechanicsFile::is_elastic")]
+    pub(crate) mechanics: MechanicsFile,
+    /// Heat paths besides conduction.
+    #[serde(default, skip_serializing_if = "HeatFile::is_none")]
+    pub(crate) heat: HeatFile,
+    /// The spool's thermometer.
+    pub(crate) sensor: SensorFile,
+    /// The fibre's optics.
+    pub(crate) optics: OpticsFile,
+    /// What vanishes at a reference temperature.
+    #[serde(default, skip_serializing_if = "DriftsFile::is_none")]
+    pub(crate) drifts: DriftsFile,
+    /// From the coil's strains to those of the glass.
+    pub(crate) dehomogenization: DehomogenizationFile,
+}
+
+/// What vanishes at a reference temperature.
+#[derive(Serialize, Deserialize, JsonSchema, PartialEq)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct DriftsFile {
+    /// The temperature; 20 unless given.
+    pub(crate) reference_c: TemperatureC,
+    /// b of dn/dT = (dn/dT)0 + b (T - reference); 0 unless given.
+    pub(crate) thermo_optic_curvature_per_k2: CurvaturePerK2,
+    /// Bias of the read-out per kelvin of the thermometer's place; 0 unless given.
+    pub(crate) read_out_deg_per_h_per_k: DriftDegPerHPerK,
+}
+
+impl Default for DriftsFile {
+    fn default() -> Self {
+        Self::of(&Drifts::default())
+    }
+}
+
+impl DriftsFile {
+    fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// The potted winding as a body.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BodyFile {
+    /// Its outer radius.
+    pub(crate) outer_radius_mm: LengthMm,
+    /// From y = 0 to its right face.
+    pub(crate) height_mm: LengthMm,
+    /// Density.
+    pub(crate) density_kg_per_m3: Density,
+    /// Specific heat.
+    pub(crate) specific_heat_j_per_kgk: SpecificHeat,
+    /// Its effective constants.
+    pub(crate) material: MaterialFile,
+}
+
+/// Effective constants: written, or of a cell file, whose path is relative to this file.
+#[derive(Serialize, Deserialize, JsonSchema)]
+pub(crate) enum MaterialFile {
+    Constants(ConstantsFile),
+    FromCell(String),
+}
+
+/// Effective constants, transversely isotropic; z is the fibre (hoop), r across it.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ConstantsFile {
+    /// Young's modulus along the fibre.
+    pub(crate) e_z_gpa: ModulusGpa,
+    /// Young's modulus across it.
+    pub(crate) e_r_mpa: ModulusMpa,
+    /// Shear modulus along the fibre.
+    pub(crate) g_zr_mpa: ModulusMpa,
+    /// Contraction across per extension along the fibre.
+    pub(crate) nu_zr: Ratio,
+    /// Poisson's ratio across; the stiffness must be positive definite.
+    pub(crate) nu_r: f64,
+    /// Expansion along the fibre.
+    pub(crate) alpha_z_per_k: ExpansionPerK,
+    /// Expansion across it.
+    pub(crate) alpha_r_per_k: ExpansionPerK,
+    /// Conductivity along the fibre.
+    pub(crate) k_z_w_per_mk: Conductivity,
+    /// Conductivity across it.
+    pub(crate) k_r_w_per_mk: Conductivity,
+}
+
+/// The fibre's optics.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OpticsFile {
+    /// n.
+    pub(crate) refractive_index: Index,
+    /// dn/dT.
+    pub(crate) thermo_optic_per_k: ExpansionPerK,
+    /// Expansion of the glass.
+    pub(crate) thermal_expansion_per_k: ExpansionPerK,
+    /// Photoelastic constant.
+    pub(crate) p11: Photoelastic,
+    /// Photoelastic constant.
+    pub(crate) p12: Photoelastic,
+    /// Effective diameter D.
+    pub(crate) sagnac_diameter_mm: LengthMm,
+    /// The strain in eq. (2).
+    pub(crate) strain: StrainFile,
+}
+
+/// The strain in eq. (2): as printed, or without the free expansion.
+#[derive(Serialize, Deserialize, JsonSchema)]
+pub(crate) enum StrainFile {
+    Total,
+    Mechanical,
+}
+
+/// The row M: written, of a cell file, or as the paper prints it.
+#[derive(Serialize, Deserialize, JsonSchema)]
+pub(crate) enum DehomogenizationFile {
+    Matrix(MatrixFile),
+    FromCell(String),
+    Printed,
+}
+
+/// eps_r of the glass = m_rx eps_rr + m_ry eps_yy + m_rz eps_hoop + m_rt dT, with total strains.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MatrixFile {
+    /// Of the coil's radial strain.
+    pub(crate) m_rx: StrainRatio,
+    /// Of the coil's axial strain.
+    pub(crate) m_ry: StrainRatio,
+    /// Of the hoop strain.
+    pub(crate) m_rz: StrainRatio,
+    /// Of the temperature difference.
+    pub(crate) m_rt_per_k: ExpansionPerK,
+}
+
+mirror!(DriftsFile is Drifts {
+    reference_c = reference,
+    thermo_optic_curvature_per_k2 = thermo_optic_curvature,
+    read_out_deg_per_h_per_k = read_out,
+});
+mirror!(OpticsFile is Optics {
+    refractive_index = refractive_index,
+    thermo_optic_per_k = thermo_optic,
+    thermal_expansion_per_k = thermal_expansion,
+    p11 = p11,
+    p12 = p12,
+    sagnac_diameter_mm = sagnac_diameter,
+    strain = strain,
+});
+mirror_choice!(StrainFile is StrainConvention { Total, Mechanical });
+mirror!(MatrixFile is Dehomogenization { m_rx = m_rx, m_ry = m_ry, m_rz = m_rz, m_rt_per_k = m_rt });
+
+impl Mirror<(TransverselyIsotropic, f64, f64)> for ConstantsFile {
+    fn model(&self) -> (TransverselyIsotropic, f64, f64) {
+        let elastic = TransverselyIsotropic {
+            e_z: self.e_z_gpa.model(),
+            e_r: self.e_r_mpa.model(),
+            g_zr: self.g_zr_mpa.model(),
+            nu_zr: self.nu_zr.model(),
+            nu_r: self.nu_r,
+            alpha_z: self.alpha_z_per_k.model(),
+            alpha_r: self.alpha_r_per_k.model(),
+        };
+        (elastic, self.k_z_w_per_mk.model(), self.k_r_w_per_mk.model())
+    }
+
+    fn of((elastic, k_z, k_r): &(TransverselyIsotropic, f64, f64)) -> Self {
+        Self {
+            e_z_gpa: Mirror::of(&elastic.e_z),
+            e_r_mpa: Mirror::of(&elastic.e_r),
+            g_zr_mpa: Mirror::of(&elastic.g_zr),
+            nu_zr: Mirror::of(&elastic.nu_zr),
+            nu_r: elastic.nu_r,
+            alpha_z_per_k: Mirror::of(&elastic.alpha_z),
+            alpha_r_per_k: Mirror::of(&elastic.alpha_r),
+            k_z_w_per_mk: Mirror::of(k_z),
+            k_r_w_per_mk: Mirror::of(k_r),
+        }
+    }
+}
+
+impl CoilFile {
+    /// The file that says `design`, its constants written out.
+    pub(crate) fn new(name: &str, design: &Design) -> Self {
+        let body = &design.body;
+        let constants = ConstantsFile::of(&(body.elastic, body.conductivity_z, body.conductivity_r));
+        let coil = BodyFile {
+            outer_radius_mm: Mirror::of(&body.outer_radius),
+            height_mm: Mirror::of(&body.height),
+            density_kg_per_m3: Mirror::of(&body.density),
+            specific_heat_j_per_kgk: Mirror::of(&body.specific_heat),
+            material: MaterialFile::Constants(constants),
+        };
+        Self {
+            name: name.to_owned(),
+            winding: Mirror::of(&design.winding),
+            coil,
+            spool: Mirror::of(&design.spool),
+            surroundings: Mirror::of(&design.surroundings),
+            mechanics: Mirror::of(&design.mechanics),
+            heat: Mirror::of(&design.heat),
+            sensor: Mirror::of(&design.sensor),
+            optics: Mirror::of(&design.optics),
+            drifts: Mirror::of(&design.drifts),
+            dehomogenization: DehomogenizationFile::Matrix(Mirror::of(&design.dehomogenization)),
+        }
+    }
+}

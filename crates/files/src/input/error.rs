@@ -1,0 +1,48 @@
+//! What can be wrong with an input file.
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// A value, a line or a file that cannot be used: what, where, and how to mend it.
+///
+/// Displays as one message, `file:line: field: problem; remedy`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InputError {
+    /// The file.
+    pub file: PathBuf,
+    /// Line counted from 1, if the error has one.
+    pub line: Option<usize>,
+    /// Path of the field, e.g. `rings[1].material.poisson_ratio`, if the error has one.
+    pub field: Option<String>,
+    /// What is wrong, with the value.
+    pub problem: String,
+    /// How to mend it; empty where the problem says it.
+    pub remedy: String,
+}
+
+impl InputError {
+    /// A complaint about a file as a whole.
+    pub fn whole(file: impl Into<PathBuf>, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self { file: file.into(), line: None, field: None, problem: problem.into(), remedy: remedy.into() }
+    }
+}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.file.display())?;
+        if let Some(line) = self.line {
+            write!(f, ":{line}")?;
+        }
+        write!(f, ": ")?;
+        if let Some(field) = &self.field {
+            write!(f, "{field}: ")?;
+        }
+        write!(f, "{}", self.problem)?;
+        if !self.remedy.is_empty() {
+            write!(f, "; {}", self.remedy)?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for InputError {}

@@ -1,0 +1,95 @@
+//! The heat paths of `COIL.ron`: contact resistance, mounts, heaters, film.
+
+use coil::{Contact, HeatPaths, Heater, Mount, Side, Spool};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::InputError;
+use super::group::Group;
+use super::mirror::{Mirror, mirror};
+use super::quantity::{Conductance, PowerW, Resistance};
+use super::winding_file::SideFile;
+
+/// Heat paths besides conduction.
+#[derive(Serialize, Deserialize, JsonSchema, Default)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct HeatFile {
+    /// Contact resistance between hub and coil, where they are bonded; 0 unless given.
+    hub_resistance_m2k_per_w: Resistance,
+    /// Paths from a flange to its mount; none unless given.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    mounts: Vec<MountFile>,
+    /// Heat dissipated in a flange; none unless given.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    heaters: Vec<HeaterFile>,
+    /// Film coefficient of every surface to the chamber, in place of the still medium; None unless given.
+    film_w_per_m2k: Option<Conductance>,
+}
+
+/// A path from a flange's outer face to its mount, or to the chamber.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MountFile {
+    /// Of the flange.
+    side: SideFile,
+    /// Conductance per area.
+    conductance_w_per_m2k: Conductance,
+}
+
+/// Heat dissipated evenly in a flange, on from the first row of the profile.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct HeaterFile {
+    /// Of the flange.
+    side: SideFile,
+    /// Power.
+    power_w: PowerW,
+}
+
+mirror!(HeatFile is HeatPaths {
+    hub_resistance_m2k_per_w = hub_resistance,
+    mounts = mounts,
+    heaters = heaters,
+    film_w_per_m2k = film,
+});
+mirror!(MountFile is Mount { side = side, conductance_w_per_m2k = conductance });
+mirror!(HeaterFile is Heater { side = side, power_w = power });
+
+impl HeatFile {
+    pub(super) fn is_none(&self) -> bool {
+        self.model() == HeatPaths::default()
+    }
+}
+
+/// The paths, if the spool has the faces that they start from.
+pub(super) fn paths(at: &Group, file: &HeatFile, spool: Option<&Spool>) -> Result<HeatPaths, InputError> {
+    let paths: HeatPaths = file.model();
+    if paths.hub_resistance > 0.0 && spool.is_none_or(|spool| spool.hub_contact == Contact::Gap) {
+        let remedy = "remove the field, or set spool.hub_bonded to true";
+        return Err(at.fault(
+            "hub_resistance_m2k_per_w",
+            "no hub is bonded to the coil, so there is no contact to resist",
+            remedy,
+        ));
+    }
+    one_a_side(at, "mounts", paths.mounts.iter().map(|mount| mount.side), spool)?;
+    one_a_side(at, "heaters", paths.heaters.iter().map(|heater| heater.side), spool)?;
+    Ok(paths)
+}
+
+/// Refuses sides at which no flange stands, and a second of a kind at one.
+fn one_a_side(at: &Group, name: &str, sides: impl Iterator<Item = Side>, spool: Option<&Spool>) -> Result<(), InputError> {
+    let mut taken = Vec::new();
+    for (i, side) in sides.enumerate() {
+        let fault = |problem: String, remedy: &str| Err(at.fault(&format!("{name}[{i}].side"), problem, remedy));
+        if !spool.iter().flat_map(|spool| &spool.flanges).any(|flange| flange.side == side) {
+            let problem = format!("the spool has no flange at the side {side:?}");
+            return fault(problem, "name a side that has one in spool.flanges, or add it there");
+        }
+        if taken.contains(&side) {
+            return fault(format!("a second one at the side {side:?}"), "give at most one a side, with the values combined");
+        }
+        taken.push(side);
+    }
+    Ok(())
+}

@@ -1,0 +1,117 @@
+//! What `COIL.ron` says of stiffness and bond that depend on temperature and time.
+
+use coil::{Body, FactorsAt, Mechanics, Opening};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::InputError;
+use super::group::Group;
+use super::mirror::{Mirror, mirror};
+use super::quantity::{Factor, HysteresisK, Share, TemperatureC, TimeS};
+use super::winding_file::SideFile;
+
+/// Rows of the longest temperature table accepted: each costs a model.
+const MOST_ROWS: usize = 100;
+
+/// What of the coil's stiffness or bond depends on temperature or time.
+#[derive(Serialize, Deserialize, JsonSchema, Default)]
+pub(crate) enum MechanicsFile {
+    #[default]
+    Elastic,
+    TemperatureTable(Vec<FactorsFile>),
+    Relaxing(RelaxingFile),
+    Opening(OpeningFile),
+}
+
+/// Factors at a mean temperature of the coil; linear between rows, constant beyond. At most 100 rows.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FactorsFile {
+    /// The temperature.
+    temperature_c: TemperatureC,
+    /// On E_r and G.
+    transverse_modulus_factor: Factor,
+    /// On alpha_r.
+    transverse_expansion_factor: Factor,
+}
+
+/// E(t)/E(0) = 1 - fraction + fraction exp(-t/time).
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RelaxingFile {
+    /// What relaxes.
+    fraction: Share,
+    /// In what time.
+    time_s: TimeS,
+}
+
+/// The outer part of the bond to a flange opens in the cold.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OpeningFile {
+    /// Of the flange.
+    side: SideFile,
+    /// Where it opens.
+    below_c: TemperatureC,
+    /// How much above it closes.
+    hysteresis_k: HysteresisK,
+    /// Share of the annulus' width.
+    fraction: Share,
+}
+
+mirror!(FactorsFile is FactorsAt {
+    temperature_c = temperature,
+    transverse_modulus_factor = transverse_modulus,
+    transverse_expansion_factor = transverse_expansion,
+});
+mirror!(OpeningFile is Opening { side = side, below_c = below, hysteresis_k = hysteresis, fraction = fraction });
+
+impl Mirror<Mechanics> for MechanicsFile {
+    fn model(&self) -> Mechanics {
+        match self {
+            Self::Elastic => Mechanics::Elastic,
+            Self::TemperatureTable(rows) => Mechanics::TemperatureTable(rows.model()),
+            Self::Relaxing(file) => Mechanics::Relaxing { fraction: file.fraction.model(), time: file.time_s.model() },
+            Self::Opening(file) => Mechanics::Opening(file.model()),
+        }
+    }
+
+    fn of(model: &Mechanics) -> Self {
+        match model {
+            Mechanics::Elastic => Self::Elastic,
+            Mechanics::TemperatureTable(rows) => Self::TemperatureTable(Mirror::of(rows)),
+            Mechanics::Relaxing { fraction, time } => {
+                Self::Relaxing(RelaxingFile { fraction: Mirror::of(fraction), time_s: Mirror::of(time) })
+            }
+            Mechanics::Opening(opening) => Self::Opening(Mirror::of(opening)),
+        }
+    }
+}
+
+impl MechanicsFile {
+    pub(super) fn is_elastic(&self) -> bool {
+        matches!(self, Self::Elastic)
+    }
+}
+
+/// The law, if its table rises and keeps the coil's stiffness definite.
+pub(super) fn mechanics(at: &Group, file: &MechanicsFile, body: &Body) -> Result<Mechanics, InputError> {
+    let law = file.model();
+    let Mechanics::TemperatureTable(rows) = &law else { return Ok(law) };
+    if rows.is_empty() || rows.len() > MOST_ROWS {
+        return Err(at.fault("", format!("{} rows are given", rows.len()), format!("give 1 to {MOST_ROWS}")));
+    }
+    let limit = body.elastic.indefinite_at_e_r_factor();
+    for (i, row) in rows.iter().enumerate() {
+        let (at, temperature, factor) = (at.group(&format!("[{i}]")), row.temperature, row.transverse_modulus);
+        if let Some(before) = rows[..i].last().filter(|before| before.temperature >= temperature) {
+            let problem = format!("{temperature} C is not above the row before, {} C", before.temperature);
+            return Err(at.fault("temperature_c", problem, "order the rows by rising temperature"));
+        }
+        if factor >= limit {
+            let problem = format!("{factor} makes the coil's stiffness indefinite, from {limit:.4} on");
+            return Err(at.fault("transverse_modulus_factor", problem, "give a smaller factor"));
+        }
+    }
+    Ok(law)
+}

@@ -1,0 +1,101 @@
+//! Both ways between what a file says and the model in SI: one list of pairs for reading and writing.
+
+use coil::Contact;
+
+/// A part of a case file that says the same as an `M` of the model.
+pub(crate) trait Mirror<M> {
+    /// What it says, in SI.
+    fn model(&self) -> M;
+
+    /// What a file says of `model`.
+    fn of(model: &M) -> Self;
+}
+
+/// A group of fields, each the mirror of one of the model's: `key = field`.
+macro_rules! mirror {
+    ($file:ident is $model:ident { $($key:ident = $field:ident),* $(,)? }) => {
+        impl $crate::input::mirror::Mirror<$model> for $file {
+            fn model(&self) -> $model {
+                $model { $($field: $crate::input::mirror::Mirror::model(&self.$key)),* }
+            }
+
+            fn of(model: &$model) -> Self {
+                Self { $($key: $crate::input::mirror::Mirror::of(&model.$field)),* }
+            }
+        }
+    };
+}
+
+/// A choice that has the model's own names.
+macro_rules! mirror_choice {
+    ($file:ident is $model:ident { $($name:ident),* }) => {
+        impl $crate::input::mirror::Mirror<$model> for $file {
+            fn model(&self) -> $model {
+                match self { $(Self::$name => $model::$name),* }
+            }
+
+            fn of(model: &$model) -> Self {
+                match model { $($model::$name => Self::$name),* }
+            }
+        }
+    };
+}
+
+macro_rules! mirror_self {
+    ($($own:ty),*) => {$(
+        impl Mirror<$own> for $own {
+            fn model(&self) -> $own {
+                *self
+            }
+
+            fn of(model: &$own) -> Self {
+                *model
+            }
+        }
+    )*};
+}
+
+pub(crate) use {mirror, mirror_choice};
+mirror_self!(f64, usize, i32);
+
+impl<M, T: Mirror<M>> Mirror<Option<M>> for Option<T> {
+    fn model(&self) -> Option<M> {
+        self.as_ref().map(T::model)
+    }
+
+    fn of(model: &Option<M>) -> Self {
+        model.as_ref().map(T::of)
+    }
+}
+
+impl<M, T: Mirror<M>> Mirror<Vec<M>> for Vec<T> {
+    fn model(&self) -> Vec<M> {
+        self.iter().map(T::model).collect()
+    }
+
+    fn of(model: &Vec<M>) -> Self {
+        model.iter().map(T::of).collect()
+    }
+}
+
+/// A pair of numbers of one kind.
+impl<T: Mirror<f64>> Mirror<[f64; 2]> for (T, T) {
+    fn model(&self) -> [f64; 2] {
+        [self.0.model(), self.1.model()]
+    }
+
+    fn of(model: &[f64; 2]) -> Self {
+        (T::of(&model[0]), T::of(&model[1]))
+    }
+}
+
+/// Whether a face of the spool is bonded.
+impl Mirror<Contact> for bool {
+    fn model(&self) -> Contact {
+        if *self { Contact::Bonded } else { Contact::Gap }
+    }
+
+    fn of(model: &Contact) -> Self {
+        *model == Contact::Bonded
+    }
+}

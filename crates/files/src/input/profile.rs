@@ -1,0 +1,265 @@
+//! A profile: the chamber's temperature in time, `time_s,chamber_c` and what else drives the coil.
+
+use std::path::Path;
+
+use coil::{Design, Drive, Profile};
+
+use super::InputError;
+use super::fingerprint::Fingerprint;
+use super::profile_columns::{Columns, TIME};
+use super::rows::{Rows, quoted};
+use crate::remark::Remark;
+
+/// Most rows of a profile: two and a half years at 4 s.
+const MOST_ROWS: usize = 20_000_000;
+/// Accepted temperatures \[degC\].
+const ABSOLUTE_ZERO_C: f64 = -273.15;
+const MOST_C: f64 = 1000.0;
+/// A chamber that never gets below this \[degC\] is noted as possibly recorded in kelvin.
+const KELVIN_C: f64 = 180.0;
+/// Latest instant, either side of 0 [s]: 30 000 years, to catch a wrong unit.
+const MOST_S: f64 = 1e12;
+/// Shortest interval between rows [s]: a hundredth of the rounding of a time counted from 1970.
+const SHORTEST_S: f64 = 1e-6;
+
+/// Rows closer than this \[s\] are noted: the model's fastest modes last about as long, and what a jump does within it is not resolved.
+const RESOLVED_S: f64 = 1.0;
+
+/// Rows longer than this \[s\] are noted: what a coil does within them is averaged away.
+const COARSE_S: f64 = 120.0;
+
+/// How a profile's drives run between its rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+pub enum Between {
+    /// Straight: what a programme says.
+    #[default]
+    Linear,
+    /// On a smooth cubic through the rows: what a chamber that was recorded does.
+    Cubic,
+}
+
+impl Between {
+    /// Parts into which an interval is divided.
+    pub fn parts(self) -> usize {
+        match self {
+            Self::Linear => 1,
+            Self::Cubic => 6,
+        }
+    }
+}
+
+/// A profile that has been read and checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProfileCase {
+    /// What drives the coil, in the order of the profile's courses; the chamber first.
+    pub drives: Vec<Drive>,
+    /// Instants \[s\] and courses \[°C; heaters in units of their power\].
+    pub profile: Profile,
+    /// How the chamber's course was inferred from a thermometer; `None` if it is given.
+    pub inferred: Option<Inference>,
+    /// What a user should know although nothing is wrong.
+    pub notes: Vec<String>,
+    /// The file.
+    pub fingerprint: Fingerprint,
+    /// How the drives run between its rows.
+    pub between: Between,
+    /// Longest part \[s\] into which its rows were divided, if they were.
+    pub step: Option<f64>,
+}
+
+/// How well a thermometer's record determines the chamber's course.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Inference {
+    /// Standard deviation of the readings \[K\], given.
+    pub noise: f64,
+    /// Standard deviation of the change of the chamber's slope over a second \[K s^−3/2\], the most likely.
+    pub roughness: f64,
+    /// Root mean square of the readings minus the model's thermometer \[K\].
+    pub sensor_residual_rms: f64,
+    /// Standard deviation of the chamber's temperature \[K\]: median and largest.
+    pub chamber_sd: [f64; 2],
+}
+
+impl ProfileCase {
+    /// Temperature of the chamber at every instant \[°C\].
+    pub fn chamber(&self) -> &[f64] {
+        &self.profile.drives[0]
+    }
+
+    /// Notes rows in which, or before which, something changes, and which last so long that what the coil does is averaged away.
+    pub fn note_long_rows(&mut self, remedy: &str) {
+        let Profile { time, drives } = &self.profile;
+        let changes = |n: usize| n > 0 && drives.iter().any(|course| course[n] != course[n - 1]);
+        let seen = (1..time.len()).filter(|&n| changes(n) || changes(n - 1));
+        let longest = seen.map(|n| time[n] - time[n - 1]).fold(0.0, f64::max);
+        if longest > COARSE_S {
+            let problem =
+                format!("rows last up to {longest:.0} s, and a row's rate is its mean: peaks within it do not show; {remedy}");
+            self.notes.push(Remark::LongRows.says(format!("{}: {problem}", self.fingerprint.file.display())));
+        }
+    }
+
+    /// Divides the intervals between rows into equal parts of `step` seconds at most, on the straight lines between them.
+    ///
+    /// # Errors
+    /// If these are too many rows.
+    pub fn divide(&mut self, step: f64) -> Result<(), InputError> {
+        let time = &self.profile.time;
+        let parts = |pair: &[f64]| ((pair[1] - pair[0]) / step - 1e-9).ceil().max(1.0);
+        let rows = 1.0 + time.windows(2).map(parts).sum::<f64>();
+        if rows > MOST_ROWS as f64 {
+            let problem = format!("has {rows:.0} rows with this --step, more than {MOST_ROWS}");
+            return Err(InputError::whole(&self.fingerprint.file, problem, "give a longer step"));
+        }
+        let parts: Vec<usize> = time.windows(2).map(|pair| parts(pair) as usize).collect();
+        let divided = |values: &[f64]| -> Vec<f64> {
+            let between = parts.iter().zip(values.windows(2)).flat_map(|(&parts, pair)| {
+                // the rows themselves keep their bits
+                let at = move |part: usize| pair[0] + (pair[1] - pair[0]) * (part as f64 / parts as f64);
+                (1..=parts).map(move |part| if part == parts { pair[1] } else { at(part) })
+            });
+            values.first().copied().into_iter().chain(between).collect()
+        };
+        self.profile = Profile {
+            drives: self.profile.drives.iter().map(|course| divided(course)).collect(),
+            time: divided(&self.profile.time),
+        };
+        self.step = Some(step);
+        Ok(())
+    }
+}
+
+/// Reads and checks the profile of a design. The design's heaters, if it has any, are on throughout.
+///
+/// # Errors
+/// What is wrong, in which file, line and column, and how to mend it.
+pub fn read_profile(path: &Path, design: &Design) -> Result<ProfileCase, InputError> {
+    read(Rows::open(path, "a profile (*.csv)")?, path, design)
+}
+
+/// Checks a profile that is not in a file: the case that [`read_profile`] would read from a file of this content.
+///
+/// # Errors
+/// As [`read_profile`]; messages call the text `path`.
+pub fn check_profile(path: &Path, text: String, design: &Design) -> Result<ProfileCase, InputError> {
+    read(Rows::of(path, text), path, design)
+}
+
+fn read(mut rows: Rows, path: &Path, design: &Design) -> Result<ProfileCase, InputError> {
+    rows.header("time_s,chamber_c")?;
+    let columns = Columns::read(&rows, design)?;
+    let read: Vec<(usize, &str)> = columns.drives.iter().map(|(column, _)| (*column, columns.name(*column))).collect();
+    let (time, mut courses) = read_rows(&mut rows, columns.count, columns.time, &read, (MOST_ROWS, "profile"))?;
+    if time.is_empty() {
+        return Err(rows.whole_fault("has no row below its header", "give one for each instant, e.g. 0,20.0"));
+    }
+    let mut drives: Vec<Drive> = columns.drives.iter().map(|(_, drive)| *drive).collect();
+    if !design.heat.heaters.is_empty() {
+        drives.push(Drive::Heaters);
+        courses.push(vec![1.0; time.len()]);
+    }
+    let mut notes = columns.notes(path);
+    if time.len() == 1 {
+        notes.push(Remark::OneRow.says(format!("{}: has one row, in which nothing can happen", path.display())));
+    }
+    let shortest = time.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
+    if shortest < RESOLVED_S * (1.0 - 1e-6) {
+        let problem = format!(
+            "rows are as close as {shortest:.6} s; means over less than {RESOLVED_S} s are not reliable just after a jump"
+        );
+        notes.push(Remark::CloseRows.says(format!("{}: {problem}", path.display())));
+    }
+    if courses[0].iter().all(|celsius| *celsius > KELVIN_C) {
+        let problem = format!("chamber_c never falls below {KELVIN_C} degC; if it is in kelvin, subtract 273.15");
+        notes.push(Remark::Kelvin.says(format!("{}: {problem}", path.display())));
+    }
+    Ok(ProfileCase {
+        drives,
+        profile: Profile { time, drives: courses },
+        inferred: None,
+        notes,
+        fingerprint: rows.fingerprint(),
+        between: Between::Linear,
+        step: None,
+    })
+}
+
+/// Instants, and the courses of some columns, by their names, of at most so many rows below a header of `count` columns.
+pub(super) fn read_rows(
+    rows: &mut Rows,
+    count: usize,
+    at_time: usize,
+    columns: &[(usize, &str)],
+    (most, kind): (usize, &str),
+) -> Result<(Vec<f64>, Vec<Vec<f64>>), InputError> {
+    let mut time: Vec<f64> = Vec::new();
+    let mut courses = vec![Vec::new(); columns.len()];
+    while rows.advance()? {
+        check_count(rows, count)?;
+        if time.len() == most {
+            return Err(rows.fault(None, format!("more than {most} rows"), format!("split the {kind}, or thin it out")));
+        }
+        time.push(instant(rows, at_time, time.last().copied())?);
+        for ((column, name), course) in columns.iter().zip(&mut courses) {
+            course.push(temperature(rows, *column, name)?);
+        }
+    }
+    Ok((time, courses))
+}
+
+fn check_count(rows: &Rows, expected: usize) -> Result<(), InputError> {
+    let found = rows.count();
+    if found == expected {
+        return Ok(());
+    }
+    let line = rows.fields().collect::<Vec<_>>().join(",");
+    let problem =
+        format!("{} has {found} field{} where the header has {expected}", quoted(&line), if found == 1 { "" } else { "s" });
+    let remedy = if line.contains(';') {
+        "separate the fields with commas, not semicolons, and write decimals with a point"
+    } else if found > expected {
+        "give one number a column, decimals with a point, not a comma"
+    } else {
+        "complete the row or remove it: between rows the course is linear"
+    };
+    Err(rows.fault(None, problem, remedy))
+}
+
+fn instant(rows: &Rows, column: usize, last: Option<f64>) -> Result<f64, InputError> {
+    let time = rows.number(column, TIME)?;
+    let fault = |problem: String, remedy: &str| Err(rows.fault(Some(TIME), problem, remedy));
+    if time.abs() > MOST_S {
+        return fault(format!("{time} s is beyond {MOST_S:e} s"), "give seconds from any start");
+    }
+    match last {
+        Some(last) if time == last => fault(format!("{time} s stands in the row above too"), "keep one of the two rows"),
+        Some(last) if time < last => fault(
+            format!("{time} s comes before the row above, {last} s"),
+            "sort the rows by time, or split the file where the clock restarts",
+        ),
+        Some(last) if time - last < SHORTEST_S => fault(
+            format!("{time} s is less than {SHORTEST_S:e} s after the row above"),
+            "give seconds; remove one of the rows if it is a repeat",
+        ),
+        _ => Ok(time),
+    }
+}
+
+fn temperature(rows: &Rows, column: usize, name: &str) -> Result<f64, InputError> {
+    let celsius = rows.number(column, name)?;
+    let fault = |problem: String, remedy: &str| Err(rows.fault(Some(name), problem, remedy));
+    if celsius < ABSOLUTE_ZERO_C {
+        fault(
+            format!("{celsius} degC is below absolute zero, {ABSOLUTE_ZERO_C} degC"),
+            "check the sensor and the unit; temperatures are in degC",
+        )
+    } else if celsius > MOST_C {
+        fault(
+            format!("{celsius} degC is more than {MOST_C}, the most accepted"),
+            "give degrees Celsius; if it is in kelvin, subtract 273.15, if in hundredths of a degree, divide by 100",
+        )
+    } else {
+        Ok(celsius)
+    }
+}

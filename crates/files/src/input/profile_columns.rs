@@ -1,0 +1,129 @@
+//! The header of a profile: which column drives what.
+
+use std::path::Path;
+
+use coil::{Design, Drive, Side};
+
+use super::InputError;
+use super::rows::{Rows, quoted};
+use crate::remark::Remark;
+
+pub(crate) const TIME: &str = "time_s";
+const CHAMBER: &str = "chamber_c";
+
+/// Columns that a profile may have, and what they drive.
+pub(super) const DRIVES: [(&str, Drive); 5] = [
+    (CHAMBER, Drive::Chamber),
+    ("left_c", Drive::EndWall(Side::Left)),
+    ("right_c", Drive::EndWall(Side::Right)),
+    ("mount_left_c", Drive::Mount(Side::Left)),
+    ("mount_right_c", Drive::Mount(Side::Right)),
+];
+
+/// Columns of recordings and of this program's own results; a profile may have them, and they drive nothing.
+pub(super) const RESULTS: [&str; 5] =
+    ["spool_c", "shupe_deg_per_h", "eo_axial_deg_per_h", "eo_radial_deg_per_h", "rate_deg_per_h"];
+
+/// What the columns of a profile are.
+pub(crate) struct Columns {
+    /// Their number.
+    pub(crate) count: usize,
+    /// Which is the time.
+    pub(crate) time: usize,
+    /// Those that drive, the chamber first.
+    pub(crate) drives: Vec<(usize, Drive)>,
+    names: Vec<String>,
+    ignored: Vec<String>,
+}
+
+impl Columns {
+    /// Reads them from the row at which `rows` stands.
+    pub(crate) fn read(rows: &Rows, design: &Design) -> Result<Self, InputError> {
+        let names = names(rows, "time_s,chamber_c")?;
+        let mut ignored = Vec::new();
+        for name in &names {
+            if let Some((_, drive)) = DRIVES.iter().find(|(known, _)| known == name) {
+                check_drive(rows, name, *drive, design)?;
+            } else if RESULTS.contains(&name.as_str()) {
+                ignored.push(name.clone());
+            } else if name != TIME {
+                return Err(unknown(rows, name));
+            }
+        }
+        let find = |wanted: &str| names.iter().position(|name| name == wanted);
+        let record = if find("spool_c").is_some() { "; a record of the spool's thermometer goes to --spool" } else { "" };
+        let missing = |name| {
+            rows.fault(Some(name), "the column is missing", format!("a profile starts with a line {TIME},{CHAMBER}{record}"))
+        };
+        let time = find(TIME).ok_or_else(|| missing(TIME))?;
+        find(CHAMBER).ok_or_else(|| missing(CHAMBER))?;
+        let drives = DRIVES.iter().filter_map(|(name, drive)| Some((find(name)?, *drive))).collect();
+        Ok(Self { count: names.len(), time, drives, names, ignored })
+    }
+
+    /// Name of a column.
+    pub(crate) fn name(&self, column: usize) -> &str {
+        &self.names[column]
+    }
+
+    /// Which columns are not used.
+    pub(crate) fn notes(&self, path: &Path) -> Vec<String> {
+        if self.ignored.is_empty() {
+            return Vec::new();
+        }
+        let which = match self.ignored.as_slice() {
+            [one] => format!("the column {one} drives nothing and is ignored"),
+            more => format!("the columns {} drive nothing and are ignored", more.join(", ")),
+        };
+        vec![Remark::IgnoredColumn.says(format!("{}: {which}", path.display()))]
+    }
+}
+
+/// The names of the columns, none twice.
+pub(super) fn names(rows: &Rows, example: &str) -> Result<Vec<String>, InputError> {
+    check_separator(rows, example)?;
+    let names: Vec<String> = rows.fields().map(str::to_owned).collect();
+    match (1..names.len()).find(|&i| names[..i].contains(&names[i])) {
+        Some(i) => Err(rows.fault(Some(&names[i]), "the column is given twice", "remove one of the two")),
+        None => Ok(names),
+    }
+}
+
+fn check_separator(rows: &Rows, example: &str) -> Result<(), InputError> {
+    let line = rows.fields().collect::<Vec<_>>().join(",");
+    let fault = |problem: &str, remedy: &str| Err(rows.fault(None, problem, remedy));
+    if line.contains(';') {
+        return fault("the fields are separated by semicolons", "separate them with commas, and write decimals with a point");
+    }
+    if line.contains('\t') {
+        return fault("the fields are separated by tabs", "separate them with commas, and write decimals with a point");
+    }
+    if line.contains('\r') {
+        return fault("the lines end in carriage returns alone", "save the file with line feeds (Unix) or both (Windows)");
+    }
+    if rows.fields().all(|field| field.parse::<f64>().is_ok()) {
+        return fault("the first line holds numbers, not the names of the columns", &format!("put a line {example} above it"));
+    }
+    Ok(())
+}
+
+/// Refuses a column that would drive nothing in this design.
+fn check_drive(rows: &Rows, name: &str, drive: Drive, design: &Design) -> Result<(), InputError> {
+    match drive {
+        Drive::Mount(side) if design.heat.mounts.iter().all(|mount| mount.side != side) => {
+            let problem = format!("the design has no mount at the side {side:?}");
+            Err(rows.fault(Some(name), problem, "remove the column, or add the mount to heat.mounts of the coil file"))
+        }
+        Drive::EndWall(_) if design.heat.film.is_some() => {
+            let problem = "the design has a film in place of the medium, so no end wall acts on it";
+            Err(rows.fault(Some(name), problem, "remove the column, or heat.film_w_per_m2k from the coil file"))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn unknown(rows: &Rows, name: &str) -> InputError {
+    let known: Vec<&str> = [TIME].into_iter().chain(DRIVES.iter().map(|(name, _)| *name)).collect();
+    let remedy = format!("a profile has {}; {} may stand beside them and are ignored", known.join(", "), RESULTS.join(", "));
+    rows.fault(None, format!("unknown column {}", quoted(name)), remedy)
+}

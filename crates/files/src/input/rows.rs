@@ -1,0 +1,233 @@
+//! A CSV table row by row: every complaint knows its line, and no file is held whole.
+//!
+//! Fields are separated by commas and not quoted with line ends inside; double quotes around a field are dropped. Lines above the first row
+//! that begin with # are a logger's remarks and skipped.
+
+use std::fs::File;
+use std::io::{self, Chain, Cursor, Read};
+use std::path::{Path, PathBuf};
+
+use csv::{ErrorKind, StringRecord, Terminator};
+
+use super::InputError;
+use super::fingerprint::{Fingerprint, Hash};
+
+/// Largest table [bytes]: 2 GiB.
+pub(crate) const LARGEST: u64 = 2 << 30;
+/// Longest line \[bytes\]; what has longer ones is no table of numbers.
+const LONGEST_LINE: usize = 1 << 16;
+/// Longest part of the file that a message quotes \[characters\].
+const QUOTED: usize = 40;
+
+/// How a table writes its rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Dialect {
+    /// Between the fields.
+    pub(crate) separator: u8,
+    /// In a number.
+    pub(crate) decimal: char,
+}
+
+impl Dialect {
+    /// Commas between the fields, a point in numbers.
+    pub(crate) const STANDARD: Self = Self { separator: b',', decimal: '.' };
+}
+
+/// What a field without a value may hold, in lower case.
+const MISSING: [&str; 9] = ["", "nan", "na", "n/a", "null", "none", "-", "--", "#n/a"];
+
+/// The rows of a file.
+pub(crate) struct Rows {
+    path: PathBuf,
+    dialect: Dialect,
+    reader: csv::Reader<Chain<Metered, &'static [u8]>>,
+    record: StringRecord,
+    /// Whether a row was met.
+    begun: bool,
+}
+
+/// A file, or a text in memory, that is hashed and measured while it is read.
+struct Metered {
+    source: Box<dyn Read>,
+    hash: Hash,
+    line: usize,
+}
+
+impl Read for Metered {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.source.read(buffer)?;
+        let piece = &buffer[..count];
+        self.hash.update(piece);
+        for line in piece.split_inclusive(|&byte| byte == b'\n') {
+            self.line += line.len();
+            if self.line > LONGEST_LINE {
+                return Err(io::Error::other(format!(
+                    "it has a line of more than {LONGEST_LINE} bytes, so it is no table of numbers"
+                )));
+            }
+            if line.ends_with(b"\n") {
+                self.line = 0;
+            }
+        }
+        if self.hash.bytes > LARGEST {
+            return Err(io::Error::other(format!("it is larger than {LARGEST} bytes; split it")));
+        }
+        Ok(count)
+    }
+}
+
+impl Rows {
+    /// Opens a table in the standard dialect; `kind` says what is expected, e.g. "a profile (*.csv)".
+    pub(crate) fn open(path: &Path, kind: &str) -> Result<Self, InputError> {
+        Self::open_as(path, kind, Dialect::STANDARD)
+    }
+
+    /// Opens a table.
+    pub(crate) fn open_as(path: &Path, kind: &str, dialect: Dialect) -> Result<Self, InputError> {
+        let fault = |problem: String, remedy: &str| InputError::whole(path, problem, remedy);
+        let unreadable = |error: io::Error| fault(format!("cannot be read: {error}"), "check the path and its permissions");
+        let file = File::open(path).map_err(unreadable)?;
+        let about = file.metadata().map_err(unreadable)?;
+        if about.is_dir() {
+            return Err(fault("is a directory".into(), &format!("give the path of {kind}")));
+        }
+        if about.len() > LARGEST {
+            return Err(fault(format!("is larger than {LARGEST} bytes"), "split it"));
+        }
+        Ok(Self::new(path, Box::new(file), dialect))
+    }
+
+    /// A table in memory in the standard dialect, called `path` in messages.
+    pub(crate) fn of(path: &Path, text: String) -> Self {
+        Self::new(path, Box::new(Cursor::new(text)), Dialect::STANDARD)
+    }
+
+    fn new(path: &Path, source: Box<dyn Read>, dialect: Dialect) -> Self {
+        let metered = Metered { source, hash: Hash::new(), line: 0 };
+        // a line feed ends the last line too, so the line of a record is always the one before the reader's
+        let reader = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .quoting(false)
+            .delimiter(dialect.separator)
+            .terminator(Terminator::Any(b'\n'))
+            .from_reader(metered.chain(&b"\n"[..]));
+        Self { path: path.to_owned(), dialect, reader, record: StringRecord::new(), begun: false }
+    }
+
+    /// Moves to the next row that is not blank; `false` at the end.
+    pub(crate) fn advance(&mut self) -> Result<bool, InputError> {
+        loop {
+            match self.reader.read_record(&mut self.record) {
+                Ok(false) => return Ok(false),
+                Ok(true) if self.count() == 1 && self.field(0).is_empty() => {}
+                Ok(true) if !self.begun && self.field(0).starts_with('#') => {}
+                Ok(true) => {
+                    self.begun = true;
+                    return Ok(true);
+                }
+                Err(error) => return Err(self.unreadable(&error)),
+            }
+        }
+    }
+
+    /// Moves to the first row, which names the columns, such as `columns`.
+    pub(crate) fn header(&mut self, columns: &str) -> Result<(), InputError> {
+        let remedy = format!("its first line names the columns, {columns}; a row for each instant follows");
+        if !self.advance()? {
+            return Err(self.whole_fault("is empty", remedy));
+        }
+        let first = self.field(0);
+        if first.starts_with("//") || first.starts_with("/*") || first == "(" || (first.starts_with('(') && first.contains(':')) {
+            return Err(self.whole_fault("begins like a RON file, but a table (CSV) is read here", remedy));
+        }
+        Ok(())
+    }
+
+    fn unreadable(&self, error: &csv::Error) -> InputError {
+        match error.kind() {
+            ErrorKind::Utf8 { .. } => self.fault(None, "is not UTF-8 text", "save the file as \"CSV UTF-8\""),
+            ErrorKind::Io(error) => InputError::whole(&self.path, format!("cannot be read: {error}"), ""),
+            _ => self.fault(None, error.to_string(), ""),
+        }
+    }
+
+    /// Number of fields in this row.
+    pub(crate) fn count(&self) -> usize {
+        self.record.len()
+    }
+
+    /// A field of this row without blanks and quotes around it; empty if there is none.
+    pub(crate) fn field(&self, column: usize) -> &str {
+        let field = self.record.get(column).unwrap_or("").trim();
+        field.strip_prefix('"').and_then(|inner| inner.strip_suffix('"')).map_or(field, str::trim)
+    }
+
+    /// The fields of this row.
+    pub(crate) fn fields(&self) -> impl Iterator<Item = &str> {
+        (0..self.count()).map(|column| self.field(column))
+    }
+
+    /// A field as a finite number.
+    pub(crate) fn number(&self, column: usize, name: &str) -> Result<f64, InputError> {
+        let text = self.field(column);
+        match text.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(value),
+            Ok(_) => {
+                let problem = format!("{} is not a finite number", quoted(text));
+                Err(self.fault(Some(name), problem, "remove the row: between rows the course is linear"))
+            }
+            Err(_) if text.is_empty() => {
+                Err(self.fault(Some(name), "is empty", "give a number, or remove the row: between rows the course is linear"))
+            }
+            Err(_) => {
+                Err(self.fault(Some(name), format!("{} is not a number", quoted(text)), "write it like 20.5, without a unit"))
+            }
+        }
+    }
+
+    /// A field as a finite number in the table's dialect; `None` if it says that there is none.
+    pub(crate) fn value(&self, column: usize, name: &str) -> Result<Option<f64>, InputError> {
+        let text = self.field(column);
+        let value = match self.dialect.decimal {
+            '.' => text.parse::<f64>(),
+            other => text.replace(other, ".").parse::<f64>(),
+        };
+        match value {
+            Ok(value) if value.is_finite() => Ok(Some(value)),
+            _ if MISSING.iter().any(|word| text.eq_ignore_ascii_case(word)) => Ok(None),
+            Ok(_) => Err(self.fault(Some(name), format!("{} is not a finite number", quoted(text)), "leave the field empty")),
+            Err(_) if self.dialect.decimal == '.' && text.replacen(',', ".", 1).parse::<f64>().is_ok() => {
+                Err(self.fault(Some(name), format!("{} has a decimal comma", quoted(text)), "add --decimal-comma"))
+            }
+            Err(_) => {
+                let remedy = "write it like 20.5 without a unit, or leave the field empty if the value is missing";
+                Err(self.fault(Some(name), format!("{} is not a number", quoted(text)), remedy))
+            }
+        }
+    }
+
+    /// A complaint about this row.
+    pub(crate) fn fault(&self, column: Option<&str>, problem: impl Into<String>, remedy: impl Into<String>) -> InputError {
+        let line = usize::try_from(self.reader.position().line().saturating_sub(1)).unwrap_or(usize::MAX);
+        InputError { line: Some(line.max(1)), field: column.map(str::to_owned), ..InputError::whole(&self.path, problem, remedy) }
+    }
+
+    /// A complaint about the file as a whole.
+    pub(crate) fn whole_fault(&self, problem: &str, remedy: impl Into<String>) -> InputError {
+        InputError { line: None, ..self.fault(None, problem, remedy) }
+    }
+
+    /// The content read so far.
+    pub(crate) fn fingerprint(&self) -> Fingerprint {
+        let metered = self.reader.get_ref().get_ref().0;
+        metered.hash.fingerprint(self.path.clone())
+    }
+}
+
+/// A piece of a file in a message: short, on one line.
+pub(crate) fn quoted(text: &str) -> String {
+    let shown: String = text.chars().take(QUOTED).collect();
+    let more = if shown.len() < text.len() { "..." } else { "" };
+    format!("`{}{more}`", shown.escape_debug())
+}

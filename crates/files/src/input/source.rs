@@ -1,0 +1,120 @@
+//! A case file's text: read, parsed, and asked where a field stands.
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use ron::error::SpannedError;
+use serde::de::DeserializeOwned;
+
+use super::InputError;
+use super::fields::{FieldMap, join};
+use super::fingerprint::Fingerprint;
+use super::kind::{CaseFile, Kind, mistaken};
+use super::syntax::explain;
+
+/// Largest case file [bytes]: some 300 times the reference files.
+const LARGEST: u64 = 1 << 20;
+
+/// The text of a case file, for [`check_coil`](super::check_coil) and the like.
+///
+/// # Errors
+/// Why it cannot be read.
+pub fn read_text(path: &Path) -> Result<String, InputError> {
+    Source::read(path).map(|source| source.text)
+}
+
+/// Reads a RON file of any type: the reader of case files for a program's own.
+///
+/// # Errors
+/// What is wrong, in which file, line and field, and how to mend it.
+pub fn read_ron<T: DeserializeOwned>(path: &Path) -> Result<T, InputError> {
+    Source::read(path)?.parse_as(None)
+}
+
+/// A case file in memory.
+#[derive(Debug, Clone)]
+pub(crate) struct Source {
+    path: PathBuf,
+    text: String,
+}
+
+impl Source {
+    pub(crate) fn read(path: &Path) -> Result<Self, InputError> {
+        let fault = |problem: String, remedy: &str| InputError::whole(path, problem, remedy);
+        let unreadable = |error: std::io::Error| fault(format!("cannot be read: {error}"), "check the path and its permissions");
+        let kind = std::fs::metadata(path).map_err(unreadable)?;
+        if kind.is_dir() {
+            return Err(fault("is a directory".into(), "give the path of a case file (*.ron)"));
+        }
+        let mut bytes = Vec::new();
+        std::fs::File::open(path).map_err(unreadable)?.take(LARGEST + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+        if bytes.len() as u64 > LARGEST {
+            return Err(fault(format!("is larger than {LARGEST} bytes"), "give a case file (*.ron), not a recording"));
+        }
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let (valid, bytes) = (error.utf8_error().valid_up_to(), error.as_bytes());
+            let line = 1 + bytes[..valid].iter().filter(|&&b| b == b'\n').count();
+            InputError { line: Some(line), ..fault("is not UTF-8 text".into(), "save the file as UTF-8") }
+        })?;
+        let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+        Ok(Self { path: path.to_owned(), text })
+    }
+
+    /// A text that is not in a file yet.
+    pub(crate) fn of(path: &Path, text: String) -> Self {
+        Self { path: path.to_owned(), text }
+    }
+
+    /// A file named inside this one: relative to it, or absolute.
+    pub(crate) fn neighbour(&self, path: &str) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(path)
+    }
+
+    pub(crate) fn fingerprint(&self) -> Fingerprint {
+        Fingerprint::of(self.path.clone(), self.text.as_bytes())
+    }
+
+    pub(crate) fn parse<T: CaseFile>(&self) -> Result<T, InputError> {
+        self.parse_as(T::kind())
+    }
+
+    fn parse_as<T: DeserializeOwned>(&self, kind: Option<&'static Kind>) -> Result<T, InputError> {
+        ron::from_str(&self.text).map_err(|error| match mistaken(&self.text, kind) {
+            Some((problem, remedy)) => InputError::whole(&self.path, problem, remedy),
+            None => self.syntax_fault(&error),
+        })
+    }
+
+    fn syntax_fault(&self, error: &SpannedError) -> InputError {
+        let offset = self.offset(error.span.start.line, error.span.start.col);
+        let map = FieldMap::new(&self.text);
+        let mut field = map.path(map.at(offset));
+        if let ron::Error::MissingStructField { field: missing, .. } = &error.code {
+            field = join(&field, missing);
+        }
+        let (mut problem, mut remedy) = explain(&error.code, &self.text[offset..]);
+        if map.is_cut_short() {
+            problem = format!("the file is cut short, or a bracket is never closed (the reader stopped here: {problem})");
+            remedy = "close every bracket, or get the whole file".into();
+        }
+        let line = Some(error.span.start.line);
+        InputError { line, field: Some(field).filter(|f| !f.is_empty()), ..InputError::whole(&self.path, problem, remedy) }
+    }
+
+    /// Byte offset of a line and column, both from 1.
+    fn offset(&self, line: usize, column: usize) -> usize {
+        let start: usize = self.text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+        let within = self.text[start..].char_indices().nth(column.saturating_sub(1));
+        within.map_or(self.text.len(), |(i, _)| start + i)
+    }
+
+    /// An error at `field`, which may lack its units and may reach below what the text has.
+    pub(crate) fn fault(&self, field: &str, problem: impl Into<String>, remedy: impl Into<String>) -> InputError {
+        let map = FieldMap::new(&self.text);
+        let (found, rest) = map.find(field);
+        let line = found.map_or(1, |f| 1 + self.text[..map.start(f)].matches('\n').count());
+        let path = map.path(found);
+        let field = if rest.is_empty() { path } else { join(&path, rest) };
+        InputError { line: Some(line), field: Some(field), ..InputError::whole(&self.path, problem, remedy) }
+    }
+}

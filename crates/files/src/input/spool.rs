@@ -1,0 +1,84 @@
+//! A record of the spool's thermometer, `time_s,spool_c`, to infer the chamber's course from.
+
+use std::path::Path;
+
+use coil::{Design, Drive, FEWEST_ROWS};
+
+use super::InputError;
+use super::fingerprint::Fingerprint;
+use super::profile::read_rows;
+use super::profile_columns::{DRIVES, RESULTS, TIME, names};
+use super::rows::{Rows, quoted};
+use crate::remark::Remark;
+
+const SPOOL: &str = "spool_c";
+/// Most rows of a record: the smoother holds some 300 bytes of each.
+const MOST_ROWS: usize = 1_000_000;
+/// Rows further apart than this, in medians, are noted.
+const GAP: f64 = 10.0;
+
+/// A thermometer's record that has been read and checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpoolCase {
+    /// What drives the coil: the chamber, and its heaters if it has any.
+    pub drives: Vec<Drive>,
+    /// Instants \[s\].
+    pub time: Vec<f64>,
+    /// Readings \[°C\].
+    pub spool: Vec<f64>,
+    /// What a user should know although nothing is wrong.
+    pub notes: Vec<String>,
+    /// The file.
+    pub fingerprint: Fingerprint,
+}
+
+/// Reads and checks a record. Other columns that profiles and recordings have may stand in it and are not read.
+///
+/// # Errors
+/// What is wrong, in which file, line and column, and how to mend it.
+pub fn read_spool(path: &Path, design: &Design) -> Result<SpoolCase, InputError> {
+    let mut rows = Rows::open(path, "a record (*.csv)")?;
+    rows.header("time_s,spool_c")?;
+    let names = columns(&rows)?;
+    let [at_time, at_spool] = [TIME, SPOOL].map(|wanted| names.iter().position(|name| name == wanted));
+    let missing = |name| rows.fault(Some(name), "the column is missing", format!("a record starts with a line {TIME},{SPOOL}"));
+    let (at_time, at_spool) = (at_time.ok_or_else(|| missing(TIME))?, at_spool.ok_or_else(|| missing(SPOOL))?);
+    let (time, mut courses) = read_rows(&mut rows, names.len(), at_time, &[(at_spool, SPOOL)], (MOST_ROWS, "record"))?;
+    let spool = courses.pop().unwrap_or_default();
+    if time.len() < FEWEST_ROWS {
+        let problem = format!("has {} rows below its header, too few to infer the chamber from", time.len());
+        return Err(rows.whole_fault(&problem, format!("give {FEWEST_ROWS} or more")));
+    }
+    let mut notes = Vec::new();
+    let ignored: Vec<&str> = names.iter().map(String::as_str).filter(|name| ![TIME, SPOOL].contains(name)).collect();
+    if !ignored.is_empty() {
+        let message = format!("{}: not read: {}; the chamber is inferred from {SPOOL}", path.display(), ignored.join(", "));
+        notes.push(Remark::IgnoredColumn.says(message));
+    }
+    notes.extend(gap(&time).map(|gap| Remark::Gap.says(format!("{}: {gap}", path.display()))));
+    let drives = if design.heat.heaters.is_empty() { vec![Drive::Chamber] } else { vec![Drive::Chamber, Drive::Heaters] };
+    Ok(SpoolCase { drives, time, spool, notes, fingerprint: rows.fingerprint() })
+}
+
+/// The names of the columns, all known and none twice.
+fn columns(rows: &Rows) -> Result<Vec<String>, InputError> {
+    let names = names(rows, "time_s,spool_c")?;
+    let known = |name: &str| name == TIME || RESULTS.contains(&name) || DRIVES.iter().any(|(drive, _)| *drive == name);
+    match names.iter().find(|name| !known(name)) {
+        Some(name) => {
+            let remedy = format!("a record has {TIME},{SPOOL}; the other columns of profiles and results may stand beside them");
+            Err(rows.fault(None, format!("unknown column {}", quoted(name)), remedy))
+        }
+        None => Ok(names),
+    }
+}
+
+/// What to say of the longest gap.
+fn gap(time: &[f64]) -> Option<String> {
+    let mut intervals: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let (at, longest) = intervals.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    intervals.sort_by(f64::total_cmp);
+    let median = intervals[intervals.len() / 2];
+    (longest > GAP * median)
+        .then(|| format!("no row for {longest} s after {} s, usually {median} s; there the chamber is taken as linear", time[at]))
+}

@@ -1,0 +1,47 @@
+//! The RON reader's errors in the words of someone who writes case files.
+
+use ron::Error;
+
+/// Problem and remedy; `rest` is the text from where the reader stopped.
+pub(crate) fn explain(error: &Error, rest: &str) -> (String, String) {
+    let (problem, remedy) = match error {
+        Error::NoSuchStructField { expected, found, .. } => {
+            return (format!("unknown field `{found}`"), format!("the fields here are {}", expected.join(", ")));
+        }
+        Error::NoSuchEnumVariant { expected, found, .. } => {
+            return (format!("`{found}` is not a choice here"), format!("choose {}", expected.join(" or ")));
+        }
+        // a number that its kind does not accept: problem and remedy
+        Error::InvalidValueForType { expected, found } => return (found.clone(), expected.clone()),
+        Error::MissingStructField { .. } => ("the field is missing", "add it to the group that ends here"),
+        Error::DuplicateStructField { .. } => ("the field is given twice", "remove one of the two"),
+        Error::ExpectedComma if rest.starts_with('.') => ("the number is not whole", "write a whole number, e.g. 36"),
+        Error::ExpectedComma | Error::ExpectedArrayEnd => ("a comma or a closing bracket is missing", "add it before this point"),
+        Error::ExpectedFloat => ("a number is needed", "write it like 1.5 or 1.5e-6, without quotes or unit"),
+        Error::ExpectedInteger | Error::IntegerOutOfBounds | Error::InvalidIntegerDigit { .. } => {
+            ("a whole number, 0 or more, is needed", "write it like 36")
+        }
+        Error::ExpectedBoolean => ("`true` or `false` is needed", "write one of them"),
+        Error::ExpectedString => ("a text is needed", "write it in double quotes"),
+        Error::ExpectedOption => ("`None` or `Some(...)` is needed", "write one of them"),
+        Error::ExpectedArray => ("a list is needed", "write it in brackets, [...]"),
+        Error::ExpectedMapColon => ("a colon is missing", "write `name: value`"),
+        Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_) | Error::ExpectedDifferentStructName { .. } => {
+            ("a group of fields is needed", "write it in parentheses, (name: value, ...)")
+        }
+        Error::Eof
+        | Error::ExpectedStructLikeEnd
+        | Error::ExpectedOptionEnd
+        | Error::ExpectedStringEnd
+        | Error::UnclosedBlockComment => {
+            ("something is left open, or the file is cut short", "close every parenthesis, bracket, text and comment")
+        }
+        Error::ExceededRecursionLimit => ("the brackets are nested too deeply", "compare with the reference file"),
+        Error::TrailingCharacters => ("the file goes on after its closing parenthesis", "remove what follows"),
+        Error::ExpectedIdentifier | Error::SuggestRawIdentifier(_) | Error::InvalidIdentifier(_) => {
+            ("a name is needed", "write `name: value`, and decimals with a point")
+        }
+        other => return (other.to_string(), "compare with the reference file".into()),
+    };
+    (problem.into(), remedy.into())
+}

@@ -1,0 +1,81 @@
+//! What a coil file may say but rarely means.
+
+use coil::{Design, Layout, Region, Sensor};
+use winding::{Half, Pattern, Winding};
+
+use crate::remark::Remark;
+use crate::units::to_mm;
+
+/// Room between winding and rectangle that a drawing leaves, in pitches.
+const ROOM: f64 = 1.0;
+
+/// How far from a solid a thermometer may be and still be on it \[m\]: what a drawing's decimals leave.
+const ON: f64 = 1e-6;
+
+/// Whether a thermometer is on no solid.
+pub(crate) fn in_medium(layout: &Layout, sensor: Sensor) -> bool {
+    let near = [-ON, 0.0, ON];
+    near.iter().all(|dr| near.iter().all(|dy| layout.region(sensor.radius + dr, sensor.y + dy) == Region::Medium))
+}
+
+/// Layers after which a pattern begins anew.
+fn period(pattern: Pattern) -> usize {
+    match pattern {
+        Pattern::Cylindrical => 1,
+        Pattern::Dipole => 2,
+        Pattern::Quadrupole | Pattern::PracticalQuadrupole => 4,
+        Pattern::Octupole => 8,
+    }
+}
+
+/// A line for each thing that is allowed but looks like a mistake.
+pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> Vec<String> {
+    let mut lines = Vec::new();
+    let (body, pitch) = (&design.body, design.winding.pitch);
+    let mut unfilled = |what: &str, field: &str, body: f64, winding: f64| {
+        if body > winding + ROOM * pitch {
+            let (body, winding) = (to_mm(body), to_mm(winding));
+            let message = format!("{field}: the coil {what} {body:.4} mm, but its turns end at {winding:.4} mm; is this meant?");
+            lines.push(Remark::UnfilledCoil.says(message));
+        }
+    };
+    unfilled("reaches to", "coil.outer_radius_mm", body.outer_radius, winding.outer_radius());
+    unfilled("is as high as", "coil.height_mm", body.height, winding.height());
+    let (inner, outer) = (2.0 * design.winding.inner_radius, 2.0 * body.outer_radius);
+    let sagnac = design.optics.sagnac_diameter;
+    if !(inner..=outer).contains(&sagnac) {
+        let (sagnac, inner, outer) = (to_mm(sagnac), to_mm(inner), to_mm(outer));
+        let message =
+            format!("optics.sagnac_diameter_mm: {sagnac} mm lies outside the coil, {inner:.3} to {outer:.3} mm; is this meant?");
+        lines.push(Remark::SagnacOutside.says(message));
+    }
+    let (pattern, layers) = (design.winding.pattern, design.winding.layers);
+    let period = period(pattern);
+    if layers % period != 0 {
+        let message = format!(
+            "winding.layers: {layers} layers are no whole number of the {period} after which a {pattern:?} begins anew: the halves of the \
+             fibre lie differently; is this meant?"
+        );
+        lines.push(Remark::BrokenPattern.says(message));
+    }
+    let sensor = design.sensor;
+    if in_medium(layout, sensor) {
+        let (radius, y) = (to_mm(sensor.radius), to_mm(sensor.y));
+        let message =
+            format!("sensor: radius {radius:.3} mm, y {y:.3} mm is in the medium, on no part of spool or coil; is this meant?");
+        lines.push(Remark::SensorInMedium.says(message));
+    }
+    let tails = design.winding.tails;
+    if tails.cw.max(tails.ccw) > winding.wound_length() / 2.0 {
+        let half = winding.turns().iter().filter(|t| t.half == Half::Cw).map(|t| t.length()).sum::<f64>();
+        let message = format!("winding.tails_m: a tail longer than half the winding ({half:.1} m); is this meant?");
+        lines.push(Remark::LongTail.says(message));
+    }
+    let elastic = design.body.elastic;
+    if elastic.e_r < 1e-4 * elastic.e_z {
+        let ratio = elastic.e_r / elastic.e_z;
+        let message = format!("coil.material: e_r is {ratio:.1e} of e_z; is e_r_mpa in MPa and e_z_gpa in GPa?");
+        lines.push(Remark::ModulusRatio.says(message));
+    }
+    lines
+}

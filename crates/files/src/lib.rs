@@ -1,0 +1,32 @@
+//! Case files, profiles and recordings in, designs out: the only crate that knows how they look on disk.
+//!
+//! - [`input`] reads `CELL.ron`, `COIL.ron`, `TARGETS.ron`, profiles and recordings. Every value is checked; what is wrong is said once, with
+//!   file, line, field and remedy ([`input::InputError`]). The keys carry their units, the result is SI. One set of types says what a file
+//!   holds: for reading, for writing and for its JSON Schema ([`input::schemas`]).
+//! - [`output`] writes a design as a coil file, and files whole or not at all.
+//! - [`units`] holds every conversion between the files' units and SI; [`schema`] tells whether JSON keeps a schema.
+//! - [`Remark`] has the ids of warnings and notes, each with its explanation.
+//!
+//! Conventions: y = 0 is the coil's left face, +y its right; in a material z is the fibre (the coil's hoop), r across it.
+//!
+//! ```
+//! # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/coil-reference.ron");
+//! let case = files::input::read_coil(path.as_ref())?;
+//! assert_eq!(case.design.body.height, 0.01802); // m
+//! assert!(files::output::coil_file("a copy", &case.design, &[]).contains("height_mm: 18.02,"));
+//! # Ok::<(), files::Error>(())
+//! ```
+
+mod error;
+pub mod input;
+pub mod output;
+mod remark;
+pub mod schema;
+pub mod units;
+
+pub use error::Error;
+pub use remark::{Explanation, Remark, WARNING};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

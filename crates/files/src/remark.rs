@@ -1,0 +1,270 @@
+//! Warnings and notes: each has an id that never changes, and an explanation.
+
+use recording::check::Kind;
+
+/// What a remark is about and what to do: the columns of the table below.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Explanation {
+    /// When the program says it.
+    pub cause: &'static str,
+    /// What it does to the result.
+    pub consequence: &'static str,
+    /// How to mend it.
+    pub remedy: &'static str,
+}
+
+/// One table: an id cannot be printed without a row, and a row cannot lack a part.
+macro_rules! remarks {
+    ($($name:ident $id:literal: $cause:literal, $consequence:literal, $remedy:literal;)*) => {
+        /// A kind of warning or note; what is printed ends in its id in brackets.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        pub enum Remark { $(#[doc = $cause] $name,)* }
+
+        impl Remark {
+            /// All of them.
+            pub const ALL: &[Self] = &[$(Self::$name,)*];
+
+            /// Its id, in kebab-case.
+            pub fn id(self) -> &'static str {
+                match self { $(Self::$name => $id,)* }
+            }
+
+            /// Cause, consequence and remedy.
+            pub fn explanation(self) -> Explanation {
+                match self { $(Self::$name => Explanation { cause: $cause, consequence: $consequence, remedy: $remedy },)* }
+            }
+        }
+    };
+}
+
+remarks! {
+    // coil files
+    UnfilledCoil "unfilled-coil":
+        "The coil's rectangle (`coil.outer_radius_mm`, `coil.height_mm`) is more than a pitch larger than the winding in it.",
+        "Heat flow and stiffness are those of the rectangle, all of it winding; the optics are those of the turns alone.",
+        "Check layers, turns and `pitch_mm` against the drawing, or reduce the rectangle to the winding.";
+    SagnacOutside "sagnac-outside":
+        "`optics.sagnac_diameter_mm` lies outside the coil, from its inner to its outer diameter.",
+        "Every rate is inversely proportional to it.",
+        "Give the mean diameter of the turns in mm (not the radius, and not in metres).";
+    LongTail "long-tail":
+        "A tail in `winding.tails_m` is longer than half the winding.",
+        "The middle of the fibre moves into one half of the coil: the sensitivity is that of a coil that is not symmetric at all.",
+        "Tails are in metres; give the length of bare fibre beyond the last turn.";
+    ModulusRatio "modulus-ratio":
+        "In `coil.material` e_r is less than a ten-thousandth of e_z; potted coils have about a hundredth.",
+        "The strain across the fibre, and with it the radial elasto-optic part, is far off.",
+        "e_z is in GPa, e_r and g_zr are in MPa.";
+    OtherPitch "other-pitch":
+        "The cell that `FromCell` names has another pitch than the winding.",
+        "Stiffness and expansion are those of a coil wound more closely or more loosely than this one: the sensitivity may change by half.",
+        "Make the cell's `pitch_um` and the coil's `winding.pitch_mm` the same distance between neighbouring turns.";
+    BrokenPattern "broken-pattern":
+        "The number of layers is no multiple of the pattern's period: 2 of a dipole, 4 of a quadrupole, 8 of an octupole.",
+        "The two halves of the fibre are not balanced; the sensitivity may be several times as large.",
+        "Check `winding.layers` against the winding programme.";
+    SensorInMedium "sensor-in-medium":
+        "The thermometer is neither on the spool nor in the coil, but in the medium around them.",
+        "It reads the medium there, which follows the chamber faster than the spool does.",
+        "Give the place on the part that it is fixed to; after a change of the hub's thickness the bore is elsewhere.";
+    AnisotropicCell "anisotropic-cell":
+        "The cell that `FromCell` names is not isotropic across the fibre, as a coil's law is; the message says by how much strain energy.",
+        "Its mean over all turns about the fibre is taken: right for a coil in which the cell's orientation varies.",
+        "Nothing at some per cent; else take a cell of more fibres, or give the constants themselves.";
+    // profiles and thermometers' records
+    IgnoredColumn "ignored-column":
+        "A file has columns that are not read.",
+        "None, unless one of them was meant: then its name is not the one that is sought.",
+        "Rename it (profiles: time_s, chamber_c, left_c, right_c, mount_left_c, mount_right_c), or give --column KEY=NAME for a recording.";
+    CloseRows "close-rows":
+        "Rows of a profile lie closer together than the model resolves a jump.",
+        "Means over such intervals are not reliable just after the chamber's temperature changes suddenly.",
+        "Thin the profile out, or let the temperature change over some seconds.";
+    LongRows "long-rows":
+        "Rows of a profile last longer than a coil takes to answer.",
+        "A row's rate is the mean since the row before: peaks, and the slope on the thermometer's rate, come out too small.",
+        "Give the profile closer rows, or `simulate` --step 30, which adds them on the straight lines between its own.";
+    OneRow "one-row":
+        "A profile has one row.",
+        "Nothing can happen in it: the model starts at rest, and the result is one row at rest.",
+        "Give rows from the start to the end of what the chamber does.";
+    Kelvin "kelvin":
+        "A profile's chamber_c never falls to what would be usual in degC: it may be in kelvin.",
+        "Differences are right all the same; what depends on the temperature itself (transitions, bonds that open) is not.",
+        "Subtract 273.15.";
+    PoorInference "poor-inference":
+        "With --spool: no smooth chamber makes the model follow the thermometer to its noise.",
+        "The chamber that was inferred, and the bias under it, are in error by more than is said.",
+        "Start the record at rest, give the readings' true --spool-noise, or check the design's heat paths.";
+    // recordings as they are read
+    DeclaredInterval "declared-interval":
+        "A recording has no column of instants; they are counted with the interval that was declared.",
+        "Lost rows and a drifting clock cannot be seen.",
+        "Record the instants.";
+    AbsentColumn "absent-column":
+        "A recording lacks the chamber's, the spool's temperature, or the rate.",
+        "What that column would tell is not used; without chamber_c there is no diagnosis.",
+        "Record it, or name its column with --column KEY=NAME.";
+    MappedColumn "mapped-column":
+        "A quantity is read from a column of another name or unit, as the flags or the map file say.",
+        "None if it is the right one.",
+        "Check name and unit.";
+    UnitInName "unit-in-name":
+        "The name of a recording's column ends in a unit in brackets, and the column is read in another.",
+        "Everything that follows is off by the ratio of the units, if the name is right.",
+        "Give the unit with --unit KEY=UNIT, or in the map file.";
+    Dates "dates":
+        "Instants are dates.",
+        "They count in seconds from the first row.",
+        "None is needed.";
+    IntervalDiffers "interval-differs":
+        "The rows are not as far apart as the meta file says.",
+        "The interval of the rows is used; noise per root hour follows from it.",
+        "Check the unit of the instants, or mend `sample_interval_s`.";
+    // recordings as they are judged: the kinds of `check`
+    Gap "gap":
+        "Rows are missing: an interval is much longer than usual.",
+        "The gap is bridged by lines for temperatures; what happened to the bias within it is not known.",
+        "Find out why the logger paused; a gap during a ramp is worth a repeat.";
+    Jitter "jitter":
+        "The intervals between rows vary.",
+        "Nothing: instants are used as they are.",
+        "None is needed, unless the logger's clock was meant to be even.";
+    Duplicate "duplicate":
+        "A row repeats the one before, instant and values.",
+        "It is dropped.",
+        "None is needed.";
+    Conflict "conflict":
+        "One instant stands in two rows with different values.",
+        "The recording cannot be used: which row is right is not known.",
+        "Keep the row that is right.";
+    Backwards "backwards":
+        "Time goes back from one row to the next.",
+        "The recording cannot be used.",
+        "Sort the rows by time, or split the file where the clock restarts.";
+    ClockStep "clock-step":
+        "An interval is no whole number of usual intervals: the clock was set.",
+        "Instants after it are off by a fixed amount; a fast ramp then shifts against the bias.",
+        "Split the file there, or mend the instants.";
+    Missing "missing":
+        "Fields are empty or not numbers such as NaN.",
+        "They are not used.",
+        "None is needed if they are few; else check the logger.";
+    Outliers "outliers":
+        "Lone values lie far from their neighbours (more than 6.5 standard deviations of the noise from the median of six).",
+        "They are not used.",
+        "Look for interference, or for a connector, if they are many.";
+    Stuck "stuck":
+        "The same value repeats for longer than noise and resolution explain.",
+        "The run is not used where noise would show; where the resolution hides it, it is.",
+        "Check the sensor and its range.";
+    Saturation "saturation":
+        "A channel stays at its largest or least value for longer than noise explains.",
+        "The run is not used.",
+        "Check the range of sensor and converter.";
+    Quantised "quantised":
+        "The resolution of a channel is coarser than its noise.",
+        "Its noise is known as an upper bound only, and small effects below a step cannot be seen.",
+        "Record more digits.";
+    Unit "unit":
+        "A channel's values, or its noise, are not of the size that its unit makes them.",
+        "Everything that follows is off by the ratio of the units.",
+        "Give the unit with --unit KEY=UNIT, or in the map file.";
+    Constant "constant":
+        "A channel has one value throughout.",
+        "It tells nothing; a recording whose rate, or whose chamber, is constant cannot be used.",
+        "Check the sensor's cable and the choice of the column.";
+    Empty "empty":
+        "A channel has no value at all.",
+        "As if the column were absent; a recording without a rate cannot be used.",
+        "Check the sensor's cable and the choice of the column.";
+    TooShort "too-short":
+        "The recording has few rows.",
+        "Noise and slow effects cannot be told from one another, or nothing can be said.",
+        "Give a longer recording.";
+    Offset "offset":
+        "The median rate is larger than a gyroscope's bias, and the Earth's rate would explain it.",
+        "The offset is fitted; a model's absolute bias is not tested.",
+        "Subtract the Earth's rate along the axis (15.04 deg/h times the sine of the latitude for a vertical one), or accept it.";
+    OtherFinding "other":
+        "`check` found something that has no page of its own.",
+        "The message says it.",
+        "Look at the rows that the message names.";
+    // diagnosis
+    Averaged "averaged-rows":
+        "A recording has very many rows: neighbours are averaged.",
+        "None on what takes minutes, as a coil's transients do; faster noise is averaged away.",
+        "None is needed.";
+    NarrowRange "narrow-range":
+        "The chamber moves by a few kelvin only.",
+        "Mechanisms that act beyond a temperature, or with it, cannot show.",
+        "Test over the range of use; `fogcoil recommend` proposes a programme.";
+    NoThermometer "no-thermometer":
+        "A recording has no spool_c.",
+        "Heat paths and the thermometer cannot be told apart.",
+        "Record the spool's temperature.";
+    NotAtRest "not-at-rest":
+        "A recording starts while the chamber still moves, or spool and chamber differ.",
+        "The model starts at rest: what that leaves in the first hours is no finding.",
+        "Soak until chamber and spool agree before recording, or cut the beginning off.";
+    ExchangedColumns "exchanged-columns":
+        "The model follows the recording far better with two columns exchanged.",
+        "The answer is void if they are.",
+        "Check the header, or give --column KEY=NAME.";
+    ReversedRate "reversed-rate":
+        "The model follows the recording far better with the rate negated.",
+        "The answer is void if the sign is wrong.",
+        "Check the sense of the gyro's axis and `winding.cw_climbs`.";
+    TakenBack "taken-back":
+        "The likeliest explanation predicts a record that was held out worse than the nominal model, or no better and far from its noise.",
+        "The explanation is taken back: the verdict is none or unknown.",
+        "Check that the records are of one unit in one state; something may have changed between them.";
+    NoModel "no-model":
+        "--model-out was given, but the verdict leaves nothing to put into the design.",
+        "The file is not written.",
+        "None is needed; the reason stands in the message.";
+}
+
+/// What a note begins with that may make the whole answer void.
+pub const WARNING: &str = "warning: ";
+
+impl Remark {
+    /// The message with its id behind it: `message [id]`.
+    pub fn says(self, message: impl std::fmt::Display) -> String {
+        format!("{message} [{}]", self.id())
+    }
+
+    /// The kind of a message that [`Remark::says`] made.
+    pub fn of(message: &str) -> Option<Self> {
+        let id = message.strip_suffix(']')?.rsplit_once(" [")?.1;
+        Self::ALL.iter().copied().find(|remark| remark.id() == id)
+    }
+
+    /// The kind of a finding of [`recording::check`].
+    pub fn of_finding(kind: &Kind) -> Self {
+        match kind {
+            Kind::Gap { .. } => Self::Gap,
+            Kind::Jitter { .. } => Self::Jitter,
+            Kind::Duplicate => Self::Duplicate,
+            Kind::Conflict => Self::Conflict,
+            Kind::Backwards { .. } => Self::Backwards,
+            Kind::ClockStep { .. } => Self::ClockStep,
+            Kind::Missing => Self::Missing,
+            Kind::Outliers { .. } => Self::Outliers,
+            Kind::Stuck { .. } => Self::Stuck,
+            Kind::Saturation { .. } => Self::Saturation,
+            Kind::Quantised { .. } => Self::Quantised,
+            Kind::Unit { .. } => Self::Unit,
+            Kind::Constant { .. } => Self::Constant,
+            Kind::Empty => Self::Empty,
+            Kind::TooShort { .. } => Self::TooShort,
+            Kind::Offset { .. } => Self::Offset,
+            _ => Self::OtherFinding,
+        }
+    }
+
+    /// Ids of messages, in their order; `null` where one has none.
+    pub fn ids(messages: &[String]) -> Vec<Option<&'static str>> {
+        messages.iter().map(|message| Self::of(message).map(Self::id)).collect()
+    }
+}

@@ -1,0 +1,157 @@
+//! Between the units of the files and SI: the only place where a factor is applied.
+//!
+//! Divisions by powers of ten are correctly rounded, so `from_mm(43.5)` is the double nearest to 0.0435.
+
+use bias::units::{DEG_PER_H_PER_RAD_PER_S, S_PER_H, S_PER_MIN};
+
+/// What a key in a case file may end in, after the quantity's name.
+pub(crate) const SUFFIXES: [&str; 14] =
+    ["um", "mm", "m", "mpa", "gpa", "per_k", "w_per_mk", "kg_per_m3", "j_per_kgk", "c", "s", "w", "w_per_m2k", "m2k_per_w"];
+
+/// Micrometres to metres.
+pub fn from_um(value: f64) -> f64 {
+    value / 1e6
+}
+
+/// Metres to micrometres.
+pub fn to_um(metres: f64) -> f64 {
+    metres * 1e6
+}
+
+/// Millimetres to metres.
+pub fn from_mm(value: f64) -> f64 {
+    value / 1e3
+}
+
+/// Metres to millimetres.
+pub fn to_mm(metres: f64) -> f64 {
+    metres * 1e3
+}
+
+/// Megapascals to pascals.
+pub fn from_mpa(value: f64) -> f64 {
+    value * 1e6
+}
+
+/// Pascals to megapascals.
+pub fn to_mpa(pascals: f64) -> f64 {
+    pascals / 1e6
+}
+
+/// Gigapascals to pascals.
+pub fn from_gpa(value: f64) -> f64 {
+    value * 1e9
+}
+
+/// Pascals to gigapascals.
+pub fn to_gpa(pascals: f64) -> f64 {
+    pascals / 1e9
+}
+
+/// 1/K to 10⁻⁶/K.
+pub fn to_ppm(ratio: f64) -> f64 {
+    ratio * 1e6
+}
+
+/// The unit of a mechanism's parameter, by the end of its name; 1 if it has none.
+pub fn parameter_unit(name: &str) -> &'static str {
+    const UNITS: [(&str, &str); 13] = [
+        ("_m2k_per_w", "m² K/W"),
+        ("_w_per_m2k", "W/(m² K)"),
+        ("deg_per_h_per_k_per_h", "(deg/h)/(K/h)"),
+        ("_deg_per_h_per_k", "(deg/h)/K"),
+        ("_deg_per_h", "deg/h"),
+        // of what is relative already
+        ("_per_k2_relative", "1/K"),
+        ("_per_k2", "1/K²"),
+        ("_per_k", "1/K"),
+        ("_m", "m"),
+        ("_c", "degC"),
+        ("_k", "K"),
+        ("_s", "s"),
+        ("_w", "W"),
+    ];
+    UNITS.iter().find(|(end, _)| name.ends_with(end)).map_or("1", |(_, unit)| unit)
+}
+
+/// A unit of a recording's column: value in the standard unit = scale · value + offset.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ColumnUnit {
+    /// The names it goes by.
+    pub(crate) names: &'static [&'static str],
+    /// Factor.
+    pub(crate) scale: f64,
+    /// Added after the factor.
+    pub(crate) offset: f64,
+}
+
+const fn unit(names: &'static [&'static str], scale: f64, offset: f64) -> ColumnUnit {
+    ColumnUnit { names, scale, offset }
+}
+
+/// Units of instants; the standard one, s, first.
+pub(crate) const TIMES: [ColumnUnit; 6] = [
+    unit(&["s"], 1.0, 0.0),
+    unit(&["ms"], 1e-3, 0.0),
+    unit(&["us", "\u{b5}s", "\u{3bc}s"], 1e-6, 0.0),
+    unit(&["ns"], 1e-9, 0.0),
+    unit(&["min"], S_PER_MIN, 0.0),
+    unit(&["h"], S_PER_H, 0.0),
+];
+
+/// Units of temperatures; the standard one, degC, first.
+pub(crate) const TEMPERATURES: [ColumnUnit; 3] = [
+    unit(&["degC", "\u{b0}C", "C"], 1.0, 0.0),
+    unit(&["K"], 1.0, -273.15),
+    unit(&["degF", "\u{b0}F", "F"], 5.0 / 9.0, -160.0 / 9.0),
+];
+
+/// Units of rates; the standard one, deg/h, first.
+pub(crate) const RATES: [ColumnUnit; 4] = [
+    unit(&["deg/h", "\u{b0}/h", "dph"], 1.0, 0.0),
+    unit(&["deg/s", "\u{b0}/s", "dps"], S_PER_H, 0.0),
+    unit(&["rad/s"], DEG_PER_H_PER_RAD_PER_S, 0.0),
+    unit(&["mrad/s"], 1e-3 * DEG_PER_H_PER_RAD_PER_S, 0.0),
+];
+
+/// The unit in which a span of time is shown to people.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DurationUnit {
+    /// Up to five minutes.
+    Seconds,
+    /// Up to five hours.
+    Minutes,
+    /// Beyond.
+    Hours,
+}
+
+impl DurationUnit {
+    /// The unit for a span \[s\].
+    pub fn of(seconds: f64) -> Self {
+        if seconds <= 5.0 * S_PER_MIN {
+            Self::Seconds
+        } else if seconds <= 5.0 * S_PER_H {
+            Self::Minutes
+        } else {
+            Self::Hours
+        }
+    }
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Seconds => "s",
+            Self::Minutes => "min",
+            Self::Hours => "h",
+        }
+    }
+
+    /// Seconds in this unit.
+    pub fn of_seconds(self, seconds: f64) -> f64 {
+        match self {
+            Self::Seconds => seconds,
+            Self::Minutes => seconds / S_PER_MIN,
+            Self::Hours => seconds / S_PER_H,
+        }
+    }
+}
