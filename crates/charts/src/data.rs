@@ -31,7 +31,7 @@ fn table(figure: &Figure, panel: &Panel, shared: &str) -> Markup {
         (Content::Lines(series), Some(names)) => named(&name, &panel.y.label, names, x, series),
         (Content::Lines(series), None) => lines(&name, &panel.y.label, x, series),
         (Content::Map(map), _) => cells(&name, &panel.y.label, x, map),
-        (Content::Drawing(drawing), _) => areas(&name, drawing),
+        (Content::Drawing(drawing), _) => areas(&name, [&panel.x.label, &panel.y.label], drawing),
     }
 }
 
@@ -108,12 +108,12 @@ fn cells(name: &str, y: &str, x: &str, map: &HeatMap) -> Markup {
 }
 
 /// What a drawing consists of.
-fn areas(name: &str, drawing: &Drawing) -> Markup {
+fn areas(name: &str, [x, y]: [&str; 2], drawing: &Drawing) -> Markup {
     let ends = |[low, high]: [f64; 2]| format!("{low:.3} to {high:.3}");
     let named = drawing.areas.iter().filter(|area| !area.name.is_empty());
     let mut rows: Vec<Vec<String>> = named.map(|area| vec![area.name.clone(), ends(area.x), ends(area.y)]).collect();
     rows.extend(drawing.point.iter().map(|([x, y], name)| vec![name.clone(), format!("{x:.3}"), format!("{y:.3}")]));
-    grid(&format!("{name}: {} mesh elements", drawing.mesh.len()), Cells::Numbers, &["part", "y [mm]", "r [mm]"], &rows)
+    grid(&format!("{name}: {} mesh elements", drawing.mesh.len()), Cells::Numbers, &["part", x, y], &rows)
 }
 
 fn number(value: f64) -> String {

@@ -4,11 +4,42 @@ use crate::attributes;
 use crate::scale::Scale;
 use crate::svg::Svg;
 
-/// A rectangle filled by class.
+/// How an area looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fill {
+    /// Pale blue.
+    Cool,
+    /// Pale brown.
+    Sand,
+    /// Brown.
+    Clay,
+    /// As the paper, without an outline.
+    Blank,
+    /// A heavy outline alone.
+    Heavy,
+    /// A dashed outline alone.
+    Dashed,
+}
+
+impl Fill {
+    /// Its class in the style sheet.
+    pub(crate) fn class(self) -> &'static str {
+        match self {
+            Self::Cool => "area cool",
+            Self::Sand => "area sand",
+            Self::Clay => "area clay",
+            Self::Blank => "area blank",
+            Self::Heavy => "area heavy",
+            Self::Dashed => "area dashed",
+        }
+    }
+}
+
+/// A rectangle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Area {
-    /// Its class in the style sheet: `coil`, `hub`, `flange`, `medium`, `wall` or `film`.
-    pub class: &'static str,
+    /// How it looks.
+    pub fill: Fill,
     /// Its name in the legend; none if empty.
     pub name: String,
     /// Ends along x.
@@ -51,8 +82,8 @@ impl Drawing {
             let ([x0, x1], [y0, y1]) = (x_ends.map(|v| x.pixel(v)), y_ends.map(|v| y.pixel(v)));
             format!("M{x0:.1} {y0:.1}H{x1:.1}V{y1:.1}H{x0:.1}z")
         };
-        for Area { class, x, y, .. } in &self.areas {
-            svg.leaf("path", attributes! { "class": "area {class}", "d": "{}"(path(*x, *y)) });
+        for Area { fill, x, y, .. } in &self.areas {
+            svg.leaf("path", attributes! { "class": "{}"(fill.class()), "d": "{}"(path(*x, *y)) });
         }
         if !self.mesh.is_empty() {
             let all: String = self.mesh.iter().map(|[x, y]| path(*x, *y)).collect();

@@ -51,7 +51,7 @@ mod style;
 mod svg;
 mod tables;
 
-pub use drawing::{Area, Arrow, Drawing};
+pub use drawing::{Area, Arrow, Drawing, Fill};
 pub use faults::faults;
 pub use figure::Figure;
 pub use map::{Colours, HeatMap};

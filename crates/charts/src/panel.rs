@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::figure::Measures;
 use crate::scale::Scale;
 use crate::svg::Svg;
-use crate::{Axis, Colours, Drawing, HeatMap, Series, attributes};
+use crate::{Axis, Colours, Drawing, Fill, HeatMap, Series, attributes};
 
 /// A plot within a figure.
 pub struct Panel<'a> {
@@ -141,13 +141,13 @@ impl<'a> Panel<'a> {
             Content::Drawing(drawing) => {
                 let first = |i: usize, name: &str| !drawing.areas[..i].iter().any(|a| a.name == name);
                 let named = drawing.areas.iter().enumerate().filter(|(i, a)| !a.name.is_empty() && first(*i, &a.name));
-                let area = |svg: &mut Svg, class| {
-                    svg.leaf("path", attributes! { "class": "area {class}", "d": "M8 0H28V12H8z" }).joined();
+                let area = |svg: &mut Svg, fill: Fill| {
+                    svg.leaf("path", attributes! { "class": "{}"(fill.class()), "d": "M8 0H28V12H8z" }).joined();
                 };
                 let dot = |svg: &mut Svg| {
                     svg.leaf("circle", attributes! { "class": "point", "cx": "18", "cy": "6", "r": "5" }).joined();
                 };
-                let areas = named.map(|(_, a)| Entry(drawn(&|svg| area(svg, a.class)), a.name.as_str()));
+                let areas = named.map(|(_, a)| Entry(drawn(&|svg| area(svg, a.fill)), a.name.as_str()));
                 areas.chain(drawing.point.iter().map(|(_, name)| Entry(drawn(&dot), name))).collect()
             }
         }

@@ -12,9 +12,9 @@ const PALETTE: [(&str, &str, &str); 14] = [
     ("first", "#0072b2", "#56b4e9"),
     ("second", "#c24e00", "#f0a050"),
     ("third", "#00805c", "#3fcf9f"),
-    ("coil", "#cfe4f2", "#1d4a68"),
-    ("hub", "#dcd6c8", "#55503f"),
-    ("flange", "#c6bda6", "#6e674f"),
+    ("cool", "#cfe4f2", "#1d4a68"),
+    ("sand", "#dcd6c8", "#55503f"),
+    ("clay", "#c6bda6", "#6e674f"),
     ("card", "#f4f6f8", "#1b1f24"),
 ];
 

@@ -1,6 +1,6 @@
 //! The model: coil, spool, medium, chamber wall, thermometer and mesh, to scale (Fig. 2).
 
-use charts::{Area, Arrow, Axis, Drawing, Figure, Panel};
+use charts::{Area, Arrow, Axis, Drawing, Figure, Fill, Panel};
 use coil::{Bonds, COARSE, Contact, Domain, Grid, Layout, Rectangle, Region, Side};
 
 use crate::input::CoilCase;
@@ -31,13 +31,13 @@ pub(super) fn figure<'a>(case: &CoilCase) -> Figure<'a> {
 }
 
 fn area(rectangle: &Rectangle, name: String) -> Area {
-    let class = match rectangle.region {
-        Region::Coil => "coil",
-        Region::Hub | Region::Contact => "hub",
-        Region::LeftFlange | Region::RightFlange => "flange",
-        Region::Medium => "medium",
+    let fill = match rectangle.region {
+        Region::Coil => Fill::Cool,
+        Region::Hub | Region::Contact => Fill::Sand,
+        Region::LeftFlange | Region::RightFlange => Fill::Clay,
+        Region::Medium => Fill::Blank,
     };
-    Area { class, name, x: mm(rectangle.y), y: mm(rectangle.r) }
+    Area { fill, name, x: mm(rectangle.y), y: mm(rectangle.r) }
 }
 
 /// From the back to the front: where two overlap the layout's earlier one holds.
@@ -70,7 +70,12 @@ fn whole(case: &CoilCase, layout: &Layout) -> Panel<'static> {
     };
     let mut areas = vec![area(chamber, String::new())];
     areas.extend(solids(layout, |_| String::new()));
-    areas.push(Area { class: if film.is_none() { "wall" } else { "film" }, name: around, x: mm(chamber.y), y: mm(chamber.r) });
+    areas.push(Area {
+        fill: if film.is_none() { Fill::Heavy } else { Fill::Dashed },
+        name: around,
+        x: mm(chamber.y),
+        y: mm(chamber.r),
+    });
     let middle = to_mm(design.body.height / 2.0);
     let top = layout.solids.iter().map(|s| s.r[1]).fold(0.0, f64::max);
     let mut arrows = vec![Arrow { from: [middle, 0.0], to: [middle, to_mm(layout.bore)], label: round(layout.bore) }];
