@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::Failure;
+use crate::{Failure, files};
 
 /// The truth of one unit, as `fixtures/concealed/truth/case_NN.ron` holds it; fields that no score needs are passed over.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -114,9 +114,7 @@ const UNSEEN: f64 = 3.0;
 impl Truth {
     /// Reads a truth file.
     pub(crate) fn read(file: &Path) -> Result<Self, Failure> {
-        let failed = |e: &dyn std::fmt::Display| Failure(format!("{}: {e}", file.display()));
-        let text = std::fs::read_to_string(file).map_err(|e| failed(&e))?;
-        ron::from_str(&text).map_err(|e| failed(&e))
+        files::ron(file)
     }
 
     /// What was built in, `none` left out.

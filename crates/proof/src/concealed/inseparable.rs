@@ -39,7 +39,7 @@ struct SpoolSensor {
 
 impl Sheet {
     pub(super) fn read(file: &Path) -> Result<Self, Failure> {
-        ron::from_str(&crate::files::read(file)?).map_err(|e| Failure(format!("{}: {e}", file.display())))
+        crate::files::ron(file)
     }
 
     /// Noise of the channels, as far as the diagnosis has terms for it.

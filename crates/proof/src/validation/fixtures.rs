@@ -5,7 +5,6 @@ use crate::Failure;
 use crate::files::{self, root};
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::path::Path;
 
 /// One printed number.
 #[derive(Debug, Clone, Deserialize)]
@@ -20,6 +19,11 @@ pub(crate) struct Printed {
 }
 
 impl Printed {
+    /// The printed number, in its unit.
+    pub(crate) fn value(&self) -> Result<f64, Failure> {
+        self.printed.parse().map_err(|_| Failure(format!("{}: not a number", self.id)))
+    }
+
     /// Half a unit of the last printed digit, in SI.
     pub(crate) fn half_digit(&self) -> f64 {
         let exponent = self.printed.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
@@ -77,19 +81,15 @@ pub(crate) struct Fixtures {
     printed: Vec<Printed>,
 }
 
-fn read<T: for<'de> Deserialize<'de>>(path: &Path) -> Result<T, Failure> {
-    ron::from_str(&files::read(path)?).map_err(|e| Failure(format!("{}: {e}", path.display())))
-}
-
 impl Fixtures {
     pub(crate) fn read() -> Result<Self, Failure> {
         let at = root().join("fixtures");
         Ok(Self {
             cell: fogcoil::input::read_cell(&at.join("cell-reference.ron"))?.cell,
             coil: fogcoil::input::read_coil(&at.join("coil-reference.ron"))?.design,
-            independent: read(&at.join("independent.ron"))?,
-            spools: read(&at.join("spool-materials.ron"))?,
-            printed: read::<Tables>(&at.join("paper/tables.ron"))?.rows,
+            independent: files::ron(&at.join("independent.ron"))?,
+            spools: files::ron(&at.join("spool-materials.ron"))?,
+            printed: files::ron::<Tables>(&at.join("paper/tables.ron"))?.rows,
         })
     }
 
