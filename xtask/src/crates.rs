@@ -33,7 +33,7 @@ fn workspace() -> Result<Vec<Value>, Failure> {
     metadata["packages"].as_array().cloned().ok_or_else(|| Failure("cargo metadata names no packages".into()))
 }
 
-/// Packages that are published: all but the chores and what has a home of its own. `publish = false` is an empty list of registries.
+/// Packages that are published: all but the proof, the chores and what has a home of its own. `publish = false` is an empty list of registries.
 fn published(package: &Value) -> bool {
     package["publish"].as_array().is_none_or(|registries| !registries.is_empty())
 }
@@ -85,8 +85,9 @@ impl Library {
 pub(crate) fn run(deep: bool) -> Result<(), Failure> {
     let start = Instant::now();
     let packages = workspace()?;
-    for package in packages.iter().filter(|package| published(package)) {
-        let Some(library) = library(package) else { continue };
+    let folder = root().join("crates");
+    for package in &packages {
+        let Some(library) = library(package).filter(|library| library.folder.starts_with(&folder)) else { continue };
         let missing = library.missing(package);
         if !missing.is_empty() {
             return Err(Failure(format!("{}: {}", library.name, missing.join("; "))));

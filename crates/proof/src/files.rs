@@ -27,6 +27,30 @@ pub fn write(path: &Path, text: &str) -> Result<(), Failure> {
     Ok(output::write_files(&[(path, Content::Text(text.to_owned()))])?)
 }
 
+/// Writes files, all or none, and makes the folders they lie in.
+///
+/// # Errors
+/// [`Failure`] names the file or folder.
+pub fn write_all(files: &[(PathBuf, String)]) -> Result<(), Failure> {
+    for folder in files.iter().filter_map(|(file, _)| file.parent()) {
+        std::fs::create_dir_all(folder).map_err(|e| Failure(format!("{}: {e}", folder.display())))?;
+    }
+    let contents = files.iter().map(|(file, text)| (file.as_path(), Content::Text(text.clone())));
+    Ok(output::write_files(&contents.collect::<Vec<_>>())?)
+}
+
+/// The names in a folder, in order.
+///
+/// # Errors
+/// [`Failure`] names the folder.
+pub fn names(folder: &Path) -> Result<Vec<String>, Failure> {
+    let failed = |e: std::io::Error| Failure(format!("{}: {e}", folder.display()));
+    let name = |entry: std::io::Result<std::fs::DirEntry>| Ok(entry.map_err(failed)?.file_name().to_string_lossy().into_owned());
+    let mut names: Vec<String> = std::fs::read_dir(folder).map_err(failed)?.map(name).collect::<Result<_, Failure>>()?;
+    names.sort();
+    Ok(names)
+}
+
 /// Puts `text` between the lines `begin` and `end` of the page at `path`.
 ///
 /// # Errors
@@ -51,6 +75,8 @@ mod tests {
         renew(&page, ["<!-- a -->", "<!-- a end -->"], "\nnew\n").unwrap();
         assert_eq!(read(&page).unwrap(), "head\n<!-- a -->\nnew\n<!-- a end -->\ntail");
         assert!(renew(&page, ["<!-- b -->", "<!-- b end -->"], "").unwrap_err().0.contains("lacks the lines"));
+        write_all(&[(folder.path().join("b/c"), "c".into()), (folder.path().join("a"), "a".into())]).unwrap();
+        assert_eq!(names(folder.path()).unwrap(), ["a", "b", "page.md"]);
         assert!(read(&folder.path().join("none")).unwrap_err().0.contains("none: "));
     }
 }

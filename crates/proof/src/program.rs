@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use crate::Failure;
+use crate::{Failure, files};
 
 /// The crate that is no part of the program: this one.
 const PROOF: &str = "proof";
@@ -15,15 +15,15 @@ const PROOF: &str = "proof";
 /// # Errors
 /// [`Failure`] names the file that cannot be read.
 pub fn hash(root: &Path) -> Result<String, Failure> {
-    let mut files: Vec<PathBuf> = vec!["Cargo.toml".into(), "Cargo.lock".into()];
-    for krate in entries(&root.join("crates"))?.iter().filter(|krate| *krate != PROOF) {
+    let mut sources: Vec<PathBuf> = vec!["Cargo.toml".into(), "Cargo.lock".into()];
+    for krate in files::names(&root.join("crates"))?.iter().filter(|krate| *krate != PROOF) {
         let krate = Path::new("crates").join(krate);
-        files.push(krate.join("Cargo.toml"));
-        collect(root, &krate.join("src"), &mut files)?;
+        sources.push(krate.join("Cargo.toml"));
+        collect(root, &krate.join("src"), &mut sources)?;
     }
-    files.sort();
+    sources.sort();
     let mut hash = Sha256::new();
-    for file in &files {
+    for file in &sources {
         let path = root.join(file);
         let content = std::fs::read(&path).map_err(|e| Failure(format!("{}: {e}", path.display())))?;
         hash.update(file.to_string_lossy().replace('\\', "/"));
@@ -39,18 +39,11 @@ pub fn hex(hash: Sha256) -> String {
     hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Names in a folder.
-fn entries(folder: &Path) -> Result<Vec<String>, Failure> {
-    let failed = |e: std::io::Error| Failure(format!("{}: {e}", folder.display()));
-    let name = |entry: std::io::Result<std::fs::DirEntry>| Ok(entry.map_err(failed)?.file_name().to_string_lossy().into_owned());
-    std::fs::read_dir(folder).map_err(failed)?.map(name).collect()
-}
-
 /// Adds every file below `folder`, which is relative to `root`.
-fn collect(root: &Path, folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Failure> {
-    for name in entries(&root.join(folder))? {
+fn collect(root: &Path, folder: &Path, sources: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    for name in files::names(&root.join(folder))? {
         let path = folder.join(name);
-        if root.join(&path).is_dir() { collect(root, &path, files)? } else { files.push(path) }
+        if root.join(&path).is_dir() { collect(root, &path, sources)? } else { sources.push(path) }
     }
     Ok(())
 }

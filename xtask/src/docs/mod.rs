@@ -19,7 +19,7 @@ use page::Page;
 use shell::{Shell, Tally};
 
 use proof::Failure;
-use proof::files::root;
+use proof::files::{self, root};
 
 const TUTORIAL: &str = "docs/tutorial.md";
 const FORMATS: &str = "docs/formats.md";
@@ -132,8 +132,7 @@ fn snippets(page: &Page) -> Vec<String> {
 
 /// docs/formats.md with its tables made anew.
 fn formats(root: &Path) -> Result<String, Failure> {
-    let page = fs::read_to_string(root.join(FORMATS)).map_err(|e| Failure(format!("{FORMATS}: {e}")))?;
-    Ok(table::renewed(&page, &input::schemas()))
+    Ok(table::renewed(&files::read(&root.join(FORMATS))?, &input::schemas()))
 }
 
 /// The program, built in the profile of this one, and where its tests keep their models.

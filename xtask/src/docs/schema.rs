@@ -8,7 +8,7 @@ use fogcoil::{input, schema};
 use serde_json::Value;
 
 use super::notation;
-use proof::Failure;
+use proof::{Failure, files};
 
 const FOLDER: &str = "docs/schema";
 
@@ -62,7 +62,7 @@ pub(super) fn files(root: &Path) -> Result<Vec<String>, Failure> {
         }
     }
     for (name, path) in FILES {
-        let read = fs::read_to_string(root.join(path)).map_err(|e| Failure(format!("{path}: {e}")))?;
+        let read = files::read(&root.join(path))?;
         let of = input::schemas().into_iter().find(|(of, _)| *of == name).map_or(Value::Null, |(_, schema)| schema);
         match notation::json(&read) {
             Ok(value) => faults.extend(schema::misfit(&value, &of).map(|misfit| format!("{path}: {}: {misfit}", file(name)))),
@@ -87,7 +87,7 @@ pub(super) fn outputs(root: &Path, program: &Path, cache: &Path) -> Result<Vec<S
     };
     let mut faults = Vec::new();
     for (name, command) in OUTPUTS {
-        let of = fs::read_to_string(root.join(file(name))).map_err(|e| Failure(format!("{}: {e}", file(name))))?;
+        let of = files::read(&root.join(file(name)))?;
         let of: Value = serde_json::from_str(&of)?;
         let mut run = Command::new(program);
         run.args(command.split(' ').map(meant)).current_dir(root).env("FOGCOIL_CACHE", cache);

@@ -7,7 +7,7 @@ mod tree;
 use kept::Kept;
 use list::LIST;
 use proof::Failure;
-use proof::files::{root, write};
+use proof::files::{read, root, write};
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Instant;
@@ -35,8 +35,7 @@ struct Sabotage {
 impl Sabotage {
     /// The file's text with the change made.
     fn apply(&self, root: &Path) -> Result<String, Failure> {
-        let path = root.join(self.file);
-        let text = std::fs::read_to_string(&path).map_err(|e| Failure(format!("{}: {e}", path.display())))?;
+        let text = read(&root.join(self.file))?;
         match text.matches(self.find).count() {
             1 => Ok(text.replacen(self.find, self.replace, 1)),
             count => Err(Failure(format!(

@@ -52,3 +52,19 @@ impl Prior {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use statrs::distribution::{ContinuousCDF, Normal};
+
+    #[test]
+    fn exact_a_twentieth_lies_beyond_each_end() {
+        assert!((Normal::standard().inverse_cdf(0.95) / Z95 - 1.0).abs() < 1e-14);
+        for prior in [Prior::log(1e6, 4e6), Prior::linear(-1.0, 3.0)] {
+            let [low, high] = [-Z95, Z95].map(|u| prior.value(u));
+            assert!((low / prior.low - 1.0).abs() < 1e-12 && (high / prior.high - 1.0).abs() < 1e-12, "{prior:?}");
+            assert!((prior.standard(prior.low) + Z95).abs() < 1e-12);
+        }
+    }
+}

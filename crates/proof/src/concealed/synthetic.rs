@@ -1,11 +1,10 @@
 //! `cargo xtask prove --synthetic`: many units of the project's own generator, so that rates have tight intervals.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
 use fogcoil::cache::Cache;
 use fogcoil::input;
-use fogcoil::output::{self, Content};
 
 use super::answer::{Answer, answer, rates};
 use super::chain;
@@ -85,8 +84,8 @@ impl Plan {
                 let unit = generator.unit(self.seed, which)?;
                 let at = folder.join(name);
                 let files = [("fit.csv", unit.fit), ("holdout.csv", unit.holdout), ("meta.ron", unit.meta)];
-                write(&files.map(|(file, text)| (at.join(file), text)))?;
-                write(&[(truth_of(name), unit.truth)])?;
+                files::write_all(&files.map(|(file, text)| (at.join(file), text)))?;
+                files::write_all(&[(truth_of(name), unit.truth)])?;
                 say("is made", name);
             }
             Ok(())
@@ -99,7 +98,7 @@ impl Plan {
             if !into.iter().all(|file| file.exists()) {
                 let files = answer(&coil, &folder.join(name).join("fit.csv"), &folder.join(name).join("holdout.csv"), cache)?;
                 let [json, prediction] = into;
-                write(&[(prediction, files.prediction), (json, files.json)])?;
+                files::write_all(&[(prediction, files.prediction), (json, files.json)])?;
                 say("is answered", name);
             }
             Ok(())
@@ -117,22 +116,12 @@ impl Plan {
     }
 }
 
-/// Writes files, all or none, and the folders they lie in.
-fn write(files: &[(PathBuf, String)]) -> Result<(), Failure> {
-    for folder in files.iter().filter_map(|(file, _)| file.parent()) {
-        std::fs::create_dir_all(folder).map_err(|e| Failure(format!("{}: {e}", folder.display())))?;
-    }
-    let contents: Vec<(&Path, Content)> =
-        files.iter().map(|(file, text)| (file.as_path(), Content::Text(text.clone()))).collect();
-    Ok(output::write_files(&contents)?)
-}
-
 /// Units of another generator are not mixed with these.
 fn check_generator(folder: &Path) -> Result<(), Failure> {
     let hash = generator::fingerprint();
     let file = folder.join("GENERATOR");
     if !file.exists() {
-        return write(&[(file, hash)]);
+        return files::write_all(&[(file, hash)]);
     }
     if files::read(&file)? != hash {
         let problem = "these units are of another generator; remove the folder, or give another --seed";

@@ -5,7 +5,6 @@ use std::time::Instant;
 
 use fogcoil::cache::Cache;
 use fogcoil::input::{self, CoilCase};
-use fogcoil::output::{self, Content};
 use rayon::prelude::*;
 
 use super::answer::{Answer, Files, answer, rates};
@@ -48,16 +47,7 @@ fn prepared() -> Result<(CoilCase, Cache, mechanisms::Library), Failure> {
 
 /// Names of the units in a folder, in order.
 fn units(folder: &Path) -> Result<Vec<String>, Failure> {
-    let failed = |e: std::io::Error| Failure(format!("{}: {e}", folder.display()));
-    let mut names = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(failed)? {
-        let entry = entry.map_err(failed)?;
-        if entry.path().is_dir() {
-            names.push(entry.file_name().to_string_lossy().into_owned());
-        }
-    }
-    names.sort();
-    Ok(names)
+    Ok(files::names(folder)?.into_iter().filter(|name| folder.join(name).is_dir()).collect())
 }
 
 /// Does something for every unit, [`THREADS`] at once; the results in the units' order.
@@ -79,14 +69,12 @@ fn answers(from: &Path, units: &[String], coil: &CoilCase, cache: &Cache, clock:
 }
 
 /// Writes the answers into a folder, all or none.
-fn write(into: &Path, units: &[String], files: &[Files], program: Option<&str>) -> Result<(), Failure> {
-    std::fs::create_dir_all(into).map_err(|e| Failure(format!("{}: {e}", into.display())))?;
+fn write(into: &Path, units: &[String], answers: &[Files], program: Option<&str>) -> Result<(), Failure> {
     let paths = units.iter().map(|unit| ["json", "csv"].map(|kind| into.join(format!("{unit}.{kind}"))));
-    let contents = files.iter().map(|f| [f.json.clone(), f.prediction.clone()]);
+    let contents = answers.iter().map(|f| [f.json.clone(), f.prediction.clone()]);
     let mut all: Vec<(PathBuf, String)> = paths.flatten().zip(contents.flatten()).collect();
     all.extend(program.map(|hash| (into.join(PROGRAM), format!("{hash}\n"))));
-    let all: Vec<(&Path, Content)> = all.iter().map(|(path, text)| (path.as_path(), Content::Text(text.clone()))).collect();
-    Ok(output::write_files(&all)?)
+    files::write_all(&all)
 }
 
 /// Answers the open units, or those named, writes the answers to `target/prove/open`, then opens the truths and scores.
@@ -149,13 +137,7 @@ pub(crate) fn sealed_again(into: &Path) -> Result<bool, Failure> {
         return Err(Failure(format!("{}: the sealed units are not answered yet: cargo xtask prove --sealed", first.display())));
     }
     let units = answer_sealed(into)?;
-    let same = |name: &str| -> Result<bool, Failure> {
-        let read = |folder: &Path| {
-            let path = folder.join(name);
-            std::fs::read(&path).map_err(|e| Failure(format!("{}: {e}", path.display())))
-        };
-        Ok(read(into)? == read(&first)?)
-    };
+    let same = |name: &str| -> Result<bool, Failure> { Ok(files::read(&into.join(name))? == files::read(&first.join(name))?) };
     let files = units.iter().flat_map(|unit| ["json", "csv"].map(|kind| format!("{unit}.{kind}")));
     let mut differ = Vec::new();
     for file in files.chain([PROGRAM.to_owned()]) {

@@ -1,7 +1,7 @@
 //! Tables I and II: the reference cell.
 
 use super::fixtures::{Fixtures, Printed};
-use super::row::{Agreement, ComparisonRow, Verdict, rounds_to};
+use super::row::{Agreement, ComparisonRow, rounds_to};
 use super::{Section, timed};
 use crate::Failure;
 use homogenization::{Constants, Discretization, Extent, Homogenized, free_cell, homogenize, homogenize_on};
@@ -22,18 +22,7 @@ fn value(constants: &Constants, name: &str) -> f64 {
 }
 
 fn row(printed: &Printed, computed: f64, relative_error: f64, kind: Agreement) -> ComparisonRow {
-    ComparisonRow {
-        id: printed.id.clone(),
-        quantity: printed.quantity.clone(),
-        printed: Some(printed.printed.clone()),
-        computed: computed / printed.scale,
-        numerical_error: (computed / printed.scale).abs() * relative_error.max(NINE_DIGITS),
-        unit: printed.unit.clone(),
-        verdict: Verdict::Differs,
-        kind,
-        must_hold: false,
-        reason: String::new(),
-    }
+    ComparisonRow::beside(printed, computed, relative_error.max(NINE_DIGITS), kind)
 }
 
 /// The larger, or NaN if either is: what is not a number must not pass.
@@ -43,20 +32,8 @@ pub(crate) fn largest(a: f64, b: f64) -> f64 {
 
 /// A check without a printed value: `computed` is a relative deviation that must stay below `limit`.
 pub(crate) fn check(id: &str, quantity: &str, deviation: f64, limit: f64, unit: &str, reason: &str) -> ComparisonRow {
-    ComparisonRow {
-        id: id.into(),
-        quantity: quantity.into(),
-        printed: None,
-        computed: deviation,
-        numerical_error: 0.0,
-        unit: format!("{unit} (limit {limit:.0e})"),
-        verdict: Verdict::Fails,
-        kind: Agreement::Predicted,
-        must_hold: true,
-        reason: reason.into(),
-    }
-    .required(deviation.abs() <= limit)
-    .because(reason)
+    let row = ComparisonRow::shown([id, quantity, &format!("{unit} (limit {limit:.0e})")], deviation, 0.0, Agreement::Predicted);
+    row.required(deviation.abs() <= limit).because(reason)
 }
 
 pub(crate) fn table_1(fixtures: &Fixtures) -> Result<(Section, Homogenized), Failure> {
@@ -170,7 +147,7 @@ pub(crate) fn table_2(fixtures: &Fixtures, cell: &Homogenized) -> Result<Section
     section.rows.push(row(fixtures.printed("II.M_rT")?, c.m_rt, e.m_rt, Agreement::Misprint).compared(false, reason));
     for (id, v, read) in [("II.M_rx", c.m_rx, 1e4), ("II.M_ry", c.m_ry, 1e4), ("II.M_rT", c.m_rt, -1e-6)] {
         let printed = fixtures.printed(id)?;
-        let digits: f64 = printed.printed.parse().map_err(|_| Failure(format!("{id}: not a number")))?;
+        let digits = printed.value()?;
         let text = format!("{} against the printed digits with exponent and sign mended", printed.quantity);
         section.rows.push(check(
             &format!("{id}.read"),

@@ -2,7 +2,7 @@
 
 use super::cell::{check, largest};
 use super::fixtures::{Fixtures, Printed};
-use super::row::{Agreement, ComparisonRow, Verdict};
+use super::row::{Agreement, ComparisonRow};
 use super::spread::{self, Spread};
 use super::{Section, timed};
 use crate::Failure;
@@ -26,19 +26,8 @@ fn total(design: &Design, resolution: &MeshFineness) -> Result<f64, Failure> {
     Ok(Model::new(design, resolution)?.sensitivity()?.total())
 }
 
-fn value(id: &str, quantity: impl Into<String>, computed: f64, numerical_error: f64, kind: Agreement) -> ComparisonRow {
-    ComparisonRow {
-        id: id.into(),
-        quantity: quantity.into(),
-        printed: None,
-        computed,
-        numerical_error,
-        unit: UNIT.into(),
-        verdict: Verdict::Shown,
-        kind,
-        must_hold: false,
-        reason: String::new(),
-    }
+fn value(id: &str, quantity: impl AsRef<str>, computed: f64, numerical_error: f64, kind: Agreement) -> ComparisonRow {
+    ComparisonRow::shown([id, quantity.as_ref(), UNIT], computed, numerical_error, kind)
 }
 
 fn with(design: &Design, change: impl FnOnce(&mut Design)) -> Design {
@@ -89,7 +78,7 @@ fn theory(fixtures: &Fixtures, constants: &Constants, section: &mut Section) -> 
         s.unknowns, s.unknowns_of_estimate
     ));
     let printed: &Printed = fixtures.printed("IV.theory")?;
-    let target: f64 = printed.printed.parse().map_err(|_| Failure(format!("{}: not a number", printed.id)))?;
+    let target = printed.value()?;
     let inputs = rounding_of_the_inputs(fixtures)?;
     let computed = s.sensitivity.total().abs();
     let own = total(&with(&fixtures.coil, |d| d.dehomogenization = own_m(constants)), &COARSE)?.abs();
@@ -267,7 +256,7 @@ fn own_constants(fixtures: &Fixtures, constants: &Constants, section: &mut Secti
 fn real_coils(fixtures: &Fixtures, error: f64, section: &mut Section) -> Result<(), Failure> {
     for id in ["IV.coil1", "IV.coil2", "IV.coil3"] {
         let printed = fixtures.printed(id)?;
-        let target: f64 = printed.printed.parse().map_err(|_| Failure(format!("{id}: not a number")))?;
+        let target = printed.value()?;
         let (tail, slope) = coil::tail_asymmetry(&fixtures.coil, -target)?;
         let mut row = value(
             id,
@@ -292,7 +281,7 @@ pub(crate) fn table_4(fixtures: &Fixtures, constants: &Constants) -> Result<Sect
     own_constants(fixtures, constants, &mut section)?;
     let (Spread { lowest, highest, lines }, seconds) = timed(|| spread::over_spools(fixtures))?;
     section.timing(format!("{} spools: {seconds:.1} s", lines.len()));
-    let target: f64 = fixtures.printed("IV.theory")?.printed.parse().map_err(|_| Failure("IV.theory: not a number".into()))?;
+    let target = fixtures.printed("IV.theory")?.value()?;
     let range = format!(
         "|S| over {} spools runs from here to {:.2} ({}); printed {target} lies {}",
         lines.len(),

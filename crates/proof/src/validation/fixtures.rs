@@ -20,6 +20,11 @@ pub(crate) struct Printed {
 }
 
 impl Printed {
+    /// The printed number, in its unit.
+    pub(crate) fn value(&self) -> Result<f64, Failure> {
+        self.printed.parse().map_err(|_| Failure(format!("{}: not a number", self.id)))
+    }
+
     /// Half a unit of the last printed digit, in SI.
     pub(crate) fn half_digit(&self) -> f64 {
         let exponent = self.printed.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);

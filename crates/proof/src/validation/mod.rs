@@ -66,8 +66,9 @@ pub fn over_spools() -> Result<Vec<(String, f64)>, Failure> {
 /// # Errors
 /// [`Failure`] if a fixture cannot be read.
 pub fn printed() -> Result<(String, f64), Failure> {
-    let row = Fixtures::read()?.printed("IV.theory")?.clone();
-    Ok((format!("printed, Table {}: {}", row.table, row.printed), row.printed.parse()?))
+    let fixtures = Fixtures::read()?;
+    let row = fixtures.printed("IV.theory")?;
+    Ok((format!("printed, Table {}: {}", row.table, row.printed), row.value()?))
 }
 
 /// Everything computed and compared, table by table; `step` is told what comes next.

@@ -1,7 +1,7 @@
 //! Five profiles in time, against the response that an independent finite-element code computes for the same coil.
 
 use super::fixtures::Fixtures;
-use super::row::{Agreement, ComparisonRow, Verdict};
+use super::row::{Agreement, ComparisonRow};
 use super::{Section, timed};
 use crate::Failure;
 use crate::files;
@@ -95,18 +95,8 @@ fn turn(profile: &Profile, n: usize) -> f64 {
 }
 
 fn row(id: String, quantity: String, value: f64, numerical_error: f64) -> ComparisonRow {
-    ComparisonRow {
-        id,
-        quantity,
-        printed: None,
-        computed: value,
-        numerical_error,
-        unit: format!("% of the peak (limit {TOLERANCE})"),
-        verdict: Verdict::Shown,
-        kind: Agreement::Predicted,
-        must_hold: false,
-        reason: String::new(),
-    }
+    let unit = format!("% of the peak (limit {TOLERANCE})");
+    ComparisonRow::shown([&id, &quantity, &unit], value, numerical_error, Agreement::Predicted)
 }
 
 pub(crate) fn nominal(fixtures: &Fixtures) -> Result<Section, Failure> {

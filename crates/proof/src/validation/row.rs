@@ -1,5 +1,6 @@
 //! One comparison: printed, computed ± numerical error, verdict, kind of agreement, reason.
 
+use super::fixtures::Printed;
 use serde::Serialize;
 
 /// What stands behind an agreement.
@@ -56,6 +57,21 @@ pub struct ComparisonRow {
 }
 
 impl ComparisonRow {
+    /// A number without a printed one; nothing is tested yet.
+    pub(super) fn shown([id, quantity, unit]: [&str; 3], computed: f64, numerical_error: f64, kind: Agreement) -> Self {
+        let [id, quantity, unit] = [id, quantity, unit].map(str::to_owned);
+        let (printed, reason, verdict) = (None, String::new(), Verdict::Shown);
+        Self { id, quantity, printed, computed, numerical_error, unit, verdict, kind, must_hold: false, reason }
+    }
+
+    /// A number in SI beside the printed one; they differ until a test says otherwise.
+    pub(super) fn beside(printed: &Printed, computed: f64, relative_error: f64, kind: Agreement) -> Self {
+        let computed = computed / printed.scale;
+        let names = [&printed.id[..], &printed.quantity, &printed.unit];
+        let row = Self::shown(names, computed, computed.abs() * relative_error, kind);
+        Self { printed: Some(printed.printed.clone()), verdict: Verdict::Differs, ..row }
+    }
+
     /// A row that agrees or fails.
     pub fn required(mut self, holds: bool) -> Self {
         self.must_hold = true;
@@ -64,16 +80,21 @@ impl ComparisonRow {
     }
 
     /// A row that may differ, with its reason.
-    pub fn compared(mut self, holds: bool, reason: impl Into<String>) -> Self {
+    pub(super) fn compared(mut self, holds: bool, reason: impl Into<String>) -> Self {
         self.verdict = if holds { Verdict::Holds } else { Verdict::Differs };
         self.reason = reason.into();
         self
     }
 
     /// With its reason.
-    pub fn because(mut self, reason: impl Into<String>) -> Self {
+    pub(super) fn because(mut self, reason: impl Into<String>) -> Self {
         self.reason = reason.into();
         self
+    }
+
+    /// Computed ± numerical error, with the digits that are justified.
+    pub fn computed_text(&self) -> String {
+        with_error(self.computed, self.numerical_error, self.printed.as_deref().map_or(0, decimals))
     }
 }
 
@@ -105,13 +126,6 @@ fn plain(value: f64) -> String {
         format!("{value:.1e}")
     } else {
         format!("{value:.3}")
-    }
-}
-
-impl ComparisonRow {
-    /// Computed ± numerical error, with the digits that are justified.
-    pub fn computed_text(&self) -> String {
-        with_error(self.computed, self.numerical_error, self.printed.as_deref().map_or(0, decimals))
     }
 }
 

@@ -3,24 +3,13 @@
 use super::Section;
 use super::cell::NINE_DIGITS;
 use super::fixtures::{Fixtures, Printed};
-use super::row::{Agreement, ComparisonRow, Verdict, rounds_to};
+use super::row::{Agreement, ComparisonRow, rounds_to};
 use crate::Failure;
 use winding::{Half, Pattern, Spec, wind};
 
 fn row(printed: &Printed, computed: f64, kind: Agreement) -> ComparisonRow {
-    ComparisonRow {
-        id: printed.id.clone(),
-        quantity: printed.quantity.clone(),
-        printed: Some(printed.printed.clone()),
-        computed: computed / printed.scale,
-        // counts are exact
-        numerical_error: if printed.unit == "-" { 0.0 } else { (computed / printed.scale * NINE_DIGITS).abs() },
-        unit: printed.unit.clone(),
-        verdict: Verdict::Differs,
-        kind,
-        must_hold: false,
-        reason: String::new(),
-    }
+    // counts are exact
+    ComparisonRow::beside(printed, computed, if printed.unit == "-" { 0.0 } else { NINE_DIGITS }, kind)
 }
 
 fn must_round(row: ComparisonRow) -> ComparisonRow {
@@ -30,19 +19,8 @@ fn must_round(row: ComparisonRow) -> ComparisonRow {
 }
 
 fn counted(id: &str, quantity: &str, computed: usize, expected: usize, reason: &str) -> ComparisonRow {
-    ComparisonRow {
-        id: id.into(),
-        quantity: quantity.into(),
-        printed: None,
-        computed: computed as f64,
-        numerical_error: 0.0,
-        unit: "-".into(),
-        verdict: Verdict::Fails,
-        kind: Agreement::Predicted,
-        must_hold: true,
-        reason: reason.into(),
-    }
-    .required(computed == expected)
+    let row = ComparisonRow::shown([id, quantity, "-"], computed as f64, 0.0, Agreement::Predicted);
+    row.required(computed == expected).because(reason)
 }
 
 pub(crate) fn table_3(fixtures: &Fixtures) -> Result<Section, Failure> {
