@@ -127,11 +127,14 @@ pub(super) mod tests {
 
     #[test]
     fn a_set_holds_what_is_not_excluded_best_first() {
-        let candidates = [candidate(&[], 0.02), candidate(&[1], 0.6), candidate(&[0], 0.361), candidate(&[2], 0.019)];
-        assert_eq!(set(&[true; 3], &candidates), [1, 0, 2]);
-        // the limit is 3 % of 0.6
-        let candidates = [candidate(&[], 0.022), candidate(&[1], 0.6), candidate(&[0], 0.361), candidate(&[2], 0.017)];
-        assert_eq!(set(&[true; 3], &candidates), [1, 0]);
+        // the second mechanism's probability is spread over ten choices; the limit is 3 % of their sum, 0.018
+        let with = |third: f64| -> Vec<Candidate> {
+            let choices = (0..10).map(|_| candidate(&[1], 0.06));
+            choices.chain([candidate(&[0], 0.361), candidate(&[2], third), candidate(&[], 0.039 - third)]).collect()
+        };
+        assert_eq!(set(&[true; 3], &with(0.019)), [1, 0, 2]);
+        assert_eq!(set(&[true; 3], &with(0.017)), [1, 0]);
+        let candidates = with(0.017);
         // what has no name is no member of theirs
         assert_eq!(set(&[false, true, true], &candidates), [1]);
     }
@@ -148,6 +151,11 @@ pub(super) mod tests {
 
     #[test]
     fn even_the_best_is_no_member_where_it_is_all_but_excluded() {
-        assert_eq!(set(&[true], &[candidate(&[], 0.9995), candidate(&[0], 0.0005)]), []);
+        // a hundred candidates without it, none of them large
+        let with = |best: f64| -> Vec<Candidate> {
+            (0..100).map(|_| candidate(&[], (1.0 - best) / 100.0)).chain([candidate(&[0], best)]).collect()
+        };
+        assert_eq!(set(&[true], &with(0.0008)), []);
+        assert_eq!(set(&[true], &with(0.0010)), [0]);
     }
 }
