@@ -3,9 +3,7 @@
 mod common;
 
 use bias::{Bias, bias};
-use coil::{
-    Drive, Dynamics, FactorsAt, Fidelity, Mechanics, MeshFineness, Model, Profile, Side, Step, ThermalModel, ThermalState,
-};
+use coil::{Drive, Dynamics, FactorsAt, Fidelity, Mechanics, MeshFineness, Model, Profile, Side, ThermalModel, ThermalState};
 use common::{changed, reference};
 use winding::Tails;
 
@@ -68,10 +66,11 @@ fn exact_a_coil_at_rest_has_one_temperature_and_the_strain_of_uniform_warming() 
     let rest = fields.at(&ThermalState { drives: vec![1.0], amplitudes });
     assert!(rest.temperature.iter().all(|t| (t - 1.0).abs() < 1e-12) && (rest.bore - 1.0).abs() < 1e-12);
     let model = Model::new(&design, &QUICK.resolution).expect("model");
-    let strain = model.strain_at_turns(&vec![1.0; model.grid().mesh().nodes().len()]).expect("solve");
-    for (i, s) in strain.iter().enumerate() {
-        assert!((rest.axial[i] - s.axial).abs() < 1e-12 * 1e-6 + 1e-10 * s.axial.abs(), "turn {i}");
-        assert!((rest.radial[i] - s.radial).abs() < 1e-12 * 1e-6 + 1e-10 * s.radial.abs(), "turn {i}");
+    let uniform = model.at_turns(&[vec![1.0; model.grid().mesh().nodes().len()]]).expect("solve").remove(0);
+    for (found, expected) in [(&rest.axial, &uniform.axial), (&rest.radial, &uniform.radial)] {
+        for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
+            assert!((found - expected).abs() < 1e-12 * 1e-6 + 1e-10 * expected.abs(), "turn {i}");
+        }
     }
 }
 
@@ -96,26 +95,6 @@ fn exact_turn_temperatures_agree_with_all_unknowns() {
         // the node is a millimetre away at most; the coil lags by kelvins
         assert!((at_turn - full.outputs[n][0]).abs() < 0.05, "{at_turn} against {} °C", full.outputs[n][0]);
         assert!(n != 30 || states[n].drives[0] - at_turn > 0.5, "the coil lags: {at_turn} °C");
-    }
-}
-
-#[test]
-fn exact_mode_rates_are_the_limit_of_differences() {
-    let dynamics = Dynamics::new(&reference(), &[Drive::Chamber], &QUICK).expect("model");
-    let reduced = dynamics.reduced();
-    let slope = vec![0.02];
-    let at_rest = ThermalState { drives: vec![0.0], amplitudes: vec![0.0; reduced.rates().len()] };
-    let pushed = reduced.rates_of(&at_rest, &slope).amplitudes;
-    let from = reduced.within(&Step { from: at_rest, slope: slope.clone(), dt: 300.0 }, 300.0);
-    let (rate, dt) = (reduced.rates_of(&from, &slope).amplitudes, 1e-3);
-    let step = Step { from, slope, dt };
-    let to = reduced.within(&step, dt);
-    for (i, decay) in reduced.rates().iter().enumerate() {
-        // q'' = −rate q'
-        let expected = rate[i] * (1.0 - decay * dt / 2.0);
-        let second = (decay * dt).powi(2);
-        let found = (to.amplitudes[i] - step.from.amplitudes[i]) / dt;
-        assert!((found - expected).abs() < (1e-6 + second) * pushed[i].abs(), "mode {i}");
     }
 }
 

@@ -15,13 +15,6 @@ use super::timestamp::{self, FORMS, is_ambiguous};
 use crate::Error;
 use crate::remark::{Remark, WARNING};
 
-/// The chamber's temperature \[°C\].
-pub const CHAMBER: &str = "chamber_c";
-/// The thermometer on the spool \[°C\].
-pub const SPOOL: &str = "spool_c";
-/// The gyro's rate, mean over the interval that ends at the instant \[deg/h\].
-pub const RATE: &str = "rate_deg_per_h";
-
 /// Most rows: what fits in a gigabyte with its checks.
 const MOST_ROWS: usize = 10_000_000;
 /// Rows below which a recording is noted as short.

@@ -1,25 +1,11 @@
 //! The header of a recording: which column is what.
 
+use super::InputError;
 use super::record_format::{Key, RecordFormat};
 use super::rows::{Rows, quoted};
-use super::{CHAMBER, InputError, RATE, SPOOL};
 
-/// The instants' column.
-const TIME: &str = "time_s";
 /// Most names that a message lists.
 const MOST_NAMES: usize = 12;
-
-impl Key {
-    /// Name of its column in a standard recording.
-    pub(super) fn standard(self) -> &'static str {
-        match self {
-            Self::Time => TIME,
-            Self::Chamber => CHAMBER,
-            Self::Spool => SPOOL,
-            Self::Rate => RATE,
-        }
-    }
-}
 
 /// Where a recording's columns are.
 pub(super) struct RecordColumns {
