@@ -166,14 +166,6 @@ impl<'a> Fibre<'a> {
 }
 
 impl CellCase {
-    /// Effective constants, each to the default relative error.
-    ///
-    /// # Errors
-    /// As [`Self::homogenize_to`].
-    pub fn homogenize(&self) -> Result<Homogenized, Error> {
-        self.homogenize_to(homogenization::TOLERANCE)
-    }
-
     /// Effective constants, each to a relative error.
     ///
     /// # Errors

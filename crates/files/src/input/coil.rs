@@ -260,7 +260,7 @@ impl Cells<'_> {
             }
             AnyCell::Regular(case, _) => {
                 self.compare_pitch(field, named, case.cell.pitch);
-                (case.homogenize()?.constants, case.fingerprint)
+                (case.homogenize_to(TOLERANCE)?.constants, case.fingerprint)
             }
         };
         self.fingerprints.push(fingerprint);

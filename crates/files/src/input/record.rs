@@ -122,7 +122,8 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
     let mut values: Vec<Vec<f64>> = vec![Vec::new(); channels.len()];
     let mut time: Vec<f64> = Vec::new();
     while rows.advance()? {
-        check_count(rows, columns)?;
+        let expected = columns.names.len();
+        rows.check_count(expected, " ", |_, found| count_remedy(found, expected))?;
         if time.len() == MOST_ROWS {
             return Err(rows.fault(None, format!("more than {MOST_ROWS} rows"), "split the recording, or average it"));
         }
@@ -146,20 +147,12 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
     Ok((recording, clock.first.is_some()))
 }
 
-fn check_count(rows: &Rows, columns: &RecordColumns) -> Result<(), InputError> {
-    let (found, expected) = (rows.count(), columns.names.len());
-    if found == expected {
-        return Ok(());
-    }
-    let line = rows.fields().collect::<Vec<_>>().join(" ");
-    let problem =
-        format!("{} has {found} field{} where the header has {expected}", quoted(&line), if found == 1 { "" } else { "s" });
-    let remedy = if found > expected && found.is_multiple_of(2) {
+fn count_remedy(found: usize, expected: usize) -> &'static str {
+    if found > expected && found.is_multiple_of(2) {
         "give one number a column; if decimals have a comma, separate the fields otherwise, e.g. --separator ';' --decimal-comma"
     } else {
         "complete the row (a missing value is an empty field), or remove it"
-    };
-    Err(rows.fault(None, problem, remedy))
+    }
 }
 
 /// Instants from a column, from dates, or from the rows' number.
