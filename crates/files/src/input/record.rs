@@ -79,10 +79,7 @@ impl RecordCase {
 /// # Errors
 /// [`Error::Input`]: what is wrong, in which file, line and column, and how to mend it; [`Error::Usage`] for wrong options.
 pub fn read_record(path: &Path, options: &RecordOptions) -> Result<RecordCase, Error> {
-    let format = RecordFormat::read(path, options).map_err(|problem| match problem {
-        Ok(usage) => Error::Usage(usage),
-        Err(input) => Error::Input(input),
-    })?;
+    let format = RecordFormat::read(path, options)?;
     let meta = meta_path(path, options).map(|path| meta::read(&path)).transpose()?;
     checked(Rows::open_as(path, "a recording (*.csv)", format.dialect)?, &format, meta)
 }

@@ -52,12 +52,9 @@ impl RecordColumns {
 
     /// Names of the columns that are not read.
     pub(super) fn ignored(&self) -> Vec<&str> {
-        let used = |column: &usize| self.at.contains(&Some(*column));
-        (0..self.names.len())
-            .filter(|column| !used(column))
-            .map(|column| self.names[column].as_str())
-            .filter(|n| !n.is_empty())
-            .collect()
+        let unused = |column: &usize| !self.at.contains(&Some(*column));
+        let names = (0..self.names.len()).filter(unused).map(|column| self.names[column].as_str());
+        names.filter(|name| !name.is_empty()).collect()
     }
 }
 

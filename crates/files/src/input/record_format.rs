@@ -11,6 +11,7 @@ use super::InputError;
 use super::profile_columns::TIME;
 use super::rows::Dialect;
 use super::source::Source;
+use crate::Error;
 use crate::units::{ColumnUnit, RATES, TEMPERATURES, TIMES};
 
 /// The chamber's temperature \[°C\].
@@ -164,15 +165,15 @@ pub(super) struct ColumnFormat {
 }
 
 impl RecordFormat {
-    /// From the flags and the map file, if there is one. Wrong flags are `Err(Ok(message))`.
-    pub(super) fn read(record: &Path, options: &RecordOptions) -> Result<Self, Result<String, InputError>> {
+    /// From the flags and the map file, if there is one.
+    pub(super) fn read(record: &Path, options: &RecordOptions) -> Result<Self, Error> {
         let beside = record.with_extension("map.ron");
         let path = options.map.clone().or_else(|| beside.is_file().then_some(beside));
         let mut format = match path {
-            Some(path) => Self::from_file(&path).map_err(Err)?,
+            Some(path) => Self::from_file(&path)?,
             None => Self::standard(),
         };
-        format.declare(options).map_err(Ok)?;
+        format.declare(options).map_err(Error::Usage)?;
         Ok(format)
     }
 
