@@ -2,12 +2,11 @@
 
 use crate::mechanics::Blend;
 use crate::{
-    BiasOperator, Design, Drifts, Drive, Error, Grid, MechanicalState, MeshFineness, Model, Output, Outputs, Reduced, Reduction,
-    Steps, ThermalModel, ThermalState, TurnFields,
+    BiasOperator, Design, Drifts, Drive, Error, MechanicalState, MeshFineness, Model, Output, Outputs, Profile, Reduced,
+    Reduction, Steps, ThermalModel, ThermalState, TurnFields,
 };
 use bias::Bias;
 use nalgebra::{DMatrix, DVector};
-use std::collections::HashMap;
 
 /// How finely a coil in time is modelled.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -112,15 +111,6 @@ impl ReductionError {
     }
 }
 
-/// Courses of the drives in time, linear between instants.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Profile {
-    /// Instants \[s\], increasing.
-    pub time: Vec<f64>,
-    /// One course per drive of the [`Dynamics`], each as long as `time`.
-    pub drives: Vec<Vec<f64>>,
-}
-
 /// What a coil does at one instant of a profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {
@@ -141,18 +131,6 @@ impl Response {
     }
 }
 
-/// For each node of the mechanical mesh the node of the thermal mesh at its place: the thermal mesh holds them all.
-pub(crate) fn shared_nodes(mechanical: &Grid, thermal: &Grid) -> Result<Vec<usize>, Error> {
-    // a tenth of a nanometre: far above rounding, far below any element
-    let key = |p: [f64; 2]| p.map(|x| (x * 1e10).round() as i64);
-    let index: HashMap<_, usize> = thermal.mesh().nodes().iter().enumerate().map(|(i, &p)| (key(p), i)).collect();
-    let of = |p: &[f64; 2]| {
-        let missing = || Error::Resolution(format!("the thermal mesh lacks the mechanical node at {p:?} m"));
-        index.get(&key(*p)).copied().ok_or_else(missing)
-    };
-    mechanical.mesh().nodes().iter().map(of).collect()
-}
-
 /// Outputs of a coil in the mechanical state of `model`, as functionals of the temperature at the nodes of `thermal`'s mesh.
 ///
 /// # Errors
@@ -169,7 +147,7 @@ fn temperatures(design: &Design, thermal: &ThermalModel) -> Result<Outputs<Vec<f
 
 fn parts(model: &Model, thermal: &ThermalModel) -> Result<[Vec<f64>; 3], Error> {
     let BiasOperator { shupe, eo_axial, eo_radial } = model.bias_operator()?;
-    let shared = shared_nodes(model.grid(), thermal.grid())?;
+    let shared = model.grid().shared_nodes(thermal.grid())?;
     let embed = |part: Vec<f64>| {
         let mut embedded = vec![0.0; thermal.grid().mesh().nodes().len()];
         // both faces of an opened bond lie at one place
@@ -285,26 +263,5 @@ impl Dynamics {
             rows.push(Response { sensor, coil: now.coil_mean, bias, read_out });
         }
         Ok(rows)
-    }
-}
-
-impl Profile {
-    pub(crate) fn check(&self, drives: usize) -> Result<(), Error> {
-        let bad = |row: usize, problem: String| Err(Error::Profile { row, problem });
-        if self.time.is_empty() {
-            return bad(0, "there is no instant; give at least one".into());
-        }
-        if self.drives.len() != drives || self.drives.iter().any(|d| d.len() != self.time.len()) {
-            return bad(0, format!("{drives} courses of {} instants are needed", self.time.len()));
-        }
-        for (row, t) in self.time.iter().enumerate() {
-            if !t.is_finite() || (row > 0 && *t <= self.time[row - 1]) {
-                return bad(row, format!("time {t} s must be finite and later than the one before"));
-            }
-            if let Some(value) = self.drives.iter().map(|d| d[row]).find(|v| !v.is_finite()) {
-                return bad(row, format!("{value} must be finite"));
-            }
-        }
-        Ok(())
     }
 }

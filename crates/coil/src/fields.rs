@@ -1,50 +1,9 @@
 //! Temperature and strain of the glass at every turn, for any state of a reduced model.
 
-use crate::dynamics::shared_nodes;
-use crate::{Error, Model, ThermalModel, ThermalState, TurnStrain};
-use bias::{Optics, Slice};
+use crate::{Error, Model, ThermalModel, ThermalState, TurnValues};
+use bias::Optics;
 use nalgebra::{DMatrix, DVector};
 use winding::Winding;
-
-/// Temperature and strains of the glass at the centre of every turn, in the winding's order; or their rates \[…/s\].
-#[derive(Debug, Clone, PartialEq)]
-pub struct TurnValues {
-    /// Temperature \[K or °C, as the drives\].
-    pub temperature: Vec<f64>,
-    /// Strain along the fibre: the coil's hoop strain.
-    pub axial: Vec<f64>,
-    /// Strain across the fibre: dehomogenised.
-    pub radial: Vec<f64>,
-    /// Temperature of the hub's bore, which the tails share.
-    pub bore: f64,
-}
-
-impl TurnValues {
-    /// Rates as slices for [`bias::bias`]: every turn, then the tails, which expand freely by `fibre_expansion` \[1/K\] at the bore's
-    /// temperature.
-    ///
-    /// # Panics
-    /// If `winding` has another number of turns.
-    pub fn slices(&self, winding: &Winding, fibre_expansion: f64) -> Vec<Slice> {
-        assert_eq!(winding.turns().len(), self.temperature.len(), "the winding these are the turns of");
-        let turns = winding.turns().iter().enumerate().map(|(i, turn)| Slice {
-            z_start: turn.z_start,
-            z_end: turn.z_end,
-            temperature_rate: self.temperature[i],
-            axial_strain_rate: self.axial[i],
-            radial_strain_rate: self.radial[i],
-        });
-        let (ccw, cw) = winding.tail_spans();
-        let tails = [ccw, cw].into_iter().filter(|(start, end)| end > start).map(|(z_start, z_end)| Slice {
-            z_start,
-            z_end,
-            temperature_rate: self.bore,
-            axial_strain_rate: fibre_expansion * self.bore,
-            radial_strain_rate: fibre_expansion * self.bore,
-        });
-        turns.chain(tails).collect()
-    }
-}
 
 /// Linear maps from the drives and modes of a [`crate::Reduced`] to the turns: one row per turn, one column per drive, then one per
 /// mode.
@@ -71,18 +30,18 @@ impl TurnFields {
     /// [`Error::Solve`] if a solve leaves a residual; [`Error::Resolution`] if the two models differ in their
     /// [`crate::MeshFineness`].
     pub fn new(model: &Model, thermal: &ThermalModel, modes: &[Vec<f64>]) -> Result<Self, Error> {
-        let shared = shared_nodes(model.grid(), thermal.grid())?;
+        let shared = model.grid().shared_nodes(thermal.grid())?;
         let onto = |field: &Vec<f64>| shared.iter().map(|&node| field[node]).collect::<Vec<f64>>();
         let columns: Vec<Vec<f64>> = thermal.shapes().iter().chain(modes).map(onto).collect();
-        let strains = model.strains_at_turns(&columns)?;
-        let turns = model.winding().turns().len();
-        let of = |strain: fn(&TurnStrain) -> f64| DMatrix::from_fn(turns, columns.len(), |i, j| strain(&strains[j][i]));
-        let temperature = columns.iter().flat_map(|c| model.temperature_at_turns(c));
+        let values = model.at_turns(&columns)?;
+        let of = |value: fn(&TurnValues) -> &Vec<f64>| {
+            DMatrix::from_iterator(model.winding().turns().len(), values.len(), values.iter().flat_map(value).copied())
+        };
         Ok(Self {
-            temperature: DMatrix::from_iterator(turns, columns.len(), temperature),
-            axial: of(|s| s.axial),
-            radial: of(|s| s.radial),
-            bore: columns.iter().map(|c| model.temperature_at_bore(c)).collect(),
+            temperature: of(|v| &v.temperature),
+            axial: of(|v| &v.axial),
+            radial: of(|v| &v.radial),
+            bore: values.iter().map(|v| v.bore).collect(),
         })
     }
 
@@ -116,8 +75,7 @@ impl TurnFields {
         (self.temperature.tr_mul(&weighted) + &bore * bore.transpose() * tail, self.temperature.tr_mul(&w) + bore * tail)
     }
 
-    /// Values in a state, or rates for rates of drives and amplitudes: their differences over an interval give means,
-    /// [`crate::Reduced::rates_of`] the rates at an instant.
+    /// Values in a state, or rates for rates of drives and amplitudes: their differences over an interval give means.
     ///
     /// # Panics
     /// If drives and amplitudes together are not as many as the columns.

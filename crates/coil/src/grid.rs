@@ -4,6 +4,7 @@ use crate::layout::{CONTACT_SKIN, Layout, Region};
 use crate::{Error, Side};
 use fem_core::polynomial::{Lagrange, gauss_lobatto};
 use fem_core::{Edge, Measure, Mesh, ReferenceElement};
+use std::collections::HashMap;
 
 /// Order and grading of a coil mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -314,6 +315,18 @@ impl Grid {
         let nodes = &self.mesh.elements()[element];
         let corner = if edge == Edge::EtaHigh { nodes[nodes.len() - 1] } else { nodes[0] };
         (self.mesh.nodes()[corner][1] - at).abs() < COINCIDENT
+    }
+
+    /// For each node of this mechanical mesh the node of the thermal mesh at its place: the thermal mesh holds them all.
+    pub(crate) fn shared_nodes(&self, thermal: &Grid) -> Result<Vec<usize>, Error> {
+        // a tenth of a nanometre: far above rounding, far below any element
+        let key = |p: [f64; 2]| p.map(|x| (x * 1e10).round() as i64);
+        let index: HashMap<_, usize> = thermal.mesh.nodes().iter().enumerate().map(|(i, &p)| (key(p), i)).collect();
+        let of = |p: &[f64; 2]| {
+            let missing = || Error::Resolution(format!("the thermal mesh lacks the mechanical node at {p:?} m"));
+            index.get(&key(*p)).copied().ok_or_else(missing)
+        };
+        self.mesh.nodes().iter().map(of).collect()
     }
 
     /// Mean over the coil's volume, as a functional of a nodal field.

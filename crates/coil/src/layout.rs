@@ -1,11 +1,13 @@
 //! Which rectangle of the (r, y) half-plane holds what.
 
-use crate::mechanics::MOST_RELAXING;
 use crate::{Contact, Design, Error, Mechanics, Side};
 
 /// Thickness of the skin of the hub whose radial conductivity stands for a contact resistance \[m\]: thin enough to leave the hub's
 /// conduction and stiffness as they are (1/4000 of a wall of 4 mm).
 pub(crate) const CONTACT_SKIN: f64 = 1e-6;
+
+/// Largest relaxing share that the polynomial of [`crate::Relaxation`] resolves.
+const MOST_RELAXING: f64 = 0.8;
 
 /// What fills a part of the half-plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,11 +53,6 @@ pub struct Layout {
 impl Region {
     /// Number of regions.
     pub const COUNT: usize = 6;
-
-    /// Whether the region is made of the spool's material.
-    pub fn is_spool(self) -> bool {
-        matches!(self, Self::Hub | Self::LeftFlange | Self::RightFlange | Self::Contact)
-    }
 
     /// The flange on a side.
     pub fn flange(side: Side) -> Self {

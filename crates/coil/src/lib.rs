@@ -35,24 +35,27 @@ mod profile;
 mod sensitivity;
 mod thermal;
 mod trim;
+mod turns;
 
 pub use design::{
     Body, Contact, Dehomogenization, Design, Drifts, FactorsAt, Flange, HeatPaths, Heater, Mechanics, Mount, Opening, Sensor,
     Side, Solid, Spool, Surroundings,
 };
-pub use dynamics::{COARSER, Dynamics, Fidelity, Profile, REDUCTION_SAFETY, ReductionError, Response, STANDARD, functionals};
+pub use dynamics::{COARSER, Dynamics, Fidelity, REDUCTION_SAFETY, ReductionError, Response, STANDARD, functionals};
 pub use error::Error;
-pub use fields::{TurnFields, TurnValues};
+pub use fields::TurnFields;
 pub use grid::{Bonds, Domain, Grid, MeshFineness};
 pub use inverse::{FEWEST_ROWS, Inferred, LEAST_NOISE, chamber_from_sensor};
 pub use layout::{Layout, Rectangle, Region};
 pub use mechanics::{MechanicalState, Relaxation};
-pub use model::{BiasOperator, Model, TurnStrain};
+pub use model::{BiasOperator, Model};
+pub use profile::Profile;
 pub use sensitivity::{CHECKS, COARSE, FINE, SAFETY, SHARE, STEADY, SteadySensitivity, steady_sensitivity};
 pub use thermal::{
     Drive, FullRun, Output, Outputs, RampLag, Reduced, Reduction, Step, Steps, ThermalModel, ThermalState, ramp_lag,
 };
 pub use trim::{PRIORS, TailTrim, TurnTrim, tail_asymmetry, trim_tails, trim_turns};
+pub use turns::TurnValues;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

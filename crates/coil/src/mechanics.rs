@@ -29,9 +29,6 @@ impl MechanicalState {
     }
 }
 
-/// Largest relaxing share that the polynomial below resolves.
-pub(crate) const MOST_RELAXING: f64 = 0.8;
-
 /// Degree of the polynomial in x = 1/(1 + sτ) that stands for a relaxing coil's response. The response is a rational function of the
 /// modulus 1 − g x, smooth up to the pole near x = 1/g; for g = 0.8 the interpolation gains a factor of 2.6 a degree and is within
 /// 2e-4 of the response at degree 8 (tests/dynamics.rs).

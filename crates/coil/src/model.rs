@@ -13,15 +13,6 @@ use winding::Winding;
 /// Voigt rows (x = radial, y = axial, z = hoop of the law) of the axisymmetric strains rr, yy, hoop, ry.
 const AXISYMMETRIC: [usize; 4] = [0, 1, 2, 5];
 
-/// Strain of the fibre's glass at the centre of a turn.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TurnStrain {
-    /// Along the fibre: the coil's hoop strain.
-    pub axial: f64,
-    /// Across the fibre: dehomogenised.
-    pub radial: f64,
-}
-
 /// A design with its winding laid, its mesh and its factorised stiffness.
 pub struct Model {
     winding: Winding,
@@ -127,32 +118,25 @@ impl Model {
         self.probes.iter().map(|p| p.value_of(temperature)).collect()
     }
 
-    /// Total strain of the glass at the centre of every turn for nodal temperature differences from the stress-free state \[K\].
-    ///
-    /// # Errors
-    /// [`Error::Solve`] if the solve leaves a residual.
-    pub fn strain_at_turns(&self, temperature: &[f64]) -> Result<Vec<TurnStrain>, Error> {
-        Ok(self.strains_at_turns(&[temperature.to_vec()])?.remove(0))
-    }
-
-    /// As [`Self::strain_at_turns`] for several fields together.
+    /// What the glass at the centre of every turn has for each of some fields of nodal temperature differences from the stress-free state
+    /// \[K\]: temperature and total strain.
     ///
     /// # Errors
     /// [`Error::Solve`] if a solve leaves a residual.
-    pub fn strains_at_turns(&self, temperatures: &[Vec<f64>]) -> Result<Vec<Vec<TurnStrain>>, Error> {
+    pub fn at_turns(&self, temperatures: &[Vec<f64>]) -> Result<Vec<TurnValues>, Error> {
         let coupling = self.coupling()?;
         let loads: Vec<_> = temperatures.iter().map(|t| self.map.restrict(&coupling.multiply(t))).collect();
         let m = self.dehomogenization;
-        let strains = |(u, temperature): (&Vec<f64>, &Vec<f64>)| {
-            let u = self.map.expand(u);
-            let strain = |p: &Probe| {
+        let values = |(u, nodal): (&Vec<f64>, &Vec<f64>)| {
+            let (u, temperature) = (self.map.expand(u), self.temperature_at_turns(nodal));
+            let strain = |(p, t): (&Probe, &f64)| {
                 let [rr, yy, hoop] = p.strain_of(&u);
-                let radial = m.m_rx * rr + m.m_ry * yy + m.m_rz * hoop + m.m_rt * p.value_of(temperature);
-                TurnStrain { axial: hoop, radial }
+                (hoop, m.m_rx * rr + m.m_ry * yy + m.m_rz * hoop + m.m_rt * t)
             };
-            self.probes.iter().map(strain).collect()
+            let (axial, radial) = self.probes.iter().zip(&temperature).map(strain).unzip();
+            TurnValues { temperature, axial, radial, bore: self.temperature_at_bore(nodal) }
         };
-        Ok(at("structure", self.factor.solve(&loads))?.iter().zip(temperatures).map(strains).collect())
+        Ok(at("structure", self.factor.solve(&loads))?.iter().zip(temperatures).map(values).collect())
     }
 
     /// Temperature of the hub's bore, which the tails share, from nodal temperatures \[K\].
@@ -165,13 +149,7 @@ impl Model {
     /// # Errors
     /// [`Error::Solve`] if the solve leaves a residual.
     pub fn slices(&self, temperature_rate: &[f64]) -> Result<Vec<Slice>, Error> {
-        let strain = self.strain_at_turns(temperature_rate)?;
-        let values = TurnValues {
-            temperature: self.temperature_at_turns(temperature_rate),
-            axial: strain.iter().map(|s| s.axial).collect(),
-            radial: strain.iter().map(|s| s.radial).collect(),
-            bore: self.temperature_at_bore(temperature_rate),
-        };
+        let values = self.at_turns(&[temperature_rate.to_vec()])?.remove(0);
         Ok(values.slices(&self.winding, self.fibre_expansion))
     }
 

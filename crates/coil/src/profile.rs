@@ -1,8 +1,42 @@
-//! A smooth course through the rows of a record.
+//! Courses of the drives: what can be run, the rest before it, and a smooth course through the rows of a record.
 
-use crate::Profile;
+use crate::{Drive, Error};
+
+/// Courses of the drives in time, linear between instants.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Profile {
+    /// Instants \[s\], increasing.
+    pub time: Vec<f64>,
+    /// One course per drive of the [`Dynamics`], each as long as `time`.
+    pub drives: Vec<Vec<f64>>,
+}
 
 impl Profile {
+    pub(crate) fn check(&self, drives: usize) -> Result<(), Error> {
+        let bad = |row: usize, problem: String| Err(Error::Profile { row, problem });
+        if self.time.is_empty() {
+            return bad(0, "there is no instant; give at least one".into());
+        }
+        if self.drives.len() != drives || self.drives.iter().any(|d| d.len() != self.time.len()) {
+            return bad(0, format!("{drives} courses of {} instants are needed", self.time.len()));
+        }
+        for (row, t) in self.time.iter().enumerate() {
+            if !t.is_finite() || (row > 0 && *t <= self.time[row - 1]) {
+                return bad(row, format!("time {t} s must be finite and later than the one before"));
+            }
+            if let Some(value) = self.drives.iter().map(|d| d[row]).find(|v| !v.is_finite()) {
+                return bad(row, format!("{value} must be finite"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The drives at rest before the first instant: its temperatures everywhere, heaters off.
+    pub fn rest(&self, drives: &[Drive]) -> Vec<f64> {
+        let of = |(drive, course): (&Drive, &Vec<f64>)| if *drive == Drive::Heaters { 0.0 } else { course[0] };
+        drives.iter().zip(&self.drives).map(of).collect()
+    }
+
     /// The same rows with `parts` − 1 instants between each two, on the piecewise cubic whose slope at a row is that of the parabola
     /// through it and its neighbours (at the ends, of the straight line).
     ///

@@ -7,9 +7,7 @@ use coil::{
     COARSER, Contact, Drive, Dynamics, FactorsAt, Fidelity, Heater, Mechanics, MeshFineness, Model, Mount, Opening, Profile,
     STANDARD, Side, ThermalModel, functionals,
 };
-use common::{changed, reference, spool};
-
-const QUICK: Fidelity = Fidelity { resolution: MeshFineness { order: 3, layers: 1, ratio: 0.2 }, modes: 24 };
+use common::{QUICK, changed, dynamics, half_minutes, reference, run, scaled, spool};
 
 /// Chamber: rest, a step of 20 K within 10 s, rest, a ramp of 1 K/min, rest.
 fn step_and_ramp(interval: f64) -> Profile {
@@ -22,7 +20,7 @@ fn step_and_ramp(interval: f64) -> Profile {
 fn exact_reduced_model_agrees_with_all_unknowns_on_steps_and_ramps() {
     let design = reference();
     let thermal = ThermalModel::new(&design, &QUICK.resolution, &[Drive::Chamber]).expect("model");
-    let dynamics = Dynamics::new(&design, &[Drive::Chamber], &QUICK).expect("model");
+    let dynamics = dynamics(&design, &[Drive::Chamber]);
     let model = Model::new(&design, &QUICK.resolution).expect("model");
     let outputs = functionals(&design, &model, &thermal).expect("outputs");
     let profile = step_and_ramp(10.0);
@@ -72,9 +70,8 @@ fn bounds_the_distance_to_a_coarser_mesh_covers_the_error() {
 #[test]
 fn bounds_the_stated_reduction_error_covers_the_true_one_and_not_by_much() {
     let design = reference();
-    let exact = Dynamics::new(&design, &[Drive::Chamber], &QUICK).expect("model");
     let profile = step_and_ramp(10.0);
-    let truth = exact.simulate(&profile).expect("run");
+    let truth = run(&design, &[Drive::Chamber], &profile);
     let fastest = profile.time.windows(2).zip(profile.drives[0].windows(2)).map(|(t, u)| ((u[1] - u[0]) / (t[1] - t[0])).abs());
     let fastest = fastest.fold(0.0, f64::max);
     let peak = truth.iter().map(|r| r.bias.total().abs()).fold(0.0, f64::max);
@@ -93,11 +90,10 @@ fn bounds_the_stated_reduction_error_covers_the_true_one_and_not_by_much() {
 #[test]
 fn exact_a_long_ramp_has_the_steady_sensitivity_and_its_lag() {
     let design = reference();
-    let dynamics = Dynamics::new(&design, &[Drive::Chamber], &QUICK).expect("model");
     let rate = 1.0 / 60.0;
-    let time: Vec<f64> = (0..2000).map(|k| 30.0 * f64::from(k)).collect();
+    let time = half_minutes(2000);
     let chamber: Vec<f64> = time.iter().map(|t| rate * t).collect();
-    let rows = dynamics.simulate(&Profile { drives: vec![chamber.clone()], time }).expect("run");
+    let rows = run(&design, &[Drive::Chamber], &Profile { drives: vec![chamber.clone()], time });
     let last = rows.len() - 1;
     let steady = coil::Model::new(&design, &QUICK.resolution).expect("model").sensitivity().expect("solve");
     let ramp = Sensitivity::from_ramp(&rows[last].bias, rate).expect("ramp");
@@ -110,25 +106,24 @@ fn exact_a_long_ramp_has_the_steady_sensitivity_and_its_lag() {
 #[test]
 fn symmetry_exchanging_the_ends_of_everything_mirrors_the_drives() {
     let ends = [Drive::Chamber, Drive::EndWall(Side::Left), Drive::EndWall(Side::Right)];
-    let time: Vec<f64> = (0..200).map(|k| 30.0 * f64::from(k)).collect();
+    let time = half_minutes(200);
     let warm: Vec<f64> = time.iter().map(|t| t / 300.0).collect();
     let still = vec![0.0; time.len()];
-    let run = |design: &coil::Design, drives: [&Vec<f64>; 3]| {
+    let bias = |design: &coil::Design, drives: [&Vec<f64>; 3]| {
         let profile = Profile { time: time.clone(), drives: drives.map(|d| d.clone()).to_vec() };
-        let rows = Dynamics::new(design, &ends, &QUICK).expect("model").simulate(&profile).expect("run");
-        rows[150].bias.total()
+        run(design, &ends, &profile)[150].bias.total()
     };
     let mirrored = changed(|d| {
         d.winding.cw_climbs = winding::ClimbSide::Left;
         spool(d).flanges[0].side = Side::Left;
         d.sensor.y = 8.01e-3;
     });
-    let (a, b) = (run(&reference(), [&still, &warm, &still]), run(&mirrored, [&still, &still, &warm]));
+    let (a, b) = (bias(&reference(), [&still, &warm, &still]), bias(&mirrored, [&still, &still, &warm]));
     assert!((a / b - 1.0).abs() < 1e-6, "{a:e} against {b:e}");
     // all walls together are one chamber
-    let all = run(&reference(), [&warm, &warm, &warm]);
+    let all = bias(&reference(), [&warm, &warm, &warm]);
     let profile = Profile { time: time.clone(), drives: vec![warm.clone()] };
-    let one = Dynamics::new(&reference(), &[Drive::Chamber], &QUICK).expect("model").simulate(&profile).expect("run");
+    let one = run(&reference(), &[Drive::Chamber], &profile);
     assert!((all / one[150].bias.total() - 1.0).abs() < 1e-4, "{all:e} against {:e}", one[150].bias.total());
 }
 
@@ -159,10 +154,9 @@ fn exact_a_heater_settles_where_its_power_leaves_through_the_mount() {
         d.heat.heaters.push(Heater { side: Side::Right, power: 1.0 });
         d.surroundings.conductivity = 1e-6;
     });
-    let dynamics = Dynamics::new(&design, &[Drive::Chamber, Drive::Heaters], &QUICK).expect("model");
     let time: Vec<f64> = (0..5000).map(|k| 60.0 * f64::from(k)).collect();
     let profile = Profile { drives: vec![vec![20.0; time.len()], vec![1.0; time.len()]], time };
-    let rows = dynamics.simulate(&profile).expect("run");
+    let rows = run(&design, &[Drive::Chamber, Drive::Heaters], &profile);
     assert!((rows[0].sensor - 20.0).abs() < 1e-9 && rows[0].bias == Bias::ZERO, "rest before the heater is on: {:?}", rows[0]);
     let area = std::f64::consts::PI * (49.825e-3f64.powi(2) - 39.5e-3f64.powi(2));
     let rise = rows[rows.len() - 1].sensor - 20.0;
@@ -171,28 +165,27 @@ fn exact_a_heater_settles_where_its_power_leaves_through_the_mount() {
 
 #[test]
 fn bounds_profiles_that_cannot_be_run_name_the_instant() {
-    let dynamics = Dynamics::new(&reference(), &[Drive::Chamber], &QUICK).expect("model");
-    let run = |time: &[f64], chamber: &[f64]| {
+    let dynamics = dynamics(&reference(), &[Drive::Chamber]);
+    let rows = |time: &[f64], chamber: &[f64]| {
         let profile = Profile { time: time.to_vec(), drives: vec![chamber.to_vec()] };
         dynamics.simulate(&profile).map(|rows| rows.len()).map_err(|e| e.to_string())
     };
-    assert_eq!(run(&[0.0], &[20.0]), Ok(1));
-    assert!(run(&[], &[]).expect_err("empty").contains("at least one"));
-    assert!(run(&[0.0, 30.0, 30.0], &[1.0, 2.0, 3.0]).expect_err("twice").contains("instant 2"));
-    assert!(run(&[0.0, 30.0], &[1.0, f64::NAN]).expect_err("NaN").contains("instant 1"));
-    assert!(run(&[0.0, 30.0], &[1.0]).expect_err("short").contains("courses"));
-    assert_eq!(run(&[0.0, 1e-6, 1e9], &[-40.0, 500.0, 0.0]), Ok(3), "a jump is a profile like any other");
+    assert_eq!(rows(&[0.0], &[20.0]), Ok(1));
+    assert!(rows(&[], &[]).expect_err("empty").contains("at least one"));
+    assert!(rows(&[0.0, 30.0, 30.0], &[1.0, 2.0, 3.0]).expect_err("twice").contains("instant 2"));
+    assert!(rows(&[0.0, 30.0], &[1.0, f64::NAN]).expect_err("NaN").contains("instant 1"));
+    assert!(rows(&[0.0, 30.0], &[1.0]).expect_err("short").contains("courses"));
+    assert_eq!(rows(&[0.0, 1e-6, 1e9], &[-40.0, 500.0, 0.0]), Ok(3), "a jump is a profile like any other");
 }
 
 /// Rate of the total bias in a slow ramp at the end of a run, per state of the mechanics.
 fn slow_ramp(mechanics: Mechanics, from: f64, to: f64) -> Vec<(f64, f64)> {
     let design = changed(|d| d.mechanics = mechanics);
-    let time: Vec<f64> = (0..4000).map(|k| 30.0 * f64::from(k)).collect();
+    let time = half_minutes(4000);
     let end = time[time.len() - 1];
     let chamber = time.iter().map(|t| from + (to - from) * t / end).collect();
-    let rows =
-        Dynamics::new(&design, &[Drive::Chamber], &QUICK).expect("model").simulate(&Profile { time, drives: vec![chamber] });
-    rows.expect("run").iter().map(|r| (r.coil, r.bias.total() / ((to - from) / end))).collect()
+    let rows = run(&design, &[Drive::Chamber], &Profile { time, drives: vec![chamber] });
+    rows.iter().map(|r| (r.coil, r.bias.total() / ((to - from) / end))).collect()
 }
 
 fn steady(change: impl FnOnce(&mut coil::Design)) -> f64 {
@@ -209,19 +202,10 @@ fn exact_temperature_table_gives_each_rows_own_sensitivity() {
     let row = |temperature, transverse_modulus| FactorsAt { temperature, transverse_modulus, transverse_expansion: 1.0 };
     let rows = slow_ramp(Mechanics::TemperatureTable(vec![row(-30.0, 2.0), row(-20.0, 2.0), row(20.0, 0.5)]), -60.0, 60.0);
     let at = |t: f64| rows.iter().find(|(coil, _)| *coil >= t).expect("passed").1;
-    let stiff = steady(|d| {
-        d.body.elastic.e_r *= 2.0;
-        d.body.elastic.g_zr *= 2.0;
-    });
-    let soft = steady(|d| {
-        d.body.elastic.e_r *= 0.5;
-        d.body.elastic.g_zr *= 0.5;
-    });
+    let stiff = steady(scaled(2.0));
+    let soft = steady(scaled(0.5));
     assert!((at(-22.0) / stiff - 1.0).abs() < 1e-3 && (at(50.0) / soft - 1.0).abs() < 1e-3, "{} {}", at(-22.0), at(50.0));
-    let middle = steady(|d| {
-        d.body.elastic.e_r *= 1.25;
-        d.body.elastic.g_zr *= 1.25;
-    });
+    let middle = steady(scaled(1.25));
     assert!(
         (at(0.0) / middle - 1.0).abs() < 3e-3,
         "halfway between the rows the factor is the mean: {} against {middle}",
@@ -231,16 +215,18 @@ fn exact_temperature_table_gives_each_rows_own_sensitivity() {
 
 #[test]
 fn exact_a_relaxing_coil_ends_with_its_relaxed_sensitivity() {
-    let rows = slow_ramp(Mechanics::Relaxing { fraction: 0.5, time: 1800.0 }, -60.0, 60.0);
-    let relaxed = steady(|d| {
-        d.body.elastic.e_r *= 0.5;
-        d.body.elastic.g_zr *= 0.5;
-    });
-    let last = rows[rows.len() - 1].1;
-    assert!((last / relaxed - 1.0).abs() < 1e-4, "{last:e} against {relaxed:e}");
-    let none = slow_ramp(Mechanics::Relaxing { fraction: 0.0, time: 1800.0 }, -60.0, 60.0);
-    let elastic = slow_ramp(Mechanics::Elastic, -60.0, 60.0);
+    let ends = |fraction: f64| slow_ramp(Mechanics::Relaxing { fraction, time: 1800.0 }, -60.0, 60.0);
+    // the largest share is followed by its polynomial
+    for (fraction, off) in [(0.5, 1e-4), (0.8, 2e-4)] {
+        let (rows, relaxed) = (ends(fraction), steady(scaled(1.0 - fraction)));
+        let last = rows[rows.len() - 1].1;
+        assert!((last / relaxed - 1.0).abs() < off, "{fraction}: {last:e} against {relaxed:e}");
+    }
+    let (none, elastic) = (ends(0.0), slow_ramp(Mechanics::Elastic, -60.0, 60.0));
+    let relaxed = steady(scaled(0.5));
     assert!(none.iter().zip(&elastic).all(|(a, b)| (a.1 - b.1).abs() < 1e-9 * relaxed.abs()));
+    let too_much = changed(|d| d.mechanics = Mechanics::Relaxing { fraction: 0.9, time: 1800.0 });
+    assert!(Dynamics::new(&too_much, &[Drive::Chamber], &QUICK).is_err());
 }
 
 #[test]
@@ -261,26 +247,12 @@ fn exact_an_opening_bond_switches_with_hysteresis_and_without_a_jump_of_the_phas
 }
 
 #[test]
-fn exact_the_polynomial_of_a_relaxing_coil_follows_its_response() {
-    // in a ramp that started long ago a relaxing coil is the relaxed one; in one that just started, the unrelaxed one; the largest share
-    let mechanics = Mechanics::Relaxing { fraction: 0.8, time: 1800.0 };
-    let rows = slow_ramp(mechanics, -60.0, 60.0);
-    let relaxed = steady(|d| {
-        d.body.elastic.e_r *= 0.2;
-        d.body.elastic.g_zr *= 0.2;
-    });
-    assert!((rows[rows.len() - 1].1 / relaxed - 1.0).abs() < 2e-4);
-    let too_much = changed(|d| d.mechanics = Mechanics::Relaxing { fraction: 0.9, time: 1800.0 });
-    assert!(Dynamics::new(&too_much, &[Drive::Chamber], &QUICK).is_err());
-}
-
-#[test]
 fn exact_the_thermometers_own_lag_adds_to_the_ramps() {
     let ramp = |lag: f64| {
-        let time: Vec<f64> = (0..2000).map(|k| 30.0 * f64::from(k)).collect();
+        let time = half_minutes(2000);
         let profile = Profile { drives: vec![time.iter().map(|t| t / 60.0).collect()], time };
         let design = changed(|d| d.sensor.lag = lag);
-        let rows = Dynamics::new(&design, &[Drive::Chamber], &QUICK).expect("model").simulate(&profile).expect("run");
+        let rows = run(&design, &[Drive::Chamber], &profile);
         rows[rows.len() - 1].sensor
     };
     assert!(((ramp(0.0) - ramp(300.0)) * 60.0 / 300.0 - 1.0).abs() < 1e-6);
@@ -294,11 +266,10 @@ fn exact_a_strong_mount_takes_the_spool_to_its_own_temperature_on_either_side() 
             d.heat.mounts.push(Mount { side, conductance: 1e5 });
             d.sensor.y = 9.01e-3;
         });
-        let dynamics = Dynamics::new(&design, &[Drive::Chamber, Drive::Mount(side)], &QUICK).expect("model");
-        let time: Vec<f64> = (0..2000).map(|k| 30.0 * f64::from(k)).collect();
+        let time = half_minutes(2000);
         let warm = time.iter().map(|t| (t / 600.0).min(10.0)).collect();
         let profile = Profile { drives: vec![vec![0.0; time.len()], warm], time };
-        let rows = dynamics.simulate(&profile).expect("run");
+        let rows = run(&design, &[Drive::Chamber, Drive::Mount(side)], &profile);
         let sensor = rows[rows.len() - 1].sensor;
         assert!((9.5..10.0).contains(&sensor), "{side:?}: {sensor}");
     }
@@ -311,10 +282,10 @@ fn exact_reduced_and_full_runs_agree_when_a_heater_is_switched_on() {
     let thermal = ThermalModel::new(&design, &QUICK.resolution, &drives).expect("model");
     let model = Model::new(&design, &QUICK.resolution).expect("model");
     let outputs = functionals(&design, &model, &thermal).expect("outputs");
-    let time: Vec<f64> = (0..200).map(|k| 30.0 * f64::from(k)).collect();
+    let time = half_minutes(200);
     let profile = Profile { drives: vec![vec![20.0; 200], vec![1.0; 200]], time };
     let full = thermal.run(&profile, &[outputs.thermometer], 1e-4).expect("run");
-    let reduced = Dynamics::new(&design, &drives, &QUICK).expect("model").simulate(&profile).expect("run");
+    let reduced = run(&design, &drives, &profile);
     for (full, reduced) in full.outputs.iter().zip(&reduced) {
         assert!((full[0] - reduced.sensor).abs() < 5e-3, "{} against {}", full[0], reduced.sensor);
     }
@@ -331,12 +302,7 @@ fn bounds_what_cannot_be_modelled_is_refused() {
 /// Response at 1 − 0.8 x against its interpolation of degree 8 through Chebyshev–Lobatto points, midway between them, where it is worst.
 #[test]
 fn exact_the_response_of_a_relaxing_coil_is_a_polynomial_to_2e_4() {
-    let response = |x: f64| {
-        steady(|d| {
-            d.body.elastic.e_r *= 1.0 - 0.8 * x;
-            d.body.elastic.g_zr *= 1.0 - 0.8 * x;
-        })
-    };
+    let response = |x: f64| steady(scaled(1.0 - 0.8 * x));
     let at = |k: f64| (1.0 - (std::f64::consts::PI * k / 8.0).cos()) / 2.0;
     let nodes: Vec<f64> = (0..=8).map(|k| at(f64::from(k))).collect();
     let values: Vec<f64> = nodes.iter().map(|x| response(*x)).collect();

@@ -12,7 +12,7 @@ use fem_core::{Constraints, Form, Mesh, Problem, State, Transient, polynomial};
 use nalgebra::{DMatrix, Matrix4, Vector4};
 use std::f64::consts::PI;
 
-const QUICK: MeshFineness = MeshFineness { order: 3, layers: 1, ratio: 0.2 };
+const QUICK: MeshFineness = common::QUICK.resolution;
 
 /// A tube's wall in (r, y): one region between each two of `lines`, one element high.
 fn wall(order: usize, lines: &[f64], height: f64) -> Mesh {
@@ -448,7 +448,7 @@ fn mms_the_coils_heat_flow_is_stepped_to_second_order() {
 /// A staircase of 10 K steps at 2 K/min through a controller with a lag of 80 s, rows every 30 s.
 fn staircase() -> Profile {
     let programme = |t: f64| (0..4).map(|k| (t - 600.0 - 3000.0 * f64::from(k)).clamp(0.0, 300.0) / 30.0).sum::<f64>();
-    let time: Vec<f64> = (0..450).map(|k| 30.0 * f64::from(k)).collect();
+    let time = common::half_minutes(450);
     let mut chamber = 0.0;
     let mut course = Vec::new();
     for t in &time {

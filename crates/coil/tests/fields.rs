@@ -3,19 +3,19 @@
 mod common;
 
 use bias::{Bias, bias};
-use coil::{
-    Drive, Dynamics, FactorsAt, Fidelity, Mechanics, MeshFineness, Model, Profile, Side, Step, ThermalModel, ThermalState,
-};
-use common::{changed, reference};
+use coil::{Drive, Dynamics, FactorsAt, Mechanics, Model, Profile, Side, ThermalModel, ThermalState};
+use common::{QUICK, changed, half_minutes, reference};
 use winding::Tails;
-
-const QUICK: Fidelity = Fidelity { resolution: MeshFineness { order: 3, layers: 1, ratio: 0.2 }, modes: 24 };
 
 /// Rest, a ramp of 1 K/min for ten minutes, a soak.
 fn ramp_and_soak(drives: usize) -> Profile {
-    let time: Vec<f64> = (0..60).map(|k| 30.0 * f64::from(k)).collect();
+    let time = half_minutes(60);
     let course = |drive: usize| time.iter().map(|t| 20.0 + (t - 120.0).clamp(0.0, 600.0) / 60.0 / (drive + 1) as f64).collect();
     Profile { drives: (0..drives).map(course).collect(), time }
+}
+
+fn with_fields(design: &coil::Design, drives: &[Drive]) -> (Dynamics, coil::TurnFields) {
+    Dynamics::with_fields(design, drives, &QUICK).expect("model")
 }
 
 /// Drives and modes at every instant of a profile, and the mean bias that `simulate` gives since the one before.
@@ -42,7 +42,7 @@ fn exact_the_bias_of_the_turns_is_the_bias_of_the_model() {
     let ends = [Drive::Chamber, Drive::EndWall(Side::Left)];
     let tailed = changed(|d| d.winding.tails = Tails { cw: 1.5, ccw: 0.4 });
     for (design, drives) in [(reference(), &ends[..1]), (tailed, &ends[..])] {
-        let (dynamics, fields) = Dynamics::with_fields(&design, drives, &QUICK).expect("model");
+        let (dynamics, fields) = with_fields(&design, drives);
         let profile = ramp_and_soak(drives.len());
         let (states, expected) = course(&dynamics, &profile);
         let winding = winding::wind(&design.winding).expect("winding");
@@ -63,22 +63,23 @@ fn exact_the_bias_of_the_turns_is_the_bias_of_the_model() {
 #[test]
 fn exact_a_coil_at_rest_has_one_temperature_and_the_strain_of_uniform_warming() {
     let design = reference();
-    let (dynamics, fields) = Dynamics::with_fields(&design, &[Drive::Chamber], &QUICK).expect("model");
+    let (dynamics, fields) = with_fields(&design, &[Drive::Chamber]);
     let amplitudes = vec![0.0; dynamics.reduced().rates().len()];
     let rest = fields.at(&ThermalState { drives: vec![1.0], amplitudes });
     assert!(rest.temperature.iter().all(|t| (t - 1.0).abs() < 1e-12) && (rest.bore - 1.0).abs() < 1e-12);
     let model = Model::new(&design, &QUICK.resolution).expect("model");
-    let strain = model.strain_at_turns(&vec![1.0; model.grid().mesh().nodes().len()]).expect("solve");
-    for (i, s) in strain.iter().enumerate() {
-        assert!((rest.axial[i] - s.axial).abs() < 1e-12 * 1e-6 + 1e-10 * s.axial.abs(), "turn {i}");
-        assert!((rest.radial[i] - s.radial).abs() < 1e-12 * 1e-6 + 1e-10 * s.radial.abs(), "turn {i}");
+    let uniform = model.at_turns(&[vec![1.0; model.grid().mesh().nodes().len()]]).expect("solve").remove(0);
+    for (found, expected) in [(&rest.axial, &uniform.axial), (&rest.radial, &uniform.radial)] {
+        for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
+            assert!((found - expected).abs() < 1e-12 * 1e-6 + 1e-10 * expected.abs(), "turn {i}");
+        }
     }
 }
 
 #[test]
 fn exact_turn_temperatures_agree_with_all_unknowns() {
     let design = reference();
-    let (dynamics, fields) = Dynamics::with_fields(&design, &[Drive::Chamber], &QUICK).expect("model");
+    let (dynamics, fields) = with_fields(&design, &[Drive::Chamber]);
     let profile = ramp_and_soak(1);
     let (states, _) = course(&dynamics, &profile);
     let thermal = ThermalModel::new(&design, &QUICK.resolution, &[Drive::Chamber]).expect("model");
@@ -99,26 +100,6 @@ fn exact_turn_temperatures_agree_with_all_unknowns() {
     }
 }
 
-#[test]
-fn exact_mode_rates_are_the_limit_of_differences() {
-    let dynamics = Dynamics::new(&reference(), &[Drive::Chamber], &QUICK).expect("model");
-    let reduced = dynamics.reduced();
-    let slope = vec![0.02];
-    let at_rest = ThermalState { drives: vec![0.0], amplitudes: vec![0.0; reduced.rates().len()] };
-    let pushed = reduced.rates_of(&at_rest, &slope).amplitudes;
-    let from = reduced.within(&Step { from: at_rest, slope: slope.clone(), dt: 300.0 }, 300.0);
-    let (rate, dt) = (reduced.rates_of(&from, &slope).amplitudes, 1e-3);
-    let step = Step { from, slope, dt };
-    let to = reduced.within(&step, dt);
-    for (i, decay) in reduced.rates().iter().enumerate() {
-        // q'' = −rate q'
-        let expected = rate[i] * (1.0 - decay * dt / 2.0);
-        let second = (decay * dt).powi(2);
-        let found = (to.amplitudes[i] - step.from.amplitudes[i]) / dt;
-        assert!((found - expected).abs() < (1e-6 + second) * pushed[i].abs(), "mode {i}");
-    }
-}
-
 /// The functionals of the reduced model, made by adjoints, are those that the turns' own fields give.
 #[test]
 fn exact_the_bias_parts_of_the_turns_are_the_models() {
@@ -126,7 +107,7 @@ fn exact_the_bias_parts_of_the_turns_are_the_models() {
         d.winding.tails = Tails { cw: 1.5, ccw: 0.4 };
         d.optics.strain = bias::StrainConvention::Mechanical;
     });
-    let (dynamics, fields) = Dynamics::with_fields(&design, &[Drive::Chamber], &QUICK).expect("model");
+    let (dynamics, fields) = with_fields(&design, &[Drive::Chamber]);
     let winding = winding::wind(&design.winding).expect("winding");
     let of_turns = fields.bias_parts(&design.optics, &winding).expect("optics");
     for (part, (turns, model)) in of_turns.iter().zip(dynamics.reduced().parts()).enumerate() {
@@ -139,8 +120,8 @@ fn exact_the_bias_parts_of_the_turns_are_the_models() {
 fn exact_fields_are_nominal_whatever_the_states() {
     let row = |temperature: f64, factor: f64| FactorsAt { temperature, transverse_modulus: factor, transverse_expansion: 1.0 };
     let table = changed(|d| d.mechanics = Mechanics::TemperatureTable(vec![row(-40.0, 1.3), row(60.0, 1.25)]));
-    let (_, expected) = Dynamics::with_fields(&reference(), &[Drive::Chamber], &QUICK).expect("model");
-    let (_, found) = Dynamics::with_fields(&table, &[Drive::Chamber], &QUICK).expect("model");
+    let (_, expected) = with_fields(&reference(), &[Drive::Chamber]);
+    let (_, found) = with_fields(&table, &[Drive::Chamber]);
     assert_eq!(found, expected);
 }
 
@@ -149,7 +130,7 @@ fn exact_a_curved_thermo_optic_coefficient_and_a_read_out_act_as_their_definitio
     let (reference_c, curvature, per_kelvin) = (12.0, 3e-8, 2e-9);
     let plain = changed(|d| d.winding.tails = Tails { cw: 0.7, ccw: 0.2 });
     let drives = [Drive::Chamber, Drive::EndWall(Side::Left)];
-    let (dynamics, fields) = Dynamics::with_fields(&plain, &drives, &QUICK).expect("model");
+    let (dynamics, fields) = with_fields(&plain, &drives);
     let drifting = |lag: f64| {
         let mut design = plain.clone();
         design.sensor.lag = lag;

@@ -2,15 +2,9 @@
 
 mod common;
 
-use coil::{Drive, Dynamics, Error, Fidelity, Heater, MeshFineness, Profile, STANDARD, Side, chamber_from_sensor};
-use common::{changed, reference};
+use coil::{Drive, Dynamics, Error, Fidelity, Heater, Profile, STANDARD, Side, chamber_from_sensor};
+use common::{QUICK, changed, dynamics, half_minutes, reference};
 use nalgebra::{DMatrix, DVector};
-
-const QUICK: Fidelity = Fidelity { resolution: MeshFineness { order: 3, layers: 1, ratio: 0.2 }, modes: 24 };
-
-fn dynamics(design: &coil::Design, drives: &[Drive], fidelity: &Fidelity) -> Dynamics {
-    Dynamics::new(design, drives, fidelity).expect("model")
-}
 
 /// Thermometer and total bias under a course of the chamber.
 fn run(dynamics: &Dynamics, time: &[f64], chamber: &[f64]) -> (Vec<f64>, Vec<f64>) {
@@ -51,19 +45,15 @@ fn exact_filter_and_smoother_give_the_posterior_written_out_in_full() {
     for lag in [0.0, 200.0] {
         // few enough modes for the filter to hold them all
         let design = changed(|d| d.sensor.lag = lag);
-        let dynamics = dynamics(&design, &[Drive::Chamber], &Fidelity { modes: 12, ..QUICK });
+        let dynamics = Dynamics::new(&design, &[Drive::Chamber], &Fidelity { modes: 12, ..QUICK }).expect("model");
         let truth: Vec<f64> = time.iter().map(|t| 5.0 * ((t - time[0]) / 600.0).sin()).collect();
         let readings: Vec<f64> = run(&dynamics, &time, &truth).0.iter().zip(noise(count)).map(|(s, e)| s + sigma * e).collect();
         let inferred = chamber_from_sensor(&dynamics, &time, &readings, sigma).expect("inferred");
         let column = |j: usize| -> Vec<f64> {
-            let grown = |k: usize| {
-                if j == 0 {
-                    1.0
-                } else if k < j {
-                    0.0
-                } else {
-                    time[k] - time[j - 1]
-                }
+            let grown = |k: usize| match j {
+                0 => 1.0,
+                _ if k < j => 0.0,
+                _ => time[k] - time[j - 1],
             };
             (0..count).map(grown).collect()
         };
@@ -107,8 +97,8 @@ fn exact_filter_and_smoother_give_the_posterior_written_out_in_full() {
 
 #[test]
 fn bounds_the_bias_of_the_inferred_chamber_is_that_of_the_true_one() {
-    let dynamics = dynamics(&reference(), &[Drive::Chamber], &STANDARD);
-    let time: Vec<f64> = (0..600).map(|k| 30.0 * f64::from(k)).collect();
+    let dynamics = Dynamics::new(&reference(), &[Drive::Chamber], &STANDARD).expect("model");
+    let time = half_minutes(600);
     let truth: Vec<f64> = time.iter().map(|t| chamber(*t)).collect();
     let (sensor, bias) = run(&dynamics, &time, &truth);
     let deviates = noise(time.len());
@@ -132,8 +122,8 @@ fn bounds_the_bias_of_the_inferred_chamber_is_that_of_the_true_one() {
 #[test]
 fn exact_heaters_are_taken_off_and_an_offset_of_the_thermometer_shifts_the_chamber_alone() {
     let design = changed(|d| d.heat.heaters.push(Heater { side: Side::Right, power: 0.5 }));
-    let dynamics = dynamics(&design, &[Drive::Chamber, Drive::Heaters], &QUICK);
-    let time: Vec<f64> = (0..300).map(|k| 30.0 * f64::from(k)).collect();
+    let dynamics = dynamics(&design, &[Drive::Chamber, Drive::Heaters]);
+    let time = half_minutes(300);
     let profile = Profile { time: time.clone(), drives: vec![vec![20.0; 300], vec![1.0; 300]] };
     let readings: Vec<f64> = dynamics.simulate(&profile).expect("run").iter().map(|row| row.sensor).collect();
     assert!(readings[299] > 25.0, "the heater matters");
@@ -147,7 +137,7 @@ fn exact_heaters_are_taken_off_and_an_offset_of_the_thermometer_shifts_the_chamb
 
 #[test]
 fn bounds_many_rows_and_gaps_are_no_trouble() {
-    let dynamics = dynamics(&reference(), &[Drive::Chamber], &QUICK);
+    let dynamics = dynamics(&reference(), &[Drive::Chamber]);
     // a second apart for a day, with ten minutes missing
     let time: Vec<f64> = (0..86_400).map(f64::from).filter(|t| !(40_000.0..40_600.0).contains(t)).collect();
     let truth: Vec<f64> = time.iter().map(|t| 20.0 - 30.0 * ((t / 4000.0).cos() - 1.0)).collect();
@@ -161,8 +151,8 @@ fn bounds_many_rows_and_gaps_are_no_trouble() {
 
 #[test]
 fn bounds_records_that_cannot_be_inverted_are_refused() {
-    let plain = dynamics(&reference(), &[Drive::Chamber], &QUICK);
-    let walls = dynamics(&reference(), &[Drive::Chamber, Drive::EndWall(Side::Left)], &QUICK);
+    let plain = dynamics(&reference(), &[Drive::Chamber]);
+    let walls = dynamics(&reference(), &[Drive::Chamber, Drive::EndWall(Side::Left)]);
     let (time, still): (Vec<f64>, Vec<f64>) = (0..20).map(|k| (30.0 * f64::from(k), 20.0)).unzip();
     let refused = |d: &Dynamics, time: &[f64], sensor: &[f64], noise: f64| match chamber_from_sensor(d, time, sensor, noise) {
         Err(error) => error.to_string(),

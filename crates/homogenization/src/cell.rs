@@ -22,6 +22,15 @@ impl Constituent {
     pub fn new(elastic: Isotropic, conductivity: f64) -> Self {
         Self { elastic, conductivity, density: None, specific_heat: None }
     }
+
+    /// Its elastic law, if that and its conductivity are in range; `name` is for the message.
+    pub(crate) fn law(&self, name: impl Fn() -> String) -> Result<ThermoElastic, Error> {
+        let law = self.elastic.law().map_err(|source| Error::Constituent { constituent: name(), source })?;
+        if !(self.conductivity.is_finite() && self.conductivity > 0.0) {
+            return Err(Error::Conductivity { constituent: name(), value: self.conductivity });
+        }
+        Ok(law)
+    }
 }
 
 /// One concentric ring of the fibre.
@@ -120,7 +129,7 @@ impl FibreCell {
     }
 
     /// "ring 0", "ring 1", … from the inside, or "adhesive".
-    fn phase_name(&self, phase: usize) -> String {
+    pub(crate) fn phase_name(&self, phase: usize) -> String {
         if phase < self.rings.len() { format!("ring {phase}") } else { "adhesive".into() }
     }
 }
@@ -141,11 +150,7 @@ impl Phases {
         let outline = cell.outline()?;
         let (mut laws, mut conductivities) = (Vec::new(), Vec::new());
         for (i, c) in cell.constituents().enumerate() {
-            let constituent = || cell.phase_name(i);
-            laws.push(c.elastic.law().map_err(|source| Error::Constituent { constituent: constituent(), source })?);
-            if !(c.conductivity.is_finite() && c.conductivity > 0.0) {
-                return Err(Error::Conductivity { constituent: constituent(), value: c.conductivity });
-            }
+            laws.push(c.law(|| cell.phase_name(i))?);
             conductivities.push(c.conductivity);
         }
         let glass: Vec<bool> = cell.rings.iter().map(|r| r.role == Role::Glass).chain([false]).collect();

@@ -1,89 +1,93 @@
 //! The engineering constants of Table I and the dehomogenisation row of Table II.
 
 use crate::Effective;
-use fem_core::material::TransverselyIsotropic;
+use fem_core::material::{ThermoElastic, TransverselyIsotropic};
 
-/// Effective constants of a transversely isotropic coil and its dehomogenisation row; z = fibre, r = across it. SI.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Constants {
+/// One list of the constants: fields, names, and what is done to all of them.
+macro_rules! constants {
+    ($($(#[$about:meta])* $name:ident,)*) => {
+        /// Effective constants of a transversely isotropic coil and its dehomogenisation row; z = fibre, r = across it. SI.
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        pub struct Constants { $($(#[$about])* pub $name: f64,)* }
+
+        impl Constants {
+            /// Applies `f` to each constant of two sets.
+            pub fn combine(&self, other: &Self, f: impl Fn(f64, f64) -> f64) -> Self {
+                Self { $($name: f(self.$name, other.$name),)* }
+            }
+
+            /// Names (as in the JSON output) and values.
+            pub fn named(&self) -> [(&'static str, f64); 16] {
+                [$((stringify!($name), self.$name),)*]
+            }
+
+            /// From values in the order of the names.
+            pub(crate) fn of([$($name),*]: [f64; 16]) -> Self {
+                Self { $($name),* }
+            }
+        }
+    };
+}
+
+constants! {
     /// Young's modulus along the fibre \[Pa\].
-    pub e_z: f64,
+    e_z,
     /// Young's modulus across the fibre \[Pa\].
-    pub e_r: f64,
+    e_r,
     /// Shear modulus in planes that hold the fibre \[Pa\].
-    pub g_zr: f64,
+    g_zr,
     /// Shear modulus across the fibre, between x and y \[Pa\].
-    pub g_r: f64,
+    g_r,
     /// Plane-strain bulk modulus (C11 + C12)/2 \[Pa\].
-    pub k_plane_strain: f64,
+    k_plane_strain,
     /// Transverse contraction per axial extension.
-    pub nu_zr: f64,
+    nu_zr,
     /// Poisson's ratio across the fibre.
-    pub nu_r: f64,
+    nu_r,
     /// Axial contraction per transverse extension.
-    pub nu_rz: f64,
+    nu_rz,
     /// Thermal expansion along the fibre \[1/K\].
-    pub alpha_z: f64,
+    alpha_z,
     /// Thermal expansion across the fibre \[1/K\].
-    pub alpha_r: f64,
+    alpha_r,
     /// Conductivity along the fibre \[W/(m K)\].
-    pub k_z: f64,
+    k_z,
     /// Conductivity across the fibre \[W/(m K)\].
-    pub k_r: f64,
+    k_r,
     /// Mean radial strain of the glass, (xx + yy)/2, per macroscopic xx.
-    pub m_rx: f64,
+    m_rx,
     /// Mean radial strain of the glass per macroscopic yy.
-    pub m_ry: f64,
+    m_ry,
     /// Mean radial strain of the glass per macroscopic zz at zero macroscopic xx and yy.
-    pub m_rz: f64,
+    m_rz,
     /// Mean radial strain of the glass per K at zero macroscopic strain \[1/K\].
-    pub m_rt: f64,
+    m_rt,
 }
 
 impl Constants {
-    /// Applies `f` to each constant of two sets.
-    pub fn combine(&self, other: &Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        let (a, b) = (self, other);
-        Self {
-            e_z: f(a.e_z, b.e_z),
-            e_r: f(a.e_r, b.e_r),
-            g_zr: f(a.g_zr, b.g_zr),
-            g_r: f(a.g_r, b.g_r),
-            k_plane_strain: f(a.k_plane_strain, b.k_plane_strain),
-            nu_zr: f(a.nu_zr, b.nu_zr),
-            nu_r: f(a.nu_r, b.nu_r),
-            nu_rz: f(a.nu_rz, b.nu_rz),
-            alpha_z: f(a.alpha_z, b.alpha_z),
-            alpha_r: f(a.alpha_r, b.alpha_r),
-            k_z: f(a.k_z, b.k_z),
-            k_r: f(a.k_r, b.k_r),
-            m_rx: f(a.m_rx, b.m_rx),
-            m_ry: f(a.m_ry, b.m_ry),
-            m_rz: f(a.m_rz, b.m_rz),
-            m_rt: f(a.m_rt, b.m_rt),
-        }
-    }
-
-    /// Names (as in the JSON output) and values.
-    pub fn named(&self) -> [(&'static str, f64); 16] {
-        [
-            ("e_z", self.e_z),
-            ("e_r", self.e_r),
-            ("g_zr", self.g_zr),
-            ("g_r", self.g_r),
-            ("k_plane_strain", self.k_plane_strain),
-            ("nu_zr", self.nu_zr),
-            ("nu_r", self.nu_r),
-            ("nu_rz", self.nu_rz),
-            ("alpha_z", self.alpha_z),
-            ("alpha_r", self.alpha_r),
-            ("k_z", self.k_z),
-            ("k_r", self.k_r),
-            ("m_rx", self.m_rx),
-            ("m_ry", self.m_ry),
-            ("m_rz", self.m_rz),
-            ("m_rt", self.m_rt),
-        ]
+    /// Those of a law, of the conductivities along and across the fibre, and of the row M; `None` if the stiffness is singular.
+    pub(crate) fn read(law: &ThermoElastic, [k_z, k_r]: [f64; 2], [m_rx, m_ry, m_rz, m_rt]: [f64; 4]) -> Option<Self> {
+        let stiffness = &law.stiffness;
+        let compliance = stiffness.try_inverse()?;
+        let alpha = compliance * law.thermal_stress;
+        Some(Self {
+            e_z: 1.0 / compliance[(2, 2)],
+            e_r: 1.0 / compliance[(0, 0)],
+            g_zr: stiffness[(4, 4)],
+            g_r: stiffness[(5, 5)],
+            k_plane_strain: (stiffness[(0, 0)] + stiffness[(0, 1)]) / 2.0,
+            nu_zr: -compliance[(0, 2)] / compliance[(2, 2)],
+            nu_r: -compliance[(0, 1)] / compliance[(0, 0)],
+            nu_rz: -compliance[(2, 0)] / compliance[(0, 0)],
+            alpha_z: alpha[2],
+            alpha_r: alpha[0],
+            k_z,
+            k_r,
+            m_rx,
+            m_ry,
+            m_rz,
+            m_rt,
+        })
     }
 
     /// The law of the homogenised coil. It takes the plane across the fibre for isotropic with `e_r` and `nu_r`; of square packing it
@@ -114,26 +118,8 @@ impl Effective {
     ///
     /// `None` if the stiffness is singular, which no positive definite set of constituents makes.
     pub fn constants(&self) -> Option<Constants> {
-        let compliance = self.stiffness.try_inverse()?;
-        let alpha = compliance * self.thermal_stress;
+        let law = ThermoElastic { stiffness: self.stiffness, thermal_stress: self.thermal_stress };
         let radial = |load: usize| (self.glass_strain[(0, load)] + self.glass_strain[(1, load)]) / 2.0;
-        Some(Constants {
-            e_z: 1.0 / compliance[(2, 2)],
-            e_r: 1.0 / compliance[(0, 0)],
-            g_zr: self.stiffness[(4, 4)],
-            g_r: self.stiffness[(5, 5)],
-            k_plane_strain: (self.stiffness[(0, 0)] + self.stiffness[(0, 1)]) / 2.0,
-            nu_zr: -compliance[(0, 2)] / compliance[(2, 2)],
-            nu_r: -compliance[(0, 1)] / compliance[(0, 0)],
-            nu_rz: -compliance[(2, 0)] / compliance[(0, 0)],
-            alpha_z: alpha[2],
-            alpha_r: alpha[0],
-            k_z: self.conductivity_z,
-            k_r: self.conductivity[(0, 0)],
-            m_rx: radial(0),
-            m_ry: radial(1),
-            m_rz: radial(2),
-            m_rt: radial(4),
-        })
+        Constants::read(&law, [self.conductivity_z, self.conductivity[(0, 0)]], [0, 1, 2, 4].map(radial))
     }
 }

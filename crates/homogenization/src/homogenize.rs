@@ -94,13 +94,13 @@ pub fn homogenize_on(cell: &FibreCell, discretization: &Discretization) -> Resul
 /// What is left out, from two results of which one leaves out less.
 fn truncation(a: &Constants, b: &Constants) -> Constants {
     let difference = relative_difference(a, b);
-    let floor = SHARE * worst(&difference).1;
+    let floor = SHARE * worst(&difference.named()).1;
     difference.combine(&difference, |d, _| SAFETY * d.max(floor))
 }
 
 /// The constant with the largest of some errors.
-fn worst(errors: &Constants) -> (&'static str, f64) {
-    errors.named().into_iter().fold(("", 0.0), |worst, one| if one.1 > worst.1 || one.1.is_nan() { one } else { worst })
+pub(crate) fn worst(errors: &[(&'static str, f64)]) -> (&'static str, f64) {
+    errors.iter().fold(("", 0.0), |worst, one| if one.1 > worst.1 || one.1.is_nan() { *one } else { worst })
 }
 
 /// What a constant's error is relative to: |b|, or [`NEGLIGIBLE`] of its natural scale if that is larger.
@@ -164,11 +164,11 @@ pub fn homogenize_to(cell: &FibreCell, relative_error: f64) -> Result<Homogenize
         let lower = multipoles.lowered(order.saturating_sub(step).max(1)).effective(cell)?;
         let truncation = truncation(&crate::homogenize::constants(&lower)?, &constants);
         let relative = truncation.combine(&rounding, |t, r| t + r);
-        let (constant, reached) = worst(&relative);
+        let (constant, reached) = worst(&relative.named());
         if reached <= relative_error {
             return Ok(Homogenized { constants, relative_error: relative, unknowns: effective.unknowns, effective });
         }
-        let rounded = reached < 2.0 * worst(&rounding).1;
+        let rounded = reached < 2.0 * worst(&rounding.named()).1;
         if rounded || order == highest {
             let why = if rounded {
                 "rounding stands in the way (a nearly incompressible phase, a great contrast): raise the tolerance above that"
@@ -191,7 +191,7 @@ fn rounding(multipoles: &Multipoles, cell: &FibreCell, effective: &Effective, ex
         let distance = other.map_or(exact.combine(exact, |_, _| f64::INFINITY), |other| relative_difference(&other, exact));
         errors = errors.combine(&distance, |error, d| error.max(rounding::SPREAD * d));
     }
-    let floor = SHARE * worst(&errors).1;
+    let floor = SHARE * worst(&errors.named()).1;
     errors.combine(&errors, |error, _| error.max(floor))
 }
 

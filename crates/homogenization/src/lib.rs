@@ -76,6 +76,7 @@ mod homogenize;
 pub mod identify;
 pub mod irregular;
 mod multipole;
+mod random;
 mod rounding;
 mod solve;
 

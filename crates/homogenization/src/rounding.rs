@@ -3,7 +3,7 @@
 //! the cell, a stack of rings of great contrast, the dense system) shows as spread.
 
 use crate::cell::Constituent;
-use crate::identify::Random;
+use crate::random::Random;
 use crate::{Effective, FibreCell};
 use nalgebra::Matrix3;
 

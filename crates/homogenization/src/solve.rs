@@ -189,7 +189,7 @@ impl CellProblem {
             stiffness: Matrix6::zeros(),
             thermal_stress: Vector6::zeros(),
             conductivity: Matrix2::zeros(),
-            conductivity_z: self.phases.fractions.iter().zip(&self.phases.conductivities).map(|(f, k)| f * k).sum(),
+            conductivity_z: self.phases.mean(|i| self.phases.conductivities[i]),
             glass_strain: SMatrix::zeros(),
             unknowns: 0,
             area_error: self.area_error,
@@ -208,9 +208,7 @@ impl CellProblem {
     fn plane(&self, effective: &mut Effective) -> Result<(), Error> {
         let problem = Problem::new(&self.mesh, Form::PLANE_STRAIN, self.mesh.order() + 2);
         let loads = self.plane_loads(&problem)?;
-        let mean = |load: usize, row: usize| -> f64 {
-            self.phases.fractions.iter().zip(&self.phases.laws).map(|(f, law)| f * Self::source(law, load)[row]).sum()
-        };
+        let mean = |load: usize, row: usize| self.phases.mean(|i| Self::source(&self.phases.laws[i], load)[row]);
         for load in 0..LOADS {
             self.add_macroscopic(effective, load, |voigt| mean(load, voigt));
         }
@@ -292,8 +290,7 @@ impl CellProblem {
         let factor = self.condense(&problem, &map)?;
         let u = factor.solve(&[load])?;
         let reduced: Vec<_> = self.plane_loads(&problem)?.iter().map(|f| map.restrict(f)).collect();
-        let mean =
-            |row: usize| -> f64 { self.phases.fractions.iter().zip(&self.phases.laws).map(|(f, l)| f * total(l)[row]).sum() };
+        let mean = |row: usize| self.phases.mean(|i| total(&self.phases.laws[i])[row]);
         let glass = [0, 1].map(|row| strain[row] - dot(&reduced[LOADS + row], &u[0]));
         let stress = [0, 1, 2].map(|row| mean(row) - dot(&reduced[row], &u[0]) / self.area);
         Ok((glass, stress))

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{glass, on, reference, solid, two_phase, varied};
+use common::{glass, on, reference, solid, two_phase};
 use homogenization::identify::Random;
 use homogenization::{
     Constants, Constituent, Error, Extent, FibreCell, Homogenized, Integration, NEGLIGIBLE, Packing, Ring, Role, TOLERANCE,
@@ -12,8 +12,7 @@ use homogenization::{
 const PACKINGS: [Packing; 2] = [Packing::Hexagonal, Packing::Square];
 
 fn cells() -> impl Iterator<Item = FibreCell> {
-    let hexagonal = varied().into_iter().chain([reference()]);
-    hexagonal.flat_map(|cell| PACKINGS.map(|packing| FibreCell { packing, ..cell.clone() }))
+    common::cells().flat_map(|cell| PACKINGS.map(|packing| FibreCell { packing, ..cell.clone() }))
 }
 
 /// Largest relative distance of a constant.

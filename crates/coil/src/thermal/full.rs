@@ -1,6 +1,6 @@
 //! The heat flow without reduction: every unknown stepped in time.
 
-use super::outputs::dot;
+use super::state::dot;
 use super::{Drive, ThermalModel};
 use crate::{Error, Profile};
 use fem_core::{Effort, State, Transient};

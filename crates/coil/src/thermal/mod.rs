@@ -7,13 +7,15 @@ mod modal;
 mod model;
 mod outputs;
 mod reduced;
+mod state;
 mod steps;
 
 pub use drive::Drive;
 pub use full::FullRun;
 pub use lag::{RampLag, ramp_lag};
 pub use model::ThermalModel;
-pub(crate) use outputs::dot;
 pub use outputs::{Output, Outputs};
 pub use reduced::{Reduced, Reduction};
-pub use steps::{Step, Steps, ThermalState};
+pub(crate) use state::dot;
+pub use state::{Step, ThermalState};
+pub use steps::Steps;

@@ -1,12 +1,7 @@
 //! Exact courses of a reduced model while its drives are linear in time.
 
-use super::outputs::dot;
-use super::{Output, Reduced, Step, ThermalState};
-
-/// (1 − e^−x)/x, smooth at 0.
-pub(super) fn settled(x: f64) -> f64 {
-    if x.abs() < 1e-8 { 1.0 - x / 2.0 } else { -(-x).exp_m1() / x }
-}
+use super::state::{dot, settled};
+use super::{Output, Reduced, Step};
 
 /// Decay and response of each mode over one interval, for as many steps as have its length.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,13 +16,6 @@ impl Reduced {
     /// A jump of the drives.
     pub(crate) fn jump(&self, amplitudes: &mut [f64], by: &[f64]) {
         amplitudes.iter_mut().zip(&self.drive).for_each(|(q, drive)| *q -= dot(drive, by));
-    }
-
-    /// Rates of drives and amplitudes in a state whose drives change at `slope`.
-    pub fn rates_of(&self, state: &ThermalState, slope: &[f64]) -> ThermalState {
-        let modes = self.rates.iter().zip(&self.drive).zip(&state.amplitudes);
-        let amplitudes = modes.map(|((rate, drive), q)| -rate * q - dot(drive, slope)).collect();
-        ThermalState { drives: slope.to_vec(), amplitudes }
     }
 
     /// What an interval of `dt` \[s\] does to each mode.
@@ -80,7 +68,7 @@ impl Reduced {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Outputs;
+    use super::super::{Outputs, ThermalState};
     use super::*;
 
     fn one_mode(rate: f64) -> Reduced {

@@ -1,6 +1,6 @@
 //! What is read off a coil: two temperatures, and the phases whose increase is the bias.
 
-use super::ThermalState;
+use super::state::{ThermalState, dot};
 use nalgebra::DVector;
 
 /// Outputs of a coil, each an `F`: a functional of the nodal temperature, one of drives and modes ([`Output`]), or a value.
@@ -48,9 +48,4 @@ impl Output {
     pub fn vector(&self) -> DVector<f64> {
         DVector::from_iterator(self.at_rest.len() + self.modal.len(), self.at_rest.iter().chain(&self.modal).copied())
     }
-}
-
-/// Σ aᵢ bᵢ.
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

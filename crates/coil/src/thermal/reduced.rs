@@ -1,7 +1,6 @@
 //! Krylov-reduced heat flow: a few exponentials that reproduce chosen outputs for any course of the drives.
 
-use super::modal::settled;
-use super::outputs::dot;
+use super::state::{dot, settled};
 use super::{Drive, Output, Outputs, ThermalModel};
 use crate::{Bonds, Error};
 use fem_core::{Factor, SparseMatrix};

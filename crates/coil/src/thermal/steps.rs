@@ -1,37 +1,7 @@
 //! A reduced model stepped through a course of its drives, from rest.
 
 use super::modal::Interval;
-use super::{Drive, Reduced};
-use crate::Profile;
-use nalgebra::DVector;
-
-/// State of a [`Reduced`] at an instant.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ThermalState {
-    /// Drives: temperatures \[K or °C\], heaters in parts of their power.
-    pub drives: Vec<f64>,
-    /// Amplitude of each mode.
-    pub amplitudes: Vec<f64>,
-}
-
-impl ThermalState {
-    /// Drives, then amplitudes.
-    pub fn vector(&self) -> DVector<f64> {
-        let (drives, amplitudes) = (&self.drives, &self.amplitudes);
-        DVector::from_iterator(drives.len() + amplitudes.len(), drives.iter().chain(amplitudes).copied())
-    }
-}
-
-/// An interval between two instants, over which the drives are linear.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Step {
-    /// State at its start.
-    pub from: ThermalState,
-    /// Change of each drive per second.
-    pub slope: Vec<f64>,
-    /// Its length \[s\], > 0.
-    pub dt: f64,
-}
+use super::{Reduced, Step, ThermalState};
 
 /// Steps a reduced model through a course, exactly; made by [`Reduced::steps`]. Yields each step after it is made: the state is then
 /// that at its end.
@@ -95,13 +65,5 @@ impl Iterator for Steps<'_> {
         let mut amplitudes = self.state.amplitudes.clone();
         self.model.advance(&mut amplitudes, &slope, &self.interval);
         Some(Step { from: std::mem::replace(&mut self.state, ThermalState { drives, amplitudes }), slope, dt })
-    }
-}
-
-impl Profile {
-    /// The drives at rest before the first instant: its temperatures everywhere, heaters off.
-    pub fn rest(&self, drives: &[Drive]) -> Vec<f64> {
-        let of = |(drive, course): (&Drive, &Vec<f64>)| if *drive == Drive::Heaters { 0.0 } else { course[0] };
-        drives.iter().zip(&self.drives).map(of).collect()
     }
 }

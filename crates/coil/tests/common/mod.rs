@@ -3,10 +3,14 @@
 
 use bias::{Optics, StrainConvention};
 use coil::{
-    Body, Contact, Dehomogenization, Design, Drifts, Flange, HeatPaths, Mechanics, Sensor, Side, Solid, Spool, Surroundings,
+    Body, Contact, Dehomogenization, Design, Drifts, Drive, Dynamics, Fidelity, Flange, HeatPaths, Mechanics, MeshFineness,
+    Profile, Response, Sensor, Side, Solid, Spool, Surroundings,
 };
 use fem_core::material::{Isotropic, TransverselyIsotropic};
 use winding::{ClimbSide, Pattern, Spec, Tails, TurnLength};
+
+/// Enough for what holds on any mesh.
+pub(crate) const QUICK: Fidelity = Fidelity { resolution: MeshFineness { order: 3, layers: 1, ratio: 0.2 }, modes: 24 };
 
 /// Osunluk et al., Tables I to III, on an aluminium spool with one flange.
 pub(crate) fn reference() -> Design {
@@ -82,4 +86,27 @@ pub(crate) fn changed(change: impl FnOnce(&mut Design)) -> Design {
     let mut design = reference();
     change(&mut design);
     design
+}
+
+/// E_r and G_zr times a factor.
+pub(crate) fn scaled(factor: f64) -> impl FnOnce(&mut Design) {
+    move |design| {
+        design.body.elastic.e_r *= factor;
+        design.body.elastic.g_zr *= factor;
+    }
+}
+
+/// The quick model of a design under some drives.
+pub(crate) fn dynamics(design: &Design, drives: &[Drive]) -> Dynamics {
+    Dynamics::new(design, drives, &QUICK).expect("model")
+}
+
+/// What the quick model of a design says to a profile.
+pub(crate) fn run(design: &Design, drives: &[Drive], profile: &Profile) -> Vec<Response> {
+    dynamics(design, drives).simulate(profile).expect("run")
+}
+
+/// So many instants every half minute.
+pub(crate) fn half_minutes(count: u32) -> Vec<f64> {
+    (0..count).map(|k| 30.0 * f64::from(k)).collect()
 }

@@ -5,18 +5,19 @@ use std::path::{Path, PathBuf};
 use homogenization::irregular::Outline;
 use homogenization::{FibreCell, Homogenized, Packing, Ring, Role};
 
+use super::InputError;
 use super::cell_file::{CellFile, PackingFile};
 use super::cell_general::{GeneralCase, layouts, outline, pitch};
 use super::cell_material::{Material, material};
 use super::fingerprint::Fingerprint;
 use super::group::Group;
+use super::kind::CELL;
 use super::mirror::Mirror;
 use super::source::Source;
-use super::{InputError, MOST_RINGS};
 use crate::Error;
 
-/// What is said of a field that another makes necessary.
-pub(super) const MISSING: &str = "the field is missing";
+/// Rings of the most elaborate fibre accepted.
+const MOST_RINGS: usize = 16;
 
 /// A cell file that has been read and checked.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +49,7 @@ pub enum AnyCell {
 /// What is wrong, in which file, line and field, and how to mend it.
 pub fn read_cell(path: &Path) -> Result<CellCase, InputError> {
     let source = Source::read(path)?;
-    let file: CellFile = source.parse()?;
+    let file: CellFile = source.parse(Some(&CELL))?;
     if let Some(key) = file.general_key() {
         return Err(irregular(&Group::whole(&source), &key));
     }
@@ -72,7 +73,7 @@ pub fn check_any_cell(path: &Path, text: &str) -> Result<AnyCell, InputError> {
 }
 
 fn any(path: &Path, source: &Source) -> Result<AnyCell, InputError> {
-    let fibre = Fibre::new(source, source.parse()?)?;
+    let fibre = Fibre::new(source, source.parse(Some(&CELL))?)?;
     if fibre.file.general_key().is_some() {
         return fibre.general(path).map(AnyCell::General);
     }
@@ -165,14 +166,6 @@ impl<'a> Fibre<'a> {
 }
 
 impl CellCase {
-    /// Effective constants, each to the default relative error.
-    ///
-    /// # Errors
-    /// As [`Self::homogenize_to`].
-    pub fn homogenize(&self) -> Result<Homogenized, Error> {
-        self.homogenize_to(homogenization::TOLERANCE)
-    }
-
     /// Effective constants, each to a relative error.
     ///
     /// # Errors

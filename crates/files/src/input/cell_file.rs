@@ -1,7 +1,7 @@
 //! The fields of `CELL.ron` as they are written.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use super::given::Given;
 use super::quantity::{
@@ -9,51 +9,50 @@ use super::quantity::{
 };
 
 /// A fibre's cell, `CELL.ron`.
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CellFile {
     /// Its name.
     pub(super) name: String,
     /// Distance of neighbouring fibres; not beside `cell_um`.
-    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    #[serde(default)]
     pub(super) pitch_um: Given<FibreUm>,
     /// Concentric rings of the fibre, from the inside out, 1 to 16.
     pub(super) rings: Vec<RingFile>,
     /// What fills the rest of the cell.
     pub(super) adhesive: MaterialFile,
     /// Lattice; hexagonal unless given.
-    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    #[serde(default)]
     pub(super) packing: Given<PackingFile>,
     /// Fibres of a cell along x; 1 unless given.
-    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    #[serde(default)]
     pub(super) columns: Given<usize>,
     /// Fibres of a cell along y; 1 unless given.
-    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    #[serde(default)]
     pub(super) rows: Given<usize>,
     /// Fibres moved at random from the lattice.
-    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    #[serde(default)]
     pub(super) displaced: Given<DisplacedFile>,
     /// Two lattice vectors (x, y), in place of `pitch_um` and `packing`.
-    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    #[serde(default)]
     pub(super) cell_um: Given<[(PlaceUm, PlaceUm); 2]>,
     /// Fibre axes (x, y), with `cell_um`, at most 100.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(!skip_serializing_if)]
+    #[serde(default)]
     pub(super) centres_um: Vec<(PlaceUm, PlaceUm)>,
     /// Pockets without adhesive; none unless given.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     pub(super) voids: Vec<VoidFile>,
 }
 
 /// Lattice of the fibres.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, PartialEq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq)]
 pub(super) enum PackingFile {
     Hexagonal,
     Square,
 }
 
 /// Fibres displaced at random.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy)]
+#[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(deny_unknown_fields)]
 pub(super) struct DisplacedFile {
     /// Farthest move of an axis.
@@ -68,7 +67,7 @@ pub(super) struct DisplacedFile {
 }
 
 /// A pocket without adhesive.
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct VoidFile {
     /// Its centre (x, y).
@@ -81,16 +80,16 @@ pub(super) struct VoidFile {
 }
 
 /// A ring of the fibre.
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RingFile {
     /// Its name.
     pub(super) name: String,
     /// Of a round ring.
-    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    #[serde(default)]
     pub(super) outer_diameter_um: Given<FibreUm>,
     /// The two axes of an ellipse, in place of `outer_diameter_um`.
-    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    #[serde(default)]
     pub(super) outer_diameters_um: Given<(FibreUm, FibreUm)>,
     /// Of the ellipse's first axis from x; 0 unless given.
     #[serde(default)]
@@ -105,37 +104,37 @@ pub(super) struct RingFile {
 }
 
 /// A constituent: isotropic constants, or `orthotropic`, or `table`.
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MaterialFile {
     /// Young's modulus; isotropic.
-    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    #[serde(default)]
     pub(super) youngs_modulus_mpa: Given<ModulusMpa>,
     /// Poisson's ratio, greater than -1 and less than 0.5; isotropic.
-    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    #[serde(default)]
     pub(super) poisson_ratio: Given<f64>,
     /// Linear expansion; isotropic.
-    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    #[serde(default)]
     pub(super) thermal_expansion_per_k: Given<ExpansionPerK>,
     /// Thermal conductivity; isotropic.
-    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    #[serde(default)]
     pub(super) conductivity_w_per_mk: Given<Conductivity>,
     /// Optional, for the cell's mean density.
-    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    #[serde(default)]
     pub(super) density_kg_per_m3: Given<Density>,
     /// Optional, for the cell's mean heat capacity.
-    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    #[serde(default)]
     pub(super) specific_heat_j_per_kgk: Given<SpecificHeat>,
     /// Orthotropic constants, in place of the isotropic ones.
-    #[serde(default, skip_serializing_if = "Given::is_absent")]
+    #[serde(default)]
     pub(super) orthotropic: Given<OrthotropicFile>,
     /// Isotropic constants by rising temperature, linear between the rows, in place of one set.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     pub(super) table: Vec<RowFile>,
 }
 
 /// Orthotropic constants in axes x, y, z, z along the fibre; `nu_xz` is the contraction along z per extension along x under stress along x.
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OrthotropicFile {
     /// Young's modulus along x.
@@ -174,7 +173,7 @@ pub(super) struct OrthotropicFile {
 }
 
 /// Isotropic constants at a temperature.
-#[derive(Serialize, Deserialize, JsonSchema)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RowFile {
     /// The temperature.

@@ -5,16 +5,18 @@ use std::path::PathBuf;
 use homogenization::Role;
 use homogenization::irregular::{Arrangement, Cell, Inclusion, Layout, LayoutError, Outline, Phase, displace};
 
-use super::cell::MISSING;
+use super::InputError;
 use super::cell_file::{CellFile, PackingFile, RingFile, VoidFile};
 use super::cell_material::Material;
 use super::fingerprint::Fingerprint;
 use super::group::Group;
 use super::mirror::Mirror;
 use super::quantity::FibreUm;
-use super::{InputError, MOST_FIBRES};
+use super::syntax::MISSING;
 use crate::Error;
 
+/// Fibres of the largest cell accepted.
+const MOST_FIBRES: usize = 100;
 /// Realisations of a random arrangement at most.
 const MOST_REALISATIONS: usize = 1000;
 

@@ -9,6 +9,7 @@ use super::InputError;
 use super::cell_file::{MaterialFile, OrthotropicFile};
 use super::group::Group;
 use super::mirror::Mirror;
+use super::syntax::MISSING;
 
 /// Rows of the longest table accepted.
 const MOST_ROWS: usize = 1000;
@@ -90,7 +91,7 @@ pub(super) fn material(at: &Group, file: &MaterialFile) -> Result<Material, Inpu
     let given = |i: usize| {
         let (key, value) = plain[i];
         let remedy = "add it to the group, or give `orthotropic` or `table` in place of all";
-        value.ok_or_else(|| at.fault(key, "the field is missing", remedy))
+        value.ok_or_else(|| at.fault(key, MISSING, remedy))
     };
     let plain = constituent(at, [given(0)?, given(1)?, given(2)?, given(3)?])?;
     Ok(Material::Isotropic(Constituent { density, specific_heat, ..plain }))

@@ -13,6 +13,7 @@ use super::cell_general::GeneralCase;
 use super::coil_file::{BodyFile, CoilFile, DehomogenizationFile, MaterialFile};
 use super::fingerprint::Fingerprint;
 use super::group::Group;
+use super::kind::COIL;
 use super::mechanics::mechanics;
 use super::mirror::Mirror;
 use super::source::Source;
@@ -107,7 +108,7 @@ pub fn check_coil(path: &Path, text: &str) -> Result<CoilCase, Error> {
 }
 
 fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
-    let file: CoilFile = source.parse()?;
+    let file: CoilFile = source.parse(Some(&COIL))?;
     let top = Group::whole(&source);
     let winding = winding(&top.group("winding"), &file.winding)?;
     let inner_radius = winding.spec().inner_radius;
@@ -259,7 +260,7 @@ impl Cells<'_> {
             }
             AnyCell::Regular(case, _) => {
                 self.compare_pitch(field, named, case.cell.pitch);
-                (case.homogenize()?.constants, case.fingerprint)
+                (case.homogenize_to(TOLERANCE)?.constants, case.fingerprint)
             }
         };
         self.fingerprints.push(fingerprint);

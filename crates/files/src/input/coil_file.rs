@@ -1,14 +1,14 @@
 //! `COIL.ron` as it is written: the whole, the winding as a body, optics, drifts, dehomogenisation.
 
 use bias::{Optics, StrainConvention};
-use coil::{Dehomogenization, Design, Drifts};
+use coil::{Dehomogenization, Design, Drifts, HeatPaths, Mechanics};
 use fem_core::material::TransverselyIsotropic;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::heat::HeatFile;
 use super::mechanics::MechanicsFile;
-use super::mirror::{Mirror, mirror, mirror_choice};
+use super::mirror::{Mirror, mirrored, mirrored_choice, says_default};
 use super::quantity::{
     Conductivity, CurvaturePerK2, Density, DriftDegPerHPerK, ExpansionPerK, Index, LengthMm, ModulusGpa, ModulusMpa,
     Photoelastic, Ratio, SpecificHeat, StrainRatio, TemperatureC,
@@ -31,44 +31,20 @@ pub(crate) struct CoilFile {
     /// The medium around the solids.
     pub(crate) surroundings: SurroundingsFile,
     /// What of stiffness and bond depends on temperature or time; Elastic unless given.
-    #[serde(default, skip_serializing_if = "MechanicsFile::is_elastic")]
+    #[serde(default, skip_serializing_if = "says_default::<Mechanics, _>")]
     pub(crate) mechanics: MechanicsFile,
     /// Heat paths besides conduction.
-    #[serde(default, skip_serializing_if = "HeatFile::is_none")]
+    #[serde(default, skip_serializing_if = "says_default::<HeatPaths, _>")]
     pub(crate) heat: HeatFile,
     /// The spool's thermometer.
     pub(crate) sensor: SensorFile,
     /// The fibre's optics.
     pub(crate) optics: OpticsFile,
     /// What vanishes at a reference temperature.
-    #[serde(default, skip_serializing_if = "DriftsFile::is_none")]
+    #[serde(default, skip_serializing_if = "says_default::<Drifts, _>")]
     pub(crate) drifts: DriftsFile,
     /// From the coil's strains to those of the glass.
     pub(crate) dehomogenization: DehomogenizationFile,
-}
-
-/// What vanishes at a reference temperature.
-#[derive(Serialize, Deserialize, JsonSchema, PartialEq)]
-#[serde(deny_unknown_fields, default)]
-pub(crate) struct DriftsFile {
-    /// The temperature; 20 unless given.
-    pub(crate) reference_c: TemperatureC,
-    /// b of dn/dT = (dn/dT)0 + b (T - reference); 0 unless given.
-    pub(crate) thermo_optic_curvature_per_k2: CurvaturePerK2,
-    /// Bias of the read-out per kelvin of the thermometer's place; 0 unless given.
-    pub(crate) read_out_deg_per_h_per_k: DriftDegPerHPerK,
-}
-
-impl Default for DriftsFile {
-    fn default() -> Self {
-        Self::of(&Drifts::default())
-    }
-}
-
-impl DriftsFile {
-    fn is_none(&self) -> bool {
-        *self == Self::default()
-    }
 }
 
 /// The potted winding as a body.
@@ -118,33 +94,6 @@ pub(crate) struct ConstantsFile {
     pub(crate) k_r_w_per_mk: Conductivity,
 }
 
-/// The fibre's optics.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct OpticsFile {
-    /// n.
-    pub(crate) refractive_index: Index,
-    /// dn/dT.
-    pub(crate) thermo_optic_per_k: ExpansionPerK,
-    /// Expansion of the glass.
-    pub(crate) thermal_expansion_per_k: ExpansionPerK,
-    /// Photoelastic constant.
-    pub(crate) p11: Photoelastic,
-    /// Photoelastic constant.
-    pub(crate) p12: Photoelastic,
-    /// Effective diameter D.
-    pub(crate) sagnac_diameter_mm: LengthMm,
-    /// The strain in eq. (2).
-    pub(crate) strain: StrainFile,
-}
-
-/// The strain in eq. (2): as printed, or without the free expansion.
-#[derive(Serialize, Deserialize, JsonSchema)]
-pub(crate) enum StrainFile {
-    Total,
-    Mechanical,
-}
-
 /// The row M: written, of a cell file, or as the paper prints it.
 #[derive(Serialize, Deserialize, JsonSchema)]
 pub(crate) enum DehomogenizationFile {
@@ -153,36 +102,59 @@ pub(crate) enum DehomogenizationFile {
     Printed,
 }
 
-/// eps_r of the glass = m_rx eps_rr + m_ry eps_yy + m_rz eps_hoop + m_rt dT, with total strains.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct MatrixFile {
-    /// Of the coil's radial strain.
-    pub(crate) m_rx: StrainRatio,
-    /// Of the coil's axial strain.
-    pub(crate) m_ry: StrainRatio,
-    /// Of the hoop strain.
-    pub(crate) m_rz: StrainRatio,
-    /// Of the temperature difference.
-    pub(crate) m_rt_per_k: ExpansionPerK,
+mirrored! {
+    /// What vanishes at a reference temperature.
+    #[serde(default)]
+    DriftsFile is Drifts {
+        /// The temperature; 20 unless given.
+        reference_c: TemperatureC = reference,
+        /// b of dn/dT = (dn/dT)0 + b (T - reference); 0 unless given.
+        thermo_optic_curvature_per_k2: CurvaturePerK2 = thermo_optic_curvature,
+        /// Bias of the read-out per kelvin of the thermometer's place; 0 unless given.
+        read_out_deg_per_h_per_k: DriftDegPerHPerK = read_out,
+    }
+
+    /// The fibre's optics.
+    OpticsFile is Optics {
+        /// n.
+        refractive_index: Index = refractive_index,
+        /// dn/dT.
+        thermo_optic_per_k: ExpansionPerK = thermo_optic,
+        /// Expansion of the glass.
+        thermal_expansion_per_k: ExpansionPerK = thermal_expansion,
+        /// Photoelastic constant.
+        p11: Photoelastic = p11,
+        /// Photoelastic constant.
+        p12: Photoelastic = p12,
+        /// Effective diameter D.
+        sagnac_diameter_mm: LengthMm = sagnac_diameter,
+        /// The strain in eq. (2).
+        strain: StrainFile = strain,
+    }
+
+    /// eps_r of the glass = m_rx eps_rr + m_ry eps_yy + m_rz eps_hoop + m_rt dT, with total strains.
+    MatrixFile is Dehomogenization {
+        /// Of the coil's radial strain.
+        m_rx: StrainRatio = m_rx,
+        /// Of the coil's axial strain.
+        m_ry: StrainRatio = m_ry,
+        /// Of the hoop strain.
+        m_rz: StrainRatio = m_rz,
+        /// Of the temperature difference.
+        m_rt_per_k: ExpansionPerK = m_rt,
+    }
 }
 
-mirror!(DriftsFile is Drifts {
-    reference_c = reference,
-    thermo_optic_curvature_per_k2 = thermo_optic_curvature,
-    read_out_deg_per_h_per_k = read_out,
-});
-mirror!(OpticsFile is Optics {
-    refractive_index = refractive_index,
-    thermo_optic_per_k = thermo_optic,
-    thermal_expansion_per_k = thermal_expansion,
-    p11 = p11,
-    p12 = p12,
-    sagnac_diameter_mm = sagnac_diameter,
-    strain = strain,
-});
-mirror_choice!(StrainFile is StrainConvention { Total, Mechanical });
-mirror!(MatrixFile is Dehomogenization { m_rx = m_rx, m_ry = m_ry, m_rz = m_rz, m_rt_per_k = m_rt });
+mirrored_choice! {
+    /// The strain in eq. (2): as printed, or without the free expansion.
+    StrainFile is StrainConvention: { Total, Mechanical }
+}
+
+impl Default for DriftsFile {
+    fn default() -> Self {
+        Self::of(&Drifts::default())
+    }
+}
 
 impl Mirror<(TransverselyIsotropic, f64, f64)> for ConstantsFile {
     fn model(&self) -> (TransverselyIsotropic, f64, f64) {

@@ -4,17 +4,11 @@ use std::borrow::Cow;
 use std::ops::Deref;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Deserializer};
 
 /// The value of a field, if it is there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Given<T>(Option<T>);
-
-impl<T> Given<T> {
-    pub(super) fn is_absent(&self) -> bool {
-        self.0.is_none()
-    }
-}
 
 impl<T> Default for Given<T> {
     fn default() -> Self {
@@ -33,15 +27,6 @@ impl<T> Deref for Given<T> {
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Given<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         T::deserialize(deserializer).map(|value| Self(Some(value)))
-    }
-}
-
-impl<T: Serialize> Serialize for Given<T> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match &self.0 {
-            Some(value) => value.serialize(serializer),
-            None => serializer.serialize_none(),
-        }
     }
 }
 

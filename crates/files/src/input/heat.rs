@@ -1,63 +1,44 @@
 //! The heat paths of `COIL.ron`: contact resistance, mounts, heaters, film.
 
 use coil::{Contact, HeatPaths, Heater, Mount, Side, Spool};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 use super::InputError;
 use super::group::Group;
-use super::mirror::{Mirror, mirror};
+use super::mirror::{Mirror, mirrored};
 use super::quantity::{Conductance, PowerW, Resistance};
 use super::winding_file::SideFile;
 
-/// Heat paths besides conduction.
-#[derive(Serialize, Deserialize, JsonSchema, Default)]
-#[serde(deny_unknown_fields, default)]
-pub(crate) struct HeatFile {
-    /// Contact resistance between hub and coil, where they are bonded; 0 unless given.
-    hub_resistance_m2k_per_w: Resistance,
-    /// Paths from a flange to its mount; none unless given.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    mounts: Vec<MountFile>,
-    /// Heat dissipated in a flange; none unless given.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    heaters: Vec<HeaterFile>,
-    /// Film coefficient of every surface to the chamber, in place of the still medium; None unless given.
-    film_w_per_m2k: Option<Conductance>,
-}
+mirrored! {
+    /// Heat paths besides conduction.
+    #[derive(Default)]
+    #[serde(default)]
+    HeatFile is HeatPaths {
+        /// Contact resistance between hub and coil, where they are bonded; 0 unless given.
+        hub_resistance_m2k_per_w: Resistance = hub_resistance,
+        /// Paths from a flange to its mount; none unless given.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        mounts: Vec<MountFile> = mounts,
+        /// Heat dissipated in a flange; none unless given.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        heaters: Vec<HeaterFile> = heaters,
+        /// Film coefficient of every surface to the chamber, in place of the still medium; None unless given.
+        film_w_per_m2k: Option<Conductance> = film,
+    }
 
-/// A path from a flange's outer face to its mount, or to the chamber.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct MountFile {
-    /// Of the flange.
-    side: SideFile,
-    /// Conductance per area.
-    conductance_w_per_m2k: Conductance,
-}
+    /// A path from a flange's outer face to its mount, or to the chamber.
+    MountFile is Mount {
+        /// Of the flange.
+        side: SideFile = side,
+        /// Conductance per area.
+        conductance_w_per_m2k: Conductance = conductance,
+    }
 
-/// Heat dissipated evenly in a flange, on from the first row of the profile.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct HeaterFile {
-    /// Of the flange.
-    side: SideFile,
-    /// Power.
-    power_w: PowerW,
-}
-
-mirror!(HeatFile is HeatPaths {
-    hub_resistance_m2k_per_w = hub_resistance,
-    mounts = mounts,
-    heaters = heaters,
-    film_w_per_m2k = film,
-});
-mirror!(MountFile is Mount { side = side, conductance_w_per_m2k = conductance });
-mirror!(HeaterFile is Heater { side = side, power_w = power });
-
-impl HeatFile {
-    pub(super) fn is_none(&self) -> bool {
-        self.model() == HeatPaths::default()
+    /// Heat dissipated evenly in a flange, on from the first row of the profile.
+    HeaterFile is Heater {
+        /// Of the flange.
+        side: SideFile = side,
+        /// Power.
+        power_w: PowerW = power,
     }
 }
 

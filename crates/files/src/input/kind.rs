@@ -1,17 +1,10 @@
 //! Kinds of case files, told from one another and from tables.
 
-use serde::de::DeserializeOwned;
-
-use super::cell_file::CellFile;
-use super::coil_file::CoilFile;
 use super::fields::FieldMap;
-use super::meta::Meta;
-use super::record_format::MapFile;
 use super::scanner::{Scanner, Token};
-use super::targets_file::TargetsFile;
 
 /// A kind of case file that `fogcoil new` writes.
-pub(crate) struct Kind {
+pub(super) struct Kind {
     name: &'static str,
     /// A field that each has at its top, and no other kind.
     mark: &'static str,
@@ -19,33 +12,9 @@ pub(crate) struct Kind {
     command: &'static str,
 }
 
-static COIL: Kind = Kind { name: "a coil file", mark: "winding", command: "fogcoil new FILE" };
-static CELL: Kind = Kind { name: "a cell file", mark: "adhesive", command: "fogcoil new --kind cell FILE" };
-static TARGETS: Kind = Kind { name: "a file of targets", mark: "targets", command: "fogcoil new --kind targets FILE" };
-
-/// What a case file is read as.
-pub(crate) trait CaseFile: DeserializeOwned {
-    /// Its kind, if `fogcoil new` writes such files.
-    fn kind() -> Option<&'static Kind>;
-}
-
-macro_rules! kinds {
-    ($($file:ty: $kind:expr;)*) => {
-        $(impl CaseFile for $file {
-            fn kind() -> Option<&'static Kind> {
-                $kind
-            }
-        })*
-    };
-}
-
-kinds! {
-    CoilFile: Some(&COIL);
-    CellFile: Some(&CELL);
-    TargetsFile: Some(&TARGETS);
-    MapFile: None;
-    Meta: None;
-}
+pub(super) static COIL: Kind = Kind { name: "a coil file", mark: "winding", command: "fogcoil new FILE" };
+pub(super) static CELL: Kind = Kind { name: "a cell file", mark: "adhesive", command: "fogcoil new --kind cell FILE" };
+pub(super) static TARGETS: Kind = Kind { name: "a file of targets", mark: "targets", command: "fogcoil new --kind targets FILE" };
 
 /// Problem and remedy if `text` is not of the kind that is wanted but of another, a table, or nothing.
 pub(super) fn mistaken(text: &str, wanted: Option<&Kind>) -> Option<(String, String)> {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::InputError;
 use super::group::Group;
-use super::mirror::{Mirror, mirror};
+use super::mirror::{Mirror, mirrored};
 use super::quantity::{Factor, HysteresisK, Share, TemperatureC, TimeS};
 use super::winding_file::SideFile;
 
@@ -23,18 +23,6 @@ pub(crate) enum MechanicsFile {
     Opening(OpeningFile),
 }
 
-/// Factors at a mean temperature of the coil; linear between rows, constant beyond. At most 100 rows.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct FactorsFile {
-    /// The temperature.
-    temperature_c: TemperatureC,
-    /// On E_r and G.
-    transverse_modulus_factor: Factor,
-    /// On alpha_r.
-    transverse_expansion_factor: Factor,
-}
-
 /// E(t)/E(0) = 1 - fraction + fraction exp(-t/time).
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -45,26 +33,29 @@ pub(crate) struct RelaxingFile {
     time_s: TimeS,
 }
 
-/// The outer part of the bond to a flange opens in the cold.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct OpeningFile {
-    /// Of the flange.
-    side: SideFile,
-    /// Where it opens.
-    below_c: TemperatureC,
-    /// How much above it closes.
-    hysteresis_k: HysteresisK,
-    /// Share of the annulus' width.
-    fraction: Share,
-}
+mirrored! {
+    /// Factors at a mean temperature of the coil; linear between rows, constant beyond. At most 100 rows.
+    FactorsFile is FactorsAt {
+        /// The temperature.
+        temperature_c: TemperatureC = temperature,
+        /// On E_r and G.
+        transverse_modulus_factor: Factor = transverse_modulus,
+        /// On alpha_r.
+        transverse_expansion_factor: Factor = transverse_expansion,
+    }
 
-mirror!(FactorsFile is FactorsAt {
-    temperature_c = temperature,
-    transverse_modulus_factor = transverse_modulus,
-    transverse_expansion_factor = transverse_expansion,
-});
-mirror!(OpeningFile is Opening { side = side, below_c = below, hysteresis_k = hysteresis, fraction = fraction });
+    /// The outer part of the bond to a flange opens in the cold.
+    OpeningFile is Opening {
+        /// Of the flange.
+        side: SideFile = side,
+        /// Where it opens.
+        below_c: TemperatureC = below,
+        /// How much above it closes.
+        hysteresis_k: HysteresisK = hysteresis,
+        /// Share of the annulus' width.
+        fraction: Share = fraction,
+    }
+}
 
 impl Mirror<Mechanics> for MechanicsFile {
     fn model(&self) -> Mechanics {
@@ -85,12 +76,6 @@ impl Mirror<Mechanics> for MechanicsFile {
             }
             Mechanics::Opening(opening) => Self::Opening(Mirror::of(opening)),
         }
-    }
-}
-
-impl MechanicsFile {
-    pub(super) fn is_elastic(&self) -> bool {
-        matches!(self, Self::Elastic)
     }
 }
 

@@ -45,7 +45,7 @@ pub struct TemperatureSensor {
 /// Reads and checks a meta file.
 pub(super) fn read(path: &Path) -> Result<Meta, InputError> {
     let source = Source::read(path)?;
-    let meta: Meta = source.parse()?;
+    let meta: Meta = source.parse(None)?;
     let sensor = &meta.temperature_sensor;
     let values = [
         ("sample_interval_s", meta.sample_interval_s),

@@ -11,24 +11,50 @@ pub(crate) trait Mirror<M> {
     fn of(model: &M) -> Self;
 }
 
-/// A group of fields, each the mirror of one of the model's: `key = field`.
-macro_rules! mirror {
-    ($file:ident is $model:ident { $($key:ident = $field:ident),* $(,)? }) => {
+/// Groups of fields, each the mirror of one of the model's: `key: Type = field`; `[part: Part { .. }]` holds those of a part of the model.
+macro_rules! mirrored {
+    ($($(#[$about:meta])* $file:ident is $model:ident {
+        $([$part:ident: $of_part:ident { $($(#[$in_of:meta])* $in_key:ident: $in_type:ty = $in_field:ident,)* }])?
+        $($(#[$of:meta])* $key:ident: $type:ty = $field:ident,)*
+    })*) => {$(
+        #[derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+        #[serde(deny_unknown_fields)]
+        $(#[$about])*
+        pub(crate) struct $file {
+            $($($(#[$in_of])* pub(crate) $in_key: $in_type,)*)?
+            $($(#[$of])* pub(crate) $key: $type,)*
+        }
+
         impl $crate::input::mirror::Mirror<$model> for $file {
             fn model(&self) -> $model {
-                $model { $($field: $crate::input::mirror::Mirror::model(&self.$key)),* }
+                $model {
+                    $($part: $of_part { $($in_field: $crate::input::mirror::Mirror::model(&self.$in_key)),* },)?
+                    $($field: $crate::input::mirror::Mirror::model(&self.$key)),*
+                }
             }
 
             fn of(model: &$model) -> Self {
-                Self { $($key: $crate::input::mirror::Mirror::of(&model.$field)),* }
+                Self {
+                    $($($in_key: $crate::input::mirror::Mirror::of(&model.$part.$in_field),)*)?
+                    $($key: $crate::input::mirror::Mirror::of(&model.$field)),*
+                }
             }
         }
-    };
+    )*};
 }
 
-/// A choice that has the model's own names.
-macro_rules! mirror_choice {
-    ($file:ident is $model:ident { $($name:ident),* }) => {
+/// Choices that have the model's own names.
+macro_rules! mirrored_choice {
+    ($($(#[$about:meta])* $file:ident is $($model:ident),+: $names:tt)*) => {$(
+        mirrored_choice!(@type $(#[$about])* $file $names);
+        $(mirrored_choice!(@mirror $file $model $names);)+
+    )*};
+    (@type $(#[$about:meta])* $file:ident { $($name:ident),* }) => {
+        #[derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema, Clone, Copy)]
+        $(#[$about])*
+        pub(crate) enum $file { $($name),* }
+    };
+    (@mirror $file:ident $model:ident { $($name:ident),* }) => {
         impl $crate::input::mirror::Mirror<$model> for $file {
             fn model(&self) -> $model {
                 match self { $(Self::$name => $model::$name),* }
@@ -39,6 +65,11 @@ macro_rules! mirror_choice {
             }
         }
     };
+}
+
+/// Whether a part says what a file says that leaves it out.
+pub(crate) fn says_default<M: Default + PartialEq, T: Mirror<M>>(file: &T) -> bool {
+    file.model() == M::default()
 }
 
 macro_rules! mirror_self {
@@ -55,7 +86,7 @@ macro_rules! mirror_self {
     )*};
 }
 
-pub(crate) use {mirror, mirror_choice};
+pub(crate) use {mirrored, mirrored_choice};
 mirror_self!(f64, usize, i32);
 
 impl<M, T: Mirror<M>> Mirror<Option<M>> for Option<T> {

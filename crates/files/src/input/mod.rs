@@ -48,14 +48,9 @@ pub use error::InputError;
 pub use fingerprint::Fingerprint;
 pub use meta::{Meta, TemperatureSensor};
 pub use profile::{Between, Inference, ProfileCase, check_profile, read_profile};
-pub use record::{CHAMBER, RATE, RecordCase, SPOOL, check_record, read_record};
-pub use record_format::{Key, RecordOptions};
+pub use record::{RecordCase, check_record, read_record};
+pub use record_format::{CHAMBER, Key, RATE, RecordOptions, SPOOL};
 pub use schema::schemas;
 pub use source::{read_ron, read_text};
 pub use spool::{SpoolCase, read_spool};
 pub use targets::{TargetsCase, read_targets};
-
-/// Rings of the most elaborate fibre accepted.
-const MOST_RINGS: usize = 16;
-/// Fibres of the largest cell accepted.
-const MOST_FIBRES: usize = 100;

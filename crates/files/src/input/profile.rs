@@ -7,7 +7,7 @@ use coil::{Design, Drive, Profile};
 use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::profile_columns::{Columns, TIME};
-use super::rows::{Rows, quoted};
+use super::rows::Rows;
 use crate::remark::Remark;
 
 /// Most rows of a profile: two and a half years at 4 s.
@@ -196,7 +196,7 @@ pub(super) fn read_rows(
     let mut time: Vec<f64> = Vec::new();
     let mut courses = vec![Vec::new(); columns.len()];
     while rows.advance()? {
-        check_count(rows, count)?;
+        rows.check_count(count, ",", |line, found| count_remedy(line, found > count))?;
         if time.len() == most {
             return Err(rows.fault(None, format!("more than {most} rows"), format!("split the {kind}, or thin it out")));
         }
@@ -208,22 +208,14 @@ pub(super) fn read_rows(
     Ok((time, courses))
 }
 
-fn check_count(rows: &Rows, expected: usize) -> Result<(), InputError> {
-    let found = rows.count();
-    if found == expected {
-        return Ok(());
-    }
-    let line = rows.fields().collect::<Vec<_>>().join(",");
-    let problem =
-        format!("{} has {found} field{} where the header has {expected}", quoted(&line), if found == 1 { "" } else { "s" });
-    let remedy = if line.contains(';') {
+fn count_remedy(line: &str, more: bool) -> &'static str {
+    if line.contains(';') {
         "separate the fields with commas, not semicolons, and write decimals with a point"
-    } else if found > expected {
+    } else if more {
         "give one number a column, decimals with a point, not a comma"
     } else {
         "complete the row or remove it: between rows the course is linear"
-    };
-    Err(rows.fault(None, problem, remedy))
+    }
 }
 
 fn instant(rows: &Rows, column: usize, last: Option<f64>) -> Result<f64, InputError> {

@@ -100,12 +100,6 @@ quantities! {
     NotNegative: 0.0 to f64::MAX, "", "0.01", identity, identity;
 }
 
-impl LagS {
-    pub(super) fn is_zero(&self) -> bool {
-        self.0 == 0.0
-    }
-}
-
 impl Quantity {
     /// What is wrong with a value in the file's unit, and how to mend it.
     pub(crate) fn fault(&self, value: f64) -> Option<(String, String)> {

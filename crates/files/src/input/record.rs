@@ -15,13 +15,6 @@ use super::timestamp::{self, FORMS, is_ambiguous};
 use crate::Error;
 use crate::remark::{Remark, WARNING};
 
-/// The chamber's temperature \[°C\].
-pub const CHAMBER: &str = "chamber_c";
-/// The thermometer on the spool \[°C\].
-pub const SPOOL: &str = "spool_c";
-/// The gyro's rate, mean over the interval that ends at the instant \[deg/h\].
-pub const RATE: &str = "rate_deg_per_h";
-
 /// Most rows: what fits in a gigabyte with its checks.
 const MOST_ROWS: usize = 10_000_000;
 /// Rows below which a recording is noted as short.
@@ -86,10 +79,7 @@ impl RecordCase {
 /// # Errors
 /// [`Error::Input`]: what is wrong, in which file, line and column, and how to mend it; [`Error::Usage`] for wrong options.
 pub fn read_record(path: &Path, options: &RecordOptions) -> Result<RecordCase, Error> {
-    let format = RecordFormat::read(path, options).map_err(|problem| match problem {
-        Ok(usage) => Error::Usage(usage),
-        Err(input) => Error::Input(input),
-    })?;
+    let format = RecordFormat::read(path, options)?;
     let meta = meta_path(path, options).map(|path| meta::read(&path)).transpose()?;
     checked(Rows::open_as(path, "a recording (*.csv)", format.dialect)?, &format, meta)
 }
@@ -129,7 +119,8 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
     let mut values: Vec<Vec<f64>> = vec![Vec::new(); channels.len()];
     let mut time: Vec<f64> = Vec::new();
     while rows.advance()? {
-        check_count(rows, columns)?;
+        let expected = columns.names.len();
+        rows.check_count(expected, " ", |_, found| count_remedy(found, expected))?;
         if time.len() == MOST_ROWS {
             return Err(rows.fault(None, format!("more than {MOST_ROWS} rows"), "split the recording, or average it"));
         }
@@ -153,20 +144,12 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
     Ok((recording, clock.first.is_some()))
 }
 
-fn check_count(rows: &Rows, columns: &RecordColumns) -> Result<(), InputError> {
-    let (found, expected) = (rows.count(), columns.names.len());
-    if found == expected {
-        return Ok(());
-    }
-    let line = rows.fields().collect::<Vec<_>>().join(" ");
-    let problem =
-        format!("{} has {found} field{} where the header has {expected}", quoted(&line), if found == 1 { "" } else { "s" });
-    let remedy = if found > expected && found.is_multiple_of(2) {
+fn count_remedy(found: usize, expected: usize) -> &'static str {
+    if found > expected && found.is_multiple_of(2) {
         "give one number a column; if decimals have a comma, separate the fields otherwise, e.g. --separator ';' --decimal-comma"
     } else {
         "complete the row (a missing value is an empty field), or remove it"
-    };
-    Err(rows.fault(None, problem, remedy))
+    }
 }
 
 /// Instants from a column, from dates, or from the rows' number.

@@ -1,25 +1,11 @@
 //! The header of a recording: which column is what.
 
+use super::InputError;
 use super::record_format::{Key, RecordFormat};
 use super::rows::{Rows, quoted};
-use super::{CHAMBER, InputError, RATE, SPOOL};
 
-/// The instants' column.
-const TIME: &str = "time_s";
 /// Most names that a message lists.
 const MOST_NAMES: usize = 12;
-
-impl Key {
-    /// Name of its column in a standard recording.
-    pub(super) fn standard(self) -> &'static str {
-        match self {
-            Self::Time => TIME,
-            Self::Chamber => CHAMBER,
-            Self::Spool => SPOOL,
-            Self::Rate => RATE,
-        }
-    }
-}
 
 /// Where a recording's columns are.
 pub(super) struct RecordColumns {
@@ -66,12 +52,9 @@ impl RecordColumns {
 
     /// Names of the columns that are not read.
     pub(super) fn ignored(&self) -> Vec<&str> {
-        let used = |column: &usize| self.at.contains(&Some(*column));
-        (0..self.names.len())
-            .filter(|column| !used(column))
-            .map(|column| self.names[column].as_str())
-            .filter(|n| !n.is_empty())
-            .collect()
+        let unused = |column: &usize| !self.at.contains(&Some(*column));
+        let names = (0..self.names.len()).filter(unused).map(|column| self.names[column].as_str());
+        names.filter(|name| !name.is_empty()).collect()
     }
 }
 

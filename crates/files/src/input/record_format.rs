@@ -8,9 +8,18 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::InputError;
+use super::profile_columns::TIME;
 use super::rows::Dialect;
 use super::source::Source;
+use crate::Error;
 use crate::units::{ColumnUnit, RATES, TEMPERATURES, TIMES};
+
+/// The chamber's temperature \[°C\].
+pub const CHAMBER: &str = "chamber_c";
+/// The thermometer on the spool \[°C\].
+pub const SPOOL: &str = "spool_c";
+/// The gyro's rate, mean over the interval that ends at the instant \[deg/h\].
+pub const RATE: &str = "rate_deg_per_h";
 
 /// A column that the program knows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,6 +45,16 @@ impl Key {
             Self::Chamber => "chamber",
             Self::Spool => "spool",
             Self::Rate => "rate",
+        }
+    }
+
+    /// Name of its column in a standard recording.
+    pub(super) fn standard(self) -> &'static str {
+        match self {
+            Self::Time => TIME,
+            Self::Chamber => CHAMBER,
+            Self::Spool => SPOOL,
+            Self::Rate => RATE,
         }
     }
 
@@ -146,15 +165,15 @@ pub(super) struct ColumnFormat {
 }
 
 impl RecordFormat {
-    /// From the flags and the map file, if there is one. Wrong flags are `Err(Ok(message))`.
-    pub(super) fn read(record: &Path, options: &RecordOptions) -> Result<Self, Result<String, InputError>> {
+    /// From the flags and the map file, if there is one.
+    pub(super) fn read(record: &Path, options: &RecordOptions) -> Result<Self, Error> {
         let beside = record.with_extension("map.ron");
         let path = options.map.clone().or_else(|| beside.is_file().then_some(beside));
         let mut format = match path {
-            Some(path) => Self::from_file(&path).map_err(Err)?,
+            Some(path) => Self::from_file(&path)?,
             None => Self::standard(),
         };
-        format.declare(options).map_err(Ok)?;
+        format.declare(options).map_err(Error::Usage)?;
         Ok(format)
     }
 
@@ -166,7 +185,7 @@ impl RecordFormat {
 
     fn from_file(path: &Path) -> Result<Self, InputError> {
         let source = Source::read(path)?;
-        Self::of(&source.parse()?).map_err(|(field, problem)| source.fault(&field, problem, ""))
+        Self::of(&source.parse(None)?).map_err(|(field, problem)| source.fault(&field, problem, ""))
     }
 
     /// From a map file; an error is field and problem.

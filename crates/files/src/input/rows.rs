@@ -168,6 +168,23 @@ impl Rows {
         (0..self.count()).map(|column| self.field(column))
     }
 
+    /// Refuses a row of another number of fields than the header; `remedy` is told the row, its fields joined, and how many they are.
+    pub(crate) fn check_count(
+        &self,
+        expected: usize,
+        between: &str,
+        remedy: impl Fn(&str, usize) -> &'static str,
+    ) -> Result<(), InputError> {
+        let found = self.count();
+        if found == expected {
+            return Ok(());
+        }
+        let line = self.fields().collect::<Vec<_>>().join(between);
+        let plural = if found == 1 { "" } else { "s" };
+        let problem = format!("{} has {found} field{plural} where the header has {expected}", quoted(&line));
+        Err(self.fault(None, problem, remedy(&line, found)))
+    }
+
     /// A field as a finite number.
     pub(crate) fn number(&self, column: usize, name: &str) -> Result<f64, InputError> {
         let text = self.field(column);

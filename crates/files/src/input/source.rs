@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 use super::InputError;
 use super::fields::{FieldMap, join};
 use super::fingerprint::Fingerprint;
-use super::kind::{CaseFile, Kind, mistaken};
+use super::kind::{Kind, mistaken};
 use super::syntax::explain;
 
 /// Largest case file [bytes]: some 300 times the reference files.
@@ -28,7 +28,7 @@ pub fn read_text(path: &Path) -> Result<String, InputError> {
 /// # Errors
 /// What is wrong, in which file, line and field, and how to mend it.
 pub fn read_ron<T: DeserializeOwned>(path: &Path) -> Result<T, InputError> {
-    Source::read(path)?.parse_as(None)
+    Source::read(path)?.parse(None)
 }
 
 /// A case file in memory.
@@ -74,11 +74,8 @@ impl Source {
         Fingerprint::of(self.path.clone(), self.text.as_bytes())
     }
 
-    pub(crate) fn parse<T: CaseFile>(&self) -> Result<T, InputError> {
-        self.parse_as(T::kind())
-    }
-
-    fn parse_as<T: DeserializeOwned>(&self, kind: Option<&'static Kind>) -> Result<T, InputError> {
+    /// The file's content, of a kind if `fogcoil new` writes such files.
+    pub(super) fn parse<T: DeserializeOwned>(&self, kind: Option<&Kind>) -> Result<T, InputError> {
         ron::from_str(&self.text).map_err(|error| match mistaken(&self.text, kind) {
             Some((problem, remedy)) => InputError::whole(&self.path, problem, remedy),
             None => self.syntax_fault(&error),

@@ -7,58 +7,12 @@ use serde::{Deserialize, Serialize};
 
 use super::InputError;
 use super::group::Group;
-use super::mirror::{Mirror, mirror};
+use super::mirror::{Mirror, mirrored, says_default};
 use super::quantity::{
     Conductivity, Density, ExpansionPerK, ExtraLengthMm, LagS, LengthMm, ModulusGpa, PositionMm, SpecificHeat,
 };
 use super::winding_file::SideFile;
 use crate::units::to_mm;
-
-/// What the coil is wound on.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct SpoolFile {
-    /// What it is made of.
-    pub(crate) material: SolidFile,
-    /// Radial thickness of the hub.
-    pub(crate) hub_thickness_mm: LengthMm,
-    /// Whether the coil is bonded to the hub; if not, a gap of 0.2 mm.
-    pub(crate) hub_bonded: bool,
-    /// None, one or two.
-    pub(crate) flanges: Vec<FlangeFile>,
-}
-
-/// An isotropic solid.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct SolidFile {
-    /// Young's modulus.
-    pub(crate) youngs_modulus_gpa: ModulusGpa,
-    /// Greater than -1 and less than 0.5.
-    pub(crate) poisson_ratio: f64,
-    /// Linear expansion.
-    pub(crate) thermal_expansion_per_k: ExpansionPerK,
-    /// Thermal conductivity.
-    pub(crate) conductivity_w_per_mk: Conductivity,
-    /// Density.
-    pub(crate) density_kg_per_m3: Density,
-    /// Specific heat.
-    pub(crate) specific_heat_j_per_kgk: SpecificHeat,
-}
-
-/// A flange.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct FlangeFile {
-    /// On which side of the coil.
-    pub(crate) side: SideFile,
-    /// Along y.
-    pub(crate) thickness_mm: LengthMm,
-    /// Beyond the coil's outer radius.
-    pub(crate) overhang_mm: ExtraLengthMm,
-    /// Whether the coil is bonded to it; if not, a gap of 0.2 mm.
-    pub(crate) bonded: bool,
-}
 
 /// The medium around the solids.
 #[derive(Serialize, Deserialize, JsonSchema)]
@@ -82,53 +36,59 @@ pub(crate) struct MediumFile {
     pub(crate) specific_heat_j_per_kgk: SpecificHeat,
 }
 
-/// The spool's thermometer.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct SensorFile {
-    /// Where it is.
-    pub(crate) radius_mm: ExtraLengthMm,
-    /// Where it is.
-    pub(crate) y_mm: PositionMm,
-    /// Its own first-order lag; 0 unless given.
-    #[serde(default, skip_serializing_if = "LagS::is_zero")]
-    #[schemars(!skip_serializing_if)]
-    pub(crate) lag_s: LagS,
-}
-
-mirror!(SpoolFile is Spool {
-    material = material,
-    hub_thickness_mm = hub_thickness,
-    hub_bonded = hub_contact,
-    flanges = flanges,
-});
-mirror!(FlangeFile is Flange { side = side, thickness_mm = thickness, overhang_mm = overhang, bonded = contact });
-mirror!(SensorFile is Sensor { radius_mm = radius, y_mm = y, lag_s = lag });
-
-impl Mirror<Solid> for SolidFile {
-    fn model(&self) -> Solid {
-        let elastic = Isotropic {
-            youngs_modulus: self.youngs_modulus_gpa.model(),
-            poisson_ratio: self.poisson_ratio,
-            thermal_expansion: self.thermal_expansion_per_k.model(),
-        };
-        Solid {
-            elastic,
-            conductivity: self.conductivity_w_per_mk.model(),
-            density: self.density_kg_per_m3.model(),
-            specific_heat: self.specific_heat_j_per_kgk.model(),
-        }
+mirrored! {
+    /// An isotropic solid.
+    SolidFile is Solid {
+        [elastic: Isotropic {
+            /// Young's modulus.
+            youngs_modulus_gpa: ModulusGpa = youngs_modulus,
+            /// Greater than -1 and less than 0.5.
+            poisson_ratio: f64 = poisson_ratio,
+            /// Linear expansion.
+            thermal_expansion_per_k: ExpansionPerK = thermal_expansion,
+        }]
+        /// Thermal conductivity.
+        conductivity_w_per_mk: Conductivity = conductivity,
+        /// Density.
+        density_kg_per_m3: Density = density,
+        /// Specific heat.
+        specific_heat_j_per_kgk: SpecificHeat = specific_heat,
     }
 
-    fn of(solid: &Solid) -> Self {
-        Self {
-            youngs_modulus_gpa: Mirror::of(&solid.elastic.youngs_modulus),
-            poisson_ratio: solid.elastic.poisson_ratio,
-            thermal_expansion_per_k: Mirror::of(&solid.elastic.thermal_expansion),
-            conductivity_w_per_mk: Mirror::of(&solid.conductivity),
-            density_kg_per_m3: Mirror::of(&solid.density),
-            specific_heat_j_per_kgk: Mirror::of(&solid.specific_heat),
-        }
+    /// What the coil is wound on.
+    SpoolFile is Spool {
+        /// What it is made of.
+        material: SolidFile = material,
+        /// Radial thickness of the hub.
+        hub_thickness_mm: LengthMm = hub_thickness,
+        /// Whether the coil is bonded to the hub; if not, a gap of 0.2 mm.
+        hub_bonded: bool = hub_contact,
+        /// None, one or two.
+        flanges: Vec<FlangeFile> = flanges,
+    }
+
+    /// A flange.
+    FlangeFile is Flange {
+        /// On which side of the coil.
+        side: SideFile = side,
+        /// Along y.
+        thickness_mm: LengthMm = thickness,
+        /// Beyond the coil's outer radius.
+        overhang_mm: ExtraLengthMm = overhang,
+        /// Whether the coil is bonded to it; if not, a gap of 0.2 mm.
+        bonded: bool = contact,
+    }
+
+    /// The spool's thermometer.
+    SensorFile is Sensor {
+        /// Where it is.
+        radius_mm: ExtraLengthMm = radius,
+        /// Where it is.
+        y_mm: PositionMm = y,
+        /// Its own first-order lag; 0 unless given.
+        #[serde(default, skip_serializing_if = "says_default::<f64, _>")]
+        #[schemars(!skip_serializing_if)]
+        lag_s: LagS = lag,
     }
 }
 

@@ -2,6 +2,9 @@
 
 use ron::Error;
 
+/// What is said of a field that is necessary.
+pub(super) const MISSING: &str = "the field is missing";
+
 /// Problem and remedy; `rest` is the text from where the reader stopped.
 pub(crate) fn explain(error: &Error, rest: &str) -> (String, String) {
     let (problem, remedy) = match error {
@@ -13,7 +16,7 @@ pub(crate) fn explain(error: &Error, rest: &str) -> (String, String) {
         }
         // a number that its kind does not accept: problem and remedy
         Error::InvalidValueForType { expected, found } => return (found.clone(), expected.clone()),
-        Error::MissingStructField { .. } => ("the field is missing", "add it to the group that ends here"),
+        Error::MissingStructField { .. } => (MISSING, "add it to the group that ends here"),
         Error::DuplicateStructField { .. } => ("the field is given twice", "remove one of the two"),
         Error::ExpectedComma if rest.starts_with('.') => ("the number is not whole", "write a whole number, e.g. 36"),
         Error::ExpectedComma | Error::ExpectedArrayEnd => ("a comma or a closing bracket is missing", "add it before this point"),

@@ -7,6 +7,7 @@ use homogenization::identify::{Family, MaterialPrior, Prior, RingPrior, Target, 
 
 use super::InputError;
 use super::group::Group;
+use super::kind::TARGETS;
 use super::mirror::Mirror;
 use super::quantity::{Conductivity, ExpansionPerK, FibreUm, ModulusGpa, ModulusMpa, Quantity, Ratio};
 use super::source::Source;
@@ -36,7 +37,7 @@ pub struct TargetsCase {
 /// What is wrong, in which file, line and field, and how to mend it.
 pub fn read_targets(path: &Path) -> Result<TargetsCase, InputError> {
     let source = Source::read(path)?;
-    let file: TargetsFile = source.parse()?;
+    let file: TargetsFile = source.parse(Some(&TARGETS))?;
     let top = Group::whole(&source);
     let pitch = file.pitch_um.model();
     let targets = entries(&top.group("targets"), &file.targets)?;

@@ -4,7 +4,7 @@ use homogenization::identify::literature::Kind;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::mirror::mirror_choice;
+use super::mirror::mirrored_choice;
 use super::quantity::FibreUm;
 
 /// Measured effective constants and the cells to try, `TARGETS.ron`.
@@ -110,16 +110,6 @@ pub(crate) struct MaterialFile {
     pub(crate) conductivity_w_per_mk: RangeFile,
 }
 
-/// A kind of material, with ranges from the literature.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy)]
-pub(crate) enum KindFile {
-    Silica,
-    SoftPrimary,
-    HardSecondary,
-    AnyCoating,
-    Adhesive,
-}
-
 /// A range that holds 90 % of the expectation: from the literature, or Between(low, high).
 #[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Default)]
 pub(crate) enum RangeFile {
@@ -128,4 +118,7 @@ pub(crate) enum RangeFile {
     Between(f64, f64),
 }
 
-mirror_choice!(KindFile is Kind { Silica, SoftPrimary, HardSecondary, AnyCoating, Adhesive });
+mirrored_choice! {
+    /// A kind of material, with ranges from the literature.
+    KindFile is Kind: { Silica, SoftPrimary, HardSecondary, AnyCoating, Adhesive }
+}

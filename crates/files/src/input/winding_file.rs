@@ -1,107 +1,69 @@
 //! The winding of `COIL.ron`: as it is written, and laid turn by turn.
 
 use coil::Side;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use winding::{ClimbSide, LayerDefect, Pattern, Spec, Tails, TurnLength, Winding};
 
 use super::InputError;
 use super::group::Group;
-use super::mirror::{Mirror, mirror, mirror_choice};
+use super::mirror::{Mirror, mirrored, mirrored_choice};
 use super::quantity::{LengthMm, PitchMm, TailM};
 
 const MOST_LAYERS: usize = 10_000;
 const MOST_TURNS: usize = 100_000;
 
-/// How the fibre lies.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct WindingFile {
+mirrored! {
+    /// How the fibre lies.
+    WindingFile is Spec {
+        /// Which layer belongs to which half.
+        pattern: PatternFile = pattern,
+        /// Number of layers, 1 to 10000.
+        layers: usize = layers,
+        /// Turns of layers 1, 3, 5, ..., 1 to 100000.
+        turns_odd_layers: usize = turns_odd_layers,
+        /// Turns of layers 2, 4, 6, ...: as many, or one fewer.
+        turns_even_layers: usize = turns_even_layers,
+        /// Radius on which the first layer lies.
+        inner_radius_mm: LengthMm = inner_radius,
+        /// Distance of neighbouring turns.
+        pitch_mm: PitchMm = pitch,
+        /// Side at which the CW half passes from layer to layer; Right is +y.
+        cw_climbs: SideFile = cw_climbs,
+        /// True: 2 pi r; Equal: every turn the mean length.
+        turn_length: TurnLengthFile = turn_length,
+        /// Bare fibre beyond the winding.
+        tails_m: TailsFile = tails,
+        /// A layer wound wrongly; None unless given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        defect: Option<DefectFile> = defect,
+    }
+
+    /// A layer wound wrongly.
+    DefectFile is LayerDefect {
+        /// Which, from 1, outwards.
+        layer: usize = layer,
+        /// Turns too many, or if negative too few, of the half that owns the layer.
+        turns: i32 = turns,
+    }
+
+    /// Bare fibre beyond the winding, at the temperature of the hub's bore.
+    TailsFile is Tails {
+        /// At the CW half's outer end.
+        cw: TailM = cw,
+        /// At the CCW half's outer end.
+        ccw: TailM = ccw,
+    }
+}
+
+mirrored_choice! {
     /// Which layer belongs to which half.
-    pub(crate) pattern: PatternFile,
-    /// Number of layers, 1 to 10000.
-    pub(crate) layers: usize,
-    /// Turns of layers 1, 3, 5, ..., 1 to 100000.
-    pub(crate) turns_odd_layers: usize,
-    /// Turns of layers 2, 4, 6, ...: as many, or one fewer.
-    pub(crate) turns_even_layers: usize,
-    /// Radius on which the first layer lies.
-    pub(crate) inner_radius_mm: LengthMm,
-    /// Distance of neighbouring turns.
-    pub(crate) pitch_mm: PitchMm,
-    /// Side at which the CW half passes from layer to layer; Right is +y.
-    pub(crate) cw_climbs: SideFile,
-    /// True: 2 pi r; Equal: every turn the mean length.
-    pub(crate) turn_length: TurnLengthFile,
-    /// Bare fibre beyond the winding.
-    pub(crate) tails_m: TailsFile,
-    /// A layer wound wrongly; None unless given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) defect: Option<DefectFile>,
-}
+    PatternFile is Pattern: { Cylindrical, Dipole, Quadrupole, PracticalQuadrupole, Octupole }
 
-/// A layer wound wrongly.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct DefectFile {
-    /// Which, from 1, outwards.
-    pub(crate) layer: usize,
-    /// Turns too many, or if negative too few, of the half that owns the layer.
-    pub(crate) turns: i32,
-}
+    /// An end of the coil: Left is y = 0, Right +y.
+    SideFile is Side, ClimbSide: { Left, Right }
 
-/// Which layer belongs to which half.
-#[derive(Serialize, Deserialize, JsonSchema)]
-pub(crate) enum PatternFile {
-    Cylindrical,
-    Dipole,
-    Quadrupole,
-    PracticalQuadrupole,
-    Octupole,
+    /// How long a turn is.
+    TurnLengthFile is TurnLength: { True, Equal }
 }
-
-/// An end of the coil: Left is y = 0, Right +y.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy)]
-pub(crate) enum SideFile {
-    Left,
-    Right,
-}
-
-/// How long a turn is.
-#[derive(Serialize, Deserialize, JsonSchema)]
-pub(crate) enum TurnLengthFile {
-    True,
-    Equal,
-}
-
-/// Bare fibre beyond the winding, at the temperature of the hub's bore.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct TailsFile {
-    /// At the CW half's outer end.
-    pub(crate) cw: TailM,
-    /// At the CCW half's outer end.
-    pub(crate) ccw: TailM,
-}
-
-mirror!(WindingFile is Spec {
-    pattern = pattern,
-    layers = layers,
-    turns_odd_layers = turns_odd_layers,
-    turns_even_layers = turns_even_layers,
-    inner_radius_mm = inner_radius,
-    pitch_mm = pitch,
-    cw_climbs = cw_climbs,
-    turn_length = turn_length,
-    tails_m = tails,
-    defect = defect,
-});
-mirror!(DefectFile is LayerDefect { layer = layer, turns = turns });
-mirror!(TailsFile is Tails { cw = cw, ccw = ccw });
-mirror_choice!(PatternFile is Pattern { Cylindrical, Dipole, Quadrupole, PracticalQuadrupole, Octupole });
-mirror_choice!(SideFile is Side { Left, Right });
-mirror_choice!(SideFile is ClimbSide { Left, Right });
-mirror_choice!(TurnLengthFile is TurnLength { True, Equal });
 
 /// Lays the turns.
 pub(super) fn winding(at: &Group, file: &WindingFile) -> Result<Winding, InputError> {

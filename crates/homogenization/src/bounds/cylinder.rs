@@ -2,7 +2,7 @@
 
 use super::phases::{Phase, phases};
 use crate::{Effective, Error, FibreCell};
-use nalgebra::{Matrix2, Matrix4, Matrix4x2, Matrix6, RowVector3, SMatrix, Vector6};
+use nalgebra::{Matrix2, Matrix4, Matrix4x2, Matrix6, RowVector3, RowVector4, SMatrix, Vector6};
 
 /// Effective response of an assemblage of composite cylinders, the cell's circle of equal area: exact for the assemblage (Hashin and
 /// Rosen 1964), but for the shear modulus across the fibre, which is the generalised self-consistent one (Christensen and Lo 1979,
@@ -99,24 +99,12 @@ fn antiplane(phases: &[Phase], modulus: impl Fn(&Phase) -> f64) -> f64 {
 fn states(phase: &Phase, r: f64) -> Matrix4<f64> {
     let (g, kappa) = (phase.shear, 1.0 + 2.0 * phase.shear / phase.bulk);
     let (r2, i2) = (r * r, 1.0 / (r * r));
-    Matrix4::new(
-        r,
-        (kappa - 3.0) * r * r2,
-        (kappa + 1.0) / r,
-        i2 / r,
-        -r,
-        (kappa + 3.0) * r * r2,
-        (1.0 - kappa) / r,
-        i2 / r,
-        2.0 * g,
-        0.0,
-        -8.0 * g * i2,
-        -6.0 * g * i2 * i2,
-        -2.0 * g,
-        12.0 * g * r2,
-        -4.0 * g * i2,
-        -6.0 * g * i2 * i2,
-    )
+    Matrix4::from_rows(&[
+        RowVector4::new(r, (kappa - 3.0) * r * r2, (kappa + 1.0) / r, i2 / r),
+        RowVector4::new(-r, (kappa + 3.0) * r * r2, (1.0 - kappa) / r, i2 / r),
+        RowVector4::new(2.0 * g, 0.0, -8.0 * g * i2, -6.0 * g * i2 * i2),
+        RowVector4::new(-2.0 * g, 12.0 * g * r2, -4.0 * g * i2, -6.0 * g * i2 * i2),
+    ])
 }
 
 /// The medium whose far shear the embedded composite cylinder does not disturb on average: the `z⁻¹` state is absent outside.

@@ -49,21 +49,11 @@ pub(crate) fn uniform_stress(phases: &[Phase]) -> Form {
 
 /// The Legendre transform in the strains: compliance, expansion and what belongs to T; its own inverse, and it turns the order round.
 fn conjugate(form: &Form) -> Option<Form> {
-    let inverse = form.fixed_view::<2, 2>(0, 0).try_inverse()?;
+    let s = form.fixed_view::<2, 2>(0, 0).try_inverse()?;
     let b = form.fixed_view::<2, 1>(0, 2).into_owned();
-    let alpha = -(inverse * b);
-    let last = (b.transpose() * inverse * b)[0] - form[(2, 2)];
-    Some(Matrix3::new(
-        inverse[(0, 0)],
-        inverse[(0, 1)],
-        alpha[0],
-        inverse[(1, 0)],
-        inverse[(1, 1)],
-        alpha[1],
-        alpha[0],
-        alpha[1],
-        last,
-    ))
+    let alpha = -(s * b);
+    let last = (b.transpose() * s * b)[0] - form[(2, 2)];
+    Some(Matrix3::new(s[(0, 0)], s[(0, 1)], alpha[0], s[(1, 0)], s[(1, 1)], alpha[1], alpha[0], alpha[1], last))
 }
 
 /// Two forms in Loewner order, the lower first, and their conjugates, whose order is the other way round.

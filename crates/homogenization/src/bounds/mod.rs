@@ -44,12 +44,8 @@ pub struct Bounds {
 impl Range {
     /// Names and the two bounds of each constant.
     pub fn named(&self) -> [(&'static str, [f64; 2]); 16] {
-        let upper = self.upper.named();
-        let mut i = 0;
-        self.lower.named().map(|(name, lower)| {
-            i += 1;
-            (name, [lower, upper[i - 1].1])
-        })
+        let (lower, upper) = (self.lower.named(), self.upper.named());
+        std::array::from_fn(|i| (lower[i].0, [lower[i].1, upper[i].1]))
     }
 }
 
@@ -132,26 +128,6 @@ fn enclosed(phases: &[Phase], pair: &Pair, [g_r, g_zr, k_r]: [Interval; 3]) -> R
         [k_z; 2],
         k_r,
     ];
-    let of = |end: usize, none: f64| {
-        let [e_z, e_r, g_zr, g_r, k_plane_strain, nu_zr, nu_r, nu_rz, alpha_z, alpha_r, k_z, k_r] = rows.map(|r| r[end]);
-        Constants {
-            e_z,
-            e_r,
-            g_zr,
-            g_r,
-            k_plane_strain,
-            nu_zr,
-            nu_r,
-            nu_rz,
-            alpha_z,
-            alpha_r,
-            k_z,
-            k_r,
-            m_rx: none,
-            m_ry: none,
-            m_rz: none,
-            m_rt: none,
-        }
-    };
+    let of = |end: usize, none: f64| Constants::of(std::array::from_fn(|i| rows.get(i).map_or(none, |row| row[end])));
     Range { lower: of(0, f64::NEG_INFINITY), upper: of(1, f64::INFINITY) }
 }

@@ -40,11 +40,7 @@ pub(crate) fn phases(cell: &FibreCell) -> Result<Vec<Phase>, Error> {
     let rings = cell.rings.iter().map(|r| (PI * r.outer_radius * r.outer_radius / area, r.constituent, r.role == Role::Glass));
     let mut phases: Vec<Phase> = Vec::with_capacity(cell.rings.len() + 1);
     for (i, (filled, c, glass)) in rings.chain([(1.0, cell.adhesive, false)]).enumerate() {
-        let constituent = || if i < cell.rings.len() { format!("ring {i}") } else { "adhesive".into() };
-        c.elastic.law().map_err(|source| Error::Constituent { constituent: constituent(), source })?;
-        if !(c.conductivity.is_finite() && c.conductivity > 0.0) {
-            return Err(Error::Conductivity { constituent: constituent(), value: c.conductivity });
-        }
+        c.law(|| cell.phase_name(i))?;
         let (lambda, shear) = (c.elastic.lame_lambda(), c.elastic.shear_modulus());
         let share = filled - phases.last().map_or(0.0, |p| p.filled);
         let (bulk, expansion) = (lambda + shear, c.elastic.thermal_expansion);

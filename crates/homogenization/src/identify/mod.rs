@@ -15,94 +15,28 @@ mod family;
 mod fit;
 pub mod literature;
 mod measurement;
+mod outcome;
 mod posterior;
 mod prior;
-mod random;
 mod region;
 mod response;
 mod sample;
 mod search;
 mod target;
 
+pub use crate::random::Random;
 pub use family::{Family, MaterialPrior, Parameter, Quantity, RingPrior, Volume};
 pub use measurement::Measurement;
+pub use outcome::{FamilyFit, Fit, ORDINARY};
 pub use posterior::{Direction, Posterior};
 pub use prior::{Prior, Scale, Z95};
-pub use random::Random;
 pub use region::Region;
 pub use response::Known;
 pub use search::starts;
 pub use target::{Target, Uncertainty};
 
-use crate::FibreCell;
 use emulator::Emulator;
 use search::{Demand, Found, search};
-
-/// A constant within this many standard deviations of its prior's median is ordinary.
-pub const ORDINARY: f64 = 3.0;
-
-/// A cell and what it gives.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Fit {
-    /// Its parameters in prior standard deviations.
-    pub u: Vec<f64>,
-    /// Its parameters, SI.
-    pub values: Vec<f64>,
-    /// The cell.
-    pub cell: FibreCell,
-    /// Each target's constant, solved.
-    pub entries: Vec<f64>,
-    /// Whether each is met.
-    pub met: Vec<bool>,
-    known: Known,
-    response: response::Response,
-}
-
-impl Fit {
-    fn new(family: &Family, targets: &[Target], u: Vec<f64>, response: response::Response) -> Option<Self> {
-        let known = response::known(&response);
-        let entries: Vec<f64> = targets.iter().map(|t| t.of(&known)).collect();
-        let met = targets.iter().zip(&entries).map(|(t, value)| t.is_met(*value)).collect();
-        let values = family.parameters().iter().zip(&u).map(|(p, u)| p.prior.value(*u)).collect();
-        Some(Self { cell: family.cell(&u)?, u, values, entries, met, known, response })
-    }
-
-    /// Whether every entry is met.
-    pub fn reproduces(&self) -> bool {
-        self.met.iter().all(|met| *met)
-    }
-
-    /// The parameter farthest from its prior, and how many standard deviations that is.
-    pub fn farthest(&self) -> (usize, f64) {
-        self.u.iter().map(|u| u.abs()).enumerate().fold((0, 0.0), |most, next| if next.1 > most.1 { next } else { most })
-    }
-
-    /// Whether every constant is ordinary.
-    pub fn is_ordinary(&self) -> bool {
-        self.farthest().1 <= ORDINARY
-    }
-}
-
-/// What a family can do.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FamilyFit {
-    /// The cell that meets the entries best, however far from the priors.
-    pub best: Fit,
-    /// Where that is not ordinary or does not meet all: the ordinary cell that misses least.
-    pub ordinary: Option<Fit>,
-}
-
-impl FamilyFit {
-    /// An ordinary cell that meets every entry.
-    pub fn explains(&self) -> bool {
-        self.fit().reproduces() && self.fit().is_ordinary()
-    }
-
-    /// The ordinary cell if there is need for one, else the best.
-    pub fn fit(&self) -> &Fit {
-        self.ordinary.as_ref().unwrap_or(&self.best)
-    }
-}
 
 /// Two sets of constituents that explain the entries alike.
 #[derive(Debug, Clone, PartialEq)]

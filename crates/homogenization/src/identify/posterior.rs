@@ -67,9 +67,7 @@ impl Posterior {
 
     /// Standard deviation of parameter `j`: what is left of one.
     pub fn deviation(&self, j: usize) -> f64 {
-        let n = self.draws.len() as f64;
-        let mean = self.draws.iter().map(|u| u[j]).sum::<f64>() / n;
-        (self.draws.iter().map(|u| (u[j] - mean).powi(2)).sum::<f64>() / n).sqrt()
+        region::mean_and_deviation(&self.draws, j).1
     }
 
     /// Central intervals, all of the same tail probability, that hold all parameters together with `probability`.

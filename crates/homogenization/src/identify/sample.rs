@@ -9,8 +9,8 @@
 
 use super::emulator::Emulator;
 use super::fit::jacobian;
-use super::random::Random;
 use super::target::{Target, Uncertainty, distances};
+use crate::random::Random;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Longest step and most steps of one trajectory; both are drawn anew for each.

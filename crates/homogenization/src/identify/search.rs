@@ -1,11 +1,11 @@
 //! The best cell of a family: many starts on the emulator, the promising ones refined with the solved cell.
 
-use super::ORDINARY;
 use super::emulator::Emulator;
 use super::fit::minimise;
-use super::random::Random;
+use super::outcome::ORDINARY;
 use super::response::{Response, known, solved};
 use super::target::{Target, beyond, distances};
+use crate::random::Random;
 
 /// Starts drawn from the priors.
 const STARTS: usize = 60;

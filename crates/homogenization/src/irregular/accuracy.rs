@@ -1,7 +1,7 @@
 //! Order and mesh that follow from the accuracy asked for.
 
 use super::{Cell, Directional, Response, Solution};
-use crate::homogenize::SHARE;
+use crate::homogenize::{SHARE, worst};
 use crate::rounding::SPREAD;
 use crate::{Error, SAFETY};
 
@@ -137,11 +137,6 @@ impl Cell {
         let floor = SHARE * most.iter().fold(0.0, |worst: f64, one| worst.max(*one));
         most.into_iter().map(|one| one.max(floor)).collect()
     }
-}
-
-/// The constant with the largest of some errors.
-fn worst(errors: &[(&'static str, f64)]) -> (&'static str, f64) {
-    errors.iter().fold(("", 0.0), |worst, one| if one.1 > worst.1 || one.1.is_nan() { *one } else { worst })
 }
 
 fn constants(solution: &Solution) -> Result<Directional, Error> {

@@ -3,7 +3,6 @@
 use super::response::mean_over_turns;
 use super::{Response, TEMPERATURE};
 use crate::{Constants, NEGLIGIBLE, SAFETY};
-use nalgebra::Matrix6;
 
 /// Engineering constants along x, y, z (z = fibre). SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,30 +23,10 @@ pub struct Directional {
     pub m: [f64; 5],
 }
 
+#[rustfmt::skip]
 const NAMES: [&str; 23] = [
-    "e_x",
-    "e_y",
-    "e_z",
-    "g_yz",
-    "g_xz",
-    "g_xy",
-    "nu_zx",
-    "nu_zy",
-    "nu_xy",
-    "alpha_x",
-    "alpha_y",
-    "alpha_z",
-    "alpha_xy",
-    "k_x",
-    "k_y",
-    "k_z",
-    "k_xy",
-    "k_plane_strain",
-    "m_rx",
-    "m_ry",
-    "m_rz",
-    "m_rxy",
-    "m_rt",
+    "e_x", "e_y", "e_z", "g_yz", "g_xz", "g_xy", "nu_zx", "nu_zy", "nu_xy", "alpha_x", "alpha_y", "alpha_z", "alpha_xy",
+    "k_x", "k_y", "k_z", "k_xy", "k_plane_strain", "m_rx", "m_ry", "m_rz", "m_rxy", "m_rt",
 ];
 
 impl Directional {
@@ -108,31 +87,11 @@ impl Response {
     /// The nearest transversely isotropic constants and row M, for a coil: those of the mean over all turns about z. `None` if that is
     /// singular.
     pub fn transversely_isotropic(&self) -> Option<Constants> {
-        let mean = mean_over_turns(&self.law());
-        let stiffness = &mean.stiffness;
-        let compliance: Matrix6<f64> = stiffness.try_inverse()?;
-        let alpha = compliance * mean.thermal_stress;
         // (xx + yy)/2 is the same in any axes: turning the cell only mixes what xx and yy do to it
         let [m_x, m_y, m_rz, m_rt] = [0, 1, 2, TEMPERATURE].map(|load| self.glass_radial(load));
-        let (m_rx, m_ry) = (f64::midpoint(m_x, m_y), f64::midpoint(m_x, m_y));
-        Some(Constants {
-            e_z: 1.0 / compliance[(2, 2)],
-            e_r: 1.0 / compliance[(0, 0)],
-            g_zr: stiffness[(4, 4)],
-            g_r: stiffness[(5, 5)],
-            k_plane_strain: (stiffness[(0, 0)] + stiffness[(0, 1)]) / 2.0,
-            nu_zr: -compliance[(0, 2)] / compliance[(2, 2)],
-            nu_r: -compliance[(0, 1)] / compliance[(0, 0)],
-            nu_rz: -compliance[(2, 0)] / compliance[(0, 0)],
-            alpha_z: alpha[2],
-            alpha_r: alpha[0],
-            k_z: self.conductivity_z,
-            k_r: self.conductivity.trace() / 2.0,
-            m_rx,
-            m_ry,
-            m_rz,
-            m_rt,
-        })
+        let m_r = f64::midpoint(m_x, m_y);
+        let conductivities = [self.conductivity_z, self.conductivity.trace() / 2.0];
+        Constants::read(&mean_over_turns(&self.law()), conductivities, [m_r, m_r, m_rz, m_rt])
     }
 
     /// Mean radial strain (xx + yy)/2 of the glass under a unit load.

@@ -2,7 +2,7 @@
 //! and of the outermost radius, with real coefficients under loads that are even about the axes and imaginary ones under shear xy.
 
 use super::stack::{Harmonic, Plane, Ring, Swelling};
-use super::{Multipoles, solve};
+use super::system::{Multipoles, solve};
 use crate::cell::Phases;
 use crate::solve::{GLASS_ROWS, VOIGT};
 use crate::{Effective, Error, FibreCell};

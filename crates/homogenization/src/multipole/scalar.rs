@@ -2,7 +2,7 @@
 //! imaginary ones along y.
 
 use super::stack::conduction;
-use super::{Multipoles, solve};
+use super::system::{Multipoles, solve};
 use crate::{Error, FibreCell};
 use nalgebra::DMatrix;
 

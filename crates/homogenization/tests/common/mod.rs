@@ -20,49 +20,42 @@ pub(crate) fn glass() -> Constituent {
 
 /// The dual-coated fibre whose constants round to the paper's Table I.
 pub(crate) fn reference() -> FibreCell {
-    FibreCell {
-        packing: homogenization::Packing::Hexagonal,
-        pitch: 170e-6,
-        rings: vec![
+    FibreCell::hexagonal(
+        170e-6,
+        vec![
             ring(80.0, glass(), Role::Glass),
             ring(112.0, solid(2.0e6, 0.4998, 250e-6, 0.15), Role::Coating),
             ring(165.0, solid(870e6, 0.4118, 102.75e-6, 0.30), Role::Coating),
         ],
-        adhesive: solid(5.593e6, 0.49985, 250e-6, 0.45),
-    }
+        solid(5.593e6, 0.49985, 250e-6, 0.45),
+    )
 }
 
 /// Cells unlike the reference: thinner film, bare fibre in much epoxy, thick stiff coating with a separate core.
 pub(crate) fn varied() -> [FibreCell; 3] {
     let thin = FibreCell { pitch: 167e-6, ..reference() };
-    let bare = FibreCell {
-        packing: homogenization::Packing::Hexagonal,
-        pitch: 200e-6,
-        rings: vec![ring(125.0, glass(), Role::Glass)],
-        adhesive: solid(3e9, 0.38, 60e-6, 0.2),
-    };
-    let thick = FibreCell {
-        packing: homogenization::Packing::Hexagonal,
-        pitch: 260e-6,
-        rings: vec![
+    let bare = FibreCell::hexagonal(200e-6, vec![ring(125.0, glass(), Role::Glass)], solid(3e9, 0.38, 60e-6, 0.2));
+    let thick = FibreCell::hexagonal(
+        260e-6,
+        vec![
             ring(9.0, solid(69e9, 0.18, 1.1e-6, 1.3), Role::Glass),
             ring(125.0, glass(), Role::Glass),
             ring(135.0, solid(5e6, 0.499, 200e-6, 0.2), Role::Coating),
             ring(245.0, solid(1.4e9, 0.40, 80e-6, 0.25), Role::Coating),
         ],
-        adhesive: solid(20e6, 0.495, 220e-6, 0.4),
-    };
+        solid(20e6, 0.495, 220e-6, 0.4),
+    );
     [thin, bare, thick]
+}
+
+/// All of these.
+pub(crate) fn cells() -> impl Iterator<Item = FibreCell> {
+    varied().into_iter().chain([reference()])
 }
 
 /// A bare fibre of radius 0.38 pitch (52 % by area) in a matrix.
 pub(crate) fn two_phase(fibre: Constituent, matrix: Constituent) -> FibreCell {
-    FibreCell {
-        packing: homogenization::Packing::Hexagonal,
-        pitch: 1.0,
-        rings: vec![Ring { outer_radius: 0.38, constituent: fibre, role: Role::Glass }],
-        adhesive: matrix,
-    }
+    FibreCell::hexagonal(1.0, vec![Ring { outer_radius: 0.38, constituent: fibre, role: Role::Glass }], matrix)
 }
 
 /// Two sectors per 30°, one element across each phase.

@@ -1,0 +1,41 @@
+//! States of a reduced model and the intervals between them, with the two small functions that everything on modes is made of.
+
+use nalgebra::DVector;
+
+/// State of a [`super::Reduced`] at an instant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ThermalState {
+    /// Drives: temperatures \[K or °C\], heaters in parts of their power.
+    pub drives: Vec<f64>,
+    /// Amplitude of each mode.
+    pub amplitudes: Vec<f64>,
+}
+
+impl ThermalState {
+    /// Drives, then amplitudes.
+    pub fn vector(&self) -> DVector<f64> {
+        let (drives, amplitudes) = (&self.drives, &self.amplitudes);
+        DVector::from_iterator(drives.len() + amplitudes.len(), drives.iter().chain(amplitudes).copied())
+    }
+}
+
+/// An interval between two instants, over which the drives are linear.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Step {
+    /// State at its start.
+    pub from: ThermalState,
+    /// Change of each drive per second.
+    pub slope: Vec<f64>,
+    /// Its length \[s\], > 0.
+    pub dt: f64,
+}
+
+/// Σ aᵢ bᵢ.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// (1 − e^−x)/x, smooth at 0.
+pub(super) fn settled(x: f64) -> f64 {
+    if x.abs() < 1e-8 { 1.0 - x / 2.0 } else { -(-x).exp_m1() / x }
+}
