@@ -1,9 +1,13 @@
 //! `cargo xtask bench diagnose`: whole diagnoses of the open cases, on one thread.
 
-use super::{Failure, Progress, Stopwatch, median, publish, root};
+use super::tools::{Progress, publish};
 use fogcoil::cache::Cache;
 use fogcoil::diagnose;
 use fogcoil::input::{self, RecordOptions};
+use proof::Failure;
+use proof::files::root;
+use proof::peers::Stopwatch;
+use proof::statistics::middle as median;
 use std::fmt::Write as _;
 
 /// Rows of a day at 30 s, to which times are scaled.

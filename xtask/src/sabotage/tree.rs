@@ -1,7 +1,8 @@
 //! A copy of the crates, broken, built and tested.
 
-use super::{CRATES, Sabotage};
+use super::list::{CRATES, Sabotage};
 use proof::Failure;
+use proof::program::hex;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::fs;
@@ -21,10 +22,6 @@ pub(super) struct Tree {
     target: PathBuf,
     /// of all sources
     hash: String,
-}
-
-fn hex(hash: Sha256) -> String {
-    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 fn failed(path: &Path) -> impl Fn(std::io::Error) -> Failure {

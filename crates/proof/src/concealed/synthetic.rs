@@ -14,7 +14,6 @@ use crate::files::{self, root};
 use crate::truth::Truth;
 use clap::Args;
 
-use super::{report, summary};
 use crate::Failure;
 use crate::generator::{self, Generator, Which};
 use crate::program;
@@ -41,22 +40,6 @@ pub(crate) struct Case {
 }
 
 impl Plan {
-    /// Makes, answers and scores; writes the section of docs/proof.md. Whether all scores are as asked.
-    ///
-    /// # Errors
-    /// [`Failure`] says what went wrong; what is finished is kept and not done again.
-    pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let folder = root().join("target/prove/synthetic").join(self.seed.to_string());
-        let program = program::hash(&root())?;
-        let cases = self.cases(&folder, &Cache::of_user())?;
-        let scored: Vec<Scored> = cases.iter().map(|case| case.scored.clone()).collect();
-        let table = summary::summary(&scored);
-        report::publish("synthetic", &program, &super::section::section(self, &cases, &table))?;
-        println!("{}", report::lines(&table));
-        table.failures().for_each(|row| eprintln!("FAILS: {}: {}", row.group, row.quantity));
-        Ok(table.failures().next().is_none())
-    }
-
     fn units(&self) -> Vec<Which> {
         let all = (0..self.nulls.max(self.concealed)).flat_map(|n| [Which::Null(n), Which::Concealed(n)]);
         all.filter(|which| match which {

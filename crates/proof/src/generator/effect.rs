@@ -1,7 +1,7 @@
 //! What can be concealed: the families of the library, built straight into a design, with parameters at random.
 
+use super::build::{Build, Softening};
 use super::outside::Outside;
-use super::plant::{Build, Softening};
 use super::random::Random;
 use crate::truth::Mechanism;
 use coil::{Body, Heater, Mechanics, Mount, Opening, Side};

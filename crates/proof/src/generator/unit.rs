@@ -1,10 +1,11 @@
 //! One unit: drawn, sized, run under two programmes, written down.
 
+use super::build::Build;
 use super::chamber;
 use super::effect::{self, Effect};
 use super::noise::{Noise, SPAN};
 use super::outside::{Outside, SHAPES};
-use super::plant::{Build, Plant};
+use super::plant::Plant;
 use super::random::Random;
 use super::record::{Sensors, Signal, THERMOMETER};
 use super::scene::{AIRIER, Judge, Scene, minus};

@@ -2,7 +2,7 @@
 
 use super::fixtures::{Fixtures, Printed};
 use super::row::{Agreement, ComparisonRow, rounds_to};
-use super::{Section, timed};
+use super::section::{Section, timed};
 use crate::Failure;
 use homogenization::{Constants, Discretization, Extent, Homogenized, free_cell, homogenize, homogenize_on};
 

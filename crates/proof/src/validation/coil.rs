@@ -3,8 +3,8 @@
 use super::cell::{check, largest};
 use super::fixtures::{Fixtures, Printed};
 use super::row::{Agreement, ComparisonRow};
+use super::section::{Section, timed};
 use super::spread::{self, Spread};
-use super::{Section, timed};
 use crate::Failure;
 use bias::{Bias, Sensitivity, Slice};
 use coil::{COARSE, Dehomogenization, Design, FINE, MeshFineness, Model, steady_sensitivity};

@@ -7,11 +7,13 @@ mod finding;
 mod instants;
 mod outliers;
 mod runs;
+mod summary;
 mod units;
 
-pub use channel::{ChannelSummary, white_noise};
+pub use channel::white_noise;
 pub use finding::{Finding, Kind, Repair, Severity};
 pub use instants::{Gap, Instants};
+pub use summary::ChannelSummary;
 pub use units::{Expectation, Offset, Unit};
 
 use crate::Recording;

@@ -1,6 +1,6 @@
 //! Lone values far from their neighbours.
 
-use super::channel::Context;
+use super::summary::Context;
 use super::{Finding, Kind, Repair, Severity};
 use crate::statistics::median;
 

@@ -1,7 +1,7 @@
 //! Whether values are of the size that their unit makes them.
 
-use super::channel::COARSE;
-use super::{ChannelSummary, Finding, Kind, Severity};
+use super::summary::{COARSE, ChannelSummary};
+use super::{Finding, Kind, Severity};
 
 /// A unit in which a channel may be recorded by mistake: expected value = scale · value + offset.
 #[derive(Debug, Clone, PartialEq)]

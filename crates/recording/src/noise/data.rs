@@ -1,7 +1,7 @@
 //! A series made ready: checked, and long ones as means over groups of rows, for which the model stays exact.
 
+use super::NoiseModel;
 use super::regression::independent;
-use super::{NoiseModel, Series};
 use crate::Error;
 use crate::series::{GAP, check_series};
 use crate::statistics::median;
@@ -10,6 +10,19 @@ use crate::statistics::median;
 const MOST_ROWS: usize = 20_000;
 /// Fewest rows beyond the columns.
 const FEWEST_ROWS: usize = 16;
+
+/// A series whose noise is sought.
+#[derive(Debug, Clone, Copy)]
+pub struct Series<'a> {
+    /// Instants, increasing \[s\].
+    pub time: &'a [f64],
+    /// Values \[u\].
+    pub values: &'a [f64],
+    /// Rows that are used; of others no value is read.
+    pub mask: &'a [bool],
+    /// What besides noise the series may hold, each in an unknown amount: an offset, a trend, the columns of a Jacobian.
+    pub columns: &'a [&'a [f64]],
+}
 
 /// A series with its independent columns, perhaps thinned.
 pub(super) struct Data {

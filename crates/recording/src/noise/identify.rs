@@ -1,25 +1,12 @@
 //! The noise of a recording from the recording itself, by maximum likelihood.
 
-use super::data::Data;
+use super::data::{Data, Series};
 use super::regression::Regression;
 use super::{NoiseModel, Whitener};
 use crate::Error;
 use crate::minimise::{Effort, nelder_mead};
 use crate::statistics::median;
 use nalgebra::{Cholesky, DMatrix};
-
-/// A series whose noise is sought.
-#[derive(Debug, Clone, Copy)]
-pub struct Series<'a> {
-    /// Instants, increasing \[s\].
-    pub time: &'a [f64],
-    /// Values \[u\].
-    pub values: &'a [f64],
-    /// Rows that are used; of others no value is read.
-    pub mask: &'a [bool],
-    /// What besides noise the series may hold, each in an unknown amount: an offset, a trend, the columns of a Jacobian.
-    pub columns: &'a [&'a [f64]],
-}
 
 /// A term of the noise beside the white one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,6 +6,7 @@ mod model;
 mod regression;
 mod whitener;
 
-pub use identify::{Bounds, Candidate, NoiseEstimate, Series, StandardErrors, Term, identify, residual};
+pub use data::Series;
+pub use identify::{Bounds, Candidate, NoiseEstimate, StandardErrors, Term, identify, residual};
 pub use model::NoiseModel;
 pub use whitener::Whitener;
