@@ -55,7 +55,7 @@ macro_rules! straightened {
     };
 }
 
-/// In the order of [`super::CRATES`] from the last, so that little is built anew from one to the next.
+/// In the order of [`CRATES`] from the last, so that little is built anew from one to the next.
 pub(super) const LIST: &[Sabotage] = &[
     Sabotage {
         name: "Voigt: shear strain along the fibre counted once (finite elements)",

@@ -6,7 +6,7 @@ use std::time::Instant;
 use fogcoil::cache::Cache;
 use fogcoil::input;
 
-use super::answer::{Answer, answer, rates};
+use super::answer::{answer, answered, paths, records};
 use super::chain;
 use super::score::{Scored, score};
 use super::units::each;
@@ -77,9 +77,9 @@ impl Plan {
         // the library is built once, before the threads ask for it
         let library = chain::library(&coil, cache)?;
         each(&names, |name| {
-            let into = ["json", "csv"].map(|kind| answers.join(format!("{name}.{kind}")));
+            let into = paths(&answers, name);
             if !into.iter().all(|file| file.exists()) {
-                let files = answer(&coil, &folder.join(name).join("fit.csv"), &folder.join(name).join("holdout.csv"), cache)?;
+                let files = answer(&coil, &records(&folder.join(name)), cache)?;
                 let [json, prediction] = into;
                 files::write_all(&[(prediction, files.prediction), (json, files.json)])?;
                 say("is answered", name);
@@ -88,13 +88,11 @@ impl Plan {
         })?;
         each(&names, |name| {
             let mut truth = Truth::read(&truth_of(name))?;
-            let sheet = super::inseparable::Sheet::read(&truth_of(name))?;
-            let read = |kind: &str| files::read(&answers.join(format!("{name}.{kind}")));
-            let answer = Answer::parse(&read("json")?)?;
-            let model = chain::Unit::new(&library, &folder.join(name).join("fit.csv"), &folder.join(name).join("holdout.csv"))?;
-            super::inseparable::extend(&mut truth, &sheet, &answer, &model)?;
-            let held = model.held_out(&truth, &rates(&read("csv")?)?)?;
-            Ok(Case { scored: score(name, &truth, &answer, Some(held)), unseen: sheet.noise.unseen })
+            let (answer, predicted) = answered(&answers, name)?;
+            let model = chain::Unit::new(&library, &records(&folder.join(name)))?;
+            super::inseparable::extend(&mut truth, &answer, &model)?;
+            let held = model.held_out(&truth, &predicted)?;
+            Ok(Case { scored: score(name, &truth, &answer, Some(held)), unseen: truth.noise.unseen })
         })
     }
 }

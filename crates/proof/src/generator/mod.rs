@@ -20,7 +20,6 @@ mod plant;
 mod random;
 mod record;
 mod scene;
-mod sheet;
 mod unit;
 
 #[cfg(test)]
@@ -34,7 +33,7 @@ pub use unit::{Generator, Unit, Which};
 use sha2::{Digest, Sha256};
 
 /// What the units are made by, by file.
-const SOURCES: [(&str, &str); 15] = [
+const SOURCES: [(&str, &str); 14] = [
     ("build.rs", include_str!("build.rs")),
     ("chamber.rs", include_str!("chamber.rs")),
     ("effect.rs", include_str!("effect.rs")),
@@ -47,7 +46,6 @@ const SOURCES: [(&str, &str); 15] = [
     ("random.rs", include_str!("random.rs")),
     ("record.rs", include_str!("record.rs")),
     ("scene.rs", include_str!("scene.rs")),
-    ("sheet.rs", include_str!("sheet.rs")),
     ("unit.rs", include_str!("unit.rs")),
     ("coil-reference.ron", include_str!("../../../../fixtures/coil-reference.ron")),
 ];
