@@ -4,28 +4,28 @@ use maud::{Markup, html};
 
 use crate::number::significant;
 use crate::tables::{Cells, grid};
-use crate::{Content, Drawing, Figure, HeatMap, Panel, Series};
+use crate::{Content, Drawing, HeatMap, Panel, Series};
 
 /// Most rows of a table, extremes not counted.
 const MOST_ROWS: usize = 40;
 /// Most columns and rows of a map's table.
 const MOST_CELLS: [usize; 2] = [12, 20];
 
-/// The tables of a figure.
-pub(crate) fn data(figure: &Figure) -> Markup {
+/// The tables of a figure by its title and panels.
+pub(crate) fn data(title: &str, panels: &[Panel]) -> Markup {
     // of panels under one another the last alone names their axis
-    let shared = figure.panels.iter().rev().map(|p| p.x.label.as_str()).find(|label| !label.is_empty()).unwrap_or_default();
+    let shared = panels.iter().rev().map(|p| p.x.label.as_str()).find(|label| !label.is_empty()).unwrap_or_default();
     html! {
         details {
-            summary { "The data of this figure: " (figure.title) } "\n"
-            @for panel in &figure.panels { (table(figure, panel, shared)) }
+            summary { "The data of this figure: " (title) } "\n"
+            @for panel in panels { (table(title, panel, shared)) }
         } "\n"
     }
 }
 
-fn table(figure: &Figure, panel: &Panel, shared: &str) -> Markup {
+fn table(title: &str, panel: &Panel, shared: &str) -> Markup {
     // apart from the other tables of the page
-    let name = if panel.heading.is_empty() { figure.title.clone() } else { format!("{}, {}", figure.title, panel.heading) };
+    let name = if panel.heading.is_empty() { title.to_owned() } else { format!("{title}, {}", panel.heading) };
     let x = [panel.x.label.as_str(), shared, panel.heading.as_str(), "x"].into_iter().find(|x| !x.is_empty()).unwrap_or_default();
     match (&panel.content, &panel.y.names) {
         (Content::Lines(series), Some(names)) => named(&name, &panel.y.label, names, x, series),

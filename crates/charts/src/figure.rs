@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use crate::attributes;
 use crate::data::data;
 use crate::panel::{Panel, Place};
+use crate::size::{Measures, Size};
 use crate::style::document_style;
 use crate::svg::{Frame, Svg};
 
@@ -24,37 +25,6 @@ pub struct Figure<'a> {
     pub panels: Vec<Panel<'a>>,
 }
 
-/// For which paper a figure is drawn; a page holds both and shows one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Size {
-    /// Screens and paper.
-    Wide,
-    /// Phones.
-    Narrow,
-}
-
-/// Measures of a size \[px\].
-pub(crate) struct Measures {
-    class: &'static str,
-    width: f64,
-    pub(crate) font: f64,
-    /// Least distance of ticks along x and y.
-    pub(crate) apart: [f64; 2],
-    /// Most panels side by side.
-    columns: usize,
-    /// Whether it comes first on a page.
-    pub(crate) first: bool,
-}
-
-impl Size {
-    fn measures(self) -> Measures {
-        match self {
-            Self::Wide => Measures { class: "wide", width: 900.0, font: 14.0, apart: [75.0, 42.0], columns: 2, first: true },
-            Self::Narrow => Measures { class: "narrow", width: 360.0, font: 12.0, apart: [55.0, 30.0], columns: 1, first: false },
-        }
-    }
-}
-
 /// Height of the title above a document's panels \[px\].
 const HEAD: f64 = 36.0;
 
@@ -67,7 +37,7 @@ impl Figure<'_> {
                 (self.svg(Size::Wide)) (self.svg(Size::Narrow))
                 figcaption { (self.caption) }
             } "\n"
-            (data(self))
+            (data(&self.title, &self.panels))
         }
     }
 

@@ -47,6 +47,7 @@ mod page;
 mod panel;
 mod scale;
 mod series;
+mod size;
 mod style;
 mod svg;
 mod tables;
@@ -59,12 +60,9 @@ pub use number::{nice, signed, significant};
 pub use page::page;
 pub use panel::{Content, Height, Panel};
 pub use scale::{Axis, Ends};
-pub use series::{Series, Style, Thinning};
+pub use series::{MOST_POINTS, Series, Style, Thinning};
 pub use svg::{Attributes, Frame, Svg};
 pub use tables::{Cells, facts, grid, row};
-
-/// Most points of a drawn line.
-pub const MOST_POINTS: usize = 2000;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

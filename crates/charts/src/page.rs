@@ -33,5 +33,6 @@ pub fn page(title: &str, lead: &Markup, body: &Markup) -> String {
             }
         }
     };
-    page.into_string().chars().filter(|c| !c.is_control() || *c == '\n').collect()
+    let printable = |c: &char| !c.is_control() || *c == '\n';
+    page.into_string().chars().filter(printable).chain(['\n']).collect()
 }

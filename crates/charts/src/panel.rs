@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use crate::figure::Measures;
 use crate::scale::Scale;
+use crate::size::Measures;
 use crate::svg::Svg;
 use crate::{Axis, Colours, Drawing, Fill, HeatMap, Series, attributes};
 

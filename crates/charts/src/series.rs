@@ -2,8 +2,11 @@
 
 use std::fmt::Write;
 
+use crate::attributes;
 use crate::svg::Svg;
-use crate::{MOST_POINTS, attributes};
+
+/// Most points of a drawn line.
+pub const MOST_POINTS: usize = 2000;
 
 /// A line through points that are computed when they are needed.
 pub struct Series<'a> {

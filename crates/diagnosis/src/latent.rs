@@ -1,20 +1,12 @@
 //! Which part of the chain a mismatch comes from: one flexible input at a time, placed at each stage.
 
 use crate::fit::Fit;
-use crate::{Error, ForwardModel, Observation, whiteness};
+use crate::locate::whiteness;
+use crate::{Error, ForwardModel, Latent, Observation};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// Responses `[function][channel][row]` of one record.
 type Functions = Vec<Vec<Vec<f64>>>;
-
-/// A flexible input at one part of the chain: what the channels do when each of its functions acts with amplitude 1.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Latent {
-    /// Part of the chain.
-    pub stage: String,
-    /// Responses `[function][channel][row]`.
-    pub functions: Vec<Vec<Vec<f64>>>,
-}
 
 /// What a flexible input at one stage makes of a mismatch.
 #[derive(Debug, Clone, PartialEq)]

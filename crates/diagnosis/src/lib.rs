@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod candidate;
 mod discriminate;
 mod error;
 mod fit;
@@ -16,16 +17,17 @@ mod search;
 mod structure;
 mod verdict;
 
+pub use candidate::Candidate;
 pub use discriminate::{Plan, Separation, fitted, separation};
 pub use error::Error;
 pub use fit::{Fit, Hypothesis, alternatives};
 pub use hold_out::{HeldOut, as_designed};
-pub use latent::{Latent, Resolution, Stage};
+pub use latent::{Resolution, Stage};
 pub use locate::{Block, Cell, FREQUENCIES, Spectrum, whiteness};
-pub use model::{Active, Channel, ForwardModel, Mechanism, NoisePrior, Nuisance, Observation, Role, State};
+pub use model::{Active, Channel, ForwardModel, Latent, Mechanism, NoisePrior, Nuisance, Observation, Role, State};
 pub use parameter::{Parameter, Prior};
 pub use posterior::{Estimate, Place, Posterior};
 pub use rival::Rival;
-pub use search::{Candidate, Settings, diagnose};
+pub use search::{Settings, diagnose};
 pub use structure::Structure;
 pub use verdict::{Contradiction, Diagnosis, Judged, Judgement, Ruling, Verdict};

@@ -1,6 +1,6 @@
 //! What the engine needs of a forward model.
 
-use crate::{Latent, Parameter, Prior};
+use crate::{Parameter, Prior};
 
 /// One output that is both predicted and recorded.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,6 +87,15 @@ pub struct State {
     pub level: Vec<f64>,
     /// Its rate of change [level/s].
     pub rate: Vec<f64>,
+}
+
+/// A flexible input at one part of the chain: what the channels do when each of its functions acts with amplitude 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Latent {
+    /// Part of the chain.
+    pub stage: String,
+    /// Responses `[function][channel][row]`.
+    pub functions: Vec<Vec<Vec<f64>>>,
 }
 
 /// A nominal model with what it may leave out, prepared for some records.

@@ -1,6 +1,7 @@
 //! Families of functions of the state, for what no mechanism of the library explains.
 
 use crate::State;
+use recording::condition::slopes;
 
 /// A family of functions in which a residual is sought.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -133,13 +134,7 @@ pub(crate) fn bases(structure: Structure, time: &[f64], state: &State, reach: &R
         Structure::RateByLevel => one(hats(level, reach.level, 7).iter().map(|h| times(h, rate)).collect()),
         Structure::Rate => one(hats(rate, reach.rate, 7)),
         Structure::History => one(lags(time).iter().map(|tau| follow(time, rate, *tau)).collect()),
-        Structure::Acceleration => {
-            let change = (0..rate.len()).map(|n| {
-                let (a, b) = (n.saturating_sub(1), (n + 1).min(rate.len() - 1));
-                if b > a { (rate[b] - rate[a]) / (time[b] - time[a]) } else { 0.0 }
-            });
-            one(vec![change.collect()])
-        }
+        Structure::Acceleration => one(vec![slopes(time, rate)]),
         Structure::Direction => {
             let most = reach.rate[0].abs().max(reach.rate[1].abs());
             let direction: Vec<f64> = rate.iter().map(|r| (r / (0.02 * most).max(f64::MIN_POSITIVE)).tanh()).collect();

@@ -1,7 +1,9 @@
 //! Places of a design at which mechanisms act.
 
-use crate::REFERENCE_C;
 use coil::{Contact, Design, Side};
+
+/// Temperature at which ∂n/∂T has its nominal value, and at which a read-out's temperature coefficient is zero \[°C\].
+pub const REFERENCE_C: f64 = 20.0;
 
 /// The first flange whose bond to the coil holds.
 pub(crate) fn bonded_flange(design: &Design) -> Option<Side> {
@@ -24,4 +26,12 @@ pub(crate) fn drifts_about_reference(design: &Design) -> Option<Design> {
     }
     drifts.reference = REFERENCE_C;
     Some(changed)
+}
+
+/// The CW tail longer than the CCW tail by so much more \[m\].
+pub(crate) fn with_tail(design: &Design, cw_minus_ccw: f64) -> Design {
+    let mut changed = design.clone();
+    changed.winding.tails.cw += cw_minus_ccw.max(0.0);
+    changed.winding.tails.ccw += (-cw_minus_ccw).max(0.0);
+    changed
 }

@@ -2,17 +2,15 @@
 
 use crate::catalogue::air_path;
 use crate::chain::{Chain, add};
+use crate::change::Change;
 use crate::library::Library;
-use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Sight};
+use crate::mechanism::{Effect, Extent, Mechanism, Naming, Offer, Readings, Sight};
 use crate::nuisances::{self, channels, nuisances};
 use crate::record::{Parts, Prepared};
 use coil::{Design, Error};
 use diagnosis::{Active, Channel, ForwardModel, Latent, Nuisance, State};
 use std::cell::RefCell;
 use std::sync::Arc;
-
-/// Temperature at which ∂n/∂T has its nominal value, and at which a read-out's temperature coefficient is zero \[°C\].
-pub const REFERENCE_C: f64 = 20.0;
 
 /// Order of the channels.
 pub const SPOOL: usize = 0;

@@ -3,8 +3,10 @@
 //! [`Library`] holds reduced models of a design at chosen values of every mechanism's parameters; [`Prepared`] runs them under the
 //! chamber of one recording; [`Gyro`] interpolates between them and is the forward model that [`diagnosis`] fits.
 
+mod build;
 mod catalogue;
 mod chain;
+mod change;
 mod design;
 mod gyro;
 mod interpolation;
@@ -16,10 +18,12 @@ mod record;
 
 pub use catalogue::{CATALOGUE, find};
 pub use chain::Chain;
-pub use gyro::{Gyro, RATE, REFERENCE_C, SPOOL};
+pub use change::Change;
+pub use design::REFERENCE_C;
+pub use gyro::{Gyro, RATE, SPOOL};
 pub use library::Library;
 pub use mechanism::{
-    Change, Digits, Effect, Extent, Facts, HeatPath, Mechanism, Naming, Offer, Readings, Sight, Stage, Steady, lagged, middles,
+    Digits, Effect, Extent, Facts, HeatPath, Mechanism, Naming, Offer, Readings, Sight, Stage, Steady, lagged, middles,
     rates_per_hour,
 };
 pub use nuisances::with_constant;

@@ -1,5 +1,6 @@
 //! Mechanisms: all that the program needs to know of one, as a trait that one file implements.
 
+pub(crate) use crate::change::Change;
 use crate::record::Parts;
 use crate::{Chain, Prepared, REFERENCE_C};
 use bias::units::S_PER_H;
@@ -128,34 +129,6 @@ pub enum Effect {
     Coil(Change),
     /// It acts on the readings, after everything that changes the coil, in the order of the hypothesis.
     Readings(Box<dyn Fn(&mut Readings) + Send + Sync>),
-}
-
-/// Change of a coil's response, a value for each row of a record.
-#[derive(Debug, Clone)]
-pub struct Change {
-    /// Of the bias: Shupe, elasto-optic axial and radial \[deg/h\].
-    pub parts: Parts,
-    /// Of the spool's thermometer \[K\]; `None` if there is none.
-    pub thermometer: Option<Vec<f64>>,
-    /// Of the rate beside the bias \[deg/h\]; `None` if there is none.
-    pub rate: Option<Vec<f64>>,
-}
-
-impl Change {
-    /// Nothing changes.
-    pub fn none(record: &Prepared) -> Self {
-        Self::of_parts([0, 1, 2].map(|_| vec![0.0; record.time.len()]))
-    }
-
-    /// The bias changes alone.
-    pub fn of_parts(parts: Parts) -> Self {
-        Self { parts, thermometer: None, rate: None }
-    }
-
-    /// The rate changes, but no part of the bias.
-    pub fn of_rate(record: &Prepared, rate: Vec<f64>) -> Self {
-        Self { rate: Some(rate), ..Self::none(record) }
-    }
 }
 
 /// What thermometer and gyroscope say, a value for each row of a record.

@@ -256,12 +256,7 @@ impl Prepared {
         let heater = library.heater.as_ref().map(|model| Heating::new(model, &clock, averaging));
         let coil = course.output(library.base.coil_mean());
         let level = nominal.sensor.clone();
-        let rate = (0..time.len())
-            .map(|n| {
-                let (a, b) = (n.saturating_sub(1), (n + 1).min(time.len() - 1));
-                if b > a { (level[b] - level[a]) / (time[b] - time[a]) } else { 0.0 }
-            })
-            .collect();
+        let rate = recording::condition::slopes(time, &level);
         Ok(Self {
             time: time.to_vec(),
             chamber: clock.rows.iter().map(|&n| clock.chamber[n]).collect(),

@@ -1,78 +1,15 @@
 //! The library's interpolated responses against the chain itself: every mechanism as a changed design, modelled anew.
 
+#[path = "../../coil/tests/common/mod.rs"]
+mod common;
 mod read_out_curvature;
 
-use coil::{
-    Body, Contact, Dehomogenization, Design, Drifts, Drive, Dynamics, Flange, HeatPaths, Mechanics, Profile, STANDARD, Sensor,
-    Side, Solid, Spool, Surroundings,
-};
+use coil::{Design, Drive, Dynamics, Mechanics, Profile, STANDARD, Side};
+use common::reference as design;
 use diagnosis::{Active, ForwardModel};
 use mechanisms::{CATALOGUE, Gyro, Library, Mechanism, Prepared, RATE, REFERENCE_C, SPOOL};
 use read_out_curvature::ReadOutCurvature;
 use std::sync::OnceLock;
-
-fn design() -> Design {
-    use bias::{Optics, StrainConvention};
-    use fem_core::material::{Isotropic, TransverselyIsotropic};
-    use winding::{ClimbSide, Pattern, Spec, Tails, TurnLength};
-    Design {
-        winding: Spec {
-            pattern: Pattern::PracticalQuadrupole,
-            layers: 36,
-            turns_odd_layers: 106,
-            turns_even_layers: 105,
-            inner_radius: 43.5e-3,
-            pitch: 0.17e-3,
-            cw_climbs: ClimbSide::Right,
-            turn_length: TurnLength::True,
-            tails: Tails { cw: 0.0, ccw: 0.0 },
-            defect: None,
-        },
-        body: Body {
-            outer_radius: 48.825e-3,
-            height: 18.02e-3,
-            density: 1400.0,
-            specific_heat: 1300.0,
-            elastic: TransverselyIsotropic {
-                e_z: 14.5e9,
-                e_r: 95.2e6,
-                g_zr: 24.1e6,
-                nu_zr: 0.392,
-                nu_r: 0.979,
-                alpha_z: 3.36e-6,
-                alpha_r: 193e-6,
-            },
-            conductivity_z: 0.51,
-            conductivity_r: 0.34,
-        },
-        spool: Some(Spool {
-            material: Solid {
-                elastic: Isotropic { youngs_modulus: 68.9e9, poisson_ratio: 0.33, thermal_expansion: 23.6e-6 },
-                conductivity: 167.0,
-                density: 2700.0,
-                specific_heat: 896.0,
-            },
-            hub_thickness: 4e-3,
-            hub_contact: Contact::Bonded,
-            flanges: vec![Flange { side: Side::Right, thickness: 2e-3, overhang: 1e-3, contact: Contact::Bonded }],
-        }),
-        surroundings: Surroundings { conductivity: 0.026, density: 1.2, specific_heat: 1005.0, margin: 10e-3 },
-        mechanics: Mechanics::default(),
-        heat: HeatPaths::default(),
-        sensor: Sensor { radius: 39.5e-3, y: 10.01e-3, lag: 0.0 },
-        optics: Optics {
-            refractive_index: 1.45,
-            thermo_optic: 1e-5,
-            thermal_expansion: 0.55e-6,
-            p11: 0.121,
-            p12: 0.270,
-            sagnac_diameter: 92.325e-3,
-            strain: StrainConvention::Total,
-        },
-        drifts: Drifts::default(),
-        dehomogenization: Dehomogenization { m_rx: 0.0274, m_ry: 0.0270, m_rz: -0.17, m_rt: -9.98e-6 },
-    }
-}
 
 /// Twelve hours of a smooth course between −20 and 60 °C that starts at rest, a row a minute.
 fn course() -> (Vec<f64>, Vec<f64>) {

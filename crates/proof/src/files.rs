@@ -51,6 +51,22 @@ pub fn names(folder: &Path) -> Result<Vec<String>, Failure> {
     Ok(names)
 }
 
+/// All files below a folder, by their paths from there, in order.
+///
+/// # Errors
+/// [`Failure`] names the folder that cannot be read.
+pub fn below(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let (mut files, mut folders) = (Vec::new(), vec![PathBuf::new()]);
+    while let Some(inner) = folders.pop() {
+        for name in names(&folder.join(&inner))? {
+            let path = inner.join(name);
+            if folder.join(&path).is_dir() { &mut folders } else { &mut files }.push(path);
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
 /// Puts `text` between the lines `begin` and `end` of the page at `path`.
 ///
 /// # Errors
@@ -77,6 +93,7 @@ mod tests {
         assert!(renew(&page, ["<!-- b -->", "<!-- b end -->"], "").unwrap_err().0.contains("lacks the lines"));
         write_all(&[(folder.path().join("b/c"), "c".into()), (folder.path().join("a"), "a".into())]).unwrap();
         assert_eq!(names(folder.path()).unwrap(), ["a", "b", "page.md"]);
+        assert_eq!(below(folder.path()).unwrap(), ["a", "b/c", "page.md"].map(PathBuf::from));
         assert!(read(&folder.path().join("none")).unwrap_err().0.contains("none: "));
     }
 }

@@ -19,7 +19,8 @@ pub fn hash(root: &Path) -> Result<String, Failure> {
     for krate in files::names(&root.join("crates"))?.iter().filter(|krate| *krate != PROOF) {
         let krate = Path::new("crates").join(krate);
         sources.push(krate.join("Cargo.toml"));
-        collect(root, &krate.join("src"), &mut sources)?;
+        let folder = krate.join("src");
+        sources.extend(files::below(&root.join(&folder))?.into_iter().map(|file| folder.join(file)));
     }
     sources.sort();
     let mut hash = Sha256::new();
@@ -37,15 +38,6 @@ pub fn hash(root: &Path) -> Result<String, Failure> {
 /// A digest in hexadecimal digits.
 pub fn hex(hash: Sha256) -> String {
     hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
-/// Adds every file below `folder`, which is relative to `root`.
-fn collect(root: &Path, folder: &Path, sources: &mut Vec<PathBuf>) -> Result<(), Failure> {
-    for name in files::names(&root.join(folder))? {
-        let path = folder.join(name);
-        if root.join(&path).is_dir() { collect(root, &path, sources)? } else { sources.push(path) }
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -1,11 +1,7 @@
 //! Rates, medians and means with their 90 % intervals.
 
-use std::sync::LazyLock;
+use recording::statistics::normal_quantile;
 
-use statrs::distribution::{ContinuousCDF, Normal};
-
-/// Normal quantile beyond which a twentieth lies: the two ends of a 90 % interval.
-static Z95: LazyLock<f64> = LazyLock::new(|| Normal::standard().inverse_cdf(0.95));
 /// Resamples of a bootstrap.
 const RESAMPLES: usize = 4000;
 
@@ -25,9 +21,11 @@ pub fn rate(hits: usize, cases: usize) -> Option<Measured> {
     if cases == 0 {
         return None;
     }
-    let (n, p, z2) = (cases as f64, hits as f64 / cases as f64, *Z95 * *Z95);
+    // a twentieth lies beyond either end
+    let z = normal_quantile(0.95);
+    let (n, p, z2) = (cases as f64, hits as f64 / cases as f64, z * z);
     let centre = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
-    let half = *Z95 / (1.0 + z2 / n) * (p * (1.0 - p) / n + z2 / (4.0 * n * n)).sqrt();
+    let half = z / (1.0 + z2 / n) * (p * (1.0 - p) / n + z2 / (4.0 * n * n)).sqrt();
     // at the ends the two terms are equal but for rounding
     let low = if hits == 0 { 0.0 } else { centre - half };
     let high = if hits == cases { 1.0 } else { centre + half };
@@ -40,10 +38,8 @@ pub fn median(values: &[f64]) -> Option<Measured> {
 }
 
 /// The median alone; NaN of no value.
-pub fn middle(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let n = values.len();
-    if n == 0 { f64::NAN } else { (values[(n - 1) / 2] + values[n / 2]) / 2.0 }
+pub fn middle(values: Vec<f64>) -> f64 {
+    recording::statistics::median(values).unwrap_or(f64::NAN)
 }
 
 /// The mean; `None` for no value.
@@ -90,7 +86,7 @@ mod tests {
         // 8 of 10 at 90 %: roots of (p − 0.8)² = z² p (1 − p)/10
         let of = rate(8, 10).unwrap();
         for p in of.interval {
-            assert!(((p - 0.8).powi(2) - Z95.powi(2) * p * (1.0 - p) / 10.0).abs() < 1e-12, "{of:?}");
+            assert!(((p - 0.8).powi(2) - normal_quantile(0.95).powi(2) * p * (1.0 - p) / 10.0).abs() < 1e-12, "{of:?}");
         }
         assert_eq!(rate(0, 5).unwrap().interval[0], 0.0);
         assert_eq!(rate(5, 5).unwrap().interval[1], 1.0);
@@ -103,7 +99,7 @@ mod tests {
         let Measured { value, interval, cases } = mean(&values).unwrap();
         assert!((value - 0.49875).abs() < 1e-12 && cases == 400);
         // uniform: standard deviation of the mean 1/√(12 n)
-        let expected = 2.0 * *Z95 / (12.0 * 400.0_f64).sqrt();
+        let expected = 2.0 * normal_quantile(0.95) / (12.0 * 400.0_f64).sqrt();
         assert!(((interval[1] - interval[0]) / expected - 1.0).abs() < 0.1, "{interval:?}");
         assert_eq!(median(&[3.0, 1.0, 2.0, 10.0]).unwrap().value, 2.5);
         assert!(median(&[]).is_none());

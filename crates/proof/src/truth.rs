@@ -18,8 +18,12 @@ pub(crate) struct Truth {
     pub(crate) confusable_sets: Vec<Vec<String>>,
     /// The gyro's noise.
     pub(crate) noise: Noise,
+    pub(crate) spool_sensor: SpoolSensor,
     /// Sizes without noise.
     pub(crate) noise_free_rms_deg_per_h: Sizes,
+    /// Of the record that is fitted, of the one that judges: for a reader.
+    #[serde(skip_deserializing)]
+    pub(crate) profiles: [String; 2],
 }
 
 /// A mechanism with its parameters by name.
@@ -48,6 +52,16 @@ pub(crate) struct Noise {
     pub(crate) gm_tau_s: f64,
     pub(crate) rrw_deg_per_h_per_sqrt_h: f64,
     pub(crate) offset_deg_per_h: f64,
+    /// A family that the identification has no term for.
+    pub(crate) unseen: Option<String>,
+}
+
+/// The spool's thermometer \[K\].
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct SpoolSensor {
+    pub(crate) noise_c: f64,
+    pub(crate) quantisation_c: f64,
+    pub(crate) offset_c: f64,
 }
 
 /// Root mean squares of the rate without noise: the nominal design's, the unit's, their difference's.
@@ -115,6 +129,11 @@ impl Truth {
     /// Reads a truth file.
     pub(crate) fn read(file: &Path) -> Result<Self, Failure> {
         Ok(fogcoil::input::read_ron(file)?)
+    }
+
+    /// The text of a truth file.
+    pub(crate) fn write(&self) -> Result<String, Failure> {
+        Ok(ron::ser::to_string_pretty(self, ron::ser::PrettyConfig::default())? + "\n")
     }
 
     /// What was built in, `none` left out.

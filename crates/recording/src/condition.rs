@@ -112,6 +112,18 @@ pub fn bridged(time: &[f64], values: &[f64]) -> Option<Vec<f64>> {
     Some((0..values.len()).map(filled).collect())
 }
 
+/// Slope of a series at each instant, from the values beside it; 0 where there is but one.
+///
+/// # Panics
+/// If there are fewer values than instants.
+pub fn slopes(time: &[f64], values: &[f64]) -> Vec<f64> {
+    let at = |n: usize| {
+        let (a, b) = (n.saturating_sub(1), (n + 1).min(time.len() - 1));
+        if b > a { (values[b] - values[a]) / (time[b] - time[a]) } else { 0.0 }
+    };
+    (0..time.len()).map(at).collect()
+}
+
 /// What counts as rest at the beginning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rest {
@@ -166,6 +178,12 @@ mod tests {
     fn half_a_mean_is_none() {
         assert_eq!(mean(&[1.0, f64::NAN, 3.0, 5.0]), 3.0);
         assert!(mean(&[1.0, f64::NAN, f64::NAN]).is_nan() && mean(&[]).is_nan());
+    }
+
+    #[test]
+    fn slopes_are_taken_over_both_neighbours() {
+        assert_eq!(slopes(&[0.0, 1.0, 3.0], &[0.0, 2.0, 3.0]), [2.0, 1.0, 0.5]);
+        assert_eq!((slopes(&[5.0], &[1.0]), slopes(&[], &[])), (vec![0.0], vec![]));
     }
 
     #[test]

@@ -65,6 +65,18 @@ impl Sample {
     }
 }
 
+/// A sound recording with a change.
+fn altered(change: impl FnOnce(&mut Sample)) -> Sample {
+    let mut sample = sound(1, 0.01);
+    change(&mut sample);
+    sample
+}
+
+/// Adds to every value.
+fn add(series: &mut [f64], by: f64) {
+    series.iter_mut().for_each(|value| *value += by);
+}
+
 /// The only finding of a sample.
 fn only(sample: Sample) -> (Finding, Report) {
     let report = sample.report();
@@ -182,39 +194,30 @@ fn outliers_are_masked_and_nothing_else() {
 
 #[test]
 fn gaps_jitter_and_clock_steps() {
-    let mut sample = sound(1, 0.01);
-    sample.time[700..].iter_mut().for_each(|t| *t += 1800.0);
-    let (finding, report) = only(sample);
+    let (finding, report) = only(altered(|s| add(&mut s.time[700..], 1800.0)));
     assert_eq!(finding.kind, Kind::Gap { length: 1830.0, missing: 60 });
     assert_eq!(report.instants.unwrap().gaps.len(), 1);
 
-    let mut sample = sound(1, 0.01);
     let mut random = Random::new(8);
-    sample.time.iter_mut().for_each(|t| *t += 2.0 * random.uniform());
-    let (finding, _) = only(sample);
+    let (finding, _) = only(altered(|s| s.time.iter_mut().for_each(|t| *t += 2.0 * random.uniform())));
     assert!(matches!(finding.kind, Kind::Jitter { rms, largest } if rms > 0.5 && rms < largest && largest < 2.0), "{finding}");
 
-    let mut sample = sound(1, 0.01);
-    sample.time[700..].iter_mut().for_each(|t| *t += 1813.0);
-    let report = sample.report();
+    let report = altered(|s| add(&mut s.time[700..], 1813.0)).report();
     assert_eq!(report.findings[0].kind, Kind::ClockStep { interval: 1843.0 });
     assert!(matches!(report.findings[1].kind, Kind::Gap { .. }));
 
-    let mut sample = sound(1, 0.01);
-    sample.time[700..].iter_mut().for_each(|t| *t -= 20.0);
-    let report = sample.report();
+    let report = altered(|s| add(&mut s.time[700..], -20.0)).report();
     assert!(report.findings.iter().any(|finding| finding.kind == Kind::ClockStep { interval: 10.0 }), "{:?}", report.findings);
 }
 
 #[test]
 fn repeats_conflicts_and_time_that_goes_back() {
     let repeat = |conflict: f64| {
-        let mut sample = sound(1, 0.01);
-        sample.temperature[400] = NAN;
-        for series in [&mut sample.time, &mut sample.temperature, &mut sample.rate] {
-            series.insert(400, series[400]);
-        }
-        sample.rate[401] += conflict;
+        let sample = altered(|s| {
+            s.temperature[400] = NAN;
+            [&mut s.time, &mut s.temperature, &mut s.rate].into_iter().for_each(|series| series.insert(400, series[400]));
+            s.rate[401] += conflict;
+        });
         sample.report()
     };
     let report = repeat(0.0);
@@ -224,31 +227,21 @@ fn repeats_conflicts_and_time_that_goes_back() {
     assert_eq!(report.findings[0].kind, Kind::Conflict);
     assert!(!report.usable());
 
-    let mut sample = sound(1, 0.01);
-    sample.time[700] -= 100.0;
-    let report = sample.report();
+    let report = altered(|s| s.time[700] -= 100.0).report();
     assert!(matches!(report.findings[0].kind, Kind::Backwards { .. }) && !report.usable());
     assert!(report.findings[0].to_string().contains("sort the rows"));
 }
 
 #[test]
 fn missing_and_empty() {
-    let mut sample = sound(1, 0.01);
-    sample.temperature[100..120].fill(NAN);
-    let (finding, report) = only(sample);
+    let (finding, report) = only(altered(|s| s.temperature[100..120].fill(NAN)));
     assert_eq!((finding.kind.clone(), finding.rows, finding.span), (Kind::Missing, 20, Some([3000.0, 3570.0])));
     assert_eq!(report.channels[0].used, ROWS - 20);
 
-    let mut sample = sound(1, 0.01);
-    sample.temperature.fill(NAN);
-    let (finding, report) = only(sample);
+    let (finding, report) = only(altered(|s| s.temperature.fill(NAN)));
     assert!(finding.kind == Kind::Empty && report.usable(), "a channel that can be spared");
-    let mut sample = sound(1, 0.01);
-    sample.rate.fill(NAN);
-    assert!(!only(sample).1.usable());
-    let mut sample = sound(1, 0.01);
-    sample.rate.fill(0.1);
-    let (finding, report) = only(sample);
+    assert!(!only(altered(|s| s.rate.fill(NAN))).1.usable());
+    let (finding, report) = only(altered(|s| s.rate.fill(0.1)));
     assert!(finding.kind == Kind::Constant { value: 0.1 } && !report.usable());
 }
 
@@ -265,31 +258,24 @@ fn stuck_and_saturated() {
         let masked = resolution < 0.02;
         assert!((240..290).all(|row| report.masks[0][row] != masked) && report.masks[0][239] && report.masks[0][290]);
     }
-    let mut sample = sound(1, 0.01);
-    sample.rate.iter_mut().for_each(|rate| *rate = rate.min(0.25));
-    let report = sample.report();
+    let report = altered(|s| s.rate.iter_mut().for_each(|rate| *rate = rate.min(0.25))).report();
     assert!(!report.findings.is_empty());
     assert!(report.findings.iter().all(|finding| finding.kind == Kind::Saturation { value: 0.25 }), "{:?}", report.findings);
 }
 
 #[test]
 fn units_and_offsets() {
-    let suspects = |sample: Sample| match only(sample).0.kind {
-        Kind::Unit { candidates, .. } => candidates,
-        other => panic!("{other:?}"),
-    };
-    let mut sample = sound(1, 0.01);
-    sample.temperature.iter_mut().for_each(|value| *value += 273.15);
-    assert_eq!(suspects(sample), ["K"]);
-    let mut sample = sound(1, 0.01);
-    sample.temperature.iter_mut().for_each(|value| *value *= 100.0);
-    assert_eq!(suspects(sample), ["0.01 degC"]);
-    let mut sample = sound(1, 0.01);
-    sample.rate.iter_mut().for_each(|value| *value /= 3600.0);
-    assert_eq!(suspects(sample), ["deg/s"]);
-    let mut sample = sound(1, 0.01);
-    sample.rate.iter_mut().for_each(|value| *value += 10.1);
-    let (finding, _) = only(sample);
+    type Change = fn(&mut Sample);
+    let cases: [(Change, &str); 3] = [
+        (|s| add(&mut s.temperature, 273.15), "K"),
+        (|s| s.temperature.iter_mut().for_each(|value| *value *= 100.0), "0.01 degC"),
+        (|s| s.rate.iter_mut().for_each(|value| *value /= 3600.0), "deg/s"),
+    ];
+    for (change, unit) in cases {
+        let (finding, _) = only(altered(change));
+        assert!(matches!(&finding.kind, Kind::Unit { candidates, .. } if candidates == &[unit]), "{finding}");
+    }
+    let (finding, _) = only(altered(|s| add(&mut s.rate, 10.1)));
     assert!(
         matches!(&finding.kind, Kind::Offset { of, .. } if of == "Earth rate not removed")
             && finding.severity == Severity::Warning
@@ -299,9 +285,7 @@ fn units_and_offsets() {
 #[test]
 fn short_and_misshapen() {
     let cut = |rows: usize| {
-        let mut sample = sound(1, 0.01);
-        [&mut sample.time, &mut sample.temperature, &mut sample.rate].into_iter().for_each(|series| series.truncate(rows));
-        sample.report()
+        altered(|s| [&mut s.time, &mut s.temperature, &mut s.rate].into_iter().for_each(|series| series.truncate(rows))).report()
     };
     for rows in [0, 1, 2] {
         assert!(!cut(rows).usable(), "{rows}");

@@ -1,8 +1,12 @@
 //! `cargo xtask bench cell`: from the reference cell to its constants, ours and the peers', error against time.
 
-use super::{Failure, Progress, Stopwatch, median, publish, root};
+use super::tools::{Progress, publish};
 use homogenization::{Constants, Discretization, FibreCell, Homogenized, TOLERANCE, effective, homogenize_to, multipoles};
+use proof::Failure;
+use proof::files::root;
+use proof::peers::Stopwatch;
 use proof::peers::{self, Program};
+use proof::statistics::middle as median;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

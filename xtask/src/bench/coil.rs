@@ -1,6 +1,7 @@
 //! `cargo xtask bench coil`: the coil job of `benches/peers`, ours and the peers found, interleaved, times beside errors.
 
-use super::{Failure, Progress, publish};
+use super::tools::{Progress, publish};
+use proof::Failure;
 use proof::coil_job::{self as job, JobResult, STORED, Setting};
 use proof::peers::{self, Program};
 use std::ffi::OsString;

@@ -1,9 +1,13 @@
 //! `cargo xtask bench diagnose`: whole diagnoses of the open cases, on one thread.
 
-use super::{Failure, Progress, Stopwatch, median, publish, root};
+use super::tools::{Progress, publish};
 use fogcoil::cache::Cache;
 use fogcoil::diagnose;
 use fogcoil::input::{self, RecordOptions};
+use proof::Failure;
+use proof::files::{names, root};
+use proof::peers::Stopwatch;
+use proof::statistics::middle as median;
 use std::fmt::Write as _;
 
 /// Rows of a day at 30 s, to which times are scaled.
@@ -19,11 +23,9 @@ pub(crate) fn run() -> Result<(), Failure> {
     let coil = input::read_coil(&root.join("fixtures/coil-reference.ron"))?;
     let cache = Cache::of_user();
     let folder = root.join("fixtures/concealed/open");
-    let mut cases: Vec<_> = std::fs::read_dir(&folder)?.filter_map(|entry| Some(entry.ok()?.path())).collect();
-    cases.sort();
     let mut rows = Vec::new();
-    for (n, case) in cases.iter().enumerate() {
-        let record = |name: &str| input::read_record(&case.join(name), &RecordOptions::default());
+    for (n, name) in names(&folder)?.into_iter().enumerate() {
+        let record = |file: &str| input::read_record(&folder.join(&name).join(file), &RecordOptions::default());
         let once = || -> Result<(usize, String, f64), Failure> {
             let mut watch = Stopwatch::start();
             let (fit, holdout) = (record("fit.csv")?, record("holdout.csv")?);
@@ -38,9 +40,9 @@ pub(crate) fn run() -> Result<(), Failure> {
             progress.say("one that is not counted, for the library to be in the cache");
             once()?;
         }
-        let name = case.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         progress.say(&name);
-        rows.push((name, once()?));
+        let measured = once()?;
+        rows.push((name, measured));
     }
     let mut out =
         String::from("| case | rows of the fitted record | verdict | CPU s | scaled to 2880 rows |\n|---|---|---|---|---|\n");

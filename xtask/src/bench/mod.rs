@@ -6,30 +6,14 @@ mod coil;
 mod diagnose;
 mod reduced;
 mod sensitivity;
+mod tools;
 
 use clap::{Args, Subcommand};
 use proof::Failure;
-use proof::files::{renew, root};
-use proof::peers::Stopwatch;
-use proof::statistics::middle as median;
 use std::path::PathBuf;
-use std::time::Instant;
 
 /// Fewest repetitions from which a median is taken.
 const FEWEST: u64 = 3;
-
-/// Prints what is going on, with the seconds since the start.
-struct Progress(Instant);
-
-impl Progress {
-    fn new() -> Self {
-        Self(Instant::now())
-    }
-
-    fn say(&self, what: &str) {
-        eprintln!("[{:5.1} s] {what}", self.0.elapsed().as_secs_f64());
-    }
-}
 
 /// Options of a comparison with other programs.
 #[derive(Debug, Args)]
@@ -84,15 +68,4 @@ impl Bench {
         }
         Ok(true)
     }
-}
-
-fn reference_coil() -> Result<::coil::Design, Failure> {
-    Ok(fogcoil::input::read_coil(&root().join("fixtures/coil-reference.ron"))?.design)
-}
-
-/// Prints a section and puts it into docs/benchmarks.md.
-fn publish(name: &str, section: &str) -> Result<(), Failure> {
-    println!("\n{section}");
-    let marks = [&format!("<!-- {name}: written by `cargo xtask bench {name}` -->")[..], &format!("<!-- {name} end -->")];
-    renew(&root().join("docs/benchmarks.md"), marks, &format!("\n\n{section}\n"))
 }

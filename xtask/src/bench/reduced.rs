@@ -1,7 +1,10 @@
 //! `cargo xtask bench reduced`: a day by the reduced model and by the full one, times and distances.
 
-use super::{Failure, Progress, Stopwatch, median, publish, reference_coil};
+use super::tools::{Progress, publish, reference_coil};
 use ::coil::{Drive, Dynamics, Model, Profile, Response, STANDARD, ThermalModel, functionals};
+use proof::Failure;
+use proof::peers::Stopwatch;
+use proof::statistics::middle as median;
 use std::fmt::Write as _;
 
 /// A day \[s\].

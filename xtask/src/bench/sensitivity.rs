@@ -1,10 +1,13 @@
 //! `cargo xtask bench sensitivity`: from design to steady sensitivity, beside NGSolve.
 
-use super::{Failure, Progress, Stopwatch, median, publish, reference_coil};
+use super::tools::{Progress, publish, reference_coil};
 use ::coil::{COARSE, Design, Layout, MeshFineness, Model, Region, steady_sensitivity};
 use bias::units::DEG_PER_H_PER_K_PER_MIN_PER_RAD_PER_K;
 use fem_core::material::ThermoElastic;
+use proof::Failure;
 use proof::peers;
+use proof::peers::Stopwatch;
+use proof::statistics::middle as median;
 use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::Path;

@@ -91,17 +91,8 @@ fn pages(root: &Path) -> Result<BTreeMap<PathBuf, Page>, Failure> {
     for entry in fs::read_dir(root.join("crates"))? {
         paths.push(Path::new("crates").join(entry?.file_name()).join("README.md"));
     }
-    let mut folders = vec![PathBuf::from("docs")];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(root.join(&folder))? {
-            let path = folder.join(entry?.file_name());
-            if root.join(&path).is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|e| e == "md") {
-                paths.push(path);
-            }
-        }
-    }
+    let documents = files::below(&root.join("docs"))?.into_iter().map(|file| Path::new("docs").join(file));
+    paths.extend(documents.filter(|path| path.extension().is_some_and(|e| e == "md")));
     let there = paths.into_iter().filter(|path| root.join(path).exists());
     there.map(|path| Ok((path.clone(), Page::read(root, &path)?))).collect()
 }

@@ -70,8 +70,6 @@ impl Pages {
 
 /// The pages that are there from the last run.
 fn kept(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let all = fs::read_dir(folder)?.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>()?;
-    let mut pages: Vec<PathBuf> = all.into_iter().filter(|path| path.extension().is_some_and(|e| e == "html")).collect();
-    pages.sort();
-    Ok(pages)
+    let names = proof::files::names(folder)?;
+    Ok(names.iter().filter(|name| name.ends_with(".html")).map(|name| folder.join(name)).collect())
 }

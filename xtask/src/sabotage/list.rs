@@ -1,6 +1,43 @@
 //! The sabotages: what a distrustful reader would break to see whether a test notices.
 
-use super::Sabotage;
+use proof::Failure;
+use proof::files::read;
+use std::path::Path;
+
+/// The crates under test, each after those it depends on.
+pub(super) const CRATES: [&str; 3] = ["fem-core", "rve-mesh", "homogenization"];
+
+/// A change that makes the program wrong.
+pub(super) struct Sabotage {
+    /// What is wrong then.
+    pub(super) name: &'static str,
+    /// In which file of the workspace.
+    pub(super) file: &'static str,
+    /// The text that is replaced; it must be there exactly once.
+    pub(super) find: &'static str,
+    /// What it becomes.
+    pub(super) replace: &'static str,
+}
+
+impl Sabotage {
+    /// The file's text with the change made.
+    pub(super) fn apply(&self, root: &Path) -> Result<String, Failure> {
+        let text = read(&root.join(self.file))?;
+        match text.matches(self.find).count() {
+            1 => Ok(text.replacen(self.find, self.replace, 1)),
+            count => Err(Failure(format!(
+                "sabotage \"{}\" is stale: {} holds its text {count} times instead of once; mend xtask/src/sabotage/list.rs",
+                self.name, self.file
+            ))),
+        }
+    }
+
+    /// The crates whose tests it may turn red.
+    pub(super) fn reach(&self) -> &'static [&'static str] {
+        let of_file = |name: &&str| self.file.starts_with(&format!("crates/{name}/"));
+        &CRATES[CRATES.iter().position(of_file).unwrap_or(0)..]
+    }
+}
 
 /// Nodes of every element moved onto the straight lines between its corners, given `nodes`, `elements`, `order` and `lattice`.
 macro_rules! straightened {
@@ -18,7 +55,7 @@ macro_rules! straightened {
     };
 }
 
-/// In the order of [`super::CRATES`] from the last, so that little is built anew from one to the next.
+/// In the order of [`CRATES`] from the last, so that little is built anew from one to the next.
 pub(super) const LIST: &[Sabotage] = &[
     Sabotage {
         name: "Voigt: shear strain along the fibre counted once (finite elements)",

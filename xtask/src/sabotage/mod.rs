@@ -5,52 +5,17 @@ mod list;
 mod tree;
 
 use kept::Kept;
-use list::LIST;
+use list::{CRATES, LIST};
 use proof::Failure;
-use proof::files::{read, root, write};
+use proof::files::{root, write};
 use std::fmt::Write as _;
-use std::path::Path;
 use std::time::Instant;
 use tree::{TestRun, Tree};
 
-/// The crates under test, each after those it depends on.
-const CRATES: [&str; 3] = ["fem-core", "rve-mesh", "homogenization"];
 /// The table, which `cargo xtask validate` takes over into docs/validation.md.
 const PAGE: &str = "crates/proof/src/validation/sabotage.md";
 /// Names of red tests that the table gives.
 const SHOWN: usize = 3;
-
-/// A change that makes the program wrong.
-struct Sabotage {
-    /// What is wrong then.
-    name: &'static str,
-    /// In which file of the workspace.
-    file: &'static str,
-    /// The text that is replaced; it must be there exactly once.
-    find: &'static str,
-    /// What it becomes.
-    replace: &'static str,
-}
-
-impl Sabotage {
-    /// The file's text with the change made.
-    fn apply(&self, root: &Path) -> Result<String, Failure> {
-        let text = read(&root.join(self.file))?;
-        match text.matches(self.find).count() {
-            1 => Ok(text.replacen(self.find, self.replace, 1)),
-            count => Err(Failure(format!(
-                "sabotage \"{}\" is stale: {} holds its text {count} times instead of once; mend xtask/src/sabotage/list.rs",
-                self.name, self.file
-            ))),
-        }
-    }
-
-    /// The crates whose tests it may turn red.
-    fn reach(&self) -> &'static [&'static str] {
-        let of_file = |name: &&str| self.file.starts_with(&format!("crates/{name}/"));
-        &CRATES[CRATES.iter().position(of_file).unwrap_or(0)..]
-    }
-}
 
 /// The table of what is known so far.
 fn table(sound: &TestRun, outcomes: &[Option<TestRun>]) -> String {

@@ -1,7 +1,9 @@
 //! A copy of the crates, broken, built and tested.
 
-use super::{CRATES, Sabotage};
+use super::list::{CRATES, Sabotage};
 use proof::Failure;
+use proof::files::below;
+use proof::program::hex;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::fs;
@@ -23,10 +25,6 @@ pub(super) struct Tree {
     hash: String,
 }
 
-fn hex(hash: Sha256) -> String {
-    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
 fn failed(path: &Path) -> impl Fn(std::io::Error) -> Failure {
     move |e| Failure(format!("{}: {e}", path.display()))
 }
@@ -37,21 +35,6 @@ fn update(path: &Path, content: &[u8]) -> Result<(), Failure> {
         return Ok(());
     }
     fs::write(path, content).map_err(failed(path))
-}
-
-/// All files under `folder` by their paths from there, in order.
-fn files(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let mut all = Vec::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).map_err(failed(&folder))? {
-            let path = entry.map_err(failed(&folder))?.path();
-            if path.is_dir() { &mut folders } else { &mut all }.push(path);
-        }
-    }
-    let mut all: Vec<_> = all.iter().filter_map(|path| path.strip_prefix(folder).ok()).map(Path::to_owned).collect();
-    all.sort();
-    Ok(all)
 }
 
 impl Tree {
@@ -69,13 +52,13 @@ impl Tree {
             update(&copy, content)
         };
         for name in CRATES.map(|name| Path::new("crates").join(name)) {
-            let sources = files(&root.join(&name))?;
+            let sources = below(&root.join(&name))?;
             for source in &sources {
                 let path = root.join(&name).join(source);
                 copied(&name.join(source), &fs::read(&path).map_err(failed(&path))?)?;
             }
             let copies = tree.root.join(&name);
-            for old in files(&copies)?.iter().filter(|old| !sources.contains(old)) {
+            for old in below(&copies)?.iter().filter(|old| !sources.contains(old)) {
                 fs::remove_file(copies.join(old)).map_err(failed(old))?;
             }
         }

@@ -4,58 +4,22 @@
 //! [`laplace`] what it proves.
 
 mod descent;
+mod fitter;
 mod hypothesis;
 mod kinks;
 mod laplace;
 mod objective;
 mod unknowns;
+mod values;
 
+pub use fitter::Fit;
+pub(crate) use fitter::Fitter;
 pub use hypothesis::{Hypothesis, alternatives};
 use objective::Objective;
-pub(crate) use unknowns::{Layout, Unknown, expected, parameter};
+pub(crate) use unknowns::{Unknown, expected, parameter};
 
-use crate::model::Active;
 use crate::noise::Noise;
-use crate::{Error, ForwardModel, Observation};
-use nalgebra::{DMatrix, DVector};
-
-/// A hypothesis at its most probable parameters.
-#[derive(Debug, Clone)]
-pub struct Fit {
-    /// What was fitted.
-    pub hypothesis: Hypothesis,
-    /// ln of the marginal likelihood (Laplace), up to a constant that all fits to the same records share.
-    pub log_evidence: f64,
-    /// The nominal model's uncertain numbers, all of them, in every record.
-    pub nuisances: Vec<Vec<f64>>,
-    /// Mechanisms at work.
-    pub active: Vec<Active>,
-    /// Offset of every channel of every record.
-    pub offsets: Vec<Vec<f64>>,
-    /// Residual `[record][channel][row]`, NaN where nothing was recorded.
-    pub residuals: Vec<Vec<Vec<f64>>>,
-    pub(crate) u: DVector<f64>,
-    pub(crate) layout: Layout,
-    pub(crate) covariance: DMatrix<f64>,
-    pub(crate) noise: Noise,
-    pub(crate) whitened: DVector<f64>,
-    pub(crate) jacobian: DMatrix<f64>,
-}
-
-impl Fit {
-    /// Noise of a channel of a record that was fitted.
-    pub fn noise_model(&self, record: usize, channel: usize) -> &recording::noise::NoiseModel {
-        self.noise.model(record, channel)
-    }
-}
-
-/// What is fitted: a model to observations of some of its records.
-pub(crate) struct Fitter<'a, M> {
-    pub(crate) model: &'a M,
-    pub(crate) observations: &'a [Observation],
-    /// numbers of the model's records
-    pub(crate) records: &'a [usize],
-}
+use crate::{Error, ForwardModel};
 
 /// Starts that are followed to the end.
 const STARTS: usize = 4;

@@ -1,6 +1,8 @@
 //! What a fit makes least: −ln p(data, u) = ½ ‖r(u)‖² + ½ ‖u‖², up to a constant, with the whitened residual r of all records and channels.
 
-use super::{Fitter, Hypothesis, Layout, Unknown};
+use super::fitter::Fitter;
+use super::hypothesis::Hypothesis;
+use super::unknowns::{Layout, Unknown};
 use crate::noise::Noise;
 use crate::{Error, ForwardModel, Observation};
 use nalgebra::{DMatrix, DVector};

@@ -1,8 +1,7 @@
 //! The unknowns of a fit, all on one scale: each is a standard normal variable u beforehand ([`crate::Prior`]).
 
-use super::{Fit, Fitter, Hypothesis, Objective};
-use crate::{Active, ForwardModel, Nuisance, Parameter, Prior, Role};
-use nalgebra::DVector;
+use super::hypothesis::Hypothesis;
+use crate::{ForwardModel, Nuisance, Parameter};
 
 /// What an unknown is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,105 +42,5 @@ pub(crate) fn parameter<'m, M: ForwardModel>(model: &'m M, hypothesis: &Hypothes
             Some(&model.mechanisms()[hypothesis.mechanisms[place].0].parameters[parameter])
         }
         Unknown::Offset { .. } => None,
-    }
-}
-
-impl<M: ForwardModel> Fitter<'_, M> {
-    /// The unknowns of a hypothesis: nuisances that are free, mechanisms' parameters, offsets.
-    pub(super) fn layout(&self, hypothesis: &Hypothesis) -> Layout {
-        let free = |role: Role| role == Role::ModelError || hypothesis.constants_free;
-        let mut layout = Layout::new();
-        for (number, nuisance) in self.model.nuisances().iter().enumerate().filter(|(_, n)| free(n.role)) {
-            if nuisance.local {
-                layout.extend((0..self.observations.len()).map(|r| Unknown::Nuisance { number, record: Some(r) }));
-            } else {
-                layout.push(Unknown::Nuisance { number, record: None });
-            }
-        }
-        for (place, (mechanism, _)) in hypothesis.mechanisms.iter().enumerate() {
-            let count = self.model.mechanisms()[*mechanism].parameters.len();
-            layout.extend((0..count).map(|parameter| Unknown::Mechanism { place, parameter }));
-        }
-        for record in 0..self.observations.len() {
-            layout.extend((0..self.model.channels().len()).map(|channel| Unknown::Offset { record, channel }));
-        }
-        layout
-    }
-}
-
-/// An unknown of a known fit [u] beyond which a fit starts from the middles of the priors, too.
-const STRAYED: f64 = 3.0;
-
-impl<M: ForwardModel> Objective<'_, M> {
-    pub(super) fn parameter(&self, unknown: Unknown) -> Option<&Parameter> {
-        parameter(self.fitter.model, self.hypothesis, unknown)
-    }
-
-    fn prior(&self, unknown: Unknown) -> Prior {
-        match unknown {
-            Unknown::Offset { channel, .. } => Prior::Normal { mean: 0.0, sd: self.fitter.model.channels()[channel].offset_sd },
-            _ => self.parameter(unknown).map_or(Prior::Normal { mean: 0.0, sd: 1.0 }, |p| p.prior),
-        }
-    }
-
-    /// Nuisances of every record and mechanisms at the unknowns.
-    pub(super) fn at(&self, u: &DVector<f64>) -> (Vec<Vec<f64>>, Vec<Active>) {
-        let model = self.fitter.model;
-        let mut nuisances = vec![expected(model.nuisances()); self.fitter.observations.len()];
-        let still = |&(mechanism, choice): &(usize, Option<f64>)| {
-            let values = vec![0.0; model.mechanisms()[mechanism].parameters.len()];
-            Active { mechanism, values, choice }
-        };
-        let mut active: Vec<Active> = self.hypothesis.mechanisms.iter().map(still).collect();
-        for (unknown, u) in self.layout.iter().zip(u.iter()) {
-            let value = self.prior(*unknown).value(*u);
-            match *unknown {
-                Unknown::Nuisance { number, record } => {
-                    let records = record.map_or(0..nuisances.len(), |r| r..r + 1);
-                    nuisances[records].iter_mut().for_each(|n| n[number] = value);
-                }
-                Unknown::Mechanism { place, parameter } => active[place].values[parameter] = value,
-                Unknown::Offset { .. } => {}
-            }
-        }
-        (nuisances, active)
-    }
-
-    /// Unknowns at which every start of the hypothesis' mechanisms begins, all combinations; `known` gives the others, and mechanisms that
-    /// it has fitted.
-    pub(super) fn starts(&self, known: Option<&Fit>) -> Vec<DVector<f64>> {
-        let mut base = DVector::zeros(self.layout.len());
-        for (i, unknown) in self.layout.iter().enumerate().filter(|(_, u)| !u.is_mechanism()) {
-            let of = |fit: &Fit| fit.layout.iter().position(|other| other == unknown).map(|at| fit.u[at]);
-            base[i] = known.and_then(of).unwrap_or(0.0);
-        }
-        // where the known fit has strayed far to make up for what it lacks, its unknowns are a poor start
-        let strayed = base.amax() > STRAYED;
-        let mut starts = vec![base];
-        if strayed {
-            starts.push(DVector::zeros(self.layout.len()));
-        }
-        for (place, &(mechanism, choice)) in self.hypothesis.mechanisms.iter().enumerate() {
-            // a mechanism that is already fitted goes on from there
-            let same = |a: &&Active| a.mechanism == mechanism && a.choice == choice;
-            let fitted = known.and_then(|fit| fit.active.iter().find(same)).map(|a| vec![a.values.clone()]);
-            let values = fitted.unwrap_or_else(|| self.fitter.model.mechanisms()[mechanism].starts.clone());
-            starts = starts.iter().flat_map(|u| values.iter().map(|values| self.placed(u, place, values))).collect();
-        }
-        starts
-    }
-
-    /// Unknowns with the parameters of the mechanism at `place` put in.
-    fn placed(&self, u: &DVector<f64>, place: usize, values: &[f64]) -> DVector<f64> {
-        let mut u = u.clone();
-        for (i, unknown) in self.layout.iter().enumerate() {
-            match *unknown {
-                Unknown::Mechanism { place: at, parameter } if at == place => {
-                    u[i] = self.prior(*unknown).standard(values[parameter]);
-                }
-                _ => {}
-            }
-        }
-        u
     }
 }

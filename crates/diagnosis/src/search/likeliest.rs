@@ -1,10 +1,8 @@
 //! The likeliest single mechanisms, each with the noise that it leaves.
 
-use super::{BEHIND, FOLLOWED, Pool, better, sort};
+use super::{BEHIND, FOLLOWED, LIKELIEST, Pool, better, sort};
 use crate::fit::{Fit, Hypothesis};
 use crate::{Error, ForwardModel};
-
-pub(super) const TASK: &str = "the likeliest mechanisms with their own noise";
 
 impl<M: ForwardModel> Pool<'_, M> {
     /// Takes in every single mechanism of `fits` (best first); those that were given their own noise, best first.
@@ -14,7 +12,7 @@ impl<M: ForwardModel> Pool<'_, M> {
         let mut met: Vec<usize> = Vec::new();
         let count = fits.len();
         for (k, fit) in fits.into_iter().enumerate().filter(|(_, f)| !f.hypothesis.mechanisms.is_empty()) {
-            self.done(TASK, k, count);
+            self.done(LIKELIEST, k, count);
             let mechanism = fit.hypothesis.mechanisms[0].0;
             let again = met.contains(&mechanism);
             // of a mechanism's choices the best alone has its own noise; the others lie close behind it

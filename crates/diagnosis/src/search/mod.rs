@@ -13,28 +13,12 @@ pub use settings::Settings;
 
 use crate::fit::{Fit, Fitter, Hypothesis, alternatives};
 use crate::noise::Noise;
-use crate::{Diagnosis, Error, ForwardModel, Observation, Rival};
+use crate::{Candidate, Diagnosis, Error, ForwardModel, Observation, Rival};
 
-/// A hypothesis that was compared.
-#[derive(Debug, Clone)]
-pub struct Candidate {
-    /// At its most probable parameters.
-    pub fit: Fit,
-    /// Structure that was added to it, if any.
-    pub rival: Option<Rival>,
-    /// ln of evidence times prior probability.
-    pub log_weight: f64,
-    /// Probability among all that were compared.
-    pub probability: f64,
-}
-
-impl Candidate {
-    /// ln of the evidence, with that of its structure.
-    pub(crate) fn log_evidence(&self) -> f64 {
-        self.fit.log_evidence + self.rival.as_ref().map_or(0.0, |r| r.gain)
-    }
-}
-
+// the long tasks, by the names that progress is told
+const SINGLES: &str = "single mechanisms";
+const LIKELIEST: &str = "the likeliest mechanisms with their own noise";
+const PAIRS: &str = "pairs of mechanisms";
 /// Singles, and pairs, that are followed up with their own noise and, if named, as parts of pairs.
 const FOLLOWED: usize = 5;
 /// Singles that are parts of pairs, and candidates to which structures are added.
@@ -71,12 +55,12 @@ pub fn diagnose<M: ForwardModel>(
     let mut pool = Pool { fitter, settings: *settings, singles, candidates: Vec::new(), progress };
     progress("nominal model and noise");
     let nominal = pool.nominal()?;
-    progress(singles::TASK);
+    progress(SINGLES);
     let (leader, fits) = pool.singles(&nominal)?;
     let nominal = pool.without_mechanisms(nominal, &leader)?;
-    progress(likeliest::TASK);
+    progress(LIKELIEST);
     let likeliest = pool.likeliest(fits)?;
-    progress(pairs::TASK);
+    progress(PAIRS);
     pool.pairs(&nominal, &likeliest)?;
     progress("what no mechanism explains");
     pool.rivals()?;

@@ -1,10 +1,9 @@
 //! What may be at work beside the likeliest mechanisms.
 
-use super::{BEHIND, Candidate, FOLLOWED, LEADERS, Pool};
+use super::{BEHIND, FOLLOWED, LEADERS, PAIRS, Pool};
 use crate::fit::{Fit, Hypothesis};
-use crate::{Error, ForwardModel};
+use crate::{Candidate, Error, ForwardModel};
 
-pub(super) const TASK: &str = "pairs of mechanisms";
 /// Choices of a mechanism that are fitted beside another.
 const CHOICES: usize = 6;
 /// Gain of ln evidence of one mechanism below which it is not sought what may stand beside it, and of a pair below which it is not worth
@@ -18,7 +17,7 @@ impl<M: ForwardModel> Pool<'_, M> {
         for fit in likeliest.iter().filter(|f| f.log_evidence - nominal.log_evidence > PAIRED) {
             let first = fit.hypothesis.mechanisms[0].0;
             if self.named(first) && !followed.contains(&first) && followed.len() < LEADERS {
-                self.done(TASK, followed.len(), LEADERS);
+                self.done(PAIRS, followed.len(), LEADERS);
                 followed.push(first);
                 self.pairs_of(fit)?;
             }

@@ -1,10 +1,9 @@
 //! Every mechanism alone.
 
-use super::{Pool, sort};
+use super::{Pool, SINGLES, sort};
 use crate::fit::{Fit, Hypothesis};
 use crate::{Error, ForwardModel};
 
-pub(super) const TASK: &str = "single mechanisms";
 /// Rounds of fitting all of them, at most.
 const ROUNDS: usize = 3;
 /// Gain of ln evidence by which another fit takes the lead.
@@ -39,7 +38,7 @@ impl<M: ForwardModel> Pool<'_, M> {
         let count = self.singles.len();
         let mut fits: Vec<Fit> = Vec::new();
         for (k, hypotheses) in self.singles.iter().enumerate() {
-            self.done(TASK, round * count + k, ROUNDS * count);
+            self.done(SINGLES, round * count + k, ROUNDS * count);
             for hypothesis in hypotheses {
                 fits.push(self.fitter.fit(hypothesis, &leader.noise, Some(known))?);
             }

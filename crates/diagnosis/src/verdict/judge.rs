@@ -1,7 +1,7 @@
 //! The verdict before records that were held out: what they prove, and what they contradict.
 
+use super::diagnosis::{Diagnosis, Verdict};
 use super::set::{likely, marginals, named};
-use super::{Diagnosis, Verdict};
 use crate::{Candidate, Error, ForwardModel, HeldOut, Observation, as_designed};
 
 /// A record that was held out, predicted twice.

@@ -1,5 +1,6 @@
 //! Tails of unequal length outside the winding: they shift every z.
 
+use crate::design::with_tail;
 use crate::mechanism::Change;
 use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
 use crate::{Chain, Prepared};
@@ -51,12 +52,4 @@ impl Mechanism for TailAsymmetry {
     fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
         Some(with_tail(design, active.values[0]))
     }
-}
-
-/// The CW tail longer than the CCW tail by so much more \[m\].
-pub(crate) fn with_tail(design: &Design, cw_minus_ccw: f64) -> Design {
-    let mut changed = design.clone();
-    changed.winding.tails.cw += cw_minus_ccw.max(0.0);
-    changed.winding.tails.ccw += (-cw_minus_ccw).max(0.0);
-    changed
 }

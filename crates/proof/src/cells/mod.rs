@@ -1,14 +1,16 @@
 //! `cargo xtask cells`: cells of many kinds to 1e-6, each held against a much finer solution and against finite elements; writes
 //! docs/cells.md.
 
+mod distance;
 mod ngsolve;
 
 use crate::{Failure, files};
+use distance::{along_axes, distance};
 use fem_core::material::Isotropic;
-use homogenization::irregular::{Arrangement, Cell, Directional};
+use homogenization::irregular::{Arrangement, Cell};
 use homogenization::{
-    Constants, Constituent, Discretization, Extent, FibreCell, HIGHEST_ORDER, NEGLIGIBLE, Packing, Resolution, Ring, Role,
-    TOLERANCE, effective, homogenize, multipoles,
+    Constants, Constituent, Discretization, Extent, FibreCell, HIGHEST_ORDER, Packing, Resolution, Ring, Role, TOLERANCE,
+    effective, homogenize, multipoles,
 };
 use std::fmt::Write as _;
 use std::path::Path;
@@ -89,22 +91,6 @@ fn cells() -> Result<Vec<(&'static str, FibreCell)>, Failure> {
     ])
 }
 
-/// What differences from each constant are relative to.
-fn scales(constants: &Constants) -> [f64; 16] {
-    let expansion = NEGLIGIBLE * constants.alpha_r.abs().max(constants.alpha_z.abs());
-    let least = |name: &str| match name {
-        "alpha_z" | "alpha_r" | "m_rt" => expansion,
-        _ => NEGLIGIBLE,
-    };
-    constants.named().map(|(name, value)| value.abs().max(least(name)))
-}
-
-/// Largest relative distance of a constant.
-fn distance(a: &Constants, b: &Constants) -> f64 {
-    let pairs = a.named().into_iter().zip(b.named()).zip(scales(b));
-    pairs.map(|(((_, a), (_, b)), scale)| (a - b).abs() / scale).fold(0.0, f64::max)
-}
-
 /// Columns of the general route; `false` if its error is above its own estimate or what was asked for.
 fn general(cell: &FibreCell, exact: &Constants) -> Result<(String, bool), Failure> {
     let arrangement = match cell.packing {
@@ -120,32 +106,6 @@ fn general(cell: &FibreCell, exact: &Constants) -> Result<(String, bool), Failur
     let error = along_axes(&found.constants, exact);
     let columns = format!("{estimate:.1e} | {error:.1e} | {}", found.response.unknowns);
     Ok((columns, error <= estimate.max(TOLERANCE)))
-}
-
-/// Largest relative distance of the general route's constants along x (and z) from `exact`, which are read along the same axes.
-fn along_axes(found: &Directional, exact: &Constants) -> f64 {
-    let Directional { e, g, nu, alpha, k, k_plane_strain, m } = *found;
-    let along_x = Constants {
-        e_z: e[2],
-        e_r: e[0],
-        g_zr: g[1],
-        g_r: g[2],
-        k_plane_strain,
-        nu_zr: nu[0],
-        nu_r: nu[2],
-        nu_rz: nu[0] * e[0] / e[2],
-        alpha_z: alpha[2],
-        alpha_r: alpha[0],
-        k_z: k[2],
-        k_r: k[0],
-        m_rx: m[0],
-        m_ry: m[1],
-        m_rz: m[2],
-        m_rt: m[4],
-    };
-    let along_y =
-        Constants { e_r: e[1], g_zr: g[0], nu_zr: nu[1], nu_rz: nu[1] * e[1] / e[2], alpha_r: alpha[1], k_r: k[1], ..along_x };
-    distance(&along_x, exact).max(distance(&along_y, exact))
 }
 
 /// Prints a row for each cell and writes the page; `false` if an error is above the tolerance or its own estimate, or NGSolve, run anew if

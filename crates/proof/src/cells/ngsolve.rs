@@ -1,7 +1,7 @@
 //! The cells of `cargo xtask cells` by NGSolve, beside ours. Its values are kept in a file with the cells they are of; a cell that has
 //! changed since has none.
 
-use super::scales;
+use super::distance::scales;
 use crate::{Failure, peers};
 use homogenization::{Constants, Constituent, FibreCell, Packing, Ring, Role, TOLERANCE};
 use serde::{Deserialize, Serialize};

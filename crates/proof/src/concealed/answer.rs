@@ -1,14 +1,14 @@
 //! What the program says of a unit, read back from what it writes.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use fogcoil::cache::Cache;
 use fogcoil::diagnose;
 use fogcoil::input::{self, CoilCase, RecordCase, RecordOptions};
 use serde::Deserialize;
 
-use crate::Failure;
+use crate::{Failure, files};
 
 /// Probability from which something is said to be there.
 pub(crate) const MORE_THAN_NOT: f64 = 0.5;
@@ -74,17 +74,29 @@ pub(crate) fn record(file: &Path) -> Result<RecordCase, Failure> {
 }
 
 /// Runs the diagnosis as `fogcoil diagnose` does.
-pub(crate) fn answer(coil: &CoilCase, fit: &Path, holdout: &Path, cache: &Cache) -> Result<Files, Failure> {
+pub(crate) fn answer(coil: &CoilCase, [fit, holdout]: &[PathBuf; 2], cache: &Cache) -> Result<Files, Failure> {
     let outcome = diagnose::diagnose(coil, &[record(fit)?], &[record(holdout)?], cache, &|_| ())?;
     let prediction = outcome.prediction().ok_or_else(|| Failure(format!("{}: nothing is predicted", holdout.display())))?;
     Ok(Files { json: format!("{}\n", outcome.json()), prediction })
 }
 
-impl Answer {
-    pub(crate) fn parse(json: &str) -> Result<Self, Failure> {
-        Ok(serde_json::from_str(json)?)
-    }
+/// The two files in `folder` that hold the answer of a unit: J, P.
+pub(crate) fn paths(folder: &Path, unit: &str) -> [PathBuf; 2] {
+    ["json", "csv"].map(|kind| folder.join(format!("{unit}.{kind}")))
+}
 
+/// What is said of a unit and the rates that are predicted, from the files in `folder`.
+pub(crate) fn answered(folder: &Path, unit: &str) -> Result<(Answer, Vec<f64>), Failure> {
+    let [json, prediction] = paths(folder, unit);
+    Ok((serde_json::from_str(&files::read(&json)?)?, rates(&files::read(&prediction)?)?))
+}
+
+/// The two records of the unit in `folder`: the one that is fitted, and the one that is held out.
+pub(crate) fn records(folder: &Path) -> [PathBuf; 2] {
+    ["fit.csv", "holdout.csv"].map(|name| folder.join(name))
+}
+
+impl Answer {
     /// Mechanisms that are said to be there: the first if the verdict is `explained`, and every other more probable than not.
     pub(crate) fn named(&self) -> impl Iterator<Item = &str> {
         let explained = self.verdict == "explained";
@@ -104,7 +116,7 @@ impl Answer {
 }
 
 /// The rates of a prediction, row by row \[deg/h\].
-pub(crate) fn rates(prediction: &str) -> Result<Vec<f64>, Failure> {
+fn rates(prediction: &str) -> Result<Vec<f64>, Failure> {
     let rate = |line: &str| -> Option<f64> { line.split_once(',')?.1.parse().ok() };
     let read = |line| rate(line).ok_or_else(|| Failure(format!("a prediction has the row {line:?}")));
     prediction.lines().skip(1).map(read).collect()

@@ -3,6 +3,7 @@
 use diagnosis::{Active, ForwardModel, Mechanism};
 use mechanisms::{RATE, SPOOL};
 use nalgebra::{DMatrix, DVector};
+use recording::condition::slopes;
 
 use super::answer::{Answer, Place, Probable};
 use super::chain::{FIT, HOLDOUT, Series, Unit, rms};
@@ -23,11 +24,8 @@ const UNITS: [f64; 3] = [40.0, 1.0 / 60.0, 1e-5];
 fn states(unit: &Unit, record: usize) -> Vec<[f64; 3]> {
     let state = unit.state(record);
     let time = unit.time(record);
-    let change = |n: usize| {
-        let (a, b) = (n.saturating_sub(1), (n + 1).min(time.len() - 1));
-        if b > a { (state.rate[b] - state.rate[a]) / (time[b] - time[a]) } else { 0.0 }
-    };
-    let at = |n: usize| [(state.level[n] - REFERENCE) / UNITS[0], state.rate[n] / UNITS[1], change(n) / UNITS[2]];
+    let change = slopes(time, &state.rate);
+    let at = |n: usize| [(state.level[n] - REFERENCE) / UNITS[0], state.rate[n] / UNITS[1], change[n] / UNITS[2]];
     (0..time.len()).map(at).collect()
 }
 

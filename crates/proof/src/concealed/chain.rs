@@ -1,6 +1,6 @@
 //! What the coil's chain says of a unit's two records: the nominal design, and the design with the truth built in.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use coil::COARSE;
 use diagnosis::{Active, ForwardModel, State};
@@ -11,7 +11,7 @@ use mechanisms::{CATALOGUE, Gyro, Library, Prepared};
 use super::answer::record;
 use super::score::HeldOut;
 use crate::Failure;
-use crate::truth::{Kind, Truth};
+use crate::truth::{Kind, Mechanism, Truth};
 
 /// The place of the record that is fitted, and of the one that is held out.
 pub(crate) const FIT: usize = 0;
@@ -75,7 +75,7 @@ fn held(mut values: Series) -> Series {
 
 impl Unit {
     /// Reads both records and runs the library under their chambers.
-    pub(crate) fn new(library: &Library, fit: &Path, holdout: &Path) -> Result<Self, Failure> {
+    pub(crate) fn new(library: &Library, [fit, holdout]: &[PathBuf; 2]) -> Result<Self, Failure> {
         let cases = [record(fit)?, record(holdout)?];
         let prepared = |case: &RecordCase| -> Result<Prepared, Failure> {
             Ok(Prepared::new(library, case.kept().time(), &held(used(case, CHAMBER)?), case.averaging)?)
@@ -115,15 +115,17 @@ impl Unit {
 
     /// The true mechanisms at the true parameters; what the truth does not name lies `u` standard deviations from the middle of its prior.
     fn active(&self, truth: &Truth, u: f64) -> Result<Vec<Active>, Failure> {
-        let of = |true_one: &crate::truth::Mechanism| {
-            let unknown = || Failure(format!("the library has no {}", true_one.id));
-            let mechanism = self.gyro.find(&true_one.id).ok_or_else(unknown)?;
-            let entry = &self.gyro.mechanisms()[mechanism];
-            let value = |p: &diagnosis::Parameter| true_one.parameters.get(&p.name).copied().unwrap_or(p.prior.value(u));
-            let choice = entry.choice.as_ref().and_then(|(name, _)| true_one.parameters.get(name).copied());
-            Ok(Active { mechanism, values: entry.parameters.iter().map(value).collect(), choice })
-        };
-        truth.concealed().map(of).collect()
+        let unknown = |true_one: &Mechanism| Failure(format!("the library has no {}", true_one.id));
+        truth.concealed().map(|true_one| self.at_work(true_one, u).ok_or_else(|| unknown(true_one))).collect()
+    }
+
+    /// A true mechanism as the library has it, what is not named `u` standard deviations from the middle of its prior; `None` if it has it not.
+    pub(crate) fn at_work(&self, true_one: &Mechanism, u: f64) -> Option<Active> {
+        let mechanism = self.gyro.find(&true_one.id)?;
+        let entry = &self.gyro.mechanisms()[mechanism];
+        let value = |p: &diagnosis::Parameter| true_one.parameters.get(&p.name).copied().unwrap_or(p.prior.value(u));
+        let choice = entry.choice.as_ref().and_then(|(name, _)| true_one.parameters.get(name).copied());
+        Some(Active { mechanism, values: entry.parameters.iter().map(value).collect(), choice })
     }
 
     /// Size of the noise in the record that is held out, from the truth \[deg/h\].

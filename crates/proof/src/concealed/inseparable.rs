@@ -1,11 +1,8 @@
 //! What the record that is fitted cannot separate from the truth, asked for the names that an answer gives.
 
-use std::path::Path;
-
 use diagnosis::{Active, ForwardModel, Observation, Plan, alternatives, separation};
 use mechanisms::{RATE, SPOOL};
 use recording::noise::NoiseModel;
-use serde::Deserialize;
 
 use super::answer::Answer;
 use super::chain::{self, FIT};
@@ -20,47 +17,24 @@ const NONE: f64 = 1e-7;
 /// Correlation time of a drift that is not there \[s\].
 const ANY: f64 = 3600.0;
 
-/// What a truth file says beside what is scored.
-#[derive(Deserialize)]
-pub(super) struct Sheet {
-    pub(super) noise: Unseen,
-    spool_sensor: SpoolSensor,
-}
-
-#[derive(Deserialize)]
-pub(super) struct Unseen {
-    pub(super) unseen: Option<String>,
-}
-
-#[derive(Deserialize)]
-struct SpoolSensor {
-    quantisation_c: f64,
-}
-
-impl Sheet {
-    pub(super) fn read(file: &Path) -> Result<Self, Failure> {
-        Ok(fogcoil::input::read_ron(file)?)
-    }
-
-    /// Noise of the channels, as far as the diagnosis has terms for it.
-    fn noise(&self, truth: &Truth) -> [NoiseModel; 2] {
-        let spool = (THERMOMETER.powi(2) + self.spool_sensor.quantisation_c.powi(2) / 12.0).sqrt();
-        let n = &truth.noise;
-        let rate = NoiseModel {
-            drift: n.gm_sigma_deg_per_h,
-            drift_time: n.gm_tau_s,
-            // per root of an hour to per root of a second
-            walk: (n.rrw_deg_per_h_per_sqrt_h / 60.0).max(NONE),
-            ..NoiseModel::white(n.arw_deg_per_sqrt_h / (SPAN / 3600.0).sqrt(), SPAN)
-        };
-        let spool = NoiseModel { drift: NONE, drift_time: ANY, walk: NONE, ..NoiseModel::white(spool, 0.0) };
-        if SPOOL < RATE { [spool, rate] } else { [rate, spool] }
-    }
+/// Noise of the channels, as far as the diagnosis has terms for it.
+fn noise(truth: &Truth) -> [NoiseModel; 2] {
+    let spool = (THERMOMETER.powi(2) + truth.spool_sensor.quantisation_c.powi(2) / 12.0).sqrt();
+    let n = &truth.noise;
+    let rate = NoiseModel {
+        drift: n.gm_sigma_deg_per_h,
+        drift_time: n.gm_tau_s,
+        // per root of an hour to per root of a second
+        walk: (n.rrw_deg_per_h_per_sqrt_h / 60.0).max(NONE),
+        ..NoiseModel::white(n.arw_deg_per_sqrt_h / (SPAN / 3600.0).sqrt(), SPAN)
+    };
+    let spool = NoiseModel { drift: NONE, drift_time: ANY, walk: NONE, ..NoiseModel::white(spool, 0.0) };
+    if SPOOL < RATE { [spool, rate] } else { [rate, spool] }
 }
 
 /// Adds to the truth's sets what the answer names and the record cannot separate: the best fit of the other family to the noise-free response
 /// lies within [`NEAREST`], amplitudes and shapes free, the forward model granted its errors.
-pub(super) fn extend(truth: &mut Truth, sheet: &Sheet, answer: &Answer, model: &chain::Unit) -> Result<(), Failure> {
+pub(super) fn extend(truth: &mut Truth, answer: &Answer, model: &chain::Unit) -> Result<(), Failure> {
     if !matches!(truth.kind(), Kind::Single | Kind::Double) {
         return Ok(());
     }
@@ -71,16 +45,12 @@ pub(super) fn extend(truth: &mut Truth, sheet: &Sheet, answer: &Answer, model: &
     let gyro = &model.gyro;
     let entries = gyro.mechanisms();
     let instants = [Observation { time: model.time(FIT).to_vec(), channels: model.recorded[FIT].to_vec() }];
-    let noise = sheet.noise(truth);
+    let noise = noise(truth);
     let plan = Plan { records: &[FIT], instants: &instants, noise: Some(&noise) };
     let concealed: Vec<_> = truth.concealed().cloned().collect();
     for (place, true_one) in concealed.iter().enumerate() {
-        let Some(mechanism) = gyro.find(&true_one.id) else { continue };
-        let entry = &entries[mechanism];
         // what the truth does not name is at its smallest: a heater is switched on with the record
-        let value = |p: &diagnosis::Parameter| true_one.parameters.get(&p.name).copied().unwrap_or(p.prior.value(-3.0));
-        let choice = entry.choice.as_ref().and_then(|(name, _)| true_one.parameters.get(name).copied());
-        let active = Active { mechanism, values: entry.parameters.iter().map(value).collect(), choice };
+        let Some(active) = model.at_work(true_one, -3.0) else { continue };
         for other in &others {
             let Some(rival) = gyro.find(other) else { continue };
             let nearest = separation(gyro, &plan, std::slice::from_ref(&active), &alternatives(gyro, rival))

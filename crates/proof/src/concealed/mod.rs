@@ -59,7 +59,7 @@ impl Prove {
     /// [`Failure`] says what went wrong.
     pub fn run(mut self) -> Result<bool, Failure> {
         if self.synthetic {
-            return self.plan.run();
+            return section::run(&self.plan);
         }
         if self.recommended {
             return recommended::run();

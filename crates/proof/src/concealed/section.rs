@@ -2,11 +2,32 @@
 
 use std::fmt::Write as _;
 
+use fogcoil::cache::Cache;
+
 use super::report;
-use super::summary::Table;
+use super::score::Scored;
+use super::summary::{Table, summary};
 use super::synthetic::{Case, Plan};
+use crate::files::root;
 use crate::statistics::{Measured, rate};
 use crate::truth::Kind;
+use crate::{Failure, program};
+
+/// Makes, answers and scores the units of a plan; writes the section of docs/proof.md. Whether all scores are as asked.
+///
+/// # Errors
+/// [`Failure`] says what went wrong; what is finished is kept and not done again.
+pub(super) fn run(plan: &Plan) -> Result<bool, Failure> {
+    let folder = root().join("target/prove/synthetic").join(plan.seed.to_string());
+    let program = program::hash(&root())?;
+    let cases = plan.cases(&folder, &Cache::of_user())?;
+    let scored: Vec<Scored> = cases.iter().map(|case| case.scored.clone()).collect();
+    let table = summary(&scored);
+    report::publish("synthetic", &program, &section(plan, &cases, &table))?;
+    println!("{}", report::lines(&table));
+    table.failures().for_each(|row| eprintln!("FAILS: {}: {}", row.group, row.quantity));
+    Ok(table.failures().next().is_none())
+}
 
 fn share(cases: &[&Case]) -> String {
     let raised = cases.iter().filter(|case| case.scored.detected).count();
@@ -24,7 +45,7 @@ fn kind(label: &str) -> &str {
 }
 
 /// The scores, and the nulls by the noise they have.
-pub(super) fn section(plan: &Plan, cases: &[Case], table: &Table) -> String {
+fn section(plan: &Plan, cases: &[Case], table: &Table) -> String {
     let nulls: Vec<&Case> = cases.iter().filter(|case| case.scored.kind == Kind::Null).collect();
     let mut out = format!(
         "Seed {}: {} units with nothing concealed, {} with something. Names that an answer gives count as inseparable from the truth where the \

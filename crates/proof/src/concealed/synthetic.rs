@@ -6,7 +6,7 @@ use std::time::Instant;
 use fogcoil::cache::Cache;
 use fogcoil::input;
 
-use super::answer::{Answer, answer, rates};
+use super::answer::{answer, answered, paths, records};
 use super::chain;
 use super::score::{Scored, score};
 use super::units::each;
@@ -14,7 +14,6 @@ use crate::files::{self, root};
 use crate::truth::Truth;
 use clap::Args;
 
-use super::{report, summary};
 use crate::Failure;
 use crate::generator::{self, Generator, Which};
 use crate::program;
@@ -41,22 +40,6 @@ pub(crate) struct Case {
 }
 
 impl Plan {
-    /// Makes, answers and scores; writes the section of docs/proof.md. Whether all scores are as asked.
-    ///
-    /// # Errors
-    /// [`Failure`] says what went wrong; what is finished is kept and not done again.
-    pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let folder = root().join("target/prove/synthetic").join(self.seed.to_string());
-        let program = program::hash(&root())?;
-        let cases = self.cases(&folder, &Cache::of_user())?;
-        let scored: Vec<Scored> = cases.iter().map(|case| case.scored.clone()).collect();
-        let table = summary::summary(&scored);
-        report::publish("synthetic", &program, &super::section::section(self, &cases, &table))?;
-        println!("{}", report::lines(&table));
-        table.failures().for_each(|row| eprintln!("FAILS: {}: {}", row.group, row.quantity));
-        Ok(table.failures().next().is_none())
-    }
-
     fn units(&self) -> Vec<Which> {
         let all = (0..self.nulls.max(self.concealed)).flat_map(|n| [Which::Null(n), Which::Concealed(n)]);
         all.filter(|which| match which {
@@ -94,9 +77,9 @@ impl Plan {
         // the library is built once, before the threads ask for it
         let library = chain::library(&coil, cache)?;
         each(&names, |name| {
-            let into = ["json", "csv"].map(|kind| answers.join(format!("{name}.{kind}")));
+            let into = paths(&answers, name);
             if !into.iter().all(|file| file.exists()) {
-                let files = answer(&coil, &folder.join(name).join("fit.csv"), &folder.join(name).join("holdout.csv"), cache)?;
+                let files = answer(&coil, &records(&folder.join(name)), cache)?;
                 let [json, prediction] = into;
                 files::write_all(&[(prediction, files.prediction), (json, files.json)])?;
                 say("is answered", name);
@@ -105,13 +88,11 @@ impl Plan {
         })?;
         each(&names, |name| {
             let mut truth = Truth::read(&truth_of(name))?;
-            let sheet = super::inseparable::Sheet::read(&truth_of(name))?;
-            let read = |kind: &str| files::read(&answers.join(format!("{name}.{kind}")));
-            let answer = Answer::parse(&read("json")?)?;
-            let model = chain::Unit::new(&library, &folder.join(name).join("fit.csv"), &folder.join(name).join("holdout.csv"))?;
-            super::inseparable::extend(&mut truth, &sheet, &answer, &model)?;
-            let held = model.held_out(&truth, &rates(&read("csv")?)?)?;
-            Ok(Case { scored: score(name, &truth, &answer, Some(held)), unseen: sheet.noise.unseen })
+            let (answer, predicted) = answered(&answers, name)?;
+            let model = chain::Unit::new(&library, &records(&folder.join(name)))?;
+            super::inseparable::extend(&mut truth, &answer, &model)?;
+            let held = model.held_out(&truth, &predicted)?;
+            Ok(Case { scored: score(name, &truth, &answer, Some(held)), unseen: truth.noise.unseen })
         })
     }
 }

@@ -7,7 +7,7 @@ use fogcoil::cache::Cache;
 use fogcoil::input::{self, CoilCase};
 use rayon::prelude::*;
 
-use super::answer::{Answer, Files, answer, rates};
+use super::answer::{Answer, Files, answer, answered, paths, records};
 use super::baselines::{REGRESSIONS, regressions, selection};
 use super::chain::{self, Unit};
 use super::score::{HeldOut, Scored, score};
@@ -62,7 +62,7 @@ pub(crate) fn each<T: Send>(units: &[String], work: impl Fn(&str) -> Result<T, F
 fn answers(from: &Path, units: &[String], coil: &CoilCase, cache: &Cache, clock: Instant) -> Result<Vec<Files>, Failure> {
     each(units, |unit| {
         let (start, at) = (Instant::now(), from.join(unit));
-        let files = answer(coil, &at.join("fit.csv"), &at.join("holdout.csv"), cache)?;
+        let files = answer(coil, &records(&at), cache)?;
         eprintln!("[{:5.1} s] {unit} is answered ({:.0} s)", clock.elapsed().as_secs_f64(), start.elapsed().as_secs_f64());
         Ok(files)
     })
@@ -70,9 +70,8 @@ fn answers(from: &Path, units: &[String], coil: &CoilCase, cache: &Cache, clock:
 
 /// Writes the answers into a folder, all or none.
 fn write(into: &Path, units: &[String], answers: &[Files], program: Option<&str>) -> Result<(), Failure> {
-    let paths = units.iter().map(|unit| ["json", "csv"].map(|kind| into.join(format!("{unit}.{kind}"))));
-    let contents = answers.iter().map(|f| [f.json.clone(), f.prediction.clone()]);
-    let mut all: Vec<(PathBuf, String)> = paths.flatten().zip(contents.flatten()).collect();
+    let contents = answers.iter().flat_map(|f| [f.json.clone(), f.prediction.clone()]);
+    let mut all: Vec<(PathBuf, String)> = units.iter().flat_map(|unit| paths(into, unit)).zip(contents).collect();
     all.extend(program.map(|hash| (into.join(PROGRAM), format!("{hash}\n"))));
     files::write_all(&all)
 }
@@ -94,10 +93,9 @@ pub(crate) fn open(only: &[String]) -> Result<Vec<Case>, Failure> {
     eprintln!("[{:5.1} s] all answers are in {}; the truths are opened", clock.elapsed().as_secs_f64(), into.display());
     each(&names, |unit| {
         let truth = Truth::read(&folder().join("truth").join(format!("{unit}.ron")))?;
-        let read = |kind: &str| files::read(&into.join(format!("{unit}.{kind}")));
-        let (answer, at) = (Answer::parse(&read("json")?)?, from.join(unit));
-        let model = Unit::new(&library, &at.join("fit.csv"), &at.join("holdout.csv"))?;
-        let held = model.held_out(&truth, &rates(&read("csv")?)?)?;
+        let (answer, predicted) = answered(&into, unit)?;
+        let model = Unit::new(&library, &records(&from.join(unit)))?;
+        let held = model.held_out(&truth, &predicted)?;
         Ok(Case {
             scored: score(unit, &truth, &answer, Some(held)),
             held,

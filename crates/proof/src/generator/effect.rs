@@ -1,7 +1,7 @@
 //! What can be concealed: the families of the library, built straight into a design, with parameters at random.
 
+use super::build::{Build, Softening};
 use super::outside::Outside;
-use super::plant::{Build, Softening};
 use super::random::Random;
 use crate::truth::Mechanism;
 use coil::{Body, Heater, Mechanics, Mount, Opening, Side};
@@ -112,11 +112,9 @@ impl Effect {
                 Self::Defect { layer, turns: within(turns, 8.0).abs().round().max(1.0) * turns.signum() }
             }
             Self::Polymer { change } => Self::Polymer { change: within(change, 0.06) },
-            Self::GlassTransition { modulus, expansion, .. } => {
+            Self::GlassTransition { at, width, modulus, expansion } => {
                 let step = |x: f64| 1.0 + by * (x - 1.0);
-                let (low, high) = (0.3, 1.25);
-                let Self::GlassTransition { at, width, .. } = self else { return None };
-                Self::GlassTransition { at, width, modulus: step(modulus).max(low), expansion: step(expansion).min(high) }
+                Self::GlassTransition { at, width, modulus: step(modulus).max(0.3), expansion: step(expansion).min(1.25) }
             }
             Self::Relaxation { fraction, time } => Self::Relaxation { fraction: within(fraction, 0.6), time },
             Self::Debond { .. } => return None,

@@ -1,6 +1,6 @@
 //! The heat flow of a design as decaying modes, on a mesh and from a space of vectors that no other part of the program uses.
 
-use coil::{Design, Drive, Error, MeshFineness, ThermalModel};
+use coil::{Design, Drive, Error, MeshFineness, Outputs, ThermalModel};
 use fem_core::{SparseMatrix, SymbolicFactor};
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -60,6 +60,12 @@ impl Heat {
     /// A functional of the nodal temperature on drives and modes.
     pub(super) fn onto(&self, functional: &[f64]) -> Vec<f64> {
         self.fields.iter().map(|field| dot(field, functional)).collect()
+    }
+
+    /// The sum of the three bias parts on drives and modes \[rad\].
+    pub(super) fn total(&self, functionals: &Outputs<Vec<f64>>) -> Vec<f64> {
+        let parts: Vec<Vec<f64>> = functionals.parts.iter().flatten().map(|part| self.onto(part)).collect();
+        (0..parts[0].len()).map(|k| parts.iter().map(|p| p[k]).sum()).collect()
     }
 }
 

@@ -1,8 +1,8 @@
 //! How the phase follows the temperature where stiffness or bonds depend on temperature and history.
 
+use super::build::{Build, Softening};
 use super::chamber::STEP;
 use super::heat::{Heat, MESH};
-use super::plant::{Build, Softening, total};
 use coil::{Bonds, Error, MechanicalState, Mechanics, Model, Opening, functionals};
 use nalgebra::{DMatrix, DVector};
 
@@ -46,7 +46,7 @@ impl Law {
     pub(super) fn new(build: &Build, heat: &Heat, nominal: Functional) -> Result<Self, Error> {
         let design = &build.design;
         let in_state = |state: MechanicalState| -> Result<Functional, Error> {
-            Ok(total(heat, &functionals(design, &Model::in_state(design, &MESH, &state)?, &heat.model)?))
+            Ok(heat.total(&functionals(design, &Model::in_state(design, &MESH, &state)?, &heat.model)?))
         };
         if let Mechanics::Opening(opening) = design.mechanics {
             let open = in_state(MechanicalState { bonds: Bonds::Opened, ..MechanicalState::NOMINAL })?;

@@ -1,6 +1,7 @@
 //! The gyro's noise: what the identification expects, and in some units what it does not.
 
 use super::random::Random;
+use crate::truth;
 use std::f64::consts::TAU;
 
 /// Span of a reading \[s\].
@@ -68,6 +69,18 @@ impl Noise {
             walk: if random.chance(0.3) { random.log_uniform(0.0003, 0.0015) } else { 0.0 },
             offset: random.uniform(-0.1, 0.1),
             unseen,
+        }
+    }
+
+    /// As the truth files hold it.
+    pub(super) fn truth(&self) -> truth::Noise {
+        truth::Noise {
+            arw_deg_per_sqrt_h: self.arw,
+            gm_sigma_deg_per_h: self.drift.0,
+            gm_tau_s: self.drift.1,
+            rrw_deg_per_h_per_sqrt_h: self.walk,
+            offset_deg_per_h: self.offset,
+            unseen: self.unseen.map(|unseen| unseen.label()),
         }
     }
 

@@ -1,46 +1,17 @@
 //! The unit in time: modes stepped by Radau IIA, mechanics that depends on temperature and history, thermometer and gyro.
 
+use super::build::Build;
 use super::chamber::STEP;
 use super::heat::{Heat, MESH, VECTORS};
 use super::law::Law;
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
-use coil::{Design, Error, Model, Outputs, functionals};
+use coil::{Design, Error, Model, functionals};
 use nalgebra::{DMatrix, DVector};
 use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Reference of ∂n/∂T's curvature and of the read-out's coefficient \[°C\].
 const REFERENCE: f64 = 20.0;
-
-/// What a unit is built from: a design, and what a design does not hold.
-#[derive(Clone)]
-pub(super) struct Build {
-    pub(super) design: Design,
-    pub(super) softening: Option<Softening>,
-    /// Relaxing share of the transverse moduli, and its time \[s\].
-    pub(super) relaxing: Option<(f64, f64)>,
-    /// Of ∂n/∂T \[1/K²\].
-    pub(super) curvature: f64,
-    /// [deg/h per K].
-    pub(super) read_out: f64,
-    /// Of the thermometer \[s\].
-    pub(super) lag: f64,
-    /// On the whole rate: what a mesh does to a sensitivity.
-    pub(super) gain: f64,
-}
-
-/// A logistic step of the transverse constants.
-#[derive(Clone, Copy)]
-pub(super) struct Softening {
-    /// \[°C\]
-    pub(super) at: f64,
-    /// \[K\]
-    pub(super) width: f64,
-    /// On E_r and G.
-    pub(super) modulus: f64,
-    /// On α_r.
-    pub(super) expansion: f64,
-}
 
 /// A unit that can be run.
 pub(super) struct Plant {
@@ -65,20 +36,6 @@ pub(super) struct Run {
     pub(super) angle: Vec<f64>,
 }
 
-impl Build {
-    pub(super) fn new(design: Design) -> Self {
-        Self { design, softening: None, relaxing: None, curvature: 0.0, read_out: 0.0, lag: 0.0, gain: 1.0 }
-    }
-
-    /// Whether heat flows in `other` as it does here.
-    fn shares_heat(&self, other: &Self) -> bool {
-        let of = |b: &Self| {
-            (b.design.body, b.design.spool.clone(), b.design.surroundings, b.design.heat.clone(), b.design.mechanics.clone())
-        };
-        of(self) == of(other)
-    }
-}
-
 impl Plant {
     /// The plant of `build`; heat flow is taken from `like` if it is the same there.
     pub(super) fn new(build: Build, like: Option<&Self>) -> Result<Self, Error> {
@@ -94,7 +51,7 @@ impl Plant {
         let design = &build.design;
         let model = Model::new(design, &MESH)?;
         let nominal = functionals(design, &model, &heat.model)?;
-        let law = Law::new(&build, &heat, total(&heat, &nominal))?;
+        let law = Law::new(&build, &heat, heat.total(&nominal))?;
         let curvature = if build.curvature == 0.0 { None } else { Some(phase_of_curvature(design, &model, &heat)) };
         Ok(Self { sensor: heat.onto(&nominal.thermometer), coil: heat.onto(&nominal.coil_mean), law, curvature, heat, build })
     }
@@ -160,12 +117,6 @@ impl Plant {
 /// Stability function of the two-stage Radau IIA method, third order and L-stable (E. Hairer and G. Wanner, *Solving ODEs II*, IV.5).
 fn radau(z: f64) -> f64 {
     (1.0 + z / 3.0) / (1.0 - 2.0 * z / 3.0 + z * z / 6.0)
-}
-
-/// The sum of the three bias parts on drives and modes \[rad\].
-pub(super) fn total(heat: &Heat, functionals: &Outputs<Vec<f64>>) -> Vec<f64> {
-    let parts: Vec<Vec<f64>> = functionals.parts.iter().flatten().map(|part| heat.onto(part)).collect();
-    (0..parts[0].len()).map(|k| parts.iter().map(|p| p[k]).sum()).collect()
 }
 
 /// `n/(L D) Σ W (T²/2 − reference T)` over the turns and tails is the phase of a curved ∂n/∂T, eq. (1) integrated in time: its forms.

@@ -1,13 +1,14 @@
 //! The generator against the program's own chain, against finer versions of itself, and its noise against what was drawn.
 
 use super::SOURCES;
+use super::build::Build;
 use super::chamber::{Course, ProgrammeFamily, STEP};
 use super::effect::{self, Effect};
 use super::heat::{Heat, VECTORS};
 use super::matched::Whitening;
 use super::noise::{Noise, SPAN, Unseen};
 use super::outside::{Outside, SHAPES};
-use super::plant::{Build, Plant};
+use super::plant::Plant;
 use super::random::Random;
 use super::record::{Signal, at, signal};
 use super::unit::{Generator, Which};
@@ -23,7 +24,7 @@ static DESIGN: LazyLock<Design> = LazyLock::new(|| {
 static GENERATOR: LazyLock<Generator> = LazyLock::new(|| Generator::new(DESIGN.clone()).unwrap());
 
 /// What is taken of `coil`: designs, and what is assembled from them. Reduced models, integrators and profiles are not among it.
-const OF_COIL: [&str; 15] = [
+const OF_COIL: [&str; 16] = [
     "Body",
     "Bonds",
     "Design",
@@ -32,10 +33,11 @@ const OF_COIL: [&str; 15] = [
     "Heater",
     "MechanicalState",
     "Mechanics",
+    "MeshFineness",
     "Model",
     "Mount",
     "Opening",
-    "Resolution",
+    "Outputs",
     "Side",
     "ThermalModel",
     "functionals",

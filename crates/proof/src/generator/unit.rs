@@ -1,16 +1,16 @@
 //! One unit: drawn, sized, run under two programmes, written down.
 
+use super::build::Build;
 use super::chamber;
 use super::effect::{self, Effect};
 use super::noise::{Noise, SPAN};
 use super::outside::{Outside, SHAPES};
-use super::plant::{Build, Plant};
+use super::plant::Plant;
 use super::random::Random;
 use super::record::{Sensors, Signal, THERMOMETER};
 use super::scene::{AIRIER, Judge, Scene, minus};
-use super::sheet::{Sheet, SpoolSensor, Wandering};
 use crate::Failure;
-use crate::truth::{self, Strength};
+use crate::truth::{self, SpoolSensor, Strength, Truth};
 use coil::Design;
 
 /// Signal-to-noise ratios that effects are sized to, evenly in the logarithm.
@@ -143,16 +143,16 @@ impl Generator {
             fit_difference: rms(&minus(&signals[0].1.rate, &signals[0].0.rate)),
             holdout_difference: rms(&minus(&signals[1].1.rate, &signals[1].0.rate)),
         };
-        let sheet = Sheet {
+        let truth = Truth {
             mechanisms,
             snr: strengths,
             confusable_sets,
-            noise: Wandering::new(&noise),
+            noise: noise.truth(),
             spool_sensor: SpoolSensor { noise_c: THERMOMETER, quantisation_c: sensors.resolution, offset_c: sensors.offset },
             noise_free_rms_deg_per_h: sizes,
             profiles: families.map(|f| format!("{f:?}")),
         };
-        Ok(Unit { fit: fit_text, holdout: holdout_text, meta: meta(&sensors, arw), truth: sheet.write()? })
+        Ok(Unit { fit: fit_text, holdout: holdout_text, meta: meta(&sensors, arw), truth: truth.write()? })
     }
 
     /// A member of a family sized to a strength at random, alone in the unit.

@@ -3,8 +3,8 @@
 use super::cell::{check, largest};
 use super::fixtures::{Fixtures, Printed};
 use super::row::{Agreement, ComparisonRow};
+use super::section::{Section, timed};
 use super::spread::{self, Spread};
-use super::{Section, timed};
 use crate::Failure;
 use bias::{Bias, Sensitivity, Slice};
 use coil::{COARSE, Dehomogenization, Design, FINE, MeshFineness, Model, steady_sensitivity};
@@ -99,16 +99,12 @@ fn theory(fixtures: &Fixtures, constants: &Constants, section: &mut Section) -> 
     let radial = value("IV.radial", "EO radial part", s.sensitivity.eo_radial, s.part_errors.eo_radial, Agreement::Calibrated);
     let smaller = s.sensitivity.eo_radial.abs() < s.sensitivity.eo_axial.abs();
     section.rows.push(radial.compared(smaller, "smaller than the axial part, as the paper says"));
-    section.rows.push(check("IV.shupe", "Shupe part in a steady ramp", s.sensitivity.shupe, SHUPE, UNIT, "zero: Ṫ is uniform"));
+    let shupe = check("IV.shupe", "Shupe part in a steady ramp", s.sensitivity.shupe, SHUPE, "zero: Ṫ is uniform");
+    section.rows.push(ComparisonRow { unit: shupe.unit.replacen('-', UNIT, 1), ..shupe });
     let text = format!("S / {} - 1 (independent codes)", known.sensitivity.value);
-    section.rows.push(check(
-        "IV.independent",
-        &text,
-        s.sensitivity.total() / known.sensitivity.value - 1.0,
-        known.sensitivity.relative_tolerance,
-        "-",
-        "elements of order 6 on free meshes; quadratic elements give 2.7285 to 2.7323",
-    ));
+    let off = s.sensitivity.total() / known.sensitivity.value - 1.0;
+    let reason = "elements of order 6 on free meshes; quadratic elements give 2.7285 to 2.7323";
+    section.rows.push(check("IV.independent", &text, off, known.sensitivity.relative_tolerance, reason));
     Ok(s.error_estimate)
 }
 
@@ -122,27 +118,16 @@ fn altered(design: &Design) -> Vec<(&'static str, Design)> {
 }
 
 fn error_estimates(design: &Design, section: &mut Section) -> Result<(), Failure> {
-    let designs = altered(design);
-    let rows: Result<Vec<ComparisonRow>, Failure> = designs
-        .par_iter()
-        .map(|(name, design)| {
-            let s = steady_sensitivity(design)?;
-            let truth = total(design, &TRUTH)?;
-            let ratio = s.error_estimate / (s.sensitivity.total() - truth).abs();
-            let mut row = value(
-                &format!("IV.estimate.{name}"),
-                format!("error estimate / true error, {name}"),
-                ratio,
-                0.0,
-                Agreement::Predicted,
-            );
-            row.unit = "- (must lie in 1 … 10)".into();
-            let reason =
-                format!("S = {:.6}, estimate {:.1e}, two refinements {truth:.6}", s.sensitivity.total(), s.error_estimate);
-            Ok(row.required((1.0..=10.0).contains(&ratio)).because(reason))
-        })
-        .collect();
-    section.rows.extend(rows?);
+    let of = |(name, design): &(&str, Design)| -> Result<ComparisonRow, Failure> {
+        let s = steady_sensitivity(design)?;
+        let truth = total(design, &TRUTH)?;
+        let ratio = s.error_estimate / (s.sensitivity.total() - truth).abs();
+        let (id, quantity) = (format!("IV.estimate.{name}"), format!("error estimate / true error, {name}"));
+        let row = ComparisonRow::shown([&id, &quantity, "- (must lie in 1 … 10)"], ratio, 0.0, Agreement::Predicted);
+        let reason = format!("S = {:.6}, estimate {:.1e}, two refinements {truth:.6}", s.sensitivity.total(), s.error_estimate);
+        Ok(row.required((1.0..=10.0).contains(&ratio)).because(reason))
+    };
+    section.rows.extend(altered(design).par_iter().map(of).collect::<Result<Vec<_>, _>>()?);
     Ok(())
 }
 
@@ -173,34 +158,24 @@ fn adjoint_defect(design: &Design) -> Result<f64, Failure> {
 }
 
 fn adjoint(design: &Design, section: &mut Section) -> Result<(), Failure> {
-    let perturbed = [
-        (
-            "tails and mechanical strain",
-            with(design, |d| {
-                d.winding.tails = Tails { cw: 0.74, ccw: 0.1 };
-                d.optics.strain = bias::StrainConvention::Mechanical;
-            }),
-        ),
-        (
-            "left climb, stiffer coil",
-            with(design, |d| {
-                d.winding.cw_climbs = ClimbSide::Left;
-                d.body.elastic.e_z *= 1.05;
-                d.body.elastic.alpha_r *= 0.97;
-            }),
-        ),
-        (
-            "no spool, octupole",
-            with(design, |d| {
-                d.spool = None;
-                d.winding.pattern = Pattern::Octupole;
-            }),
-        ),
-    ];
+    let tails = with(design, |d| {
+        d.winding.tails = Tails { cw: 0.74, ccw: 0.1 };
+        d.optics.strain = bias::StrainConvention::Mechanical;
+    });
+    let stiffer = with(design, |d| {
+        d.winding.cw_climbs = ClimbSide::Left;
+        d.body.elastic.e_z *= 1.05;
+        d.body.elastic.alpha_r *= 0.97;
+    });
+    let bare = with(design, |d| {
+        d.spool = None;
+        d.winding.pattern = Pattern::Octupole;
+    });
+    let perturbed = [("tails and mechanical strain", tails), ("left climb, stiffer coil", stiffer), ("no spool, octupole", bare)];
     for (name, design) in &perturbed {
         let text = format!("adjoint against brute-force differencing, {name}");
         let reason = "two forward runs 60 K apart, differenced turn by turn through eqs (1) to (3)";
-        section.rows.push(check(&format!("IV.adjoint.{name}"), &text, adjoint_defect(design)?, ADJOINT, "-", reason));
+        section.rows.push(check(&format!("IV.adjoint.{name}"), &text, adjoint_defect(design)?, ADJOINT, reason));
     }
     Ok(())
 }
@@ -215,25 +190,13 @@ fn own_constants(fixtures: &Fixtures, constants: &Constants, section: &mut Secti
         d.body.elastic = constants.elastic();
         d.dehomogenization = own_m;
     });
+    let with_m = |m: Dehomogenization| with(&fixtures.coil, |d| d.dehomogenization = m);
+    let (own, printed) = (with_m(own_m), with_m(fogcoil::input::PRINTED));
+    let whole = "the whole chain from the cell; the paper's model printed 2.71";
     let cases = [
-        (
-            "IV.own",
-            "S with the cell's own constants and own M",
-            chain,
-            "the whole chain from the cell; the paper's model printed 2.71",
-        ),
-        (
-            "IV.own_m",
-            "S with Table I and the cell's own M",
-            with(&fixtures.coil, |d| d.dehomogenization = own_m),
-            "M of the cell",
-        ),
-        (
-            "IV.printed_m",
-            "S with Table I and M as printed",
-            with(&fixtures.coil, |d| d.dehomogenization = fogcoil::input::PRINTED),
-            "shown, not believed: see Table II",
-        ),
+        ("IV.own", "S with the cell's own constants and own M", chain, whole),
+        ("IV.own_m", "S with Table I and the cell's own M", own, "M of the cell"),
+        ("IV.printed_m", "S with Table I and M as printed", printed, "shown, not believed: see Table II"),
     ];
     for (id, quantity, design, reason) in cases {
         let s = steady_sensitivity(&design)?;
@@ -241,15 +204,10 @@ fn own_constants(fixtures: &Fixtures, constants: &Constants, section: &mut Secti
     }
     let ideal = steady_sensitivity(&with(&fixtures.coil, |d| d.winding.pattern = Pattern::Quadrupole))?;
     let known = &fixtures.independent.ideal_quadrupole;
-    let row = value(
-        "IV.quadrupole",
-        "S wound as an ideal quadrupole",
-        ideal.sensitivity.total(),
-        ideal.error_estimate,
-        Agreement::Calibrated,
-    );
+    let (total, error) = (ideal.sensitivity.total(), ideal.error_estimate);
+    let row = value("IV.quadrupole", "S wound as an ideal quadrupole", total, error, Agreement::Calibrated);
     let reason = format!("independent codes: {} ± 0.003; the practical pattern costs the rest", known.value);
-    section.rows.push(row.required(known.holds(ideal.sensitivity.total())).because(reason));
+    section.rows.push(row.required(known.holds(total)).because(reason));
     Ok(())
 }
 
@@ -258,14 +216,9 @@ fn real_coils(fixtures: &Fixtures, error: f64, section: &mut Section) -> Result<
         let printed = fixtures.printed(id)?;
         let target = printed.value()?;
         let (tail, slope) = coil::tail_asymmetry(&fixtures.coil, -target)?;
-        let mut row = value(
-            id,
-            format!("tail asymmetry CW - CCW that explains {}", printed.quantity),
-            tail,
-            (error + HALF_DIGIT) / slope.abs(),
-            Agreement::Identified,
-        );
-        row.unit = "m".into();
+        let quantity = format!("tail asymmetry CW - CCW that explains {}", printed.quantity);
+        let error = (error + HALF_DIGIT) / slope.abs();
+        let row = ComparisonRow::shown([id, &quantity, "m"], tail, error, Agreement::Identified);
         section.rows.push(row.because(format!(
             "|S| printed {} is measured, not predicted, and taken with the model's sign (Table IV gives magnitudes); a tail of this length is one explanation (1 m adds {slope:.2}), a changed \
              amount of adhesive another, which a slow ramp cannot tell apart",

@@ -1,6 +1,5 @@
 //! What the comparison reads: the two reference files, the paper's tables, the independent values, the spool materials.
 
-use super::row::decimals;
 use crate::Failure;
 use crate::files::root;
 use fogcoil::input::{read_cell, read_coil, read_ron};
@@ -30,6 +29,11 @@ impl Printed {
         let exponent = self.printed.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
         0.5 * 10f64.powi(exponent - decimals(&self.printed) as i32) * self.scale
     }
+}
+
+/// Decimals of a printed number.
+pub(super) fn decimals(printed: &str) -> usize {
+    printed.split_once('.').map_or(0, |(_, fraction)| fraction.bytes().take_while(u8::is_ascii_digit).count())
 }
 
 #[derive(Debug, Deserialize)]

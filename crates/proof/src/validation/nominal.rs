@@ -2,7 +2,7 @@
 
 use super::fixtures::Fixtures;
 use super::row::{Agreement, ComparisonRow};
-use super::{Section, timed};
+use super::section::{Section, timed};
 use crate::Failure;
 use crate::files;
 use bias::units::{DEG_PER_H_PER_RAD_PER_S, K_PER_MIN_PER_K_PER_S};

@@ -1,6 +1,6 @@
 //! One comparison: printed, computed ± numerical error, verdict, kind of agreement, reason.
 
-use super::fixtures::Printed;
+use super::fixtures::{Printed, decimals};
 use serde::Serialize;
 
 /// What stands behind an agreement.
@@ -96,11 +96,6 @@ impl ComparisonRow {
     pub fn computed_text(&self) -> String {
         with_error(self.computed, self.numerical_error, self.printed.as_deref().map_or(0, decimals))
     }
-}
-
-/// Decimals of a printed number.
-pub(super) fn decimals(printed: &str) -> usize {
-    printed.split_once('.').map_or(0, |(_, fraction)| fraction.bytes().take_while(u8::is_ascii_digit).count())
 }
 
 /// Whether `value`, anywhere within its numerical error, rounds to the printed digits.

@@ -1,9 +1,9 @@
 //! Table III: the winding, from the pattern alone.
 
-use super::Section;
 use super::cell::NINE_DIGITS;
 use super::fixtures::{Fixtures, Printed};
 use super::row::{Agreement, ComparisonRow, rounds_to};
+use super::section::Section;
 use crate::Failure;
 use winding::{Half, Pattern, Spec, wind};
 
