@@ -8,6 +8,7 @@ use fogcoil::homogenize as cells;
 use fogcoil::input::{self, AnyCell, Between, RecordCase, RecordOptions, at_temperature};
 use fogcoil::units::to_mm;
 use fogcoil::{Error, diagnose as diagnosis, sensitivity as ramp, simulate as runs, summary, wind as turns};
+use progress::Step;
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
 use serde_json::{Value, json};
@@ -131,7 +132,7 @@ pub(crate) fn diagnose<'py>(
     code: Option<PathBuf>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Diagnosed<'py>> {
-    let said = |task: &str| -> PyResult<()> {
+    let said = |task: String| -> PyResult<()> {
         Python::attach(|py| {
             py.check_signals()?;
             progress.as_ref().map_or(Ok(()), |call| call.call1(py, (task,)).map(drop))
@@ -142,8 +143,8 @@ pub(crate) fn diagnose<'py>(
     let run = || -> Result<_, Error> {
         diagnosis::check_design(&coil.case, &coil.case.file)?;
         let all = |records: &[Record]| records.iter().map(|record| read(record, meta.as_deref())).collect::<Result<Vec<_>, _>>();
-        let note = |task: &str| {
-            if let Err(error) = said(task) {
+        let note = |step: Step| {
+            if let Err(error) = said(step.to_string()) {
                 let _ = raised_by_callback.set(error);
             }
         };

@@ -15,6 +15,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use crate::progress::Progress;
 use clap::Parser;
 use cli::{Cli, Command, Diagnose, Simulate};
 use cli_check::Check;
@@ -25,7 +26,6 @@ use fogcoil::input::Between;
 use fogcoil::output::Content;
 use fogcoil::{Error, check, diagnose, figures, input, output, picture, report, sensitivity, simulate, summary, trim, wind};
 use print::print;
-use progress::Progress;
 
 fn main() -> ExitCode {
     match run(&Cli::parse()) {

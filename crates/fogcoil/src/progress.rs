@@ -8,6 +8,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use ::progress::Step;
 use fogcoil::output::{self, Content};
 use fogcoil::{Error, input};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -83,28 +84,27 @@ impl Progress {
         }
     }
 
-    /// A task begins, or goes on where ` (k of n)` stands behind its name.
-    fn task(&self, task: &str) {
-        let (name, share) = counted(task);
+    /// A task begins, or goes on.
+    fn task(&self, Step { task, done }: Step) {
         if let Some(bar) = lock(&self.bar).as_ref() {
-            if let Some((done, all)) = share {
-                bar.set_length(all);
-                bar.set_position(done);
+            if let Some((done, all)) = done {
+                bar.set_length(all as u64);
+                bar.set_position(done as u64);
             }
-            bar.set_style(style(if share.is_some() { COUNTED } else { UNCOUNTED }));
-            bar.set_message(name.to_owned());
+            bar.set_style(style(if done.is_some() { COUNTED } else { UNCOUNTED }));
+            bar.set_message(task.to_owned());
             return;
         }
         let mut named = lock(&self.named);
-        if *named != name {
-            *named = name.to_owned();
-            self.note(name);
+        if *named != task {
+            *named = task.to_owned();
+            self.note(task);
         }
     }
 
     /// Does work that tells its tasks.
-    pub(crate) fn tasks<T>(&self, work: impl FnOnce(&(dyn Fn(&str) + Sync)) -> T) -> T {
-        self.watched(None, || work(&|task| self.task(task)))
+    pub(crate) fn tasks<T>(&self, work: impl FnOnce(&(dyn Fn(Step) + Sync)) -> T) -> T {
+        self.watched(None, || work(&|step| self.task(step)))
     }
 
     /// Does `work`, and names it if it takes long.
@@ -200,25 +200,9 @@ fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> ")
 }
 
-/// A task's name and, of one that is counted, k of n.
-fn counted(task: &str) -> (&str, Option<(u64, u64)>) {
-    let parts = || {
-        let (name, rest) = task.rsplit_once(" (")?;
-        let (done, all) = rest.strip_suffix(')')?.split_once(" of ")?;
-        Some((name, (done.parse().ok()?, all.parse().ok()?)))
-    };
-    parts().map_or((task, None), |(name, share)| (name, Some(share)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_count_is_told_from_other_brackets() {
-        assert_eq!(counted("fitting (once) (3 of 14)"), ("fitting (once)", Some((3, 14))));
-        assert_eq!(counted("fitting (half a minute of it)"), ("fitting (half a minute of it)", None));
-    }
 
     #[test]
     fn a_few_files_are_named() {

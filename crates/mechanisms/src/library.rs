@@ -8,6 +8,7 @@ use coil::{
     TurnFields, functionals,
 };
 use nalgebra::{DMatrix, DVector};
+use progress::Step;
 use rayon::prelude::*;
 use winding::{Half, LayerDefect, Winding};
 
@@ -93,11 +94,11 @@ enum Job {
 }
 
 impl Library {
-    /// Makes every model that the `mechanisms` need; `progress` is told the share done.
+    /// Makes every model that the `mechanisms` need; `progress` is told how many are made.
     ///
     /// # Errors
     /// [`Error`] names the dimension or property at fault, or the solve that failed.
-    pub fn build(design: &Design, mechanisms: &[&dyn Mechanism], progress: impl Fn(f64) + Sync) -> Result<Self, Error> {
+    pub fn build(design: &Design, mechanisms: &[&dyn Mechanism], progress: &(dyn Fn(Step) + Sync)) -> Result<Self, Error> {
         let thermal = ThermalModel::new(design, &COARSE, &chamber())?;
         let model = Model::new(design, &COARSE)?;
         let Reduction { reduced: base, modes, .. } = Reduction::new(&thermal, &functionals(design, &model, &thermal)?, MODES)?;
@@ -158,7 +159,7 @@ impl Library {
                 }
             };
             let count = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
-            progress(count as f64 / jobs.len() as f64);
+            progress(Step::counted("modelling the design and what may be left out of it", count, jobs.len()));
             Ok(made)
         };
         let mut made: Vec<Made> = jobs.par_iter().map(run).collect::<Result<_, _>>()?;

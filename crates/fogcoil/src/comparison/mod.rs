@@ -7,6 +7,7 @@ mod trial;
 
 use diagnosis::{Active, ForwardModel, Plan, Prior, separation};
 use mechanisms::{CATALOGUE, Gyro, RATE, SPOOL};
+use progress::Step;
 
 use crate::Error;
 use crate::cache::Cache;
@@ -83,7 +84,7 @@ impl Comparison {
     ///
     /// # Errors
     /// [`Error::Coil`] if the design cannot be modelled.
-    pub fn measure(case: &CoilCase, cache: &Cache, progress: &dyn Fn(&str)) -> Result<Self, Error> {
+    pub fn measure(case: &CoilCase, cache: &Cache, progress: &dyn Fn(Step)) -> Result<Self, Error> {
         let Responses { entries, programmes, gyro, mut contenders, truths } = Responses::of(case, cache)?;
         let failed = |error| failed(case, error);
         contenders.push(Contender::recalibrated());
@@ -95,7 +96,7 @@ impl Comparison {
             let mut of_programme = Vec::with_capacity(truths.len());
             for truth in &truths {
                 let id = &gyro.mechanisms()[truth.mechanism].id;
-                progress(&format!("{}: {id}", programme.family));
+                progress(Step::begins(&format!("{}: {id}", programme.family)));
                 let against = |rival: &Contender| -> Result<Option<Told>, Error> {
                     if rival.id == *id {
                         return Ok(None);

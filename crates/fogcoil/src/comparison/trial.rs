@@ -2,6 +2,7 @@
 
 use diagnosis::{Active, ForwardModel, Observation, fitted};
 use mechanisms::{CATALOGUE, Gyro};
+use progress::Step;
 
 use super::{Comparison, Told};
 use crate::Error;
@@ -47,7 +48,7 @@ impl Comparison {
         case: &CoilCase,
         cache: &Cache,
         normal: &mut dyn FnMut() -> f64,
-        progress: &dyn Fn(&str),
+        progress: &dyn Fn(Step),
     ) -> Result<Vec<Trial>, Error> {
         let coil = |source| Error::Coil { file: case.file.clone(), source };
         let failed = |error: diagnosis::Error<coil::Error>| match error {
@@ -68,7 +69,7 @@ impl Comparison {
                     odds(&self.told[k][a][b]).min(odds(&self.told[k][b][a]))
                 };
                 let best = (0..self.programmes.len()).max_by(|x, y| worse(*x).total_cmp(&worse(*y))).unwrap_or(0);
-                progress(&format!("{} and {}: {}", first.id, second.id, self.programmes[best].family));
+                progress(Step::begins(&format!("{} and {}: {}", first.id, second.id, self.programmes[best].family)));
                 let mut found = [[0.0; 2]; 2];
                 for (of_programme, k) in found.iter_mut().zip([best, 0]) {
                     for (odds, (truth, rival)) in of_programme.iter_mut().zip([(first, second), (second, first)]) {

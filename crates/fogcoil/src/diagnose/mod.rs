@@ -18,6 +18,7 @@ use diagnosis::{
     Contradiction, Diagnosis, ForwardModel, HeldOut, Hypothesis, Judged, Judgement, Observation, Ruling, Settings, Verdict,
 };
 use mechanisms::{CATALOGUE, Extent, Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
+use progress::Step;
 
 use crate::Error;
 use crate::cache::Cache;
@@ -61,7 +62,7 @@ struct Held {
 
 /// Diagnoses a unit of the design `case` from the records `fits`, judged on `holdouts`.
 ///
-/// `progress` is told each task as it begins; of one that can be counted again and again, with ` (k of n)` behind its name.
+/// `progress` is told each task as it begins; of one that can be counted again and again.
 ///
 /// # Errors
 /// [`Error::Input`] names the record that cannot be used and why; [`Error::Coil`] if the design cannot be modelled.
@@ -70,14 +71,14 @@ pub fn diagnose(
     fits: &[RecordCase],
     holdouts: &[RecordCase],
     cache: &Cache,
-    progress: &(dyn Fn(&str) + Sync),
+    progress: &(dyn Fn(Step) + Sync),
 ) -> Result<Outcome, Error> {
     let coil = |source| Error::Coil { file: case.file.clone(), source };
     refuse_copies(fits.iter().chain(holdouts))?;
     let mut notes = Vec::new();
     let read: Vec<Ready> = fits.iter().chain(holdouts).map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
     let library = library(case, cache, progress)?;
-    progress("running every model under the recorded chamber");
+    progress(Step::begins("running every model under the recorded chamber"));
     let prepared = |r: &Ready| Prepared::new(&library, &r.observation.time, &r.chamber, r.averaging);
     let prepared = read.iter().map(prepared).collect::<Result<Vec<_>, _>>().map_err(coil)?;
     let gyro = Gyro::fitted_to(library, CATALOGUE, prepared, fits.len()).map_err(coil)?;
@@ -143,13 +144,12 @@ fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -> Result<()
 ///
 /// # Errors
 /// [`Error::Coil`] if the design cannot be modelled.
-pub fn library(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(&str) + Sync)) -> Result<Library, Error> {
+pub fn library(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(Step) + Sync)) -> Result<Library, Error> {
     const TASK: &str = "modelling the coil and what its model may leave out (about a minute, once for a design)";
     let key = (&case.design, COARSE);
-    let share = |share: f64| progress(&format!("{TASK} ({:.0} of 100)", 100.0 * share));
     let built = cache.load_or_build("library", &key, || {
-        progress(TASK);
-        Library::build(&case.design, CATALOGUE, share)
+        progress(Step::begins(TASK));
+        Library::build(&case.design, CATALOGUE, &|step| progress(Step { task: TASK, ..step }))
     });
     built.map(|(library, _)| library).map_err(|source| Error::Coil { file: case.file.clone(), source })
 }

@@ -7,6 +7,7 @@ mod test;
 use coil::{COARSE, Design, MechanicalState, Model};
 use diagnosis::{Active, ForwardModel, Prior, Role};
 use mechanisms::{CATALOGUE, Gyro, Mechanism, Prepared, RATE, Steady};
+use progress::Step;
 
 use crate::Error;
 use crate::cache::Cache;
@@ -101,7 +102,7 @@ pub fn explain(
     measured: f64,
     magnitude: bool,
     cache: &Cache,
-    progress: &(dyn Fn(&str) + Sync),
+    progress: &(dyn Fn(Step) + Sync),
 ) -> Result<Explained, Error> {
     if !measured.is_finite() || measured.abs() > MOST || (magnitude && measured < 0.0) {
         let text = format!(
@@ -123,7 +124,7 @@ pub fn explain(
         records.push(prepared(&library, programme).map_err(coil)?);
     }
     let gyro = Gyro::new(library, CATALOGUE, records).map_err(coil)?;
-    progress("solving for every mechanism");
+    progress(Step::begins("solving for every mechanism"));
     let problem = Problem { design: &case.design, target: measured, error: steady.error_estimate, nominal: None };
     let problem = Problem { nominal: problem.sensitivity(&case.design, &MechanicalState::NOMINAL), ..problem };
     let all = gyro.mechanisms().iter().enumerate();

@@ -8,6 +8,8 @@ mod question;
 mod recommendation;
 mod say;
 
+use progress::Step;
+
 use crate::Error;
 use crate::cache::Cache;
 use crate::diagnose::{library, ready};
@@ -34,7 +36,7 @@ pub fn recommend(
     records: &[RecordCase],
     limits: &Limits,
     cache: &Cache,
-    progress: &(dyn Fn(&str) + Sync),
+    progress: &(dyn Fn(Step) + Sync),
 ) -> Result<Recommendation, Error> {
     check(between, limits)?;
     let given = records.iter().map(|record| ready(record, &mut Vec::new())).collect::<Result<_, _>>()?;
