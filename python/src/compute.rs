@@ -84,7 +84,7 @@ pub(crate) fn simulate<'py>(
         || input::check_profile("profile".as_ref(), table(&profile), &case.design).map_err(|error| at_element(error.into()));
     let mut profile = py.detach(read).map_err(raised)?;
     profile.between = between;
-    warn(py, "", &profile.notes)?;
+    warn(py, profile.notes.clone())?;
     let run = || {
         let model = runs::model(case, &profile.drives, &cache(code))?;
         let simulation = runs::simulate(case, &profile, &model)?;

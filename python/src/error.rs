@@ -2,6 +2,7 @@
 
 use std::ffi::CString;
 
+use fogcoil::glossary::Note;
 use fogcoil::{Error, input};
 use pyo3::exceptions::{PyRuntimeError, PyUserWarning, PyValueError};
 use pyo3::{PyErr, PyResult, Python, create_exception};
@@ -31,10 +32,10 @@ pub(crate) fn raised(error: impl Into<Error>) -> PyErr {
 }
 
 /// Warns of what is allowed but looks like a mistake.
-pub(crate) fn warn<'a>(py: Python, about: &str, all: impl IntoIterator<Item = &'a String>) -> PyResult<()> {
+pub(crate) fn warn(py: Python, all: impl IntoIterator<Item = Note>) -> PyResult<()> {
     let category = py.get_type::<PyUserWarning>();
     all.into_iter().try_for_each(|warning| {
-        let message = format!("{about}{warning}").replace('\0', "");
+        let message = warning.message().replace('\0', "");
         PyErr::warn(py, &category, &CString::new(message)?, 1)
     })
 }

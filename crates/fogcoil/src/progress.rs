@@ -9,6 +9,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use ::progress::Step;
+use fogcoil::glossary::Note;
 use fogcoil::output::{self, Content};
 use fogcoil::{Error, input};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -70,14 +71,22 @@ impl Progress {
         self.how == How::Silent
     }
 
-    /// Says something: a note, unless it begins as a warning.
-    pub(crate) fn note(&self, text: &str) {
+    /// Says what a user should know.
+    pub(crate) fn tell(&self, notes: &[Note]) {
+        notes.iter().for_each(|note| self.say(&note.line()));
+    }
+
+    /// Says what goes on.
+    fn note(&self, text: &str) {
+        self.say(&format!("note: {text}"));
+    }
+
+    fn say(&self, line: &str) {
         if self.is_silent() {
             return;
         }
         // nobody is left to tell if standard error is closed
-        let kind = if text.starts_with("warning: ") { "" } else { "note: " };
-        let say = || drop(writeln!(std::io::stderr().lock(), "{kind}{text}"));
+        let say = || drop(writeln!(std::io::stderr().lock(), "{line}"));
         match lock(&self.bar).as_ref() {
             Some(bar) => bar.suspend(say),
             None => say(),
@@ -163,7 +172,7 @@ impl Progress {
     /// Reads a coil file and says what in it looks like a mistake.
     pub(crate) fn read_coil(&self, path: &Path) -> Result<input::CoilCase, Error> {
         let case = self.during(&format!("reading {}", path.display()), || input::read_coil(path))?;
-        case.warnings.iter().for_each(|warning| self.note(&format!("warning: {}: {warning}", path.display())));
+        case.warnings.iter().for_each(|warning| self.say(&warning.clone().at(path).line()));
         Ok(case)
     }
 }

@@ -9,12 +9,12 @@ use coil::{
     CHECKS, COARSER, Drive, Dynamics, Profile, ReductionError, Response, STANDARD, STEADY, SteadySensitivity, ThermalState,
     TurnFields, chamber_from_sensor,
 };
+use files::Remark;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::Error;
 use crate::cache::{Cache, Source};
-use crate::glossary::Remark;
 use crate::input::{Between, CoilCase, Inference, InputError, ProfileCase, SpoolCase};
 
 /// Columns of the result.
@@ -139,7 +139,7 @@ pub fn infer(record: SpoolCase, noise: f64, model: &Model) -> Result<ProfileCase
             "the model follows spool_c to {residual:.4} K only, with a noise of {noise} K; the record may not start at rest, the \
              thermometer be noisier (--spool-noise), or the coil another"
         );
-        notes.push(Remark::PoorInference.says(format!("{}: {problem}", file().display())));
+        notes.push(Remark::PoorInference.note(problem).at(file()));
     }
     let mut sd = inferred.chamber_sd;
     sd.sort_by(f64::total_cmp);

@@ -17,12 +17,12 @@ use coil::COARSE;
 use diagnosis::{
     Contradiction, Diagnosis, ForwardModel, HeldOut, Hypothesis, Judged, Judgement, Observation, Ruling, Settings, Verdict,
 };
+use files::{Note, Remark};
 use mechanisms::{CATALOGUE, Extent, Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 use progress::Step;
 
 use crate::Error;
 use crate::cache::Cache;
-use crate::glossary::Remark;
 use crate::input::{CoilCase, Fingerprint, InputError, RecordCase};
 
 pub use record::{FEWEST_ROWS, INTERVAL_S, MANY_ROWS, MOST_ROWS};
@@ -40,7 +40,7 @@ pub struct Outcome {
     diagnosis: Diagnosis,
     fits: Vec<Record>,
     holdouts: Vec<Held>,
-    notes: Vec<String>,
+    notes: Vec<Note>,
 }
 
 /// A record that was used.
@@ -116,14 +116,14 @@ pub fn diagnose(
 }
 
 /// The note on an explanation that a record contradicts.
-fn taken_back(file: &Path, why: Contradiction) -> String {
+fn taken_back(file: &Path, why: Contradiction) -> Note {
     let how = match why {
         Contradiction::ClearlyWorse => "clearly worse than by the nominal model",
         Contradiction::ProvesNothing => "no better than by the nominal model, far from its noise",
     };
     let file = file.display();
     Remark::TakenBack
-        .says(format!("{file} is predicted {how}: the likeliest explanation is taken back; is it a record of the same unit?"))
+        .note(format!("{file} is predicted {how}: the likeliest explanation is taken back; is it a record of the same unit?"))
 }
 
 /// A record that is given twice would be counted, or judged, by itself.
@@ -230,7 +230,7 @@ impl Outcome {
     }
 
     /// What a user should know besides.
-    pub fn notes(&self) -> &[String] {
+    pub fn notes(&self) -> &[Note] {
         &self.notes
     }
 }
