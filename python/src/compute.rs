@@ -132,10 +132,10 @@ pub(crate) fn diagnose<'py>(
     code: Option<PathBuf>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Diagnosed<'py>> {
-    let said = |task: String| -> PyResult<()> {
+    let said = |Step { task, done }: Step| -> PyResult<()> {
         Python::attach(|py| {
             py.check_signals()?;
-            progress.as_ref().map_or(Ok(()), |call| call.call1(py, (task,)).map(drop))
+            progress.as_ref().map_or(Ok(()), |call| call.call1(py, (task, done)).map(drop))
         })
     };
     // the first exception of the callback is raised at the end: a diagnosis cannot be stopped half way
@@ -144,7 +144,7 @@ pub(crate) fn diagnose<'py>(
         diagnosis::check_design(&coil.case, &coil.case.file)?;
         let all = |records: &[Record]| records.iter().map(|record| read(record, meta.as_deref())).collect::<Result<Vec<_>, _>>();
         let note = |step: Step| {
-            if let Err(error) = said(step.to_string()) {
+            if let Err(error) = said(step) {
                 let _ = raised_by_callback.set(error);
             }
         };

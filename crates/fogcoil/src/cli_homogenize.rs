@@ -12,7 +12,6 @@ use homogenization::fields::{Fields, Load};
 use homogenization::irregular::Solution;
 use serde_json::{Value, json};
 
-use crate::cli::relative_error;
 use crate::line;
 use crate::print::print;
 use crate::progress::Progress;
@@ -55,6 +54,11 @@ const INSIDE: f64 = 1e-6;
 fn celsius(text: &str) -> Result<f64, String> {
     let number = text.trim().parse().ok().filter(|t: &f64| (-273.15..=1000.0).contains(t));
     number.ok_or_else(|| "give degC from -273.15 to 1000, e.g. -40,20,70".into())
+}
+
+fn relative_error(text: &str) -> Result<f64, String> {
+    let value = text.parse().map_err(|_| "not a number; give a relative error, e.g. 1e-6".to_owned())?;
+    if value > 0.0 && value < 1.0 { Ok(value) } else { Err("must be greater than 0 and less than 1, e.g. 1e-6".to_owned()) }
 }
 
 pub(crate) fn run(arguments: &Homogenize, progress: &Progress) -> Result<(), Error> {

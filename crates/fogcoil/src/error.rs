@@ -1,6 +1,6 @@
 //! Why a command did not finish.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::input::InputError;
 
@@ -73,6 +73,19 @@ impl From<files::Error> for Error {
 }
 
 impl Error {
+    /// What a model says, as an error of its coil's file or of what drives it.
+    pub(crate) fn of_coil(file: &Path) -> impl Fn(coil::Error) -> Self + Copy {
+        move |source| Self::Coil { file: file.to_owned(), source }
+    }
+
+    /// What a diagnosis says, as an error of the coil's file or of its own.
+    pub(crate) fn of_diagnosis(file: &Path) -> impl Fn(diagnosis::Error<coil::Error>) -> Self + Copy {
+        move |error| match error {
+            diagnosis::Error::Model(source) => Self::of_coil(file)(source),
+            other => Self::Diagnosis(other.to_string()),
+        }
+    }
+
     /// Exit status: 2 where the user can mend it (arguments, case files, paths), 1 where the program failed.
     pub fn exit_code(&self) -> u8 {
         use coil::Error::{Bias, Design, Profile, Record, Winding};

@@ -124,8 +124,7 @@ const UNEXPLAINED: f64 = 2.0;
 pub fn infer(record: SpoolCase, noise: f64, model: &Model) -> Result<ProfileCase, Error> {
     let SpoolCase { drives, time, spool, mut notes, fingerprint } = record;
     let file = || fingerprint.file.clone();
-    let inferred =
-        chamber_from_sensor(&model.dynamics, &time, &spool, noise).map_err(|source| Error::Coil { file: file(), source })?;
+    let inferred = chamber_from_sensor(&model.dynamics, &time, &spool, noise).map_err(Error::of_coil(&fingerprint.file))?;
     let residual = inferred.sensor_residual_rms;
     let impossible = |t: &&f64| !(ABSOLUTE_ZERO_C..=HOTTEST_C).contains(*t);
     if let Some(t) = inferred.chamber.iter().find(impossible) {
@@ -179,7 +178,7 @@ fn load_or_build<T: Serialize + DeserializeOwned>(
     purpose: &str,
     build: impl FnOnce() -> Result<T, coil::Error>,
 ) -> Result<(T, Source), Error> {
-    let at = |source| Error::Coil { file: case.file.clone(), source };
+    let at = Error::of_coil(&case.file);
     cache.load_or_build(purpose, &(&case.design, drives, STANDARD, COARSER), || build().map_err(at))
 }
 
@@ -198,7 +197,7 @@ pub fn simulate<'a>(case: &'a CoilCase, profile: &'a ProfileCase, model: &Model)
     let file = || profile.fingerprint.file.clone();
     let parts = profile.between.parts();
     let course = if parts == 1 { Cow::Borrowed(&profile.profile) } else { Cow::Owned(profile.profile.smoothed(parts)) };
-    let at = |source| Error::Coil { file: file(), source };
+    let at = Error::of_coil(&profile.fingerprint.file);
     let responses = by_row(model.dynamics.simulate(&course).map_err(at)?, parts);
     let coarser = by_row(model.coarser.simulate(&course).map_err(at)?, parts);
     if let Some(row) = responses.iter().position(|r| !(r.sensor.is_finite() && r.rate().is_finite())) {

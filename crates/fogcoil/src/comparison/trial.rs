@@ -7,8 +7,8 @@ use progress::Step;
 use super::{Comparison, Told};
 use crate::Error;
 use crate::cache::Cache;
-use crate::diagnose::library;
 use crate::input::CoilCase;
+use crate::prepare::library;
 use crate::recommend::{Contender, Programme, everything, prepared, told_apart, usual};
 
 /// Two mechanisms, and how often records of a programme named the one that was at work.
@@ -50,11 +50,8 @@ impl Comparison {
         normal: &mut dyn FnMut() -> f64,
         progress: &dyn Fn(Step),
     ) -> Result<Vec<Trial>, Error> {
-        let coil = |source| Error::Coil { file: case.file.clone(), source };
-        let failed = |error: diagnosis::Error<coil::Error>| match error {
-            diagnosis::Error::Model(source) => coil(source),
-            other => Error::Diagnosis(other.to_string()),
-        };
+        let coil = Error::of_coil(&case.file);
+        let failed = Error::of_diagnosis(&case.file);
         let library = library(case, cache, &|_| ())?;
         let records = self.programmes.iter().map(|p| prepared(&library, p)).collect::<Result<Vec<_>, _>>().map_err(coil)?;
         let gyro = Gyro::new(library, CATALOGUE, records).map_err(coil)?;

@@ -5,8 +5,8 @@ use files::{Note, Remark};
 use mechanisms::{CATALOGUE, Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 use recording::condition::bridged;
 
-use super::record::Ready;
 use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
+use crate::prepare::Ready;
 use crate::table::significant;
 
 /// What the model leaves of a record as it is over what it leaves of it as suspected, from which that is said.

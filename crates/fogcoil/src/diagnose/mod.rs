@@ -5,7 +5,6 @@ mod columns;
 mod explanations;
 mod extended;
 mod json;
-mod record;
 mod report;
 mod structure;
 mod text;
@@ -13,20 +12,17 @@ mod text;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use coil::COARSE;
 use diagnosis::{
     Contradiction, Diagnosis, ForwardModel, HeldOut, Hypothesis, Judged, Judgement, Observation, Ruling, Settings, Verdict,
 };
 use files::{Note, Remark};
-use mechanisms::{CATALOGUE, Extent, Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
+use mechanisms::{CATALOGUE, Extent, Gyro, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 use progress::Step;
 
 use crate::Error;
 use crate::cache::Cache;
 use crate::input::{CoilCase, Fingerprint, InputError, RecordCase};
-
-pub use record::{FEWEST_ROWS, INTERVAL_S, MANY_ROWS, MOST_ROWS};
-pub(crate) use record::{Ready, ready};
+use crate::prepare::{Ready, library, ready};
 
 /// A diagnosis with what it was made from.
 pub struct Outcome {
@@ -73,7 +69,7 @@ pub fn diagnose(
     cache: &Cache,
     progress: &(dyn Fn(Step) + Sync),
 ) -> Result<Outcome, Error> {
-    let coil = |source| Error::Coil { file: case.file.clone(), source };
+    let coil = Error::of_coil(&case.file);
     refuse_copies(fits.iter().chain(holdouts))?;
     let mut notes = Vec::new();
     let read: Vec<Ready> = fits.iter().chain(holdouts).map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
@@ -87,10 +83,7 @@ pub fn diagnose(
     }
     let observations: Vec<Observation> = read.iter().map(|r| r.observation.clone()).collect();
     let numbers: Vec<usize> = (0..fits.len()).collect();
-    let failed = |error: diagnosis::Error<coil::Error>| match error {
-        diagnosis::Error::Model(source) => coil(source),
-        other => Error::Diagnosis(other.to_string()),
-    };
+    let failed = Error::of_diagnosis(&case.file);
     let mut diagnosis =
         diagnosis::diagnose(&gyro, &numbers, &observations[..fits.len()], &Settings::default(), progress).map_err(failed)?;
     let mut records = read.into_iter().zip(fits.iter().chain(holdouts)).map(|(ready, case)| Record {
@@ -138,20 +131,6 @@ fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -> Result<()
         known.push(fingerprint);
     }
     Ok(())
-}
-
-/// The library of a design, from the cache if it is there; `progress` is told how far it is.
-///
-/// # Errors
-/// [`Error::Coil`] if the design cannot be modelled.
-pub fn library(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(Step) + Sync)) -> Result<Library, Error> {
-    const TASK: &str = "modelling the coil and what its model may leave out (about a minute, once for a design)";
-    let key = (&case.design, COARSE);
-    let built = cache.load_or_build("library", &key, || {
-        progress(Step::begins(TASK));
-        Library::build(&case.design, CATALOGUE, &|step| progress(Step { task: TASK, ..step }))
-    });
-    built.map(|(library, _)| library).map_err(|source| Error::Coil { file: case.file.clone(), source })
 }
 
 /// The verdict's name.

@@ -11,8 +11,8 @@ use progress::Step;
 
 use crate::Error;
 use crate::cache::Cache;
-use crate::diagnose::library;
 use crate::input::CoilCase;
+use crate::prepare::library;
 use crate::recommend::{Limits, prepared, programmes};
 
 pub use say::{json, text};
@@ -110,7 +110,7 @@ pub fn explain(
         );
         return Err(Error::Usage(text));
     }
-    let coil = |source| Error::Coil { file: case.file.clone(), source };
+    let coil = Error::of_coil(&case.file);
     let steady = case.steady_sensitivity()?;
     let nominal = steady.sensitivity.total();
     let measured = if magnitude { measured.copysign(nominal) } else { measured };
@@ -130,10 +130,7 @@ pub fn explain(
     let all = gyro.mechanisms().iter().enumerate();
     let explanations: Vec<Explanation> = all.flat_map(|(k, entry)| problem.explanations(entry, gyro.mechanism(k))).collect();
     let constants = constants(&gyro).map_err(coil)?;
-    let tests = test::tests(&gyro, &explanations, &programmes, progress).map_err(|error| match error {
-        diagnosis::Error::Model(source) => coil(source),
-        other => Error::Diagnosis(other.to_string()),
-    })?;
+    let tests = test::tests(&gyro, &explanations, &programmes, progress).map_err(Error::of_diagnosis(&case.file))?;
     Ok(Explained {
         measured,
         magnitude,

@@ -44,7 +44,7 @@ impl Convergence {
             Ok(Self { meshes, reference: solve(REFERENCE)? })
         };
         let measured = cache.load_or_build("convergence", &case.design, build);
-        measured.map(|(measured, _)| measured).map_err(|source| Error::Coil { file: case.file.clone(), source })
+        measured.map(|(measured, _)| measured).map_err(Error::of_coil(&case.file))
     }
 }
 

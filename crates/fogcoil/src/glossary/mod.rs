@@ -4,6 +4,7 @@ mod mechanism;
 mod page;
 
 pub use files::{Explanation, Note, Remark, Severity};
+pub(crate) use mechanism::inspection;
 pub use mechanism::{Mechanism, all as mechanisms};
 
 use std::fmt::Write;

@@ -12,8 +12,8 @@ use progress::Step;
 
 use crate::Error;
 use crate::cache::Cache;
-use crate::diagnose::{library, ready};
 use crate::input::{CoilCase, RecordCase};
+use crate::prepare::{library, ready};
 
 pub use bench::Odds;
 pub(crate) use bench::{Contender, everything, odds, prepared, told_apart, usual};
@@ -22,8 +22,8 @@ pub use limits::Limits;
 pub use programme::{Programme, programmes};
 pub(crate) use question::Question;
 pub use recommendation::{Ranked, Recommendation, Size, WithSensor};
-pub(crate) use say::{inspection, number, sentence};
 pub use say::{json, text};
+pub(crate) use say::{number, sentence};
 
 /// Finds what tells the mechanisms `between` apart; `records` of the unit, if there are any, give sizes, noise, and the test that is repeated.
 ///

@@ -10,7 +10,7 @@ use recording::noise::NoiseModel;
 use super::bench::{self, Contender, everything, odds, prepared, usual};
 use super::{Course, Limits, Odds, Ranked, Recommendation, Size, WithSensor, check, programmes};
 use crate::Error;
-use crate::diagnose::Ready;
+use crate::prepare::Ready;
 
 /// Noise of a spool thermometer that may be added \[K\], its drift a tenth of the usual.
 const FINE_K: f64 = 0.001;
@@ -48,11 +48,8 @@ impl Question<'_> {
     pub(crate) fn answer(self, library: Library, progress: &dyn Fn(Step)) -> Result<Recommendation, Error> {
         let Self { file, between, records: given, limits, thorough } = self;
         check(between, &limits)?;
-        let coil = |source| Error::Coil { file: file.to_owned(), source };
-        let failed = |error: diagnosis::Error<coil::Error>| match error {
-            diagnosis::Error::Model(source) => coil(source),
-            other => Error::Diagnosis(other.to_string()),
-        };
+        let coil = Error::of_coil(file);
+        let failed = Error::of_diagnosis(file);
         let programmes = programmes(&limits);
         progress(Step::begins("running every model under every programme"));
         let recorded = given.iter().map(|r| Prepared::new(&library, &r.observation.time, &r.chamber, r.averaging));

@@ -1,13 +1,17 @@
-//! A recording as the engine wants it, and what was done to it in words.
+//! What a diagnosis or a recommendation starts from: a design's library of models, and recordings as the engine wants them.
 
 use bias::units::S_PER_MIN;
+use coil::COARSE;
 use diagnosis::Observation;
 use files::{Note, Remark};
+use mechanisms::{CATALOGUE, Library};
+use progress::Step;
 use recording::check::Severity;
 use recording::condition::{Rest, Thinned, Thinning, Unrest, bridged, span, thinned, unrest};
 
 use crate::Error;
-use crate::input::{CHAMBER, InputError, RATE, RecordCase, SPOOL};
+use crate::cache::Cache;
+use crate::input::{CHAMBER, CoilCase, InputError, RATE, RecordCase, SPOOL};
 
 /// Fewest rows with a rate from which anything is said.
 pub const FEWEST_ROWS: usize = 60;
@@ -28,6 +32,20 @@ pub(crate) struct Ready {
     pub(crate) observation: Observation,
     pub(crate) chamber: Vec<f64>,
     pub(crate) averaging: f64,
+}
+
+/// The library of a design, from the cache if it is there; `progress` is told how far it is.
+///
+/// # Errors
+/// [`Error::Coil`] if the design cannot be modelled.
+pub fn library(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(Step) + Sync)) -> Result<Library, Error> {
+    const TASK: &str = "modelling the coil and what its model may leave out (about a minute, once for a design)";
+    let key = (&case.design, COARSE);
+    let built = cache.load_or_build("library", &key, || {
+        progress(Step::begins(TASK));
+        Library::build(&case.design, CATALOGUE, &|step| progress(Step { task: TASK, ..step }))
+    });
+    built.map(|(library, _)| library).map_err(Error::of_coil(&case.file))
 }
 
 fn refuse(case: &RecordCase, field: &str, problem: String, remedy: &str) -> Error {
