@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use fogcoil::Error;
 use fogcoil::glossary::Note;
 use fogcoil::input::{self, AnyCell, CoilCase};
 use pyo3::prelude::*;
@@ -168,7 +167,7 @@ pub(crate) struct Cell {
 
 impl Cell {
     fn of(text: Text) -> PyResult<Self> {
-        let case = input::check_any_cell(&text.path, &text.text).map_err(|error| raised(Error::Input(error)))?;
+        let case = input::check_any_cell(&text.path, &text.text).map_err(raised)?;
         Ok(Self { text, case })
     }
 }

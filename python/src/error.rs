@@ -3,7 +3,7 @@
 use std::ffi::CString;
 
 use fogcoil::glossary::Note;
-use fogcoil::{Error, input};
+use fogcoil::{Error, FileError, input};
 use pyo3::exceptions::{PyRuntimeError, PyUserWarning, PyValueError};
 use pyo3::{PyErr, PyResult, Python, create_exception};
 
@@ -20,9 +20,11 @@ create_exception!(
 pub(crate) fn raised(error: impl Into<Error>) -> PyErr {
     let error = error.into();
     let error = match error {
-        Error::Input(at) => Error::Input(input::InputError { file: called(&at.file).to_owned(), ..at }),
-        Error::Coil { file, source } => Error::Coil { file: called(&file).to_owned(), source },
-        Error::Homogenization { file, source } => Error::Homogenization { file: called(&file).to_owned(), source },
+        Error::File(FileError::Input(at)) => input::InputError { file: called(&at.file).to_owned(), ..at }.into(),
+        Error::File(FileError::Coil { file, source }) => FileError::Coil { file: called(&file).to_owned(), source }.into(),
+        Error::File(FileError::Homogenization { file, source }) => {
+            FileError::Homogenization { file: called(&file).to_owned(), source }.into()
+        }
         other => other,
     };
     match error.exit_code() {

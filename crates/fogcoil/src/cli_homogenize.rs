@@ -68,7 +68,7 @@ pub(crate) fn run(arguments: &Homogenize, progress: &Progress) -> Result<(), Err
     let has_tables = matches!(&any, AnyCell::General(general) if general.temperatures().is_some());
     if !temperatures.is_empty() && !has_tables {
         let problem = "no constituent is a table over temperature: the constants are the same at all";
-        return Err(Error::Usage(format!("{}: {problem}; leave --temperatures out", cell.display())));
+        return Err(Error::usage(format!("{}: {problem}; leave --temperatures out", cell.display())));
     }
     let (text, object) = match any {
         AnyCell::Regular(case, general) => arguments.regular(&case, general, progress)?,
@@ -90,7 +90,7 @@ impl Homogenize {
         if self.load.is_some() || self.svg.is_some() {
             let general = general?;
             let cell = general.cell(&general.layouts[0], None)?;
-            let failed = |source| Error::Homogenization { file: general.file.clone(), source };
+            let failed = |source| files::Error::Homogenization { file: general.file.clone(), source };
             let solve = || cell.homogenize_to(self.tolerance.max(INSIDE)).map_err(failed);
             let solution = progress.during("solving for the fields inside", solve)?.solution;
             self.inside(&general, None, &solution, (&mut text, &mut object), progress)?;
@@ -132,7 +132,7 @@ impl Homogenize {
         progress: &Progress,
     ) -> Result<(), Error> {
         if let Some(load) = self.load {
-            let failed = |source| Error::Homogenization { file: case.file.clone(), source };
+            let failed = |source| files::Error::Homogenization { file: case.file.clone(), source };
             let strains = Strains::new(solution, load).map_err(failed)?;
             *text += &format!("\n{}", strains.text());
             object["strains"] = strains.json();

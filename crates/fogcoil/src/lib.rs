@@ -49,7 +49,7 @@ pub mod trim;
 pub mod wind;
 
 pub use error::Error;
-pub use files::{input, output, schema, units};
+pub use files::{Error as FileError, input, output, schema, units};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

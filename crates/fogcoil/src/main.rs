@@ -122,7 +122,7 @@ fn run_check(arguments: &Check, progress: &Progress) -> Result<(), Error> {
     case.require_usable()?;
     match (svg, check::svg(&analysis)) {
         (Some(path), Some(picture)) => progress.save(&[(path, Content::Text(picture))]),
-        (Some(path), None) => Err(Error::Usage(format!("{}: there is no Allan deviation to draw", path.display()))),
+        (Some(path), None) => Err(Error::usage(format!("{}: there is no Allan deviation to draw", path.display()))),
         (None, _) => Ok(()),
     }
 }
@@ -168,14 +168,14 @@ fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> 
             match (step, between) {
                 (Some(step), Between::Linear) => profile.divide(*step)?,
                 (Some(_), Between::Cubic) => {
-                    return Err(Error::Usage("--step adds rows on straight lines: it does not go with --between cubic".into()));
+                    return Err(Error::usage("--step adds rows on straight lines: it does not go with --between cubic"));
                 }
                 (None, _) => {}
             }
             profile.note_long_rows(if *between == Between::Linear { "give --step 30" } else { CLOSER });
             (model(&profile.drives)?, profile)
         }
-        (None, None) => return Err(Error::Usage("give a profile (--profile) or a thermometer's record (--spool)".into())),
+        (None, None) => return Err(Error::usage("give a profile (--profile) or a thermometer's record (--spool)")),
     };
     progress.tell(&profile.notes);
     let task = format!("simulating {} rows", profile.profile.time.len());

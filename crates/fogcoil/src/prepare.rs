@@ -37,7 +37,7 @@ pub(crate) struct Ready {
 /// The library of a design, from the cache if it is there; `progress` is told how far it is.
 ///
 /// # Errors
-/// [`Error::Coil`] if the design cannot be modelled.
+/// [`files::Error::Coil`] if the design cannot be modelled.
 pub fn library(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(Step) + Sync)) -> Result<Library, Error> {
     const TASK: &str = "modelling the coil and what its model may leave out (about a minute, once for a design)";
     let key = (&case.design, COARSE);
@@ -56,7 +56,7 @@ fn refuse(case: &RecordCase, field: &str, problem: String, remedy: &str) -> Erro
 /// A recording's usable values, averaged down where there are very many; what was done is added to `notes`.
 ///
 /// # Errors
-/// [`Error::Input`] says why it cannot be used.
+/// [`files::Error::Input`] says why it cannot be used.
 pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Ready, Error> {
     case.require_usable()?;
     let file = &case.fingerprint.file;

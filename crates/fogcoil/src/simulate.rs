@@ -103,7 +103,7 @@ pub struct Window {
 /// Models a coil for the drives of a profile, or finds its model in `cache`.
 ///
 /// # Errors
-/// [`Error::Coil`] if the coil cannot be solved.
+/// [`files::Error::Coil`] if the coil cannot be solved.
 pub fn model(case: &CoilCase, drives: &[Drive], cache: &Cache) -> Result<Model, Error> {
     let build = || Dynamics::new(&case.design, drives, &STANDARD);
     let (dynamics, source) = load_or_build(case, drives, cache, "dynamics", build)?;
@@ -120,7 +120,7 @@ const UNEXPLAINED: f64 = 2.0;
 /// The profile that a thermometer's record came from; `noise` \[K\] is the standard deviation of its readings.
 ///
 /// # Errors
-/// [`Error::Coil`] if nothing can be inferred from the record.
+/// [`files::Error::Coil`] if nothing can be inferred from the record.
 pub fn infer(record: SpoolCase, noise: f64, model: &Model) -> Result<ProfileCase, Error> {
     let SpoolCase { drives, time, spool, mut notes, fingerprint } = record;
     let file = || fingerprint.file.clone();
@@ -192,7 +192,7 @@ fn assembled(case: &CoilCase, drives: &[Drive], cache: &Cache, dynamics: Dynamic
 /// Runs a profile from rest at its first instant.
 ///
 /// # Errors
-/// [`Error::Coil`] if the profile cannot be run; [`Error::NotFinite`] if the model gives no number.
+/// [`files::Error::Coil`] if the profile cannot be run; [`Error::NotFinite`] if the model gives no number.
 pub fn simulate<'a>(case: &'a CoilCase, profile: &'a ProfileCase, model: &Model) -> Result<Simulation<'a>, Error> {
     let file = || profile.fingerprint.file.clone();
     let parts = profile.between.parts();

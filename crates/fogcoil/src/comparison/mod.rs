@@ -83,7 +83,7 @@ impl Comparison {
     /// Measures every mechanism of a design against every other one.
     ///
     /// # Errors
-    /// [`Error::Coil`] if the design cannot be modelled.
+    /// [`files::Error::Coil`] if the design cannot be modelled.
     pub fn measure(case: &CoilCase, cache: &Cache, progress: &dyn Fn(Step)) -> Result<Self, Error> {
         let Responses { entries, programmes, gyro, mut contenders, truths } = Responses::of(case, cache)?;
         let failed = Error::of_diagnosis(&case.file);

@@ -42,7 +42,7 @@ impl Comparison {
     /// Tries what it recommends for every pair; `normal` draws from the standard normal distribution.
     ///
     /// # Errors
-    /// [`Error::Coil`] if the design cannot be modelled.
+    /// [`files::Error::Coil`] if the design cannot be modelled.
     pub fn trials(
         &self,
         case: &CoilCase,

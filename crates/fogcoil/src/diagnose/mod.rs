@@ -61,7 +61,7 @@ struct Held {
 /// `progress` is told each task as it begins; of one that can be counted again and again.
 ///
 /// # Errors
-/// [`Error::Input`] names the record that cannot be used and why; [`Error::Coil`] if the design cannot be modelled.
+/// [`files::Error::Input`] names the record that cannot be used and why; [`files::Error::Coil`] if the design cannot be modelled.
 pub fn diagnose(
     case: &CoilCase,
     fits: &[RecordCase],
@@ -217,7 +217,7 @@ impl Outcome {
 /// Refuses a design that the library cannot be made for.
 ///
 /// # Errors
-/// [`Error::Input`] for a coil file whose own mechanics changes with temperature or time.
+/// [`files::Error::Input`] for a coil file whose own mechanics changes with temperature or time.
 pub fn check_design(case: &CoilCase, file: &Path) -> Result<(), Error> {
     if case.design.mechanics == coil::Mechanics::Elastic {
         return Ok(());

@@ -96,7 +96,7 @@ pub struct Explained {
 /// Explains a measured sensitivity, (deg/h)/(degC/min); without a sign (`magnitude`) it is taken with that of the design.
 ///
 /// # Errors
-/// [`Error::Usage`] for a sensitivity that is not a number; [`Error::Coil`] if the design cannot be modelled.
+/// [`files::Error::Usage`] for a sensitivity that is not a number; [`files::Error::Coil`] if the design cannot be modelled.
 pub fn explain(
     case: &CoilCase,
     measured: f64,
@@ -108,7 +108,7 @@ pub fn explain(
         let text = format!(
             "--sensitivity {measured}: give a magnitude up to {MOST} (deg/h)/(degC/min), or a signed value with --signed"
         );
-        return Err(Error::Usage(text));
+        return Err(Error::usage(text));
     }
     let coil = Error::of_coil(&case.file);
     let steady = case.steady_sensitivity()?;

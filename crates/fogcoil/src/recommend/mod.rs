@@ -28,8 +28,8 @@ pub(crate) use say::{number, sentence};
 /// Finds what tells the mechanisms `between` apart; `records` of the unit, if there are any, give sizes, noise, and the test that is repeated.
 ///
 /// # Errors
-/// [`Error::Usage`] for ids that the design's library does not hold and for limits that leave nothing to vary; [`Error::Input`] for a record that
-/// cannot be used; [`Error::Coil`] if the design cannot be modelled.
+/// [`files::Error::Usage`] for ids that the design's library does not hold and for limits that leave nothing to vary; [`files::Error::Input`] for a record that
+/// cannot be used; [`files::Error::Coil`] if the design cannot be modelled.
 pub fn recommend(
     case: &CoilCase,
     between: &[String],
@@ -48,10 +48,10 @@ pub fn recommend(
 fn check(between: &[String], limits: &Limits) -> Result<(), Error> {
     limits.check()?;
     if let Some((_, id)) = between.iter().enumerate().find(|(k, id)| between[..*k].contains(*id)) {
-        return Err(Error::Usage(format!("--between: {id} is given twice")));
+        return Err(Error::usage(format!("--between: {id} is given twice")));
     }
     if between.len() < 2 {
-        return Err(Error::Usage("--between: give two or more ids, separated by commas".into()));
+        return Err(Error::usage("--between: give two or more ids, separated by commas"));
     }
     Ok(())
 }

@@ -140,12 +140,12 @@ fn contenders(
     for id in between {
         let Some(contender) = Contender::named(gyro, id).map_err(&failed)? else {
             let known = Contender::known(gyro);
-            return Err(Error::Usage(format!("--between: `{id}` is not in this design's library; it holds {known}")));
+            return Err(Error::usage(format!("--between: `{id}` is not in this design's library; it holds {known}")));
         };
         contenders.push(contender);
     }
     if contenders.iter().all(|c| c.truth.is_none()) {
-        return Err(Error::Usage("--between: one of the ids must be a mechanism's".into()));
+        return Err(Error::usage("--between: one of the ids must be a mechanism's"));
     }
     Ok(contenders)
 }
