@@ -14,16 +14,12 @@ use crate::cache::Cache;
 use crate::input::{CHAMBER, CoilCase, InputError, RATE, RecordCase, SPOOL};
 
 /// Fewest rows with a rate from which anything is said.
-pub const FEWEST_ROWS: usize = 60;
-/// Rows beyond which neighbours are averaged: a week of minutes.
-pub const MANY_ROWS: usize = 10_000;
-/// Interval to which they are averaged \[s\]: a coil's fastest transients take minutes.
-pub const INTERVAL_S: f64 = 30.0;
-/// Most rows of a record that are compared; of more, the interval grows.
-pub const MOST_ROWS: usize = 30_000;
+const FEWEST_ROWS: usize = 60;
+/// Rows beyond which neighbours are averaged, a week of minutes; the interval \[s\] to which they are, as a coil's fastest transients take
+/// minutes; most rows that are compared: of more, the interval grows.
+const THINNING: Thinning = Thinning { many_rows: 10_000, interval: 30.0, most_rows: 30_000 };
 /// Range of the chamber \[K\] below which it is noted that nothing shows.
 const FEWEST_KELVIN: f64 = 5.0;
-const THINNING: Thinning = Thinning { many_rows: MANY_ROWS, interval: INTERVAL_S, most_rows: MOST_ROWS };
 /// What chamber and spool may differ by at rest, and the chamber move by in the first minutes \[K\]: thermometers' offsets and noise.
 const REST: Rest = Rest { duration: 600.0, tolerance: 0.5 };
 

@@ -36,26 +36,22 @@ pub(super) fn warning(gyro: &Gyro, number: usize, ready: &Ready, case: &RecordCa
             let would = rms(thermometer, &thermometer_under(gyro.library(), time, chamber)?, 1.0);
             if SUSPECT * would < left {
                 let [left, would] = [left, would].map(|k| significant(k, 2));
-                return Ok(Some(
-                    Remark::ExchangedColumns
-                        .warning(format!(
-                            "{columns} seem to be exchanged: the model leaves {left} K rms of the thermometer as it stands, \
-                     {would} K with them exchanged; check the header or --column"
-                        ))
-                        .at(&case.fingerprint.file),
-                ));
+                let text = format!(
+                    "{columns} seem to be exchanged: the model leaves {left} K rms of the thermometer as it stands, {would} K with \
+                     them exchanged; check the header or --column"
+                );
+                return Ok(Some(Remark::ExchangedColumns.warning(text).at(&case.fingerprint.file)));
             }
         }
     }
     let [left, would] = [1.0, -1.0].map(|sign| rms(rate, &predicted[RATE_CHANNEL], sign));
     Ok((REVERSED * would < left).then(|| {
         let [left, would] = [left, would].map(|r| significant(r, 2));
-        Remark::ReversedRate
-            .warning(format!(
-                "{RATE} seems to have the other sign: the nominal model leaves {left} deg/h rms as it stands, {would} \
-             with the rate negated; check the sense of the gyro's axis and cw_climbs"
-            ))
-            .at(&case.fingerprint.file)
+        let text = format!(
+            "{RATE} seems to have the other sign: the nominal model leaves {left} deg/h rms as it stands, {would} with the rate \
+             negated; check the sense of the gyro's axis and cw_climbs"
+        );
+        Remark::ReversedRate.warning(text).at(&case.fingerprint.file)
     }))
 }
 
