@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use fogcoil::Error;
+use fogcoil::glossary::Note;
 use fogcoil::input::{self, AnyCell, CoilCase};
 use pyo3::prelude::*;
 use pyo3::types::{PyMapping, PyString};
@@ -104,7 +104,7 @@ impl Coil {
 
     fn of(py: Python, text: Text) -> PyResult<Self> {
         let coil = Self::checked(py, text)?;
-        warn(py, &format!("{}: ", called(&coil.text.path).display()), &coil.case.warnings)?;
+        warn(py, coil.case.warnings.iter().map(|warning| warning.clone().at(called(&coil.text.path))))?;
         Ok(coil)
     }
 
@@ -134,7 +134,7 @@ impl Coil {
 
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.case.warnings.clone()
+        self.case.warnings.iter().map(Note::message).collect()
     }
 
     fn __getitem__<'py>(&self, py: Python<'py>, field: &str) -> PyResult<Bound<'py, PyAny>> {
@@ -167,7 +167,7 @@ pub(crate) struct Cell {
 
 impl Cell {
     fn of(text: Text) -> PyResult<Self> {
-        let case = input::check_any_cell(&text.path, &text.text).map_err(|error| raised(Error::Input(error)))?;
+        let case = input::check_any_cell(&text.path, &text.text).map_err(raised)?;
         Ok(Self { text, case })
     }
 }

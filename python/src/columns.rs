@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use fogcoil::Error;
 use fogcoil::input::InputError;
+use fogcoil::{Error, FileError};
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
 
@@ -26,7 +26,7 @@ pub(crate) fn table(columns: &[Column]) -> String {
 /// A complaint about a line of [`table`] as one about an element of a column, which is what the user has.
 pub(crate) fn at_element(error: Error) -> Error {
     match error {
-        Error::Input(InputError { file, line: Some(line), field, problem, remedy }) => {
+        Error::File(FileError::Input(InputError { file, line: Some(line), field, problem, remedy })) => {
             let element = |name: String| if line < 2 { name } else { format!("{name}[{}]", line - 2) };
             InputError { file, line: None, field: field.map(element), problem, remedy }.into()
         }

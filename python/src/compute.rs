@@ -8,6 +8,7 @@ use fogcoil::homogenize as cells;
 use fogcoil::input::{self, AnyCell, Between, RecordCase, RecordOptions, at_temperature};
 use fogcoil::units::to_mm;
 use fogcoil::{Error, diagnose as diagnosis, sensitivity as ramp, simulate as runs, summary, wind as turns};
+use progress::Step;
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
 use serde_json::{Value, json};
@@ -83,7 +84,7 @@ pub(crate) fn simulate<'py>(
         || input::check_profile("profile".as_ref(), table(&profile), &case.design).map_err(|error| at_element(error.into()));
     let mut profile = py.detach(read).map_err(raised)?;
     profile.between = between;
-    warn(py, "", &profile.notes)?;
+    warn(py, profile.notes.clone())?;
     let run = || {
         let model = runs::model(case, &profile.drives, &cache(code))?;
         let simulation = runs::simulate(case, &profile, &model)?;
@@ -131,10 +132,10 @@ pub(crate) fn diagnose<'py>(
     code: Option<PathBuf>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Diagnosed<'py>> {
-    let said = |task: &str| -> PyResult<()> {
+    let said = |Step { task, done }: Step| -> PyResult<()> {
         Python::attach(|py| {
             py.check_signals()?;
-            progress.as_ref().map_or(Ok(()), |call| call.call1(py, (task,)).map(drop))
+            progress.as_ref().map_or(Ok(()), |call| call.call1(py, (task, done)).map(drop))
         })
     };
     // the first exception of the callback is raised at the end: a diagnosis cannot be stopped half way
@@ -142,8 +143,8 @@ pub(crate) fn diagnose<'py>(
     let run = || -> Result<_, Error> {
         diagnosis::check_design(&coil.case, &coil.case.file)?;
         let all = |records: &[Record]| records.iter().map(|record| read(record, meta.as_deref())).collect::<Result<Vec<_>, _>>();
-        let note = |task: &str| {
-            if let Err(error) = said(task) {
+        let note = |step: Step| {
+            if let Err(error) = said(step) {
                 let _ = raised_by_callback.set(error);
             }
         };

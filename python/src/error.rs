@@ -2,7 +2,8 @@
 
 use std::ffi::CString;
 
-use fogcoil::{Error, input};
+use fogcoil::glossary::Note;
+use fogcoil::{Error, FileError, input};
 use pyo3::exceptions::{PyRuntimeError, PyUserWarning, PyValueError};
 use pyo3::{PyErr, PyResult, Python, create_exception};
 
@@ -19,9 +20,11 @@ create_exception!(
 pub(crate) fn raised(error: impl Into<Error>) -> PyErr {
     let error = error.into();
     let error = match error {
-        Error::Input(at) => Error::Input(input::InputError { file: called(&at.file).to_owned(), ..at }),
-        Error::Coil { file, source } => Error::Coil { file: called(&file).to_owned(), source },
-        Error::Homogenization { file, source } => Error::Homogenization { file: called(&file).to_owned(), source },
+        Error::File(FileError::Input(at)) => input::InputError { file: called(&at.file).to_owned(), ..at }.into(),
+        Error::File(FileError::Coil { file, source }) => FileError::Coil { file: called(&file).to_owned(), source }.into(),
+        Error::File(FileError::Homogenization { file, source }) => {
+            FileError::Homogenization { file: called(&file).to_owned(), source }.into()
+        }
         other => other,
     };
     match error.exit_code() {
@@ -31,10 +34,10 @@ pub(crate) fn raised(error: impl Into<Error>) -> PyErr {
 }
 
 /// Warns of what is allowed but looks like a mistake.
-pub(crate) fn warn<'a>(py: Python, about: &str, all: impl IntoIterator<Item = &'a String>) -> PyResult<()> {
+pub(crate) fn warn(py: Python, all: impl IntoIterator<Item = Note>) -> PyResult<()> {
     let category = py.get_type::<PyUserWarning>();
     all.into_iter().try_for_each(|warning| {
-        let message = format!("{about}{warning}").replace('\0', "");
+        let message = warning.message().replace('\0', "");
         PyErr::warn(py, &category, &CString::new(message)?, 1)
     })
 }

@@ -12,7 +12,7 @@ struct Library {
     name: String,
     description: Option<String>,
     features: bool,
-    /// Whether it has a program, which takes what the workspace has anyway.
+    /// Whether it has a program, with which it takes what the workspace has anyway; other projects take it without.
     program: bool,
     folder: std::path::PathBuf,
 }
@@ -62,9 +62,16 @@ impl Library {
         wanted.into_iter().filter(|(found, _)| !found).map(|(_, missing)| missing.to_owned()).chain(path_only).collect()
     }
 
-    /// Checks it and its tests with its own features only, and with all of them; `deep` also runs its tests.
+    /// Checks it and its tests with its own features only, and with all of them; `deep` also runs its tests. What has a program is checked
+    /// without it, and `deep` with it.
     fn alone(&self, deep: bool) -> Result<(), Failure> {
         let package = ["--quiet", "--package", self.name.as_str()];
+        if self.program {
+            cargo(&[&["check", "--no-default-features", "--lib"], &package[..]].concat())?;
+            if !deep {
+                return Ok(());
+            }
+        }
         let features = self.features.then_some(&["--all-features"][..]);
         for (command, with) in [("check", Some(&[][..])), ("check", features), ("check", Some(&["--tests"]))] {
             let Some(with) = with else { continue };
@@ -91,9 +98,6 @@ pub(crate) fn run(deep: bool) -> Result<(), Failure> {
         let missing = library.missing(package);
         if !missing.is_empty() {
             return Err(Failure(format!("{}: {}", library.name, missing.join("; "))));
-        }
-        if library.program && !deep {
-            continue;
         }
         library.alone(deep)?;
         println!("[{:4.0} s] {} stands alone", start.elapsed().as_secs_f64(), library.name);

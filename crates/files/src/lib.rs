@@ -5,7 +5,7 @@
 //!   holds: for reading, for writing and for its JSON Schema ([`input::schemas`]).
 //! - [`output`] writes a design as a coil file, and files whole or not at all.
 //! - [`units`] holds every conversion between the files' units and SI; [`schema`] tells whether JSON keeps a schema.
-//! - [`Remark`] has the ids of warnings and notes, each with its explanation.
+//! - [`Note`] is a warning or a note; [`Remark`] has their ids, each with its explanation.
 //!
 //! Conventions: y = 0 is the coil's left face, +y its right; in a material z is the fibre (the coil's hoop), r across it.
 //!
@@ -25,7 +25,7 @@ pub mod schema;
 pub mod units;
 
 pub use error::Error;
-pub use remark::{Explanation, Remark, WARNING};
+pub use remark::{Explanation, Note, Remark, Severity};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

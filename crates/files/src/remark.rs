@@ -1,6 +1,10 @@
 //! Warnings and notes: each has an id that never changes, and an explanation.
 
+use std::fmt;
+use std::path::PathBuf;
+
 use recording::check::Kind;
+use serde::{Serialize, Serializer};
 
 /// What a remark is about and what to do: the columns of the table below.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -225,19 +229,77 @@ remarks! {
         "None is needed; the reason stands in the message.";
 }
 
-/// What a note begins with that may make the whole answer void.
-pub const WARNING: &str = "warning: ";
+/// How much a note matters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Severity {
+    /// It may make the whole answer void.
+    Warning,
+    /// It is good to know.
+    Note,
+}
 
-impl Remark {
-    /// The message with its id behind it: `message [id]`.
-    pub fn says(self, message: impl std::fmt::Display) -> String {
-        format!("{message} [{}]", self.id())
+/// Something that a user should know although nothing is wrong.
+///
+/// What is printed, and its value in JSON, is `FILE: text [id]`, of a warning `warning: FILE: text [id]`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Note {
+    /// Its kind.
+    pub remark: Remark,
+    /// How much it matters.
+    pub severity: Severity,
+    /// The file that it is about, where the text alone does not say it.
+    pub place: Option<PathBuf>,
+    /// What is said, in words.
+    pub text: String,
+}
+
+impl Note {
+    /// The same, about a file.
+    #[must_use]
+    pub fn at(self, file: impl Into<PathBuf>) -> Self {
+        Self { place: Some(file.into()), ..self }
     }
 
-    /// The kind of a message that [`Remark::says`] made.
-    pub fn of(message: &str) -> Option<Self> {
-        let id = message.strip_suffix(']')?.rsplit_once(" [")?.1;
-        Self::ALL.iter().copied().find(|remark| remark.id() == id)
+    /// Whether it may make the whole answer void.
+    pub fn is_warning(&self) -> bool {
+        self.severity == Severity::Warning
+    }
+
+    /// What is said where it stands among its like: `FILE: text [id]`.
+    pub fn message(&self) -> String {
+        let place = self.place.as_ref().map_or(String::new(), |file| format!("{}: ", file.display()));
+        format!("{place}{} [{}]", self.text, self.remark.id())
+    }
+
+    /// What is said among other lines: `warning: FILE: text [id]` or `note: FILE: text [id]`.
+    pub fn line(&self) -> String {
+        let kind = if self.is_warning() { "" } else { "note: " };
+        format!("{kind}{self}")
+    }
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let kind = if self.is_warning() { "warning: " } else { "" };
+        write!(f, "{kind}{}", self.message())
+    }
+}
+
+impl Serialize for Note {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl Remark {
+    /// A note of this kind.
+    pub fn note(self, text: impl Into<String>) -> Note {
+        Note { remark: self, severity: Severity::Note, place: None, text: text.into() }
+    }
+
+    /// A warning of this kind.
+    pub fn warning(self, text: impl Into<String>) -> Note {
+        Note { severity: Severity::Warning, ..self.note(text) }
     }
 
     /// The kind of a finding of [`recording::check`].
@@ -262,9 +324,18 @@ impl Remark {
             _ => Self::OtherFinding,
         }
     }
+}
 
-    /// Ids of messages, in their order; `null` where one has none.
-    pub fn ids(messages: &[String]) -> Vec<Option<&'static str>> {
-        messages.iter().map(|message| Self::of(message).map(Self::id)).collect()
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_printed_carries_place_and_id() {
+        let note = Remark::LongTail.note("a tail");
+        assert_eq!((note.to_string(), note.line()), ("a tail [long-tail]".into(), "note: a tail [long-tail]".into()));
+        let warning = Remark::Gap.warning("a gap").at("r.csv");
+        let said = "warning: r.csv: a gap [gap]".to_owned();
+        assert_eq!((warning.to_string(), warning.line(), warning.message()), (said.clone(), said, "r.csv: a gap [gap]".into()));
     }
 }

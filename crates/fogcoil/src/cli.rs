@@ -176,8 +176,3 @@ fn step(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|step| STEPS_S.contains(step));
     number.ok_or_else(|| format!("give seconds from {} to {}", STEPS_S.start(), STEPS_S.end()))
 }
-
-pub(crate) fn relative_error(text: &str) -> Result<f64, String> {
-    let value = text.parse().map_err(|_| "not a number; give a relative error, e.g. 1e-6".to_owned())?;
-    if value > 0.0 && value < 1.0 { Ok(value) } else { Err("must be greater than 0 and less than 1, e.g. 1e-6".to_owned()) }
-}

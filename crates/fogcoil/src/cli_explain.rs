@@ -45,7 +45,7 @@ pub(crate) fn run(arguments: &Explain, progress: &Progress) -> Result<(), Error>
 fn look_up(id: &Path) -> Result<glossary::Entry, Error> {
     let name = id.to_string_lossy();
     glossary::look_up(&name).map_err(|near| {
-        Error::Usage(if id.extension().is_some() || id.is_file() {
+        Error::usage(if id.extension().is_some() || id.is_file() {
             format!("{name}: of a coil file a sensitivity is explained; add --sensitivity S, as it was measured")
         } else {
             let near = near.join(", ");

@@ -12,7 +12,6 @@ use homogenization::fields::{Fields, Load};
 use homogenization::irregular::Solution;
 use serde_json::{Value, json};
 
-use crate::cli::relative_error;
 use crate::line;
 use crate::print::print;
 use crate::progress::Progress;
@@ -57,6 +56,11 @@ fn celsius(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "give degC from -273.15 to 1000, e.g. -40,20,70".into())
 }
 
+fn relative_error(text: &str) -> Result<f64, String> {
+    let value = text.parse().map_err(|_| "not a number; give a relative error, e.g. 1e-6".to_owned())?;
+    if value > 0.0 && value < 1.0 { Ok(value) } else { Err("must be greater than 0 and less than 1, e.g. 1e-6".to_owned()) }
+}
+
 pub(crate) fn run(arguments: &Homogenize, progress: &Progress) -> Result<(), Error> {
     let Homogenize { cell, json, temperatures, vtu, svg, .. } = arguments;
     output::check_outputs(&[cell], &[vtu.as_deref(), svg.as_deref()])?;
@@ -64,7 +68,7 @@ pub(crate) fn run(arguments: &Homogenize, progress: &Progress) -> Result<(), Err
     let has_tables = matches!(&any, AnyCell::General(general) if general.temperatures().is_some());
     if !temperatures.is_empty() && !has_tables {
         let problem = "no constituent is a table over temperature: the constants are the same at all";
-        return Err(Error::Usage(format!("{}: {problem}; leave --temperatures out", cell.display())));
+        return Err(Error::usage(format!("{}: {problem}; leave --temperatures out", cell.display())));
     }
     let (text, object) = match any {
         AnyCell::Regular(case, general) => arguments.regular(&case, general, progress)?,
@@ -86,7 +90,7 @@ impl Homogenize {
         if self.load.is_some() || self.svg.is_some() {
             let general = general?;
             let cell = general.cell(&general.layouts[0], None)?;
-            let failed = |source| Error::Homogenization { file: general.file.clone(), source };
+            let failed = |source| files::Error::Homogenization { file: general.file.clone(), source };
             let solve = || cell.homogenize_to(self.tolerance.max(INSIDE)).map_err(failed);
             let solution = progress.during("solving for the fields inside", solve)?.solution;
             self.inside(&general, None, &solution, (&mut text, &mut object), progress)?;
@@ -128,7 +132,7 @@ impl Homogenize {
         progress: &Progress,
     ) -> Result<(), Error> {
         if let Some(load) = self.load {
-            let failed = |source| Error::Homogenization { file: case.file.clone(), source };
+            let failed = |source| files::Error::Homogenization { file: case.file.clone(), source };
             let strains = Strains::new(solution, load).map_err(failed)?;
             *text += &format!("\n{}", strains.text());
             object["strains"] = strains.json();

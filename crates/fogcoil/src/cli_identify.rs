@@ -22,6 +22,6 @@ pub(crate) struct Identify {
 pub(crate) fn run(arguments: &Identify, progress: &Progress) -> Result<(), Error> {
     let Identify { targets, json } = arguments;
     let case = input::read_targets(targets)?;
-    let result = progress.tasks(|tell| identify::identify(&case, &|task| tell(task)))?;
+    let result = progress.tasks(|tell| identify::identify(&case, tell))?;
     print(&if *json { line(&identify::json(&case, &result)) } else { identify::text(&case, &result) })
 }

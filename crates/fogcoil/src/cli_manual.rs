@@ -33,7 +33,7 @@ pub(crate) fn man(dir: Option<&Path>, progress: &Progress) -> Result<(), Error> 
     let pages: Vec<(PathBuf, String)> =
         pages.into_iter().map(|c| Ok((dir.join(format!("{}.1", c.get_name())), page(c)?))).collect::<Result<_, Error>>()?;
     let made = std::fs::create_dir_all(dir);
-    made.map_err(|source| Error::Output { file: dir.to_owned(), source })?;
+    made.map_err(|source| files::Error::Output { file: dir.to_owned(), source })?;
     let files: Vec<(&Path, Content)> = pages.iter().map(|(path, text)| (path.as_path(), Content::Text(text.clone()))).collect();
     progress.save(&files)
 }

@@ -8,6 +8,7 @@
 //! - [`check`] judges a recording and identifies its noise.
 //! - [`diagnose`] compares recordings with a design and names what the design leaves out.
 //! - [`recommend`] finds the test that tells mechanisms apart; [`explain`] solves for what would give a measured sensitivity.
+//! - [`prepare`] makes what these start from: a design's library of models, and recordings as the engine wants them.
 //! - [`glossary`] explains the ids of mechanisms, warnings and notes.
 //!
 //! The functions neither print nor parse arguments; `main.rs` does.
@@ -25,9 +26,7 @@
 //! # }
 //! ```
 
-mod bounds;
 pub mod cache;
-
 pub mod check;
 pub mod comparison;
 pub mod diagnose;
@@ -39,6 +38,7 @@ pub mod homogenize;
 pub mod identify;
 pub mod picture;
 pub mod picture_cell;
+pub mod prepare;
 pub mod recommend;
 pub mod report;
 pub mod sensitivity;
@@ -49,7 +49,7 @@ pub mod trim;
 pub mod wind;
 
 pub use error::Error;
-pub use files::{input, output, schema, units};
+pub use files::{Error as FileError, input, output, schema, units};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -15,6 +15,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use crate::progress::Progress;
 use clap::Parser;
 use cli::{Cli, Command, Diagnose, Simulate};
 use cli_check::Check;
@@ -25,7 +26,6 @@ use fogcoil::input::Between;
 use fogcoil::output::Content;
 use fogcoil::{Error, check, diagnose, figures, input, output, picture, report, sensitivity, simulate, summary, trim, wind};
 use print::print;
-use progress::Progress;
 
 fn main() -> ExitCode {
     match run(&Cli::parse()) {
@@ -87,7 +87,7 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
     let (fits, holdouts) = progress.during("reading the records", || Ok::<_, Error>((read(fits)?, read(holdouts)?)))?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
     let outcome = progress.tasks(|tell| diagnose::diagnose(&case, &fits, &holdouts, &cache, tell))?;
-    outcome.notes().iter().for_each(|note| progress.note(note));
+    progress.tell(outcome.notes());
     let object = line(&outcome.json());
     let mut files = Vec::new();
     files.extend(json_file.map(|path| (path, Content::Text(object.clone()))));
@@ -95,7 +95,7 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
     if let Some(path) = model_out {
         match outcome.model() {
             Ok(text) => files.push((path, Content::Text(text))),
-            Err(why) => progress.note(&Remark::NoModel.says(format!("{}: nothing to write: {why}", path.display()))),
+            Err(why) => progress.tell(&[Remark::NoModel.note(format!("nothing to write: {why}")).at(path)]),
         }
     }
     let page = || progress.during("drawing the report, with the test to make next", || outcome.report());
@@ -122,7 +122,7 @@ fn run_check(arguments: &Check, progress: &Progress) -> Result<(), Error> {
     case.require_usable()?;
     match (svg, check::svg(&analysis)) {
         (Some(path), Some(picture)) => progress.save(&[(path, Content::Text(picture))]),
-        (Some(path), None) => Err(Error::Usage(format!("{}: there is no Allan deviation to draw", path.display()))),
+        (Some(path), None) => Err(Error::usage(format!("{}: there is no Allan deviation to draw", path.display()))),
         (None, _) => Ok(()),
     }
 }
@@ -135,7 +135,7 @@ fn run_trim(coil: &Path, profile: Option<&Path>, json: bool, progress: &Progress
     let mut profile = profile.map(|path| input::read_profile(path, &case.design)).transpose()?;
     if let Some(profile) = &mut profile {
         profile.note_long_rows(CLOSER);
-        profile.notes.iter().for_each(|note| progress.note(note));
+        progress.tell(&profile.notes);
     }
     let result = progress.during("trimming", || trim::trim(&case, profile.as_ref()))?;
     print(&if json { line(&trim::json(&result)) } else { trim::text(&case, &result) })
@@ -168,16 +168,16 @@ fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> 
             match (step, between) {
                 (Some(step), Between::Linear) => profile.divide(*step)?,
                 (Some(_), Between::Cubic) => {
-                    return Err(Error::Usage("--step adds rows on straight lines: it does not go with --between cubic".into()));
+                    return Err(Error::usage("--step adds rows on straight lines: it does not go with --between cubic"));
                 }
                 (None, _) => {}
             }
             profile.note_long_rows(if *between == Between::Linear { "give --step 30" } else { CLOSER });
             (model(&profile.drives)?, profile)
         }
-        (None, None) => return Err(Error::Usage("give a profile (--profile) or a thermometer's record (--spool)".into())),
+        (None, None) => return Err(Error::usage("give a profile (--profile) or a thermometer's record (--spool)")),
     };
-    profile.notes.iter().for_each(|note| progress.note(note));
+    progress.tell(&profile.notes);
     let task = format!("simulating {} rows", profile.profile.time.len());
     let simulation = progress.during(&task, || simulate::simulate(&case, &profile, &model))?;
     let rows = |out: &mut dyn Write| simulation.write_csv(out);

@@ -8,6 +8,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use ::progress::Step;
+use fogcoil::glossary::Note;
 use fogcoil::output::{self, Content};
 use fogcoil::{Error, input};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -69,42 +71,49 @@ impl Progress {
         self.how == How::Silent
     }
 
-    /// Says something: a note, unless it begins as a warning.
-    pub(crate) fn note(&self, text: &str) {
+    /// Says what a user should know.
+    pub(crate) fn tell(&self, notes: &[Note]) {
+        notes.iter().for_each(|note| self.say(&note.line()));
+    }
+
+    /// Says what goes on.
+    fn note(&self, text: &str) {
+        self.say(&format!("note: {text}"));
+    }
+
+    fn say(&self, line: &str) {
         if self.is_silent() {
             return;
         }
         // nobody is left to tell if standard error is closed
-        let kind = if text.starts_with("warning: ") { "" } else { "note: " };
-        let say = || drop(writeln!(std::io::stderr().lock(), "{kind}{text}"));
+        let say = || drop(writeln!(std::io::stderr().lock(), "{line}"));
         match lock(&self.bar).as_ref() {
             Some(bar) => bar.suspend(say),
             None => say(),
         }
     }
 
-    /// A task begins, or goes on where ` (k of n)` stands behind its name.
-    fn task(&self, task: &str) {
-        let (name, share) = counted(task);
+    /// A task begins, or goes on.
+    fn task(&self, Step { task, done }: Step) {
         if let Some(bar) = lock(&self.bar).as_ref() {
-            if let Some((done, all)) = share {
-                bar.set_length(all);
-                bar.set_position(done);
+            if let Some((done, all)) = done {
+                bar.set_length(all as u64);
+                bar.set_position(done as u64);
             }
-            bar.set_style(style(if share.is_some() { COUNTED } else { UNCOUNTED }));
-            bar.set_message(name.to_owned());
+            bar.set_style(style(if done.is_some() { COUNTED } else { UNCOUNTED }));
+            bar.set_message(task.to_owned());
             return;
         }
         let mut named = lock(&self.named);
-        if *named != name {
-            *named = name.to_owned();
-            self.note(name);
+        if *named != task {
+            *named = task.to_owned();
+            self.note(task);
         }
     }
 
     /// Does work that tells its tasks.
-    pub(crate) fn tasks<T>(&self, work: impl FnOnce(&(dyn Fn(&str) + Sync)) -> T) -> T {
-        self.watched(None, || work(&|task| self.task(task)))
+    pub(crate) fn tasks<T>(&self, work: impl FnOnce(&(dyn Fn(Step) + Sync)) -> T) -> T {
+        self.watched(None, || work(&|step| self.task(step)))
     }
 
     /// Does `work`, and names it if it takes long.
@@ -163,7 +172,7 @@ impl Progress {
     /// Reads a coil file and says what in it looks like a mistake.
     pub(crate) fn read_coil(&self, path: &Path) -> Result<input::CoilCase, Error> {
         let case = self.during(&format!("reading {}", path.display()), || input::read_coil(path))?;
-        case.warnings.iter().for_each(|warning| self.note(&format!("warning: {}: {warning}", path.display())));
+        case.warnings.iter().for_each(|warning| self.say(&warning.clone().at(path).line()));
         Ok(case)
     }
 }
@@ -200,25 +209,9 @@ fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> ")
 }
 
-/// A task's name and, of one that is counted, k of n.
-fn counted(task: &str) -> (&str, Option<(u64, u64)>) {
-    let parts = || {
-        let (name, rest) = task.rsplit_once(" (")?;
-        let (done, all) = rest.strip_suffix(')')?.split_once(" of ")?;
-        Some((name, (done.parse().ok()?, all.parse().ok()?)))
-    };
-    parts().map_or((task, None), |(name, share)| (name, Some(share)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_count_is_told_from_other_brackets() {
-        assert_eq!(counted("fitting (once) (3 of 14)"), ("fitting (once)", Some((3, 14))));
-        assert_eq!(counted("fitting (half a minute of it)"), ("fitting (half a minute of it)", None));
-    }
 
     #[test]
     fn a_few_files_are_named() {

@@ -9,12 +9,12 @@ use coil::{
     CHECKS, COARSER, Drive, Dynamics, Profile, ReductionError, Response, STANDARD, STEADY, SteadySensitivity, ThermalState,
     TurnFields, chamber_from_sensor,
 };
+use files::Remark;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::Error;
 use crate::cache::{Cache, Source};
-use crate::glossary::Remark;
 use crate::input::{Between, CoilCase, Inference, InputError, ProfileCase, SpoolCase};
 
 /// Columns of the result.
@@ -103,7 +103,7 @@ pub struct Window {
 /// Models a coil for the drives of a profile, or finds its model in `cache`.
 ///
 /// # Errors
-/// [`Error::Coil`] if the coil cannot be solved.
+/// [`files::Error::Coil`] if the coil cannot be solved.
 pub fn model(case: &CoilCase, drives: &[Drive], cache: &Cache) -> Result<Model, Error> {
     let build = || Dynamics::new(&case.design, drives, &STANDARD);
     let (dynamics, source) = load_or_build(case, drives, cache, "dynamics", build)?;
@@ -120,12 +120,11 @@ const UNEXPLAINED: f64 = 2.0;
 /// The profile that a thermometer's record came from; `noise` \[K\] is the standard deviation of its readings.
 ///
 /// # Errors
-/// [`Error::Coil`] if nothing can be inferred from the record.
+/// [`files::Error::Coil`] if nothing can be inferred from the record.
 pub fn infer(record: SpoolCase, noise: f64, model: &Model) -> Result<ProfileCase, Error> {
     let SpoolCase { drives, time, spool, mut notes, fingerprint } = record;
     let file = || fingerprint.file.clone();
-    let inferred =
-        chamber_from_sensor(&model.dynamics, &time, &spool, noise).map_err(|source| Error::Coil { file: file(), source })?;
+    let inferred = chamber_from_sensor(&model.dynamics, &time, &spool, noise).map_err(Error::of_coil(&fingerprint.file))?;
     let residual = inferred.sensor_residual_rms;
     let impossible = |t: &&f64| !(ABSOLUTE_ZERO_C..=HOTTEST_C).contains(*t);
     if let Some(t) = inferred.chamber.iter().find(impossible) {
@@ -139,7 +138,7 @@ pub fn infer(record: SpoolCase, noise: f64, model: &Model) -> Result<ProfileCase
             "the model follows spool_c to {residual:.4} K only, with a noise of {noise} K; the record may not start at rest, the \
              thermometer be noisier (--spool-noise), or the coil another"
         );
-        notes.push(Remark::PoorInference.says(format!("{}: {problem}", file().display())));
+        notes.push(Remark::PoorInference.note(problem).at(file()));
     }
     let mut sd = inferred.chamber_sd;
     sd.sort_by(f64::total_cmp);
@@ -179,7 +178,7 @@ fn load_or_build<T: Serialize + DeserializeOwned>(
     purpose: &str,
     build: impl FnOnce() -> Result<T, coil::Error>,
 ) -> Result<(T, Source), Error> {
-    let at = |source| Error::Coil { file: case.file.clone(), source };
+    let at = Error::of_coil(&case.file);
     cache.load_or_build(purpose, &(&case.design, drives, STANDARD, COARSER), || build().map_err(at))
 }
 
@@ -193,12 +192,12 @@ fn assembled(case: &CoilCase, drives: &[Drive], cache: &Cache, dynamics: Dynamic
 /// Runs a profile from rest at its first instant.
 ///
 /// # Errors
-/// [`Error::Coil`] if the profile cannot be run; [`Error::NotFinite`] if the model gives no number.
+/// [`files::Error::Coil`] if the profile cannot be run; [`Error::NotFinite`] if the model gives no number.
 pub fn simulate<'a>(case: &'a CoilCase, profile: &'a ProfileCase, model: &Model) -> Result<Simulation<'a>, Error> {
     let file = || profile.fingerprint.file.clone();
     let parts = profile.between.parts();
     let course = if parts == 1 { Cow::Borrowed(&profile.profile) } else { Cow::Owned(profile.profile.smoothed(parts)) };
-    let at = |source| Error::Coil { file: file(), source };
+    let at = Error::of_coil(&profile.fingerprint.file);
     let responses = by_row(model.dynamics.simulate(&course).map_err(at)?, parts);
     let coarser = by_row(model.coarser.simulate(&course).map_err(at)?, parts);
     if let Some(row) = responses.iter().position(|r| !(r.sensor.is_finite() && r.rate().is_finite())) {

@@ -28,9 +28,9 @@ pub struct Trim {
 /// Trims a coil; under `profile`, if there is one, shows what the tails' trim leaves.
 ///
 /// # Errors
-/// [`Error::Coil`] if the coil cannot be solved.
+/// [`files::Error::Coil`] if the coil cannot be solved.
 pub fn trim(case: &CoilCase, profile: Option<&ProfileCase>) -> Result<Trim, Error> {
-    let at = |source| Error::Coil { file: case.file.clone(), source };
+    let at = Error::of_coil(&case.file);
     let tails = trim_tails(&case.design).map_err(at)?;
     let turns = trim_turns(&case.design, MOST_TURNS).map_err(at)?;
     let run = |design: &Design, profile: &ProfileCase| -> Result<[f64; 2], Error> {

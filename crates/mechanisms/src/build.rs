@@ -9,9 +9,12 @@ use coil::{
     COARSE, Design, Drive, Dynamics, Error, Fidelity, MechanicalState, Mechanics, Model, Reduction, ThermalModel, TurnFields,
     functionals,
 };
+use progress::Step;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+/// The task, as it is told.
+const TASK: &str = "modelling the design and what may be left out of it";
 /// Modes of every reduced model.
 const MODES: usize = 32;
 
@@ -36,19 +39,19 @@ fn fidelity() -> Fidelity {
     Fidelity { resolution: COARSE, modes: MODES }
 }
 
-/// Models that are made side by side, and the share of all that is done.
-struct Yard<F> {
-    progress: F,
+/// Models that are made side by side, and how many of all are done.
+struct Yard<'a> {
+    progress: &'a (dyn Fn(Step) + Sync),
     done: AtomicUsize,
     all: usize,
 }
 
-impl<F: Fn(f64) + Sync> Yard<F> {
+impl Yard<'_> {
     /// What is made of each item, in their order, whichever thread does it.
     fn each<I: Copy + Sync, T: Send>(&self, items: &[I], make: impl Fn(I) -> Result<T, Error> + Sync) -> Result<Vec<T>, Error> {
         let one = |item: &I| {
             let made = make(*item)?;
-            (self.progress)((self.done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / self.all as f64);
+            (self.progress)(Step::counted(TASK, self.done.fetch_add(1, Ordering::Relaxed) + 1, self.all));
             Ok(made)
         };
         items.par_iter().map(one).collect()
@@ -65,11 +68,11 @@ fn paths(design: &Design, mechanisms: &[&dyn Mechanism]) -> Vec<(String, HeatPat
 }
 
 impl Library {
-    /// Makes every model that the `mechanisms` need; `progress` is told the share done.
+    /// Makes every model that the `mechanisms` need; `progress` is told how many are made.
     ///
     /// # Errors
     /// [`Error`] names the dimension or property at fault, or the solve that failed.
-    pub fn build(design: &Design, mechanisms: &[&dyn Mechanism], progress: impl Fn(f64) + Sync) -> Result<Self, Error> {
+    pub fn build(design: &Design, mechanisms: &[&dyn Mechanism], progress: &(dyn Fn(Step) + Sync)) -> Result<Self, Error> {
         let thermal = ThermalModel::new(design, &COARSE, &chamber())?;
         let model = Model::new(design, &COARSE)?;
         let Reduction { reduced: base, modes, .. } = Reduction::new(&thermal, &functionals(design, &model, &thermal)?, MODES)?;

@@ -22,7 +22,7 @@ fn course() -> (Vec<f64>, Vec<f64>) {
 fn gyro() -> &'static std::sync::Mutex<Gyro<'static>> {
     static GYRO: OnceLock<std::sync::Mutex<Gyro<'static>>> = OnceLock::new();
     GYRO.get_or_init(|| {
-        let library = Library::build(&design(), CATALOGUE, |_| ()).expect("library");
+        let library = Library::build(&design(), CATALOGUE, &|_| ()).expect("library");
         std::sync::Mutex::new(of(library, CATALOGUE))
     })
 }

@@ -12,6 +12,16 @@ pub struct Step<'a> {
     pub done: Option<(usize, usize)>,
 }
 
+/// The task and, of one that is counted, how far it is: `solving (3 of 8)`.
+impl std::fmt::Display for Step<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        match self.done {
+            Some((done, of)) => write!(f, "{} ({done} of {of})", self.task),
+            None => f.write_str(self.task),
+        }
+    }
+}
+
 impl<'a> Step<'a> {
     /// A task begins.
     pub const fn begins(task: &'a str) -> Self {
@@ -42,5 +52,6 @@ mod tests {
         assert_eq!(Step::begins("a").share(), None);
         assert_eq!(Step::counted("a", 3, 4).share(), Some(0.75));
         assert_eq!(Step::counted("nothing to do", 0, 0).share(), Some(1.0));
+        assert_eq!([Step::begins("a"), Step::counted("a", 3, 4)].map(|step| step.to_string()), ["a", "a (3 of 4)"]);
     }
 }

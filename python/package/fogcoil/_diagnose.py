@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
 from collections.abc import Callable, Sequence
 from typing import Any, TypedDict, Union, cast
 
@@ -76,17 +75,16 @@ def diagnose(
     return cast(Diagnosis, result)
 
 
-def by_tenths(progress: Callable[[str], object]) -> Callable[[str], None]:
+def by_tenths(progress: Callable[[str], object]) -> _native.Progress:
     """Tells ``progress`` a task as it begins, and again at each tenth of one that is counted, ``task (k of n)``."""
     last = ("", 0)
 
-    def told(task: str) -> None:
+    def told(task: str, done: tuple[int, int] | None) -> None:
         nonlocal last
-        counted = re.fullmatch(r"(.*) \((\d+) of (\d+)\)", task)
-        name, tenth = (counted[1], 10 * int(counted[2]) // int(counted[3])) if counted else (task, 0)
-        if name != last[0] or tenth > last[1]:
-            last = (name, tenth)
-            progress(task)
+        tenth = 10 * done[0] // done[1] if done else 0
+        if task != last[0] or tenth > last[1]:
+            last = (task, tenth)
+            progress(f"{task} ({done[0]} of {done[1]})" if done else task)
 
     return told
 

@@ -11,6 +11,7 @@ Value = Union[SupportsFloat, SupportsIndex, str]
 Columns = list[tuple[str, bytearray]]
 Table = list[tuple[str, list[float]]]
 Record = tuple[str, Union[Table, None]]
+Progress = Callable[[str, Union[tuple[int, int], None]], object]
 
 __version__: str
 
@@ -72,5 +73,5 @@ def diagnose(
     holdout: list[Record],
     meta: str | os.PathLike[str] | None,
     code: str | None,
-    progress: Callable[[str], object] | None,
+    progress: Progress | None,
 ) -> tuple[str, str, Columns | None, Coil | None]: ...

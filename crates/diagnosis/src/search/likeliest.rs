@@ -1,5 +1,7 @@
 //! The likeliest single mechanisms, each with the noise that it leaves.
 
+use progress::Step;
+
 use super::{BEHIND, FOLLOWED, LIKELIEST, Pool, better, sort};
 use crate::fit::{Fit, Hypothesis};
 use crate::{Error, ForwardModel};
@@ -12,7 +14,7 @@ impl<M: ForwardModel> Pool<'_, M> {
         let mut met: Vec<usize> = Vec::new();
         let count = fits.len();
         for (k, fit) in fits.into_iter().enumerate().filter(|(_, f)| !f.hypothesis.mechanisms.is_empty()) {
-            self.done(LIKELIEST, k, count);
+            (self.progress)(Step::counted(LIKELIEST, k, count));
             let mechanism = fit.hypothesis.mechanisms[0].0;
             let again = met.contains(&mechanism);
             // of a mechanism's choices the best alone has its own noise; the others lie close behind it

@@ -11,6 +11,8 @@ mod singles;
 
 pub use settings::Settings;
 
+use progress::Step;
+
 use crate::fit::{Fit, Fitter, Hypothesis, alternatives};
 use crate::noise::Noise;
 use crate::{Candidate, Diagnosis, Error, ForwardModel, Observation, Rival};
@@ -34,12 +36,12 @@ struct Pool<'a, M> {
     singles: Vec<Vec<Hypothesis>>,
     candidates: Vec<Candidate>,
     /// Told each task as it begins, and the long ones as they go.
-    progress: &'a dyn Fn(&str),
+    progress: &'a dyn Fn(Step),
 }
 
 /// Compares everything that `model` may leave out on its records `records`, which observed `observations`.
 ///
-/// `progress` is told each task as it begins, and the long ones again with ` (k of n)` behind their name.
+/// `progress` is told each task as it begins, and the long ones as they go.
 ///
 /// # Errors
 /// [`Error`] if the model or a fit fails.
@@ -48,21 +50,21 @@ pub fn diagnose<M: ForwardModel>(
     records: &[usize],
     observations: &[Observation],
     settings: &Settings,
-    progress: &dyn Fn(&str),
+    progress: &dyn Fn(Step),
 ) -> Result<Diagnosis, Error<M::Error>> {
     let fitter = Fitter { model, observations, records };
     let singles = (0..model.mechanisms().len()).map(|m| alternatives(model, m)).collect();
     let mut pool = Pool { fitter, settings: *settings, singles, candidates: Vec::new(), progress };
-    progress("nominal model and noise");
+    progress(Step::begins("nominal model and noise"));
     let nominal = pool.nominal()?;
-    progress(SINGLES);
+    progress(Step::begins(SINGLES));
     let (leader, fits) = pool.singles(&nominal)?;
     let nominal = pool.without_mechanisms(nominal, &leader)?;
-    progress(LIKELIEST);
+    progress(Step::begins(LIKELIEST));
     let likeliest = pool.likeliest(fits)?;
-    progress(PAIRS);
+    progress(Step::begins(PAIRS));
     pool.pairs(&nominal, &likeliest)?;
-    progress("what no mechanism explains");
+    progress(Step::begins("what no mechanism explains"));
     pool.rivals()?;
     Diagnosis::conclude(&pool.fitter, settings, pool.candidates, nominal)
 }
@@ -108,10 +110,5 @@ impl<M: ForwardModel> Pool<'_, M> {
 
     fn named(&self, mechanism: usize) -> bool {
         self.fitter.model.mechanisms()[mechanism].named
-    }
-
-    /// Says that `k` of `n` parts of a task are done.
-    fn done(&self, task: &str, k: usize, n: usize) {
-        (self.progress)(&format!("{task} ({k} of {n})"));
     }
 }

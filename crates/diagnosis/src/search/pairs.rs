@@ -1,5 +1,7 @@
 //! What may be at work beside the likeliest mechanisms.
 
+use progress::Step;
+
 use super::{BEHIND, FOLLOWED, LEADERS, PAIRS, Pool};
 use crate::fit::{Fit, Hypothesis};
 use crate::{Candidate, Error, ForwardModel};
@@ -17,7 +19,7 @@ impl<M: ForwardModel> Pool<'_, M> {
         for fit in likeliest.iter().filter(|f| f.log_evidence - nominal.log_evidence > PAIRED) {
             let first = fit.hypothesis.mechanisms[0].0;
             if self.named(first) && !followed.contains(&first) && followed.len() < LEADERS {
-                self.done(PAIRS, followed.len(), LEADERS);
+                (self.progress)(Step::counted(PAIRS, followed.len(), LEADERS));
                 followed.push(first);
                 self.pairs_of(fit)?;
             }

@@ -1,5 +1,7 @@
 //! Every mechanism alone.
 
+use progress::Step;
+
 use super::{Pool, SINGLES, sort};
 use crate::fit::{Fit, Hypothesis};
 use crate::{Error, ForwardModel};
@@ -38,7 +40,7 @@ impl<M: ForwardModel> Pool<'_, M> {
         let count = self.singles.len();
         let mut fits: Vec<Fit> = Vec::new();
         for (k, hypotheses) in self.singles.iter().enumerate() {
-            self.done(SINGLES, round * count + k, ROUNDS * count);
+            (self.progress)(Step::counted(SINGLES, round * count + k, ROUNDS * count));
             for hypothesis in hypotheses {
                 fits.push(self.fitter.fit(hypothesis, &leader.noise, Some(known))?);
             }

@@ -22,7 +22,7 @@ use super::warnings::{in_medium, warnings};
 use super::winding_file::winding;
 use super::{InputError, heat};
 use crate::Error;
-use crate::remark::Remark;
+use crate::remark::{Note, Remark};
 use crate::units::to_mm;
 
 /// Table II of Osunluk, Ogut and Ozbay as printed; its exponents and the last sign are misprints (see the validation).
@@ -43,8 +43,8 @@ pub struct CoilCase {
     pub provenance: Provenance,
     /// The content of the file and of the cells it names, in this order.
     pub fingerprints: Vec<Fingerprint>,
-    /// What is allowed but looks like a mistake, a line each.
-    pub warnings: Vec<String>,
+    /// What is allowed but looks like a mistake.
+    pub warnings: Vec<Note>,
 }
 
 /// Where the numbers of a design come from that a file can give in several ways.
@@ -74,7 +74,7 @@ struct Cells<'a> {
     done: Vec<(PathBuf, Constants)>,
     fingerprints: Vec<Fingerprint>,
     /// What was taken for something else.
-    notes: Vec<String>,
+    notes: Vec<Note>,
     /// Of the winding \[m\].
     pitch: f64,
 }
@@ -272,7 +272,7 @@ impl Cells<'_> {
     fn compare_pitch(&mut self, field: &str, named: &str, pitch: f64) {
         if (pitch / self.pitch - 1.0).abs() > SAME_PITCH {
             let (cell, winding) = (1e3 * to_mm(pitch), 1e3 * to_mm(self.pitch));
-            self.notes.push(Remark::OtherPitch.says(format!(
+            self.notes.push(Remark::OtherPitch.warning(format!(
                 "{field}: the cell {named:?} has a pitch of {cell:.2} um, the winding (winding.pitch_mm) one of {winding:.2} um; is this meant?"
             )));
         }
@@ -296,7 +296,7 @@ impl Cells<'_> {
             let remedy = "take a cell of more fibres, or give the constants themselves: `fogcoil homogenize` prints the nearest";
             self.top.fault(field, problem, remedy)
         })?;
-        self.notes.push(Remark::AnisotropicCell.says(format!(
+        self.notes.push(Remark::AnisotropicCell.warning(format!(
             "{field}: the cell {named:?} is not isotropic across the fibre by {far:.2} % of strain energy; its mean over all turns about \
              the fibre is taken"
         )));

@@ -8,7 +8,7 @@ use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::profile_columns::{Columns, TIME};
 use super::rows::Rows;
-use crate::remark::Remark;
+use crate::remark::{Note, Remark};
 
 /// Most rows of a profile: two and a half years at 4 s.
 const MOST_ROWS: usize = 20_000_000;
@@ -59,7 +59,7 @@ pub struct ProfileCase {
     /// How the chamber's course was inferred from a thermometer; `None` if it is given.
     pub inferred: Option<Inference>,
     /// What a user should know although nothing is wrong.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
     /// The file.
     pub fingerprint: Fingerprint,
     /// How the drives run between its rows.
@@ -96,7 +96,7 @@ impl ProfileCase {
         if longest > COARSE_S {
             let problem =
                 format!("rows last up to {longest:.0} s, and a row's rate is its mean: peaks within it do not show; {remedy}");
-            self.notes.push(Remark::LongRows.says(format!("{}: {problem}", self.fingerprint.file.display())));
+            self.notes.push(Remark::LongRows.note(problem).at(&self.fingerprint.file));
         }
     }
 
@@ -159,20 +159,20 @@ fn read(mut rows: Rows, path: &Path, design: &Design) -> Result<ProfileCase, Inp
         drives.push(Drive::Heaters);
         courses.push(vec![1.0; time.len()]);
     }
-    let mut notes = columns.notes(path);
+    let mut notes = Vec::from_iter(columns.note(path));
     if time.len() == 1 {
-        notes.push(Remark::OneRow.says(format!("{}: has one row, in which nothing can happen", path.display())));
+        notes.push(Remark::OneRow.note("has one row, in which nothing can happen").at(path));
     }
     let shortest = time.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
     if shortest < RESOLVED_S * (1.0 - 1e-6) {
         let problem = format!(
             "rows are as close as {shortest:.6} s; means over less than {RESOLVED_S} s are not reliable just after a jump"
         );
-        notes.push(Remark::CloseRows.says(format!("{}: {problem}", path.display())));
+        notes.push(Remark::CloseRows.note(problem).at(path));
     }
     if courses[0].iter().all(|celsius| *celsius > KELVIN_C) {
         let problem = format!("chamber_c never falls below {KELVIN_C} degC; if it is in kelvin, subtract 273.15");
-        notes.push(Remark::Kelvin.says(format!("{}: {problem}", path.display())));
+        notes.push(Remark::Kelvin.note(problem).at(path));
     }
     Ok(ProfileCase {
         drives,

@@ -6,7 +6,7 @@ use coil::{Design, Drive, Side};
 
 use super::InputError;
 use super::rows::{Rows, quoted};
-use crate::remark::Remark;
+use crate::remark::{Note, Remark};
 
 pub(crate) const TIME: &str = "time_s";
 const CHAMBER: &str = "chamber_c";
@@ -67,15 +67,13 @@ impl Columns {
     }
 
     /// Which columns are not used.
-    pub(crate) fn notes(&self, path: &Path) -> Vec<String> {
-        if self.ignored.is_empty() {
-            return Vec::new();
-        }
+    pub(crate) fn note(&self, path: &Path) -> Option<Note> {
         let which = match self.ignored.as_slice() {
+            [] => return None,
             [one] => format!("the column {one} drives nothing and is ignored"),
             more => format!("the columns {} drive nothing and are ignored", more.join(", ")),
         };
-        vec![Remark::IgnoredColumn.says(format!("{}: {which}", path.display()))]
+        Some(Remark::IgnoredColumn.note(which).at(path))
     }
 }
 

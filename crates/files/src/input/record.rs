@@ -13,7 +13,7 @@ use super::record_format::{Key, RecordFormat, RecordOptions};
 use super::rows::{Rows, quoted};
 use super::timestamp::{self, FORMS, is_ambiguous};
 use crate::Error;
-use crate::remark::{Remark, WARNING};
+use crate::remark::{Note, Remark};
 
 /// Most rows: what fits in a gigabyte with its checks.
 const MOST_ROWS: usize = 10_000_000;
@@ -42,7 +42,7 @@ pub struct RecordCase {
     /// The meta file, if there is one.
     pub meta: Option<Meta>,
     /// What a user should know about how the file was read.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
     /// The file.
     pub fingerprint: Fingerprint,
 }
@@ -218,17 +218,17 @@ fn expectations(recording: &Recording, format: &RecordFormat) -> Expectations {
     Expectations { channels: recording.channels().iter().map(of).collect(), fewest_rows: FEW_ROWS }
 }
 
-fn notes(columns: &RecordColumns, format: &RecordFormat, relative: bool) -> Vec<String> {
+fn notes(columns: &RecordColumns, format: &RecordFormat, relative: bool) -> Vec<Note> {
     let mut notes = Vec::new();
     for key in Key::ALL {
         let Some(column) = columns.column(key) else {
             notes.push(match key {
                 Key::Time => {
-                    Remark::DeclaredInterval.says("there is no column of instants: the interval that was declared stands for it")
+                    Remark::DeclaredInterval.note("there is no column of instants: the interval that was declared stands for it")
                 }
                 _ => {
                     let message = format!("there is no column {}; a model can do without it, less surely", key.standard());
-                    Remark::AbsentColumn.says(message)
+                    Remark::AbsentColumn.note(message)
                 }
             });
             continue;
@@ -239,32 +239,32 @@ fn notes(columns: &RecordColumns, format: &RecordFormat, relative: bool) -> Vec<
             let counts = if form.count == 1.0 { String::new() } else { format!("counts of {} ", form.count) };
             let unit = form.unit.names[0];
             let message = format!("{} is read from the column {}, in {counts}{unit}", key.name(), quoted(name));
-            notes.push(Remark::MappedColumn.says(message));
+            notes.push(Remark::MappedColumn.note(message));
         }
         if let Some(named) = key.unit_in(name).filter(|named| *named != form.unit) {
             let (named, unit, key) = (named.names[0], form.unit.names[0], key.name());
             let message =
                 format!("the column {} is read in {unit}; if its name is right, add --unit {key}={named}", quoted(name));
-            notes.push(Remark::UnitInName.says(format!("{WARNING}{message}")));
+            notes.push(Remark::UnitInName.warning(message));
         }
     }
     if relative {
-        notes.push(Remark::Dates.says("instants are dates; they count from the first row"));
+        notes.push(Remark::Dates.note("instants are dates; they count from the first row"));
     }
     match columns.ignored()[..] {
         [] => {}
-        [name] => notes.push(Remark::IgnoredColumn.says(format!("the column {} is not used", quoted(name)))),
+        [name] => notes.push(Remark::IgnoredColumn.note(format!("the column {} is not used", quoted(name)))),
         ref names => {
             let message = format!("{} columns are not used: {}", names.len(), names.join(", "));
-            notes.push(Remark::IgnoredColumn.says(message));
+            notes.push(Remark::IgnoredColumn.note(message));
         }
     }
     notes
 }
 
-fn interval_note(meta: &Meta, interval: f64) -> Option<String> {
+fn interval_note(meta: &Meta, interval: f64) -> Option<Note> {
     let nominal = meta.sample_interval_s;
     let differs = nominal > 0.0 && interval > 0.0 && (interval / nominal - 1.0).abs() > 0.02;
     let message = || format!("the rows are {interval} s apart, the meta file says {nominal} s");
-    differs.then(|| Remark::IntervalDiffers.says(message()))
+    differs.then(|| Remark::IntervalDiffers.note(message()))
 }

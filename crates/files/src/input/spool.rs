@@ -9,7 +9,7 @@ use super::fingerprint::Fingerprint;
 use super::profile::read_rows;
 use super::profile_columns::{DRIVES, RESULTS, TIME, names};
 use super::rows::{Rows, quoted};
-use crate::remark::Remark;
+use crate::remark::{Note, Remark};
 
 const SPOOL: &str = "spool_c";
 /// Most rows of a record: the smoother holds some 300 bytes of each.
@@ -27,7 +27,7 @@ pub struct SpoolCase {
     /// Readings \[°C\].
     pub spool: Vec<f64>,
     /// What a user should know although nothing is wrong.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
     /// The file.
     pub fingerprint: Fingerprint,
 }
@@ -52,10 +52,10 @@ pub fn read_spool(path: &Path, design: &Design) -> Result<SpoolCase, InputError>
     let mut notes = Vec::new();
     let ignored: Vec<&str> = names.iter().map(String::as_str).filter(|name| ![TIME, SPOOL].contains(name)).collect();
     if !ignored.is_empty() {
-        let message = format!("{}: not read: {}; the chamber is inferred from {SPOOL}", path.display(), ignored.join(", "));
-        notes.push(Remark::IgnoredColumn.says(message));
+        let message = format!("not read: {}; the chamber is inferred from {SPOOL}", ignored.join(", "));
+        notes.push(Remark::IgnoredColumn.note(message).at(path));
     }
-    notes.extend(gap(&time).map(|gap| Remark::Gap.says(format!("{}: {gap}", path.display()))));
+    notes.extend(gap(&time).map(|gap| Remark::Gap.note(gap).at(path)));
     let drives = if design.heat.heaters.is_empty() { vec![Drive::Chamber] } else { vec![Drive::Chamber, Drive::Heaters] };
     Ok(SpoolCase { drives, time, spool, notes, fingerprint: rows.fingerprint() })
 }

@@ -3,7 +3,7 @@
 use coil::{Design, Layout, Region, Sensor};
 use winding::{Half, Pattern, Winding};
 
-use crate::remark::Remark;
+use crate::remark::{Note, Remark};
 use crate::units::to_mm;
 
 /// Room between winding and rectangle that a drawing leaves, in pitches.
@@ -28,15 +28,15 @@ fn period(pattern: Pattern) -> usize {
     }
 }
 
-/// A line for each thing that is allowed but looks like a mistake.
-pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> Vec<String> {
-    let mut lines = Vec::new();
+/// A warning of each thing that is allowed but looks like a mistake.
+pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> Vec<Note> {
+    let mut found = Vec::new();
     let (body, pitch) = (&design.body, design.winding.pitch);
     let mut unfilled = |what: &str, field: &str, body: f64, winding: f64| {
         if body > winding + ROOM * pitch {
             let (body, winding) = (to_mm(body), to_mm(winding));
             let message = format!("{field}: the coil {what} {body:.4} mm, but its turns end at {winding:.4} mm; is this meant?");
-            lines.push(Remark::UnfilledCoil.says(message));
+            found.push(Remark::UnfilledCoil.warning(message));
         }
     };
     unfilled("reaches to", "coil.outer_radius_mm", body.outer_radius, winding.outer_radius());
@@ -47,7 +47,7 @@ pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> V
         let (sagnac, inner, outer) = (to_mm(sagnac), to_mm(inner), to_mm(outer));
         let message =
             format!("optics.sagnac_diameter_mm: {sagnac} mm lies outside the coil, {inner:.3} to {outer:.3} mm; is this meant?");
-        lines.push(Remark::SagnacOutside.says(message));
+        found.push(Remark::SagnacOutside.warning(message));
     }
     let (pattern, layers) = (design.winding.pattern, design.winding.layers);
     let period = period(pattern);
@@ -56,26 +56,26 @@ pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> V
             "winding.layers: {layers} layers are no whole number of the {period} after which a {pattern:?} begins anew: the halves of the \
              fibre lie differently; is this meant?"
         );
-        lines.push(Remark::BrokenPattern.says(message));
+        found.push(Remark::BrokenPattern.warning(message));
     }
     let sensor = design.sensor;
     if in_medium(layout, sensor) {
         let (radius, y) = (to_mm(sensor.radius), to_mm(sensor.y));
         let message =
             format!("sensor: radius {radius:.3} mm, y {y:.3} mm is in the medium, on no part of spool or coil; is this meant?");
-        lines.push(Remark::SensorInMedium.says(message));
+        found.push(Remark::SensorInMedium.warning(message));
     }
     let tails = design.winding.tails;
     if tails.cw.max(tails.ccw) > winding.wound_length() / 2.0 {
         let half = winding.turns().iter().filter(|t| t.half == Half::Cw).map(|t| t.length()).sum::<f64>();
         let message = format!("winding.tails_m: a tail longer than half the winding ({half:.1} m); is this meant?");
-        lines.push(Remark::LongTail.says(message));
+        found.push(Remark::LongTail.warning(message));
     }
     let elastic = design.body.elastic;
     if elastic.e_r < 1e-4 * elastic.e_z {
         let ratio = elastic.e_r / elastic.e_z;
         let message = format!("coil.material: e_r is {ratio:.1e} of e_z; is e_r_mpa in MPa and e_z_gpa in GPa?");
-        lines.push(Remark::ModulusRatio.says(message));
+        found.push(Remark::ModulusRatio.warning(message));
     }
-    lines
+    found
 }

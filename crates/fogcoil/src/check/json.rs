@@ -1,12 +1,12 @@
 //! The result as one object.
 
 use bias::units::S_PER_H;
+use files::Remark;
 use recording::check::{Finding, Repair};
 use serde_json::{Value, json};
 
 use super::text::severity;
 use super::{Analysis, GyroNoise};
-use crate::glossary::Remark;
 
 /// The result; units in the keys, `null` where a number is not known.
 pub fn json(analysis: &Analysis) -> Value {
@@ -27,7 +27,7 @@ pub fn json(analysis: &Analysis) -> Value {
         "gaps": instants.map_or_else(Vec::new, |i| i.gaps.iter().map(gap).collect::<Vec<_>>()),
         "channels": report.channels.iter().map(channel).collect::<Vec<_>>(),
         "notes": case.notes,
-        "note_ids": Remark::ids(&case.notes),
+        "note_ids": case.notes.iter().map(|note| note.remark.id()).collect::<Vec<_>>(),
         "findings": report.findings.iter().map(finding).collect::<Vec<_>>(),
         "noise": analysis.noise.as_ref().map(noise),
     })

@@ -3,11 +3,11 @@
 use std::fmt::Write;
 
 use bias::units::S_PER_H;
+use files::Remark;
 use recording::check::{Finding, Severity};
 use recording::noise::{StandardErrors, Term};
 
 use super::{Analysis, GyroNoise};
-use crate::glossary::{Remark, WARNING};
 use crate::input::RecordCase;
 use crate::table::{significant, table};
 use crate::units::DurationUnit;
@@ -17,7 +17,7 @@ const MOST_ALIKE: usize = 8;
 
 /// What is wrong with a recording, line by line; empty if nothing is.
 pub fn warnings(case: &RecordCase) -> String {
-    let mut out: String = case.notes.iter().filter(|note| note.starts_with(WARNING)).map(|note| format!("{note}\n")).collect();
+    let mut out: String = case.notes.iter().filter(|note| note.is_warning()).map(|note| format!("{note}\n")).collect();
     let wrong: Vec<&Finding> = case.report.findings.iter().filter(|finding| finding.severity != Severity::Note).collect();
     findings(&mut out, &wrong);
     out
@@ -32,8 +32,7 @@ pub fn text(analysis: &Analysis) -> String {
     out.push('\n');
     out.push_str(&channels(analysis));
     for note in &case.notes {
-        let kind = if note.starts_with(WARNING) { "" } else { "note: " };
-        let _ = writeln!(out, "{kind}{note}");
+        let _ = writeln!(out, "{}", note.line());
     }
     let found: Vec<&Finding> = case.report.findings.iter().collect();
     if found.is_empty() {
@@ -91,7 +90,7 @@ fn findings(out: &mut String, findings: &[&Finding]) {
     for (n, finding) in findings.iter().enumerate() {
         let before = (0..n).filter(alike(n)).count();
         if before < MOST_ALIKE {
-            let _ = writeln!(out, "{}: {}", severity(finding.severity), Remark::of_finding(&finding.kind).says(finding));
+            let _ = writeln!(out, "{}: {finding} [{}]", severity(finding.severity), Remark::of_finding(&finding.kind).id());
         } else if before == MOST_ALIKE {
             let more = (n..findings.len()).filter(alike(n)).count();
             let _ = writeln!(out, "{}: ... and {more} more of this kind (all with --json)", severity(finding.severity));

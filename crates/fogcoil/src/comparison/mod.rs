@@ -7,11 +7,12 @@ mod trial;
 
 use diagnosis::{Active, ForwardModel, Plan, Prior, separation};
 use mechanisms::{CATALOGUE, Gyro, RATE, SPOOL};
+use progress::Step;
 
 use crate::Error;
 use crate::cache::Cache;
-use crate::diagnose::library;
 use crate::input::CoilCase;
+use crate::prepare::library;
 use crate::recommend::{Contender, Limits, Programme, everything, prepared, programmes, usual};
 
 pub(crate) use signature::{CHANNELS, chamber};
@@ -82,10 +83,10 @@ impl Comparison {
     /// Measures every mechanism of a design against every other one.
     ///
     /// # Errors
-    /// [`Error::Coil`] if the design cannot be modelled.
-    pub fn measure(case: &CoilCase, cache: &Cache, progress: &dyn Fn(&str)) -> Result<Self, Error> {
+    /// [`files::Error::Coil`] if the design cannot be modelled.
+    pub fn measure(case: &CoilCase, cache: &Cache, progress: &dyn Fn(Step)) -> Result<Self, Error> {
         let Responses { entries, programmes, gyro, mut contenders, truths } = Responses::of(case, cache)?;
-        let failed = |error| failed(case, error);
+        let failed = Error::of_diagnosis(&case.file);
         contenders.push(Contender::recalibrated());
         contenders.extend(Contender::named(&gyro, "nominal").map_err(failed)?);
         let noise = usual(&gyro);
@@ -95,7 +96,7 @@ impl Comparison {
             let mut of_programme = Vec::with_capacity(truths.len());
             for truth in &truths {
                 let id = &gyro.mechanisms()[truth.mechanism].id;
-                progress(&format!("{}: {id}", programme.family));
+                progress(Step::begins(&format!("{}: {id}", programme.family)));
                 let against = |rival: &Contender| -> Result<Option<Told>, Error> {
                     if rival.id == *id {
                         return Ok(None);
@@ -118,7 +119,7 @@ impl Responses {
     /// # Errors
     /// As [`Comparison::measure`].
     pub(crate) fn of(case: &CoilCase, cache: &Cache) -> Result<Self, Error> {
-        let coil = |source| Error::Coil { file: case.file.clone(), source };
+        let coil = Error::of_coil(&case.file);
         let library = library(case, cache, &|_| ())?;
         let mut programmes = programmes(&LIMITS);
         programmes.dedup_by_key(|programme| programme.family);
@@ -126,18 +127,11 @@ impl Responses {
         let gyro = Gyro::new(library, CATALOGUE, records).map_err(coil)?;
         let mut contenders = Vec::new();
         for mechanism in gyro.mechanisms().iter().filter(|m| m.named) {
-            contenders.extend(Contender::named(&gyro, &mechanism.id).map_err(|error| failed(case, error))?);
+            contenders.extend(Contender::named(&gyro, &mechanism.id).map_err(Error::of_diagnosis(&case.file))?);
         }
         let truths: Vec<Active> = contenders.iter().filter_map(|c| c.truth.clone()).collect();
         let entries = truths.iter().map(|truth| entry(&gyro, truth, programmes.len())).collect::<Result<_, _>>().map_err(coil)?;
         Ok(Self { entries, programmes, gyro, contenders, truths })
-    }
-}
-
-fn failed(case: &CoilCase, error: diagnosis::Error<coil::Error>) -> Error {
-    match error {
-        diagnosis::Error::Model(source) => Error::Coil { file: case.file.clone(), source },
-        other => Error::Diagnosis(other.to_string()),
     }
 }
 

@@ -2,12 +2,13 @@
 
 use diagnosis::{Active, ForwardModel, Observation, fitted};
 use mechanisms::{CATALOGUE, Gyro};
+use progress::Step;
 
 use super::{Comparison, Told};
 use crate::Error;
 use crate::cache::Cache;
-use crate::diagnose::library;
 use crate::input::CoilCase;
+use crate::prepare::library;
 use crate::recommend::{Contender, Programme, everything, prepared, told_apart, usual};
 
 /// Two mechanisms, and how often records of a programme named the one that was at work.
@@ -41,19 +42,16 @@ impl Comparison {
     /// Tries what it recommends for every pair; `normal` draws from the standard normal distribution.
     ///
     /// # Errors
-    /// [`Error::Coil`] if the design cannot be modelled.
+    /// [`files::Error::Coil`] if the design cannot be modelled.
     pub fn trials(
         &self,
         case: &CoilCase,
         cache: &Cache,
         normal: &mut dyn FnMut() -> f64,
-        progress: &dyn Fn(&str),
+        progress: &dyn Fn(Step),
     ) -> Result<Vec<Trial>, Error> {
-        let coil = |source| Error::Coil { file: case.file.clone(), source };
-        let failed = |error: diagnosis::Error<coil::Error>| match error {
-            diagnosis::Error::Model(source) => coil(source),
-            other => Error::Diagnosis(other.to_string()),
-        };
+        let coil = Error::of_coil(&case.file);
+        let failed = Error::of_diagnosis(&case.file);
         let library = library(case, cache, &|_| ())?;
         let records = self.programmes.iter().map(|p| prepared(&library, p)).collect::<Result<Vec<_>, _>>().map_err(coil)?;
         let gyro = Gyro::new(library, CATALOGUE, records).map_err(coil)?;
@@ -68,7 +66,7 @@ impl Comparison {
                     odds(&self.told[k][a][b]).min(odds(&self.told[k][b][a]))
                 };
                 let best = (0..self.programmes.len()).max_by(|x, y| worse(*x).total_cmp(&worse(*y))).unwrap_or(0);
-                progress(&format!("{} and {}: {}", first.id, second.id, self.programmes[best].family));
+                progress(Step::begins(&format!("{} and {}: {}", first.id, second.id, self.programmes[best].family)));
                 let mut found = [[0.0; 2]; 2];
                 for (of_programme, k) in found.iter_mut().zip([best, 0]) {
                     for (odds, (truth, rival)) in of_programme.iter_mut().zip([(first, second), (second, first)]) {

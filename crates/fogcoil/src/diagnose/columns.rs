@@ -1,12 +1,12 @@
 //! Records whose columns are exchanged, or whose rate has the other sign: what a mechanism would hardly do, and a mistake does.
 
 use diagnosis::{ForwardModel, Observation};
+use files::{Note, Remark};
 use mechanisms::{CATALOGUE, Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 use recording::condition::bridged;
 
-use super::record::Ready;
-use crate::glossary::{Remark, WARNING};
 use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
+use crate::prepare::Ready;
 use crate::table::significant;
 
 /// What the model leaves of a record as it is over what it leaves of it as suspected, from which that is said.
@@ -20,8 +20,7 @@ const FAIR_K: f64 = 0.5;
 ///
 /// # Errors
 /// [`coil::Error`] if the model cannot be run.
-pub(super) fn warning(gyro: &Gyro, number: usize, ready: &Ready, case: &RecordCase) -> Result<Option<String>, coil::Error> {
-    let file = case.fingerprint.file.display();
+pub(super) fn warning(gyro: &Gyro, number: usize, ready: &Ready, case: &RecordCase) -> Result<Option<Note>, coil::Error> {
     let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
     let predicted = gyro.respond(number, &middle, &[])?;
     let Observation { time, channels } = &ready.observation;
@@ -37,20 +36,22 @@ pub(super) fn warning(gyro: &Gyro, number: usize, ready: &Ready, case: &RecordCa
             let would = rms(thermometer, &thermometer_under(gyro.library(), time, chamber)?, 1.0);
             if SUSPECT * would < left {
                 let [left, would] = [left, would].map(|k| significant(k, 2));
-                return Ok(Some(Remark::ExchangedColumns.says(format!(
-                    "{WARNING}{file}: {columns} seem to be exchanged: the model leaves {left} K rms of the thermometer as it stands, \
-                     {would} K with them exchanged; check the header or --column"
-                ))));
+                let text = format!(
+                    "{columns} seem to be exchanged: the model leaves {left} K rms of the thermometer as it stands, {would} K with \
+                     them exchanged; check the header or --column"
+                );
+                return Ok(Some(Remark::ExchangedColumns.warning(text).at(&case.fingerprint.file)));
             }
         }
     }
     let [left, would] = [1.0, -1.0].map(|sign| rms(rate, &predicted[RATE_CHANNEL], sign));
     Ok((REVERSED * would < left).then(|| {
         let [left, would] = [left, would].map(|r| significant(r, 2));
-        Remark::ReversedRate.says(format!(
-            "{WARNING}{file}: {RATE} seems to have the other sign: the nominal model leaves {left} deg/h rms as it stands, {would} \
-             with the rate negated; check the sense of the gyro's axis and cw_climbs"
-        ))
+        let text = format!(
+            "{RATE} seems to have the other sign: the nominal model leaves {left} deg/h rms as it stands, {would} with the rate \
+             negated; check the sense of the gyro's axis and cw_climbs"
+        );
+        Remark::ReversedRate.warning(text).at(&case.fingerprint.file)
     }))
 }
 

@@ -5,7 +5,6 @@ use mechanisms::RATE as RATE_CHANNEL;
 use serde_json::{Value, json};
 
 use super::{Outcome, name};
-use crate::glossary::Remark;
 
 impl Outcome {
     /// One object, as scripts read it.
@@ -46,7 +45,7 @@ impl Outcome {
             "structure": self.structure(),
             "holdout": held,
             "notes": self.notes,
-            "note_ids": Remark::ids(&self.notes),
+            "note_ids": self.notes.iter().map(|note| note.remark.id()).collect::<Vec<_>>(),
         })
     }
 }

@@ -5,7 +5,6 @@ mod columns;
 mod explanations;
 mod extended;
 mod json;
-mod record;
 mod report;
 mod structure;
 mod text;
@@ -13,19 +12,17 @@ mod text;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use coil::COARSE;
 use diagnosis::{
     Contradiction, Diagnosis, ForwardModel, HeldOut, Hypothesis, Judged, Judgement, Observation, Ruling, Settings, Verdict,
 };
-use mechanisms::{CATALOGUE, Extent, Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
+use files::{Note, Remark};
+use mechanisms::{CATALOGUE, Extent, Gyro, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
+use progress::Step;
 
 use crate::Error;
 use crate::cache::Cache;
-use crate::glossary::Remark;
 use crate::input::{CoilCase, Fingerprint, InputError, RecordCase};
-
-pub use record::{FEWEST_ROWS, INTERVAL_S, MANY_ROWS, MOST_ROWS};
-pub(crate) use record::{Ready, ready};
+use crate::prepare::{Ready, library, ready};
 
 /// A diagnosis with what it was made from.
 pub struct Outcome {
@@ -39,7 +36,7 @@ pub struct Outcome {
     diagnosis: Diagnosis,
     fits: Vec<Record>,
     holdouts: Vec<Held>,
-    notes: Vec<String>,
+    notes: Vec<Note>,
 }
 
 /// A record that was used.
@@ -61,23 +58,23 @@ struct Held {
 
 /// Diagnoses a unit of the design `case` from the records `fits`, judged on `holdouts`.
 ///
-/// `progress` is told each task as it begins; of one that can be counted again and again, with ` (k of n)` behind its name.
+/// `progress` is told each task as it begins; of one that can be counted again and again.
 ///
 /// # Errors
-/// [`Error::Input`] names the record that cannot be used and why; [`Error::Coil`] if the design cannot be modelled.
+/// [`files::Error::Input`] names the record that cannot be used and why; [`files::Error::Coil`] if the design cannot be modelled.
 pub fn diagnose(
     case: &CoilCase,
     fits: &[RecordCase],
     holdouts: &[RecordCase],
     cache: &Cache,
-    progress: &(dyn Fn(&str) + Sync),
+    progress: &(dyn Fn(Step) + Sync),
 ) -> Result<Outcome, Error> {
-    let coil = |source| Error::Coil { file: case.file.clone(), source };
+    let coil = Error::of_coil(&case.file);
     refuse_copies(fits.iter().chain(holdouts))?;
     let mut notes = Vec::new();
     let read: Vec<Ready> = fits.iter().chain(holdouts).map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
     let library = library(case, cache, progress)?;
-    progress("running every model under the recorded chamber");
+    progress(Step::begins("running every model under the recorded chamber"));
     let prepared = |r: &Ready| Prepared::new(&library, &r.observation.time, &r.chamber, r.averaging);
     let prepared = read.iter().map(prepared).collect::<Result<Vec<_>, _>>().map_err(coil)?;
     let gyro = Gyro::fitted_to(library, CATALOGUE, prepared, fits.len()).map_err(coil)?;
@@ -86,10 +83,7 @@ pub fn diagnose(
     }
     let observations: Vec<Observation> = read.iter().map(|r| r.observation.clone()).collect();
     let numbers: Vec<usize> = (0..fits.len()).collect();
-    let failed = |error: diagnosis::Error<coil::Error>| match error {
-        diagnosis::Error::Model(source) => coil(source),
-        other => Error::Diagnosis(other.to_string()),
-    };
+    let failed = Error::of_diagnosis(&case.file);
     let mut diagnosis =
         diagnosis::diagnose(&gyro, &numbers, &observations[..fits.len()], &Settings::default(), progress).map_err(failed)?;
     let mut records = read.into_iter().zip(fits.iter().chain(holdouts)).map(|(ready, case)| Record {
@@ -115,14 +109,14 @@ pub fn diagnose(
 }
 
 /// The note on an explanation that a record contradicts.
-fn taken_back(file: &Path, why: Contradiction) -> String {
+fn taken_back(file: &Path, why: Contradiction) -> Note {
     let how = match why {
         Contradiction::ClearlyWorse => "clearly worse than by the nominal model",
         Contradiction::ProvesNothing => "no better than by the nominal model, far from its noise",
     };
     let file = file.display();
     Remark::TakenBack
-        .says(format!("{file} is predicted {how}: the likeliest explanation is taken back; is it a record of the same unit?"))
+        .note(format!("{file} is predicted {how}: the likeliest explanation is taken back; is it a record of the same unit?"))
 }
 
 /// A record that is given twice would be counted, or judged, by itself.
@@ -137,21 +131,6 @@ fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -> Result<()
         known.push(fingerprint);
     }
     Ok(())
-}
-
-/// The library of a design, from the cache if it is there; `progress` is told how far it is.
-///
-/// # Errors
-/// [`Error::Coil`] if the design cannot be modelled.
-pub fn library(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(&str) + Sync)) -> Result<Library, Error> {
-    const TASK: &str = "modelling the coil and what its model may leave out (about a minute, once for a design)";
-    let key = (&case.design, COARSE);
-    let share = |share: f64| progress(&format!("{TASK} ({:.0} of 100)", 100.0 * share));
-    let built = cache.load_or_build("library", &key, || {
-        progress(TASK);
-        Library::build(&case.design, CATALOGUE, share)
-    });
-    built.map(|(library, _)| library).map_err(|source| Error::Coil { file: case.file.clone(), source })
 }
 
 /// The verdict's name.
@@ -230,7 +209,7 @@ impl Outcome {
     }
 
     /// What a user should know besides.
-    pub fn notes(&self) -> &[String] {
+    pub fn notes(&self) -> &[Note] {
         &self.notes
     }
 }
@@ -238,7 +217,7 @@ impl Outcome {
 /// Refuses a design that the library cannot be made for.
 ///
 /// # Errors
-/// [`Error::Input`] for a coil file whose own mechanics changes with temperature or time.
+/// [`files::Error::Input`] for a coil file whose own mechanics changes with temperature or time.
 pub fn check_design(case: &CoilCase, file: &Path) -> Result<(), Error> {
     if case.design.mechanics == coil::Mechanics::Elastic {
         return Ok(());

@@ -7,7 +7,6 @@ use diagnosis::Verdict;
 use mechanisms::{Extent, Naming, RATE as RATE_CHANNEL};
 
 use super::{NOMINAL, Outcome};
-use crate::glossary::WARNING;
 use crate::table::{significant, table};
 use crate::units::parameter_unit;
 
@@ -16,7 +15,7 @@ impl Outcome {
     pub fn text(&self) -> String {
         let d = &self.diagnosis;
         let mut out = String::new();
-        for warning in self.notes.iter().filter(|note| note.starts_with(WARNING)) {
+        for warning in self.notes.iter().filter(|note| note.is_warning()) {
             let _ = writeln!(out, "{warning}");
         }
         out.push_str(&self.verdict());

@@ -7,11 +7,12 @@ mod test;
 use coil::{COARSE, Design, MechanicalState, Model};
 use diagnosis::{Active, ForwardModel, Prior, Role};
 use mechanisms::{CATALOGUE, Gyro, Mechanism, Prepared, RATE, Steady};
+use progress::Step;
 
 use crate::Error;
 use crate::cache::Cache;
-use crate::diagnose::library;
 use crate::input::CoilCase;
+use crate::prepare::library;
 use crate::recommend::{Limits, prepared, programmes};
 
 pub use say::{json, text};
@@ -95,21 +96,21 @@ pub struct Explained {
 /// Explains a measured sensitivity, (deg/h)/(degC/min); without a sign (`magnitude`) it is taken with that of the design.
 ///
 /// # Errors
-/// [`Error::Usage`] for a sensitivity that is not a number; [`Error::Coil`] if the design cannot be modelled.
+/// [`files::Error::Usage`] for a sensitivity that is not a number; [`files::Error::Coil`] if the design cannot be modelled.
 pub fn explain(
     case: &CoilCase,
     measured: f64,
     magnitude: bool,
     cache: &Cache,
-    progress: &(dyn Fn(&str) + Sync),
+    progress: &(dyn Fn(Step) + Sync),
 ) -> Result<Explained, Error> {
     if !measured.is_finite() || measured.abs() > MOST || (magnitude && measured < 0.0) {
         let text = format!(
             "--sensitivity {measured}: give a magnitude up to {MOST} (deg/h)/(degC/min), or a signed value with --signed"
         );
-        return Err(Error::Usage(text));
+        return Err(Error::usage(text));
     }
-    let coil = |source| Error::Coil { file: case.file.clone(), source };
+    let coil = Error::of_coil(&case.file);
     let steady = case.steady_sensitivity()?;
     let nominal = steady.sensitivity.total();
     let measured = if magnitude { measured.copysign(nominal) } else { measured };
@@ -123,16 +124,13 @@ pub fn explain(
         records.push(prepared(&library, programme).map_err(coil)?);
     }
     let gyro = Gyro::new(library, CATALOGUE, records).map_err(coil)?;
-    progress("solving for every mechanism");
+    progress(Step::begins("solving for every mechanism"));
     let problem = Problem { design: &case.design, target: measured, error: steady.error_estimate, nominal: None };
     let problem = Problem { nominal: problem.sensitivity(&case.design, &MechanicalState::NOMINAL), ..problem };
     let all = gyro.mechanisms().iter().enumerate();
     let explanations: Vec<Explanation> = all.flat_map(|(k, entry)| problem.explanations(entry, gyro.mechanism(k))).collect();
     let constants = constants(&gyro).map_err(coil)?;
-    let tests = test::tests(&gyro, &explanations, &programmes, progress).map_err(|error| match error {
-        diagnosis::Error::Model(source) => coil(source),
-        other => Error::Diagnosis(other.to_string()),
-    })?;
+    let tests = test::tests(&gyro, &explanations, &programmes, progress).map_err(Error::of_diagnosis(&case.file))?;
     Ok(Explained {
         measured,
         magnitude,

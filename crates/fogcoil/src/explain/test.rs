@@ -2,6 +2,7 @@
 
 use diagnosis::Plan;
 use mechanisms::Gyro;
+use progress::Step;
 
 use super::{Explanation, STRAINED, active};
 use crate::recommend::{Contender, Odds, Programme, everything, odds, usual};
@@ -25,7 +26,7 @@ pub(super) fn tests(
     gyro: &Gyro,
     explanations: &[Explanation],
     programmes: &[Programme],
-    progress: &dyn Fn(&str),
+    progress: &dyn Fn(Step),
 ) -> Result<Vec<Test>, diagnosis::Error<coil::Error>> {
     let likely = |e: &&Explanation| e.sigma().is_some_and(|sigma| sigma.abs() <= STRAINED);
     let mut contenders: Vec<Contender> = Vec::new();
@@ -42,7 +43,7 @@ pub(super) fn tests(
     let mut tests = Vec::new();
     for other in contenders {
         let between = [tail.id.clone(), other.id.clone()];
-        progress(&format!("what tells {} from {}", between[0], between[1]));
+        progress(Step::begins(&format!("what tells {} from {}", between[0], between[1])));
         let pair = [tail.clone(), other];
         let mut told = Vec::with_capacity(programmes.len());
         for (k, programme) in programmes.iter().enumerate() {

@@ -33,7 +33,7 @@ impl Convergence {
     /// Solves on every mesh, about a second, or finds it in `cache`.
     ///
     /// # Errors
-    /// [`Error::Coil`] if the coil cannot be solved.
+    /// [`files::Error::Coil`] if the coil cannot be solved.
     pub fn measure(case: &CoilCase, cache: &Cache) -> Result<Self, Error> {
         let solve = |order: usize| -> Result<(f64, f64), coil::Error> {
             let model = Model::new(&case.design, &mesh(order))?;
@@ -44,14 +44,14 @@ impl Convergence {
             Ok(Self { meshes, reference: solve(REFERENCE)? })
         };
         let measured = cache.load_or_build("convergence", &case.design, build);
-        measured.map(|(measured, _)| measured).map_err(|source| Error::Coil { file: case.file.clone(), source })
+        measured.map(|(measured, _)| measured).map_err(Error::of_coil(&case.file))
     }
 }
 
 /// The convergence of a coil's steady sensitivity, as a file.
 ///
 /// # Errors
-/// [`Error::Coil`] if the coil cannot be solved.
+/// [`files::Error::Coil`] if the coil cannot be solved.
 pub fn convergence(case: &CoilCase) -> Result<Document, Error> {
     let measured = Convergence::measure(case, &Cache::NONE)?;
     let figure = figure(case, &measured);

@@ -14,7 +14,7 @@ const HIGH: f64 = 4.5;
 /// Signatures of all mechanisms under one fast programme, a panel for rate and thermometer of each, as a file.
 ///
 /// # Errors
-/// [`Error::Coil`] if the design cannot be modelled.
+/// [`files::Error::Coil`] if the design cannot be modelled.
 pub fn signatures(case: &CoilCase, cache: &Cache) -> Result<Document, Error> {
     let responses = Responses::of(case, cache)?;
     let (number, programme) = (1, &responses.programmes[1]);

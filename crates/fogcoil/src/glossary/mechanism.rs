@@ -6,7 +6,6 @@ use mechanisms::{CATALOGUE, Naming};
 use serde_json::{Value, json};
 
 use super::page::rows;
-use crate::recommend::inspection;
 use crate::table::table;
 
 /// Parameters and rivals of the mechanisms with a name, for the reference coil: Markdown, each below a heading that is its id.
@@ -72,6 +71,14 @@ pub fn all() -> impl Iterator<Item = Mechanism> {
 pub(super) fn counts() -> [usize; 3] {
     let named = all().filter(|m| m.stage.is_some()).count();
     [named, CATALOGUE.len() - named, BESIDE.len()]
+}
+
+/// A check of the unit itself that decides about a mechanism.
+pub(crate) fn inspection(id: &str) -> Option<&'static str> {
+    match mechanisms::find(id)?.facts().naming {
+        Naming::Named { inspection, .. } => Some(inspection),
+        Naming::Described { .. } => None,
+    }
 }
 
 impl Mechanism {

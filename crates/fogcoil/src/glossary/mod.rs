@@ -3,8 +3,8 @@
 mod mechanism;
 mod page;
 
-pub(crate) use files::WARNING;
-pub use files::{Explanation, Remark};
+pub use files::{Explanation, Note, Remark, Severity};
+pub(crate) use mechanism::inspection;
 pub use mechanism::{Mechanism, all as mechanisms};
 
 use std::fmt::Write;
@@ -137,14 +137,6 @@ mod tests {
     fn the_mechanisms_are_counted() {
         assert_eq!(mechanism::counts(), [13, 6, 2]);
         assert!(list().starts_with("Mechanisms: 13 with a name; 6 without one, unknown:..., "));
-    }
-
-    #[test]
-    fn a_message_carries_its_id() {
-        for remark in Remark::ALL {
-            assert_eq!(Remark::of(&remark.says("a [b] c")), Some(*remark));
-        }
-        assert_eq!(Remark::of("winding.tails_m [no-such-id]"), None);
     }
 
     #[test]

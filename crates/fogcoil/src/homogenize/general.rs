@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::presentation;
+use super::constants::presentation;
 use crate::input::{AtTemperature, GeneralCase};
 use crate::table::{plus_minus, significant, table};
 

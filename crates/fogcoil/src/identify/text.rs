@@ -5,7 +5,7 @@ use std::fmt::Write;
 use homogenization::identify::{Alternatives, Family, FamilyFit, Fit, Identification, ORDINARY, Posterior, Target, Uncertainty};
 
 use super::quantity::{in_words, presentation, title};
-use crate::homogenize::presentation as of_constant;
+use crate::homogenize::constants::presentation as of_constant;
 use crate::input::TargetsCase;
 use crate::table::{significant, table};
 

@@ -25,10 +25,10 @@ impl Limits {
     /// Limits that leave something to vary.
     ///
     /// # Errors
-    /// [`Error::Usage`] names the flag at fault.
+    /// [`files::Error::Usage`] names the flag at fault.
     pub fn check(&self) -> Result<(), Error> {
         let Self { coldest, hottest, fastest, hours } = *self;
-        let wrong = |text: String| Err(Error::Usage(text));
+        let wrong = |text: String| Err(Error::usage(text));
         if ![coldest, hottest].iter().all(|t| (-100.0..=200.0).contains(t)) {
             return wrong(format!("--coldest {coldest} --hottest {hottest}: give degrees Celsius from -100 to 200"));
         }

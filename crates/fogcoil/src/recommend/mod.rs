@@ -8,10 +8,12 @@ mod question;
 mod recommendation;
 mod say;
 
+use progress::Step;
+
 use crate::Error;
 use crate::cache::Cache;
-use crate::diagnose::{library, ready};
 use crate::input::{CoilCase, RecordCase};
+use crate::prepare::{library, ready};
 
 pub use bench::Odds;
 pub(crate) use bench::{Contender, everything, odds, prepared, told_apart, usual};
@@ -20,21 +22,21 @@ pub use limits::Limits;
 pub use programme::{Programme, programmes};
 pub(crate) use question::Question;
 pub use recommendation::{Ranked, Recommendation, Size, WithSensor};
-pub(crate) use say::{inspection, number, sentence};
 pub use say::{json, text};
+pub(crate) use say::{number, sentence};
 
 /// Finds what tells the mechanisms `between` apart; `records` of the unit, if there are any, give sizes, noise, and the test that is repeated.
 ///
 /// # Errors
-/// [`Error::Usage`] for ids that the design's library does not hold and for limits that leave nothing to vary; [`Error::Input`] for a record that
-/// cannot be used; [`Error::Coil`] if the design cannot be modelled.
+/// [`files::Error::Usage`] for ids that the design's library does not hold and for limits that leave nothing to vary; [`files::Error::Input`] for a record that
+/// cannot be used; [`files::Error::Coil`] if the design cannot be modelled.
 pub fn recommend(
     case: &CoilCase,
     between: &[String],
     records: &[RecordCase],
     limits: &Limits,
     cache: &Cache,
-    progress: &(dyn Fn(&str) + Sync),
+    progress: &(dyn Fn(Step) + Sync),
 ) -> Result<Recommendation, Error> {
     check(between, limits)?;
     let given = records.iter().map(|record| ready(record, &mut Vec::new())).collect::<Result<_, _>>()?;
@@ -46,10 +48,10 @@ pub fn recommend(
 fn check(between: &[String], limits: &Limits) -> Result<(), Error> {
     limits.check()?;
     if let Some((_, id)) = between.iter().enumerate().find(|(k, id)| between[..*k].contains(*id)) {
-        return Err(Error::Usage(format!("--between: {id} is given twice")));
+        return Err(Error::usage(format!("--between: {id} is given twice")));
     }
     if between.len() < 2 {
-        return Err(Error::Usage("--between: give two or more ids, separated by commas".into()));
+        return Err(Error::usage("--between: give two or more ids, separated by commas"));
     }
     Ok(())
 }

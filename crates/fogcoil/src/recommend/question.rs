@@ -4,12 +4,13 @@ use std::path::Path;
 
 use diagnosis::{Active, ForwardModel, Observation, Plan, fitted};
 use mechanisms::{CATALOGUE, Gyro, Library, Prepared, RATE, SPOOL};
+use progress::Step;
 use recording::noise::NoiseModel;
 
 use super::bench::{self, Contender, everything, odds, prepared, usual};
 use super::{Course, Limits, Odds, Ranked, Recommendation, Size, WithSensor, check, programmes};
 use crate::Error;
-use crate::diagnose::Ready;
+use crate::prepare::Ready;
 
 /// Noise of a spool thermometer that may be added \[K\], its drift a tenth of the usual.
 const FINE_K: f64 = 0.001;
@@ -44,16 +45,13 @@ impl Question<'_> {
     ///
     /// # Errors
     /// As [`recommend`].
-    pub(crate) fn answer(self, library: Library, progress: &dyn Fn(&str)) -> Result<Recommendation, Error> {
+    pub(crate) fn answer(self, library: Library, progress: &dyn Fn(Step)) -> Result<Recommendation, Error> {
         let Self { file, between, records: given, limits, thorough } = self;
         check(between, &limits)?;
-        let coil = |source| Error::Coil { file: file.to_owned(), source };
-        let failed = |error: diagnosis::Error<coil::Error>| match error {
-            diagnosis::Error::Model(source) => coil(source),
-            other => Error::Diagnosis(other.to_string()),
-        };
+        let coil = Error::of_coil(file);
+        let failed = Error::of_diagnosis(file);
         let programmes = programmes(&limits);
-        progress("running every model under every programme");
+        progress(Step::begins("running every model under every programme"));
         let recorded = given.iter().map(|r| Prepared::new(&library, &r.observation.time, &r.chamber, r.averaging));
         let all = recorded.chain(programmes.iter().map(|programme| prepared(&library, programme)));
         let all = all.collect::<Result<Vec<_>, _>>().map_err(coil)?;
@@ -63,7 +61,7 @@ impl Question<'_> {
         let recorded = observations.len();
         let mut noise = None;
         if recorded > 0 {
-            progress("fitting each of them to the record");
+            progress(Step::begins("fitting each of them to the record"));
             noise = Some(fit(&gyro, &observations, &mut contenders).map_err(failed)?);
         }
         let proposed_noise = noise.map_or_else(|| usual(&gyro), |[spool, rate]| [spool, over(&rate, bench::INTERVAL)]);
@@ -84,7 +82,7 @@ impl Question<'_> {
         }
         let (mut profiles, mut most) = (Vec::new(), f64::NEG_INFINITY);
         for (n, (k, bound)) in order.into_iter().enumerate() {
-            progress(&format!("{} ({} of {})", programmes[k].name, n + 1, programmes.len()));
+            progress(Step::counted(&programmes[k].name, n + 1, programmes.len()));
             let (records, instants) = planned(k);
             let odds = match bound {
                 Some(bound) if bound.log_odds < most => bound,
@@ -111,7 +109,7 @@ impl Question<'_> {
         let (number, best) = (profiles[0].0, &profiles[0].1.programme);
         let mut sensors = Vec::new();
         if thorough || !profiles[0].1.odds.decides() {
-            progress("further sensors");
+            progress(Step::begins("further sensors"));
             let sensor = format!("a spool thermometer of {FINE_K} K");
             let finer_repeat = again(told(&repeat.records, &whole_spool(repeat.instants.clone()), &finer(repeat.noise))?);
             let finer_best = told(&[number], &[everything(best)], &finer(proposed_noise))?;
@@ -142,12 +140,12 @@ fn contenders(
     for id in between {
         let Some(contender) = Contender::named(gyro, id).map_err(&failed)? else {
             let known = Contender::known(gyro);
-            return Err(Error::Usage(format!("--between: `{id}` is not in this design's library; it holds {known}")));
+            return Err(Error::usage(format!("--between: `{id}` is not in this design's library; it holds {known}")));
         };
         contenders.push(contender);
     }
     if contenders.iter().all(|c| c.truth.is_none()) {
-        return Err(Error::Usage("--between: one of the ids must be a mechanism's".into()));
+        return Err(Error::usage("--between: one of the ids must be a mechanism's"));
     }
     Ok(contenders)
 }

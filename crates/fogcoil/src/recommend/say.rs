@@ -4,9 +4,8 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use mechanisms::Naming;
-
 use super::{Odds, Recommendation, Size};
+use crate::glossary::inspection;
 use crate::table::{significant, table};
 
 /// Most programmes in the table.
@@ -60,14 +59,6 @@ pub fn json(r: &Recommendation) -> Value {
         "inspections": inspections(r).iter().map(|(id, what)| json!({"id": id, "what": what})).collect::<Vec<_>>(),
         "recommendation": sentence(r),
     })
-}
-
-/// A check of the unit itself that decides about a mechanism.
-pub(crate) fn inspection(id: &str) -> Option<&'static str> {
-    match mechanisms::find(id)?.facts().naming {
-        Naming::Named { inspection, .. } => Some(inspection),
-        Naming::Described { .. } => None,
-    }
 }
 
 fn inspections(r: &Recommendation) -> Vec<(&str, &'static str)> {

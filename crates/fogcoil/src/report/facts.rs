@@ -108,7 +108,7 @@ pub(super) fn computation(simulation: &Simulation) -> Markup {
         );
         rows.push(row("chamber", course));
     }
-    rows.extend(simulation.profile.notes.iter().map(|note| row("note", note.as_str())));
+    rows.extend(simulation.profile.notes.iter().map(|note| row("note", note.message())));
     facts("The computation", &rows)
 }
 

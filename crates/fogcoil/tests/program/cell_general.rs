@@ -142,7 +142,7 @@ fn a_coil_takes_a_general_cell_that_is_nearly_isotropic() {
         (a.dehomogenization.m_rt, b.dehomogenization.m_rt),
     ];
     pairs.iter().for_each(|(found, expected)| assert!((found / expected - 1.0).abs() < 1e-5, "{found:e} {expected:e}"));
-    assert!(general.warnings.iter().any(|w| w.contains("by 0.00 %")), "{:?}", general.warnings);
+    assert!(general.warnings.iter().any(|w| w.text.contains("by 0.00 %")), "{:?}", general.warnings);
     folder.write("cell.ron", FAULTS);
     let refused = read_coil(&coil).unwrap_err().to_string();
     assert!(refused.contains("coil.ron:") && refused.contains("% of strain energy, more than the 1 %"), "{refused}");

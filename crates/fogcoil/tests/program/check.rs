@@ -159,7 +159,7 @@ fn a_loggers_file_is_the_same_recording() {
     };
     let case = read(&folder, "l.csv", &RecordOptions::default());
     same(&case);
-    let notes = case.notes.join("\n");
+    let notes = case.notes.iter().map(|note| format!("{note}\n")).collect::<String>();
     for part in [
         "time is read from the column `Zeit`, in ms",
         "no column spool_c",
@@ -198,7 +198,7 @@ fn dates_fahrenheit_radians_and_no_instants() {
     assert!((chamber[0] - 20.0).abs() < 1e-12 && chamber[1].is_nan() && chamber[2].abs() < 1e-12, "{chamber:?}");
     let rate = &case.recording.channel(RATE).unwrap().values;
     assert!((rate[2] - 2e-6 * 206_264.806_247_096_36).abs() < 1e-12 && rate[1].is_nan());
-    assert!(case.notes.iter().any(|note| note.contains("count from the first row")));
+    assert!(case.notes.iter().any(|note| note.text.contains("count from the first row")));
 
     folder.write(
         "g.csv",

@@ -7,9 +7,9 @@ use crate::common::{CELL, COIL, Folder, change};
 use coil::{Design, Drive, Dynamics, Profile, STANDARD};
 use diagnosis::{Active, ForwardModel};
 use fogcoil::cache::Cache;
-use fogcoil::diagnose::library;
 use fogcoil::input::{RATE, RecordOptions, check_coil, read_coil, read_record};
 use fogcoil::output::coil_file;
+use fogcoil::prepare::library;
 use mechanisms::{CATALOGUE, Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL};
 
 const RECORD: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/concealed/open/case_13/fit.csv");

@@ -36,6 +36,7 @@ pub use search::starts;
 pub use target::{Target, Uncertainty};
 
 use emulator::Emulator;
+use progress::Step;
 use search::{Demand, Found, search};
 
 /// Two sets of constituents that explain the entries alike.
@@ -62,14 +63,16 @@ pub struct Identification {
 
 /// Identifies the constituents behind `targets` among `families`; `None` if a family has no cell that can be solved.
 ///
-/// `note` is told what is going on, and behind it in brackets, "(3 of 8)", how far.
-pub fn identify(families: &[Family], targets: &[Target], seed: u64, note: &dyn Fn(&str)) -> Option<Identification> {
+/// `progress` is told each task as it begins, and how far it is.
+pub fn identify(families: &[Family], targets: &[Target], seed: u64, progress: &dyn Fn(Step)) -> Option<Identification> {
     let mut searched = Vec::new();
     let mut outcomes = Vec::new();
     let mut costs = Vec::new();
     for family in families {
-        let searching =
-            |what: &'static str| move |done, all| note(&format!("searching the {what} of the {} ({done} of {all})", family.name));
+        let searching = |what: &'static str| {
+            let task = format!("searching the {what} of the {}", family.name);
+            move |done, all| progress(Step::counted(&task, done, all))
+        };
         let mut emulator = Emulator::new(family);
         let dimensions = family.parameters().len();
         let fit = |found: Found| Some((Fit::new(family, targets, found.u, found.response)?, found.cost));
@@ -93,9 +96,9 @@ pub fn identify(families: &[Family], targets: &[Target], seed: u64, note: &dyn F
     }
     let (family, (emulator, minima)) = (&families[chosen], &mut searched[chosen]);
     let best = outcomes[chosen].fit();
-    let sampling = |done, all| note(&format!("sampling what else explains the entries ({done} of {all})"));
+    let sampling = |done, all| progress(Step::counted("sampling what else explains the entries", done, all));
     let posterior = posterior::posterior(emulator, targets, minima, seed, &sampling);
-    note("looking for two sets that explain them alike");
+    progress(Step::begins("looking for two sets that explain them alike"));
     let alternatives = posterior.as_ref().and_then(|posterior| {
         let [a, b] = alternatives::pair(emulator, targets, &best.response, &posterior.draws)?;
         let [a, b] = [Fit::new(family, targets, a.0, a.1)?, Fit::new(family, targets, b.0, b.1)?];

@@ -24,7 +24,7 @@ const UNNAMED: [f64; 9] = [-4.0, -3.0, -2.0, -1.5, -1.0, -0.5, 0.0, 1.0, 2.0];
 
 /// The design's library, from the cache if it is there.
 pub(crate) fn library(coil: &CoilCase, cache: &Cache) -> Result<Library, Failure> {
-    Ok(cache.load_or_build("library", &(&coil.design, COARSE), || Library::build(&coil.design, CATALOGUE, |_| ()))?.0)
+    Ok(cache.load_or_build("library", &(&coil.design, COARSE), || Library::build(&coil.design, CATALOGUE, &|_| ()))?.0)
 }
 
 /// What was recorded in a channel; NaN where it cannot be used.

@@ -20,7 +20,7 @@ const ASKED: f64 = 0.8;
 pub(super) fn run() -> Result<bool, Failure> {
     let program = program::hash(&root())?;
     let (coil, cache) = (input::read_coil(&root().join("fixtures/coil-reference.ron"))?, Cache::of_user());
-    let say = |task: &str| eprintln!("{task}");
+    let say = |step: progress::Step| eprintln!("{step}");
     let comparison = Comparison::measure(&coil, &cache, &say)?;
     let mut random = Random::new(SEED, 0);
     let trials = comparison.trials(&coil, &cache, &mut || random.normal(), &say)?;

@@ -14,11 +14,11 @@ mod stages;
 
 use charts::{Axis, facts, nice, page, row, significant};
 use diagnosis::{Fit, ForwardModel, Nuisance, Prior, Role, Verdict};
+use files::Note;
 use maud::{Markup, html};
 use mechanisms::{RATE, SPOOL};
 
 use super::{NOMINAL, Outcome, Record};
-use crate::glossary::WARNING;
 use crate::report::provenance;
 use crate::units::DurationUnit;
 
@@ -139,8 +139,8 @@ impl Outcome {
     fn finding(&self) -> Markup {
         let d = &self.diagnosis;
         // what may make the rest void comes first
-        let (warnings, notes): (Vec<&String>, Vec<&String>) = self.notes.iter().partition(|note| note.starts_with(WARNING));
-        let mut rows: Vec<_> = warnings.iter().map(|note| row("warning", note.trim_start_matches(WARNING))).collect();
+        let (warnings, notes): (Vec<&Note>, Vec<&Note>) = self.notes.iter().partition(|note| note.is_warning());
+        let mut rows: Vec<_> = warnings.iter().map(|note| row("warning", note.message())).collect();
         for (id, stage, extent) in self.places().filter(|_| d.verdict == Verdict::Explained) {
             rows.push(row(id, nice(&super::text::place(stage, &extent))));
         }
@@ -157,7 +157,7 @@ impl Outcome {
         if self.holdouts.is_empty() {
             rows.push(row("held out", "no record: what was fitted is not proven on data that it has not seen"));
         }
-        rows.extend(notes.into_iter().map(|note| row("note", note.as_str())));
+        rows.extend(notes.into_iter().map(|note| row("note", note.message())));
         facts("The finding", &rows)
     }
 

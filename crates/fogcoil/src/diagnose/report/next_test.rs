@@ -5,8 +5,9 @@ use diagnosis::{Settings, Verdict};
 use maud::{Markup, html};
 
 use crate::diagnose::Outcome;
-use crate::diagnose::record::Ready;
-use crate::recommend::{Course, Limits, Odds, Question, Recommendation, inspection, number, sentence};
+use crate::glossary::inspection;
+use crate::prepare::Ready;
+use crate::recommend::{Course, Limits, Odds, Question, Recommendation, number, sentence};
 use crate::units::DurationUnit;
 
 /// Share of the squared distance from which a thermometer's course is drawn.

@@ -1,25 +1,25 @@
-//! A recording as the engine wants it, and what was done to it in words.
+//! What a diagnosis or a recommendation starts from: a design's library of models, and recordings as the engine wants them.
 
 use bias::units::S_PER_MIN;
+use coil::COARSE;
 use diagnosis::Observation;
+use files::{Note, Remark};
+use mechanisms::{CATALOGUE, Library};
+use progress::Step;
 use recording::check::Severity;
 use recording::condition::{Rest, Thinned, Thinning, Unrest, bridged, span, thinned, unrest};
 
 use crate::Error;
-use crate::glossary::{Remark, WARNING};
-use crate::input::{CHAMBER, InputError, RATE, RecordCase, SPOOL};
+use crate::cache::Cache;
+use crate::input::{CHAMBER, CoilCase, InputError, RATE, RecordCase, SPOOL};
 
 /// Fewest rows with a rate from which anything is said.
-pub const FEWEST_ROWS: usize = 60;
-/// Rows beyond which neighbours are averaged: a week of minutes.
-pub const MANY_ROWS: usize = 10_000;
-/// Interval to which they are averaged \[s\]: a coil's fastest transients take minutes.
-pub const INTERVAL_S: f64 = 30.0;
-/// Most rows of a record that are compared; of more, the interval grows.
-pub const MOST_ROWS: usize = 30_000;
+const FEWEST_ROWS: usize = 60;
+/// Rows beyond which neighbours are averaged, a week of minutes; the interval \[s\] to which they are, as a coil's fastest transients take
+/// minutes; most rows that are compared: of more, the interval grows.
+const THINNING: Thinning = Thinning { many_rows: 10_000, interval: 30.0, most_rows: 30_000 };
 /// Range of the chamber \[K\] below which it is noted that nothing shows.
 const FEWEST_KELVIN: f64 = 5.0;
-const THINNING: Thinning = Thinning { many_rows: MANY_ROWS, interval: INTERVAL_S, most_rows: MOST_ROWS };
 /// What chamber and spool may differ by at rest, and the chamber move by in the first minutes \[K\]: thermometers' offsets and noise.
 const REST: Rest = Rest { duration: 600.0, tolerance: 0.5 };
 
@@ -30,6 +30,20 @@ pub(crate) struct Ready {
     pub(crate) averaging: f64,
 }
 
+/// The library of a design, from the cache if it is there; `progress` is told how far it is.
+///
+/// # Errors
+/// [`files::Error::Coil`] if the design cannot be modelled.
+pub fn library(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(Step) + Sync)) -> Result<Library, Error> {
+    const TASK: &str = "modelling the coil and what its model may leave out (about a minute, once for a design)";
+    let key = (&case.design, COARSE);
+    let built = cache.load_or_build("library", &key, || {
+        progress(Step::begins(TASK));
+        Library::build(&case.design, CATALOGUE, &|step| progress(Step { task: TASK, ..step }))
+    });
+    built.map(|(library, _)| library).map_err(Error::of_coil(&case.file))
+}
+
 fn refuse(case: &RecordCase, field: &str, problem: String, remedy: &str) -> Error {
     let file = case.fingerprint.file.clone();
     InputError { file, line: None, field: Some(field.to_owned()), problem, remedy: remedy.to_owned() }.into()
@@ -38,18 +52,18 @@ fn refuse(case: &RecordCase, field: &str, problem: String, remedy: &str) -> Erro
 /// A recording's usable values, averaged down where there are very many; what was done is added to `notes`.
 ///
 /// # Errors
-/// [`Error::Input`] says why it cannot be used.
-pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<String>) -> Result<Ready, Error> {
+/// [`files::Error::Input`] says why it cannot be used.
+pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Ready, Error> {
     case.require_usable()?;
-    let file = case.fingerprint.file.display();
+    let file = &case.fingerprint.file;
     let interval = case.report.instants.as_ref().map_or(0.0, |instants| instants.interval);
     let used = case.report.used(&case.recording);
     let (used, averaging) = match thinned(&used, interval, &THINNING) {
         None => (used, case.averaging),
         Some(Thinned { recording, every, rows }) => {
             let (left, interval) = (recording.time().len(), interval * every as f64);
-            notes
-                .push(Remark::Averaged.says(format!("{file}: {rows} rows are averaged by {every} to {left} of {interval:.3} s")));
+            let message = format!("{rows} rows are averaged by {every} to {left} of {interval:.3} s");
+            notes.push(Remark::Averaged.note(message).at(file));
             (recording, case.averaging * every as f64)
         }
     };
@@ -66,25 +80,24 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<String>) -> Result<Ready,
         return Err(refuse(case, RATE, problem, "record at least an hour, with ramps"));
     }
     let warnings = case.report.findings.iter().filter(|finding| finding.severity == Severity::Warning);
-    notes.extend(warnings.map(|finding| Remark::of_finding(&finding.kind).says(format!("{WARNING}{file}: {finding}"))));
+    notes.extend(warnings.map(|finding| Remark::of_finding(&finding.kind).warning(finding.to_string()).at(file)));
     // how the file was read, where that is doubtful
-    notes.extend(case.notes.iter().filter_map(|note| note.strip_prefix(WARNING)).map(|note| format!("{WARNING}{file}: {note}")));
+    notes.extend(case.notes.iter().filter(|note| note.is_warning()).map(|note| note.clone().at(file)));
+    let mut say = |remark: Remark, text: String| notes.push(remark.note(text).at(file));
     let range = span(&chamber);
     if range < FEWEST_KELVIN {
-        let message = format!("{file}: the chamber moves by {range:.1} K only: little that depends on temperature can show");
-        notes.push(Remark::NarrowRange.says(message));
+        let message = format!("the chamber moves by {range:.1} K only: little that depends on temperature can show");
+        say(Remark::NarrowRange, message);
     }
     if case.number(SPOOL).is_none() {
-        let message = format!("{file}: no spool_c: heat paths and the thermometer cannot be told apart");
-        notes.push(Remark::NoThermometer.says(message));
+        say(Remark::NoThermometer, "no spool_c: heat paths and the thermometer cannot be told apart".to_owned());
     }
     if let Some(unrest) = unrest(&time, &chamber, &spool, &REST) {
         let off = match unrest {
             Unrest::Apart { by } => format!("spool and chamber differ by {by:.1} K"),
             Unrest::Moving { by } => format!("the chamber moves by {by:.1} K in the first {} min", REST.duration / S_PER_MIN),
         };
-        let message = format!("{file}: does not start at rest ({off}), as the model does: what this leaves is no finding");
-        notes.push(Remark::NotAtRest.says(message));
+        say(Remark::NotAtRest, format!("does not start at rest ({off}), as the model does: what this leaves is no finding"));
     }
     Ok(Ready { observation: Observation { time, channels: vec![spool, rate] }, chamber, averaging })
 }
@@ -114,6 +127,6 @@ mod tests {
         assert_eq!(ready.averaging, 30.0);
         assert!((rate[0] - (0.0145 + 0.0001)).abs() < 1e-12 && (rate[200] - (6.0295 + 0.0001)).abs() < 1e-9, "{rate:?}");
         assert!((ready.chamber[0] - 20.029).abs() < 1e-12 && (spool[0] - 20.0195).abs() < 1e-3, "{}", spool[0]);
-        assert!(notes.iter().any(|note| note.contains("12000 rows are averaged by 30 to 399 of 30.000 s")), "{notes:?}");
+        assert!(notes.iter().any(|note| note.text.contains("12000 rows are averaged by 30 to 399 of 30.000 s")), "{notes:?}");
     }
 }

@@ -4,11 +4,11 @@ use homogenization::Homogenized;
 use homogenization::bounds::Bounds;
 use serde_json::{Map, Value, json as object};
 
-use crate::homogenize::presentation;
+use super::constants::presentation;
 use crate::table::{significant, table};
 
 /// Of each constant: `reuss`, `hashin_shtrikman_lower`, `hashin_shtrikman_upper`, `voigt` (null where there is no bound) and `cylinders`.
-pub(crate) fn json(bounds: &Bounds) -> Value {
+pub(super) fn json(bounds: &Bounds) -> Value {
     let finite = |value: f64| value.is_finite().then_some(value);
     let rows = bounds.reuss_voigt.named().into_iter().zip(bounds.hashin_shtrikman.named()).zip(bounds.cylinders.named());
     let all: Map<String, Value> = rows
@@ -27,7 +27,7 @@ pub(crate) fn json(bounds: &Bounds) -> Value {
 }
 
 /// A table of the bounds about each constant.
-pub(crate) fn text(bounds: &Bounds, result: &Homogenized) -> String {
+pub(super) fn text(bounds: &Bounds, result: &Homogenized) -> String {
     let relative_errors = result.relative_error.named();
     let heads = ["constant", "Reuss", "HS lower", "value", "HS upper", "Voigt", "", "cylinders", "unit"];
     let mut rows = vec![heads.map(String::from).to_vec()];

@@ -1,0 +1,38 @@
+//! How effective constants are shown.
+
+use crate::units::{to_mpa, to_ppm};
+
+/// Unit, conversion from SI, and meaning.
+pub(crate) fn presentation(key: &str) -> (&'static str, fn(f64) -> f64, &'static str) {
+    let same: fn(f64) -> f64 = |value| value;
+    match key {
+        "e_x" => ("MPa", to_mpa, "Young's modulus along x"),
+        "e_y" => ("MPa", to_mpa, "Young's modulus along y"),
+        "g_yz" | "g_xz" | "g_xy" => ("MPa", to_mpa, "shear modulus of that plane"),
+        "nu_zx" | "nu_zy" | "nu_xy" => ("-", same, "contraction along the second per extension along the first"),
+        "alpha_x" => ("1e-6/K", to_ppm, "expansion along x"),
+        "alpha_y" => ("1e-6/K", to_ppm, "expansion along y"),
+        "alpha_xy" => ("1e-6/K", to_ppm, "shear xy per kelvin"),
+        "k_x" => ("W/(m K)", same, "conductivity along x"),
+        "k_y" => ("W/(m K)", same, "conductivity along y"),
+        "k_xy" => ("W/(m K)", same, "heat flux along x per gradient along y"),
+        "m_rxy" => ("-", same, "mean radial strain of the glass per shear xy"),
+        "e_z" => ("MPa", to_mpa, "Young's modulus along the fibre"),
+        "e_r" => ("MPa", to_mpa, "Young's modulus across the fibre"),
+        "g_zr" => ("MPa", to_mpa, "shear modulus in planes that hold the fibre"),
+        "g_r" => ("MPa", to_mpa, "shear modulus across the fibre"),
+        "k_plane_strain" => ("MPa", to_mpa, "plane-strain bulk modulus"),
+        "nu_zr" => ("-", same, "contraction across per extension along"),
+        "nu_r" => ("-", same, "Poisson's ratio across the fibre"),
+        "nu_rz" => ("-", same, "contraction along per extension across"),
+        "alpha_z" => ("1e-6/K", to_ppm, "expansion along the fibre"),
+        "alpha_r" => ("1e-6/K", to_ppm, "expansion across the fibre"),
+        "k_z" => ("W/(m K)", same, "conductivity along the fibre"),
+        "k_r" => ("W/(m K)", same, "conductivity across the fibre"),
+        "m_rx" => ("-", same, "mean radial strain of the glass per strain across (x)"),
+        "m_ry" => ("-", same, "mean radial strain of the glass per strain across (y)"),
+        "m_rz" => ("-", same, "mean radial strain of the glass per strain along"),
+        "m_rt" => ("1e-6/K", to_ppm, "mean radial strain of the glass per kelvin"),
+        _ => ("SI", same, ""),
+    }
+}
