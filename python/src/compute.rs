@@ -92,7 +92,7 @@ pub(crate) fn simulate<'py>(
         Ok((simulation.rows().collect::<Vec<_>>(), object))
     };
     let (rows, object) = py.detach(run).map_err(|error: Error| raised(error))?;
-    let column = |of: fn(&runs::Row) -> f64| bytes(py, rows.iter().map(of));
+    let column = |of: fn(&runs::SimulatedRow) -> f64| bytes(py, rows.iter().map(of));
     let columns = vec![
         ("time_s", column(|row| row.time)),
         ("chamber_c", column(|row| row.chamber)),

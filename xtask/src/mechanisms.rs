@@ -6,7 +6,7 @@ use std::path::Path;
 
 use fogcoil::cache::Cache;
 use fogcoil::comparison::Comparison;
-use fogcoil::explain::{Explained, Explanation, Outcome, explain};
+use fogcoil::explain::{Explained, Explanation, Reach, explain};
 use fogcoil::glossary::mechanisms;
 use fogcoil::input;
 
@@ -59,7 +59,7 @@ fn coils_text(coils: &[Explained]) -> String {
     out.push_str(&format!("|---|{}\n", "---|".repeat(coils.len())));
     out += &row("the design's own constants together", &|c| format!("{:+.1} σ", c.recalibrate));
     for (k, first) in coils[0].explanations.iter().enumerate() {
-        if matches!(first.outcome, Outcome::Unable { .. }) {
+        if matches!(first.outcome, Reach::Unable { .. }) {
             continue;
         }
         let when = if first.when.is_empty() { String::new() } else { format!(", {}", first.when) };
@@ -78,14 +78,14 @@ fn coils_text(coils: &[Explained]) -> String {
 
 fn outcome(explanation: &Explanation) -> String {
     match explanation.outcome {
-        Outcome::Gives { value, sigma, layer: None, .. } => format!("{value:.3} ({sigma:+.1} σ)"),
-        Outcome::Gives { value, sigma, layer: Some((layer, others)), .. } => {
+        Reach::Gives { value, sigma, layer: None, .. } => format!("{value:.3} ({sigma:+.1} σ)"),
+        Reach::Gives { value, sigma, layer: Some((layer, others)), .. } => {
             format!("{value:.0} in layer {layer} ({sigma:+.1} σ), plausible in {others} layers")
         }
-        Outcome::OutOfReach { range: [low, high] } => {
+        Reach::OutOfReach { range: [low, high] } => {
             format!("only {:.2} to {:.2}", low.abs().min(high.abs()), low.abs().max(high.abs()))
         }
-        Outcome::Unable { .. } => "unable".into(),
+        Reach::Unable { .. } => "unable".into(),
     }
 }
 

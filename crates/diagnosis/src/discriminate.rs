@@ -2,7 +2,7 @@
 
 use crate::fit::{Fit, Fitter, Hypothesis, expected};
 use crate::noise::Noise;
-use crate::{Active, Channel, Error, ForwardModel, Mechanism, Nuisance, Observation, State};
+use crate::{Active, Channel, Error, ForwardModel, Nuisance, Observation, Omission, State};
 use recording::noise::NoiseModel;
 
 /// Records that may be made of a unit.
@@ -59,7 +59,7 @@ impl<M: ForwardModel> ForwardModel for Under<'_, M> {
         self.model.nuisances()
     }
 
-    fn mechanisms(&self) -> &[Mechanism] {
+    fn mechanisms(&self) -> &[Omission] {
         self.model.mechanisms()
     }
 

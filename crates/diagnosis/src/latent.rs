@@ -23,7 +23,7 @@ pub struct Stage {
 
 /// How well the members of a group, such as layers, can be told apart.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Resolution {
+pub struct MemberResolution {
     /// Most probable amplitude of each member, all at once.
     pub values: Vec<f64>,
     /// Their standard deviations.
@@ -32,7 +32,7 @@ pub struct Resolution {
     pub resolved: Vec<f64>,
 }
 
-impl Resolution {
+impl MemberResolution {
     /// Number of combinations that the records determine: the trace of the resolution matrix.
     pub fn combinations(&self) -> f64 {
         self.resolved.iter().sum()
@@ -156,7 +156,7 @@ impl Fit {
         model: &M,
         records: &[usize],
         prior: f64,
-    ) -> Result<Option<Resolution>, Error<M::Error>> {
+    ) -> Result<Option<MemberResolution>, Error<M::Error>> {
         let group = Self::latent(records, |r| Ok(model.members(r)?.into_iter().collect()))?;
         let Some((columns, scales)) = group.first().and_then(|(_, functions)| self.whitened_functions(functions)) else {
             return Ok(None);
@@ -176,7 +176,7 @@ impl Fit {
         gradient.rows_mut(0, own).zip_apply(&self.u, |g, u| *g -= u);
         let amplitudes = &covariance * gradient;
         let member = own..all.ncols();
-        Ok(Some(Resolution {
+        Ok(Some(MemberResolution {
             values: member.clone().map(|k| prior * amplitudes[k]).collect(),
             errors: member.clone().map(|k| prior * covariance[(k, k)].max(0.0).sqrt()).collect(),
             // (A + I)⁻¹ A = I − (A + I)⁻¹

@@ -52,7 +52,7 @@ pub struct Nuisance {
 
 /// Something that the nominal model leaves out.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Mechanism {
+pub struct Omission {
     /// Short name.
     pub id: String,
     /// Part of the chain where it acts.
@@ -110,7 +110,7 @@ pub trait ForwardModel {
     fn nuisances(&self) -> &[Nuisance];
 
     /// The library.
-    fn mechanisms(&self) -> &[Mechanism];
+    fn mechanisms(&self) -> &[Omission];
 
     /// Response of every channel at the instants of a record, with nuisances at given values and mechanisms at work.
     ///

@@ -3,7 +3,7 @@
 mod common;
 
 use diagnosis::{
-    Active, Channel, Contradiction, Diagnosis, ForwardModel, Judged, Latent, Mechanism, NoisePrior, Nuisance, Observation,
+    Active, Channel, Contradiction, Diagnosis, ForwardModel, Judged, Latent, NoisePrior, Nuisance, Observation, Omission,
     Parameter, Prior, Role, Ruling, Settings, State, Structure, Verdict, diagnose,
 };
 
@@ -13,14 +13,14 @@ const STEP_S: f64 = 30.0;
 struct Bath {
     channels: Vec<Channel>,
     nuisances: Vec<Nuisance>,
-    mechanisms: Vec<Mechanism>,
+    mechanisms: Vec<Omission>,
     states: Vec<State>,
     time: Vec<f64>,
 }
 
-fn mechanism(id: &str, stage: &str, parameters: Vec<Parameter>, start: Vec<f64>) -> Mechanism {
+fn mechanism(id: &str, stage: &str, parameters: Vec<Parameter>, start: Vec<f64>) -> Omission {
     let (id, stage) = (id.to_owned(), stage.to_owned());
-    Mechanism { id, stage, parameters, choice: None, starts: vec![start], named: true, weight: 1.0 }
+    Omission { id, stage, parameters, choice: None, starts: vec![start], named: true, weight: 1.0 }
 }
 
 impl Bath {
@@ -71,7 +71,7 @@ impl ForwardModel for Bath {
         &self.nuisances
     }
 
-    fn mechanisms(&self) -> &[Mechanism] {
+    fn mechanisms(&self) -> &[Omission] {
         &self.mechanisms
     }
 

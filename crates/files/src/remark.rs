@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use recording::check::Kind;
+use recording::check::FindingKind;
 use serde::{Serialize, Serializer};
 
 /// What a remark is about and what to do: the columns of the table below.
@@ -303,24 +303,24 @@ impl Remark {
     }
 
     /// The kind of a finding of [`recording::check`].
-    pub fn of_finding(kind: &Kind) -> Self {
+    pub fn of_finding(kind: &FindingKind) -> Self {
         match kind {
-            Kind::Gap { .. } => Self::Gap,
-            Kind::Jitter { .. } => Self::Jitter,
-            Kind::Duplicate => Self::Duplicate,
-            Kind::Conflict => Self::Conflict,
-            Kind::Backwards { .. } => Self::Backwards,
-            Kind::ClockStep { .. } => Self::ClockStep,
-            Kind::Missing => Self::Missing,
-            Kind::Outliers { .. } => Self::Outliers,
-            Kind::Stuck { .. } => Self::Stuck,
-            Kind::Saturation { .. } => Self::Saturation,
-            Kind::Quantised { .. } => Self::Quantised,
-            Kind::Unit { .. } => Self::Unit,
-            Kind::Constant { .. } => Self::Constant,
-            Kind::Empty => Self::Empty,
-            Kind::TooShort { .. } => Self::TooShort,
-            Kind::Offset { .. } => Self::Offset,
+            FindingKind::Gap { .. } => Self::Gap,
+            FindingKind::Jitter { .. } => Self::Jitter,
+            FindingKind::Duplicate => Self::Duplicate,
+            FindingKind::Conflict => Self::Conflict,
+            FindingKind::Backwards { .. } => Self::Backwards,
+            FindingKind::ClockStep { .. } => Self::ClockStep,
+            FindingKind::Missing => Self::Missing,
+            FindingKind::Outliers { .. } => Self::Outliers,
+            FindingKind::Stuck { .. } => Self::Stuck,
+            FindingKind::Saturation { .. } => Self::Saturation,
+            FindingKind::Quantised { .. } => Self::Quantised,
+            FindingKind::Unit { .. } => Self::Unit,
+            FindingKind::Constant { .. } => Self::Constant,
+            FindingKind::Empty => Self::Empty,
+            FindingKind::TooShort { .. } => Self::TooShort,
+            FindingKind::Offset { .. } => Self::Offset,
             _ => Self::OtherFinding,
         }
     }

@@ -70,7 +70,7 @@ pub(crate) struct Sample {
 
 /// One row of the result, in the units of its header; rates are means since the previous row, 0 in the first.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Row {
+pub struct SimulatedRow {
     /// Instant \[s\].
     pub time: f64,
     /// Chamber \[°C\].
@@ -256,15 +256,15 @@ impl Simulation<'_> {
     ///
     /// # Panics
     /// If `n` is not less than [`Simulation::count`].
-    pub fn row(&self, n: usize) -> Row {
+    pub fn row(&self, n: usize) -> SimulatedRow {
         self.row_of(n, self.responses[n])
     }
 
-    /// Row `n` with a response.
-    fn row_of(&self, n: usize, response: Response) -> Row {
+    /// SimulatedRow `n` with a response.
+    fn row_of(&self, n: usize, response: Response) -> SimulatedRow {
         let Response { sensor, bias, .. } = response;
         let bias = bias * DEG_PER_H_PER_RAD_PER_S;
-        Row {
+        SimulatedRow {
             time: self.profile.profile.time[n],
             chamber: self.profile.chamber()[n],
             spool: sensor,
@@ -277,10 +277,10 @@ impl Simulation<'_> {
     }
 
     /// Differences of the rows from those on a coarser mesh; an estimate of the mesh's error.
-    pub fn differences(&self) -> impl Iterator<Item = Row> {
+    pub fn differences(&self) -> impl Iterator<Item = SimulatedRow> {
         let row = |(n, coarser): (usize, &Response)| {
             let (row, other) = (self.row(n), self.row_of(n, *coarser));
-            Row {
+            SimulatedRow {
                 spool: row.spool - other.spool,
                 shupe: row.shupe - other.shupe,
                 eo_axial: row.eo_axial - other.eo_axial,
@@ -294,7 +294,7 @@ impl Simulation<'_> {
     }
 
     /// All rows.
-    pub fn rows(&self) -> impl Iterator<Item = Row> {
+    pub fn rows(&self) -> impl Iterator<Item = SimulatedRow> {
         (0..self.count()).map(|n| self.row(n))
     }
 
@@ -314,7 +314,7 @@ impl Simulation<'_> {
         Self::windowed(self.row(0), self.coarser.iter().enumerate().skip(1).map(row))
     }
 
-    fn windowed(first: Row, rows: impl Iterator<Item = Row>) -> impl Iterator<Item = Window> {
+    fn windowed(first: SimulatedRow, rows: impl Iterator<Item = SimulatedRow>) -> impl Iterator<Item = Window> {
         let (mut start, mut last, mut turned) = (first, first, 0.0);
         rows.filter_map(move |row| {
             turned += row.rate * (row.time - last.time);
@@ -337,7 +337,7 @@ impl Simulation<'_> {
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "{HEADER}")?;
         for row in self.rows() {
-            let Row { time, chamber, spool, shupe, eo_axial, eo_radial, rate, .. } = row;
+            let SimulatedRow { time, chamber, spool, shupe, eo_axial, eo_radial, rate, .. } = row;
             for (i, value) in [time, chamber, spool, shupe, eo_axial, eo_radial, rate].into_iter().enumerate() {
                 if i > 0 {
                     out.write_all(b",")?;

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use crate::cache::Source;
 use crate::input::Inference;
-use crate::simulate::{Row, Simulation, WINDOW_S, Window};
+use crate::simulate::{SimulatedRow, Simulation, WINDOW_S, Window};
 use crate::table::{significant, table};
 use crate::units::DurationUnit;
 
@@ -21,7 +21,7 @@ pub struct Summary {
     /// Lowest and highest temperature of the thermometer \[°C\].
     pub spool: [f64; 2],
     /// The row with the largest |rate|.
-    pub peak: Row,
+    pub peak: SimulatedRow,
     /// Root of the mean over time of the squared rate \[deg/h\].
     pub rms: f64,
     /// Slope of the regression of the rate on the thermometer's rate over windows of [`WINDOW_S`], with intercept

@@ -24,7 +24,7 @@ pub struct Gyro<'m> {
     channels: Vec<Channel>,
     nuisances: Vec<Nuisance>,
     kinds: Vec<&'m dyn Mechanism>,
-    mechanisms: Vec<diagnosis::Mechanism>,
+    mechanisms: Vec<diagnosis::Omission>,
     /// the last effects that were worked out, by record and mechanism
     known: RefCell<Vec<(usize, Active, Arc<Known>)>>,
 }
@@ -158,11 +158,11 @@ impl<'m> Gyro<'m> {
 }
 
 /// A mechanism as the engine knows it; `None` if the design leaves it no place.
-fn entry(mechanism: &dyn Mechanism, design: &Design, range: [f64; 2]) -> Option<diagnosis::Mechanism> {
+fn entry(mechanism: &dyn Mechanism, design: &Design, range: [f64; 2]) -> Option<diagnosis::Omission> {
     let facts = mechanism.facts();
     let Offer { parameters, choice, starts } = mechanism.offer(design, range)?;
     let (id, stage, named) = (facts.id.to_owned(), facts.stage.name().to_owned(), matches!(facts.naming, Naming::Named { .. }));
-    Some(diagnosis::Mechanism { id, stage, parameters, choice, starts, named, weight: 1.0 })
+    Some(diagnosis::Omission { id, stage, parameters, choice, starts, named, weight: 1.0 })
 }
 
 impl Known {
@@ -192,7 +192,7 @@ impl ForwardModel for Gyro<'_> {
         &self.nuisances
     }
 
-    fn mechanisms(&self) -> &[diagnosis::Mechanism] {
+    fn mechanisms(&self) -> &[diagnosis::Omission] {
         &self.mechanisms
     }
 

@@ -11,7 +11,7 @@ use crate::Failure;
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Truth {
     /// What was built into the unit; the id `none` for nothing.
-    pub(crate) mechanisms: Vec<Mechanism>,
+    pub(crate) mechanisms: Vec<ConcealedEffect>,
     /// Strength of each in the record that is fitted.
     pub(crate) snr: Vec<Strength>,
     /// For each: itself, then what that record cannot separate from it.
@@ -28,7 +28,7 @@ pub(crate) struct Truth {
 
 /// A mechanism with its parameters by name.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Mechanism {
+pub(crate) struct ConcealedEffect {
     pub(crate) id: String,
     pub(crate) parameters: BTreeMap<String, f64>,
 }
@@ -137,7 +137,7 @@ impl Truth {
     }
 
     /// What was built in, `none` left out.
-    pub(crate) fn concealed(&self) -> impl Iterator<Item = &Mechanism> {
+    pub(crate) fn concealed(&self) -> impl Iterator<Item = &ConcealedEffect> {
         self.mechanisms.iter().filter(|m| m.id != "none")
     }
 
@@ -223,7 +223,7 @@ mod tests {
     #[test]
     fn kinds() {
         let of = |ids: &[&str]| {
-            let mechanisms = ids.iter().map(|id| Mechanism { id: (*id).into(), ..Mechanism::default() }).collect();
+            let mechanisms = ids.iter().map(|id| ConcealedEffect { id: (*id).into(), ..ConcealedEffect::default() }).collect();
             Truth { mechanisms, ..Truth::default() }.kind()
         };
         assert_eq!(of(&["none"]), Kind::Null);

@@ -3,7 +3,7 @@
 mod common;
 
 use common::Random;
-use recording::check::{Expectation, Expectations, Finding, Kind, Offset, Repair, Report, Severity, Unit, check};
+use recording::check::{Expectation, Expectations, Finding, FindingKind, Offset, Repair, Report, Severity, Unit, check};
 use recording::{Channel, Error, Recording, Sampling};
 
 const ROWS: usize = 2000;
@@ -95,7 +95,7 @@ fn sound_recordings_pass() {
             assert!(report.masks.iter().flatten().all(|used| *used));
         }
         let (finding, report) = only(sound(seed, 0.0625));
-        assert!(matches!(finding.kind, Kind::Quantised { step, .. } if (step - 0.0625).abs() < 1e-9), "{finding}");
+        assert!(matches!(finding.kind, FindingKind::Quantised { step, .. } if (step - 0.0625).abs() < 1e-9), "{finding}");
         assert!(report.usable());
     }
 }
@@ -108,7 +108,7 @@ fn moving_temperatures_pass_at_any_resolution() {
             let course = |t: &f64| round(amplitude * (t / 4000.0).sin() + 0.01 * random.normal(), resolution);
             sample.temperature = sample.time.iter().map(course).collect();
             let report = sample.report();
-            let sound = report.findings.iter().all(|finding| matches!(finding.kind, Kind::Quantised { .. }));
+            let sound = report.findings.iter().all(|finding| matches!(finding.kind, FindingKind::Quantised { .. }));
             assert!(sound, "seed {seed}, {resolution}: {:?}", report.findings);
             assert!((report.channels[0].step.unwrap() / resolution - 1.0).abs() < 1e-6);
         }
@@ -125,7 +125,8 @@ fn records_without_noise_pass() {
             |t: f64| (t / 6000.0).floor() * 30.0 + if t < 30_000.0 { lagged(t % 6000.0) } else { (t % 6000.0).min(600.0) / 20.0 };
         sample.temperature = sample.time.iter().map(|&t| round(course(t) / 5.0, digits)).collect();
         let report = sample.report();
-        let quiet = |finding: &Finding| matches!(finding.kind, Kind::Quantised { .. } | Kind::Unit { what: "noise", .. });
+        let quiet =
+            |finding: &Finding| matches!(finding.kind, FindingKind::Quantised { .. } | FindingKind::Unit { what: "noise", .. });
         assert!(report.findings.iter().all(quiet), "{digits}: {:?}", report.findings);
         assert!(report.masks.iter().flatten().all(|used| *used));
     }
@@ -163,7 +164,7 @@ fn a_staircase_without_noise_passes() {
             round(state, 1e-4)
         };
         sample.temperature = sample.time.iter().map(follow).collect();
-        let stuck = |finding: &&Finding| matches!(finding.kind, Kind::Stuck { .. } | Kind::Saturation { .. });
+        let stuck = |finding: &&Finding| matches!(finding.kind, FindingKind::Stuck { .. } | FindingKind::Saturation { .. });
         let report = sample.report();
         assert_eq!(report.findings.iter().find(stuck), None, "lag {lag}");
     }
@@ -174,7 +175,7 @@ fn printing_does_not_hide_a_resolution() {
     let mut sample = sound(3, 0.0625);
     sample.temperature.iter_mut().for_each(|value| *value = round(*value, 0.01));
     let (finding, _) = only(sample);
-    assert!(matches!(finding.kind, Kind::Quantised { step, .. } if (step / 0.0625 - 1.0).abs() < 0.01), "{finding}");
+    assert!(matches!(finding.kind, FindingKind::Quantised { step, .. } if (step / 0.0625 - 1.0).abs() < 0.01), "{finding}");
 }
 
 #[test]
@@ -195,19 +196,26 @@ fn outliers_are_masked_and_nothing_else() {
 #[test]
 fn gaps_jitter_and_clock_steps() {
     let (finding, report) = only(altered(|s| add(&mut s.time[700..], 1800.0)));
-    assert_eq!(finding.kind, Kind::Gap { length: 1830.0, missing: 60 });
+    assert_eq!(finding.kind, FindingKind::Gap { length: 1830.0, missing: 60 });
     assert_eq!(report.instants.unwrap().gaps.len(), 1);
 
     let mut random = Random::new(8);
     let (finding, _) = only(altered(|s| s.time.iter_mut().for_each(|t| *t += 2.0 * random.uniform())));
-    assert!(matches!(finding.kind, Kind::Jitter { rms, largest } if rms > 0.5 && rms < largest && largest < 2.0), "{finding}");
+    assert!(
+        matches!(finding.kind, FindingKind::Jitter { rms, largest } if rms > 0.5 && rms < largest && largest < 2.0),
+        "{finding}"
+    );
 
     let report = altered(|s| add(&mut s.time[700..], 1813.0)).report();
-    assert_eq!(report.findings[0].kind, Kind::ClockStep { interval: 1843.0 });
-    assert!(matches!(report.findings[1].kind, Kind::Gap { .. }));
+    assert_eq!(report.findings[0].kind, FindingKind::ClockStep { interval: 1843.0 });
+    assert!(matches!(report.findings[1].kind, FindingKind::Gap { .. }));
 
     let report = altered(|s| add(&mut s.time[700..], -20.0)).report();
-    assert!(report.findings.iter().any(|finding| finding.kind == Kind::ClockStep { interval: 10.0 }), "{:?}", report.findings);
+    assert!(
+        report.findings.iter().any(|finding| finding.kind == FindingKind::ClockStep { interval: 10.0 }),
+        "{:?}",
+        report.findings
+    );
 }
 
 #[test]
@@ -221,28 +229,28 @@ fn repeats_conflicts_and_time_that_goes_back() {
         sample.report()
     };
     let report = repeat(0.0);
-    assert_eq!(report.findings.iter().filter(|finding| finding.kind == Kind::Duplicate).count(), 1);
+    assert_eq!(report.findings.iter().filter(|finding| finding.kind == FindingKind::Duplicate).count(), 1);
     assert!(report.usable() && report.rows.len() == ROWS && !report.rows.contains(&401));
     let report = repeat(0.01);
-    assert_eq!(report.findings[0].kind, Kind::Conflict);
+    assert_eq!(report.findings[0].kind, FindingKind::Conflict);
     assert!(!report.usable());
 
     let report = altered(|s| s.time[700] -= 100.0).report();
-    assert!(matches!(report.findings[0].kind, Kind::Backwards { .. }) && !report.usable());
+    assert!(matches!(report.findings[0].kind, FindingKind::Backwards { .. }) && !report.usable());
     assert!(report.findings[0].to_string().contains("sort the rows"));
 }
 
 #[test]
 fn missing_and_empty() {
     let (finding, report) = only(altered(|s| s.temperature[100..120].fill(NAN)));
-    assert_eq!((finding.kind.clone(), finding.rows, finding.span), (Kind::Missing, 20, Some([3000.0, 3570.0])));
+    assert_eq!((finding.kind.clone(), finding.rows, finding.span), (FindingKind::Missing, 20, Some([3000.0, 3570.0])));
     assert_eq!(report.channels[0].used, ROWS - 20);
 
     let (finding, report) = only(altered(|s| s.temperature.fill(NAN)));
-    assert!(finding.kind == Kind::Empty && report.usable(), "a channel that can be spared");
+    assert!(finding.kind == FindingKind::Empty && report.usable(), "a channel that can be spared");
     assert!(!only(altered(|s| s.rate.fill(NAN))).1.usable());
     let (finding, report) = only(altered(|s| s.rate.fill(0.1)));
-    assert!(finding.kind == Kind::Constant { value: 0.1 } && !report.usable());
+    assert!(finding.kind == FindingKind::Constant { value: 0.1 } && !report.usable());
 }
 
 #[test]
@@ -253,14 +261,18 @@ fn stuck_and_saturated() {
         sample.temperature[240..290].fill(value); // in the ramp: it jumps when it comes back
         let report = sample.report();
         let finding = &report.findings[0];
-        assert_eq!((finding.kind.clone(), finding.rows), (Kind::Stuck { value }, 50), "{:?}", report.findings);
+        assert_eq!((finding.kind.clone(), finding.rows), (FindingKind::Stuck { value }, 50), "{:?}", report.findings);
         // where the resolution hides the noise a true step looks the same
         let masked = resolution < 0.02;
         assert!((240..290).all(|row| report.masks[0][row] != masked) && report.masks[0][239] && report.masks[0][290]);
     }
     let report = altered(|s| s.rate.iter_mut().for_each(|rate| *rate = rate.min(0.25))).report();
     assert!(!report.findings.is_empty());
-    assert!(report.findings.iter().all(|finding| finding.kind == Kind::Saturation { value: 0.25 }), "{:?}", report.findings);
+    assert!(
+        report.findings.iter().all(|finding| finding.kind == FindingKind::Saturation { value: 0.25 }),
+        "{:?}",
+        report.findings
+    );
 }
 
 #[test]
@@ -273,11 +285,11 @@ fn units_and_offsets() {
     ];
     for (change, unit) in cases {
         let (finding, _) = only(altered(change));
-        assert!(matches!(&finding.kind, Kind::Unit { candidates, .. } if candidates == &[unit]), "{finding}");
+        assert!(matches!(&finding.kind, FindingKind::Unit { candidates, .. } if candidates == &[unit]), "{finding}");
     }
     let (finding, _) = only(altered(|s| add(&mut s.rate, 10.1)));
     assert!(
-        matches!(&finding.kind, Kind::Offset { of, .. } if of == "Earth rate not removed")
+        matches!(&finding.kind, FindingKind::Offset { of, .. } if of == "Earth rate not removed")
             && finding.severity == Severity::Warning
     );
 }
@@ -292,7 +304,7 @@ fn short_and_misshapen() {
     }
     let report = cut(50);
     assert!(report.usable());
-    assert!(report.findings.iter().any(|finding| finding.kind == Kind::TooShort { rows: 50 }));
+    assert!(report.findings.iter().any(|finding| finding.kind == FindingKind::TooShort { rows: 50 }));
 
     let channel = |name: &str, values| Channel { name: name.into(), unit: String::new(), values, sampling: Sampling::Mean };
     let new = |time: Vec<f64>, channels| Recording::new(time, channels).unwrap_err();

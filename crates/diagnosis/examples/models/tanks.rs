@@ -1,7 +1,7 @@
 //! Two tanks, one above the other: a pump fills the upper one, it drains into the lower one, the lower one into a basin; the lower level is read.
 //! Nominal is Bernoulli's law; the library holds what else tanks, pipes, pumps and sensors do.
 
-use diagnosis::{Active, Channel, ForwardModel, Mechanism, NoisePrior, Nuisance, Parameter, Prior, Role, State};
+use diagnosis::{Active, Channel, ForwardModel, NoisePrior, Nuisance, Omission, Parameter, Prior, Role, State};
 
 /// What was fed to the pump \[V\], every `step` seconds, held in between; and the lower level at the start \[V\].
 #[derive(Debug, Clone)]
@@ -42,11 +42,11 @@ pub(crate) struct Tanks {
     states: Vec<State>,
     channels: Vec<Channel>,
     nuisances: Vec<Nuisance>,
-    mechanisms: Vec<Mechanism>,
+    mechanisms: Vec<Omission>,
 }
 
-fn mechanism(id: &str, stage: &str, parameters: &[(&str, Prior)], starts: &[&[f64]]) -> Mechanism {
-    Mechanism {
+fn mechanism(id: &str, stage: &str, parameters: &[(&str, Prior)], starts: &[&[f64]]) -> Omission {
+    Omission {
         id: id.into(),
         stage: stage.into(),
         // levels that are reached or not make kinks
@@ -58,7 +58,7 @@ fn mechanism(id: &str, stage: &str, parameters: &[(&str, Prior)], starts: &[&[f6
     }
 }
 
-fn library() -> Vec<Mechanism> {
+fn library() -> Vec<Omission> {
     let level = Prior::Uniform { low: 4.0, high: 16.0 };
     let share = Prior::Uniform { low: 0.0, high: 1.0 };
     let small = |median: f64| Prior::LogNormal { median, spread: 1.0 };
@@ -171,7 +171,7 @@ impl ForwardModel for Tanks {
         &self.nuisances
     }
 
-    fn mechanisms(&self) -> &[Mechanism] {
+    fn mechanisms(&self) -> &[Omission] {
         &self.mechanisms
     }
 

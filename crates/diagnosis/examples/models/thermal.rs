@@ -1,7 +1,7 @@
 //! A sensor's rate at rest over temperature: nominal is a cubic; the library holds what is popular beyond it, and what a body that is not
 //! everywhere as warm as its thermometer does.
 
-use diagnosis::{Active, Channel, ForwardModel, Mechanism, NoisePrior, Nuisance, Observation, Parameter, Prior, Role, State};
+use diagnosis::{Active, Channel, ForwardModel, NoisePrior, Nuisance, Observation, Omission, Parameter, Prior, Role, State};
 
 /// Polynomial in T, T-rate and time: the popular fit.
 pub(crate) const RATE_AND_TIME: usize = 0;
@@ -26,11 +26,11 @@ pub(crate) struct Thermal {
     states: Vec<State>,
     channels: Vec<Channel>,
     nuisances: Vec<Nuisance>,
-    mechanisms: Vec<Mechanism>,
+    mechanisms: Vec<Omission>,
 }
 
-fn mechanism(id: &str, stage: &str, parameters: &[(&str, Prior)], starts: &[&[f64]]) -> Mechanism {
-    Mechanism {
+fn mechanism(id: &str, stage: &str, parameters: &[(&str, Prior)], starts: &[&[f64]]) -> Omission {
+    Omission {
         id: id.into(),
         stage: stage.into(),
         parameters: parameters.iter().map(|(name, prior)| Parameter::new(*name, *prior)).collect(),
@@ -144,7 +144,7 @@ impl ForwardModel for Thermal {
         &self.nuisances
     }
 
-    fn mechanisms(&self) -> &[Mechanism] {
+    fn mechanisms(&self) -> &[Omission] {
         &self.mechanisms
     }
 

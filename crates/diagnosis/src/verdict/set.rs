@@ -62,13 +62,13 @@ pub(super) mod tests {
     use super::*;
     use crate::fit::{Fit, Hypothesis};
     use crate::noise::Noise;
-    use crate::{Active, Channel, Mechanism, Nuisance, State};
+    use crate::{Active, Channel, Nuisance, Omission, State};
 
     /// A library alone: mechanisms with or without a name.
-    pub(crate) struct Library(Vec<Mechanism>);
+    pub(crate) struct Library(Vec<Omission>);
 
     pub(crate) fn library(named: &[bool]) -> Library {
-        let of = |(n, named): (usize, &bool)| Mechanism {
+        let of = |(n, named): (usize, &bool)| Omission {
             id: n.to_string(),
             stage: String::new(),
             parameters: Vec::new(),
@@ -88,7 +88,7 @@ pub(super) mod tests {
         fn nuisances(&self) -> &[Nuisance] {
             &[]
         }
-        fn mechanisms(&self) -> &[Mechanism] {
+        fn mechanisms(&self) -> &[Omission] {
             &self.0
         }
         fn respond(&self, _: usize, _: &[f64], _: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {

@@ -2,7 +2,7 @@
 //! a third, if it is asked for, chooses between their columns.
 
 use diagnosis::{
-    Active, Channel, ForwardModel, Hypothesis, Mechanism, NoisePrior, Nuisance, Observation, Parameter, Prior, State,
+    Active, Channel, ForwardModel, Hypothesis, NoisePrior, Nuisance, Observation, Omission, Parameter, Prior, State,
 };
 
 /// Standard deviation of the noise.
@@ -16,7 +16,7 @@ const TINY: f64 = 1e-9;
 
 pub(crate) struct Lines {
     channels: Vec<Channel>,
-    mechanisms: Vec<Mechanism>,
+    mechanisms: Vec<Omission>,
     state: State,
     unit: f64,
 }
@@ -39,7 +39,7 @@ impl Lines {
             drift_time: (1000.0, KNOWN),
             walk: (TINY * unit, KNOWN),
         };
-        let mechanism = |id: &str| Mechanism {
+        let mechanism = |id: &str| Omission {
             id: id.into(),
             stage: "any".into(),
             parameters: vec![Parameter::new("size", Prior::Normal { mean: 0.0, sd: PRIOR_SD })],
@@ -60,7 +60,7 @@ impl Lines {
     pub(crate) fn with_either(rows: usize) -> Self {
         let mut lines = Self::new(rows);
         let choice = Some(("column".to_owned(), vec![0.0, 1.0]));
-        lines.mechanisms.push(Mechanism { id: "either".into(), choice, ..lines.mechanisms[0].clone() });
+        lines.mechanisms.push(Omission { id: "either".into(), choice, ..lines.mechanisms[0].clone() });
         lines
     }
 
@@ -100,7 +100,7 @@ impl ForwardModel for Lines {
         &[]
     }
 
-    fn mechanisms(&self) -> &[Mechanism] {
+    fn mechanisms(&self) -> &[Omission] {
         &self.mechanisms
     }
 

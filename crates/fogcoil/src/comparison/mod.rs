@@ -32,7 +32,7 @@ pub struct Told {
 
 /// A parameter of a mechanism.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub struct TypicalParameter {
     /// Name with its unit.
     pub name: String,
     /// What is known of it; `None` of a choice, of which every value is as likely.
@@ -49,7 +49,7 @@ pub struct Entry {
     /// Where in the chain it acts.
     pub stage: String,
     /// Its parameters, its choice first.
-    pub parameters: Vec<Row>,
+    pub parameters: Vec<TypicalParameter>,
     /// What it changes in each of [`Comparison::programmes`] at its typical size: spool temperature \[K\] and rate \[deg/h\].
     pub(crate) changes: Vec<[Vec<f64>; 2]>,
 }
@@ -138,8 +138,8 @@ impl Responses {
 fn entry(gyro: &Gyro, truth: &Active, programmes: usize) -> Result<Entry, coil::Error> {
     let mechanism = &gyro.mechanisms()[truth.mechanism];
     let choice = mechanism.choice.iter().zip(truth.choice);
-    let choice = choice.map(|((name, _), typical)| Row { name: name.clone(), prior: None, typical });
-    let of = |(p, v): (&diagnosis::Parameter, &f64)| Row { name: p.name.clone(), prior: Some(p.prior), typical: *v };
+    let choice = choice.map(|((name, _), typical)| TypicalParameter { name: name.clone(), prior: None, typical });
+    let of = |(p, v): (&diagnosis::Parameter, &f64)| TypicalParameter { name: p.name.clone(), prior: Some(p.prior), typical: *v };
     let parameters = choice.chain(mechanism.parameters.iter().zip(&truth.values).map(of)).collect();
     let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
     let change = |record: usize| -> Result<[Vec<f64>; 2], coil::Error> {

@@ -25,7 +25,7 @@ pub const STRAINED: f64 = 3.0;
 
 /// What a mechanism would have to be.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Outcome {
+pub enum Reach {
     /// It gives the sensitivity.
     Gives {
         /// The parameter and its value.
@@ -59,14 +59,14 @@ pub struct Explanation {
     /// Under which condition.
     pub when: &'static str,
     /// What it would have to be.
-    pub outcome: Outcome,
+    pub outcome: Reach,
 }
 
 impl Explanation {
     /// Distance from the middle of the prior, if the mechanism can explain the sensitivity.
     pub fn sigma(&self) -> Option<f64> {
         match self.outcome {
-            Outcome::Gives { sigma, .. } => Some(sigma),
+            Reach::Gives { sigma, .. } => Some(sigma),
             _ => None,
         }
     }
@@ -193,11 +193,11 @@ impl Problem<'_> {
         Some(Model::in_state(design, &COARSE, state).ok()?.sensitivity().ok()?.total())
     }
 
-    fn explanations(&self, entry: &diagnosis::Mechanism, mechanism: &dyn Mechanism) -> Vec<Explanation> {
+    fn explanations(&self, entry: &diagnosis::Omission, mechanism: &dyn Mechanism) -> Vec<Explanation> {
         let of = |steady: Steady| {
             let prior = |parameter: usize| &entry.parameters[parameter].prior;
             let (outcome, parameter, when) = match steady {
-                Steady::Nothing(why) => (Outcome::Unable { why }, None, ""),
+                Steady::Nothing(why) => (Reach::Unable { why }, None, ""),
                 Steady::Rewinds { turns, changed } => (self.rewinding(prior(turns), changed), Some(turns), ""),
                 Steady::Changes { parameter, changed, when } => (self.change(prior(parameter), changed), Some(parameter), when),
             };
@@ -207,7 +207,7 @@ impl Problem<'_> {
         mechanism.facts().steady.into_iter().map(of).collect()
     }
 
-    fn change(&self, prior: &Prior, changed: fn(&Design, f64) -> (Design, MechanicalState)) -> Outcome {
+    fn change(&self, prior: &Prior, changed: fn(&Design, f64) -> (Design, MechanicalState)) -> Reach {
         let at = |u: f64| {
             let (design, state) = changed(self.design, prior.value(u));
             self.sensitivity(&design, &state)
@@ -216,20 +216,20 @@ impl Problem<'_> {
         let (low, high) = course.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p.1), h.max(p.1)));
         let nominal = self.nominal.unwrap_or(f64::NAN);
         if high - low < 1e-6 * nominal.abs() && (high - nominal).abs() < 1e-6 * nominal.abs() {
-            return Outcome::Unable { why: EVEN };
+            return Reach::Unable { why: EVEN };
         }
         match solve::nearest(&course, self.target, &at) {
-            None => Outcome::OutOfReach { range: [low, high] },
+            None => Reach::OutOfReach { range: [low, high] },
             Some((u, slope)) => {
                 let value = prior.value(u);
                 let per_u = (prior.value(u + 1e-3) - prior.value(u - 1e-3)) / 2e-3;
-                Outcome::Gives { value, error: (self.error * per_u / slope).abs(), sigma: u, layer: None }
+                Reach::Gives { value, error: (self.error * per_u / slope).abs(), sigma: u, layer: None }
             }
         }
     }
 
     /// The fewest turns in any layer.
-    fn rewinding(&self, prior: &Prior, changed: fn(&Design, usize, i32) -> Design) -> Outcome {
+    fn rewinding(&self, prior: &Prior, changed: fn(&Design, usize, i32) -> Design) -> Reach {
         let most = prior.value(solve::REACH).floor() as i32;
         let mut best: Option<(i32, usize, f64)> = None;
         let (mut plausible, mut range) = (0, [f64::INFINITY, f64::NEG_INFINITY]);
@@ -242,11 +242,11 @@ impl Problem<'_> {
             }
         }
         match best {
-            None => Outcome::OutOfReach { range },
+            None => Reach::OutOfReach { range },
             Some((turns, layer, slope)) => {
                 let value = f64::from(turns);
                 let error = (self.error / slope).abs().max(0.5);
-                Outcome::Gives { value, error, sigma: prior.standard(value), layer: Some((layer, plausible)) }
+                Reach::Gives { value, error, sigma: prior.standard(value), layer: Some((layer, plausible)) }
             }
         }
     }
@@ -254,7 +254,7 @@ impl Problem<'_> {
 
 /// A mechanism of that size: the solved parameter among the middles of the others.
 fn active(gyro: &Gyro, explanation: &Explanation) -> Option<Active> {
-    let Outcome::Gives { value, layer, .. } = explanation.outcome else { return None };
+    let Reach::Gives { value, layer, .. } = explanation.outcome else { return None };
     let mechanism = gyro.find(&explanation.id)?;
     let entry = &gyro.mechanisms()[mechanism];
     let of = |p: &diagnosis::Parameter| if p.name == explanation.parameter { value } else { p.prior.value(0.0) };

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::{Explained, Explanation, Outcome, PLAUSIBLE, STRAINED, Test};
+use super::{Explained, Explanation, PLAUSIBLE, Reach, STRAINED, Test};
 use crate::input::CoilCase;
 use crate::table::{significant, table};
 
@@ -20,12 +20,12 @@ fn verdict(sigma: f64) -> &'static str {
 pub fn json(e: &Explained) -> Value {
     let of = |x: &Explanation| {
         let outcome = match &x.outcome {
-            Outcome::Gives { value, error, sigma, layer } => json!({
+            Reach::Gives { value, error, sigma, layer } => json!({
                 "able": true, "value": value, "numerical_error": error, "sigma": sigma, "verdict": verdict(*sigma),
                 "layer": layer.map(|l| l.0), "plausible_layers": layer.map(|l| l.1),
             }),
-            Outcome::OutOfReach { range } => json!({"able": false, "range": range}),
-            Outcome::Unable { why } => json!({"able": false, "why": why}),
+            Reach::OutOfReach { range } => json!({"able": false, "range": range}),
+            Reach::Unable { why } => json!({"able": false, "why": why}),
         };
         let mut object = json!({"id": x.id, "parameter": x.parameter, "when": x.when});
         if let (Some(object), Value::Object(more)) = (object.as_object_mut(), outcome) {
@@ -52,15 +52,15 @@ fn row(x: &Explanation) -> Option<Vec<String>> {
     let when = if x.when.is_empty() { String::new() } else { format!(", {}", x.when) };
     let name = format!("{} ({})", x.id, x.parameter);
     Some(match &x.outcome {
-        Outcome::Gives { value, error, sigma, layer } => {
+        Reach::Gives { value, error, sigma, layer } => {
             let layer = layer.map_or(String::new(), |(k, n)| format!(", in layer {k}; as plausibly in {n} layers"));
             let value = format!("{} ± {}", significant(*value, 3), significant(*error, 1));
             vec![name, value, format!("{sigma:+.1}"), format!("{}{layer}{when}", verdict(*sigma))]
         }
-        Outcome::OutOfReach { range: [low, high] } => {
+        Reach::OutOfReach { range: [low, high] } => {
             vec![name, "-".into(), "-".into(), format!("gives {low:.2} to {high:.2} only{when}")]
         }
-        Outcome::Unable { .. } => return None,
+        Reach::Unable { .. } => return None,
     })
 }
 
@@ -81,7 +81,7 @@ pub fn text(case: &CoilCase, e: &Explained) -> String {
     out.push_str(&table(&rows));
     out.push_str("\nUnable to change it:\n");
     for x in &e.explanations {
-        if let Outcome::Unable { why } = x.outcome {
+        if let Reach::Unable { why } = x.outcome {
             let _ = writeln!(out, "  {}: {why}", x.id);
         }
     }

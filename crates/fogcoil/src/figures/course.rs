@@ -2,7 +2,7 @@
 
 use charts::{Axis, Figure, Panel, Series, Style, signed, significant};
 
-use crate::simulate::{Row, Simulation, WINDOW_S, Window};
+use crate::simulate::{SimulatedRow, Simulation, WINDOW_S, Window};
 use crate::summary::Summary;
 use crate::units::DurationUnit;
 
@@ -25,7 +25,7 @@ pub(super) fn time_axis(simulation: &Simulation) -> (Axis, impl Fn(f64) -> f64 +
 
 fn temperatures<'a>(simulation: &'a Simulation) -> Figure<'a> {
     let (x, time) = time_axis(simulation);
-    let series = |name: &str, style, value: fn(&Row) -> f64| {
+    let series = |name: &str, style, value: fn(&SimulatedRow) -> f64| {
         Series::computed(name, style, simulation.count(), move |n| {
             let row = simulation.row(n);
             (time(row.time), value(&row))
@@ -55,7 +55,7 @@ fn temperatures<'a>(simulation: &'a Simulation) -> Figure<'a> {
 
 fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<'a> {
     let (x, time) = time_axis(simulation);
-    let series = |name: &str, style, value: fn(&Row) -> f64| {
+    let series = |name: &str, style, value: fn(&SimulatedRow) -> f64| {
         Series::computed(name, style, simulation.count(), move |n| {
             // the first row has no rate: it repeats the second's, and a lone row shows its zero
             let row = simulation.row(if n == 0 { 1.min(simulation.count() - 1) } else { n });

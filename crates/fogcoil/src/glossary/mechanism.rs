@@ -15,7 +15,7 @@ const RIVALS: &str = "fitted in its place";
 
 /// A mechanism, or what stands among the mechanisms in tables, in words; Markdown.
 #[derive(Debug, Clone, Copy)]
-pub struct Mechanism {
+pub struct Subject {
     /// Its id.
     pub id: &'static str,
     /// What it is called.
@@ -28,8 +28,8 @@ pub struct Mechanism {
 }
 
 /// What stands among the mechanisms in tables.
-const BESIDE: [Mechanism; 2] = [
-    Mechanism {
+const BESIDE: [Subject; 2] = [
+    Subject {
         id: "recalibrate",
         title: "The design as it is, its constants re-estimated",
         stage: None,
@@ -39,7 +39,7 @@ const BESIDE: [Mechanism; 2] = [
         signature: "A gain on parts of the bias, and another time scale of the heat flow: the same at all temperatures and in every run.",
         source: "The priors are in `crates/mechanisms/src/nuisances.rs`.",
     },
-    Mechanism {
+    Subject {
         id: "nominal",
         title: "The design as it is",
         stage: None,
@@ -51,10 +51,10 @@ const BESIDE: [Mechanism; 2] = [
 ];
 
 /// All mechanisms, in the order of the library; then those without a name, and what stands among them in tables.
-pub fn all() -> impl Iterator<Item = Mechanism> {
+pub fn all() -> impl Iterator<Item = Subject> {
     let of = |mechanism: &&'static dyn mechanisms::Mechanism| {
         let facts = mechanism.facts();
-        Mechanism {
+        Subject {
             id: facts.id,
             title: facts.title,
             stage: matches!(facts.naming, Naming::Named { .. }).then(|| facts.stage.name()),
@@ -81,7 +81,7 @@ pub(crate) fn inspection(id: &str) -> Option<&'static str> {
     }
 }
 
-impl Mechanism {
+impl Subject {
     /// Its parameters, effect and rivals as they were measured, in Markdown; empty of one without a name.
     fn measured(&self) -> &'static str {
         let mut sections = MEASURED.trim_start_matches("# ").split("\n# ");

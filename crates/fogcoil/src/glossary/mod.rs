@@ -5,7 +5,7 @@ mod page;
 
 pub use files::{Explanation, Note, Remark, Severity};
 pub(crate) use mechanism::inspection;
-pub use mechanism::{Mechanism, all as mechanisms};
+pub use mechanism::{Subject, all as mechanisms};
 
 use std::fmt::Write;
 
@@ -17,7 +17,7 @@ use crate::table::table;
 #[derive(Debug, Clone, Copy)]
 pub enum Entry {
     /// A mechanism of the library.
-    Mechanism(Mechanism),
+    Mechanism(Subject),
     /// A warning or a note.
     Remark(Remark),
 }

@@ -1,6 +1,6 @@
 //! What is commonly done with the same records: regressions pasted on the nominal model's output, and selection by BIC in white noise.
 
-use diagnosis::{Active, ForwardModel, Mechanism};
+use diagnosis::{Active, ForwardModel, Omission};
 use mechanisms::{RATE, SPOOL};
 use nalgebra::{DMatrix, DVector};
 use recording::condition::slopes;
@@ -87,7 +87,7 @@ pub(crate) fn regressions(unit: &Unit) -> Result<[f64; REGRESSIONS.len()], Failu
 }
 
 /// Values at which a mechanism's response stands for its shape: where its fits start, or one standard deviation from no effect.
-fn typical(entry: &Mechanism) -> Vec<Vec<f64>> {
+fn typical(entry: &Omission) -> Vec<Vec<f64>> {
     let nothing = |values: &Vec<f64>| values.iter().zip(&entry.parameters).all(|(v, p)| p.prior.standard(*v) == 0.0);
     let away = || entry.parameters.iter().map(|p| p.prior.value(1.0)).collect();
     entry.starts.iter().map(|v| if nothing(v) { away() } else { v.clone() }).collect()

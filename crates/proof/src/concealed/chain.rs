@@ -11,7 +11,7 @@ use mechanisms::{CATALOGUE, Gyro, Library, Prepared};
 use super::answer::record;
 use super::score::HeldOut;
 use crate::Failure;
-use crate::truth::{Kind, Mechanism, Truth};
+use crate::truth::{ConcealedEffect, Kind, Truth};
 
 /// The place of the record that is fitted, and of the one that is held out.
 pub(crate) const FIT: usize = 0;
@@ -115,12 +115,12 @@ impl Unit {
 
     /// The true mechanisms at the true parameters; what the truth does not name lies `u` standard deviations from the middle of its prior.
     fn active(&self, truth: &Truth, u: f64) -> Result<Vec<Active>, Failure> {
-        let unknown = |true_one: &Mechanism| Failure(format!("the library has no {}", true_one.id));
+        let unknown = |true_one: &ConcealedEffect| Failure(format!("the library has no {}", true_one.id));
         truth.concealed().map(|true_one| self.at_work(true_one, u).ok_or_else(|| unknown(true_one))).collect()
     }
 
     /// A true mechanism as the library has it, what is not named `u` standard deviations from the middle of its prior; `None` if it has it not.
-    pub(crate) fn at_work(&self, true_one: &Mechanism, u: f64) -> Option<Active> {
+    pub(crate) fn at_work(&self, true_one: &ConcealedEffect, u: f64) -> Option<Active> {
         let mechanism = self.gyro.find(&true_one.id)?;
         let entry = &self.gyro.mechanisms()[mechanism];
         let value = |p: &diagnosis::Parameter| true_one.parameters.get(&p.name).copied().unwrap_or(p.prior.value(u));

@@ -102,7 +102,7 @@ pub(crate) fn faults(scored: &Scored) -> Vec<&'static str> {
 }
 
 fn concealed(case: &Case) -> String {
-    let of = |m: &crate::truth::Mechanism| {
+    let of = |m: &crate::truth::ConcealedEffect| {
         let snr = case.truth.snr.iter().find(|s| s.id == m.id).map_or(String::new(), |s| format!(" (SNR {:.0})", s.snr));
         format!("{}{snr}", m.id)
     };

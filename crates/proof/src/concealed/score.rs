@@ -136,7 +136,7 @@ fn parameters(truth: &Truth, answer: &Answer) -> Vec<Parameter> {
 mod tests {
     use super::super::answer::{Fitted, Place, Probable};
     use super::*;
-    use crate::truth::{Mechanism, Sizes, Strength};
+    use crate::truth::{ConcealedEffect, Sizes, Strength};
 
     const TAIL: &str = "tail-asymmetry";
     const DEFECT: &str = "winding-defect";
@@ -145,7 +145,7 @@ mod tests {
     /// Mechanisms with their sets; the first has a parameter `p` of 2.
     fn truth(sets: &[&[&str]]) -> Truth {
         let parameters = |k: usize| if k == 0 { [("p".to_owned(), 2.0)].into() } else { Default::default() };
-        let mechanism = |(k, set): (usize, &&[&str])| Mechanism { id: set[0].into(), parameters: parameters(k) };
+        let mechanism = |(k, set): (usize, &&[&str])| ConcealedEffect { id: set[0].into(), parameters: parameters(k) };
         Truth {
             mechanisms: sets.iter().enumerate().map(mechanism).collect(),
             snr: sets.iter().map(|s| Strength { id: s[0].into(), snr: 20.0, ..Strength::default() }).collect(),

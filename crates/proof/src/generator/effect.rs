@@ -3,7 +3,7 @@
 use super::build::{Build, Softening};
 use super::outside::Outside;
 use super::random::Random;
-use crate::truth::Mechanism;
+use crate::truth::ConcealedEffect;
 use coil::{Body, Heater, Mechanics, Mount, Opening, Side};
 use winding::LayerDefect;
 
@@ -156,7 +156,7 @@ impl Effect {
     }
 
     /// As the truth files name it.
-    pub(super) fn mechanism(&self) -> Mechanism {
+    pub(super) fn mechanism(&self) -> ConcealedEffect {
         let (id, parameters): (&str, &[(&str, f64)]) = match self {
             Self::Tail { m } => ("tail-asymmetry", &[("tail_m", *m)]),
             Self::Defect { layer, turns } => ("winding-defect", &[("layer", *layer as f64), ("turns", *turns)]),
@@ -180,7 +180,7 @@ impl Effect {
             Self::ReadOut { per_k } => ("rate-temperature-coefficient", &[("coefficient_deg_per_h_per_k", *per_k)]),
             Self::Outside(outside) => return outside.mechanism(),
         };
-        Mechanism { id: id.into(), parameters: parameters.iter().map(|(name, value)| ((*name).into(), *value)).collect() }
+        ConcealedEffect { id: id.into(), parameters: parameters.iter().map(|(name, value)| ((*name).into(), *value)).collect() }
     }
 }
 

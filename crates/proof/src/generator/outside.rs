@@ -3,7 +3,7 @@
 use super::chamber::STEP;
 use super::plant::Run;
 use super::random::Random;
-use crate::truth::Mechanism;
+use crate::truth::ConcealedEffect;
 use std::f64::consts::TAU;
 
 /// What it follows; parameters beside the size.
@@ -50,7 +50,7 @@ impl Outside {
         Self { shape, size: 0.005 * random.sign() }
     }
 
-    pub(super) fn mechanism(&self) -> Mechanism {
+    pub(super) fn mechanism(&self) -> ConcealedEffect {
         let (id, own): (&str, &[(&str, f64)]) = match &self.shape {
             Shape::Ripple { period, phase } => ("polarisation-ripple", &[("period_k", *period), ("phase_rad", *phase)]),
             Shape::Step { at } => ("step-in-time", &[("at_s", *at)]),
@@ -61,7 +61,10 @@ impl Outside {
             Shape::LevelSquared => ("square-of-temperature", &[]),
         };
         let all = [[("amplitude_deg_per_h", self.size)].as_slice(), own].concat();
-        Mechanism { id: format!("unknown:{id}"), parameters: all.into_iter().map(|(name, value)| (name.into(), value)).collect() }
+        ConcealedEffect {
+            id: format!("unknown:{id}"),
+            parameters: all.into_iter().map(|(name, value)| (name.into(), value)).collect(),
+        }
     }
 
     /// Adds it to a unit's course.

@@ -134,7 +134,7 @@ impl Generator {
         let mut mechanisms: Vec<_> = effects.iter().map(Effect::mechanism).collect();
         let confusable_sets = mechanisms.iter().map(|m| vec![m.id.clone()]).collect();
         if mechanisms.is_empty() {
-            mechanisms.push(truth::Mechanism { id: "none".into(), ..Default::default() });
+            mechanisms.push(truth::ConcealedEffect { id: "none".into(), ..Default::default() });
         }
         let rms = |series: &[f64]| (series.iter().map(|x| x * x).sum::<f64>() / series.len() as f64).sqrt();
         let sizes = truth::Sizes {

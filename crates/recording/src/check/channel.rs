@@ -1,7 +1,7 @@
 //! One channel of a recording.
 
 use super::summary::{COARSE, ChannelSummary, Context};
-use super::{Expectation, Finding, Instants, Kind, Repair, Severity, outliers, runs, units};
+use super::{Expectation, Finding, FindingKind, Instants, Repair, Severity, outliers, runs, units};
 use crate::Channel;
 use crate::statistics::{median, normal_quantile, robust_sd};
 
@@ -30,7 +30,7 @@ pub(super) fn judge(time: &[f64], channel: &Channel, expectation: &Expectation, 
     };
     if let (Some(first), Some(instants)) = (present.first(), instants) {
         if present.iter().all(|value| value == first) {
-            findings.push(Finding::whole(Kind::Constant { value: *first }, useless));
+            findings.push(Finding::whole(FindingKind::Constant { value: *first }, useless));
         } else {
             summary.step = runs::step(&present);
             summary.noise = white_noise(time, &channel.values, &mask);
@@ -41,7 +41,7 @@ pub(super) fn judge(time: &[f64], channel: &Channel, expectation: &Expectation, 
             if let (Some(step), Some(noise)) = (summary.step, summary.noise)
                 && step > COARSE * noise
             {
-                findings.push(Finding::whole(Kind::Quantised { step, noise }, Severity::Note));
+                findings.push(Finding::whole(FindingKind::Quantised { step, noise }, Severity::Note));
             }
         }
     }
@@ -56,13 +56,19 @@ pub(super) fn judge(time: &[f64], channel: &Channel, expectation: &Expectation, 
 
 fn missing(time: &[f64], present: &[bool], useless: Severity, findings: &mut Vec<Finding>) {
     if present.iter().all(|there| !there) {
-        return findings.push(Finding::whole(Kind::Empty, useless));
+        return findings.push(Finding::whole(FindingKind::Empty, useless));
     }
     let mut row = 0;
     while row < present.len() {
         let end = (row..present.len()).find(|&r| present[r]).unwrap_or(present.len());
         if end > row {
-            findings.push(Finding::at(Kind::Missing, Severity::Note, [time[row], time[end - 1]], end - row, Repair::Masked));
+            findings.push(Finding::at(
+                FindingKind::Missing,
+                Severity::Note,
+                [time[row], time[end - 1]],
+                end - row,
+                Repair::Masked,
+            ));
         }
         row = end.max(row + 1);
     }

@@ -27,7 +27,7 @@ pub enum Repair {
 /// What was found.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub enum Kind {
+pub enum FindingKind {
     /// Rows are missing.
     Gap {
         /// From the last row before it to the first after it \[s\].
@@ -118,7 +118,7 @@ pub enum Kind {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
     /// What.
-    pub kind: Kind,
+    pub kind: FindingKind,
     /// In which channel; `None` if it is about the instants.
     pub channel: Option<String>,
     /// Unit of the channel; empty if there is none.
@@ -135,26 +135,28 @@ pub struct Finding {
 
 impl Finding {
     /// About the whole recording.
-    pub(super) fn whole(kind: Kind, severity: Severity) -> Self {
+    pub(super) fn whole(kind: FindingKind, severity: Severity) -> Self {
         Self { kind, channel: None, unit: String::new(), span: None, rows: 0, severity, repair: Repair::None }
     }
 
     /// About the instants from one to another.
-    pub(super) fn at(kind: Kind, severity: Severity, span: [f64; 2], rows: usize, repair: Repair) -> Self {
+    pub(super) fn at(kind: FindingKind, severity: Severity, span: [f64; 2], rows: usize, repair: Repair) -> Self {
         Self { span: Some(span), rows, repair, ..Self::whole(kind, severity) }
     }
 
     /// What to do, if there is something.
     pub fn advice(&self) -> &'static str {
         match (&self.kind, self.severity) {
-            (Kind::Conflict, _) => "keep the row that is right",
-            (Kind::Backwards { .. }, _) => "sort the rows by time, or split the file where the clock restarts",
-            (Kind::ClockStep { .. }, _) => "if the clock was set, split the file there or mend the instants",
-            (Kind::Empty | Kind::Constant { .. }, Severity::Error) => "check the sensor's cable and the choice of the column",
-            (Kind::Stuck { .. } | Kind::Saturation { .. }, _) => "check the sensor and its range",
-            (Kind::Unit { .. }, _) => "check the column's unit",
-            (Kind::Offset { .. }, _) => "remove it, or accept that the offset is fitted",
-            (Kind::TooShort { .. }, _) => "give a longer recording",
+            (FindingKind::Conflict, _) => "keep the row that is right",
+            (FindingKind::Backwards { .. }, _) => "sort the rows by time, or split the file where the clock restarts",
+            (FindingKind::ClockStep { .. }, _) => "if the clock was set, split the file there or mend the instants",
+            (FindingKind::Empty | FindingKind::Constant { .. }, Severity::Error) => {
+                "check the sensor's cable and the choice of the column"
+            }
+            (FindingKind::Stuck { .. } | FindingKind::Saturation { .. }, _) => "check the sensor and its range",
+            (FindingKind::Unit { .. }, _) => "check the column's unit",
+            (FindingKind::Offset { .. }, _) => "remove it, or accept that the offset is fitted",
+            (FindingKind::TooShort { .. }, _) => "give a longer recording",
             _ => "",
         }
     }
@@ -204,30 +206,32 @@ impl Finding {
     fn what(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let unit = &self.unit;
         match &self.kind {
-            Kind::Gap { length, missing } => write!(f, "gap of {} s, {missing} rows missing", Short(*length)),
-            Kind::Jitter { rms, largest } => {
+            FindingKind::Gap { length, missing } => write!(f, "gap of {} s, {missing} rows missing", Short(*length)),
+            FindingKind::Jitter { rms, largest } => {
                 write!(f, "intervals vary by {} s rms, {} s at most", Short(*rms), Short(*largest))
             }
-            Kind::Duplicate => write!(f, "a row is repeated"),
-            Kind::Conflict => write!(f, "one instant has different values"),
-            Kind::Backwards { by } => write!(f, "time goes back by {} s", Short(*by)),
-            Kind::ClockStep { interval } => write!(f, "an interval of {} s is no whole number of intervals", Short(*interval)),
-            Kind::Missing => write!(f, "values are missing"),
-            Kind::Outliers { largest } => write!(f, "outliers of up to {} {unit}", Short(*largest)),
-            Kind::Stuck { value } => write!(f, "stuck at {} {unit}", Short(*value)),
-            Kind::Saturation { value } => write!(f, "saturated at {} {unit}", Short(*value)),
-            Kind::Quantised { step, noise } => {
+            FindingKind::Duplicate => write!(f, "a row is repeated"),
+            FindingKind::Conflict => write!(f, "one instant has different values"),
+            FindingKind::Backwards { by } => write!(f, "time goes back by {} s", Short(*by)),
+            FindingKind::ClockStep { interval } => {
+                write!(f, "an interval of {} s is no whole number of intervals", Short(*interval))
+            }
+            FindingKind::Missing => write!(f, "values are missing"),
+            FindingKind::Outliers { largest } => write!(f, "outliers of up to {} {unit}", Short(*largest)),
+            FindingKind::Stuck { value } => write!(f, "stuck at {} {unit}", Short(*value)),
+            FindingKind::Saturation { value } => write!(f, "saturated at {} {unit}", Short(*value)),
+            FindingKind::Quantised { step, noise } => {
                 write!(f, "the resolution, {} {unit}, hides the noise, at most {} {unit}", Short(*step), Short(*noise))
             }
-            Kind::Unit { what, found, range: [low, high], candidates } => {
+            FindingKind::Unit { what, found, range: [low, high], candidates } => {
                 let verb = if *what == "noise" { "is" } else { "are" };
                 write!(f, "{what} of {} {unit} {verb} implausible ({} to {} {unit})", Short(*found), Short(*low), Short(*high))?;
                 if candidates.is_empty() { Ok(()) } else { write!(f, "; is it in {}?", candidates.join(" or ")) }
             }
-            Kind::Constant { value } => write!(f, "is {} {unit} throughout", Short(*value)),
-            Kind::Empty => write!(f, "has no value at all"),
-            Kind::TooShort { rows } => write!(f, "too few rows, {rows}"),
-            Kind::Offset { median, largest, of } => {
+            FindingKind::Constant { value } => write!(f, "is {} {unit} throughout", Short(*value)),
+            FindingKind::Empty => write!(f, "has no value at all"),
+            FindingKind::TooShort { rows } => write!(f, "too few rows, {rows}"),
+            FindingKind::Offset { median, largest, of } => {
                 write!(f, "the median, {} {unit}, is more than {} {unit}: {of}?", Short(*median), Short(*largest))
             }
         }

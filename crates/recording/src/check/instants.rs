@@ -1,6 +1,6 @@
 //! The instants of a recording.
 
-use super::{Finding, Kind, Repair, Severity};
+use super::{Finding, FindingKind, Repair, Severity};
 use crate::Recording;
 use crate::series::GAP;
 use crate::statistics::median;
@@ -57,10 +57,10 @@ impl Instants {
 
     pub(super) fn judge(&self, time: &[f64], findings: &mut Vec<Finding>) {
         if self.largest_jitter > NOTED_JITTER * self.interval {
-            findings.push(Finding::whole(Kind::Jitter { rms: self.jitter, largest: self.largest_jitter }, Severity::Note));
+            findings.push(Finding::whole(FindingKind::Jitter { rms: self.jitter, largest: self.largest_jitter }, Severity::Note));
         }
         for gap in &self.gaps {
-            let kind = Kind::Gap { length: gap.to - gap.from, missing: gap.missing };
+            let kind = FindingKind::Gap { length: gap.to - gap.from, missing: gap.missing };
             findings.push(Finding::at(kind, Severity::Note, [gap.from, gap.to], 0, Repair::None));
         }
         let slack = (STEP[0] * self.interval).max(STEP[1] * self.largest_jitter);
@@ -68,7 +68,7 @@ impl Instants {
             let interval = pair[1] - pair[0];
             let whole = (interval / self.interval).round() * self.interval;
             if (interval - whole).abs() > slack || interval < 0.5 * self.interval {
-                let kind = Kind::ClockStep { interval };
+                let kind = FindingKind::ClockStep { interval };
                 findings.push(Finding::at(kind, Severity::Warning, [pair[0], pair[1]], 0, Repair::None));
             }
         }
@@ -88,11 +88,11 @@ pub(super) fn keep(recording: &Recording, findings: &mut Vec<Finding>) -> Vec<us
         if time[row] > time[last] {
             rows.push(row);
         } else if time[row] < time[last] {
-            findings.push(finding(Kind::Backwards { by: time[last] - time[row] }, Severity::Error));
+            findings.push(finding(FindingKind::Backwards { by: time[last] - time[row] }, Severity::Error));
         } else if same(recording, row, last) {
-            findings.push(finding(Kind::Duplicate, Severity::Note));
+            findings.push(finding(FindingKind::Duplicate, Severity::Note));
         } else {
-            findings.push(finding(Kind::Conflict, Severity::Error));
+            findings.push(finding(FindingKind::Conflict, Severity::Error));
         }
     }
     rows

@@ -11,7 +11,7 @@ mod summary;
 mod units;
 
 pub use channel::white_noise;
-pub use finding::{Finding, Kind, Repair, Severity};
+pub use finding::{Finding, FindingKind, Repair, Severity};
 pub use instants::{Gap, Instants};
 pub use summary::ChannelSummary;
 pub use units::{Expectation, Offset, Unit};
@@ -73,7 +73,7 @@ pub fn check(recording: &Recording, expectations: &Expectations) -> Report {
     }
     if rows.len() < FEWEST_ROWS.max(expectations.fewest_rows) {
         let severity = if rows.len() < FEWEST_ROWS { Severity::Error } else { Severity::Warning };
-        findings.push(Finding::whole(Kind::TooShort { rows: rows.len() }, severity));
+        findings.push(Finding::whole(FindingKind::TooShort { rows: rows.len() }, severity));
     }
     let nothing = Expectation::default();
     let judge = |(number, channel)| {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::summary::Context;
-use super::{Finding, Kind, Repair, Severity};
+use super::{Finding, FindingKind, Repair, Severity};
 use crate::statistics::median;
 
 /// Fewest different values of which a lattice can be told.
@@ -84,7 +84,7 @@ pub(super) fn judge(context: &Context, mask: &mut [bool]) -> Vec<Finding> {
         } else {
             continue;
         };
-        let kind = if extremes.contains(&Some(value)) { Kind::Saturation { value } } else { Kind::Stuck { value } };
+        let kind = if extremes.contains(&Some(value)) { FindingKind::Saturation { value } } else { FindingKind::Stuck { value } };
         let span = [time[run[0]], time[run[run.len() - 1]]];
         findings.push(Finding::at(kind, Severity::Warning, span, run.len(), repair));
     }

@@ -1,7 +1,7 @@
 //! Whether values are of the size that their unit makes them.
 
 use super::summary::COARSE;
-use super::{ChannelSummary, Finding, Kind, Severity};
+use super::{ChannelSummary, Finding, FindingKind, Severity};
 
 /// A unit in which a channel may be recorded by mistake: expected value = scale · value + offset.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,7 +64,7 @@ pub(super) fn judge(summary: &ChannelSummary, extremes: [f64; 2], expectation: &
     let candidates = || mistaken.iter().filter(fits).map(|unit| unit.name.clone()).collect();
     let mut findings = Vec::new();
     let mut suspect = |what, found, range| {
-        findings.push(Finding::whole(Kind::Unit { what, found, range, candidates: candidates() }, Severity::Warning));
+        findings.push(Finding::whole(FindingKind::Unit { what, found, range, candidates: candidates() }, Severity::Warning));
     };
     if let Some(found) = extremes.into_iter().find(|value| !within(*value, *values)) {
         suspect("values", found, *values);
@@ -74,7 +74,7 @@ pub(super) fn judge(summary: &ChannelSummary, extremes: [f64; 2], expectation: &
         && summary.median.abs() > *largest
         && summary.median.abs() <= *explained
     {
-        let kind = Kind::Offset { median: summary.median, largest: *largest, of: of.clone() };
+        let kind = FindingKind::Offset { median: summary.median, largest: *largest, of: of.clone() };
         findings.push(Finding::whole(kind, Severity::Warning));
     }
     findings

@@ -1,7 +1,7 @@
 //! In which part of the chain the difference is, and whether in single layers.
 
 use charts::{Axis, Cells, Figure, Panel, Series, Style, grid, significant};
-use diagnosis::Resolution;
+use diagnosis::MemberResolution;
 use maud::{Markup, html};
 use mechanisms::RATE;
 
@@ -56,7 +56,7 @@ impl Outcome {
     }
 }
 
-fn figure(found: &Resolution) -> Figure<'static> {
+fn figure(found: &MemberResolution) -> Figure<'static> {
     let of = |value: &dyn Fn(usize) -> f64| -> Vec<(f64, f64)> {
         (0..found.values.len()).map(|k| ((k + 1) as f64, value(k))).collect()
     };
