@@ -3,7 +3,7 @@
 /// One of the two axes of a figure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// Quantity and unit, e.g. "time [h]".
+    /// Quantity and unit, e.g. "time \[h\]".
     pub label: String,
     /// The smallest span that is drawn, in the axis' unit: less would blow rounding up to a picture.
     pub least_span: f64,

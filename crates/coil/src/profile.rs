@@ -7,7 +7,7 @@ use crate::{Drive, Error};
 pub struct Profile {
     /// Instants \[s\], increasing.
     pub time: Vec<f64>,
-    /// One course per drive of the [`Dynamics`], each as long as `time`.
+    /// One course per drive of the [`Dynamics`](crate::Dynamics), each as long as `time`.
     pub drives: Vec<Vec<f64>>,
 }
 

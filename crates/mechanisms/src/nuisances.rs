@@ -52,7 +52,7 @@ pub(crate) fn nuisances() -> Vec<Nuisance> {
     ]
 }
 
-/// A constant of the design times a factor, by the name that [`nuisances`] gives it; `None` for a name of something else.
+/// A constant of the design times a factor, by the name that the forward model gives it; `None` for a name of something else.
 pub fn with_constant(design: &Design, name: &str, factor: f64) -> Option<Design> {
     let mut changed = design.clone();
     let elastic = &mut changed.body.elastic;

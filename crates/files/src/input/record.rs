@@ -33,7 +33,7 @@ const OFFSET_DEG_PER_H: f64 = 0.5;
 /// A recording that has been read and checked; nothing in it was altered but units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordCase {
-    /// All rows; channels [`CHAMBER`], [`SPOOL`] (where the file has them) and [`RATE`], in degC and deg/h.
+    /// All rows; channels [`super::CHAMBER`], [`super::SPOOL`] (where the file has them) and [`super::RATE`], in degC and deg/h.
     pub recording: Recording,
     /// What was found: rows to keep, values to use.
     pub report: Report,
