@@ -7,7 +7,7 @@ use fogcoil::input::{self, AnyCell, CoilCase};
 use pyo3::prelude::*;
 use pyo3::types::{PyMapping, PyString};
 
-use crate::error::{InputError, raised, warn};
+use crate::error::{InputError, UNSAVED, called, raised, warn};
 
 /// A text with the path that messages call it and that its own paths are relative to.
 #[derive(Clone)]
@@ -16,15 +16,8 @@ struct Text {
     text: String,
 }
 
-/// What a text is called that is not the content of a file, in the folder that its own paths are relative to.
-const UNSAVED: &str = "the text";
 /// What is behind the name of a file whose values were replaced.
 const ALTERED: &str = " (altered)";
-
-/// What messages call a path: a text is in no folder.
-pub(crate) fn called(path: &Path) -> &Path {
-    if path.file_name().is_some_and(|name| name == UNSAVED) { Path::new(UNSAVED) } else { path }
-}
 
 impl Text {
     /// A path, or a RON text: what starts with a bracket or has more than one line.

@@ -1,13 +1,12 @@
 //! Errors and warnings as Python's.
 
 use std::ffi::CString;
+use std::path::Path;
 
 use fogcoil::glossary::Note;
 use fogcoil::{Error, FileError, input};
 use pyo3::exceptions::{PyRuntimeError, PyUserWarning, PyValueError};
 use pyo3::{PyErr, PyResult, Python, create_exception};
-
-use crate::case::called;
 
 create_exception!(
     fogcoil,
@@ -15,6 +14,14 @@ create_exception!(
     PyValueError,
     "An input that cannot be used: what is wrong, where (file:line: field), and how to mend it."
 );
+
+/// What a text is called that is not the content of a file, in the folder that its own paths are relative to.
+pub(crate) const UNSAVED: &str = "the text";
+
+/// What messages call a path: a text is in no folder.
+pub(crate) fn called(path: &Path) -> &Path {
+    if path.file_name().is_some_and(|name| name == UNSAVED) { Path::new(UNSAVED) } else { path }
+}
 
 /// `InputError` where the user can mend it, else `RuntimeError`; the message is the program's.
 pub(crate) fn raised(error: impl Into<Error>) -> PyErr {
