@@ -133,7 +133,7 @@ pub(super) const LIST: &[Sabotage] = &[
     },
     Sabotage {
         name: "multipoles: index of the lattice sums, two too high",
-        file: "crates/homogenization/src/multipole/mod.rs",
+        file: "crates/homogenization/src/multipole/system.rs",
         find: "sums.s(n + m)",
         replace: "sums.s(n + m + 2)",
     },
