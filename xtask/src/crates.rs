@@ -62,21 +62,22 @@ impl Library {
         wanted.into_iter().filter(|(found, _)| !found).map(|(_, missing)| missing.to_owned()).chain(path_only).collect()
     }
 
-    /// Checks it and its tests with its own features only, and with all of them; `deep` also runs its tests. What has a program is checked
-    /// without it as well.
+    /// Checks it with its own features only; `deep` also with all of them, its tests, and runs these. What has a program is checked without
+    /// it as well.
     fn alone(&self, deep: bool) -> Result<(), Failure> {
         let package = ["--quiet", "--package", self.name.as_str()];
         if self.program {
             cargo(&[&["check", "--no-default-features", "--lib"], &package[..]].concat())?;
         }
-        let features = self.features.then_some(&["--all-features"][..]);
-        for (command, with) in [("check", Some(&[][..])), ("check", features), ("check", Some(&["--tests"]))] {
-            let Some(with) = with else { continue };
-            cargo(&[&[command], &package[..], with].concat())?;
+        cargo(&[&["check"], &package[..]].concat())?;
+        if !deep {
+            return Ok(());
         }
-        if deep {
-            cargo(&[&["test"], &package[..]].concat())?;
+        if self.features {
+            cargo(&[&["check", "--all-features"], &package[..]].concat())?;
         }
+        cargo(&[&["check", "--tests"], &package[..]].concat())?;
+        cargo(&[&["test"], &package[..]].concat())?;
         Ok(())
     }
 }
