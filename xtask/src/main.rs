@@ -55,7 +55,7 @@ enum Chore {
     Sabotage,
     /// Each library by itself: what it promises, its own features, its tests, its package
     Crates {
-        /// Without tests and packages
+        /// Only whether each library that is published compiles by itself, without tests and packages
         #[arg(long)]
         check: bool,
     },
