@@ -196,12 +196,32 @@ pub struct Opening {
 pub struct HeatPaths {
     /// Thermal contact resistance between hub and coil bore \[m² K/W\]; 0 is a perfect contact.
     pub hub_resistance: f64,
+    /// Thermal contact resistances between flanges and the coil's faces; a face that is not listed has none.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub flange_contacts: Vec<FlangeContact>,
     /// Mounts at the outer faces of flanges.
     pub mounts: Vec<Mount>,
     /// Power dissipated in flanges from the first instant of a profile.
     pub heaters: Vec<Heater>,
     /// Film that couples every surface of the solids to the chamber's temperature \[W/(m² K)\], in place of the still medium.
     pub film: Option<f64>,
+}
+
+impl HeatPaths {
+    /// Thermal contact resistance between the flange on a side and the coil's face \[m² K/W\].
+    pub fn flange_resistance(&self, side: Side) -> f64 {
+        self.flange_contacts.iter().filter(|c| c.side == side).map(|c| c.resistance).sum()
+    }
+}
+
+/// A thermal contact resistance between a flange and the coil's face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct FlangeContact {
+    /// The flange.
+    pub side: Side,
+    /// Resistance \[m² K/W\], ≥ 0; 0 is a perfect contact.
+    pub resistance: f64,
 }
 
 /// A mount that couples the outer face of a flange to the mount's temperature.

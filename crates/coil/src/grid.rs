@@ -57,6 +57,8 @@ pub struct Grid {
     y_lines: Vec<f64>,
     /// element number of each grid cell, column by column, if it is meshed
     cells: Vec<Option<usize>>,
+    /// where each node lies in the lattice: column + row × columns of nodes
+    places: Vec<usize>,
 }
 
 /// Two lines closer than this are one \[m\]: far below any dimension a coil is made to.
@@ -81,7 +83,7 @@ fn intervals(lines: &[f64], x: f64) -> Vec<(usize, f64)> {
 }
 
 /// Sorted positions without repetitions.
-fn distinct(mut positions: Vec<f64>) -> Vec<f64> {
+pub(crate) fn distinct(mut positions: Vec<f64>) -> Vec<f64> {
     positions.sort_by(f64::total_cmp);
     positions.dedup_by(|a, b| (*a - *b).abs() < COINCIDENT);
     positions
@@ -169,8 +171,12 @@ impl Grid {
         let rectangles = || layout.solids.iter().chain((domain == Domain::Chamber).then_some(&layout.chamber));
         let coil = layout.solids[0];
         let tip = layout.lasting_bond.map(|(_, r)| r);
-        let skin = layout.solids.iter().find(|s| s.region == Region::Contact).map(|s| s.r[0]);
+        // the far side of a skin is as much of an edge as the near one
+        let far = |region: Region| layout.solids.iter().find(|s| s.region == region);
+        let skin = far(Region::Contact).map(|s| s.r[0]);
         let r_edges: Vec<f64> = coil.r.into_iter().chain(tip).chain(skin).collect();
+        let (left, right) = (far(Region::LeftContact).map(|s| s.y[0]), far(Region::RightContact).map(|s| s.y[1]));
+        let y_edges: Vec<f64> = coil.y.into_iter().chain(left).chain(right).collect();
         let short = (coil.r[1] - coil.r[0]).min(coil.y[1] - coil.y[0]);
         let finest = (grading == Grading::Strain).then(|| short / 2.0 * ratio.powi(layers as i32));
         // where a bond opens the stress is sharpest: with a layer more the effect of a short opening is 0.3 % off, without it 2.5 %
@@ -178,7 +184,7 @@ impl Grid {
         let r = distinct(rectangles().flat_map(|s| s.r).chain(tip).collect());
         let y = distinct(rectangles().flat_map(|s| s.y).collect());
         let r_lines = lines(&r, &r_edges, coil.r, domain, resolution, finest);
-        let y_lines = lines(&y, &coil.y, coil.y, domain, resolution, finest);
+        let y_lines = lines(&y, &y_edges, coil.y, domain, resolution, finest);
         Self::on_lines(layout, order, r_lines, y_lines, domain, bonds)
     }
 
@@ -212,7 +218,7 @@ impl Grid {
         // coil nodes on an opened bond are apart from the flange's: a second set of numbers
         let lattice_points = width * (rows * order + 1);
         let mut number = vec![usize::MAX; 2 * lattice_points];
-        let (mut nodes, mut elements, mut regions) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut nodes, mut places, mut elements, mut regions) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut cells = vec![None; columns * rows];
         for (cell, slot) in cells.iter_mut().enumerate() {
             let (i, j) = (cell % columns, cell / columns);
@@ -229,6 +235,7 @@ impl Grid {
                 if *node == usize::MAX {
                     *node = nodes.len();
                     nodes.push(position);
+                    places.push(b * width + a);
                 }
                 element.push(*node);
             }
@@ -238,7 +245,7 @@ impl Grid {
         }
         let codes = regions.iter().map(|r| *r as usize).collect();
         let mesh = Mesh::new(order, nodes, elements, codes).map_err(|source| Error::Solve { part: "structure", source })?;
-        Ok(Self { mesh, basis: Lagrange::gauss_lobatto(order), regions, r_lines, y_lines, cells })
+        Ok(Self { mesh, basis: Lagrange::gauss_lobatto(order), regions, r_lines, y_lines, cells, places })
     }
 
     /// The mesh; its region numbers are `Region as usize`.
@@ -257,6 +264,16 @@ impl Grid {
         let (columns, rows) = (intervals(&self.r_lines, r), intervals(&self.y_lines, y));
         let hits = rows.iter().flat_map(|&(j, eta)| columns.iter().map(move |&(i, xi)| (i, j, xi, eta)));
         hits.filter_map(|(i, j, xi, eta)| Some((self.element(i, j)?, xi, eta))).collect()
+    }
+
+    /// Element lines along r and along y \[m\].
+    pub(crate) fn lines(&self) -> [&[f64]; 2] {
+        [&self.r_lines, &self.y_lines]
+    }
+
+    /// Where each node lies in the lattice of nodes, whether all of it is meshed or not: column + row × columns of nodes.
+    pub(crate) fn places(&self) -> &[usize] {
+        &self.places
     }
 
     /// The element in a column (along r) and a row (along y) of the grid, if it is meshed.

@@ -22,6 +22,10 @@ pub enum Region {
     RightFlange,
     /// The outermost skin of the hub, as thick as 1 µm, that carries a thermal contact resistance.
     Contact,
+    /// The skin of the left flange at the coil's face, likewise.
+    LeftContact,
+    /// The skin of the right flange at the coil's face, likewise.
+    RightContact,
     /// The medium around the solids.
     Medium,
 }
@@ -52,7 +56,7 @@ pub struct Layout {
 
 impl Region {
     /// Number of regions.
-    pub const COUNT: usize = 6;
+    pub const COUNT: usize = 8;
 
     /// The flange on a side.
     pub fn flange(side: Side) -> Self {
@@ -61,6 +65,23 @@ impl Region {
             Side::Right => Self::RightFlange,
         }
     }
+
+    /// The skin between the coil and the flange on a side.
+    pub fn contact(side: Side) -> Self {
+        match side {
+            Side::Left => Self::LeftContact,
+            Side::Right => Self::RightContact,
+        }
+    }
+}
+
+/// Which skins are laid out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Skins {
+    /// Those that carry a resistance.
+    Needed,
+    /// One at every bonded face, so that designs with and without a resistance share a mesh.
+    All,
 }
 
 impl Layout {
@@ -69,7 +90,12 @@ impl Layout {
     /// # Errors
     /// [`Error::Design`] names the dimension that is out of range.
     pub fn new(design: &Design) -> Result<Self, Error> {
+        Self::with_skins(design, Skins::Needed)
+    }
+
+    pub(crate) fn with_skins(design: &Design, skins: Skins) -> Result<Self, Error> {
         check(design)?;
+        let skin = |contact: Contact, resistance: f64| contact == Contact::Bonded && (skins == Skins::All || resistance > 0.0);
         let (inner, body) = (design.winding.inner_radius, &design.body);
         let coil = Rectangle { region: Region::Coil, r: [inner, body.outer_radius], y: [0.0, body.height] };
         let mut solids = vec![coil];
@@ -86,9 +112,16 @@ impl Layout {
                 };
                 hub_y = [hub_y[0].min(y[0]), hub_y[1].max(y[1])];
                 let r = [bore, body.outer_radius + flange.overhang];
+                if skin(flange.contact, design.heat.flange_resistance(flange.side)) {
+                    let y = match flange.side {
+                        Side::Left => [-CONTACT_SKIN, 0.0],
+                        Side::Right => [body.height, body.height + CONTACT_SKIN],
+                    };
+                    solids.push(Rectangle { region: Region::contact(flange.side), r: coil.r, y });
+                }
                 solids.push(Rectangle { region: Region::flange(flange.side), r, y });
             }
-            if design.heat.hub_resistance > 0.0 && spool.hub_contact == Contact::Bonded {
+            if skin(spool.hub_contact, design.heat.hub_resistance) {
                 solids.push(Rectangle { region: Region::Contact, r: [hub_outer - CONTACT_SKIN, hub_outer], y: coil.y });
             }
             solids.push(Rectangle { region: Region::Hub, r: [bore, hub_outer], y: hub_y });
@@ -189,6 +222,15 @@ fn check_heat(design: &Design) -> Result<(), Error> {
         positive(&format!("heat.mounts[{i}].conductance"), mount.conductance)?;
         if !flange(mount.side) {
             return Err(Error::design(&format!("heat.mounts[{i}].side"), "there is no flange on this side".into()));
+        }
+    }
+    for (i, contact) in heat.flange_contacts.iter().enumerate() {
+        if !(contact.resistance.is_finite() && contact.resistance >= 0.0) {
+            let problem = format!("{} must be finite and not negative", contact.resistance);
+            return Err(Error::design(&format!("heat.flange_contacts[{i}].resistance"), problem));
+        }
+        if !flange(contact.side) {
+            return Err(Error::design(&format!("heat.flange_contacts[{i}].side"), "there is no flange on this side".into()));
         }
     }
     for (i, heater) in heat.heaters.iter().enumerate() {

@@ -30,6 +30,7 @@ mod inverse;
 mod layout;
 mod mechanics;
 mod model;
+mod parametric;
 mod probe;
 mod profile;
 mod sensitivity;
@@ -38,8 +39,8 @@ mod trim;
 mod turns;
 
 pub use design::{
-    Body, Contact, Dehomogenization, Design, Drifts, FactorsAt, Flange, HeatPaths, Heater, Mechanics, Mount, Opening, Sensor,
-    Side, Solid, Spool, Surroundings,
+    Body, Contact, Dehomogenization, Design, Drifts, FactorsAt, Flange, FlangeContact, HeatPaths, Heater, Mechanics, Mount,
+    Opening, Sensor, Side, Solid, Spool, Surroundings,
 };
 pub use dynamics::{COARSER, Dynamics, Fidelity, REDUCTION_SAFETY, ReductionError, Response, STANDARD, functionals};
 pub use error::Error;
@@ -49,6 +50,7 @@ pub use inverse::{FEWEST_ROWS, Inferred, LEAST_NOISE, chamber_from_sensor};
 pub use layout::{Layout, Rectangle, Region};
 pub use mechanics::{MechanicalState, Relaxation};
 pub use model::{BiasOperator, Model};
+pub use parametric::{Courses, Effort as ModelEffort, MODEL_SAFETY, Parameter, ParametricModel, Range, Slopes, Tolerance};
 pub use profile::Profile;
 pub use sensitivity::{CHECKS, COARSE, FINE, SAFETY, SHARE, STEADY, SteadySensitivity, steady_sensitivity};
 pub use thermal::{

@@ -73,10 +73,20 @@ impl Model {
         grading: Grading,
         state: &MechanicalState,
     ) -> Result<Self, Error> {
+        Self::on(&Layout::new(design)?, design, resolution, grading, state)
+    }
+
+    /// As [`Self::graded`], on a layout of the design.
+    pub(crate) fn on(
+        layout: &Layout,
+        design: &Design,
+        resolution: &MeshFineness,
+        grading: Grading,
+        state: &MechanicalState,
+    ) -> Result<Self, Error> {
         let winding = winding::wind(&design.winding)?;
         let coefficients = design.optics.coefficients(winding.length())?;
-        let layout = Layout::new(design)?;
-        let grid = Grid::graded(&layout, resolution, grading, Domain::Solids, state.bonds)?;
+        let grid = Grid::graded(layout, resolution, grading, Domain::Solids, state.bonds)?;
         let (map, factor, thermal_stresses) = assemble(design, &grid, state)?;
         let mut prober = Prober::new(&grid);
         let probes = winding.turns().iter().map(|t| prober.probe("winding", t.r, t.y)).collect::<Result<_, _>>()?;
@@ -137,6 +147,35 @@ impl Model {
             TurnValues { temperature, axial, radial, bore: self.temperature_at_bore(nodal) }
         };
         Ok(at("structure", self.factor.solve(&loads))?.iter().zip(temperatures).map(values).collect())
+    }
+
+    /// Nodal displacements caused by fields of nodal temperature \[m\], component fastest.
+    pub(crate) fn displacements(&self, temperatures: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, Error> {
+        let coupling = self.coupling()?;
+        let loads: Vec<_> = temperatures.iter().map(|t| self.map.restrict(&coupling.multiply(t))).collect();
+        Ok(at("structure", self.factor.solve(&loads))?.iter().map(|u| self.map.expand(u)).collect())
+    }
+
+    /// For each list of weights of the turns the adjoint displacements of their sums of axial and of radial strain.
+    pub(crate) fn adjoints(&self, weights: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, Error> {
+        let (nodes, m) = (self.grid.mesh().nodes().len(), self.dehomogenization);
+        let mut loads = Vec::new();
+        for weights in weights {
+            let turns = Sums::new(&self.probes, weights.iter().copied(), nodes);
+            let (mut axial, mut radial) = (vec![0.0; 2 * nodes], vec![0.0; 2 * nodes]);
+            for node in 0..nodes {
+                axial[2 * node] = turns.over_r[node];
+                radial[2 * node] = m.m_rx * turns.d_r[node] + m.m_rz * turns.over_r[node];
+                radial[2 * node + 1] = m.m_ry * turns.d_y[node];
+            }
+            loads.extend([self.map.restrict(&axial), self.map.restrict(&radial)]);
+        }
+        Ok(at("structure", self.factor.solve(&loads))?.iter().map(|u| self.map.expand(u)).collect())
+    }
+
+    /// Strains rr, yy, hoop at the centre of every turn, of nodal displacements.
+    pub(crate) fn strains(&self, displacements: &[Vec<f64>]) -> Vec<Vec<[f64; 3]>> {
+        displacements.iter().map(|u| self.probes.iter().map(|p| p.strain_of(u)).collect()).collect()
     }
 
     /// Temperature of the hub's bore, which the tails share, from nodal temperatures \[K\].
@@ -221,6 +260,19 @@ impl Model {
     }
 }
 
+/// Stiffness \[Pa\] and thermal stress \[Pa/K\] of a solid region, strains in the order rr, yy, hoop, ry.
+pub(crate) fn region_law(
+    design: &Design,
+    region: Region,
+    state: &MechanicalState,
+) -> Result<(DMatrix<f64>, DMatrix<f64>), Error> {
+    let law = match (region, &design.spool) {
+        (Region::Coil, _) | (_, None) => at("coil", state.elastic(&design.body.elastic).law())?,
+        (_, Some(spool)) => at("spool", spool.material.elastic.law())?,
+    };
+    Ok(axisymmetric(&law))
+}
+
 /// Unknowns, factor, and thermal stress of each region.
 type Assembled = (DofMap, Condensed, Vec<Option<DMatrix<f64>>>);
 
@@ -228,14 +280,11 @@ fn assemble(design: &Design, grid: &Grid, state: &MechanicalState) -> Result<Ass
     let mesh = grid.mesh();
     let mut laws = vec![None; Region::COUNT];
     let mut stresses = vec![None; Region::COUNT];
-    let mut set = |region: Region, law: ThermoElastic| {
-        let (stiffness, stress) = axisymmetric(&law);
-        (laws[region as usize], stresses[region as usize]) = (Some(stiffness), Some(stress));
-    };
-    set(Region::Coil, at("coil", state.elastic(&design.body.elastic).law())?);
-    if let Some(spool) = &design.spool {
-        let law = at("spool", spool.material.elastic.law())?;
-        [Region::Hub, Region::LeftFlange, Region::RightFlange, Region::Contact].into_iter().for_each(|region| set(region, law));
+    for &region in grid.regions() {
+        if laws[region as usize].is_none() {
+            let (stiffness, stress) = region_law(design, region, state)?;
+            (laws[region as usize], stresses[region as usize]) = (Some(stiffness), Some(stress));
+        }
     }
     let problem = Problem::new(mesh, Form::AXISYMMETRIC_ELASTICITY, mesh.order() + 1);
     let mut constraints = Constraints::new(2 * mesh.nodes().len());

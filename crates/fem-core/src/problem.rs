@@ -220,18 +220,51 @@ impl<'a> Problem<'a> {
         Ok(Coupling { components: self.form.components(), count: self.mesh.nodes().len(), nodes, elements })
     }
 
+    fn masses<'m>(
+        &'m self,
+        capacities: &'m [Option<DMatrix<f64>>],
+    ) -> Result<impl Iterator<Item = Result<DMatrix<f64>, Error>>, Error> {
+        self.check(capacities, 1, Some(1))?;
+        let components = self.form.components();
+        let each = move |mass: DMatrix<f64>| {
+            if components == 1 { mass } else { mass.kronecker(&DMatrix::identity(components, components)) }
+        };
+        let on_rectangle = move |r: &Rectangle, c: &f64| each(r.mass() * *c);
+        let mass = move |g: &crate::ElementGeometry, c: &DMatrix<f64>| each(Form::mass(&self.reference.value, g, c[0]));
+        Ok(self.element_matrices(capacities, |c| c[0], on_rectangle, mass))
+    }
+
     /// Mass matrix, `∫ N c N` for each component: `capacities[region]` is 1 × 1.
     ///
     /// # Errors
     /// As [`Self::stiffness`].
     pub fn mass(&self, map: &DofMap, capacities: &[Option<DMatrix<f64>>]) -> Result<SparseMatrix, Error> {
-        self.check(capacities, 1, Some(1))?;
-        let each_component = DMatrix::identity(self.form.components(), self.form.components());
-        let on_rectangle = |r: &Rectangle, c: &f64| (r.mass() * *c).kronecker(&each_component);
-        let mass =
-            |g: &crate::ElementGeometry, c: &DMatrix<f64>| Form::mass(&self.reference.value, g, c[0]).kronecker(&each_component);
-        let elements: Vec<_> = self.element_matrices(capacities, |c| c[0], on_rectangle, mass).collect::<Result<_, _>>()?;
+        let elements: Vec<_> = self.masses(capacities)?.collect::<Result<_, _>>()?;
         Ok(self.pattern(map, capacities).assemble(&elements))
+    }
+
+    /// Stiffness plus `rate` times the mass, plus the boundary mass over the `edges` (element, edge, h), with the unknowns inside elements
+    /// eliminated, factorised: a diffusion's response to a drive that grows as e^(rate t).
+    ///
+    /// # Errors
+    /// As [`Self::condense`].
+    pub fn condense_shifted(
+        &self,
+        map: &DofMap,
+        laws: &[Option<DMatrix<f64>>],
+        capacities: &[Option<DMatrix<f64>>],
+        rate: f64,
+        edges: &[(usize, Edge, f64)],
+    ) -> Result<Condensed, Error> {
+        let both = self.stiffnesses(laws)?.zip(self.masses(capacities)?).enumerate();
+        let sums = both.map(|(e, (stiffness, mass))| {
+            let mut sum = stiffness? + mass? * rate;
+            for &(_, edge, h) in edges.iter().filter(|(at, ..)| *at == e) {
+                sum += self.reference.edge_mass(self.mesh, e, edge, self.form.measure()) * h;
+            }
+            Ok(sum)
+        });
+        Condensed::assemble(self.mesh, map, |e| laws[self.mesh.regions()[e]].is_some(), sums)
     }
 
     /// Boundary mass `∫ N h N ds` of a scalar form over the given (element, edge, h), on the pattern of the whole mesh.

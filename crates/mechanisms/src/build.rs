@@ -6,8 +6,8 @@ use crate::library::{Functionals, Library, Tabulated};
 use crate::mechanism::{HeatPath, Mechanism};
 use crate::nuisances::with_constant;
 use coil::{
-    COARSE, Design, Drive, Dynamics, Error, Fidelity, MechanicalState, Mechanics, Model, Reduction, ThermalModel, TurnFields,
-    functionals,
+    Bonds, COARSE, Design, Drive, Dynamics, Error, Fidelity, MechanicalState, Mechanics, Model, ModelEffort, ParametricModel,
+    Range, Reduced,
 };
 use progress::Step;
 use rayon::prelude::*;
@@ -31,10 +31,6 @@ const OPEN: [f64; 23] = [
 /// Relative steps of the constants whose effects are tabulated: their usual uncertainties.
 const CONSTANT_STEPS: [(&str, f64); 3] = [("E_z", 0.03), ("alpha_z", 0.03), ("spool expansion", 0.02)];
 
-fn chamber() -> Vec<Drive> {
-    vec![Drive::Chamber]
-}
-
 fn fidelity() -> Fidelity {
     Fidelity { resolution: COARSE, modes: MODES }
 }
@@ -47,11 +43,16 @@ struct Yard<'a> {
 }
 
 impl Yard<'_> {
+    /// One more is done.
+    fn one(&self) {
+        (self.progress)(Step::counted(TASK, self.done.fetch_add(1, Ordering::Relaxed) + 1, self.all));
+    }
+
     /// What is made of each item, in their order, whichever thread does it.
     fn each<I: Copy + Sync, T: Send>(&self, items: &[I], make: impl Fn(I) -> Result<T, Error> + Sync) -> Result<Vec<T>, Error> {
         let one = |item: &I| {
             let made = make(*item)?;
-            (self.progress)(Step::counted(TASK, self.done.fetch_add(1, Ordering::Relaxed) + 1, self.all));
+            self.one();
             Ok(made)
         };
         items.par_iter().map(one).collect()
@@ -73,64 +74,60 @@ impl Library {
     /// # Errors
     /// [`Error`] names the dimension or property at fault, or the solve that failed.
     pub fn build(design: &Design, mechanisms: &[&dyn Mechanism], progress: &(dyn Fn(Step) + Sync)) -> Result<Self, Error> {
-        let thermal = ThermalModel::new(design, &COARSE, &chamber())?;
-        let model = Model::new(design, &COARSE)?;
-        let Reduction { reduced: base, modes, .. } = Reduction::new(&thermal, &functionals(design, &model, &thermal)?, MODES)?;
-        let fields = TurnFields::new(&model, &thermal, &modes)?;
         let paths = paths(design, mechanisms);
-        let others = |(number, (_, path)): (usize, &(String, HeatPath))| -> Vec<(usize, f64)> {
-            path.nodes.iter().filter(|x| !same(**x, path.nominal)).map(|x| (number, *x)).collect()
-        };
-        let along: Vec<(usize, f64)> = paths.iter().enumerate().flat_map(others).collect();
         let open = if debond::applies(design) { &OPEN[..] } else { &[] };
-        let heaters = if self_heating::applies(design) { &[()][..] } else { &[] };
+        let heated = self_heating::applies(design).then(|| self_heating::with_heater(design, 1.0));
+        let mut ranges = Range::usual(design);
+        let ends = paths.iter().flat_map(|(_, path)| path.nodes.iter().map(|x| (path.design)(design, *x)));
+        ends.chain(heated.clone()).for_each(|changed| Range::widened(&mut ranges, design, &changed));
+        let all = ModelEffort::default().solutions() + open.len();
+        let yard = Yard { progress, done: AtomicUsize::new(0), all };
+        let model = ParametricModel::new(design, &ranges, &COARSE, &ModelEffort::default(), &|| yard.one())?;
+        let nominal_state = [MechanicalState::NOMINAL];
+        let base = model.in_states(design, &nominal_state)?;
+        let fields = model.fields(design, &MechanicalState::NOMINAL)?;
+        let mut tabulated: Vec<Tabulated> = Vec::new();
+        for (id, path) in paths {
+            let mut of_path = Tabulated::new(id, &path);
+            for x in path.nodes.iter().filter(|x| !same(**x, path.nominal)) {
+                of_path.models.push(model.in_states(&(path.design)(design, *x), &nominal_state)?);
+            }
+            tabulated.push(of_path);
+        }
+        // temperatures at which the bond opens do not matter: both states are outputs
+        let [below, hysteresis] = debond::OPENS;
+        let openings = yard.each(open, |share| {
+            let opened = debond::with_opening(design, below, hysteresis, share);
+            let at = |bonds| Model::in_state(&opened, &COARSE, &MechanicalState { bonds, ..MechanicalState::NOMINAL });
+            Ok((share, model.with_mechanics(design, &[at(Bonds::Closed)?, at(Bonds::Opened)?])?))
+        })?;
+        let vectors = |reduced: &Reduced, state: usize| reduced.outputs().parts[state].each_ref().map(coil::Output::vector);
         let elastic = design.mechanics == Mechanics::Elastic;
         let moduli = if elastic { nodes(MODULUS[0].ln(), MODULUS[1].ln(), MODULUS_NODES) } else { Vec::new() };
-        let all = along.len() + open.len() + heaters.len() + moduli.len() + CONSTANT_STEPS.len();
-        let yard = Yard { progress, done: AtomicUsize::new(0), all };
-        let dynamics =
-            |design: &Design, drives: &[Drive]| Dynamics::new(design, drives, &fidelity()).map(|made| made.reduced().clone());
-        let parts = |design: &Design, state: &MechanicalState| -> Result<Functionals, Error> {
-            let model = Model::in_state(design, &COARSE, state)?;
-            TurnFields::new(&model, &thermal, &modes)?.bias_parts(&design.optics, model.winding())
-        };
-        let chambered = || -> Result<_, Error> {
-            let models = yard.each(&along, |(path, x)| dynamics(&(paths[path].1.design)(design, x), &chamber()))?;
-            // temperatures at which the bond opens do not matter: both states are outputs
-            let [below, hysteresis] = debond::OPENS;
-            let opened = |share| debond::with_opening(design, below, hysteresis, share);
-            Ok((models, yard.each(open, |share| Ok((share, dynamics(&opened(share), &chamber())?)))?))
-        };
-        let heated =
-            || yard.each(heaters, |()| dynamics(&self_heating::with_heater(design, 1.0), &[Drive::Chamber, Drive::Heaters]));
-        let modulus = |x: f64| -> Result<_, Error> {
+        let modulus = moduli.into_iter().map(|x| {
             let state = MechanicalState { transverse_modulus: x.exp(), ..MechanicalState::NOMINAL };
-            let nominal = parts(design, &state)?;
-            let doubled = parts(design, &MechanicalState { transverse_expansion: 2.0, ..state })?;
+            let both = model.in_states(design, &[state, MechanicalState { transverse_expansion: 2.0, ..state }])?;
+            let (nominal, doubled) = (vectors(&both, 0), vectors(&both, 1));
             let per_factor = [0, 1, 2].map(|p: usize| &doubled[p] - &nominal[p]);
             Ok((x, nominal, per_factor))
-        };
+        });
+        let modulus = modulus.collect::<Result<Vec<_>, Error>>()?;
         let constant = |(name, step): (&str, f64)| -> Result<Functionals, Error> {
             let changed = with_constant(design, name, 1.0 + step).unwrap_or_else(|| design.clone());
-            let changed = parts(&changed, &MechanicalState::NOMINAL)?;
-            let nominal = fields.bias_parts(&design.optics, model.winding())?;
+            let (changed, nominal) = (vectors(&model.in_states(&changed, &nominal_state)?, 0), vectors(&base, 0));
             Ok([0, 1, 2].map(|p: usize| (&changed[p] - &nominal[p]) / step))
         };
-        let stiff =
-            || -> Result<_, Error> { Ok((heated()?.pop(), yard.each(&moduli, modulus)?, yard.each(&CONSTANT_STEPS, constant)?)) };
-        let (chambered, stiff) = rayon::join(chambered, stiff);
-        let ((models, openings), (heater, modulus, constants)) = (chambered?, stiff?);
-        let mut tabulated: Vec<Tabulated> = paths.into_iter().map(|(id, path)| Tabulated::new(id, path)).collect();
-        along.iter().zip(models).for_each(|((path, _), model)| tabulated[*path].models.push(model));
-        let nominal = Dynamics::new(design, &chamber(), &fidelity())?;
-        let design = design.clone();
-        Ok(Self { design, nominal, base, fields, modulus, constants, paths: tabulated, openings, heater })
+        let constants = CONSTANT_STEPS.into_iter().map(constant).collect::<Result<_, _>>()?;
+        let heater = heated.map(|heated| model.in_states(&heated, &nominal_state)).transpose()?;
+        let nominal = Dynamics::new(design, &[Drive::Chamber], &fidelity())?;
+        Ok(Self { design: design.clone(), nominal, base, fields, modulus, constants, paths: tabulated, openings, heater })
     }
 }
 
 impl Tabulated {
-    fn new(id: String, HeatPath { nodes, nominal, .. }: HeatPath) -> Self {
-        Self { id, nominal: nodes.iter().position(|x| same(*x, nominal)).unwrap_or(0), nodes, models: Vec::new() }
+    fn new(id: String, path: &HeatPath) -> Self {
+        let nominal = path.nodes.iter().position(|x| same(*x, path.nominal)).unwrap_or(0);
+        Self { id, nominal, nodes: path.nodes.clone(), models: Vec::new() }
     }
 }
 

@@ -14,6 +14,7 @@ pub use drive::Drive;
 pub use full::FullRun;
 pub use lag::{RampLag, ramp_lag};
 pub use model::ThermalModel;
+pub(crate) use model::{Shifted, properties};
 pub use outputs::{Output, Outputs};
 pub use reduced::{Reduced, Reduction};
 pub(crate) use state::dot;

@@ -25,7 +25,7 @@ fn failed(source: fem_core::Error) -> Error {
 }
 
 /// Conductivity matrix \[W/(m K)\] and volumetric heat capacity \[J/(m³ K)\] of a region.
-fn properties(design: &Design, region: Region) -> Option<(DMatrix<f64>, f64)> {
+pub(crate) fn properties(design: &Design, region: Region) -> Option<(DMatrix<f64>, f64)> {
     let isotropic = |k: f64| DMatrix::identity(2, 2) * k;
     let (body, medium) = (&design.body, &design.surroundings);
     match region {
@@ -34,16 +34,30 @@ fn properties(design: &Design, region: Region) -> Option<(DMatrix<f64>, f64)> {
         _ => {
             let m = design.spool.as_ref()?.material;
             let mut k = isotropic(m.conductivity);
-            if region == Region::Contact {
-                k[(0, 0)] = crate::layout::CONTACT_SKIN / design.heat.hub_resistance;
+            let heat = &design.heat;
+            // across a skin its own resistance and that of the contact in series
+            let across = |resistance: f64| 1.0 / (1.0 / m.conductivity + resistance / crate::layout::CONTACT_SKIN);
+            match region {
+                Region::Contact => k[(0, 0)] = across(heat.hub_resistance),
+                Region::LeftContact => k[(1, 1)] = across(heat.flange_resistance(Side::Left)),
+                Region::RightContact => k[(1, 1)] = across(heat.flange_resistance(Side::Right)),
+                _ => {}
             }
             Some((k, m.density * m.specific_heat))
         }
     }
 }
 
-const REGIONS: [Region; Region::COUNT] =
-    [Region::Coil, Region::Hub, Region::LeftFlange, Region::RightFlange, Region::Contact, Region::Medium];
+const REGIONS: [Region; Region::COUNT] = [
+    Region::Coil,
+    Region::Hub,
+    Region::LeftFlange,
+    Region::RightFlange,
+    Region::Contact,
+    Region::LeftContact,
+    Region::RightContact,
+    Region::Medium,
+];
 
 /// Per region number: conductivity and capacity.
 type Laws = Vec<Option<DMatrix<f64>>>;
@@ -72,23 +86,68 @@ fn wall(layout: &Layout, drives: &[Drive], [r, y]: [f64; 2]) -> Option<Drive> {
     }
 }
 
+/// Heat flow of a design whose drives grow as e^(rate t) together, with the chamber's wall and all mounts at 0: solved without a factor
+/// of the whole, for a few right-hand sides.
+pub(crate) struct Shifted {
+    grid: Grid,
+    map: DofMap,
+}
+
+impl Shifted {
+    /// Meshes a layout of `design`.
+    pub(crate) fn new(layout: &Layout, design: &Design, resolution: &MeshFineness) -> Result<Self, Error> {
+        let domain = crate::parametric::domain(design);
+        let grid = Grid::new(layout, resolution, domain, Bonds::Closed)?;
+        let nodes = grid.mesh().nodes().len();
+        let mut constraints = Constraints::new(nodes);
+        for (node, &place) in grid.mesh().nodes().iter().enumerate() {
+            if domain == Domain::Chamber && wall(layout, &[], place).is_some() {
+                constraints.hold(node).map_err(failed)?;
+            }
+        }
+        let map = constraints.eliminate(&vec![true; nodes]);
+        Ok(Self { grid, map })
+    }
+
+    /// The mesh.
+    pub(crate) fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// (K + rate C)⁻¹ of heat loads at all nodes \[W\] → temperatures at all nodes \[K\].
+    pub(crate) fn solve(&self, layout: &Layout, design: &Design, rate: f64, loads: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, Error> {
+        let mesh = self.grid.mesh();
+        let problem = Problem::new(mesh, Form::AXISYMMETRIC_DIFFUSION, mesh.order() + 1);
+        let (k, c) = laws(design);
+        let edges: Vec<_> =
+            surface_edges(design, layout, &self.grid, &[]).into_iter().map(|(e, edge, h, _)| (e, edge, h)).collect();
+        let factor = problem.condense_shifted(&self.map, &k, &c, rate, &edges).map_err(failed)?;
+        let loads: Vec<_> = loads.iter().map(|load| self.map.restrict(load)).collect();
+        Ok(factor.solve(&loads).map_err(failed)?.iter().map(|x| self.map.expand(x)).collect())
+    }
+}
+
 impl ThermalModel {
     /// Assembles and factorises. `drives` must hold [`Drive::Chamber`].
     ///
     /// # Errors
     /// [`Error`] names the dimension or property at fault, or the solve that failed.
     pub fn new(design: &Design, resolution: &MeshFineness, drives: &[Drive]) -> Result<Self, Error> {
+        Self::on(&Layout::new(design)?, design, resolution, drives)
+    }
+
+    /// As [`Self::new`], on a layout of the design.
+    pub(crate) fn on(layout: &Layout, design: &Design, resolution: &MeshFineness, drives: &[Drive]) -> Result<Self, Error> {
         if drives.first() != Some(&Drive::Chamber) {
             return Err(Error::Resolution("the first drive must be the chamber".into()));
         }
-        let layout = Layout::new(design)?;
         let domain = if design.heat.film.is_some() { Domain::Solids } else { Domain::Chamber };
-        let grid = Grid::new(&layout, resolution, domain, Bonds::Closed)?;
+        let grid = Grid::new(layout, resolution, domain, Bonds::Closed)?;
         let mesh = grid.mesh();
         let nodes = mesh.nodes().len();
         let all = Constraints::new(nodes).eliminate(&vec![true; nodes]);
         let on_wall: Vec<_> =
-            mesh.nodes().iter().map(|&p| if domain == Domain::Chamber { wall(&layout, drives, p) } else { None }).collect();
+            mesh.nodes().iter().map(|&p| if domain == Domain::Chamber { wall(layout, drives, p) } else { None }).collect();
         let mut constraints = Constraints::new(nodes);
         for (node, _) in on_wall.iter().enumerate().filter(|(_, w)| w.is_some()) {
             constraints.hold(node).map_err(failed)?;
@@ -96,7 +155,7 @@ impl ThermalModel {
         let map = constraints.eliminate(&vec![true; nodes]);
         let problem = Problem::new(mesh, Form::AXISYMMETRIC_DIFFUSION, mesh.order() + 1);
         let (k, c) = laws(design);
-        let edges = surface_edges(design, &layout, &grid, drives);
+        let edges = surface_edges(design, layout, &grid, drives);
         let plain: Vec<_> = edges.iter().map(|(e, edge, h, _)| (*e, *edge, *h)).collect();
         let with_edges = |map: &DofMap| -> Result<SparseMatrix, Error> {
             let stiffness = problem.stiffness(map, &k).map_err(failed)?;

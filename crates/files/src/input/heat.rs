@@ -1,6 +1,6 @@
 //! The heat paths of `COIL.ron`: contact resistance, mounts, heaters, film.
 
-use coil::{Contact, HeatPaths, Heater, Mount, Side, Spool};
+use coil::{Contact, FlangeContact, HeatPaths, Heater, Mount, Side, Spool};
 
 use super::InputError;
 use super::group::Group;
@@ -15,6 +15,9 @@ mirrored! {
     HeatFile is HeatPaths {
         /// Contact resistance between hub and coil, where they are bonded; 0 unless given.
         hub_resistance_m2k_per_w: Resistance = hub_resistance,
+        /// Contact resistances between flanges and the coil's faces; none unless given.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        flange_contacts: Vec<FlangeContactFile> = flange_contacts,
         /// Paths from a flange to its mount; none unless given.
         #[serde(skip_serializing_if = "Vec::is_empty")]
         mounts: Vec<MountFile> = mounts,
@@ -23,6 +26,14 @@ mirrored! {
         heaters: Vec<HeaterFile> = heaters,
         /// Film coefficient of every surface to the chamber, in place of the still medium; None unless given.
         film_w_per_m2k: Option<Conductance> = film,
+    }
+
+    /// A contact resistance between a bonded flange and the coil's face.
+    FlangeContactFile is FlangeContact {
+        /// Of the flange.
+        side: SideFile = side,
+        /// Resistance times area.
+        resistance_m2k_per_w: Resistance = resistance,
     }
 
     /// A path from a flange's outer face to its mount, or to the chamber.
@@ -52,6 +63,18 @@ pub(super) fn paths(at: &Group, file: &HeatFile, spool: Option<&Spool>) -> Resul
             "no hub is bonded to the coil, so there is no contact to resist",
             remedy,
         ));
+    }
+    one_a_side(at, "flange_contacts", paths.flange_contacts.iter().map(|contact| contact.side), spool)?;
+    for (i, contact) in paths.flange_contacts.iter().enumerate() {
+        let gap = |f: &coil::Flange| f.side == contact.side && f.contact == Contact::Gap;
+        if spool.iter().flat_map(|spool| &spool.flanges).any(gap) {
+            let problem = "this flange is not bonded to the coil, so there is no contact to resist";
+            return Err(at.fault(
+                &format!("flange_contacts[{i}].side"),
+                problem,
+                "remove the entry, or set the flange's bonded to true",
+            ));
+        }
     }
     one_a_side(at, "mounts", paths.mounts.iter().map(|mount| mount.side), spool)?;
     one_a_side(at, "heaters", paths.heaters.iter().map(|heater| heater.side), spool)?;

@@ -33,7 +33,7 @@ pub(super) fn figure<'a>(case: &CoilCase) -> Figure<'a> {
 fn area(rectangle: &Rectangle, name: String) -> Area {
     let fill = match rectangle.region {
         Region::Coil => Fill::Cool,
-        Region::Hub | Region::Contact => Fill::Sand,
+        Region::Hub | Region::Contact | Region::LeftContact | Region::RightContact => Fill::Sand,
         Region::LeftFlange | Region::RightFlange => Fill::Clay,
         Region::Medium => Fill::Blank,
     };
@@ -104,7 +104,7 @@ fn enlarged(case: &CoilCase, layout: &Layout) -> Panel<'static> {
                 format!("{name} flange, {} thick, {} overhang, {}", round(f.thickness), round(f.overhang), contact(f.contact))
             })
         }
-        Region::Contact | Region::Medium => String::new(),
+        Region::Contact | Region::LeftContact | Region::RightContact | Region::Medium => String::new(),
     };
     let most = |f: fn(&Rectangle) -> f64| layout.solids.iter().map(f).fold(f64::NEG_INFINITY, f64::max);
     let (r, y) = ([-most(|s| -s.r[0]), most(|s| s.r[1])], [-most(|s| -s.y[0]), most(|s| s.y[1])]);

@@ -1,0 +1,325 @@
+//! How a parametric model is made: full solutions at chosen designs of the box, compressed.
+
+use super::heat::{self, Heat, stored};
+use super::parameter::Range;
+use super::project::Fields;
+use super::section::Section;
+use super::strip::Strip;
+use super::structure::{self, Structure};
+use super::{ParametricModel, Turns, Weighted};
+use crate::grid::Grading;
+use crate::layout::Skins;
+use crate::thermal::{Shifted, properties};
+use crate::{Design, Error, Grid, Layout, MechanicalState, MeshFineness, Model, Parameter, Region};
+use nalgebra::{DMatrix, DVector};
+
+/// Rates of growth at which a design's heat flow is solved, besides none.
+const RATES: usize = 8;
+
+/// Designs of the box whose coefficients the kept terms hold.
+const SAMPLES: usize = 250;
+
+/// States of the mechanics that laws with a state go through.
+const STATES: [MechanicalState; 3] = [
+    MechanicalState::NOMINAL,
+    MechanicalState { transverse_modulus: 0.15, transverse_expansion: 2.0, ..MechanicalState::NOMINAL },
+    MechanicalState { transverse_modulus: 2.2, ..MechanicalState::NOMINAL },
+];
+
+/// Weight of stored heat beside conduction in the size of a field \[1/s\]: a coil's slowest rates are of its order.
+const STORED: f64 = 1e-3;
+
+/// The fastest of them \[1/s\].
+const FASTEST: f64 = 0.3;
+
+/// The lattice of nodes of a thermal mesh.
+struct Lattice {
+    width: usize,
+    height: usize,
+}
+
+impl Lattice {
+    fn of(grid: &Grid) -> Self {
+        let nodes = |d: usize| (grid.lines()[d].len() - 1) * grid.mesh().order() + 1;
+        Self { width: nodes(0), height: nodes(1) }
+    }
+
+    fn size(&self) -> usize {
+        self.width * self.height
+    }
+
+    /// A nodal field on the lattice, 0 where there is no node.
+    fn lay(&self, grid: &Grid, field: &[f64]) -> DVector<f64> {
+        let mut laid = DVector::zeros(self.size());
+        grid.places().iter().zip(field).for_each(|(place, value)| laid[*place] = *value);
+        laid
+    }
+}
+
+/// Rates at which a drive grows, at whose responses the heat flow is kept \[1/s\]: none, then evenly in the logarithm between the slowest of
+/// the coil and the fastest that a reading shows.
+fn rates(slowest: f64) -> Vec<f64> {
+    let first = 0.3 * slowest;
+    let step = (FASTEST / first).ln() / (RATES - 1) as f64;
+    [0.0].into_iter().chain((0..RATES).map(|k| first * (step * k as f64).exp())).collect()
+}
+
+/// Columns that make fields with the inner products `gram` orthonormal, the largest first, without those below `least` of the largest.
+fn compressed(gram: &DMatrix<f64>, least: f64, most: usize) -> DMatrix<f64> {
+    let scale: Vec<f64> = gram.diagonal().iter().map(|g| if *g > 0.0 { 1.0 / g.sqrt() } else { 0.0 }).collect();
+    let scaled = DMatrix::from_fn(gram.nrows(), gram.nrows(), |i, j| gram[(i, j)] * scale[i] * scale[j]);
+    let eigen = scaled.symmetric_eigen();
+    let mut order: Vec<usize> = (0..gram.nrows()).collect();
+    order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+    let largest = eigen.eigenvalues[order[0]];
+    let kept: Vec<usize> = order.into_iter().filter(|&i| eigen.eigenvalues[i] > least * least * largest).take(most).collect();
+    DMatrix::from_fn(gram.nrows(), kept.len(), |i, k| {
+        eigen.eigenvectors[(i, kept[k])] * scale[i] / eigen.eigenvalues[kept[k]].sqrt()
+    })
+}
+
+/// Fractional parts of multiples of roots: points that fill a box of any dimension evenly, the same every time.
+///
+/// M. Roberts, the R sequence: the roots of x^(d+1) = x + 1.
+pub(super) fn point(number: usize, dimension: usize) -> Vec<f64> {
+    let mut root = 2.0f64;
+    for _ in 0..60 {
+        root = (1.0 + root).powf(1.0 / (dimension as f64 + 1.0));
+    }
+    (1..=dimension).map(|k| (0.5 + number as f64 * root.powi(-(k as i32))).fract()).collect()
+}
+
+/// A design within the box: each parameter at its share of its range, in the coordinate in which responses are smooth.
+pub(super) fn placed(design: &Design, ranges: &[Range], shares: &[f64]) -> Design {
+    let mut changed =
+        ranges.iter().zip(shares).fold(design.clone(), |design, (range, share)| range.parameter.set(&design, range.at(*share)));
+    // constants that no solid has together: the contraction stays as it is designed, or its range is as far as this stiffness allows
+    let stiffest = STATES.iter().map(|state| state.transverse_modulus).fold(1.0, f64::max);
+    if changed.body.elastic.indefinite_at_e_r_factor() <= stiffest {
+        changed.body.elastic.nu_r = changed.body.elastic.nu_r.min(design.body.elastic.nu_r);
+    }
+    changed
+}
+
+/// Effort of making a model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Designs whose heat flow is solved in full.
+    pub heat: usize,
+    /// Designs whose mechanics is solved in full.
+    pub mechanics: usize,
+    /// Fields of temperature below this, relative to the largest, are left out.
+    pub least_temperature: f64,
+    /// Fields of displacement, likewise.
+    pub least_displacement: f64,
+    /// Temperature fields at most.
+    pub most_temperatures: usize,
+    /// Displacement fields at most.
+    pub most_displacements: usize,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self {
+            heat: 12,
+            mechanics: 12,
+            least_temperature: 1e-5,
+            least_displacement: 1e-5,
+            most_temperatures: 110,
+            most_displacements: 200,
+        }
+    }
+}
+
+impl Effort {
+    /// Designs that are solved in full, the nominal one included.
+    pub fn solutions(&self) -> usize {
+        self.heat + self.mechanics + 2
+    }
+}
+
+impl ParametricModel {
+    /// Models `design` and all that differ from it within `ranges`; `solved` is told of each of the [`Effort::solutions`].
+    ///
+    /// # Errors
+    /// [`Error`] names the dimension or property at fault, or the solve that failed.
+    pub fn new(
+        design: &Design,
+        ranges: &[Range],
+        resolution: &MeshFineness,
+        effort: &Effort,
+        solved: &(dyn Fn() + Sync),
+    ) -> Result<Self, Error> {
+        let section = Section::new(design)?;
+        let ranges: Vec<Range> = ranges.iter().copied().filter(|r| r.parameter.of(design).is_some()).collect();
+        let flanges: Vec<crate::Side> = design.spool.iter().flat_map(|s| s.flanges.iter().map(|f| f.side)).collect();
+        let skinned = |design: &Design| Layout::with_skins(design, Skins::All);
+        let heated = |k: usize| if flanges.is_empty() { None } else { Some(flanges[k % flanges.len()]) };
+        let hot: Vec<Range> = ranges.iter().copied().filter(|r| r.parameter.of_heat()).collect();
+        let stiff: Vec<Range> = ranges.iter().copied().filter(|r| r.parameter.of_mechanics()).collect();
+        let layout = skinned(design)?;
+        let nominal = Shifted::new(&layout, design, resolution)?;
+        let grid = nominal.grid().clone();
+        let lattice = Lattice::of(&grid);
+        let strips = [Strip::all(&grid, 0, &section.lines[0]), Strip::all(&grid, 1, &section.lines[1])];
+        let mut fields: Vec<DVector<f64>> = vec![lattice.lay(&grid, &vec![1.0; grid.mesh().nodes().len()])];
+        let mut slowest = 0.0;
+        for k in 0..=effort.heat {
+            let shares = if k == 0 { None } else { Some(training(k, hot.len())) };
+            let changed = shares.map_or_else(|| design.clone(), |shares| placed(design, &hot, &shares));
+            let (layout, of_changed) = (skinned(&changed)?, Section::new(&changed)?);
+            let heat = Shifted::new(&layout, &changed, resolution)?;
+            let load = |capacity: &dyn Fn(Region) -> f64| -> Result<Vec<f64>, Error> {
+                let laid = stored(&section, &of_changed, &strips, lattice.width, lattice.size(), capacity)?;
+                Ok(heat.grid().places().iter().map(|place| laid[*place] * std::f64::consts::TAU).collect())
+            };
+            let mut loads = vec![load(&|region| properties(&changed, region).map_or(0.0, |(_, c)| c))?];
+            if let Some(side) = heated(k) {
+                loads.push(load(&|region| f64::from(u8::from(region == Region::flange(side))))?);
+            }
+            let mut solve = |rate: f64| -> Result<f64, Error> {
+                let solutions = heat.solve(&layout, &changed, rate, &loads)?;
+                fields.extend(solutions.iter().map(|field| lattice.lay(heat.grid(), field)));
+                Ok(solutions[0].iter().copied().fold(0.0, f64::max))
+            };
+            if k == 0 {
+                slowest = 1.0 / solve(0.0)?;
+            }
+            for rate in rates(slowest).into_iter().skip(usize::from(k == 0)) {
+                solve(rate)?;
+            }
+            solved();
+        }
+        let raw = Fields { width: lattice.width, values: DMatrix::from_columns(&fields) };
+        // those that are independent, and the constant one as it is
+        let others = Fields { width: lattice.width, values: raw.values.columns(1, raw.values.ncols() - 1).into_owned() };
+        let gram = heat::energy(&section, &strips, &others, design, STORED);
+        let kept = others.combined(&compressed(&gram, effort.least_temperature, effort.most_temperatures));
+        let mut values = kept.values.insert_column(0, 0.0);
+        values.set_column(0, &raw.values.column(0));
+        let temperatures = Fields { width: lattice.width, values };
+        let heat = Heat::new(&section, &strips, &temperatures);
+        let mechanics = |design: &Design| -> Result<Model, Error> {
+            Model::on(&skinned(design)?, design, resolution, Grading::Even, &MechanicalState::NOMINAL)
+        };
+        let model = mechanics(design)?;
+        solved();
+        let shared = model.grid().shared_nodes(&grid)?;
+        let onto =
+            |field: usize| -> Vec<f64> { shared.iter().map(|&node| temperatures.values[(grid.places()[node], field)]).collect() };
+        let mut displacements: Vec<Vec<f64>> = Vec::new();
+        let loads: Vec<Vec<f64>> = (0..heat.size()).map(onto).collect();
+        displacements.extend(model.displacements(&loads)?);
+        let winding = winding::wind(&design.winding)?;
+        let weights = winding.weights();
+        let lengths: Vec<f64> = winding.turns().iter().map(winding::Turn::length).collect();
+        displacements.extend(model.adjoints(&[weights.clone(), lengths.clone()])?);
+        for k in 0..effort.mechanics {
+            let shares = training(k, stiff.len());
+            let model = mechanics(&placed(design, &stiff, &shares))?;
+            displacements.extend(model.adjoints(&[weights.clone(), lengths.clone()])?);
+            displacements.extend(model.displacements(&loads[..4.min(loads.len())])?);
+            solved();
+        }
+        let component = |c: usize| {
+            let columns: Vec<DVector<f64>> = displacements
+                .iter()
+                .map(|u| {
+                    let mut laid = DVector::zeros(lattice.size());
+                    shared.iter().enumerate().for_each(|(node, &of)| laid[grid.places()[of]] = u[2 * node + c]);
+                    laid
+                })
+                .collect();
+            Fields { width: lattice.width, values: DMatrix::from_columns(&columns) }
+        };
+        let raw = [component(0), component(1)];
+        let kept = compressed(
+            &structure::energy(&section, &strips, &raw, design)?,
+            effort.least_displacement,
+            effort.most_displacements,
+        );
+        let fields = raw.each_ref().map(|component| component.combined(&kept));
+        let structure = Structure::new(&section, &strips, &fields, &temperatures);
+        let samples = (0..SAMPLES)
+            .map(|k| {
+                let design = placed(design, &ranges, &training(k, ranges.len()));
+                let section = Section::new(&design)?;
+                Ok((design, section))
+            })
+            .collect::<Result<Vec<_>, Error>>()?;
+        let (heat, structure) = (heat.compressed(&samples)?, structure.compressed(&samples, &STATES)?);
+        let strains = model.strains(&displacements);
+        let all = |c: usize| DMatrix::from_fn(winding.turns().len(), displacements.len(), |i, j| strains[j][i][c]) * &kept;
+        let temperature =
+            DMatrix::from_columns(&loads.iter().map(|t| DVector::from_vec(model.temperature_at_turns(t))).collect::<Vec<_>>());
+        let empty = || Weighted { temperature: DVector::zeros(0), strains: [0, 1, 2].map(|_| DVector::zeros(0)) };
+        let mut turns = Turns { temperature, radial: all(0), axial: all(1), hoop: all(2), weighted: empty(), lengths: empty() };
+        turns.weighted = turns.sums(&weights);
+        turns.lengths = turns.sums(&lengths);
+        let mean = grid.coil_mean()?;
+        let mut laid = vec![0.0; lattice.size()];
+        grid.places().iter().zip(&mean).for_each(|(place, m)| laid[*place] = *m);
+        let coil_mean = temperatures.apply(&laid);
+        Ok(Self { design: design.clone(), ranges, section, grid, temperatures, heat, structure, turns, coil_mean })
+    }
+}
+
+/// Shares of the ranges at a training design: corners and points between, the same every time.
+fn training(number: usize, dimension: usize) -> Vec<f64> {
+    // the ends of the ranges matter most: the evenly spread points are pushed towards them
+    point(number, dimension).into_iter().map(|x| (1.0 - (std::f64::consts::PI * x).cos()) / 2.0).collect()
+}
+
+impl Range {
+    /// The value at a share of the range: even in the logarithm where both ends are positive and far apart, in x/(1 + x) where one is 0.
+    pub fn at(&self, share: f64) -> f64 {
+        let Self { low, high, .. } = *self;
+        if low == 0.0 && high > 0.0 {
+            // half of the shares lie below a twentieth of the end
+            let middle = high / 20.0;
+            let most = high / (high + middle);
+            return middle * share * most / (1.0 - share * most);
+        }
+        if low > 0.0 && high / low > 1.5 { low * (high / low).powf(share) } else { low + (high - low) * share }
+    }
+}
+
+impl Parameter {
+    /// Whether the heat flow depends on it.
+    pub(super) fn of_heat(self) -> bool {
+        !matches!(
+            self,
+            Self::AxialModulus
+                | Self::TransverseModulus
+                | Self::ShearModulus
+                | Self::AxialPoisson
+                | Self::TransversePoisson
+                | Self::AxialExpansion
+                | Self::TransverseExpansion
+                | Self::SpoolModulus
+                | Self::SpoolPoisson
+                | Self::SpoolExpansion
+                | Self::Heater(_)
+        )
+    }
+
+    /// Whether the mechanics depends on it, other than in proportion.
+    pub(super) fn of_mechanics(self) -> bool {
+        matches!(
+            self,
+            Self::AxialModulus
+                | Self::TransverseModulus
+                | Self::ShearModulus
+                | Self::AxialPoisson
+                | Self::TransversePoisson
+                | Self::AxialExpansion
+                | Self::TransverseExpansion
+                | Self::SpoolModulus
+                | Self::SpoolPoisson
+                | Self::SpoolExpansion
+                | Self::HubThickness
+                | Self::FlangeThickness
+                | Self::FlangeOverhang
+        )
+    }
+}

@@ -1,0 +1,331 @@
+//! One reduced model of a coil for every design within a box of parameters.
+
+mod build;
+mod heat;
+mod parameter;
+mod project;
+mod section;
+mod slopes;
+mod strip;
+mod structure;
+
+pub use build::Effort;
+pub use parameter::{Parameter, Range, Tolerance};
+pub use slopes::{Courses, Slopes};
+
+use crate::probe::Prober;
+use crate::{Bonds, Design, Error, Grid, MechanicalState, Model, Outputs, Reduced, TurnFields};
+use heat::Heat;
+use nalgebra::{DMatrix, DVector};
+use project::Fields;
+use section::Section;
+pub(crate) use section::domain;
+use structure::{Solved, Structure};
+use winding::{Spec, Winding};
+
+/// Heat flow and thermo-elasticity of a design and of all that differ from it within ranges of [`Parameter`]s, projected once on fields
+/// of temperature and displacement.
+#[derive(Debug, Clone)]
+pub struct ParametricModel {
+    design: Design,
+    ranges: Vec<Range>,
+    section: Section,
+    grid: Grid,
+    /// temperatures at the nodes of the grid's lattice, 1 first
+    temperatures: Fields,
+    heat: Heat,
+    structure: Structure,
+    turns: Turns,
+    coil_mean: DVector<f64>,
+}
+
+/// Share of the fields on which a coarser model stands.
+const COARSER: f64 = 0.5;
+
+/// Factor on the distance to the coarser model that estimates the error of the bias: an estimate, not a bound. At random points of the
+/// boxes of tests/parametric.rs the error was a fifth to a fourteenth of the distance; it may be less even elsewhere.
+pub const MODEL_SAFETY: f64 = 2.0;
+
+/// What the turns have of every field, a row each: temperature of temperature fields, strains of displacement fields.
+#[derive(Debug, Clone)]
+struct Turns {
+    temperature: DMatrix<f64>,
+    radial: DMatrix<f64>,
+    axial: DMatrix<f64>,
+    hoop: DMatrix<f64>,
+    /// sums of each with the weights of the nominal winding, and with the turns' lengths
+    weighted: Weighted,
+    lengths: Weighted,
+}
+
+/// Sums over turns: of temperature fields, and of the strains rr, yy, hoop of displacement fields.
+#[derive(Debug, Clone)]
+struct Weighted {
+    temperature: DVector<f64>,
+    strains: [DVector<f64>; 3],
+}
+
+impl Turns {
+    fn sums(&self, weights: &[f64]) -> Weighted {
+        let w = DVector::from_column_slice(weights);
+        let of = |m: &DMatrix<f64>| m.tr_mul(&w);
+        Weighted { temperature: of(&self.temperature), strains: [of(&self.radial), of(&self.axial), of(&self.hoop)] }
+    }
+}
+
+impl ParametricModel {
+    /// The design that it was made about.
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// The ranges that it was made for.
+    pub fn ranges(&self) -> &[Range] {
+        &self.ranges
+    }
+
+    /// Number of temperature fields and of displacement fields.
+    pub fn size(&self) -> [usize; 2] {
+        [self.heat.size(), self.turns.hoop.ncols()]
+    }
+
+    /// The first parameter of `design` that lies outside its range, with its value.
+    pub fn outside(&self, design: &Design) -> Option<(Parameter, f64)> {
+        self.ranges.iter().find_map(|range| {
+            let value = range.parameter.of(design)?;
+            // a hair of rounding
+            let slack = 1e-9 * (range.high - range.low);
+            (value < range.low - slack || value > range.high + slack).then_some((range.parameter, value))
+        })
+    }
+
+    /// How far the constants and dimensions of `design` lie outside the combinations that the model was made for, relative to their size: 0
+    /// within the box.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub fn left_out(&self, design: &Design) -> Result<f64, Error> {
+        let changed = Section::new(design)?;
+        let structure = self.structure.left_out(design, &changed, &MechanicalState::NOMINAL)?;
+        Ok(self.heat.left_out(design, &changed)?.max(structure))
+    }
+
+    /// The reduced model of a changed design, driven by the chamber, and by its heaters if it has any.
+    ///
+    /// # Errors
+    /// [`Error::Design`] if the design cannot be reached from the one that was modelled.
+    pub fn at(&self, design: &Design) -> Result<Reduced, Error> {
+        self.on(design, self.size())
+    }
+
+    /// As [`Self::at`], on half of the fields: [`MODEL_SAFETY`] times the distance between the two estimates what the model leaves out.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub fn coarser(&self, design: &Design) -> Result<Reduced, Error> {
+        self.on(design, self.size().map(|size| ((size as f64 * COARSER) as usize).max(2)))
+    }
+
+    /// As [`Self::at`], with the bias parts of these states of the mechanics in place of the design's own, in their order.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub fn in_states(&self, design: &Design, states: &[MechanicalState]) -> Result<Reduced, Error> {
+        self.of_states(design, self.size(), states)
+    }
+
+    /// As [`Self::at`], with the bias parts of full mechanical models in place of its own, in their order: bonds that are open.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub fn with_mechanics(&self, design: &Design, models: &[Model]) -> Result<Reduced, Error> {
+        let mut reduced = self.of_states(design, self.size(), &[])?;
+        let changed = Section::new(design)?;
+        let modes = self.heat.modes(design, &changed, self.heat.size())?;
+        for model in models {
+            let operator = model.bias_operator()?;
+            let prober = Prober::new(&self.grid);
+            let fields = self.at_nodes(&changed, model.grid(), prober)?;
+            let of = |part: &[f64]| modes.output(&fields.tr_mul(&DVector::from_column_slice(part)));
+            reduced.outputs.parts.push([of(&operator.shupe), of(&operator.eo_axial), of(&operator.eo_radial)]);
+        }
+        Ok(reduced)
+    }
+
+    /// Every temperature field at the nodes of a grid of a changed section: one row a node.
+    fn at_nodes(&self, changed: &Section, grid: &Grid, mut prober: Prober) -> Result<DMatrix<f64>, Error> {
+        let fields: Vec<Vec<f64>> = (0..self.temperatures.values.ncols())
+            .map(|k| self.grid.places().iter().map(|&place| self.temperatures.values[(place, k)]).collect())
+            .collect();
+        let mut values = DMatrix::zeros(grid.mesh().nodes().len(), fields.len());
+        for (node, place) in grid.mesh().nodes().iter().enumerate() {
+            let [r, y] = self.section.reference(changed, *place);
+            let probe = prober.probe("spool", r, y)?;
+            fields.iter().enumerate().for_each(|(k, field)| values[(node, k)] = probe.value_of(field));
+        }
+        Ok(values)
+    }
+
+    fn on(&self, design: &Design, size: [usize; 2]) -> Result<Reduced, Error> {
+        self.of_states(design, size, &design.states().0)
+    }
+
+    fn of_states(
+        &self,
+        design: &Design,
+        [temperatures, displacements]: [usize; 2],
+        states: &[MechanicalState],
+    ) -> Result<Reduced, Error> {
+        if states.iter().any(|state| state.bonds == Bonds::Opened) {
+            let problem = "a bond that is open has a mechanical model of its own; see ParametricModel::with_mechanics";
+            return Err(Error::design("mechanics", problem.into()));
+        }
+        let changed = Section::new(design)?;
+        let modes = self.heat.modes(design, &changed, temperatures)?;
+        let outputs = self.functionals_on(design, &changed, states, displacements)?.map(|of| modes.output(of));
+        Ok(modes.model(outputs))
+    }
+
+    /// Outputs as functionals of the temperature fields.
+    fn functionals(
+        &self,
+        design: &Design,
+        changed: &Section,
+        states: &[MechanicalState],
+    ) -> Result<Outputs<DVector<f64>>, Error> {
+        self.functionals_on(design, changed, states, usize::MAX)
+    }
+
+    fn functionals_on(
+        &self,
+        design: &Design,
+        changed: &Section,
+        states: &[MechanicalState],
+        displacements: usize,
+    ) -> Result<Outputs<DVector<f64>>, Error> {
+        let thermometer = self.place(changed, [design.sensor.radius, design.sensor.y])?;
+        let bore = self.bore_value(design, changed)?;
+        let (winding, sums) = self.wound(design)?;
+        let parts = states.iter().map(|state| {
+            let solved = self.structure.solved(design, changed, state, displacements)?;
+            self.parts(design, &winding, &sums, &bore, &solved)
+        });
+        Ok(Outputs { thermometer, coil_mean: self.coil_mean.clone(), parts: parts.collect::<Result<_, _>>()? })
+    }
+
+    /// Every temperature field at a place of a changed section.
+    fn place(&self, changed: &Section, at: [f64; 2]) -> Result<DVector<f64>, Error> {
+        let [r, y] = self.section.reference(changed, at);
+        self.value(r, y)
+    }
+
+    /// Every temperature field at the bore of a changed design, whose temperature the tails have.
+    fn bore_value(&self, design: &Design, changed: &Section) -> Result<DVector<f64>, Error> {
+        let [low, high] = self.bore_ends(changed);
+        self.place(changed, [self.bore(changed), design.sensor.y.clamp(low, high)])
+    }
+
+    /// Sums over turns as functionals of the displacement: of the strain along the fibre, and across it; one a column.
+    fn strain_functionals(&self, design: &Design, sums: &Weighted) -> DMatrix<f64> {
+        let ([rr, yy, hoop], m) = (&sums.strains, design.dehomogenization);
+        DMatrix::from_columns(&[hoop.clone(), rr * m.m_rx + yy * m.m_ry + hoop * m.m_rz])
+    }
+
+    /// Bias parts as functionals of the temperature fields.
+    fn parts(
+        &self,
+        design: &Design,
+        winding: &Winding,
+        sums: &Weighted,
+        bore: &DVector<f64>,
+        solved: &Solved,
+    ) -> Result<[DVector<f64>; 3], Error> {
+        let c = design.optics.coefficients(winding.length())?;
+        let free = bore * winding.tail_weight();
+        let temperature = &sums.temperature + &free;
+        let through = solved.through(&self.strain_functionals(design, sums));
+        let expansion = free * design.optics.thermal_expansion;
+        let axial = through.column(0) + &expansion;
+        let radial = through.column(1) + &sums.temperature * design.dehomogenization.m_rt + expansion;
+        Ok([
+            &temperature * c.shupe,
+            axial * c.axial + &temperature * c.axial_per_temperature_rate,
+            radial * c.radial + temperature * c.radial_per_temperature_rate,
+        ])
+    }
+
+    /// Winding of a changed design and its turns' sums.
+    fn wound(&self, design: &Design) -> Result<(Winding, Weighted), Error> {
+        let winding = winding::wind(&design.winding)?;
+        let (nominal, of) = (self.design.winding.tails, design.winding.tails);
+        if (Spec { tails: nominal, ..design.winding.clone() }) != self.design.winding {
+            let sums = self.turns.sums(&winding.weights());
+            if winding.turns().len() != self.turns.hoop.nrows() {
+                return Err(Error::design(
+                    "winding",
+                    "this design has other turns than the one that was modelled; model it anew".into(),
+                ));
+            }
+            return Ok((winding, sums));
+        }
+        // tails shift every turn's weight by its length
+        let by = (of.cw - of.ccw) - (nominal.cw - nominal.ccw);
+        let add = |a: &DVector<f64>, b: &DVector<f64>| a + b * by;
+        let (w, l) = (&self.turns.weighted, &self.turns.lengths);
+        let strains = [0, 1, 2].map(|k| add(&w.strains[k], &l.strains[k]));
+        Ok((winding, Weighted { temperature: add(&w.temperature, &l.temperature), strains }))
+    }
+
+    /// Temperature and strain of every turn of a changed design, per unit of its drives and modes, in a state of its mechanics.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub fn fields(&self, design: &Design, state: &MechanicalState) -> Result<TurnFields, Error> {
+        let changed = Section::new(design)?;
+        let modes = self.heat.modes(design, &changed, self.heat.size())?;
+        let n = self.heat.size();
+        let mut columns = DMatrix::zeros(n, 1 + usize::from(modes.heater.is_some()) + modes.rates.len());
+        columns[(0, 0)] = 1.0;
+        if let Some(field) = &modes.heater {
+            columns.view_mut((1, 1), (n - 1, 1)).copy_from(field);
+        }
+        let first = columns.ncols() - modes.rates.len();
+        columns.view_mut((1, first), (n - 1, modes.rates.len())).copy_from(&modes.shapes);
+        let displacements = self.structure.solved(design, &changed, state, usize::MAX)?.displacements() * &columns;
+        let temperature = &self.turns.temperature * &columns;
+        let axial = &self.turns.hoop * &displacements;
+        let m = design.dehomogenization;
+        let radial = &self.turns.radial * &displacements * m.m_rx
+            + &self.turns.axial * &displacements * m.m_ry
+            + &axial * m.m_rz
+            + &temperature * m.m_rt;
+        let bore = columns.tr_mul(&self.bore_value(design, &changed)?);
+        Ok(TurnFields { temperature, axial, radial, bore: bore.as_slice().to_vec() })
+    }
+
+    /// Every temperature field at a place of the reference section.
+    fn value(&self, r: f64, y: f64) -> Result<DVector<f64>, Error> {
+        let mut nodal = vec![0.0; self.grid.mesh().nodes().len()];
+        self.grid.probe("sensor", r, y)?.add_value(&mut nodal, 1.0);
+        let mut functional = DVector::zeros(self.temperatures.values.ncols());
+        for (node, weight) in nodal.iter().enumerate().filter(|(_, w)| **w != 0.0) {
+            functional += self.temperatures.values.row(self.grid.places()[node]).transpose() * *weight;
+        }
+        Ok(functional)
+    }
+
+    /// Radius of the hub's bore, or of the coil's where there is no spool.
+    fn bore(&self, section: &Section) -> f64 {
+        let columns = section.rectangles().filter(|(.., region)| *region != crate::Region::Medium).map(|(i, ..)| i);
+        columns.min().map_or(0.0, |i| section.lines[0][i])
+    }
+
+    /// Lower and upper end of the bore.
+    fn bore_ends(&self, section: &Section) -> [f64; 2] {
+        let solid: Vec<(usize, usize)> =
+            section.rectangles().filter(|(.., region)| *region != crate::Region::Medium).map(|(i, j, _)| (i, j)).collect();
+        let first = solid.iter().map(|(i, _)| *i).min().unwrap_or(0);
+        let rows = || solid.iter().filter(|(i, _)| *i == first).map(|(_, j)| *j);
+        [section.lines[1][rows().min().unwrap_or(0)], section.lines[1][rows().max().unwrap_or(0) + 1]]
+    }
+}

@@ -1,0 +1,233 @@
+//! The parametric model: exact properties, the full chain at points of the box, its error estimate, its derivatives.
+
+mod common;
+
+use coil::{
+    Contact, Design, Drive, Dynamics, Error, Fidelity, Flange, ModelEffort, Parameter, ParametricModel, Profile, Range, Reduced,
+    Side, Steps,
+};
+use common::{QUICK, reference};
+use std::sync::OnceLock;
+
+/// Usual tolerances, and what may be wrong besides.
+fn ranges(design: &Design) -> Vec<Range> {
+    let mut ranges = Range::usual(design);
+    let k = design.surroundings.conductivity;
+    let wrong = [
+        (Parameter::MediumConductivity, 0.4 * k, 2.5 * k),
+        (Parameter::HubResistance, 0.0, 1e-2),
+        (Parameter::FlangeResistance(Side::Right), 0.0, 1e-2),
+        (Parameter::Mount(Side::Right), 0.0, 20.0),
+        (Parameter::Heater(Side::Right), 0.0, 1.0),
+    ];
+    ranges.retain(|range| wrong.iter().all(|(parameter, ..)| *parameter != range.parameter));
+    ranges.extend(wrong.map(|(parameter, low, high)| Range { parameter, low, high }));
+    ranges
+}
+
+fn model() -> &'static ParametricModel {
+    static MODEL: OnceLock<ParametricModel> = OnceLock::new();
+    MODEL.get_or_init(|| modelled(&reference()))
+}
+
+fn modelled(design: &Design) -> ParametricModel {
+    ParametricModel::new(design, &ranges(design), &QUICK.resolution, &ModelEffort::default(), &|| ()).expect("model")
+}
+
+/// A pseudo-random number in [0, 1).
+fn random(seed: &mut u64) -> f64 {
+    *seed ^= *seed << 13;
+    *seed ^= *seed >> 7;
+    *seed ^= *seed << 17;
+    (*seed >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// A design at a random point of the box, heaters left out.
+fn somewhere(design: &Design, ranges: &[Range], seed: &mut u64) -> Design {
+    ranges.iter().filter(|range| !matches!(range.parameter, Parameter::Heater(_))).fold(design.clone(), |design, range| {
+        let share = random(seed);
+        range.parameter.set(&design, range.at(share))
+    })
+}
+
+/// Ten hours with ramps, a soak and a ripple.
+fn profile() -> Profile {
+    let time: Vec<f64> = (0..600).map(|k| 60.0 * f64::from(k)).collect();
+    let chamber = |t: &f64| 20.0 + 30.0 * (t / 3000.0).sin().tanh() + 5.0 * (t / 700.0).sin();
+    Profile { drives: vec![time.iter().map(chamber).collect()], time }
+}
+
+/// Thermometer [K] and total bias [rad/s] in every row after the first.
+fn courses(reduced: &Reduced, profile: &Profile) -> [Vec<f64>; 2] {
+    let mut steps: Steps = reduced.steps(&profile.time, &profile.drives, &[profile.drives[0][0]]);
+    let phase = |steps: &Steps| reduced.parts().iter().map(|part| part.of(steps.state())).sum::<f64>();
+    let (mut before, mut rows) = (phase(&steps), [Vec::new(), Vec::new()]);
+    while let Some(step) = steps.next() {
+        let now = phase(&steps);
+        rows[0].push(reduced.thermometer().of(steps.state()));
+        rows[1].push((now - before) / step.dt);
+        before = now;
+    }
+    rows
+}
+
+fn full(design: &Design, profile: &Profile) -> [Vec<f64>; 2] {
+    let fidelity = Fidelity { modes: 60, ..QUICK };
+    let rows = Dynamics::new(design, &[Drive::Chamber], &fidelity).expect("model").simulate(profile).expect("rows");
+    [rows[1..].iter().map(|row| row.sensor).collect(), rows[1..].iter().map(|row| row.bias.total()).collect()]
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+fn largest(a: &[f64]) -> f64 {
+    a.iter().map(|a| a.abs()).fold(0.0, f64::max)
+}
+
+/// At random points of the box the bias is within 1e-3 of the change that the point makes, or 1e-4 of the peak.
+fn holds(model: &ParametricModel, points: usize, seed: &mut u64) {
+    let profile = profile();
+    let nominal = full(model.design(), &profile);
+    for point in 0..points {
+        let design = somewhere(model.design(), model.ranges(), seed);
+        assert_eq!(model.outside(&design), None);
+        assert!(model.left_out(&design).unwrap() < 1e-6, "point {point}: {:e}", model.left_out(&design).unwrap());
+        let (ours, theirs) = (courses(&model.at(&design).unwrap(), &profile), full(&design, &profile));
+        for (of, what) in ["thermometer", "bias"].into_iter().enumerate() {
+            let (error, effect) = (distance(&ours[of], &theirs[of]), distance(&theirs[of], &nominal[of]));
+            let allowed = (1e-3 * effect).max(1e-4 * largest(&theirs[of]));
+            assert!(error < allowed, "point {point}, {what}: off by {error:.1e}, the change is {effect:.1e}");
+        }
+    }
+}
+
+#[test]
+fn the_full_chain_at_points_of_the_box() {
+    holds(model(), 6, &mut 42);
+}
+
+#[test]
+fn the_full_chain_of_other_designs() {
+    let mut without_flange = reference();
+    common::spool(&mut without_flange).flanges.clear();
+    let mut with_two = reference();
+    let gap = Flange { side: Side::Left, thickness: 3e-3, overhang: 1e-3, contact: Contact::Gap };
+    common::spool(&mut with_two).flanges.push(gap);
+    let mut free = reference();
+    free.spool = None;
+    free.sensor.radius = 45e-3;
+    let mut in_film = reference();
+    in_film.heat.film = Some(8.0);
+    for design in [without_flange, with_two, free, in_film] {
+        holds(&modelled(&design), 2, &mut 7);
+    }
+}
+
+#[test]
+fn exact_conductivities_and_capacities_in_proportion_change_nothing() {
+    let (model, profile) = (model(), profile());
+    let mut scaled = reference();
+    scaled.body.conductivity_r *= 1.1;
+    scaled.body.specific_heat *= 1.1;
+    scaled.surroundings.conductivity *= 1.1;
+    scaled.surroundings.specific_heat *= 1.1;
+    let material = &mut common::spool(&mut scaled).material;
+    material.conductivity *= 1.1;
+    material.specific_heat *= 1.1;
+    let [a, b] = [reference(), scaled].map(|design| courses(&model.at(&design).unwrap(), &profile));
+    let off = [0, 1].map(|k| distance(&a[k], &b[k]) / largest(&a[k]));
+    assert!(off.iter().all(|off| *off < 1e-7), "{off:?}");
+}
+
+#[test]
+fn exact_a_steady_ramp_has_the_sensitivity_of_the_mechanics_alone() {
+    // in a ramp that lasts, every place warms at the chamber's rate: at rest, the parts are the operator's sums
+    let model = model();
+    let design = somewhere(model.design(), model.ranges(), &mut 3);
+    let mechanics = coil::Model::new(&design, &QUICK.resolution).unwrap().bias_in_ramp().unwrap();
+    let reduced = model.at(&design).unwrap();
+    let ramp = Profile { time: vec![0.0, 1e6, 1e6 + 60.0], drives: vec![vec![0.0, 1e4, 1e4 + 0.6]] };
+    let bias = courses(&reduced, &ramp)[1][1] / 0.01;
+    assert!((bias / mechanics.total() - 1.0).abs() < 2e-4, "{bias:e} against {:e}", mechanics.total());
+}
+
+#[test]
+fn a_design_beyond_the_box_or_with_other_parts_is_noticed() {
+    let model = model();
+    let hot = Parameter::CoilConductivity.set(&reference(), 1.0);
+    assert_eq!(model.outside(&hot), Some((Parameter::CoilConductivity, 1.0)));
+    let mut without_flange = reference();
+    common::spool(&mut without_flange).flanges.clear();
+    assert!(matches!(model.at(&without_flange), Err(Error::Design { .. })));
+    let mut larger = reference();
+    larger.body.outer_radius += 1e-4;
+    assert!(matches!(model.at(&larger), Err(Error::Design { .. })));
+}
+
+#[test]
+fn the_distance_to_a_coarser_model_covers_the_error() {
+    let (model, profile) = (model(), profile());
+    let mut seed = 11;
+    let mut ratios = Vec::new();
+    for point in 0..6 {
+        let design = somewhere(model.design(), model.ranges(), &mut seed);
+        let (ours, theirs) = (courses(&model.at(&design).unwrap(), &profile), full(&design, &profile));
+        let coarser = courses(&model.coarser(&design).unwrap(), &profile);
+        let (stated, error) = (coil::MODEL_SAFETY * distance(&ours[1], &coarser[1]), distance(&ours[1], &theirs[1]));
+        assert!(stated > error, "point {point}: states {stated:.1e}, is off by {error:.1e}");
+        ratios.push(stated / error);
+    }
+    ratios.sort_by(f64::total_cmp);
+    assert!(ratios[ratios.len() / 2] < 30.0, "{ratios:?}");
+}
+
+#[test]
+fn derivatives_are_those_of_differences() {
+    let (model, profile) = (model(), profile());
+    let design = Parameter::Mount(Side::Right).set(&somewhere(model.design(), model.ranges(), &mut 5), 3.0);
+    let free: Vec<&Range> = model.ranges().iter().filter(|range| !matches!(range.parameter, Parameter::Heater(_))).collect();
+    let parameters: Vec<Parameter> = free.iter().map(|range| range.parameter).collect();
+    let slopes = model.slopes(&design, &parameters).unwrap();
+    let rest = [profile.drives[0][0]];
+    let all = slopes.run(&profile.time, &profile.drives, &rest);
+    let flat = |outputs: &coil::Outputs<Vec<f64>>| -> Vec<Vec<f64>> {
+        [&outputs.thermometer, &outputs.coil_mean].into_iter().chain(&outputs.parts[0]).cloned().collect()
+    };
+    let at = |design: &Design| flat(&model.slopes(design, &[]).unwrap().run(&profile.time, &profile.drives, &rest).outputs);
+    for (k, Range { parameter, low, high }) in free.into_iter().enumerate() {
+        let value = parameter.of(&design).unwrap();
+        let by = 1e-3 * value.min(high - low);
+        let [low, high] = [-by, by].map(|by| at(&parameter.set(&design, value + by)));
+        for (o, slope) in flat(&all.slopes[k]).iter().enumerate() {
+            let difference: Vec<f64> = high[o].iter().zip(&low[o]).map(|(h, l)| (h - l) / (2.0 * by)).collect();
+            // what differences lose of an output that the parameter hardly moves
+            let rounding = 1e-9 * largest(&high[o]) / by;
+            let off = distance(slope, &difference);
+            assert!(
+                off < 2e-5 * largest(&difference) + rounding,
+                "{parameter:?}, output {o}: {off:.1e} of {:.1e}",
+                largest(&difference)
+            );
+        }
+    }
+}
+
+#[test]
+fn exact_heaters_add_up_and_settle_at_what_conduction_carries() {
+    let model = model();
+    let heated = |power: f64| {
+        let design = Parameter::Heater(Side::Right).set(&reference(), power);
+        let reduced = model.at(&design).unwrap();
+        let profile = Profile { time: vec![0.0, 1e7], drives: vec![vec![0.0; 2], vec![1.0; 2]] };
+        let mut steps = reduced.steps(&profile.time, &profile.drives, &[0.0, 0.0]);
+        steps.next();
+        reduced.thermometer().of(steps.state())
+    };
+    let dynamics =
+        Dynamics::new(&Parameter::Heater(Side::Right).set(&reference(), 1.0), &[Drive::Chamber, Drive::Heaters], &QUICK).unwrap();
+    let steady =
+        dynamics.simulate(&Profile { time: vec![0.0, 1e7], drives: vec![vec![0.0; 2], vec![1.0; 2]] }).unwrap()[1].sensor;
+    assert!((heated(1.0) / steady - 1.0).abs() < 1e-4, "{} against {steady}", heated(1.0));
+    assert!((heated(0.5) / heated(1.0) - 0.5).abs() < 1e-9);
+}
