@@ -9,7 +9,7 @@ use fogcoil::Error;
 use fogcoil::output::Content;
 
 use crate::cli::Cli;
-use crate::print::print;
+use crate::print;
 use crate::progress::Progress;
 
 /// Prints the completions for a shell.

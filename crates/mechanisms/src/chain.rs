@@ -1,9 +1,9 @@
 //! The tools that mechanisms' laws are written with: a library's models under the chamber of a recording, changed.
 
-use crate::change::Change;
 use crate::design::REFERENCE_C;
 use crate::interpolation::weights;
 use crate::library::{Functionals, Library};
+use crate::mechanism::Change;
 use crate::record::{Parts, Prepared, Series};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::Error;

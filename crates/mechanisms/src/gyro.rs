@@ -2,9 +2,8 @@
 
 use crate::catalogue::air_path;
 use crate::chain::{Chain, add};
-use crate::change::Change;
 use crate::library::Library;
-use crate::mechanism::{Effect, Extent, Mechanism, Naming, Offer, Readings, Sight};
+use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Sight};
 use crate::nuisances::{self, channels, nuisances};
 use crate::record::{Parts, Prepared};
 use coil::{Design, Error};

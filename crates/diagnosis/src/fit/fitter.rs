@@ -34,6 +34,11 @@ impl Fit {
     pub fn noise_model(&self, record: usize, channel: usize) -> &recording::noise::NoiseModel {
         self.noise.model(record, channel)
     }
+
+    /// The likelier of two; of equals the first.
+    pub(crate) fn better(first: Option<Self>, second: Self) -> Self {
+        first.filter(|first| second.log_evidence <= first.log_evidence).unwrap_or(second)
+    }
 }
 
 /// What is fitted: a model to observations of some of its records.

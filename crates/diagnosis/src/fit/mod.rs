@@ -10,13 +10,14 @@ mod kinks;
 mod laplace;
 mod objective;
 mod unknowns;
-mod values;
 
+pub(crate) use descent::curvature;
 pub use fitter::Fit;
 pub(crate) use fitter::Fitter;
 pub use hypothesis::{Hypothesis, alternatives};
 use objective::Objective;
-pub(crate) use unknowns::{Unknown, expected, parameter};
+pub use unknowns::expected;
+pub(crate) use unknowns::{Unknown, parameter};
 
 use crate::noise::Noise;
 use crate::{Error, ForwardModel};
@@ -37,9 +38,7 @@ impl<M: ForwardModel> Fitter<'_, M> {
         let mut best: Option<Fit> = None;
         for start in tried {
             let fit = objective.concluded(objective.descend(start)?)?;
-            if best.as_ref().is_none_or(|b| fit.log_evidence > b.log_evidence) {
-                best = Some(fit);
-            }
+            best = Some(Fit::better(best, fit));
         }
         best.ok_or(Error::NoStart)
     }

@@ -22,9 +22,7 @@ pub(super) struct Objective<'a, M> {
 pub(super) struct Point {
     pub(super) u: DVector<f64>,
     pub(super) responses: Series,
-    /// Whitened residual.
     pub(super) whitened: DVector<f64>,
-    /// The objective.
     pub(super) value: f64,
 }
 

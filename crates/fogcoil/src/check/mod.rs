@@ -9,6 +9,7 @@ mod plot;
 mod text;
 
 use recording::allan::{AllanPoint, allan};
+use recording::condition::bridged;
 use recording::lag::lagging;
 use recording::noise::{Bounds, NoiseEstimate, Series, Term, Whitener, identify, residual};
 
@@ -80,8 +81,8 @@ fn gyro_noise(case: &RecordCase) -> Option<GyroNoise> {
         })
     });
     let temperature = driver.and_then(|name| {
-        let number = case.number(name)?;
-        Some(filled(time, &kept.channels()[number].values, &case.report.masks[number]))
+        // masked values on the line between their neighbours
+        bridged(time, &case.report.used(&case.recording).channel(name)?.values)
     });
     let lags = if driver.is_some() { lags(instants.interval, instants.span, time.len()) } else { Vec::new() };
     let mut columns = vec![vec![1.0; time.len()]];
@@ -135,39 +136,4 @@ fn lags(interval: f64, span: f64, rows: usize) -> Vec<f64> {
         LAG_RATIO
     };
     (0..count as i32).map(|n| shortest * ratio.powi(n)).collect()
-}
-
-/// A temperature with its masked values replaced by the line between their neighbours; the ends by the nearest.
-fn filled(time: &[f64], values: &[f64], mask: &[bool]) -> Vec<f64> {
-    let mut after = mask.iter().position(|used| *used);
-    let mut before = None;
-    let fill = |row: usize| {
-        if mask[row] {
-            before = Some(row);
-            return values[row];
-        }
-        if after.is_some_and(|after| after < row) {
-            after = (row..mask.len()).find(|&later| mask[later]);
-        }
-        match (before, after) {
-            (Some(a), Some(b)) => values[a] + (values[b] - values[a]) * (time[row] - time[a]) / (time[b] - time[a]),
-            (Some(end), None) | (None, Some(end)) => values[end],
-            (None, None) => 0.0,
-        }
-    };
-    (0..time.len()).map(fill).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn masked_temperatures_are_filled() {
-        let time = [0.0, 1.0, 2.0, 4.0, 5.0, 6.0];
-        let nan = f64::NAN;
-        let mask = [false, true, false, true, false, false];
-        assert_eq!(filled(&time, &[nan, 10.0, nan, 13.0, 99.0, nan], &mask), [10.0, 10.0, 11.0, 13.0, 13.0, 13.0]);
-        assert_eq!(filled(&time, &[nan; 6], &[false; 6]), [0.0; 6]);
-    }
 }

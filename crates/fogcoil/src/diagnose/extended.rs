@@ -95,7 +95,8 @@ impl Outcome {
 impl Record {
     /// Its file's name, with the folder: records of many units are called alike.
     pub(super) fn name(&self) -> String {
-        let parts: Vec<_> = self.file.components().rev().take(2).map(|part| part.as_os_str().to_string_lossy()).collect();
+        let parts: Vec<_> =
+            self.fingerprint.file.components().rev().take(2).map(|part| part.as_os_str().to_string_lossy()).collect();
         parts.into_iter().rev().collect::<Vec<_>>().join("/")
     }
 }

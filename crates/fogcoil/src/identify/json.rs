@@ -3,7 +3,7 @@
 use homogenization::identify::{Family, Fit, Identification, Posterior, Target};
 use serde_json::{Map, Value, json as object};
 
-use super::quantity::presentation;
+use super::presentation;
 use crate::input::TargetsCase;
 
 /// What was found, in SI.

@@ -1,6 +1,6 @@
 //! Contenders, and how well a test tells them apart.
 
-use diagnosis::{Active, ForwardModel, Hypothesis, Observation, Plan, Settings, alternatives, separation};
+use diagnosis::{Active, ForwardModel, Hypothesis, Observation, Plan, Settings, alternatives, expected, separation};
 use mechanisms::{Gyro, Library, Prepared, RATE, SPOOL};
 use recording::noise::NoiseModel;
 
@@ -66,7 +66,7 @@ fn typical(gyro: &Gyro, mechanism: usize) -> Result<Active, Failure> {
     let entry = &gyro.mechanisms()[mechanism];
     let choice = entry.choice.as_ref().map(|(_, values)| values[values.len() / 2]);
     let at = |u: f64| Active { mechanism, values: entry.parameters.iter().map(|p| p.prior.value(u)).collect(), choice };
-    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let middle = expected(gyro.nuisances());
     let respond = |active: &[Active]| gyro.respond(0, &middle, active).map_err(diagnosis::Error::Model);
     let (with, without) = (respond(&[at(0.0)])?, respond(&[])?);
     let off = with.iter().flatten().zip(without.iter().flatten()).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));

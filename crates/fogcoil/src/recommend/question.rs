@@ -10,7 +10,7 @@ use recording::noise::NoiseModel;
 use super::bench::{self, Contender, everything, odds, prepared, usual};
 use super::{Course, Limits, Odds, Ranked, Recommendation, Size, WithSensor, check, programmes};
 use crate::Error;
-use crate::prepare::Ready;
+use crate::prepare::Record;
 
 /// Noise of a spool thermometer that may be added \[K\], its drift a tenth of the usual.
 const FINE_K: f64 = 0.001;
@@ -33,7 +33,7 @@ pub(crate) struct Question<'a> {
     /// Ids to be told apart.
     pub(crate) between: &'a [String],
     /// Records of the unit, if there are any.
-    pub(crate) records: Vec<Ready>,
+    pub(crate) records: Vec<Record>,
     /// What the chamber can do.
     pub(crate) limits: Limits,
     /// Whether all is asked for; else of a programme that is not the best no more is worked out than that, and no sensor where a programme does.
@@ -52,12 +52,12 @@ impl Question<'_> {
         let failed = Error::of_diagnosis(file);
         let programmes = programmes(&limits);
         progress(Step::begins("running every model under every programme"));
-        let recorded = given.iter().map(|r| Prepared::new(&library, &r.observation.time, &r.chamber, r.averaging));
+        let recorded = given.iter().map(|r| Prepared::new(&library, &r.observed.time, &r.chamber, r.averaging));
         let all = recorded.chain(programmes.iter().map(|programme| prepared(&library, programme)));
         let all = all.collect::<Result<Vec<_>, _>>().map_err(coil)?;
         let gyro = Gyro::new(library, CATALOGUE, all).map_err(coil)?;
         let mut contenders = contenders(&gyro, between, failed)?;
-        let observations: Vec<Observation> = given.into_iter().map(|r| r.observation).collect();
+        let observations: Vec<Observation> = given.into_iter().map(|r| r.observed).collect();
         let recorded = observations.len();
         let mut noise = None;
         if recorded > 0 {

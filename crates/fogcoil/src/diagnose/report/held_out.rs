@@ -5,8 +5,8 @@ use diagnosis::{HeldOut, Verdict, whiteness};
 use maud::{Markup, html};
 use mechanisms::RATE;
 
-use super::multiples::multiples;
-use super::{course, spectrum};
+use super::course::{self, multiples};
+use super::spectrum;
 use crate::diagnose::{Held, NOMINAL, Outcome};
 
 impl Outcome {

@@ -6,8 +6,8 @@ use diagnosis::{Cell, Spectrum};
 use maud::{Markup, html};
 use mechanisms::RATE;
 
-use super::multiples::multiples;
-use super::{Shown, course};
+use super::Shown;
+use super::course::{self, multiples};
 use crate::diagnose::Outcome;
 
 /// z at which the colours end.
