@@ -42,7 +42,6 @@ pub enum Style {
 }
 
 impl Style {
-    /// Its class in the style sheet.
     pub(crate) fn class(self) -> &'static str {
         match self {
             Self::Total => "line total",
@@ -63,7 +62,6 @@ impl Style {
     }
 }
 
-/// Classes of the marks.
 const MARKS: [&str; 5] = ["mark first", "mark second", "mark third", "mark total", "mark first"];
 
 /// How a line is thinned.

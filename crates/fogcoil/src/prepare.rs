@@ -52,9 +52,6 @@ fn refuse(case: &RecordCase, field: &str, problem: String, remedy: &str) -> Erro
 }
 
 /// A recording's usable values, averaged down where there are very many; what was done is added to `notes`.
-///
-/// # Errors
-/// [`files::Error::Input`] says why it cannot be used.
 pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, Error> {
     case.require_usable()?;
     let file = &case.fingerprint.file;

@@ -17,8 +17,11 @@ use crate::Error;
 use crate::cache::{Cache, Source};
 use crate::input::{Between, CoilCase, Inference, InputError, ProfileCase, SpoolCase};
 
-/// Columns of the result, and what each holds of a row.
-pub const COLUMNS: [(&str, fn(&SimulatedRow) -> f64); 7] = [
+/// A column's name, and what it holds of a row.
+pub type Column = (&'static str, fn(&SimulatedRow) -> f64);
+
+/// Columns of the result.
+pub const COLUMNS: [Column; 7] = [
     ("time_s", |row| row.time),
     ("chamber_c", |row| row.chamber),
     ("spool_c", |row| row.spool),
@@ -73,7 +76,6 @@ const SAMPLES: usize = 150;
 pub(crate) struct Sample {
     /// Instant \[s\].
     pub(crate) time: f64,
-    /// Drives and modes.
     pub(crate) state: ThermalState,
 }
 

@@ -47,7 +47,6 @@ pub fn trim(case: &CoilCase, profile: Option<&ProfileCase>) -> Result<Trim, Erro
     Ok(Trim { tails, turns, transients })
 }
 
-/// The design with the tails that null it.
 fn trimmed(design: &Design, trim: &TailTrim) -> Design {
     let mut design = design.clone();
     let shorter = design.winding.tails.cw.min(design.winding.tails.ccw);

@@ -113,7 +113,6 @@ impl Course {
         Self { states, rates }
     }
 
-    /// An output in every row.
     pub(crate) fn output(&self, output: &Output) -> Vec<f64> {
         (&self.states * output.vector()).as_slice().to_vec()
     }
@@ -128,7 +127,6 @@ impl Course {
     }
 }
 
-/// Differences of two series.
 fn minus(a: &Series, b: &Series) -> Series {
     Series { sensor: less(&a.sensor, &b.sensor), parts: difference(&a.parts, &b.parts) }
 }

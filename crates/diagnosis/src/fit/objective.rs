@@ -69,7 +69,6 @@ impl<'a, M: ForwardModel> Objective<'a, M> {
         residuals
     }
 
-    /// Offset of every channel of every record.
     pub(super) fn offsets(&self, u: &DVector<f64>) -> Vec<Vec<f64>> {
         let channels = self.fitter.model.channels();
         let mut offsets = vec![vec![0.0; channels.len()]; self.fitter.observations.len()];

@@ -66,7 +66,6 @@ pub fn diagnose<M: ForwardModel>(
     Diagnosis::conclude(&pool.fitter, settings, pool.candidates, nominal)
 }
 
-/// Best first.
 fn sort(fits: &mut [Fit]) {
     fits.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
 }

@@ -20,9 +20,7 @@ pub fn svg(analysis: &Analysis) -> Option<String> {
 /// An Allan deviation and the noise model that was fitted.
 #[derive(Clone, Copy)]
 pub(crate) struct Allan<'a> {
-    /// The deviation.
     pub(crate) points: &'a [AllanPoint],
-    /// The model.
     pub(crate) model: &'a NoiseModel,
     /// Interval of the rows \[s\].
     pub(crate) interval: f64,

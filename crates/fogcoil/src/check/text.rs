@@ -68,7 +68,9 @@ fn channels(analysis: &Analysis) -> String {
     for channel in &analysis.case.report.channels {
         let number = |value: Option<f64>| value.filter(|v| v.is_finite()).map_or("-".to_owned(), |v| significant(v, 4));
         let numbers = [Some(channel.least), Some(channel.median), Some(channel.largest), channel.noise, channel.step].map(number);
-        rows.push([&[channel.name.clone(), channel.used.to_string()], &numbers[..], &[channel.unit.clone()]].concat());
+        rows.push(
+            [&[channel.name.clone(), channel.used.to_string()], &numbers[..], std::slice::from_ref(&channel.unit)].concat(),
+        );
     }
     table(&rows) + "(noise: white, standard deviation of a value; step: resolution, where the values show one)\n\n"
 }

@@ -55,7 +55,6 @@ pub struct Entry {
 pub(crate) struct Responses {
     /// The mechanisms.
     pub(crate) entries: Vec<Entry>,
-    /// As [`Comparison::programmes`].
     pub(crate) programmes: Vec<Programme>,
     gyro: Gyro<'static>,
     contenders: Vec<Contender>,
@@ -112,9 +111,6 @@ impl Comparison {
 
 impl Responses {
     /// Runs every named mechanism at its typical size.
-    ///
-    /// # Errors
-    /// As [`Comparison::measure`].
     pub(crate) fn of(case: &CoilCase, cache: &Cache) -> Result<Self, Error> {
         let coil = Error::of_coil(&case.file);
         let library = library(case, cache, &|_| ())?;

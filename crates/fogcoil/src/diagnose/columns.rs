@@ -17,9 +17,6 @@ const REVERSED: f64 = 2.5;
 const FAIR_K: f64 = 0.5;
 
 /// The warning about a record, if there is one; `number` is its number in `gyro`.
-///
-/// # Errors
-/// [`coil::Error`] if the model cannot be run.
 pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record) -> Result<Option<Note>, coil::Error> {
     let predicted = gyro.respond(number, &expected(gyro.nuisances()), &[])?;
     let Observation { time, channels } = &record.observed;

@@ -85,7 +85,6 @@ impl Outcome {
         same.map_or_else(|| posterior.ci90(), |estimate| estimate.ci90)
     }
 
-    /// Name and value of a mechanism's choice.
     pub(super) fn choice(&self, active: &Active) -> Option<(&str, f64)> {
         let (name, _) = self.gyro.mechanisms()[active.mechanism].choice.as_ref()?;
         Some((name, active.choice?))

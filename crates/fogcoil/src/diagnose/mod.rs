@@ -89,7 +89,6 @@ pub fn diagnose(
     Ok(Outcome { name, coil, design, gyro, diagnosis, fits: read, holdouts, notes })
 }
 
-/// The note on an explanation that a record contradicts.
 fn taken_back(file: &Path, why: Contradiction) -> Note {
     let how = match why {
         Contradiction::ClearlyWorse => "clearly worse than by the nominal model",
@@ -114,7 +113,6 @@ fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -> Result<()
     Ok(())
 }
 
-/// The verdict's name.
 fn name(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::None => "none",

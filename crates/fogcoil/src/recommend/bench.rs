@@ -37,7 +37,6 @@ impl Contender {
         })
     }
 
-    /// A mechanism at a given size.
     pub(crate) fn of(gyro: &Gyro, truth: Active) -> Self {
         let id = gyro.mechanisms()[truth.mechanism].id.clone();
         Self { id, hypotheses: alternatives(gyro, truth.mechanism), truth: Some(truth) }
@@ -55,7 +54,6 @@ impl Contender {
         Self { hypotheses: self.hypotheses.iter().skip(every / 2).step_by(every.max(1)).cloned().collect(), ..self.clone() }
     }
 
-    /// All that may be named.
     pub(super) fn known(gyro: &Gyro) -> String {
         let ids: Vec<&str> = gyro.mechanisms().iter().map(|m| m.id.as_str()).chain([NOMINAL, RECALIBRATE]).collect();
         ids.join(", ")
@@ -112,7 +110,6 @@ pub(crate) fn odds(gyro: &Gyro, contenders: &[Contender], plan: &Plan) -> Result
     worst.ok_or_else(|| diagnosis::Error::Data("there is no pair to tell apart".into()))
 }
 
-/// The library under a programme.
 pub(crate) fn prepared(library: &Library, programme: &Programme) -> Result<Prepared, coil::Error> {
     let (time, chamber) = programme.sampled(INTERVAL);
     Prepared::new(library, &time, &chamber, INTERVAL)

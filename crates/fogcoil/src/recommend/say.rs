@@ -60,7 +60,6 @@ pub(crate) fn number(x: f64) -> String {
     if x.abs() >= 9.95 { format!("{x:.0}") } else { format!("{x:.1}") }
 }
 
-/// What to do.
 pub(crate) fn sentence(r: &Recommendation) -> String {
     let best = &r.profiles[0];
     let [truth, rival] = &best.odds.pair;

@@ -10,7 +10,6 @@ use crate::sensitivity::origin;
 use crate::simulate::Simulation;
 use crate::units::{to_mm, to_ppm};
 
-/// The coil in short.
 pub(super) fn coil(simulation: &Simulation) -> Markup {
     let (case, design) = (simulation.case, &simulation.case.design);
     let (spec, sensor) = (case.winding.spec(), design.sensor);
@@ -96,7 +95,6 @@ pub(super) fn computation(simulation: &Simulation) -> Markup {
     facts("The computation", &rows)
 }
 
-/// Program, files, options.
 pub(super) fn sources(simulation: &Simulation) -> Markup {
     let coils = simulation.case.fingerprints.iter().enumerate().map(|(n, file)| (if n == 0 { "coil" } else { "cell" }, file));
     let inferred = simulation.profile.inferred;

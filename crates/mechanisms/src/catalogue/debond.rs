@@ -69,7 +69,6 @@ pub(crate) fn applies(design: &Design) -> bool {
     design.mechanics == Mechanics::Elastic && bonded_flange(design).is_some()
 }
 
-/// A bond of coil and flange whose outer part opens in the cold.
 pub(crate) fn with_opening(design: &Design, below: f64, hysteresis: f64, fraction: f64) -> Design {
     match bonded_flange(design) {
         Some(side) => Design { mechanics: Mechanics::Opening(Opening { side, below, hysteresis, fraction }), ..design.clone() },

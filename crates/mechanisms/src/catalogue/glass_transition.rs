@@ -90,7 +90,6 @@ fn with_transition(design: &Design, tg: f64, width: f64, modulus: f64, expansion
     Design { mechanics: Mechanics::TemperatureTable(rows.collect()), ..design.clone() }
 }
 
-/// 1/(1 + e^−x).
 fn logistic(x: f64) -> f64 {
     1.0 / (1.0 + (-x).exp())
 }

@@ -44,7 +44,6 @@ const MOST_LAYERS: usize = 200;
 /// More turns than this, or than half of a layer's, are no defect but another design.
 const MOST_TURNS: f64 = 40.0;
 
-/// A layer with turns too many or too few.
 fn with_defect(design: &Design, layer: usize, turns: i32) -> Design {
     let mut changed = design.clone();
     changed.winding.defect = (turns != 0).then_some(LayerDefect { layer, turns });

@@ -13,13 +13,9 @@ impl Outcome {
 
     fn recording(&self) -> Figure<'static> {
         let (columns, panels) = multiples(self.each().map(|shown| self.recorded(&shown)).collect());
-        let whose = match &self.fits[..] {
-            [one] => one.name(),
-            several => format!("{} records", several.len()),
-        };
         Figure {
             id: "course",
-            title: format!("{whose}: recording and model"),
+            title: format!("{}: recording and model", whose(&self.fits.iter().collect::<Vec<_>>())),
             description:
                 "Chamber temperature, the gyroscope's rate and the spool's thermometer over time, as recorded and as modelled."
                     .into(),
@@ -29,7 +25,6 @@ impl Outcome {
         }
     }
 
-    /// One record's panels.
     fn recorded(&self, shown: &[Shown]) -> Vec<Panel<'static>> {
         let Some(Shown { record, .. }) = shown.first() else { return Vec::new() };
         let (clock, time) = (self.clock(record), &record.observed.time);
@@ -66,7 +61,6 @@ impl Outcome {
         }
     }
 
-    /// What is left of one record.
     fn left(&self, shown: &[Shown]) -> Vec<Panel<'static>> {
         let Some(Shown { record, .. }) = shown.first() else { return Vec::new() };
         let clock = self.clock(record);
@@ -99,6 +93,11 @@ impl Outcome {
     }
 }
 
+/// Whose records a figure shows.
+pub(super) fn whose(records: &[&Record]) -> String {
+    if let [one] = records { one.name() } else { format!("{} records", records.len()) }
+}
+
 pub(super) fn panel(clock: &Clock, label: &str, least: f64, lines: f64, series: Vec<Series<'static>>) -> Panel<'static> {
     Panel::lines(Axis { label: String::new(), ..clock.axis() }, Axis::round(label, least), lines, series)
 }
@@ -126,7 +125,6 @@ pub(super) fn multiples(mut records: Vec<Vec<Panel<'static>>>) -> (usize, Vec<Pa
     (columns, panels)
 }
 
-/// What is comparable has one scale.
 fn same_scales(records: &mut [Vec<Panel>]) {
     let rows = records.first().map_or(0, Vec::len);
     if records.len() < 2 {
