@@ -158,7 +158,6 @@ fn path(points: &[(f64, f64)]) -> String {
     data
 }
 
-/// A point and its number.
 type Numbered = (usize, (f64, f64));
 
 /// Lowest and highest point of every column of pixels in the order they come, and the two ends.

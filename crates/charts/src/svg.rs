@@ -91,7 +91,6 @@ impl Svg {
         self
     }
 
-    /// Ends the line.
     pub(crate) fn line(&mut self) {
         self.0.push('\n');
     }

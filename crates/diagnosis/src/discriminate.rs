@@ -42,7 +42,6 @@ impl Separation {
     }
 }
 
-/// The model under a given noise.
 struct Under<'a, M> {
     model: &'a M,
     channels: Vec<Channel>,

@@ -156,7 +156,6 @@ impl<'m> Gyro<'m> {
     }
 }
 
-/// A mechanism as the engine knows it; `None` if the design leaves it no place.
 fn entry(mechanism: &dyn Mechanism, design: &Design, range: [f64; 2]) -> Option<diagnosis::Omission> {
     let facts = mechanism.facts();
     let Offer { parameters, choice, starts } = mechanism.offer(design, range)?;

@@ -1,20 +1,18 @@
 //! One hypothesis fitted to the records, and its evidence.
 //!
-//! [`hypothesis`] says what is at work, [`unknowns`] what is to be found, [`objective`] what is made least, [`descent`] and [`kinks`] how,
+//! [`fitter`] says what is at work, [`unknowns`] what is to be found, [`objective`] what is made least, [`descent`] and [`kinks`] how,
 //! [`laplace`] what it proves.
 
 mod descent;
 mod fitter;
-mod hypothesis;
 mod kinks;
 mod laplace;
 mod objective;
 mod unknowns;
 
 pub(crate) use descent::curvature;
-pub use fitter::Fit;
 pub(crate) use fitter::Fitter;
-pub use hypothesis::{Hypothesis, alternatives};
+pub use fitter::{Fit, Hypothesis, alternatives};
 use objective::Objective;
 pub use unknowns::expected;
 pub(crate) use unknowns::{Unknown, parameter};

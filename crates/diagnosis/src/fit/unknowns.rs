@@ -1,7 +1,6 @@
 //! The unknowns of a fit, all on one scale: each is a standard normal variable u beforehand ([`crate::Prior`]); what they stand for, and where they start.
 
-use super::fitter::Fit;
-use super::hypothesis::Hypothesis;
+use super::fitter::{Fit, Hypothesis};
 use super::objective::Objective;
 use crate::{Active, ForwardModel, Nuisance, Parameter, Prior};
 use nalgebra::DVector;
