@@ -48,8 +48,7 @@ impl MemberResolution {
 const AMPLITUDES: [f64; 7] = [0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0];
 
 impl Fit {
-    /// Whitened responses to the functions, those of all records one below another; each scaled to a largest response of one
-    /// standard deviation of a channel's white noise.
+    /// Whitened responses to the functions, all records one below another, each scaled to a largest response of a channel's white noise.
     fn whitened_functions(&self, records: &[Functions]) -> Option<(DMatrix<f64>, Vec<f64>)> {
         let count = records.iter().map(Vec::len).min()?;
         let (mut columns, mut scales) = (Vec::new(), Vec::new());

@@ -64,8 +64,7 @@ impl Chain {
         self.less_nominal(record, &self.library.rewound(tail, None)?)
     }
 
-    /// Parts of a coil with so many turns more in a layer, less the nominal ones \[deg/h\]; between whole numbers of turns the response is
-    /// interpolated.
+    /// Parts of a coil with so many turns more in a layer, less the nominal ones \[deg/h\]; interpolated between whole numbers of turns.
     ///
     /// # Errors
     /// [`Error::Winding`] if there is no such winding.

@@ -29,8 +29,7 @@ pub(crate) struct Clock {
 const BETWEEN: usize = 4;
 
 impl Clock {
-    /// Between its readings the chamber follows a smooth course ([`Profile::smoothed`]): its controller has no corners. A reading after a
-    /// gap begins `averaging` seconds before its instant.
+    /// Between readings the chamber is smooth ([`Profile::smoothed`]), without corners. After a gap one begins `averaging` seconds before.
     pub(crate) fn new(time: &[f64], chamber: &[f64], averaging: f64) -> Self {
         let (mut t, mut c) = (Vec::with_capacity(time.len()), Vec::with_capacity(time.len()));
         let (mut rows, mut starts) = (Vec::with_capacity(time.len()), Vec::new());

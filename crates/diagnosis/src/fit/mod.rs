@@ -1,7 +1,6 @@
 //! One hypothesis fitted to the records, and its evidence.
 //!
-//! [`fitter`] says what is at work, [`unknowns`] what is to be found, [`objective`] what is made least, [`descent`] and [`kinks`] how,
-//! [`laplace`] what it proves.
+//! [`fitter`]: what may be at work; [`unknowns`]: what is found; [`objective`]: what is made least; [`descent`], [`kinks`]: how; [`laplace`]: proof.
 
 mod descent;
 mod fitter;

@@ -85,8 +85,7 @@ impl<M: ForwardModel> Objective<'_, M> {
         (nuisances, active)
     }
 
-    /// Unknowns at which every start of the hypothesis' mechanisms begins, all combinations; `known` gives the others, and mechanisms that
-    /// it has fitted.
+    /// Unknowns of all combinations of the mechanisms' starts; `known` gives the others, and the mechanisms that it has fitted.
     pub(super) fn starts(&self, known: Option<&Fit>) -> Vec<DVector<f64>> {
         let mut base = DVector::zeros(self.layout.len());
         for (i, unknown) in self.layout.iter().enumerate().filter(|(_, u)| !u.is_mechanism()) {

@@ -1,7 +1,6 @@
 //! The search: everything a model may leave out is fitted and weighed.
 //!
-//! [`singles`] fits every mechanism alone, in noise that the leader leaves, and gives those that matter noise of their own; [`pairs`] looks for
-//! what may stand beside them.
+//! [`singles`] fits every mechanism alone and gives those that matter noise of their own; [`pairs`] looks for what may stand beside them.
 
 mod pairs;
 mod settings;
@@ -104,8 +103,7 @@ impl<M: ForwardModel> Pool<'_, M> {
         self.fitter.model.mechanisms()[mechanism].named
     }
 
-    /// Adds every structure to the most probable candidates, under their own noise and under calmer noise, which has not swallowed it; of
-    /// the two the likelier counts.
+    /// Adds every structure to the likeliest candidates, under their own noise or calmer noise, which has not swallowed it: the likelier.
     fn rivals(&mut self) -> Result<(), Error<M::Error>> {
         let mut order: Vec<usize> = (0..self.candidates.len()).collect();
         order.sort_by(|&a, &b| self.candidates[b].log_weight.total_cmp(&self.candidates[a].log_weight));

@@ -155,8 +155,7 @@ impl Outcome {
         })
     }
 
-    /// Root mean squares of recorded less predicted thermometer in a record held out, of the design and of what was fitted \[K\]; `None` if
-    /// it was not recorded.
+    /// Rms of recorded less predicted thermometer in a record held out, of the design and of what was fitted \[K\], if it was recorded.
     fn thermometer(&self, held: &Held) -> Option<[f64; 2]> {
         let recorded = held.record.observed.channels[SPOOL_CHANNEL].iter().any(|v| v.is_finite());
         recorded.then(|| [held.nominal.rmse[SPOOL_CHANNEL], held.model.rmse[SPOOL_CHANNEL]])
@@ -167,8 +166,7 @@ impl Outcome {
         self.holdouts.iter().all(|held| held.accepted)
     }
 
-    /// Instants \[s\], and what the accepted model predicts of the rate \[deg/h\], of the first record that was held out; `None` if
-    /// there is none.
+    /// Instants \[s\], and what the accepted model predicts of the rate \[deg/h\], of the first record that was held out, if one was.
     ///
     /// A model that predicts it worse than the nominal one is not accepted: then the nominal prediction is given.
     pub fn predicted_rate(&self) -> Option<[&[f64]; 2]> {

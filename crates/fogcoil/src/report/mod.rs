@@ -63,8 +63,7 @@ fn summary(simulation: &Simulation) -> Markup {
     charts::facts("Summary", &entries(simulation).into_iter().map(words).collect::<Vec<_>>())
 }
 
-/// The last section of a page: `what` was run of fogcoil, on which files with their hashes, with which options and notes. Nothing of the day, so
-/// that the same inputs give the same page.
+/// The last section of a page: `what` was run of fogcoil, on which files with their hashes, with which options; the same inputs give the same.
 pub fn provenance(what: &str, files: &[(&str, &Fingerprint)], options: &[(String, String)]) -> Markup {
     let program = row("program", format!("fogcoil {}, {what}", env!("CARGO_PKG_VERSION")));
     let of = |(role, file): &(&str, &Fingerprint)| {
