@@ -12,9 +12,8 @@ use homogenization::fields::{Fields, Load};
 use homogenization::irregular::Solution;
 use serde_json::{Value, json};
 
-use crate::line;
-use crate::print::print;
 use crate::progress::Progress;
+use crate::{line, print};
 
 #[derive(Args)]
 pub(crate) struct Homogenize {

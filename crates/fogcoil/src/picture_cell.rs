@@ -45,7 +45,6 @@ impl View {
     }
 }
 
-/// Corners of the lattice cell.
 fn corners([a, b]: [[f64; 2]; 2]) -> [[f64; 2]; 4] {
     [[0.0, 0.0], a, [a[0] + b[0], a[1] + b[1]], b]
 }
@@ -207,7 +206,6 @@ fn copies(svg: &mut Svg, view: &View, solution: &Solution) {
     );
 }
 
-/// What the dashed line is.
 fn dashed(svg: &mut Svg, x: f64, y: f64) {
     svg.element("text", attributes! { "x": "{x:.1}", "y": "{y:.1}", "fill": "#c00000" }, "dashed: the lattice cell");
 }
@@ -243,7 +241,6 @@ fn bar(svg: &mut Svg, x: f64, quantity: Quantity, colours: &Colours) {
     dashed(svg, x, y + 76.0);
 }
 
-/// A round length below the picture.
 fn scale_bar(svg: &mut Svg, view: &View) {
     let metres = 0.25 * view.size[0] / view.scale;
     let decade = 10_f64.powf(metres.log10().floor());

@@ -31,13 +31,8 @@ const OPEN: [f64; 23] = [
 /// Relative steps of the constants whose effects are tabulated: their usual uncertainties.
 const CONSTANT_STEPS: [(&str, f64); 3] = [("E_z", 0.03), ("alpha_z", 0.03), ("spool expansion", 0.02)];
 
-fn chamber() -> Vec<Drive> {
-    vec![Drive::Chamber]
-}
-
-fn fidelity() -> Fidelity {
-    Fidelity { resolution: COARSE, modes: MODES }
-}
+const CHAMBER: [Drive; 1] = [Drive::Chamber];
+const FIDELITY: Fidelity = Fidelity { resolution: COARSE, modes: MODES };
 
 /// Models that are made side by side, and how many of all are done.
 struct Yard<'a> {
@@ -73,13 +68,13 @@ impl Library {
     /// # Errors
     /// [`Error`] names the dimension or property at fault, or the solve that failed.
     pub fn build(design: &Design, mechanisms: &[&dyn Mechanism], progress: &(dyn Fn(Step) + Sync)) -> Result<Self, Error> {
-        let thermal = ThermalModel::new(design, &COARSE, &chamber())?;
+        let thermal = ThermalModel::new(design, &COARSE, &CHAMBER)?;
         let model = Model::new(design, &COARSE)?;
         let Reduction { reduced: base, modes, .. } = Reduction::new(&thermal, &functionals(design, &model, &thermal)?, MODES)?;
         let fields = TurnFields::new(&model, &thermal, &modes)?;
         let paths = paths(design, mechanisms);
         let others = |(number, (_, path)): (usize, &(String, HeatPath))| -> Vec<(usize, f64)> {
-            path.nodes.iter().filter(|x| !same(**x, path.nominal)).map(|x| (number, *x)).collect()
+            path.nodes.iter().filter(|x| !is_nominal(**x)).map(|x| (number, *x)).collect()
         };
         let along: Vec<(usize, f64)> = paths.iter().enumerate().flat_map(others).collect();
         let open = if debond::applies(design) { &OPEN[..] } else { &[] };
@@ -89,17 +84,17 @@ impl Library {
         let all = along.len() + open.len() + heaters.len() + moduli.len() + CONSTANT_STEPS.len();
         let yard = Yard { progress, done: AtomicUsize::new(0), all };
         let dynamics =
-            |design: &Design, drives: &[Drive]| Dynamics::new(design, drives, &fidelity()).map(|made| made.reduced().clone());
+            |design: &Design, drives: &[Drive]| Dynamics::new(design, drives, &FIDELITY).map(|made| made.reduced().clone());
         let parts = |design: &Design, state: &MechanicalState| -> Result<Functionals, Error> {
             let model = Model::in_state(design, &COARSE, state)?;
             TurnFields::new(&model, &thermal, &modes)?.bias_parts(&design.optics, model.winding())
         };
         let chambered = || -> Result<_, Error> {
-            let models = yard.each(&along, |(path, x)| dynamics(&(paths[path].1.design)(design, x), &chamber()))?;
+            let models = yard.each(&along, |(path, x)| dynamics(&(paths[path].1.design)(design, x), &CHAMBER))?;
             // temperatures at which the bond opens do not matter: both states are outputs
             let [below, hysteresis] = debond::OPENS;
             let opened = |share| debond::with_opening(design, below, hysteresis, share);
-            Ok((models, yard.each(open, |share| Ok((share, dynamics(&opened(share), &chamber())?)))?))
+            Ok((models, yard.each(open, |share| Ok((share, dynamics(&opened(share), &CHAMBER)?)))?))
         };
         let heated =
             || yard.each(heaters, |()| dynamics(&self_heating::with_heater(design, 1.0), &[Drive::Chamber, Drive::Heaters]));
@@ -120,21 +115,19 @@ impl Library {
             || -> Result<_, Error> { Ok((heated()?.pop(), yard.each(&moduli, modulus)?, yard.each(&CONSTANT_STEPS, constant)?)) };
         let (chambered, stiff) = rayon::join(chambered, stiff);
         let ((models, openings), (heater, modulus, constants)) = (chambered?, stiff?);
-        let mut tabulated: Vec<Tabulated> = paths.into_iter().map(|(id, path)| Tabulated::new(id, path)).collect();
+        let untabulated = |(id, HeatPath { nodes, .. }): (String, HeatPath)| {
+            let nominal = nodes.iter().position(|x| is_nominal(*x)).unwrap_or(0);
+            Tabulated { id, nodes, nominal, models: Vec::new() }
+        };
+        let mut tabulated: Vec<Tabulated> = paths.into_iter().map(untabulated).collect();
         along.iter().zip(models).for_each(|((path, _), model)| tabulated[*path].models.push(model));
-        let nominal = Dynamics::new(design, &chamber(), &fidelity())?;
+        let nominal = Dynamics::new(design, &CHAMBER, &FIDELITY)?;
         let design = design.clone();
         Ok(Self { design, nominal, base, fields, modulus, constants, paths: tabulated, openings, heater })
     }
 }
 
-impl Tabulated {
-    fn new(id: String, HeatPath { nodes, nominal, .. }: HeatPath) -> Self {
-        Self { id, nominal: nodes.iter().position(|x| same(*x, nominal)).unwrap_or(0), nodes, models: Vec::new() }
-    }
-}
-
-/// Whether two coordinates of a path, which are of the size of one, are the same.
-fn same(a: f64, b: f64) -> bool {
-    (a - b).abs() <= 1e-12
+/// Whether a coordinate of a path, which is of the size of one, is that of the design as it is.
+fn is_nominal(coordinate: f64) -> bool {
+    coordinate.abs() <= 1e-12
 }
