@@ -48,6 +48,21 @@ pub struct Effective {
     pub area_error: f64,
 }
 
+impl Effective {
+    /// The conductivity along the fibre; what takes a solution is to be added.
+    pub(crate) fn begun(phases: &Phases) -> Self {
+        Self {
+            stiffness: Matrix6::zeros(),
+            thermal_stress: Vector6::zeros(),
+            conductivity: Matrix2::zeros(),
+            conductivity_z: phases.mean(|i| phases.conductivities[i]),
+            glass_strain: SMatrix::zeros(),
+            unknowns: 0,
+            area_error: 0.0,
+        }
+    }
+}
+
 /// A cell on its mesh, with its constituents' laws.
 pub(crate) struct CellProblem {
     mesh: Mesh,
@@ -143,7 +158,6 @@ impl CellProblem {
         DMatrix::from_fn(3, stresses.len(), |i, j| if i < 2 { stresses[j] } else { 0.0 })
     }
 
-    /// The plane stiffness, factorised.
     fn condense(&self, problem: &Problem, map: &DofMap) -> Result<Condensed, Error> {
         let law = |l: &ThermoElastic| DMatrix::from_fn(3, 3, |i, j| l.stiffness[(PLANE[i], PLANE[j])]);
         let laws: Vec<_> = self.phases.laws.iter().map(law).collect();
@@ -185,15 +199,7 @@ impl CellProblem {
     }
 
     pub(crate) fn effective(&self) -> Result<Effective, Error> {
-        let mut effective = Effective {
-            stiffness: Matrix6::zeros(),
-            thermal_stress: Vector6::zeros(),
-            conductivity: Matrix2::zeros(),
-            conductivity_z: self.phases.mean(|i| self.phases.conductivities[i]),
-            glass_strain: SMatrix::zeros(),
-            unknowns: 0,
-            area_error: self.area_error,
-        };
+        let mut effective = Effective { area_error: self.area_error, ..Effective::begun(&self.phases) };
         self.plane(&mut effective)?;
         let shear = |l: &ThermoElastic| DMatrix::from_fn(2, 2, |i, j| l.stiffness[(4 - i, 4 - j)]);
         let antiplane = self.scalar(&self.phases.laws.iter().map(|l| Some(shear(l))).collect::<Vec<_>>())?;
@@ -297,6 +303,6 @@ impl CellProblem {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -5,8 +5,8 @@
 //! where rate random walk does. A deterministic signal in the series shows as noise: take it off first.
 
 use crate::Error;
-use crate::series::GAP;
-use crate::statistics::{chi_square_quantile, median};
+use crate::series::{GAP, check_series, interval};
+use crate::statistics::chi_square_quantile;
 
 /// One point of an Allan plot.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,9 +44,8 @@ const SHORTEST: usize = 8;
 /// # Errors
 /// [`Error::Length`], [`Error::Time`], [`Error::Value`] for bad series; [`Error::TooFew`] for fewer than eight rows.
 pub fn allan(time: &[f64], values: &[f64], mask: &[bool]) -> Result<Vec<AllanPoint>, Error> {
-    let used = crate::series::check_series(time, mask, &[("values", values)])?;
-    let interval = median(time.windows(2).map(|pair| pair[1] - pair[0]).collect());
-    let Some(interval) = interval.filter(|_| used >= SHORTEST) else {
+    let used = check_series(time, mask, &[("values", values)])?;
+    let Some(interval) = interval(time).filter(|_| used >= SHORTEST) else {
         return Err(Error::TooFew { found: used, needed: SHORTEST });
     };
     let lattice = Lattice::new(time, values, mask, interval);

@@ -136,16 +136,10 @@ pub struct Rest {
 /// Why a recording does not start at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Unrest {
-    /// What drives and what follows differ at first.
-    Apart {
-        /// By how much \[u\].
-        by: f64,
-    },
-    /// What drives moves at first.
-    Moving {
-        /// By how much within the duration \[u\].
-        by: f64,
-    },
+    /// What drives and what follows differ at first, by so much \[u\].
+    Apart(f64),
+    /// What drives moves at first, by so much within the duration \[u\].
+    Moving(f64),
 }
 
 /// Why a recording does not start at rest, if it does not: from `driver`, which is finite, and `follower`, NaN where it is not known.
@@ -157,11 +151,7 @@ pub fn unrest(time: &[f64], driver: &[f64], follower: &[f64], rest: &Rest) -> Op
     let apart = follower.iter().find(|value| value.is_finite()).map_or(0.0, |value| (value - first).abs());
     let early = time.iter().zip(driver).take_while(|(t, _)| *t - start <= rest.duration);
     let moved = early.fold(0.0_f64, |most, (_, value)| most.max((value - first).abs()));
-    if apart > rest.tolerance {
-        Some(Unrest::Apart { by: apart })
-    } else {
-        (moved > rest.tolerance).then_some(Unrest::Moving { by: moved })
-    }
+    if apart > rest.tolerance { Some(Unrest::Apart(apart)) } else { (moved > rest.tolerance).then_some(Unrest::Moving(moved)) }
 }
 
 /// Largest less smallest of the values, those that are NaN left out; −∞ of nothing.

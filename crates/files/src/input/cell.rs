@@ -96,7 +96,6 @@ struct Fibre<'a> {
 }
 
 impl<'a> Fibre<'a> {
-    /// Checks what every cell has.
     fn new(source: &'a Source, file: CellFile) -> Result<Self, InputError> {
         let top = Group::whole(source);
         if file.rings.is_empty() || file.rings.len() > MOST_RINGS {

@@ -31,7 +31,6 @@ pub fn read_ron<T: DeserializeOwned>(path: &Path) -> Result<T, InputError> {
     Source::read(path)?.parse(None)
 }
 
-/// A case file in memory.
 #[derive(Debug, Clone)]
 pub(crate) struct Source {
     path: PathBuf,
@@ -90,7 +89,7 @@ impl Source {
             field = join(&field, missing);
         }
         let (mut problem, mut remedy) = explain(&error.code, &self.text[offset..]);
-        if map.is_cut_short() {
+        if map.is_cut_short {
             problem = format!("the file is cut short, or a bracket is never closed (the reader stopped here: {problem})");
             remedy = "close every bracket, or get the whole file".into();
         }
@@ -109,7 +108,7 @@ impl Source {
     pub(crate) fn fault(&self, field: &str, problem: impl Into<String>, remedy: impl Into<String>) -> InputError {
         let map = FieldMap::new(&self.text);
         let (found, rest) = map.find(field);
-        let line = found.map_or(1, |f| 1 + self.text[..map.start(f)].matches('\n').count());
+        let line = found.map_or(1, |f| 1 + self.text[..map.span(f).start].matches('\n').count());
         let path = map.path(found);
         let field = if rest.is_empty() { path } else { join(&path, rest) };
         InputError { line: Some(line), field: Some(field), ..InputError::whole(&self.path, problem, remedy) }

@@ -13,7 +13,6 @@ use super::quantity::{Conductivity, ExpansionPerK, FibreUm, ModulusGpa, ModulusM
 use super::source::Source;
 use super::targets_file::{CellPrior, Entries, Entry, MaterialFile, RangeFile, TargetsFile};
 
-/// Kinds of cells in one file.
 const MOST_CELLS: usize = 6;
 /// Rings of a cell to be identified.
 const MOST_RINGS: usize = 5;

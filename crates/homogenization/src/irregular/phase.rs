@@ -67,7 +67,7 @@ impl Solid {
     pub(super) fn check(&self, constituent: &str) -> Result<(), Error> {
         let least = self.conductivity.symmetric_eigenvalues().min().min(self.conductivity_z);
         if !(least > 0.0 && self.conductivity.iter().all(|k| k.is_finite()) && self.conductivity_z.is_finite()) {
-            return Err(Error::Conductivity { constituent: constituent.into(), value: least });
+            return Err(Error::conductivity(constituent.into(), least));
         }
         Ok(())
     }

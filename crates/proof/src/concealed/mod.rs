@@ -7,7 +7,6 @@ mod inseparable;
 mod recommended;
 mod report;
 mod score;
-mod section;
 mod summary;
 mod synthetic;
 #[cfg(test)]
@@ -53,13 +52,10 @@ fn case(number: &str) -> Result<String, std::num::ParseIntError> {
 }
 
 impl Prove {
-    /// Runs it: whether everything is as asked.
-    ///
-    /// # Errors
-    /// [`Failure`] says what went wrong.
+    /// Runs it: whether everything is as asked. [`Failure`] says what went wrong.
     pub fn run(mut self) -> Result<bool, Failure> {
         if self.synthetic {
-            return section::run(&self.plan);
+            return synthetic::run(&self.plan);
         }
         if self.recommended {
             return recommended::run();

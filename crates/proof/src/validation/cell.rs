@@ -1,8 +1,7 @@
 //! Tables I and II: the reference cell.
 
 use super::fixtures::{Fixtures, Printed};
-use super::row::{Agreement, ComparisonRow, rounds_to};
-use super::section::{Section, timed};
+use super::row::{Agreement, ComparisonRow, Section, rounds_to, timed};
 use crate::Failure;
 use homogenization::{Constants, Discretization, Extent, Homogenized, free_cell, homogenize, homogenize_on};
 

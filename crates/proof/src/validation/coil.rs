@@ -2,8 +2,7 @@
 
 use super::cell::{check, largest};
 use super::fixtures::{Fixtures, Printed};
-use super::row::{Agreement, ComparisonRow};
-use super::section::{Section, timed};
+use super::row::{Agreement, ComparisonRow, Section, timed};
 use super::spread::{self, Spread};
 use crate::Failure;
 use bias::{Bias, Sensitivity, Slice};
