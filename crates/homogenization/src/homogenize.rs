@@ -86,8 +86,8 @@ pub fn effective_with(cell: &FibreCell, discretization: &Discretization, volumet
 pub fn homogenize_on(cell: &FibreCell, discretization: &Discretization) -> Result<Homogenized, Error> {
     let effective = effective(cell, discretization)?;
     let finer = crate::effective(cell, &discretization.refined())?;
-    let constants = constants(&effective)?;
-    let relative_error = truncation(&constants, &crate::homogenize::constants(&finer)?);
+    let constants = effective.constants().ok_or_else(Error::singular)?;
+    let relative_error = truncation(&constants, &finer.constants().ok_or_else(Error::singular)?);
     Ok(Homogenized { constants, relative_error, unknowns: effective.unknowns, effective })
 }
 
@@ -123,10 +123,6 @@ fn relative_difference(a: &Constants, b: &Constants) -> Constants {
     difference.combine(&b.size(), |difference, size| if difference == 0.0 { 0.0 } else { difference / size })
 }
 
-fn constants(effective: &Effective) -> Result<Constants, Error> {
-    effective.constants().ok_or_else(Error::singular)
-}
-
 /// Effective constants of `cell`, each to [`TOLERANCE`].
 ///
 /// # Errors
@@ -153,10 +149,10 @@ pub fn homogenize_to(cell: &FibreCell, relative_error: f64) -> Result<Homogenize
     loop {
         let multipoles = Multipoles::new(cell, order)?;
         let effective = multipoles.effective(cell)?;
-        let constants = constants(&effective)?;
+        let constants = effective.constants().ok_or_else(Error::singular)?;
         let rounding = rounding(&multipoles, cell, &effective, &constants);
         let lower = multipoles.lowered(order.saturating_sub(step).max(1)).effective(cell)?;
-        let truncation = truncation(&crate::homogenize::constants(&lower)?, &constants);
+        let truncation = truncation(&lower.constants().ok_or_else(Error::singular)?, &constants);
         let relative = truncation.combine(&rounding, |t, r| t + r);
         let (constant, reached) = worst(&relative.named());
         if reached <= relative_error {

@@ -131,13 +131,7 @@ impl CellProblem {
     }
 
     /// Whole cell: all loads on one system. Quarter: loads that are even and odd about the mirror planes apart.
-    fn classes(
-        &self,
-        symmetric: &'static [usize],
-        odd: &'static [usize],
-        all: &'static [usize],
-        plane: bool,
-    ) -> Vec<Class<'static>> {
+    fn classes(&self, [symmetric, odd, all]: [&'static [usize]; 3], plane: bool) -> Vec<Class<'static>> {
         if self.cell_mesh.symmetry.mirror_x.is_empty() {
             return vec![Class { loads: all, on_mirror_x: None, on_mirror_y: None }];
         }
@@ -218,7 +212,7 @@ impl CellProblem {
         for load in 0..LOADS {
             self.add_macroscopic(effective, load, |voigt| mean(load, voigt));
         }
-        for class in self.classes(&[0, 1, 2, 4], &[3], &[0, 1, 2, 3, 4], true) {
+        for class in self.classes([&[0, 1, 2, 4], &[3], &[0, 1, 2, 3, 4]], true) {
             let map = self.map(&problem, 2, &class)?;
             let factor = self.condense(&problem, &map)?;
             effective.unknowns = effective.unknowns.max(factor.unknowns());
@@ -268,7 +262,7 @@ impl CellProblem {
         for (f, law) in self.phases.fractions.iter().zip(laws.iter().flatten()) {
             effective += law.fixed_view::<2, 2>(0, 0) * *f;
         }
-        for class in self.classes(&[0], &[1], &[0, 1], false) {
+        for class in self.classes([&[0], &[1], &[0, 1]], false) {
             let map = self.map(&problem, 1, &class)?;
             let factor = problem.condense(&map, laws)?;
             let reduced: Vec<_> = loads.iter().map(|f| map.restrict(f)).collect();

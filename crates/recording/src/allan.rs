@@ -4,6 +4,9 @@
 //! deviation falls as τ⁻¹ where quantisation rules, as τ^−½ where white noise does, is flat at the bias instability and rises as τ^½
 //! where rate random walk does. A deterministic signal in the series shows as noise: take it off first.
 
+use std::cmp::Reverse;
+use std::ops::Range;
+
 use crate::Error;
 use crate::series::{GAP, check_series, interval};
 use crate::statistics::chi_square_quantile;
@@ -141,15 +144,8 @@ impl Lattice {
     }
 }
 
-fn longest_stretch(time: &[f64], interval: f64) -> std::ops::Range<usize> {
-    let (mut best, mut start) = (0..0, 0);
-    for end in 1..=time.len() {
-        if end == time.len() || time[end] - time[end - 1] > GAP * interval {
-            if end - start > best.len() {
-                best = start..end;
-            }
-            start = end;
-        }
-    }
-    best
+fn longest_stretch(time: &[f64], interval: f64) -> Range<usize> {
+    let rows: Vec<usize> = (0..time.len()).collect();
+    let stretches = rows.chunk_by(|&a, &b| time[b] - time[a] <= GAP * interval);
+    stretches.min_by_key(|rows| Reverse(rows.len())).map_or(0..0, |rows| rows[0]..rows[0] + rows.len())
 }

@@ -63,17 +63,9 @@ pub fn thinned(recording: &Recording, interval: f64, rule: &Thinning) -> Option<
 
 /// Groups of `every` rows between gaps.
 fn groups(rows: usize, every: usize, neighbours: impl Fn(usize) -> bool) -> Vec<Range<usize>> {
-    let (mut whole, mut first) = (Vec::new(), 0);
-    for row in 1..=rows {
-        if row < rows && neighbours(row) && row - first < every {
-            continue;
-        }
-        if row - first == every {
-            whole.push(first..row);
-        }
-        first = row;
-    }
-    whole
+    let rows: Vec<usize> = (0..rows).collect();
+    let stretches = rows.chunk_by(|_, &row| neighbours(row));
+    stretches.flat_map(|stretch| stretch.chunks_exact(every)).map(|group| group[0]..group[0] + every).collect()
 }
 
 /// Mean of what is there; NaN if that is less than half.

@@ -11,9 +11,8 @@ use super::cell_general::{GeneralCase, layouts, outline, pitch};
 use super::cell_material::{Material, material};
 use super::fingerprint::Fingerprint;
 use super::group::Group;
-use super::kind::CELL;
 use super::mirror::Mirror;
-use super::source::Source;
+use super::source::{CELL, Source};
 use crate::Error;
 
 /// Rings of the most elaborate fibre accepted.

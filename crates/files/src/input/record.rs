@@ -218,14 +218,11 @@ fn notes(columns: &RecordColumns, format: &RecordFormat, relative: bool) -> Vec<
     let mut notes = Vec::new();
     for key in Key::ALL {
         let Some(column) = columns.column(key) else {
-            notes.push(match key {
-                Key::Time => {
-                    Remark::DeclaredInterval.note("there is no column of instants: the interval that was declared stands for it")
-                }
-                _ => {
-                    let message = format!("there is no column {}; a model can do without it, less surely", key.standard());
-                    Remark::AbsentColumn.note(message)
-                }
+            notes.push(if key == Key::Time {
+                Remark::DeclaredInterval.note("there is no column of instants: the interval that was declared stands for it")
+            } else {
+                let message = format!("there is no column {}; a model can do without it, less surely", key.standard());
+                Remark::AbsentColumn.note(message)
             });
             continue;
         };

@@ -76,11 +76,10 @@ impl Fields<'_> {
         for phase in &mut all {
             for spread in phase.spreads.iter_mut().flatten() {
                 let known = spread.least <= spread.most;
-                *spread = if known { Spread { mean: spread.mean / phase.area, ..*spread } } else { UNKNOWN };
+                let nan = Spread { mean: f64::NAN, least: f64::NAN, most: f64::NAN };
+                *spread = if known { Spread { mean: spread.mean / phase.area, ..*spread } } else { nan };
             }
         }
         Ok(all)
     }
 }
-
-const UNKNOWN: Spread = Spread { mean: f64::NAN, least: f64::NAN, most: f64::NAN };

@@ -9,8 +9,6 @@ mod report;
 mod score;
 mod summary;
 mod synthetic;
-#[cfg(test)]
-mod tests;
 mod units;
 
 use std::path::PathBuf;
@@ -93,4 +91,15 @@ fn open(only: &[String]) -> Result<bool, Failure> {
     println!("\n{} of {asked} scores that were measured are as asked", asked - failures.len());
     failures.iter().for_each(|row| eprintln!("FAILS: {}: {}", row.group, row.quantity));
     Ok(failures.is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::case;
+
+    #[test]
+    fn a_case_has_its_number_in_two_digits() {
+        assert_eq!(["3", "03", "case_12"].map(|number| case(number).unwrap()), ["case_03", "case_03", "case_12"]);
+        assert!(["", "x", "case_", "-1"].iter().all(|number| case(number).is_err()));
+    }
 }

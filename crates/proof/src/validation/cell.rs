@@ -44,7 +44,7 @@ pub(crate) fn table_1(fixtures: &Fixtures) -> Result<(Section, Homogenized), Fai
          dual-coated fibre explains it, not that the authors' cell was this one.",
         cell.unknowns
     ));
-    section.timing(format!("cell with error estimate: {:.0} ms", seconds * 1e3));
+    section.timings.push(format!("cell with error estimate: {:.0} ms", seconds * 1e3));
     for printed in fixtures.table("I") {
         let name = printed.quantity.to_lowercase();
         let (v, e) = (value(&cell.constants, &name), value(&cell.relative_error, &name));

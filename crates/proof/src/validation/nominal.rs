@@ -115,7 +115,7 @@ pub(crate) fn nominal(fixtures: &Fixtures) -> Result<Section, Failure> {
         }
         Ok(())
     })?;
-    section.timing(format!("{} profiles, both courses, both meshes: {seconds:.1} s", PROFILES.len()));
+    section.timings.push(format!("{} profiles, both courses, both meshes: {seconds:.1} s", PROFILES.len()));
     Ok(section)
 }
 

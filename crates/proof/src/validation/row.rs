@@ -124,10 +124,6 @@ impl Section {
     pub fn note(&mut self, text: impl Into<String>) {
         self.notes.push(text.into());
     }
-
-    pub(super) fn timing(&mut self, text: String) {
-        self.timings.push(text);
-    }
 }
 
 /// A result with the seconds it took.

@@ -90,19 +90,14 @@ fn missing(time: &[f64], present: &[bool], useless: Severity, findings: &mut Vec
     if present.iter().all(|there| !there) {
         return findings.push(Finding::whole(FindingKind::Empty, useless));
     }
-    let mut row = 0;
-    while row < present.len() {
-        let end = (row..present.len()).find(|&r| present[r]).unwrap_or(present.len());
-        if end > row {
-            findings.push(Finding::at(
-                FindingKind::Missing,
-                Severity::Note,
-                [time[row], time[end - 1]],
-                end - row,
-                Repair::Masked,
-            ));
+    let mut end = 0;
+    for run in present.chunk_by(|a, b| a == b) {
+        let start = end;
+        end += run.len();
+        if !run[0] {
+            let span = [time[start], time[end - 1]];
+            findings.push(Finding::at(FindingKind::Missing, Severity::Note, span, run.len(), Repair::Masked));
         }
-        row = end.max(row + 1);
     }
 }
 

@@ -94,19 +94,7 @@ impl Data {
 
 /// First rows of complete, contiguous groups.
 fn groups(time: &[f64], mask: &[bool], group: usize, interval: f64) -> Vec<usize> {
-    let (mut starts, mut start) = (Vec::new(), 0);
-    for row in 0..time.len() {
-        if !mask[row] {
-            start = row + 1;
-            continue;
-        }
-        if row > start && time[row] - time[row - 1] > GAP * interval {
-            start = row;
-        }
-        if row + 1 - start == group {
-            starts.push(start);
-            start = row + 1;
-        }
-    }
-    starts
+    let used: Vec<usize> = (0..time.len()).filter(|&row| mask[row]).collect();
+    let stretches = used.chunk_by(|&a, &b| b == a + 1 && time[b] - time[a] <= GAP * interval);
+    stretches.flat_map(|stretch| stretch.chunks_exact(group)).map(|rows| rows[0]).collect()
 }
