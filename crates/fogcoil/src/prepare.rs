@@ -93,8 +93,8 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     }
     if let Some(unrest) = unrest(&time, &chamber, &spool, &REST) {
         let off = match unrest {
-            Unrest::Apart { by } => format!("spool and chamber differ by {by:.1} K"),
-            Unrest::Moving { by } => format!("the chamber moves by {by:.1} K in the first {} min", REST.duration / S_PER_MIN),
+            Unrest::Apart(by) => format!("spool and chamber differ by {by:.1} K"),
+            Unrest::Moving(by) => format!("the chamber moves by {by:.1} K in the first {} min", REST.duration / S_PER_MIN),
         };
         say(Remark::NotAtRest, format!("does not start at rest ({off}), as the model does: what this leaves is no finding"));
     }

@@ -72,8 +72,8 @@ pub fn text(found: &AtTemperature, case: &GeneralCase) -> String {
     text += &format!(
         "{fibres} inclusions, {} elements of order {}, {} unknowns; void {:.3} % of the area; the errors are numerical, they say nothing about the \
          constituents\nnot transversely isotropic by {:.2e}: the largest relative difference of strain energy from the mean over all turns about z\n",
-        found.first.solution.mesh().elements().len(),
-        found.first.solution.mesh().order(),
+        found.first.solution.mesh.elements().len(),
+        found.first.solution.mesh.order(),
         response.unknowns,
         100.0 * void_fraction(found),
         found.anisotropy
