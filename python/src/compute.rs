@@ -92,17 +92,7 @@ pub(crate) fn simulate<'py>(
         Ok((simulation.rows().collect::<Vec<_>>(), object))
     };
     let (rows, object) = py.detach(run).map_err(|error: Error| raised(error))?;
-    let column = |of: fn(&runs::SimulatedRow) -> f64| bytes(py, rows.iter().map(of));
-    let columns = vec![
-        ("time_s", column(|row| row.time)),
-        ("chamber_c", column(|row| row.chamber)),
-        ("spool_c", column(|row| row.spool)),
-        ("shupe_deg_per_h", column(|row| row.shupe)),
-        ("eo_axial_deg_per_h", column(|row| row.eo_axial)),
-        ("eo_radial_deg_per_h", column(|row| row.eo_radial)),
-        ("rate_deg_per_h", column(|row| row.rate)),
-    ];
-    Ok((columns, object))
+    Ok((runs::COLUMNS.map(|(name, of)| (name, bytes(py, rows.iter().map(of)))).into(), object))
 }
 
 /// A record: the file, or what messages call it, and its columns if it is no file.

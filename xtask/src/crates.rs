@@ -7,16 +7,6 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-/// A library of the workspace that other projects may take.
-struct Library {
-    name: String,
-    description: Option<String>,
-    features: bool,
-    /// Whether it has a program, with which it takes what the workspace has anyway; other projects take it without.
-    program: bool,
-    folder: std::path::PathBuf,
-}
-
 fn cargo(arguments: &[&str]) -> Result<Vec<u8>, Failure> {
     let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(program).args(arguments).current_dir(root()).output()?;
@@ -38,71 +28,64 @@ fn published(package: &Value) -> bool {
     package["publish"].as_array().is_none_or(|registries| !registries.is_empty())
 }
 
-fn library(package: &Value) -> Option<Library> {
-    let has = |kind: &str| package["targets"].as_array().is_some_and(|all| all.iter().any(|t| t["kind"][0] == kind));
-    let folder = Path::new(package["manifest_path"].as_str()?).parent()?.to_path_buf();
-    let features = package["features"].as_object().is_some_and(|features| !features.is_empty());
-    let description = package["description"].as_str().map(str::to_owned);
-    let name = package["name"].as_str()?.to_owned();
-    has("lib").then(|| Library { name, description, features, program: has("bin"), folder })
+fn has(package: &Value, kind: &str) -> bool {
+    package["targets"].as_array().is_some_and(|all| all.iter().any(|target| target["kind"][0] == kind))
 }
 
-impl Library {
-    /// What another project expects to find, and does not.
-    fn missing(&self, package: &Value) -> Vec<String> {
-        let readme = std::fs::read_to_string(self.folder.join("README.md")).unwrap_or_default();
-        let by_path = |d: &&Value| d["path"].is_string() && d["req"] == "*";
-        let alone = package["dependencies"].as_array().into_iter().flatten().filter(by_path);
-        let path_only = alone.map(|d| format!("{} is taken by its path only, give it a version", d["name"]));
-        let wanted = [
-            (self.description.is_some(), "no description in Cargo.toml"),
-            (readme.contains("```rust"), "no example in README.md"),
-            (readme.contains("Version 0."), "README.md does not say what a version promises"),
-        ];
-        wanted.into_iter().filter(|(found, _)| !found).map(|(_, missing)| missing.to_owned()).chain(path_only).collect()
-    }
+/// What another project expects to find in the package at `folder`, and does not.
+fn missing(package: &Value, folder: &Path) -> Vec<String> {
+    let readme = std::fs::read_to_string(folder.join("README.md")).unwrap_or_default();
+    let by_path = |d: &&Value| d["path"].is_string() && d["req"] == "*";
+    let alone = package["dependencies"].as_array().into_iter().flatten().filter(by_path);
+    let path_only = alone.map(|d| format!("{} is taken by its path only, give it a version", d["name"]));
+    let wanted = [
+        (package["description"].is_string(), "no description in Cargo.toml"),
+        (readme.contains("```rust"), "no example in README.md"),
+        (readme.contains("Version 0."), "README.md does not say what a version promises"),
+    ];
+    wanted.into_iter().filter(|(found, _)| !found).map(|(_, missing)| missing.to_owned()).chain(path_only).collect()
+}
 
-    /// Checks it with its own features only; `deep` also with all of them, its tests, and runs these. What has a program is checked without
-    /// it as well.
-    fn alone(&self, deep: bool) -> Result<(), Failure> {
-        let package = ["--quiet", "--package", self.name.as_str()];
-        if self.program {
-            cargo(&[&["check", "--no-default-features", "--lib"], &package[..]].concat())?;
-        }
-        cargo(&[&["check"], &package[..]].concat())?;
-        if !deep {
-            return Ok(());
-        }
-        if self.features {
-            cargo(&[&["check", "--all-features"], &package[..]].concat())?;
-        }
-        cargo(&[&["check", "--tests"], &package[..]].concat())?;
-        cargo(&[&["test"], &package[..]].concat())?;
-        Ok(())
+/// Checks a library with its own features only; `deep` also with all of them, its tests, and runs these. What has a program is checked
+/// without it as well: other projects take it so.
+fn alone(name: &str, package: &Value, deep: bool) -> Result<(), Failure> {
+    let run = |words: &[&str]| cargo(&[words, &["--quiet", "--package", name]].concat());
+    if has(package, "bin") {
+        run(&["check", "--no-default-features", "--lib"])?;
     }
+    run(&["check"])?;
+    if !deep {
+        return Ok(());
+    }
+    if package["features"].as_object().is_some_and(|features| !features.is_empty()) {
+        run(&["check", "--all-features"])?;
+    }
+    run(&["check", "--tests"])?;
+    run(&["test"])?;
+    Ok(())
 }
 
 /// Checks every library that is published by itself. With `deep` also the proof and the program: packages all that is published, builds each
 /// package from what was packed, and runs the tests of each library by itself.
-///
-/// # Errors
-/// [`Failure`] if something is missing, or does not compile or pass by itself.
 pub(crate) fn run(deep: bool) -> Result<(), Failure> {
     let start = Instant::now();
     let packages = workspace()?;
     let folder = root().join("crates");
     for package in &packages {
-        let Some(library) = library(package).filter(|library| library.folder.starts_with(&folder)) else { continue };
+        let (Some(name), Some(manifest)) = (package["name"].as_str(), package["manifest_path"].as_str()) else { continue };
+        let Some(here) = Path::new(manifest).parent().filter(|here| has(package, "lib") && here.starts_with(&folder)) else {
+            continue;
+        };
         // minutes of compiling: python/test builds the program's library without the program, too
-        if !deep && (library.program || !published(package)) {
+        if !deep && (has(package, "bin") || !published(package)) {
             continue;
         }
-        let missing = library.missing(package);
+        let missing = missing(package, here);
         if !missing.is_empty() {
-            return Err(Failure(format!("{}: {}", library.name, missing.join("; "))));
+            return Err(Failure(format!("{name}: {}", missing.join("; "))));
         }
-        library.alone(deep)?;
-        println!("[{:4.0} s] {} stands alone", start.elapsed().as_secs_f64(), library.name);
+        alone(name, package, deep)?;
+        println!("[{:4.0} s] {name} stands alone", start.elapsed().as_secs_f64());
     }
     if deep {
         let mut arguments = vec!["package", "--workspace", "--allow-dirty"];

@@ -22,7 +22,6 @@ pub enum Fill {
 }
 
 impl Fill {
-    /// Its class in the style sheet.
     pub(crate) fn class(self) -> &'static str {
         match self {
             Self::Cool => "area cool",

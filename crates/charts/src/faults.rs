@@ -59,7 +59,6 @@ pub fn faults(page: &str) -> Vec<String> {
     faults
 }
 
-/// Values of an attribute.
 fn values<'a>(page: &'a str, attribute: &str) -> impl Iterator<Item = &'a str> {
     let opened = format!(" {attribute}=\"");
     let starts: Vec<usize> = page.match_indices(&opened).map(|(at, found)| at + found.len()).collect();

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use crate::attributes;
 use crate::data::data;
 use crate::panel::{Panel, Place};
-use crate::size::{Measures, Size};
+use crate::size::{Measures, NARROW, WIDE};
 use crate::style::document_style;
 use crate::svg::{Frame, Svg};
 
@@ -34,7 +34,7 @@ impl Figure<'_> {
         html! {
             figure {
                 h3 { (self.title) } "\n"
-                (self.svg(Size::Wide)) (self.svg(Size::Narrow))
+                (self.svg(&WIDE)) (self.svg(&NARROW))
                 figcaption { (self.caption) }
             } "\n"
             (data(&self.title, &self.panels))
@@ -42,9 +42,8 @@ impl Figure<'_> {
     }
 
     /// One drawing of it; the narrow one comes after the wide one, whose maps it shows.
-    fn svg(&self, size: Size) -> Svg {
-        let m = size.measures();
-        let ((body, height), id) = (self.body(&m), format!("{}-{}", self.id, m.class));
+    fn svg(&self, m: &Measures) -> Svg {
+        let ((body, height), id) = (self.body(m), format!("{}-{}", self.id, m.class));
         let mut svg = Svg::default();
         svg.open(
             "svg",
@@ -62,8 +61,7 @@ impl Figure<'_> {
 
     /// As a document of its own, with its title.
     pub fn document(&self) -> String {
-        let m = Size::Wide.measures();
-        let (body, height) = self.body(&m);
+        let (m, (body, height)) = (WIDE, self.body(&WIDE));
         let ids = ["title", "desc"].map(|part| format!("{}-{part}", self.id));
         let frame = Frame {
             ids: [&ids[0], &ids[1]],

@@ -104,8 +104,7 @@ impl HeatMap {
         self.values.len() / self.columns.max(1)
     }
 
-    /// The cells in a box of `width` × `height`. The first drawing of a map gives them the name `id`, later ones on the same page only
-    /// refer to it.
+    /// The cells in a box of `width` × `height`. The `first` drawing of a map on a page gives them the name `id`, later ones refer to it.
     pub(crate) fn cells(&self, svg: &mut Svg, [width, height]: [f64; 2], id: &str, first: bool) {
         let (across, down) = (width / self.columns.max(1) as f64, height / self.rows().max(1) as f64);
         let thick = 1.0 + OVERLAP / down;

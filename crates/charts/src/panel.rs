@@ -66,7 +66,6 @@ impl Place {
     }
 }
 
-/// How wide text is \[px\].
 fn width_of(content: &str, m: &Measures) -> f64 {
     LETTER * m.font * content.chars().count() as f64
 }

@@ -42,7 +42,6 @@ pub enum Style {
 }
 
 impl Style {
-    /// Its class in the style sheet.
     pub(crate) fn class(self) -> &'static str {
         match self {
             Self::Total => "line total",
@@ -63,7 +62,6 @@ impl Style {
     }
 }
 
-/// Classes of the marks.
 const MARKS: [&str; 5] = ["mark first", "mark second", "mark third", "mark total", "mark first"];
 
 /// How a line is thinned.
@@ -160,7 +158,6 @@ fn path(points: &[(f64, f64)]) -> String {
     data
 }
 
-/// A point and its number.
 type Numbered = (usize, (f64, f64));
 
 /// Lowest and highest point of every column of pixels in the order they come, and the two ends.

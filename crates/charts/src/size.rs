@@ -1,13 +1,4 @@
-//! Sizes of paper, and what is measured by them.
-
-/// For which paper a figure is drawn; a page holds both and shows one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Size {
-    /// Screens and paper.
-    Wide,
-    /// Phones.
-    Narrow,
-}
+//! Sizes of paper, and what is measured by them; a page holds each figure for both and shows one.
 
 /// Measures of a size \[px\].
 pub(crate) struct Measures {
@@ -22,11 +13,9 @@ pub(crate) struct Measures {
     pub(crate) first: bool,
 }
 
-impl Size {
-    pub(crate) fn measures(self) -> Measures {
-        match self {
-            Self::Wide => Measures { class: "wide", width: 900.0, font: 14.0, apart: [75.0, 42.0], columns: 2, first: true },
-            Self::Narrow => Measures { class: "narrow", width: 360.0, font: 12.0, apart: [55.0, 30.0], columns: 1, first: false },
-        }
-    }
-}
+/// Screens and paper.
+pub(crate) const WIDE: Measures =
+    Measures { class: "wide", width: 900.0, font: 14.0, apart: [75.0, 42.0], columns: 2, first: true };
+/// Phones.
+pub(crate) const NARROW: Measures =
+    Measures { class: "narrow", width: 360.0, font: 12.0, apart: [55.0, 30.0], columns: 1, first: false };

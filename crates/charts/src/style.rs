@@ -20,8 +20,7 @@ const PALETTE: [(&str, &str, &str); 14] = [
 
 const STYLE: &str = include_str!("style.css");
 
-/// Style sheet of a page with figures: the palette as custom properties, by the reader's preference in light or dark, and the figures'
-/// rules.
+/// Style sheet of a page with figures: the palette as custom properties, in light or dark as the reader prefers, and the figures' rules.
 pub(crate) fn page_style() -> String {
     let properties = |dark: bool| {
         let one = |(name, light, in_dark): &(&str, &str, &str)| format!(" --{name}: {};", if dark { in_dark } else { light });

@@ -91,12 +91,6 @@ impl Svg {
         self
     }
 
-    /// A style sheet of the program's own.
-    pub(crate) fn style(&mut self, sheet: &str) {
-        self.0 += &format!("<style>\n{sheet}</style>\n");
-    }
-
-    /// Ends the line.
     pub(crate) fn line(&mut self) {
         self.0.push('\n');
     }
@@ -168,7 +162,7 @@ impl Frame<'_> {
         svg.element("title", attributes! { "id": "{title}" }, self.title);
         svg.element("desc", attributes! { "id": "{description}" }, self.description);
         if !self.style.is_empty() {
-            svg.style(self.style);
+            svg.0 += &format!("<style>\n{}</style>\n", self.style);
         }
         svg.leaf("rect", attributes! { "width": "100%", "height": "100%", "fill": "#ffffff" });
         inside(&mut svg);

@@ -42,7 +42,6 @@ impl Separation {
     }
 }
 
-/// The model under a given noise.
 struct Under<'a, M> {
     model: &'a M,
     channels: Vec<Channel>,
@@ -143,9 +142,7 @@ pub fn fitted<M: ForwardModel>(
     let mut best: Option<Fit> = None;
     for hypothesis in hypotheses {
         let fit = fitter.fit(hypothesis, &typical, None)?;
-        if best.as_ref().is_none_or(|b| fit.log_evidence > b.log_evidence) {
-            best = Some(fit);
-        }
+        best = Some(Fit::better(best, fit));
     }
     let best = best.ok_or_else(|| Error::Data("there is no hypothesis to fit".into()))?;
     fitter.fit_with_noise(&best.hypothesis, &best, 2)

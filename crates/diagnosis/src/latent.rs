@@ -1,6 +1,6 @@
 //! Which part of the chain a mismatch comes from: one flexible input at a time, placed at each stage.
 
-use crate::fit::Fit;
+use crate::fit::{Fit, curvature};
 use crate::locate::whiteness;
 use crate::{Error, ForwardModel, Latent, Observation};
 use nalgebra::{Cholesky, DMatrix, DVector};
@@ -48,8 +48,7 @@ impl MemberResolution {
 const AMPLITUDES: [f64; 7] = [0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0];
 
 impl Fit {
-    /// Whitened responses to the functions, those of all records one below another; each scaled to a largest response of one
-    /// standard deviation of a channel's white noise.
+    /// Whitened responses to the functions, all records one below another, each scaled to a largest response of a channel's white noise.
     fn whitened_functions(&self, records: &[Functions]) -> Option<(DMatrix<f64>, Vec<f64>)> {
         let count = records.iter().map(Vec::len).min()?;
         let (mut columns, mut scales) = (Vec::new(), Vec::new());
@@ -131,16 +130,9 @@ impl Fit {
 
     /// What is left of the whitened residual after functions of amplitude `scale` and the fit's own unknowns have taken their part.
     fn after(&self, columns: &DMatrix<f64>, scale: f64) -> DVector<f64> {
-        let all = DMatrix::from_columns(
-            &self
-                .jacobian
-                .column_iter()
-                .map(|c| c.into_owned())
-                .chain(columns.column_iter().map(|c| c * scale))
-                .collect::<Vec<_>>(),
-        );
-        let normal = all.tr_mul(&all) + DMatrix::identity(all.ncols(), all.ncols());
-        match Cholesky::new(normal) {
+        let scaled = columns * scale;
+        let all = DMatrix::from_columns(&self.jacobian.column_iter().chain(scaled.column_iter()).collect::<Vec<_>>());
+        match Cholesky::new(curvature(&all)) {
             Some(factor) => &self.whitened - &all * factor.solve(&all.tr_mul(&self.whitened)),
             None => self.whitened.clone(),
         }
@@ -158,19 +150,16 @@ impl Fit {
         prior: f64,
     ) -> Result<Option<MemberResolution>, Error<M::Error>> {
         let group = Self::latent(records, |r| Ok(model.members(r)?.into_iter().collect()))?;
-        let Some((columns, scales)) = group.first().and_then(|(_, functions)| self.whitened_functions(functions)) else {
+        let Some((mut columns, scales)) = group.first().and_then(|(_, functions)| self.whitened_functions(functions)) else {
             return Ok(None);
         };
         // in units of the prior
-        let mut columns = columns;
         for (k, scale) in scales.iter().enumerate() {
             columns.column_mut(k).scale_mut(if *scale > 0.0 { prior / scale } else { 0.0 });
         }
         let own = self.jacobian.ncols();
         let all = DMatrix::from_columns(&self.jacobian.column_iter().chain(columns.column_iter()).collect::<Vec<_>>());
-        let information = all.tr_mul(&all);
-        let posterior = Cholesky::new(&information + DMatrix::identity(all.ncols(), all.ncols())).ok_or(Error::NotFinite)?;
-        let covariance = posterior.inverse();
+        let covariance = Cholesky::new(curvature(&all)).ok_or(Error::NotFinite)?.inverse();
         // the fit's own unknowns are where they fit best, at u
         let mut gradient = all.tr_mul(&self.whitened);
         gradient.rows_mut(0, own).zip_apply(&self.u, |g, u| *g -= u);

@@ -1,6 +1,5 @@
 #![doc = include_str!("../README.md")]
 
-mod candidate;
 mod discriminate;
 mod error;
 mod fit;
@@ -17,10 +16,9 @@ mod search;
 mod structure;
 mod verdict;
 
-pub use candidate::Candidate;
 pub use discriminate::{Plan, Separation, fitted, separation};
 pub use error::Error;
-pub use fit::{Fit, Hypothesis, alternatives};
+pub use fit::{Fit, Hypothesis, alternatives, expected};
 pub use hold_out::{HeldOut, as_designed};
 pub use latent::{MemberResolution, Stage};
 pub use locate::{Block, Cell, FREQUENCIES, Spectrum, whiteness};
@@ -30,4 +28,4 @@ pub use posterior::{Estimate, Place, Posterior};
 pub use rival::Rival;
 pub use search::{Settings, diagnose};
 pub use structure::Structure;
-pub use verdict::{Contradiction, Diagnosis, Judged, Judgement, Ruling, Verdict};
+pub use verdict::{Candidate, Contradiction, Diagnosis, Judged, Judgement, Ruling, Verdict};

@@ -125,8 +125,7 @@ pub trait ForwardModel {
     ///
     /// # Errors
     /// What keeps the model from responding.
-    fn latent(&self, record: usize) -> Result<Vec<Latent>, Self::Error> {
-        let _ = record;
+    fn latent(&self, _record: usize) -> Result<Vec<Latent>, Self::Error> {
         Ok(Vec::new())
     }
 
@@ -134,8 +133,7 @@ pub trait ForwardModel {
     ///
     /// # Errors
     /// What keeps the model from responding.
-    fn members(&self, record: usize) -> Result<Option<Latent>, Self::Error> {
-        let _ = record;
+    fn members(&self, _record: usize) -> Result<Option<Latent>, Self::Error> {
         Ok(None)
     }
 }

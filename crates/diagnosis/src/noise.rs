@@ -17,26 +17,20 @@ pub(crate) struct Noise {
 /// Logarithms of white, drift, drift time and walk in units of their priors.
 type Standard = [f64; 4];
 
+fn terms(prior: &NoisePrior) -> [(f64, f64); 4] {
+    [prior.white, prior.drift, prior.drift_time, prior.walk]
+}
+
 fn model(prior: &NoisePrior, averaging: f64, x: &Standard) -> NoiseModel {
-    let of = |(median, spread): (f64, f64), x: f64| median * (spread * x.clamp(-12.0, 12.0)).exp();
-    NoiseModel {
-        averaging,
-        white: of(prior.white, x[0]),
-        drift: of(prior.drift, x[1]),
-        drift_time: of(prior.drift_time, x[2]),
-        walk: of(prior.walk, x[3]),
-        quantisation: 0.0,
-    }
+    let of = |i: usize, (median, spread): (f64, f64)| median * (spread * x[i].clamp(-12.0, 12.0)).exp();
+    let [white, drift, drift_time, walk] = std::array::from_fn(|i| of(i, terms(prior)[i]));
+    NoiseModel { averaging, white, drift, drift_time, walk, quantisation: 0.0 }
 }
 
 fn standard(prior: &NoisePrior, model: &NoiseModel) -> Standard {
-    let of = |(median, spread): (f64, f64), value: f64| (value / median).ln() / spread;
-    [
-        of(prior.white, model.white),
-        of(prior.drift, model.drift),
-        of(prior.drift_time, model.drift_time),
-        of(prior.walk, model.walk),
-    ]
+    let values = [model.white, model.drift, model.drift_time, model.walk];
+    let of = |value: f64, (median, spread): (f64, f64)| (value / median).ln() / spread;
+    std::array::from_fn(|i| of(values[i], terms(prior)[i]))
 }
 
 fn log_prior(x: &Standard) -> f64 {
@@ -133,7 +127,6 @@ impl Noise {
         Self::with(models, sum, observations)
     }
 
-    /// Noise model of a channel of a record.
     pub(crate) fn model(&self, record: usize, channel: usize) -> &NoiseModel {
         &self.models[record][channel]
     }
@@ -143,7 +136,6 @@ impl Noise {
         self.whiteners[record][channel].apply(series)
     }
 
-    /// Rows of a channel of a record that are used.
     pub(crate) fn rows(&self, record: usize, channel: usize) -> &[usize] {
         self.whiteners[record][channel].rows()
     }

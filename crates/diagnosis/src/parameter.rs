@@ -32,10 +32,6 @@ pub enum Prior {
 /// Largest |u| that is looked at: 1 in 10¹⁵ of a prior lies beyond.
 const MOST: f64 = 8.0;
 
-fn standard_normal() -> Normal {
-    Normal::standard()
-}
-
 impl Prior {
     /// The value at u.
     pub fn value(&self, u: f64) -> f64 {
@@ -43,7 +39,7 @@ impl Prior {
         match *self {
             Prior::Normal { mean, sd } => mean + sd * u,
             Prior::LogNormal { median, spread } => median * (spread * u).exp(),
-            Prior::Uniform { low, high } => low + (high - low) * standard_normal().cdf(u),
+            Prior::Uniform { low, high } => low + (high - low) * Normal::standard().cdf(u),
         }
     }
 
@@ -53,8 +49,7 @@ impl Prior {
             Prior::Normal { mean, sd } => (value - mean) / sd,
             Prior::LogNormal { median, spread } => (value.max(f64::MIN_POSITIVE) / median).ln() / spread,
             Prior::Uniform { low, high } => {
-                let share = ((value - low) / (high - low)).clamp(1e-15, 1.0 - 1e-15);
-                standard_normal().inverse_cdf(share)
+                Normal::standard().inverse_cdf(((value - low) / (high - low)).clamp(1e-15, 1.0 - 1e-15))
             }
         };
         u.clamp(-MOST, MOST)

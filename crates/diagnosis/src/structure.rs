@@ -56,7 +56,6 @@ impl Structure {
     }
 }
 
-/// Smallest and largest value.
 pub(crate) fn range<'a>(x: impl Iterator<Item = &'a f64>) -> [f64; 2] {
     x.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)])
 }
@@ -77,7 +76,6 @@ fn hats(x: &[f64], [low, high]: [f64; 2], count: usize) -> Vec<Vec<f64>> {
     (0..count).map(hat).collect()
 }
 
-/// First-order follower of a series.
 fn follow(time: &[f64], series: &[f64], tau: f64) -> Vec<f64> {
     let mut x = 0.0;
     (0..series.len())

@@ -1,5 +1,5 @@
-//! Case files, profiles and recordings in, designs out: the only crate that knows how they look on disk.
-//!
+#![doc = include_str!("../README.md")]
+//! # Modules
 //! - [`input`] reads `CELL.ron`, `COIL.ron`, `TARGETS.ron`, profiles and recordings. Every value is checked; what is wrong is said once, with
 //!   file, line, field and remedy ([`input::InputError`]). The keys carry their units, the result is SI. One set of types says what a file
 //!   holds: for reading, for writing and for its JSON Schema ([`input::schemas`]).
@@ -8,14 +8,6 @@
 //! - [`Note`] is a warning or a note; [`Remark`] has their ids, each with its explanation.
 //!
 //! Conventions: y = 0 is the coil's left face, +y its right; in a material z is the fibre (the coil's hoop), r across it.
-//!
-//! ```
-//! # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/coil-reference.ron");
-//! let case = files::input::read_coil(path.as_ref())?;
-//! assert_eq!(case.design.body.height, 0.01802); // m
-//! assert!(files::output::coil_file("a copy", &case.design, &[]).contains("height_mm: 18.02,"));
-//! # Ok::<(), files::Error>(())
-//! ```
 
 mod error;
 pub mod input;
@@ -26,7 +18,3 @@ pub mod units;
 
 pub use error::Error;
 pub use remark::{Explanation, Note, Remark, Severity};
-
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

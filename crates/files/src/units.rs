@@ -79,7 +79,6 @@ pub fn parameter_unit(name: &str) -> &'static str {
 pub(crate) struct ColumnUnit {
     /// The names it goes by.
     pub(crate) names: &'static [&'static str],
-    /// Factor.
     pub(crate) scale: f64,
     /// Added after the factor.
     pub(crate) offset: f64,
@@ -114,44 +113,32 @@ pub(crate) const RATES: [ColumnUnit; 4] = [
     unit(&["mrad/s"], 1e-3 * DEG_PER_H_PER_RAD_PER_S, 0.0),
 ];
 
-/// The unit in which a span of time is shown to people.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum DurationUnit {
-    /// Up to five minutes.
-    Seconds,
-    /// Up to five hours.
-    Minutes,
-    /// Beyond.
-    Hours,
+/// The unit in which a span of time is shown to people: seconds up to five minutes, minutes up to five hours, hours beyond.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DurationUnit {
+    name: &'static str,
+    seconds: f64,
 }
 
 impl DurationUnit {
     /// The unit for a span \[s\].
     pub fn of(seconds: f64) -> Self {
         if seconds <= 5.0 * S_PER_MIN {
-            Self::Seconds
+            Self { name: "s", seconds: 1.0 }
         } else if seconds <= 5.0 * S_PER_H {
-            Self::Minutes
+            Self { name: "min", seconds: S_PER_MIN }
         } else {
-            Self::Hours
+            Self { name: "h", seconds: S_PER_H }
         }
     }
 
     /// Its name.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Seconds => "s",
-            Self::Minutes => "min",
-            Self::Hours => "h",
-        }
+        self.name
     }
 
     /// Seconds in this unit.
     pub fn of_seconds(self, seconds: f64) -> f64 {
-        match self {
-            Self::Seconds => seconds,
-            Self::Minutes => seconds / S_PER_MIN,
-            Self::Hours => seconds / S_PER_H,
-        }
+        seconds / self.seconds
     }
 }

@@ -9,7 +9,6 @@ use fogcoil::input::Between;
 use crate::cli_check::{Check, Format};
 use crate::cli_explain::Explain;
 use crate::cli_homogenize::Homogenize;
-use crate::cli_identify::Identify;
 use crate::cli_new::New;
 use crate::cli_recommend::Recommend;
 
@@ -29,7 +28,14 @@ pub(crate) enum Command {
     /// Effective constants and the M row of a fibre's cell, and the strains inside it
     Homogenize(Homogenize),
     /// Constituents from measured effective constants, with what is and is not determined
-    Identify(Identify),
+    Identify {
+        /// Measured effective constants and the cells to try, e.g. fixtures/identify/table-one.ron
+        #[arg(value_name = "TARGETS.ron")]
+        targets: PathBuf,
+        /// Print one JSON object, in SI
+        #[arg(long)]
+        json: bool,
+    },
     /// Turn table and cross-section picture; without flags a summary
     Wind {
         /// Case file of the coil

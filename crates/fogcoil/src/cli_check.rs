@@ -25,7 +25,7 @@ pub(crate) struct Check {
 }
 
 /// How a logger's file is read.
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub(crate) struct Format {
     /// A file with what the flags below say [default: RECORD.map.ron beside RECORD.csv, if it is there]
     #[arg(long, value_name = "FILE.ron")]
@@ -50,25 +50,10 @@ pub(crate) struct Format {
     interval: Option<f64>,
 }
 
-impl Check {
-    pub(crate) fn options(&self) -> RecordOptions {
-        self.format.options(self.meta.clone())
-    }
-}
-
 impl Format {
     pub(crate) fn options(&self, meta: Option<PathBuf>) -> RecordOptions {
-        let Self { map, columns, units, scales, separator, decimal_comma, interval } = self;
-        RecordOptions {
-            map: map.clone(),
-            meta,
-            columns: columns.clone(),
-            units: units.clone(),
-            scales: scales.clone(),
-            separator: separator.clone(),
-            decimal_comma: *decimal_comma,
-            interval: *interval,
-        }
+        let Self { map, columns, units, scales, separator, decimal_comma, interval } = self.clone();
+        RecordOptions { map, meta, columns, units, scales, separator, decimal_comma, interval }
     }
 }
 

@@ -6,9 +6,8 @@ use clap::Args;
 use fogcoil::cache::Cache;
 use fogcoil::{Error, diagnose, explain, glossary};
 
-use crate::line;
-use crate::print::print;
 use crate::progress::Progress;
+use crate::{line, print};
 
 #[derive(Args)]
 pub(crate) struct Explain {
@@ -30,9 +29,15 @@ pub(crate) struct Explain {
 }
 
 pub(crate) fn run(arguments: &Explain, progress: &Progress) -> Result<(), Error> {
-    let Explain { subject, sensitivity, json, .. } = arguments;
+    let Explain { subject, sensitivity, signed, json, no_cache } = arguments;
     let (object, text) = match (subject, sensitivity) {
-        (Some(coil), Some(measured)) => return arguments.sensitivity(coil, *measured, progress),
+        (Some(coil), Some(measured)) => {
+            let case = progress.read_coil(coil)?;
+            diagnose::check_design(&case, coil)?;
+            let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
+            let result = progress.tasks(|tell| explain::explain(&case, *measured, !signed, &cache, tell))?;
+            (explain::json(&result), explain::text(&case, &result))
+        }
         (Some(id), None) => {
             let entry = look_up(id)?;
             (entry.json(), entry.text())
@@ -52,14 +57,4 @@ fn look_up(id: &Path) -> Result<glossary::Entry, Error> {
             format!("{name}: is no id of a mechanism, a warning or a note; nearest: {near}; `fogcoil explain` lists all")
         })
     })
-}
-
-impl Explain {
-    fn sensitivity(&self, coil: &Path, measured: f64, progress: &Progress) -> Result<(), Error> {
-        let case = progress.read_coil(coil)?;
-        diagnose::check_design(&case, coil)?;
-        let cache = if self.no_cache { Cache::NONE } else { Cache::of_user() };
-        let result = progress.tasks(|tell| explain::explain(&case, measured, !self.signed, &cache, tell))?;
-        print(&if self.json { line(&explain::json(&result)) } else { explain::text(&case, &result) })
-    }
 }

@@ -12,9 +12,8 @@ use homogenization::fields::{Fields, Load};
 use homogenization::irregular::Solution;
 use serde_json::{Value, json};
 
-use crate::line;
-use crate::print::print;
 use crate::progress::Progress;
+use crate::{line, print};
 
 #[derive(Args)]
 pub(crate) struct Homogenize {
@@ -144,7 +143,7 @@ impl Homogenize {
         };
         let fields = Fields::new(solution, self.load.unwrap_or_default());
         let sample = fields.sample(if self.field.is_some() { FINE } else { COARSE });
-        let grid = |out: &mut dyn Write| output::vtu(out, &sample, &solution.periodic().inclusions);
+        let grid = |out: &mut dyn Write| output::vtu(out, &sample, &solution.periodic.inclusions);
         let mut files: Vec<(&Path, Content)> = Vec::new();
         if let Some(path) = &self.svg {
             files.push((path, Content::Text(picture_cell::svg(&case.name, &caption, solution, &sample, self.field))));

@@ -9,10 +9,9 @@ use fogcoil::Error;
 use fogcoil::output::Content;
 
 use crate::cli::Cli;
-use crate::print::print;
+use crate::print;
 use crate::progress::Progress;
 
-/// Prints the completions for a shell.
 pub(crate) fn completions(shell: Shell) -> Result<(), Error> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Cli::command(), "fogcoil", &mut script);

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use fogcoil::{Error, output};
 
-use crate::print::print;
+use crate::print;
 
 #[derive(Args)]
 pub(crate) struct New {

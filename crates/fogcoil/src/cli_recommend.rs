@@ -9,9 +9,8 @@ use fogcoil::recommend::Limits;
 use fogcoil::{Error, diagnose, input, output, recommend};
 
 use crate::cli_check::Format;
-use crate::line;
-use crate::print::print;
 use crate::progress::Progress;
+use crate::{line, print};
 
 #[derive(Args)]
 pub(crate) struct Recommend {

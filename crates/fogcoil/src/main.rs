@@ -4,14 +4,12 @@ mod cli;
 mod cli_check;
 mod cli_explain;
 mod cli_homogenize;
-mod cli_identify;
 mod cli_manual;
 mod cli_new;
 mod cli_recommend;
-mod print;
 mod progress;
 
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -24,8 +22,9 @@ use fogcoil::cache::Cache;
 use fogcoil::glossary::Remark;
 use fogcoil::input::Between;
 use fogcoil::output::Content;
-use fogcoil::{Error, check, diagnose, figures, input, output, picture, report, sensitivity, simulate, summary, trim, wind};
-use print::print;
+use fogcoil::{
+    Error, check, diagnose, figures, identify, input, output, picture, report, sensitivity, simulate, summary, trim, wind,
+};
 
 fn main() -> ExitCode {
     match run(&Cli::parse()) {
@@ -46,13 +45,17 @@ fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
         Command::Completions { shell } => cli_manual::completions(*shell),
         Command::Diagnose(arguments) => run_diagnose(arguments, progress),
         Command::Explain(arguments) => cli_explain::run(arguments, progress),
-        Command::Identify(arguments) => cli_identify::run(arguments, progress),
         Command::Man { dir } => cli_manual::man(dir.as_deref(), progress),
         Command::New(arguments) => cli_new::run(arguments),
         Command::Recommend(arguments) => cli_recommend::run(arguments, progress),
         Command::Simulate(arguments) => run_simulate(arguments, progress),
         Command::Trim { coil, profile, json } => run_trim(coil, profile.as_deref(), *json, progress),
         Command::Wind { coil, csv, svg, json } => run_wind(coil, csv.as_deref(), svg.as_deref(), *json, progress),
+        Command::Identify { targets, json } => {
+            let case = input::read_targets(targets)?;
+            let result = progress.tasks(|tell| identify::identify(&case, tell))?;
+            print(&if *json { line(&identify::json(&case, &result)) } else { identify::text(&case, &result) })
+        }
         Command::Sensitivity { coil, json } => {
             let case = progress.read_coil(coil)?;
             let result = progress.during("modelling the coil", || case.steady_sensitivity())?;
@@ -105,10 +108,11 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
 }
 
 fn run_check(arguments: &Check, progress: &Progress) -> Result<(), Error> {
-    let Check { record, json, svg, .. } = arguments;
+    let Check { record, format, meta, json, svg } = arguments;
     let quiet = progress.is_silent();
     output::check_outputs(&[record], &[svg.as_deref()])?;
-    let case = progress.during(&format!("reading {}", record.display()), || input::read_record(record, &arguments.options()))?;
+    let case = progress
+        .during(&format!("reading {}", record.display()), || input::read_record(record, &format.options(meta.clone())))?;
     if quiet && !*json && svg.is_none() {
         print(&check::warnings(&case))?;
         return Ok(case.require_usable()?);
@@ -192,4 +196,11 @@ fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> 
 
 fn line(json: &serde_json::Value) -> String {
     format!("{json}\n")
+}
+
+/// Writes to standard output; a reader that has left is no error.
+fn print(text: &str) -> Result<(), Error> {
+    let mut stdout = std::io::stdout().lock();
+    let written = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
+    written.or_else(|error| if error.kind() == ErrorKind::BrokenPipe { Ok(()) } else { Err(Error::Stdout(error)) })
 }

@@ -45,14 +45,13 @@ impl View {
     }
 }
 
-/// Corners of the lattice cell.
 fn corners([a, b]: [[f64; 2]; 2]) -> [[f64; 2]; 4] {
     [[0.0, 0.0], a, [a[0] + b[0], a[1] + b[1]], b]
 }
 
 /// The picture as an SVG document, with a field if one is given.
 pub fn svg(name: &str, caption: &str, solution: &Solution, sample: &Sample, field: Option<Quantity>) -> String {
-    let view = View::new(sample, solution.periodic().lattice);
+    let view = View::new(sample, solution.periodic.lattice);
     let (width, height) = (LEFT + view.size[0] + LEGEND, TOP + view.size[1] + 70.0);
     let frame = Frame {
         ids: ["title", "desc"],
@@ -153,9 +152,9 @@ fn along(sample: &Sample, side: usize) -> impl Iterator<Item = usize> {
 
 /// Outlines of the elements, thicker where the phase changes or ends.
 fn mesh(svg: &mut Svg, view: &View, solution: &Solution, sample: &Sample) {
-    let (mesh, of_element) = (solution.mesh(), (sample.divisions + 1) * (sample.divisions + 1));
+    let (mesh, of_element) = (&solution.mesh, (sample.divisions + 1) * (sample.divisions + 1));
     let mut original: Vec<usize> = (0..mesh.nodes().len()).collect();
-    solution.periodic().periodic.iter().for_each(|[copy, first]| original[*copy] = *first);
+    solution.periodic.periodic.iter().for_each(|[copy, first]| original[*copy] = *first);
     // the inner nodes of a side name it, whichever copy it is
     let (order, m) = (mesh.order(), mesh.order() + 1);
     let name = |e: usize, side: usize| {
@@ -189,7 +188,7 @@ fn mesh(svg: &mut Svg, view: &View, solution: &Solution, sample: &Sample) {
 
 /// The cell, pale copies around it, and its lattice vectors.
 fn copies(svg: &mut Svg, view: &View, solution: &Solution) {
-    let [a, b] = solution.periodic().lattice;
+    let [a, b] = solution.periodic.lattice;
     svg.group(attributes! { "opacity": "0.3" }, |svg| {
         for (i, j) in (-2..=2).flat_map(|i| (-2..=2).map(move |j| (i, j))).filter(|ij| *ij != (0, 0)) {
             let (i, j) = (f64::from(i) * view.scale, f64::from(j) * view.scale);
@@ -207,15 +206,14 @@ fn copies(svg: &mut Svg, view: &View, solution: &Solution) {
     );
 }
 
-/// What the dashed line is.
 fn dashed(svg: &mut Svg, x: f64, y: f64) {
     svg.element("text", attributes! { "x": "{x:.1}", "y": "{y:.1}", "fill": "#c00000" }, "dashed: the lattice cell");
 }
 
 fn legend(svg: &mut Svg, x: f64, solution: &Solution) {
-    for (k, phase) in solution.phases().iter().enumerate() {
+    for (k, phase) in solution.phases.iter().enumerate() {
         let y = TOP + 20.0 + 28.0 * k as f64;
-        let share = solution.response().fractions.get(k).copied().unwrap_or(0.0);
+        let share = solution.response.fractions.get(k).copied().unwrap_or(0.0);
         let (top, colour) = (y - 14.0, PHASES[k % PHASES.len()]);
         svg.leaf(
             "rect",
@@ -224,9 +222,9 @@ fn legend(svg: &mut Svg, x: f64, solution: &Solution) {
         let said = format!("{}, {:.2} %", phase.name, 100.0 * share);
         svg.element("text", attributes! { "x": "{:.1}"(x + 28.0), "y": "{y:.1}" }, &said);
     }
-    let y = TOP + 30.0 + 28.0 * solution.phases().len() as f64;
+    let y = TOP + 30.0 + 28.0 * solution.phases.len() as f64;
     dashed(svg, x, y);
-    let said = format!("{} elements of order {}", solution.mesh().elements().len(), solution.mesh().order());
+    let said = format!("{} elements of order {}", solution.mesh.elements().len(), solution.mesh.order());
     svg.element("text", attributes! { "x": "{x:.1}", "y": "{:.1}"(y + 26.0) }, &said);
 }
 
@@ -243,7 +241,6 @@ fn bar(svg: &mut Svg, x: f64, quantity: Quantity, colours: &Colours) {
     dashed(svg, x, y + 76.0);
 }
 
-/// A round length below the picture.
 fn scale_bar(svg: &mut Svg, view: &View) {
     let metres = 0.25 * view.size[0] / view.scale;
     let decade = 10_f64.powf(metres.log10().floor());

@@ -11,7 +11,7 @@ use recording::condition::{Rest, Thinned, Thinning, Unrest, bridged, span, thinn
 
 use crate::Error;
 use crate::cache::Cache;
-use crate::input::{CHAMBER, CoilCase, InputError, RATE, RecordCase, SPOOL};
+use crate::input::{CHAMBER, CoilCase, Fingerprint, InputError, RATE, RecordCase, SPOOL};
 
 /// Fewest rows with a rate from which anything is said.
 const FEWEST_ROWS: usize = 60;
@@ -24,8 +24,10 @@ const FEWEST_KELVIN: f64 = 5.0;
 const REST: Rest = Rest { duration: 600.0, tolerance: 0.5 };
 
 /// A record as the engine wants it.
-pub(crate) struct Ready {
-    pub(crate) observation: Observation,
+#[derive(Clone)]
+pub(crate) struct Record {
+    pub(crate) fingerprint: Fingerprint,
+    pub(crate) observed: Observation,
     pub(crate) chamber: Vec<f64>,
     pub(crate) averaging: f64,
 }
@@ -50,10 +52,7 @@ fn refuse(case: &RecordCase, field: &str, problem: String, remedy: &str) -> Erro
 }
 
 /// A recording's usable values, averaged down where there are very many; what was done is added to `notes`.
-///
-/// # Errors
-/// [`files::Error::Input`] says why it cannot be used.
-pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Ready, Error> {
+pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, Error> {
     case.require_usable()?;
     let file = &case.fingerprint.file;
     let interval = case.report.instants.as_ref().map_or(0.0, |instants| instants.interval);
@@ -94,12 +93,13 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Ready, E
     }
     if let Some(unrest) = unrest(&time, &chamber, &spool, &REST) {
         let off = match unrest {
-            Unrest::Apart { by } => format!("spool and chamber differ by {by:.1} K"),
-            Unrest::Moving { by } => format!("the chamber moves by {by:.1} K in the first {} min", REST.duration / S_PER_MIN),
+            Unrest::Apart(by) => format!("spool and chamber differ by {by:.1} K"),
+            Unrest::Moving(by) => format!("the chamber moves by {by:.1} K in the first {} min", REST.duration / S_PER_MIN),
         };
         say(Remark::NotAtRest, format!("does not start at rest ({off}), as the model does: what this leaves is no finding"));
     }
-    Ok(Ready { observation: Observation { time, channels: vec![spool, rate] }, chamber, averaging })
+    let (fingerprint, observed) = (case.fingerprint.clone(), Observation { time, channels: vec![spool, rate] });
+    Ok(Record { fingerprint, observed, chamber, averaging })
 }
 
 #[cfg(test)]
@@ -120,8 +120,8 @@ mod tests {
         let case = crate::input::read_record(&path, &crate::input::RecordOptions::default()).unwrap();
         let mut notes = Vec::new();
         let ready = ready(&case, &mut notes).unwrap();
-        let [spool, rate] = &ready.observation.channels[..] else { panic!() };
-        let time = &ready.observation.time;
+        let [spool, rate] = &ready.observed.channels[..] else { panic!() };
+        let time = &ready.observed.time;
         // 200 whole groups before the gap, of which 15 rows are cut off, and 199 after it
         assert_eq!((time.len(), time[0], time[199], time[200]), (399, 29.0, 5999.0, 6044.0 + 3600.0));
         assert_eq!(ready.averaging, 30.0);

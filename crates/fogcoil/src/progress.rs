@@ -66,17 +66,14 @@ impl Progress {
         progress
     }
 
-    /// Whether notes are not wanted.
     pub(crate) fn is_silent(&self) -> bool {
         self.how == How::Silent
     }
 
-    /// Says what a user should know.
     pub(crate) fn tell(&self, notes: &[Note]) {
         notes.iter().for_each(|note| self.say(&note.line()));
     }
 
-    /// Says what goes on.
     fn note(&self, text: &str) {
         self.say(&format!("note: {text}"));
     }
@@ -93,7 +90,6 @@ impl Progress {
         }
     }
 
-    /// A task begins, or goes on.
     fn task(&self, Step { task, done }: Step) {
         if let Some(bar) = lock(&self.bar).as_ref() {
             if let Some((done, all)) = done {

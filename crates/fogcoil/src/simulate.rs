@@ -17,8 +17,19 @@ use crate::Error;
 use crate::cache::{Cache, Source};
 use crate::input::{Between, CoilCase, Inference, InputError, ProfileCase, SpoolCase};
 
+/// A column's name, and what it holds of a row.
+pub type Column = (&'static str, fn(&SimulatedRow) -> f64);
+
 /// Columns of the result.
-pub const HEADER: &str = "time_s,chamber_c,spool_c,shupe_deg_per_h,eo_axial_deg_per_h,eo_radial_deg_per_h,rate_deg_per_h";
+pub const COLUMNS: [Column; 7] = [
+    ("time_s", |row| row.time),
+    ("chamber_c", |row| row.chamber),
+    ("spool_c", |row| row.spool),
+    ("shupe_deg_per_h", |row| row.shupe),
+    ("eo_axial_deg_per_h", |row| row.eo_axial),
+    ("eo_radial_deg_per_h", |row| row.eo_radial),
+    ("rate_deg_per_h", |row| row.rate),
+];
 
 /// Span over which the thermometer is differenced for its rate \[s\]: the interval of the paper's record.
 pub const WINDOW_S: f64 = 30.0;
@@ -53,7 +64,8 @@ pub struct Simulation<'a> {
     responses: Vec<Response>,
     /// On a coarser mesh.
     coarser: Vec<Response>,
-    samples: Vec<Sample>,
+    /// States at instants evenly spaced over the course; none if it has no duration.
+    pub(crate) samples: Vec<Sample>,
 }
 
 /// Instants between the first and the last at which fields can be drawn: the middles of as many equal intervals.
@@ -64,11 +76,10 @@ const SAMPLES: usize = 150;
 pub(crate) struct Sample {
     /// Instant \[s\].
     pub(crate) time: f64,
-    /// Drives and modes.
     pub(crate) state: ThermalState,
 }
 
-/// One row of the result, in the units of its header; rates are means since the previous row, 0 in the first.
+/// One row of the result, in the units of its [`COLUMNS`]; rates are means since the previous row, 0 in the first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SimulatedRow {
     /// Instant \[s\].
@@ -105,8 +116,7 @@ pub struct Window {
 /// # Errors
 /// [`files::Error::Coil`] if the coil cannot be solved.
 pub fn model(case: &CoilCase, drives: &[Drive], cache: &Cache) -> Result<Model, Error> {
-    let build = || Dynamics::new(&case.design, drives, &STANDARD);
-    let (dynamics, source) = load_or_build(case, drives, cache, "dynamics", build)?;
+    let (dynamics, source) = load_or_build(case, drives, cache, "dynamics", || Dynamics::new(&case.design, drives, &STANDARD))?;
     assembled(case, drives, cache, dynamics, source)
 }
 
@@ -242,16 +252,6 @@ impl Simulation<'_> {
         self.responses.len()
     }
 
-    /// States at instants evenly spaced over the course; none if it has no duration.
-    pub(crate) fn samples(&self) -> &[Sample] {
-        &self.samples
-    }
-
-    /// The drives at rest before the first row: its temperatures, heaters off.
-    pub(crate) fn rest(&self) -> Vec<f64> {
-        self.profile.profile.rest(&self.profile.drives)
-    }
-
     /// A row.
     ///
     /// # Panics
@@ -260,7 +260,6 @@ impl Simulation<'_> {
         self.row_of(n, self.responses[n])
     }
 
-    /// SimulatedRow `n` with a response.
     fn row_of(&self, n: usize, response: Response) -> SimulatedRow {
         let Response { sensor, bias, .. } = response;
         let bias = bias * DEG_PER_H_PER_RAD_PER_S;
@@ -278,19 +277,20 @@ impl Simulation<'_> {
 
     /// Differences of the rows from those on a coarser mesh; an estimate of the mesh's error.
     pub fn differences(&self) -> impl Iterator<Item = SimulatedRow> {
-        let row = |(n, coarser): (usize, &Response)| {
-            let (row, other) = (self.row(n), self.row_of(n, *coarser));
-            SimulatedRow {
-                spool: row.spool - other.spool,
-                shupe: row.shupe - other.shupe,
-                eo_axial: row.eo_axial - other.eo_axial,
-                eo_radial: row.eo_radial - other.eo_radial,
-                read_out: row.read_out - other.read_out,
-                rate: row.rate - other.rate,
-                ..row
-            }
+        let difference = |(row, other): (SimulatedRow, SimulatedRow)| SimulatedRow {
+            spool: row.spool - other.spool,
+            shupe: row.shupe - other.shupe,
+            eo_axial: row.eo_axial - other.eo_axial,
+            eo_radial: row.eo_radial - other.eo_radial,
+            read_out: row.read_out - other.read_out,
+            rate: row.rate - other.rate,
+            ..row
         };
-        self.coarser.iter().enumerate().map(row)
+        self.rows().zip(self.coarser_rows()).map(difference)
+    }
+
+    fn coarser_rows(&self) -> impl Iterator<Item = SimulatedRow> {
+        self.coarser.iter().enumerate().map(|(n, response)| self.row_of(n, *response))
     }
 
     /// All rows.
@@ -310,8 +310,7 @@ impl Simulation<'_> {
 
     /// The rows on a coarser mesh in windows.
     pub fn coarser_windows(&self) -> impl Iterator<Item = Window> {
-        let row = |(n, response): (usize, &Response)| self.row_of(n, *response);
-        Self::windowed(self.row(0), self.coarser.iter().enumerate().skip(1).map(row))
+        Self::windowed(self.row(0), self.coarser_rows().skip(1))
     }
 
     fn windowed(first: SimulatedRow, rows: impl Iterator<Item = SimulatedRow>) -> impl Iterator<Item = Window> {
@@ -335,29 +334,16 @@ impl Simulation<'_> {
     /// # Errors
     /// What `out` says.
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        writeln!(out, "{HEADER}")?;
-        for row in self.rows() {
-            let SimulatedRow { time, chamber, spool, shupe, eo_axial, eo_radial, rate, .. } = row;
-            for (i, value) in [time, chamber, spool, shupe, eo_axial, eo_radial, rate].into_iter().enumerate() {
-                if i > 0 {
-                    out.write_all(b",")?;
-                }
-                write_number(out, value)?;
-            }
-            out.write_all(b"\n")?;
-        }
-        Ok(())
+        writeln!(out, "{}", COLUMNS.map(|(name, _)| name).join(","))?;
+        self.rows().try_for_each(|row| writeln!(out, "{}", COLUMNS.map(|(_, of)| number(of(&row))).join(",")))
     }
 }
 
 /// The shortest text that reads back to the same double; plain between a millionth and a quadrillion.
-fn write_number(out: &mut dyn Write, value: f64) -> io::Result<()> {
-    let size = value.abs();
-    if size == 0.0 {
-        out.write_all(b"0")
-    } else if (1e-6..1e15).contains(&size) {
-        write!(out, "{value}")
-    } else {
-        write!(out, "{value:e}")
+fn number(value: f64) -> String {
+    match value.abs() {
+        0.0 => "0".into(),
+        1e-6..1e15 => value.to_string(),
+        _ => format!("{value:e}"),
     }
 }

@@ -191,12 +191,9 @@ fn inferred(inference: Inference) -> Value {
 
 /// The summary as a table with units.
 pub fn text(simulation: &Simulation) -> String {
-    let mut rows = vec![];
-    for [name, value, unit] in entries(simulation) {
-        rows.push(vec![name, value, unit]);
-    }
+    let mut rows = entries(simulation);
     if simulation.source == Source::Cached {
-        rows.push(["model", "from the cache", ""].map(str::to_owned).to_vec());
+        rows.push(["model", "from the cache", ""].map(str::to_owned));
     }
     format!("{} under {}\n\n{}", simulation.case.name, simulation.profile.fingerprint.file.display(), table(&rows))
 }
@@ -230,18 +227,12 @@ pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
     }
     let changing = simulation.case.design.mechanics != Mechanics::Elastic;
     let nominal = if changing { "(deg/h)/(degC/min), of the nominal state" } else { "(deg/h)/(degC/min)" };
+    let of_all = if drifting { "deg/h, the sum of the four" } else { "deg/h, the sum of the three" };
+    let slope = slope.zip(errors.slope).map_or("none".into(), |(slope, error)| rate(slope, error));
     all.extend([
-        entry(
-            "  rate",
-            rate(peak.rate, sum),
-            if drifting { "deg/h, the sum of the four" } else { "deg/h, the sum of the three" },
-        ),
+        entry("  rate", rate(peak.rate, sum), of_all),
         entry("root mean square of the rate", rate(rms, errors.rms), "deg/h, over time"),
-        entry(
-            &slope_name,
-            slope.zip(errors.slope).map_or("none".into(), |(slope, error)| rate(slope, error)),
-            "(deg/h)/(degC/min)",
-        ),
+        entry(&slope_name, slope, "(deg/h)/(degC/min)"),
         entry("steady-ramp sensitivity", steady, nominal),
     ]);
     if let Some(Inference { noise, sensor_residual_rms, chamber_sd: [median, largest], .. }) = simulation.profile.inferred {

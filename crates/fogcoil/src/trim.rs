@@ -10,6 +10,7 @@ use winding::Half;
 use crate::Error;
 use crate::input::{CoilCase, ProfileCase};
 use crate::table::{significant, table};
+use crate::wind::name;
 
 /// Turns cut off from either end, at most, in the table.
 const MOST_TURNS: usize = 12;
@@ -46,7 +47,6 @@ pub fn trim(case: &CoilCase, profile: Option<&ProfileCase>) -> Result<Trim, Erro
     Ok(Trim { tails, turns, transients })
 }
 
-/// The design with the tails that null it.
 fn trimmed(design: &Design, trim: &TailTrim) -> Design {
     let mut design = design.clone();
     let shorter = design.winding.tails.cw.min(design.winding.tails.ccw);
@@ -55,20 +55,10 @@ fn trimmed(design: &Design, trim: &TailTrim) -> Design {
     design
 }
 
-fn name(half: Half) -> &'static str {
-    match half {
-        Half::Cw => "CW",
-        Half::Ccw => "CCW",
-    }
-}
-
 /// All of it; lengths in m, sensitivities in (deg/h)/(degC/min), bias in deg/h.
 pub fn json(trim: &Trim) -> Value {
-    let turns: Vec<Value> = trim
-        .turns
-        .iter()
-        .map(|t| json!({ "half": name(t.half), "turns": t.turns, "length_m": t.length, "sensitivity": t.sensitivity }))
-        .collect();
+    let turns =
+        |t: &TurnTrim| json!({ "half": name(t.half), "turns": t.turns, "length_m": t.length, "sensitivity": t.sensitivity });
     let transients = trim.transients.map(|[[rms, peak], [rms_after, peak_after]]| {
         json!({ "rms_before": rms, "peak_before": peak, "rms_after": rms_after, "peak_after": peak_after })
     });
@@ -77,7 +67,7 @@ pub fn json(trim: &Trim) -> Value {
         "tail_cw_minus_ccw_m": trim.tails.cw_minus_ccw,
         "tail_standard_uncertainty_m": trim.tails.uncertainty,
         "sensitivity_per_m": trim.tails.slope,
-        "turns_cut_off": turns,
+        "turns_cut_off": trim.turns.iter().map(turns).collect::<Vec<_>>(),
         "transients_deg_per_h": transients,
     })
 }
@@ -91,14 +81,10 @@ pub fn text(case: &CoilCase, trim: &Trim) -> String {
          tails: the {longer} tail longer by {difference:.3} ± {uncertainty:.3} m (standard uncertainty); each metre adds {slope:.3} (deg/h)/(degC/min)\n\n",
         case.name
     );
-    let rows: Vec<Vec<String>> = PRIORS
-        .iter()
-        .zip(contributions)
-        .map(|((what, size), part)| {
-            vec![format!("  {what}"), format!("{:.0} %", 100.0 * size), format!("{part:.3}"), "m of it".into()]
-        })
-        .collect();
-    let _ = writeln!(text, "{}", table(&rows));
+    let row = |((what, size), part): (&(&str, f64), &f64)| {
+        [format!("  {what}"), format!("{:.0} %", 100.0 * size), format!("{part:.3}"), "m of it".into()]
+    };
+    let _ = writeln!(text, "{}", table(&PRIORS.iter().zip(contributions).map(row).collect::<Vec<_>>()));
     let best = trim.turns.iter().min_by(|a, b| a.sensitivity.abs().total_cmp(&b.sensitivity.abs()));
     if let Some(best) = best.filter(|best| best.sensitivity.abs() < before.abs()) {
         let TurnTrim { half, turns, length, sensitivity } = best;

@@ -9,12 +9,9 @@ use crate::input::CoilCase;
 use crate::table::{significant, table};
 use crate::units::to_mm;
 
-/// Columns of the turn table.
-pub const HEADER: &str = "half,layer,turn,y_mm,r_mm,z_start_m,z_end_m";
-
 /// The turn table, one row a turn, in order along the fibre from z = 0; every number reads back to the same double.
 pub fn csv(winding: &Winding) -> String {
-    let mut text = format!("{HEADER}\n");
+    let mut text = "half,layer,turn,y_mm,r_mm,z_start_m,z_end_m\n".to_owned();
     for turn in winding.turns() {
         let (half, y, r) = (name(turn.half), to_mm(turn.y), to_mm(turn.r));
         let _ = writeln!(text, "{half},{},{},{y},{r},{},{}", turn.layer, turn.turn, turn.z_start, turn.z_end);

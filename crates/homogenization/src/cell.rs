@@ -27,7 +27,7 @@ impl Constituent {
     pub(crate) fn law(&self, name: impl Fn() -> String) -> Result<ThermoElastic, Error> {
         let law = self.elastic.law().map_err(|source| Error::Constituent { constituent: name(), source })?;
         if !(self.conductivity.is_finite() && self.conductivity > 0.0) {
-            return Err(Error::Conductivity { constituent: name(), value: self.conductivity });
+            return Err(Error::conductivity(name(), self.conductivity));
         }
         Ok(law)
     }
@@ -134,7 +134,6 @@ impl FibreCell {
     }
 }
 
-/// What a cell is made of, checked.
 pub(crate) struct Phases {
     pub(crate) laws: Vec<ThermoElastic>,
     pub(crate) conductivities: Vec<f64>,

@@ -18,15 +18,7 @@ pub enum Error {
         /// What is wrong.
         source: fem_core::Error,
     },
-    /// A constituent's conductivity is out of range.
-    #[error("{constituent}: conductivity {value} W/(m K) must be finite and greater than 0")]
-    Conductivity {
-        /// "ring 0", "ring 1", … from the inside, or "adhesive".
-        constituent: String,
-        /// Its value.
-        value: f64,
-    },
-    /// A constituent's density or specific heat is out of range.
+    /// A constituent's conductivity, density or specific heat is out of range.
     #[error("{constituent}: {what} {value} {unit} must be finite and greater than 0")]
     Property {
         /// "ring 0", "ring 1", … from the inside, or "adhesive".
@@ -79,4 +71,15 @@ pub enum Error {
     /// The finite-element solution failed.
     #[error(transparent)]
     Solve(#[from] fem_core::Error),
+}
+
+impl Error {
+    pub(crate) fn conductivity(constituent: String, value: f64) -> Self {
+        Self::Property { constituent, what: "conductivity", unit: "W/(m K)", value }
+    }
+
+    /// What no positive definite set of constituents makes.
+    pub(crate) fn singular() -> Self {
+        Self::Solve(fem_core::Error::NotPositiveDefinite { unknowns: 6, detail: "effective stiffness".into() })
+    }
 }

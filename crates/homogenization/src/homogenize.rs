@@ -41,7 +41,7 @@ pub struct Homogenized {
 impl Homogenized {
     /// Estimated error of each constant in its own unit.
     pub fn error(&self) -> Constants {
-        self.relative_error.combine(&size(&self.constants), |relative, size| relative * size)
+        self.relative_error.combine(&self.constants.size(), |relative, size| relative * size)
     }
 }
 
@@ -86,8 +86,8 @@ pub fn effective_with(cell: &FibreCell, discretization: &Discretization, volumet
 pub fn homogenize_on(cell: &FibreCell, discretization: &Discretization) -> Result<Homogenized, Error> {
     let effective = effective(cell, discretization)?;
     let finer = crate::effective(cell, &discretization.refined())?;
-    let constants = constants(&effective)?;
-    let relative_error = truncation(&constants, &crate::homogenize::constants(&finer)?);
+    let constants = effective.constants().ok_or_else(Error::singular)?;
+    let relative_error = truncation(&constants, &finer.constants().ok_or_else(Error::singular)?);
     Ok(Homogenized { constants, relative_error, unknowns: effective.unknowns, effective })
 }
 
@@ -103,34 +103,24 @@ pub(crate) fn worst(errors: &[(&'static str, f64)]) -> (&'static str, f64) {
     errors.iter().fold(("", 0.0), |worst, one| if one.1 > worst.1 || one.1.is_nan() { *one } else { worst })
 }
 
-/// What a constant's error is relative to: |b|, or [`NEGLIGIBLE`] of its natural scale if that is larger.
-fn size(b: &Constants) -> Constants {
-    let expansion = b.alpha_z.abs().max(b.alpha_r.abs());
-    let scale = Constants {
-        nu_zr: 1.0,
-        nu_r: 1.0,
-        nu_rz: 1.0,
-        alpha_z: expansion,
-        alpha_r: expansion,
-        m_rx: 1.0,
-        m_ry: 1.0,
-        m_rz: 1.0,
-        m_rt: expansion,
-        ..*b
-    };
-    b.combine(&scale, |b, scale| b.abs().max(NEGLIGIBLE * scale.abs()))
+impl Constants {
+    /// What the relative error of each is relative to: its size, or [`NEGLIGIBLE`] of its natural scale if that is larger.
+    pub fn size(&self) -> Self {
+        let expansion = self.alpha_z.abs().max(self.alpha_r.abs());
+        let scale = |(name, value): (&str, f64)| match name {
+            "alpha_z" | "alpha_r" | "m_rt" => expansion,
+            "nu_zr" | "nu_r" | "nu_rz" | "m_rx" | "m_ry" | "m_rz" => 1.0,
+            _ => value.abs(),
+        };
+        Self::of(self.named().map(|named| named.1.abs().max(NEGLIGIBLE * scale(named))))
+    }
 }
 
-/// |a − b| of each constant over its [`size`].
+/// |a − b| of each constant over its [`Constants::size`].
 fn relative_difference(a: &Constants, b: &Constants) -> Constants {
     let difference = a.combine(b, |a, b| (a - b).abs());
     // 0/0 where nothing expands
-    difference.combine(&size(b), |difference, size| if difference == 0.0 { 0.0 } else { difference / size })
-}
-
-fn constants(effective: &Effective) -> Result<Constants, Error> {
-    let singular = || Error::Solve(fem_core::Error::NotPositiveDefinite { unknowns: 6, detail: "effective stiffness".into() });
-    effective.constants().ok_or_else(singular)
+    difference.combine(&b.size(), |difference, size| if difference == 0.0 { 0.0 } else { difference / size })
 }
 
 /// Effective constants of `cell`, each to [`TOLERANCE`].
@@ -159,10 +149,10 @@ pub fn homogenize_to(cell: &FibreCell, relative_error: f64) -> Result<Homogenize
     loop {
         let multipoles = Multipoles::new(cell, order)?;
         let effective = multipoles.effective(cell)?;
-        let constants = constants(&effective)?;
+        let constants = effective.constants().ok_or_else(Error::singular)?;
         let rounding = rounding(&multipoles, cell, &effective, &constants);
         let lower = multipoles.lowered(order.saturating_sub(step).max(1)).effective(cell)?;
-        let truncation = truncation(&crate::homogenize::constants(&lower)?, &constants);
+        let truncation = truncation(&lower.constants().ok_or_else(Error::singular)?, &constants);
         let relative = truncation.combine(&rounding, |t, r| t + r);
         let (constant, reached) = worst(&relative.named());
         if reached <= relative_error {

@@ -1,5 +1,5 @@
-//! Effective constants of a winding of coated fibres in adhesive, and the strain of the glass inside it.
-//!
+#![doc = include_str!("../README.md")]
+//! # Cells
 //! A [`FibreCell`] is one fibre of concentric rings (glass, coatings) with the adhesive around it, repeated on an orthocyclic
 //! (hexagonal) or a square lattice. On the scale of the coil it is a homogeneous solid, under hexagonal packing transversely isotropic
 //! about the fibre, under square packing tetragonal ([`Effective::shear_moduli_across`]). [`homogenize`]
@@ -43,29 +43,6 @@
 //! References: R. Hill, *J. Mech. Phys. Solids* 12, 199 (1964); V. M. Levin, *Mech. Solids* 2, 58 (1967); P. M. Suquet,
 //! *Elements of homogenization for inelastic solid mechanics* (1987); B. Osunluk, S. Ogut and E. Ozbay, *Thermally Induced Bias
 //! Errors for a Fiber Coil with Practical Quadrupole Winding*, Tables I and II.
-//!
-//! ```
-//! use fem_core::material::Isotropic;
-//! use homogenization::{Constituent, FibreCell, Packing, Ring, Role, homogenize};
-//!
-//! let solid = |youngs_modulus, poisson_ratio, thermal_expansion, conductivity| {
-//!     Constituent::new(Isotropic { youngs_modulus, poisson_ratio, thermal_expansion }, conductivity)
-//! };
-//! // glass fibres of 0.125 mm in epoxy, not coated
-//! let cell = FibreCell {
-//!     packing: Packing::Hexagonal,
-//!     pitch: 140e-6,
-//!     rings: vec![Ring { outer_radius: 62.5e-6, constituent: solid(72e9, 0.17, 0.55e-6, 1.38), role: Role::Glass }],
-//!     adhesive: solid(3e9, 0.38, 60e-6, 0.2),
-//! };
-//! let result = homogenize(&cell)?;
-//! // along the fibre the rule of mixtures holds but for Hill's correction, which is positive
-//! let glass = 62.5_f64.powi(2) * std::f64::consts::PI / (140.0 * 140.0 * 0.75_f64.sqrt());
-//! let mixture = glass * 72e9 + (1.0 - glass) * 3e9;
-//! assert!(result.constants.e_z > mixture && result.constants.e_z < 1.001 * mixture);
-//! assert!(result.relative_error.e_r < 1e-6);
-//! # Ok::<(), homogenization::Error>(())
-//! ```
 
 pub mod bounds;
 mod cell;
@@ -90,7 +67,3 @@ pub use homogenize::{
 pub use multipole::{HIGHEST_ORDER, multipoles};
 pub use rve_mesh::{Extent, Packing, Resolution};
 pub use solve::{Discretization, Effective, Integration};
-
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

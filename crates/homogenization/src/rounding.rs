@@ -7,7 +7,6 @@ use crate::random::Random;
 use crate::{Effective, FibreCell};
 use nalgebra::Matrix3;
 
-/// Cells solved anew.
 pub(crate) const CELLS: u64 = 3;
 /// Factor on their largest distance, so few that all may lie close by chance.
 pub(crate) const SPREAD: f64 = 6.0;

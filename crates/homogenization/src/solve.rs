@@ -48,6 +48,21 @@ pub struct Effective {
     pub area_error: f64,
 }
 
+impl Effective {
+    /// The conductivity along the fibre; what takes a solution is to be added.
+    pub(crate) fn begun(phases: &Phases) -> Self {
+        Self {
+            stiffness: Matrix6::zeros(),
+            thermal_stress: Vector6::zeros(),
+            conductivity: Matrix2::zeros(),
+            conductivity_z: phases.mean(|i| phases.conductivities[i]),
+            glass_strain: SMatrix::zeros(),
+            unknowns: 0,
+            area_error: 0.0,
+        }
+    }
+}
+
 /// A cell on its mesh, with its constituents' laws.
 pub(crate) struct CellProblem {
     mesh: Mesh,
@@ -116,13 +131,7 @@ impl CellProblem {
     }
 
     /// Whole cell: all loads on one system. Quarter: loads that are even and odd about the mirror planes apart.
-    fn classes(
-        &self,
-        symmetric: &'static [usize],
-        odd: &'static [usize],
-        all: &'static [usize],
-        plane: bool,
-    ) -> Vec<Class<'static>> {
+    fn classes(&self, [symmetric, odd, all]: [&'static [usize]; 3], plane: bool) -> Vec<Class<'static>> {
         if self.cell_mesh.symmetry.mirror_x.is_empty() {
             return vec![Class { loads: all, on_mirror_x: None, on_mirror_y: None }];
         }
@@ -143,7 +152,6 @@ impl CellProblem {
         DMatrix::from_fn(3, stresses.len(), |i, j| if i < 2 { stresses[j] } else { 0.0 })
     }
 
-    /// The plane stiffness, factorised.
     fn condense(&self, problem: &Problem, map: &DofMap) -> Result<Condensed, Error> {
         let law = |l: &ThermoElastic| DMatrix::from_fn(3, 3, |i, j| l.stiffness[(PLANE[i], PLANE[j])]);
         let laws: Vec<_> = self.phases.laws.iter().map(law).collect();
@@ -185,15 +193,7 @@ impl CellProblem {
     }
 
     pub(crate) fn effective(&self) -> Result<Effective, Error> {
-        let mut effective = Effective {
-            stiffness: Matrix6::zeros(),
-            thermal_stress: Vector6::zeros(),
-            conductivity: Matrix2::zeros(),
-            conductivity_z: self.phases.mean(|i| self.phases.conductivities[i]),
-            glass_strain: SMatrix::zeros(),
-            unknowns: 0,
-            area_error: self.area_error,
-        };
+        let mut effective = Effective { area_error: self.area_error, ..Effective::begun(&self.phases) };
         self.plane(&mut effective)?;
         let shear = |l: &ThermoElastic| DMatrix::from_fn(2, 2, |i, j| l.stiffness[(4 - i, 4 - j)]);
         let antiplane = self.scalar(&self.phases.laws.iter().map(|l| Some(shear(l))).collect::<Vec<_>>())?;
@@ -212,7 +212,7 @@ impl CellProblem {
         for load in 0..LOADS {
             self.add_macroscopic(effective, load, |voigt| mean(load, voigt));
         }
-        for class in self.classes(&[0, 1, 2, 4], &[3], &[0, 1, 2, 3, 4], true) {
+        for class in self.classes([&[0, 1, 2, 4], &[3], &[0, 1, 2, 3, 4]], true) {
             let map = self.map(&problem, 2, &class)?;
             let factor = self.condense(&problem, &map)?;
             effective.unknowns = effective.unknowns.max(factor.unknowns());
@@ -262,7 +262,7 @@ impl CellProblem {
         for (f, law) in self.phases.fractions.iter().zip(laws.iter().flatten()) {
             effective += law.fixed_view::<2, 2>(0, 0) * *f;
         }
-        for class in self.classes(&[0], &[1], &[0, 1], false) {
+        for class in self.classes([&[0], &[1], &[0, 1]], false) {
             let map = self.map(&problem, 1, &class)?;
             let factor = problem.condense(&map, laws)?;
             let reduced: Vec<_> = loads.iter().map(|f| map.restrict(f)).collect();
@@ -297,6 +297,6 @@ impl CellProblem {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

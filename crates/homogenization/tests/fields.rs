@@ -23,7 +23,7 @@ fn load() -> Load {
 #[test]
 fn exact_means_of_the_fields_are_those_of_the_response() {
     let solution = reference_cell().solve(6, 1.0).unwrap();
-    let (load, response) = (load(), solution.response());
+    let (load, response) = (load(), &solution.response);
     let mut sum = Vector6::zeros();
     for phase in Fields::new(&solution, load).summary().unwrap() {
         let expected = response.phase_strain[phase.phase]
@@ -88,7 +88,7 @@ fn exact_stress_concentration_at_a_void() {
     let phase = |name: &str, role| Phase { name: name.into(), solid: Solid::isotropic(&glass()).unwrap(), role };
     let layout = Layout::new([[1.0, 0.0], [0.0, 1.0]], vec![Inclusion::void(Outline::circle([0.5, 0.5], 0.02))], 0).unwrap();
     let solution = Cell { layout, phases: vec![phase("plate", Role::Glass)] }.solve(8, 1.0).unwrap();
-    let compliance = solution.response().stiffness.try_inverse().unwrap();
+    let compliance = solution.response.stiffness.try_inverse().unwrap();
     let strain = compliance * Vector6::new(1e6, 0.0, 0.0, 0.0, 0.0, 0.0);
     let sample = Fields::new(&solution, Load { strain, temperature: 0.0 }).sample(16);
     let most = sample.states.iter().map(|s| s.stress[0]).fold(0.0, f64::max);

@@ -31,9 +31,7 @@ const OPEN: [f64; 23] = [
 /// Relative steps of the constants whose effects are tabulated: their usual uncertainties.
 const CONSTANT_STEPS: [(&str, f64); 3] = [("E_z", 0.03), ("alpha_z", 0.03), ("spool expansion", 0.02)];
 
-fn fidelity() -> Fidelity {
-    Fidelity { resolution: COARSE, modes: MODES }
-}
+const FIDELITY: Fidelity = Fidelity { resolution: COARSE, modes: MODES };
 
 /// Models that are made side by side, and how many of all are done.
 struct Yard<'a> {
@@ -89,7 +87,7 @@ impl Library {
         let mut tabulated: Vec<Tabulated> = Vec::new();
         for (id, path) in paths {
             let mut of_path = Tabulated::new(id, &path);
-            for x in path.nodes.iter().filter(|x| !same(**x, path.nominal)) {
+            for x in path.nodes.iter().filter(|x| !is_nominal(**x)) {
                 of_path.models.push(model.in_states(&(path.design)(design, *x), &nominal_state)?);
             }
             tabulated.push(of_path);
@@ -119,19 +117,19 @@ impl Library {
         };
         let constants = CONSTANT_STEPS.into_iter().map(constant).collect::<Result<_, _>>()?;
         let heater = heated.map(|heated| model.in_states(&heated, &nominal_state)).transpose()?;
-        let nominal = Dynamics::new(design, &[Drive::Chamber], &fidelity())?;
+        let nominal = Dynamics::new(design, &[Drive::Chamber], &FIDELITY)?;
         Ok(Self { design: design.clone(), nominal, base, fields, modulus, constants, paths: tabulated, openings, heater })
     }
 }
 
 impl Tabulated {
     fn new(id: String, path: &HeatPath) -> Self {
-        let nominal = path.nodes.iter().position(|x| same(*x, path.nominal)).unwrap_or(0);
+        let nominal = path.nodes.iter().position(|x| is_nominal(*x)).unwrap_or(0);
         Self { id, nominal, nodes: path.nodes.clone(), models: Vec::new() }
     }
 }
 
-/// Whether two coordinates of a path, which are of the size of one, are the same.
-fn same(a: f64, b: f64) -> bool {
-    (a - b).abs() <= 1e-12
+/// Whether a coordinate of a path, which is of the size of one, is that of the design as it is.
+fn is_nominal(x: f64) -> bool {
+    x.abs() <= 1e-12
 }

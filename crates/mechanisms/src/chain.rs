@@ -1,9 +1,9 @@
 //! The tools that mechanisms' laws are written with: a library's models under the chamber of a recording, changed.
 
-use crate::change::Change;
 use crate::design::REFERENCE_C;
 use crate::interpolation::weights;
 use crate::library::{Functionals, Library};
+use crate::mechanism::Change;
 use crate::record::{Parts, Prepared, Series};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::Error;
@@ -64,8 +64,7 @@ impl Chain {
         self.less_nominal(record, &self.library.rewound(tail, None)?)
     }
 
-    /// Parts of a coil with so many turns more in a layer, less the nominal ones \[deg/h\]; between whole numbers of turns the response is
-    /// interpolated.
+    /// Parts of a coil with so many turns more in a layer, less the nominal ones \[deg/h\]; interpolated between whole numbers of turns.
     ///
     /// # Errors
     /// [`Error::Winding`] if there is no such winding.

@@ -11,7 +11,6 @@ pub(crate) fn bonded_flange(design: &Design) -> Option<Side> {
     flanges.iter().find(|f| f.contact == Contact::Bonded).map(|f| f.side)
 }
 
-/// The first flange.
 pub(crate) fn flange(design: &Design) -> Option<Side> {
     design.spool.as_ref()?.flanges.first().map(|f| f.side)
 }

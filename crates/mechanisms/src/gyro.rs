@@ -2,9 +2,8 @@
 
 use crate::catalogue::air_path;
 use crate::chain::{Chain, add};
-use crate::change::Change;
 use crate::library::Library;
-use crate::mechanism::{Effect, Extent, Mechanism, Naming, Offer, Readings, Sight};
+use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Sight};
 use crate::nuisances::{self, channels, nuisances};
 use crate::record::{Parts, Prepared};
 use coil::{Design, Error};
@@ -157,7 +156,6 @@ impl<'m> Gyro<'m> {
     }
 }
 
-/// A mechanism as the engine knows it; `None` if the design leaves it no place.
 fn entry(mechanism: &dyn Mechanism, design: &Design, range: [f64; 2]) -> Option<diagnosis::Omission> {
     let facts = mechanism.facts();
     let Offer { parameters, choice, starts } = mechanism.offer(design, range)?;

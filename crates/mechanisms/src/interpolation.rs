@@ -6,23 +6,23 @@ pub(crate) fn nodes(low: f64, high: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| low + (high - low) * at(k)).collect()
 }
 
-/// Weight of each node's value at x, which is taken into the nodes' range: Lagrange's polynomials.
+/// Weight of each node's value at x, which is taken into the nodes' range.
 pub(crate) fn weights(nodes: &[f64], x: f64) -> Vec<f64> {
-    let x = x.clamp(nodes[0], nodes[nodes.len() - 1]);
-    let basis = |k: usize| -> f64 {
-        nodes.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, node)| (x - node) / (nodes[k] - node)).product()
-    };
-    (0..nodes.len()).map(basis).collect()
+    lagrange(nodes, x.clamp(nodes[0], nodes[nodes.len() - 1]))
+}
+
+/// Lagrange's polynomials at x.
+fn lagrange(nodes: &[f64], x: f64) -> Vec<f64> {
+    let others = |k: usize| nodes.iter().enumerate().filter(move |(j, _)| *j != k).map(|(_, node)| node);
+    (0..nodes.len()).map(|k| others(k).map(|node| (x - node) / (nodes[k] - node)).product()).collect()
 }
 
 /// Weights of the up to four nodes about x, others 0: Lagrange's cubic.
 pub(crate) fn cubic_weights(nodes: &[f64], x: f64) -> Vec<f64> {
     let first = nodes.partition_point(|n| *n < x).saturating_sub(2).min(nodes.len().saturating_sub(4));
-    let about = &nodes[first..(first + 4).min(nodes.len())];
+    let end = (first + 4).min(nodes.len());
     let mut all = vec![0.0; nodes.len()];
-    for (k, node) in about.iter().enumerate() {
-        all[first + k] = about.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, n)| (x - n) / (node - n)).product();
-    }
+    all[first..end].copy_from_slice(&lagrange(&nodes[first..end], x));
     all
 }
 

@@ -111,7 +111,6 @@ impl Chain {
         Ok(stages)
     }
 
-    /// What one turn more in each layer does.
     pub(crate) fn layers(&self, record: &Prepared) -> Result<Latent, Error> {
         let rows = record.time.len();
         let layers = 1..=self.library().design().winding.layers;

@@ -6,7 +6,6 @@
 mod build;
 mod catalogue;
 mod chain;
-mod change;
 mod design;
 mod gyro;
 mod interpolation;
@@ -18,12 +17,11 @@ mod record;
 
 pub use catalogue::{CATALOGUE, find};
 pub use chain::Chain;
-pub use change::Change;
 pub use design::REFERENCE_C;
 pub use gyro::{Gyro, RATE, SPOOL};
 pub use library::Library;
 pub use mechanism::{
-    Digits, Effect, Extent, Facts, HeatPath, Mechanism, Naming, Offer, Readings, Sight, Stage, Steady, lagged, middles,
+    Change, Digits, Effect, Extent, Facts, HeatPath, Mechanism, Naming, Offer, Readings, Sight, Stage, Steady, lagged, middles,
     rates_per_hour,
 };
 pub use nuisances::with_constant;

@@ -33,8 +33,7 @@ pub struct Library {
     /// thermometer, mean of the coil, nominal parts
     pub(crate) base: Reduced,
     pub(crate) fields: TurnFields,
-    /// ln of the factor on the transverse moduli at the nodes, and the parts there with the nominal α_r and per unit of its factor;
-    /// empty if the design's mechanics is not constant
+    /// ln of the factor on the transverse moduli at nodes, parts with the nominal α_r and per unit of its factor; empty if mechanics changes
     pub(crate) modulus: Vec<(f64, Functionals, Functionals)>,
     /// parts per relative change of E_z, α_z and the spool's expansion
     pub(crate) constants: Vec<Functionals>,

@@ -1,6 +1,5 @@
 //! Mechanisms: all that the program needs to know of one, as a trait that one file implements.
 
-pub(crate) use crate::change::Change;
 use crate::record::Parts;
 use crate::{Chain, Prepared, REFERENCE_C};
 use bias::units::S_PER_H;
@@ -113,10 +112,8 @@ impl Offer {
 pub struct HeatPath {
     /// Whether a design has it.
     pub applies: fn(&Design) -> bool,
-    /// Values of the path's coordinate that are tabulated, increasing; the response is smooth in it.
+    /// Values of the path's coordinate that are tabulated, increasing, among them 0, the design as it is; the response is smooth in it.
     pub nodes: Vec<f64>,
-    /// The coordinate of the design as it is, one of the nodes.
-    pub nominal: f64,
     /// The design at a coordinate.
     pub design: fn(&Design, f64) -> Design,
     /// Coordinate of a small change by which a mismatch is sought in the heat flow; `None` where it is sought elsewhere.
@@ -131,6 +128,34 @@ pub enum Effect {
     Readings(Box<dyn Fn(&mut Readings) + Send + Sync>),
 }
 
+/// Change of a coil's response, a value for each row of a record.
+#[derive(Debug, Clone)]
+pub struct Change {
+    /// Of the bias: Shupe, elasto-optic axial and radial \[deg/h\].
+    pub parts: Parts,
+    /// Of the spool's thermometer \[K\]; `None` if there is none.
+    pub thermometer: Option<Vec<f64>>,
+    /// Of the rate beside the bias \[deg/h\]; `None` if there is none.
+    pub rate: Option<Vec<f64>>,
+}
+
+impl Change {
+    /// Nothing changes.
+    pub fn none(record: &Prepared) -> Self {
+        Self::of_parts([0, 1, 2].map(|_| vec![0.0; record.time.len()]))
+    }
+
+    /// The bias changes alone.
+    pub fn of_parts(parts: Parts) -> Self {
+        Self { parts, thermometer: None, rate: None }
+    }
+
+    /// The rate changes, but no part of the bias.
+    pub fn of_rate(record: &Prepared, rate: Vec<f64>) -> Self {
+        Self { rate: Some(rate), ..Self::none(record) }
+    }
+}
+
 /// What thermometer and gyroscope say, a value for each row of a record.
 pub struct Readings<'a> {
     /// Instants \[s\].
@@ -142,7 +167,10 @@ pub struct Readings<'a> {
 }
 
 /// How a mechanism enters the sensitivity in a steady ramp.
+#[derive(Clone, Copy)]
 pub enum Steady {
+    /// The first parameter changes the design.
+    Design(fn(&Design, f64) -> Design),
     /// One parameter changes the design, or the mechanical state it is in.
     Changes {
         /// Its place among the parameters.
@@ -209,6 +237,83 @@ pub trait Mechanism: Send + Sync {
 
     /// The design with it put in at its place; `None` if a design has no place for it, or the place is taken.
     fn extended(&self, design: &Design, active: &Active) -> Option<Design>;
+}
+
+/// A mechanism that explains, in one literal without defaults: the fields of [`Facts`] and the methods of [`Mechanism`].
+pub(crate) struct Named {
+    pub(crate) id: &'static str,
+    pub(crate) title: &'static str,
+    pub(crate) stage: Stage,
+    pub(crate) equation: &'static str,
+    pub(crate) place: &'static str,
+    pub(crate) signature: &'static str,
+    pub(crate) source: &'static str,
+    pub(crate) meaning: &'static str,
+    pub(crate) inspection: &'static str,
+    pub(crate) heat_path: Option<fn() -> HeatPath>,
+    pub(crate) steady: &'static [Steady],
+    pub(crate) extent: fn(&Active, &Sight) -> Extent,
+    pub(crate) caveat: fn(&Design) -> Option<&'static str>,
+    pub(crate) offer: fn(&Design, [f64; 2]) -> Option<Offer>,
+    pub(crate) effect: fn(&Chain, &Prepared, &Active) -> Result<Effect, Error>,
+    pub(crate) extended: fn(&Design, &Active) -> Option<Design>,
+}
+
+impl Mechanism for Named {
+    fn facts(&self) -> Facts<'_> {
+        let &Self { id, title, stage, equation, place, signature, source, meaning, inspection, extent, caveat, .. } = self;
+        let (naming, heat_path, steady) =
+            (Naming::Named { meaning, inspection }, self.heat_path.map(|path| path()), self.steady.to_vec());
+        Facts { id, title, stage, equation, place, signature, source, naming, heat_path, steady, extent, caveat }
+    }
+
+    fn offer(&self, design: &Design, range: [f64; 2]) -> Option<Offer> {
+        (self.offer)(design, range)
+    }
+
+    fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
+        (self.effect)(chain, record, active)
+    }
+
+    fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
+        (self.extended)(design, active)
+    }
+}
+
+/// A mechanism that only describes a structure and has no place in a design, in one literal without defaults.
+pub(crate) struct Described {
+    pub(crate) id: &'static str,
+    pub(crate) title: &'static str,
+    pub(crate) stage: Stage,
+    pub(crate) equation: &'static str,
+    pub(crate) place: &'static str,
+    pub(crate) signature: &'static str,
+    pub(crate) source: &'static str,
+    pub(crate) offer: fn() -> Offer,
+    /// What it changes in a record, by the values of its parameters.
+    pub(crate) law: fn(&Prepared, &[f64]) -> Change,
+    /// As in [`Naming::Described`].
+    pub(crate) likeness: fn(&[f64], Digits) -> String,
+}
+
+impl Mechanism for Described {
+    fn facts(&self) -> Facts<'_> {
+        let &Self { id, title, stage, equation, place, signature, source, likeness, .. } = self;
+        let (naming, steady, extent) = (Naming::Described { likeness }, Vec::new(), Extent::everywhere);
+        Facts { id, title, stage, equation, place, signature, source, naming, heat_path: None, steady, extent, caveat: |_| None }
+    }
+
+    fn offer(&self, _: &Design, _: [f64; 2]) -> Option<Offer> {
+        Some((self.offer)())
+    }
+
+    fn effect(&self, _: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
+        Ok(Effect::Coil((self.law)(record, &active.values)))
+    }
+
+    fn extended(&self, _: &Design, _: &Active) -> Option<Design> {
+        None
+    }
 }
 
 /// Every combination of a value from each list.

@@ -29,8 +29,7 @@ pub(crate) struct Clock {
 const BETWEEN: usize = 4;
 
 impl Clock {
-    /// Between its readings the chamber follows a smooth course ([`Profile::smoothed`]): its controller has no corners. A reading after a
-    /// gap begins `averaging` seconds before its instant.
+    /// Between readings the chamber is smooth ([`Profile::smoothed`]), without corners. After a gap one begins `averaging` seconds before.
     pub(crate) fn new(time: &[f64], chamber: &[f64], averaging: f64) -> Self {
         let (mut t, mut c) = (Vec::with_capacity(time.len()), Vec::with_capacity(time.len()));
         let (mut rows, mut starts) = (Vec::with_capacity(time.len()), Vec::new());
@@ -113,7 +112,6 @@ impl Course {
         Self { states, rates }
     }
 
-    /// An output in every row.
     pub(crate) fn output(&self, output: &Output) -> Vec<f64> {
         (&self.states * output.vector()).as_slice().to_vec()
     }
@@ -128,7 +126,6 @@ impl Course {
     }
 }
 
-/// Differences of two series.
 fn minus(a: &Series, b: &Series) -> Series {
     Series { sensor: less(&a.sensor, &b.sensor), parts: difference(&a.parts, &b.parts) }
 }

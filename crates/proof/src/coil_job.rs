@@ -125,7 +125,6 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Heat flow, discretised.
 struct Heat {
     map: DofMap,
     transient: Transient,
@@ -214,7 +213,6 @@ impl<'a> Transfer<'a> {
     }
 }
 
-/// The structure, factorised.
 struct Structure {
     map: DofMap,
     factor: Condensed,
@@ -277,10 +275,7 @@ impl Structure {
     }
 }
 
-/// Does the job.
-///
-/// # Errors
-/// As [`fem_core::Factor::solve`].
+/// Does the job. As [`fem_core::Factor::solve`].
 pub fn run(setting: &Setting) -> Result<JobResult, Error> {
     let mut watch = Stopwatch::start();
     let mut phases = Vec::new();

@@ -11,50 +11,40 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).map_or_else(PathBuf::new, Path::to_path_buf)
 }
 
-/// The text of a file.
-///
-/// # Errors
-/// [`Failure`] names the file.
-pub fn read(path: &Path) -> Result<String, Failure> {
-    std::fs::read_to_string(path).map_err(|e| Failure(format!("{}: {e}", path.display())))
+/// What fails at `path`, in words.
+pub fn failed(path: &Path) -> impl Fn(std::io::Error) -> Failure {
+    move |e| Failure(format!("{}: {e}", path.display()))
 }
 
-/// Writes a file, whole or not at all.
-///
-/// # Errors
-/// [`Failure`] names the file.
+/// The text of a file. [`Failure`] names the file.
+pub fn read(path: &Path) -> Result<String, Failure> {
+    std::fs::read_to_string(path).map_err(failed(path))
+}
+
+/// Writes a file, whole or not at all. [`Failure`] names the file.
 pub fn write(path: &Path, text: &str) -> Result<(), Failure> {
     Ok(output::write_files(&[(path, Content::Text(text.to_owned()))])?)
 }
 
-/// Writes files, all or none, and makes the folders they lie in.
-///
-/// # Errors
-/// [`Failure`] names the file or folder.
+/// Writes files, all or none, and makes the folders they lie in. [`Failure`] names the file or folder.
 pub fn write_all(files: &[(PathBuf, String)]) -> Result<(), Failure> {
     for folder in files.iter().filter_map(|(file, _)| file.parent()) {
-        std::fs::create_dir_all(folder).map_err(|e| Failure(format!("{}: {e}", folder.display())))?;
+        std::fs::create_dir_all(folder).map_err(failed(folder))?;
     }
     let contents = files.iter().map(|(file, text)| (file.as_path(), Content::Text(text.clone())));
     Ok(output::write_files(&contents.collect::<Vec<_>>())?)
 }
 
-/// The names in a folder, in order.
-///
-/// # Errors
-/// [`Failure`] names the folder.
+/// The names in a folder, in order. [`Failure`] names the folder.
 pub fn names(folder: &Path) -> Result<Vec<String>, Failure> {
-    let failed = |e: std::io::Error| Failure(format!("{}: {e}", folder.display()));
-    let name = |entry: std::io::Result<std::fs::DirEntry>| Ok(entry.map_err(failed)?.file_name().to_string_lossy().into_owned());
-    let mut names: Vec<String> = std::fs::read_dir(folder).map_err(failed)?.map(name).collect::<Result<_, Failure>>()?;
+    let name =
+        |entry: std::io::Result<std::fs::DirEntry>| Ok(entry.map_err(failed(folder))?.file_name().to_string_lossy().into_owned());
+    let mut names: Vec<String> = std::fs::read_dir(folder).map_err(failed(folder))?.map(name).collect::<Result<_, Failure>>()?;
     names.sort();
     Ok(names)
 }
 
-/// All files below a folder, by their paths from there, in order.
-///
-/// # Errors
-/// [`Failure`] names the folder that cannot be read.
+/// All files below a folder, by their paths from there, in order. [`Failure`] names the folder that cannot be read.
 pub fn below(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let (mut files, mut folders) = (Vec::new(), vec![PathBuf::new()]);
     while let Some(inner) = folders.pop() {
@@ -68,8 +58,6 @@ pub fn below(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// Puts `text` between the lines `begin` and `end` of the page at `path`.
-///
-/// # Errors
 /// [`Failure`] if the page cannot be read or written, or lacks a mark.
 pub fn renew(path: &Path, [begin, end]: [&str; 2], text: &str) -> Result<(), Failure> {
     let old = read(path)?;

@@ -30,7 +30,6 @@ const PROBABILITY: f64 = 0.9;
 const CELLS: usize = 10;
 const LEAST_INSIDE: f64 = 0.8;
 
-/// One synthetic cell, judged.
 struct JudgedCell {
     family: String,
     unknowns: usize,
@@ -113,7 +112,6 @@ fn paper(case: &TargetsCase) -> Result<(String, bool), Failure> {
     Ok((text, holds))
 }
 
-/// Parameters from the priors that make a cell.
 fn draw(family: &Family, random: &mut Random) -> (Vec<f64>, FibreCell) {
     loop {
         let u = random.normals(family.parameters().len());

@@ -89,8 +89,6 @@ impl Program {
 }
 
 /// Runs each program once more. One that fails is left out, and `say` told so, if it is not of the first `ours`.
-///
-/// # Errors
 /// [`Failure`] if one of ours fails.
 pub fn run_each(programs: &mut Vec<Program>, ours: usize, say: impl Fn(&str)) -> Result<(), Failure> {
     let mut kept = Vec::new();
@@ -151,8 +149,6 @@ fn counted(first: usize) -> Option<f64> {
 }
 
 /// Runs `program` on one thread in benches/peers and returns what follows `RESULT ` on each such line that it prints.
-///
-/// # Errors
 /// [`Failure`] if it cannot be started, fails, or prints no result.
 pub fn results(program: &Path, arguments: &[OsString]) -> Result<Vec<String>, Failure> {
     let called = || called(program, arguments);
@@ -175,10 +171,7 @@ fn called(program: &Path, arguments: &[OsString]) -> String {
     format!("{} {}", program.display(), arguments.join(" ".as_ref()).to_string_lossy())
 }
 
-/// Runs `program` as [`results`] does, and measures it.
-///
-/// # Errors
-/// As [`results`], or if the result is not understood.
+/// Runs `program` as [`results`] does, and measures it. As [`results`], or if the result is not understood.
 pub fn run(program: &Path, arguments: &[OsString]) -> Result<Run, Failure> {
     let (start, before) = (Instant::now(), children());
     let lines = results(program, arguments)?;

@@ -10,10 +10,7 @@ use crate::{Failure, files};
 const PROOF: &str = "proof";
 
 /// SHA-256 of the workspace's manifests, its lock file and the sources of its crates but this one, in the order of their paths: of each the path, a NUL,
-/// its length in eight bytes (little-endian) and its content.
-///
-/// # Errors
-/// [`Failure`] names the file that cannot be read.
+/// its length in eight bytes (little-endian) and its content. [`Failure`] names the file that cannot be read.
 pub fn hash(root: &Path) -> Result<String, Failure> {
     let mut sources: Vec<PathBuf> = vec!["Cargo.toml".into(), "Cargo.lock".into()];
     for krate in files::names(&root.join("crates"))?.iter().filter(|krate| *krate != PROOF) {
@@ -26,7 +23,7 @@ pub fn hash(root: &Path) -> Result<String, Failure> {
     let mut hash = Sha256::new();
     for file in &sources {
         let path = root.join(file);
-        let content = std::fs::read(&path).map_err(|e| Failure(format!("{}: {e}", path.display())))?;
+        let content = std::fs::read(&path).map_err(files::failed(&path))?;
         hash.update(file.to_string_lossy().replace('\\', "/"));
         hash.update([0]);
         hash.update((content.len() as u64).to_le_bytes());

@@ -1,8 +1,8 @@
 //! Rates, medians and means with their 90 % intervals.
 
+use homogenization::identify::Random;
 use recording::statistics::normal_quantile;
 
-/// Resamples of a bootstrap.
 const RESAMPLES: usize = 4000;
 
 /// A measured number with its 90 % interval.
@@ -57,24 +57,12 @@ fn bootstrap(values: &[f64], statistic: impl Fn(&[f64]) -> f64) -> Option<Measur
     if values.is_empty() {
         return None;
     }
-    let mut draws = Draws(1);
-    let again = |_| statistic(&sorted((0..values.len()).map(|_| values[draws.below(values.len())]).collect()));
+    let mut random = Random::new(1);
+    let mut draw = || values[(random.bits() % values.len() as u64) as usize];
+    let again = |_| statistic(&sorted((0..values.len()).map(|_| draw()).collect()));
     let resampled = sorted((0..RESAMPLES).map(again).collect());
     let interval = [0.05, 0.95].map(|share| resampled[(share * (RESAMPLES - 1) as f64).round() as usize]);
     Some(Measured { value: statistic(&values), interval, cases: values.len() })
-}
-
-/// The generator splitmix64 (Steele, Lea and Flood 2014).
-struct Draws(u64);
-
-impl Draws {
-    fn below(&mut self, bound: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) % bound as u64) as usize
-    }
 }
 
 #[cfg(test)]

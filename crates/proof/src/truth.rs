@@ -16,17 +16,14 @@ pub(crate) struct Truth {
     pub(crate) snr: Vec<Strength>,
     /// For each: itself, then what that record cannot separate from it.
     pub(crate) confusable_sets: Vec<Vec<String>>,
-    /// The gyro's noise.
     pub(crate) noise: Noise,
     pub(crate) spool_sensor: SpoolSensor,
-    /// Sizes without noise.
     pub(crate) noise_free_rms_deg_per_h: Sizes,
     /// Of the record that is fitted, of the one that judges: for a reader.
     #[serde(skip_deserializing)]
     pub(crate) profiles: [String; 2],
 }
 
-/// A mechanism with its parameters by name.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ConcealedEffect {
     pub(crate) id: String,
@@ -73,14 +70,10 @@ pub(crate) struct Sizes {
     pub(crate) holdout_difference: f64,
 }
 
-/// What kind of unit it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// Nothing is concealed.
     Null,
-    /// One mechanism of the library.
     Single,
-    /// Two of the library.
     Double,
     /// Something outside the library.
     Outside,
@@ -126,12 +119,10 @@ impl Tier {
 const UNSEEN: f64 = 3.0;
 
 impl Truth {
-    /// Reads a truth file.
     pub(crate) fn read(file: &Path) -> Result<Self, Failure> {
         Ok(fogcoil::input::read_ron(file)?)
     }
 
-    /// The text of a truth file.
     pub(crate) fn write(&self) -> Result<String, Failure> {
         Ok(ron::ser::to_string_pretty(self, ron::ser::PrettyConfig::default())? + "\n")
     }
@@ -150,7 +141,6 @@ impl Truth {
         }
     }
 
-    /// Tier of the strongest effect.
     pub(crate) fn tier(&self) -> Tier {
         Tier::of(self.snr.iter().map(|s| s.snr).fold(0.0, f64::max))
     }

@@ -4,9 +4,12 @@
 //! deviation falls as τ⁻¹ where quantisation rules, as τ^−½ where white noise does, is flat at the bias instability and rises as τ^½
 //! where rate random walk does. A deterministic signal in the series shows as noise: take it off first.
 
+use std::cmp::Reverse;
+use std::ops::Range;
+
 use crate::Error;
-use crate::series::GAP;
-use crate::statistics::{chi_square_quantile, median};
+use crate::series::{GAP, check_series, interval};
+use crate::statistics::chi_square_quantile;
 
 /// One point of an Allan plot.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,9 +47,8 @@ const SHORTEST: usize = 8;
 /// # Errors
 /// [`Error::Length`], [`Error::Time`], [`Error::Value`] for bad series; [`Error::TooFew`] for fewer than eight rows.
 pub fn allan(time: &[f64], values: &[f64], mask: &[bool]) -> Result<Vec<AllanPoint>, Error> {
-    let used = crate::series::check_series(time, mask, &[("values", values)])?;
-    let interval = median(time.windows(2).map(|pair| pair[1] - pair[0]).collect());
-    let Some(interval) = interval.filter(|_| used >= SHORTEST) else {
+    let used = check_series(time, mask, &[("values", values)])?;
+    let Some(interval) = interval(time).filter(|_| used >= SHORTEST) else {
         return Err(Error::TooFew { found: used, needed: SHORTEST });
     };
     let lattice = Lattice::new(time, values, mask, interval);
@@ -142,15 +144,8 @@ impl Lattice {
     }
 }
 
-fn longest_stretch(time: &[f64], interval: f64) -> std::ops::Range<usize> {
-    let (mut best, mut start) = (0..0, 0);
-    for end in 1..=time.len() {
-        if end == time.len() || time[end] - time[end - 1] > GAP * interval {
-            if end - start > best.len() {
-                best = start..end;
-            }
-            start = end;
-        }
-    }
-    best
+fn longest_stretch(time: &[f64], interval: f64) -> Range<usize> {
+    let rows: Vec<usize> = (0..time.len()).collect();
+    let stretches = rows.chunk_by(|&a, &b| time[b] - time[a] <= GAP * interval);
+    stretches.min_by_key(|rows| Reverse(rows.len())).map_or(0..0, |rows| rows[0]..rows[0] + rows.len())
 }

@@ -63,17 +63,9 @@ pub fn thinned(recording: &Recording, interval: f64, rule: &Thinning) -> Option<
 
 /// Groups of `every` rows between gaps.
 fn groups(rows: usize, every: usize, neighbours: impl Fn(usize) -> bool) -> Vec<Range<usize>> {
-    let (mut whole, mut first) = (Vec::new(), 0);
-    for row in 1..=rows {
-        if row < rows && neighbours(row) && row - first < every {
-            continue;
-        }
-        if row - first == every {
-            whole.push(first..row);
-        }
-        first = row;
-    }
-    whole
+    let rows: Vec<usize> = (0..rows).collect();
+    let stretches = rows.chunk_by(|_, &row| neighbours(row));
+    stretches.flat_map(|stretch| stretch.chunks_exact(every)).map(|group| group[0]..group[0] + every).collect()
 }
 
 /// Mean of what is there; NaN if that is less than half.
@@ -136,16 +128,10 @@ pub struct Rest {
 /// Why a recording does not start at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Unrest {
-    /// What drives and what follows differ at first.
-    Apart {
-        /// By how much \[u\].
-        by: f64,
-    },
-    /// What drives moves at first.
-    Moving {
-        /// By how much within the duration \[u\].
-        by: f64,
-    },
+    /// What drives and what follows differ at first, by so much \[u\].
+    Apart(f64),
+    /// What drives moves at first, by so much within the duration \[u\].
+    Moving(f64),
 }
 
 /// Why a recording does not start at rest, if it does not: from `driver`, which is finite, and `follower`, NaN where it is not known.
@@ -157,11 +143,7 @@ pub fn unrest(time: &[f64], driver: &[f64], follower: &[f64], rest: &Rest) -> Op
     let apart = follower.iter().find(|value| value.is_finite()).map_or(0.0, |value| (value - first).abs());
     let early = time.iter().zip(driver).take_while(|(t, _)| *t - start <= rest.duration);
     let moved = early.fold(0.0_f64, |most, (_, value)| most.max((value - first).abs()));
-    if apart > rest.tolerance {
-        Some(Unrest::Apart { by: apart })
-    } else {
-        (moved > rest.tolerance).then_some(Unrest::Moving { by: moved })
-    }
+    if apart > rest.tolerance { Some(Unrest::Apart(apart)) } else { (moved > rest.tolerance).then_some(Unrest::Moving(moved)) }
 }
 
 /// Largest less smallest of the values, those that are NaN left out; −∞ of nothing.

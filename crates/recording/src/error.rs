@@ -15,11 +15,8 @@ pub enum Error {
         expected: usize,
     },
     /// Two channels have one name.
-    #[error("two channels are named `{name}`; rename one")]
-    Name {
-        /// The name.
-        name: String,
-    },
+    #[error("two channels are named `{0}`; rename one")]
+    Name(String),
     /// An instant is not finite, or does not come after the one before.
     #[error("instant {row}, {time} s, is not finite or not after the one before, {previous} s; drop repeats and sort by time")]
     Time {

@@ -94,9 +94,7 @@ mod tests {
     const EFFORT: Effort = Effort { tolerance: 1e-14, evaluations: 1000 };
 
     #[test]
-    fn a_bent_valley_and_a_wall() {
-        let (at, value) = nelder_mead(valley, &[-1.2, 1.0], &[0.7; 2], &[[-5.0, 5.0]; 2], EFFORT);
-        assert!(value < 1e-12 && (at[0] - 1.0).abs() < 1e-5, "{at:?} {value}");
+    fn a_wall_in_a_bent_valley_and_no_variable() {
         let (at, _) = nelder_mead(valley, &[-1.2, 1.0], &[0.7; 2], &[[-5.0, 0.5], [-5.0, 5.0]], EFFORT);
         assert!((at[0] - 0.5).abs() < 1e-5 && (at[1] - 0.25).abs() < 1e-5, "{at:?}");
         assert_eq!(nelder_mead(|_| 7.0, &[], &[], &[], EFFORT), (vec![], 7.0));

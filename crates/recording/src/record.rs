@@ -44,7 +44,7 @@ impl Recording {
         for (i, channel) in channels.iter().enumerate() {
             check_length(&channel.name, channel.values.len(), time.len())?;
             if channels[..i].iter().any(|other| other.name == channel.name) {
-                return Err(Error::Name { name: channel.name.clone() });
+                return Err(Error::Name(channel.name.clone()));
             }
         }
         Ok(Self { time, channels })

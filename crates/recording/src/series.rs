@@ -1,11 +1,16 @@
 //! Checks of series that every routine asks for.
 
 use crate::Error;
+use crate::statistics::median;
 
 /// Longest interval between rows that are neighbours, in usual intervals: beyond it a row is missing.
 pub(crate) const GAP: f64 = 1.5;
 
-/// Checks that instants increase.
+/// Median time between rows \[s\]; `None` of fewer than two.
+pub(crate) fn interval(time: &[f64]) -> Option<f64> {
+    median(time.windows(2).map(|pair| pair[1] - pair[0]).collect())
+}
+
 pub(crate) fn check_time(time: &[f64]) -> Result<(), Error> {
     let mut previous = f64::NEG_INFINITY;
     for (row, &instant) in time.iter().enumerate() {

@@ -6,7 +6,6 @@ use nalgebra::{Matrix2, Vector2};
 
 /// Degrees of freedom of the disturbances' Student distribution: a programme turns seldom, but then sharply.
 const FREEDOM: f64 = 2.0;
-/// Rounds of reweighting.
 const ROUNDS: usize = 8;
 /// ln of a disturbance's variance over the noise's that is searched, and how closely it is found.
 const RATIOS: (f64, f64) = (-20.0, 20.0);

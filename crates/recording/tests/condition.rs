@@ -93,8 +93,8 @@ fn rest_is_both_that_they_agree_and_that_they_stay() {
     let time = [100.0, 105.0, 110.0, 115.0];
     let of = |driver: [f64; 4], follower: [f64; 4]| unrest(&time, &driver, &follower, &rest);
     assert_eq!(of([20.0, 20.5, 20.0, 90.0], [NAN, 19.5, 0.0, 0.0]), None);
-    assert_eq!(of([20.0, 21.0, 20.0, 20.0], [20.25; 4]), Some(Unrest::Moving { by: 1.0 }));
-    assert_eq!(of([20.0, 21.0, 20.0, 20.0], [NAN, 18.0, 20.0, 20.0]), Some(Unrest::Apart { by: 2.0 }));
+    assert_eq!(of([20.0, 21.0, 20.0, 20.0], [20.25; 4]), Some(Unrest::Moving(1.0)));
+    assert_eq!(of([20.0, 21.0, 20.0, 20.0], [NAN, 18.0, 20.0, 20.0]), Some(Unrest::Apart(2.0)));
     assert_eq!(of([20.0; 4], [NAN; 4]), None);
     assert_eq!(unrest(&[], &[], &[], &rest), None);
 }
@@ -144,8 +144,8 @@ proptest! {
         let elsewhere = Rest { tolerance: 3.05 * scale.abs(), ..rest };
         let driver = bridged(&time, &reading).unwrap_or_else(|| vec![0.0; 40]);
         let sizes = |found: Option<Unrest>| found.map(|unrest| match unrest {
-            Unrest::Apart { by } => ("apart", by),
-            Unrest::Moving { by } => ("moving", by),
+            Unrest::Apart(by) => ("apart", by),
+            Unrest::Moving(by) => ("moving", by),
         });
         let (plain, other) = (
             sizes(unrest(&time, &driver, &mean, &rest)),

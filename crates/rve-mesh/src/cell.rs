@@ -103,15 +103,11 @@ impl LatticeCell {
     /// Exact area of each phase \[m²\]: the rings from the inside out, last the adhesive.
     pub fn phase_areas(&self) -> Vec<f64> {
         let mut inner = 0.0;
-        let mut areas: Vec<f64> = self
-            .radii
-            .iter()
-            .map(|&r| {
-                let area = PI * (r * r - inner * inner);
-                inner = r;
-                area
-            })
-            .collect();
+        let ring = |&r: &f64| {
+            let before = std::mem::replace(&mut inner, r);
+            PI * (r * r - before * before)
+        };
+        let mut areas: Vec<f64> = self.radii.iter().map(ring).collect();
         areas.push(self.area() - PI * inner * inner);
         areas
     }

@@ -1,11 +1,10 @@
 //! `cargo xtask bench cell`: from the reference cell to its constants, ours and the peers', error against time.
 
-use super::tools::{Progress, publish};
+use super::{Progress, publish};
 use homogenization::{Constants, Discretization, FibreCell, Homogenized, TOLERANCE, effective, homogenize_to, multipoles};
 use proof::Failure;
 use proof::files::root;
-use proof::peers::Stopwatch;
-use proof::peers::{self, Program};
+use proof::peers::{self, Program, Stopwatch};
 use proof::statistics::middle as median;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -96,7 +95,6 @@ fn kind(program: &Program) -> Option<Kind> {
     PEERS.iter().find(|peer| peer.name == program.name).map(|peer| peer.kind)
 }
 
-/// Largest relative error of a program's constants.
 fn error(program: &Program, exact: &Constants) -> f64 {
     let exact: BTreeMap<_, _> = exact.named().into_iter().collect();
     let out = &program.printed().out;
@@ -109,9 +107,6 @@ fn cell_file() -> PathBuf {
 }
 
 /// Computes the constants in one of our ways and prints them as a peer does.
-///
-/// # Errors
-/// [`Failure`] if there is no such way, or it fails.
 pub(crate) fn child(name: &str) -> Result<(), Failure> {
     let (_, way) = OURS.iter().find(|(own, _)| *own == name).ok_or_else(|| Failure(format!("no way is called {name:?}")))?;
     let cell = fogcoil::input::read_cell(&cell_file())?.cell;
@@ -175,10 +170,7 @@ fn program() -> Result<PathBuf, Failure> {
     Ok(std::env::current_exe()?.with_file_name("fogcoil"))
 }
 
-/// `cargo xtask bench cell`.
-///
-/// # Errors
-/// [`Failure`] if one of our own runs fails; a peer that fails is left out with a message.
+/// A peer that fails is left out with a message; one of our own must not.
 pub(crate) fn run(python: Option<&Path>, repetitions: u64) -> Result<(), Failure> {
     let progress = Progress::new();
     let cell = fogcoil::input::read_cell(&cell_file())?.cell;

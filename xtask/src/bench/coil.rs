@@ -1,6 +1,6 @@
 //! `cargo xtask bench coil`: the coil job of `benches/peers`, ours and the peers found, interleaved, times beside errors.
 
-use super::tools::{Progress, publish};
+use super::{Progress, publish};
 use proof::Failure;
 use proof::coil_job::{self as job, JobResult, STORED, Setting};
 use proof::peers::{self, Program};
@@ -56,9 +56,6 @@ fn errors(course: &[[f64; 5]], reference: &[[f64; 5]]) -> Errors {
 }
 
 /// Does the job under one of our settings and prints the result as a peer does.
-///
-/// # Errors
-/// [`Failure`] if there is no such setting, or a solve fails.
 pub(crate) fn child(name: &str) -> Result<(), Failure> {
     let setting = OURS.iter().find(|(own, _)| *own == name).ok_or_else(|| Failure(format!("no setting is called {name:?}")))?;
     let JobResult { unknowns, phases, course } = job::run(&setting.1)?;
@@ -111,10 +108,7 @@ fn found(python: &Path, folder: &Path, progress: &Progress) -> Result<Vec<Progra
     Ok(programs)
 }
 
-/// `cargo xtask bench coil`.
-///
-/// # Errors
-/// [`Failure`] if one of our own runs fails; a peer that fails is left out with a message.
+/// A peer that fails is left out with a message; one of our own must not.
 pub(crate) fn run(python: Option<&Path>, repetitions: u64) -> Result<(), Failure> {
     let progress = Progress::new();
     progress.say("reference: orders 8 and 6 on a fine mesh (half a minute)");
@@ -140,20 +134,14 @@ fn section(programs: &[Program], reference: &[[f64; 5]], uncertainty: Errors, re
     );
     let first = &programs[0];
     for program in programs {
-        let (printed, e) = (program.printed(), errors(&program.printed().course, reference));
+        let (name, printed) = (&program.name, program.printed());
+        let Errors { temperature, strain } = errors(&printed.course, reference);
+        let [wall, process, compute] = [program.median(|r| r.wall), program.process(), program.compute()];
+        let [processes, computes] = [process / first.process(), compute / first.compute()];
         let _ = writeln!(
             out,
-            "| {} | {} + {} | {:.2} | {:.2} | {:.3} | {:.1e} | {:.1e} | {:.1} | {:.1} |",
-            program.name,
-            printed.dof,
-            printed.dof2,
-            program.median(|r| r.wall),
-            program.process(),
-            program.compute(),
-            e.temperature,
-            e.strain,
-            program.process() / first.process(),
-            program.compute() / first.compute()
+            "| {name} | {} + {} | {wall:.2} | {process:.2} | {compute:.3} | {temperature:.1e} | {strain:.1e} | {processes:.1} | {computes:.1} |",
+            printed.dof, printed.dof2
         );
     }
     let _ = writeln!(
@@ -168,19 +156,13 @@ fn section(programs: &[Program], reference: &[[f64; 5]], uncertainty: Errors, re
     };
     let pair = [fastest("compute", Program::compute), fastest("CPU of the process", Program::process)];
     for (measure, peer, ratio) in pair.into_iter().flatten() {
-        let other = errors(&peer.printed().course, reference);
-        let smaller = own.temperature <= other.temperature && own.strain <= other.strain;
+        let Errors { temperature, strain } = errors(&peer.printed().course, reference);
+        let smaller = own.temperature <= temperature && own.strain <= strain;
+        let words = if smaller { "errors no larger" } else { "errors that are NOT both smaller" };
         let _ = writeln!(
             out,
-            "\nFastest peer by {measure}: {}. \"{}\" takes 1/{:.1} of it with {} ({:.2e} K against {:.2e} K, {:.2e} against {:.2e}).",
-            peer.name,
-            first.name,
-            ratio,
-            if smaller { "errors no larger" } else { "errors that are NOT both smaller" },
-            own.temperature,
-            other.temperature,
-            own.strain,
-            other.strain
+            "\nFastest peer by {measure}: {}. \"{}\" takes 1/{ratio:.1} of it with {words} ({:.2e} K against {temperature:.2e} K, {:.2e} against {strain:.2e}).",
+            peer.name, first.name, own.temperature, own.strain
         );
     }
     if let (Some((_, peer, ratio)), Some(equal)) =

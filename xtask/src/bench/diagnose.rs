@@ -1,6 +1,6 @@
 //! `cargo xtask bench diagnose`: whole diagnoses of the open cases, on one thread.
 
-use super::tools::{Progress, publish};
+use super::{Progress, publish};
 use fogcoil::cache::Cache;
 use fogcoil::diagnose;
 use fogcoil::input::{self, RecordOptions};
@@ -13,10 +13,6 @@ use std::fmt::Write as _;
 /// Rows of a day at 30 s, to which times are scaled.
 const DAY_ROWS: f64 = 2880.0;
 
-/// `cargo xtask bench diagnose`.
-///
-/// # Errors
-/// [`Failure`] if a case cannot be read or diagnosed.
 pub(crate) fn run() -> Result<(), Failure> {
     let progress = Progress::new();
     let root = root();

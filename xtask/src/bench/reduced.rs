@@ -1,6 +1,6 @@
 //! `cargo xtask bench reduced`: a day by the reduced model and by the full one, times and distances.
 
-use super::tools::{Progress, publish, reference_coil};
+use super::{Progress, publish, reference_coil};
 use ::coil::{Drive, Dynamics, Model, Profile, Response, STANDARD, ThermalModel, functionals};
 use proof::Failure;
 use proof::peers::Stopwatch;
@@ -44,10 +44,6 @@ fn full(outputs: &[Vec<f64>], interval: f64) -> Vec<[f64; 2]> {
     outputs.windows(2).map(|w| [w[1][0], (phase(&w[1]) - phase(&w[0])) / interval]).collect()
 }
 
-/// `cargo xtask bench reduced`.
-///
-/// # Errors
-/// [`Failure`] if a solve fails.
 pub(crate) fn run() -> Result<(), Failure> {
     let progress = Progress::new();
     let design = reference_coil()?;

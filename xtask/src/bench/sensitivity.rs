@@ -1,13 +1,12 @@
 //! `cargo xtask bench sensitivity`: from design to steady sensitivity, beside NGSolve.
 
-use super::tools::{Progress, publish, reference_coil};
+use super::{Progress, publish, reference_coil};
 use ::coil::{COARSE, Design, Layout, MeshFineness, Model, Region, steady_sensitivity};
 use bias::units::DEG_PER_H_PER_K_PER_MIN_PER_RAD_PER_K;
 use fem_core::material::ThermoElastic;
-use proof::Failure;
-use proof::peers;
 use proof::peers::Stopwatch;
 use proof::statistics::middle as median;
+use proof::{Failure, peers};
 use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -42,10 +41,6 @@ fn problem(design: &Design, model: &Model) -> Result<serde_json::Value, Failure>
     }))
 }
 
-/// `cargo xtask bench sensitivity`.
-///
-/// # Errors
-/// [`Failure`] if a solve fails.
 pub(crate) fn run(python: Option<&Path>, repetitions: u64) -> Result<(), Failure> {
     let progress = Progress::new();
     let design = reference_coil()?;

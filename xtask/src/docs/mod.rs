@@ -121,7 +121,6 @@ fn snippets(page: &Page) -> Vec<String> {
     page.fences.iter().filter_map(check).collect()
 }
 
-/// docs/formats.md with its tables made anew.
 fn formats(root: &Path) -> Result<String, Failure> {
     Ok(table::renewed(&files::read(&root.join(FORMATS))?, &input::schemas()))
 }

@@ -3,11 +3,9 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use proof::Failure;
-use proof::files;
+use proof::{Failure, files};
 use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 
-/// A page.
 pub(super) struct Page {
     /// Its file, from the repository's root.
     pub(super) path: PathBuf,
@@ -16,7 +14,6 @@ pub(super) struct Page {
     pub(super) anchors: BTreeSet<String>,
 }
 
-/// A fenced block.
 pub(super) struct Fence {
     /// Line of its first line of text, from 1.
     pub(super) line: usize,
@@ -27,7 +24,6 @@ pub(super) struct Fence {
     pub(super) follows: bool,
 }
 
-/// A link or an image.
 pub(super) struct Link {
     /// Its line, from 1.
     pub(super) line: usize,
@@ -46,7 +42,6 @@ impl Fence {
 }
 
 impl Page {
-    /// Reads the page at `path`, from `root`.
     pub(super) fn read(root: &Path, path: &Path) -> Result<Self, Failure> {
         Self::parse(path, &files::read(&root.join(path))?)
             .map_err(|(line, problem)| Failure(format!("{}:{line}: {problem}", path.display())))

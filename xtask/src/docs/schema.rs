@@ -12,7 +12,6 @@ use proof::{Failure, files};
 
 const FOLDER: &str = "docs/schema";
 
-/// Files that must keep a schema.
 const FILES: [(&str, &str); 11] = [
     ("coil", "fixtures/coil-reference.ron"),
     ("coil", "crates/fogcoil/templates/coil.ron"),
@@ -45,7 +44,6 @@ const OUTPUTS: [(&str, &str); 14] = [
     ("recommend", "recommend COIL --between debond,nominal --json"),
 ];
 
-/// Writes the schemas of files anew.
 pub(super) fn write(root: &Path) -> Result<(), Failure> {
     for (name, schema) in input::schemas() {
         fs::write(root.join(file(name)), text(&schema))?;

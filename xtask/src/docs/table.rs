@@ -25,7 +25,6 @@ pub(super) fn renewed(page: &str, schemas: &[(&str, Value)]) -> String {
     text
 }
 
-/// A table for each group of fields.
 fn tables(schema: &Value) -> String {
     let mut text = group(schema["title"].as_str().unwrap_or_default(), schema);
     for (name, of) in schema["$defs"].as_object().into_iter().flatten() {

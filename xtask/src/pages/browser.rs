@@ -12,7 +12,6 @@ use proof::Failure;
 
 /// Names under which Chromium is looked for, after $CHROMIUM.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
-/// How long an answer may take.
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A browser with one tab; it ends with this value.
@@ -23,14 +22,10 @@ pub(super) struct Browser {
     session: Option<String>,
     sent: u64,
     events: Vec<Value>,
-    /// Name and version.
     pub(super) version: String,
 }
 
 /// The command that starts Chromium.
-///
-/// # Errors
-/// If there is none.
 pub(super) fn find() -> Result<String, Failure> {
     let starts = |name: &str| {
         Command::new(name).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|s| s.success())

@@ -17,23 +17,9 @@ const MOST_HIGH: u64 = 16_000;
 const LEAST_LETTER: f64 = 9.0;
 const CHECK: &str = include_str!("look.js");
 
-/// The colours that a reader prefers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Theme {
-    Light,
-    Dark,
-}
+/// What a reader prefers, as CSS calls it.
+pub(super) const THEMES: [&str; 2] = ["light", "dark"];
 
-impl Theme {
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Light => "light",
-            Self::Dark => "dark",
-        }
-    }
-}
-
-/// A finding of axe-core.
 #[derive(Debug, Clone, Deserialize)]
 pub(super) struct Finding {
     pub(super) id: String,
@@ -50,7 +36,6 @@ impl Finding {
     }
 }
 
-/// What the script in the page says.
 #[derive(Debug, Clone, Deserialize)]
 struct Said {
     inner: u32,
@@ -67,7 +52,7 @@ struct Said {
 pub(super) struct Look {
     pub(super) page: String,
     pub(super) width: u32,
-    pub(super) theme: Theme,
+    pub(super) theme: &'static str,
     pub(super) findings: Vec<Finding>,
     /// Elements wider than the page.
     pub(super) overflow: Vec<String>,
@@ -77,7 +62,6 @@ pub(super) struct Look {
     pub(super) console: Vec<String>,
     /// What was asked of the network or the disk besides the page.
     pub(super) requests: Vec<String>,
-    /// Version of axe-core.
     pub(super) axe: String,
 }
 
@@ -109,13 +93,13 @@ pub(super) fn look(
     axe: &str,
     file: &Path,
     width: u32,
-    theme: Theme,
+    theme: &'static str,
     folder: &Path,
 ) -> Result<Look, Failure> {
     let page = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let url = format!("file://{}", file.display());
     resize(browser, width, 900)?;
-    let scheme = json!({ "name": "prefers-color-scheme", "value": theme.name() });
+    let scheme = json!({ "name": "prefers-color-scheme", "value": theme });
     browser.call("Emulation.setEmulatedMedia", json!({ "media": "screen", "features": [scheme] }))?;
     open(browser, &url)?;
     browser.evaluate(axe)?;
@@ -126,7 +110,7 @@ pub(super) fn look(
     let events = browser.events();
     resize(browser, width, said.height.min(MOST_HIGH) as u32)?;
     let shot = browser.call("Page.captureScreenshot", json!({ "format": "png" }))?;
-    let name = format!("{page}-{width}-{}.png", theme.name());
+    let name = format!("{page}-{width}-{}.png", theme);
     fs::write(folder.join(name), decoded(shot["data"].as_str().unwrap_or_default()))?;
     let small =
         (said.smallest > 0.0 && said.smallest < LEAST_LETTER).then(|| format!("letters of {:.1} px in a figure", said.smallest));

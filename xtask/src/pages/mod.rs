@@ -4,15 +4,15 @@ mod axe;
 mod browser;
 mod look;
 mod make;
-mod table;
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use browser::Browser;
-use look::{Look, Theme, WIDTHS};
+use look::{Finding, Look, THEMES, WIDTHS};
 use proof::Failure;
 
 const FOLDER: &str = "target/pages";
@@ -49,10 +49,10 @@ impl Pages {
                 return Err(Failure(format!("{}: {}", file.display(), faults.join("; "))));
             }
             for width in WIDTHS {
-                for theme in [Theme::Light, Theme::Dark] {
+                for theme in THEMES {
                     let look = look::look(&mut browser, &axe, file, width, theme, folder)?;
                     let faults = look.faults();
-                    println!("{} {width} px {}: {}", look.page, theme.name(), if faults.is_empty() { "nothing" } else { "" });
+                    println!("{} {width} px {}: {}", look.page, theme, if faults.is_empty() { "nothing" } else { "" });
                     faults.iter().for_each(|fault| println!("    {fault}"));
                     looks.push(look);
                 }
@@ -61,7 +61,7 @@ impl Pages {
         }
         let holds = looks.iter().all(Look::holds);
         if !self.kept {
-            proof::files::write(DOCUMENT.as_ref(), &table::markdown(&looks, &browser.version))?;
+            proof::files::write(DOCUMENT.as_ref(), &markdown(&looks, &browser.version))?;
         }
         println!("screenshots and prints are in {FOLDER}");
         Ok(holds)
@@ -72,4 +72,31 @@ impl Pages {
 fn kept(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let names = proof::files::names(folder)?;
     Ok(names.iter().filter(|name| name.ends_with(".html")).map(|name| folder.join(name)).collect())
+}
+
+/// What was found, as docs/pages.md.
+fn markdown(looks: &[Look], chromium: &str) -> String {
+    let version = looks.first().map_or(axe::VERSION, |look| look.axe.as_str());
+    let mut out = format!(
+        "# Pages\n\n\
+         Written by `cargo xtask pages`; do not edit. The reports of `fogcoil simulate`, of `fogcoil diagnose` (a unit that is explained, one \
+         that nothing in the library explains, one that needs no explanation) and of `cargo xtask validate`, made from the fixtures, opened in \
+         {chromium} as on a phone, a tablet and a screen, in light and dark, folded tables opened, and judged by axe-core {version}. The \
+         command exits with 1 on a serious or critical finding, on an element wider than the page, on a figure's label that leaves the \
+         figure, covers another or is smaller than 9 px, on an error or a warning of the console, and on any request besides the page itself. \
+         Screenshots and prints on A4 are left in target/pages.\n\n\
+         | page | width [px] | colours | axe: serious, critical | axe: others | wider than the page | labels | console | requests |\n\
+         |---|---|---|---|---|---|---|---|---|\n"
+    );
+    for look in looks {
+        let (grave, others): (Vec<&Finding>, Vec<&Finding>) = look.findings.iter().partition(|f| f.grave());
+        let listed = |all: &[&Finding]| match all {
+            [] => "0".to_owned(),
+            all => all.iter().map(|f| format!("{} ({})", f.id, f.nodes)).collect::<Vec<_>>().join(", "),
+        };
+        let counts = [&look.overflow, &look.labels, &look.console, &look.requests].map(|all| all.len().to_string()).join(" | ");
+        let (page, width, theme, grave, others) = (&look.page, look.width, look.theme, listed(&grave), listed(&others));
+        let _ = writeln!(out, "| {page} | {width} | {theme} | {grave} | {others} | {counts} |");
+    }
+    out
 }

@@ -7,7 +7,6 @@ use std::path::Path;
 /// The crates under test, each after those it depends on.
 pub(super) const CRATES: [&str; 3] = ["fem-core", "rve-mesh", "homogenization"];
 
-/// A change that makes the program wrong.
 pub(super) struct Sabotage {
     /// What is wrong then.
     pub(super) name: &'static str,
@@ -15,7 +14,6 @@ pub(super) struct Sabotage {
     pub(super) file: &'static str,
     /// The text that is replaced; it must be there exactly once.
     pub(super) find: &'static str,
-    /// What it becomes.
     pub(super) replace: &'static str,
 }
 

@@ -1,14 +1,14 @@
 //! `cargo xtask sabotage`: breaks the cell's crates on purpose, one line at a time, and notes which tests see it.
 
-mod kept;
 mod list;
 mod tree;
 
-use kept::Kept;
 use list::{CRATES, LIST};
 use proof::Failure;
 use proof::files::{root, write};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::path::PathBuf;
 use std::time::Instant;
 use tree::{TestRun, Tree};
 
@@ -37,6 +37,31 @@ fn verdict(outcome: &TestRun) -> String {
     match outcome.red.len() {
         0 => "**none: no test sees it**".into(),
         count => format!("{count}: {}{}", names.join(", "), if count > SHOWN { ", …" } else { "" }),
+    }
+}
+
+/// Outcomes by the key of their sources, in a file.
+struct Kept {
+    path: PathBuf,
+    outcomes: BTreeMap<String, TestRun>,
+}
+
+impl Kept {
+    /// Those in the file at `path`; none if it cannot be read.
+    fn open(path: PathBuf) -> Self {
+        let text = std::fs::read_to_string(&path).unwrap_or_default();
+        Self { path, outcomes: serde_json::from_str(&text).unwrap_or_default() }
+    }
+
+    /// The outcome kept under `key`, or what `find` finds, which is kept then.
+    fn or_find(&mut self, key: String, find: impl FnOnce() -> Result<TestRun, Failure>) -> Result<TestRun, Failure> {
+        if let Some(outcome) = self.outcomes.get(&key) {
+            return Ok(outcome.clone());
+        }
+        let outcome = find()?;
+        self.outcomes.insert(key, outcome.clone());
+        write(&self.path, &serde_json::to_string(&self.outcomes)?)?;
+        Ok(outcome)
     }
 }
 

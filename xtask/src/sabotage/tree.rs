@@ -2,7 +2,7 @@
 
 use super::list::{CRATES, Sabotage};
 use proof::Failure;
-use proof::files::below;
+use proof::files::{below, failed};
 use proof::program::hex;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -23,10 +23,6 @@ pub(super) struct Tree {
     target: PathBuf,
     /// of all sources
     hash: String,
-}
-
-fn failed(path: &Path) -> impl Fn(std::io::Error) -> Failure {
-    move |e| Failure(format!("{}: {e}", path.display()))
 }
 
 /// Writes a file that does not hold `content` yet; one that does keeps its time stamp.
@@ -93,7 +89,6 @@ impl Tree {
         outcome
     }
 
-    /// Builds and runs all tests of `crates`.
     pub(super) fn test(&self, crates: &[&str]) -> Result<TestRun, Failure> {
         let mut outcome = TestRun { count: 0, red: Vec::new() };
         for (name, program) in self.build(crates)? {

@@ -38,7 +38,6 @@ const WORDS: [(&str, &str); 7] = [
     ),
 ];
 
-/// The page.
 pub(super) fn html(sections: &[Section]) -> Result<String, Failure> {
     let words: Vec<_> = WORDS.iter().map(|(word, meaning)| row(word, *meaning)).collect();
     let read = |(role, file): (&'static str, &'static str)| {
@@ -75,7 +74,6 @@ fn lead(sections: &[Section]) -> Markup {
     }
 }
 
-/// Verdicts counted, table by table.
 fn summary(sections: &[Section]) -> Markup {
     const VERDICTS: [Verdict; 4] = [Verdict::Holds, Verdict::Differs, Verdict::Fails, Verdict::Shown];
     let count = |section: &Section, verdict| section.rows.iter().filter(|row| row.verdict == verdict).count().to_string();

@@ -14,7 +14,7 @@ const STRIDE: f64 = 2.0;
 const DAMPING: [f64; 3] = [1e-3, 1e-9, 1e8];
 
 /// JᵀJ + I, the curvature of the objective where the prediction is nearly linear.
-pub(super) fn curvature(jacobian: &DMatrix<f64>) -> DMatrix<f64> {
+pub(crate) fn curvature(jacobian: &DMatrix<f64>) -> DMatrix<f64> {
     jacobian.tr_mul(jacobian) + DMatrix::identity(jacobian.ncols(), jacobian.ncols())
 }
 

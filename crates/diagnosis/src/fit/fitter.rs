@@ -1,10 +1,40 @@
 //! What is fitted, and what a fit finds.
 
-use super::hypothesis::Hypothesis;
 use super::unknowns::{Layout, Unknown};
 use crate::noise::Noise;
 use crate::{Active, ForwardModel, Observation, Role};
 use nalgebra::{DMatrix, DVector};
+
+/// Which mechanisms are at work, and whether the nominal constants are re-estimated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hypothesis {
+    /// Numbers in the library, each with the value of its choice, if it has one.
+    pub mechanisms: Vec<(usize, Option<f64>)>,
+    /// Whether the design's own constants are free.
+    pub constants_free: bool,
+}
+
+impl Hypothesis {
+    /// Nothing is left out.
+    pub const NOMINAL: Self = Self { mechanisms: Vec::new(), constants_free: false };
+
+    /// Nothing is left out, but the design's own constants are re-estimated.
+    pub const RECALIBRATED: Self = Self { mechanisms: Vec::new(), constants_free: true };
+
+    /// Whether a mechanism is at work, whatever its choice.
+    pub(crate) fn has(&self, mechanism: usize) -> bool {
+        self.mechanisms.iter().any(|(number, _)| *number == mechanism)
+    }
+}
+
+/// The hypotheses of one mechanism alone, one for each of its choices.
+pub fn alternatives<M: ForwardModel>(model: &M, mechanism: usize) -> Vec<Hypothesis> {
+    let of = |choice| Hypothesis { mechanisms: vec![(mechanism, choice)], constants_free: false };
+    match &model.mechanisms()[mechanism].choice {
+        None => vec![of(None)],
+        Some((_, values)) => values.iter().map(|v| of(Some(*v))).collect(),
+    }
+}
 
 /// A hypothesis at its most probable parameters.
 #[derive(Debug, Clone)]
@@ -33,6 +63,11 @@ impl Fit {
     /// Noise of a channel of a record that was fitted.
     pub fn noise_model(&self, record: usize, channel: usize) -> &recording::noise::NoiseModel {
         self.noise.model(record, channel)
+    }
+
+    /// The likelier of two; of equals the first.
+    pub(crate) fn better(first: Option<Self>, second: Self) -> Self {
+        first.filter(|first| second.log_evidence <= first.log_evidence).unwrap_or(second)
     }
 }
 

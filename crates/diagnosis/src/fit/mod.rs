@@ -1,22 +1,20 @@
 //! One hypothesis fitted to the records, and its evidence.
 //!
-//! [`hypothesis`] says what is at work, [`unknowns`] what is to be found, [`objective`] what is made least, [`descent`] and [`kinks`] how,
-//! [`laplace`] what it proves.
+//! [`fitter`]: what may be at work; [`unknowns`]: what is found; [`objective`]: what is made least; [`descent`], [`kinks`]: how; [`laplace`]: proof.
 
 mod descent;
 mod fitter;
-mod hypothesis;
 mod kinks;
 mod laplace;
 mod objective;
 mod unknowns;
-mod values;
 
-pub use fitter::Fit;
+pub(crate) use descent::curvature;
 pub(crate) use fitter::Fitter;
-pub use hypothesis::{Hypothesis, alternatives};
+pub use fitter::{Fit, Hypothesis, alternatives};
 use objective::Objective;
-pub(crate) use unknowns::{Unknown, expected, parameter};
+pub use unknowns::expected;
+pub(crate) use unknowns::{Unknown, parameter};
 
 use crate::noise::Noise;
 use crate::{Error, ForwardModel};
@@ -37,9 +35,7 @@ impl<M: ForwardModel> Fitter<'_, M> {
         let mut best: Option<Fit> = None;
         for start in tried {
             let fit = objective.concluded(objective.descend(start)?)?;
-            if best.as_ref().is_none_or(|b| fit.log_evidence > b.log_evidence) {
-                best = Some(fit);
-            }
+            best = Some(Fit::better(best, fit));
         }
         best.ok_or(Error::NoStart)
     }

@@ -1,7 +1,6 @@
 //! What a fit makes least: −ln p(data, u) = ½ ‖r(u)‖² + ½ ‖u‖², up to a constant, with the whitened residual r of all records and channels.
 
-use super::fitter::Fitter;
-use super::hypothesis::Hypothesis;
+use super::fitter::{Fitter, Hypothesis};
 use super::unknowns::{Layout, Unknown};
 use crate::noise::Noise;
 use crate::{Error, ForwardModel, Observation};
@@ -10,7 +9,6 @@ use nalgebra::{DMatrix, DVector};
 /// Series `[record][channel][row]`.
 pub(super) type Series = Vec<Vec<Vec<f64>>>;
 
-/// A hypothesis under a known noise.
 pub(super) struct Objective<'a, M> {
     pub(super) fitter: &'a Fitter<'a, M>,
     pub(super) hypothesis: &'a Hypothesis,
@@ -22,9 +20,7 @@ pub(super) struct Objective<'a, M> {
 pub(super) struct Point {
     pub(super) u: DVector<f64>,
     pub(super) responses: Series,
-    /// Whitened residual.
     pub(super) whitened: DVector<f64>,
-    /// The objective.
     pub(super) value: f64,
 }
 
@@ -33,7 +29,6 @@ impl<'a, M: ForwardModel> Objective<'a, M> {
         Self { fitter, hypothesis, noise, layout: fitter.layout(hypothesis) }
     }
 
-    /// Runs the model at some unknowns.
     pub(super) fn point(&self, u: DVector<f64>) -> Result<Point, Error<M::Error>> {
         let responses = self.responses(&u)?;
         let whitened = self.whiten(&self.residuals(&u, &responses));
@@ -71,7 +66,6 @@ impl<'a, M: ForwardModel> Objective<'a, M> {
         residuals
     }
 
-    /// Offset of every channel of every record.
     pub(super) fn offsets(&self, u: &DVector<f64>) -> Vec<Vec<f64>> {
         let channels = self.fitter.model.channels();
         let mut offsets = vec![vec![0.0; channels.len()]; self.fitter.observations.len()];

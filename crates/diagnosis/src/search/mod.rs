@@ -1,11 +1,8 @@
 //! The search: everything a model may leave out is fitted and weighed.
 //!
-//! [`singles`] fits every mechanism alone, in noise that the leader leaves; [`likeliest`] gives those that matter noise of their own; [`pairs`] looks
-//! for what may stand beside them; [`rivals`] for what no mechanism explains.
+//! [`singles`] fits every mechanism alone and gives those that matter noise of their own; [`pairs`] looks for what may stand beside them.
 
-mod likeliest;
 mod pairs;
-mod rivals;
 mod settings;
 mod singles;
 
@@ -28,7 +25,6 @@ const LEADERS: usize = 5;
 /// ln evidence behind the best beyond which a candidate is not worth its own noise.
 const BEHIND: f64 = 25.0;
 
-/// What is being compared.
 struct Pool<'a, M> {
     fitter: Fitter<'a, M>,
     settings: Settings,
@@ -69,11 +65,6 @@ pub fn diagnose<M: ForwardModel>(
     Diagnosis::conclude(&pool.fitter, settings, pool.candidates, nominal)
 }
 
-fn better(a: Fit, b: Fit) -> Fit {
-    if b.log_evidence > a.log_evidence { b } else { a }
-}
-
-/// Best first.
 fn sort(fits: &mut [Fit]) {
     fits.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
 }
@@ -90,7 +81,7 @@ impl<M: ForwardModel> Pool<'_, M> {
     fn without_mechanisms(&mut self, nominal: Fit, leader: &Fit) -> Result<Fit, Error<M::Error>> {
         let under_leader = |nominal: &Fit| Fit { noise: leader.noise.clone(), ..nominal.clone() };
         let again = self.fitter.fit_with_noise(&Hypothesis::NOMINAL, &under_leader(&nominal), 2)?;
-        let nominal = better(nominal, again);
+        let nominal = Fit::better(Some(nominal), again);
         self.push(nominal.clone(), None);
         let recalibrated = self.fitter.fit_with_noise(&Hypothesis::RECALIBRATED, &under_leader(&nominal), 2)?;
         self.push(recalibrated, None);
@@ -110,5 +101,29 @@ impl<M: ForwardModel> Pool<'_, M> {
 
     fn named(&self, mechanism: usize) -> bool {
         self.fitter.model.mechanisms()[mechanism].named
+    }
+
+    /// Adds every structure to the likeliest candidates, under their own noise or calmer noise, which has not swallowed it: the likelier.
+    fn rivals(&mut self) -> Result<(), Error<M::Error>> {
+        let mut order: Vec<usize> = (0..self.candidates.len()).collect();
+        order.sort_by(|&a, &b| self.candidates[b].log_weight.total_cmp(&self.candidates[a].log_weight));
+        order.truncate(LEADERS);
+        let Fitter { model, records, observations } = self.fitter;
+        let times: Vec<&[f64]> = observations.iter().map(|o| o.time.as_slice()).collect();
+        for at in order {
+            let fit = self.candidates[at].fit.clone();
+            let calm = fit.noise.calmed(model.channels(), observations)?;
+            let calmer = self.fitter.fit(&fit.hypothesis, &calm, Some(&fit))?;
+            let found = [&fit, &calmer].map(|f| f.rivals(model, records, &times));
+            let weight = |f: &Fit, r: &Rival| f.log_evidence + r.gain;
+            for rival in &found[0] {
+                let same = found[1].iter().find(|r| (r.structure, r.channel) == (rival.structure, rival.channel));
+                match same.filter(|calm| weight(&calmer, calm) > weight(&fit, rival)) {
+                    Some(calm) => self.push(calmer.clone(), Some(calm.clone())),
+                    None => self.push(fit.clone(), Some(rival.clone())),
+                }
+            }
+        }
+        Ok(())
     }
 }

@@ -8,8 +8,7 @@ use crate::{Candidate, Error, ForwardModel};
 
 /// Choices of a mechanism that are fitted beside another.
 const CHOICES: usize = 6;
-/// Gain of ln evidence of one mechanism below which it is not sought what may stand beside it, and of a pair below which it is not worth
-/// its own noise.
+/// Gain of ln evidence below which nothing is sought beside a mechanism, and a pair is not worth its own noise.
 const PAIRED: f64 = 1.0;
 
 impl<M: ForwardModel> Pool<'_, M> {

@@ -1,7 +1,7 @@
 //! From weighed candidates to a verdict.
 
-use super::diagnosis::{Diagnosis, Verdict};
 use super::set::{likely, marginals, named};
+use super::{Diagnosis, Verdict};
 use crate::fit::{Fit, Fitter, Hypothesis};
 use crate::{Candidate, Error, ForwardModel, Settings};
 

@@ -1,7 +1,7 @@
 //! The verdict before records that were held out: what they prove, and what they contradict.
 
-use super::diagnosis::{Diagnosis, Verdict};
 use super::set::{likely, marginals, named};
+use super::{Diagnosis, Verdict};
 use crate::{Candidate, Error, ForwardModel, HeldOut, Observation, as_designed};
 
 /// A record that was held out, predicted twice.
@@ -79,17 +79,20 @@ impl Diagnosis {
         let ruling = rule(self.verdict, self.is_beside_named(model), &records, channel);
         match ruling {
             Ruling::Stands => {}
-            Ruling::AcceptedBeside => self.accept_beside(model),
-            Ruling::TakenBack { record, .. } => self.take_back(records[record].nominal.within_noise(channel)),
+            Ruling::AcceptedBeside => {
+                let counted = |c: &Candidate| named(model, c);
+                self.verdict = Verdict::Explained;
+                self.mechanisms = marginals(model, &self.candidates, counted);
+                self.set = likely(&self.mechanisms, &self.candidates, counted, self.excluded, |m| model.mechanisms()[m].named);
+            }
+            Ruling::TakenBack { record, .. } => {
+                let suffices = records[record].nominal.within_noise(channel);
+                self.verdict = if suffices { Verdict::None } else { Verdict::Unknown };
+                self.set.clear();
+                self.mechanisms.clear();
+            }
         }
         Ok(Judgement { records, ruling })
-    }
-
-    /// Takes back what a held-out record contradicts; `suffices` says whether the nominal model does for it.
-    fn take_back(&mut self, suffices: bool) {
-        self.verdict = if suffices { Verdict::None } else { Verdict::Unknown };
-        self.set.clear();
-        self.mechanisms.clear();
     }
 
     /// Whether what is called unknown is a structure beside mechanisms that have a name.
@@ -97,14 +100,6 @@ impl Diagnosis {
         let best = self.best();
         let something = best.rival.is_some() && !best.fit.hypothesis.mechanisms.is_empty();
         self.verdict == Verdict::Unknown && something && named(model, best)
-    }
-
-    /// Accepts the mechanisms beside which a structure was left.
-    fn accept_beside<M: ForwardModel>(&mut self, model: &M) {
-        self.verdict = Verdict::Explained;
-        let counted = |c: &Candidate| named(model, c);
-        self.mechanisms = marginals(model, &self.candidates, counted);
-        self.set = likely(&self.mechanisms, &self.candidates, counted, self.excluded, |m| model.mechanisms()[m].named);
     }
 }
 

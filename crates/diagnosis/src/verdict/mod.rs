@@ -4,9 +4,84 @@
 //! out make of it.
 
 mod conclude;
-mod diagnosis;
 mod judge;
 mod set;
 
-pub use diagnosis::{Diagnosis, Verdict};
 pub use judge::{Contradiction, Judged, Judgement, Ruling};
+
+use crate::fit::Fit;
+use crate::{Estimate, Rival, Stage};
+
+/// A hypothesis that was compared.
+#[derive(Debug, Clone)]
+pub struct Candidate {
+    /// At its most probable parameters.
+    pub fit: Fit,
+    /// Structure that was added to it, if any.
+    pub rival: Option<Rival>,
+    /// ln of evidence times prior probability.
+    pub log_weight: f64,
+    /// Probability among all that were compared.
+    pub probability: f64,
+}
+
+impl Candidate {
+    /// ln of the evidence, with that of its structure.
+    pub(crate) fn log_evidence(&self) -> f64 {
+        self.fit.log_evidence + self.rival.as_ref().map_or(0.0, |r| r.gain)
+    }
+}
+
+/// What the recordings say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// The nominal model suffices.
+    None,
+    /// Re-estimating the design's own constants within their uncertainties suffices.
+    Recalibrate,
+    /// A mechanism of the library explains the difference, or two.
+    Explained,
+    /// There is structure that nothing in the library explains.
+    Unknown,
+}
+
+/// The outcome.
+#[derive(Debug, Clone)]
+pub struct Diagnosis {
+    /// In a word.
+    pub verdict: Verdict,
+    /// Everything compared, most probable first.
+    pub candidates: Vec<Candidate>,
+    /// Marginal probability of every mechanism (its number in the library), most probable first.
+    pub mechanisms: Vec<(usize, f64)>,
+    /// Mechanisms that the recordings do not exclude, best first.
+    pub set: Vec<usize>,
+    /// Parameters of the best candidate's mechanisms, in its order.
+    pub parameters: Vec<Vec<Estimate>>,
+    /// The nominal model, its offsets and model errors fitted.
+    pub nominal: Fit,
+    /// The nominal model under the best candidate's noise: what it leaves is the mismatch.
+    pub mismatch: Fit,
+    /// What a flexible input at each stage would make of the mismatch, best first.
+    pub stages: Vec<Stage>,
+    verdicts: [f64; 4],
+    excluded: f64,
+}
+
+impl Diagnosis {
+    /// The most probable candidate.
+    pub fn best(&self) -> &Candidate {
+        &self.candidates[0]
+    }
+
+    /// Probabilities of the verdicts none, recalibrate, explained and unknown, by the records that were fitted.
+    pub fn verdicts(&self) -> [f64; 4] {
+        self.verdicts
+    }
+
+    /// Ends of what the choice of the best candidate's mechanism at `place` may be, if it has one.
+    pub fn choice(&self, place: usize) -> Option<[f64; 2]> {
+        self.best().fit.hypothesis.mechanisms.get(place)?.1?;
+        Some(self.parameters.get(place)?.first()?.ci90)
+    }
+}

@@ -11,9 +11,8 @@ use super::cell_general::{GeneralCase, layouts, outline, pitch};
 use super::cell_material::{Material, material};
 use super::fingerprint::Fingerprint;
 use super::group::Group;
-use super::kind::CELL;
 use super::mirror::Mirror;
-use super::source::Source;
+use super::source::{CELL, Source};
 use crate::Error;
 
 /// Rings of the most elaborate fibre accepted.
@@ -96,7 +95,6 @@ struct Fibre<'a> {
 }
 
 impl<'a> Fibre<'a> {
-    /// Checks what every cell has.
     fn new(source: &'a Source, file: CellFile) -> Result<Self, InputError> {
         let top = Group::whole(source);
         if file.rings.is_empty() || file.rings.len() > MOST_RINGS {

@@ -45,7 +45,7 @@ pub fn at_temperature(case: &GeneralCase, celsius: Option<f64>, relative_error: 
     let first = cells[0].homogenize_to(relative_error).map_err(failed)?;
     let mut responses = vec![first.response.clone()];
     for cell in &cells[1..] {
-        responses.push(cell.solve(first.solution.mesh().order(), first.fineness).map_err(failed)?.response().clone());
+        responses.push(cell.solve(first.solution.mesh.order(), first.fineness).map_err(failed)?.response);
     }
     let values: Vec<_> = responses.iter().filter_map(|r| r.constants()).map(|c| c.named()).collect();
     let share = 1.0 / responses.len() as f64;

@@ -1,9 +1,11 @@
 //! The fields of `CELL.ron` as they are written.
 
+use fem_core::material::Orthotropic;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::given::Given;
+use super::mirror::mirrored;
 use super::quantity::{
     AngleDeg, Conductivity, Density, ExpansionPerK, FibreUm, ModulusMpa, PlaceUm, Ratio, SpecificHeat, TemperatureC,
 };
@@ -133,43 +135,54 @@ pub(super) struct MaterialFile {
     pub(super) table: Vec<RowFile>,
 }
 
-/// Orthotropic constants in axes x, y, z, z along the fibre; `nu_xz` is the contraction along z per extension along x under stress along x.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct OrthotropicFile {
-    /// Young's modulus along x.
-    pub(super) e_x_mpa: ModulusMpa,
-    /// Young's modulus along y.
-    pub(super) e_y_mpa: ModulusMpa,
-    /// Young's modulus along z.
-    pub(super) e_z_mpa: ModulusMpa,
-    /// Shear modulus yz.
-    pub(super) g_yz_mpa: ModulusMpa,
-    /// Shear modulus xz.
-    pub(super) g_xz_mpa: ModulusMpa,
-    /// Shear modulus xy.
-    pub(super) g_xy_mpa: ModulusMpa,
-    /// Poisson's ratio yz.
-    pub(super) nu_yz: Ratio,
-    /// Poisson's ratio xz.
-    pub(super) nu_xz: Ratio,
-    /// Poisson's ratio xy.
-    pub(super) nu_xy: Ratio,
-    /// Expansion along x.
-    pub(super) alpha_x_per_k: ExpansionPerK,
-    /// Expansion along y.
-    pub(super) alpha_y_per_k: ExpansionPerK,
-    /// Expansion along z.
-    pub(super) alpha_z_per_k: ExpansionPerK,
-    /// Conductivity along x.
-    pub(super) k_x_w_per_mk: Conductivity,
-    /// Conductivity along y.
-    pub(super) k_y_w_per_mk: Conductivity,
-    /// Conductivity along z.
-    pub(super) k_z_w_per_mk: Conductivity,
-    /// Of the material's x from the cell's; 0 unless given.
-    #[serde(default)]
-    pub(super) angle_deg: AngleDeg,
+/// An orthotropic solid in SI, turned by its angle.
+pub(super) struct OrthotropicSolid {
+    pub(super) law: Orthotropic,
+    pub(super) k_x: f64,
+    pub(super) k_y: f64,
+    pub(super) k_z: f64,
+    pub(super) angle: f64,
+}
+
+mirrored! {
+    /// Orthotropic constants in axes x, y, z, z along the fibre; `nu_xz` is the contraction along z per extension along x under stress along x.
+    OrthotropicFile is OrthotropicSolid {
+        [law: Orthotropic {
+            /// Young's modulus along x.
+            e_x_mpa: ModulusMpa = e_x,
+            /// Young's modulus along y.
+            e_y_mpa: ModulusMpa = e_y,
+            /// Young's modulus along z.
+            e_z_mpa: ModulusMpa = e_z,
+            /// Shear modulus yz.
+            g_yz_mpa: ModulusMpa = g_yz,
+            /// Shear modulus xz.
+            g_xz_mpa: ModulusMpa = g_xz,
+            /// Shear modulus xy.
+            g_xy_mpa: ModulusMpa = g_xy,
+            /// Poisson's ratio yz.
+            nu_yz: Ratio = nu_yz,
+            /// Poisson's ratio xz.
+            nu_xz: Ratio = nu_xz,
+            /// Poisson's ratio xy.
+            nu_xy: Ratio = nu_xy,
+            /// Expansion along x.
+            alpha_x_per_k: ExpansionPerK = alpha_x,
+            /// Expansion along y.
+            alpha_y_per_k: ExpansionPerK = alpha_y,
+            /// Expansion along z.
+            alpha_z_per_k: ExpansionPerK = alpha_z,
+        }]
+        /// Conductivity along x.
+        k_x_w_per_mk: Conductivity = k_x,
+        /// Conductivity along y.
+        k_y_w_per_mk: Conductivity = k_y,
+        /// Conductivity along z.
+        k_z_w_per_mk: Conductivity = k_z,
+        /// Of the material's x from the cell's; 0 unless given.
+        #[serde(default)]
+        angle_deg: AngleDeg = angle,
+    }
 }
 
 /// Isotropic constants at a temperature.

@@ -139,7 +139,6 @@ fn lattice(top: &Group, file: &CellFile) -> Result<Arrangement, InputError> {
     })
 }
 
-/// Places and lattice vectors as given.
 fn given(top: &Group, file: &CellFile) -> Result<Arrangement, InputError> {
     let Some([a, b]) = *file.cell_um else {
         let remedy = "`centres_um` needs the cell's two lattice vectors, e.g. ((340.0, 0.0), (170.0, 294.4))";

@@ -1,12 +1,12 @@
 //! Constituents of a cell: isotropic, orthotropic, or tables over temperature.
 
-use fem_core::material::{Isotropic, Orthotropic};
+use fem_core::material::Isotropic;
 use homogenization::Constituent;
 use homogenization::irregular::Solid;
 use nalgebra::Matrix2;
 
 use super::InputError;
-use super::cell_file::{MaterialFile, OrthotropicFile};
+use super::cell_file::{MaterialFile, OrthotropicFile, OrthotropicSolid};
 use super::group::Group;
 use super::mirror::Mirror;
 use super::syntax::MISSING;
@@ -61,7 +61,6 @@ impl Material {
     }
 }
 
-/// Checks a constituent.
 pub(super) fn material(at: &Group, file: &MaterialFile) -> Result<Material, InputError> {
     let plain = [
         ("youngs_modulus_mpa", file.youngs_modulus_mpa.map(|value| value.model())),
@@ -126,22 +125,8 @@ fn table(at: &Group, file: &MaterialFile) -> Result<Vec<(f64, Constituent)>, Inp
 }
 
 fn solid(at: &Group, file: &OrthotropicFile) -> Result<Solid, InputError> {
-    let law = Orthotropic {
-        e_x: file.e_x_mpa.model(),
-        e_y: file.e_y_mpa.model(),
-        e_z: file.e_z_mpa.model(),
-        g_yz: file.g_yz_mpa.model(),
-        g_xz: file.g_xz_mpa.model(),
-        g_xy: file.g_xy_mpa.model(),
-        nu_yz: file.nu_yz.model(),
-        nu_xz: file.nu_xz.model(),
-        nu_xy: file.nu_xy.model(),
-        alpha_x: file.alpha_x_per_k.model(),
-        alpha_y: file.alpha_y_per_k.model(),
-        alpha_z: file.alpha_z_per_k.model(),
-    };
+    let OrthotropicSolid { law, k_x, k_y, k_z: conductivity_z, angle } = file.model();
     let law = at.law(law.law())?;
-    let conductivity = Matrix2::new(file.k_x_w_per_mk.model(), 0.0, 0.0, file.k_y_w_per_mk.model());
-    let conductivity_z = file.k_z_w_per_mk.model();
-    Ok(Solid { law, conductivity, conductivity_z, density: None, specific_heat: None }.turned(file.angle_deg.model()))
+    let conductivity = Matrix2::new(k_x, 0.0, 0.0, k_y);
+    Ok(Solid { law, conductivity, conductivity_z, density: None, specific_heat: None }.turned(angle))
 }

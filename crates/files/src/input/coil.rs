@@ -3,20 +3,18 @@
 use std::path::{Path, PathBuf};
 
 use coil::{Body, Dehomogenization, Design, Layout, Sensor, SteadySensitivity};
-use fem_core::material::TransverselyIsotropic;
 use homogenization::{Constants, Packing, TOLERANCE};
 use winding::Winding;
 
 use super::cell::{AnyCell, read_any_cell};
 use super::cell_constants::at_temperature;
 use super::cell_general::GeneralCase;
-use super::coil_file::{BodyFile, CoilFile, DehomogenizationFile, MaterialFile};
+use super::coil_file::{self, BodyFile, CoilFile, DehomogenizationFile, MaterialFile};
 use super::fingerprint::Fingerprint;
 use super::group::Group;
-use super::kind::COIL;
 use super::mechanics::mechanics;
 use super::mirror::Mirror;
-use super::source::Source;
+use super::source::{COIL, Source};
 use super::spool_file::spool;
 use super::warnings::{in_medium, warnings};
 use super::winding_file::winding;
@@ -128,7 +126,7 @@ fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
     };
     let (constants, material) = material(&mut cells, &file.coil.material)?;
     let (dehomogenization, row) = dehomogenization(&mut cells, &file.dehomogenization)?;
-    let (elastic, conductivity_z, conductivity_r) = constants;
+    let coil_file::Constants { elastic, conductivity_z, conductivity_r } = constants;
     let body = Body {
         outer_radius: file.coil.outer_radius_mm.model(),
         height: file.coil.height_mm.model(),
@@ -196,7 +194,6 @@ fn design_fault(top: &Group, design: &Design, error: &coil::Error) -> InputError
     }
 }
 
-/// Checks the coil's rectangle against its winding.
 fn check_rectangle(at: &Group, file: &BodyFile, winding: &Winding) -> Result<(), InputError> {
     let (inner, outer) = (to_mm(winding.spec().inner_radius), file.outer_radius_mm.0);
     if outer <= inner {
@@ -216,18 +213,16 @@ fn check_rectangle(at: &Group, file: &BodyFile, winding: &Winding) -> Result<(),
     Ok(())
 }
 
-/// Elastic constants, and conductivities along and across the fibre.
-type Material = (TransverselyIsotropic, f64, f64);
-
-fn material(cells: &mut Cells, file: &MaterialFile) -> Result<(Material, Origin), Error> {
-    let (material, origin): (Material, _) = match file {
+fn material(cells: &mut Cells, file: &MaterialFile) -> Result<(coil_file::Constants, Origin), Error> {
+    let (material, origin) = match file {
         MaterialFile::Constants(file) => (file.model(), Origin::Given),
         MaterialFile::FromCell(path) => {
-            let (path, constants) = cells.constants("coil.material", path)?;
-            ((constants.elastic(), constants.k_z, constants.k_r), Origin::Cell(path))
+            let (path, c) = cells.constants("coil.material", path)?;
+            let elastic = c.elastic();
+            (coil_file::Constants { elastic, conductivity_z: c.k_z, conductivity_r: c.k_r }, Origin::Cell(path))
         }
     };
-    cells.top.group("coil.material").law(material.0.law())?;
+    cells.top.group("coil.material").law(material.elastic.law())?;
     Ok((material, origin))
 }
 

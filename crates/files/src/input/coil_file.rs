@@ -70,28 +70,11 @@ pub(crate) enum MaterialFile {
     FromCell(String),
 }
 
-/// Effective constants, transversely isotropic; z is the fibre (hoop), r across it.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ConstantsFile {
-    /// Young's modulus along the fibre.
-    pub(crate) e_z_gpa: ModulusGpa,
-    /// Young's modulus across it.
-    pub(crate) e_r_mpa: ModulusMpa,
-    /// Shear modulus along the fibre.
-    pub(crate) g_zr_mpa: ModulusMpa,
-    /// Contraction across per extension along the fibre.
-    pub(crate) nu_zr: Ratio,
-    /// Poisson's ratio across; the stiffness must be positive definite.
-    pub(crate) nu_r: f64,
-    /// Expansion along the fibre.
-    pub(crate) alpha_z_per_k: ExpansionPerK,
-    /// Expansion across it.
-    pub(crate) alpha_r_per_k: ExpansionPerK,
-    /// Conductivity along the fibre.
-    pub(crate) k_z_w_per_mk: Conductivity,
-    /// Conductivity across it.
-    pub(crate) k_r_w_per_mk: Conductivity,
+/// Effective constants in SI.
+pub(crate) struct Constants {
+    pub(crate) elastic: TransverselyIsotropic,
+    pub(crate) conductivity_z: f64,
+    pub(crate) conductivity_r: f64,
 }
 
 /// The row M: written, of a cell file, or as the paper prints it.
@@ -103,6 +86,30 @@ pub(crate) enum DehomogenizationFile {
 }
 
 mirrored! {
+    /// Effective constants, transversely isotropic; z is the fibre (hoop), r across it.
+    ConstantsFile is Constants {
+        [elastic: TransverselyIsotropic {
+            /// Young's modulus along the fibre.
+            e_z_gpa: ModulusGpa = e_z,
+            /// Young's modulus across it.
+            e_r_mpa: ModulusMpa = e_r,
+            /// Shear modulus along the fibre.
+            g_zr_mpa: ModulusMpa = g_zr,
+            /// Contraction across per extension along the fibre.
+            nu_zr: Ratio = nu_zr,
+            /// Poisson's ratio across; the stiffness must be positive definite.
+            nu_r: f64 = nu_r,
+            /// Expansion along the fibre.
+            alpha_z_per_k: ExpansionPerK = alpha_z,
+            /// Expansion across it.
+            alpha_r_per_k: ExpansionPerK = alpha_r,
+        }]
+        /// Conductivity along the fibre.
+        k_z_w_per_mk: Conductivity = conductivity_z,
+        /// Conductivity across it.
+        k_r_w_per_mk: Conductivity = conductivity_r,
+    }
+
     /// What vanishes at a reference temperature.
     #[serde(default)]
     DriftsFile is Drifts {
@@ -156,46 +163,17 @@ impl Default for DriftsFile {
     }
 }
 
-impl Mirror<(TransverselyIsotropic, f64, f64)> for ConstantsFile {
-    fn model(&self) -> (TransverselyIsotropic, f64, f64) {
-        let elastic = TransverselyIsotropic {
-            e_z: self.e_z_gpa.model(),
-            e_r: self.e_r_mpa.model(),
-            g_zr: self.g_zr_mpa.model(),
-            nu_zr: self.nu_zr.model(),
-            nu_r: self.nu_r,
-            alpha_z: self.alpha_z_per_k.model(),
-            alpha_r: self.alpha_r_per_k.model(),
-        };
-        (elastic, self.k_z_w_per_mk.model(), self.k_r_w_per_mk.model())
-    }
-
-    fn of((elastic, k_z, k_r): &(TransverselyIsotropic, f64, f64)) -> Self {
-        Self {
-            e_z_gpa: Mirror::of(&elastic.e_z),
-            e_r_mpa: Mirror::of(&elastic.e_r),
-            g_zr_mpa: Mirror::of(&elastic.g_zr),
-            nu_zr: Mirror::of(&elastic.nu_zr),
-            nu_r: elastic.nu_r,
-            alpha_z_per_k: Mirror::of(&elastic.alpha_z),
-            alpha_r_per_k: Mirror::of(&elastic.alpha_r),
-            k_z_w_per_mk: Mirror::of(k_z),
-            k_r_w_per_mk: Mirror::of(k_r),
-        }
-    }
-}
-
 impl CoilFile {
     /// The file that says `design`, its constants written out.
     pub(crate) fn new(name: &str, design: &Design) -> Self {
         let body = &design.body;
-        let constants = ConstantsFile::of(&(body.elastic, body.conductivity_z, body.conductivity_r));
+        let (elastic, conductivity_z, conductivity_r) = (body.elastic, body.conductivity_z, body.conductivity_r);
         let coil = BodyFile {
             outer_radius_mm: Mirror::of(&body.outer_radius),
             height_mm: Mirror::of(&body.height),
             density_kg_per_m3: Mirror::of(&body.density),
             specific_heat_j_per_kgk: Mirror::of(&body.specific_heat),
-            material: MaterialFile::Constants(constants),
+            material: MaterialFile::Constants(Mirror::of(&Constants { elastic, conductivity_z, conductivity_r })),
         };
         Self {
             name: name.to_owned(),

@@ -40,9 +40,10 @@ fn with_field(path: &Path, mut text: String, field: &str, new: &str) -> Result<S
         text.replace_range(range, new);
         return Ok(text);
     }
+    let is_key = !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
     let inside = map.first_inside(found).filter(|first| !map.is_element(*first));
-    match inside.map(|first| map.start(first)) {
-        Some(start) if is_key(rest) => {
+    match inside.map(|first| map.span(first).start) {
+        Some(start) if is_key => {
             text.insert_str(start, &format!("{rest}: {new}, "));
             Ok(text)
         }
@@ -50,14 +51,10 @@ fn with_field(path: &Path, mut text: String, field: &str, new: &str) -> Result<S
     }
 }
 
-fn is_key(text: &str) -> bool {
-    !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
-}
-
 /// Where a field's value stands, without blanks and comments around it.
 fn value(map: &FieldMap, text: &str, field: usize) -> Range<usize> {
-    let start = map.start(field);
-    let mut tokens = Scanner::new(&text[start..map.end(field)]);
+    let Range { start, end: behind } = map.span(field);
+    let mut tokens = Scanner::new(&text[start..behind]);
     let mut first = None;
     let mut keyed = map.is_element(field);
     let mut end = 0;

@@ -1,5 +1,7 @@
 //! Which line of a RON text holds which field.
 
+use std::ops::Range;
+
 use super::scanner::{Scanner, Token};
 use crate::units::SUFFIXES;
 
@@ -9,7 +11,8 @@ const DEEPEST: usize = 128;
 /// The fields of a RON text as a tree; enum names, `Some` and the parentheses of a newtype leave no level.
 pub(crate) struct FieldMap<'a> {
     fields: Vec<Field<'a>>,
-    open_at_end: bool,
+    /// Whether the text ends inside a bracket.
+    pub(crate) is_cut_short: bool,
 }
 
 struct Field<'a> {
@@ -27,7 +30,6 @@ enum Segment<'a> {
     Index(usize),
 }
 
-/// A bracket that is open.
 struct Frame {
     bracket: u8,
     /// The field whose value it is.
@@ -40,7 +42,7 @@ struct Frame {
 
 impl<'a> FieldMap<'a> {
     pub(crate) fn new(text: &'a str) -> Self {
-        let mut map = Self { fields: Vec::new(), open_at_end: false };
+        let mut map = Self { fields: Vec::new(), is_cut_short: false };
         let mut frames = vec![Frame { bracket: b'(', owner: None, current: None, index: 0 }];
         let mut tokens = Scanner::new(text).peekable();
         while let Some((at, token)) = tokens.next() {
@@ -65,13 +67,8 @@ impl<'a> FieldMap<'a> {
                 Token::Colon | Token::Word(_) | Token::Other => {}
             }
         }
-        map.open_at_end = frames.len() > 1;
+        map.is_cut_short = frames.len() > 1;
         map
-    }
-
-    /// Whether the text ends inside a bracket.
-    pub(crate) fn is_cut_short(&self) -> bool {
-        self.open_at_end
     }
 
     fn begin(&mut self, frame: &mut Frame, at: usize, token: Token<'a>, followed_by_colon: bool, end: usize) {
@@ -92,7 +89,6 @@ impl<'a> FieldMap<'a> {
         }
     }
 
-    /// The innermost field at a byte offset.
     pub(crate) fn at(&self, offset: usize) -> Option<usize> {
         self.fields.iter().rposition(|field| (field.start..field.end).contains(&offset))
     }
@@ -111,14 +107,9 @@ impl<'a> FieldMap<'a> {
         })
     }
 
-    /// Byte offset where a field begins.
-    pub(crate) fn start(&self, field: usize) -> usize {
-        self.fields[field].start
-    }
-
-    /// Byte offset of what follows a field's value.
-    pub(crate) fn end(&self, field: usize) -> usize {
-        self.fields[field].end
+    /// Byte offsets from where a field begins to what follows its value.
+    pub(crate) fn span(&self, field: usize) -> Range<usize> {
+        self.fields[field].start..self.fields[field].end
     }
 
     /// The first field inside another, or of the whole file.
@@ -175,7 +166,7 @@ mod tests {
     fn line(path: &str) -> Option<usize> {
         let map = FieldMap::new(TEXT);
         let (Some(field), "") = map.find(path) else { return None };
-        Some(1 + TEXT[..map.start(field)].matches('\n').count())
+        Some(1 + TEXT[..map.span(field).start].matches('\n').count())
     }
 
     #[test]

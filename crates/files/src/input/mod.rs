@@ -14,7 +14,6 @@ mod fingerprint;
 mod given;
 mod group;
 mod heat;
-mod kind;
 mod mechanics;
 mod meta;
 mod mirror;

@@ -7,7 +7,7 @@ use coil::{Design, Drive, Profile};
 use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::profile_columns::{Columns, TIME};
-use super::rows::Rows;
+use super::rows::{Dialect, Rows};
 use crate::remark::{Note, Remark};
 
 /// Most rows of a profile: two and a half years at 4 s.
@@ -135,7 +135,7 @@ impl ProfileCase {
 /// # Errors
 /// What is wrong, in which file, line and column, and how to mend it.
 pub fn read_profile(path: &Path, design: &Design) -> Result<ProfileCase, InputError> {
-    read(Rows::open(path, "a profile (*.csv)")?, path, design)
+    read(Rows::open(path, "a profile (*.csv)", Dialect::STANDARD)?, path, design)
 }
 
 /// Checks a profile that is not in a file: the case that [`read_profile`] would read from a file of this content.
@@ -149,8 +149,8 @@ pub fn check_profile(path: &Path, text: String, design: &Design) -> Result<Profi
 fn read(mut rows: Rows, path: &Path, design: &Design) -> Result<ProfileCase, InputError> {
     rows.header("time_s,chamber_c")?;
     let columns = Columns::read(&rows, design)?;
-    let read: Vec<(usize, &str)> = columns.drives.iter().map(|(column, _)| (*column, columns.name(*column))).collect();
-    let (time, mut courses) = read_rows(&mut rows, columns.count, columns.time, &read, (MOST_ROWS, "profile"))?;
+    let read: Vec<(usize, &str)> = columns.drives.iter().map(|(column, _)| (*column, columns.names[*column].as_str())).collect();
+    let (time, mut courses) = read_rows(&mut rows, columns.names.len(), columns.time, &read, (MOST_ROWS, "profile"))?;
     if time.is_empty() {
         return Err(rows.whole_fault("has no row below its header", "give one for each instant, e.g. 0,20.0"));
     }

@@ -24,15 +24,11 @@ pub(super) const DRIVES: [(&str, Drive); 5] = [
 pub(super) const RESULTS: [&str; 5] =
     ["spool_c", "shupe_deg_per_h", "eo_axial_deg_per_h", "eo_radial_deg_per_h", "rate_deg_per_h"];
 
-/// What the columns of a profile are.
 pub(crate) struct Columns {
-    /// Their number.
-    pub(crate) count: usize,
-    /// Which is the time.
     pub(crate) time: usize,
     /// Those that drive, the chamber first.
     pub(crate) drives: Vec<(usize, Drive)>,
-    names: Vec<String>,
+    pub(crate) names: Vec<String>,
     ignored: Vec<String>,
 }
 
@@ -58,12 +54,7 @@ impl Columns {
         let time = find(TIME).ok_or_else(|| missing(TIME))?;
         find(CHAMBER).ok_or_else(|| missing(CHAMBER))?;
         let drives = DRIVES.iter().filter_map(|(name, drive)| Some((find(name)?, *drive))).collect();
-        Ok(Self { count: names.len(), time, drives, names, ignored })
-    }
-
-    /// Name of a column.
-    pub(crate) fn name(&self, column: usize) -> &str {
-        &self.names[column]
+        Ok(Self { time, drives, names, ignored })
     }
 
     /// Which columns are not used.

@@ -1,6 +1,6 @@
 //! A recording: instants, temperatures and the gyro's rate.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use recording::check::{Expectation, Expectations, Offset, Report, Severity, check};
 use recording::{Channel, Recording, Sampling};
@@ -80,8 +80,9 @@ impl RecordCase {
 /// [`Error::Input`]: what is wrong, in which file, line and column, and how to mend it; [`Error::Usage`] for wrong options.
 pub fn read_record(path: &Path, options: &RecordOptions) -> Result<RecordCase, Error> {
     let format = RecordFormat::read(path, options)?;
-    let meta = meta_path(path, options).map(|path| meta::read(&path)).transpose()?;
-    checked(Rows::open_as(path, "a recording (*.csv)", format.dialect)?, &format, meta)
+    let beside = Some(path.with_file_name("meta.ron")).filter(|beside| beside.is_file());
+    let meta = options.meta.clone().or(beside).map(|path| meta::read(&path)).transpose()?;
+    checked(Rows::open(path, "a recording (*.csv)", format.dialect)?, &format, meta)
 }
 
 /// Checks a recording that is not in a file, in the standard columns: the case that [`read_record`] would read from a file of this
@@ -106,11 +107,6 @@ fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<Meta>) -> Result<
     Ok(RecordCase { recording, report, averaging, meta, notes, fingerprint: rows.fingerprint() })
 }
 
-fn meta_path(record: &Path, options: &RecordOptions) -> Option<PathBuf> {
-    let beside = record.with_file_name("meta.ron");
-    options.meta.clone().or_else(|| beside.is_file().then_some(beside))
-}
-
 /// The recording, and whether its instants count from its first row.
 fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) -> Result<(Recording, bool), InputError> {
     let channels: Vec<(Key, usize)> =
@@ -126,7 +122,7 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
         }
         time.push(clock.read(rows, columns, time.len())?);
         for ((key, column), values) in channels.iter().zip(&mut values) {
-            let value = rows.value(*column, columns.name(*column))?;
+            let value = rows.value(*column, &columns.names[*column])?;
             values.push(value.map_or(f64::NAN, |value| format.column(*key).standard(value)));
         }
     }
@@ -172,7 +168,7 @@ impl<'a> Clock<'a> {
         {
             return Ok(seconds - *self.first.get_or_insert(seconds));
         }
-        let name = columns.name(column);
+        let name = &columns.names[column];
         if self.first.is_some() {
             let problem = format!("{} is not a date and time like that of the first row", quoted(rows.field(column)));
             return Err(rows.fault(Some(name), problem, format!("write it like {FORMS}")));
@@ -222,18 +218,15 @@ fn notes(columns: &RecordColumns, format: &RecordFormat, relative: bool) -> Vec<
     let mut notes = Vec::new();
     for key in Key::ALL {
         let Some(column) = columns.column(key) else {
-            notes.push(match key {
-                Key::Time => {
-                    Remark::DeclaredInterval.note("there is no column of instants: the interval that was declared stands for it")
-                }
-                _ => {
-                    let message = format!("there is no column {}; a model can do without it, less surely", key.standard());
-                    Remark::AbsentColumn.note(message)
-                }
+            notes.push(if key == Key::Time {
+                Remark::DeclaredInterval.note("there is no column of instants: the interval that was declared stands for it")
+            } else {
+                let message = format!("there is no column {}; a model can do without it, less surely", key.standard());
+                Remark::AbsentColumn.note(message)
             });
             continue;
         };
-        let (name, form) = (columns.name(column), format.column(key));
+        let (name, form) = (&columns.names[column], format.column(key));
         let standard = key.units()[0];
         if name != key.standard() || form.unit != standard || form.count != 1.0 {
             let counts = if form.count == 1.0 { String::new() } else { format!("counts of {} ", form.count) };

@@ -4,12 +4,9 @@ use super::InputError;
 use super::record_format::{Key, RecordFormat};
 use super::rows::{Rows, quoted};
 
-/// Most names that a message lists.
 const MOST_NAMES: usize = 12;
 
-/// Where a recording's columns are.
 pub(super) struct RecordColumns {
-    /// Names of all columns.
     pub(super) names: Vec<String>,
     /// Column of each key; of the temperatures, and of the time where an interval stands for it, `None` if there is none.
     at: [Option<usize>; 4],
@@ -40,14 +37,8 @@ impl RecordColumns {
         Ok(Self { names, at })
     }
 
-    /// Column of a key.
     pub(super) fn column(&self, key: Key) -> Option<usize> {
         self.at[key as usize]
-    }
-
-    /// Name of a column, for messages.
-    pub(super) fn name(&self, column: usize) -> &str {
-        &self.names[column]
     }
 
     /// Names of the columns that are not read.

@@ -190,28 +190,26 @@ impl RecordFormat {
 
     /// From a map file; an error is field and problem.
     fn of(file: &MapFile) -> Result<Self, (String, String)> {
-        let decimal = if file.decimal_comma { ',' } else { '.' };
-        let separator = if file.separator.is_empty() { "," } else { &file.separator };
-        let separator = self::separator(separator).map_err(|problem| ("separator".to_owned(), problem))?;
-        let interval = interval(file.interval_s).map_err(|problem| ("interval_s".to_owned(), problem))?;
-        let column = |(key, column): (Key, &ColumnFile)| -> Result<ColumnFormat, (String, String)> {
-            let name = Some(column.column.clone()).filter(|name| !name.is_empty());
-            let mut format = ColumnFormat { name, unit: key.units()[0], count: 1.0 };
+        let at = |field: String| |problem: String| (field, problem);
+        let mut format = Self::standard();
+        if file.decimal_comma {
+            format.dialect.decimal = ',';
+        }
+        if !file.separator.is_empty() {
+            format.dialect.separator = separator(&file.separator).map_err(at("separator".into()))?;
+        }
+        format.interval = interval(file.interval_s).map_err(at("interval_s".into()))?;
+        for (key, column) in Key::ALL.into_iter().zip([&file.time, &file.chamber, &file.spool, &file.rate]) {
+            let format = &mut format.columns[key as usize];
+            format.name = Some(column.column.clone()).filter(|name| !name.is_empty());
             if !column.unit.is_empty() {
-                format.unit = key.unit(&column.unit).map_err(|problem| (format!("{}.unit", key.name()), problem))?;
+                format.unit = key.unit(&column.unit).map_err(at(format!("{}.unit", key.name())))?;
             }
-            let scale = if column.scale == 0.0 { 1.0 } else { column.scale };
-            format.set_count(scale).map_err(|problem| (format!("{}.scale", key.name()), problem))?;
-            Ok(format)
-        };
-        let [time, chamber, spool, rate] = Key::ALL;
-        let columns = [
-            column((time, &file.time))?,
-            column((chamber, &file.chamber))?,
-            column((spool, &file.spool))?,
-            column((rate, &file.rate))?,
-        ];
-        Ok(Self { dialect: Dialect { separator, decimal }, interval, columns })
+            if column.scale != 0.0 {
+                format.set_count(column.scale).map_err(at(format!("{}.scale", key.name())))?;
+            }
+        }
+        Ok(format)
     }
 
     fn declare(&mut self, options: &RecordOptions) -> Result<(), String> {

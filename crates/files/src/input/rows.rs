@@ -36,7 +36,6 @@ impl Dialect {
 /// What a field without a value may hold, in lower case.
 const MISSING: [&str; 9] = ["", "nan", "na", "n/a", "null", "none", "-", "--", "#n/a"];
 
-/// The rows of a file.
 pub(crate) struct Rows {
     path: PathBuf,
     dialect: Dialect,
@@ -77,13 +76,8 @@ impl Read for Metered {
 }
 
 impl Rows {
-    /// Opens a table in the standard dialect; `kind` says what is expected, e.g. "a profile (*.csv)".
-    pub(crate) fn open(path: &Path, kind: &str) -> Result<Self, InputError> {
-        Self::open_as(path, kind, Dialect::STANDARD)
-    }
-
-    /// Opens a table.
-    pub(crate) fn open_as(path: &Path, kind: &str, dialect: Dialect) -> Result<Self, InputError> {
+    /// Opens a table; `kind` says what is expected, e.g. "a profile (*.csv)".
+    pub(crate) fn open(path: &Path, kind: &str, dialect: Dialect) -> Result<Self, InputError> {
         let fault = |problem: String, remedy: &str| InputError::whole(path, problem, remedy);
         let unreadable = |error: io::Error| fault(format!("cannot be read: {error}"), "check the path and its permissions");
         let file = File::open(path).map_err(unreadable)?;
@@ -152,7 +146,6 @@ impl Rows {
         }
     }
 
-    /// Number of fields in this row.
     pub(crate) fn count(&self) -> usize {
         self.record.len()
     }
@@ -163,7 +156,6 @@ impl Rows {
         field.strip_prefix('"').and_then(|inner| inner.strip_suffix('"')).map_or(field, str::trim)
     }
 
-    /// The fields of this row.
     pub(crate) fn fields(&self) -> impl Iterator<Item = &str> {
         (0..self.count()).map(|column| self.field(column))
     }

@@ -1,6 +1,5 @@
 //! The words of a RON text, for [`FieldMap`](super::fields::FieldMap). Never fails: what it does not know it calls `Other`.
 
-/// A word of the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Token<'a> {
     /// `(`, `[` or `{`.
@@ -9,7 +8,6 @@ pub(crate) enum Token<'a> {
     Close,
     Comma,
     Colon,
-    /// A name.
     Word(&'a str),
     /// A number, a string, or rubbish.
     Other,

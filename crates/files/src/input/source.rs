@@ -1,4 +1,4 @@
-//! A case file's text: read, parsed, and asked where a field stands.
+//! A case file's text: read, told from other kinds, parsed, and asked where a field stands.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 use super::InputError;
 use super::fields::{FieldMap, join};
 use super::fingerprint::Fingerprint;
-use super::kind::{Kind, mistaken};
+use super::scanner::{Scanner, Token};
 use super::syntax::explain;
 
 /// Largest case file [bytes]: some 300 times the reference files.
@@ -31,7 +31,6 @@ pub fn read_ron<T: DeserializeOwned>(path: &Path) -> Result<T, InputError> {
     Source::read(path)?.parse(None)
 }
 
-/// A case file in memory.
 #[derive(Debug, Clone)]
 pub(crate) struct Source {
     path: PathBuf,
@@ -90,7 +89,7 @@ impl Source {
             field = join(&field, missing);
         }
         let (mut problem, mut remedy) = explain(&error.code, &self.text[offset..]);
-        if map.is_cut_short() {
+        if map.is_cut_short {
             problem = format!("the file is cut short, or a bracket is never closed (the reader stopped here: {problem})");
             remedy = "close every bracket, or get the whole file".into();
         }
@@ -109,9 +108,43 @@ impl Source {
     pub(crate) fn fault(&self, field: &str, problem: impl Into<String>, remedy: impl Into<String>) -> InputError {
         let map = FieldMap::new(&self.text);
         let (found, rest) = map.find(field);
-        let line = found.map_or(1, |f| 1 + self.text[..map.start(f)].matches('\n').count());
+        let line = found.map_or(1, |f| 1 + self.text[..map.span(f).start].matches('\n').count());
         let path = map.path(found);
         let field = if rest.is_empty() { path } else { join(&path, rest) };
         InputError { line: Some(line), field: Some(field), ..InputError::whole(&self.path, problem, remedy) }
     }
+}
+
+/// A kind of case file that `fogcoil new` writes.
+pub(super) struct Kind {
+    name: &'static str,
+    /// A field that each has at its top, and no other kind.
+    mark: &'static str,
+    /// What writes one.
+    command: &'static str,
+}
+
+pub(super) static COIL: Kind = Kind { name: "a coil file", mark: "winding", command: "fogcoil new FILE" };
+pub(super) static CELL: Kind = Kind { name: "a cell file", mark: "adhesive", command: "fogcoil new --kind cell FILE" };
+pub(super) static TARGETS: Kind = Kind { name: "a file of targets", mark: "targets", command: "fogcoil new --kind targets FILE" };
+
+/// Problem and remedy if `text` is not of the kind that is wanted but of another, a table, or nothing.
+fn mistaken(text: &str, wanted: Option<&Kind>) -> Option<(String, String)> {
+    let mut tokens = Scanner::new(text).map(|(_, token)| token);
+    let start = [tokens.next(), tokens.next()];
+    let opens = start.iter().any(|token| matches!(token, Some(Token::Open(_))));
+    let problem = if start[0].is_none() {
+        "is empty".to_owned()
+    } else if !opens && text.trim_start().lines().next().is_some_and(|line| line.contains([',', ';', '\t'])) {
+        "looks like a table, not a RON file".to_owned()
+    } else {
+        let (map, wanted) = (FieldMap::new(text), wanted?);
+        let is = |kind: &Kind| matches!(map.find(kind.mark), (Some(_), ""));
+        let found = [&COIL, &CELL, &TARGETS].into_iter().find(|kind| is(kind)).filter(|_| !is(wanted))?;
+        format!("is {}, but {} is read here", found.name, wanted.name)
+    };
+    let remedy = wanted.map_or("write fields in parentheses, (name: value, ...)".to_owned(), |kind| {
+        format!("`{}` writes one to start from", kind.command)
+    });
+    Some((problem, remedy))
 }

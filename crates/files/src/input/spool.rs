@@ -8,7 +8,7 @@ use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::profile::read_rows;
 use super::profile_columns::{DRIVES, RESULTS, TIME, names};
-use super::rows::{Rows, quoted};
+use super::rows::{Dialect, Rows, quoted};
 use crate::remark::{Note, Remark};
 
 const SPOOL: &str = "spool_c";
@@ -37,7 +37,7 @@ pub struct SpoolCase {
 /// # Errors
 /// What is wrong, in which file, line and column, and how to mend it.
 pub fn read_spool(path: &Path, design: &Design) -> Result<SpoolCase, InputError> {
-    let mut rows = Rows::open(path, "a record (*.csv)")?;
+    let mut rows = Rows::open(path, "a record (*.csv)", Dialect::STANDARD)?;
     rows.header("time_s,spool_c")?;
     let names = columns(&rows)?;
     let [at_time, at_spool] = [TIME, SPOOL].map(|wanted| names.iter().position(|name| name == wanted));

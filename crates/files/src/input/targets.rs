@@ -7,13 +7,11 @@ use homogenization::identify::{Family, MaterialPrior, Prior, RingPrior, Target, 
 
 use super::InputError;
 use super::group::Group;
-use super::kind::TARGETS;
 use super::mirror::Mirror;
 use super::quantity::{Conductivity, ExpansionPerK, FibreUm, ModulusGpa, ModulusMpa, Quantity, Ratio};
-use super::source::Source;
+use super::source::{Source, TARGETS};
 use super::targets_file::{CellPrior, Entries, Entry, MaterialFile, RangeFile, TargetsFile};
 
-/// Kinds of cells in one file.
 const MOST_CELLS: usize = 6;
 /// Rings of a cell to be identified.
 const MOST_RINGS: usize = 5;

@@ -18,16 +18,6 @@ pub(crate) fn in_medium(layout: &Layout, sensor: Sensor) -> bool {
     near.iter().all(|dr| near.iter().all(|dy| layout.region(sensor.radius + dr, sensor.y + dy) == Region::Medium))
 }
 
-/// Layers after which a pattern begins anew.
-fn period(pattern: Pattern) -> usize {
-    match pattern {
-        Pattern::Cylindrical => 1,
-        Pattern::Dipole => 2,
-        Pattern::Quadrupole | Pattern::PracticalQuadrupole => 4,
-        Pattern::Octupole => 8,
-    }
-}
-
 /// A warning of each thing that is allowed but looks like a mistake.
 pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> Vec<Note> {
     let mut found = Vec::new();
@@ -50,7 +40,13 @@ pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> V
         found.push(Remark::SagnacOutside.warning(message));
     }
     let (pattern, layers) = (design.winding.pattern, design.winding.layers);
-    let period = period(pattern);
+    // layers after which it begins anew
+    let period = match pattern {
+        Pattern::Cylindrical => 1,
+        Pattern::Dipole => 2,
+        Pattern::Quadrupole | Pattern::PracticalQuadrupole => 4,
+        Pattern::Octupole => 8,
+    };
     if layers % period != 0 {
         let message = format!(
             "winding.layers: {layers} layers are no whole number of the {period} after which a {pattern:?} begins anew: the halves of the \

@@ -1,18 +1,33 @@
-//! Results on their way out: files whole or not at all.
+//! Results on their way out: a design as the case file that reads back as it was, files whole or not at all.
 
-mod design;
 mod vtu;
 
 use std::fs;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
+use coil::Design;
+use ron::ser::{PrettyConfig, to_string_pretty};
 use tempfile::NamedTempFile;
 
 use crate::Error;
+use crate::input::CoilFile;
 
-pub use design::coil_file;
 pub use vtu::vtu;
+
+/// Groups nested deeper than this stand on one line.
+const LINES: usize = 2;
+
+/// The content of a coil file for `design`, with `comments` above it, a line each.
+///
+/// Every number reads back to the same double; one that no decimal in the file's unit gives, to a neighbour of it.
+pub fn coil_file(name: &str, design: &Design, comments: &[String]) -> String {
+    let layout = PrettyConfig::new().depth_limit(LINES).new_line("\n");
+    // the types of a coil file have nothing that RON cannot say
+    let text = to_string_pretty(&CoilFile::new(name, design), layout).unwrap_or_default();
+    let comments = comments.iter().flat_map(|comment| comment.lines()).map(|line| format!("// {line}\n"));
+    comments.chain([text, "\n".to_owned()]).collect()
+}
 
 /// What a file is to hold.
 pub enum Content<'a> {

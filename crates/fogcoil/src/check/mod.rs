@@ -5,18 +5,17 @@
 //! linear lag remains: the slow terms are then upper bounds.
 
 mod json;
-mod plot;
 mod text;
 
-use recording::allan::{AllanPoint, allan};
+use charts::{Axis, Figure, Panel, Series as Line, Style};
+use recording::allan::{AllanPoint, CONFIDENCE, allan};
+use recording::condition::bridged;
 use recording::lag::lagging;
-use recording::noise::{Bounds, NoiseEstimate, Series, Term, Whitener, identify, residual};
+use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Series, Term, Whitener, identify, residual};
 
 use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
 
 pub use json::json;
-pub(crate) use plot::Allan;
-pub use plot::svg;
 pub use text::{text, warnings};
 
 /// A recording and its noise.
@@ -80,8 +79,8 @@ fn gyro_noise(case: &RecordCase) -> Option<GyroNoise> {
         })
     });
     let temperature = driver.and_then(|name| {
-        let number = case.number(name)?;
-        Some(filled(time, &kept.channels()[number].values, &case.report.masks[number]))
+        // masked values on the line between their neighbours
+        bridged(time, &case.report.used(&case.recording).channel(name)?.values)
     });
     let lags = if driver.is_some() { lags(instants.interval, instants.span, time.len()) } else { Vec::new() };
     let mut columns = vec![vec![1.0; time.len()]];
@@ -137,37 +136,54 @@ fn lags(interval: f64, span: f64, rows: usize) -> Vec<f64> {
     (0..count as i32).map(|n| shortest * ratio.powi(n)).collect()
 }
 
-/// A temperature with its masked values replaced by the line between their neighbours; the ends by the nearest.
-fn filled(time: &[f64], values: &[f64], mask: &[bool]) -> Vec<f64> {
-    let mut after = mask.iter().position(|used| *used);
-    let mut before = None;
-    let fill = |row: usize| {
-        if mask[row] {
-            before = Some(row);
-            return values[row];
-        }
-        if after.is_some_and(|after| after < row) {
-            after = (row..mask.len()).find(|&later| mask[later]);
-        }
-        match (before, after) {
-            (Some(a), Some(b)) => values[a] + (values[b] - values[a]) * (time[row] - time[a]) / (time[b] - time[a]),
-            (Some(end), None) | (None, Some(end)) => values[end],
-            (None, None) => 0.0,
-        }
-    };
-    (0..time.len()).map(fill).collect()
+/// The Allan deviation with its intervals and the fitted model, as an SVG document; `None` without identified noise.
+pub fn svg(analysis: &Analysis) -> Option<String> {
+    let noise = analysis.noise.as_ref()?;
+    let file = analysis.case.fingerprint.file.file_name().unwrap_or_default().to_string_lossy();
+    let caption = format!("{file}; beside {}.", text::taken_off(noise));
+    let title = format!("Allan deviation of the rate, {file}");
+    let allan = Allan { points: &noise.allan, model: &noise.estimate.model, interval: noise.interval };
+    Some(allan.figure("allan", title, caption)?.document())
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// An Allan deviation and the noise model that was fitted.
+#[derive(Clone, Copy)]
+pub(crate) struct Allan<'a> {
+    pub(crate) points: &'a [AllanPoint],
+    pub(crate) model: &'a NoiseModel,
+    /// Interval of the rows \[s\].
+    pub(crate) interval: f64,
+}
 
-    #[test]
-    fn masked_temperatures_are_filled() {
-        let time = [0.0, 1.0, 2.0, 4.0, 5.0, 6.0];
-        let nan = f64::NAN;
-        let mask = [false, true, false, true, false, false];
-        assert_eq!(filled(&time, &[nan, 10.0, nan, 13.0, 99.0, nan], &mask), [10.0, 10.0, 11.0, 13.0, 13.0, 13.0]);
-        assert_eq!(filled(&time, &[nan; 6], &[false; 6]), [0.0; 6]);
+impl<'a> Allan<'a> {
+    /// Deviation, intervals and model; `None` where there is no deviation to draw.
+    pub(crate) fn figure(self, id: &'static str, title: String, caption: String) -> Option<Figure<'a>> {
+        self.points.iter().any(|point| point.deviation > 0.0).then(|| Figure {
+            id,
+            title,
+            description:
+                "Overlapping Allan deviation against averaging time, both axes logarithmic, between the ends of its 90 % \
+                          intervals, and that of the fitted noise model."
+                    .into(),
+            caption,
+            columns: 1,
+            panels: vec![Panel::lines(
+                Axis::logarithmic("averaging time [s]"),
+                Axis::logarithmic("Allan deviation [°/h]"),
+                24.0,
+                vec![
+                    self.curve(&format!("{:.0} % interval", 100.0 * CONFIDENCE), Style::Third, |_, point| point.low),
+                    self.curve("", Style::Third, |_, point| point.high),
+                    self.curve("fitted model", Style::Marked(1), |allan, point| {
+                        allan.model.allan_deviation(point.tau, allan.interval)
+                    }),
+                    self.curve("recording", Style::Marked(0), |_, point| point.deviation),
+                ],
+            )],
+        })
+    }
+
+    fn curve(self, name: &str, style: Style, of: fn(&Self, &AllanPoint) -> f64) -> Line<'a> {
+        Line::new(name, style, self.points.iter().map(|point| (point.tau, of(&self, point))).collect())
     }
 }

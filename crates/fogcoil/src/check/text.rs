@@ -67,16 +67,10 @@ fn channels(analysis: &Analysis) -> String {
     let mut rows = vec![header.map(str::to_owned).to_vec()];
     for channel in &analysis.case.report.channels {
         let number = |value: Option<f64>| value.filter(|v| v.is_finite()).map_or("-".to_owned(), |v| significant(v, 4));
-        rows.push(vec![
-            channel.name.clone(),
-            channel.used.to_string(),
-            number(Some(channel.least)),
-            number(Some(channel.median)),
-            number(Some(channel.largest)),
-            number(channel.noise),
-            number(channel.step),
-            channel.unit.clone(),
-        ]);
+        let numbers = [Some(channel.least), Some(channel.median), Some(channel.largest), channel.noise, channel.step].map(number);
+        rows.push(
+            [&[channel.name.clone(), channel.used.to_string()], &numbers[..], std::slice::from_ref(&channel.unit)].concat(),
+        );
     }
     table(&rows) + "(noise: white, standard deviation of a value; step: resolution, where the values show one)\n\n"
 }
@@ -127,8 +121,7 @@ fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
     if let Some(n) = model.angle_random_walk() {
         rows.push(row("angle random walk", n / S_PER_H.sqrt(), white, "deg/sqrt(h)"));
     }
-    let bench = analysis.case.meta.as_ref().and_then(|meta| meta.nominal_arw_deg_per_sqrt_h);
-    if let Some(bench) = bench {
+    if let Some(bench) = analysis.case.meta.as_ref().and_then(|meta| meta.nominal_arw_deg_per_sqrt_h) {
         rows.push(row("  the meta file's", bench, None, "deg/sqrt(h)"));
     }
     if estimate.terms.contains(&Term::Drift) {
@@ -152,15 +145,9 @@ fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
     out.push_str("\nOverlapping Allan deviation [deg/h], with 90 % intervals:\n\n");
     let mut rows = vec![["tau [s]", "deviation", "low", "high", "slope", "model"].map(str::to_owned).to_vec()];
     for point in &noise.allan {
-        let modelled = model.allan_deviation(point.tau, noise.interval);
-        rows.push(vec![
-            significant(point.tau, 4),
-            significant(point.deviation, 3),
-            significant(point.low, 3),
-            significant(point.high, 3),
-            format!("{:.2}", point.slope),
-            significant(modelled, 3),
-        ]);
+        let modelled = significant(model.allan_deviation(point.tau, noise.interval), 3);
+        let [deviation, low, high] = [point.deviation, point.low, point.high].map(|value| significant(value, 3));
+        rows.push(vec![significant(point.tau, 4), deviation, low, high, format!("{:.2}", point.slope), modelled]);
     }
     out.push_str(&table(&rows));
 }

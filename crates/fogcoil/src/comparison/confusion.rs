@@ -18,11 +18,6 @@ const CLASSES: [(f64, &str, &str, &str); 4] = [
     (f64::INFINITY, "#2166ac", "#ffffff", "above 10: without doubt"),
 ];
 
-fn class(log_odds: f64) -> (&'static str, &'static str) {
-    let (_, fill, ink, _) = CLASSES.iter().find(|c| log_odds < c.0).unwrap_or(&CLASSES[CLASSES.len() - 1]);
-    (fill, ink)
-}
-
 fn number(log_odds: f64) -> String {
     match log_odds {
         x if x >= 99.5 => ">99".into(),
@@ -77,7 +72,8 @@ impl Comparison {
             svg.element("text", attributes! { "x": "{}"(NAMES - 8.0), "y": "{below}", "text-anchor": "end" }, &entry.id);
             for (j, told) in self.told[k][i].iter().enumerate() {
                 let Some(told) = told else { continue };
-                let (x, side, (fill, ink)) = (NAMES + j as f64 * CELL, CELL - 1.0, class(told.log_odds));
+                let (x, side) = (NAMES + j as f64 * CELL, CELL - 1.0);
+                let (_, fill, ink, _) = CLASSES.iter().find(|c| told.log_odds < c.0).unwrap_or(&CLASSES[CLASSES.len() - 1]);
                 svg.leaf("rect", attributes! { "x": "{x}", "y": "{y}", "width": "{side}", "height": "{side}", "fill": "{fill}" });
                 let middle = x + CELL / 2.0 - 0.5;
                 svg.joined().element(

@@ -5,7 +5,7 @@ mod signature;
 mod text;
 mod trial;
 
-use diagnosis::{Active, ForwardModel, Plan, Prior, separation};
+use diagnosis::{Active, ForwardModel, Plan, Prior, expected, separation};
 use mechanisms::{CATALOGUE, Gyro, RATE, SPOOL};
 use progress::Step;
 
@@ -17,9 +17,6 @@ use crate::recommend::{Contender, Limits, Programme, everything, prepared, progr
 
 pub(crate) use signature::{CHANNELS, chamber};
 pub use trial::Trial;
-
-/// The chamber of the tests: `recommend` has others.
-pub const LIMITS: Limits = Limits { coldest: -40.0, hottest: 60.0, fastest: 2.0, hours: 24.0 };
 
 /// What a test tells of a truth against a rival.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,7 +55,6 @@ pub struct Entry {
 pub(crate) struct Responses {
     /// The mechanisms.
     pub(crate) entries: Vec<Entry>,
-    /// As [`Comparison::programmes`].
     pub(crate) programmes: Vec<Programme>,
     gyro: Gyro<'static>,
     contenders: Vec<Contender>,
@@ -115,20 +111,16 @@ impl Comparison {
 
 impl Responses {
     /// Runs every named mechanism at its typical size.
-    ///
-    /// # Errors
-    /// As [`Comparison::measure`].
     pub(crate) fn of(case: &CoilCase, cache: &Cache) -> Result<Self, Error> {
         let coil = Error::of_coil(&case.file);
         let library = library(case, cache, &|_| ())?;
-        let mut programmes = programmes(&LIMITS);
+        let mut programmes = programmes(&Limits::USUAL);
         programmes.dedup_by_key(|programme| programme.family);
         let records = programmes.iter().map(|p| prepared(&library, p)).collect::<Result<Vec<_>, _>>().map_err(coil)?;
         let gyro = Gyro::new(library, CATALOGUE, records).map_err(coil)?;
-        let mut contenders = Vec::new();
-        for mechanism in gyro.mechanisms().iter().filter(|m| m.named) {
-            contenders.extend(Contender::named(&gyro, &mechanism.id).map_err(Error::of_diagnosis(&case.file))?);
-        }
+        let named = gyro.mechanisms().iter().filter(|mechanism| mechanism.named);
+        let contenders = named.filter_map(|mechanism| Contender::named(&gyro, &mechanism.id).transpose());
+        let contenders = contenders.collect::<Result<Vec<_>, _>>().map_err(Error::of_diagnosis(&case.file))?;
         let truths: Vec<Active> = contenders.iter().filter_map(|c| c.truth.clone()).collect();
         let entries = truths.iter().map(|truth| entry(&gyro, truth, programmes.len())).collect::<Result<_, _>>().map_err(coil)?;
         Ok(Self { entries, programmes, gyro, contenders, truths })
@@ -141,7 +133,7 @@ fn entry(gyro: &Gyro, truth: &Active, programmes: usize) -> Result<Entry, coil::
     let choice = choice.map(|((name, _), typical)| TypicalParameter { name: name.clone(), prior: None, typical });
     let of = |(p, v): (&diagnosis::Parameter, &f64)| TypicalParameter { name: p.name.clone(), prior: Some(p.prior), typical: *v };
     let parameters = choice.chain(mechanism.parameters.iter().zip(&truth.values).map(of)).collect();
-    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let middle = expected(gyro.nuisances());
     let change = |record: usize| -> Result<[Vec<f64>; 2], coil::Error> {
         let (with, without) = (gyro.respond(record, &middle, std::slice::from_ref(truth))?, gyro.respond(record, &middle, &[])?);
         Ok([SPOOL, RATE].map(|c: usize| with[c].iter().zip(&without[c]).map(|(a, b)| a - b).collect()))

@@ -11,11 +11,9 @@ const HOUR: f64 = 3600.0;
 /// How the change of a channel is drawn: its number, label, line, and what is no change but rounding \[deg/h\], \[K\].
 type Channel = (usize, &'static str, Style, f64);
 
-/// Rate and thermometer.
 pub(crate) const CHANNELS: [Channel; 2] =
     [(RATE, "change of the rate [°/h]", Style::First, 1e-4), (SPOOL, "change of the spool's reading [K]", Style::Second, 0.02)];
 
-/// The chamber's course.
 pub(crate) fn chamber(programme: &Programme, time: Axis, high: f64) -> Panel<'static> {
     let corners = programme.corners.iter().map(|(t, c)| (t / HOUR, *c)).collect();
     Panel::lines(time, Axis::round("chamber [°C]", 1.0), high, vec![Series::new("", Style::Total, corners)])
@@ -36,7 +34,6 @@ impl Entry {
         Panel::lines(time, Axis::round(label, least), high, vec![line])
     }
 
-    /// Its parameters' typical values.
     pub(crate) fn typical(&self, digits: usize) -> String {
         let values = self.parameters.iter().map(|p| format!("{} = {}", p.name, significant(p.typical, digits)));
         format!("{}: {}", self.id, values.collect::<Vec<_>>().join(", "))

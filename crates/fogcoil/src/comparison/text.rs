@@ -5,6 +5,7 @@ use std::fmt::Write;
 use diagnosis::{Prior, Settings};
 
 use super::{Comparison, Entry, Told};
+use crate::recommend::number;
 use crate::table::significant;
 use crate::units::parameter_unit;
 
@@ -24,14 +25,7 @@ fn prior(prior: Option<&Prior>) -> String {
 }
 
 fn odds(told: Told) -> String {
-    let x = told.log_odds;
-    if x >= 99.5 {
-        "> 99".into()
-    } else if x.abs() >= 9.95 {
-        format!("{x:.0}")
-    } else {
-        format!("{x:.1}")
-    }
+    if told.log_odds >= 99.5 { "> 99".into() } else { number(told.log_odds) }
 }
 
 impl Comparison {

@@ -1,6 +1,6 @@
 //! Whether what is recommended tells two mechanisms apart: recordings of it, made with noise and fitted by both.
 
-use diagnosis::{Active, ForwardModel, Observation, fitted};
+use diagnosis::{Active, ForwardModel, Observation, expected, fitted};
 use mechanisms::{CATALOGUE, Gyro};
 use progress::Step;
 
@@ -55,9 +55,8 @@ impl Comparison {
         let library = library(case, cache, &|_| ())?;
         let records = self.programmes.iter().map(|p| prepared(&library, p)).collect::<Result<Vec<_>, _>>().map_err(coil)?;
         let gyro = Gyro::new(library, CATALOGUE, records).map_err(coil)?;
-        let contender = |id: &str| Contender::named(&gyro, id).map_err(failed).map(Option::into_iter);
-        let contenders: Vec<Contender> =
-            self.entries.iter().map(|e| contender(&e.id)).collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
+        let contenders = self.entries.iter().filter_map(|entry| Contender::named(&gyro, &entry.id).transpose());
+        let contenders = contenders.collect::<Result<Vec<_>, _>>().map_err(failed)?;
         let mut trials = Vec::new();
         for (a, first) in contenders.iter().enumerate() {
             for (b, second) in contenders.iter().enumerate().skip(a + 1) {
@@ -97,7 +96,7 @@ fn recorded(
     active: &Active,
     normal: &mut dyn FnMut() -> f64,
 ) -> Result<Observation, coil::Error> {
-    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let middle = expected(gyro.nuisances());
     let mut observed = everything(programme);
     let response = gyro.respond(record, &middle, std::slice::from_ref(active))?;
     for ((series, response), noise) in observed.channels.iter_mut().zip(response).zip(usual(gyro)) {

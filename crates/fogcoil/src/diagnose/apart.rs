@@ -1,15 +1,48 @@
-//! What the records leave to be told apart.
+//! What the records leave to be told apart, and with which probabilities.
 
 use std::path::Path;
 
-use diagnosis::Candidate;
+use diagnosis::{Candidate, Verdict};
 
 use super::Outcome;
 
 /// Most ids that one test is asked to tell apart.
 const MOST: usize = 3;
 
+/// Most mechanisms whose probability is shown, and the probability below which none is.
+const SHOWN: usize = 6;
+const NEGLIGIBLE: f64 = 5e-4;
+
+/// A row of the table of probabilities.
+pub(super) struct Explanation<'a> {
+    pub(super) name: &'a str,
+    pub(super) probability: f64,
+    /// whether the records do not exclude it
+    pub(super) open: bool,
+}
+
 impl Outcome {
+    /// Mechanisms with probabilities worth saying, most probable first.
+    pub(super) fn likely(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.diagnosis.mechanisms.iter().filter(|(_, p)| *p >= NEGLIGIBLE).map(|(m, p)| (self.id(*m), *p))
+    }
+
+    /// The design, its constants, the likeliest mechanisms, and what has no name.
+    pub(super) fn explanations(&self) -> Vec<Explanation<'_>> {
+        let d = &self.diagnosis;
+        let [none, recalibrate, _, unknown] = d.verdicts();
+        let of = |name, probability, verdict| Explanation { name, probability, open: d.verdict == verdict };
+        let mut all = vec![
+            of("the design as it is", none, Verdict::None),
+            of("its constants re-estimated", recalibrate, Verdict::Recalibrate),
+        ];
+        let set: Vec<&str> = d.set.iter().map(|m| self.id(*m)).collect();
+        let mechanisms = self.likely().take(SHOWN);
+        all.extend(mechanisms.map(|(name, probability)| Explanation { name, probability, open: set.contains(&name) }));
+        all.push(of("something without a name", unknown, Verdict::Unknown));
+        all
+    }
+
     /// Mechanisms that are not excluded beside those of the best hypothesis, best first.
     pub(super) fn others(&self) -> Vec<&str> {
         let best = self.names();
@@ -32,7 +65,7 @@ impl Outcome {
 
     /// The command that finds the test that tells `ids` apart.
     pub(super) fn recommend(&self, ids: &[String]) -> String {
-        let from: String = self.fits.iter().map(|record| format!(" --from {}", word(&record.file))).collect();
+        let from: String = self.fits.iter().map(|record| format!(" --from {}", word(&record.fingerprint.file))).collect();
         format!("fogcoil recommend {} --between {}{from}", word(&self.coil), ids.join(","))
     }
 }

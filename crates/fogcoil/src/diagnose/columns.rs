@@ -1,12 +1,12 @@
 //! Records whose columns are exchanged, or whose rate has the other sign: what a mechanism would hardly do, and a mistake does.
 
-use diagnosis::{ForwardModel, Observation};
+use diagnosis::{ForwardModel, Observation, expected};
 use files::{Note, Remark};
 use mechanisms::{CATALOGUE, Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 use recording::condition::bridged;
 
-use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
-use crate::prepare::Ready;
+use crate::input::{CHAMBER, RATE, SPOOL};
+use crate::prepare::Record;
 use crate::table::significant;
 
 /// What the model leaves of a record as it is over what it leaves of it as suspected, from which that is said.
@@ -17,19 +17,15 @@ const REVERSED: f64 = 2.5;
 const FAIR_K: f64 = 0.5;
 
 /// The warning about a record, if there is one; `number` is its number in `gyro`.
-///
-/// # Errors
-/// [`coil::Error`] if the model cannot be run.
-pub(super) fn warning(gyro: &Gyro, number: usize, ready: &Ready, case: &RecordCase) -> Result<Option<Note>, coil::Error> {
-    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
-    let predicted = gyro.respond(number, &middle, &[])?;
-    let Observation { time, channels } = &ready.observation;
+pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record) -> Result<Option<Note>, coil::Error> {
+    let predicted = gyro.respond(number, &expected(gyro.nuisances()), &[])?;
+    let Observation { time, channels } = &record.observed;
     let (spool, rate) = (&channels[SPOOL_CHANNEL], &channels[RATE_CHANNEL]);
     let left = rms(spool, &predicted[SPOOL_CHANNEL], 1.0);
     if left > FAIR_K {
         let exchanged = [
-            (format!("{SPOOL} and {RATE}"), &ready.chamber, rate),
-            (format!("{CHAMBER} and {SPOOL}"), spool, &ready.chamber),
+            (format!("{SPOOL} and {RATE}"), &record.chamber, rate),
+            (format!("{CHAMBER} and {SPOOL}"), spool, &record.chamber),
             (format!("{CHAMBER} and {RATE}"), rate, spool),
         ];
         for (columns, chamber, thermometer) in exchanged {
@@ -40,7 +36,7 @@ pub(super) fn warning(gyro: &Gyro, number: usize, ready: &Ready, case: &RecordCa
                     "{columns} seem to be exchanged: the model leaves {left} K rms of the thermometer as it stands, {would} K with \
                      them exchanged; check the header or --column"
                 );
-                return Ok(Some(Remark::ExchangedColumns.warning(text).at(&case.fingerprint.file)));
+                return Ok(Some(Remark::ExchangedColumns.warning(text).at(&record.fingerprint.file)));
             }
         }
     }
@@ -51,7 +47,7 @@ pub(super) fn warning(gyro: &Gyro, number: usize, ready: &Ready, case: &RecordCa
             "{RATE} seems to have the other sign: the nominal model leaves {left} deg/h rms as it stands, {would} with the rate \
              negated; check the sense of the gyro's axis and cw_climbs"
         );
-        Remark::ReversedRate.warning(text).at(&case.fingerprint.file)
+        Remark::ReversedRate.warning(text).at(&record.fingerprint.file)
     }))
 }
 

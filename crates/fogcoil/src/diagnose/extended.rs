@@ -85,7 +85,6 @@ impl Outcome {
         same.map_or_else(|| posterior.ci90(), |estimate| estimate.ci90)
     }
 
-    /// Name and value of a mechanism's choice.
     pub(super) fn choice(&self, active: &Active) -> Option<(&str, f64)> {
         let (name, _) = self.gyro.mechanisms()[active.mechanism].choice.as_ref()?;
         Some((name, active.choice?))
@@ -95,7 +94,8 @@ impl Outcome {
 impl Record {
     /// Its file's name, with the folder: records of many units are called alike.
     pub(super) fn name(&self) -> String {
-        let parts: Vec<_> = self.file.components().rev().take(2).map(|part| part.as_os_str().to_string_lossy()).collect();
+        let parts: Vec<_> =
+            self.fingerprint.file.components().rev().take(2).map(|part| part.as_os_str().to_string_lossy()).collect();
         parts.into_iter().rev().collect::<Vec<_>>().join("/")
     }
 }

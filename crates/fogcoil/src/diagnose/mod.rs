@@ -2,7 +2,6 @@
 
 mod apart;
 mod columns;
-mod explanations;
 mod extended;
 mod json;
 mod report;
@@ -22,7 +21,7 @@ use progress::Step;
 use crate::Error;
 use crate::cache::Cache;
 use crate::input::{CoilCase, Fingerprint, InputError, RecordCase};
-use crate::prepare::{Ready, library, ready};
+use crate::prepare::{Record, library, ready};
 
 /// A diagnosis with what it was made from.
 pub struct Outcome {
@@ -37,15 +36,6 @@ pub struct Outcome {
     fits: Vec<Record>,
     holdouts: Vec<Held>,
     notes: Vec<Note>,
-}
-
-/// A record that was used.
-struct Record {
-    file: PathBuf,
-    fingerprint: Fingerprint,
-    observed: Observation,
-    chamber: Vec<f64>,
-    averaging: f64,
 }
 
 /// A record that was held out: what the nominal and the extended model predict of it.
@@ -72,43 +62,33 @@ pub fn diagnose(
     let coil = Error::of_coil(&case.file);
     refuse_copies(fits.iter().chain(holdouts))?;
     let mut notes = Vec::new();
-    let read: Vec<Ready> = fits.iter().chain(holdouts).map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
+    let mut read: Vec<Record> = fits.iter().chain(holdouts).map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
     let library = library(case, cache, progress)?;
     progress(Step::begins("running every model under the recorded chamber"));
-    let prepared = |r: &Ready| Prepared::new(&library, &r.observation.time, &r.chamber, r.averaging);
+    let prepared = |r: &Record| Prepared::new(&library, &r.observed.time, &r.chamber, r.averaging);
     let prepared = read.iter().map(prepared).collect::<Result<Vec<_>, _>>().map_err(coil)?;
     let gyro = Gyro::fitted_to(library, CATALOGUE, prepared, fits.len()).map_err(coil)?;
-    for (number, (record, case)) in read.iter().zip(fits.iter().chain(holdouts)).enumerate() {
-        notes.extend(columns::warning(&gyro, number, record, case).map_err(coil)?);
+    for (number, record) in read.iter().enumerate() {
+        notes.extend(columns::warning(&gyro, number, record).map_err(coil)?);
     }
-    let observations: Vec<Observation> = read.iter().map(|r| r.observation.clone()).collect();
+    let held = read.split_off(fits.len());
+    let observations: Vec<Observation> = read.iter().map(|r| r.observed.clone()).collect();
     let numbers: Vec<usize> = (0..fits.len()).collect();
     let failed = Error::of_diagnosis(&case.file);
-    let mut diagnosis =
-        diagnosis::diagnose(&gyro, &numbers, &observations[..fits.len()], &Settings::default(), progress).map_err(failed)?;
-    let mut records = read.into_iter().zip(fits.iter().chain(holdouts)).map(|(ready, case)| Record {
-        file: case.fingerprint.file.clone(),
-        fingerprint: case.fingerprint.clone(),
-        observed: ready.observation,
-        chamber: ready.chamber,
-        averaging: ready.averaging,
-    });
-    let fitted: Vec<Record> = records.by_ref().take(fits.len()).collect();
-    let held: Vec<Record> = records.collect();
+    let mut diagnosis = diagnosis::diagnose(&gyro, &numbers, &observations, &Settings::default(), progress).map_err(failed)?;
     let numbered: Vec<(usize, &Observation)> = (fits.len()..).zip(held.iter().map(|record| &record.observed)).collect();
     let Judgement { records, ruling } =
-        diagnosis.judge(&gyro, (0, &fitted[0].observed), &numbered, RATE_CHANNEL).map_err(failed)?;
+        diagnosis.judge(&gyro, (0, &read[0].observed), &numbered, RATE_CHANNEL).map_err(failed)?;
     if let Ruling::TakenBack { record, why } = ruling {
-        notes.push(taken_back(&held[record].file, why));
+        notes.push(taken_back(&held[record].fingerprint.file, why));
     }
     let with_predictions =
         |(record, Judged { nominal, model, accepted }): (Record, Judged)| Held { record, nominal, model, accepted };
     let holdouts = held.into_iter().zip(records).map(with_predictions).collect();
     let (name, coil, design) = (case.name.clone(), case.file.clone(), case.fingerprints.clone());
-    Ok(Outcome { name, coil, design, gyro, diagnosis, fits: fitted, holdouts, notes })
+    Ok(Outcome { name, coil, design, gyro, diagnosis, fits: read, holdouts, notes })
 }
 
-/// The note on an explanation that a record contradicts.
 fn taken_back(file: &Path, why: Contradiction) -> Note {
     let how = match why {
         Contradiction::ClearlyWorse => "clearly worse than by the nominal model",
@@ -133,7 +113,6 @@ fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -> Result<()
     Ok(())
 }
 
-/// The verdict's name.
 fn name(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::None => "none",
@@ -176,8 +155,7 @@ impl Outcome {
         })
     }
 
-    /// Root mean squares of recorded less predicted thermometer in a record held out, of the design and of what was fitted \[K\]; `None` if
-    /// it was not recorded.
+    /// Rms of recorded less predicted thermometer in a record held out, of the design and of what was fitted \[K\], if it was recorded.
     fn thermometer(&self, held: &Held) -> Option<[f64; 2]> {
         let recorded = held.record.observed.channels[SPOOL_CHANNEL].iter().any(|v| v.is_finite());
         recorded.then(|| [held.nominal.rmse[SPOOL_CHANNEL], held.model.rmse[SPOOL_CHANNEL]])
@@ -188,8 +166,7 @@ impl Outcome {
         self.holdouts.iter().all(|held| held.accepted)
     }
 
-    /// Instants \[s\], and what the accepted model predicts of the rate \[deg/h\], of the first record that was held out; `None` if
-    /// there is none.
+    /// Instants \[s\], and what the accepted model predicts of the rate \[deg/h\], of the first record that was held out, if one was.
     ///
     /// A model that predicts it worse than the nominal one is not accepted: then the nominal prediction is given.
     pub fn predicted_rate(&self) -> Option<[&[f64]; 2]> {

@@ -75,7 +75,6 @@ impl Outcome {
         out
     }
 
-    /// In a sentence.
     pub(super) fn verdict(&self) -> String {
         match self.diagnosis.verdict {
             Verdict::None => "The nominal model suffices: no difference beyond noise.".to_owned(),

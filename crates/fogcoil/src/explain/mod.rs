@@ -5,7 +5,7 @@ mod solve;
 mod test;
 
 use coil::{COARSE, Design, MechanicalState, Model};
-use diagnosis::{Active, ForwardModel, Prior, Role};
+use diagnosis::{Active, ForwardModel, Prior, Role, expected};
 use mechanisms::{CATALOGUE, Gyro, Mechanism, Prepared, RATE, Steady};
 use progress::Step;
 
@@ -116,13 +116,12 @@ pub fn explain(
     let measured = if magnitude { measured.copysign(nominal) } else { measured };
     let library = library(case, cache, progress)?;
     // one of each family
-    let mut programmes = programmes(&LIMITS);
+    let mut programmes = programmes(&Limits::USUAL);
     programmes.dedup_by_key(|programme| programme.family);
     let (time, chamber) = ramp();
-    let mut records = vec![Prepared::new(&library, &time, &chamber, 0.0).map_err(coil)?];
-    for programme in &programmes {
-        records.push(prepared(&library, programme).map_err(coil)?);
-    }
+    let ramp = std::iter::once(Prepared::new(&library, &time, &chamber, 0.0));
+    let records = ramp.chain(programmes.iter().map(|programme| prepared(&library, programme)));
+    let records = records.collect::<Result<Vec<_>, _>>().map_err(coil)?;
     let gyro = Gyro::new(library, CATALOGUE, records).map_err(coil)?;
     progress(Step::begins("solving for every mechanism"));
     let problem = Problem { design: &case.design, target: measured, error: steady.error_estimate, nominal: None };
@@ -145,20 +144,19 @@ pub fn explain(
 
 /// Largest sensitivity that is explained, (deg/h)/(degC/min).
 const MOST: f64 = 1000.0;
-/// The chamber of the tests that are proposed: `recommend` has others.
-const LIMITS: Limits = Limits { coldest: -40.0, hottest: 60.0, fastest: 2.0, hours: 24.0 };
 
 /// A ramp of ten hours over the range of the tests, long enough to be steady: instants \[s\] and temperatures \[°C\].
 fn ramp() -> (Vec<f64>, Vec<f64>) {
     const ROWS: u32 = 601;
     let share = |n: u32| f64::from(n) / f64::from(ROWS - 1);
-    let chamber = |n| LIMITS.coldest + (LIMITS.hottest - LIMITS.coldest) * share(n);
+    let Limits { coldest, hottest, .. } = Limits::USUAL;
+    let chamber = |n| coldest + (hottest - coldest) * share(n);
     ((0..ROWS).map(|n| 60.0 * f64::from(n)).collect(), (0..ROWS).map(chamber).collect())
 }
 
 /// Standard uncertainty that the design's constants leave together, (deg/h)/(degC/min): the record 0 is the ramp.
 fn constants(gyro: &Gyro) -> Result<f64, coil::Error> {
-    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let middle = expected(gyro.nuisances());
     let (time, chamber) = ramp();
     let per_minute = 60.0 * (chamber[1] - chamber[0]) / (time[1] - time[0]);
     let steady = |nuisances: &[f64]| -> Result<f64, coil::Error> {
@@ -198,6 +196,9 @@ impl Problem<'_> {
             let prior = |parameter: usize| &entry.parameters[parameter].prior;
             let (outcome, parameter, when) = match steady {
                 Steady::Nothing(why) => (Reach::Unable { why }, None, ""),
+                Steady::Design(changed) => {
+                    (self.change(prior(0), |design, x| (changed(design, x), MechanicalState::NOMINAL)), Some(0), "")
+                }
                 Steady::Rewinds { turns, changed } => (self.rewinding(prior(turns), changed), Some(turns), ""),
                 Steady::Changes { parameter, changed, when } => (self.change(prior(parameter), changed), Some(parameter), when),
             };
@@ -207,7 +208,7 @@ impl Problem<'_> {
         mechanism.facts().steady.into_iter().map(of).collect()
     }
 
-    fn change(&self, prior: &Prior, changed: fn(&Design, f64) -> (Design, MechanicalState)) -> Reach {
+    fn change(&self, prior: &Prior, changed: impl Fn(&Design, f64) -> (Design, MechanicalState)) -> Reach {
         let at = |u: f64| {
             let (design, state) = changed(self.design, prior.value(u));
             self.sensitivity(&design, &state)

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use super::{Explained, Explanation, PLAUSIBLE, Reach, STRAINED, Test};
 use crate::input::CoilCase;
+use crate::recommend::with;
 use crate::table::{significant, table};
 
 fn verdict(sigma: f64) -> &'static str {
@@ -27,11 +28,7 @@ pub fn json(e: &Explained) -> Value {
             Reach::OutOfReach { range } => json!({"able": false, "range": range}),
             Reach::Unable { why } => json!({"able": false, "why": why}),
         };
-        let mut object = json!({"id": x.id, "parameter": x.parameter, "when": x.when});
-        if let (Some(object), Value::Object(more)) = (object.as_object_mut(), outcome) {
-            object.extend(more);
-        }
-        object
+        with(json!({"id": x.id, "parameter": x.parameter, "when": x.when}), outcome)
     };
     let test = |t: &Test| {
         let [slow, best] =

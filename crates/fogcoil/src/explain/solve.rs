@@ -38,8 +38,7 @@ pub(super) fn nearest(course: &[(f64, f64)], target: f64, f: &impl Fn(f64) -> Op
     Some(((low.0 + high.0) / 2.0, slope))
 }
 
-/// The whole number up to `most` in magnitude whose value is nearest to `target`, if the target lies between values, and the slope; `range` is
-/// widened to the values met.
+/// The whole number up to ±`most` whose value is nearest to `target`, if that lies between values, and the slope; widens `range` to those met.
 pub(super) fn whole(
     target: f64,
     most: i32,

@@ -20,7 +20,6 @@ const LEAST: f64 = 1e-9;
 /// A cell that would hold less than this part of its width is none.
 const SLACK: f64 = 1e-6;
 
-/// A part of the bias, or their sum.
 type Part = fn(&Bias) -> f64;
 
 /// What each turn adds to the steady sensitivity, in the winding's order \[(°/h)/(°C/min)\]; tails left out.

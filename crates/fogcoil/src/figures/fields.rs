@@ -31,7 +31,7 @@ struct At {
 /// Figures of temperature, radial and axial strain; none for a course without duration or a coil of too many turns.
 pub(super) fn all<'a>(simulation: &'a Simulation, fields: &TurnFields) -> Vec<Figure<'a>> {
     let winding = &simulation.case.winding;
-    if simulation.samples().is_empty() || winding.turns().len() > MOST_TURNS {
+    if simulation.samples.is_empty() || winding.turns().len() > MOST_TURNS {
         return Vec::new();
     }
     let course = Course::of(simulation, fields);
@@ -107,14 +107,14 @@ struct Course<'a> {
 impl<'a> Course<'a> {
     fn of(simulation: &'a Simulation, fields: &'a TurnFields) -> Self {
         let winding = &simulation.case.winding;
-        let samples = simulation.samples();
+        let samples = &simulation.samples;
         let shares: Vec<f64> = winding.turns().iter().map(|t| (t.z_end - t.z_start) / winding.wound_length()).collect();
         let mean_of_column = |j: usize| fields.temperature.column(j).iter().zip(&shares).map(|(t, share)| t * share).sum::<f64>();
         let mean_of: Vec<f64> = (0..fields.temperature.ncols()).map(mean_of_column).collect();
         let mean = |sample: &Sample| sample.state.vector().iter().zip(&mean_of).map(|(a, b)| a * b).sum::<f64>();
         let means: Vec<f64> = samples.iter().map(mean).collect();
         let chosen = chosen(samples, &means);
-        Self { winding, fields, samples, rest: simulation.rest(), means, chosen }
+        Self { winding, fields, samples, rest: simulation.profile.profile.rest(&simulation.profile.drives), means, chosen }
     }
 
     fn at(&self, sample: usize) -> At {

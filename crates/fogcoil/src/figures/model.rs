@@ -50,7 +50,6 @@ fn panel(heading: &str, drawing: Drawing) -> Panel<'static> {
     Panel::drawing(axial, radial, MOST_HIGH, drawing).headed(heading)
 }
 
-/// Outlines of the mesh's elements.
 fn mesh(layout: &Layout, domain: Domain) -> Vec<[[f64; 2]; 2]> {
     let Ok(grid) = Grid::new(layout, &COARSE, domain, Bonds::Closed) else { return Vec::new() };
     let nodes = grid.mesh().nodes();

@@ -1,7 +1,6 @@
 //! `fogcoil explain ID`: what the ids mean that the program prints, of mechanisms and of its own remarks.
 
 mod mechanism;
-mod page;
 
 pub use files::{Explanation, Note, Remark, Severity};
 pub(crate) use mechanism::inspection;

@@ -26,7 +26,6 @@ pub(super) fn json(bounds: &Bounds) -> Value {
     all.into()
 }
 
-/// A table of the bounds about each constant.
 pub(super) fn text(bounds: &Bounds, result: &Homogenized) -> String {
     let relative_errors = result.relative_error.named();
     let heads = ["constant", "Reuss", "HS lower", "value", "HS upper", "Voigt", "", "cylinders", "unit"];

@@ -1,6 +1,16 @@
 //! How effective constants are shown.
 
+use serde_json::{Map, Value};
+
 use crate::units::{to_mpa, to_ppm};
+
+/// Keys of what follows from densities.
+pub(super) const HEAVY: [&str; 2] = ["density_kg_per_m3", "heat_capacity_j_per_m3k"];
+
+/// Numbers under their names.
+pub(super) fn object(named: impl IntoIterator<Item = (&'static str, f64)>) -> Map<String, Value> {
+    named.into_iter().map(|(key, value)| (key.to_owned(), value.into())).collect()
+}
 
 /// Unit, conversion from SI, and meaning.
 pub(crate) fn presentation(key: &str) -> (&'static str, fn(f64) -> f64, &'static str) {
@@ -33,6 +43,9 @@ pub(crate) fn presentation(key: &str) -> (&'static str, fn(f64) -> f64, &'static
         "m_ry" => ("-", same, "mean radial strain of the glass per strain across (y)"),
         "m_rz" => ("-", same, "mean radial strain of the glass per strain along"),
         "m_rt" => ("1e-6/K", to_ppm, "mean radial strain of the glass per kelvin"),
+        "g_r_45" => ("Pa", same, "shear modulus across the fibre at 45 deg to its rows"),
+        "density_kg_per_m3" => ("kg/m3", same, "density"),
+        "heat_capacity_j_per_m3k" => ("J/(m3 K)", same, "heat capacity of a volume, thermoelastic part neglected"),
         _ => ("SI", same, ""),
     }
 }

@@ -1,47 +1,37 @@
 //! Cells of any arrangement, as text and JSON: constants along x, y, z at each temperature, their spread over realisations.
 
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::constants::presentation;
+use super::constants::{HEAVY, object, presentation};
 use crate::input::{AtTemperature, GeneralCase};
 use crate::table::{plus_minus, significant, table};
 
-/// Keys, units and meanings of [`AtTemperature::heavy`].
-const HEAVY: [[&str; 3]; 2] = [
-    ["density_kg_per_m3", "kg/m3", "density"],
-    ["heat_capacity_j_per_m3k", "J/(m3 K)", "heat capacity of a volume, thermoelastic part neglected"],
-];
-
 /// The constants in SI under their own names, `error_estimate`, and what else the response says.
 pub fn json(found: &AtTemperature) -> Value {
-    let object = |pairs: Vec<(&'static str, f64)>| -> Map<String, Value> {
-        pairs.into_iter().map(|(key, value)| (key.to_owned(), value.into())).collect()
-    };
     let response = &found.first.response;
-    let mut all = Map::new();
-    if let Some(celsius) = found.celsius {
-        all.insert("temperature_c".into(), celsius.into());
-    }
-    all.append(&mut object(found.first.constants.named()));
+    let temperature = found.celsius.map(|celsius| ("temperature_c", celsius));
+    let mut all = object(temperature.into_iter().chain(found.first.constants.named()));
     all.insert("error_estimate".into(), object(found.first.relative_error.clone()).into());
-    for ([key, ..], value) in HEAVY.into_iter().zip(found.heavy) {
-        all.extend(value.map(|value| (key.to_owned(), value.into())));
-    }
+    all.append(&mut object(heavy(found)));
     all.insert("anisotropy".into(), found.anisotropy.into());
     all.insert("void_fraction".into(), void_fraction(found).into());
     let rows = |m: &nalgebra::Matrix6<f64>| (0..6).map(|i| m.row(i).iter().copied().collect()).collect::<Vec<Vec<f64>>>();
     all.insert("stiffness".into(), json!(rows(&response.stiffness)));
     all.insert("thermal_stress".into(), json!(response.thermal_stress.as_slice()));
     if let Some(nearest) = &found.nearest {
-        all.insert("transversely_isotropic".into(), object(nearest.named().to_vec()).into());
+        all.insert("transversely_isotropic".into(), object(nearest.named()).into());
     }
     if let Some(spread) = &found.spread {
         let names = || found.first.constants.named().into_iter().map(|(name, _)| name);
-        let of = |values: &[f64]| object(names().zip(values.iter().copied()).collect());
+        let of = |values: &[f64]| object(names().zip(values.iter().copied()));
         let all_of = json!({"realisations": spread.count, "mean": of(&spread.mean), "standard_deviation": of(&spread.deviation)});
         all.insert("spread".into(), all_of);
     }
     all.into()
+}
+
+fn heavy(found: &AtTemperature) -> impl Iterator<Item = (&'static str, f64)> + use<> {
+    HEAVY.into_iter().zip(found.heavy).filter_map(|(key, value)| Some((key, value?)))
 }
 
 fn void_fraction(found: &AtTemperature) -> f64 {
@@ -61,7 +51,8 @@ pub fn text(found: &AtTemperature, case: &GeneralCase) -> String {
     for (i, ((key, value), (_, relative))) in constants.enumerate() {
         let (unit, convert, meaning) = presentation(key);
         // what vanishes in symmetric cells has an error relative to its kind's size, which says nothing here
-        let error = if vanishing(key) { "-".into() } else { plus_minus(relative * convert(value).abs()) };
+        let error =
+            if ["alpha_xy", "k_xy", "m_rxy"].contains(&key) { "-".into() } else { plus_minus(relative * convert(value).abs()) };
         let mut row = vec![key.into(), significant(convert(value), 6), error];
         if let Some(spread) = &found.spread {
             row.extend([significant(convert(spread.mean[i]), 6), significant(convert(spread.deviation[i]), 2)]);
@@ -69,10 +60,9 @@ pub fn text(found: &AtTemperature, case: &GeneralCase) -> String {
         row.extend([unit.into(), meaning.into()]);
         rows.push(row);
     }
-    for ([key, unit, meaning], value) in HEAVY.into_iter().zip(found.heavy) {
-        let gap = vec![String::new(); rows[0].len() - 4];
-        let row = |value| [vec![key.into(), significant(value, 6)], gap, vec![unit.into(), meaning.into()]].concat();
-        rows.extend(value.map(row));
+    for (key, value) in heavy(found) {
+        let (gap, (unit, _, meaning)) = (vec![String::new(); rows[0].len() - 4], presentation(key));
+        rows.push([vec![key.into(), significant(value, 6)], gap, vec![unit.into(), meaning.into()]].concat());
     }
     let at = found.celsius.map_or(String::new(), |t| format!(" at {t} degC"));
     let fibres = case.layouts[0].inclusions().len();
@@ -82,8 +72,8 @@ pub fn text(found: &AtTemperature, case: &GeneralCase) -> String {
     text += &format!(
         "{fibres} inclusions, {} elements of order {}, {} unknowns; void {:.3} % of the area; the errors are numerical, they say nothing about the \
          constituents\nnot transversely isotropic by {:.2e}: the largest relative difference of strain energy from the mean over all turns about z\n",
-        found.first.solution.mesh().elements().len(),
-        found.first.solution.mesh().order(),
+        found.first.solution.mesh.elements().len(),
+        found.first.solution.mesh.order(),
         response.unknowns,
         100.0 * void_fraction(found),
         found.anisotropy
@@ -110,14 +100,8 @@ pub fn text(found: &AtTemperature, case: &GeneralCase) -> String {
         );
     }
     if let Some(spread) = &found.spread {
-        let count = spread.count;
-        text += &format!(
-            "value and errors are of the first of {count} realisations, the mean for a coil of all, the distance of the farthest\n"
-        );
+        text += &format!("value and errors are of the first of {} realisations", spread.count);
+        text += ", the mean for a coil of all, the distance of the farthest\n";
     }
     text
-}
-
-fn vanishing(key: &str) -> bool {
-    ["alpha_xy", "k_xy", "m_rxy"].contains(&key)
 }

@@ -8,8 +8,7 @@ const MOST_STRAIN: f64 = 0.5;
 /// Largest temperature change accepted \[K\].
 const MOST_KELVIN: f64 = 1000.0;
 
-/// Total macroscopic strains (`exx`, `eyy`, `ezz`, engineering shears `gyz`, `gxz`, `gxy`) and a temperature change `dt` \[K\]; what is
-/// left out is 0.
+/// Total macroscopic strains (`exx`, `eyy`, `ezz`, engineering shears `gyz`, `gxz`, `gxy`) and a temperature change `dt` \[K\], 0 if left out.
 ///
 /// # Errors
 /// What is wrong, in words.

@@ -24,7 +24,7 @@ impl Strains {
     /// # Errors
     /// As [`Fields::summary`].
     pub fn new(solution: &Solution, load: Load) -> Result<Self, Error> {
-        let names = solution.phases().iter().map(|p| p.name.clone()).collect();
+        let names = solution.phases.iter().map(|p| p.name.clone()).collect();
         Ok(Self { load, names, phases: Fields::new(solution, load).summary()? })
     }
 

@@ -3,7 +3,7 @@
 use homogenization::identify::{Family, Fit, Identification, Posterior, Target};
 use serde_json::{Map, Value, json as object};
 
-use super::quantity::presentation;
+use super::presentation;
 use crate::input::TargetsCase;
 
 /// What was found, in SI.
@@ -37,7 +37,6 @@ pub fn json(case: &TargetsCase, result: &Identification) -> Value {
     })
 }
 
-/// Entries and parameters of one cell.
 fn fit(family: &Family, targets: &[Target], fit: &Fit) -> Value {
     let entries: Map<String, Value> = (targets.iter().zip(fit.entries.iter().zip(&fit.met)))
         .map(|(t, (value, met))| (t.name().into(), object!({ "value": value, "target": t.value, "met": met })))

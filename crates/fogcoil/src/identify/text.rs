@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use homogenization::identify::{Alternatives, Family, FamilyFit, Fit, Identification, ORDINARY, Posterior, Target, Uncertainty};
 
-use super::quantity::{in_words, presentation, title};
+use super::{in_words, presentation, title};
 use crate::homogenize::constants::presentation as of_constant;
 use crate::input::TargetsCase;
 use crate::table::{significant, table};
@@ -21,9 +21,7 @@ pub fn text(case: &TargetsCase, result: &Identification) -> String {
     }
     let chosen = &case.families[result.chosen];
     match &result.posterior {
-        Some(posterior) => {
-            out += &determined(chosen, &result.outcomes[result.chosen].best, posterior);
-        }
+        Some(posterior) => out += &determined(chosen, &result.outcomes[result.chosen].best, posterior),
         None if result.outcomes[result.chosen].explains() => {
             out += "\nThe entries are explained, but by no cell from which the posterior can be sampled: what they determine is not known.\n";
         }
@@ -42,11 +40,8 @@ fn verdict(family: &Family, outcome: &FamilyFit) -> String {
     let farthest = || {
         let parameter = &family.parameters()[j];
         let (_, _, unit, convert) = presentation(parameter.quantity);
-        format!(
-            "{} {} {unit}, {sigma:.1} sigma from what is ordinary",
-            title(parameter),
-            significant(convert(outcome.best.values[j]), 3)
-        )
+        let value = significant(convert(outcome.best.values[j]), 3);
+        format!("{} {value} {unit}, {sigma:.1} sigma from what is ordinary", title(parameter))
     };
     let missed = |fit: &Fit| fit.met.iter().filter(|met| !**met).count();
     match (outcome.best.reproduces(), outcome.explains()) {
@@ -68,12 +63,8 @@ fn verdict(family: &Family, outcome: &FamilyFit) -> String {
 }
 
 fn entries(targets: &[Target], outcome: &FamilyFit) -> String {
-    let ordinary = outcome.ordinary.is_some();
-    let mut rows = vec![
-        ["entry", "target", "within", if ordinary { "best ordinary cell" } else { "best cell" }, "unit", ""]
-            .map(String::from)
-            .to_vec(),
-    ];
+    let best = if outcome.ordinary.is_some() { "best ordinary cell" } else { "best cell" };
+    let mut rows = vec![["entry", "target", "within", best, "unit", ""].map(String::from)];
     let fit = outcome.fit();
     for (target, (value, met)) in targets.iter().zip(fit.entries.iter().zip(&fit.met)) {
         let (unit, convert, _) = of_constant(target.name());
@@ -82,15 +73,8 @@ fn entries(targets: &[Target], outcome: &FamilyFit) -> String {
             Uncertainty::Normal(sd) => format!("sd {}", significant(convert(sd), 2)),
         };
         let met = if *met { "met" } else { "MISSED" };
-        let row = [
-            target.name().into(),
-            significant(convert(target.value), 5),
-            width,
-            significant(convert(*value), 5),
-            unit.into(),
-            met.into(),
-        ];
-        rows.push(row.to_vec());
+        let [aim, value] = [target.value, *value].map(|value| significant(convert(value), 5));
+        rows.push([target.name().into(), aim, width, value, unit.into(), met.into()]);
     }
     table(&rows)
 }
@@ -98,18 +82,14 @@ fn entries(targets: &[Target], outcome: &FamilyFit) -> String {
 fn determined(family: &Family, best: &Fit, posterior: &Posterior) -> String {
     let parameters = family.parameters();
     let heads = ["constituent", "prior 90 %", "best fit", "posterior 90 %", "left of prior", "unit"];
-    let mut rows = vec![heads.map(String::from).to_vec()];
+    let mut rows = vec![heads.map(String::from)];
     for (j, parameter) in parameters.iter().enumerate() {
         let (_, _, unit, convert) = presentation(parameter.quantity);
         let range = |[low, high]: [f64; 2]| format!("{} .. {}", significant(convert(low), 3), significant(convert(high), 3));
-        rows.push(vec![
-            title(parameter),
-            range([parameter.prior.low, parameter.prior.high]),
-            significant(convert(best.values[j]), 4),
-            range(posterior.interval(j, 0.9).map(|u| parameter.prior.value(u))),
-            format!("{:.0} %", 100.0 * posterior.deviation(j)),
-            unit.into(),
-        ]);
+        let prior = range([parameter.prior.low, parameter.prior.high]);
+        let found = range(posterior.interval(j, 0.9).map(|u| parameter.prior.value(u)));
+        let left = format!("{:.0} %", 100.0 * posterior.deviation(j));
+        rows.push([title(parameter), prior, significant(convert(best.values[j]), 4), found, left, unit.into()]);
     }
     let (rank, all) = (posterior.rank(), parameters.len());
     let shares: Vec<String> = posterior.regions.iter().map(|region| format!("{:.1} %", 100.0 * region.weight)).collect();
@@ -138,12 +118,12 @@ fn determined(family: &Family, best: &Fit, posterior: &Posterior) -> String {
 }
 
 fn apart(family: &Family, alternatives: &Alternatives) -> String {
-    let mut rows = vec![["constituent", "set A", "set B", "unit"].map(String::from).to_vec()];
+    let mut rows = vec![["constituent", "set A", "set B", "unit"].map(String::from)];
     let [a, b] = &alternatives.sets;
     for (j, parameter) in family.parameters().iter().enumerate() {
         let (_, _, unit, convert) = presentation(parameter.quantity);
         let value = |fit: &Fit| significant(convert(fit.values[j]), 4);
-        rows.push(vec![title(parameter), value(a), value(b), unit.into()]);
+        rows.push([title(parameter), value(a), value(b), unit.into()]);
     }
     let mut out = format!(
         "\nTwo sets that explain every entry alike (solved anew; all constants within {:.1} sigma)\n\n{}\nWhat to measure next, by the spread of the posterior's predictions over the usual error:\n",

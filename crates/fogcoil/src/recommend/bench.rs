@@ -1,6 +1,6 @@
 //! Contenders, and how well a test tells them apart.
 
-use diagnosis::{Active, ForwardModel, Hypothesis, Observation, Plan, Settings, alternatives, separation};
+use diagnosis::{Active, ForwardModel, Hypothesis, Observation, Plan, Settings, alternatives, expected, separation};
 use mechanisms::{Gyro, Library, Prepared, RATE, SPOOL};
 use recording::noise::NoiseModel;
 
@@ -37,7 +37,6 @@ impl Contender {
         })
     }
 
-    /// A mechanism at a given size.
     pub(crate) fn of(gyro: &Gyro, truth: Active) -> Self {
         let id = gyro.mechanisms()[truth.mechanism].id.clone();
         Self { id, hypotheses: alternatives(gyro, truth.mechanism), truth: Some(truth) }
@@ -55,7 +54,6 @@ impl Contender {
         Self { hypotheses: self.hypotheses.iter().skip(every / 2).step_by(every.max(1)).cloned().collect(), ..self.clone() }
     }
 
-    /// All that may be named.
     pub(super) fn known(gyro: &Gyro) -> String {
         let ids: Vec<&str> = gyro.mechanisms().iter().map(|m| m.id.as_str()).chain([NOMINAL, RECALIBRATE]).collect();
         ids.join(", ")
@@ -66,7 +64,7 @@ fn typical(gyro: &Gyro, mechanism: usize) -> Result<Active, Failure> {
     let entry = &gyro.mechanisms()[mechanism];
     let choice = entry.choice.as_ref().map(|(_, values)| values[values.len() / 2]);
     let at = |u: f64| Active { mechanism, values: entry.parameters.iter().map(|p| p.prior.value(u)).collect(), choice };
-    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let middle = expected(gyro.nuisances());
     let respond = |active: &[Active]| gyro.respond(0, &middle, active).map_err(diagnosis::Error::Model);
     let (with, without) = (respond(&[at(0.0)])?, respond(&[])?);
     let off = with.iter().flatten().zip(without.iter().flatten()).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
@@ -112,7 +110,6 @@ pub(crate) fn odds(gyro: &Gyro, contenders: &[Contender], plan: &Plan) -> Result
     worst.ok_or_else(|| diagnosis::Error::Data("there is no pair to tell apart".into()))
 }
 
-/// The library under a programme.
 pub(crate) fn prepared(library: &Library, programme: &Programme) -> Result<Prepared, coil::Error> {
     let (time, chamber) = programme.sampled(INTERVAL);
     Prepared::new(library, &time, &chamber, INTERVAL)

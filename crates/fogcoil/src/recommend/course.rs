@@ -1,6 +1,6 @@
 //! What a programme is expected to show of the pair that it tells apart worst.
 
-use diagnosis::{ForwardModel, Plan, separation};
+use diagnosis::{ForwardModel, Plan, expected, separation};
 use mechanisms::{Gyro, RATE, SPOOL};
 
 use super::Programme;
@@ -44,7 +44,7 @@ impl Course {
         plan: &Plan,
     ) -> Result<Self, Failure> {
         let of = |id: &String| contenders.iter().find(|c| c.id == *id);
-        let ([Some(truth), Some(rival)], middle) = (odds.pair.each_ref().map(of), middle(gyro)) else {
+        let ([Some(truth), Some(rival)], middle) = (odds.pair.each_ref().map(of), expected(gyro.nuisances())) else {
             return Err(diagnosis::Error::Data(format!("{} are not compared", odds.pair.join(" and "))));
         };
         let active = truth.truth.as_slice();
@@ -62,9 +62,4 @@ impl Course {
         let (time, chamber) = programme.sampled(INTERVAL);
         Ok(Self { pair: odds.pair.clone(), time, chamber, rate: trace(RATE), spool: trace(SPOOL) })
     }
-}
-
-/// The nominal model's uncertain numbers as they are expected.
-fn middle(gyro: &Gyro) -> Vec<f64> {
-    gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect()
 }

@@ -7,10 +7,10 @@ use mechanisms::{CATALOGUE, Gyro, Library, Prepared, RATE, SPOOL};
 use progress::Step;
 use recording::noise::NoiseModel;
 
-use super::bench::{self, Contender, everything, odds, prepared, usual};
+use super::bench::{self, Contender, Failure, everything, odds, prepared, usual};
 use super::{Course, Limits, Odds, Ranked, Recommendation, Size, WithSensor, check, programmes};
 use crate::Error;
-use crate::prepare::Ready;
+use crate::prepare::Record;
 
 /// Noise of a spool thermometer that may be added \[K\], its drift a tenth of the usual.
 const FINE_K: f64 = 0.001;
@@ -26,15 +26,10 @@ struct Repeat {
     times: f64,
 }
 
-/// What is asked about a design.
 pub(crate) struct Question<'a> {
-    /// The design's file.
     pub(crate) file: &'a Path,
-    /// Ids to be told apart.
     pub(crate) between: &'a [String],
-    /// Records of the unit, if there are any.
-    pub(crate) records: Vec<Ready>,
-    /// What the chamber can do.
+    pub(crate) records: Vec<Record>,
     pub(crate) limits: Limits,
     /// Whether all is asked for; else of a programme that is not the best no more is worked out than that, and no sensor where a programme does.
     pub(crate) thorough: bool,
@@ -42,9 +37,6 @@ pub(crate) struct Question<'a> {
 
 impl Question<'_> {
     /// The answer, from the design's library.
-    ///
-    /// # Errors
-    /// As [`recommend`].
     pub(crate) fn answer(self, library: Library, progress: &dyn Fn(Step)) -> Result<Recommendation, Error> {
         let Self { file, between, records: given, limits, thorough } = self;
         check(between, &limits)?;
@@ -52,12 +44,19 @@ impl Question<'_> {
         let failed = Error::of_diagnosis(file);
         let programmes = programmes(&limits);
         progress(Step::begins("running every model under every programme"));
-        let recorded = given.iter().map(|r| Prepared::new(&library, &r.observation.time, &r.chamber, r.averaging));
+        let recorded = given.iter().map(|r| Prepared::new(&library, &r.observed.time, &r.chamber, r.averaging));
         let all = recorded.chain(programmes.iter().map(|programme| prepared(&library, programme)));
         let all = all.collect::<Result<Vec<_>, _>>().map_err(coil)?;
         let gyro = Gyro::new(library, CATALOGUE, all).map_err(coil)?;
-        let mut contenders = contenders(&gyro, between, failed)?;
-        let observations: Vec<Observation> = given.into_iter().map(|r| r.observation).collect();
+        let named = |id: &String| {
+            let unknown = || format!("--between: `{id}` is not in this design's library; it holds {}", Contender::known(&gyro));
+            Contender::named(&gyro, id).map_err(failed)?.ok_or_else(|| Error::usage(unknown()))
+        };
+        let mut contenders = between.iter().map(named).collect::<Result<Vec<_>, _>>()?;
+        if contenders.iter().all(|c| c.truth.is_none()) {
+            return Err(Error::usage("--between: one of the ids must be a mechanism's"));
+        }
+        let observations: Vec<Observation> = given.into_iter().map(|r| r.observed).collect();
         let recorded = observations.len();
         let mut noise = None;
         if recorded > 0 {
@@ -131,31 +130,8 @@ impl Question<'_> {
     }
 }
 
-fn contenders(
-    gyro: &Gyro,
-    between: &[String],
-    failed: impl Fn(diagnosis::Error<coil::Error>) -> Error,
-) -> Result<Vec<Contender>, Error> {
-    let mut contenders = Vec::with_capacity(between.len());
-    for id in between {
-        let Some(contender) = Contender::named(gyro, id).map_err(&failed)? else {
-            let known = Contender::known(gyro);
-            return Err(Error::usage(format!("--between: `{id}` is not in this design's library; it holds {known}")));
-        };
-        contenders.push(contender);
-    }
-    if contenders.iter().all(|c| c.truth.is_none()) {
-        return Err(Error::usage("--between: one of the ids must be a mechanism's"));
-    }
-    Ok(contenders)
-}
-
 /// Gives the contenders the sizes that fit records best, and returns the noise beside the best of them.
-fn fit(
-    gyro: &Gyro,
-    observations: &[Observation],
-    contenders: &mut [Contender],
-) -> Result<[NoiseModel; 2], diagnosis::Error<coil::Error>> {
+fn fit(gyro: &Gyro, observations: &[Observation], contenders: &mut [Contender]) -> Result<[NoiseModel; 2], Failure> {
     let records: Vec<usize> = (0..observations.len()).collect();
     let (mut noise, mut most) = (usual(gyro), f64::NEG_INFINITY);
     for contender in contenders {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::{Odds, Recommendation, Size};
+use super::{Limits, Odds, Ranked, Recommendation, Size, WithSensor};
 use crate::glossary::inspection;
 use crate::table::{significant, table};
 
@@ -15,7 +15,8 @@ fn object(odds: &Odds) -> Value {
     json!({"sigma": odds.sigma, "log_odds": odds.log_odds, "decides": odds.decides(), "hardest_pair": odds.pair})
 }
 
-fn with(mut object: Value, more: Value) -> Value {
+/// An object with the fields of another behind its own.
+pub(crate) fn with(mut object: Value, more: Value) -> Value {
     if let (Some(object), Value::Object(more)) = (object.as_object_mut(), more) {
         object.extend(more);
     }
@@ -25,37 +26,26 @@ fn with(mut object: Value, more: Value) -> Value {
 /// One object; see docs/schema/recommend.schema.json.
 pub fn json(r: &Recommendation) -> Value {
     let gain = |odds: &Odds| odds.log_odds - r.repeat.1.log_odds;
-    let sizes: Vec<Value> = r
-        .sizes
-        .iter()
-        .map(|Size { id, values }| {
-            let parameters: serde_json::Map<String, Value> = values.iter().map(|(name, v)| (name.clone(), json!(v))).collect();
-            json!({"id": id, "parameters": parameters})
-        })
-        .collect();
-    let profiles: Vec<Value> = r
-        .profiles
-        .iter()
-        .map(|p| {
-            let more = json!({"family": p.programme.family, "name": p.programme.name, "gain_over_repeat": gain(&p.odds)});
-            with(object(&p.odds), more)
-        })
-        .collect();
-    let sensors: Vec<Value> = r
-        .sensors
-        .iter()
-        .map(|s| with(object(&s.odds), json!({"sensor": s.sensor, "profile": s.programme, "gain_over_repeat": gain(&s.odds)})))
-        .collect();
+    let size = |Size { id, values }: &Size| {
+        let parameters: serde_json::Map<String, Value> = values.iter().map(|(name, v)| (name.clone(), json!(v))).collect();
+        json!({"id": id, "parameters": parameters})
+    };
+    let profile = |Ranked { programme: p, odds }: &Ranked| {
+        with(object(odds), json!({"family": p.family, "name": p.name, "gain_over_repeat": gain(odds)}))
+    };
+    let sensor = |WithSensor { sensor, programme, odds }: &WithSensor| {
+        with(object(odds), json!({"sensor": sensor, "profile": programme, "gain_over_repeat": gain(odds)}))
+    };
     let (name, odds) = &r.repeat;
     let l = &r.limits;
     json!({
         "between": r.between,
         "limits": {"coldest_c": l.coldest, "hottest_c": l.hottest, "fastest_k_per_min": l.fastest, "hours": l.hours},
-        "sizes": sizes,
+        "sizes": r.sizes.iter().map(size).collect::<Vec<_>>(),
         "fitted": r.fitted,
         "repeat": with(object(odds), json!({"name": name})),
-        "profiles": profiles,
-        "sensors": sensors,
+        "profiles": r.profiles.iter().map(profile).collect::<Vec<_>>(),
+        "sensors": r.sensors.iter().map(sensor).collect::<Vec<_>>(),
         "inspections": inspections(r).iter().map(|(id, what)| json!({"id": id, "what": what})).collect::<Vec<_>>(),
         "recommendation": sentence(r),
     })
@@ -70,7 +60,6 @@ pub(crate) fn number(x: f64) -> String {
     if x.abs() >= 9.95 { format!("{x:.0}") } else { format!("{x:.1}") }
 }
 
-/// What to do.
 pub(crate) fn sentence(r: &Recommendation) -> String {
     let best = &r.profiles[0];
     let [truth, rival] = &best.odds.pair;
@@ -106,15 +95,12 @@ pub fn text(r: &Recommendation) -> String {
     let said = sentence(r);
     // a sentence begins with a capital
     let mut out = said[..1].to_uppercase() + &said[1..] + "\n\n";
-    let l = &r.limits;
+    let (Limits { coldest, hottest, fastest, hours }, sizes) =
+        (r.limits, if r.fitted { "fitted to the record" } else { "typical" });
     let _ = writeln!(
         out,
-        "chamber {} to {} degC, at most {} K/min, {} h; expected ln odds for the truth, of the worst pair, at these sizes ({}):",
-        l.coldest,
-        l.hottest,
-        l.fastest,
-        l.hours,
-        if r.fitted { "fitted to the record" } else { "typical" }
+        "chamber {coldest} to {hottest} degC, at most {fastest} K/min, {hours} h; expected ln odds for the truth, of the worst pair, at these \
+         sizes ({sizes}):"
     );
     for Size { id, values } in &r.sizes {
         let values: Vec<String> = values.iter().map(|(name, v)| format!("{name} = {}", significant(*v, 3))).collect();
@@ -122,17 +108,10 @@ pub fn text(r: &Recommendation) -> String {
     }
     let row = |name: &str, odds: &Odds| {
         let gain = odds.log_odds - r.repeat.1.log_odds;
-        let pair = format!("{} / {}", odds.pair[0], odds.pair[1]);
-        vec![
-            name.to_owned(),
-            number(odds.sigma),
-            number(odds.log_odds),
-            format!("{}{}", if gain >= 0.05 { "+" } else { "" }, number(gain)),
-            pair,
-        ]
+        let gain = format!("{}{}", if gain >= 0.05 { "+" } else { "" }, number(gain));
+        [name.to_owned(), number(odds.sigma), number(odds.log_odds), gain, odds.pair.join(" / ")]
     };
-    let head = ["profile", "sigma", "ln odds", "gain", "truth / taken for it"].map(str::to_owned).to_vec();
-    let mut rows = vec![head];
+    let mut rows = vec![["profile", "sigma", "ln odds", "gain", "truth / taken for it"].map(str::to_owned)];
     rows.extend(r.profiles.iter().take(SHOWN).map(|p| row(&p.programme.name, &p.odds)));
     rows.push(row(&format!("again: {}", r.repeat.0), &r.repeat.1));
     rows.extend(r.sensors.iter().map(|s| row(&format!("{} with {}", s.programme, s.sensor), &s.odds)));

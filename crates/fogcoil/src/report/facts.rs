@@ -1,7 +1,7 @@
 //! What was simulated and how: the coil, the inputs, the options, the mesh.
 
 use charts::{facts, nice, row};
-use coil::{CHECKS, Drive, STEADY, Side};
+use coil::{CHECKS, Drive, ReductionError, STEADY, Side};
 use maud::Markup;
 
 use super::provenance;
@@ -10,25 +10,15 @@ use crate::sensitivity::origin;
 use crate::simulate::Simulation;
 use crate::units::{to_mm, to_ppm};
 
-/// The coil in short.
 pub(super) fn coil(simulation: &Simulation) -> Markup {
     let (case, design) = (simulation.case, &simulation.case.design);
     let (spec, sensor) = (case.winding.spec(), design.sensor);
+    let winding::Tails { cw, ccw } = spec.tails;
+    let [inner, outer, height] = [spec.inner_radius, design.body.outer_radius, design.body.height].map(to_mm);
     let mut rows = vec![
         row("winding", format!("{:?}, {} layers, {} turns", spec.pattern, spec.layers, case.winding.turns().len())),
-        row(
-            "fibre",
-            format!("{:.2} m, tails of {} m (CW) and {} m (CCW) included", case.winding.length(), spec.tails.cw, spec.tails.ccw),
-        ),
-        row(
-            "coil",
-            format!(
-                "radius {:.3} to {:.3} mm, height {:.3} mm",
-                to_mm(spec.inner_radius),
-                to_mm(design.body.outer_radius),
-                to_mm(design.body.height)
-            ),
-        ),
+        row("fibre", format!("{:.2} m, tails of {cw} m (CW) and {ccw} m (CCW) included", case.winding.length())),
+        row("coil", format!("radius {inner:.3} to {outer:.3} mm, height {height:.3} mm")),
         row("spool", nice(&spool(simulation))),
         row("thermometer", format!("radius {:.3} mm, y = {:.3} mm, lag {} s", to_mm(sensor.radius), to_mm(sensor.y), sensor.lag)),
         row("constants of the coil", origin(&case.provenance.material)),
@@ -75,29 +65,22 @@ fn side(side: Side) -> &'static str {
 pub(super) fn computation(simulation: &Simulation) -> Markup {
     let mesh =
         |r: coil::MeshFineness| format!("elements of order {}, {} layers towards each edge of the coil", r.order, r.layers);
+    let (coarser, ReductionError { bias, sensor }) = (mesh(coil::COARSER.resolution), simulation.reduction);
+    let [low, high] = CHECKS.map(|check| check.order);
     let mut rows = vec![
         row("driven by", simulation.profile.drives.iter().map(|drive| name(*drive)).collect::<Vec<_>>().join(", ")),
         row("start", "uniform at the first chamber temperature and free of stress; heaters off before the first row"),
         row("mesh", mesh(coil::STANDARD.resolution)),
         row(
             "numerical errors (±)",
-            format!(
-                "the largest difference in any row to {}, and what the modes leave out of the bias",
-                mesh(coil::COARSER.resolution)
-            ),
+            format!("the largest difference in any row to {coarser}, and what the modes leave out of the bias"),
         ),
         row("modes", format!("{} in all; the drives are linear between rows, the modes exact", simulation.modes)),
         row(
             "left out by the modes",
-            format!(
-                "less than {:.1e} of the largest bias, less than {:.1e} s of the thermometer's lag",
-                simulation.reduction.bias, simulation.reduction.sensor
-            ),
+            format!("less than {bias:.1e} of the largest bias, less than {sensor:.1e} s of the thermometer's lag"),
         ),
-        row(
-            "steady-ramp sensitivity",
-            format!("mesh: {}; its error from orders {} and {} on it", mesh(STEADY), CHECKS[0].order, CHECKS[1].order),
-        ),
+        row("steady-ramp sensitivity", format!("mesh: {}; its error from orders {low} and {high} on it", mesh(STEADY))),
     ];
     if let Some(inference) = simulation.profile.inferred {
         let [median, largest] = inference.chamber_sd;
@@ -112,7 +95,6 @@ pub(super) fn computation(simulation: &Simulation) -> Markup {
     facts("The computation", &rows)
 }
 
-/// Program, files, options.
 pub(super) fn sources(simulation: &Simulation) -> Markup {
     let coils = simulation.case.fingerprints.iter().enumerate().map(|(n, file)| (if n == 0 { "coil" } else { "cell" }, file));
     let inferred = simulation.profile.inferred;

@@ -6,17 +6,13 @@ use std::f64::consts::PI;
 /// A constituent's moduli as plane problems use them, and its share.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Phase {
-    /// Share of the cell's area.
     pub(crate) share: f64,
     /// Plane-strain bulk modulus λ + G \[Pa\].
     pub(crate) bulk: f64,
-    /// Shear modulus \[Pa\].
     pub(crate) shear: f64,
     /// First Lamé constant \[Pa\].
     pub(crate) lambda: f64,
-    /// Thermal expansion \[1/K\].
     pub(crate) expansion: f64,
-    /// Conductivity \[W/(m K)\].
     pub(crate) conductivity: f64,
     /// Squared outer radius over that of the circle with the cell's area: the sum of the shares up to here.
     pub(crate) filled: f64,
@@ -25,7 +21,6 @@ pub(crate) struct Phase {
 }
 
 impl Phase {
-    /// Thermal stress \[Pa/K\].
     pub(crate) fn thermal_stress(&self) -> f64 {
         self.expansion * (3.0 * self.lambda + 2.0 * self.shear)
     }

@@ -11,7 +11,7 @@ pub enum Convention {
     Mechanical,
 }
 
-/// A component of a strain.
+/// A component of a strain: those in Voigt order, then those about the fibre.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Component {
     /// Along x.
@@ -41,32 +41,17 @@ impl Component {
 
     /// Its name.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Xx => "xx",
-            Self::Yy => "yy",
-            Self::Zz => "zz",
-            Self::Yz => "yz",
-            Self::Xz => "xz",
-            Self::Xy => "xy",
-            Self::MeanRadial => "mean_radial",
-            Self::Radial => "radial",
-            Self::Hoop => "hoop",
-        }
+        ["xx", "yy", "zz", "yz", "xz", "xy", "mean_radial", "radial", "hoop"][self as usize]
     }
 
     /// Its value of a strain in Voigt order, `axis` the unit vector away from the axis of the inclusion.
     pub fn of(self, strain: &Vector6<f64>, axis: Option<[f64; 2]>) -> Option<f64> {
         let along = |[c, s]: [f64; 2]| c * c * strain[0] + s * s * strain[1] + s * c * strain[5];
         Some(match self {
-            Self::Xx => strain[0],
-            Self::Yy => strain[1],
-            Self::Zz => strain[2],
-            Self::Yz => strain[3],
-            Self::Xz => strain[4],
-            Self::Xy => strain[5],
             Self::MeanRadial => (strain[0] + strain[1]) / 2.0,
             Self::Radial => along(axis?),
             Self::Hoop => axis.map(|[c, s]| along([-s, c]))?,
+            voigt => strain[voigt as usize],
         })
     }
 }

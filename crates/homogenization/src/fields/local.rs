@@ -1,8 +1,27 @@
-//! The local state at a point of an element.
+//! What acts on the cell, and the local state at a point of an element.
 
-use super::{Convention, Load};
-use crate::irregular::{Solid, Solution};
-use nalgebra::Vector6;
+use super::Convention;
+use crate::irregular::{LOADS, Solid, Solution, TEMPERATURE};
+use nalgebra::{SMatrix, Vector6};
+
+/// A macroscopic total strain and a temperature change.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Load {
+    /// Strain xx, yy, zz, yz, xz, xy with engineering shear; z = fibre.
+    pub strain: Vector6<f64>,
+    /// Temperature change \[K\].
+    pub temperature: f64,
+}
+
+impl Load {
+    /// The strains, then the temperature change.
+    fn column(&self) -> SMatrix<f64, LOADS, 1> {
+        let mut column = SMatrix::<f64, LOADS, 1>::zeros();
+        column.fixed_view_mut::<6, 1>(0, 0).copy_from(&self.strain);
+        column[TEMPERATURE] = self.temperature;
+        column
+    }
+}
 
 /// The cell under one load.
 #[derive(Debug)]
@@ -59,13 +78,13 @@ fn expansion(solid: &Solid) -> Vector6<f64> {
 impl<'a> Fields<'a> {
     /// The cell of `solution` under `load`.
     pub fn new(solution: &'a Solution, load: Load) -> Self {
-        let free = solution.phases().iter().map(|p| expansion(&p.solid) * load.temperature).collect();
+        let free = solution.phases.iter().map(|p| expansion(&p.solid) * load.temperature).collect();
         Self { solution, load, fluctuation: solution.fluctuation(&load.column()), free }
     }
 
     /// The state in element `e` where the shape functions and their gradients are `shape`: N, ∂N/∂x, ∂N/∂y.
     pub(super) fn state(&self, e: usize, [value, dx, dy]: [&[f64]; 3]) -> State {
-        let mesh = self.solution.mesh();
+        let mesh = &self.solution.mesh;
         let (mut position, mut w, mut gradient) = ([0.0; 2], [0.0; 3], [[0.0; 2]; 3]);
         for (a, &node) in mesh.elements()[e].iter().enumerate() {
             (0..2).for_each(|c| position[c] += value[a] * mesh.nodes()[node][c]);
@@ -85,11 +104,11 @@ impl<'a> Fields<'a> {
             macroscopic[5] / 2.0 * x + macroscopic[1] * y + w[1],
             macroscopic[4] * x + macroscopic[3] * y + w[2],
         ];
-        let axis = self.solution.periodic().inclusions[e].map(|i| self.solution.periodic().centres[i]).and_then(|[u, v]| {
+        let axis = self.solution.periodic.inclusions[e].map(|i| self.solution.periodic.centres[i]).and_then(|[u, v]| {
             let distance = (x - u).hypot(y - v);
             (distance > 0.0).then(|| [(x - u) / distance, (y - v) / distance])
         });
-        let stress = self.solution.phases()[phase].solid.law.stiffness * mechanical;
+        let stress = self.solution.phases[phase].solid.law.stiffness * mechanical;
         State { position, displacement, phase, axis, strain, mechanical, stress }
     }
 }

@@ -13,12 +13,8 @@
 //! # let solid = |youngs_modulus, poisson_ratio, thermal_expansion, conductivity| {
 //! #     Constituent::new(Isotropic { youngs_modulus, poisson_ratio, thermal_expansion }, conductivity)
 //! # };
-//! # let fibre_cell = FibreCell {
-//! #     packing: homogenization::Packing::Hexagonal,
-//! #     pitch: 140e-6,
-//! #     rings: vec![Ring { outer_radius: 62.5e-6, constituent: solid(72e9, 0.17, 0.55e-6, 1.38), role: Role::Glass }],
-//! #     adhesive: solid(3e9, 0.38, 60e-6, 0.2),
-//! # };
+//! # let glass = Ring { outer_radius: 62.5e-6, constituent: solid(72e9, 0.17, 0.55e-6, 1.38), role: Role::Glass };
+//! # let fibre_cell = FibreCell::hexagonal(140e-6, vec![glass], solid(3e9, 0.38, 60e-6, 0.2));
 //! let cell = Cell::of_fibres(&fibre_cell, &Arrangement::hexagonal(140e-6, 1, 1))?;
 //! let solution = cell.solve(6, 1.0)?;
 //! // held in all directions and heated by 10 K: the epoxy squeezes the glass
@@ -30,13 +26,11 @@
 //! ```
 
 mod component;
-mod load;
 mod local;
 mod sample;
 mod summary;
 
 pub use component::{Component, Convention};
-pub use load::Load;
-pub use local::{Fields, State};
+pub use local::{Fields, Load, State};
 pub use sample::Sample;
 pub use summary::{PhaseStrain, Spread};

@@ -21,7 +21,7 @@ const FROM_APEX: f64 = 1e-6;
 impl Fields<'_> {
     /// Samples every element at `divisions` + 1 (at least 2) equidistant points along each side.
     pub fn sample(&self, divisions: usize) -> Sample {
-        let (divisions, mesh) = (divisions.max(1), self.solution.mesh());
+        let (divisions, mesh) = (divisions.max(1), &self.solution.mesh);
         let reference = ReferenceElement::new(mesh.order(), 1);
         let n = divisions + 1;
         let at = |k: usize| -1.0 + 2.0 * k as f64 / divisions as f64;

@@ -32,8 +32,7 @@ const CONVENTIONS: [Convention; 2] = [Convention::Total, Convention::Mechanical]
 impl PhaseStrain {
     /// A component in a convention.
     pub fn get(&self, component: Component, convention: Convention) -> Spread {
-        let i = Component::ALL.iter().position(|c| *c == component).unwrap_or(0);
-        self.spreads[i][usize::from(convention == Convention::Mechanical)]
+        self.spreads[component as usize][usize::from(convention == Convention::Mechanical)]
     }
 
     fn each(&mut self, state: &State, mut f: impl FnMut(&mut Spread, f64)) {
@@ -53,11 +52,11 @@ impl Fields<'_> {
     /// # Errors
     /// [`Error::Solve`] if an element is turned inside out, which a solved mesh does not have.
     pub fn summary(&self) -> Result<Vec<PhaseStrain>, Error> {
-        let phases: &[Phase] = self.solution.phases();
+        let phases: &[Phase] = &self.solution.phases;
         let nothing = Spread { mean: 0.0, least: f64::INFINITY, most: f64::NEG_INFINITY };
         let empty = |phase| PhaseStrain { phase, area: 0.0, spreads: vec![[nothing; 2]; Component::ALL.len()] };
         let mut all: Vec<_> = (0..phases.len()).map(empty).collect();
-        let mesh = self.solution.mesh();
+        let mesh = &self.solution.mesh;
         let reference = ReferenceElement::new(mesh.order(), mesh.order() + 2);
         for (e, &phase) in mesh.regions().iter().enumerate() {
             let g = reference.geometry(mesh, e, Measure::Area)?;
@@ -77,11 +76,10 @@ impl Fields<'_> {
         for phase in &mut all {
             for spread in phase.spreads.iter_mut().flatten() {
                 let known = spread.least <= spread.most;
-                *spread = if known { Spread { mean: spread.mean / phase.area, ..*spread } } else { UNKNOWN };
+                let nan = Spread { mean: f64::NAN, least: f64::NAN, most: f64::NAN };
+                *spread = if known { Spread { mean: spread.mean / phase.area, ..*spread } } else { nan };
             }
         }
         Ok(all)
     }
 }
-
-const UNKNOWN: Spread = Spread { mean: f64::NAN, least: f64::NAN, most: f64::NAN };

@@ -44,7 +44,7 @@ pub(crate) fn pair(
         let mut exact = |from: &[f64]| {
             let mut u = from.to_vec();
             for _ in 0..MOST_CORRECTIONS {
-                let response = solved(&emulator.family().cell(&u)?)?;
+                let response = solved(&emulator.family.cell(&u)?)?;
                 let (known, found) = (known(&response), distances(targets, &response));
                 let agrees = found.iter().zip(&goal).all(|(found, goal)| (found - goal).abs() < AGREE);
                 if agrees && targets.iter().all(|t| t.is_met(t.of(&known))) {

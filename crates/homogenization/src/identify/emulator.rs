@@ -11,10 +11,9 @@ const NUGGET: f64 = 1e-7;
 /// Candidates for ℓ² per dimension; leave-one-out errors choose.
 const SQUARED_LENGTHS: [f64; 4] = [1.0, 3.0, 9.0, 27.0];
 
-/// Predicts responses of a family's cells.
 #[derive(Debug, Clone)]
 pub(crate) struct Emulator<'a> {
-    family: &'a Family,
+    pub(crate) family: &'a Family,
     points: Vec<Vec<f64>>,
     differences: Vec<Response>,
     squared_length: f64,
@@ -24,10 +23,6 @@ pub(crate) struct Emulator<'a> {
 impl<'a> Emulator<'a> {
     pub(crate) fn new(family: &'a Family) -> Self {
         Self { family, points: vec![], differences: vec![], squared_length: 1.0, weights: DMatrix::zeros(0, RESPONSES) }
-    }
-
-    pub(crate) fn family(&self) -> &'a Family {
-        self.family
     }
 
     /// The response at `u`; `None` where there is no cell.

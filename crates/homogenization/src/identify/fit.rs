@@ -13,15 +13,10 @@ pub(crate) fn jacobian(f: impl Fn(&[f64]) -> Option<Vec<f64>>, u: &[f64], at: &[
     let mut jacobian = DMatrix::zeros(at.len(), u.len());
     let mut moved = u.to_vec();
     for j in 0..u.len() {
-        let mut column = None;
-        for step in [STEP, -STEP] {
+        let (y, step) = [STEP, -STEP].into_iter().find_map(|step| {
             moved[j] = u[j] + step;
-            column = f(&moved).map(|y| (y, step));
-            if column.is_some() {
-                break;
-            }
-        }
-        let (y, step) = column?;
+            Some((f(&moved)?, step))
+        })?;
         moved[j] = u[j];
         jacobian.column_mut(j).iter_mut().zip(y.iter().zip(at)).for_each(|(d, (y, at))| *d = (y - at) / step);
     }

@@ -31,37 +31,24 @@ pub enum Kind {
 impl Kind {
     /// Its priors.
     pub const fn prior(self) -> MaterialPrior {
-        match self {
-            Self::Silica => MaterialPrior {
-                youngs_modulus: Prior::log(70e9, 74e9),
-                volume: Volume::PoissonRatio(Prior::linear(0.16, 0.18)),
-                thermal_expansion: Prior::log(0.45e-6, 0.65e-6),
-                conductivity: Prior::log(1.33, 1.43),
-            },
-            Self::SoftPrimary => MaterialPrior {
-                youngs_modulus: Prior::log(0.5e6, 5e6),
-                volume: Volume::BulkModulus(Prior::log(1.5e9, 5e9)),
-                thermal_expansion: Prior::log(150e-6, 350e-6),
-                conductivity: Prior::log(0.13, 0.25),
-            },
-            Self::HardSecondary => MaterialPrior {
-                youngs_modulus: Prior::log(0.5e9, 2e9),
-                volume: Volume::PoissonRatio(Prior::linear(0.34, 0.43)),
-                thermal_expansion: Prior::log(50e-6, 150e-6),
-                conductivity: Prior::log(0.15, 0.35),
-            },
-            Self::AnyCoating => MaterialPrior {
-                youngs_modulus: Prior::log(0.5e6, 5e9),
-                volume: Volume::BulkModulus(Prior::log(1.5e9, 5e9)),
-                thermal_expansion: Prior::log(30e-6, 350e-6),
-                conductivity: Prior::log(0.13, 0.35),
-            },
-            Self::Adhesive => MaterialPrior {
-                youngs_modulus: Prior::log(1e6, 3e9),
-                volume: Volume::BulkModulus(Prior::log(1.5e9, 6e9)),
-                thermal_expansion: Prior::log(50e-6, 350e-6),
-                conductivity: Prior::log(0.15, 1.0),
-            },
+        const fn volume(low: f64, high: f64) -> Volume {
+            Volume::BulkModulus(Prior::log(low, high))
+        }
+        const fn ratio(low: f64, high: f64) -> Volume {
+            Volume::PoissonRatio(Prior::linear(low, high))
+        }
+        let (modulus, volume, expansion, conductivity) = match self {
+            Self::Silica => ([70e9, 74e9], ratio(0.16, 0.18), [0.45e-6, 0.65e-6], [1.33, 1.43]),
+            Self::SoftPrimary => ([0.5e6, 5e6], volume(1.5e9, 5e9), [150e-6, 350e-6], [0.13, 0.25]),
+            Self::HardSecondary => ([0.5e9, 2e9], ratio(0.34, 0.43), [50e-6, 150e-6], [0.15, 0.35]),
+            Self::AnyCoating => ([0.5e6, 5e9], volume(1.5e9, 5e9), [30e-6, 350e-6], [0.13, 0.35]),
+            Self::Adhesive => ([1e6, 3e9], volume(1.5e9, 6e9), [50e-6, 350e-6], [0.15, 1.0]),
+        };
+        MaterialPrior {
+            youngs_modulus: Prior::log(modulus[0], modulus[1]),
+            volume,
+            thermal_expansion: Prior::log(expansion[0], expansion[1]),
+            conductivity: Prior::log(conductivity[0], conductivity[1]),
         }
     }
 }

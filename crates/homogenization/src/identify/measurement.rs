@@ -45,7 +45,7 @@ struct Quantified {
 
 /// Every further measurement, the one with the most power first.
 pub(crate) fn measurements(emulator: &Emulator, targets: &[Target], sets: [&Fit; 2], draws: &[Vec<f64>]) -> Vec<Measurement> {
-    let family = emulator.family();
+    let family = emulator.family;
     let of = |cell: &FibreCell, values: &[f64], known: &Known| quantities(family, targets, cell, values, known);
     let [a, b] = sets.map(|set| of(&set.cell, &set.values, &set.known));
     let picked = (0..DRAWS.min(draws.len())).map(|i| &draws[i * draws.len() / DRAWS.min(draws.len())]);

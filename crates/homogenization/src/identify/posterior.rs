@@ -12,7 +12,6 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 const TRAINING: [(usize, usize); 3] = [(120, 40), (300, 60), (600, 80)];
 /// Trajectories of the last chains together.
 const TRAJECTORIES: usize = 3000;
-/// Draws kept.
 const DRAWS: usize = 2700;
 
 /// Draws of a family's parameters given the targets, in prior standard deviations.
@@ -122,7 +121,7 @@ pub(crate) fn posterior(
         told(round, rounds);
         let regions = region::sample(emulator, targets, &starts, trajectories, seed + 10 * round as u64);
         let picked = region::pooled(&regions, count)?;
-        let cells: Vec<_> = picked.iter().map(|u| emulator.family().cell(u)).collect();
+        let cells: Vec<_> = picked.iter().map(|u| emulator.family.cell(u)).collect();
         let solved = solved_all(&cells);
         let mut misses: Vec<f64> =
             picked.iter().zip(&solved).filter_map(|(u, y)| shift(emulator, targets, u, y.as_ref()?)).collect();

@@ -6,7 +6,6 @@ use std::thread;
 
 /// Independent responses: ln k, ln g_r, ln g_zr, ln e_z, nu_zr, alpha_z and alpha_r in 1e-4/K, ln k_z, ln k_r.
 pub(crate) const RESPONSES: usize = 9;
-/// The responses of one cell.
 pub(crate) type Response = [f64; RESPONSES];
 /// The constants that the responses determine, in the order of [`Constants::named`].
 pub(crate) const KNOWN: [&str; 12] =

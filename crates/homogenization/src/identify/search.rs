@@ -7,9 +7,7 @@ use super::response::{Response, known, solved};
 use super::target::{Target, beyond, distances};
 use crate::random::Random;
 
-/// Starts drawn from the priors.
 const STARTS: usize = 60;
-/// Starts that are refined.
 const REFINED: usize = 8;
 /// Minima closer than this, in prior standard deviations, are one.
 const SAME: f64 = 0.5;
@@ -26,7 +24,6 @@ pub(crate) enum Demand {
     Ordinary,
 }
 
-/// A cell found, with its response.
 #[derive(Debug, Clone)]
 pub(crate) struct Found {
     pub(crate) u: Vec<f64>,
@@ -79,7 +76,7 @@ pub(crate) fn search(
         let mut best: Option<Found> = None;
         for _ in 0..MOST_REFINEMENTS {
             let Some((u, _)) = on_emulator(emulator, &start) else { break };
-            let (Some(predicted), Some(cell)) = (emulator.predict(&u), emulator.family().cell(&u)) else { break };
+            let (Some(predicted), Some(cell)) = (emulator.predict(&u), emulator.family.cell(&u)) else { break };
             let Some(response) = solved(&cell) else { break };
             let cost = residuals(targets, demand, &u, &response).iter().map(|r| r * r).sum::<f64>() / 2.0;
             if best.as_ref().is_none_or(|best| cost < best.cost) {
@@ -108,7 +105,6 @@ fn worst(targets: &[Target], a: &Response, b: &Response) -> f64 {
     distances(targets, a).iter().zip(distances(targets, b)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// Euclidean distance.
 pub(crate) fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }

@@ -5,7 +5,6 @@ use crate::homogenize::{SHARE, worst};
 use crate::rounding::SPREAD;
 use crate::{Error, SAFETY};
 
-/// Polynomial order that is tried first.
 const FIRST_ORDER: usize = 4;
 /// Highest polynomial order; then the mesh is refined.
 const HIGHEST_ORDER: usize = 12;
@@ -15,7 +14,6 @@ const SLOW: f64 = 0.1;
 const STALLED: f64 = 0.5;
 /// A higher order, a finer mesh, and once more.
 const PATIENCE: usize = 3;
-/// Finest mesh that is tried.
 const FINEST: f64 = 4.0;
 /// A step is never trusted to leave less than this of the error that the step before left.
 const LEAST_RATIO: f64 = 0.1;
@@ -42,7 +40,6 @@ pub struct HomogenizedCell {
     pub fineness: f64,
 }
 
-/// Elements that a cell is solved on.
 #[derive(Debug, Clone, Copy)]
 struct Level {
     order: usize,
@@ -57,11 +54,6 @@ impl Level {
         } else {
             Self { order: self.order + 2, ..self }
         }
-    }
-
-    /// Unknowns, from those of another level.
-    fn unknowns(self, of: usize, at: Self) -> usize {
-        (of as f64 * self.growth(at)) as usize
     }
 
     /// By how much unknowns grow, and with them the condition and what rounding does.
@@ -96,14 +88,14 @@ impl Cell {
             }
             let (constant, reached) = worst(&errors);
             if reached <= relative_error {
-                let response = solution.response().clone();
+                let response = solution.response.clone();
                 return Ok(HomogenizedCell { constants, relative_error: errors, response, solution, fineness: level.fineness });
             }
             best = best.min(reached);
             let rounded = growth * rounding.iter().fold(0.0, |most: f64, one| most.max(*one));
             // a refinement is followed by a higher order
             let next = level.next(!refined && left.is_some_and(|left| left > SLOW));
-            let unknowns = next.unknowns(solution.response().unknowns, level);
+            let unknowns = (solution.response.unknowns as f64 * next.growth(level)) as usize;
             stalls = if left.is_some_and(|left| left > STALLED) { stalls + 1 } else { 0 };
             let why = if 2.0 * rounded > reached {
                 "rounding stands in the way (a nearly incompressible phase, a great contrast): raise the tolerance above that"
@@ -118,7 +110,7 @@ impl Cell {
                 (level, last, before) = (next, constants, Some(step));
                 continue;
             };
-            let with = format!("{} elements of order {}", solution.mesh().elements().len(), level.order);
+            let with = format!("{} elements of order {}", solution.mesh.elements().len(), level.order);
             return Err(Error::Accuracy { constant, requested: relative_error, reached: best, with, why });
         }
     }
@@ -140,6 +132,5 @@ impl Cell {
 }
 
 fn constants(solution: &Solution) -> Result<Directional, Error> {
-    let singular = || Error::Solve(fem_core::Error::NotPositiveDefinite { unknowns: 6, detail: "effective stiffness".into() });
-    solution.response().constants().ok_or_else(singular)
+    solution.response.constants().ok_or_else(Error::singular)
 }

@@ -28,15 +28,11 @@
 
 mod accuracy;
 mod cell;
-mod constants;
-mod phase;
 mod response;
 mod solve;
 
 pub use accuracy::HomogenizedCell;
-pub use cell::Cell;
-pub use constants::Directional;
-pub use phase::{Phase, Solid};
-pub use response::{LOADS, Response, TEMPERATURE};
+pub use cell::{Cell, Phase, Solid};
+pub use response::{Directional, LOADS, Response, TEMPERATURE};
 pub use rve_mesh::{Arrangement, Inclusion, Layout, LayoutError, Outline, PeriodicMesh, displace};
 pub use solve::Solution;

@@ -2,6 +2,7 @@
 
 use super::response::anisotropy;
 use super::{LOADS, Phase, Response, TEMPERATURE};
+use crate::solve::dot;
 use crate::{Error, Role};
 use fem_core::material::ThermoElastic;
 use fem_core::{Constraints, DofMap, Form, Mesh, Problem};
@@ -20,14 +21,18 @@ const AREA_TOLERANCE: f64 = 1e-5;
 /// The cell's fluctuations under each unit load and its response.
 #[derive(Debug, Clone)]
 pub struct Solution {
-    mesh: Mesh,
-    periodic: PeriodicMesh,
-    phases: Vec<Phase>,
+    /// The mesh.
+    pub mesh: Mesh,
+    /// The mesh with its periodicity and the inclusion of each element.
+    pub periodic: PeriodicMesh,
+    /// The phases.
+    pub phases: Vec<Phase>,
+    /// What the cell is like from outside.
+    pub response: Response,
     /// in-plane fluctuations (x, y at each node) of [`PLANE_LOADS`]
     plane: Vec<Vec<f64>>,
     /// fluctuations along z of [`ANTIPLANE`]
     antiplane: Vec<Vec<f64>>,
-    response: Response,
 }
 
 impl Solution {
@@ -73,27 +78,7 @@ impl Solution {
         for ((area, _), strain) in areas.iter().zip(phases).zip(&response.phase_strain).filter(|(pair, _)| glass(pair)) {
             response.glass_strain += strain * (area / glass_area);
         }
-        Ok(Self { mesh, periodic, phases: phases.to_vec(), plane, antiplane, response })
-    }
-
-    /// What the cell is like from outside.
-    pub fn response(&self) -> &Response {
-        &self.response
-    }
-
-    /// The mesh.
-    pub fn mesh(&self) -> &Mesh {
-        &self.mesh
-    }
-
-    /// The mesh with its periodicity and the inclusion of each element.
-    pub fn periodic(&self) -> &PeriodicMesh {
-        &self.periodic
-    }
-
-    /// The phases.
-    pub fn phases(&self) -> &[Phase] {
-        &self.phases
+        Ok(Self { mesh, periodic, phases: phases.to_vec(), response, plane, antiplane })
     }
 
     /// Fluctuation (x, y, z) of each node \[m\] under macroscopic strains and a temperature change, all loads together.
@@ -115,17 +100,12 @@ struct CellProblem<'a> {
     phases: &'a [Phase],
     /// area of the cell, voids included
     whole: f64,
-    /// area of each phase
     areas: &'a [f64],
 }
 
 /// Stress per unit load at zero fluctuation.
 fn source(law: &ThermoElastic, load: usize) -> Vector6<f64> {
     if load == TEMPERATURE { -law.thermal_stress } else { law.stiffness.column(load).into_owned() }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Fluctuations of some loads, and the work of all load vectors on them.

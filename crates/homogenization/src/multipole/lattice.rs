@@ -17,18 +17,15 @@ const TERMS: usize = 24;
 /// Powers of 1/2 that the period's series needs.
 const PERIOD_POWERS: usize = 64;
 
-/// The sums of one lattice.
 pub(crate) struct LatticeSums {
     s: Vec<f64>,
     t: Vec<f64>,
-    /// Area of the cell.
     pub(crate) area: f64,
     /// c of `H(z + Q) − H(z) = −Q̄ E′(z) + c Q`, where E is Weierstrass's ζ and `H = Σ P̄/(z − P)²` without its term in z.
     pub(crate) shear_period: f64,
 }
 
 impl LatticeSums {
-    /// All sums up to the power `last`.
     pub(crate) fn new(packing: Packing, last: usize) -> Self {
         let angle = packing.angle();
         let tau = [angle.cos(), angle.sin()];

@@ -20,7 +20,6 @@ pub(crate) use system::Multipoles;
 
 use crate::cell::Phases;
 use crate::{Effective, Error, FibreCell};
-use nalgebra::{Matrix2, Matrix6, SMatrix, Vector6};
 
 impl Multipoles {
     /// Effective response of `cell`, which may differ from the one these are made for in all but its lattice and outermost radius.
@@ -29,15 +28,7 @@ impl Multipoles {
     /// As [`multipoles`].
     pub(crate) fn effective(&self, cell: &FibreCell) -> Result<Effective, Error> {
         let phases = Phases::new(cell)?;
-        let mut effective = Effective {
-            stiffness: Matrix6::zeros(),
-            thermal_stress: Vector6::zeros(),
-            conductivity: Matrix2::zeros(),
-            conductivity_z: phases.mean(|i| phases.conductivities[i]),
-            glass_strain: SMatrix::zeros(),
-            unknowns: 0,
-            area_error: 0.0,
-        };
+        let mut effective = Effective::begun(&phases);
         plane::add(self, cell, &phases, &mut effective)?;
         for (axis, sign) in [1.0, -1.0].into_iter().enumerate() {
             let of = |values: &dyn Fn(usize) -> f64| scalar::effective(self, cell, values, sign);

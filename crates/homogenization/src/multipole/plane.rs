@@ -8,7 +8,6 @@ use crate::solve::{GLASS_ROWS, VOIGT};
 use crate::{Effective, Error, FibreCell};
 use nalgebra::{DMatrix, Vector2};
 
-/// What the solution says under one load.
 struct Response {
     /// Mean of (xx + yy)/2 and of (xx − yy)/2 (or xy, under shear) of the stress without that of the load at zero strain.
     stress: [f64; 2],
@@ -17,7 +16,6 @@ struct Response {
     discs: Vec<[f64; 2]>,
 }
 
-/// The fibre in the plane.
 struct Fibre<'a> {
     multipoles: &'a Multipoles,
     rings: Vec<Ring>,

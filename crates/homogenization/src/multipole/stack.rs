@@ -7,7 +7,6 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-/// Elastic constants in the plane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plane {
     /// Shear modulus μ \[Pa\].

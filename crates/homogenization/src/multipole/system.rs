@@ -15,7 +15,6 @@ pub(crate) struct Multipoles {
     pub(super) order: usize,
     /// `e[n][m]`: coefficient of z^m in E_n
     pub(super) e: DMatrix<f64>,
-    /// the same of H_n
     pub(super) h: DMatrix<f64>,
     /// `E_1(z + Q) − E_1(z) = period · Q̄`
     pub(super) period: f64,
@@ -66,7 +65,6 @@ impl Multipoles {
         Error::Multipoles { order: self.order, detail: detail.into() }
     }
 
-    /// Odd numbers up to the order.
     pub(super) fn orders(&self) -> impl Iterator<Item = usize> + Clone + use<> {
         (1..=self.order).step_by(2)
     }

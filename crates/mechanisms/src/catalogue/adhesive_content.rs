@@ -1,68 +1,40 @@
 //! More or less adhesive than designed: other effective constants of the coil.
 
 use crate::interpolation::nodes;
-use crate::mechanism::{Effect, Extent, Facts, HeatPath, Mechanism, Naming, Offer, Stage, Steady};
-use crate::{Chain, Prepared};
-use coil::{Design, Error, MechanicalState};
-use diagnosis::{Active, Prior};
+use crate::mechanism::{Effect, Extent, HeatPath, Named, Offer, Stage, Steady};
+use coil::Design;
+use diagnosis::Prior;
 
-pub(crate) const ID: &str = "adhesive-content";
+const ID: &str = "adhesive-content";
 
-pub(super) struct AdhesiveContent;
-
-impl Mechanism for AdhesiveContent {
-    fn facts(&self) -> Facts<'_> {
-        Facts {
-            id: ID,
-            title: "More or less adhesive",
-            stage: Stage::Material,
-            equation: "The polymer's share of the cross-section is v = 0.80 + Δ. Rules of mixtures along the fibre (Voigt) and across it (Reuss), with the polymer's\n\
-                constants such that Δ = 0 gives the design's:\n\
-                \n\
-                ```\n\
-                E_z = (1 − v) E_g + v E_p,   α_z = ((1 − v) E_g α_g + v E_p α_p) / E_z\n\
-                E_r, G ∝ 1/v,   α_r ∝ v,   1/k_r = (1 − v)/k_g + v/k_p\n\
-                ρc = (1 − v) (ρc)_g + v (ρc)_p\n\
-                ```\n\
-                \n\
-                with g the glass and p the polymer.",
-            place: "The material of the coil: `coil.material` and the heat capacity, from which mechanics and heat flow follow.",
-            signature: "A softer, more expanding coil changes the strain by nearly one factor everywhere: in slow ramps a gain, like a longer tail. Its heat capacity\n\
-                and conductivity change too, and these show in fast transients.",
-            source: "R. Hill, *Journal of the Mechanics and Physics of Solids* 12, 199 (1964).",
-            naming: Naming::Named {
-                meaning: "the coil holds more (+) or less (−) polymer than designed, as a share of its volume",
-                inspection: "weigh the coil before and after potting, or section a sister unit",
-            },
-            heat_path: Some(HeatPath {
-                applies,
-                nodes: nodes(-0.12, 0.12, 5),
-                nominal: 0.0,
-                design: |design, x| with_polymer(design, x),
-                nudge: None,
-            }),
-            steady: vec![Steady::Changes {
-                parameter: 0,
-                changed: |d, x| (with_polymer(d, x), MechanicalState::NOMINAL),
-                when: "",
-            }],
-            extent: Extent::everywhere,
-            caveat: |_| None,
-        }
-    }
-
-    fn offer(&self, design: &Design, _: [f64; 2]) -> Option<Offer> {
-        applies(design).then(|| Offer::one("polymer_fraction_change", Prior::Normal { mean: 0.0, sd: 0.03 }, &[0.0]))
-    }
-
-    fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
-        Ok(Effect::Coil(chain.along(record, ID, coordinate(active.values[0]))))
-    }
-
-    fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
-        Some(with_polymer(design, active.values[0]))
-    }
-}
+pub(super) const ADHESIVE_CONTENT: Named = Named {
+    id: ID,
+    title: "More or less adhesive",
+    stage: Stage::Material,
+    equation: "The polymer's share of the cross-section is v = 0.80 + Δ. Rules of mixtures along the fibre (Voigt) and across it (Reuss), with the polymer's\n\
+        constants such that Δ = 0 gives the design's:\n\
+        \n\
+        ```\n\
+        E_z = (1 − v) E_g + v E_p,   α_z = ((1 − v) E_g α_g + v E_p α_p) / E_z\n\
+        E_r, G ∝ 1/v,   α_r ∝ v,   1/k_r = (1 − v)/k_g + v/k_p\n\
+        ρc = (1 − v) (ρc)_g + v (ρc)_p\n\
+        ```\n\
+        \n\
+        with g the glass and p the polymer.",
+    place: "The material of the coil: `coil.material` and the heat capacity, from which mechanics and heat flow follow.",
+    signature: "A softer, more expanding coil changes the strain by nearly one factor everywhere: in slow ramps a gain, like a longer tail. Its heat capacity\n\
+        and conductivity change too, and these show in fast transients.",
+    source: "R. Hill, *Journal of the Mechanics and Physics of Solids* 12, 199 (1964).",
+    meaning: "the coil holds more (+) or less (−) polymer than designed, as a share of its volume",
+    inspection: "weigh the coil before and after potting, or section a sister unit",
+    heat_path: Some(|| HeatPath { applies: |_| true, nodes: nodes(-0.12, 0.12, 5), design: with_polymer, nudge: None }),
+    steady: &[Steady::Design(with_polymer)],
+    extent: Extent::everywhere,
+    caveat: |_| None,
+    offer: |_, _| Some(Offer::one("polymer_fraction_change", Prior::Normal { mean: 0.0, sd: 0.03 }, &[0.0])),
+    effect: |chain, record, active| Ok(Effect::Coil(chain.along(record, ID, active.values[0]))),
+    extended: |design, active| Some(with_polymer(design, active.values[0])),
+};
 
 /// Share of polymer in the coil's cross-section that the reference design has; fibre of 80 µm in a cell of 170 µm pitch.
 const POLYMER_FRACTION: f64 = 0.80;
@@ -72,15 +44,6 @@ const MOST_POLYMER: f64 = 0.95;
 
 /// Fused silica: E \[Pa\], α \[1/K\], k \[W/(m K)\], ρc \[J/(m³ K)\].
 const GLASS: [f64; 4] = [70.2e9, 0.55e-6, 1.38, 2200.0 * 740.0];
-
-fn applies(_: &Design) -> bool {
-    true
-}
-
-/// Coordinate in which the response is smooth.
-fn coordinate(change: f64) -> f64 {
-    change
-}
 
 /// More polymer by `change` of the cross-section: rules of mixtures along the fibre (Voigt) and across it (Reuss), with the polymer's
 /// constants such that the nominal body has [`POLYMER_FRACTION`].

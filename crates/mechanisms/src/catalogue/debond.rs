@@ -1,54 +1,40 @@
 //! A bond of coil and flange whose outer part opens in the cold.
 
+use crate::Prepared;
 use crate::design::bonded_flange;
 use crate::interpolation::cubic_weights;
-use crate::mechanism::{Change, across, grid};
-use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
+use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, across, grid};
 use crate::record::Parts;
-use crate::{Chain, Prepared};
-use coil::{Bonds, Design, Error, MechanicalState, Mechanics, Opening};
-use diagnosis::{Active, Parameter, Prior};
+use coil::{Bonds, Design, MechanicalState, Mechanics, Opening};
+use diagnosis::{Parameter, Prior};
 
-pub(crate) const ID: &str = "debond";
-
-pub(super) struct Debond;
-
-impl Mechanism for Debond {
-    fn facts(&self) -> Facts<'_> {
-        Facts {
-            id: ID,
-            title: "A bond that opens in the cold",
-            stage: Stage::Bond,
-            equation: "Below T_d the outer part of the bond between coil and flange, a share f of the annulus' width, carries no force; above T_d + h it carries again. Heat\n\
-                passes in either state, and nothing jumps at the switch: only rates change.",
-            place: "The bond of coil and flange: `mechanics: Opening(...)`.",
-            signature: "The sensitivity has two values, by temperature, with hysteresis, and is not monotonic in f. A profile that passes both thresholds shows it; one that stays\n\
-                below T_d shows a gain.",
-            source: "J. W. Hutchinson and Z. Suo, *Advances in Applied Mechanics* 29, 63 (1992).",
-            naming: Naming::Named {
-                meaning: "below debond_c the outer part of the bond between coil and flange, fraction of its width, carries no force; it closes \
-                          hysteresis_k above",
-                inspection: "look at the flange's bond with ultrasound",
-            },
-            heat_path: None,
-            steady: {
-                let open = |d: &Design, share: f64| {
-                    (
-                        with_opening(d, OPENS[0], OPENS[1], share),
-                        MechanicalState { bonds: Bonds::Opened, ..MechanicalState::NOMINAL },
-                    )
-                };
-                vec![Steady::Changes { parameter: 2, changed: open, when: "while the bond is open" }]
-            },
-            extent: |active, _| {
-                let (opens, hysteresis) = (active.values[0], active.values[1]);
-                Extent { temperature: Some([opens, opens + hysteresis]), ..Extent::default() }
-            },
-            caveat: |_| None,
-        }
-    }
-
-    fn offer(&self, design: &Design, range: [f64; 2]) -> Option<Offer> {
+pub(super) const DEBOND: Named = Named {
+    id: "debond",
+    title: "A bond that opens in the cold",
+    stage: Stage::Bond,
+    equation: "Below T_d the outer part of the bond between coil and flange, a share f of the annulus' width, carries no force; above T_d + h it carries again. Heat\n\
+        passes in either state, and nothing jumps at the switch: only rates change.",
+    place: "The bond of coil and flange: `mechanics: Opening(...)`.",
+    signature: "The sensitivity has two values, by temperature, with hysteresis, and is not monotonic in f. A profile that passes both thresholds shows it; one that stays\n\
+        below T_d shows a gain.",
+    source: "J. W. Hutchinson and Z. Suo, *Advances in Applied Mechanics* 29, 63 (1992).",
+    meaning: "below debond_c the outer part of the bond between coil and flange, fraction of its width, carries no force; it closes \
+              hysteresis_k above",
+    inspection: "look at the flange's bond with ultrasound",
+    heat_path: None,
+    steady: &[Steady::Changes {
+        parameter: 2,
+        changed: |d, share| {
+            (with_opening(d, OPENS[0], OPENS[1], share), MechanicalState { bonds: Bonds::Opened, ..MechanicalState::NOMINAL })
+        },
+        when: "while the bond is open",
+    }],
+    extent: |active, _| {
+        let (opens, hysteresis) = (active.values[0], active.values[1]);
+        Extent { temperature: Some([opens, opens + hysteresis]), ..Extent::default() }
+    },
+    caveat: |_| None,
+    offer: |design, range| {
         applies(design).then(|| Offer {
             parameters: vec![
                 Parameter::new("debond_c", Prior::Uniform { low: range[0], high: range[1] })
@@ -62,18 +48,16 @@ impl Mechanism for Debond {
             choice: None,
             starts: grid(&[&across(range, 40), &[3.0, 9.0], &[0.05, 0.15, 0.35, 0.6]]),
         })
-    }
-
-    fn effect(&self, _: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
+    },
+    effect: |_, record, active| {
         let v = &active.values;
         Ok(Effect::Coil(Change::of_parts(opened(record, v[0], v[1], v[2]))))
-    }
-
-    fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
+    },
+    extended: |design, active| {
         let v = &active.values;
         (design.mechanics == Mechanics::Elastic).then(|| with_opening(design, v[0], v[1], v[2]))
-    }
-}
+    },
+};
 
 /// Distances from a fitted switching temperature at which a better one is sought \[K\]: whether a row is before the switch is all or nothing.
 const AROUND_K: [f64; 6] = [0.06, 0.15, 0.4, 1.0, 2.2, 4.5];
@@ -85,7 +69,6 @@ pub(crate) fn applies(design: &Design) -> bool {
     design.mechanics == Mechanics::Elastic && bonded_flange(design).is_some()
 }
 
-/// A bond of coil and flange whose outer part opens in the cold.
 pub(crate) fn with_opening(design: &Design, below: f64, hysteresis: f64, fraction: f64) -> Design {
     match bonded_flange(design) {
         Some(side) => Design { mechanics: Mechanics::Opening(Opening { side, below, hysteresis, fraction }), ..design.clone() },

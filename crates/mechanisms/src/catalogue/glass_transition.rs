@@ -1,57 +1,45 @@
 //! Transverse stiffness and expansion that change around a temperature.
 
-use crate::mechanism::{Change, across, grid};
-use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
-use crate::{Chain, Prepared};
-use coil::{Design, Error, FactorsAt, MechanicalState, Mechanics};
-use diagnosis::{Active, Parameter, Prior};
+use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, across, grid};
+use coil::{Design, FactorsAt, MechanicalState, Mechanics};
+use diagnosis::{Parameter, Prior};
 
-pub(crate) const ID: &str = "glass-transition";
-
-pub(super) struct GlassTransition;
-
-impl Mechanism for GlassTransition {
-    fn facts(&self) -> Facts<'_> {
-        Facts {
-            id: ID,
-            title: "A glass transition",
-            stage: Stage::Material,
-            equation: "Around T_g, over a width w, the transverse stiffness and expansion change by factors:\n\
-                \n\
-                ```\n\
-                E_r, G → (1 + (f_E − 1) s) E_r, G,   α_r → (1 + (f_α − 1) s) α_r,   s = 1 / (1 + exp(−(T − T_g)/w))\n\
-                ```\n\
-                \n\
-                with the incremental law dσ = D(T)(dε − α(T) dT) and T the mean temperature of the coil.",
-            place: "The material of the coil: `mechanics: TemperatureTable(...)`.",
-            signature: "The sensitivity differs on the two sides of T_g. Any profile that ramps on both sides shows it; one that stays on one side shows a gain.",
-            source: "J. D. Ferry, *Viscoelastic Properties of Polymers*, 3rd ed., Wiley (1980), ch. 11.",
-            naming: Naming::Named {
-                meaning: "transverse stiffness and expansion change around tg_c, by the factors, over some width_k to either side",
-                inspection: "measure the adhesive's storage modulus against temperature (DMA)",
-            },
-            heat_path: None,
-            steady: {
-                let changes = |parameter, changed| Steady::Changes { parameter, changed, when: "above the transition" };
-                vec![
-                    changes(2, |d, transverse_modulus| {
-                        (d.clone(), MechanicalState { transverse_modulus, ..MechanicalState::NOMINAL })
-                    }),
-                    changes(3, |d, transverse_expansion| {
-                        (d.clone(), MechanicalState { transverse_expansion, ..MechanicalState::NOMINAL })
-                    }),
-                ]
-            },
-            extent: |active, _| {
-                // nearly nine tenths of a logistic step lie within two widths
-                let (tg, width) = (active.values[0], active.values[1]);
-                Extent { temperature: Some([tg - 2.0 * width, tg + 2.0 * width]), ..Extent::default() }
-            },
-            caveat: |_| Some("the transition is tabulated, linear between the rows"),
-        }
-    }
-
-    fn offer(&self, design: &Design, range: [f64; 2]) -> Option<Offer> {
+pub(super) const GLASS_TRANSITION: Named = Named {
+    id: "glass-transition",
+    title: "A glass transition",
+    stage: Stage::Material,
+    equation: "Around T_g, over a width w, the transverse stiffness and expansion change by factors:\n\
+        \n\
+        ```\n\
+        E_r, G → (1 + (f_E − 1) s) E_r, G,   α_r → (1 + (f_α − 1) s) α_r,   s = 1 / (1 + exp(−(T − T_g)/w))\n\
+        ```\n\
+        \n\
+        with the incremental law dσ = D(T)(dε − α(T) dT) and T the mean temperature of the coil.",
+    place: "The material of the coil: `mechanics: TemperatureTable(...)`.",
+    signature: "The sensitivity differs on the two sides of T_g. Any profile that ramps on both sides shows it; one that stays on one side shows a gain.",
+    source: "J. D. Ferry, *Viscoelastic Properties of Polymers*, 3rd ed., Wiley (1980), ch. 11.",
+    meaning: "transverse stiffness and expansion change around tg_c, by the factors, over some width_k to either side",
+    inspection: "measure the adhesive's storage modulus against temperature (DMA)",
+    heat_path: None,
+    steady: &[
+        Steady::Changes {
+            parameter: 2,
+            changed: |d, transverse_modulus| (d.clone(), MechanicalState { transverse_modulus, ..MechanicalState::NOMINAL }),
+            when: "above the transition",
+        },
+        Steady::Changes {
+            parameter: 3,
+            changed: |d, transverse_expansion| (d.clone(), MechanicalState { transverse_expansion, ..MechanicalState::NOMINAL }),
+            when: "above the transition",
+        },
+    ],
+    extent: |active, _| {
+        // nearly nine tenths of a logistic step lie within two widths
+        let (tg, width) = (active.values[0], active.values[1]);
+        Extent { temperature: Some([tg - 2.0 * width, tg + 2.0 * width]), ..Extent::default() }
+    },
+    caveat: |_| Some("the transition is tabulated, linear between the rows"),
+    offer: |design, range| {
         (design.mechanics == Mechanics::Elastic).then(|| Offer {
             parameters: vec![
                 // a transition that was not passed cannot be told from other constants
@@ -63,9 +51,8 @@ impl Mechanism for GlassTransition {
             choice: None,
             starts: grid(&[&across(range, 12), &[5.0], &[0.8], &[1.05]]),
         })
-    }
-
-    fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
+    },
+    effect: |chain, record, active| {
         let (v, coil) = (&active.values, record.coil());
         let parts = chain.softened(record, |n| {
             let middle = (coil[n] + coil[n.saturating_sub(1)]) / 2.0;
@@ -73,16 +60,12 @@ impl Mechanism for GlassTransition {
             (1.0 + (v[2] - 1.0) * s, 1.0 + (v[3] - 1.0) * s)
         });
         Ok(Effect::Coil(Change::of_parts(parts)))
-    }
-
-    fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
-        if design.mechanics != Mechanics::Elastic {
-            return None;
-        }
+    },
+    extended: |design, active| {
         let v = &active.values;
-        Some(with_transition(design, v[0], v[1], v[2], v[3]))
-    }
-}
+        (design.mechanics == Mechanics::Elastic).then(|| with_transition(design, v[0], v[1], v[2], v[3]))
+    },
+};
 
 /// Half the span in which a logistic step is tabulated, in widths: 5e-5 of the step lies beyond.
 const SPAN: f64 = 10.0;
@@ -107,7 +90,6 @@ fn with_transition(design: &Design, tg: f64, width: f64, modulus: f64, expansion
     Design { mechanics: Mechanics::TemperatureTable(rows.collect()), ..design.clone() }
 }
 
-/// 1/(1 + e^−x).
 fn logistic(x: f64) -> f64 {
     1.0 / (1.0 + (-x).exp())
 }

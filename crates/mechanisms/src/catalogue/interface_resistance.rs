@@ -1,58 +1,37 @@
 //! A thermal contact resistance between hub and coil.
 
 use crate::interpolation::nodes;
-use crate::mechanism::{Effect, Extent, Facts, HeatPath, Mechanism, Naming, Offer, Stage, Steady};
-use crate::{Chain, Prepared};
-use coil::{Contact, Design, Error, MechanicalState};
-use diagnosis::{Active, Prior};
+use crate::mechanism::{Effect, Extent, HeatPath, Named, Offer, Stage, Steady};
+use coil::{Contact, Design};
+use diagnosis::Prior;
 
-pub(crate) const ID: &str = "interface-resistance";
+const ID: &str = "interface-resistance";
 
-pub(super) struct InterfaceResistance;
-
-impl Mechanism for InterfaceResistance {
-    fn facts(&self) -> Facts<'_> {
-        Facts {
-            id: ID,
-            title: "Contact resistance between hub and coil",
-            stage: Stage::Thermal,
-            equation: "A resistance R between hub and coil: the heat flux is q = ΔT/R across the interface.",
-            place: "The heat flow: `heat.hub_resistance_m2k_per_w`.",
-            signature: "The coil lags behind the hub; neither moves the steady ramp's sensitivity, in which the lag is constant. Steps and turning points show it.",
-            source: "C. V. Madhusudana, *Thermal Contact Conductance*, Springer (1996).",
-            naming: Naming::Named {
-                meaning: "heat passes between hub and coil through a contact resistance",
-                inspection: "heat the hub and record a thermometer on the coil's outer surface",
-            },
-            heat_path: Some(HeatPath {
-                applies,
-                nodes: nodes(0.0, 0.85, 7),
-                nominal: 0.0,
-                design: |design, x| with_hub_resistance(design, RESISTANCE * x / (1.0 - x)),
-                nudge: Some(coordinate(2e-4)),
-            }),
-            steady: vec![Steady::Changes {
-                parameter: 0,
-                changed: |d, x| (with_hub_resistance(d, x), MechanicalState::NOMINAL),
-                when: "",
-            }],
-            extent: Extent::everywhere,
-            caveat: |_| None,
-        }
-    }
-
-    fn offer(&self, design: &Design, _: [f64; 2]) -> Option<Offer> {
+pub(super) const INTERFACE_RESISTANCE: Named = Named {
+    id: ID,
+    title: "Contact resistance between hub and coil",
+    stage: Stage::Thermal,
+    equation: "A resistance R between hub and coil: the heat flux is q = ΔT/R across the interface.",
+    place: "The heat flow: `heat.hub_resistance_m2k_per_w`.",
+    signature: "The coil lags behind the hub; neither moves the steady ramp's sensitivity, in which the lag is constant. Steps and turning points show it.",
+    source: "C. V. Madhusudana, *Thermal Contact Conductance*, Springer (1996).",
+    meaning: "heat passes between hub and coil through a contact resistance",
+    inspection: "heat the hub and record a thermometer on the coil's outer surface",
+    heat_path: Some(|| HeatPath {
+        applies,
+        nodes: nodes(0.0, 0.85, 7),
+        design: |design, x| with_hub_resistance(design, RESISTANCE * x / (1.0 - x)),
+        nudge: Some(coordinate(2e-4)),
+    }),
+    steady: &[Steady::Design(with_hub_resistance)],
+    extent: Extent::everywhere,
+    caveat: |_| None,
+    offer: |design, _| {
         applies(design).then(|| Offer::one("resistance_m2k_per_w", Prior::LogNormal { median: 7e-4, spread: 0.9 }, &[5e-4]))
-    }
-
-    fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
-        Ok(Effect::Coil(chain.along(record, ID, coordinate(active.values[0]))))
-    }
-
-    fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
-        Some(with_hub_resistance(design, active.values[0]))
-    }
-}
+    },
+    effect: |chain, record, active| Ok(Effect::Coil(chain.along(record, ID, coordinate(active.values[0])))),
+    extended: |design, active| Some(with_hub_resistance(design, active.values[0])),
+};
 
 /// Resistance at which the coordinate is one half \[m² K/W\].
 const RESISTANCE: f64 = 2e-3;

@@ -2,7 +2,7 @@
 
 use crate::mechanism::Mechanism;
 
-/// Declares a module for each mechanism and lists what the module's type of the same name says.
+/// Declares a module for each mechanism and lists what the module's value of that name says.
 macro_rules! catalogue {
     ($($module:ident $mechanism:ident)*) => {
         $(pub(crate) mod $module;)*
@@ -13,25 +13,25 @@ macro_rules! catalogue {
 }
 
 catalogue! {
-    tail_asymmetry TailAsymmetry
-    winding_defect WindingDefect
-    adhesive_content AdhesiveContent
-    glass_transition GlassTransition
-    viscoelastic_relaxation ViscoelasticRelaxation
-    debond Debond
-    interface_resistance InterfaceResistance
-    air_path AirPath
-    axial_heat_path AxialHeatPath
-    self_heating SelfHeating
-    sensor_lag SensorLag
-    thermo_optic_curvature ThermoOpticCurvature
-    rate_temperature_coefficient RateTemperatureCoefficient
-    polarisation_ripple PolarisationRipple
-    moisture Moisture
-    ratcheting Ratcheting
-    spool_expansion SpoolExpansion
-    racket Racket
-    magnetic Magnetic
+    tail_asymmetry TAIL_ASYMMETRY
+    winding_defect WINDING_DEFECT
+    adhesive_content ADHESIVE_CONTENT
+    glass_transition GLASS_TRANSITION
+    viscoelastic_relaxation VISCOELASTIC_RELAXATION
+    debond DEBOND
+    interface_resistance INTERFACE_RESISTANCE
+    air_path AIR_PATH
+    axial_heat_path AXIAL_HEAT_PATH
+    self_heating SELF_HEATING
+    sensor_lag SENSOR_LAG
+    thermo_optic_curvature THERMO_OPTIC_CURVATURE
+    rate_temperature_coefficient RATE_TEMPERATURE_COEFFICIENT
+    polarisation_ripple POLARISATION_RIPPLE
+    moisture MOISTURE
+    ratcheting RATCHETING
+    spool_expansion SPOOL_EXPANSION
+    racket RACKET
+    magnetic MAGNETIC
 }
 
 /// A mechanism of the [`CATALOGUE`] by its id.

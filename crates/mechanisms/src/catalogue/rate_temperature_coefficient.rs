@@ -2,53 +2,36 @@
 
 use crate::REFERENCE_C;
 use crate::design::drifts_about_reference;
-use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
-use crate::{Chain, Prepared};
+use crate::mechanism::{Effect, Extent, Named, Offer, Stage, Steady};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
-use coil::{Design, Error};
-use diagnosis::{Active, Prior};
+use diagnosis::Prior;
 
-pub(crate) const ID: &str = "rate-temperature-coefficient";
-
-pub(super) struct RateTemperatureCoefficient;
-
-impl Mechanism for RateTemperatureCoefficient {
-    fn facts(&self) -> Facts<'_> {
-        Facts {
-            id: ID,
-            title: "A read-out that drifts with temperature",
-            stage: Stage::Electronics,
-            equation: "Bias c (T_spool − 20 °C): the electronics, or a scale factor that turns with temperature in the Earth's rate.",
-            place: "The electronics: `drifts.read_out`.",
-            signature: "It follows the temperature, not its rate: dwells at different temperatures show it, and no winding or material imitates it.",
-            source: "H. C. Lefèvre, *The Fiber-Optic Gyroscope*, 2nd ed., Artech House (2014); IEEE Std 952, *Specification Format Guide and Test Procedure for Single-Axis Interferometric Fiber Optic Gyros*.",
-            naming: Naming::Named {
-                meaning: "the read-out adds a rate proportional to the temperature, from 20 degC",
-                inspection: "exchange the electronics, or warm them alone",
-            },
-            heat_path: None,
-            steady: vec![Steady::Nothing("it follows the temperature, not its rate")],
-            extent: Extent::everywhere,
-            caveat: |_| None,
-        }
-    }
-
-    fn offer(&self, _: &Design, _: [f64; 2]) -> Option<Offer> {
-        Some(Offer::one("coefficient_deg_per_h_per_k", Prior::Normal { mean: 0.0, sd: 1.5e-3 }, &[0.0]))
-    }
-
-    fn effect(&self, _: &Chain, _: &Prepared, active: &Active) -> Result<Effect, Error> {
+pub(super) const RATE_TEMPERATURE_COEFFICIENT: Named = Named {
+    id: "rate-temperature-coefficient",
+    title: "A read-out that drifts with temperature",
+    stage: Stage::Electronics,
+    equation: "Bias c (T_spool − 20 °C): the electronics, or a scale factor that turns with temperature in the Earth's rate.",
+    place: "The electronics: `drifts.read_out`.",
+    signature: "It follows the temperature, not its rate: dwells at different temperatures show it, and no winding or material imitates it.",
+    source: "H. C. Lefèvre, *The Fiber-Optic Gyroscope*, 2nd ed., Artech House (2014); IEEE Std 952, *Specification Format Guide and Test Procedure for Single-Axis Interferometric Fiber Optic Gyros*.",
+    meaning: "the read-out adds a rate proportional to the temperature, from 20 degC",
+    inspection: "exchange the electronics, or warm them alone",
+    heat_path: None,
+    steady: &[Steady::Nothing("it follows the temperature, not its rate")],
+    extent: Extent::everywhere,
+    caveat: |_| None,
+    offer: |_, _| Some(Offer::one("coefficient_deg_per_h_per_k", Prior::Normal { mean: 0.0, sd: 1.5e-3 }, &[0.0])),
+    effect: |_, _, active| {
         let coefficient = active.values[0];
         Ok(Effect::Readings(Box::new(move |r| {
             for (n, rate) in r.rate.iter_mut().enumerate() {
                 *rate += coefficient * ((r.thermometer[n] + r.thermometer[n.saturating_sub(1)]) / 2.0 - REFERENCE_C);
             }
         })))
-    }
-
-    fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
+    },
+    extended: |design, active| {
         let mut changed = drifts_about_reference(design)?;
         changed.drifts.read_out += active.values[0] / DEG_PER_H_PER_RAD_PER_S;
         Some(changed)
-    }
-}
+    },
+};

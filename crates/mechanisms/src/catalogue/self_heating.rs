@@ -1,48 +1,35 @@
 //! Power that is dissipated in a flange since the unit was switched on.
 
 use crate::design::flange;
-use crate::mechanism::{Change, grid};
-use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
-use crate::{Chain, Prepared};
-use coil::{Design, Error, Heater};
-use diagnosis::{Active, Parameter, Prior};
+use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, grid};
+use coil::{Design, Heater};
+use diagnosis::{Parameter, Prior};
 
-pub(crate) const ID: &str = "self-heating";
-
-pub(super) struct SelfHeating;
-
-impl Mechanism for SelfHeating {
-    fn facts(&self) -> Facts<'_> {
-        Facts {
-            id: ID,
-            title: "Power dissipated in a flange",
-            stage: Stage::Thermal,
-            equation: "A constant power P in the flange since `before_s` ahead of the record's first row.",
-            place: "The heat flow: `heat.heaters`.",
-            signature: "A settling at the start of the record, whatever the chamber does, and a constant offset of the spool's temperature after it. A chamber that rests while the\n\
-                unit is switched on shows it best.",
-            source: "H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed., Oxford (1959), ch. 3.",
-            naming: Naming::Named {
-                meaning: "power is dissipated at the flange; it was switched on before_s before the first row",
-                inspection: "switch the electronics on at a steady chamber temperature",
-            },
-            heat_path: None,
-            steady: vec![Steady::Nothing("a constant power makes a constant field, whose rate is zero")],
-            // From the switch-on until the thermometer has risen by nearly all that it ever will in the first record.
-            extent: |_, sight| {
-                let time = sight.first.as_ref().and_then(|(record, change)| {
-                    let rise = change.thermometer.as_ref()?;
-                    let settled = RISEN * rise.last()?;
-                    let at = rise.iter().position(|r| r.abs() >= settled.abs())?;
-                    Some([record.time[0], record.time[at]])
-                });
-                Extent { time, ..Extent::default() }
-            },
-            caveat: |_| Some("simulate switches the heater on at the first row, not before_s earlier"),
-        }
-    }
-
-    fn offer(&self, design: &Design, _: [f64; 2]) -> Option<Offer> {
+pub(super) const SELF_HEATING: Named = Named {
+    id: "self-heating",
+    title: "Power dissipated in a flange",
+    stage: Stage::Thermal,
+    equation: "A constant power P in the flange since `before_s` ahead of the record's first row.",
+    place: "The heat flow: `heat.heaters`.",
+    signature: "A settling at the start of the record, whatever the chamber does, and a constant offset of the spool's temperature after it. A chamber that rests while the\n\
+        unit is switched on shows it best.",
+    source: "H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed., Oxford (1959), ch. 3.",
+    meaning: "power is dissipated at the flange; it was switched on before_s before the first row",
+    inspection: "switch the electronics on at a steady chamber temperature",
+    heat_path: None,
+    steady: &[Steady::Nothing("a constant power makes a constant field, whose rate is zero")],
+    // From the switch-on until the thermometer has risen by nearly all that it ever will in the first record.
+    extent: |_, sight| {
+        let time = sight.first.as_ref().and_then(|(record, change)| {
+            let rise = change.thermometer.as_ref()?;
+            let settled = RISEN * rise.last()?;
+            let at = rise.iter().position(|r| r.abs() >= settled.abs())?;
+            Some([record.time[0], record.time[at]])
+        });
+        Extent { time, ..Extent::default() }
+    },
+    caveat: |_| Some("simulate switches the heater on at the first row, not before_s earlier"),
+    offer: |design, _| {
         applies(design).then(|| Offer {
             parameters: vec![
                 Parameter::new("power_w", Prior::LogNormal { median: 0.05, spread: 1.4 }),
@@ -51,19 +38,15 @@ impl Mechanism for SelfHeating {
             choice: None,
             starts: grid(&[&[0.005, 0.05], &[10.0, 60.0, 300.0]]),
         })
-    }
-
-    fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
+    },
+    effect: |chain, record, active| {
         let Some(series) = chain.heated(record, active.values[1]) else { return Ok(Effect::Coil(Change::none(record))) };
         let scaled = |s: &[f64]| s.iter().map(|x| active.values[0] * x).collect::<Vec<f64>>();
         let parts = [0, 1, 2].map(|p: usize| scaled(&series.parts[p]));
         Ok(Effect::Coil(Change { thermometer: Some(scaled(&series.sensor)), ..Change::of_parts(parts) }))
-    }
-
-    fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
-        Some(with_heater(design, active.values[0]))
-    }
-}
+    },
+    extended: |design, active| Some(with_heater(design, active.values[0])),
+};
 
 /// Share of its final rise at which a heated unit has settled.
 const RISEN: f64 = 0.95;

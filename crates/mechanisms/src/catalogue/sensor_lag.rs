@@ -1,48 +1,30 @@
 //! A spool thermometer with a time constant of its own.
 
-use crate::mechanism::lagged;
-use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
-use crate::{Chain, Prepared};
-use coil::{Design, Error};
-use diagnosis::{Active, Prior};
+use crate::mechanism::{Effect, Extent, Named, Offer, Stage, Steady, lagged};
+use diagnosis::Prior;
 
-pub(crate) const ID: &str = "sensor-lag";
-
-pub(super) struct SensorLag;
-
-impl Mechanism for SensorLag {
-    fn facts(&self) -> Facts<'_> {
-        Facts {
-            id: ID,
-            title: "A slow spool thermometer",
-            stage: Stage::Sensor,
-            equation: "The thermometer follows the bore with a first-order lag: τ dT_s/dt = T − T_s.",
-            place: "The sensor: `sensor.lag_s`. The rate does not feel it.",
-            signature: "It shows in the spool's channel alone: τ times the temperature's rate. Everything that delays the spool itself also moves the rate.",
-            source: "L. Michalski, K. Eckersdorf, J. Kucharski and J. McGhee, *Temperature Measurement*, 2nd ed., Wiley (2001).",
-            naming: Naming::Named {
-                meaning: "the spool's thermometer follows the bore with a time constant of its own",
-                inspection: "dip the thermometer alone into a bath",
-            },
-            heat_path: None,
-            steady: vec![Steady::Nothing("it acts on the thermometer alone and shifts the temperature, not its rate")],
-            extent: Extent::everywhere,
-            caveat: |design| (design.sensor.lag > 0.0).then_some("the thermometer's own lag and this one are added"),
-        }
-    }
-
-    fn offer(&self, _: &Design, _: [f64; 2]) -> Option<Offer> {
-        Some(Offer::one("lag_s", Prior::LogNormal { median: 30.0, spread: 0.9 }, &[20.0, 60.0]))
-    }
-
-    fn effect(&self, _: &Chain, _: &Prepared, active: &Active) -> Result<Effect, Error> {
+pub(super) const SENSOR_LAG: Named = Named {
+    id: "sensor-lag",
+    title: "A slow spool thermometer",
+    stage: Stage::Sensor,
+    equation: "The thermometer follows the bore with a first-order lag: τ dT_s/dt = T − T_s.",
+    place: "The sensor: `sensor.lag_s`. The rate does not feel it.",
+    signature: "It shows in the spool's channel alone: τ times the temperature's rate. Everything that delays the spool itself also moves the rate.",
+    source: "L. Michalski, K. Eckersdorf, J. Kucharski and J. McGhee, *Temperature Measurement*, 2nd ed., Wiley (2001).",
+    meaning: "the spool's thermometer follows the bore with a time constant of its own",
+    inspection: "dip the thermometer alone into a bath",
+    heat_path: None,
+    steady: &[Steady::Nothing("it acts on the thermometer alone and shifts the temperature, not its rate")],
+    extent: Extent::everywhere,
+    caveat: |design| (design.sensor.lag > 0.0).then_some("the thermometer's own lag and this one are added"),
+    offer: |_, _| Some(Offer::one("lag_s", Prior::LogNormal { median: 30.0, spread: 0.9 }, &[20.0, 60.0])),
+    effect: |_, _, active| {
         let lag = active.values[0];
         Ok(Effect::Readings(Box::new(move |r| r.thermometer = lagged(r.time, &r.thermometer, lag))))
-    }
-
-    fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
+    },
+    extended: |design, active| {
         let mut changed = design.clone();
         changed.sensor.lag += active.values[0];
         Some(changed)
-    }
-}
+    },
+};

@@ -1,50 +1,32 @@
 //! ∂n/∂T that depends on temperature.
 
 use crate::design::drifts_about_reference;
-use crate::mechanism::Change;
-use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
-use crate::{Chain, Prepared};
-use coil::{Design, Error};
-use diagnosis::{Active, Prior};
+use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady};
+use diagnosis::Prior;
 
-pub(crate) const ID: &str = "thermo-optic-curvature";
-
-pub(super) struct ThermoOpticCurvature;
-
-impl Mechanism for ThermoOpticCurvature {
-    fn facts(&self) -> Facts<'_> {
-        Facts {
-            id: ID,
-            title: "∂n/∂T that depends on temperature",
-            stage: Stage::Optics,
-            equation: "∂n/∂T = nominal + b (T − 20 °C), with the local temperature of every turn.",
-            place: "The optics: `drifts.thermo_optic_curvature_per_k2`.",
-            signature: "It scales the Shupe part with temperature: nothing in steady ramps, where that part is zero, and little elsewhere. Transients far from 20 °C show it.",
-            source: "D. B. Leviton and B. J. Frey, *Proc. SPIE* 6273, 62732K (2006), for fused silica.",
-            naming: Naming::Named {
-                meaning: "the fibre's dn/dT depends on temperature",
-                inspection: "measure the fibre's dn/dT at both ends of the range",
-            },
-            heat_path: None,
-            steady: vec![Steady::Nothing("dn/dT changes alike along the fibre where the temperature is even, and cancels")],
-            extent: Extent::everywhere,
-            caveat: |_| None,
-        }
-    }
-
-    fn offer(&self, _: &Design, _: [f64; 2]) -> Option<Offer> {
-        Some(Offer::one("curvature_per_k2", Prior::Normal { mean: 0.0, sd: 6e-8 }, &[0.0]))
-    }
-
-    fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
+pub(super) const THERMO_OPTIC_CURVATURE: Named = Named {
+    id: "thermo-optic-curvature",
+    title: "∂n/∂T that depends on temperature",
+    stage: Stage::Optics,
+    equation: "∂n/∂T = nominal + b (T − 20 °C), with the local temperature of every turn.",
+    place: "The optics: `drifts.thermo_optic_curvature_per_k2`.",
+    signature: "It scales the Shupe part with temperature: nothing in steady ramps, where that part is zero, and little elsewhere. Transients far from 20 °C show it.",
+    source: "D. B. Leviton and B. J. Frey, *Proc. SPIE* 6273, 62732K (2006), for fused silica.",
+    meaning: "the fibre's dn/dT depends on temperature",
+    inspection: "measure the fibre's dn/dT at both ends of the range",
+    heat_path: None,
+    steady: &[Steady::Nothing("dn/dT changes alike along the fibre where the temperature is even, and cancels")],
+    extent: Extent::everywhere,
+    caveat: |_| None,
+    offer: |_, _| Some(Offer::one("curvature_per_k2", Prior::Normal { mean: 0.0, sd: 6e-8 }, &[0.0])),
+    effect: |chain, record, active| {
         let zero = vec![0.0; record.time.len()];
         let shupe = chain.curved(record).iter().map(|c| active.values[0] * c).collect();
         Ok(Effect::Coil(Change::of_parts([shupe, zero.clone(), zero])))
-    }
-
-    fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
+    },
+    extended: |design, active| {
         let mut changed = drifts_about_reference(design)?;
         changed.drifts.thermo_optic_curvature += active.values[0];
         Some(changed)
-    }
-}
+    },
+};

@@ -1,44 +1,32 @@
 //! Transverse stiffness that relaxes with a time constant.
 
+use crate::Prepared;
 use crate::interpolation::weights;
-use crate::mechanism::{Change, grid};
-use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
+use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, grid};
 use crate::record::Parts;
-use crate::{Chain, Prepared};
-use coil::{Design, Error, MechanicalState, Mechanics, Relaxation};
-use diagnosis::{Active, Parameter, Prior};
+use coil::{Design, MechanicalState, Mechanics, Relaxation};
+use diagnosis::{Parameter, Prior};
 
-pub(crate) const ID: &str = "viscoelastic-relaxation";
-
-pub(super) struct ViscoelasticRelaxation;
-
-impl Mechanism for ViscoelasticRelaxation {
-    fn facts(&self) -> Facts<'_> {
-        Facts {
-            id: ID,
-            title: "Relaxation of the adhesive",
-            stage: Stage::Material,
-            equation: "E_r and G relax with one time constant: E(t)/E_0 = 1 − g + g e^{−t/τ}. The nominal value is the unrelaxed one.",
-            place: "The material of the coil: `mechanics: Relaxing(...)`.",
-            signature: "In ramps much slower than τ the coil is merely softer. A rate that goes on changing for τ after the chamber has come to rest is its mark; heat that\n\
-                still flows does the same on its own scale.",
-            source: "J. D. Ferry, *Viscoelastic Properties of Polymers*, 3rd ed., Wiley (1980), ch. 1 to 3.",
-            naming: Naming::Named {
-                meaning: "the transverse stiffness relaxes by relaxing_fraction with the time constant tau_s",
-                inspection: "measure the adhesive's stress relaxation (DMA)",
-            },
-            heat_path: None,
-            steady: {
-                let relaxed =
-                    |d: &Design, x: f64| (d.clone(), MechanicalState { transverse_modulus: 1.0 - x, ..MechanicalState::NOMINAL });
-                vec![Steady::Changes { parameter: 0, changed: relaxed, when: "in ramps much slower than the relaxation" }]
-            },
-            extent: Extent::everywhere,
-            caveat: |_| None,
-        }
-    }
-
-    fn offer(&self, design: &Design, _: [f64; 2]) -> Option<Offer> {
+pub(super) const VISCOELASTIC_RELAXATION: Named = Named {
+    id: "viscoelastic-relaxation",
+    title: "Relaxation of the adhesive",
+    stage: Stage::Material,
+    equation: "E_r and G relax with one time constant: E(t)/E_0 = 1 − g + g e^{−t/τ}. The nominal value is the unrelaxed one.",
+    place: "The material of the coil: `mechanics: Relaxing(...)`.",
+    signature: "In ramps much slower than τ the coil is merely softer. A rate that goes on changing for τ after the chamber has come to rest is its mark; heat that\n\
+        still flows does the same on its own scale.",
+    source: "J. D. Ferry, *Viscoelastic Properties of Polymers*, 3rd ed., Wiley (1980), ch. 1 to 3.",
+    meaning: "the transverse stiffness relaxes by relaxing_fraction with the time constant tau_s",
+    inspection: "measure the adhesive's stress relaxation (DMA)",
+    heat_path: None,
+    steady: &[Steady::Changes {
+        parameter: 0,
+        changed: |d, x| (d.clone(), MechanicalState { transverse_modulus: 1.0 - x, ..MechanicalState::NOMINAL }),
+        when: "in ramps much slower than the relaxation",
+    }],
+    extent: Extent::everywhere,
+    caveat: |_| None,
+    offer: |design, _| {
         (design.mechanics == Mechanics::Elastic).then(|| Offer {
             parameters: vec![
                 Parameter::new("relaxing_fraction", Prior::Uniform { low: 0.0, high: 0.8 }),
@@ -47,18 +35,14 @@ impl Mechanism for ViscoelasticRelaxation {
             choice: None,
             starts: grid(&[&[0.2], &[700.0, 2500.0, 9000.0, 25000.0]]),
         })
-    }
-
-    fn effect(&self, _: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
-        Ok(Effect::Coil(Change::of_parts(relaxed(record, active.values[0], active.values[1]))))
-    }
-
-    fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
+    },
+    effect: |_, record, active| Ok(Effect::Coil(Change::of_parts(relaxed(record, active.values[0], active.values[1])))),
+    extended: |design, active| {
         let (fraction, time) = (active.values[0], active.values[1]);
         let relaxing = || Design { mechanics: Mechanics::Relaxing { fraction, time }, ..design.clone() };
         (design.mechanics == Mechanics::Elastic).then(relaxing)
-    }
-}
+    },
+};
 
 /// Parts of a coil whose transverse moduli relax, less the nominal ones.
 fn relaxed(record: &Prepared, fraction: f64, time: f64) -> Parts {

@@ -1,67 +1,49 @@
 //! One layer that holds turns too many or too few.
 
-use crate::mechanism::Change;
-use crate::mechanism::{Effect, Extent, Facts, Mechanism, Naming, Offer, Stage, Steady};
-use crate::{Chain, Prepared};
-use coil::{Design, Error};
-use diagnosis::{Active, Prior};
+use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady};
+use coil::Design;
+use diagnosis::Prior;
 use winding::LayerDefect;
 
-pub(crate) const ID: &str = "winding-defect";
-
-pub(super) struct WindingDefect;
-
-impl Mechanism for WindingDefect {
-    fn facts(&self) -> Facts<'_> {
-        Facts {
-            id: ID,
-            title: "A layer with turns too many or too few",
-            stage: Stage::Winding,
-            equation: "Layer k holds N_k + n turns, spread evenly over its unchanged width. The half that owns the layer is longer by 2π r_k n, every turn beyond\n\
-                it moves along the fibre, and the layer's own share of Σ (L − 2z) grows.",
-            place: "The winding: `winding.defect` of a design; layers count from the inside, and each is tried.",
-            signature: "Lengthening one half acts like a tail; which layer it is shows only in the layer's own temperature and strain, which differ from the mean of\n\
-                the coil in transients. With 36 layers to choose from it imitates whatever else moves the middle of the fibre.",
-            source: "N. J. Frigo, *Proc. SPIE* 412, 268 (1983), for what a pattern must balance.",
-            naming: Naming::Named {
-                meaning: "one layer has turns too many (+) or too few (−)",
-                inspection: "count the turns of each layer in the winding record, or section a sister unit",
-            },
-            heat_path: None,
-            steady: vec![Steady::Rewinds { turns: 0, changed: with_defect }],
-            extent: |_, sight| {
-                // a layer among all is not located
-                let half = sight.design.winding.layers as f64 / 2.0;
-                let few = sight.choices.filter(|[first, last]| last - first < half);
-                Extent { layers: few.map(|ends| ends.map(|layer| layer as usize)), ..Extent::default() }
-            },
-            caveat: |_| Some("turns are whole in this file"),
-        }
-    }
-
-    fn offer(&self, design: &Design, _: [f64; 2]) -> Option<Offer> {
+pub(super) const WINDING_DEFECT: Named = Named {
+    id: "winding-defect",
+    title: "A layer with turns too many or too few",
+    stage: Stage::Winding,
+    equation: "Layer k holds N_k + n turns, spread evenly over its unchanged width. The half that owns the layer is longer by 2π r_k n, every turn beyond\n\
+        it moves along the fibre, and the layer's own share of Σ (L − 2z) grows.",
+    place: "The winding: `winding.defect` of a design; layers count from the inside, and each is tried.",
+    signature: "Lengthening one half acts like a tail; which layer it is shows only in the layer's own temperature and strain, which differ from the mean of\n\
+        the coil in transients. With 36 layers to choose from it imitates whatever else moves the middle of the fibre.",
+    source: "N. J. Frigo, *Proc. SPIE* 412, 268 (1983), for what a pattern must balance.",
+    meaning: "one layer has turns too many (+) or too few (−)",
+    inspection: "count the turns of each layer in the winding record, or section a sister unit",
+    heat_path: None,
+    steady: &[Steady::Rewinds { turns: 0, changed: with_defect }],
+    extent: |_, sight| {
+        // a layer among all is not located
+        let half = sight.design.winding.layers as f64 / 2.0;
+        let few = sight.choices.filter(|[first, last]| last - first < half);
+        Extent { layers: few.map(|ends| ends.map(|layer| layer as usize)), ..Extent::default() }
+    },
+    caveat: |_| Some("turns are whole in this file"),
+    offer: |design, _| {
         let layers = design.winding.layers.min(MOST_LAYERS);
         let choice = Some(("layer".to_owned(), (1..=layers).map(|k| k as f64).collect()));
         Some(Offer { choice, ..Offer::one("turns", Prior::Normal { mean: 0.0, sd: 3.0 }, &[0.0]) })
-    }
-
-    fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
+    },
+    effect: |chain, record, active| {
         let layer = active.choice.unwrap_or(1.0) as usize;
         let most = MOST_TURNS.min((chain.library().design().winding.turns_even_layers / 2) as f64 - 1.0).max(0.0);
         Ok(Effect::Coil(Change::of_parts(chain.with_turns(record, layer, active.values[0].clamp(-most, most))?)))
-    }
-
-    fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
-        Some(with_defect(design, active.choice? as usize, active.values[0].round() as i32))
-    }
-}
+    },
+    extended: |design, active| Some(with_defect(design, active.choice? as usize, active.values[0].round() as i32)),
+};
 
 /// Layers that are compared one by one.
 const MOST_LAYERS: usize = 200;
 /// More turns than this, or than half of a layer's, are no defect but another design.
 const MOST_TURNS: f64 = 40.0;
 
-/// A layer with turns too many or too few.
 fn with_defect(design: &Design, layer: usize, turns: i32) -> Design {
     let mut changed = design.clone();
     changed.winding.defect = (turns != 0).then_some(LayerDefect { layer, turns });

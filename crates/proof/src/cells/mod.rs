@@ -1,13 +1,11 @@
 //! `cargo xtask cells`: cells of many kinds to 1e-6, each held against a much finer solution and against finite elements; writes
 //! docs/cells.md.
 
-mod distance;
 mod ngsolve;
 
 use crate::{Failure, files};
-use distance::{along_axes, distance};
 use fem_core::material::Isotropic;
-use homogenization::irregular::{Arrangement, Cell};
+use homogenization::irregular::{Arrangement, Cell, Directional};
 use homogenization::{
     Constants, Constituent, Discretization, Extent, FibreCell, HIGHEST_ORDER, Packing, Resolution, Ring, Role, TOLERANCE,
     effective, homogenize, multipoles,
@@ -91,6 +89,38 @@ fn cells() -> Result<Vec<(&'static str, FibreCell)>, Failure> {
     ])
 }
 
+/// Largest relative distance of a constant.
+fn distance(a: &Constants, b: &Constants) -> f64 {
+    let relative = a.combine(b, |a, b| (a - b).abs()).combine(&b.size(), |difference, size| difference / size);
+    relative.named().into_iter().fold(0.0, |most, (_, one)| most.max(one))
+}
+
+/// Largest relative distance of the general route's constants along x (and z) from `exact`, which are read along the same axes.
+fn along_axes(found: &Directional, exact: &Constants) -> f64 {
+    let Directional { e, g, nu, alpha, k, k_plane_strain, m } = *found;
+    let along_x = Constants {
+        e_z: e[2],
+        e_r: e[0],
+        g_zr: g[1],
+        g_r: g[2],
+        k_plane_strain,
+        nu_zr: nu[0],
+        nu_r: nu[2],
+        nu_rz: nu[0] * e[0] / e[2],
+        alpha_z: alpha[2],
+        alpha_r: alpha[0],
+        k_z: k[2],
+        k_r: k[0],
+        m_rx: m[0],
+        m_ry: m[1],
+        m_rz: m[2],
+        m_rt: m[4],
+    };
+    let along_y =
+        Constants { e_r: e[1], g_zr: g[0], nu_zr: nu[1], nu_rz: nu[1] * e[1] / e[2], alpha_r: alpha[1], k_r: k[1], ..along_x };
+    distance(&along_x, exact).max(distance(&along_y, exact))
+}
+
 /// Columns of the general route; `false` if its error is above its own estimate or what was asked for.
 fn general(cell: &FibreCell, exact: &Constants) -> Result<(String, bool), Failure> {
     let arrangement = match cell.packing {
@@ -109,10 +139,7 @@ fn general(cell: &FibreCell, exact: &Constants) -> Result<(String, bool), Failur
 }
 
 /// Prints a row for each cell and writes the page; `false` if an error is above the tolerance or its own estimate, or NGSolve, run anew if
-/// its Python is given, does not agree.
-///
-/// # Errors
-/// [`Failure`] if a cell cannot be solved, or NGSolve cannot be run.
+/// its Python is given, does not agree. [`Failure`] if a cell cannot be solved, or NGSolve cannot be run.
 pub fn run(python: Option<&Path>) -> Result<bool, Failure> {
     let singular = || Failure("the effective stiffness is singular".into());
     let mut page = String::from(INTRODUCTION);

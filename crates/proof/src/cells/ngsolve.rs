@@ -1,7 +1,6 @@
 //! The cells of `cargo xtask cells` by NGSolve, beside ours. Its values are kept in a file with the cells they are of; a cell that has
 //! changed since has none.
 
-use super::distance::scales;
 use crate::{Failure, peers};
 use homogenization::{Constants, Constituent, FibreCell, Packing, Ring, Role, TOLERANCE};
 use serde::{Deserialize, Serialize};
@@ -15,7 +14,6 @@ const VALUES: &str = "benches/peers/cells_ngsolve.jsonl";
 /// The peer agrees if it is no farther from ours than so many times its own error, or [`TOLERANCE`].
 const MARGIN: f64 = 2.0;
 
-/// A cell with our constants.
 pub(crate) struct Solved {
     pub(crate) name: &'static str,
     pub(crate) cell: FibreCell,
@@ -85,19 +83,16 @@ fn kept() -> Result<Vec<Kept>, Failure> {
 /// The peer's largest difference from ours, and between its orders; `None` if it lacks a constant.
 fn compare(ours: &Constants, peer: &Answer) -> Option<[f64; 2]> {
     let mut largest = [0.0_f64; 2];
-    for ((name, value), scale) in ours.named().into_iter().zip(scales(ours)) {
+    for ((name, value), (_, size)) in ours.named().into_iter().zip(ours.size().named()) {
         let [lower, higher] = [*peer.lower.get(name)?, *peer.higher.get(name)?];
         for (largest, difference) in largest.iter_mut().zip([higher - value, higher - lower]) {
-            *largest = largest.max(difference.abs() / scale);
+            *largest = largest.max(difference.abs() / size);
         }
     }
     Some(largest)
 }
 
 /// The section of the page, and whether NGSolve agrees wherever it has a value; with `python` it is run first.
-///
-/// # Errors
-/// [`Failure`] if it cannot be run, or its values cannot be read or written.
 pub(crate) fn section(cells: &[Solved], python: Option<&Path>) -> Result<(String, bool), Failure> {
     if let Some(python) = python {
         solve(cells, python)?;

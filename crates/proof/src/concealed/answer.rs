@@ -13,31 +13,20 @@ use crate::{Failure, files};
 /// Probability from which something is said to be there.
 pub(crate) const MORE_THAN_NOT: f64 = 0.5;
 
-/// The files that `fogcoil diagnose COIL --fit F --holdout H --json J --prediction P` writes.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Files {
-    /// J.
-    pub(crate) json: String,
-    /// P.
-    pub(crate) prediction: String,
-}
+/// What `fogcoil diagnose COIL --fit F --holdout H --json J --prediction P` writes of a unit: J, scored in part, and P.
+pub(crate) type Written = [String; 2];
 
-/// The scored part of J.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 pub(crate) struct Answer {
     /// `none`, `recalibrate`, `explained` or `unknown`.
     pub(crate) verdict: String,
     /// Most probable first.
     pub(crate) mechanisms: Vec<Probable>,
-    /// What is not excluded.
     pub(crate) set: Vec<String>,
-    /// By name.
     pub(crate) parameters: BTreeMap<String, Fitted>,
-    /// Where the first mechanism acts.
     pub(crate) located: Place,
     /// What was seen, in words.
     pub(crate) structure: Option<String>,
-    /// Of the record held out.
     #[serde(default)]
     pub(crate) holdout: Option<Held>,
 }
@@ -74,10 +63,10 @@ pub(crate) fn record(file: &Path) -> Result<RecordCase, Failure> {
 }
 
 /// Runs the diagnosis as `fogcoil diagnose` does.
-pub(crate) fn answer(coil: &CoilCase, [fit, holdout]: &[PathBuf; 2], cache: &Cache) -> Result<Files, Failure> {
+pub(crate) fn answer(coil: &CoilCase, [fit, holdout]: &[PathBuf; 2], cache: &Cache) -> Result<Written, Failure> {
     let outcome = diagnose::diagnose(coil, &[record(fit)?], &[record(holdout)?], cache, &|_| ())?;
     let prediction = outcome.prediction().ok_or_else(|| Failure(format!("{}: nothing is predicted", holdout.display())))?;
-    Ok(Files { json: format!("{}\n", outcome.json()), prediction })
+    Ok([format!("{}\n", outcome.json()), prediction])
 }
 
 /// The two files in `folder` that hold the answer of a unit: J, P.
@@ -109,7 +98,6 @@ impl Answer {
         self.mechanisms.iter().filter(|m| like(&m.id)).map(|m| m.probability).sum()
     }
 
-    /// The mechanism named first.
     pub(crate) fn first(&self) -> Option<&str> {
         self.named().next()
     }

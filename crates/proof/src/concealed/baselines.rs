@@ -22,8 +22,7 @@ const UNITS: [f64; 3] = [40.0, 1.0 / 60.0, 1e-5];
 
 /// T, dT/dt, d2T/dt2 of the nominal model's spool in every row of a record.
 fn states(unit: &Unit, record: usize) -> Vec<[f64; 3]> {
-    let state = unit.state(record);
-    let time = unit.time(record);
+    let (state, time) = (unit.gyro.state(record), &unit.time[record]);
     let change = slopes(time, &state.rate);
     let at = |n: usize| [(state.level[n] - REFERENCE) / UNITS[0], state.rate[n] / UNITS[1], change[n] / UNITS[2]];
     (0..time.len()).map(at).collect()
@@ -96,9 +95,7 @@ fn typical(entry: &Omission) -> Vec<Vec<f64>> {
 /// Selection by BIC: every mechanism's response at typical parameters is one regressor on both channels with a free amplitude and offsets, in
 /// white noise of the size of the rows' differences; the best shape stands for a mechanism, which pays for all its parameters.
 pub(crate) fn selection(unit: &Unit) -> Result<Answer, Failure> {
-    let y = [SPOOL, RATE].map(|channel| unit.residual(FIT, channel, &[]));
-    let [spool, rate] = y;
-    let y = [spool?, rate?];
+    let y = [unit.residual(FIT, SPOOL, &[])?, unit.residual(FIT, RATE, &[])?];
     let white = y.each_ref().map(|y| rms(y.windows(2).map(|w| w[1] - w[0])) / std::f64::consts::SQRT_2);
     let centred = |channel: usize, series: Series| -> Series {
         let known: Series = series.iter().zip(&y[channel]).map(|(s, y)| if y.is_nan() { f64::NAN } else { *s }).collect();

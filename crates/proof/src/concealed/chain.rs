@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use coil::COARSE;
-use diagnosis::{Active, ForwardModel, State};
+use diagnosis::{Active, ForwardModel};
 use fogcoil::cache::Cache;
 use fogcoil::input::{CHAMBER, CoilCase, RATE, RecordCase, SPOOL};
 use mechanisms::{CATALOGUE, Gyro, Library, Prepared};
@@ -30,13 +30,11 @@ pub(crate) fn library(coil: &CoilCase, cache: &Cache) -> Result<Library, Failure
 /// What was recorded in a channel; NaN where it cannot be used.
 pub(crate) type Series = Vec<f64>;
 
-/// A unit's records and their model.
 pub(crate) struct Unit {
     pub(crate) gyro: Gyro<'static>,
     /// Channels of both records, in the order of the model's.
     pub(crate) recorded: [[Series; 2]; 2],
-    /// Instants of both records.
-    time: [Series; 2],
+    pub(crate) time: [Series; 2],
     averaging: f64,
 }
 
@@ -54,10 +52,7 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
 
 fn used(case: &RecordCase, channel: &str) -> Result<Series, Failure> {
     let missing = || Failure(format!("{}: there is no {channel}", case.fingerprint.file.display()));
-    let number = case.number(channel).ok_or_else(missing)?;
-    let kept = case.kept();
-    let values = kept.channels()[number].values.iter().zip(&case.report.masks[number]);
-    Ok(values.map(|(v, used)| if *used { *v } else { f64::NAN }).collect())
+    Ok(case.report.used(&case.recording).channel(channel).ok_or_else(missing)?.values.clone())
 }
 
 /// Values that cannot be used replaced by the last that can.
@@ -84,16 +79,6 @@ impl Unit {
         let gyro = Gyro::new(library.clone(), CATALOGUE, cases.iter().map(prepared).collect::<Result<_, _>>()?)?;
         let time = cases.each_ref().map(|case| case.kept().time().to_vec());
         Ok(Self { gyro, recorded: [recorded(&cases[FIT])?, recorded(&cases[HOLDOUT])?], time, averaging: cases[FIT].averaging })
-    }
-
-    /// Instants of a record \[s\].
-    pub(crate) fn time(&self, record: usize) -> &[f64] {
-        &self.time[record]
-    }
-
-    /// State of the nominal design in a record.
-    pub(crate) fn state(&self, record: usize) -> &State {
-        self.gyro.state(record)
     }
 
     /// Channels of the design with mechanisms at work, its own constants as designed.
@@ -132,7 +117,7 @@ impl Unit {
     pub(crate) fn noise(&self, truth: &Truth) -> f64 {
         let noise = &truth.noise;
         let white = noise.arw_deg_per_sqrt_h * (3600.0 / self.averaging).sqrt();
-        let time = self.time(HOLDOUT);
+        let time = &self.time[HOLDOUT];
         let hours = time.last().zip(time.first()).map_or(0.0, |(b, a)| (b - a) / 3600.0);
         let walk = noise.rrw_deg_per_h_per_sqrt_h * (hours / 2.0).sqrt();
         [white, noise.gm_sigma_deg_per_h, walk, CHAMBER_NOISE].iter().map(|n| n * n).sum::<f64>().sqrt()

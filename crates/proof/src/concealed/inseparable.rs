@@ -44,7 +44,7 @@ pub(super) fn extend(truth: &mut Truth, answer: &Answer, model: &chain::Unit) ->
     others.dedup();
     let gyro = &model.gyro;
     let entries = gyro.mechanisms();
-    let instants = [Observation { time: model.time(FIT).to_vec(), channels: model.recorded[FIT].to_vec() }];
+    let instants = [Observation { time: model.time[FIT].clone(), channels: model.recorded[FIT].to_vec() }];
     let noise = noise(truth);
     let plan = Plan { records: &[FIT], instants: &instants, noise: Some(&noise) };
     let concealed: Vec<_> = truth.concealed().cloned().collect();

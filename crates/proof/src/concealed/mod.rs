@@ -7,11 +7,8 @@ mod inseparable;
 mod recommended;
 mod report;
 mod score;
-mod section;
 mod summary;
 mod synthetic;
-#[cfg(test)]
-mod tests;
 mod units;
 
 use std::path::PathBuf;
@@ -53,13 +50,10 @@ fn case(number: &str) -> Result<String, std::num::ParseIntError> {
 }
 
 impl Prove {
-    /// Runs it: whether everything is as asked.
-    ///
-    /// # Errors
-    /// [`Failure`] says what went wrong.
+    /// Runs it: whether everything is as asked. [`Failure`] says what went wrong.
     pub fn run(mut self) -> Result<bool, Failure> {
         if self.synthetic {
-            return section::run(&self.plan);
+            return synthetic::run(&self.plan);
         }
         if self.recommended {
             return recommended::run();
@@ -97,4 +91,15 @@ fn open(only: &[String]) -> Result<bool, Failure> {
     println!("\n{} of {asked} scores that were measured are as asked", asked - failures.len());
     failures.iter().for_each(|row| eprintln!("FAILS: {}: {}", row.group, row.quantity));
     Ok(failures.is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::case;
+
+    #[test]
+    fn a_case_has_its_number_in_two_digits() {
+        assert_eq!(["3", "03", "case_12"].map(|number| case(number).unwrap()), ["case_03", "case_03", "case_12"]);
+        assert!(["", "x", "case_", "-1"].iter().all(|number| case(number).is_err()));
+    }
 }

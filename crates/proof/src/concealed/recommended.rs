@@ -7,10 +7,9 @@ use fogcoil::comparison::{Comparison, Trial};
 use fogcoil::input;
 
 use super::report;
-use crate::Failure;
 use crate::files::root;
 use crate::generator::Random;
-use crate::{program, statistics};
+use crate::{Failure, program, statistics};
 
 const SEED: u64 = 1;
 /// Share of the separable pairs that the recommendation has to separate.

@@ -6,10 +6,9 @@ use super::baselines::REGRESSIONS;
 use super::score::Scored;
 use super::summary::{Bound, Form, ScoreRow, Table, summary};
 use super::units::Case;
-use crate::Failure;
-use crate::files;
 use crate::statistics::{Measured, median};
 use crate::truth::{Kind, Tier};
+use crate::{Failure, files};
 
 /// A number in three or four significant digits.
 fn short(value: f64) -> String {
@@ -196,7 +195,6 @@ fn selection(cases: &[Case]) -> String {
     out
 }
 
-/// The section on the open units.
 pub(crate) fn open(cases: &[Case], table: &Table) -> String {
     let failing: Vec<String> = table.failures().map(|row| format!("{}: {}", row.group, row.quantity)).collect();
     let failing = if failing.is_empty() { "none".to_owned() } else { failing.join("; ") };
@@ -205,13 +203,14 @@ pub(crate) fn open(cases: &[Case], table: &Table) -> String {
 
 /// Unit by unit, and what is commonly done with the same records.
 pub(crate) fn details(cases: &[Case]) -> String {
-    let mut out = format!("### Every unit\n\n{}", units(cases));
-    let _ = write!(out, "\n### Parameters of the mechanisms that were rightly named\n\n{}", parameters(cases));
-    let _ = write!(out, "\n### The records held out: root mean square of recorded less predicted, deg/h\n\n{}", held_out(cases));
-    let _ =
-        write!(out, "\n### Regressions on the same records: median held-out root mean square, deg/h\n\n{}", regressions(cases));
-    let _ = write!(out, "\n### Naming beside selection by BIC\n\n{}", selection(cases));
-    out
+    let sections = [
+        ("Every unit", units(cases)),
+        ("Parameters of the mechanisms that were rightly named", parameters(cases)),
+        ("The records held out: root mean square of recorded less predicted, deg/h", held_out(cases)),
+        ("Regressions on the same records: median held-out root mean square, deg/h", regressions(cases)),
+        ("Naming beside selection by BIC", selection(cases)),
+    ];
+    sections.map(|(title, table)| format!("### {title}\n\n{table}")).join("\n")
 }
 
 /// Puts a section between its two marks in docs/proof.md, under the hash of the program whose answers it scores.

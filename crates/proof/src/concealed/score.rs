@@ -15,9 +15,7 @@ const WORSE: f64 = 0.01;
 pub(crate) struct HeldOut {
     /// Nominal design, offset from the record that is fitted.
     pub(crate) nominal: f64,
-    /// The answer's prediction.
     pub(crate) model: f64,
-    /// The true model.
     pub(crate) truth: f64,
 }
 
@@ -28,7 +26,6 @@ impl HeldOut {
         improvable.then(|| (self.nominal - self.model) / (self.nominal - self.truth))
     }
 
-    /// Whether the prediction is worse than the nominal one.
     pub(crate) fn is_worse(&self) -> bool {
         self.model > (1.0 + WORSE) * self.nominal
     }
@@ -44,13 +41,11 @@ pub(crate) struct Parameter {
 }
 
 impl Parameter {
-    /// Whether the interval holds the true value.
     pub(crate) fn is_covered(&self) -> bool {
         self.ci90[0] <= self.truth && self.truth <= self.ci90[1]
     }
 }
 
-/// The scores of one unit.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Scored {
     pub(crate) unit: String,
@@ -77,7 +72,6 @@ pub(crate) struct Scored {
     pub(crate) fitted: Option<HeldOut>,
 }
 
-/// Scores the answer of a unit.
 pub(crate) fn score(unit: &str, truth: &Truth, answer: &Answer, held: Option<HeldOut>) -> Scored {
     let kind = truth.kind();
     let verdict = answer.verdict.as_str();

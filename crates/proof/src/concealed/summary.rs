@@ -1,6 +1,6 @@
 //! The scores of many units, beside what is asked of them.
 
-use super::score::Scored;
+use super::score::{HeldOut, Scored};
 use crate::statistics::{Measured, mean, median, rate};
 use crate::truth::{Kind, Tier};
 
@@ -16,19 +16,15 @@ pub(crate) enum Bound {
     Open,
 }
 
-/// How a number is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Form {
     Percent,
     Number,
 }
 
-/// One score.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ScoreRow {
-    /// Which units.
     pub(crate) group: &'static str,
-    /// Which score.
     pub(crate) quantity: &'static str,
     /// `None` where there is no unit to measure it on.
     pub(crate) measured: Option<Measured>,
@@ -50,14 +46,12 @@ impl ScoreRow {
     }
 }
 
-/// All scores.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Table {
     pub(crate) rows: Vec<ScoreRow>,
 }
 
 impl Table {
-    /// Rows that are not as asked.
     pub(crate) fn failures(&self) -> impl Iterator<Item = &ScoreRow> {
         self.rows.iter().filter(|row| row.holds() == Some(false))
     }
@@ -84,25 +78,23 @@ pub(crate) fn summary(units: &[Scored]) -> Table {
         rows.push(of.share("first name true or inseparable", right, |u| u.right));
         rows.push(of.share("set holds the truth", in_set, |u| u.in_set));
         rows.push(of.share("confident and wrong", misnamed, |u| u.misnamed));
-        rows.push(of.skill(skill));
-        rows.push(of.skill_before());
+        rows.push(of.skill("held-out skill, median", skill, |u| u.held));
+        rows.push(of.skill("the same before acceptance", Bound::Open, |u| u.fitted));
     }
     let of = Group { name: "two mechanisms", units: pick(units, |u| u.kind == Kind::Double) };
     rows.push(of.share("at least one named", Bound::AtLeast(1.0), |u| u.right));
     rows.push(of.share("both named", Bound::AtLeast(0.6), |u| u.both));
     rows.push(of.share("confident and wrong", Bound::AtMost(0.02), |u| u.misnamed));
-    rows.push(of.skill(Bound::Open));
+    rows.push(of.skill("held-out skill, median", Bound::Open, |u| u.held));
     let of = Group { name: "nothing concealed", units: pick(units, |u| u.kind == Kind::Null) };
     rows.push(of.share("falsely detected", Bound::AtMost(0.01), |u| u.detected));
-    rows.push(of.worse_before());
+    rows.extend(of.both_worse().into_iter().skip(1));
     let of = Group { name: "out of the library", units: pick(units, |u| u.kind == Kind::Outside) };
     rows.push(of.share("verdict `unknown`", Bound::AtLeast(0.8), |u| u.right));
     rows.push(of.share("confident and wrong", Bound::AtMost(0.02), |u| u.misnamed));
-    rows.push(of.worse());
-    rows.push(of.worse_before());
+    rows.extend(of.both_worse());
     let of = Group { name: "in the library", units: pick(units, |u| matches!(u.kind, Kind::Single | Kind::Double)) };
-    rows.push(of.worse());
-    rows.push(of.worse_before());
+    rows.extend(of.both_worse());
     rows.push(of.share_of_some("stage right, of those named", Bound::AtLeast(0.9), |u| u.stage));
     let excess: Vec<f64> = of.units.iter().filter_map(|u| u.excess).map(|n| n as f64).collect();
     rows.push(of.row("members of the set that are separable", mean(&excess), Form::Number, Bound::AtMost(0.5)));
@@ -116,7 +108,6 @@ fn pick(units: &[Scored], test: impl Fn(&Scored) -> bool) -> Vec<&Scored> {
     units.iter().filter(|u| test(u)).collect()
 }
 
-/// Units of one kind.
 struct Group<'a> {
     name: &'static str,
     units: Vec<&'a Scored>,
@@ -138,29 +129,28 @@ impl Group<'_> {
         self.share_of_some(quantity, bound, |u| Some(is(u)))
     }
 
-    fn worse(&self) -> ScoreRow {
-        self.share_of_some("held-out prediction made worse", Bound::AtMost(0.0), |u| u.held.map(|held| held.is_worse()))
+    fn worse(&self, quantity: &'static str, bound: Bound, of: fn(&Scored) -> Option<HeldOut>) -> ScoreRow {
+        self.share_of_some(quantity, bound, |u| of(u).map(|held| held.is_worse()))
     }
 
-    fn worse_before(&self) -> ScoreRow {
-        let quantity = "made worse by what was fitted, before it was accepted or not";
-        self.share_of_some(quantity, Bound::Open, |u| u.fitted.map(|held| held.is_worse()))
+    /// What was accepted, then what was fitted, whether it was accepted or not.
+    fn both_worse(&self) -> [ScoreRow; 2] {
+        let fitted = "made worse by what was fitted, before it was accepted or not";
+        [
+            self.worse("held-out prediction made worse", Bound::AtMost(0.0), |u| u.held),
+            self.worse(fitted, Bound::Open, |u| u.fitted),
+        ]
     }
 
-    fn skill_before(&self) -> ScoreRow {
-        let skills: Vec<f64> = self.units.iter().filter_map(|u| u.fitted?.skill()).collect();
-        self.row("the same before acceptance", median(&skills), Form::Number, Bound::Open)
-    }
-
-    fn skill(&self, bound: Bound) -> ScoreRow {
-        let skills: Vec<f64> = self.units.iter().filter_map(|u| u.held?.skill()).collect();
-        self.row("held-out skill, median", median(&skills), Form::Number, bound)
+    fn skill(&self, quantity: &'static str, bound: Bound, of: fn(&Scored) -> Option<HeldOut>) -> ScoreRow {
+        let skills: Vec<f64> = self.units.iter().filter_map(|u| of(u)?.skill()).collect();
+        self.row(quantity, median(&skills), Form::Number, bound)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::score::{HeldOut, Parameter};
+    use super::super::score::Parameter;
     use super::*;
 
     fn unit(kind: Kind, tier: Tier) -> Scored {

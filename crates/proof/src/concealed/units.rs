@@ -7,14 +7,13 @@ use fogcoil::cache::Cache;
 use fogcoil::input::{self, CoilCase};
 use rayon::prelude::*;
 
-use super::answer::{Answer, Files, answer, answered, paths, records};
+use super::answer::{Answer, Written, answer, answered, paths, records};
 use super::baselines::{REGRESSIONS, regressions, selection};
 use super::chain::{self, Unit};
 use super::score::{HeldOut, Scored, score};
-use crate::Failure;
 use crate::files::{self, root};
-use crate::program;
 use crate::truth::Truth;
+use crate::{Failure, program};
 
 /// Units that are worked on at once.
 const THREADS: usize = 2;
@@ -45,7 +44,6 @@ fn prepared() -> Result<(CoilCase, Cache, mechanisms::Library), Failure> {
     Ok((coil, cache, library))
 }
 
-/// Names of the units in a folder, in order.
 fn units(folder: &Path) -> Result<Vec<String>, Failure> {
     Ok(files::names(folder)?.into_iter().filter(|name| folder.join(name).is_dir()).collect())
 }
@@ -58,8 +56,7 @@ pub(crate) fn each<T: Send>(units: &[String], work: impl Fn(&str) -> Result<T, F
     pool.install(|| units.par_iter().with_max_len(1).map(named).collect())
 }
 
-/// Answers of the units in `from`.
-fn answers(from: &Path, units: &[String], coil: &CoilCase, cache: &Cache, clock: Instant) -> Result<Vec<Files>, Failure> {
+fn answers(from: &Path, units: &[String], coil: &CoilCase, cache: &Cache, clock: Instant) -> Result<Vec<Written>, Failure> {
     each(units, |unit| {
         let (start, at) = (Instant::now(), from.join(unit));
         let files = answer(coil, &records(&at), cache)?;
@@ -69,8 +66,8 @@ fn answers(from: &Path, units: &[String], coil: &CoilCase, cache: &Cache, clock:
 }
 
 /// Writes the answers into a folder, all or none.
-fn write(into: &Path, units: &[String], answers: &[Files], program: Option<&str>) -> Result<(), Failure> {
-    let contents = answers.iter().flat_map(|f| [f.json.clone(), f.prediction.clone()]);
+fn write(into: &Path, units: &[String], answers: &[Written], program: Option<&str>) -> Result<(), Failure> {
+    let contents = answers.iter().flatten().cloned();
     let mut all: Vec<(PathBuf, String)> = units.iter().flat_map(|unit| paths(into, unit)).zip(contents).collect();
     all.extend(program.map(|hash| (into.join(PROGRAM), format!("{hash}\n"))));
     files::write_all(&all)

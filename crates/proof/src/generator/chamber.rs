@@ -6,7 +6,6 @@ use std::f64::consts::TAU;
 /// Time between the points of a course \[s\].
 pub(super) const STEP: f64 = 5.0;
 
-/// A family of programmes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ProgrammeFamily {
     /// There and back at about 0.2 K/min with soaks.

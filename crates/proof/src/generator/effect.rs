@@ -14,7 +14,6 @@ const POLYMER: f64 = 0.80;
 /// The flange of the reference coil.
 const FLANGE: Side = Side::Right;
 
-/// A family of the library.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum EffectFamily {
     Tail,
@@ -129,7 +128,6 @@ impl Effect {
         })
     }
 
-    /// Builds it into a unit.
     pub(super) fn build_into(&self, build: &mut Build) {
         let design = &mut build.design;
         match *self {

@@ -28,7 +28,7 @@ fn failed(source: fem_core::Error) -> Error {
     Error::Solve { part: "chamber", source }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 

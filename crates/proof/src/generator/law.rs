@@ -2,7 +2,7 @@
 
 use super::build::{Build, Softening};
 use super::chamber::STEP;
-use super::heat::{Heat, MESH};
+use super::heat::{Heat, MESH, dot};
 use coil::{Bonds, Error, MechanicalState, Mechanics, Model, Opening, functionals};
 use nalgebra::{DMatrix, DVector};
 
@@ -27,7 +27,6 @@ pub(super) enum Law {
     Opening(Opening, [Functional; 2]),
 }
 
-/// A law on its way.
 pub(super) struct Running<'a> {
     law: &'a Law,
     /// phases at the step before
@@ -35,10 +34,6 @@ pub(super) struct Running<'a> {
     /// what follows, less where it started
     following: Vec<f64>,
     open: bool,
-}
-
-fn of(functional: &[f64], y: &[f64]) -> f64 {
-    functional.iter().zip(y).map(|(f, y)| f * y).sum()
 }
 
 impl Law {
@@ -77,10 +72,10 @@ impl Law {
 
     fn phases(&self, y: &[f64]) -> Vec<f64> {
         match self {
-            Self::Elastic(f) => vec![of(f, y)],
-            Self::Softening(_, states) => states.iter().map(|f| of(f, y)).collect(),
-            Self::Relaxing(at_once, later) => [of(at_once, y)].into_iter().chain(later.iter().map(|(_, f)| of(f, y))).collect(),
-            Self::Opening(_, states) => states.iter().map(|f| of(f, y)).collect(),
+            Self::Elastic(f) => vec![dot(f, y)],
+            Self::Softening(_, states) => states.iter().map(|f| dot(f, y)).collect(),
+            Self::Relaxing(at_once, later) => [dot(at_once, y)].into_iter().chain(later.iter().map(|(_, f)| dot(f, y))).collect(),
+            Self::Opening(_, states) => states.iter().map(|f| dot(f, y)).collect(),
         }
     }
 }

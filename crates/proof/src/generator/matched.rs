@@ -1,5 +1,6 @@
 //! Matched filter: whitening by the true noise, and the signal-to-noise ratio of a difference beyond what a forward model is granted.
 
+use super::heat::dot;
 use super::noise::{Component, Noise};
 use nalgebra::{DMatrix, DVector};
 
@@ -94,7 +95,6 @@ impl Whitening {
 
 /// Length of `difference` beyond what the `granted` directions explain, each with a standard deviation of one; all are whitened.
 pub(super) fn beyond(difference: &[f64], granted: &[Vec<f64>]) -> f64 {
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let n = granted.len();
     let normal = DMatrix::from_fn(n, n, |i, j| dot(&granted[i], &granted[j]) + f64::from(i == j));
     let onto = DVector::from_fn(n, |i, _| dot(&granted[i], difference));

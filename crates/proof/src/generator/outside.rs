@@ -32,7 +32,6 @@ pub(super) struct Outside {
     pub(super) size: f64,
 }
 
-/// Kinds of [`Shape`].
 pub(super) const SHAPES: usize = 7;
 
 impl Outside {
@@ -67,7 +66,6 @@ impl Outside {
         }
     }
 
-    /// Adds it to a unit's course.
     pub(super) fn act(&self, chamber: &[f64], run: &mut Run) {
         const PER_MINUTE: f64 = 1.0 / 60.0;
         let mut angle = 0.0;

@@ -2,7 +2,7 @@
 
 use super::build::Build;
 use super::chamber::STEP;
-use super::heat::{Heat, MESH, VECTORS};
+use super::heat::{Heat, MESH, VECTORS, dot};
 use super::law::Law;
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::{Design, Error, Model, functionals};
@@ -13,7 +13,6 @@ use std::sync::Arc;
 /// Reference of ∂n/∂T's curvature and of the read-out's coefficient \[°C\].
 const REFERENCE: f64 = 20.0;
 
-/// A unit that can be run.
 pub(super) struct Plant {
     heat: Arc<Heat>,
     sensor: Vec<f64>,
@@ -69,10 +68,9 @@ impl Plant {
             (0..rates.len()).for_each(|i| y[drives + i] = -forcing[1][i]);
         }
         let keep: Vec<f64> = rates.iter().map(|rate| radau(-rate * STEP)).collect();
-        let of = |functional: &[f64], y: &[f64]| functional.iter().zip(y).map(|(f, y)| f * y).sum::<f64>();
         let mut law = self.law.start(&y);
-        let bore = of(&self.sensor, &y);
-        let mut run = Run { sensor: vec![bore], bore: vec![bore], coil: vec![of(&self.coil, &y)], angle: vec![0.0] };
+        let bore = dot(&self.sensor, &y);
+        let mut run = Run { sensor: vec![bore], bore: vec![bore], coil: vec![dot(&self.coil, &y)], angle: vec![0.0] };
         let (mut mechanical, mut read_out, mut lagging) = (0.0, 0.0, bore);
         let begin = self.curved(&y);
         for n in 1..chamber.len() {
@@ -82,7 +80,7 @@ impl Plant {
                 let settled = -forcing[0][i] * slope / rates[i];
                 *q = settled + keep[i] * (*q - settled);
             }
-            let (bore, before, coil) = (of(&self.sensor, &y), run.bore[n - 1], of(&self.coil, &y));
+            let (bore, before, coil) = (dot(&self.sensor, &y), run.bore[n - 1], dot(&self.coil, &y));
             mechanical += law.advance(&y, run.coil[n - 1], coil);
             read_out += STEP * self.build.read_out * ((bore + before) / 2.0 - REFERENCE);
             if self.build.lag > 0.0 {

@@ -65,7 +65,6 @@ pub(super) fn signal(run: &Run, time: &[f64], rest: f64) -> Signal {
     }
 }
 
-/// How a unit is read.
 pub(super) struct Sensors {
     /// Of the spool's thermometer \[K\].
     pub(super) resolution: f64,

@@ -16,7 +16,6 @@ const OFFSETS: [f64; 2] = [0.1, 0.1];
 /// Relative change of the air's conductivity that a derivative is taken with.
 pub(super) const AIRIER: f64 = 0.02;
 
-/// One record of a unit, to be.
 pub(super) struct Scene {
     pub(super) course: Course,
     pub(super) time: Vec<f64>,

@@ -24,24 +24,8 @@ static DESIGN: LazyLock<Design> = LazyLock::new(|| {
 static GENERATOR: LazyLock<Generator> = LazyLock::new(|| Generator::new(DESIGN.clone()).unwrap());
 
 /// What is taken of `coil`: designs, and what is assembled from them. Reduced models, integrators and profiles are not among it.
-const OF_COIL: [&str; 16] = [
-    "Body",
-    "Bonds",
-    "Design",
-    "Drive",
-    "Error",
-    "Heater",
-    "MechanicalState",
-    "Mechanics",
-    "MeshFineness",
-    "Model",
-    "Mount",
-    "Opening",
-    "Outputs",
-    "Side",
-    "ThermalModel",
-    "functionals",
-];
+const OF_COIL: &str = "Body Bonds Design Drive Error Heater MechanicalState Mechanics MeshFineness Model Mount Opening Outputs Side \
+                       ThermalModel functionals";
 
 #[test]
 fn no_law_is_shared_with_what_diagnoses() {
@@ -57,7 +41,7 @@ fn no_law_is_shared_with_what_diagnoses() {
         for path in paths("coil::") {
             let names = path.split(|c: char| !c.is_alphanumeric()).filter(|name| !name.is_empty());
             for name in names {
-                assert!(OF_COIL.contains(&name), "{file} takes {name} of coil");
+                assert!(OF_COIL.split(' ').any(|of_coil| of_coil == name), "{file} takes {name} of coil");
             }
         }
     }

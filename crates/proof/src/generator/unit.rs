@@ -71,10 +71,7 @@ pub struct Generator {
 }
 
 impl Generator {
-    /// Of a design.
-    ///
-    /// # Errors
-    /// [`Failure`] if a system cannot be solved.
+    /// Of a design. [`Failure`] if a system cannot be solved.
     pub fn new(design: Design) -> Result<Self, Failure> {
         let nominal = Plant::new(Build::new(design.clone()), None)?;
         let mut airier = Build::new(design.clone());
@@ -96,10 +93,7 @@ impl Generator {
         build
     }
 
-    /// The unit of this number: always the same for one seed.
-    ///
-    /// # Errors
-    /// [`Failure`] if a system cannot be solved.
+    /// The unit of this number: always the same for one seed. [`Failure`] if a system cannot be solved.
     pub fn unit(&self, seed: u64, which: Which) -> Result<Unit, Failure> {
         let random = &mut Random::new(seed, which.number() as u64);
         let (noise, sensors) = (Noise::draw(random), Sensors::draw(random));
@@ -191,10 +185,8 @@ impl Generator {
     }
 }
 
-/// A family to draw from.
 enum Kind {
     Library(effect::EffectFamily),
-    /// By number.
     Outside(usize),
 }
 

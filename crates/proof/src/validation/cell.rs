@@ -1,8 +1,7 @@
 //! Tables I and II: the reference cell.
 
 use super::fixtures::{Fixtures, Printed};
-use super::row::{Agreement, ComparisonRow, rounds_to};
-use super::section::{Section, timed};
+use super::row::{Agreement, ComparisonRow, Section, rounds_to, timed};
 use crate::Failure;
 use homogenization::{Constants, Discretization, Extent, Homogenized, free_cell, homogenize, homogenize_on};
 
@@ -45,7 +44,7 @@ pub(crate) fn table_1(fixtures: &Fixtures) -> Result<(Section, Homogenized), Fai
          dual-coated fibre explains it, not that the authors' cell was this one.",
         cell.unknowns
     ));
-    section.timing(format!("cell with error estimate: {:.0} ms", seconds * 1e3));
+    section.timings.push(format!("cell with error estimate: {:.0} ms", seconds * 1e3));
     for printed in fixtures.table("I") {
         let name = printed.quantity.to_lowercase();
         let (v, e) = (value(&cell.constants, &name), value(&cell.relative_error, &name));

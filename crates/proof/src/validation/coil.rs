@@ -2,8 +2,7 @@
 
 use super::cell::{check, largest};
 use super::fixtures::{Fixtures, Printed};
-use super::row::{Agreement, ComparisonRow};
-use super::section::{Section, timed};
+use super::row::{Agreement, ComparisonRow, Section, timed};
 use super::spread::{self, Spread};
 use crate::Failure;
 use bias::{Bias, Sensitivity, Slice};
@@ -68,7 +67,7 @@ fn rounding_of_the_inputs(fixtures: &Fixtures) -> Result<f64, Failure> {
 fn theory(fixtures: &Fixtures, constants: &Constants, section: &mut Section) -> Result<f64, Failure> {
     let known = &fixtures.independent;
     let (s, seconds) = timed(|| steady_sensitivity(&fixtures.coil))?;
-    section.timing(format!("sensitivity of the reference coil with error estimate: {:.0} ms", seconds * 1e3));
+    section.timings.push(format!("sensitivity of the reference coil with error estimate: {:.0} ms", seconds * 1e3));
     section.note(format!(
         "Mesh of the value: {} unknowns; of its error: {} unknowns. The theory row holds if |S| is within 0.1 % of the independent codes \
          and the printed value lies in the range that the readings of M and the rounding of the printed inputs span. **The spool is calibrated**: the paper prints neither the \
@@ -233,7 +232,7 @@ pub(crate) fn table_4(fixtures: &Fixtures, constants: &Constants) -> Result<Sect
     let error = theory(fixtures, constants, &mut section)?;
     own_constants(fixtures, constants, &mut section)?;
     let (Spread { lowest, highest, lines }, seconds) = timed(|| spread::over_spools(fixtures))?;
-    section.timing(format!("{} spools: {seconds:.1} s", lines.len()));
+    section.timings.push(format!("{} spools: {seconds:.1} s", lines.len()));
     let target = fixtures.printed("IV.theory")?.value()?;
     let range = format!(
         "|S| over {} spools runs from here to {:.2} ({}); printed {target} lies {}",

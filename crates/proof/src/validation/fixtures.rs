@@ -6,7 +6,6 @@ use fogcoil::input::{read_cell, read_coil, read_ron};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
-/// One printed number.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Printed {
@@ -19,7 +18,6 @@ pub(crate) struct Printed {
 }
 
 impl Printed {
-    /// The printed number, in its unit.
     pub(crate) fn value(&self) -> Result<f64, Failure> {
         self.printed.parse().map_err(|_| Failure(format!("{}: not a number", self.id)))
     }
@@ -31,7 +29,6 @@ impl Printed {
     }
 }
 
-/// Decimals of a printed number.
 pub(super) fn decimals(printed: &str) -> usize {
     printed.split_once('.').map_or(0, |(_, fraction)| fraction.bytes().take_while(u8::is_ascii_digit).count())
 }
@@ -42,7 +39,6 @@ struct Tables {
     rows: Vec<Printed>,
 }
 
-/// A value of an independent code.
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Known {
@@ -56,7 +52,6 @@ impl Known {
     }
 }
 
-/// Values of independent codes.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Independent {
@@ -67,7 +62,6 @@ pub(crate) struct Independent {
     pub(crate) ideal_quadrupole: Known,
 }
 
-/// A material that spools are made of.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SpoolMaterial {
@@ -77,7 +71,6 @@ pub(crate) struct SpoolMaterial {
     pub(crate) thermal_expansion_per_k: f64,
 }
 
-/// Everything that is read.
 pub(crate) struct Fixtures {
     pub(crate) cell: homogenization::FibreCell,
     pub(crate) coil: coil::Design,
@@ -98,12 +91,10 @@ impl Fixtures {
         })
     }
 
-    /// The printed number of this id.
     pub(crate) fn printed(&self, id: &str) -> Result<&Printed, Failure> {
         self.printed.iter().find(|row| row.id == id).ok_or_else(|| Failure(format!("fixtures/paper/tables.ron has no row {id}")))
     }
 
-    /// The printed numbers of a table, in order.
     pub(crate) fn table(&self, table: &str) -> impl Iterator<Item = &Printed> {
         self.printed.iter().filter(move |row| row.table == table)
     }

@@ -6,27 +6,21 @@ mod fixtures;
 mod nominal;
 pub mod report;
 mod row;
-mod section;
 mod spread;
 mod winding;
 
-pub use row::{Agreement, ComparisonRow, Verdict};
-pub use section::Section;
+pub use row::{Agreement, ComparisonRow, Section, Verdict};
 
 use crate::Failure;
 use fixtures::Fixtures;
 
 /// S over spools: (material, hub, flanges; S \[(deg/h)/(degC/min)\]).
-///
-/// # Errors
 /// [`Failure`] if a fixture cannot be read or a system not be solved.
 pub fn over_spools() -> Result<Vec<(String, f64)>, Failure> {
     Ok(spread::over_spools(&Fixtures::read()?)?.lines)
 }
 
 /// |S| of the paper's theoretical model (Table IV) \[(deg/h)/(degC/min)\], and its label.
-///
-/// # Errors
 /// [`Failure`] if a fixture cannot be read.
 pub fn printed() -> Result<(String, f64), Failure> {
     let fixtures = Fixtures::read()?;
@@ -35,8 +29,6 @@ pub fn printed() -> Result<(String, f64), Failure> {
 }
 
 /// Everything computed and compared, table by table; `step` is told what comes next.
-///
-/// # Errors
 /// [`Failure`] if a fixture cannot be read or a system not be solved.
 pub fn compared(step: impl Fn(&str)) -> Result<[Section; 5], Failure> {
     let fixtures = Fixtures::read()?;

@@ -1,10 +1,8 @@
 //! Five profiles in time, against the response that an independent finite-element code computes for the same coil.
 
 use super::fixtures::Fixtures;
-use super::row::{Agreement, ComparisonRow};
-use super::section::{Section, timed};
-use crate::Failure;
-use crate::files;
+use super::row::{Agreement, ComparisonRow, Section, timed};
+use crate::{Failure, files};
 use bias::units::{DEG_PER_H_PER_RAD_PER_S, K_PER_MIN_PER_K_PER_S};
 use coil::{Drive, Dynamics, FINE, Fidelity, Profile, SAFETY, STANDARD};
 
@@ -65,9 +63,7 @@ fn run(dynamics: &Dynamics, profile: &Profile, parts: usize) -> Result<Channels,
 struct Difference {
     largest: f64,
     rms: f64,
-    /// ComparisonRow of the largest.
     at: usize,
-    /// The peak excursion.
     peak: f64,
 }
 
@@ -119,7 +115,7 @@ pub(crate) fn nominal(fixtures: &Fixtures) -> Result<Section, Failure> {
         }
         Ok(())
     })?;
-    section.timing(format!("{} profiles, both courses, both meshes: {seconds:.1} s", PROFILES.len()));
+    section.timings.push(format!("{} profiles, both courses, both meshes: {seconds:.1} s", PROFILES.len()));
     Ok(section)
 }
 
@@ -145,18 +141,12 @@ fn compare(name: &str, standard: &Dynamics, fine: &Dynamics, section: &mut Secti
             let row = row(format!("N.{name}.rate.rms"), quantity, rate.rms, errors[1]);
             section.rows.push(row.required(rate.rms <= TOLERANCE).because(format!("peak {:.3} deg/h", rate.peak)));
         }
-        let (gains, rest) = fitted(&ours, theirs);
+        let ([shupe, axial, radial], rest) = fitted(&ours, theirs);
+        let (at, turn, Difference { largest, rms, .. }) = (profile.time[rate.at], turn(profile, rate.at), rest);
         let reason = format!(
-            "rms {:.3} %; at {} s, where the chamber's rate turns by {:.2} K/min; fitted gains {:.4} (Shupe), {:.4} (EO axial), {:.4} (EO radial) \
-             leave {:.3} % (rms {:.3} %)",
-            rate.rms,
-            profile.time[rate.at],
-            turn(profile, rate.at),
-            gains[0],
-            gains[1],
-            gains[2],
-            rest.largest,
-            rest.rms
+            "rms {:.3} %; at {at} s, where the chamber's rate turns by {turn:.2} K/min; fitted gains {shupe:.4} (Shupe), {axial:.4} (EO axial), \
+             {radial:.4} (EO radial) leave {largest:.3} % (rms {rms:.3} %)",
+            rate.rms
         );
         let quantity = format!("{name}: rate, largest difference, {course}");
         let row = row(format!("N.{name}.rate.{course}"), quantity, rate.largest, errors[0]);

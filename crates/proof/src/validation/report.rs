@@ -31,18 +31,9 @@ pub fn text(sections: &[Section]) -> String {
     for section in sections {
         let _ = writeln!(out, "\n{}", section.title);
         for row in &section.rows {
-            let printed = row.printed.as_deref().unwrap_or("");
-            let computed = row.computed_text();
-            let _ = writeln!(
-                out,
-                "  {:<8} {:<10} {:<58} {:>8}  {:<28} {}",
-                verdict(row),
-                kind(row.kind),
-                row.quantity,
-                printed,
-                computed,
-                row.unit
-            );
+            let (verdict, kind, printed) = (verdict(row), kind(row.kind), row.printed.as_deref().unwrap_or(""));
+            let (quantity, computed, unit) = (&row.quantity, row.computed_text(), &row.unit);
+            let _ = writeln!(out, "  {verdict:<8} {kind:<10} {quantity:<58} {printed:>8}  {computed:<28} {unit}");
             if matches!(row.verdict, Verdict::Differs | Verdict::Fails) {
                 let _ = writeln!(out, "  {:<8} {}", "", row.reason);
             }
@@ -58,19 +49,10 @@ fn markdown_table(out: &mut String, section: &Section) {
     let _ = writeln!(out, "| id | quantity | printed | computed | unit | verdict | kind | reason |");
     let _ = writeln!(out, "|---|---|---|---|---|---|---|---|");
     for row in &section.rows {
-        let _ = writeln!(
-            out,
-            "| {} | {} | {} | {} | {} | {}{} | {} | {} |",
-            row.id.replace('|', "\\|"),
-            row.quantity.replace('|', "\\|"),
-            row.printed.as_deref().unwrap_or(""),
-            row.computed_text(),
-            row.unit,
-            verdict(row),
-            if row.must_hold { " (must)" } else { "" },
-            kind(row.kind),
-            row.reason.replace('|', "\\|")
-        );
+        let [id, quantity, reason] = [&row.id, &row.quantity, &row.reason].map(|text| text.replace('|', "\\|"));
+        let (printed, computed, unit) = (row.printed.as_deref().unwrap_or(""), row.computed_text(), &row.unit);
+        let (verdict, must, kind) = (verdict(row), if row.must_hold { " (must)" } else { "" }, kind(row.kind));
+        let _ = writeln!(out, "| {id} | {quantity} | {printed} | {computed} | {unit} | {verdict}{must} | {kind} | {reason} |");
     }
 }
 
@@ -100,7 +82,6 @@ fn markdown(sections: &[Section]) -> String {
     out
 }
 
-/// The README's headline table.
 fn headline(sections: &[Section]) -> String {
     let wanted = [
         "I.E_z",
@@ -117,14 +98,8 @@ fn headline(sections: &[Section]) -> String {
     let mut out = String::from("| | paper | fogcoil | unit | kind of agreement |\n|---|---|---|---|---|\n");
     for row in sections.iter().flat_map(|s| &s.rows).filter(|row| wanted.contains(&row.id.as_str())) {
         let (table, printed) = (row.id.split('.').next().unwrap_or(""), row.printed.as_deref().unwrap_or("–"));
-        let computed = row.computed_text();
-        let _ = writeln!(
-            out,
-            "| Table {table}: {} | {printed} | {computed} | {} | {} |",
-            row.quantity.replace('|', "\\|"),
-            row.unit,
-            kind(row.kind)
-        );
+        let (quantity, computed) = (row.quantity.replace('|', "\\|"), row.computed_text());
+        let _ = writeln!(out, "| Table {table}: {quantity} | {printed} | {computed} | {} | {} |", row.unit, kind(row.kind));
     }
     out
 }
@@ -132,10 +107,7 @@ fn headline(sections: &[Section]) -> String {
 /// Marks of the README's headline table.
 const MARKS: [&str; 2] = ["<!-- headline: written by `cargo xtask validate` -->", "<!-- headline end -->"];
 
-/// Writes docs/validation.md and the README's headline table.
-///
-/// # Errors
-/// [`Failure`] names the file that cannot be written.
+/// Writes docs/validation.md and the README's headline table. [`Failure`] names the file that cannot be written.
 pub fn write_documents(sections: &[Section]) -> Result<(), Failure> {
     files::write(&files::root().join("docs/validation.md"), &markdown(sections))?;
     files::renew(&files::root().join("README.md"), MARKS, &format!("\n{}", headline(sections)))

@@ -1,7 +1,9 @@
-//! One comparison: printed, computed ± numerical error, verdict, kind of agreement, reason.
+//! One comparison: printed, computed ± numerical error, verdict, kind of agreement, reason; and a table of them.
 
 use super::fixtures::{Printed, decimals};
+use crate::Failure;
 use serde::Serialize;
+use std::time::Instant;
 
 /// What stands behind an agreement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -86,7 +88,6 @@ impl ComparisonRow {
         self
     }
 
-    /// With its reason.
     pub(super) fn because(mut self, reason: impl Into<String>) -> Self {
         self.reason = reason.into();
         self
@@ -96,6 +97,40 @@ impl ComparisonRow {
     pub fn computed_text(&self) -> String {
         with_error(self.computed, self.numerical_error, self.printed.as_deref().map_or(0, decimals))
     }
+}
+
+/// The rows of one table.
+#[derive(Debug, Clone)]
+pub struct Section {
+    /// Heading.
+    pub title: String,
+    /// Paragraphs above the rows, in Markdown.
+    pub notes: Vec<String>,
+    /// What took how long, for the terminal.
+    pub timings: Vec<String>,
+    /// The comparisons.
+    pub rows: Vec<ComparisonRow>,
+    /// |S| over spools where the section has them: material, hub, flanges; S \[(deg/h)/(degC/min)\].
+    pub lines: Vec<(String, f64)>,
+}
+
+impl Section {
+    /// One without rows.
+    pub fn new(title: &str) -> Self {
+        Self { title: title.into(), notes: Vec::new(), timings: Vec::new(), rows: Vec::new(), lines: Vec::new() }
+    }
+
+    /// Adds a paragraph.
+    pub fn note(&mut self, text: impl Into<String>) {
+        self.notes.push(text.into());
+    }
+}
+
+/// A result with the seconds it took.
+pub(super) fn timed<T, E: Into<Failure>>(work: impl FnOnce() -> Result<T, E>) -> Result<(T, f64), Failure> {
+    let start = Instant::now();
+    let result = work().map_err(Into::into)?;
+    Ok((result, start.elapsed().as_secs_f64()))
 }
 
 /// Whether `value`, anywhere within its numerical error, rounds to the printed digits.

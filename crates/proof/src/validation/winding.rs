@@ -2,8 +2,7 @@
 
 use super::cell::NINE_DIGITS;
 use super::fixtures::{Fixtures, Printed};
-use super::row::{Agreement, ComparisonRow, rounds_to};
-use super::section::Section;
+use super::row::{Agreement, ComparisonRow, Section, rounds_to};
 use crate::Failure;
 use winding::{Half, Pattern, Spec, wind};
 

@@ -1,9 +1,41 @@
 //! One channel of a recording.
 
-use super::summary::{COARSE, ChannelSummary, Context};
 use super::{Expectation, Finding, FindingKind, Instants, Repair, Severity, outliers, runs, units};
-use crate::Channel;
 use crate::statistics::{median, normal_quantile, robust_sd};
+use crate::{Channel, series};
+
+/// What there is to say about a channel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChannelSummary {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// Values that are there.
+    pub present: usize,
+    /// Values that are used.
+    pub used: usize,
+    /// Least value used \[u\].
+    pub least: f64,
+    /// Median of those present \[u\].
+    pub median: f64,
+    /// Largest value used \[u\].
+    pub largest: f64,
+    /// Standard deviation of the white noise of a value, from differences of neighbours \[u\].
+    pub noise: Option<f64>,
+    /// Step between values, if they lie on a lattice \[u\].
+    pub step: Option<f64>,
+}
+
+pub(super) struct Context<'a> {
+    pub(super) time: &'a [f64],
+    pub(super) values: &'a [f64],
+    pub(super) summary: &'a ChannelSummary,
+    pub(super) interval: f64,
+}
+
+/// Steps of resolution, in standard deviations of the noise, from which on it hides the noise.
+pub(super) const COARSE: f64 = 3.0;
 
 pub(super) struct Judged {
     pub(super) mask: Vec<bool>,
@@ -30,7 +62,7 @@ pub(super) fn judge(time: &[f64], channel: &Channel, expectation: &Expectation, 
     };
     if let (Some(first), Some(instants)) = (present.first(), instants) {
         if present.iter().all(|value| value == first) {
-            findings.push(Finding::whole(FindingKind::Constant { value: *first }, useless));
+            findings.push(Finding::whole(FindingKind::Constant(*first), useless));
         } else {
             summary.step = runs::step(&present);
             summary.noise = white_noise(time, &channel.values, &mask);
@@ -58,19 +90,14 @@ fn missing(time: &[f64], present: &[bool], useless: Severity, findings: &mut Vec
     if present.iter().all(|there| !there) {
         return findings.push(Finding::whole(FindingKind::Empty, useless));
     }
-    let mut row = 0;
-    while row < present.len() {
-        let end = (row..present.len()).find(|&r| present[r]).unwrap_or(present.len());
-        if end > row {
-            findings.push(Finding::at(
-                FindingKind::Missing,
-                Severity::Note,
-                [time[row], time[end - 1]],
-                end - row,
-                Repair::Masked,
-            ));
+    let mut end = 0;
+    for run in present.chunk_by(|a, b| a == b) {
+        let start = end;
+        end += run.len();
+        if !run[0] {
+            let span = [time[start], time[end - 1]];
+            findings.push(Finding::at(FindingKind::Missing, Severity::Note, span, run.len(), Repair::Masked));
         }
-        row = end.max(row + 1);
     }
 }
 
@@ -79,7 +106,7 @@ fn missing(time: &[f64], present: &[bool], useless: Severity, findings: &mut Vec
 /// Second differences, or fourth ones where those show that the second hold a signal's curvature. Of noise far below the resolution
 /// it gives what the resolution leaves of it. `None` without three used neighbours.
 pub fn white_noise(time: &[f64], values: &[f64], mask: &[bool]) -> Option<f64> {
-    let interval = median(time.windows(2).map(|pair| pair[1] - pair[0]).collect())?;
+    let interval = series::interval(time)?;
     let from = |weights: &[f64]| {
         let reach = weights.len() - 1;
         let difference = |row: usize| {

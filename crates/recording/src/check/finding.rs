@@ -46,33 +46,18 @@ pub enum FindingKind {
     Duplicate,
     /// One instant with different values.
     Conflict,
-    /// Time goes back.
-    Backwards {
-        /// By how much \[s\].
-        by: f64,
-    },
-    /// The clock was set: an interval that is no whole number of intervals.
-    ClockStep {
-        /// The interval \[s\].
-        interval: f64,
-    },
+    /// Time goes back, by so much \[s\].
+    Backwards(f64),
+    /// The clock was set: an interval \[s\] that is no whole number of intervals.
+    ClockStep(f64),
     /// Values are missing.
     Missing,
-    /// A lone value far from its neighbours.
-    Outliers {
-        /// The largest distance \[u\].
-        largest: f64,
-    },
-    /// The same value for longer than resolution and noise explain.
-    Stuck {
-        /// The value \[u\].
-        value: f64,
-    },
-    /// The channel's largest or least value for longer than resolution and noise explain.
-    Saturation {
-        /// The value \[u\].
-        value: f64,
-    },
+    /// Lone values far from their neighbours; the largest distance \[u\].
+    Outliers(f64),
+    /// The same value \[u\] for longer than resolution and noise explain.
+    Stuck(f64),
+    /// The channel's largest or least value \[u\] for longer than resolution and noise explain.
+    Saturation(f64),
     /// The resolution is coarser than the noise, which it hides.
     Quantised {
         /// Step between values \[u\].
@@ -91,18 +76,12 @@ pub enum FindingKind {
         /// Units in which it would be plausible.
         candidates: Vec<String>,
     },
-    /// One value throughout.
-    Constant {
-        /// The value \[u\].
-        value: f64,
-    },
+    /// One value \[u\] throughout.
+    Constant(f64),
     /// No value at all.
     Empty,
-    /// Few rows.
-    TooShort {
-        /// How many.
-        rows: usize,
-    },
+    /// Few rows: how many.
+    TooShort(usize),
     /// An offset that something known explains.
     Offset {
         /// Median \[u\].
@@ -160,6 +139,40 @@ impl Finding {
             _ => "",
         }
     }
+
+    fn what(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let unit = &self.unit;
+        match &self.kind {
+            FindingKind::Gap { length, missing } => write!(f, "gap of {} s, {missing} rows missing", Short(*length)),
+            FindingKind::Jitter { rms, largest } => {
+                write!(f, "intervals vary by {} s rms, {} s at most", Short(*rms), Short(*largest))
+            }
+            FindingKind::Duplicate => write!(f, "a row is repeated"),
+            FindingKind::Conflict => write!(f, "one instant has different values"),
+            FindingKind::Backwards(by) => write!(f, "time goes back by {} s", Short(*by)),
+            FindingKind::ClockStep(interval) => {
+                write!(f, "an interval of {} s is no whole number of intervals", Short(*interval))
+            }
+            FindingKind::Missing => write!(f, "values are missing"),
+            FindingKind::Outliers(largest) => write!(f, "outliers of up to {} {unit}", Short(*largest)),
+            FindingKind::Stuck(value) => write!(f, "stuck at {} {unit}", Short(*value)),
+            FindingKind::Saturation(value) => write!(f, "saturated at {} {unit}", Short(*value)),
+            FindingKind::Quantised { step, noise } => {
+                write!(f, "the resolution, {} {unit}, hides the noise, at most {} {unit}", Short(*step), Short(*noise))
+            }
+            FindingKind::Unit { what, found, range: [low, high], candidates } => {
+                let verb = if *what == "noise" { "is" } else { "are" };
+                write!(f, "{what} of {} {unit} {verb} implausible ({} to {} {unit})", Short(*found), Short(*low), Short(*high))?;
+                if candidates.is_empty() { Ok(()) } else { write!(f, "; is it in {}?", candidates.join(" or ")) }
+            }
+            FindingKind::Constant(value) => write!(f, "is {} {unit} throughout", Short(*value)),
+            FindingKind::Empty => write!(f, "has no value at all"),
+            FindingKind::TooShort(rows) => write!(f, "too few rows, {rows}"),
+            FindingKind::Offset { median, largest, of } => {
+                write!(f, "the median, {} {unit}, is more than {} {unit}: {of}?", Short(*median), Short(*largest))
+            }
+        }
+    }
 }
 
 /// A number with four figures.
@@ -199,41 +212,5 @@ impl fmt::Display for Finding {
             Repair::Masked => f.write_str("; not used")?,
         }
         if self.advice().is_empty() { Ok(()) } else { write!(f, "; {}", self.advice()) }
-    }
-}
-
-impl Finding {
-    fn what(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let unit = &self.unit;
-        match &self.kind {
-            FindingKind::Gap { length, missing } => write!(f, "gap of {} s, {missing} rows missing", Short(*length)),
-            FindingKind::Jitter { rms, largest } => {
-                write!(f, "intervals vary by {} s rms, {} s at most", Short(*rms), Short(*largest))
-            }
-            FindingKind::Duplicate => write!(f, "a row is repeated"),
-            FindingKind::Conflict => write!(f, "one instant has different values"),
-            FindingKind::Backwards { by } => write!(f, "time goes back by {} s", Short(*by)),
-            FindingKind::ClockStep { interval } => {
-                write!(f, "an interval of {} s is no whole number of intervals", Short(*interval))
-            }
-            FindingKind::Missing => write!(f, "values are missing"),
-            FindingKind::Outliers { largest } => write!(f, "outliers of up to {} {unit}", Short(*largest)),
-            FindingKind::Stuck { value } => write!(f, "stuck at {} {unit}", Short(*value)),
-            FindingKind::Saturation { value } => write!(f, "saturated at {} {unit}", Short(*value)),
-            FindingKind::Quantised { step, noise } => {
-                write!(f, "the resolution, {} {unit}, hides the noise, at most {} {unit}", Short(*step), Short(*noise))
-            }
-            FindingKind::Unit { what, found, range: [low, high], candidates } => {
-                let verb = if *what == "noise" { "is" } else { "are" };
-                write!(f, "{what} of {} {unit} {verb} implausible ({} to {} {unit})", Short(*found), Short(*low), Short(*high))?;
-                if candidates.is_empty() { Ok(()) } else { write!(f, "; is it in {}?", candidates.join(" or ")) }
-            }
-            FindingKind::Constant { value } => write!(f, "is {} {unit} throughout", Short(*value)),
-            FindingKind::Empty => write!(f, "has no value at all"),
-            FindingKind::TooShort { rows } => write!(f, "too few rows, {rows}"),
-            FindingKind::Offset { median, largest, of } => {
-                write!(f, "the median, {} {unit}, is more than {} {unit}: {of}?", Short(*median), Short(*largest))
-            }
-        }
     }
 }

@@ -68,8 +68,13 @@ impl Instants {
             let interval = pair[1] - pair[0];
             let whole = (interval / self.interval).round() * self.interval;
             if (interval - whole).abs() > slack || interval < 0.5 * self.interval {
-                let kind = FindingKind::ClockStep { interval };
-                findings.push(Finding::at(kind, Severity::Warning, [pair[0], pair[1]], 0, Repair::None));
+                findings.push(Finding::at(
+                    FindingKind::ClockStep(interval),
+                    Severity::Warning,
+                    [pair[0], pair[1]],
+                    0,
+                    Repair::None,
+                ));
             }
         }
     }
@@ -88,7 +93,7 @@ pub(super) fn keep(recording: &Recording, findings: &mut Vec<Finding>) -> Vec<us
         if time[row] > time[last] {
             rows.push(row);
         } else if time[row] < time[last] {
-            findings.push(finding(FindingKind::Backwards { by: time[last] - time[row] }, Severity::Error));
+            findings.push(finding(FindingKind::Backwards(time[last] - time[row]), Severity::Error));
         } else if same(recording, row, last) {
             findings.push(finding(FindingKind::Duplicate, Severity::Note));
         } else {

@@ -7,13 +7,11 @@ mod finding;
 mod instants;
 mod outliers;
 mod runs;
-mod summary;
 mod units;
 
-pub use channel::white_noise;
+pub use channel::{ChannelSummary, white_noise};
 pub use finding::{Finding, FindingKind, Repair, Severity};
 pub use instants::{Gap, Instants};
-pub use summary::ChannelSummary;
 pub use units::{Expectation, Offset, Unit};
 
 use crate::Recording;
@@ -59,7 +57,6 @@ impl Report {
     }
 }
 
-/// Fewest rows of a recording.
 const FEWEST_ROWS: usize = 3;
 
 /// Checks a recording.
@@ -73,7 +70,7 @@ pub fn check(recording: &Recording, expectations: &Expectations) -> Report {
     }
     if rows.len() < FEWEST_ROWS.max(expectations.fewest_rows) {
         let severity = if rows.len() < FEWEST_ROWS { Severity::Error } else { Severity::Warning };
-        findings.push(Finding::whole(FindingKind::TooShort { rows: rows.len() }, severity));
+        findings.push(Finding::whole(FindingKind::TooShort(rows.len()), severity));
     }
     let nothing = Expectation::default();
     let judge = |(number, channel)| {

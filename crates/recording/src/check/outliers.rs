@@ -1,6 +1,6 @@
 //! Lone values far from their neighbours.
 
-use super::summary::Context;
+use super::channel::Context;
 use super::{Finding, FindingKind, Repair, Severity};
 use crate::statistics::median;
 
@@ -51,5 +51,5 @@ pub(super) fn judge(context: &Context, mask: &mut [bool]) -> Option<Finding> {
     let (first, last) = (found.first()?.0, found.last()?.0);
     let largest = found.iter().fold(0.0_f64, |most, (_, distance)| most.max(*distance));
     let span = [time[first], time[last]];
-    Some(Finding::at(FindingKind::Outliers { largest }, Severity::Note, span, found.len(), Repair::Masked))
+    Some(Finding::at(FindingKind::Outliers(largest), Severity::Note, span, found.len(), Repair::Masked))
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::summary::Context;
+use super::channel::Context;
 use super::{Finding, FindingKind, Repair, Severity};
 use crate::statistics::median;
 
@@ -84,7 +84,7 @@ pub(super) fn judge(context: &Context, mask: &mut [bool]) -> Vec<Finding> {
         } else {
             continue;
         };
-        let kind = if extremes.contains(&Some(value)) { FindingKind::Saturation { value } } else { FindingKind::Stuck { value } };
+        let kind = if extremes.contains(&Some(value)) { FindingKind::Saturation(value) } else { FindingKind::Stuck(value) };
         let span = [time[run[0]], time[run[run.len() - 1]]];
         findings.push(Finding::at(kind, Severity::Warning, span, run.len(), repair));
     }

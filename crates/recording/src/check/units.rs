@@ -1,6 +1,6 @@
 //! Whether values are of the size that their unit makes them.
 
-use super::summary::COARSE;
+use super::channel::COARSE;
 use super::{ChannelSummary, Finding, FindingKind, Severity};
 
 /// A unit in which a channel may be recorded by mistake: expected value = scale · value + offset.

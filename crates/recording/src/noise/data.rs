@@ -3,12 +3,10 @@
 use super::NoiseModel;
 use super::regression::independent;
 use crate::Error;
-use crate::series::{GAP, check_series};
-use crate::statistics::median;
+use crate::series::{self, GAP, check_series};
 
 /// Most rows before groups of them are averaged: white noise is then known to half a percent, and a fit takes a second.
 const MOST_ROWS: usize = 20_000;
-/// Fewest rows beyond the columns.
 const FEWEST_ROWS: usize = 16;
 
 /// A series whose noise is sought.
@@ -45,8 +43,7 @@ impl Data {
         let named = names.iter().map(String::as_str).zip(columns.iter().copied());
         let used = check_series(time, mask, &std::iter::once(("values", values)).chain(named).collect::<Vec<_>>())?;
         let needed = FEWEST_ROWS + columns.len();
-        let interval = median(time.windows(2).map(|pair| pair[1] - pair[0]).collect());
-        let Some(interval) = interval.filter(|_| used >= needed) else {
+        let Some(interval) = series::interval(time).filter(|_| used >= needed) else {
             return Err(Error::TooFew { found: used, needed });
         };
         let group = used.div_ceil(MOST_ROWS);
@@ -90,7 +87,6 @@ impl Data {
         NoiseModel { averaging, white: original.white / group.sqrt(), ..*original }
     }
 
-    /// Number of rows used.
     pub(super) fn rows(&self) -> usize {
         self.mask.iter().filter(|&&used| used).count()
     }
@@ -98,19 +94,7 @@ impl Data {
 
 /// First rows of complete, contiguous groups.
 fn groups(time: &[f64], mask: &[bool], group: usize, interval: f64) -> Vec<usize> {
-    let (mut starts, mut start) = (Vec::new(), 0);
-    for row in 0..time.len() {
-        if !mask[row] {
-            start = row + 1;
-            continue;
-        }
-        if row > start && time[row] - time[row - 1] > GAP * interval {
-            start = row;
-        }
-        if row + 1 - start == group {
-            starts.push(start);
-            start = row + 1;
-        }
-    }
-    starts
+    let used: Vec<usize> = (0..time.len()).filter(|&row| mask[row]).collect();
+    let stretches = used.chunk_by(|&a, &b| b == a + 1 && time[b] - time[a] <= GAP * interval);
+    stretches.flat_map(|stretch| stretch.chunks_exact(group)).map(|rows| rows[0]).collect()
 }

@@ -5,7 +5,7 @@ use super::regression::Regression;
 use super::{NoiseModel, Whitener};
 use crate::Error;
 use crate::minimise::{Effort, nelder_mead};
-use crate::statistics::median;
+use crate::series::interval;
 use nalgebra::{Cholesky, DMatrix};
 
 /// A term of the noise beside the white one.
@@ -167,7 +167,6 @@ impl Problem<'_> {
         self.data.rows() as f64
     }
 
-    /// Median time between values \[s\].
     fn spacing(&self) -> f64 {
         self.data.interval * self.data.group as f64
     }
@@ -222,7 +221,6 @@ impl Problem<'_> {
         Ok((regression.squares, whitener.log_det() + regression.log_det))
     }
 
-    /// Rows beyond the columns.
     fn freedom(&self) -> f64 {
         self.rows() - self.data.columns.len() as f64
     }
@@ -325,10 +323,6 @@ impl Problem<'_> {
 
 /// Step of the second derivatives in the logarithms.
 const CURVATURE_STEP: f64 = 0.05;
-
-fn interval(time: &[f64]) -> Option<f64> {
-    median(time.windows(2).map(|pair| pair[1] - pair[0]).collect())
-}
 
 #[cfg(test)]
 mod tests {

@@ -59,15 +59,15 @@ impl NoiseModel {
     /// [`Error::Parameter`] names the first that is out of its range.
     pub fn check(&self) -> Result<(), Error> {
         let Self { averaging, white, drift, drift_time, walk, quantisation } = *self;
-        let zero_or_more = "0 or more, and finite";
-        let positive = "positive and finite";
+        let (zero_or_more, positive) = ("0 or more, and finite", "positive and finite");
+        let with_a_span = "0 or more and finite, and 0 for momentary values";
         let rules = [
             ("averaging", averaging, averaging >= 0.0, zero_or_more),
             ("white", white, white > 0.0, positive),
             ("drift", drift, drift >= 0.0, zero_or_more),
             ("drift_time", drift_time, drift_time > 0.0, positive),
             ("walk", walk, walk >= 0.0, zero_or_more),
-            ("quantisation", quantisation, quantisation == 0.0 || (quantisation > 0.0 && averaging > 0.0), QUANTISATION),
+            ("quantisation", quantisation, quantisation == 0.0 || (quantisation > 0.0 && averaging > 0.0), with_a_span),
         ];
         match rules.into_iter().find(|(_, value, holds, _)| !(*holds && value.is_finite())) {
             Some((name, value, _, range)) => Err(Error::Parameter { name, value, range }),
@@ -75,8 +75,6 @@ impl NoiseModel {
         }
     }
 }
-
-const QUANTISATION: &str = "0 or more and finite, and 0 for momentary values";
 
 /// Largest value of the square root of [`drift_allan`], at 1.8926.
 const DRIFT_PEAK: f64 = 0.617_364_3;

@@ -21,7 +21,6 @@ pub struct Whitener {
     /// Rows of the series that are used.
     rows: Vec<usize>,
     steps: Vec<Step>,
-    /// Number of instants.
     length: usize,
     log_det: f64,
 }

@@ -55,7 +55,6 @@ impl SplitMix64 {
     }
 }
 
-/// Sweeps over all fibres of a displacement.
 const SWEEPS: usize = 60;
 
 /// Moves every fibre of bounding radius `radius` \[m\] at random within `most` \[m\] of its place, keeping films of at least `film` \[m\].

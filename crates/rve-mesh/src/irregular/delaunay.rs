@@ -1,6 +1,7 @@
 //! Triangulation of the periodic plane outside the inclusions: the only module that names the triangulation library.
 
 use super::LayoutError;
+use super::arrange::SplitMix64;
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
 use std::ops::Range;
 
@@ -18,11 +19,6 @@ pub(super) struct Points<'a> {
     pub(super) positions: &'a [[f64; 2]],
     pub(super) loops: &'a [Range<usize>],
     pub(super) lattice: [[f64; 2]; 2],
-}
-
-/// A fixed direction for each number (SplitMix64).
-fn displacement(number: usize, salt: u64) -> f64 {
-    super::arrange::SplitMix64::new(2 * number as u64 + salt).unit() - 0.5
 }
 
 impl Points<'_> {
@@ -50,7 +46,8 @@ impl Points<'_> {
             let start = vertices.len();
             for point in 0..self.positions.len() {
                 let p = self.at((point, shift));
-                let [x, y] = [0, 1].map(|c| p[c] / width + DISPLACEMENT * displacement(point, c as u64));
+                let moved = |c: usize| DISPLACEMENT * (SplitMix64::new((2 * point + c) as u64).unit() - 0.5);
+                let [x, y] = [0, 1].map(|c| p[c] / width + moved(c));
                 vertices.push(Vertex { place: Point2::new(x, y) });
                 corners.push((point, shift));
             }
@@ -98,7 +95,6 @@ impl Points<'_> {
     }
 }
 
-/// A point in cell widths.
 struct Vertex {
     place: Point2<f64>,
 }

@@ -14,7 +14,6 @@ const APART: f64 = 0.6;
 /// Rounds of adding points; each halves what is too large.
 const ROUNDS: usize = 40;
 
-/// The matrix divided into triangles.
 pub(super) struct Matrix {
     pub(super) positions: Vec<[f64; 2]>,
     /// Points of each inclusion's hull, in a row.

@@ -8,7 +8,6 @@ use std::f64::consts::{FRAC_PI_6, TAU};
 const SAMPLES: usize = 720;
 /// Growth of the spacing per length along the outline.
 const GROWTH: f64 = 0.35;
-/// Fewest divisions.
 const FEWEST: usize = 12;
 
 /// Parameters \[rad\] of the ends of the divisions of inclusion `i`, increasing over one turn, the last one turn after the first.

@@ -1,11 +1,10 @@
-//! The recordings with their models, and what is left.
+//! The recordings with their models, and what is left; several records in one figure: each has the same panels, on the same scales.
 
-use charts::{Axis, Figure, Panel, Series, Style};
+use charts::{Axis, Content, Figure, Panel, Series, Style};
 use maud::{Markup, html};
 
-use super::multiples::multiples;
-use super::{Clock, Quantity, Shown};
-use crate::diagnose::Outcome;
+use super::{Clock, Shown};
+use crate::diagnose::{Outcome, Record};
 
 impl Outcome {
     pub(super) fn course(&self) -> Markup {
@@ -14,13 +13,9 @@ impl Outcome {
 
     fn recording(&self) -> Figure<'static> {
         let (columns, panels) = multiples(self.each().map(|shown| self.recorded(&shown)).collect());
-        let whose = match &self.fits[..] {
-            [one] => one.name(),
-            several => format!("{} records", several.len()),
-        };
         Figure {
             id: "course",
-            title: format!("{whose}: recording and model"),
+            title: format!("{}: recording and model", whose(&self.fits.iter().collect::<Vec<_>>())),
             description:
                 "Chamber temperature, the gyroscope's rate and the spool's thermometer over time, as recorded and as modelled."
                     .into(),
@@ -30,7 +25,6 @@ impl Outcome {
         }
     }
 
-    /// One record's panels.
     fn recorded(&self, shown: &[Shown]) -> Vec<Panel<'static>> {
         let Some(Shown { record, .. }) = shown.first() else { return Vec::new() };
         let (clock, time) = (self.clock(record), &record.observed.time);
@@ -67,7 +61,6 @@ impl Outcome {
         }
     }
 
-    /// What is left of one record.
     fn left(&self, shown: &[Shown]) -> Vec<Panel<'static>> {
         let Some(Shown { record, .. }) = shown.first() else { return Vec::new() };
         let clock = self.clock(record);
@@ -79,7 +72,7 @@ impl Outcome {
             let most = all.fold(q.least / 2.0, |most, (_, r)| r.abs().max(most));
             for (n, fit) in shown.iter().enumerate() {
                 let style = if n + 1 == shown.len() { Style::Fine(2) } else { Style::Fine(0) };
-                let label = format!("{} [{}]", q.name, unit(q));
+                let label = format!("{} [{}]", q.name, q.unit);
                 let heading = self.headed(&format!("recorded less {}", fit.name), record);
                 let mut panel = panel(&clock, &label, q.least, 9.0, vec![Series::new("", style, of(fit))]).headed(heading);
                 panel.y.covers = Some([-most, most]);
@@ -89,10 +82,20 @@ impl Outcome {
         label_last(&mut panels, &clock);
         panels
     }
+
+    /// A heading, with the record's name where several were fitted.
+    pub(super) fn headed(&self, text: &str, record: &Record) -> String {
+        match (self.fits.len() > 1, text.is_empty()) {
+            (false, _) => text.to_owned(),
+            (true, true) => record.name(),
+            (true, false) => format!("{text}, {}", record.name()),
+        }
+    }
 }
 
-fn unit(q: Quantity) -> &'static str {
-    if q.channel == mechanisms::RATE { "°/h" } else { "K" }
+/// Whose records a figure shows.
+pub(super) fn whose(records: &[&Record]) -> String {
+    if let [one] = records { one.name() } else { format!("{} records", records.len()) }
 }
 
 pub(super) fn panel(clock: &Clock, label: &str, least: f64, lines: f64, series: Vec<Series<'static>>) -> Panel<'static> {
@@ -103,5 +106,40 @@ pub(super) fn panel(clock: &Clock, label: &str, least: f64, lines: f64, series: 
 pub(super) fn label_last(panels: &mut [Panel], clock: &Clock) {
     if let Some(last) = panels.last_mut() {
         last.x = Axis { covers: last.x.covers, ..clock.axis() };
+    }
+}
+
+/// The panels of all records, and how many of them stand side by side: two records abreast, or under one another if their number is odd.
+pub(super) fn multiples(mut records: Vec<Vec<Panel<'static>>>) -> (usize, Vec<Panel<'static>>) {
+    same_scales(&mut records);
+    let columns = if records.len().is_multiple_of(2) { 2 } else { 1 };
+    let mut panels = Vec::new();
+    let mut left = records.into_iter();
+    while let Some(first) = left.next() {
+        let mut second = if columns == 2 { left.next().unwrap_or_default() } else { Vec::new() }.into_iter();
+        for panel in first {
+            panels.push(panel);
+            panels.extend(second.next());
+        }
+    }
+    (columns, panels)
+}
+
+fn same_scales(records: &mut [Vec<Panel>]) {
+    let rows = records.first().map_or(0, Vec::len);
+    if records.len() < 2 {
+        return;
+    }
+    for row in 0..rows {
+        let lines = records.iter().filter_map(|panels| panels.get(row)).filter_map(|panel| match &panel.content {
+            Content::Lines(series) => Some(series),
+            Content::Map(_) | Content::Drawing(_) => None,
+        });
+        let all = lines.flatten().filter_map(Series::ranges).map(|[_, y]| y);
+        let Some([low, high]) = all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]) else { continue };
+        for panel in records.iter_mut().filter_map(|panels| panels.get_mut(row)) {
+            let [a, b] = panel.y.covers.unwrap_or([low, high]);
+            panel.y.covers = Some([a.min(low), b.max(high)]);
+        }
     }
 }

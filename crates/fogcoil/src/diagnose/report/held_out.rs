@@ -5,8 +5,8 @@ use diagnosis::{HeldOut, Verdict, whiteness};
 use maud::{Markup, html};
 use mechanisms::RATE;
 
-use super::multiples::multiples;
-use super::{course, spectrum};
+use super::course::{self, multiples};
+use super::spectrum;
 use crate::diagnose::{Held, NOMINAL, Outcome};
 
 impl Outcome {
@@ -48,13 +48,10 @@ impl Outcome {
 
     fn proof(&self) -> Figure<'static> {
         let (columns, panels) = multiples(self.holdouts.iter().map(|held| self.panels(held)).collect());
-        let whose = match &self.holdouts[..] {
-            [one] => one.record.name(),
-            several => format!("{} records", several.len()),
-        };
+        let records: Vec<_> = self.holdouts.iter().map(|held| &held.record).collect();
         Figure {
             id: "held-out",
-            title: format!("{whose}: predicted and recorded"),
+            title: format!("{}: predicted and recorded", course::whose(&records)),
             description: "The held-out record's rate over time with its predictions, and what each prediction is off by.".into(),
             caption: "Driven by the record's own chamber temperature; the offset is that of the fit.".into(),
             columns,
@@ -62,7 +59,6 @@ impl Outcome {
         }
     }
 
-    /// One record's panels.
     fn panels(&self, held: &Held) -> Vec<Panel<'static>> {
         let (clock, observed) = (self.clock(&held.record), &held.record.observed);
         let recorded: Vec<(usize, f64)> =

@@ -3,12 +3,10 @@
 mod candidates;
 mod course;
 mod held_out;
-mod multiples;
 mod next_test;
 mod noise;
 mod parameters;
 mod place;
-mod rivals;
 mod spectrum;
 mod stages;
 
@@ -54,13 +52,14 @@ struct Quantity {
     /// With its unit.
     label: &'static str,
     name: &'static str,
+    unit: &'static str,
     /// Least span that is drawn.
     least: f64,
 }
 
 const QUANTITIES: [Quantity; 2] = [
-    Quantity { channel: RATE, label: "rate [°/h]", name: "rate", least: 1e-4 },
-    Quantity { channel: SPOOL, label: "spool thermometer [°C]", name: "spool thermometer", least: 0.01 },
+    Quantity { channel: RATE, label: "rate [°/h]", name: "rate", unit: "°/h", least: 1e-4 },
+    Quantity { channel: SPOOL, label: "spool thermometer [°C]", name: "spool thermometer", unit: "K", least: 0.01 },
 ];
 
 /// The time since the first row, in the unit of its axis.

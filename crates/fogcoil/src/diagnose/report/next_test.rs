@@ -6,7 +6,6 @@ use maud::{Markup, html};
 
 use crate::diagnose::Outcome;
 use crate::glossary::inspection;
-use crate::prepare::Ready;
 use crate::recommend::{Course, Limits, Odds, Question, Recommendation, number, sentence};
 use crate::units::DurationUnit;
 
@@ -20,13 +19,8 @@ impl Outcome {
             return html! { p { (self.nothing_to_tell_apart()) } };
         }
         let command = format!("{} --out next.csv", self.recommend(&between));
-        let records = self.fits.iter().map(|record| Ready {
-            observation: record.observed.clone(),
-            chamber: record.chamber.clone(),
-            averaging: record.averaging,
-        });
-        let question =
-            Question { file: &self.coil, between: &between, records: records.collect(), limits: Limits::USUAL, thorough: false };
+        let (records, limits) = (self.fits.clone(), Limits::USUAL);
+        let question = Question { file: &self.coil, between: &between, records, limits, thorough: false };
         html! {
             @match question.answer(self.gyro.library().clone(), &|_| ()) {
                 Ok(found) => (recommended(&found)),

@@ -17,7 +17,7 @@ impl Outcome {
         let mut rows = Vec::new();
         for (n, record) in self.fits.iter().enumerate() {
             for q in self.quantities() {
-                let (model, unit) = (best.noise_model(n, q.channel), if q.channel == RATE { "°/h" } else { "K" });
+                let (model, unit) = (best.noise_model(n, q.channel), q.unit);
                 let mut white = format!("{} {unit}", significant(model.white, 3));
                 if let Some(random_walk) = model.angle_random_walk().filter(|_| q.channel == RATE) {
                     white += &format!(" ({} °/√h)", significant(random_walk / S_PER_H.sqrt(), 3));

@@ -6,8 +6,8 @@ use diagnosis::{Cell, Spectrum};
 use maud::{Markup, html};
 use mechanisms::RATE;
 
-use super::multiples::multiples;
-use super::{Shown, course};
+use super::Shown;
+use super::course::{self, multiples};
 use crate::diagnose::Outcome;
 
 /// z at which the colours end.
@@ -20,7 +20,6 @@ impl Outcome {
         html! { @for figure in drawn { (figure.element()) } }
     }
 
-    /// Mean residual over temperature and its rate.
     fn map(&self) -> Figure<'static> {
         let cells = |fit: Shown| {
             let cells = fit.fit.over_state(&self.gyro, (fit.number, fit.number), RATE, &fit.record.observed, fit.judge);
@@ -42,7 +41,6 @@ impl Outcome {
         }
     }
 
-    /// Stretches of equal length.
     fn blocks(&self) -> Figure<'static> {
         let (columns, panels) = multiples(self.each().map(|shown| self.stretches(&shown)).collect());
         Figure {
@@ -57,7 +55,6 @@ impl Outcome {
         }
     }
 
-    /// Of one record.
     fn stretches(&self, shown: &[Shown]) -> Vec<Panel<'static>> {
         let Some(Shown { record, .. }) = shown.first() else { return Vec::new() };
         let clock = self.clock(record);
@@ -88,7 +85,6 @@ impl Outcome {
         panels
     }
 
-    /// With which state it goes.
     fn coherence(&self) -> Figure<'static> {
         let panel = |fit: Shown| -> Option<Panel<'static>> {
             let spectra = fit.fit.in_frequency(&self.gyro, (fit.number, fit.number), RATE, &fit.record.observed);

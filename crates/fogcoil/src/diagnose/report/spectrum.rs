@@ -45,7 +45,6 @@ impl Outcome {
         }
     }
 
-    /// Of one channel of one record.
     fn spectrum(&self, shown: &[Shown], q: Quantity) -> Panel<'static> {
         let mut series = Vec::new();
         for (n, fit) in shown.iter().enumerate() {
