@@ -66,6 +66,16 @@ fn paths(design: &Design, mechanisms: &[&dyn Mechanism]) -> Vec<(String, HeatPat
     mechanisms.iter().filter_map(of).filter(|(_, path)| (path.applies)(design)).collect()
 }
 
+/// The ranges that a parametric model of `design` must hold for: its parameters' usual tolerances, and as far as the `mechanisms` go.
+pub fn ranges(design: &Design, mechanisms: &[&dyn Mechanism]) -> Vec<Range> {
+    let mut ranges = Range::usual(design);
+    let paths = paths(design, mechanisms);
+    let ends = paths.iter().flat_map(|(_, path)| path.nodes.iter().map(|x| (path.design)(design, *x)));
+    let heated = self_heating::applies(design).then(|| self_heating::with_heater(design, 1.0));
+    ends.chain(heated).for_each(|changed| Range::widened(&mut ranges, design, &changed));
+    ranges
+}
+
 impl Library {
     /// Makes every model that the `mechanisms` need; `progress` is told how many are made.
     ///
@@ -75,9 +85,7 @@ impl Library {
         let paths = paths(design, mechanisms);
         let open = if debond::applies(design) { &OPEN[..] } else { &[] };
         let heated = self_heating::applies(design).then(|| self_heating::with_heater(design, 1.0));
-        let mut ranges = Range::usual(design);
-        let ends = paths.iter().flat_map(|(_, path)| path.nodes.iter().map(|x| (path.design)(design, *x)));
-        ends.chain(heated.clone()).for_each(|changed| Range::widened(&mut ranges, design, &changed));
+        let ranges = ranges(design, mechanisms);
         let all = ModelEffort::default().solutions() + open.len();
         let yard = Yard { progress, done: AtomicUsize::new(0), all };
         let model = ParametricModel::new(design, &ranges, &COARSE, &ModelEffort::default(), &|| yard.one())?;

@@ -15,6 +15,7 @@ mod mechanism;
 mod nuisances;
 mod record;
 
+pub use build::ranges;
 pub use catalogue::{CATALOGUE, find};
 pub use chain::Chain;
 pub use design::REFERENCE_C;

@@ -4,6 +4,7 @@
 mod cell;
 mod coil;
 mod diagnose;
+mod parametric;
 mod reduced;
 mod sensitivity;
 
@@ -46,6 +47,14 @@ pub(crate) enum Bench {
     CoilJob { name: String },
     /// Whole diagnoses
     Diagnose,
+    /// The parametric against the full model, at random points of the boxes of three designs
+    ///
+    /// Exit status 1 if it is not as near or as fast as it must be.
+    Parametric {
+        /// Points of each box
+        #[arg(long, value_name = "N", default_value_t = 200)]
+        points: usize,
+    },
     /// The reduced against the full model
     Reduced,
     /// The steady sensitivity, ours and NGSolve's
@@ -53,7 +62,7 @@ pub(crate) enum Bench {
 }
 
 impl Bench {
-    /// Runs it; always `true`.
+    /// Runs it; whether all is as it must be.
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         match self {
             Self::Cell(options) => cell::run(options.python.as_deref(), options.repetitions.unwrap_or(11))?,
@@ -61,6 +70,7 @@ impl Bench {
             Self::Coil(options) => coil::run(options.python.as_deref(), options.repetitions.unwrap_or(FEWEST))?,
             Self::CoilJob { name } => coil::child(name)?,
             Self::Diagnose => diagnose::run()?,
+            Self::Parametric { points } => return parametric::run(*points),
             Self::Reduced => reduced::run()?,
             Self::Sensitivity(options) => sensitivity::run(options.python.as_deref(), options.repetitions.unwrap_or(21))?,
         }

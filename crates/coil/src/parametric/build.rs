@@ -121,11 +121,11 @@ pub struct Effort {
 impl Default for Effort {
     fn default() -> Self {
         Self {
-            heat: 12,
+            heat: 20,
             mechanics: 12,
-            least_temperature: 1e-5,
+            least_temperature: 1e-6,
             least_displacement: 1e-5,
-            most_temperatures: 110,
+            most_temperatures: 80,
             most_displacements: 200,
         }
     }

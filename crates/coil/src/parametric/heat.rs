@@ -157,6 +157,11 @@ impl Heat {
         self.storage.shape().0
     }
 
+    /// Numbers that it holds.
+    pub(super) fn numbers(&self) -> usize {
+        self.conduction.numbers() + self.storage.numbers()
+    }
+
     /// How far a design's coefficients lie outside those that the terms were kept for.
     pub(super) fn left_out(&self, design: &Design, changed: &Section) -> Result<f64, Error> {
         let [k, c] = self.coefficients(design, changed)?;

@@ -40,7 +40,7 @@ pub struct ParametricModel {
 }
 
 /// Share of the fields on which a coarser model stands.
-const COARSER: f64 = 0.5;
+const COARSER: f64 = 0.6;
 
 /// Factor on the distance to the coarser model that estimates the error of the bias: an estimate, not a bound. At random points of the
 /// boxes of tests/parametric.rs the error was a fifth to a fourteenth of the distance; it may be less even elsewhere.
@@ -87,6 +87,15 @@ impl ParametricModel {
     /// Number of temperature fields and of displacement fields.
     pub fn size(&self) -> [usize; 2] {
         [self.heat.size(), self.turns.hoop.ncols()]
+    }
+
+    /// Memory that it takes \[bytes\].
+    pub fn bytes(&self) -> usize {
+        let of = |m: &DMatrix<f64>| m.len();
+        let turns = [&self.turns.temperature, &self.turns.radial, &self.turns.axial, &self.turns.hoop];
+        let numbers =
+            of(&self.temperatures.values) + turns.map(of).iter().sum::<usize>() + self.heat.numbers() + self.structure.numbers();
+        numbers * std::mem::size_of::<f64>()
     }
 
     /// The first parameter of `design` that lies outside its range, with its value.

@@ -121,6 +121,11 @@ impl Terms {
         Self { matrices, onto: None, sizes }
     }
 
+    /// Numbers that it holds.
+    pub(super) fn numbers(&self) -> usize {
+        self.matrices.iter().map(DMatrix::len).sum::<usize>() + self.onto.as_ref().map_or(0, DMatrix::len)
+    }
+
     /// Shape of the sum.
     pub(super) fn shape(&self) -> (usize, usize) {
         self.matrices.iter().map(DMatrix::shape).max().unwrap_or((0, 0))

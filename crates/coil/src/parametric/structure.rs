@@ -143,6 +143,11 @@ impl Structure {
         })
     }
 
+    /// Numbers that it holds.
+    pub(super) fn numbers(&self) -> usize {
+        self.stiffness.numbers() + self.load.numbers()
+    }
+
     /// How far a design's coefficients lie outside those that the terms were kept for.
     pub(super) fn left_out(&self, design: &Design, changed: &Section, state: &MechanicalState) -> Result<f64, Error> {
         let [k, f] = self.coefficients(design, changed, state)?;

@@ -1,6 +1,6 @@
 //! Exact courses of a reduced model while its drives are linear in time.
 
-use super::state::{dot, settled};
+use super::state::settled;
 use super::{Output, Reduced, Step};
 
 /// Decay and response of each mode over one interval, for as many steps as have its length.
@@ -12,10 +12,15 @@ pub(crate) struct Interval {
     push: Vec<f64>,
 }
 
+/// What a mode feels of the drives, of which there are few.
+fn forced(drive: &[f64], by: &[f64]) -> f64 {
+    drive.iter().zip(by).map(|(drive, by)| drive * by).sum()
+}
+
 impl Reduced {
     /// A jump of the drives.
     pub(crate) fn jump(&self, amplitudes: &mut [f64], by: &[f64]) {
-        amplitudes.iter_mut().zip(&self.drive).for_each(|(q, drive)| *q -= dot(drive, by));
+        amplitudes.iter_mut().zip(&self.drive).for_each(|(q, drive)| *q -= forced(drive, by));
     }
 
     /// What an interval of `dt` \[s\] does to each mode.
@@ -27,7 +32,7 @@ impl Reduced {
     /// Advances the modes by an interval over which the drives change at `slope`: exact.
     pub(crate) fn advance(&self, amplitudes: &mut [f64], slope: &[f64], interval: &Interval) {
         for (((q, drive), decay), push) in amplitudes.iter_mut().zip(&self.drive).zip(&interval.decay).zip(&interval.push) {
-            *q = *q * decay - dot(drive, slope) * push;
+            *q = *q * decay - forced(drive, slope) * push;
         }
     }
 
@@ -36,7 +41,7 @@ impl Reduced {
         let drives = output.at_rest.iter().zip(&from.drives).zip(slope);
         let of_drives: f64 = drives.map(|((rest, u), s)| rest * (u + s * dt / 2.0)).sum();
         let of_mode = |i: usize| {
-            let push = dot(&self.drive[i], slope) / self.rates[i];
+            let push = forced(&self.drive[i], slope) / self.rates[i];
             output.modal[i] * ((from.amplitudes[i] + push) * settled(self.rates[i] * dt) - push)
         };
         of_drives + (0..self.rates.len()).map(of_mode).sum::<f64>()
@@ -54,7 +59,7 @@ impl Reduced {
         let forget = (-dt / lag).exp();
         let mut sum = x * forget;
         for (i, rate) in self.rates.iter().enumerate() {
-            let push = dot(&self.drive[i], slope);
+            let push = forced(&self.drive[i], slope);
             constant -= output.modal[i] * push / rate;
             let a = output.modal[i] * (from.amplitudes[i] + push / rate);
             // ∫ e^(−(dt−s)/lag) e^(−rate s) ds / lag, without cancellation where rate ≈ 1/lag
