@@ -11,7 +11,8 @@
 //! the temperature rate at every node ([`BiasOperator`]). In a steady ramp that rate is uniform and its sum is the sensitivity:
 //! [`steady_sensitivity`], with an error measured on a finer mesh. [`ThermalModel`] is the heat flow, stepped in full or reduced to
 //! a few exponentials ([`Reduced`], stepped by [`Steps`]); [`Dynamics`] runs a chamber profile through both, and [`TurnFields`] gives temperature and strain
-//! of every turn back.
+//! of every turn back. [`ParametricModel`] does the same for all designs within ranges of their constants and dimensions, in milliseconds, with
+//! derivatives.
 //!
 //! Conventions: SI units; y = 0 is the coil's left face, +y its right; the strain-free state is ΔT = 0; surfaces are free of
 //! traction and each connected body is held at one point along y. Unbonded faces are gaps of 0.2 mm. Tails are bare fibre that
@@ -19,7 +20,8 @@
 //!
 //! References: B. Osunluk, S. Ogut and E. Ozbay, *Thermally Induced Bias Errors for a Fiber Coil with Practical Quadrupole Winding*;
 //! I. Babuška and B. Q. Guo, *SIAM J. Numer. Anal.* 25, 837 (1988), for the grading of the mesh; A. Ruhe, *Linear Algebra Appl.* 58,
-//! 391 (1984), for the Krylov space of the reduction.
+//! 391 (1984), for the Krylov space of the reduction; G. Rozza, D. B. P. Huynh and A. T. Patera, *Arch. Comput. Methods Eng.* 15, 229 (2008), for
+//! the reduced basis over parameters.
 
 mod design;
 mod dynamics;

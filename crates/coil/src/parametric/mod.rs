@@ -1,4 +1,8 @@
-//! One reduced model of a coil for every design within a box of parameters.
+//! One reduced model of a coil for every design within a box of parameters: a reduced basis.
+//!
+//! Heat flow M(θ) Ṫ + K(θ) T and mechanics A(θ) u = B(θ) T are sums of integrals over rectangles of the section with factors that are explicit
+//! in the design. Full solutions at designs of the box span the fields; on them a new design is a sum of small matrices, one symmetric
+//! eigenproblem, and one adjoint solve for the parts of the bias.
 
 mod build;
 mod heat;
@@ -267,7 +271,7 @@ impl ParametricModel {
     fn wound(&self, design: &Design) -> Result<(Winding, Weighted), Error> {
         let winding = winding::wind(&design.winding)?;
         let (nominal, of) = (self.design.winding.tails, design.winding.tails);
-        if (Spec { tails: nominal, ..design.winding.clone() }) != self.design.winding {
+        if (Spec { tails: nominal, ..design.winding }) != self.design.winding {
             let sums = self.turns.sums(&winding.weights());
             if winding.turns().len() != self.turns.hoop.nrows() {
                 return Err(Error::design(
