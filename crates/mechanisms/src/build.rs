@@ -6,8 +6,8 @@ use crate::library::{Functionals, Library, Tabulated};
 use crate::mechanism::{HeatPath, Mechanism};
 use crate::nuisances::with_constant;
 use coil::{
-    Bonds, COARSE, Design, Drive, Dynamics, Error, Fidelity, MechanicalState, Mechanics, Model, ModelEffort, ParametricModel,
-    Range, Reduced,
+    Bonds, COARSE, Design, Drive, Dynamics, Error, Fidelity, HeatPaths, MechanicalState, Mechanics, Model, ModelEffort,
+    ParametricModel, Range, Reduced,
 };
 use progress::Step;
 use rayon::prelude::*;
@@ -82,9 +82,12 @@ impl Library {
     /// # Errors
     /// [`Error`] names the dimension or property at fault, or the solve that failed.
     pub fn build(design: &Design, mechanisms: &[&dyn Mechanism], progress: &(dyn Fn(Step) + Sync)) -> Result<Self, Error> {
+        // a heater of the design's own stays out: it is no drive of a recording
+        let as_designed = design;
+        let design = &Design { heat: HeatPaths { heaters: Vec::new(), ..design.heat.clone() }, ..design.clone() };
         let paths = paths(design, mechanisms);
         let open = if debond::applies(design) { &OPEN[..] } else { &[] };
-        let heated = self_heating::applies(design).then(|| self_heating::with_heater(design, 1.0));
+        let heated = self_heating::applies(as_designed).then(|| self_heating::with_heater(design, 1.0));
         let ranges = ranges(design, mechanisms);
         let all = ModelEffort::default().solutions() + open.len();
         let yard = Yard { progress, done: AtomicUsize::new(0), all };
@@ -125,8 +128,8 @@ impl Library {
         };
         let constants = CONSTANT_STEPS.into_iter().map(constant).collect::<Result<_, _>>()?;
         let heater = heated.map(|heated| model.in_states(&heated, &nominal_state)).transpose()?;
-        let nominal = Dynamics::new(design, &[Drive::Chamber], &FIDELITY)?;
-        Ok(Self { design: design.clone(), nominal, base, fields, modulus, constants, paths: tabulated, openings, heater })
+        let nominal = Dynamics::new(as_designed, &[Drive::Chamber], &FIDELITY)?;
+        Ok(Self { design: as_designed.clone(), nominal, base, fields, modulus, constants, paths: tabulated, openings, heater })
     }
 }
 

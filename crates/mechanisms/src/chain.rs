@@ -4,7 +4,7 @@ use crate::design::REFERENCE_C;
 use crate::interpolation::weights;
 use crate::library::{Functionals, Library};
 use crate::mechanism::Change;
-use crate::record::{Parts, Prepared, Series};
+use crate::response::{Parts, Prepared, Series};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::Error;
 use nalgebra::DVector;

@@ -5,7 +5,7 @@ use crate::chain::{Chain, add};
 use crate::library::Library;
 use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Sight};
 use crate::nuisances::{self, channels, nuisances};
-use crate::record::{Parts, Prepared};
+use crate::response::{Parts, Prepared};
 use coil::{Design, Error};
 use diagnosis::{Active, Channel, ForwardModel, Latent, Nuisance, State};
 use std::cell::RefCell;

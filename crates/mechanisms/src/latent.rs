@@ -2,7 +2,7 @@
 
 use crate::chain::Chain;
 use crate::mechanism::{Change, Mechanism, Stage, lagged};
-use crate::record::{Parts, Prepared};
+use crate::response::{Parts, Prepared};
 use coil::Error;
 use diagnosis::Latent;
 

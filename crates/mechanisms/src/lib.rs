@@ -13,7 +13,7 @@ mod latent;
 mod library;
 mod mechanism;
 mod nuisances;
-mod record;
+mod response;
 
 pub use build::ranges;
 pub use catalogue::{CATALOGUE, find};
@@ -26,7 +26,7 @@ pub use mechanism::{
     rates_per_hour,
 };
 pub use nuisances::with_constant;
-pub use record::{Parts, Prepared};
+pub use response::{Parts, Prepared};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

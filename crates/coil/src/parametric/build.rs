@@ -19,11 +19,14 @@ const RATES: usize = 8;
 /// Designs of the box whose coefficients the kept terms hold.
 const SAMPLES: usize = 250;
 
+/// Factors on the transverse moduli that states may have.
+pub(super) const MODULI: [f64; 2] = [0.15, 2.2];
+
 /// States of the mechanics that laws with a state go through.
 const STATES: [MechanicalState; 3] = [
     MechanicalState::NOMINAL,
-    MechanicalState { transverse_modulus: 0.15, transverse_expansion: 2.0, ..MechanicalState::NOMINAL },
-    MechanicalState { transverse_modulus: 2.2, ..MechanicalState::NOMINAL },
+    MechanicalState { transverse_modulus: MODULI[0], transverse_expansion: 2.0, ..MechanicalState::NOMINAL },
+    MechanicalState { transverse_modulus: MODULI[1], ..MechanicalState::NOMINAL },
 ];
 
 /// Weight of stored heat beside conduction in the size of a field \[1/s\]: a coil's slowest rates are of its order.
@@ -33,6 +36,7 @@ const STORED: f64 = 1e-3;
 const FASTEST: f64 = 0.3;
 
 /// The lattice of nodes of a thermal mesh.
+#[derive(PartialEq)]
 struct Lattice {
     width: usize,
     height: usize,
@@ -78,7 +82,7 @@ fn compressed(gram: &DMatrix<f64>, least: f64, most: usize) -> DMatrix<f64> {
     })
 }
 
-/// Fractional parts of multiples of roots: points that fill a box of any dimension evenly, the same every time.
+/// Fractional parts of multiples of roots: points spread over a box, the same every time; a few in many dimensions leave gaps.
 ///
 /// M. Roberts, the R sequence: the roots of x^(d+1) = x + 1.
 pub(super) fn point(number: usize, dimension: usize) -> Vec<f64> {
@@ -122,7 +126,7 @@ impl Default for Effort {
     fn default() -> Self {
         Self {
             heat: 20,
-            mechanics: 12,
+            mechanics: 15,
             least_temperature: 1e-6,
             least_displacement: 1e-5,
             most_temperatures: 80,
@@ -165,10 +169,19 @@ impl ParametricModel {
         let mut fields: Vec<DVector<f64>> = vec![lattice.lay(&grid, &vec![1.0; grid.mesh().nodes().len()])];
         let mut slowest = 0.0;
         for k in 0..=effort.heat {
-            let shares = if k == 0 { None } else { Some(training(k, hot.len())) };
-            let changed = shares.map_or_else(|| design.clone(), |shares| placed(design, &hot, &shares));
-            let (layout, of_changed) = (skinned(&changed)?, Section::new(&changed)?);
-            let heat = Shifted::new(&layout, &changed, resolution)?;
+            let changed = if k == 0 { design.clone() } else { placed(design, &hot, &training(k, hot.len())) };
+            let made = || -> Result<_, Error> {
+                let (layout, of_changed) = (skinned(&changed)?, Section::new(&changed)?);
+                section.stretched(&of_changed)?;
+                let heat = Shifted::new(&layout, &changed, resolution)?;
+                Ok((layout, of_changed, heat))
+            };
+            // a corner of the box that cannot be built, or has faces of its own, says nothing of the others
+            let (layout, of_changed, heat) = match made() {
+                Ok(made) if Lattice::of(made.2.grid()) == lattice => made,
+                Err(error) if k == 0 => return Err(error),
+                _ => continue,
+            };
             let load = |capacity: &dyn Fn(Region) -> f64| -> Result<Vec<f64>, Error> {
                 let laid = stored(&section, &of_changed, &strips, lattice.width, lattice.size(), capacity)?;
                 Ok(heat.grid().places().iter().map(|place| laid[*place] * std::f64::consts::TAU).collect())
@@ -199,10 +212,10 @@ impl ParametricModel {
         values.set_column(0, &raw.values.column(0));
         let temperatures = Fields { width: lattice.width, values };
         let heat = Heat::new(&section, &strips, &temperatures);
-        let mechanics = |design: &Design| -> Result<Model, Error> {
-            Model::on(&skinned(design)?, design, resolution, Grading::Even, &MechanicalState::NOMINAL)
+        let mechanics = |design: &Design, state: &MechanicalState| -> Result<Model, Error> {
+            Model::on(&skinned(design)?, design, resolution, Grading::Even, state)
         };
-        let model = mechanics(design)?;
+        let model = mechanics(design, &MechanicalState::NOMINAL)?;
         solved();
         let shared = model.grid().shared_nodes(&grid)?;
         let onto =
@@ -216,7 +229,9 @@ impl ParametricModel {
         displacements.extend(model.adjoints(&[weights.clone(), lengths.clone()])?);
         for k in 0..effort.mechanics {
             let shares = training(k, stiff.len());
-            let model = mechanics(&placed(design, &stiff, &shares))?;
+            let corner = mechanics(&placed(design, &stiff, &shares), &STATES[k % STATES.len()]);
+            // as above
+            let Some(model) = corner.ok().filter(|corner| corner.unknowns() == model.unknowns()) else { continue };
             displacements.extend(model.adjoints(&[weights.clone(), lengths.clone()])?);
             displacements.extend(model.displacements(&loads[..4.min(loads.len())])?);
             solved();
@@ -241,12 +256,12 @@ impl ParametricModel {
         let fields = raw.each_ref().map(|component| component.combined(&kept));
         let structure = Structure::new(&section, &strips, &fields, &temperatures);
         let samples = (0..SAMPLES)
-            .map(|k| {
+            .filter_map(|k| {
                 let design = placed(design, &ranges, &training(k, ranges.len()));
-                let section = Section::new(&design)?;
-                Ok((design, section))
+                let changed = Section::new(&design).ok().filter(|changed| section.stretched(changed).is_ok())?;
+                Some((design, changed))
             })
-            .collect::<Result<Vec<_>, Error>>()?;
+            .collect::<Vec<_>>();
         let (heat, structure) = (heat.compressed(&samples)?, structure.compressed(&samples, &STATES)?);
         let strains = model.strains(&displacements);
         let all = |c: usize| DMatrix::from_fn(winding.turns().len(), displacements.len(), |i, j| strains[j][i][c]) * &kept;
@@ -260,7 +275,19 @@ impl ParametricModel {
         let mut laid = vec![0.0; lattice.size()];
         grid.places().iter().zip(&mean).for_each(|(place, m)| laid[*place] = *m);
         let coil_mean = temperatures.apply(&laid);
-        Ok(Self { design: design.clone(), ranges, section, grid, temperatures, heat, structure, turns, coil_mean })
+        Ok(Self {
+            design: design.clone(),
+            ranges,
+            resolution: *resolution,
+            effort: *effort,
+            section,
+            grid,
+            temperatures,
+            heat,
+            structure,
+            turns,
+            coil_mean,
+        })
     }
 }
 

@@ -18,7 +18,7 @@ pub use parameter::{Parameter, Range, Tolerance};
 pub use slopes::{Courses, Slopes};
 
 use crate::probe::Prober;
-use crate::{Bonds, Design, Error, Grid, MechanicalState, Model, Outputs, Reduced, TurnFields};
+use crate::{Bonds, Design, Error, Grid, MechanicalState, MeshFineness, Model, Outputs, Reduced, TurnFields};
 use heat::Heat;
 use nalgebra::{DMatrix, DVector};
 use project::Fields;
@@ -33,6 +33,8 @@ use winding::{Spec, Winding};
 pub struct ParametricModel {
     design: Design,
     ranges: Vec<Range>,
+    resolution: MeshFineness,
+    effort: Effort,
     section: Section,
     grid: Grid,
     /// temperatures at the nodes of the grid's lattice, 1 first
@@ -47,7 +49,7 @@ pub struct ParametricModel {
 const COARSER: f64 = 0.6;
 
 /// Factor on the distance to the coarser model that estimates the error of the bias: an estimate, not a bound. At random points of the
-/// boxes of tests/parametric.rs the error was a fifth to a fourteenth of the distance; it may be less even elsewhere.
+/// boxes of `cargo xtask bench parametric` it covers; directions that are missing from both models are not seen.
 pub const MODEL_SAFETY: f64 = 2.0;
 
 /// What the turns have of every field, a row each: temperature of temperature fields, strains of displacement fields.
@@ -104,12 +106,26 @@ impl ParametricModel {
 
     /// The first parameter of `design` that lies outside its range, with its value.
     pub fn outside(&self, design: &Design) -> Option<(Parameter, f64)> {
-        self.ranges.iter().find_map(|range| {
-            let value = range.parameter.of(design)?;
+        Parameter::ALL.iter().find_map(|&parameter| {
+            let (value, nominal) = (parameter.of(design)?, parameter.of(&self.design)?);
+            let range = self.ranges.iter().find(|range| range.parameter == parameter);
+            let [low, high] = range.map_or([nominal; 2], |range| [range.low, range.high]);
             // a hair of rounding
-            let slack = 1e-9 * (range.high - range.low);
-            (value < range.low - slack || value > range.high + slack).then_some((range.parameter, value))
+            let slack = 1e-9 * (high - low).max(1e-3 * nominal.abs());
+            // not `<`: a NaN lies in no range
+            let inside = low - slack <= value && value <= high + slack;
+            (!inside).then_some((parameter, value))
         })
+    }
+
+    /// The model made anew for ranges that hold `design`, too: nothing is extrapolated. `solved` is told as [`Self::new`] tells.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn including(&self, design: &Design, solved: &(dyn Fn() + Sync)) -> Result<Self, Error> {
+        let mut ranges = self.ranges.clone();
+        Range::widened(&mut ranges, &self.design, design);
+        Self::new(&self.design, &ranges, &self.resolution, &self.effort, solved)
     }
 
     /// How far the constants and dimensions of `design` lie outside the combinations that the model was made for, relative to their size: 0
@@ -123,15 +139,16 @@ impl ParametricModel {
         Ok(self.heat.left_out(design, &changed)?.max(structure))
     }
 
-    /// The reduced model of a changed design, driven by the chamber, and by its heaters if it has any.
+    /// The reduced model of a changed design, driven by the chamber, and by its heaters if it has any; mounts follow the chamber. The
+    /// thermometer's lag and the drifts are for [`crate::Dynamics`].
     ///
     /// # Errors
-    /// [`Error::Design`] if the design cannot be reached from the one that was modelled.
+    /// [`Error::Design`] if the design cannot be reached from the one that was modelled, or lies outside the box.
     pub fn at(&self, design: &Design) -> Result<Reduced, Error> {
         self.on(design, self.size())
     }
 
-    /// As [`Self::at`], on half of the fields: [`MODEL_SAFETY`] times the distance between the two estimates what the model leaves out.
+    /// As [`Self::at`], on six tenths of the fields: within the box [`MODEL_SAFETY`] times the distance between the two estimates what the model leaves out.
     ///
     /// # Errors
     /// As [`Self::at`].
@@ -189,14 +206,43 @@ impl ParametricModel {
         [temperatures, displacements]: [usize; 2],
         states: &[MechanicalState],
     ) -> Result<Reduced, Error> {
-        if states.iter().any(|state| state.bonds == Bonds::Opened) {
-            let problem = "a bond that is open has a mechanical model of its own; see ParametricModel::with_mechanics";
-            return Err(Error::design("mechanics", problem.into()));
-        }
+        self.holds(design, states)?;
         let changed = Section::new(design)?;
         let modes = self.heat.modes(design, &changed, temperatures)?;
         let outputs = self.functionals_on(design, &changed, states, displacements)?.map(|of| modes.output(of));
         Ok(modes.model(outputs))
+    }
+
+    /// Whether this is a model of `design` in these states of its mechanics.
+    fn holds(&self, design: &Design, states: &[MechanicalState]) -> Result<(), Error> {
+        if states.iter().any(|state| state.bonds == Bonds::Opened) {
+            let problem = "a bond that is open has a mechanical model of its own; see ParametricModel::with_mechanics";
+            return Err(Error::design("mechanics", problem.into()));
+        }
+        let [softest, stiffest] = build::MODULI;
+        if let Some(state) = states.iter().find(|s| !(softest..=stiffest).contains(&s.transverse_modulus)) {
+            let problem = format!(
+                "{} lies outside the factors {softest} to {stiffest} on the moduli that were modelled",
+                state.transverse_modulus
+            );
+            return Err(Error::design("mechanics", problem));
+        }
+        if let Some((parameter, value)) = self.outside(design) {
+            let problem =
+                format!("{parameter:?} of {value:e} lies outside the range that was modelled; see ParametricModel::including");
+            return Err(Error::design("design", problem));
+        }
+        let flanges = |design: &Design| design.spool.as_ref().map_or(Vec::new(), |spool| spool.flanges.clone());
+        let by: Vec<[f64; 2]> = flanges(design)
+            .iter()
+            .zip(flanges(&self.design))
+            .map(|(to, from)| [to.thickness - from.thickness, to.overhang - from.overhang])
+            .collect();
+        if by.windows(2).any(|w| (0..2).any(|k| (w[0][k] - w[1][k]).abs() > crate::grid::COINCIDENT)) {
+            let problem = "the flanges change unlike one another, which was not modelled; model the design anew";
+            return Err(Error::design("spool.flanges", problem.into()));
+        }
+        Ok(())
     }
 
     /// Outputs as functionals of the temperature fields.
@@ -272,14 +318,8 @@ impl ParametricModel {
         let winding = winding::wind(&design.winding)?;
         let (nominal, of) = (self.design.winding.tails, design.winding.tails);
         if (Spec { tails: nominal, ..design.winding }) != self.design.winding {
-            let sums = self.turns.sums(&winding.weights());
-            if winding.turns().len() != self.turns.hoop.nrows() {
-                return Err(Error::design(
-                    "winding",
-                    "this design has other turns than the one that was modelled; model it anew".into(),
-                ));
-            }
-            return Ok((winding, sums));
+            let problem = "this design is wound otherwise than the one that was modelled, beyond its tails; model it anew";
+            return Err(Error::design("winding", problem.into()));
         }
         // tails shift every turn's weight by its length
         let by = (of.cw - of.ccw) - (nominal.cw - nominal.ccw);
@@ -294,6 +334,8 @@ impl ParametricModel {
     /// # Errors
     /// As [`Self::at`].
     pub fn fields(&self, design: &Design, state: &MechanicalState) -> Result<TurnFields, Error> {
+        self.holds(design, std::slice::from_ref(state))?;
+        self.wound(design)?;
         let changed = Section::new(design)?;
         let modes = self.heat.modes(design, &changed, self.heat.size())?;
         let n = self.heat.size();

@@ -13,6 +13,9 @@ pub(super) struct Section {
     pub(super) regions: Vec<Option<Region>>,
 }
 
+/// Relative change of a radius at most: the series of 1/r leaves out its fourth power.
+const MOST_MOVED: f64 = 0.02;
+
 /// What a design whose section cannot be reached by stretching is told.
 fn other_section(field: &str) -> Error {
     let problem = "this design has other parts or faces than the one that was modelled; model it anew";
@@ -72,6 +75,14 @@ impl Section {
         let all = [stretch(0), stretch(1)];
         let coil = self.rectangles().find(|(.., region)| *region == Region::Coil);
         let still = Stretch { shift: 0.0, stretch: 1.0 };
+        let moved = |i: usize| (0..2).map(|k| (changed.lines[0][i + k] / self.lines[0][i + k] - 1.0).abs()).fold(0.0, f64::max);
+        if self.rectangles().any(|(i, _, region)| region != Region::Medium && moved(i) > MOST_MOVED) {
+            let problem = format!(
+                "a radius of the spool moves by more than {} %, more than was modelled; model it anew",
+                100.0 * MOST_MOVED
+            );
+            return Err(Error::design("spool.hub_thickness", problem));
+        }
         if coil.is_none_or(|(i, j, _)| all[0][i] != still || all[1][j] != still) {
             return Err(other_section("coil"));
         }

@@ -48,6 +48,13 @@ impl Parameter {
                 1e-4 * (value + own)
             }
             Self::Mount(_) | Self::Heater(_) => 1e-4 * (value.abs() + 1.0),
+            // what is left of incompressibility is the scale
+            Self::TransversePoisson => {
+                let e = &design.body.elastic;
+                1e-3 * (1.0 - value - 2.0 * e.nu_zr * e.nu_rz())
+            }
+            Self::AxialPoisson | Self::SpoolPoisson => 1e-4 * value.abs().max(0.1),
+            Self::AxialExpansion | Self::TransverseExpansion | Self::SpoolExpansion => 1e-4 * value.abs().max(1e-6),
             _ => 1e-4 * value.abs(),
         }
     }
@@ -81,6 +88,7 @@ impl ParametricModel {
         let changed = Section::new(design)?;
         let modes = self.heat.modes(design, &changed, self.heat.size())?;
         let states = design.states().0;
+        self.holds(design, &states)?;
         let n = self.heat.size() - 1;
         let mut at = Vec::new();
         for state in &states {

@@ -3,7 +3,7 @@
 use crate::Prepared;
 use crate::interpolation::weights;
 use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, grid};
-use crate::record::Parts;
+use crate::response::Parts;
 use coil::{Design, MechanicalState, Mechanics, Relaxation};
 use diagnosis::{Parameter, Prior};
 

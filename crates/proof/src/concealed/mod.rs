@@ -1,6 +1,7 @@
 //! `cargo xtask prove`: units that conceal something, diagnosed and then held against the truth.
 
 mod answer;
+mod answers;
 mod baselines;
 mod chain;
 mod inseparable;
@@ -9,7 +10,6 @@ mod report;
 mod score;
 mod summary;
 mod synthetic;
-mod units;
 
 use std::path::PathBuf;
 
@@ -59,7 +59,7 @@ impl Prove {
             return recommended::run();
         }
         if self.sealed {
-            return self.again.map_or_else(units::sealed, |folder| units::sealed_again(&folder));
+            return self.again.map_or_else(answers::sealed, |folder| answers::sealed_again(&folder));
         }
         self.cases.sort();
         self.cases.dedup();
@@ -70,7 +70,7 @@ impl Prove {
 /// Scores the open units; docs/proof.md is written when all were scored.
 fn open(only: &[String]) -> Result<bool, Failure> {
     let program = program::hash(&root())?;
-    let cases = units::open(only)?;
+    let cases = answers::open(only)?;
     let scored: Vec<Scored> = cases.iter().map(|case| case.scored.clone()).collect();
     let table = summary::summary(&scored);
     if only.is_empty() {

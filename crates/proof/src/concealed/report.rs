@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
+use super::answers::Case;
 use super::baselines::REGRESSIONS;
 use super::score::Scored;
 use super::summary::{Bound, Form, ScoreRow, Table, summary};
-use super::units::Case;
 use crate::statistics::{Measured, median};
 use crate::truth::{Kind, Tier};
 use crate::{Failure, files};

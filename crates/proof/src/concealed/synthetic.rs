@@ -9,9 +9,9 @@ use fogcoil::cache::Cache;
 use fogcoil::input;
 
 use super::answer::{answer, answered, paths, records};
+use super::answers::each;
 use super::score::{Scored, score};
 use super::summary::{Table, summary};
-use super::units::each;
 use super::{chain, report};
 use crate::files::{self, root};
 use crate::generator::{self, Generator, Which};
