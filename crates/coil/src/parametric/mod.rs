@@ -50,7 +50,7 @@ const COARSER: f64 = 0.6;
 
 /// Factor on the distance to the coarser model that estimates the error of the bias: an estimate, not a bound. At random points of the
 /// boxes of `cargo xtask bench parametric` it covers; directions that are missing from both models are not seen.
-pub const MODEL_SAFETY: f64 = 2.0;
+pub const MODEL_SAFETY: f64 = 3.0;
 
 /// What the turns have of every field, a row each: temperature of temperature fields, strains of displacement fields.
 #[derive(Debug, Clone)]
