@@ -20,7 +20,6 @@ const BANNED: [&str; 13] = [
 ];
 /// Elements without an end.
 const VOID: [&str; 2] = ["meta", "br"];
-/// Entities that text may hold.
 const ENTITIES: [&str; 4] = ["amp;", "lt;", "gt;", "quot;"];
 
 /// Everything that is wrong with a page; nothing if it is whole.

@@ -263,7 +263,6 @@ impl Cells<'_> {
         Ok((path, constants))
     }
 
-    /// Notes a cell that is not the winding's.
     fn compare_pitch(&mut self, field: &str, named: &str, pitch: f64) {
         if (pitch / self.pitch - 1.0).abs() > SAME_PITCH {
             let (cell, winding) = (1e3 * to_mm(pitch), 1e3 * to_mm(self.pitch));

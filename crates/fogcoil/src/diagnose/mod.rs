@@ -25,7 +25,6 @@ use crate::prepare::{Record, library, ready};
 
 /// A diagnosis with what it was made from.
 pub struct Outcome {
-    /// Name of the design.
     name: String,
     /// Its file.
     coil: PathBuf,
