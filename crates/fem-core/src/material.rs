@@ -304,23 +304,10 @@ mod tests {
             assert_relative_eq!(found, given, max_relative = 1e-12);
         }
         assert_relative_eq!(s * law.thermal_stress, Vector6::new(40e-6, 30e-6, 4e-6, 0.0, 0.0, 0.0), max_relative = 1e-12);
-        let (e, nu, a) = (70e9, 0.17, 0.55e-6);
-        let i = Isotropic { youngs_modulus: e, poisson_ratio: nu, thermal_expansion: a };
-        let g = i.shear_modulus();
-        let same = Orthotropic {
-            e_x: e,
-            e_y: e,
-            e_z: e,
-            g_yz: g,
-            g_xz: g,
-            g_xy: g,
-            nu_yz: nu,
-            nu_xz: nu,
-            nu_xy: nu,
-            alpha_x: a,
-            alpha_y: a,
-            alpha_z: a,
-        };
+        let ([e_x, e_y, e_z], [nu_yz, nu_xz, nu_xy], [alpha_x, alpha_y, alpha_z]) = ([70e9; 3], [0.17; 3], [0.55e-6; 3]);
+        let i = Isotropic { youngs_modulus: e_x, poisson_ratio: nu_xy, thermal_expansion: alpha_x };
+        let [g_yz, g_xz, g_xy] = [i.shear_modulus(); 3];
+        let same = Orthotropic { e_x, e_y, e_z, g_yz, g_xz, g_xy, nu_yz, nu_xz, nu_xy, alpha_x, alpha_y, alpha_z };
         assert_relative_eq!(same.law().unwrap().stiffness, i.law().unwrap().stiffness, max_relative = 1e-12);
         let refused = [Orthotropic { nu_xy: 1.3, ..o }, Orthotropic { nu_xz: 1.3, ..o }, Orthotropic { g_xy: 0.0, ..o }];
         let fields = refused.map(|o| match o.law() {

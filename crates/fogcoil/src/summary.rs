@@ -176,7 +176,6 @@ pub fn json(simulation: &Simulation) -> Value {
     })
 }
 
-/// How the chamber was inferred from the thermometer.
 fn inferred(inference: Inference) -> Value {
     let Inference { noise, roughness, sensor_residual_rms, chamber_sd: [median, largest] } = inference;
     json!({

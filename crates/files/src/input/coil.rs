@@ -171,11 +171,8 @@ impl CoilCase {
 fn check_film(top: &Group, design: &Design, layout: &Layout) -> Result<(), InputError> {
     if design.heat.film.is_some() && in_medium(layout, design.sensor) {
         let remedy = "move it into the spool or the coil, or remove heat.film_w_per_m2k";
-        return Err(top.fault(
-            "sensor",
-            "the thermometer lies outside the solids, and a film stands in place of the medium",
-            remedy,
-        ));
+        let problem = "the thermometer lies outside the solids, and a film stands in place of the medium";
+        return Err(top.fault("sensor", problem, remedy));
     }
     Ok(())
 }
@@ -248,10 +245,8 @@ impl Cells<'_> {
             AnyCell::General(case) => (self.nearest(field, named, &case)?, case.fingerprint),
             AnyCell::Regular(case, _) if case.cell.packing == Packing::Square => {
                 let problem = format!("the cell {named:?} is packed square, but a coil's law is isotropic across the fibre");
-                return Err(self
-                    .top
-                    .fault(field, problem, "give a cell of hexagonal packing, or the constants themselves")
-                    .into());
+                let remedy = "give a cell of hexagonal packing, or the constants themselves";
+                return Err(self.top.fault(field, problem, remedy).into());
             }
             AnyCell::Regular(case, _) => {
                 self.compare_pitch(field, named, case.cell.pitch);

@@ -154,7 +154,6 @@ pub(super) struct RecordFormat {
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ColumnFormat {
-    /// Its name, if one was declared.
     pub(super) name: Option<String>,
     pub(super) unit: ColumnUnit,
     /// Units in a count; 1 for a column of values.

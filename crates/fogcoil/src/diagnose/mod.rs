@@ -26,9 +26,7 @@ use crate::prepare::{Record, library, ready};
 /// A diagnosis with what it was made from.
 pub struct Outcome {
     name: String,
-    /// Its file.
     coil: PathBuf,
-    /// What the files of the design were.
     design: Vec<Fingerprint>,
     gyro: Gyro<'static>,
     diagnosis: Diagnosis,
