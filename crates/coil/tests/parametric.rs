@@ -85,6 +85,10 @@ fn largest(a: &[f64]) -> f64 {
     a.iter().map(|a| a.abs()).fold(0.0, f64::max)
 }
 
+fn at(model: &ParametricModel, design: &Design) -> Reduced {
+    model.at(design).expect("a design of the box")
+}
+
 /// At random points of the box the bias is within 1e-3 of the change that the point makes, or 1e-4 of the peak.
 fn holds(model: &ParametricModel, points: usize, seed: &mut u64) {
     let profile = profile();
@@ -92,8 +96,9 @@ fn holds(model: &ParametricModel, points: usize, seed: &mut u64) {
     for point in 0..points {
         let design = somewhere(model.design(), model.ranges(), seed);
         assert_eq!(model.outside(&design), None);
-        assert!(model.left_out(&design).unwrap() < 1e-6, "point {point}: {:e}", model.left_out(&design).unwrap());
-        let (ours, theirs) = (courses(&model.at(&design).unwrap(), &profile), full(&design, &profile));
+        let left_out = model.left_out(&design).expect("a design of the box");
+        assert!(left_out < 1e-6, "point {point}: {left_out:e}");
+        let (ours, theirs) = (courses(&at(model, &design), &profile), full(&design, &profile));
         for (of, what) in ["thermometer", "bias"].into_iter().enumerate() {
             let (error, effect) = (distance(&ours[of], &theirs[of]), distance(&theirs[of], &nominal[of]));
             let allowed = (1e-3 * effect).max(1e-4 * largest(&theirs[of]));
@@ -135,7 +140,7 @@ fn exact_conductivities_and_capacities_in_proportion_change_nothing() {
     let material = &mut common::spool(&mut scaled).material;
     material.conductivity *= 1.1;
     material.specific_heat *= 1.1;
-    let [a, b] = [reference(), scaled].map(|design| courses(&model.at(&design).unwrap(), &profile));
+    let [a, b] = [reference(), scaled].map(|design| courses(&at(model, &design), &profile));
     let off = [0, 1].map(|k| distance(&a[k], &b[k]) / largest(&a[k]));
     assert!(off.iter().all(|off| *off < 1e-7), "{off:?}");
 }
@@ -172,7 +177,7 @@ fn the_distance_to_a_coarser_model_covers_the_error() {
     let mut ratios = Vec::new();
     for point in 0..6 {
         let design = somewhere(model.design(), model.ranges(), &mut seed);
-        let (ours, theirs) = (courses(&model.at(&design).unwrap(), &profile), full(&design, &profile));
+        let (ours, theirs) = (courses(&at(model, &design), &profile), full(&design, &profile));
         let coarser = courses(&model.coarser(&design).unwrap(), &profile);
         let (stated, error) = (coil::MODEL_SAFETY * distance(&ours[1], &coarser[1]), distance(&ours[1], &theirs[1]));
         assert!(stated > error, "point {point}: states {stated:.1e}, is off by {error:.1e}");

@@ -63,22 +63,17 @@ impl Condensed {
         let mut fronts = Vec::new();
         assembly.dissect(&elements, &mut order, &mut fronts)?;
         let condensed = Self { unknowns: map.reduced(), elements, fronts };
-        condensed.check(&known, load)?;
+        let mut x = [load];
+        condensed.elements.iter().for_each(|e| e.front.forward(&mut x));
+        condensed.substitute(&mut x);
+        condensed.elements.iter().for_each(|e| e.front.backward(&mut x));
+        check_probe(&x[0], &known)?;
         Ok(condensed)
     }
 
     /// Number of unknowns, inner ones included.
     pub fn unknowns(&self) -> usize {
         self.unknowns
-    }
-
-    /// Solves for the load of a known solution of the uncondensed system.
-    fn check(&self, known: &[f64], load: Vec<f64>) -> Result<(), Error> {
-        let mut x = [load];
-        self.elements.iter().for_each(|e| e.front.forward(&mut x));
-        self.substitute(&mut x);
-        self.elements.iter().for_each(|e| e.front.backward(&mut x));
-        check_probe(&x[0], known)
     }
 
     /// Solves for all right-hand sides (each of length [`Self::unknowns`]) together; the condensed system is refined once and its

@@ -267,7 +267,7 @@ impl ParametricModel {
     fn wound(&self, design: &Design) -> Result<(Winding, Weighted), Error> {
         let winding = winding::wind(&design.winding)?;
         let (nominal, of) = (self.design.winding.tails, design.winding.tails);
-        if (Spec { tails: nominal, ..design.winding.clone() }) != self.design.winding {
+        if (Spec { tails: nominal, ..design.winding }) != self.design.winding {
             let sums = self.turns.sums(&winding.weights());
             if winding.turns().len() != self.turns.hoop.nrows() {
                 return Err(Error::design(

@@ -149,7 +149,11 @@ fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
         dehomogenization,
     };
     let layout = Layout::new(&design).map_err(|error| design_fault(&top, &design, &error))?;
-    check_film(&top, &design, &layout)?;
+    // with a film there is no medium for the thermometer to sit in
+    if design.heat.film.is_some() && in_medium(&layout, design.sensor) {
+        let problem = "the thermometer lies outside the solids, and a film stands in place of the medium";
+        return Err(top.fault("sensor", problem, "move it into the spool or the coil, or remove heat.film_w_per_m2k").into());
+    }
     let name = file.name;
     let provenance = Provenance { material, dehomogenization: row };
     let (file, fingerprints) = (path.to_owned(), cells.fingerprints);
@@ -165,16 +169,6 @@ impl CoilCase {
     pub fn steady_sensitivity(&self) -> Result<SteadySensitivity, Error> {
         coil::steady_sensitivity(&self.design).map_err(|source| Error::Coil { file: self.file.clone(), source })
     }
-}
-
-/// With a film there is no medium for the thermometer to sit in.
-fn check_film(top: &Group, design: &Design, layout: &Layout) -> Result<(), InputError> {
-    if design.heat.film.is_some() && in_medium(layout, design.sensor) {
-        let remedy = "move it into the spool or the coil, or remove heat.film_w_per_m2k";
-        let problem = "the thermometer lies outside the solids, and a film stands in place of the medium";
-        return Err(top.fault("sensor", problem, remedy));
-    }
-    Ok(())
 }
 
 /// A complaint about the design as a whole, at the field it names.

@@ -122,16 +122,13 @@ impl Group<'_> {
         self.share_of_some(quantity, bound, |u| Some(is(u)))
     }
 
-    fn worse(&self, quantity: &'static str, bound: Bound, of: fn(&Scored) -> Option<HeldOut>) -> ScoreRow {
-        self.share_of_some(quantity, bound, |u| of(u).map(|held| held.is_worse()))
-    }
-
     /// What was accepted, then what was fitted, whether it was accepted or not.
     fn both_worse(&self) -> [ScoreRow; 2] {
+        let worse = |held: Option<HeldOut>| held.map(|held| held.is_worse());
         let fitted = "made worse by what was fitted, before it was accepted or not";
         [
-            self.worse("held-out prediction made worse", Bound::AtMost(0.0), |u| u.held),
-            self.worse(fitted, Bound::Open, |u| u.fitted),
+            self.share_of_some("held-out prediction made worse", Bound::AtMost(0.0), |u| worse(u.held)),
+            self.share_of_some(fitted, Bound::Open, |u| worse(u.fitted)),
         ]
     }
 
