@@ -46,28 +46,23 @@ fn missing(package: &Value, folder: &Path) -> Vec<String> {
     wanted.into_iter().filter(|(found, _)| !found).map(|(_, missing)| missing.to_owned()).chain(path_only).collect()
 }
 
-/// Checks a library with its own features only; `deep` also with all of them, its tests, and runs these. What has a program is checked
-/// without it as well: other projects take it so.
-fn alone(name: &str, package: &Value, deep: bool) -> Result<(), Failure> {
+/// Checks a library with its own features only and with all of them, its tests, and runs these. What has a program is checked without it as
+/// well: other projects take it so.
+fn alone(name: &str, package: &Value) -> Result<(), Failure> {
     let run = |words: &[&str]| cargo(&[words, &["--quiet", "--package", name]].concat());
     if has(package, "bin") {
         run(&["check", "--no-default-features", "--lib"])?;
     }
     run(&["check"])?;
-    if !deep {
-        return Ok(());
-    }
     if package["features"].as_object().is_some_and(|features| !features.is_empty()) {
         run(&["check", "--all-features"])?;
     }
     run(&["check", "--tests"])?;
-    run(&["test"])?;
-    Ok(())
+    run(&["test"]).map(drop)
 }
 
-/// Checks every library that is published by itself. With `deep` also the proof and the program: packages all that is published, builds each
-/// package from what was packed, and runs the tests of each library by itself.
-pub(crate) fn run(deep: bool) -> Result<(), Failure> {
+/// Checks and tests every library by itself, packages all that is published, and builds each package from what was packed; always `true`.
+pub(crate) fn run() -> Result<bool, Failure> {
     let start = Instant::now();
     let packages = workspace()?;
     let folder = root().join("crates");
@@ -76,23 +71,16 @@ pub(crate) fn run(deep: bool) -> Result<(), Failure> {
         let Some(here) = Path::new(manifest).parent().filter(|here| has(package, "lib") && here.starts_with(&folder)) else {
             continue;
         };
-        // minutes of compiling: python/test builds the program's library without the program, too
-        if !deep && (has(package, "bin") || !published(package)) {
-            continue;
-        }
         let missing = missing(package, here);
         if !missing.is_empty() {
             return Err(Failure(format!("{name}: {}", missing.join("; "))));
         }
-        alone(name, package, deep)?;
+        alone(name, package)?;
         println!("[{:4.0} s] {name} stands alone", start.elapsed().as_secs_f64());
     }
-    if deep {
-        let mut arguments = vec!["package", "--workspace", "--allow-dirty"];
-        let kept = packages.iter().filter(|package| !published(package)).filter_map(|package| package["name"].as_str());
-        arguments.extend(kept.flat_map(|name| ["--exclude", name]));
-        cargo(&arguments)?;
-        println!("[{:4.0} s] every package is complete", start.elapsed().as_secs_f64());
-    }
-    Ok(())
+    let kept = packages.iter().filter(|package| !published(package)).filter_map(|package| package["name"].as_str());
+    let excluded = kept.flat_map(|name| ["--exclude", name]);
+    cargo(&["package", "--workspace", "--allow-dirty"].into_iter().chain(excluded).collect::<Vec<_>>())?;
+    println!("[{:4.0} s] every package is complete", start.elapsed().as_secs_f64());
+    Ok(true)
 }

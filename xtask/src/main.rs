@@ -54,11 +54,7 @@ enum Chore {
     /// Writes crates/proof/src/validation/sabotage.md. Exit status 1 if no test sees one of the breaks.
     Sabotage,
     /// Each library by itself: what it promises, its own features, its tests, its package
-    Crates {
-        /// Only whether each library that is published compiles by itself, without tests and packages
-        #[arg(long)]
-        check: bool,
-    },
+    Crates,
     /// Times beside errors, into docs/benchmarks.md
     #[command(subcommand)]
     Bench(bench::Bench),
@@ -75,7 +71,7 @@ fn main() -> ExitCode {
         Chore::DocsCheck(check) => check.run(),
         Chore::Identify(identify) => identify.run(),
         Chore::Sabotage => sabotage::run(),
-        Chore::Crates { check } => crates::run(!check).map(|()| true),
+        Chore::Crates => crates::run(),
         Chore::Bench(bench) => bench.run(),
     };
     match outcome {

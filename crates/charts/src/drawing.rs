@@ -75,7 +75,6 @@ pub struct Drawing {
 const HEAD: f64 = 7.0;
 
 impl Drawing {
-    /// The drawing over its axes.
     pub(crate) fn draw(&self, svg: &mut Svg, (x, y): (&Scale, &Scale), font: f64) {
         let path = |x_ends: [f64; 2], y_ends: [f64; 2]| {
             let ([x0, x1], [y0, y1]) = (x_ends.map(|v| x.pixel(v)), y_ends.map(|v| y.pixel(v)));

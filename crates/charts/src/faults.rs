@@ -3,24 +3,12 @@
 use std::collections::HashSet;
 
 /// What would make a page ask for something besides itself, act by itself, or show no number.
+#[rustfmt::skip]
 const BANNED: [&str; 13] = [
-    "http://",
-    "https://",
-    "<script",
-    "<link",
-    "<img",
-    "url(",
-    "@import",
-    "javascript:",
-    "onclick",
-    "NaN",
-    ">inf",
-    "inf ",
-    "\"inf",
+    "http://", "https://", "<script", "<link", "<img", "url(", "@import", "javascript:", "onclick", "NaN", ">inf", "inf ", "\"inf",
 ];
 /// Elements without an end.
 const VOID: [&str; 2] = ["meta", "br"];
-/// Entities that text may hold.
 const ENTITIES: [&str; 4] = ["amp;", "lt;", "gt;", "quot;"];
 
 /// Everything that is wrong with a page; nothing if it is whole.

@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write};
 
-use maud::{Markup, PreEscaped, Render};
+use maud::{Escaper, Markup, PreEscaped, Render};
 
 /// Names of attributes with their values, as [`attributes!`](crate::attributes) makes them.
 pub type Attributes<'a> = &'a [(&'static str, fmt::Arguments<'a>)];
@@ -32,16 +32,7 @@ struct Escaped<'a>(&'a mut String);
 
 impl Write for Escaped<'_> {
     fn write_str(&mut self, text: &str) -> fmt::Result {
-        for c in text.chars().filter(|c| !c.is_control()) {
-            match c {
-                '&' => self.0.push_str("&amp;"),
-                '<' => self.0.push_str("&lt;"),
-                '>' => self.0.push_str("&gt;"),
-                '"' => self.0.push_str("&quot;"),
-                c => self.0.push(c),
-            }
-        }
-        Ok(())
+        text.split(char::is_control).try_for_each(|piece| Escaper::new(self.0).write_str(piece))
     }
 }
 

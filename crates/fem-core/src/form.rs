@@ -32,10 +32,13 @@ const fn term(strain: usize, operator: Operator, component: usize) -> Term {
 /// A weak form: strain operator and measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Form {
-    components: usize,
-    strains: usize,
+    /// Unknowns per node.
+    pub components: usize,
+    /// Number of strains.
+    pub strains: usize,
     terms: &'static [Term],
-    measure: Measure,
+    /// Measure of the integrals.
+    pub measure: Measure,
 }
 
 impl Form {
@@ -68,21 +71,6 @@ impl Form {
         measure: Measure::Revolution,
     };
 
-    /// Unknowns per node.
-    pub fn components(&self) -> usize {
-        self.components
-    }
-
-    /// Number of strains.
-    pub fn strains(&self) -> usize {
-        self.strains
-    }
-
-    /// Measure of the integrals.
-    pub fn measure(&self) -> Measure {
-        self.measure
-    }
-
     fn operator(&self, operator: Operator, value: &DMatrix<f64>, g: &ElementGeometry) -> DMatrix<f64> {
         match operator {
             Operator::DX => g.d_x.clone(),
@@ -92,13 +80,8 @@ impl Form {
     }
 
     fn operators(&self) -> Vec<Operator> {
-        let mut list = Vec::new();
-        for t in self.terms {
-            if !list.contains(&t.operator) {
-                list.push(t.operator);
-            }
-        }
-        list
+        let used = |operator: &Operator| self.terms.iter().any(|t| t.operator == *operator);
+        [Operator::DX, Operator::DY, Operator::OverX].into_iter().filter(used).collect()
     }
 
     /// Element stiffness `∫ Bᵀ D B`, unknowns node by node (component fastest). `d` is (strains × strains), symmetric.
@@ -108,10 +91,7 @@ impl Form {
         let (n, c) = (value.nrows(), self.components);
         let mut k = DMatrix::zeros(n * c, n * c);
         for (s, right) in list.iter().zip(&left) {
-            let mut weighted = right.transpose();
-            for (mut row, w) in weighted.row_iter_mut().zip(&g.weight) {
-                row *= *w;
-            }
+            let weighted = weighted(right, g, 1.0);
             for (t, left) in list.iter().zip(&left) {
                 let product = left * &weighted;
                 self.scatter(&mut k, &product, (*t, *s), d);
@@ -155,10 +135,7 @@ impl Form {
     /// Shape (nodes × components, nodes).
     pub fn coupling(&self, value: &DMatrix<f64>, g: &ElementGeometry, beta: &[f64]) -> DMatrix<f64> {
         let (n, c) = (value.nrows(), self.components);
-        let mut weighted = value.transpose();
-        for (mut row, w) in weighted.row_iter_mut().zip(&g.weight) {
-            row *= *w;
-        }
+        let weighted = weighted(value, g, 1.0);
         let mut h = DMatrix::zeros(n * c, n);
         for t in self.terms.iter().filter(|t| beta[t.strain] != 0.0) {
             let product = self.operator(t.operator, value, g) * &weighted;
@@ -173,10 +150,15 @@ impl Form {
 
     /// Element mass `∫ N c N` of a scalar field.
     pub fn mass(value: &DMatrix<f64>, g: &ElementGeometry, capacity: f64) -> DMatrix<f64> {
-        let mut weighted = value.transpose();
-        for (mut row, w) in weighted.row_iter_mut().zip(&g.weight) {
-            row *= *w * capacity;
-        }
-        value * weighted
+        value * weighted(value, g, capacity)
     }
+}
+
+/// The transpose, each point's row times its weight and a factor.
+fn weighted(functions: &DMatrix<f64>, g: &ElementGeometry, factor: f64) -> DMatrix<f64> {
+    let mut weighted = functions.transpose();
+    for (mut row, w) in weighted.row_iter_mut().zip(&g.weight) {
+        row *= *w * factor;
+    }
+    weighted
 }

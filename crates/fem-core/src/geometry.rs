@@ -17,10 +17,10 @@ pub enum Measure {
 /// Tensor-product shape functions at the quadrature points of the reference square. Rows are nodes, columns points.
 #[derive(Debug, Clone)]
 pub struct ReferenceElement {
-    basis: Lagrange,
+    pub(crate) basis: Lagrange,
     /// Values and slopes at the points along one side, shape (nodes, points).
-    one_dimension: [DMatrix<f64>; 2],
-    quadrature: Quadrature,
+    pub(crate) one_dimension: [DMatrix<f64>; 2],
+    pub(crate) quadrature: Quadrature,
     /// N, shape (nodes, points).
     pub value: DMatrix<f64>,
     d_xi: DMatrix<f64>,
@@ -59,15 +59,6 @@ impl ReferenceElement {
         let weights = (0..q * q).map(|k| weights[k % q] * weights[k / q]).collect();
         let one_dimension = [DMatrix::from_fn(n, q, v), DMatrix::from_fn(n, q, d)];
         Self { basis, one_dimension, quadrature, value, d_xi, d_eta, weights }
-    }
-
-    pub(crate) fn basis(&self) -> &Lagrange {
-        &self.basis
-    }
-
-    /// Values and slopes of the shape functions along one side of the reference square, shape (nodes, points), and the points.
-    pub(crate) fn one_dimension(&self) -> (&DMatrix<f64>, &DMatrix<f64>, &Quadrature) {
-        (&self.one_dimension[0], &self.one_dimension[1], &self.quadrature)
     }
 
     /// Geometry of element `e` of `mesh` (which must be of this order).

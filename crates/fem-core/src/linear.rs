@@ -54,6 +54,25 @@ pub(crate) fn probe(unknowns: usize) -> Vec<f64> {
     (0..unknowns).map(|i| 1.0 + (i as f64 * 0.618_033_988_749_894_9).fract()).collect()
 }
 
+/// Whether the known solution came back.
+pub(crate) fn check_probe(found: &[f64], known: &[f64]) -> Result<(), Error> {
+    let error = largest(&found.iter().zip(known).map(|(a, b)| a - b).collect::<Vec<_>>()) / 2.0;
+    if error <= PROBE_ERROR_LIMIT {
+        return Ok(());
+    }
+    let detail = format!("singular to rounding: a known solution came back with a relative error of {error:.1e}");
+    Err(Error::NotPositiveDefinite { unknowns: known.len(), detail })
+}
+
+/// Whether a solve left no more than rounding explains; `size` is that of |A| |x| + |b|.
+pub(crate) fn check_backward(residual: &[f64], size: f64) -> Result<(), Error> {
+    let backward_error = largest(residual) / size;
+    if size != 0.0 && (backward_error > BACKWARD_ERROR_LIMIT || backward_error.is_nan()) {
+        return Err(Error::Residual { backward_error, limit: BACKWARD_ERROR_LIMIT, unknowns: residual.len() });
+    }
+    Ok(())
+}
+
 impl SymbolicFactor {
     /// Orders the unknowns of `matrix`.
     ///
@@ -86,7 +105,8 @@ impl SymbolicFactor {
             LltError::Generic(e) => not_positive_definite(&matrix, format!("{e:?}")),
         })?;
         let factor = Factor { matrix, cholesky };
-        factor.check()?;
+        let known = probe(factor.unknowns());
+        check_probe(&factor.solve(&[factor.matrix.multiply(&known)])?[0], &known)?;
         Ok(factor)
     }
 }
@@ -108,19 +128,6 @@ impl Factor {
     /// The matrix that was factorised.
     pub fn matrix(&self) -> &SparseMatrix {
         &self.matrix
-    }
-
-    /// Solves for a known solution.
-    fn check(&self) -> Result<(), Error> {
-        let known = probe(self.unknowns());
-        let found = &self.solve(&[self.matrix.multiply(&known)])?[0];
-        let difference: Vec<f64> = found.iter().zip(&known).map(|(a, b)| a - b).collect();
-        let error = largest(&difference) / 2.0;
-        if error <= PROBE_ERROR_LIMIT {
-            return Ok(());
-        }
-        let detail = format!("singular to rounding: a known solution came back with a relative error of {error:.1e}");
-        Err(not_positive_definite(&self.matrix, detail))
     }
 
     /// Solves for all right-hand sides without refinement and without a look at the residual: the factor was checked when it was made.
@@ -148,11 +155,7 @@ impl Factor {
             x.iter_mut().zip(step).for_each(|(x, step)| *x += step);
         }
         for (x, b) in x.iter().zip(rhs) {
-            let size = largest(&self.matrix.multiply_magnitudes(x)) + largest(b);
-            let backward_error = largest(&residual(x, b)) / size;
-            if size != 0.0 && (backward_error > BACKWARD_ERROR_LIMIT || backward_error.is_nan()) {
-                return Err(Error::Residual { backward_error, limit: BACKWARD_ERROR_LIMIT, unknowns: self.unknowns() });
-            }
+            check_backward(&residual(x, b), largest(&self.matrix.multiply_magnitudes(x)) + largest(b))?;
         }
         Ok(x)
     }
@@ -174,7 +177,8 @@ pub fn symmetric_eigen(matrix: &DMatrix<f64>) -> Result<(Vec<f64>, DMatrix<f64>)
 #[derive(Debug, Clone)]
 pub(crate) struct PartialFactor {
     rows: usize,
-    inner: usize,
+    /// number of unknowns that are eliminated
+    pub(crate) inner: usize,
     columns: Vec<f64>,
 }
 
@@ -201,11 +205,6 @@ impl PartialFactor {
         columns.truncate(rows * inner);
         columns.shrink_to_fit();
         Ok((Self { rows, inner, columns }, left))
-    }
-
-    /// Number of unknowns that are eliminated.
-    pub(crate) fn inner(&self) -> usize {
-        self.inner
     }
 
     fn blocks(&self) -> (MatRef<'_, f64>, MatRef<'_, f64>) {

@@ -49,18 +49,16 @@ pub struct TransverselyIsotropic {
     pub alpha_r: f64,
 }
 
+fn require(holds: bool, field: &'static str, value: f64, range: impl Into<String>) -> Result<(), Error> {
+    if holds { Ok(()) } else { Err(Error::Material { field, value, range: range.into() }) }
+}
+
 fn positive(field: &'static str, value: f64) -> Result<(), Error> {
-    if value.is_finite() && value > 0.0 {
-        return Ok(());
-    }
-    Err(Error::Material { field, value, range: "finite and greater than 0".into() })
+    require(value.is_finite() && value > 0.0, field, value, "finite and greater than 0")
 }
 
 fn finite(field: &'static str, value: f64) -> Result<(), Error> {
-    if value.is_finite() {
-        return Ok(());
-    }
-    Err(Error::Material { field, value, range: "finite".into() })
+    require(value.is_finite(), field, value, "finite")
 }
 
 impl Isotropic {
@@ -83,11 +81,8 @@ impl Isotropic {
         positive("youngs_modulus", self.youngs_modulus)?;
         finite("thermal_expansion", self.thermal_expansion)?;
         let nu = self.poisson_ratio;
-        if !(nu > -1.0 && nu < 0.5) {
-            let range =
-                "greater than -1 and less than 0.5 (at 0.5 the solid is incompressible and its stiffness infinite)".into();
-            return Err(Error::Material { field: "poisson_ratio", value: nu, range });
-        }
+        let range = "greater than -1 and less than 0.5 (at 0.5 the solid is incompressible and its stiffness infinite)";
+        require(nu > -1.0 && nu < 0.5, "poisson_ratio", nu, range)?;
         let (lambda, mu) = (self.lame_lambda(), self.shear_modulus());
         let mut stiffness = Matrix6::zeros();
         for i in 0..3 {
@@ -125,15 +120,10 @@ impl TransverselyIsotropic {
         finite("nu_zr", self.nu_zr)?;
         finite("alpha_z", self.alpha_z)?;
         finite("alpha_r", self.alpha_r)?;
-        if !(self.nu_r > -1.0 && self.nu_r < 1.0) {
-            return Err(Error::Material { field: "nu_r", value: self.nu_r, range: "greater than -1 and less than 1".into() });
-        }
-        if self.indefinite_at_e_r_factor() <= 1.0 {
-            let limit = 1.0 - 2.0 * self.nu_zr * self.nu_rz();
-            let range = format!("less than 1 - 2 nu_zr^2 e_r/e_z = {limit:.6} (else the stiffness is not positive definite)");
-            return Err(Error::Material { field: "nu_r", value: self.nu_r, range });
-        }
-        Ok(())
+        require(self.nu_r > -1.0 && self.nu_r < 1.0, "nu_r", self.nu_r, "greater than -1 and less than 1")?;
+        let limit = 1.0 - 2.0 * self.nu_zr * self.nu_rz();
+        let range = format!("less than 1 - 2 nu_zr^2 e_r/e_z = {limit:.6} (else the stiffness is not positive definite)");
+        require(self.indefinite_at_e_r_factor() > 1.0, "nu_r", self.nu_r, range)
     }
 
     /// The law with z = fibre.
@@ -314,23 +304,10 @@ mod tests {
             assert_relative_eq!(found, given, max_relative = 1e-12);
         }
         assert_relative_eq!(s * law.thermal_stress, Vector6::new(40e-6, 30e-6, 4e-6, 0.0, 0.0, 0.0), max_relative = 1e-12);
-        let (e, nu, a) = (70e9, 0.17, 0.55e-6);
-        let i = Isotropic { youngs_modulus: e, poisson_ratio: nu, thermal_expansion: a };
-        let g = i.shear_modulus();
-        let same = Orthotropic {
-            e_x: e,
-            e_y: e,
-            e_z: e,
-            g_yz: g,
-            g_xz: g,
-            g_xy: g,
-            nu_yz: nu,
-            nu_xz: nu,
-            nu_xy: nu,
-            alpha_x: a,
-            alpha_y: a,
-            alpha_z: a,
-        };
+        let ([e_x, e_y, e_z], [nu_yz, nu_xz, nu_xy], [alpha_x, alpha_y, alpha_z]) = ([70e9; 3], [0.17; 3], [0.55e-6; 3]);
+        let i = Isotropic { youngs_modulus: e_x, poisson_ratio: nu_xy, thermal_expansion: alpha_x };
+        let [g_yz, g_xz, g_xy] = [i.shear_modulus(); 3];
+        let same = Orthotropic { e_x, e_y, e_z, g_yz, g_xz, g_xy, nu_yz, nu_xz, nu_xy, alpha_x, alpha_y, alpha_z };
         assert_relative_eq!(same.law().unwrap().stiffness, i.law().unwrap().stiffness, max_relative = 1e-12);
         let refused = [Orthotropic { nu_xy: 1.3, ..o }, Orthotropic { nu_xz: 1.3, ..o }, Orthotropic { g_xy: 0.0, ..o }];
         let fields = refused.map(|o| match o.law() {

@@ -24,48 +24,47 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (p1, n as f64 * (x * p1 - p0) / (x * x - 1.0))
 }
 
+/// Newton's method from `x`, whose next step `step` says.
+fn newton(mut x: f64, step: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..50 {
+        let step = step(x);
+        x -= step;
+        if step.abs() < 1e-16 {
+            break;
+        }
+    }
+    x
+}
+
 /// Gauss–Legendre quadrature with `n ≥ 1` points, exact to degree 2n − 1.
 pub fn gauss(n: usize) -> Quadrature {
     let n = n.max(1);
-    let mut points = vec![0.0; n];
-    let mut weights = vec![0.0; n];
-    for i in 0..n {
-        let mut x = -(PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
-        for _ in 0..50 {
+    let root = |i: usize| {
+        newton(-(PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos(), |x| {
             let (p, d) = legendre(n, x);
-            let step = p / d;
-            x -= step;
-            if step.abs() < 1e-16 {
-                break;
-            }
-        }
-        let (_, d) = legendre(n, x);
-        points[i] = x;
-        weights[i] = 2.0 / ((1.0 - x * x) * d * d);
-    }
+            p / d
+        })
+    };
+    let weight = |x: &f64| {
+        let (_, d) = legendre(n, *x);
+        2.0 / ((1.0 - x * x) * d * d)
+    };
+    let points: Vec<f64> = (0..n).map(root).collect();
+    let weights = points.iter().map(weight).collect();
     Quadrature { points, weights }
 }
 
 /// The `order + 1` Gauss–Lobatto points, `order ≥ 1`: the end points and the extrema of the Legendre polynomial.
 pub fn gauss_lobatto(order: usize) -> Vec<f64> {
     let n = order.max(1);
-    let mut points = vec![-1.0; n + 1];
-    points[n] = 1.0;
-    for (i, point) in points.iter_mut().enumerate().take(n).skip(1) {
-        let mut x = -(PI * i as f64 / n as f64).cos();
-        for _ in 0..50 {
-            // Newton on P'_n with P''_n from Legendre's equation
+    let inner = |i: usize| {
+        newton(-(PI * i as f64 / n as f64).cos(), |x| {
+            // P''_n from Legendre's equation
             let (p, d) = legendre(n, x);
-            let second = (2.0 * x * d - (n * (n + 1)) as f64 * p) / (1.0 - x * x);
-            let step = d / second;
-            x -= step;
-            if step.abs() < 1e-16 {
-                break;
-            }
-        }
-        *point = x;
-    }
-    points
+            d / ((2.0 * x * d - (n * (n + 1)) as f64 * p) / (1.0 - x * x))
+        })
+    };
+    std::iter::once(-1.0).chain((1..n).map(inner)).chain([1.0]).collect()
 }
 
 /// Lagrange polynomials through given points.

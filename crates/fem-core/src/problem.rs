@@ -69,7 +69,7 @@ impl<'a> Problem<'a> {
 
     /// Which unknowns the active regions use, for [`crate::Constraints::eliminate`].
     pub fn used(&self, active: impl Fn(usize) -> bool) -> Vec<bool> {
-        let c = self.form.components();
+        let c = self.form.components;
         let mut used = vec![false; self.mesh.nodes().len() * c];
         for (element, &region) in self.mesh.elements().iter().zip(self.mesh.regions()) {
             if active(region) {
@@ -108,7 +108,7 @@ impl<'a> Problem<'a> {
         let per_element = move |(e, &region): (usize, &usize)| match (&laws[region], &coefficients[region]) {
             (Some(law), Some(coefficients)) => match self.rectangle(e) {
                 Some(rectangle) => Ok(on_rectangle(&rectangle, coefficients)),
-                None => Ok(matrix(&self.reference.geometry(self.mesh, e, self.form.measure())?, law)),
+                None => Ok(matrix(&self.reference.geometry(self.mesh, e, self.form.measure)?, law)),
             },
             _ => Ok(DMatrix::zeros(0, 0)),
         };
@@ -116,14 +116,14 @@ impl<'a> Problem<'a> {
     }
 
     fn rectangle(&self, e: usize) -> Option<Rectangle> {
-        Rectangle::new(&self.reference, self.mesh, e, self.form.measure())
+        Rectangle::new(&self.reference, self.mesh, e, self.form.measure)
     }
 
     fn stiffnesses<'m>(
         &'m self,
         laws: &'m [Option<DMatrix<f64>>],
     ) -> Result<impl Iterator<Item = Result<DMatrix<f64>, Error>>, Error> {
-        self.check(laws, self.form.strains(), Some(self.form.strains()))?;
+        self.check(laws, self.form.strains, Some(self.form.strains))?;
         let coefficients = |law| Coefficients::stiffness(self.form, law);
         let general = |g: &crate::ElementGeometry, law: &DMatrix<f64>| self.form.stiffness(&self.reference.value, g, law);
         Ok(self.element_matrices(laws, coefficients, Rectangle::stiffness, general))
@@ -182,22 +182,18 @@ impl<'a> Problem<'a> {
     /// # Errors
     /// As [`Self::stiffness`].
     pub fn loads(&self, stresses: &[Option<DMatrix<f64>>]) -> Result<Vec<Vec<f64>>, Error> {
-        self.check(stresses, self.form.strains(), None)?;
+        self.check(stresses, self.form.strains, None)?;
         let count = stresses.iter().flatten().map(|s| s.ncols()).max().unwrap_or(0);
-        let c = self.form.components();
+        let c = self.form.components;
         let mut loads = vec![vec![0.0; self.mesh.nodes().len() * c]; count];
-        let coefficients: Vec<_> = stresses.iter().map(|s| s.as_ref().map(|s| Coefficients::loads(self.form, s))).collect();
-        for (e, &region) in self.mesh.regions().iter().enumerate() {
-            let (Some(stress), Some(coefficients)) = (&stresses[region], &coefficients[region]) else { continue };
-            let element: Vec<DVector<f64>> = match self.rectangle(e) {
-                Some(rectangle) => (0..stress.ncols()).map(|column| rectangle.load(coefficients, column)).collect(),
-                None => {
-                    let g = self.reference.geometry(self.mesh, e, self.form.measure())?;
-                    stress.column_iter().map(|s| self.form.load(&self.reference.value, &g, s.as_slice())).collect()
-                }
-            };
-            for (load, f) in loads.iter_mut().zip(&element) {
-                for (a, node) in self.mesh.elements()[e].iter().enumerate() {
+        let general = |g: &crate::ElementGeometry, stresses: &DMatrix<f64>| {
+            let columns = stresses.column_iter().map(|s| self.form.load(&self.reference.value, g, s.as_slice()));
+            DMatrix::from_columns(&columns.collect::<Vec<_>>())
+        };
+        let elements = self.element_matrices(stresses, |s| Coefficients::loads(self.form, s), Rectangle::loads, general);
+        for (nodes, element) in self.mesh.elements().iter().zip(elements) {
+            for (load, f) in loads.iter_mut().zip(element?.column_iter()) {
+                for (a, node) in nodes.iter().enumerate() {
                     (0..c).for_each(|i| load[node * c + i] += f[a * c + i]);
                 }
             }
@@ -211,13 +207,13 @@ impl<'a> Problem<'a> {
     /// # Errors
     /// As [`Self::stiffness`].
     pub fn coupling(&self, laws: &[Option<DMatrix<f64>>]) -> Result<Coupling, Error> {
-        self.check(laws, self.form.strains(), Some(1))?;
+        self.check(laws, self.form.strains, Some(1))?;
         let general =
             |g: &crate::ElementGeometry, law: &DMatrix<f64>| self.form.coupling(&self.reference.value, g, law.as_slice());
         let coefficients = |law| Coefficients::loads(self.form, law);
         let elements = self.element_matrices(laws, coefficients, Rectangle::coupling, general).collect::<Result<_, _>>()?;
         let nodes: Vec<_> = self.mesh.elements().to_vec();
-        Ok(Coupling { components: self.form.components(), count: self.mesh.nodes().len(), nodes, elements })
+        Ok(Coupling { components: self.form.components, count: self.mesh.nodes().len(), nodes, elements })
     }
 
     fn masses<'m>(
@@ -225,7 +221,7 @@ impl<'a> Problem<'a> {
         capacities: &'m [Option<DMatrix<f64>>],
     ) -> Result<impl Iterator<Item = Result<DMatrix<f64>, Error>>, Error> {
         self.check(capacities, 1, Some(1))?;
-        let components = self.form.components();
+        let components = self.form.components;
         let each = move |mass: DMatrix<f64>| {
             if components == 1 { mass } else { mass.kronecker(&DMatrix::identity(components, components)) }
         };
@@ -260,7 +256,7 @@ impl<'a> Problem<'a> {
         let sums = both.map(|(e, (stiffness, mass))| {
             let mut sum = stiffness? + mass? * rate;
             for &(_, edge, h) in edges.iter().filter(|(at, ..)| *at == e) {
-                sum += self.reference.edge_mass(self.mesh, e, edge, self.form.measure()) * h;
+                sum += self.reference.edge_mass(self.mesh, e, edge, self.form.measure) * h;
             }
             Ok(sum)
         });
@@ -272,7 +268,7 @@ impl<'a> Problem<'a> {
         let nodes = (self.mesh.order() + 1).pow(2);
         let mut elements = vec![DMatrix::zeros(nodes, nodes); self.mesh.elements().len()];
         for &(e, edge, h) in edges {
-            elements[e] += self.reference.edge_mass(self.mesh, e, edge, self.form.measure()) * h;
+            elements[e] += self.reference.edge_mass(self.mesh, e, edge, self.form.measure) * h;
         }
         Pattern::new(self.mesh, map, |_| true).assemble(&elements)
     }
@@ -282,7 +278,7 @@ impl<'a> Problem<'a> {
     /// # Errors
     /// [`Error::Mesh`] if an element is turned inside out.
     pub fn region_measures(&self) -> Result<Vec<f64>, Error> {
-        self.reference.region_measures(self.mesh, self.form.measure())
+        self.reference.region_measures(self.mesh, self.form.measure)
     }
 
     /// Values and gradients of the shape functions of element `e` at (ξ, η): see [`ReferenceElement::at_point`].

@@ -2,7 +2,7 @@
 
 use crate::geometry::{ElementGeometry, Measure};
 use crate::{Form, Mesh, ReferenceElement};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use std::f64::consts::TAU;
 
 /// Functions along a side: slope, value, value over x. The operators ∂x, ∂y, 1/x are products of one along x and one along y.
@@ -50,7 +50,7 @@ impl Coefficients {
 impl Rectangle {
     /// Element `e` of `mesh`, unless it is no such rectangle, is turned inside out, or reaches across the axis of a body of revolution.
     pub(crate) fn new(reference: &ReferenceElement, mesh: &Mesh, e: usize, measure: Measure) -> Option<Self> {
-        let (points, n) = (reference.basis().points(), mesh.order() + 1);
+        let (points, n) = (reference.basis.points(), mesh.order() + 1);
         let element = &mesh.elements()[e];
         let (first, last) = (mesh.nodes()[element[0]], mesh.nodes()[element[n * n - 1]]);
         let middle = [0, 1].map(|c| (first[c] + last[c]) / 2.0);
@@ -63,7 +63,7 @@ impl Rectangle {
         if !(in_place && half[0] > 0.0 && half[1] > 0.0 && half[0].is_finite() && half[1].is_finite()) {
             return None;
         }
-        let (value, slope, quadrature) = reference.one_dimension();
+        let ([value, slope], quadrature) = (&reference.one_dimension, &reference.quadrature);
         let x: Vec<f64> = quadrature.points.iter().map(|xi| middle[0] + half[0] * xi).collect();
         let weight = |c: usize, k: usize| quadrature.weights[k] * half[c];
         let along_x = match measure {
@@ -143,16 +143,18 @@ impl Rectangle {
         h
     }
 
-    /// `Σ c_t ∫ O_t N_a` for column `column` of the coefficients.
-    pub(crate) fn load(&self, coefficients: &Coefficients, column: usize) -> DVector<f64> {
+    /// `Σ c_t ∫ O_t N_a` for each column of the coefficients.
+    pub(crate) fn loads(&self, coefficients: &Coefficients) -> DMatrix<f64> {
         let (n, c) = (self.nodes, coefficients.0.nrows() / 3);
-        let mut f = DVector::zeros(n * n * c);
+        let mut f = DMatrix::zeros(n * n * c, coefficients.0.ncols());
         for t in 0..3 {
             // the shape functions sum to one
             let (x, y) = (self.x[3 * ALONG_X[t] + VALUE].column_sum(), self.y[3 * ALONG_Y[t] + VALUE].column_sum());
-            for component in (0..c).filter(|i| coefficients.0[(t * c + i, column)] != 0.0) {
-                let factor = coefficients.0[(t * c + component, column)];
-                (0..n * n).for_each(|a| f[a * c + component] += factor * x[a % n] * y[a / n]);
+            for (mut f, factors) in f.column_iter_mut().zip(coefficients.0.column_iter()) {
+                for component in (0..c).filter(|i| factors[t * c + i] != 0.0) {
+                    let factor = factors[t * c + component];
+                    (0..n * n).for_each(|a| f[a * c + component] += factor * x[a % n] * y[a / n]);
+                }
             }
         }
         f
@@ -189,15 +191,15 @@ mod tests {
         let forms = [Form::DIFFUSION, Form::PLANE_STRAIN, Form::AXISYMMETRIC_DIFFUSION, Form::AXISYMMETRIC_ELASTICITY];
         for (form, order) in forms.into_iter().flat_map(|form| [1, 2, 5, 8].map(|order| (form, order))) {
             let (mesh, reference) = (mesh(order, 0.0), ReferenceElement::new(order, order + 1));
-            let (value, g) = (&reference.value, reference.geometry(&mesh, 0, form.measure()).unwrap());
-            let rectangle = Rectangle::new(&reference, &mesh, 0, form.measure()).expect("a rectangle");
+            let (value, g) = (&reference.value, reference.geometry(&mesh, 0, form.measure).unwrap());
+            let rectangle = Rectangle::new(&reference, &mesh, 0, form.measure).expect("a rectangle");
             let what = format!("{form:?}, order {order}");
-            let (d, s) = (law(form.strains(), form.strains()), law(form.strains(), 1));
+            let (d, s) = (law(form.strains, form.strains), law(form.strains, 1));
             assert_equal(&rectangle.stiffness(&Coefficients::stiffness(form, &d)), &form.stiffness(value, &g, &d), &what);
             let loads = Coefficients::loads(form, &s);
             assert_equal(&rectangle.coupling(&loads), &form.coupling(value, &g, s.as_slice()), &what);
             assert_equal(&rectangle.mass(), &Form::mass(value, &g, 1.0), &what);
-            let (load, general) = (rectangle.load(&loads, 0), form.load(value, &g, s.as_slice()));
+            let (load, general) = (rectangle.loads(&loads), form.load(value, &g, s.as_slice()));
             assert!((&load - &general).amax() < 1e-12 * general.amax(), "{what}");
         }
     }

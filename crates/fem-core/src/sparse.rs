@@ -97,26 +97,16 @@ impl Pattern {
 
     /// Pattern of a matrix whose rows are the unknowns of one map and whose columns those of another.
     pub fn rectangular(mesh: &Mesh, rows: &DofMap, columns: &DofMap, active: impl Fn(usize) -> bool) -> Self {
-        let columns_of = |dofs: Vec<ElementDofs>| dofs.into_iter().enumerate().filter(|(e, _)| active(*e)).collect::<Vec<_>>();
-        Self::of_elements(rows.reduced(), element_dofs(mesh, rows), columns.reduced(), &columns_of(element_dofs(mesh, columns)))
-    }
-
-    /// Pattern of matrices that couple the given row and column unknowns of each element; `column_dofs` names its elements.
-    pub(crate) fn of_elements(
-        rows: usize,
-        row_dofs: Vec<ElementDofs>,
-        columns: usize,
-        column_dofs: &[(usize, ElementDofs)],
-    ) -> Self {
-        let mut incidence = vec![Vec::new(); columns];
-        for (e, dofs) in column_dofs {
+        let row_dofs = element_dofs(mesh, rows);
+        let mut incidence = vec![Vec::new(); columns.reduced()];
+        for (e, dofs) in element_dofs(mesh, columns).iter().enumerate().filter(|(e, _)| active(*e)) {
             for (local, dof) in dofs.iter().enumerate() {
                 if let Some((column, factor)) = dof {
-                    incidence[*column].push((*e, local, *factor));
+                    incidence[*column].push((e, local, *factor));
                 }
             }
         }
-        let mut seen = vec![usize::MAX; rows];
+        let mut seen = vec![usize::MAX; rows.reduced()];
         let (mut starts, mut indices) = (vec![0], Vec::new());
         for (column, elements) in incidence.iter().enumerate() {
             let begin = indices.len();
@@ -131,7 +121,7 @@ impl Pattern {
             indices[begin..].sort_unstable();
             starts.push(indices.len());
         }
-        Self { rows, row_dofs, incidence, starts, indices }
+        Self { rows: rows.reduced(), row_dofs, incidence, starts, indices }
     }
 
     /// Sums the element matrices (one per element of the mesh; those of inactive elements are not read).

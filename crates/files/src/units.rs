@@ -77,7 +77,6 @@ pub fn parameter_unit(name: &str) -> &'static str {
 /// A unit of a recording's column: value in the standard unit = scale · value + offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ColumnUnit {
-    /// The names it goes by.
     pub(crate) names: &'static [&'static str],
     pub(crate) scale: f64,
     /// Added after the factor.
@@ -116,7 +115,8 @@ pub(crate) const RATES: [ColumnUnit; 4] = [
 /// The unit in which a span of time is shown to people: seconds up to five minutes, minutes up to five hours, hours beyond.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DurationUnit {
-    name: &'static str,
+    /// Its name.
+    pub name: &'static str,
     seconds: f64,
 }
 
@@ -130,11 +130,6 @@ impl DurationUnit {
         } else {
             Self { name: "h", seconds: S_PER_H }
         }
-    }
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        self.name
     }
 
     /// Seconds in this unit.

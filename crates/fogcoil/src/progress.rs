@@ -38,7 +38,6 @@ enum How {
 /// Tells the user, and keeps files whole that are being written when the user interrupts.
 pub(crate) struct Progress {
     how: How,
-    /// The bar of what is being done.
     bar: Arc<Mutex<Option<ProgressBar>>>,
     /// The task that was named last.
     named: Mutex<String>,

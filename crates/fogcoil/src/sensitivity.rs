@@ -51,7 +51,6 @@ pub fn text(case: &CoilCase, result: &SteadySensitivity) -> String {
     }
 }
 
-/// Where a set of numbers comes from, in words.
 pub(crate) fn origin(origin: &Origin) -> String {
     match origin {
         Origin::Given => "as given in the file".into(),

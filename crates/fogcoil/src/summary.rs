@@ -176,7 +176,6 @@ pub fn json(simulation: &Simulation) -> Value {
     })
 }
 
-/// How the chamber was inferred from the thermometer.
 fn inferred(inference: Inference) -> Value {
     let Inference { noise, roughness, sensor_residual_rms, chamber_sd: [median, largest] } = inference;
     json!({
@@ -207,12 +206,12 @@ pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
     let rounded = |value: f64| format!("{:.4}", (value * 1e4).round() / 1e4 + 0.0);
     let rate = |value: f64, error: f64| format!("{} ± {}", rounded(value), significant(error, 2));
     let unit = DurationUnit::of(duration);
-    let after = format!("s, {:.2} {} after the first row", unit.of_seconds(peak.time - simulation.row(0).time), unit.name());
+    let after = format!("s, {:.2} {} after the first row", unit.of_seconds(peak.time - simulation.row(0).time), unit.name);
     let slope_name = format!("slope of the bias on the spool's degC/min, over {WINDOW_S} s or a row");
     let steady = format!("{:.4} ± {}", simulation.steady.sensitivity.total(), significant(simulation.steady.error_estimate, 2));
     let mut all = vec![
         entry("rows", rows.to_string(), ""),
-        entry("duration", format!("{:.2}", unit.of_seconds(duration)), unit.name()),
+        entry("duration", format!("{:.2}", unit.of_seconds(duration)), unit.name),
         entry("chamber", range(chamber), "degC"),
         entry("spool", format!("{} ± {}", range(spool), significant(errors.spool, 2)), "degC"),
         entry("largest |rate|", rate(peak.rate.abs(), sum), "deg/h"),

@@ -98,7 +98,6 @@ fn truncation(a: &Constants, b: &Constants) -> Constants {
     difference.combine(&difference, |d, _| SAFETY * d.max(floor))
 }
 
-/// The constant with the largest of some errors.
 pub(crate) fn worst(errors: &[(&'static str, f64)]) -> (&'static str, f64) {
     errors.iter().fold(("", 0.0), |worst, one| if one.1 > worst.1 || one.1.is_nan() { *one } else { worst })
 }

@@ -133,9 +133,8 @@ fn judge(family: &Family, like: &[Target], truth: &[f64], cell: &FibreCell, rand
     let distance = |start: &Vec<f64>| start.iter().zip(truth).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
     let nearest = starts(truth.len(), SEED).iter().map(distance).fold(f64::INFINITY, f64::min);
     if nearest < TOO_CLOSE {
-        return Err(Failure(format!(
-            "a start lies {nearest:.2} prior standard deviations from the truth: change TRUTHS or SEED"
-        )));
+        let problem = format!("a start lies {nearest:.2} prior standard deviations from the truth: change TRUTHS or SEED");
+        return Err(Failure(problem));
     }
     let before = processor();
     let found = identify(std::slice::from_ref(family), &targets, SEED, &|_| {});

@@ -11,7 +11,6 @@ use proof::peers::Stopwatch;
 use proof::statistics::middle as median;
 use std::fmt::Write as _;
 
-/// Name and file of each design.
 const DESIGNS: [(&str, &str); 3] =
     [("reference", "coil-reference.ron"), ("small", "designs/small.ron"), ("large", "designs/large.ron")];
 /// More modes than a simulation has: its own reduction must not count as this model's error.

@@ -11,7 +11,6 @@ use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Mesh of the converged value.
 const CONVERGED: MeshFineness = MeshFineness { order: 11, layers: 6, ratio: 0.2 };
 /// Orders and sizes that the peer is run with: order, element at the coil's corners, largest element \[mm\], grading.
 const PEER: [[&str; 4]; 3] = [["4", "0.05", "4", "0.4"], ["4", "0.01", "6", "0.7"], ["4", "0.003", "6", "0.3"]];

@@ -9,7 +9,12 @@ pub(super) fn compare(expected: &str, actual: &str, tolerance: f64) -> Result<()
     let lines = |text| str::lines(text).enumerate().filter(|(_, line)| !line.trim().is_empty());
     let (shown, printed): (Vec<_>, Vec<_>) = (lines(expected).collect(), lines(actual).map(|(_, line)| line).collect());
     let mut farthest = (0, 0);
-    if lines_match(&shown, &printed, tolerance, (0, 0), &mut farthest) {
+    let same_line = |shown: &(usize, &str), printed: &&str| {
+        let words = |line| str::split_whitespace(line).collect::<Vec<_>>();
+        let same_word = |shown: &&str, printed: &&str| same(shown, printed, tolerance);
+        matches(&words(shown.1), &words(printed), &|word| is_elision(word), &same_word, (0, 0), &mut (0, 0))
+    };
+    if matches(&shown, &printed, &|(_, line)| is_elision(line.trim()), &same_line, (0, 0), &mut farthest) {
         return Ok(());
     }
     let (at, stood) = farthest;
@@ -17,10 +22,12 @@ pub(super) fn compare(expected: &str, actual: &str, tolerance: f64) -> Result<()
     Err((line, printed.get(stood).map_or("the end of the output".to_owned(), |line| format!("`{}`", line.trim()))))
 }
 
-fn lines_match(
-    shown: &[(usize, &str)],
-    printed: &[&str],
-    tolerance: f64,
+/// Whether `shown` from `at` on is `printed` from there on, what `elides` standing for any number of these; `farthest` is how far they agree.
+fn matches<S, P>(
+    shown: &[S],
+    printed: &[P],
+    elides: &dyn Fn(&S) -> bool,
+    same: &dyn Fn(&S, &P) -> bool,
     at: (usize, usize),
     farthest: &mut (usize, usize),
 ) -> bool {
@@ -30,29 +37,16 @@ fn lines_match(
     let (i, j) = at;
     match shown.get(i) {
         None => j == printed.len(),
-        Some((_, line)) if is_elision(line.trim()) => {
-            (j..=printed.len()).any(|j| lines_match(shown, printed, tolerance, (i + 1, j), farthest))
-        }
-        Some((_, line)) => {
-            let words = |line: &'_ str| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
-            printed.get(j).is_some_and(|actual| words_match(&words(line), &words(actual), tolerance))
-                && lines_match(shown, printed, tolerance, (i + 1, j + 1), farthest)
+        Some(one) if elides(one) => (j..=printed.len()).any(|j| matches(shown, printed, elides, same, (i + 1, j), farthest)),
+        Some(one) => {
+            printed.get(j).is_some_and(|other| same(one, other))
+                && matches(shown, printed, elides, same, (i + 1, j + 1), farthest)
         }
     }
 }
 
 fn is_elision(word: &str) -> bool {
     matches!(word, "..." | "…")
-}
-
-fn words_match(shown: &[String], printed: &[String], tolerance: f64) -> bool {
-    match shown.split_first() {
-        None => printed.is_empty(),
-        Some((word, rest)) if is_elision(word) => (0..=printed.len()).any(|n| words_match(rest, &printed[n..], tolerance)),
-        Some((word, rest)) => printed
-            .split_first()
-            .is_some_and(|(first, others)| same(word, first, tolerance) && words_match(rest, others, tolerance)),
-    }
 }
 
 /// Whether two words are equal but for their numbers, and these close.

@@ -25,7 +25,6 @@ echo \"only \\`cargo run -p fogcoil -- ...\\` is run here; mark the block as sh,
 exit 97
 ";
 
-/// Where pages are run: the program, its cache.
 pub(super) struct Shell {
     root: PathBuf,
     bin: TempDir,

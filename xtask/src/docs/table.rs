@@ -87,11 +87,8 @@ fn kind(of: &Value) -> String {
         return words(name.rsplit('/').next().unwrap_or_default()).to_lowercase();
     }
     if let Some(any) = of["anyOf"].as_array() {
-        return any
-            .iter()
-            .map(|one| if one["type"] == "null" { "`None`".into() } else { format!("`Some` {}", kind(one)) })
-            .collect::<Vec<_>>()
-            .join(" or ");
+        let one = |one: &Value| if one["type"] == "null" { "`None`".into() } else { format!("`Some` {}", kind(one)) };
+        return any.iter().map(one).collect::<Vec<_>>().join(" or ");
     }
     let list = |items: &[Value]| items.iter().map(kind).collect::<Vec<_>>().join(", ");
     match (&of["type"], of["prefixItems"].as_array()) {

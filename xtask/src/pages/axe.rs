@@ -5,7 +5,6 @@ use std::process::Command;
 
 use proof::Failure;
 
-/// The version that is fetched.
 pub(super) const VERSION: &str = "4.11.0";
 
 /// Its source: of the file that is given, else of `folder`, into which npm puts it if it is not there.

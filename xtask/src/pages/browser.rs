@@ -40,16 +40,13 @@ pub(super) fn find() -> Result<String, Failure> {
 impl Browser {
     /// Starts `chromium` with a fresh profile in `profile`.
     pub(super) fn launch(chromium: &str, profile: &Path) -> Result<Self, Failure> {
-        let flags =
-            ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run", "--hide-scrollbars"];
+        #[rustfmt::skip]
+        let flags = [
+            "--remote-debugging-pipe", "--disable-background-networking", "--headless=new", "--no-sandbox", "--disable-gpu",
+            "--disable-dev-shm-usage", "--no-first-run", "--hide-scrollbars",
+        ];
         let mut child = Command::new("sh")
-            .args([
-                "-c",
-                "exec \"$0\" \"$@\" 3<&0 4>&1 1>&2",
-                chromium,
-                "--remote-debugging-pipe",
-                "--disable-background-networking",
-            ])
+            .args(["-c", "exec \"$0\" \"$@\" 3<&0 4>&1 1>&2", chromium])
             .args(flags)
             .arg(format!("--user-data-dir={}", profile.display()))
             .arg("about:blank")

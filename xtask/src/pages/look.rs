@@ -72,7 +72,6 @@ impl Look {
         rest.iter().all(|all| all.is_empty()) && !self.findings.iter().any(Finding::grave)
     }
 
-    /// Everything that was found, in words.
     pub(super) fn faults(&self) -> Vec<String> {
         let finding = |f: &Finding| {
             format!("axe: {} ({}, {} nodes, first {}): {}", f.id, f.impact.as_deref().unwrap_or("?"), f.nodes, f.first, f.help)
@@ -154,7 +153,6 @@ fn open(browser: &mut Browser, url: &str) -> Result<(), Failure> {
     }
 }
 
-/// A warning or an error of the console.
 fn complaint(event: &Value) -> Option<String> {
     let params = &event["params"];
     match event["method"].as_str()? {

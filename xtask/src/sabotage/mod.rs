@@ -17,7 +17,6 @@ const PAGE: &str = "crates/proof/src/validation/sabotage.md";
 /// Names of red tests that the table gives.
 const SHOWN: usize = 3;
 
-/// The table of what is known so far.
 fn table(sound: &TestRun, outcomes: &[Option<TestRun>]) -> String {
     let mut table = format!(
         "Without sabotage all {} tests of {} pass. Documentation tests and those of other crates are not counted.\n\n\

@@ -115,7 +115,6 @@ impl Tree {
         Ok(outcome)
     }
 
-    /// Test programs of `crates`, each with a name.
     fn build(&self, crates: &[&str]) -> Result<Vec<(String, PathBuf)>, Failure> {
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         let packages = CRATES.iter().flat_map(|name| ["--package", name]);

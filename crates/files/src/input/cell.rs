@@ -15,7 +15,6 @@ use super::mirror::Mirror;
 use super::source::{CELL, Source};
 use crate::Error;
 
-/// Rings of the most elaborate fibre accepted.
 const MOST_RINGS: usize = 16;
 
 /// A cell file that has been read and checked.

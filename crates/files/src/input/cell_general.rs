@@ -15,9 +15,7 @@ use super::quantity::FibreUm;
 use super::syntax::MISSING;
 use crate::Error;
 
-/// Fibres of the largest cell accepted.
 const MOST_FIBRES: usize = 100;
-/// Realisations of a random arrangement at most.
 const MOST_REALISATIONS: usize = 1000;
 
 /// A cell file of any arrangement that has been read and checked.

@@ -11,7 +11,6 @@ use super::group::Group;
 use super::mirror::Mirror;
 use super::syntax::MISSING;
 
-/// Rows of the longest table accepted.
 const MOST_ROWS: usize = 1000;
 
 /// What a phase is made of.

@@ -149,7 +149,11 @@ fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
         dehomogenization,
     };
     let layout = Layout::new(&design).map_err(|error| design_fault(&top, &design, &error))?;
-    check_film(&top, &design, &layout)?;
+    // with a film there is no medium for the thermometer to sit in
+    if design.heat.film.is_some() && in_medium(&layout, design.sensor) {
+        let problem = "the thermometer lies outside the solids, and a film stands in place of the medium";
+        return Err(top.fault("sensor", problem, "move it into the spool or the coil, or remove heat.film_w_per_m2k").into());
+    }
     let name = file.name;
     let provenance = Provenance { material, dehomogenization: row };
     let (file, fingerprints) = (path.to_owned(), cells.fingerprints);
@@ -165,19 +169,6 @@ impl CoilCase {
     pub fn steady_sensitivity(&self) -> Result<SteadySensitivity, Error> {
         coil::steady_sensitivity(&self.design).map_err(|source| Error::Coil { file: self.file.clone(), source })
     }
-}
-
-/// With a film there is no medium for the thermometer to sit in.
-fn check_film(top: &Group, design: &Design, layout: &Layout) -> Result<(), InputError> {
-    if design.heat.film.is_some() && in_medium(layout, design.sensor) {
-        let remedy = "move it into the spool or the coil, or remove heat.film_w_per_m2k";
-        return Err(top.fault(
-            "sensor",
-            "the thermometer lies outside the solids, and a film stands in place of the medium",
-            remedy,
-        ));
-    }
-    Ok(())
 }
 
 /// A complaint about the design as a whole, at the field it names.
@@ -248,10 +239,8 @@ impl Cells<'_> {
             AnyCell::General(case) => (self.nearest(field, named, &case)?, case.fingerprint),
             AnyCell::Regular(case, _) if case.cell.packing == Packing::Square => {
                 let problem = format!("the cell {named:?} is packed square, but a coil's law is isotropic across the fibre");
-                return Err(self
-                    .top
-                    .fault(field, problem, "give a cell of hexagonal packing, or the constants themselves")
-                    .into());
+                let remedy = "give a cell of hexagonal packing, or the constants themselves";
+                return Err(self.top.fault(field, problem, remedy).into());
             }
             AnyCell::Regular(case, _) => {
                 self.compare_pitch(field, named, case.cell.pitch);
@@ -263,7 +252,6 @@ impl Cells<'_> {
         Ok((path, constants))
     }
 
-    /// Notes a cell that is not the winding's.
     fn compare_pitch(&mut self, field: &str, named: &str, pitch: f64) {
         if (pitch / self.pitch - 1.0).abs() > SAME_PITCH {
             let (cell, winding) = (1e3 * to_mm(pitch), 1e3 * to_mm(self.pitch));

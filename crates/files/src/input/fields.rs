@@ -117,7 +117,6 @@ impl<'a> FieldMap<'a> {
         self.fields.iter().position(|field| field.parent == parent)
     }
 
-    /// Whether a field is an element of a list.
     pub(crate) fn is_element(&self, field: usize) -> bool {
         matches!(self.fields[field].segment, Segment::Index(_))
     }

@@ -57,23 +57,16 @@ mirrored! {
 pub(super) fn paths(at: &Group, file: &HeatFile, spool: Option<&Spool>) -> Result<HeatPaths, InputError> {
     let paths: HeatPaths = file.model();
     if paths.hub_resistance > 0.0 && spool.is_none_or(|spool| spool.hub_contact == Contact::Gap) {
-        let remedy = "remove the field, or set spool.hub_bonded to true";
-        return Err(at.fault(
-            "hub_resistance_m2k_per_w",
-            "no hub is bonded to the coil, so there is no contact to resist",
-            remedy,
-        ));
+        let problem = "no hub is bonded to the coil, so there is no contact to resist";
+        return Err(at.fault("hub_resistance_m2k_per_w", problem, "remove the field, or set spool.hub_bonded to true"));
     }
     one_a_side(at, "flange_contacts", paths.flange_contacts.iter().map(|contact| contact.side), spool)?;
     for (i, contact) in paths.flange_contacts.iter().enumerate() {
         let gap = |f: &coil::Flange| f.side == contact.side && f.contact == Contact::Gap;
         if spool.iter().flat_map(|spool| &spool.flanges).any(gap) {
             let problem = "this flange is not bonded to the coil, so there is no contact to resist";
-            return Err(at.fault(
-                &format!("flange_contacts[{i}].side"),
-                problem,
-                "remove the entry, or set the flange's bonded to true",
-            ));
+            let remedy = "remove the entry, or set the flange's bonded to true";
+            return Err(at.fault(&format!("flange_contacts[{i}].side"), problem, remedy));
         }
     }
     one_a_side(at, "mounts", paths.mounts.iter().map(|mount| mount.side), spool)?;

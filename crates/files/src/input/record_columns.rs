@@ -41,7 +41,6 @@ impl RecordColumns {
         self.at[key as usize]
     }
 
-    /// Names of the columns that are not read.
     pub(super) fn ignored(&self) -> Vec<&str> {
         let unused = |column: &usize| !self.at.contains(&Some(*column));
         let names = (0..self.names.len()).filter(unused).map(|column| self.names[column].as_str());

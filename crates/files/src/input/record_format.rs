@@ -35,7 +35,6 @@ pub enum Key {
 }
 
 impl Key {
-    /// All of them.
     pub(super) const ALL: [Self; 4] = [Self::Time, Self::Chamber, Self::Spool, Self::Rate];
 
     /// Its name in flags and map files.
@@ -153,12 +152,9 @@ pub(super) struct RecordFormat {
     pub(super) columns: [ColumnFormat; 4],
 }
 
-/// How a column is read.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ColumnFormat {
-    /// Its name, if one was declared.
     pub(super) name: Option<String>,
-    /// Its unit.
     pub(super) unit: ColumnUnit,
     /// Units in a count; 1 for a column of values.
     pub(super) count: f64,
@@ -177,7 +173,6 @@ impl RecordFormat {
         Ok(format)
     }
 
-    /// The format of a standard recording.
     pub(super) fn standard() -> Self {
         let columns = Key::ALL.map(|key| ColumnFormat { name: None, unit: key.units()[0], count: 1.0 });
         Self { dialect: Dialect::STANDARD, interval: None, columns }
@@ -251,7 +246,6 @@ impl ColumnFormat {
         Ok(())
     }
 
-    /// A value in the standard unit.
     pub(super) fn standard(&self, value: f64) -> f64 {
         self.unit.scale * self.count * value + self.unit.offset
     }

@@ -22,9 +22,7 @@ const QUOTED: usize = 40;
 /// How a table writes its rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Dialect {
-    /// Between the fields.
     pub(crate) separator: u8,
-    /// In a number.
     pub(crate) decimal: char,
 }
 
@@ -222,7 +220,6 @@ impl Rows {
         InputError { line: Some(line.max(1)), field: column.map(str::to_owned), ..InputError::whole(&self.path, problem, remedy) }
     }
 
-    /// A complaint about the file as a whole.
     pub(crate) fn whole_fault(&self, problem: &str, remedy: impl Into<String>) -> InputError {
         InputError { line: None, ..self.fault(None, problem, remedy) }
     }

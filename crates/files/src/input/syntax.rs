@@ -2,7 +2,6 @@
 
 use ron::Error;
 
-/// What is said of a field that is necessary.
 pub(super) const MISSING: &str = "the field is missing";
 
 /// Problem and remedy; `rest` is the text from where the reader stopped.

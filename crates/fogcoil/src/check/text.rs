@@ -53,7 +53,7 @@ fn overview(analysis: &Analysis) -> Vec<Vec<String>> {
     let mut rows = vec![row("rows kept", report.rows.len().to_string(), &format!("of {}", analysis.case.recording.time().len()))];
     if let Some(instants) = &report.instants {
         let unit = DurationUnit::of(instants.span);
-        rows.push(row("span", significant(unit.of_seconds(instants.span), 4), unit.name()));
+        rows.push(row("span", significant(unit.of_seconds(instants.span), 4), unit.name));
         rows.push(row("interval", significant(instants.interval, 4), "s"));
         rows.push(row("jitter, rms", significant(instants.jitter, 2), "s"));
         let missing: usize = instants.gaps.iter().map(|gap| gap.missing).sum();
@@ -100,7 +100,6 @@ pub(super) fn severity(severity: Severity) -> &'static str {
     }
 }
 
-/// What was taken off the rate before.
 pub(super) fn taken_off(noise: &GyroNoise) -> String {
     match noise.driver {
         Some(name) => format!("an offset and what {} linear lags of {name} explain", noise.lags.len()),

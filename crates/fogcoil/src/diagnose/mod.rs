@@ -25,11 +25,8 @@ use crate::prepare::{Record, library, ready};
 
 /// A diagnosis with what it was made from.
 pub struct Outcome {
-    /// Name of the design.
     name: String,
-    /// Its file.
     coil: PathBuf,
-    /// What the files of the design were.
     design: Vec<Fingerprint>,
     gyro: Gyro<'static>,
     diagnosis: Diagnosis,
@@ -105,8 +102,8 @@ fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -> Result<()
     for RecordCase { fingerprint, .. } in records {
         if let Some(first) = known.iter().find(|k| (k.bytes, k.fnv1a) == (fingerprint.bytes, fingerprint.fnv1a)) {
             let problem = format!("is the same recording as {}", first.file.display());
-            let remedy = "give every recording once: what was fitted cannot judge".to_owned();
-            return Err(InputError { file: fingerprint.file.clone(), line: None, field: None, problem, remedy }.into());
+            let remedy = "give every recording once: what was fitted cannot judge";
+            return Err(InputError::whole(&fingerprint.file, problem, remedy).into());
         }
         known.push(fingerprint);
     }

@@ -194,7 +194,7 @@ impl<'a> Course<'a> {
         let places = self.winding.turns().iter().map(|t| (t.z_start + t.z_end) / 2.0);
         let unit = DurationUnit::of(simulation.duration());
         let since = unit.of_seconds(at.time - simulation.row(0).time);
-        let name = format!("{what}, after {since:.2} {}, mean {} °C", unit.name(), signed(at.mean, 1));
+        let name = format!("{what}, after {since:.2} {}, mean {} °C", unit.name, signed(at.mean, 1));
         Series::new(name, Style::Fine(kind), places.zip(values).collect())
     }
 }

@@ -7,7 +7,6 @@ use crate::units::{to_mpa, to_ppm};
 /// Keys of what follows from densities.
 pub(super) const HEAVY: [&str; 2] = ["density_kg_per_m3", "heat_capacity_j_per_m3k"];
 
-/// Numbers under their names.
 pub(super) fn object(named: impl IntoIterator<Item = (&'static str, f64)>) -> Map<String, Value> {
     named.into_iter().map(|(key, value)| (key.to_owned(), value.into())).collect()
 }

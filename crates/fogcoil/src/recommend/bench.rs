@@ -42,7 +42,6 @@ impl Contender {
         Self { id, hypotheses: alternatives(gyro, truth.mechanism), truth: Some(truth) }
     }
 
-    /// The design with its own constants re-estimated.
     pub(crate) fn recalibrated() -> Self {
         let hypotheses = vec![Hypothesis { constants_free: true, ..Hypothesis::NOMINAL }];
         Self { id: RECALIBRATE.into(), hypotheses, truth: None }

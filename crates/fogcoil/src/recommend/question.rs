@@ -36,7 +36,6 @@ pub(crate) struct Question<'a> {
 }
 
 impl Question<'_> {
-    /// The answer, from the design's library.
     pub(crate) fn answer(self, library: Library, progress: &dyn Fn(Step)) -> Result<Recommendation, Error> {
         let Self { file, between, records: given, limits, thorough } = self;
         check(between, &limits)?;

@@ -11,7 +11,6 @@ use crate::input::Fingerprint;
 use crate::simulate::Simulation;
 use crate::summary::{Summary, entries};
 
-/// Parts of the bias, in words.
 const PARTS: [(&str, &str); 3] =
     [("shupe", "Shupe"), ("eo_axial", "elasto-optic, axial strain"), ("eo_radial", "elasto-optic, radial strain")];
 

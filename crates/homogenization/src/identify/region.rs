@@ -97,7 +97,6 @@ pub(crate) fn pooled(regions: &[Region], count: usize) -> Option<Vec<Vec<f64>>> 
     (!all.is_empty()).then_some(all)
 }
 
-/// Mean and standard deviation of parameter `j`.
 pub(super) fn mean_and_deviation(draws: &[Vec<f64>], j: usize) -> (f64, f64) {
     let n = draws.len() as f64;
     let mean = draws.iter().map(|u| u[j]).sum::<f64>() / n;

@@ -23,7 +23,6 @@ const ON: f64 = 1e-7;
 const RETRACED: f64 = 1e-4;
 const MOST_CORRECTIONS: usize = 40;
 
-/// A chain's draws and the share of trajectories accepted.
 #[derive(Debug, Clone)]
 pub(crate) struct Chain {
     pub(crate) draws: Vec<Vec<f64>>,

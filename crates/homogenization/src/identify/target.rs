@@ -76,7 +76,6 @@ impl Target {
     }
 }
 
-/// Every target's distance from what a cell answers.
 pub(crate) fn distances(targets: &[Target], response: &Response) -> Vec<f64> {
     let known = known(response);
     targets.iter().map(|t| t.distance(t.of(&known))).collect()

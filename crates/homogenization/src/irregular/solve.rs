@@ -130,7 +130,7 @@ impl CellProblem<'_> {
     /// Fluctuations of the first `count` loads.
     fn solve(&self, form: Form, laws: &[Option<DMatrix<f64>>], loads: &[Vec<f64>], count: usize) -> Result<Solved, Error> {
         let problem = Problem::new(self.mesh, form, self.mesh.order() + 2);
-        let map = self.map(&problem, form.components())?;
+        let map = self.map(&problem, form.components)?;
         let factor = problem.condense(&map, laws)?;
         let reduced: Vec<_> = loads.iter().map(|f| map.restrict(f)).collect();
         let mut solutions = factor.solve(&reduced[..count])?;
@@ -144,12 +144,12 @@ impl CellProblem<'_> {
         let problem = Problem::new(self.mesh, form, self.mesh.order() + 2);
         let stresses: Vec<_> = self.phases.iter().map(|p| Some(sources(p))).collect();
         let mut loads = problem.loads(&stresses)?;
-        let rows = form.strains();
+        let rows = form.strains;
         for (phase, area) in self.areas.iter().enumerate() {
             let mean = |p: usize| (p == phase).then(|| DMatrix::identity(rows, rows) / *area);
             let means: Vec<_> = (0..self.phases.len()).map(mean).collect();
             let mut of_phase = problem.loads(&means)?;
-            of_phase.resize(rows, vec![0.0; self.mesh.nodes().len() * form.components()]);
+            of_phase.resize(rows, vec![0.0; self.mesh.nodes().len() * form.components]);
             loads.extend(of_phase);
         }
         Ok(loads)

@@ -43,7 +43,6 @@ pub(crate) struct Probable {
     pub(crate) probability: f64,
 }
 
-/// A value with its 90 % interval.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
 pub(crate) struct Fitted {
     pub(crate) value: f64,
@@ -96,10 +95,6 @@ impl Answer {
     /// Of all mechanisms that are `like` something, together; those in a pair count each.
     pub(crate) fn probability(&self, like: impl Fn(&str) -> bool) -> f64 {
         self.mechanisms.iter().filter(|m| like(&m.id)).map(|m| m.probability).sum()
-    }
-
-    pub(crate) fn first(&self) -> Option<&str> {
-        self.named().next()
     }
 }
 

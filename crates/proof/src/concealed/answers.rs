@@ -15,7 +15,6 @@ use crate::files::{self, root};
 use crate::truth::Truth;
 use crate::{Failure, program};
 
-/// Units that are worked on at once.
 const THREADS: usize = 2;
 
 /// A unit with everything that is said of it.

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use recording::condition::slopes;
 
 use super::answer::{Answer, Place, Probable};
-use super::chain::{FIT, HOLDOUT, Series, Unit, rms};
+use super::chain::{FIT, HOLDOUT, Series, Unit, mean, rms};
 use crate::Failure;
 use crate::truth::stage;
 
@@ -99,8 +99,8 @@ pub(crate) fn selection(unit: &Unit) -> Result<Answer, Failure> {
     let white = y.each_ref().map(|y| rms(y.windows(2).map(|w| w[1] - w[0])) / std::f64::consts::SQRT_2);
     let centred = |channel: usize, series: Series| -> Series {
         let known: Series = series.iter().zip(&y[channel]).map(|(s, y)| if y.is_nan() { f64::NAN } else { *s }).collect();
-        let (sum, count) = known.iter().filter(|v| !v.is_nan()).fold((0.0, 0.0), |(s, c), v| (s + v, c + 1.0));
-        known.iter().map(|v| (v - sum / count) / white[channel]).filter(|v| !v.is_nan()).collect()
+        let mean = mean(known.iter().copied());
+        known.iter().map(|v| (v - mean) / white[channel]).filter(|v| !v.is_nan()).collect()
     };
     let joined = |series: [Series; 2]| -> DVector<f64> {
         let [spool, rate] = series;

@@ -40,12 +40,11 @@ pub(crate) struct Unit {
 
 /// Root mean square of what is not NaN.
 pub(crate) fn rms(values: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = values.filter(|v| !v.is_nan()).fold((0.0, 0_usize), |(sum, count), v| (sum + v * v, count + 1));
-    (sum / count.max(1) as f64).sqrt()
+    mean(values.map(|v| v * v)).sqrt()
 }
 
 /// Mean of what is not NaN.
-fn mean(values: impl Iterator<Item = f64>) -> f64 {
+pub(super) fn mean(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.filter(|v| !v.is_nan()).fold((0.0, 0_usize), |(sum, count), v| (sum + v, count + 1));
     sum / count.max(1) as f64
 }

@@ -43,7 +43,6 @@ pub struct Prove {
     plan: synthetic::Plan,
 }
 
-/// A unit's name from its number.
 fn case(number: &str) -> Result<String, std::num::ParseIntError> {
     let number: u8 = number.trim_start_matches("case_").parse()?;
     Ok(format!("case_{number:02}"))
@@ -72,22 +71,22 @@ fn open(only: &[String]) -> Result<bool, Failure> {
     let program = program::hash(&root())?;
     let cases = answers::open(only)?;
     let scored: Vec<Scored> = cases.iter().map(|case| case.scored.clone()).collect();
-    let table = summary::summary(&scored);
+    let rows = summary::summary(&scored);
     if only.is_empty() {
-        report::publish("open", &program, &report::open(&cases, &table))?;
+        report::publish("open", &program, &report::open(&cases, &rows))?;
         eprintln!("docs/proof.md is written");
     } else {
         println!("{}", report::details(&cases));
     }
-    println!("{}", report::lines(&table));
+    println!("{}", report::lines(&rows));
     for unit in &scored {
         let faults = report::faults(unit);
         if !faults.is_empty() {
             println!("{}: {}", unit.unit, faults.join("; "));
         }
     }
-    let failures: Vec<_> = table.failures().collect();
-    let asked = table.rows.iter().filter(|row| row.holds().is_some()).count();
+    let failures: Vec<_> = summary::failures(&rows).collect();
+    let asked = rows.iter().filter(|row| row.holds().is_some()).count();
     println!("\n{} of {asked} scores that were measured are as asked", asked - failures.len());
     failures.iter().for_each(|row| eprintln!("FAILS: {}: {}", row.group, row.quantity));
     Ok(failures.is_empty())

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::answers::Case;
 use super::baselines::REGRESSIONS;
 use super::score::Scored;
-use super::summary::{Bound, Form, ScoreRow, Table, summary};
+use super::summary::{Bound, Form, ScoreRow, failures, summary};
 use crate::statistics::{Measured, median};
 use crate::truth::{Kind, Tier};
 use crate::{Failure, files};
@@ -59,9 +59,9 @@ fn measured(row: &ScoreRow) -> String {
 }
 
 /// One line per score that was measured.
-pub(crate) fn lines(table: &Table) -> String {
+pub(crate) fn lines(rows: &[ScoreRow]) -> String {
     let mut out = String::new();
-    for row in table.rows.iter().filter(|row| row.measured.is_some()) {
+    for row in rows.iter().filter(|row| row.measured.is_some()) {
         let (asked, measured) = (asked(row), measured(row));
         let _ = writeln!(out, "  {:<6} {:<18} {:<38} {asked:>12}   {measured}", verdict(row), row.group, row.quantity);
     }
@@ -69,9 +69,9 @@ pub(crate) fn lines(table: &Table) -> String {
 }
 
 /// The scores as a table; every interval is of 90 %.
-pub(crate) fn markdown(table: &Table) -> String {
+pub(crate) fn markdown(rows: &[ScoreRow]) -> String {
     let mut out = String::from("| units | score | asked | measured [90 % interval] of cases | |\n|---|---|---|---|---|\n");
-    for row in &table.rows {
+    for row in rows {
         let _ = writeln!(out, "| {} | {} | {} | {} | {} |", row.group, row.quantity, asked(row), measured(row), verdict(row));
     }
     out
@@ -188,17 +188,17 @@ fn selection(cases: &[Case]) -> String {
     let [ours, theirs] = [|c: &Case| c.scored.clone(), |c: &Case| c.selection.clone()]
         .map(|of| summary(&cases.iter().map(of).collect::<Vec<Scored>>()));
     let mut out = String::from("| units | score | asked | fogcoil | BIC in white noise |\n|---|---|---|---|---|\n");
-    for (a, b) in ours.rows.iter().zip(&theirs.rows).filter(|(a, b)| a.measured.is_some() && b.measured.is_some()) {
+    for (a, b) in ours.iter().zip(&theirs).filter(|(a, b)| a.measured.is_some() && b.measured.is_some()) {
         let [ours, theirs] = [a, b].map(|row| row.measured.map_or(String::new(), |m| value(row.form, m.value)));
         let _ = writeln!(out, "| {} | {} | {} | {ours} | {theirs} |", a.group, a.quantity, asked(a));
     }
     out
 }
 
-pub(crate) fn open(cases: &[Case], table: &Table) -> String {
-    let failing: Vec<String> = table.failures().map(|row| format!("{}: {}", row.group, row.quantity)).collect();
+pub(crate) fn open(cases: &[Case], rows: &[ScoreRow]) -> String {
+    let failing: Vec<String> = failures(rows).map(|row| format!("{}: {}", row.group, row.quantity)).collect();
     let failing = if failing.is_empty() { "none".to_owned() } else { failing.join("; ") };
-    format!("Scores that are not as asked: {failing}.\n\n{}\n{}", markdown(table), details(cases))
+    format!("Scores that are not as asked: {failing}.\n\n{}\n{}", markdown(rows), details(cases))
 }
 
 /// Unit by unit, and what is commonly done with the same records.

@@ -79,7 +79,7 @@ pub(crate) fn score(unit: &str, truth: &Truth, answer: &Answer, held: Option<Hel
         Kind::Null => verdict == "none",
         Kind::Outside => verdict == "unknown",
         Kind::Single if verdict == "recalibrate" => truth.is_gain(),
-        Kind::Single => answer.first().is_some_and(|id| truth.admits(id)),
+        Kind::Single => answer.named().next().is_some_and(|id| truth.admits(id)),
         Kind::Double => answer.named().any(|id| truth.admits(id)),
     };
     let named: Vec<&str> = answer.named().collect();

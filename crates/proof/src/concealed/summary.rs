@@ -46,15 +46,8 @@ impl ScoreRow {
     }
 }
 
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Table {
-    pub(crate) rows: Vec<ScoreRow>,
-}
-
-impl Table {
-    pub(crate) fn failures(&self) -> impl Iterator<Item = &ScoreRow> {
-        self.rows.iter().filter(|row| row.holds() == Some(false))
-    }
+pub(crate) fn failures(rows: &[ScoreRow]) -> impl Iterator<Item = &ScoreRow> {
+    rows.iter().filter(|row| row.holds() == Some(false))
 }
 
 /// Asked of a tier: detected, rightly named, in the set, misnamed, median skill.
@@ -69,7 +62,7 @@ fn asked(tier: Tier) -> [Bound; 5] {
 }
 
 /// The scores of `units`; tiers are of those with one mechanism of the library.
-pub(crate) fn summary(units: &[Scored]) -> Table {
+pub(crate) fn summary(units: &[Scored]) -> Vec<ScoreRow> {
     let mut rows = Vec::new();
     for tier in Tier::ASKED {
         let of = Group { name: tier.name(), units: pick(units, |u| u.kind == Kind::Single && u.tier == tier) };
@@ -101,7 +94,7 @@ pub(crate) fn summary(units: &[Scored]) -> Table {
     let intervals: Vec<bool> = of.units.iter().flat_map(|u| &u.parameters).map(|p| p.is_covered()).collect();
     let covered = rate(intervals.iter().filter(|c| **c).count(), intervals.len());
     rows.push(of.row("90 % intervals that hold the parameter", covered, Form::Percent, Bound::Within(0.85, 0.95)));
-    Table { rows }
+    rows
 }
 
 fn pick(units: &[Scored], test: impl Fn(&Scored) -> bool) -> Vec<&Scored> {
@@ -129,16 +122,13 @@ impl Group<'_> {
         self.share_of_some(quantity, bound, |u| Some(is(u)))
     }
 
-    fn worse(&self, quantity: &'static str, bound: Bound, of: fn(&Scored) -> Option<HeldOut>) -> ScoreRow {
-        self.share_of_some(quantity, bound, |u| of(u).map(|held| held.is_worse()))
-    }
-
     /// What was accepted, then what was fitted, whether it was accepted or not.
     fn both_worse(&self) -> [ScoreRow; 2] {
+        let worse = |held: Option<HeldOut>| held.map(|held| held.is_worse());
         let fitted = "made worse by what was fitted, before it was accepted or not";
         [
-            self.worse("held-out prediction made worse", Bound::AtMost(0.0), |u| u.held),
-            self.worse(fitted, Bound::Open, |u| u.fitted),
+            self.share_of_some("held-out prediction made worse", Bound::AtMost(0.0), |u| worse(u.held)),
+            self.share_of_some(fitted, Bound::Open, |u| worse(u.fitted)),
         ]
     }
 
@@ -179,7 +169,7 @@ mod tests {
     }
 
     fn failing(units: &[Scored]) -> Vec<(&'static str, &'static str)> {
-        summary(units).failures().map(|row| (row.group, row.quantity)).collect()
+        failures(&summary(units)).map(|row| (row.group, row.quantity)).collect()
     }
 
     #[test]
@@ -232,8 +222,8 @@ mod tests {
 
     #[test]
     fn a_score_without_a_unit_is_not_judged() {
-        let table = summary(&[unit(Kind::Null, Tier::Faint)]);
-        let judged: Vec<_> = table.rows.iter().filter(|row| row.holds().is_some()).map(|row| row.quantity).collect();
+        let rows = summary(&[unit(Kind::Null, Tier::Faint)]);
+        let judged: Vec<_> = rows.iter().filter(|row| row.holds().is_some()).map(|row| row.quantity).collect();
         assert_eq!(judged, ["falsely detected"]);
     }
 

@@ -11,7 +11,7 @@ use fogcoil::input;
 use super::answer::{answer, answered, paths, records};
 use super::answers::each;
 use super::score::{Scored, score};
-use super::summary::{Table, summary};
+use super::summary::{ScoreRow, failures, summary};
 use super::{chain, report};
 use crate::files::{self, root};
 use crate::generator::{self, Generator, Which};
@@ -117,11 +117,11 @@ pub(super) fn run(plan: &Plan) -> Result<bool, Failure> {
     let program = program::hash(&root())?;
     let cases = plan.cases(&folder, &Cache::of_user())?;
     let scored: Vec<Scored> = cases.iter().map(|case| case.scored.clone()).collect();
-    let table = summary(&scored);
-    report::publish("synthetic", &program, &section(plan, &cases, &table))?;
-    println!("{}", report::lines(&table));
-    table.failures().for_each(|row| eprintln!("FAILS: {}: {}", row.group, row.quantity));
-    Ok(table.failures().next().is_none())
+    let rows = summary(&scored);
+    report::publish("synthetic", &program, &section(plan, &cases, &rows))?;
+    println!("{}", report::lines(&rows));
+    failures(&rows).for_each(|row| eprintln!("FAILS: {}: {}", row.group, row.quantity));
+    Ok(failures(&rows).next().is_none())
 }
 
 fn share(cases: &[&Case]) -> String {
@@ -140,7 +140,7 @@ fn kind(label: &str) -> &str {
 }
 
 /// The scores, and the nulls by the noise they have.
-fn section(plan: &Plan, cases: &[Case], table: &Table) -> String {
+fn section(plan: &Plan, cases: &[Case], rows: &[ScoreRow]) -> String {
     let nulls: Vec<&Case> = cases.iter().filter(|case| case.scored.kind == Kind::Null).collect();
     let mut out = format!(
         "Seed {}: {} units with nothing concealed, {} with something. Names that an answer gives count as inseparable from the truth where the \
@@ -148,7 +148,7 @@ fn section(plan: &Plan, cases: &[Case], table: &Table) -> String {
         plan.seed,
         plan.nulls,
         plan.concealed,
-        report::markdown(table)
+        report::markdown(rows)
     );
     let _ = write!(
         out,

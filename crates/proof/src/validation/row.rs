@@ -126,7 +126,6 @@ impl Section {
     }
 }
 
-/// A result with the seconds it took.
 pub(super) fn timed<T, E: Into<Failure>>(work: impl FnOnce() -> Result<T, E>) -> Result<(T, f64), Failure> {
     let start = Instant::now();
     let result = work().map_err(Into::into)?;

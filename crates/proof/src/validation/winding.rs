@@ -43,16 +43,13 @@ pub(crate) fn table_3(fixtures: &Fixtures) -> Result<Section, Failure> {
     section.rows.push(must_round(row(at("III.layers")?, layers as f64, Agreement::Identified)).because("an input"));
     let loops = |layer: usize| coil.turns().iter().filter(|t| t.layer == layer).count();
     let text = format!("holds for odd layers; even layers have {} (see the length)", loops(2));
-    section
-        .rows
-        .push(row(at("III.loops")?, loops(1) as f64, Agreement::Misprint).compared(loops(1) == 106 && loops(2) == 106, text));
+    let everywhere = loops(1) == 106 && loops(2) == 106;
+    section.rows.push(row(at("III.loops")?, loops(1) as f64, Agreement::Misprint).compared(everywhere, text));
     let diameter = "printed as a radius, but it is the diameter";
     section.rows.push(must_round(row(at("III.inner")?, 2.0 * spec.inner_radius, Agreement::Misprint)).because(diameter));
     section.rows.push(must_round(row(at("III.outer")?, 2.0 * coil.outer_radius(), Agreement::Misprint)).because(diameter));
-    section.rows.push(
-        must_round(row(at("III.height")?, coil.height(), Agreement::Identified))
-            .because("the pitch is this height over 106 loops"),
-    );
+    let height = must_round(row(at("III.height")?, coil.height(), Agreement::Identified));
+    section.rows.push(height.because("the pitch is this height over 106 loops"));
     let turns = coil.turns().len();
     section.rows.push(counted("III.turns", "turns", turns, 3798, "18 layers of 106 and 18 of 105"));
     let (cw, ccw) = (coil.count(Half::Cw), coil.count(Half::Ccw));

@@ -91,7 +91,6 @@ impl Outcome {
         groups
     }
 
-    /// A hypothesis in words.
     fn said(&self, group: &Group) -> String {
         let h = &group.first.fit.hypothesis;
         let mechanism = |(m, choice): &(usize, Option<f64>)| match choice {
@@ -143,7 +142,6 @@ impl Outcome {
         }
     }
 
-    /// Who stands against `best`.
     fn contenders(&self, best: &Candidate) -> Vec<(String, Fits)> {
         let plain =
             |free: bool| move |c: &Candidate| bare(c) && structure(c).is_none() && c.fit.hypothesis.constants_free == free;

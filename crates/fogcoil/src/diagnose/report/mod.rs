@@ -23,7 +23,6 @@ use crate::units::DurationUnit;
 /// A fit beside the record that it is shown for.
 #[derive(Clone, Copy)]
 struct Shown<'a> {
-    /// What it is called.
     name: &'static str,
     fit: &'a Fit,
     /// Number of the record among those that were fitted.
@@ -79,7 +78,7 @@ impl Clock {
     }
 
     fn axis(&self) -> Axis {
-        Axis::tight(format!("time since the first row [{}]", self.unit.name()), 1e-6)
+        Axis::tight(format!("time since the first row [{}]", self.unit.name), 1e-6)
     }
 }
 
@@ -209,6 +208,6 @@ impl Record {
         let time = &self.observed.time;
         let seconds = time.first().zip(time.last()).map_or(0.0, |(a, b)| b - a);
         let unit = DurationUnit::of(seconds);
-        format!("{} rows over {:.1} {}", time.len(), unit.of_seconds(seconds), unit.name())
+        format!("{} rows over {:.1} {}", time.len(), unit.of_seconds(seconds), unit.name)
     }
 }

@@ -147,7 +147,7 @@ fn figure(course: &Course, title: String) -> Figure<'static> {
         panels.push(panel("what tells them apart", label, least, 10.0, left));
     }
     if let Some(last) = panels.last_mut() {
-        last.x.label = format!("time [{}]", unit.name());
+        last.x.label = format!("time [{}]", unit.name);
     }
     Figure {
         id: "next-test",

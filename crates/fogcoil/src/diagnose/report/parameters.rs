@@ -7,7 +7,6 @@ use maud::{Markup, html};
 use crate::diagnose::Outcome;
 use crate::units::parameter_unit;
 
-/// Points of a density.
 const POINTS: usize = 400;
 /// How far a density is drawn [standard deviations].
 const REACH: f64 = 5.0;
