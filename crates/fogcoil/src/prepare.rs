@@ -37,7 +37,7 @@ pub(crate) struct Record {
 /// # Errors
 /// [`files::Error::Coil`] if the design cannot be modelled.
 pub fn library(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(Step) + Sync)) -> Result<Library, Error> {
-    const TASK: &str = "modelling the coil and what its model may leave out (about a minute, once for a design)";
+    const TASK: &str = "modelling the coil and what its model may leave out (half a minute, once for a design)";
     let key = (&case.design, COARSE);
     let built = cache.load_or_build("library", &key, || {
         progress(Step::begins(TASK));

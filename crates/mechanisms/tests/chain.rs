@@ -4,7 +4,7 @@
 mod common;
 mod read_out_curvature;
 
-use coil::{Design, Drive, Dynamics, Mechanics, Profile, STANDARD, Side};
+use coil::{Contact, Design, Drive, Dynamics, Heater, Mechanics, Profile, STANDARD, Side};
 use common::reference as design;
 use diagnosis::{Active, ForwardModel};
 use mechanisms::{CATALOGUE, Gyro, Library, Mechanism, Prepared, RATE, REFERENCE_C, SPOOL};
@@ -51,6 +51,23 @@ fn rms(x: &[f64]) -> f64 {
 
 fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+#[test]
+fn exact_a_heater_of_the_design_s_own_is_no_drive_of_a_recording() {
+    let mut heated = design();
+    // neither an open bond nor a medium: fewer models
+    common::spool(&mut heated).flanges[0].contact = Contact::Gap;
+    heated.heat.film = Some(8.0);
+    heated.heat.heaters.push(Heater { side: Side::Right, power: 0.05 });
+    let mut unheated = heated.clone();
+    unheated.heat.heaters.clear();
+    let [a, b] = [heated, unheated].map(|design| {
+        let gyro = of(Library::build(&design, CATALOGUE, &|_| ()).expect("library"), CATALOGUE);
+        let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+        gyro.respond(0, &middle, &[]).expect("response")
+    });
+    assert!(a == b && a.iter().flatten().all(|value| value.is_finite()));
 }
 
 /// Largest share of a mechanism's effect by which the library may differ from the chain.

@@ -61,7 +61,7 @@ def diagnose(
     """Which mechanism explains why recordings of one unit differ from its design, fitted to ``fit`` and judged on ``holdout``.
 
     ``meta`` is the path of a meta file; without it, ``meta.ron`` beside a CSV is read. ``progress`` (e.g. ``print``) is called with
-    what is being done, and at each tenth of a long task. The first diagnosis of a design takes about a minute longer; with ``cache`` its models are kept on disk.
+    what is being done, and at each tenth of a long task. The first diagnosis of a design takes half a minute longer; with ``cache`` its models are kept on disk.
     """
     fits = [record(f"fit[{n}]", given) for n, given in enumerate(sequence("fit", fit))]
     held = [record(f"holdout[{n}]", given) for n, given in enumerate(sequence("holdout", holdout))]
