@@ -116,6 +116,9 @@ fn heat_paths_that_cannot_be() {
     let mount =
         |side: &str, value: &str| format!("heat: (mounts: [(side: {side}, conductance_w_per_m2k: {value})]),\n    {SENSOR}");
     let heater = |side: &str, value: &str| format!("heat: (heaters: [(side: {side}, power_w: {value})]),\n    {SENSOR}");
+    let contact = |side: &str, value: &str| {
+        format!("heat: (flange_contacts: [(side: {side}, resistance_m2k_per_w: {value})]),\n    {SENSOR}")
+    };
     let cases = [
         ("sensor: (radius_mm: 39.5, y_mm: 10.01, lag_s: -1.0)".into(), "sensor.lag_s", "negative"),
         ("sensor: (radius_mm: 39.5, y_mm: 10.01, lag_s: NaN)".into(), "sensor.lag_s", "not a finite number"),
@@ -125,6 +128,9 @@ fn heat_paths_that_cannot_be() {
         (heater("Left", "0.5"), "heat.heaters[0].side", "no flange at the side Left"),
         (heater("Right", "0.5), (side: Right, power_w: 0.1"), "heat.heaters[1].side", "a second one"),
         (format!("heat: (hub_resistance_m2k_per_w: -1.0), {SENSOR}"), "heat.hub_resistance_m2k_per_w", "negative"),
+        (contact("Left", "1e-3"), "heat.flange_contacts[0].side", "no flange at the side Left"),
+        (contact("Right", "NaN"), "heat.flange_contacts[0].resistance_m2k_per_w", "not a finite number"),
+        (contact("Right", "-1e-3"), "heat.flange_contacts[0].resistance_m2k_per_w", "negative"),
         (format!("heat: (film_w_per_m2k: Some(0.0)), {SENSOR}"), "heat.film_w_per_m2k", "not greater than 0"),
         (format!("heat: (film_w_per_m2k: 20.0), {SENSOR}"), "heat.film_w_per_m2k", "`None` or `Some(...)`"),
         (format!("heat: (fan: 20.0), {SENSOR}"), "heat.fan", "unknown field `fan`; the fields here are hub_resistance_m2k_per_w"),
