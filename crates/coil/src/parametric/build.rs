@@ -32,7 +32,7 @@ const STATES: [MechanicalState; 3] = [
 /// Weight of stored heat beside conduction in the size of a field \[1/s\]: a coil's slowest rates are of its order.
 const STORED: f64 = 1e-3;
 
-/// The fastest of them \[1/s\].
+/// The fastest rate of growth \[1/s\]: no reading is much shorter than its inverse.
 const FASTEST: f64 = 0.3;
 
 /// The lattice of nodes of a thermal mesh.
@@ -169,6 +169,7 @@ impl ParametricModel {
         let mut fields: Vec<DVector<f64>> = vec![lattice.lay(&grid, &vec![1.0; grid.mesh().nodes().len()])];
         let mut slowest = 0.0;
         for k in 0..=effort.heat {
+            solved();
             let changed = if k == 0 { design.clone() } else { placed(design, &hot, &training(k, hot.len())) };
             let made = || -> Result<_, Error> {
                 let (layout, of_changed) = (skinned(&changed)?, Section::new(&changed)?);
@@ -201,7 +202,6 @@ impl ParametricModel {
             for rate in rates(slowest).into_iter().skip(usize::from(k == 0)) {
                 solve(rate)?;
             }
-            solved();
         }
         let raw = Fields { width: lattice.width, values: DMatrix::from_columns(&fields) };
         // those that are independent, and the constant one as it is
@@ -228,13 +228,13 @@ impl ParametricModel {
         let lengths: Vec<f64> = winding.turns().iter().map(winding::Turn::length).collect();
         displacements.extend(model.adjoints(&[weights.clone(), lengths.clone()])?);
         for k in 0..effort.mechanics {
+            solved();
             let shares = training(k, stiff.len());
             let corner = mechanics(&placed(design, &stiff, &shares), &STATES[k % STATES.len()]);
             // as above
             let Some(model) = corner.ok().filter(|corner| corner.unknowns() == model.unknowns()) else { continue };
             displacements.extend(model.adjoints(&[weights.clone(), lengths.clone()])?);
             displacements.extend(model.displacements(&loads[..4.min(loads.len())])?);
-            solved();
         }
         let component = |c: usize| {
             let columns: Vec<DVector<f64>> = displacements
@@ -312,26 +312,8 @@ impl Range {
 }
 
 impl Parameter {
-    /// Whether the heat flow depends on it.
-    pub(super) fn of_heat(self) -> bool {
-        !matches!(
-            self,
-            Self::AxialModulus
-                | Self::TransverseModulus
-                | Self::ShearModulus
-                | Self::AxialPoisson
-                | Self::TransversePoisson
-                | Self::AxialExpansion
-                | Self::TransverseExpansion
-                | Self::SpoolModulus
-                | Self::SpoolPoisson
-                | Self::SpoolExpansion
-                | Self::Heater(_)
-        )
-    }
-
-    /// Whether the mechanics depends on it, other than in proportion.
-    pub(super) fn of_mechanics(self) -> bool {
+    /// Whether it is a constant of an elastic law.
+    fn is_elastic(self) -> bool {
         matches!(
             self,
             Self::AxialModulus
@@ -344,9 +326,16 @@ impl Parameter {
                 | Self::SpoolModulus
                 | Self::SpoolPoisson
                 | Self::SpoolExpansion
-                | Self::HubThickness
-                | Self::FlangeThickness
-                | Self::FlangeOverhang
         )
+    }
+
+    /// Whether the heat flow depends on it, other than in proportion.
+    pub(super) fn of_heat(self) -> bool {
+        !self.is_elastic() && !matches!(self, Self::Heater(_))
+    }
+
+    /// Whether the mechanics depends on it.
+    pub(super) fn of_mechanics(self) -> bool {
+        self.is_elastic() || matches!(self, Self::HubThickness | Self::FlangeThickness | Self::FlangeOverhang)
     }
 }
