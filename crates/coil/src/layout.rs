@@ -11,6 +11,7 @@ const MOST_RELAXING: f64 = 0.8;
 
 /// What fills a part of the half-plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Region {
     /// The homogenised coil.
     Coil,

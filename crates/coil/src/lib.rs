@@ -52,7 +52,10 @@ pub use inverse::{FEWEST_ROWS, Inferred, LEAST_NOISE, chamber_from_sensor};
 pub use layout::{Layout, Rectangle, Region};
 pub use mechanics::{MechanicalState, Relaxation};
 pub use model::{BiasOperator, Model};
-pub use parametric::{Courses, Effort as ModelEffort, MODEL_SAFETY, Parameter, ParametricModel, Range, Slopes, Tolerance};
+pub use parametric::{
+    Courses, Effort as ModelEffort, MODEL_SAFETY, Number, Parameter, ParametricModel, Projected, Range, Slopes, Tolerance,
+    Tolerances,
+};
 pub use profile::Profile;
 pub use sensitivity::{CHECKS, COARSE, FINE, SAFETY, SHARE, STEADY, SteadySensitivity, steady_sensitivity};
 pub use thermal::{

@@ -12,7 +12,11 @@ pub struct Profile {
 }
 
 impl Profile {
-    pub(crate) fn check(&self, drives: usize) -> Result<(), Error> {
+    /// Whether it can be run: `drives` courses of finite values at instants that increase.
+    ///
+    /// # Errors
+    /// [`Error::Profile`] names the instant at fault.
+    pub fn check(&self, drives: usize) -> Result<(), Error> {
         let bad = |row: usize, problem: String| Err(Error::Profile { row, problem });
         if self.time.is_empty() {
             return bad(0, "there is no instant; give at least one".into());

@@ -99,7 +99,7 @@ pub fn separation<M: ForwardModel>(
     }
     let under = Under { model, channels: with_noise(channels, plan.noise) };
     let noise = Noise::typical(&under.channels, &observations)?;
-    let fitter = Fitter { model: &under, observations: &observations, records };
+    let fitter = Fitter::new(&under, records, &observations).map_err(Error::Model)?;
     let mut nearest: Option<(f64, Fit)> = None;
     for rival in rivals {
         let fit = fitter.fit(rival, &noise, None)?;
@@ -137,7 +137,7 @@ pub fn fitted<M: ForwardModel>(
     observations: &[Observation],
     hypotheses: &[Hypothesis],
 ) -> Result<Fit, Error<M::Error>> {
-    let fitter = Fitter { model, observations, records };
+    let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
     let typical = Noise::typical(model.channels(), observations)?;
     let mut best: Option<Fit> = None;
     for hypothesis in hypotheses {

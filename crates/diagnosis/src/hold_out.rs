@@ -1,6 +1,6 @@
 //! What a fit predicts of a record that it has not seen.
 
-use crate::fit::{Fit, expected};
+use crate::fit::{Fit, Offset, expected};
 use crate::noise::Noise;
 use crate::{Error, ForwardModel, Observation};
 
@@ -102,17 +102,19 @@ fn judged<M: ForwardModel>(
     observed: &Observation,
     judge: &Fit,
 ) -> Result<HeldOut, Error<M::Error>> {
-    for (channel, offset) in prediction.iter_mut().zip(offsets) {
-        channel.iter_mut().for_each(|p| *p += offset);
-    }
     let noise = Noise::of_record(&judge.noise, 0, observed)?;
     let (mut rmse, mut log_score) = (Vec::new(), 0.0);
-    for (c, (predicted, recorded)) in prediction.iter().zip(&observed.channels).enumerate() {
-        let residual: Vec<f64> = recorded.iter().zip(predicted).map(|(y, p)| y - p).collect();
+    for (c, (predicted, recorded)) in prediction.iter_mut().zip(&observed.channels).enumerate() {
+        let channel = &model.channels()[c];
+        let own = Offset::of(channel, recorded, predicted);
+        predicted.iter_mut().for_each(|p| *p += offsets[c]);
+        // an offset that may be anything is this record's own
+        let by = if channel.offset_sd.is_finite() { offsets[c] } else { own.mean };
+        let residual: Vec<f64> = recorded.iter().zip(predicted.iter()).map(|(y, p)| y - (p - offsets[c] + by)).collect();
         let used: Vec<f64> = residual.iter().copied().filter(|r| !r.is_nan()).collect();
         rmse.push((used.iter().map(|r| r * r).sum::<f64>() / used.len().max(1) as f64).sqrt());
         // an offset of its own, with its prior, is marginalised
-        let ones = vec![model.channels()[c].offset_sd; residual.len()];
+        let ones = vec![own.sd; residual.len()];
         let (w, o) = (noise.whiten(0, c, &residual), noise.whiten(0, c, &ones));
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         log_score -= (dot(&w, &w) - dot(&w, &o).powi(2) / (1.0 + dot(&o, &o))) / 2.0;
@@ -120,7 +122,7 @@ fn judged<M: ForwardModel>(
     let floor = |most: f64| {
         let of = |(c, channel): (usize, &crate::Channel)| {
             let n = judge.noise.model(0, c);
-            n.white.hypot(n.drift.min(most * channel.noise.drift.0))
+            n.white.hypot(n.drift.min(most * channel.noise.drift.0)).hypot(n.passed)
         };
         model.channels().iter().enumerate().map(of).collect()
     };

@@ -13,6 +13,7 @@ mod parameter;
 mod posterior;
 mod rival;
 mod search;
+mod settle;
 mod structure;
 mod verdict;
 
@@ -26,6 +27,7 @@ pub use model::{Active, Channel, ForwardModel, Latent, NoisePrior, Nuisance, Obs
 pub use parameter::{Parameter, Prior};
 pub use posterior::{Estimate, Place, Posterior};
 pub use rival::Rival;
-pub use search::{Settings, diagnose};
+pub use search::{Settings, diagnose, diagnose_beside};
+pub use settle::{Settled, settled};
 pub use structure::Structure;
 pub use verdict::{Candidate, Contradiction, Diagnosis, Judged, Judgement, Ruling, Verdict};

@@ -9,7 +9,8 @@ pub struct Channel {
     pub name: String,
     /// Unit.
     pub unit: String,
-    /// Standard deviation of the constant that is added to every recording of the channel; it is a nuisance, never a finding.
+    /// Standard deviation of the constant that is added to every recording of the channel, infinite where it may be anything; it is a nuisance,
+    /// never a finding.
     pub offset_sd: f64,
     /// Span of a sample's mean \[s\], 0 for momentary values.
     pub averaging: f64,
@@ -28,6 +29,10 @@ pub struct NoisePrior {
     pub drift_time: (f64, f64),
     /// Random walk [unit/√s].
     pub walk: (f64, f64),
+    /// What the noise of the drive does, passed through the model: standard deviation; 0 where the drive is known.
+    pub passed: (f64, f64),
+    /// Its correlation time \[s\], > 0.
+    pub passed_time: f64,
 }
 
 /// When an uncertain number of the nominal model is let free.
@@ -35,7 +40,9 @@ pub struct NoisePrior {
 pub enum Role {
     /// Always: an error that the model is known to have.
     ModelError,
-    /// Where the design's own constants are re-estimated.
+    /// Always: what an instrument is off.
+    Sensor,
+    /// Wherever the design is not taken for right to the digit.
     Constant,
 }
 
@@ -117,6 +124,17 @@ pub trait ForwardModel {
     /// # Errors
     /// What keeps the model from responding.
     fn respond(&self, record: usize, nuisances: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error>;
+
+    /// The same model where it is good about these nuisances, if it is not yet: a model that is linear in some of them is made anew there.
+    ///
+    /// # Errors
+    /// What keeps the model from being made.
+    fn about(&self, _nuisances: &[f64]) -> Result<Option<Self>, Self::Error>
+    where
+        Self: Sized,
+    {
+        Ok(None)
+    }
 
     /// State of the nominal system during a record.
     fn state(&self, record: usize) -> &State;

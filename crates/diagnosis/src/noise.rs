@@ -4,32 +4,35 @@ use crate::model::NoisePrior;
 use crate::{Channel, Observation};
 use recording::minimise::{Effort, nelder_mead};
 use recording::noise::{NoiseModel, Whitener};
+use std::sync::Arc;
 
 /// The noise models of some records with their whiteners: `[record][channel]`.
 #[derive(Debug, Clone)]
 pub(crate) struct Noise {
     models: Vec<Vec<NoiseModel>>,
-    whiteners: Vec<Vec<Whitener>>,
+    whiteners: Arc<Vec<Vec<Whitener>>>,
     /// ln p of the noise's own parameters under their priors
     pub(crate) log_prior: f64,
 }
 
-/// Logarithms of white, drift, drift time and walk in units of their priors.
-type Standard = [f64; 4];
+/// Logarithms of white, drift, drift time, walk and passed in units of their priors.
+type Standard = [f64; TERMS];
+const TERMS: usize = 5;
 
-fn terms(prior: &NoisePrior) -> [(f64, f64); 4] {
-    [prior.white, prior.drift, prior.drift_time, prior.walk]
+fn terms(prior: &NoisePrior) -> [(f64, f64); TERMS] {
+    [prior.white, prior.drift, prior.drift_time, prior.walk, prior.passed]
 }
 
 fn model(prior: &NoisePrior, averaging: f64, x: &Standard) -> NoiseModel {
     let of = |i: usize, (median, spread): (f64, f64)| median * (spread * x[i].clamp(-12.0, 12.0)).exp();
-    let [white, drift, drift_time, walk] = std::array::from_fn(|i| of(i, terms(prior)[i]));
-    NoiseModel { averaging, white, drift, drift_time, walk, quantisation: 0.0 }
+    let [white, drift, drift_time, walk, passed] = std::array::from_fn(|i| of(i, terms(prior)[i]));
+    NoiseModel { averaging, white, drift, drift_time, walk, quantisation: 0.0, passed, passed_time: prior.passed_time }
 }
 
 fn standard(prior: &NoisePrior, model: &NoiseModel) -> Standard {
-    let values = [model.white, model.drift, model.drift_time, model.walk];
-    let of = |value: f64, (median, spread): (f64, f64)| (value / median).ln() / spread;
+    let values = [model.white, model.drift, model.drift_time, model.walk, model.passed];
+    // what is absent has its place in no prior
+    let of = |value: f64, (median, spread): (f64, f64)| if median > 0.0 { (value / median).ln() / spread } else { 0.0 };
     std::array::from_fn(|i| of(values[i], terms(prior)[i]))
 }
 
@@ -38,7 +41,7 @@ fn log_prior(x: &Standard) -> f64 {
 }
 
 /// Effort of a fit of the noise: enough to bring ln p within some hundredths of its maximum.
-const EFFORT: Effort = Effort { tolerance: 1e-2, evaluations: 90 };
+const EFFORT: Effort = Effort { tolerance: 1e-2, evaluations: 120 };
 /// Edge of the first simplex, in standard deviations of the priors, towards their middles.
 const EDGE: f64 = 0.4;
 
@@ -46,7 +49,7 @@ const EDGE: f64 = 0.4;
 fn least(cost: impl Fn(&Standard) -> f64, start: Standard) -> Standard {
     let standard = |x: &[f64]| -> Standard { std::array::from_fn(|i| x[i]) };
     let edges = start.map(|x| if x > 0.0 { -EDGE } else { EDGE });
-    let anywhere = [[f64::NEG_INFINITY, f64::INFINITY]; 4];
+    let anywhere = [[f64::NEG_INFINITY, f64::INFINITY]; TERMS];
     standard(&nelder_mead(|x| cost(&standard(x)), &start, &edges, &anywhere, EFFORT).0)
 }
 
@@ -62,7 +65,7 @@ fn log_likelihood(whitener: &Whitener, series: &[f64]) -> f64 {
 impl Noise {
     /// Median noise.
     pub(crate) fn typical(channels: &[Channel], observations: &[Observation]) -> Result<Self, recording::Error> {
-        let models = observations.iter().map(|_| channels.iter().map(|c| model(&c.noise, c.averaging, &[0.0; 4])).collect());
+        let models = observations.iter().map(|_| channels.iter().map(|c| model(&c.noise, c.averaging, &[0.0; TERMS])).collect());
         Self::with(models.collect(), 0.0, observations)
     }
 
@@ -70,8 +73,8 @@ impl Noise {
         let of = |(models, o): (&Vec<NoiseModel>, &Observation)| {
             models.iter().zip(&o.channels).map(|(m, series)| Whitener::new(m, &o.time, &mask(series))).collect()
         };
-        let whiteners = models.iter().zip(observations).map(of).collect::<Result<_, _>>()?;
-        Ok(Self { models, whiteners, log_prior })
+        let whiteners = models.iter().zip(observations).map(of).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self { models, whiteners: Arc::new(whiteners), log_prior })
     }
 
     /// The same with no more drift and walk than expected beforehand: what an unexplained effect swells is cut back.
@@ -127,6 +130,11 @@ impl Noise {
         Self::with(models, sum, observations)
     }
 
+    /// Whether this is a copy of the other.
+    pub(crate) fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.whiteners, &other.whiteners)
+    }
+
     pub(crate) fn model(&self, record: usize, channel: usize) -> &NoiseModel {
         &self.models[record][channel]
     }
@@ -152,9 +160,9 @@ mod tests {
 
     #[test]
     fn the_least_cost_is_found_from_the_middles_of_the_priors() {
-        let target = [1.0, -0.5, 0.2, 2.0];
+        let target = [1.0, -0.5, 0.2, 2.0, 0.7];
         let cost = |x: &Standard| 50.0 * x.iter().zip(target).map(|(x, t)| (x - t).powi(2)).sum::<f64>();
-        let found = least(cost, [0.0; 4]);
+        let found = least(cost, [0.0; TERMS]);
         assert!(cost(&found) < 1.0, "{found:?}");
     }
 }

@@ -75,6 +75,11 @@ impl Parameter {
         Self { name: name.into(), prior, step: 0.02, around: Vec::new() }
     }
 
+    /// Standard deviation of what is known of it beforehand, where that is normal; else half of what u from −1 to 1 spans.
+    pub fn sd(&self) -> f64 {
+        (self.prior.value(1.0) - self.prior.value(-1.0)).abs() / 2.0
+    }
+
     /// The same with another step for differences.
     pub fn with_step(self, step: f64) -> Self {
         Self { step, ..self }

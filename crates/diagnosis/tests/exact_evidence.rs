@@ -121,7 +121,7 @@ fn verdicts_and_probabilities_follow_the_exact_odds() {
         let found = diagnose(&lines, &[0], &[lines.observed(&y)], &settings, &|_| ()).expect("a diagnosis");
         assert_eq!(found.verdict, verdict, "{:?}", found.verdicts());
         // odds of the first mechanism alone over the nominal model: the exact Bayes factor times the odds beforehand, each of two
-        // mechanisms with half of what singles have, less the share with constants free
+        // mechanisms with half of what singles have; the nominal model has all of what is left out of nothing: it has no constants
         let of = |test: &dyn Fn(&Hypothesis) -> bool| {
             let plain = found.candidates.iter().filter(|c| c.rival.is_none() && test(&c.fit.hypothesis));
             plain.map(|c| c.log_weight).fold(f64::NEG_INFINITY, f64::max)
@@ -130,8 +130,7 @@ fn verdicts_and_probabilities_follow_the_exact_odds() {
         let offset = || vec![1.0; 120];
         let bayes = exact(&[lines.column(0), offset()], &[PRIOR_SD, lines.offset_sd()], &y).log_evidence
             - exact(&[offset()], &[lines.offset_sd()], &y).log_evidence;
-        let given = settings.none / (settings.none + settings.recalibrate);
-        let expected = bayes + (settings.single / 2.0 * given / settings.none).ln();
+        let expected = bayes + (settings.single / 2.0 / (settings.none + settings.recalibrate)).ln();
         // the noise is fitted anew to each hypothesis, within a prior that hardly lets it
         assert!((odds - expected).abs() < 0.02 * (1.0 + expected.abs()), "{odds} {expected}");
     }

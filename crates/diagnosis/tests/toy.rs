@@ -32,7 +32,14 @@ impl Bath {
             let slope = |t: &f64| (20.0 * (t / 2000.0).cos() + 15.0 * fast * (fast * t / 2000.0).cos()) / 2000.0;
             State { level, rate: time.iter().map(slope).collect() }
         };
-        let noise = NoisePrior { white: (0.1, 0.7), drift: (0.03, 0.7), drift_time: (1500.0, 0.5), walk: (1e-5, 1.0) };
+        let noise = NoisePrior {
+            white: (0.1, 0.7),
+            drift: (0.03, 0.7),
+            drift_time: (1500.0, 0.5),
+            walk: (1e-5, 1.0),
+            passed: (0.0, 1.0),
+            passed_time: 1.0,
+        };
         Self {
             channels: vec![Channel { name: "y".into(), unit: "1".into(), offset_sd: 1.0, averaging: 0.0, noise }],
             nuisances: vec![
@@ -151,7 +158,7 @@ fn what_is_concealed_is_named_its_parameter_covered_and_the_held_out_record_pred
     let bath = Bath::new();
     for (concealed, value) in [(0, 45.0), (1, 1.5)] {
         let y = bath.truth(0, Some((concealed, value)));
-        let mut covered = 0;
+        let (mut covered, mut better) = (0, 0);
         for seed in 101..=120 {
             let diagnosis = run(&bath, &y, seed);
             assert_eq!(diagnosis.verdict, Verdict::Explained, "mechanism {concealed}, seed {seed}");
@@ -163,9 +170,11 @@ fn what_is_concealed_is_named_its_parameter_covered_and_the_held_out_record_pred
             let record = observed(&bath, &bath.truth(1, Some((concealed, value))), seed + 1000);
             let model = judge.hold_out(&bath, 1, &record, judge).expect("held out");
             let nominal = diagnosis.nominal.hold_out(&bath, 1, &record, judge).expect("held out");
-            assert!(model.rmse[0] < nominal.rmse[0] && model.rmse[0] < 1.2 * model.noise_floor[0], "{model:?}");
-            assert!(model.log_score > nominal.log_score);
+            assert!(model.rmse[0] < 1.2 * model.noise_floor[0], "{model:?}");
+            better += usize::from(model.rmse[0] < nominal.rmse[0] && model.log_score > nominal.log_score);
         }
+        // a constant that is free with it costs a little where the effect is small
+        assert!(better >= 18, "mechanism {concealed}: {better} of 20 predicted better");
         // 90 % of 20 are 18; 14 or fewer would be rarer than one in twenty
         assert!(covered >= 15, "mechanism {concealed}: {covered} of 20 intervals hold the truth");
     }
@@ -265,7 +274,7 @@ fn an_explanation_that_a_held_out_record_contradicts_is_taken_back() {
     let found = diagnose(&bath, &[0], std::slice::from_ref(&first), &Settings::default(), &|_| ()).expect("a diagnosis");
     let judged = |held: &[(usize, &Observation)]| {
         let mut diagnosis = found.clone();
-        let judgement = diagnosis.judge(&bath, (0, &first), held, 0).expect("a judgement");
+        let judgement = diagnosis.judge(&bath, &bath, (0, &first), held, 0).expect("a judgement");
         (diagnosis, judgement)
     };
     // the same unit: the explanation stands
@@ -312,7 +321,7 @@ fn a_mechanism_with_a_name_beside_a_structure_is_accepted_with_its_probability()
     assert_eq!(diagnosis.verdict, Verdict::Unknown);
     assert!(diagnosis.is_beside_named(&bath) && diagnosis.mechanisms[0].1 < 0.5);
     let [first, other] = [(0, 61), (1, 62)].map(|(record, seed)| observed(&bath, &both(record), seed));
-    let judgement = diagnosis.judge(&bath, (0, &first), &[(1, &other)], 0).expect("a judgement");
+    let judgement = diagnosis.judge(&bath, &bath, (0, &first), &[(1, &other)], 0).expect("a judgement");
     assert_eq!(judgement.ruling, Ruling::AcceptedBeside);
     let Judged { nominal, model, .. } = &judgement.records[0];
     assert!(nominal.clearly_worse_than(model, 0) && model.within_noise(0));

@@ -24,9 +24,9 @@ const HEADER: usize = MAGIC.len() + size_of::<u32>() + size_of::<Name>();
 /// End of the name of each file of the cache, temporary ones included; no other file is ever removed.
 const SUFFIX: &str = ".fogcoil-model";
 /// Largest file \[bytes\]; a larger model is not kept.
-const LARGEST: u64 = 64 << 20;
+const LARGEST: u64 = 256 << 20;
 /// All files together \[bytes\]; beyond, the longest unused go.
-const MOST: u64 = 256 << 20;
+const MOST: u64 = 1 << 30;
 
 type Name = [u8; 32];
 

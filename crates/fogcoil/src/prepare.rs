@@ -4,7 +4,7 @@ use bias::units::S_PER_MIN;
 use coil::COARSE;
 use diagnosis::Observation;
 use files::{Note, Remark};
-use mechanisms::{CATALOGUE, Library};
+use mechanisms::{CATALOGUE, Library, Models};
 use progress::Step;
 use recording::check::Severity;
 use recording::condition::{Rest, Thinned, Thinning, Unrest, bridged, span, thinned, unrest};
@@ -15,9 +15,9 @@ use crate::input::{CHAMBER, CoilCase, Fingerprint, InputError, RATE, RecordCase,
 
 /// Fewest rows with a rate from which anything is said.
 const FEWEST_ROWS: usize = 60;
-/// Rows beyond which neighbours are averaged, a week of minutes; the interval \[s\] to which they are, as a coil's fastest transients take
+/// Rows beyond which neighbours are averaged, a day of half minutes; the interval \[s\] to which they are, as a coil's fastest transients take
 /// minutes; most rows that are compared: of more, the interval grows.
-const THINNING: Thinning = Thinning { many_rows: 10_000, interval: 30.0, most_rows: 30_000 };
+const THINNING: Thinning = Thinning { many_rows: 3_000, interval: 30.0, most_rows: 30_000 };
 /// Range of the chamber \[K\] below which it is noted that nothing shows.
 const FEWEST_KELVIN: f64 = 5.0;
 /// What chamber and spool may differ by at rest, and the chamber move by in the first minutes \[K\]: thermometers' offsets and noise.
@@ -38,12 +38,12 @@ pub(crate) struct Record {
 /// [`files::Error::Coil`] if the design cannot be modelled.
 pub fn library(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(Step) + Sync)) -> Result<Library, Error> {
     const TASK: &str = "modelling the coil and what its model may leave out (half a minute, once for a design)";
-    let key = (&case.design, COARSE);
-    let built = cache.load_or_build("library", &key, || {
+    let key = (&case.design, &case.tolerances, COARSE);
+    let built = cache.load_or_build("models", &key, || {
         progress(Step::begins(TASK));
-        Library::build(&case.design, CATALOGUE, &|step| progress(Step { task: TASK, ..step }))
+        Models::build(&case.design, &case.tolerances, CATALOGUE, &|step| progress(Step { task: TASK, ..step }))
     });
-    built.map(|(library, _)| library).map_err(Error::of_coil(&case.file))
+    built.and_then(|(models, _)| Library::new(models, CATALOGUE)).map_err(Error::of_coil(&case.file))
 }
 
 fn refuse(case: &RecordCase, field: &str, problem: String, remedy: &str) -> Error {

@@ -1,10 +1,9 @@
 //! The tools that mechanisms' laws are written with: a library's models under the chamber of a recording, changed.
 
-use crate::design::REFERENCE_C;
 use crate::interpolation::weights;
 use crate::library::{Functionals, Library};
 use crate::mechanism::Change;
-use crate::response::{Parts, Prepared, Series};
+use crate::response::{Course, Parts, Prepared, Series};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::Error;
 use nalgebra::DVector;
@@ -19,15 +18,13 @@ pub(crate) fn add(to: &mut [f64], what: &[f64], factor: f64) {
 /// A library with what is worked out from it once for all recordings.
 pub struct Chain {
     library: Library,
-    /// quadratic form of ∂n/∂T's curvature: phase per curvature \[deg/h s K²\] from drives and modes
-    curvature: (nalgebra::DMatrix<f64>, DVector<f64>),
     /// functionals of rewound coils by layer (0 for none) and size, as they were asked for
     rewound: RefCell<HashMap<(usize, u64), Functionals>>,
 }
 
 impl Chain {
-    pub(crate) fn new(library: Library) -> Result<Self, Error> {
-        Ok(Self { curvature: curvature(&library)?, library, rewound: RefCell::default() })
+    pub(crate) fn new(library: Library) -> Self {
+        Self { library, rewound: RefCell::default() }
     }
 
     /// The models.
@@ -114,41 +111,50 @@ impl Chain {
         }
         change
     }
+}
 
-    /// Phase of a curved ∂n/∂T in every row, differenced \[deg/h per 1/K²\].
-    pub fn curved(&self, record: &Prepared) -> Vec<f64> {
-        let (form, linear) = &self.curvature;
-        let states = &record.course.states;
+/// Phase of a curved ∂n/∂T as a quadratic form of drives and modes: per curvature \[deg/h s K²\].
+pub(crate) struct Curvature {
+    form: nalgebra::DMatrix<f64>,
+    linear: DVector<f64>,
+    /// where ∂n/∂T has its nominal value \[°C\]
+    reference: f64,
+}
+
+impl Curvature {
+    pub(crate) fn new(library: &Library, reference: f64) -> Result<Self, Error> {
+        let design = library.design();
+        let winding = winding::wind(&design.winding)?;
+        let (form, linear) = library.fields.moments(&winding);
+        let scale = DEG_PER_H_PER_RAD_PER_S * design.optics.refractive_index / (winding.length() * design.optics.sagnac_diameter);
+        Ok(Self { form: form * scale, linear: linear * scale, reference })
+    }
+
+    /// Its mean rate over each reading.
+    pub(crate) fn rates(&self, course: &Course, time: &[f64], averaging: f64) -> Vec<f64> {
+        let Self { form, linear, reference } = self;
+        let states = &course.states;
         let phases: Vec<f64> = (0..states.nrows())
             .map(|n| {
                 let s = states.row(n).transpose();
-                (&s.transpose() * form * &s)[(0, 0)] / 2.0 - REFERENCE_C * linear.dot(&s)
+                (&s.transpose() * form * &s)[(0, 0)] / 2.0 - reference * linear.dot(&s)
             })
             .collect();
         // d/dt of the phase at the middle of a row's span: exact for the mean where rows are evenly spaced
-        let rates = &record.course.rates;
+        let rates = &course.rates;
         (0..states.nrows())
             .map(|n| {
-                let dt = if n > 0 { record.time[n] - record.time[n - 1] } else { 0.0 };
-                let span = if record.averaging > 0.0 { dt.min(record.averaging) } else { dt };
+                let dt = if n > 0 { time[n] - time[n - 1] } else { 0.0 };
+                let span = if averaging > 0.0 { dt.min(averaging) } else { dt };
                 if n == 0 || span < dt {
                     // after a gap: the mean over the span from the state at its end
                     let (s, r) = (states.row(n).transpose(), rates.row(n).transpose());
                     let middle = s - &r * (span / 2.0);
-                    (middle.transpose() * form * &r)[(0, 0)] - REFERENCE_C * linear.dot(&r)
+                    (middle.transpose() * form * &r)[(0, 0)] - reference * linear.dot(&r)
                 } else {
                     (phases[n] - phases[n - 1]) / dt
                 }
             })
             .collect()
     }
-}
-
-/// Sums that make the phase of a curved ∂n/∂T, times n/(L D) in deg/h.
-fn curvature(library: &Library) -> Result<(nalgebra::DMatrix<f64>, DVector<f64>), Error> {
-    let design = library.design();
-    let winding = winding::wind(&design.winding)?;
-    let (form, linear) = library.fields.moments(&winding);
-    let scale = DEG_PER_H_PER_RAD_PER_S * design.optics.refractive_index / (winding.length() * design.optics.sagnac_diameter);
-    Ok((form * scale, linear * scale))
 }

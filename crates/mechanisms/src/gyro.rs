@@ -1,11 +1,12 @@
 //! The coil's chain as a forward model for diagnosis: nominal constants, their uncertainties, and the library of mechanisms.
 
-use crate::catalogue::air_path;
 use crate::chain::{Chain, add};
+use crate::constants::Constant;
+use crate::instruments::{self, MINUTE, Passed, USUAL_NOISE, channels, nuisances};
 use crate::library::Library;
-use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Sight};
-use crate::nuisances::{self, channels, nuisances};
-use crate::response::{Parts, Prepared};
+use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Scene, Sight};
+use crate::response::{Delay, Parts, Prepared, Series};
+use crate::{REFERENCE_C, lagged};
 use coil::{Design, Error};
 use diagnosis::{Active, Channel, ForwardModel, Latent, Nuisance, State};
 use std::cell::RefCell;
@@ -37,6 +38,12 @@ struct Known {
 /// Effects that are kept.
 const KEPT: usize = 12;
 
+/// Standard deviations by which a constant may move before the model is made anew about it: conductivities act far from linearly where a sensitive
+/// gyroscope sees a thousandth of their tolerance.
+const NEAR: f64 = 0.02;
+/// Standard deviations from the drawing within which the model is made; beyond it is extrapolated.
+const MOST: f64 = 2.9;
+
 impl<'m> Gyro<'m> {
     /// A forward model of `records`, each prepared by [`Prepared::new`], with those of the `mechanisms` that the design leaves a place.
     ///
@@ -44,10 +51,11 @@ impl<'m> Gyro<'m> {
     /// [`Error`] names the dimension or property at fault.
     pub fn new(library: Library, mechanisms: &[&'m dyn Mechanism], records: Vec<Prepared>) -> Result<Self, Error> {
         let all = records.len();
-        Self::fitted_to(library, mechanisms, records, all)
+        Self::fitted_to(library, mechanisms, records, all, USUAL_NOISE)
     }
 
-    /// The same where only the first `fitted` of the records are fitted: the others' temperatures say nothing beforehand.
+    /// The same where only the first `fitted` of the records are fitted: the others' temperatures say nothing beforehand. `white` is the white noise
+    /// of thermometer \[K\] and rate \[deg/h\] in a sample, as the records or a data sheet tell.
     ///
     /// # Errors
     /// [`Error`] names the dimension or property at fault.
@@ -56,22 +64,37 @@ impl<'m> Gyro<'m> {
         mechanisms: &[&'m dyn Mechanism],
         records: Vec<Prepared>,
         fitted: usize,
+        white: [f64; 2],
     ) -> Result<Self, Error> {
         let temperatures = || records.iter().take(fitted).flat_map(|r| r.coil.iter().copied());
         let coldest = temperatures().fold(f64::INFINITY, f64::min);
         let range = [coldest, temperatures().fold(f64::NEG_INFINITY, f64::max).max(coldest + 1e-3)];
-        let offered = mechanisms.iter().filter_map(|m| Some((*m, entry(*m, library.design(), range)?)));
+        let (averaging, interval) = records.first().map_or((0.0, MINUTE), |r| (r.averaging, r.interval()));
+        let scene = Scene { temperatures: range, noise: white[RATE] * (interval / MINUTE).sqrt() };
+        let offered = mechanisms.iter().filter_map(|m| Some((*m, entry(*m, library.design(), &scene)?)));
         let (kinds, mechanisms) = offered.unzip();
-        let averaging = records.first().map_or(0.0, |r| r.averaging);
         Ok(Self {
-            chain: Chain::new(library)?,
+            channels: channels(averaging, white, interval, records.first().map_or(Passed::NONE, |r| r.passed)),
+            nuisances: nuisances(library.design(), library.tolerances(), records.iter().map(Prepared::noise).fold(0.0, f64::max)),
+            chain: Chain::new(library),
             records,
-            channels: channels(averaging),
-            nuisances: nuisances(),
             kinds,
             mechanisms,
             known: RefCell::default(),
         })
+    }
+
+    /// Constants and delays at which this model is linear: nuisances at which its response is exact.
+    fn here(&self) -> Vec<f64> {
+        let mut here = diagnosis::expected(&self.nuisances);
+        let delay = self.records.first().map_or(Delay::default(), |r| r.delay);
+        here[instruments::CHAMBER_DELAY] = delay.total();
+        here[instruments::CHAMBER_LAG_SQUARED] = delay.lag.powi(2);
+        let library = self.library();
+        for (k, (constant, value)) in library.constants.iter().zip(library.values()).enumerate() {
+            here[instruments::CONSTANTS + k] = constant.told(value);
+        }
+        here
     }
 
     /// The models of the design.
@@ -105,34 +128,50 @@ impl<'m> Gyro<'m> {
     /// Parts and thermometer of the nominal model with its uncertain numbers at `u`.
     fn recalibrated(&self, record: &Prepared, u: &[f64]) -> (Parts, Vec<f64>) {
         let (mut parts, mut sensor) = (record.nominal.parts.clone(), record.nominal.sensor.clone());
-        for (k, of) in record.constants.iter().enumerate() {
-            let by = u[nuisances::LINEAR + k] - 1.0;
-            (0..3).filter(|_| by != 0.0).for_each(|p| add(&mut parts[p], &of[p], by));
-        }
-        let thermo_optic = {
-            let o = &self.library().design().optics;
-            let (a, b) = (o.thermo_optic, o.refractive_index * o.thermal_expansion);
-            (a * u[nuisances::THERMO_OPTIC] + b) / (a + b)
+        let mut change = |of: &Series, factor: f64| {
+            parts.iter_mut().zip(&of.parts).for_each(|(part, change)| add(part, change, factor));
+            add(&mut sensor, &of.sensor, factor);
         };
-        let shupe = thermo_optic * u[nuisances::SHUPE];
-        parts[0].iter_mut().for_each(|s| *s *= shupe);
-        let mut change = |of: &Parts, thermometer: Option<&Vec<f64>>, factor: f64| {
-            parts.iter_mut().zip(of).for_each(|(part, change)| add(part, change, factor));
-            if let Some(thermometer) = thermometer {
-                add(&mut sensor, thermometer, factor);
+        let library = self.library();
+        for (k, (constant, value)) in library.constants.iter().zip(library.values()).enumerate() {
+            let by = constant.value(u[instruments::CONSTANTS + k]) - value;
+            // rounding is no change
+            if by.abs() > 1e-9 * constant.tolerance {
+                change(&record.slopes[k], by);
             }
+        }
+        // (1 + τ d/dt) e^(c d/dt) over the same at the values at which the model is exact, to the second order
+        let late = u[instruments::CHAMBER_DELAY] - record.delay.total();
+        let squared = u[instruments::CHAMBER_LAG_SQUARED] - record.delay.lag.powi(2);
+        change(&record.rates[0], late);
+        change(&record.rates[1], (late * late - squared) / 2.0);
+        change(&record.off_rest, u[instruments::REST]);
+        let filter = u[instruments::RATE_FILTER] / 2.0;
+        parts.iter_mut().zip(&record.rates[1].parts).for_each(|(part, second)| add(part, second, filter));
+        let late = u[instruments::RATE_DELAY];
+        parts.iter_mut().zip(&record.rates[0].parts).for_each(|(part, first)| add(part, first, -late));
+        parts.iter_mut().zip(&record.tail).for_each(|(part, tail)| add(part, tail, u[instruments::TAIL]));
+        let thermo_optic = {
+            let o = &library.design().optics;
+            let (a, b) = (o.thermo_optic, o.refractive_index * o.thermal_expansion);
+            (a * u[instruments::THERMO_OPTIC] + b) / (a + b)
         };
-        change(&record.off_rest.parts, Some(&record.off_rest.sensor), u[nuisances::REST]);
-        let (modulus, alpha) = (u[nuisances::MODULUS], u[nuisances::ALPHA_R]);
-        if (modulus != 1.0 || alpha != 1.0) && !record.modulus.is_empty() {
-            change(&self.chain.softened(record, |_| (modulus, alpha)), None, 1.0);
-        }
-        let air = u[nuisances::AIR] * u[nuisances::CONDUCTIVITY];
-        if air != 1.0 {
-            let path = self.chain.along(record, air_path::ID, air_path::coordinate(air));
-            change(&path.parts, path.thermometer.as_ref(), 1.0);
-        }
+        let shupe = thermo_optic * u[instruments::SHUPE];
+        parts[0].iter_mut().for_each(|s| *s *= shupe);
+        // a chamber that moved by more than its thermometer said moves everything by more, from rest
+        let gain = 1.0 / u[instruments::CHAMBER_GAIN];
+        parts.iter_mut().flatten().for_each(|x| *x *= gain);
+        let rest = sensor[0];
+        sensor.iter_mut().for_each(|t| *t = rest + (*t - rest) * gain);
         (parts, sensor)
+    }
+
+    /// What a thermometer of the spool says of its temperature.
+    fn read(&self, record: &Prepared, thermometer: &mut Vec<f64>, u: &[f64]) {
+        let lag = self.library().design().sensor.lag * u[instruments::LAG];
+        if lag > 0.0 {
+            *thermometer = lagged(&record.time, thermometer, lag);
+        }
     }
 
     /// What a mechanism does in a record; kept for as long as other unknowns are varied.
@@ -156,9 +195,9 @@ impl<'m> Gyro<'m> {
     }
 }
 
-fn entry(mechanism: &dyn Mechanism, design: &Design, range: [f64; 2]) -> Option<diagnosis::Omission> {
+fn entry(mechanism: &dyn Mechanism, design: &Design, scene: &Scene) -> Option<diagnosis::Omission> {
     let facts = mechanism.facts();
-    let Offer { parameters, choice, starts } = mechanism.offer(design, range)?;
+    let Offer { parameters, choice, starts } = mechanism.offer(design, scene)?;
     let (id, stage, named) = (facts.id.to_owned(), facts.stage.name().to_owned(), matches!(facts.naming, Naming::Named { .. }));
     Some(diagnosis::Omission { id, stage, parameters, choice, starts, named, weight: 1.0 })
 }
@@ -217,17 +256,48 @@ impl ForwardModel for Gyro<'_> {
             }
         }
         let mut rate: Vec<f64> =
-            (0..thermometer.len()).map(|n| u[nuisances::GAIN] * (parts[0][n] + parts[1][n] + parts[2][n])).collect();
+            (0..thermometer.len()).map(|n| u[instruments::GAIN] * (parts[0][n] + parts[1][n] + parts[2][n])).collect();
         for added in changes().filter_map(|(change, _)| change.rate.as_ref()) {
             add(&mut rate, added, 1.0);
         }
+        self.read(record, &mut thermometer, u);
         let mut readings = Readings { time: &record.time, thermometer, rate };
         for known in &effects {
             if let Effect::Readings(act) = &known.effect {
                 act(&mut readings);
             }
         }
-        Ok(vec![readings.thermometer, readings.rate])
+        let gain = u[instruments::SPOOL_GAIN];
+        let thermometer = readings.thermometer.iter().map(|t| REFERENCE_C + (t - REFERENCE_C) * gain).collect();
+        Ok(vec![thermometer, readings.rate])
+    }
+
+    fn about(&self, u: &[f64]) -> Result<Option<Self>, Error> {
+        let here = self.here();
+        // no thermometer has a negative square: that is left to what is linear
+        let wanted = |k: usize| if k == instruments::CHAMBER_LAG_SQUARED { u[k].max(0.0) } else { u[k] };
+        let moved = |k: usize| (wanted(k) - here[k]).abs() / self.nuisances[k].parameter.sd();
+        let places = (instruments::CONSTANTS..u.len()).chain([instruments::CHAMBER_DELAY, instruments::CHAMBER_LAG_SQUARED]);
+        if places.map(moved).fold(0.0, f64::max) <= NEAR {
+            return Ok(None);
+        }
+        let library = self.library();
+        let within =
+            |(c, told): (&Constant, &f64)| c.value(*told).clamp(c.drawn - MOST * c.tolerance, c.drawn + MOST * c.tolerance);
+        let values: Vec<f64> = library.constants.iter().zip(&u[instruments::CONSTANTS..]).map(within).collect();
+        let library = library.about(&values)?;
+        let lag = u[instruments::CHAMBER_LAG_SQUARED].max(0.0).sqrt();
+        let delay = Delay { lag, clock: u[instruments::CHAMBER_DELAY] - lag };
+        let records = self.records.iter().map(|r| r.again(&library, delay)).collect::<Result<_, _>>()?;
+        Ok(Some(Self {
+            chain: Chain::new(library),
+            records,
+            channels: self.channels.clone(),
+            nuisances: self.nuisances.clone(),
+            kinds: self.kinds.clone(),
+            mechanisms: self.mechanisms.clone(),
+            known: RefCell::default(),
+        }))
     }
 
     fn latent(&self, record: usize) -> Result<Vec<Latent>, Error> {

@@ -82,7 +82,8 @@ impl Chain {
         let mut material: Functions = shaped(&softer, &hats);
         material.extend(shaped(&wider, &hats));
         material.extend(LAGS.iter().map(|lag| of_rate(lagged(&record.time, &sum(&softer.parts), *lag))));
-        material.extend(record.constants.iter().map(|c| of_rate(sum(c))));
+        let constants = self.library().constants.iter().zip(&record.slopes).filter(|(c, _)| c.parameter.of_mechanics());
+        material.extend(constants.map(|(c, slope)| of_rate(sum(&slope.parts).iter().map(|x| x * c.tolerance).collect())));
         add(Stage::Material, material);
 
         let bond = record.openings.iter().step_by((record.openings.len() / 2).max(1));
@@ -97,7 +98,7 @@ impl Chain {
 
         let [shupe, ..] = &record.nominal.parts;
         let mut optics: Functions = hats.iter().map(|h| of_rate(times(shupe, h))).collect();
-        optics.push(of_rate(self.curved(record)));
+        optics.push(of_rate(record.curved.clone()));
         add(Stage::Optics, optics);
 
         add(Stage::Electronics, hats.iter().map(|h| of_rate(h.clone())).collect());

@@ -6,27 +6,29 @@
 mod build;
 mod catalogue;
 mod chain;
+mod constants;
 mod design;
 mod gyro;
+mod instruments;
 mod interpolation;
 mod latent;
 mod library;
 mod mechanism;
-mod nuisances;
 mod response;
 
 pub use build::ranges;
 pub use catalogue::{CATALOGUE, find};
 pub use chain::Chain;
+pub use constants::with_constant;
 pub use design::REFERENCE_C;
 pub use gyro::{Gyro, RATE, SPOOL};
-pub use library::Library;
+pub use instruments::USUAL_NOISE;
+pub use library::{Library, Models};
 pub use mechanism::{
-    Change, Digits, Effect, Extent, Facts, HeatPath, Mechanism, Naming, Offer, Readings, Sight, Stage, Steady, lagged, middles,
-    rates_per_hour,
+    Change, Digits, Effect, Extent, Facts, HeatPath, Mechanism, Naming, Offer, Readings, Scene, Sight, Stage, Steady, lagged,
+    middles, rates_per_hour,
 };
-pub use nuisances::with_constant;
-pub use response::{Parts, Prepared};
+pub use response::{Delay, Parts, Prepared};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -1,53 +1,182 @@
-//! Everything of a design that does not depend on a recording: reduced models at chosen values of every mechanism's parameters.
+//! Reduced models of a design, and of what it may leave out: once for every design of a box, and at one of them.
 
+use crate::catalogue::self_heating;
+use crate::constants::{Constant, constants};
 use crate::design::with_tail;
-use crate::interpolation::cubic_weights;
-use coil::{Design, Dynamics, Error, Reduced, TurnFields};
+use crate::interpolation::{cubic_weights, nodes};
+use crate::mechanism::{HeatPath, Mechanism};
+use coil::{
+    Design, Error, HeatPaths, MechanicalState, Mechanics, Output, ParametricModel, Projected, Reduced, Slopes, Tolerances,
+    TurnFields,
+};
 use nalgebra::{DMatrix, DVector};
+use progress::Step;
+use std::sync::Arc;
 use winding::{Half, LayerDefect, Winding};
 
 /// The three bias parts as functionals of drives and modes.
 pub(crate) type Functionals = [DVector<f64>; 3];
 
-/// The coil along a path of heat.
+/// Range of the factor on the transverse moduli that is tabulated.
+const MODULUS: [f64; 2] = [0.15, 2.2];
+const MODULUS_NODES: usize = 9;
+
+/// All that is solved in full for a design: a parametric model, and the mechanics of open bonds.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Models {
+    pub(crate) drawing: Design,
+    pub(crate) tolerances: Tolerances,
+    pub(crate) model: ParametricModel,
+    /// by the open share: opened less closed
+    pub(crate) openings: Vec<(f64, Projected)>,
+}
+
+/// The coil along a path of heat.
+#[derive(Debug, Clone)]
 pub(crate) struct Tabulated {
     /// Id of the mechanism whose path it is.
     pub(crate) id: String,
     /// Nodes in the path's coordinate, increasing.
     pub(crate) nodes: Vec<f64>,
-    /// Which node is the nominal design.
+    /// Which node is the design as it is.
     pub(crate) nominal: usize,
     /// A model at every other node, in their order.
     pub(crate) models: Vec<Reduced>,
 }
 
-/// Reduced models of a design and of what it may leave out.
+/// Reduced models of a design and of what it may leave out, with the derivatives by its constants.
 #[derive(Debug, Clone)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Library {
-    pub(crate) design: Design,
-    /// the design as it is, whatever its mechanics
-    pub(crate) nominal: Dynamics,
-    /// thermometer, mean of the coil, nominal parts
+    models: Arc<Models>,
+    /// those that conduct heat, by their ids
+    heat_paths: Vec<(String, HeatPath)>,
+    /// the drawing with its constants at the values that this is made for
+    design: Design,
+    pub(crate) constants: Vec<Constant>,
+    /// thermometer, mean of the coil, nominal parts; parts at each modulus, the same with twice the expansion; of each opening
     pub(crate) base: Reduced,
+    pub(crate) slopes: Slopes,
     pub(crate) fields: TurnFields,
-    /// ln of the factor on the transverse moduli at nodes, parts with the nominal α_r and per unit of its factor; empty if mechanics changes
-    pub(crate) modulus: Vec<(f64, Functionals, Functionals)>,
-    /// parts per relative change of E_z, α_z and the spool's expansion
-    pub(crate) constants: Vec<Functionals>,
+    /// ln of the factor on the transverse moduli at nodes; empty if mechanics changes
+    pub(crate) moduli: Vec<f64>,
     pub(crate) paths: Vec<Tabulated>,
-    /// thermometer, mean of the coil, closed parts, open parts at each open share
-    pub(crate) openings: Vec<(f64, Reduced)>,
     /// driven by the chamber and by a heater of 1 W
     pub(crate) heater: Option<Reduced>,
 }
 
-impl Library {
-    /// The design it was made for.
+/// A design without a heater of its own: that is no drive of a recording.
+pub(crate) fn unheated(design: &Design) -> Design {
+    Design { heat: HeatPaths { heaters: Vec::new(), ..design.heat.clone() }, ..design.clone() }
+}
+
+/// The paths of heat that a design has, by the ids of their mechanisms.
+pub(crate) fn heat_paths(design: &Design, mechanisms: &[&dyn Mechanism]) -> Vec<(String, HeatPath)> {
+    let of = |m: &&dyn Mechanism| {
+        let facts = m.facts();
+        facts.heat_path.map(|path| (facts.id.to_owned(), path))
+    };
+    mechanisms.iter().filter_map(of).filter(|(_, path)| (path.applies)(design)).collect()
+}
+
+impl Models {
+    /// The design that they were made for.
     pub fn design(&self) -> &Design {
-        &self.design
+        &self.drawing
+    }
+}
+
+impl Library {
+    /// Makes every model that the `mechanisms` need, for the usual tolerances; `progress` is told how many are made.
+    ///
+    /// # Errors
+    /// [`Error`] names the dimension or property at fault, or the solve that failed.
+    pub fn build(design: &Design, mechanisms: &[&dyn Mechanism], progress: &(dyn Fn(Step) + Sync)) -> Result<Self, Error> {
+        Self::new(Models::build(design, &Tolerances::default(), mechanisms, progress)?, mechanisms)
+    }
+
+    /// The models of the drawing itself; the `mechanisms` are those that `models` were built for.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn new(models: Models, mechanisms: &[&dyn Mechanism]) -> Result<Self, Error> {
+        let design = unheated(&models.drawing);
+        let paths = heat_paths(&design, mechanisms);
+        Self::at(Arc::new(models), paths, design)
+    }
+
+    /// The same of the drawing with its constants at other values, in their order.
+    ///
+    /// # Errors
+    /// [`Error::Design`] if a value lies outside what was modelled.
+    pub fn about(&self, values: &[f64]) -> Result<Self, Error> {
+        let set = |design: Design, (constant, value): (&Constant, &f64)| constant.parameter.set(&design, *value);
+        let design = self.constants.iter().zip(values).fold(unheated(&self.models.drawing), set);
+        Self::at(Arc::clone(&self.models), self.heat_paths.clone(), design)
+    }
+
+    fn at(models: Arc<Models>, heat_paths: Vec<(String, HeatPath)>, design: Design) -> Result<Self, Error> {
+        let model = &models.model;
+        let moduli = if design.mechanics == Mechanics::Elastic {
+            nodes(MODULUS[0].ln(), MODULUS[1].ln(), MODULUS_NODES)
+        } else {
+            Vec::new()
+        };
+        let softer = |x: &f64| MechanicalState { transverse_modulus: x.exp(), ..MechanicalState::NOMINAL };
+        let wider = |x: &f64| MechanicalState { transverse_expansion: 2.0, ..softer(x) };
+        let states: Vec<MechanicalState> =
+            [MechanicalState::NOMINAL].into_iter().chain(moduli.iter().map(softer)).chain(moduli.iter().map(wider)).collect();
+        let openings: Vec<Projected> = models.openings.iter().map(|(_, opened)| opened.clone()).collect();
+        let base = model.in_states_and(&design, &states, &openings)?;
+        let fields = model.fields(&design, &MechanicalState::NOMINAL)?;
+        let constants = constants(&models.drawing, &models.tolerances);
+        let parameters: Vec<_> = constants.iter().map(|c| c.parameter).collect();
+        let slopes = model.slopes(&design, &parameters)?;
+        let mut paths = Vec::new();
+        for (id, path) in &heat_paths {
+            let nominal = path.nodes.iter().position(|x| is_nominal(*x)).unwrap_or(0);
+            let others = path.nodes.iter().filter(|x| !is_nominal(**x));
+            let at = others.map(|x| model.in_states(&model.nearest(&(path.design)(&design, *x)), &[MechanicalState::NOMINAL]));
+            let models = at.collect::<Result<_, _>>()?;
+            paths.push(Tabulated { id: id.clone(), nominal, nodes: path.nodes.clone(), models });
+        }
+        let heated = self_heating::applies(&models.drawing).then(|| self_heating::with_heater(&design, 1.0));
+        let heater = heated.map(|heated| model.in_states(&heated, &[MechanicalState::NOMINAL])).transpose()?;
+        Ok(Self { models, heat_paths, design, constants, base, slopes, fields, moduli, paths, heater })
+    }
+
+    /// The design that it was made for, as it is drawn.
+    pub fn design(&self) -> &Design {
+        &self.models.drawing
+    }
+
+    /// How far a unit may be from the drawing.
+    pub fn tolerances(&self) -> &Tolerances {
+        &self.models.tolerances
+    }
+
+    /// Values of the constants that it stands at.
+    pub fn values(&self) -> Vec<f64> {
+        self.constants.iter().map(|c| c.parameter.of(&self.design).unwrap_or(c.drawn)).collect()
+    }
+
+    /// Parts at each node of the modulus, and what they change per unit of the factor on α_r.
+    pub(crate) fn of_modulus(&self) -> impl Iterator<Item = (f64, Functionals, Functionals)> + '_ {
+        let count = self.moduli.len();
+        self.moduli.iter().enumerate().map(move |(k, x)| {
+            let (nominal, doubled) = (self.functionals(1 + k), self.functionals(1 + count + k));
+            (*x, nominal.clone(), [0, 1, 2].map(|p: usize| &doubled[p] - &nominal[p]))
+        })
+    }
+
+    /// What each opening changes of the parts, by its open share.
+    pub(crate) fn of_openings(&self) -> impl Iterator<Item = (f64, Functionals)> + '_ {
+        let first = 1 + 2 * self.moduli.len();
+        self.models.openings.iter().enumerate().map(move |(k, (share, _))| (*share, self.functionals(first + k)))
+    }
+
+    fn functionals(&self, state: usize) -> Functionals {
+        self.base.outputs().parts[state].each_ref().map(Output::vector)
     }
 
     /// The bias parts with another winding of the same fields.
@@ -63,6 +192,10 @@ impl Library {
     }
 }
 
+/// Whether a coordinate of a path, which is of the size of one, is that of the design as it is.
+fn is_nominal(x: f64) -> bool {
+    x.abs() <= 1e-12
+}
 /// Fields at the turns of a winding with a defect in one layer: cubic along that layer, as they are elsewhere.
 fn moved(fields: &TurnFields, sound: &Winding, wound: &Winding, layer: usize) -> TurnFields {
     let mut along: Vec<(f64, usize)> =

@@ -88,6 +88,15 @@ pub enum Naming<'a> {
     },
 }
 
+/// What the sizes of effects are measured by: where the coil was, and how quiet the gyroscope is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scene {
+    /// The coldest and the hottest that the coil was \[°C\].
+    pub temperatures: [f64; 2],
+    /// White noise of the rate in a reading of a minute \[deg/h\]: electronics and optics of a noisier gyroscope may be off by more.
+    pub noise: f64,
+}
+
 /// A mechanism as it is offered for a design: its unknowns and where fits of them start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Offer {
@@ -226,8 +235,8 @@ pub trait Mechanism: Send + Sync {
     /// All but its unknowns and its law.
     fn facts(&self) -> Facts<'_>;
 
-    /// Its unknowns with their priors; `range` is the coldest and hottest that the coil was \[°C\]. `None` if the design leaves it no place.
-    fn offer(&self, design: &Design, range: [f64; 2]) -> Option<Offer>;
+    /// Its unknowns with their priors. `None` if the design leaves it no place.
+    fn offer(&self, design: &Design, scene: &Scene) -> Option<Offer>;
 
     /// Its law: what it does in a record.
     ///
@@ -254,7 +263,7 @@ pub(crate) struct Named {
     pub(crate) steady: &'static [Steady],
     pub(crate) extent: fn(&Active, &Sight) -> Extent,
     pub(crate) caveat: fn(&Design) -> Option<&'static str>,
-    pub(crate) offer: fn(&Design, [f64; 2]) -> Option<Offer>,
+    pub(crate) offer: fn(&Design, &Scene) -> Option<Offer>,
     pub(crate) effect: fn(&Chain, &Prepared, &Active) -> Result<Effect, Error>,
     pub(crate) extended: fn(&Design, &Active) -> Option<Design>,
 }
@@ -267,8 +276,8 @@ impl Mechanism for Named {
         Facts { id, title, stage, equation, place, signature, source, naming, heat_path, steady, extent, caveat }
     }
 
-    fn offer(&self, design: &Design, range: [f64; 2]) -> Option<Offer> {
-        (self.offer)(design, range)
+    fn offer(&self, design: &Design, scene: &Scene) -> Option<Offer> {
+        (self.offer)(design, scene)
     }
 
     fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
@@ -289,7 +298,7 @@ pub(crate) struct Described {
     pub(crate) place: &'static str,
     pub(crate) signature: &'static str,
     pub(crate) source: &'static str,
-    pub(crate) offer: fn() -> Offer,
+    pub(crate) offer: fn(&Scene) -> Offer,
     /// What it changes in a record, by the values of its parameters.
     pub(crate) law: fn(&Prepared, &[f64]) -> Change,
     /// As in [`Naming::Described`].
@@ -303,8 +312,8 @@ impl Mechanism for Described {
         Facts { id, title, stage, equation, place, signature, source, naming, heat_path: None, steady, extent, caveat: |_| None }
     }
 
-    fn offer(&self, _: &Design, _: [f64; 2]) -> Option<Offer> {
-        Some((self.offer)())
+    fn offer(&self, _: &Design, scene: &Scene) -> Option<Offer> {
+        Some((self.offer)(scene))
     }
 
     fn effect(&self, _: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {

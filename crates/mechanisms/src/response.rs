@@ -1,8 +1,10 @@
 //! A library's responses to the chamber of one recording.
 
+use crate::instruments::Passed;
 use crate::library::{Functionals, Library};
+use crate::{RATE, SPOOL};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
-use coil::{Bonds, Error, Output, Profile, Reduced};
+use coil::{Error, Output, Parameter, Profile, Reduced};
 use diagnosis::State;
 use nalgebra::DMatrix;
 
@@ -11,8 +13,17 @@ pub type Parts = [Vec<f64>; 3];
 
 /// Rows that end this much later than the averaging span after the row before are gaps \[spans\].
 const GAP: f64 = 1.5;
-/// Relative change of the first chamber temperature for the effect of an unsettled start \[K\].
+/// Change of the first chamber temperature for the effect of an unsettled start \[K\].
 const OFF_REST: f64 = 1.0;
+
+/// What instruments of the chamber are taken to be off \[s\].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Delay {
+    /// Time constant of its thermometer.
+    pub lag: f64,
+    /// How late its log's clock is.
+    pub clock: f64,
+}
 
 /// Instants of a recording and those before them at which a reading that follows a gap begins.
 #[derive(Debug, Clone)]
@@ -23,6 +34,13 @@ pub(crate) struct Clock {
     pub(crate) rows: Vec<usize>,
     /// whether a reading begins at an instant that is not a row's
     begins: Vec<bool>,
+}
+
+impl Delay {
+    /// Both together.
+    pub fn total(&self) -> f64 {
+        self.lag + self.clock
+    }
 }
 
 /// Parts into which an interval is divided to follow the chamber between its readings.
@@ -49,25 +67,29 @@ impl Clock {
         starts.into_iter().for_each(|n| begins[n] = true);
         Self { time, chamber: drives.swap_remove(0), rows, begins }
     }
+}
 
-    /// Means over the reading of each row of something that is a mean since the instant before.
-    fn means(&self, value: impl Fn(usize) -> f64) -> Vec<f64> {
-        let (mut sum, mut span, mut row) = (0.0, 0.0, 0);
-        let mut means = Vec::with_capacity(self.rows.len());
-        for n in 0..self.time.len() {
-            let dt = if n > 0 { self.time[n] - self.time[n - 1] } else { 0.0 };
-            sum += value(n) * dt;
-            span += dt;
-            if self.rows.get(row) == Some(&n) {
-                means.push(if span > 0.0 { sum / span } else { 0.0 });
-                row += 1;
-                (sum, span) = (0.0, 0.0);
-            } else if self.begins[n] {
-                (sum, span) = (0.0, 0.0);
-            }
-        }
-        means
+/// A course at later instants, plus a time constant times its rate: the chamber behind its thermometer and its log. Beyond its ends it stays.
+fn undelayed(time: &[f64], course: &[f64], Delay { lag, clock }: Delay) -> Vec<f64> {
+    if lag == 0.0 && clock == 0.0 {
+        return course.to_vec();
     }
+    let rates = recording::condition::slopes(time, course);
+    let last = time.len() - 1;
+    let mut k = 0;
+    let at = |t: &f64| {
+        let t = (t + clock).clamp(time[0], time[last]);
+        while k + 2 <= last && time[k + 1] < t {
+            k += 1;
+        }
+        while k > 0 && time[k] > t {
+            k -= 1;
+        }
+        let share = if last > 0 { (t - time[k]) / (time[k + 1] - time[k]) } else { 0.0 };
+        let between = |x: &[f64]| if last > 0 { x[k] + share * (x[k + 1] - x[k]) } else { x[k] };
+        between(course) + lag * between(&rates)
+    };
+    time.iter().map(at).collect()
 }
 
 /// Thermometer and bias parts of one model in the rows of a recording.
@@ -138,13 +160,82 @@ fn less(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
+/// Responses to errors of the chamber's temperature are followed for so many of their own times, and in so many steps of each.
+const FOLLOWED: (usize, usize) = (60, 6);
+
+/// What errors of the chamber's temperature of size `sd` \[K\], each over a `time` \[s\] and independent of the next, do to thermometer and rate.
+///
+/// The response of a channel to them is the sum of its responses h to hats of one error each: its variance is ∫h²/time, its correlation time
+/// that after which the autocorrelation of h has fallen to 1/e.
+fn passed(model: &Reduced, (sd, width): (f64, f64), averaging: f64) -> Passed {
+    if sd <= 0.0 || !width.is_finite() || width <= 0.0 {
+        return Passed::NONE;
+    }
+    let (many, steps) = FOLLOWED;
+    let step = width / steps as f64;
+    let time: Vec<f64> = (0..many * steps).map(|n| step * n as f64).collect();
+    let hat: Vec<f64> = time.iter().map(|t| sd * (1.0 - (t / width - 1.0).abs()).max(0.0)).collect();
+    let clock = Clock { begins: vec![false; time.len()], rows: (0..time.len()).collect(), chamber: hat.clone(), time };
+    let Series { sensor, parts } = Course::new(model, &clock, &[hat], &[0.0]).series(model);
+    let rate: Vec<f64> = (0..sensor.len()).map(|n| parts[0][n] + parts[1][n] + parts[2][n]).collect();
+    // a reading is a mean
+    let window = ((averaging / step).round() as usize).max(1);
+    let mean: Vec<f64> =
+        (0..rate.len()).map(|n| rate[n.saturating_sub(window - 1)..=n].iter().sum::<f64>() / window as f64).collect();
+    let of = |h: &[f64]| {
+        let product = |lag: usize| h.iter().zip(&h[lag..]).map(|(a, b)| a * b).sum::<f64>();
+        let square = product(0);
+        let lag = (1..h.len()).find(|lag| product(*lag) < square / std::f64::consts::E).unwrap_or(h.len());
+        ((square * step / width).sqrt(), lag as f64 * step)
+    };
+    let [spool, rate] = [of(&sensor), of(&mean)];
+    Passed { sd: [spool.0, rate.0], time: [spool.1, rate.1] }
+}
+
+impl Passed {
+    /// With what the model itself is off, which no gain makes up for.
+    fn with_model_error(self, base: &Series) -> Self {
+        let rate: Vec<f64> = (0..base.sensor.len()).map(|n| base.parts[0][n] + base.parts[1][n] + base.parts[2][n]).collect();
+        let with = |channel: usize, by: f64| {
+            let [own, added] = [self.sd[channel].powi(2), by * by];
+            let time = (own * self.time[channel] + added * MODEL_ERROR_TIME) / (own + added).max(f64::MIN_POSITIVE);
+            ((own + added).sqrt(), time)
+        };
+        let size = |series: &[f64]| (series.iter().map(|x| x * x).sum::<f64>() / series.len().max(1) as f64).sqrt();
+        let mean = base.sensor.iter().sum::<f64>() / base.sensor.len().max(1) as f64;
+        let around: Vec<f64> = base.sensor.iter().map(|t| t - mean).collect();
+        let [spool, rate] = [with(SPOOL, MODEL_ERROR[SPOOL] * size(&around)), with(RATE, MODEL_ERROR[RATE] * size(&rate))];
+        Self { sd: [spool.0, rate.0], time: [spool.1, rate.1] }
+    }
+}
+
+/// What a model is off beside its gain, of thermometer and rate, relative to their own size: two codes that solve the same equations on meshes of
+/// their own differ by as much; and the time over which that is one error, of the order of a coil's slowest transients \[s\].
+const MODEL_ERROR: [f64; 2] = [2e-4, 1.5e-3];
+const MODEL_ERROR_TIME: f64 = 1500.0;
+
+/// What was recorded of the chamber.
+#[derive(Debug, Clone)]
+struct Recorded {
+    /// freed of its sensor's noise \[°C\]
+    chamber: Vec<f64>,
+    /// standard deviation of that noise \[K\]
+    noise: f64,
+    /// what is left of it, and over which time it is one error \[K, s\]
+    left: (f64, f64),
+}
+
 /// A recording's instants and chamber, and what every model of a library does under it.
 #[derive(Debug, Clone)]
 pub struct Prepared {
     pub(crate) time: Vec<f64>,
-    /// freed of its sensor's noise \[°C\]
+    recorded: Recorded,
+    pub(crate) delay: Delay,
+    /// as it was, not as its thermometer said \[°C\]
     pub(crate) chamber: Vec<f64>,
     pub(crate) averaging: f64,
+    /// noise of the chamber's thermometer in the other channels
+    pub(crate) passed: Passed,
     pub(crate) course: Course,
     pub(crate) nominal: Series,
     /// mean temperature of the coil \[°C\]
@@ -152,9 +243,18 @@ pub struct Prepared {
     pub(crate) state: State,
     /// change per kelvin that the start was off the first chamber temperature
     pub(crate) off_rest: Series,
+    /// rate of change of everything \[1/s\], and the rate of that \[1/s²\]
+    pub(crate) rates: [Series; 2],
+    /// phase of a ∂n/∂T that is curved about the usual reference, differenced \[deg/h per 1/K²\]
+    pub(crate) curved: Vec<f64>,
+    /// change per metre of the CW tail
+    pub(crate) tail: Parts,
+    /// derivatives by every constant, SI
+    pub(crate) slopes: Vec<Series>,
+    /// place and value of the spool's expansion among the constants
+    expansion: Option<(usize, f64)>,
     /// parts at each node of the transverse modulus, with the nominal α_r and per unit of its factor
     pub(crate) modulus: Vec<(f64, Parts, Parts)>,
-    pub(crate) constants: Vec<Parts>,
     /// changes at every node of each mechanism's path, zero at the nominal one
     pub(crate) paths: Vec<(String, Vec<f64>, Vec<Series>)>,
     /// open minus closed
@@ -198,6 +298,13 @@ impl Prepared {
         &self.time
     }
 
+    /// Median time between rows \[s\].
+    pub(crate) fn interval(&self) -> f64 {
+        let mut steps: Vec<f64> = self.time.windows(2).map(|t| t[1] - t[0]).collect();
+        steps.sort_by(f64::total_cmp);
+        steps.get(steps.len() / 2).copied().unwrap_or(60.0)
+    }
+
     /// Temperature of the chamber in every row, freed of its sensor's noise \[°C\].
     pub fn chamber(&self) -> &[f64] {
         &self.chamber
@@ -225,49 +332,132 @@ impl Prepared {
     /// # Errors
     /// [`Error::Profile`] names the instant that is out of order or not finite.
     pub fn new(library: &Library, time: &[f64], chamber: &[f64], averaging: f64) -> Result<Self, Error> {
-        // what is too short or out of order is left to the simulation, which says so
-        let smooth = recording::smooth::smoothed(time, chamber);
-        let clock = Clock::new(time, smooth.as_ref().map_or(chamber, |s| &s.values), averaging);
-        let profile = Profile { time: clock.time.clone(), drives: vec![clock.chamber.clone()] };
-        let responses = library.nominal.simulate(&profile)?;
+        Profile { time: time.to_vec(), drives: vec![chamber.to_vec()] }.check(1)?;
+        // what is too short is left as it is
+        let smooth = recording::smooth::smoothed(time, chamber).ok();
+        let noise = smooth.as_ref().map_or(0.0, |s| s.noise);
+        let span = (time[time.len() - 1] - time[0]) / (time.len() - 1).max(1) as f64;
+        let left = smooth.as_ref().map_or((0.0, span), |s| (s.left, span * s.of));
+        let recorded = Recorded { chamber: smooth.map_or(chamber.to_vec(), |s| s.values), noise, left };
+        Self::run(library, time, recorded, averaging, Delay::default())
+    }
+
+    /// The same recording under the models of another library, its chamber's readings late by `delay`.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn again(&self, library: &Library, delay: Delay) -> Result<Self, Error> {
+        Self::run(library, &self.time, self.recorded.clone(), self.averaging, delay)
+    }
+
+    /// Parts per relative change of the spool's expansion; `None` without a spool.
+    pub(crate) fn of_spool_expansion(&self) -> Option<Parts> {
+        let (place, value) = self.expansion?;
+        Some(self.slopes[place].parts.each_ref().map(|part| part.iter().map(|x| x * value).collect()))
+    }
+
+    /// Standard deviation of the noise of the chamber's thermometer \[K\].
+    pub fn noise(&self) -> f64 {
+        self.recorded.noise
+    }
+
+    fn run(library: &Library, time: &[f64], recorded: Recorded, averaging: f64, delay: Delay) -> Result<Self, Error> {
+        let mut clock = Clock::new(time, &recorded.chamber, averaging);
+        clock.chamber = undelayed(&clock.time, &clock.chamber, delay);
         let first = clock.chamber[0];
         let run = |model: &Reduced| Course::new(model, &clock, std::slice::from_ref(&clock.chamber), &[first]);
         let course = run(&library.base);
         let base = course.series(&library.base);
-        let part = |f: fn(&bias::Bias) -> f64| -> Vec<f64> { clock.means(|n| f(&responses[n].bias) * DEG_PER_H_PER_RAD_PER_S) };
-        let nominal = Series {
-            sensor: clock.rows.iter().map(|&n| responses[n].sensor).collect(),
-            parts: [part(|b| b.shupe), part(|b| b.eo_axial), part(|b| b.eo_radial)],
-        };
+        let nominal = library.with_drifts(&course, &base, time, averaging)?;
         let off = Course::new(&library.base, &clock, std::slice::from_ref(&clock.chamber), &[first + OFF_REST]);
         let paths = library.paths.iter().map(|path| {
             let mut changes: Vec<Series> = path.models.iter().map(|model| minus(&run(model).series(model), &base)).collect();
             changes.insert(path.nominal, minus(&base, &base));
             (path.id.clone(), path.nodes.clone(), changes)
         });
-        let opening = |(share, model): &(f64, Reduced)| {
-            let course = run(model);
-            let parts = |bond| course.parts(&model.parts_with(bond).each_ref().map(Output::vector));
-            (*share, difference(&parts(Bonds::Opened), &parts(Bonds::Closed)))
-        };
         let heater = library.heater.as_ref().map(|model| Heating::new(model, &clock, averaging));
         let coil = course.output(library.base.coil_mean());
         let level = nominal.sensor.clone();
-        let rate = recording::condition::slopes(time, &level);
+        let slopes_of = |series: &[f64]| recording::condition::slopes(time, series);
+        let rate = slopes_of(&level);
+        let changing =
+            |of: &Series| Series { sensor: slopes_of(&of.sensor), parts: of.parts.each_ref().map(|part| slopes_of(part)) };
+        let first_rates = changing(&base);
+        let second_rates = changing(&first_rates);
+        let [longer, sound] = [library.rewound(1.0, None)?, library.rewound(0.0, None)?];
+        let tail = course.parts(&[0, 1, 2].map(|p: usize| &longer[p] - &sound[p]));
         Ok(Self {
             time: time.to_vec(),
             chamber: clock.rows.iter().map(|&n| clock.chamber[n]).collect(),
+            passed: passed(&library.base, recorded.left, averaging).with_model_error(&base),
+            recorded,
+            delay,
             averaging,
             off_rest: minus(&off.series(&library.base), &base),
-            modulus: library.modulus.iter().map(|(x, n, f)| (*x, course.parts(n), course.parts(f))).collect(),
-            constants: library.constants.iter().map(|f| course.parts(f)).collect(),
+            slopes: clock.slopes(library),
+            curved: crate::chain::Curvature::new(library, crate::REFERENCE_C)?.rates(&course, time, averaging),
+            expansion: library
+                .constants
+                .iter()
+                .position(|c| c.parameter == Parameter::SpoolExpansion)
+                .map(|k| (k, library.values()[k])),
+            modulus: library.of_modulus().map(|(x, n, f)| (x, course.parts(&n), course.parts(&f))).collect(),
+            openings: library.of_openings().map(|(share, change)| (share, course.parts(&change))).collect(),
             paths: paths.collect(),
-            openings: library.openings.iter().map(opening).collect(),
             heater,
             course,
             nominal,
+            rates: [first_rates, second_rates],
+            tail,
             coil,
             state: State { level, rate },
         })
+    }
+}
+
+impl Clock {
+    /// Derivatives of thermometer and mean bias parts by every constant, in the rows.
+    fn slopes(&self, library: &Library) -> Vec<Series> {
+        // derivatives need no steps between the readings
+        let kept: Vec<usize> = (0..self.time.len()).filter(|n| n % BETWEEN == 0 || *n + 1 == self.time.len()).collect();
+        let of = |series: &[f64]| -> Vec<f64> { kept.iter().map(|&n| series[n]).collect() };
+        let (time, chamber) = (of(&self.time), of(&self.chamber));
+        let first = chamber[0];
+        let courses = library.slopes.run(&time, &[chamber], &[first]);
+        let place = |n: usize| n / BETWEEN;
+        let mut spans = Vec::with_capacity(self.rows.len());
+        let mut began = 0;
+        for (row, &n) in self.rows.iter().enumerate() {
+            // a reading that follows a gap begins at an instant of its own
+            if row > 0 {
+                began = (self.rows[row - 1]..n).rev().find(|&m| self.begins[m]).unwrap_or(self.rows[row - 1]);
+            }
+            spans.push([place(began), place(n)]);
+        }
+        let mean = |phase: &[f64]| -> Vec<f64> {
+            let of = |&[from, to]: &[usize; 2]| {
+                if to > from { (phase[to] - phase[from]) / (time[to] - time[from]) * DEG_PER_H_PER_RAD_PER_S } else { 0.0 }
+            };
+            spans.iter().map(of).collect()
+        };
+        let series = |slope: &coil::Outputs<Vec<f64>>| Series {
+            sensor: spans.iter().map(|[_, n]| slope.thermometer[*n]).collect(),
+            parts: slope.parts[0].each_ref().map(|phase| mean(phase)),
+        };
+        courses.slopes.iter().map(series).collect()
+    }
+}
+
+impl Library {
+    /// A course's thermometer and parts with the design's own drifts, which no reduced model has.
+    fn with_drifts(&self, course: &Course, base: &Series, time: &[f64], averaging: f64) -> Result<Series, Error> {
+        let drifts = self.design().drifts;
+        let mut series = base.clone();
+        if drifts.thermo_optic_curvature != 0.0 {
+            let form = crate::chain::Curvature::new(self, drifts.reference)?;
+            let curved = form.rates(course, time, averaging);
+            series.parts[0].iter_mut().zip(curved).for_each(|(part, by)| *part += drifts.thermo_optic_curvature * by);
+        }
+        Ok(series)
     }
 }

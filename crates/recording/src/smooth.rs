@@ -25,10 +25,26 @@ pub struct Smoothed {
     pub values: Vec<f64>,
     /// Standard deviation of the noise that was taken off \[unit of the values\].
     pub noise: f64,
+    /// Standard deviation of what is left of it, root mean square over all values, as the smoothing knows it: at corners more than in between.
+    pub left: f64,
+    /// Number of values of which a smoothed one is the mean, the median over all.
+    pub of: f64,
+}
+
+/// Least step between two values of a series that differ; 0 of a constant.
+fn resolution(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let range = sorted[sorted.len() - 1] - sorted[0];
+    // what rounding leaves of one value is no step
+    let steps = sorted.windows(2).map(|w| w[1] - w[0]).filter(|step| *step > 1e-7 * range);
+    let least = steps.fold(f64::INFINITY, f64::min);
+    if least.is_finite() { least } else { 0.0 }
 }
 
 /// Frees a series of white noise: its slope wanders, mostly little, at times much.
 ///
+/// The noise has at least the size of the last digit that is written, beside its rounding: no thermometer is better than its display.
 /// The slope is a random walk whose steps follow Student's distribution with two degrees of freedom, so that ramps and soaks are smoothed
 /// while the corners between them stay; the sizes of noise and steps are the most likely ones. Kalman's filter and the smoother of Rauch,
 /// Tung and Striebel (1965), reweighted as Lange, Little and Taylor (1989) do. From a series without noise next to nothing is taken.
@@ -43,25 +59,33 @@ pub fn smoothed(time: &[f64], values: &[f64]) -> Result<Smoothed, Error> {
     // intervals in units of their mean
     let unit = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
     let steps: Vec<f64> = time.windows(2).map(|t| (t[1] - t[0]) / unit).collect();
+    let step = resolution(values);
+    let least = step * step * (1.0 + 1.0 / 12.0);
     let mut weights = vec![1.0; steps.len()];
-    let mut ratio = most_likely(&steps, values, &weights);
+    let mut ratio = most_likely(&steps, values, &weights, least);
     for round in 1..ROUNDS {
         let filter = Filter::new(&steps, values, ratio, &weights);
-        let ((_, squares), variance) = (filter.smooth(), filter.variance().max(f64::MIN_POSITIVE));
+        let variance = filter.variance().max(least).max(f64::MIN_POSITIVE);
+        let (_, squares, _) = filter.smooth(variance);
         for (w, square) in weights.iter_mut().zip(&squares) {
             *w = (FREEDOM + 2.0) / (FREEDOM + square / variance);
         }
         if round < 4 {
-            ratio = most_likely(&steps, values, &weights);
+            ratio = most_likely(&steps, values, &weights, least);
         }
     }
     let filter = Filter::new(&steps, values, ratio, &weights);
-    Ok(Smoothed { values: filter.smooth().0, noise: filter.variance().sqrt() })
+    let variance = filter.variance().max(least);
+    let (values, _, variances) = filter.smooth(variance);
+    let noise = variance.sqrt();
+    let left = noise * (variances.iter().sum::<f64>() / variances.len() as f64).max(0.0).sqrt();
+    let of = 1.0 / crate::statistics::median(variances).unwrap_or(1.0).clamp(f64::MIN_POSITIVE, 1.0);
+    Ok(Smoothed { values, noise, left, of })
 }
 
 /// The most likely variance of a step over that of the noise: golden section in its logarithm.
-fn most_likely(steps: &[f64], values: &[f64], weights: &[f64]) -> f64 {
-    let of = |x: f64| Filter::new(steps, values, x.exp(), weights).deviance();
+fn most_likely(steps: &[f64], values: &[f64], weights: &[f64], least: f64) -> f64 {
+    let of = |x: f64| Filter::new(steps, values, x.exp(), weights).deviance(least);
     let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
     let (mut a, mut b) = RATIOS;
     let (mut x, mut y) = (b - golden * (b - a), a + golden * (b - a));
@@ -137,19 +161,21 @@ impl<'a> Filter<'a> {
         self.squares / self.count as f64
     }
 
-    /// −2 ln of the likelihood, the noise's variance at its most likely value.
-    fn deviance(&self) -> f64 {
-        self.count as f64 * self.variance().max(f64::MIN_POSITIVE).ln() + self.log_det
+    /// −2 ln of the likelihood but for a constant, the noise's variance at its most likely value that is no less than `least`.
+    fn deviance(&self, least: f64) -> f64 {
+        let variance = self.variance().max(least).max(f64::MIN_POSITIVE);
+        self.count as f64 * variance.ln() + self.log_det + self.squares / variance
     }
 
     /// The smoothed values, and of every step the expected square of its disturbance over its variance at weight 1, times the noise's
-    /// variance.
-    fn smooth(&self) -> (Vec<f64>, Vec<f64>) {
+    /// variance, which is `variance`; and the variance of every smoothed value over the noise's.
+    fn smooth(&self, variance: f64) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
         let last = self.states.len() - 1;
         let mut values = vec![0.0; last + 1];
         let mut squares = vec![0.0; last];
         let (mut x, mut p) = self.states[last];
-        values[last] = x[0];
+        let mut variances = vec![0.0; last + 1];
+        (values[last], variances[last]) = (x[0], p[(0, 0)]);
         for n in (0..last).rev() {
             let (f, q) = (forward(self.steps[n]), wander(self.steps[n]));
             let (here, here_p) = &self.states[n];
@@ -162,11 +188,11 @@ impl<'a> Filter<'a> {
             let d = x - f * smooth;
             let spread = p - (shared + shared.transpose()) + f * smooth_p * f.transpose();
             let q = inverse(&q);
-            squares[n] = (d.dot(&(q * d)) + self.variance() * (q * spread).trace()).max(0.0) / self.ratio;
+            squares[n] = (d.dot(&(q * d)) + variance * (q * spread).trace()).max(0.0) / self.ratio;
             (x, p) = (smooth, smooth_p);
-            values[n] = x[0];
+            (values[n], variances[n]) = (x[0], p[(0, 0)]);
         }
-        (values, squares)
+        (values, squares, variances)
     }
 }
 

@@ -18,18 +18,19 @@ fn spans(model: &NoiseModel, time: &[f64]) -> Vec<[f64; 2]> {
 fn covariance(model: &NoiseModel, [a, b]: [[f64; 2]; 2], origin: f64) -> f64 {
     let (first, second) = if a[1] <= b[1] { (a, b) } else { (b, a) };
     let same = first == second;
-    let u = |span: [f64; 2]| (span[1] - span[0]) / model.drift_time;
     let mean = |u: f64| if u == 0.0 { 1.0 } else { -(-u).exp_m1() / u };
     let mut sum = 0.0;
-    // drift
-    sum += model.drift.powi(2)
-        * if same && u(first) > 0.0 {
-            2.0 * (u(first) + (-u(first)).exp_m1()) / u(first).powi(2)
-        } else if same {
-            1.0
-        } else {
-            mean(u(first)) * mean(u(second)) * (-(second[0] - first[1]) / model.drift_time).exp()
-        };
+    for (size, drift_time) in [(model.drift, model.drift_time), (model.passed, model.passed_time)] {
+        let u = |span: [f64; 2]| (span[1] - span[0]) / drift_time;
+        sum += size.powi(2)
+            * if same && u(first) > 0.0 {
+                2.0 * (u(first) + (-u(first)).exp_m1()) / u(first).powi(2)
+            } else if same {
+                1.0
+            } else {
+                mean(u(first)) * mean(u(second)) * (-(second[0] - first[1]) / drift_time).exp()
+            };
+    }
     // walk: of two means, that over the earlier span counts
     let share = if same { 1.0 / 3.0 } else { 0.5 };
     sum += model.walk.powi(2) * (first[0] - origin + share * (first[1] - first[0]));
@@ -83,7 +84,7 @@ proptest! {
         intervals in prop::collection::vec(prop_oneof![Just(30.0), 5.0..30.0_f64, 45.0..4000.0_f64], 1..60),
         seed in any::<u64>(),
         averaging in prop_oneof![Just(0.0), Just(30.0)],
-        sizes in (1e-2..10.0_f64, 0.0..5.0_f64, 0.0..0.5_f64, 0.0..100.0_f64),
+        sizes in (1e-2..10.0_f64, 0.0..5.0_f64, 0.0..0.5_f64, 0.0..100.0_f64, 0.0..5.0_f64),
         drift_time in 1.0..1e5_f64,
         present in prop::array::uniform3(any::<bool>()),
     ) {
@@ -99,6 +100,8 @@ proptest! {
             drift_time,
             walk: keep(present[1], sizes.2),
             quantisation: keep(present[2] && averaging > 0.0, sizes.3),
+            passed: keep(present[1], sizes.4),
+            passed_time: drift_time / 7.0,
         };
         agree(&model, &time, &mask, &series);
     }

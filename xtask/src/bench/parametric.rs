@@ -109,7 +109,7 @@ pub(crate) fn run(points: usize) -> Result<bool, Failure> {
     for (name, file) in DESIGNS {
         progress.say(&format!("{name}: building"));
         let design = fogcoil::input::read_coil(&root().join("fixtures").join(file))?.design;
-        let ranges = ::mechanisms::ranges(&design, CATALOGUE);
+        let ranges = ::mechanisms::ranges(&design, &::coil::Tolerances::default(), CATALOGUE);
         let mut watch = Stopwatch::start();
         let model = ParametricModel::new(&design, &ranges, &COARSE, &ModelEffort::default(), &|| ())?;
         let built = watch.lap();

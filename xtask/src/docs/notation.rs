@@ -51,6 +51,7 @@ impl Parser<'_> {
         match self.next() {
             Some('(') => self.group(),
             Some('[') => self.list('[', ']').map(Value::Array),
+            Some('{') => self.map(),
             Some('"') => self.text().map(Value::String),
             Some(c) if c.is_alphabetic() => self.name(),
             Some(_) => {
@@ -99,6 +100,24 @@ impl Parser<'_> {
             object.insert(key, self.value()?);
             if !self.take(',') && self.next() != Some(')') {
                 return Err("a comma or `)` is missing".into());
+            }
+        }
+        Ok(Value::Object(object))
+    }
+
+    /// Values by texts between braces.
+    fn map(&mut self) -> Result<Value, String> {
+        self.take('{');
+        let mut object = Map::new();
+        while !self.take('}') {
+            self.next();
+            let key = self.text()?;
+            if !self.take(':') {
+                return Err(format!("`{key}` wants a colon and a value"));
+            }
+            object.insert(key, self.value()?);
+            if !self.take(',') && self.next() != Some('}') {
+                return Err("a comma or `}` is missing".into());
             }
         }
         Ok(Value::Object(object))

@@ -107,6 +107,7 @@ pub(super) fn placed(design: &Design, ranges: &[Range], shares: &[f64]) -> Desig
 
 /// Effort of making a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Effort {
     /// Designs whose heat flow is solved in full.
     pub heat: usize,
@@ -335,7 +336,7 @@ impl Parameter {
     }
 
     /// Whether the mechanics depends on it.
-    pub(super) fn of_mechanics(self) -> bool {
+    pub fn of_mechanics(self) -> bool {
         self.is_elastic() || matches!(self, Self::HubThickness | Self::FlangeThickness | Self::FlangeOverhang)
     }
 }

@@ -21,6 +21,7 @@ const STORAGE: [Kind; 2] =
 
 /// A line of the section that exchanges heat by a surface coefficient: the strip along it, and the number of the line across.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Face {
     /// Direction along the face: 0 r, 1 y.
     along: usize,
@@ -34,6 +35,7 @@ struct Face {
 
 /// Heat flow projected on fields, the first of which is 1 everywhere.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Heat {
     section: Section,
     faces: Vec<Face>,

@@ -10,12 +10,16 @@ mod parameter;
 mod project;
 mod section;
 mod slopes;
+#[cfg(feature = "serde")]
+mod stored;
 mod strip;
 mod structure;
+mod tolerance;
 
 pub use build::Effort;
-pub use parameter::{Parameter, Range, Tolerance};
+pub use parameter::{Parameter, Range};
 pub use slopes::{Courses, Slopes};
+pub use tolerance::{Number, Tolerance, Tolerances};
 
 use crate::probe::Prober;
 use crate::{Bonds, Design, Error, Grid, MechanicalState, MeshFineness, Model, Outputs, Reduced, TurnFields};
@@ -30,6 +34,8 @@ use winding::{Spec, Winding};
 /// Heat flow and thermo-elasticity of a design and of all that differ from it within ranges of [`Parameter`]s, projected once on fields
 /// of temperature and displacement.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "stored::Stored", into = "stored::Stored"))]
 pub struct ParametricModel {
     design: Design,
     ranges: Vec<Range>,
@@ -45,6 +51,21 @@ pub struct ParametricModel {
     coil_mean: DVector<f64>,
 }
 
+/// Bias parts of some mechanics as functionals of a parametric model's fields of temperature; made by [`ParametricModel::project`].
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Projected {
+    parts: [DVector<f64>; 3],
+}
+
+impl Projected {
+    /// These less others.
+    #[must_use]
+    pub fn less(&self, other: &Self) -> Self {
+        Self { parts: [0, 1, 2].map(|p: usize| &self.parts[p] - &other.parts[p]) }
+    }
+}
+
 /// Share of the fields on which a coarser model stands.
 const COARSER: f64 = 0.6;
 
@@ -54,6 +75,7 @@ pub const MODEL_SAFETY: f64 = 3.0;
 
 /// What the turns have of every field, a row each: temperature of temperature fields, strains of displacement fields.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Turns {
     temperature: DMatrix<f64>,
     radial: DMatrix<f64>,
@@ -66,6 +88,7 @@ struct Turns {
 
 /// Sums over turns: of temperature fields, and of the strains rr, yy, hoop of displacement fields.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Weighted {
     temperature: DVector<f64>,
     strains: [DVector<f64>; 3],
@@ -118,6 +141,17 @@ impl ParametricModel {
         })
     }
 
+    /// The nearest design within the ranges: each parameter of `design` that lies outside its own is taken to its end.
+    pub fn nearest(&self, design: &Design) -> Design {
+        let within = |design: Design, range: &Range| match range.parameter.of(&design) {
+            Some(value) if !(range.low..=range.high).contains(&value) => {
+                range.parameter.set(&design, value.clamp(range.low, range.high))
+            }
+            _ => design,
+        };
+        self.ranges.iter().fold(design.clone(), within)
+    }
+
     /// The model made anew for ranges that hold `design`, too: nothing is extrapolated. `solved` is told as [`Self::new`] tells.
     ///
     /// # Errors
@@ -161,25 +195,27 @@ impl ParametricModel {
     /// # Errors
     /// As [`Self::at`].
     pub fn in_states(&self, design: &Design, states: &[MechanicalState]) -> Result<Reduced, Error> {
-        self.of_states(design, self.size(), states)
+        self.of_states(design, self.size(), states, &[])
     }
 
-    /// As [`Self::at`], with the bias parts of full mechanical models in place of its own, in their order: bonds that are open.
+    /// The bias parts of a full mechanical model of the design that this was made about, on the fields of temperature: what no state of the
+    /// reduced mechanics has, as a bond that is open.
+    ///
+    /// # Errors
+    /// [`Error::Resolution`] if a node of the other's mesh lies outside this one's.
+    pub fn project(&self, model: &Model) -> Result<Projected, Error> {
+        let operator = model.bias_operator()?;
+        let fields = self.at_nodes(&self.section, model.grid(), Prober::new(&self.grid))?;
+        let of = |part: &[f64]| fields.tr_mul(&DVector::from_column_slice(part));
+        Ok(Projected { parts: [of(&operator.shupe), of(&operator.eo_axial), of(&operator.eo_radial)] })
+    }
+
+    /// As [`Self::in_states`], with the bias parts of projected mechanics behind them, in their order.
     ///
     /// # Errors
     /// As [`Self::at`].
-    pub fn with_mechanics(&self, design: &Design, models: &[Model]) -> Result<Reduced, Error> {
-        let mut reduced = self.of_states(design, self.size(), &[])?;
-        let changed = Section::new(design)?;
-        let modes = self.heat.modes(design, &changed, self.heat.size())?;
-        for model in models {
-            let operator = model.bias_operator()?;
-            let prober = Prober::new(&self.grid);
-            let fields = self.at_nodes(&changed, model.grid(), prober)?;
-            let of = |part: &[f64]| modes.output(&fields.tr_mul(&DVector::from_column_slice(part)));
-            reduced.outputs.parts.push([of(&operator.shupe), of(&operator.eo_axial), of(&operator.eo_radial)]);
-        }
-        Ok(reduced)
+    pub fn in_states_and(&self, design: &Design, states: &[MechanicalState], projected: &[Projected]) -> Result<Reduced, Error> {
+        self.of_states(design, self.size(), states, projected)
     }
 
     /// Every temperature field at the nodes of a grid of a changed section: one row a node.
@@ -197,7 +233,7 @@ impl ParametricModel {
     }
 
     fn on(&self, design: &Design, size: [usize; 2]) -> Result<Reduced, Error> {
-        self.of_states(design, size, &design.states().0)
+        self.of_states(design, size, &design.states().0, &[])
     }
 
     fn of_states(
@@ -205,18 +241,21 @@ impl ParametricModel {
         design: &Design,
         [temperatures, displacements]: [usize; 2],
         states: &[MechanicalState],
+        projected: &[Projected],
     ) -> Result<Reduced, Error> {
         self.holds(design, states)?;
         let changed = Section::new(design)?;
         let modes = self.heat.modes(design, &changed, temperatures)?;
-        let outputs = self.functionals_on(design, &changed, states, displacements)?.map(|of| modes.output(of));
+        let mut functionals = self.functionals_on(design, &changed, states, displacements)?;
+        functionals.parts.extend(projected.iter().map(|p| p.parts.clone()));
+        let outputs = functionals.map(|of| modes.output(of));
         Ok(modes.model(outputs))
     }
 
     /// Whether this is a model of `design` in these states of its mechanics.
     fn holds(&self, design: &Design, states: &[MechanicalState]) -> Result<(), Error> {
         if states.iter().any(|state| state.bonds == Bonds::Opened) {
-            let problem = "a bond that is open has a mechanical model of its own; see ParametricModel::with_mechanics";
+            let problem = "a bond that is open has a mechanical model of its own; see ParametricModel::project";
             return Err(Error::design("mechanics", problem.into()));
         }
         let [softest, stiffest] = build::MODULI;

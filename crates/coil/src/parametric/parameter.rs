@@ -1,5 +1,6 @@
 //! Numbers of a design that may differ from one coil to the next.
 
+use super::{Tolerance, Tolerances};
 use crate::{Contact, Design, FlangeContact, Heater, Mount, Side};
 
 /// A number of a design.
@@ -62,17 +63,6 @@ pub enum Parameter {
     Heater(Side),
 }
 
-/// How far a number of a design usually is from its drawing, one standard deviation.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Tolerance {
-    /// A share of the value.
-    Relative(f64),
-    /// In the value's unit.
-    Absolute(f64),
-    /// A number that a drawing has as it is: 0 unless something is wrong.
-    Exact,
-}
-
 /// A parameter and the range that a model must hold for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -92,18 +82,26 @@ impl Range {
     /// The ranges of every parameter of `design` that usually differs from the drawing: three standard deviations of
     /// [`Parameter::tolerance`] to either side.
     pub fn usual(design: &Design) -> Vec<Self> {
-        let of = |&parameter: &Parameter| {
-            let value = parameter.of(design)?;
+        Self::tolerated(design, &Tolerances::default())
+    }
+
+    /// The ranges of every parameter of `design` that has a tolerance: three standard deviations to either side, the usual ones at least.
+    pub fn tolerated(design: &Design, tolerances: &Tolerances) -> Vec<Self> {
+        let usual = Tolerances::default().constants(design);
+        let mut all = tolerances.constants(design);
+        for (parameter, value, by) in usual {
+            match all.iter_mut().find(|(other, ..)| *other == parameter) {
+                Some((.., given)) => *given = given.max(by),
+                None => all.push((parameter, value, by)),
+            }
+        }
+        let of = |(parameter, value, by): (Parameter, f64, f64)| {
+            // a wall keeps half of its thickness, whatever the tolerance
             let by = REACH
-                * match parameter.tolerance() {
-                    Tolerance::Relative(share) => share * value.abs(),
-                    // a wall keeps half of its thickness, whatever the tolerance
-                    Tolerance::Absolute(by) => by.min(value.abs() / (2.0 * REACH)),
-                    Tolerance::Exact => return None,
-                };
-            (by > 0.0).then_some(Self { parameter, low: value - by, high: value + by })
+                * if matches!(parameter.tolerance(), Tolerance::Absolute(_)) { by.min(value.abs() / (2.0 * REACH)) } else { by };
+            Self { parameter, low: value - by, high: value + by }
         };
-        Parameter::ALL.iter().filter_map(of).collect()
+        all.into_iter().map(of).collect()
     }
 
     /// Ranges that hold every parameter of `design`, too.

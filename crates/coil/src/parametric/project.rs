@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// Fields at the nodes of a lattice, one a column; r fastest.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Fields {
     pub(super) width: usize,
     pub(super) values: DMatrix<f64>,
@@ -104,6 +105,7 @@ pub(super) fn edge_integral(op: Op, fields: &Fields, strip: &Strip, along: usize
 
 /// A sum of matrices with coefficients that a design gives, and the few combinations of them that a box of designs needs.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Terms {
     matrices: Vec<DMatrix<f64>>,
     /// coefficients of the kept matrices from those of the integrals, once compressed

@@ -6,6 +6,7 @@ use crate::{Design, Domain, Error, Layout, Region};
 
 /// Lines of a section and what lies between them.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Section {
     /// Along r and along y, increasing \[m\].
     pub(super) lines: [Vec<f64>; 2],

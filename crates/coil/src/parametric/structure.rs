@@ -81,6 +81,7 @@ fn load(beta: &DMatrix<f64>, [r, y]: [Stretch; 2]) -> [f64; 5] {
 
 /// Stiffness on displacement fields, and the load of temperature fields on them.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Structure {
     section: Section,
     stiffness: Terms,

@@ -1,8 +1,8 @@
 //! What is fitted, and what a fit finds.
 
-use super::unknowns::{Layout, Unknown};
+use super::unknowns::{Layout, Unknown, expected};
 use crate::noise::Noise;
-use crate::{Active, ForwardModel, Observation, Role};
+use crate::{Active, Channel, ForwardModel, Observation, Role};
 use nalgebra::{DMatrix, DVector};
 
 /// Which mechanisms are at work, and whether the nominal constants are re-estimated.
@@ -27,9 +27,9 @@ impl Hypothesis {
     }
 }
 
-/// The hypotheses of one mechanism alone, one for each of its choices.
+/// The hypotheses of one mechanism alone, one for each of its choices, beside constants that are free.
 pub fn alternatives<M: ForwardModel>(model: &M, mechanism: usize) -> Vec<Hypothesis> {
-    let of = |choice| Hypothesis { mechanisms: vec![(mechanism, choice)], constants_free: false };
+    let of = |choice| Hypothesis { mechanisms: vec![(mechanism, choice)], constants_free: true };
     match &model.mechanisms()[mechanism].choice {
         None => vec![of(None)],
         Some((_, values)) => values.iter().map(|v| of(Some(*v))).collect(),
@@ -77,12 +77,63 @@ pub(crate) struct Fitter<'a, M> {
     pub(crate) observations: &'a [Observation],
     /// numbers of the model's records
     pub(crate) records: &'a [usize],
+    /// of every channel of every record
+    offsets: Vec<Vec<Offset>>,
 }
 
-impl<M: ForwardModel> Fitter<'_, M> {
+/// What is known of an offset beforehand: it is normal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Offset {
+    pub(crate) mean: f64,
+    pub(crate) sd: f64,
+}
+
+/// Standard deviation that stands for anything, in those of the recorded channel: what is recorded cannot tell it from infinity.
+const ANYTHING: f64 = 10.0;
+
+impl Offset {
+    /// Of a channel of which `recorded` is known and `predicted`.
+    pub(crate) fn of(channel: &Channel, recorded: &[f64], predicted: &[f64]) -> Self {
+        if channel.offset_sd.is_finite() {
+            return Self { mean: 0.0, sd: channel.offset_sd };
+        }
+        let moments = |values: &mut dyn Iterator<Item = f64>| {
+            let (mut sum, mut squares, mut count) = (0.0, 0.0, 0.0_f64);
+            for value in values.filter(|v| v.is_finite()) {
+                (sum, squares, count) = (sum + value, squares + value * value, count + 1.0);
+            }
+            let mean = sum / count.max(1.0);
+            (mean, (squares / count.max(1.0) - mean * mean).max(0.0).sqrt())
+        };
+        let (mean, _) = moments(&mut recorded.iter().zip(predicted).map(|(y, p)| y - p));
+        let (_, spread) = moments(&mut recorded.iter().map(|y| y - mean));
+        // a channel that stands still has an offset all the same
+        let sd = if spread > 0.0 { ANYTHING * spread } else { 1.0 };
+        Self { mean, sd }
+    }
+}
+
+impl<'a, M: ForwardModel> Fitter<'a, M> {
+    /// # Errors
+    /// What keeps the model from responding.
+    pub(crate) fn new(model: &'a M, records: &'a [usize], observations: &'a [Observation]) -> Result<Self, M::Error> {
+        let middle = expected(model.nuisances());
+        let of = |(record, observed): (&usize, &Observation)| -> Result<Vec<Offset>, M::Error> {
+            let predicted = model.respond(*record, &middle, &[])?;
+            let channels = model.channels().iter().zip(&observed.channels).zip(&predicted);
+            Ok(channels.map(|((channel, recorded), predicted)| Offset::of(channel, recorded, predicted)).collect())
+        };
+        let offsets = records.iter().zip(observations).map(of).collect::<Result<_, _>>()?;
+        Ok(Self { model, observations, records, offsets })
+    }
+
+    pub(crate) fn offset(&self, record: usize, channel: usize) -> Offset {
+        self.offsets[record][channel]
+    }
+
     /// The unknowns of a hypothesis: nuisances that are free, mechanisms' parameters, offsets.
     pub(super) fn layout(&self, hypothesis: &Hypothesis) -> Layout {
-        let free = |role: Role| role == Role::ModelError || hypothesis.constants_free;
+        let free = |role: Role| role != Role::Constant || hypothesis.constants_free;
         let mut layout = Layout::new();
         for (number, nuisance) in self.model.nuisances().iter().enumerate().filter(|(_, n)| free(n.role)) {
             if nuisance.local {

@@ -10,8 +10,8 @@ mod objective;
 mod unknowns;
 
 pub(crate) use descent::curvature;
-pub(crate) use fitter::Fitter;
 pub use fitter::{Fit, Hypothesis, alternatives};
+pub(crate) use fitter::{Fitter, Offset};
 use objective::Objective;
 pub use unknowns::expected;
 pub(crate) use unknowns::{Unknown, parameter};
@@ -27,7 +27,7 @@ const NOISE_SETTLED: f64 = 0.1;
 impl<M: ForwardModel> Fitter<'_, M> {
     /// Fits a hypothesis under a known noise; `known` gives a place to start from.
     pub(crate) fn fit(&self, hypothesis: &Hypothesis, noise: &Noise, known: Option<&Fit>) -> Result<Fit, Error<M::Error>> {
-        let objective = Objective::new(self, hypothesis, noise);
+        let objective = Objective::new(self, hypothesis, noise).beside_known(known);
         let mut tried = objective.starts(known).into_iter().map(|u| objective.point(u)).collect::<Result<Vec<_>, _>>()?;
         // the likeliest starts are followed
         tried.sort_by(|a, b| a.value.total_cmp(&b.value));

@@ -1,6 +1,6 @@
 //! What a fit makes least: −ln p(data, u) = ½ ‖r(u)‖² + ½ ‖u‖², up to a constant, with the whitened residual r of all records and channels.
 
-use super::fitter::{Fitter, Hypothesis};
+use super::fitter::{Fit, Fitter, Hypothesis};
 use super::unknowns::{Layout, Unknown};
 use crate::noise::Noise;
 use crate::{Error, ForwardModel, Observation};
@@ -14,6 +14,8 @@ pub(super) struct Objective<'a, M> {
     pub(super) hypothesis: &'a Hypothesis,
     pub(super) noise: &'a Noise,
     pub(super) layout: Layout,
+    /// A fit under the same noise, whose derivatives by what is no mechanism's are taken over.
+    like: Option<&'a Fit>,
 }
 
 /// Unknowns, and what follows from them.
@@ -26,7 +28,12 @@ pub(super) struct Point {
 
 impl<'a, M: ForwardModel> Objective<'a, M> {
     pub(super) fn new(fitter: &'a Fitter<'a, M>, hypothesis: &'a Hypothesis, noise: &'a Noise) -> Self {
-        Self { fitter, hypothesis, noise, layout: fitter.layout(hypothesis) }
+        Self { fitter, hypothesis, noise, layout: fitter.layout(hypothesis), like: None }
+    }
+
+    /// The same beside a fit that is known.
+    pub(super) fn beside_known(self, known: Option<&'a Fit>) -> Self {
+        Self { like: known.filter(|fit| fit.noise.is(self.noise)), ..self }
     }
 
     pub(super) fn point(&self, u: DVector<f64>) -> Result<Point, Error<M::Error>> {
@@ -71,7 +78,8 @@ impl<'a, M: ForwardModel> Objective<'a, M> {
         let mut offsets = vec![vec![0.0; channels.len()]; self.fitter.observations.len()];
         for (unknown, u) in self.layout.iter().zip(u.iter()) {
             if let Unknown::Offset { record, channel } = *unknown {
-                offsets[record][channel] = channels[channel].offset_sd * u;
+                let offset = self.fitter.offset(record, channel);
+                offsets[record][channel] = offset.mean + offset.sd * u;
             }
         }
         offsets
@@ -81,6 +89,10 @@ impl<'a, M: ForwardModel> Objective<'a, M> {
     pub(super) fn jacobian(&self, at: &Point, known: Option<&DMatrix<f64>>) -> Result<DMatrix<f64>, Error<M::Error>> {
         let mut columns = Vec::with_capacity(self.layout.len());
         for (i, unknown) in self.layout.iter().enumerate() {
+            if let (None, Some(column)) = (known, self.taken_over(*unknown)) {
+                columns.push(column);
+                continue;
+            }
             columns.push(match (known, *unknown) {
                 (Some(known), unknown) if !unknown.is_mechanism() => known.column(i).into_owned(),
                 (_, Unknown::Offset { record, channel }) => self.whiten(&self.constant(record, channel)),
@@ -88,6 +100,12 @@ impl<'a, M: ForwardModel> Objective<'a, M> {
             });
         }
         Ok(DMatrix::from_columns(&columns))
+    }
+
+    fn taken_over(&self, unknown: Unknown) -> Option<DVector<f64>> {
+        let like = self.like.filter(|_| !unknown.is_mechanism())?;
+        let at = like.layout.iter().position(|other| *other == unknown)?;
+        Some(like.jacobian.column(at).into_owned())
     }
 
     /// Derivative by unknown `i`, by a difference away from the end of the range that is looked at.
@@ -104,7 +122,7 @@ impl<'a, M: ForwardModel> Objective<'a, M> {
 
     /// An offset of one standard deviation in one channel of one record.
     fn constant(&self, record: usize, channel: usize) -> Series {
-        let offset = self.fitter.model.channels()[channel].offset_sd;
+        let offset = self.fitter.offset(record, channel).sd;
         let of = |at: (usize, usize), rows: usize| vec![if at == (record, channel) { offset } else { 0.0 }; rows];
         let channels = |(r, o): (usize, &Observation)| (0..o.channels.len()).map(|c| of((r, c), o.time.len())).collect();
         self.fitter.observations.iter().enumerate().map(channels).collect()

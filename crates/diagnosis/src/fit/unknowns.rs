@@ -1,6 +1,6 @@
 //! The unknowns of a fit, all on one scale: each is a standard normal variable u beforehand ([`crate::Prior`]); what they stand for, and where they start.
 
-use super::fitter::{Fit, Hypothesis};
+use super::fitter::{Fit, Hypothesis, Offset};
 use super::objective::Objective;
 use crate::{Active, ForwardModel, Nuisance, Parameter, Prior};
 use nalgebra::DVector;
@@ -57,7 +57,10 @@ impl<M: ForwardModel> Objective<'_, M> {
 
     fn prior(&self, unknown: Unknown) -> Prior {
         match unknown {
-            Unknown::Offset { channel, .. } => Prior::Normal { mean: 0.0, sd: self.fitter.model.channels()[channel].offset_sd },
+            Unknown::Offset { record, channel } => {
+                let Offset { mean, sd } = self.fitter.offset(record, channel);
+                Prior::Normal { mean, sd }
+            }
             _ => self.parameter(unknown).map_or(Prior::Normal { mean: 0.0, sd: 1.0 }, |p| p.prior),
         }
     }

@@ -12,7 +12,7 @@ use progress::Step;
 
 use crate::fit::{Fit, Fitter, Hypothesis, alternatives};
 use crate::noise::Noise;
-use crate::{Candidate, Diagnosis, Error, ForwardModel, Observation, Rival};
+use crate::{Candidate, Diagnosis, Error, ForwardModel, Observation, Rival, Role};
 
 // the long tasks, by the names that progress is told
 const SINGLES: &str = "single mechanisms";
@@ -48,9 +48,38 @@ pub fn diagnose<M: ForwardModel>(
     settings: &Settings,
     progress: &dyn Fn(Step),
 ) -> Result<Diagnosis, Error<M::Error>> {
-    let fitter = Fitter { model, observations, records };
+    compared(model, records, observations, settings, None, progress)
+}
+
+/// The same where a fit of the constants alone is known from a model that is good about them ([`crate::settled`]).
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn diagnose_beside<M: ForwardModel>(
+    model: &M,
+    records: &[usize],
+    observations: &[Observation],
+    settings: &Settings,
+    recalibrated: Fit,
+    progress: &dyn Fn(Step),
+) -> Result<Diagnosis, Error<M::Error>> {
+    compared(model, records, observations, settings, Some(recalibrated), progress)
+}
+
+fn compared<M: ForwardModel>(
+    model: &M,
+    records: &[usize],
+    observations: &[Observation],
+    settings: &Settings,
+    recalibrated: Option<Fit>,
+    progress: &dyn Fn(Step),
+) -> Result<Diagnosis, Error<M::Error>> {
+    let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
     let singles = (0..model.mechanisms().len()).map(|m| alternatives(model, m)).collect();
     let mut pool = Pool { fitter, settings: *settings, singles, candidates: Vec::new(), progress };
+    if let Some(fit) = recalibrated {
+        pool.push(fit, None);
+    }
     progress(Step::begins("nominal model and noise"));
     let nominal = pool.nominal()?;
     progress(Step::begins(SINGLES));
@@ -83,7 +112,13 @@ impl<M: ForwardModel> Pool<'_, M> {
         let again = self.fitter.fit_with_noise(&Hypothesis::NOMINAL, &under_leader(&nominal), 2)?;
         let nominal = Fit::better(Some(nominal), again);
         self.push(nominal.clone(), None);
-        let recalibrated = self.fitter.fit_with_noise(&Hypothesis::RECALIBRATED, &under_leader(&nominal), 2)?;
+        // a model without constants of its own has nothing to re-estimate
+        if !self.fitter.model.nuisances().iter().any(|n| n.role == Role::Constant) {
+            return Ok(nominal);
+        }
+        let again = self.fitter.fit_with_noise(&Hypothesis::RECALIBRATED, &under_leader(&nominal), 2)?;
+        let known = self.candidates.iter().position(|c| c.fit.hypothesis == Hypothesis::RECALIBRATED);
+        let recalibrated = Fit::better(known.map(|at| self.candidates.remove(at).fit), again);
         self.push(recalibrated, None);
         Ok(nominal)
     }
@@ -108,7 +143,7 @@ impl<M: ForwardModel> Pool<'_, M> {
         let mut order: Vec<usize> = (0..self.candidates.len()).collect();
         order.sort_by(|&a, &b| self.candidates[b].log_weight.total_cmp(&self.candidates[a].log_weight));
         order.truncate(LEADERS);
-        let Fitter { model, records, observations } = self.fitter;
+        let Fitter { model, records, observations, .. } = self.fitter;
         let times: Vec<&[f64]> = observations.iter().map(|o| o.time.as_slice()).collect();
         for at in order {
             let fit = self.candidates[at].fit.clone();

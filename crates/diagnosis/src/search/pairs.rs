@@ -48,7 +48,7 @@ impl<M: ForwardModel> Pool<'_, M> {
         let mechanism = fit.hypothesis.mechanisms[0].0;
         let alone = |c: &&Candidate| {
             let Hypothesis { mechanisms, constants_free } = &c.fit.hypothesis;
-            c.rival.is_none() && !constants_free && matches!(mechanisms[..], [one] if one.0 == mechanism)
+            c.rival.is_none() && *constants_free && matches!(mechanisms[..], [one] if one.0 == mechanism)
         };
         let likeness = |c: &Candidate| (c.fit.log_evidence - fit.log_evidence).min(0.0).exp();
         self.candidates.iter().filter(alone).map(likeness).sum::<f64>().max(1.0).ln()
@@ -65,7 +65,7 @@ impl<M: ForwardModel> Pool<'_, M> {
             }
             let every = if hypotheses.len() > CHOICES { hypotheses.len().div_ceil(CHOICES) } else { 1 };
             let kin = (hypotheses.len() as f64 / hypotheses.len().div_ceil(every) as f64).ln();
-            let pair = |h: &Hypothesis| Hypothesis { mechanisms: vec![first, h.mechanisms[0]], constants_free: false };
+            let pair = |h: &Hypothesis| Hypothesis { mechanisms: vec![first, h.mechanisms[0]], constants_free: true };
             let known = |pair: &Hypothesis| self.candidates.iter().any(|c| same(&c.fit.hypothesis, pair));
             pairs.extend(hypotheses.iter().step_by(every).map(pair).filter(|pair| !known(pair)).map(|pair| (pair, kin)));
         }

@@ -1,7 +1,7 @@
 //! What is thought of hypotheses before any recording is seen.
 
 use crate::fit::Hypothesis;
-use crate::{ForwardModel, Structure};
+use crate::{ForwardModel, Role, Structure};
 
 /// Probabilities before any recording is seen, and what counts as excluded.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,7 +22,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { none: 0.38, recalibrate: 0.02, single: 0.45, pair: 0.07, unknown: 0.08, excluded: 0.03 }
+        Self { none: 0.20, recalibrate: 0.20, single: 0.45, pair: 0.07, unknown: 0.08, excluded: 0.03 }
     }
 }
 
@@ -39,21 +39,18 @@ impl Settings {
             let choices = library[m].choice.as_ref().map_or(1, |(_, values)| values.len());
             library[m].weight / all / choices as f64
         };
+        // without constants the two are one
+        let constants = model.nuisances().iter().any(|n| n.role == Role::Constant);
+        let none = if constants { self.none } else { self.none + self.recalibrate };
         let base = match hypothesis.mechanisms.as_slice() {
             [] if hypothesis.constants_free => self.recalibrate,
-            [] => self.none,
+            [] => none,
             [one] if library[one.0].named => self.single * share(one),
             [one] => self.unknown * DESCRIBED * share(one),
             // each pair is met in two orders
             many => self.pair * 2.0 * many.iter().map(share).product::<f64>(),
         };
-        let constants = if hypothesis.mechanisms.is_empty() {
-            1.0
-        } else {
-            let odds = self.recalibrate / (self.none + self.recalibrate);
-            if hypothesis.constants_free { odds } else { 1.0 - odds }
-        };
         let structures = (Structure::ALL.len() * model.channels().len()) as f64;
-        (base * constants * if rival { self.unknown * (1.0 - DESCRIBED) / structures } else { 1.0 }).ln()
+        (base * if rival { self.unknown * (1.0 - DESCRIBED) / structures } else { 1.0 }).ln()
     }
 }

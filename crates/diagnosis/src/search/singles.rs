@@ -17,8 +17,11 @@ impl<M: ForwardModel> Pool<'_, M> {
     /// The leader with its own noise, and all fits under the noise of the leader before it, best first.
     pub(super) fn singles(&self, nominal: &Fit) -> Result<(Fit, Vec<Fit>), Error<M::Error>> {
         let (model, observations) = (self.fitter.model, self.fitter.observations);
-        // noise fitted to the nominal residual has swallowed part of the effect: what is sought first is sought in calmer noise
-        let mut leader = Fit { noise: nominal.noise.calmed(model.channels(), observations)?, ..nominal.clone() };
+        let recalibrated = self.candidates.iter().map(|c| &c.fit).find(|fit| fit.hypothesis == Hypothesis::RECALIBRATED);
+        let nominal = recalibrated.unwrap_or(nominal);
+        // noise fitted to a residual has swallowed part of the effect: what is sought first is sought in calmer noise
+        let calm = nominal.noise.calmed(model.channels(), observations)?;
+        let mut leader = self.fitter.fit(&nominal.hypothesis, &calm, Some(nominal))?;
         let mut round = 0;
         loop {
             let fits = self.round(round, nominal, &leader)?;
@@ -63,11 +66,6 @@ impl<M: ForwardModel> Pool<'_, M> {
             // of a mechanism's choices the best alone has its own noise; the others lie close behind it
             if !again && (met.len() < FOLLOWED || lead - fit.log_evidence < BEHIND) {
                 let own = self.fitter.fit_with_noise(&fit.hypothesis, &fit, 2)?;
-                if met.len() < FOLLOWED {
-                    let free = Hypothesis { constants_free: true, ..own.hypothesis.clone() };
-                    let free = self.fitter.fit_with_noise(&free, &own, 1)?;
-                    self.push(free, None);
-                }
                 leaders.push(own.clone());
                 self.push(own, None);
             } else {

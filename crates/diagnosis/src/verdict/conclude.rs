@@ -5,12 +5,11 @@ use super::{Diagnosis, Verdict};
 use crate::fit::{Fit, Fitter, Hypothesis};
 use crate::{Candidate, Error, ForwardModel, Settings};
 
-/// Probability of the nominal model from which nothing is called a finding: odds of about 2 to 1. Set with the open recordings, so that of a
-/// hundred units without an effect at most one raises an alarm.
+/// Probability of the design, as it is or with its constants re-estimated, from which nothing is called a finding: odds of about 2 to 1.
 const SUFFICES: f64 = 0.65;
-/// Least gain of ln evidence over the nominal model of anything that is called a finding. Under the nominal model a likelihood ratio of e² = 7.4
-/// or more has a probability of at most 1/7.4 (Markov's inequality); on the scale of Kass and Raftery (1995) it is positive evidence.
-const FINDING: f64 = 2.0;
+/// Least gain of ln evidence over the design and its constants of anything that is called a finding. If they are right a likelihood ratio of
+/// e³ = 20 or more has a probability of at most 1/20 (Markov's inequality); on the scale of Kass and Raftery (1995) it is strong evidence.
+const FINDING: f64 = 3.0;
 
 impl Diagnosis {
     /// Concludes from the weighed `candidates`; `nominal` is the fit of the nominal model alone.
@@ -24,8 +23,10 @@ impl Diagnosis {
         weigh(&mut candidates);
         let verdicts = verdicts(model, &candidates);
         // many hypotheses that a record says nothing about are no finding: one of them has to stand out
-        let gain = |c: &Candidate| c.log_evidence() - nominal.log_evidence;
-        let verdict = decide(verdicts, candidates.iter().map(gain).fold(f64::NEG_INFINITY, f64::max));
+        let design = |c: &&Candidate| matches!(kind(model, c), Verdict::None | Verdict::Recalibrate);
+        let most = |of: &mut dyn Iterator<Item = &Candidate>| of.map(Candidate::log_evidence).fold(f64::NEG_INFINITY, f64::max);
+        let gain = most(&mut candidates.iter()) - most(&mut candidates.iter().filter(design));
+        let verdict = decide(verdicts, gain);
         let mechanisms = marginals(model, &candidates, plain);
         lead(model, &mut candidates, verdict, &mechanisms);
         let set = match verdict {
@@ -79,14 +80,14 @@ fn kind<M: ForwardModel>(model: &M, candidate: &Candidate) -> Verdict {
     }
 }
 
-/// The verdict by the probabilities of all four, and the largest gain of ln evidence over the nominal model.
+/// The verdict by the probabilities of all four, and the largest gain of ln evidence over the design and its constants.
 fn decide([none, recalibrate, explained, unknown]: [f64; 4], gain: f64) -> Verdict {
-    if none > SUFFICES || gain < FINDING {
-        Verdict::None
-    } else if unknown > explained.max(recalibrate) {
+    let design = none + recalibrate;
+    // never a finding while the design is likelier
+    if design > SUFFICES || design >= explained.max(unknown) || gain < FINDING {
+        if none >= recalibrate { Verdict::None } else { Verdict::Recalibrate }
+    } else if unknown > explained {
         Verdict::Unknown
-    } else if recalibrate > explained {
-        Verdict::Recalibrate
     } else {
         Verdict::Explained
     }
@@ -114,10 +115,13 @@ mod tests {
     #[test]
     fn a_verdict_needs_probability_and_one_hypothesis_that_stands_out() {
         assert_eq!(decide([0.66, 0.0, 0.34, 0.0], 9.0), Verdict::None);
-        assert_eq!(decide([0.64, 0.0, 0.36, 0.0], 9.0), Verdict::Explained);
-        assert_eq!(decide([0.1, 0.0, 0.9, 0.0], 1.9), Verdict::None);
-        assert_eq!(decide([0.1, 0.5, 0.4, 0.0], 9.0), Verdict::Recalibrate);
-        assert_eq!(decide([0.1, 0.3, 0.2, 0.4], 9.0), Verdict::Unknown);
+        assert_eq!(decide([0.45, 0.0, 0.55, 0.0], 9.0), Verdict::Explained);
+        assert_eq!(decide([0.2, 0.3, 0.45, 0.05], 9.0), Verdict::Recalibrate);
+        // the design and its constants count together
+        assert_eq!(decide([0.3, 0.36, 0.34, 0.0], 9.0), Verdict::Recalibrate);
+        assert_eq!(decide([0.1, 0.0, 0.9, 0.0], 2.9), Verdict::None);
+        assert_eq!(decide([0.0, 0.1, 0.9, 0.0], 2.9), Verdict::Recalibrate);
+        assert_eq!(decide([0.1, 0.2, 0.2, 0.5], 9.0), Verdict::Unknown);
         // equal shares speak for what has a name
         assert_eq!(decide([0.2, 0.0, 0.4, 0.4], 9.0), Verdict::Explained);
     }

@@ -51,7 +51,7 @@ pub struct Judgement {
 
 impl Diagnosis {
     /// Predicts the records `held` (numbers of the model's, with what was observed) and lets them judge the verdict by `channel`; `fitted` is the first
-    /// record that was fitted.
+    /// record that was fitted, and `drawn` the model that is exact as it is designed, before it [`crate::settled`].
     ///
     /// - A structure beside mechanisms that have a name is no bar to naming them if *every* record is predicted to within its noise, and clearly
     ///   better than by the nominal model: the verdict becomes [`Verdict::Explained`], and their probabilities count the candidates with a
@@ -65,6 +65,7 @@ impl Diagnosis {
     pub fn judge<M: ForwardModel>(
         &mut self,
         model: &M,
+        drawn: &M,
         fitted: (usize, &Observation),
         held: &[(usize, &Observation)],
         channel: usize,
@@ -72,7 +73,7 @@ impl Diagnosis {
         let best = &self.best().fit;
         let predicted = |&(record, observed): &(usize, &Observation)| -> Result<Judged, Error<M::Error>> {
             let by_model = best.hold_out(model, record, observed, best)?;
-            let nominal = as_designed(model, fitted, (record, observed), best)?;
+            let nominal = as_designed(drawn, fitted, (record, observed), best)?;
             Ok(Judged { accepted: by_model.rmse[channel] <= nominal.rmse[channel], nominal, model: by_model })
         };
         let records = held.iter().map(predicted).collect::<Result<Vec<_>, _>>()?;

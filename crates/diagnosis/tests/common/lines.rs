@@ -23,7 +23,7 @@ pub(crate) struct Lines {
 
 /// One mechanism alone.
 pub(crate) fn alone(mechanism: usize) -> Hypothesis {
-    Hypothesis { mechanisms: vec![(mechanism, None)], constants_free: false }
+    Hypothesis { mechanisms: vec![(mechanism, None)], constants_free: true }
 }
 
 impl Lines {
@@ -38,6 +38,8 @@ impl Lines {
             drift: (TINY * unit, KNOWN),
             drift_time: (1000.0, KNOWN),
             walk: (TINY * unit, KNOWN),
+            passed: (0.0, 1.0),
+            passed_time: 1.0,
         };
         let mechanism = |id: &str| Omission {
             id: id.into(),

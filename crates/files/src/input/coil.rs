@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use coil::{Body, Dehomogenization, Design, Layout, Sensor, SteadySensitivity};
+use coil::{Body, Dehomogenization, Design, Layout, Sensor, SteadySensitivity, Tolerances};
 use homogenization::{Constants, Packing, TOLERANCE};
 use winding::Winding;
 
@@ -16,6 +16,7 @@ use super::mechanics::mechanics;
 use super::mirror::Mirror;
 use super::source::{COIL, Source};
 use super::spool_file::spool;
+use super::tolerances::tolerances;
 use super::warnings::{in_medium, warnings};
 use super::winding_file::winding;
 use super::{InputError, heat};
@@ -35,6 +36,8 @@ pub struct CoilCase {
     pub name: String,
     /// What it describes, in SI.
     pub design: Design,
+    /// How far a unit may be from it.
+    pub tolerances: Tolerances,
     /// Its turns.
     pub winding: Winding,
     /// Where its numbers come from.
@@ -154,11 +157,12 @@ fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
         let problem = "the thermometer lies outside the solids, and a film stands in place of the medium";
         return Err(top.fault("sensor", problem, "move it into the spool or the coil, or remove heat.film_w_per_m2k").into());
     }
+    let tolerances = tolerances(&top.group("tolerances"), &file.tolerances, &design)?;
     let name = file.name;
     let provenance = Provenance { material, dehomogenization: row };
     let (file, fingerprints) = (path.to_owned(), cells.fingerprints);
     let warnings = [cells.notes, warnings(&design, &layout, &winding)].concat();
-    Ok(CoilCase { file, name, design, winding, provenance, fingerprints, warnings })
+    Ok(CoilCase { file, name, design, tolerances, winding, provenance, fingerprints, warnings })
 }
 
 impl CoilCase {

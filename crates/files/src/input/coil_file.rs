@@ -14,6 +14,7 @@ use super::quantity::{
     Photoelastic, Ratio, SpecificHeat, StrainRatio, TemperatureC,
 };
 use super::spool_file::{SensorFile, SpoolFile, SurroundingsFile};
+use super::tolerances::TolerancesFile;
 use super::winding_file::WindingFile;
 
 /// A coil on its spool, `COIL.ron`.
@@ -45,6 +46,9 @@ pub(crate) struct CoilFile {
     pub(crate) drifts: DriftsFile,
     /// From the coil's strains to those of the glass.
     pub(crate) dehomogenization: DehomogenizationFile,
+    /// One standard deviation of what a unit may be from this drawing, by the keys of its numbers; usual ones where none is given.
+    #[serde(default, skip_serializing_if = "TolerancesFile::is_empty")]
+    pub(crate) tolerances: TolerancesFile,
 }
 
 /// The potted winding as a body.
@@ -187,6 +191,7 @@ impl CoilFile {
             optics: Mirror::of(&design.optics),
             drifts: Mirror::of(&design.drifts),
             dehomogenization: DehomogenizationFile::Matrix(Mirror::of(&design.dehomogenization)),
+            tolerances: TolerancesFile::new(),
         }
     }
 }

@@ -33,6 +33,7 @@ mod syntax;
 mod targets;
 mod targets_file;
 mod timestamp;
+mod tolerances;
 mod warnings;
 mod winding_file;
 

@@ -16,8 +16,9 @@ const REVERSED: f64 = 2.5;
 /// Root mean square of what the nominal model leaves of the thermometer below which no column is suspected \[K\].
 const FAIR_K: f64 = 0.5;
 
-/// The warning about a record, if there is one; `number` is its number in `gyro`.
-pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record) -> Result<Option<Note>, coil::Error> {
+/// The warning about a record, if there is one: `number` is its number in `gyro`, the design as it is, and `answered` what the answer leaves of
+/// each channel, rms. What the answer explains as well is no mistake.
+pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record, answered: &[f64]) -> Result<Option<Note>, coil::Error> {
     let predicted = gyro.respond(number, &expected(gyro.nuisances()), &[])?;
     let Observation { time, channels } = &record.observed;
     let (spool, rate) = (&channels[SPOOL_CHANNEL], &channels[RATE_CHANNEL]);
@@ -30,7 +31,7 @@ pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record) -> Result<Opt
         ];
         for (columns, chamber, thermometer) in exchanged {
             let would = rms(thermometer, &thermometer_under(gyro.library(), time, chamber)?, 1.0);
-            if SUSPECT * would < left {
+            if SUSPECT * would < left && would < answered[SPOOL_CHANNEL] {
                 let [left, would] = [left, would].map(|k| significant(k, 2));
                 let text = format!(
                     "{columns} seem to be exchanged: the model leaves {left} K rms of the thermometer as it stands, {would} K with \
@@ -41,7 +42,7 @@ pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record) -> Result<Opt
         }
     }
     let [left, would] = [1.0, -1.0].map(|sign| rms(rate, &predicted[RATE_CHANNEL], sign));
-    Ok((REVERSED * would < left).then(|| {
+    Ok((REVERSED * would < left && would < answered[RATE_CHANNEL]).then(|| {
         let [left, would] = [left, would].map(|r| significant(r, 2));
         let text = format!(
             "{RATE} seems to have the other sign: the nominal model leaves {left} deg/h rms as it stands, {would} with the rate \

@@ -41,6 +41,7 @@ impl Outcome {
             "mechanisms": mechanisms,
             "set": set,
             "parameters": parameters,
+            "constants": self.constants_json(),
             "located": located.unwrap_or(nowhere),
             "structure": self.structure(),
             "holdout": held,

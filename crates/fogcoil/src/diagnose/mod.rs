@@ -2,6 +2,7 @@
 
 mod apart;
 mod columns;
+mod constants;
 mod extended;
 mod json;
 mod report;
@@ -12,11 +13,13 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use diagnosis::{
-    Contradiction, Diagnosis, ForwardModel, HeldOut, Hypothesis, Judged, Judgement, Observation, Ruling, Settings, Verdict,
+    Contradiction, Diagnosis, ForwardModel, HeldOut, Hypothesis, Judged, Judgement, Observation, Ruling, Settings, Settled,
+    Verdict,
 };
 use files::{Note, Remark};
-use mechanisms::{CATALOGUE, Extent, Gyro, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
+use mechanisms::{CATALOGUE, Extent, Gyro, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL, USUAL_NOISE};
 use progress::Step;
+use recording::check::white_noise;
 
 use crate::Error;
 use crate::cache::Cache;
@@ -28,6 +31,7 @@ pub struct Outcome {
     name: String,
     coil: PathBuf,
     design: Vec<Fingerprint>,
+    /// about the constants that the records speak for
     gyro: Gyro<'static>,
     diagnosis: Diagnosis,
     fits: Vec<Record>,
@@ -64,26 +68,54 @@ pub fn diagnose(
     progress(Step::begins("running every model under the recorded chamber"));
     let prepared = |r: &Record| Prepared::new(&library, &r.observed.time, &r.chamber, r.averaging);
     let prepared = read.iter().map(prepared).collect::<Result<Vec<_>, _>>().map_err(coil)?;
-    let gyro = Gyro::fitted_to(library, CATALOGUE, prepared, fits.len()).map_err(coil)?;
-    for (number, record) in read.iter().enumerate() {
-        notes.extend(columns::warning(&gyro, number, record).map_err(coil)?);
-    }
+    let white = noise_of(&read[..fits.len()]);
+    let drawn = Gyro::fitted_to(library, CATALOGUE, prepared, fits.len(), white).map_err(coil)?;
     let held = read.split_off(fits.len());
     let observations: Vec<Observation> = read.iter().map(|r| r.observed.clone()).collect();
     let numbers: Vec<usize> = (0..fits.len()).collect();
     let failed = Error::of_diagnosis(&case.file);
-    let mut diagnosis = diagnosis::diagnose(&gyro, &numbers, &observations, &Settings::default(), progress).map_err(failed)?;
+    let Settled { model: about, recalibrated } = diagnosis::settled(&drawn, &numbers, &observations, progress).map_err(failed)?;
+    let gyro = about.as_ref().unwrap_or(&drawn);
+    let settings = Settings::default();
+    let mut diagnosis =
+        diagnosis::diagnose_beside(gyro, &numbers, &observations, &settings, recalibrated, progress).map_err(failed)?;
     let numbered: Vec<(usize, &Observation)> = (fits.len()..).zip(held.iter().map(|record| &record.observed)).collect();
     let Judgement { records, ruling } =
-        diagnosis.judge(&gyro, (0, &read[0].observed), &numbered, RATE_CHANNEL).map_err(failed)?;
+        diagnosis.judge(gyro, &drawn, (0, &read[0].observed), &numbered, RATE_CHANNEL).map_err(failed)?;
     if let Ruling::TakenBack { record, why } = ruling {
         notes.push(taken_back(&held[record].fingerprint.file, why));
+    }
+    let best = diagnosis.best();
+    let fitted_to = best.fit.residuals.iter().map(|channels| channels.iter().map(|r| rms(r)).collect());
+    let answered: Vec<Vec<f64>> = fitted_to.chain(records.iter().map(|judged| judged.model.rmse.clone())).collect();
+    for (number, (record, answered)) in read.iter().chain(&held).zip(&answered).enumerate() {
+        notes.extend(columns::warning(&drawn, number, record, answered).map_err(coil)?);
     }
     let with_predictions =
         |(record, Judged { nominal, model, accepted }): (Record, Judged)| Held { record, nominal, model, accepted };
     let holdouts = held.into_iter().zip(records).map(with_predictions).collect();
     let (name, coil, design) = (case.name.clone(), case.file.clone(), case.fingerprints.clone());
+    let gyro = about.unwrap_or(drawn);
     Ok(Outcome { name, coil, design, gyro, diagnosis, fits: read, holdouts, notes })
+}
+
+/// Root mean square of what is there.
+fn rms(series: &[f64]) -> f64 {
+    let (sum, count) = series.iter().filter(|v| v.is_finite()).fold((0.0, 0.0_f64), |(s, n), v| (s + v * v, n + 1.0));
+    (sum / count.max(1.0)).sqrt()
+}
+
+/// White noise of thermometer and rate in a sample of some records, the quietest of them.
+fn noise_of(records: &[Record]) -> [f64; 2] {
+    let of = |channel: usize| {
+        let white = |r: &Record| {
+            let values = &r.observed.channels[channel];
+            white_noise(&r.observed.time, values, &values.iter().map(|v| v.is_finite()).collect::<Vec<_>>())
+        };
+        let each = records.iter().filter_map(white).filter(|sd| *sd > 0.0);
+        each.reduce(f64::min).unwrap_or(USUAL_NOISE[channel])
+    };
+    [of(SPOOL_CHANNEL), of(RATE_CHANNEL)]
 }
 
 fn taken_back(file: &Path, why: Contradiction) -> Note {

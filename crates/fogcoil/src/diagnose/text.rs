@@ -31,6 +31,9 @@ impl Outcome {
                 let _ = writeln!(out, "Besides, {structure}.");
             }
         }
+        if self.holdouts.is_empty() && d.verdict != Verdict::None {
+            out.push_str("No record was held out: what was fitted is not proven on data that it has not seen (--holdout).\n");
+        }
         if d.verdict == Verdict::Unknown {
             out.push_str("What to do: check signs, columns, units and times (fogcoil check), then repeat the test under another profile.\n");
         }
@@ -48,6 +51,15 @@ impl Outcome {
                 let unit = parameter_unit(&estimate.name).to_owned();
                 rows.push(vec![estimate.name.clone(), significant(estimate.value, 4), unit, interval]);
             }
+        }
+        let moved = if matches!(d.verdict, Verdict::Recalibrate | Verdict::Explained) { self.moved() } else { Vec::new() };
+        if !moved.is_empty() {
+            rows.push(["constant that moved (fitted)", "value", "sigma", "90 % interval"].map(str::to_owned).to_vec());
+        }
+        for constant in &moved {
+            let p = &constant.posterior;
+            let interval = p.ci90().map(|end| significant(end, 4)).join(" to ");
+            rows.push(vec![p.name.clone(), significant(p.value(), 4), format!("{:+.1}", constant.moved()), interval]);
         }
         for held in &self.holdouts {
             let file = held.record.name();
@@ -78,7 +90,9 @@ impl Outcome {
     pub(super) fn verdict(&self) -> String {
         match self.diagnosis.verdict {
             Verdict::None => "The nominal model suffices: no difference beyond noise.".to_owned(),
-            Verdict::Recalibrate => "The design's own constants, re-estimated within their uncertainties, suffice.".to_owned(),
+            Verdict::Recalibrate => {
+                "The design's own constants, re-estimated within their tolerances, suffice: nothing is left out.".to_owned()
+            }
             Verdict::Explained => {
                 let (best, first) = (self.names(), self.diagnosis.mechanisms.first().map_or("", |(m, _)| self.id(*m)));
                 let all = best.join(" and ");

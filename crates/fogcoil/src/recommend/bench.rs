@@ -127,6 +127,6 @@ pub(crate) fn usual(gyro: &Gyro) -> [NoiseModel; 2] {
         let prior = &gyro.channels()[channel].noise;
         let averaging = if channel == RATE { INTERVAL } else { 0.0 };
         let [white, drift, drift_time, walk] = [prior.white.0, prior.drift.0, prior.drift_time.0, prior.walk.0];
-        NoiseModel { averaging, white, drift, drift_time, walk, quantisation: 0.0 }
+        NoiseModel { drift, drift_time, walk, ..NoiseModel::white(white, averaging) }
     })
 }

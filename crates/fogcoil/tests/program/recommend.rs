@@ -1,6 +1,6 @@
 //! `fogcoil recommend` and `fogcoil explain` as a user runs them.
 
-use crate::common::{COIL, Folder, change, stderr, stdout};
+use crate::common::{CLEAN_COIL, COIL, Folder, change, stderr, stdout};
 use serde_json::Value;
 
 const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/concealed/open/case_13");
@@ -25,7 +25,7 @@ fn log_odds(of: &Value) -> f64 {
 #[test]
 fn a_fast_profile_is_recommended_and_can_be_simulated() {
     let folder = Folder::new();
-    folder.write("coil.ron", COIL);
+    folder.write("coil.ron", CLEAN_COIL);
     let between =
         ["recommend", "coil.ron", "--between", "tail-asymmetry, adhesive-content", "--json", "--out", "p.csv", "--quiet"];
     let r = json(&folder, &between, "recommend");

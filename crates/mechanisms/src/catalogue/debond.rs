@@ -34,7 +34,8 @@ pub(super) const DEBOND: Named = Named {
         Extent { temperature: Some([opens, opens + hysteresis]), ..Extent::default() }
     },
     caveat: |_| None,
-    offer: |design, range| {
+    offer: |design, scene| {
+        let range = scene.temperatures;
         applies(design).then(|| Offer {
             parameters: vec![
                 Parameter::new("debond_c", Prior::Uniform { low: range[0], high: range[1] })

@@ -39,7 +39,8 @@ pub(super) const GLASS_TRANSITION: Named = Named {
         Extent { temperature: Some([tg - 2.0 * width, tg + 2.0 * width]), ..Extent::default() }
     },
     caveat: |_| Some("the transition is tabulated, linear between the rows"),
-    offer: |design, range| {
+    offer: |design, scene| {
+        let range = scene.temperatures;
         (design.mechanics == Mechanics::Elastic).then(|| Offer {
             parameters: vec![
                 // a transition that was not passed cannot be told from other constants

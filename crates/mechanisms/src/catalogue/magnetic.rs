@@ -11,7 +11,7 @@ pub(super) const MAGNETIC: Described = Described {
     place: "The optics (Faraday effect); outside the named library.",
     signature: "The rate answers the chamber at once, before any heat has reached the coil.",
     source: "H. C. Lefèvre, *The Fiber-Optic Gyroscope*, 2nd ed., Artech House (2014), ch. 7.",
-    offer: || Offer::one("deg_per_h_per_k_per_h", Prior::Normal { mean: 0.0, sd: 5e-4 }, &[0.0]),
+    offer: |scene| Offer::one("deg_per_h_per_k_per_h", Prior::Normal { mean: 0.0, sd: 0.06 * scene.noise }, &[0.0]),
     law: |record, v| {
         let rates = rates_per_hour(&record.time, &record.chamber);
         Change::of_rate(record, rates.iter().map(|r| v[0] * r).collect())

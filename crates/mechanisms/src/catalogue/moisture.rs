@@ -12,9 +12,9 @@ pub(super) const MOISTURE: Described = Described {
     place: "The material of the coil; outside the named library.",
     signature: "A decay over hours that does not repeat in a second run, whatever the chamber does.",
     source: "J. Crank, *The Mathematics of Diffusion*, 2nd ed., Oxford (1975).",
-    offer: || Offer {
+    offer: |scene| Offer {
         parameters: vec![
-            Parameter::new("rate_deg_per_h", Prior::Normal { mean: 0.0, sd: 0.02 }),
+            Parameter::new("rate_deg_per_h", Prior::Normal { mean: 0.0, sd: 2.5 * scene.noise }),
             Parameter::new("time_s", Prior::LogNormal { median: 6.0 * S_PER_H, spread: 0.7 }),
         ],
         choice: None,

@@ -12,8 +12,9 @@ pub(super) const POLARISATION_RIPPLE: Described = Described {
     place: "The optics; outside the named library.",
     signature: "The rate waves with the temperature itself, not with its rate: a slow ramp shows several waves.",
     source: "H. C. Lefèvre, *The Fiber-Optic Gyroscope*, 2nd ed., Artech House (2014), ch. 5.",
-    offer: || {
-        let size = Prior::Normal { mean: 0.0, sd: 8e-3 };
+    offer: |scene| {
+        let size = Prior::Normal { mean: 0.0, sd: scene.noise };
+        let sizes = [0.5, 0.0, -0.5].map(|x| x * scene.noise);
         let periods: Vec<f64> = (0..PERIODS.1).map(|k| PERIODS.0 * (f64::from(k) / 4.0).exp2()).collect();
         Offer {
             parameters: vec![
@@ -22,7 +23,7 @@ pub(super) const POLARISATION_RIPPLE: Described = Described {
                 Parameter::new("period_k", Prior::LogNormal { median: 12.0, spread: 0.8 }).with_step(0.01),
             ],
             choice: None,
-            starts: grid(&[&[4e-3, 0.0, -4e-3], &[4e-3, 0.0, -4e-3], &periods]),
+            starts: grid(&[&sizes, &sizes, &periods]),
         }
     },
     law: |record, v| {

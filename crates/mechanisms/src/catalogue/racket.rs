@@ -11,7 +11,7 @@ pub(super) const RACKET: Described = Described {
     place: "The material of the coil; outside the named library.",
     signature: "The same ramp gives more bias at one end of the range than at the other.",
     source: "An empirical description; no source.",
-    offer: || Offer::one("relative_per_k", Prior::Normal { mean: 0.0, sd: 1e-3 }, &[0.0]),
+    offer: |_| Offer::one("relative_per_k", Prior::Normal { mean: 0.0, sd: 1e-3 }, &[0.0]),
     law: |record, v| Change::of_parts(growing(&record.nominal.parts, record.spool(), v[0])),
     likeness: |v, digits| format!("a sensitivity that changes with temperature, by {} % a kelvin", digits(100.0 * v[0], 2)),
 };

@@ -11,9 +11,10 @@ pub(super) const RATCHETING: Described = Described {
     place: "The bond; outside the named library.",
     signature: "The first cycle differs from all later ones.",
     source: "An empirical description; no source.",
-    offer: || {
+    offer: |scene| {
+        let sd = 0.25 * scene.noise;
         let names = ["hot_deg_per_h_per_k_per_h", "cold_deg_per_h_per_k_per_h"];
-        let parameters = names.map(|name| Parameter::new(name, Prior::Normal { mean: 0.0, sd: 2e-3 })).into();
+        let parameters = names.map(|name| Parameter::new(name, Prior::Normal { mean: 0.0, sd })).into();
         Offer { parameters, choice: None, starts: vec![vec![0.0, 0.0]] }
     },
     law: |record, v| {

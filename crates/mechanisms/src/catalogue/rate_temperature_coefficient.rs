@@ -20,7 +20,7 @@ pub(super) const RATE_TEMPERATURE_COEFFICIENT: Named = Named {
     steady: &[Steady::Nothing("it follows the temperature, not its rate")],
     extent: Extent::everywhere,
     caveat: |_| None,
-    offer: |_, _| Some(Offer::one("coefficient_deg_per_h_per_k", Prior::Normal { mean: 0.0, sd: 1.5e-3 }, &[0.0])),
+    offer: |_, scene| Some(Offer::one("coefficient_deg_per_h_per_k", Prior::Normal { mean: 0.0, sd: 2.0 * scene.noise }, &[0.0])),
     effect: |_, _, active| {
         let coefficient = active.values[0];
         Ok(Effect::Readings(Box::new(move |r| {

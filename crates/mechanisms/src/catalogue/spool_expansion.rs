@@ -11,10 +11,9 @@ pub(super) const SPOOL_EXPANSION: Described = Described {
     place: "The spool's material; outside the named library.",
     signature: "The sensitivity changes linearly with temperature, by part as the spool's expansion does.",
     source: "An empirical description; no source.",
-    offer: || Offer::one("expansion_per_k2_relative", Prior::Normal { mean: 0.0, sd: 1e-3 }, &[0.0]),
+    offer: |_| Offer::one("expansion_per_k2_relative", Prior::Normal { mean: 0.0, sd: 1e-3 }, &[0.0]),
     law: |record, v| {
-        // parts per relative change of the spool's expansion
-        let change = record.constants.last().map(|parts| Change::of_parts(growing(parts, record.spool(), v[0])));
+        let change = record.of_spool_expansion().map(|parts| Change::of_parts(growing(&parts, record.spool(), v[0])));
         change.unwrap_or_else(|| Change::none(record))
     },
     likeness: |v, digits| {

@@ -19,9 +19,9 @@ pub(super) const THERMO_OPTIC_CURVATURE: Named = Named {
     extent: Extent::everywhere,
     caveat: |_| None,
     offer: |_, _| Some(Offer::one("curvature_per_k2", Prior::Normal { mean: 0.0, sd: 6e-8 }, &[0.0])),
-    effect: |chain, record, active| {
+    effect: |_, record, active| {
         let zero = vec![0.0; record.time.len()];
-        let shupe = chain.curved(record).iter().map(|c| active.values[0] * c).collect();
+        let shupe = record.curved.iter().map(|c| active.values[0] * c).collect();
         Ok(Effect::Coil(Change::of_parts([shupe, zero.clone(), zero])))
     },
     extended: |design, active| {

@@ -2,7 +2,7 @@
 
 use coil::{Design, Error};
 use diagnosis::{Active, Prior};
-use mechanisms::{Chain, Effect, Extent, Facts, Mechanism, Naming, Offer, Prepared, REFERENCE_C, Stage, Steady};
+use mechanisms::{Chain, Effect, Extent, Facts, Mechanism, Naming, Offer, Prepared, REFERENCE_C, Scene, Stage, Steady};
 
 pub(crate) struct ReadOutCurvature;
 
@@ -28,7 +28,7 @@ impl Mechanism for ReadOutCurvature {
     }
 
     /// One parameter, its unit in its name; as likely negative as positive, and a hundredth of a degree per hour at 10 K is much.
-    fn offer(&self, _: &Design, _: [f64; 2]) -> Option<Offer> {
+    fn offer(&self, _: &Design, _: &Scene) -> Option<Offer> {
         Some(Offer::one("curvature_deg_per_h_per_k2", Prior::Normal { mean: 0.0, sd: 1e-4 }, &[0.0]))
     }
 

@@ -37,7 +37,7 @@ fn folder() -> PathBuf {
 
 /// The reference coil, and its library kept where every unit finds it.
 fn prepared() -> Result<(CoilCase, Cache, mechanisms::Library), Failure> {
-    let coil = input::read_coil(&root().join("fixtures/coil-reference.ron"))?;
+    let coil = input::read_coil(&root().join("fixtures/concealed/coil.ron"))?;
     let cache = Cache::of_user();
     let library = chain::library(&coil, &cache)?;
     Ok((coil, cache, library))

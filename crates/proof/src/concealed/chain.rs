@@ -6,7 +6,7 @@ use coil::COARSE;
 use diagnosis::{Active, ForwardModel};
 use fogcoil::cache::Cache;
 use fogcoil::input::{CHAMBER, CoilCase, RATE, RecordCase, SPOOL};
-use mechanisms::{CATALOGUE, Gyro, Library, Prepared};
+use mechanisms::{CATALOGUE, Gyro, Library, Models, Prepared};
 
 use super::answer::record;
 use super::score::HeldOut;
@@ -24,7 +24,9 @@ const UNNAMED: [f64; 9] = [-4.0, -3.0, -2.0, -1.5, -1.0, -0.5, 0.0, 1.0, 2.0];
 
 /// The design's library, from the cache if it is there.
 pub(crate) fn library(coil: &CoilCase, cache: &Cache) -> Result<Library, Failure> {
-    Ok(cache.load_or_build("library", &(&coil.design, COARSE), || Library::build(&coil.design, CATALOGUE, &|_| ()))?.0)
+    let key = (&coil.design, &coil.tolerances, COARSE);
+    let models = cache.load_or_build("models", &key, || Models::build(&coil.design, &coil.tolerances, CATALOGUE, &|_| ()))?.0;
+    Ok(Library::new(models, CATALOGUE)?)
 }
 
 /// What was recorded in a channel; NaN where it cannot be used.

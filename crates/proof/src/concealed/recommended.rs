@@ -18,7 +18,7 @@ const ASKED: f64 = 0.8;
 /// Tries what is recommended for every pair of mechanisms; writes its section of docs/proof.md. Whether it separates as many as asked.
 pub(super) fn run() -> Result<bool, Failure> {
     let program = program::hash(&root())?;
-    let (coil, cache) = (input::read_coil(&root().join("fixtures/coil-reference.ron"))?, Cache::of_user());
+    let (coil, cache) = (input::read_coil(&root().join("fixtures/concealed/coil.ron"))?, Cache::of_user());
     let say = |step: progress::Step| eprintln!("{step}");
     let comparison = Comparison::measure(&coil, &cache, &say)?;
     let mut random = Random::new(SEED, 0);

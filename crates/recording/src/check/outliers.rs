@@ -13,43 +13,76 @@ const FAR: f64 = 6.5;
 /// How much of the distance the value has to keep to both values beside it, and how much of it the neighbours may differ.
 const LONE: [f64; 2] = [0.6, 0.5];
 
-/// Hampel's test against the median of three neighbours on each side, which a ramp passes; a step, or a bend, is no outlier.
+/// Values in a row that may be outliers together: a logger that repeats a bad one.
+const TOGETHER: usize = 3;
+/// Distance from the median, in spans that four fifths of the values have, that no signal reaches: a code for an overload.
+const CODE: f64 = 20.0;
+
+/// Hampel's test against the median of three neighbours on each side, which a ramp passes; a step, or a bend, is no outlier. Up to three rows may be
+/// off together.
 ///
-/// The first and last two rows are not judged.
+/// The first and last two rows are not judged, but for codes.
 pub(super) fn judge(context: &Context, mask: &mut [bool]) -> Option<Finding> {
-    let Context { time, values, summary, interval } = context;
+    let Context { time, values, summary, .. } = context;
     let noise = summary.noise?.max(summary.step.unwrap_or(0.0) / 2.0);
-    let used: Vec<usize> = (0..time.len()).filter(|&row| mask[row]).collect();
-    let mut found: Vec<(usize, f64)> = Vec::new();
-    for n in 2..used.len().saturating_sub(2) {
-        let row = used[n];
-        let [left, right] = [used[n - 1], used[n + 1]].map(|other| values[row] - values[other]);
-        if left.signum() != right.signum() || left.abs().min(right.abs()) <= LONE[0] * FAR * noise {
-            continue; // what no median can make an outlier
+    let mut found = Vec::new();
+    for together in 1..=TOGETHER {
+        let used: Vec<usize> = (0..time.len()).filter(|&row| mask[row]).collect();
+        for n in 2..(used.len() + 1).saturating_sub(2 + together) {
+            if let Some(distance) = lone(context, &used, n, together, noise) {
+                found.extend(used[n..n + together].iter().map(|row| (*row, distance)));
+            }
         }
-        let near = |m: &usize| (time[used[*m]] - time[row]).abs() < NEAR * interval;
-        let before: Vec<usize> = (n.saturating_sub(REACH)..n).filter(near).collect();
-        let after: Vec<usize> = (n + 1..(n + 1 + REACH).min(used.len())).filter(near).collect();
-        let balanced = before.len().min(after.len());
-        if balanced < 2 {
-            continue;
-        }
-        let (before, after) = (&before[before.len() - balanced..], &after[..balanced]);
-        let around: Vec<f64> = before.iter().chain(after).map(|&m| values[used[m]]).collect();
-        // one of the neighbours may be an outlier itself
-        let mut sorted = around.clone();
-        sorted.sort_by(f64::total_cmp);
-        let range = (sorted[sorted.len() - 2] - sorted[0]).min(sorted[sorted.len() - 1] - sorted[1]);
-        let distance = values[row] - median(around).unwrap_or(values[row]);
-        let beside = [left, right].map(|side| side * distance.signum());
-        let lone = beside.into_iter().all(|side| side > LONE[0] * distance.abs()) && range < LONE[1] * distance.abs();
-        if distance.abs() > FAR * noise && lone {
-            found.push((row, distance.abs()));
-        }
+        found.iter().for_each(|(row, _)| mask[*row] = false);
     }
-    found.iter().for_each(|(row, _)| mask[*row] = false);
+    found.extend(codes(values, mask));
+    found.sort_by_key(|(row, _)| *row);
+    found.dedup_by_key(|(row, _)| *row);
     let (first, last) = (found.first()?.0, found.last()?.0);
     let largest = found.iter().fold(0.0_f64, |most, (_, distance)| most.max(*distance));
     let span = [time[first], time[last]];
     Some(Finding::at(FindingKind::Outliers(largest), Severity::Note, span, found.len(), Repair::Masked))
+}
+
+/// Distance of the rows `used[n..n + together]` from their neighbours, if they are outliers.
+fn lone(context: &Context, used: &[usize], n: usize, together: usize, noise: f64) -> Option<f64> {
+    let Context { time, values, interval, .. } = context;
+    let end = n + together;
+    let (row, last) = (used[n], used[end - 1]);
+    let [left, right] = [values[row] - values[used[n - 1]], values[last] - values[used[end]]];
+    if left.signum() != right.signum() || left.abs().min(right.abs()) <= LONE[0] * FAR * noise {
+        return None; // what no median can make an outlier
+    }
+    let near = |m: &usize| (time[used[*m]] - time[row]).abs().min((time[used[*m]] - time[last]).abs()) < NEAR * interval;
+    let before: Vec<usize> = (n.saturating_sub(REACH)..n).filter(near).collect();
+    let after: Vec<usize> = (end..(end + REACH).min(used.len())).filter(near).collect();
+    let balanced = before.len().min(after.len());
+    if balanced < 2 {
+        return None;
+    }
+    let (before, after) = (&before[before.len() - balanced..], &after[..balanced]);
+    let around: Vec<f64> = before.iter().chain(after).map(|&m| values[used[m]]).collect();
+    // one of the neighbours may be an outlier itself
+    let mut sorted = around.clone();
+    sorted.sort_by(f64::total_cmp);
+    let range = (sorted[sorted.len() - 2] - sorted[0]).min(sorted[sorted.len() - 1] - sorted[1]);
+    let middle = median(around)?;
+    let distances = || used[n..end].iter().map(|row| values[*row] - middle);
+    let distance = distances().fold(f64::INFINITY, |least, d| if d.abs() < f64::abs(least) { d } else { least });
+    let same = distances().all(|d| d.signum() == distance.signum());
+    let beside = [left, right].map(|side| side * distance.signum());
+    let alone = beside.into_iter().all(|side| side > LONE[0] * distance.abs()) && range < LONE[1] * distance.abs();
+    (same && distance.abs() > FAR * noise && alone).then_some(distance.abs())
+}
+
+/// Rows with codes for an overload, with their distance from the median; they are not used.
+fn codes(values: &[f64], mask: &mut [bool]) -> Vec<(usize, f64)> {
+    let mut sorted: Vec<f64> = values.iter().zip(mask.iter()).filter(|(_, used)| **used).map(|(value, _)| *value).collect();
+    sorted.sort_by(f64::total_cmp);
+    let Some(last) = sorted.len().checked_sub(1) else { return Vec::new() };
+    let (middle, span) = (sorted[last / 2], sorted[last - last / 10] - sorted[last / 10]);
+    let rows = (0..values.len()).filter(|&row| mask[row] && span > 0.0 && (values[row] - middle).abs() > CODE * span);
+    let found: Vec<(usize, f64)> = rows.map(|row| (row, (values[row] - middle).abs())).collect();
+    found.iter().for_each(|(row, _)| mask[*row] = false);
+    found
 }

@@ -23,12 +23,16 @@ pub struct NoiseModel {
     pub walk: f64,
     /// Quantisation Q: standard deviation of the rounding of the integrated sample \[u s\]; needs a span.
     pub quantisation: f64,
+    /// Noise of what drives, passed through what responds: a second drift, standard deviation \[u\].
+    pub passed: f64,
+    /// Its correlation time \[s\]; positive, without meaning if there is none.
+    pub passed_time: f64,
 }
 
 impl NoiseModel {
     /// White noise alone.
     pub fn white(sd: f64, averaging: f64) -> Self {
-        Self { averaging, white: sd, drift: 0.0, drift_time: 1.0, walk: 0.0, quantisation: 0.0 }
+        Self { averaging, white: sd, drift: 0.0, drift_time: 1.0, walk: 0.0, quantisation: 0.0, passed: 0.0, passed_time: 1.0 }
     }
 
     /// Angle random walk N = white · √averaging \[u √s\]; none for momentary values.
@@ -50,7 +54,8 @@ impl NoiseModel {
         let drift = (self.drift * self.drift) * drift_allan(tau / self.drift_time);
         let walk = self.walk.powi(2) * tau / 3.0;
         let quantisation = 3.0 * (self.quantisation / tau).powi(2);
-        (white + drift + walk + quantisation).sqrt()
+        let passed = (self.passed * self.passed) * drift_allan(tau / self.passed_time);
+        (white + drift + walk + quantisation + passed).sqrt()
     }
 
     /// Checks every parameter.
@@ -58,7 +63,7 @@ impl NoiseModel {
     /// # Errors
     /// [`Error::Parameter`] names the first that is out of its range.
     pub fn check(&self) -> Result<(), Error> {
-        let Self { averaging, white, drift, drift_time, walk, quantisation } = *self;
+        let Self { averaging, white, drift, drift_time, walk, quantisation, passed, passed_time } = *self;
         let (zero_or_more, positive) = ("0 or more, and finite", "positive and finite");
         let with_a_span = "0 or more and finite, and 0 for momentary values";
         let rules = [
@@ -67,6 +72,8 @@ impl NoiseModel {
             ("drift", drift, drift >= 0.0, zero_or_more),
             ("drift_time", drift_time, drift_time > 0.0, positive),
             ("walk", walk, walk >= 0.0, zero_or_more),
+            ("passed", passed, passed >= 0.0, zero_or_more),
+            ("passed_time", passed_time, passed_time > 0.0, positive),
             ("quantisation", quantisation, quantisation == 0.0 || (quantisation > 0.0 && averaging > 0.0), with_a_span),
         ];
         match rules.into_iter().find(|(_, value, holds, _)| !(*holds && value.is_finite())) {

@@ -1,6 +1,6 @@
 //! Innovations of the Kalman filter as a linear operator.
 //!
-//! The state is (drift, walk, rounding) at the end of the last sample. A sample's mean and the state at its end are jointly Gaussian
+//! The state is (drift, walk, rounding, passed) at the end of the last sample. A sample's mean and the state at its end are jointly Gaussian
 //! given the state at its start, so means over the span need no further state: the filter has correlated process and measurement
 //! noise. Gains depend on instants and mask alone.
 
@@ -8,7 +8,7 @@ use super::NoiseModel;
 use crate::Error;
 use crate::series::{check_length, check_time};
 
-const STATES: usize = 3;
+const STATES: usize = 4;
 type Vector = [f64; STATES];
 
 /// Whitens series of one set of instants: innovations divided by their standard deviations.
@@ -114,6 +114,7 @@ impl<'a> Filter<'a> {
         let mut covariance = [[0.0; STATES]; STATES];
         covariance[0][0] = model.drift * model.drift;
         covariance[2][2] = model.quantisation * model.quantisation;
+        covariance[3][3] = model.passed * model.passed;
         Self { model, covariance, last: None }
     }
 
@@ -160,8 +161,9 @@ impl Passage {
         let contiguous = interval == Some(since_row) && pause < 0.5 * span;
         let (walk, drift) = (model.walk * model.walk, model.drift * model.drift);
         let rounding = model.quantisation * model.quantisation;
-        let kept = (-pause / model.drift_time).exp();
-        let within = Within::new(span / model.drift_time);
+        let passed = model.passed * model.passed;
+        let [kept, kept_passed] = [model.drift_time, model.passed_time].map(|time| (-pause / time).exp());
+        let [within, of_passed] = [model.drift_time, model.passed_time].map(|time| Within::new(span / time));
         let (measure_rounding, rounding_noise, rounding_cross) = if span > 0.0 && rounding > 0.0 {
             let fresh = if contiguous { 1.0 } else { 2.0 };
             (if contiguous { -1.0 / span } else { 0.0 }, fresh * rounding / (span * span), rounding / span)
@@ -170,14 +172,19 @@ impl Passage {
         };
         let white = model.white * model.white * if span > 0.0 { model.averaging / span } else { 1.0 };
         Self {
-            measure: [kept * within.mean, 1.0, measure_rounding],
-            advance: [kept * within.end, 1.0, 0.0],
-            pause: [-drift * (-2.0 * pause / model.drift_time).exp_m1(), walk * pause, 0.0],
-            pause_measure: [within.mean, 1.0, 0.0],
-            pause_advance: [within.end, 1.0, 0.0],
-            sample_noise: white + drift * within.mean_noise + walk * span / 3.0 + rounding_noise,
-            state_noise: [drift * within.end_noise, walk * span, rounding],
-            cross_noise: [drift * within.cross_noise, walk * span / 2.0, rounding_cross],
+            measure: [kept * within.mean, 1.0, measure_rounding, kept_passed * of_passed.mean],
+            advance: [kept * within.end, 1.0, 0.0, kept_passed * of_passed.end],
+            pause: [
+                -drift * (-2.0 * pause / model.drift_time).exp_m1(),
+                walk * pause,
+                0.0,
+                -passed * (-2.0 * pause / model.passed_time).exp_m1(),
+            ],
+            pause_measure: [within.mean, 1.0, 0.0, of_passed.mean],
+            pause_advance: [within.end, 1.0, 0.0, of_passed.end],
+            sample_noise: white + drift * within.mean_noise + walk * span / 3.0 + rounding_noise + passed * of_passed.mean_noise,
+            state_noise: [drift * within.end_noise, walk * span, rounding, passed * of_passed.end_noise],
+            cross_noise: [drift * within.cross_noise, walk * span / 2.0, rounding_cross, passed * of_passed.cross_noise],
         }
     }
 

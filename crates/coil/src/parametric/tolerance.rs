@@ -1,0 +1,79 @@
+//! How far the numbers of a unit may be from its drawing.
+
+use super::Parameter;
+use crate::Design;
+
+/// How far a number of a design may be from its drawing, one standard deviation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Tolerance {
+    /// A share of the value.
+    Relative(f64),
+    /// In the value's unit.
+    Absolute(f64),
+    /// A number that a drawing has as it is: 0 unless something is wrong.
+    Exact,
+}
+
+impl Tolerance {
+    /// One standard deviation of a number that is drawn as `value`, in its unit.
+    pub fn of(self, value: f64) -> f64 {
+        match self {
+            Self::Relative(share) => share * value.abs(),
+            Self::Absolute(by) => by,
+            Self::Exact => 0.0,
+        }
+    }
+}
+
+/// A number of a design that has a tolerance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Number {
+    /// One that the parametric model has as a parameter.
+    Constant(Parameter),
+    /// ∂n/∂T of the fibre \[1/K\].
+    ThermoOptic,
+    /// Length of a tail \[m\], of each alike.
+    Tail,
+    /// Time constant of the spool's thermometer \[s\].
+    SensorLag,
+}
+
+impl Number {
+    /// How far it usually is from the drawing: [`Parameter::tolerance`]; of ∂n/∂T what handbooks of silica differ by, of a tail's length what it
+    /// is cut to, of a thermometer's lag what glueing it makes of it.
+    pub fn tolerance(self) -> Tolerance {
+        match self {
+            Self::Constant(parameter) => parameter.tolerance(),
+            Self::ThermoOptic => Tolerance::Relative(0.05),
+            Self::Tail => Tolerance::Absolute(0.02),
+            Self::SensorLag => Tolerance::Relative(0.2),
+        }
+    }
+}
+
+/// Tolerances of a drawing: those that it gives, and of all other numbers the usual ones ([`Number::tolerance`]).
+#[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Tolerances {
+    /// Those that are given.
+    pub given: Vec<(Number, Tolerance)>,
+}
+
+impl Tolerances {
+    /// Of a number.
+    pub fn of(&self, number: Number) -> Tolerance {
+        self.given.iter().find(|(given, _)| *given == number).map_or_else(|| number.tolerance(), |(_, tolerance)| *tolerance)
+    }
+
+    /// Every constant of a design that has one, with its drawn value and one standard deviation, SI.
+    pub fn constants(&self, design: &Design) -> Vec<(Parameter, f64, f64)> {
+        let of = |&parameter: &Parameter| {
+            let drawn = parameter.of(design)?;
+            let by = self.of(Number::Constant(parameter)).of(drawn);
+            (by > 0.0).then_some((parameter, drawn, by))
+        };
+        Parameter::ALL.iter().filter_map(of).collect()
+    }
+}

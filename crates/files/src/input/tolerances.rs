@@ -1,0 +1,171 @@
+//! The tolerances of `COIL.ron`: how far a unit may be from the drawing.
+
+use std::collections::BTreeMap;
+
+use coil::{Design, Number, Parameter, Tolerance, Tolerances};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::InputError;
+use super::group::Group;
+
+/// One standard deviation of a number: a share of it, or in the unit of its key.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub(crate) enum ToleranceFile {
+    Relative(f64),
+    Absolute(f64),
+}
+
+/// Tolerances by the keys of the numbers that they are of.
+pub(crate) type TolerancesFile = BTreeMap<String, ToleranceFile>;
+
+const MM: f64 = 1e-3;
+const MPA: f64 = 1e6;
+const GPA: f64 = 1e9;
+
+/// Keys that may carry a tolerance, each with its number and its unit in SI.
+const KEYS: &[(&str, Number, f64)] = &[
+    ("coil.material.e_z_gpa", Number::Constant(Parameter::AxialModulus), GPA),
+    ("coil.material.e_r_mpa", Number::Constant(Parameter::TransverseModulus), MPA),
+    ("coil.material.g_zr_mpa", Number::Constant(Parameter::ShearModulus), MPA),
+    ("coil.material.nu_zr", Number::Constant(Parameter::AxialPoisson), 1.0),
+    ("coil.material.nu_r", Number::Constant(Parameter::TransversePoisson), 1.0),
+    ("coil.material.alpha_z_per_k", Number::Constant(Parameter::AxialExpansion), 1.0),
+    ("coil.material.alpha_r_per_k", Number::Constant(Parameter::TransverseExpansion), 1.0),
+    ("coil.material.k_r_w_per_mk", Number::Constant(Parameter::CoilConductivity), 1.0),
+    ("coil.density_kg_per_m3", Number::Constant(Parameter::CoilDensity), 1.0),
+    ("coil.specific_heat_j_per_kgk", Number::Constant(Parameter::CoilSpecificHeat), 1.0),
+    ("spool.material.youngs_modulus_gpa", Number::Constant(Parameter::SpoolModulus), GPA),
+    ("spool.material.poisson_ratio", Number::Constant(Parameter::SpoolPoisson), 1.0),
+    ("spool.material.thermal_expansion_per_k", Number::Constant(Parameter::SpoolExpansion), 1.0),
+    ("spool.material.conductivity_w_per_mk", Number::Constant(Parameter::SpoolConductivity), 1.0),
+    ("spool.material.density_kg_per_m3", Number::Constant(Parameter::SpoolDensity), 1.0),
+    ("spool.material.specific_heat_j_per_kgk", Number::Constant(Parameter::SpoolSpecificHeat), 1.0),
+    ("spool.hub_thickness_mm", Number::Constant(Parameter::HubThickness), MM),
+    ("spool.flanges.thickness_mm", Number::Constant(Parameter::FlangeThickness), MM),
+    ("spool.flanges.overhang_mm", Number::Constant(Parameter::FlangeOverhang), MM),
+    ("surroundings.medium.conductivity_w_per_mk", Number::Constant(Parameter::MediumConductivity), 1.0),
+    ("surroundings.medium.specific_heat_j_per_kgk", Number::Constant(Parameter::MediumSpecificHeat), 1.0),
+    ("surroundings.margin_mm", Number::Constant(Parameter::Margin), MM),
+    ("heat.film_w_per_m2k", Number::Constant(Parameter::Film), 1.0),
+    ("optics.thermo_optic_per_k", Number::ThermoOptic, 1.0),
+    ("winding.tails_m", Number::Tail, 1.0),
+    ("sensor.lag_s", Number::SensorLag, 1.0),
+];
+
+/// Largest share: beyond, a number says nothing.
+const MOST: f64 = 0.5;
+
+/// The tolerances that a file gives, checked.
+pub(super) fn tolerances(at: &Group, file: &TolerancesFile, design: &Design) -> Result<Tolerances, InputError> {
+    let mut given = Vec::new();
+    for (key, tolerance) in file {
+        let Some((_, number, unit)) = KEYS.iter().find(|(known, ..)| known == key) else {
+            let problem = format!("{key:?} is no number that has a tolerance");
+            let all: Vec<&str> = KEYS.iter().map(|(key, ..)| *key).collect();
+            return Err(at.fault("", problem, format!("give one of {}", all.join(", "))));
+        };
+        let drawn = match number {
+            Number::Constant(parameter) => parameter.of(design),
+            Number::ThermoOptic => Some(design.optics.thermo_optic),
+            Number::Tail => Some(0.0),
+            Number::SensorLag => Some(design.sensor.lag),
+        };
+        let Some(drawn) = drawn else {
+            return Err(at.fault("", format!("{key:?} has a tolerance, but the design has no such number"), "remove it"));
+        };
+        let (value, unit) = match tolerance {
+            ToleranceFile::Relative(value) => (*value, None),
+            ToleranceFile::Absolute(value) => (*value, Some(unit)),
+        };
+        let of = |problem: String| {
+            let remedy = "give one standard deviation, e.g. Relative(0.05) for 5 %, or Absolute(0.05) in the unit of the key";
+            Err(at.fault("", format!("{key:?}: {problem}"), remedy))
+        };
+        if !value.is_finite() || value < 0.0 {
+            return of(format!("{value} is no standard deviation"));
+        }
+        if unit.is_none() && *number == Number::Tail {
+            return of("a share of a tail's length says nothing where it is 0; give it in m".into());
+        }
+        let share = unit.map_or(value, |unit| value * unit / drawn.abs());
+        if *number != Number::Tail && share > MOST {
+            return of(format!("{share} of the value is more than {MOST}, the most accepted"));
+        }
+        given.push((*number, unit.map_or(Tolerance::Relative(value), |unit| Tolerance::Absolute(value * unit))));
+    }
+    Ok(Tolerances { given })
+}
+
+/// The keys of a design's numbers with the usual tolerances: all that it has.
+#[cfg(test)]
+fn usual(design: &Design) -> TolerancesFile {
+    let of = |&(key, number, unit): &(&str, Number, f64)| {
+        let has = match number {
+            Number::Constant(parameter) => parameter.of(design).is_some(),
+            Number::SensorLag => design.sensor.lag > 0.0,
+            Number::ThermoOptic | Number::Tail => true,
+        };
+        let written = match number.tolerance() {
+            Tolerance::Relative(share) => ToleranceFile::Relative(share),
+            Tolerance::Absolute(by) => ToleranceFile::Absolute(by / unit),
+            Tolerance::Exact => return None,
+        };
+        has.then(|| (key.to_owned(), written))
+    };
+    KEYS.iter().filter_map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::check_coil;
+    use std::path::Path;
+
+    const TEMPLATE: &str = include_str!("../../../fogcoil/templates/coil.ron");
+
+    fn read(text: &str) -> Result<Tolerances, String> {
+        check_coil(Path::new("coil.ron"), text).map(|case| case.tolerances).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn the_template_writes_the_usual_ones() {
+        let case = check_coil(Path::new("coil.ron"), TEMPLATE).expect("the template");
+        let written: TolerancesFile = usual(&case.design);
+        assert_eq!(case.tolerances.given.len(), written.len());
+        for (number, tolerance) in &case.tolerances.given {
+            let (own, usual) = (tolerance.of(1.0), number.tolerance().of(1.0));
+            assert!((own - usual).abs() < 1e-12 * usual, "{number:?}: {own} {usual}");
+        }
+    }
+
+    #[test]
+    fn bad_tolerances_are_refused() {
+        let with =
+            |entry: &str| read(&TEMPLATE.replace("\"coil.density_kg_per_m3\": Relative(0.03)", entry)).err().unwrap_or_default();
+        let cases = [
+            ("\"coil.dens\": Relative(0.03)", "\"coil.dens\" is no number that has a tolerance"),
+            ("\"coil.density_kg_per_m3\": Relative(-0.03)", "-0.03 is no standard deviation"),
+            ("\"coil.density_kg_per_m3\": Relative(NaN)", "NaN is no standard deviation"),
+            ("\"coil.density_kg_per_m3\": Relative(3.0)", "3 of the value is more than 0.5"),
+            ("\"coil.density_kg_per_m3\": Absolute(1000.0)", "of the value is more than 0.5"),
+            ("\"heat.film_w_per_m2k\": Relative(0.1)", "the design has no such number"),
+            ("\"coil.density_kg_per_m3\": 0.1", "tolerances"),
+        ];
+        for (entry, expected) in cases {
+            assert!(with(entry).contains(expected), "{entry}: {}", with(entry));
+        }
+        assert!(
+            read(&TEMPLATE.replace("Absolute(0.02)", "Relative(0.02)"))
+                .err()
+                .unwrap_or_default()
+                .contains("a share of a tail's length")
+        );
+    }
+
+    #[test]
+    fn a_file_without_any_has_the_usual_ones() {
+        let text = &TEMPLATE[..TEMPLATE.find("    tolerances: {").expect("its place")];
+        assert_eq!(read(&(text.to_owned() + ")")), Ok(Tolerances::default()));
+    }
+}

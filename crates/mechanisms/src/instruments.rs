@@ -1,0 +1,114 @@
+//! What is read: channels with their noise, and what instruments and the model itself may be off.
+
+use crate::constants::{constants, others};
+use crate::{RATE, SPOOL};
+use coil::{Design, Tolerances};
+use diagnosis::{Channel, NoisePrior, Nuisance, Role};
+
+// order of the nuisances; the design's constants follow
+pub(crate) const GAIN: usize = 0;
+pub(crate) const SHUPE: usize = 1;
+pub(crate) const REST: usize = 2;
+pub(crate) const CHAMBER_GAIN: usize = 3;
+pub(crate) const CHAMBER_DELAY: usize = 4;
+pub(crate) const CHAMBER_LAG_SQUARED: usize = 5;
+pub(crate) const SPOOL_GAIN: usize = 6;
+pub(crate) const THERMO_OPTIC: usize = 7;
+pub(crate) const TAIL: usize = 8;
+pub(crate) const LAG: usize = 9;
+pub(crate) const RATE_FILTER: usize = 10;
+pub(crate) const RATE_DELAY: usize = 11;
+pub(crate) const CONSTANTS: usize = 12;
+
+/// White noise of thermometer \[K\] and rate \[deg/h\] in a sample where no record tells: of a thermistor, and of a tactical gyroscope.
+pub const USUAL_NOISE: [f64; 2] = [0.012, 0.008];
+
+/// Coloured noise beside white noise, each as in a sample of a minute: data sheets of gyroscopes have a bias instability of about a third of that,
+/// and a random walk in a day of a sixth, over a decade from type to type.
+const DRIFT: (f64, f64) = (0.3, 1.2);
+const DRIFT_TIME: (f64, f64) = (5000.0, 0.8);
+const WALK_IN_A_DAY: (f64, f64) = (0.18, 1.5);
+const WHITE_SPREAD: f64 = 0.5;
+pub(crate) const MINUTE: f64 = 60.0;
+const DAY: f64 = 86_400.0;
+
+/// What is left of the noise of the chamber's thermometer, passed through the coil to thermometer and rate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Passed {
+    /// Standard deviations.
+    pub(crate) sd: [f64; 2],
+    /// Correlation times \[s\].
+    pub(crate) time: [f64; 2],
+}
+
+impl Passed {
+    pub(crate) const NONE: Self = Self { sd: [0.0; 2], time: [1.0; 2] };
+}
+
+/// Uncertainty of its size: smoothing says how much noise is left in a quiet stretch, not at every turn of a programme.
+const PASSED_SPREAD: f64 = 0.5;
+
+/// Thermometer and rate; `white` is what each has of white noise in a sample of `interval` \[s\].
+pub(crate) fn channels(averaging: f64, white: [f64; 2], interval: f64, passed: Passed) -> Vec<Channel> {
+    let noise = |channel: usize| {
+        let white = white[channel];
+        let in_a_minute = white * (interval / MINUTE).sqrt();
+        NoisePrior {
+            white: (white, WHITE_SPREAD),
+            drift: (in_a_minute * DRIFT.0, DRIFT.1),
+            drift_time: DRIFT_TIME,
+            walk: (in_a_minute * WALK_IN_A_DAY.0 / DAY.sqrt(), WALK_IN_A_DAY.1),
+            passed: (passed.sd[channel], PASSED_SPREAD),
+            passed_time: passed.time[channel].max(interval),
+        }
+    };
+    // a thermometer's offset and Earth's rate say nothing of the coil
+    let channel = |name: &str, unit: &str, averaging: f64, number: usize| Channel {
+        name: name.into(),
+        unit: unit.into(),
+        offset_sd: f64::INFINITY,
+        averaging,
+        noise: noise(number),
+    };
+    vec![channel("spool_c", "degC", 0.0, SPOOL), channel("rate_deg_per_h", "deg/h", averaging, RATE)]
+}
+
+/// What the forward model is off by: discretisation, and a start that was not quite at rest.
+const GAIN_ERROR: f64 = 0.003;
+/// The Shupe part is what differences of temperature within the coil leave: small, and the first to feel a coarse mesh or a coarse record.
+const SHUPE_ERROR: f64 = 0.006;
+const REST_ERROR_K: f64 = 0.005;
+
+/// Gain of a thermometer about its span's middle: class B of IEC 60751 is 0.3 K + 0.5 % of the temperature.
+const THERMOMETER_GAIN: f64 = 0.004;
+/// How late the chamber's readings may be against the gyroscope's \[s\]: a thermometer's time constant in moving air, and a clock that is read by
+/// the minute, together.
+const DELAY_S: f64 = 45.0;
+/// Square of the time constant of the chamber's thermometer \[s²\]: half a minute's, either way. Of a thermometer with the time constant τ on a
+/// log that is late by c, the delay τ + c is the first cumulant and τ² the second: in them the response is linear, which it is not in τ and c.
+const LAG_SQUARED_S2: f64 = 1000.0;
+
+/// Square of the time constant of the gyroscope's output filter beyond its averaging \[s²\], some twenty seconds', either way.
+const FILTER_SQUARED_S2: f64 = 500.0;
+/// How late the rate's readings may be against the spool's thermometer \[s\]: another logger, and the filter.
+const RATE_DELAY_S: f64 = 5.0;
+
+/// Everything about a unit and its instruments that is known to a tolerance only; `noise` is that of the chamber's thermometer \[K\], from which the
+/// start is known.
+pub(crate) fn nuisances(design: &Design, tolerances: &Tolerances, noise: f64) -> Vec<Nuisance> {
+    let sensor = |name: &str, mean: f64, sd: f64| Nuisance::normal(name, mean, sd, Role::Sensor);
+    let mut all = vec![
+        Nuisance::normal("gain of the rate", 1.0, GAIN_ERROR, Role::ModelError),
+        Nuisance::normal("gain of the Shupe part (model)", 1.0, SHUPE_ERROR, Role::ModelError),
+        Nuisance { local: true, ..Nuisance::normal("start off rest [K]", 0.0, REST_ERROR_K.hypot(noise), Role::ModelError) },
+        sensor("gain of the chamber's thermometer", 1.0, THERMOMETER_GAIN),
+        sensor("delay of the chamber's readings [s]", 0.0, DELAY_S),
+        sensor("squared lag of the chamber's thermometer [s2]", 0.0, LAG_SQUARED_S2),
+        sensor("gain of the spool's thermometer", 1.0, THERMOMETER_GAIN),
+    ];
+    all.extend(others(design, tolerances));
+    all.push(sensor("squared time constant of the rate's filter [s2]", 0.0, FILTER_SQUARED_S2));
+    all.push(sensor("delay of the rate's readings [s]", 0.0, RATE_DELAY_S));
+    all.extend(constants(design, tolerances).iter().map(|constant| constant.nuisance()));
+    all
+}
