@@ -98,6 +98,8 @@ mod tests {
         <Chore as clap::CommandFactory>::command().debug_assert();
         assert!(matches!(parsed("figures"), Ok(Chore::Figures { out }) if out.as_os_str() == "docs/pictures"));
         assert!(matches!(parsed("prove --sealed --again x"), Ok(Chore::Prove(_))));
+        assert!(matches!(parsed("prove --ordinary --unit U1847 --unit U4615"), Ok(Chore::Prove(_))));
+        assert!(matches!(parsed("prove --ordinary --sealed"), Ok(Chore::Prove(_))));
         assert!(matches!(parsed("docs-check --page README.md"), Ok(Chore::DocsCheck(_))));
         assert!(matches!(parsed("bench cell --repetitions 3"), Ok(Chore::Bench(_))));
         assert!(matches!(parsed("prove --synthetic --nulls 5 --seed 7 --concealed 0"), Ok(Chore::Prove(_))));
@@ -119,6 +121,8 @@ mod tests {
             "prove --seed 3",
             "prove --synthetic --nulls -1",
             "prove --synthetic --recommended",
+            "prove --ordinary --case 3",
+            "prove --unit U1847",
             "docs-check --tutorial --write",
             "identify --cells 0",
             "bench",

@@ -53,8 +53,8 @@ pub use layout::{Layout, Rectangle, Region};
 pub use mechanics::{MechanicalState, Relaxation};
 pub use model::{BiasOperator, Model};
 pub use parametric::{
-    Courses, Effort as ModelEffort, MODEL_SAFETY, Number, Parameter, ParametricModel, Projected, Range, Slopes, Tolerance,
-    Tolerances,
+    Courses, Effort as ModelEffort, MODEL_SAFETY, MODULI, Number, Parameter, ParametricModel, Projected, Range, Slopes,
+    Tolerance, Tolerances,
 };
 pub use profile::Profile;
 pub use sensitivity::{CHECKS, COARSE, FINE, SAFETY, SHARE, STEADY, SteadySensitivity, steady_sensitivity};

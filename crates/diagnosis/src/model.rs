@@ -35,6 +35,13 @@ pub struct NoisePrior {
     pub passed_time: f64,
 }
 
+impl NoisePrior {
+    /// Where the drive is known: of white noise, drift, its correlation time and random walk.
+    pub fn new(white: (f64, f64), drift: (f64, f64), drift_time: (f64, f64), walk: (f64, f64)) -> Self {
+        Self { white, drift, drift_time, walk, passed: (0.0, 1.0), passed_time: 1.0 }
+    }
+}
+
 /// When an uncertain number of the nominal model is let free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {

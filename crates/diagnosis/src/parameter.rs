@@ -43,6 +43,11 @@ impl Prior {
         }
     }
 
+    /// Standard deviation where it is normal; else half of what u from −1 to 1 spans.
+    pub fn sd(&self) -> f64 {
+        (self.value(1.0) - self.value(-1.0)).abs() / 2.0
+    }
+
     /// The u of a value; of one outside the prior's range, the nearest that is looked at.
     pub fn standard(&self, value: f64) -> f64 {
         let u = match *self {
@@ -73,11 +78,6 @@ impl Parameter {
     /// A parameter on which the response depends smoothly.
     pub fn new(name: impl Into<String>, prior: Prior) -> Self {
         Self { name: name.into(), prior, step: 0.02, around: Vec::new() }
-    }
-
-    /// Standard deviation of what is known of it beforehand, where that is normal; else half of what u from −1 to 1 spans.
-    pub fn sd(&self) -> f64 {
-        (self.prior.value(1.0) - self.prior.value(-1.0)).abs() / 2.0
     }
 
     /// The same with another step for differences.

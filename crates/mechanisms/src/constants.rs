@@ -63,7 +63,7 @@ fn name(parameter: Parameter) -> &'static str {
         Parameter::CoilDensity => "density of the coil",
         Parameter::AxialModulus => "E_z",
         Parameter::TransverseModulus => "E_r and G",
-        Parameter::ShearModulus => "G",
+        Parameter::ShearRatio => "G/E_r",
         Parameter::AxialPoisson => "nu_zr",
         Parameter::TransversePoisson => "nu_r",
         Parameter::AxialExpansion => "alpha_z",

@@ -2,13 +2,15 @@
 
 use crate::chain::{Chain, add};
 use crate::constants::Constant;
-use crate::instruments::{self, MINUTE, Passed, USUAL_NOISE, channels, nuisances};
+use crate::instruments::{self, MINUTE, USUAL_NOISE, channels, nuisances};
 use crate::library::Library;
 use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Scene, Sight};
-use crate::response::{Delay, Parts, Prepared, Series};
+use crate::passed::Passed;
+use crate::response::{Delay, Parts, Prepared, Series, total};
 use crate::{REFERENCE_C, lagged};
 use coil::{Design, Error};
 use diagnosis::{Active, Channel, ForwardModel, Latent, Nuisance, State};
+use recording::median_interval;
 use std::cell::RefCell;
 use std::sync::Arc;
 
@@ -69,7 +71,8 @@ impl<'m> Gyro<'m> {
         let temperatures = || records.iter().take(fitted).flat_map(|r| r.coil.iter().copied());
         let coldest = temperatures().fold(f64::INFINITY, f64::min);
         let range = [coldest, temperatures().fold(f64::NEG_INFINITY, f64::max).max(coldest + 1e-3)];
-        let (averaging, interval) = records.first().map_or((0.0, MINUTE), |r| (r.averaging, r.interval()));
+        let (averaging, interval) =
+            records.first().map_or((0.0, MINUTE), |r| (r.averaging, median_interval(&r.time).unwrap_or(MINUTE)));
         let scene = Scene { temperatures: range, noise: white[RATE] * (interval / MINUTE).sqrt() };
         let offered = mechanisms.iter().filter_map(|m| Some((*m, entry(*m, library.design(), &scene)?)));
         let (kinds, mechanisms) = offered.unzip();
@@ -255,8 +258,8 @@ impl ForwardModel for Gyro<'_> {
                 add(&mut thermometer, of_thermometer, 1.0);
             }
         }
-        let mut rate: Vec<f64> =
-            (0..thermometer.len()).map(|n| u[instruments::GAIN] * (parts[0][n] + parts[1][n] + parts[2][n])).collect();
+        let mut rate = total(&parts);
+        rate.iter_mut().for_each(|r| *r *= u[instruments::GAIN]);
         for added in changes().filter_map(|(change, _)| change.rate.as_ref()) {
             add(&mut rate, added, 1.0);
         }
@@ -276,7 +279,7 @@ impl ForwardModel for Gyro<'_> {
         let here = self.here();
         // no thermometer has a negative square: that is left to what is linear
         let wanted = |k: usize| if k == instruments::CHAMBER_LAG_SQUARED { u[k].max(0.0) } else { u[k] };
-        let moved = |k: usize| (wanted(k) - here[k]).abs() / self.nuisances[k].parameter.sd();
+        let moved = |k: usize| (wanted(k) - here[k]).abs() / self.nuisances[k].parameter.prior.sd();
         let places = (instruments::CONSTANTS..u.len()).chain([instruments::CHAMBER_DELAY, instruments::CHAMBER_LAG_SQUARED]);
         if places.map(moved).fold(0.0, f64::max) <= NEAR {
             return Ok(None);

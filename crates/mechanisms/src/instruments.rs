@@ -1,6 +1,7 @@
 //! What is read: channels with their noise, and what instruments and the model itself may be off.
 
 use crate::constants::{constants, others};
+use crate::passed::Passed;
 use crate::{RATE, SPOOL};
 use coil::{Design, Tolerances};
 use diagnosis::{Channel, NoisePrior, Nuisance, Role};
@@ -32,20 +33,7 @@ const WHITE_SPREAD: f64 = 0.5;
 pub(crate) const MINUTE: f64 = 60.0;
 const DAY: f64 = 86_400.0;
 
-/// What is left of the noise of the chamber's thermometer, passed through the coil to thermometer and rate.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Passed {
-    /// Standard deviations.
-    pub(crate) sd: [f64; 2],
-    /// Correlation times \[s\].
-    pub(crate) time: [f64; 2],
-}
-
-impl Passed {
-    pub(crate) const NONE: Self = Self { sd: [0.0; 2], time: [1.0; 2] };
-}
-
-/// Uncertainty of its size: smoothing says how much noise is left in a quiet stretch, not at every turn of a programme.
+/// Uncertainty of the size of what is passed through the coil: smoothing says how much noise is left in a quiet stretch, not at every turn of a programme.
 const PASSED_SPREAD: f64 = 0.5;
 
 /// Thermometer and rate; `white` is what each has of white noise in a sample of `interval` \[s\].

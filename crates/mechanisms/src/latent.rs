@@ -2,7 +2,7 @@
 
 use crate::chain::Chain;
 use crate::mechanism::{Change, Mechanism, Stage, lagged};
-use crate::response::{Parts, Prepared};
+use crate::response::{Prepared, total};
 use coil::Error;
 use diagnosis::Latent;
 
@@ -36,17 +36,13 @@ fn hats(x: &[f64]) -> Vec<Vec<f64>> {
     (0..HATS).map(hat).collect()
 }
 
-fn sum(parts: &Parts) -> Vec<f64> {
-    (0..parts[0].len()).map(|n| parts[0][n] + parts[1][n] + parts[2][n]).collect()
-}
-
 fn times(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a * b).collect()
 }
 
 /// Thermometer and rate, each times every hat.
 fn shaped(change: &Change, hats: &[Vec<f64>]) -> Functions {
-    let rate = sum(&change.parts);
+    let rate = total(&change.parts);
     let still = vec![0.0; rate.len()];
     let sensor = change.thermometer.as_ref().unwrap_or(&still);
     hats.iter().map(|h| vec![times(sensor, h), times(&rate, h)]).collect()
@@ -72,7 +68,7 @@ impl Chain {
             let scaled = |series: &[f64]| series.iter().map(|x| POWER * x).collect();
             thermal.push(self.heated(record, before).map_or_else(
                 || vec![vec![0.0; rows]; 2],
-                |heated| vec![scaled(&heated.sensor), sum(&[0, 1, 2].map(|p: usize| scaled(&heated.parts[p])))],
+                |heated| vec![scaled(&heated.sensor), total(&[0, 1, 2].map(|p: usize| scaled(&heated.parts[p])))],
             ));
         }
         add(Stage::Thermal, thermal);
@@ -81,18 +77,18 @@ impl Chain {
         let wider = Change::of_parts(self.softened(record, |_| (1.0, WIDER)));
         let mut material: Functions = shaped(&softer, &hats);
         material.extend(shaped(&wider, &hats));
-        material.extend(LAGS.iter().map(|lag| of_rate(lagged(&record.time, &sum(&softer.parts), *lag))));
+        material.extend(LAGS.iter().map(|lag| of_rate(lagged(&record.time, &total(&softer.parts), *lag))));
         let constants = self.library().constants.iter().zip(&record.slopes).filter(|(c, _)| c.parameter.of_mechanics());
-        material.extend(constants.map(|(c, slope)| of_rate(sum(&slope.parts).iter().map(|x| x * c.tolerance).collect())));
+        material.extend(constants.map(|(c, slope)| of_rate(total(&slope.parts).iter().map(|x| x * c.tolerance).collect())));
         add(Stage::Material, material);
 
         let bond = record.openings.iter().step_by((record.openings.len() / 2).max(1));
         add(Stage::Bond, bond.flat_map(|(_, open)| shaped(&Change::of_parts(open.clone()), &hats)).collect());
 
         let layers = self.library().design().winding.layers;
-        let mut winding = vec![of_rate(sum(&self.with_tail(record, TAIL)?))];
+        let mut winding = vec![of_rate(total(&self.with_tail(record, TAIL)?))];
         for layer in (1..=layers).step_by(EVERY) {
-            winding.push(of_rate(sum(&self.with_turns(record, layer, 1.0)?)));
+            winding.push(of_rate(total(&self.with_turns(record, layer, 1.0)?)));
         }
         add(Stage::Winding, winding);
 
@@ -115,7 +111,7 @@ impl Chain {
     pub(crate) fn layers(&self, record: &Prepared) -> Result<Latent, Error> {
         let rows = record.time.len();
         let layers = 1..=self.library().design().winding.layers;
-        let of = |layer| Ok(vec![vec![0.0; rows], sum(&self.with_turns(record, layer, 1.0)?)]);
+        let of = |layer| Ok(vec![vec![0.0; rows], total(&self.with_turns(record, layer, 1.0)?)]);
         Ok(Latent { stage: Stage::Winding.name().to_owned(), functions: layers.map(of).collect::<Result<_, Error>>()? })
     }
 }

@@ -14,6 +14,7 @@ mod interpolation;
 mod latent;
 mod library;
 mod mechanism;
+mod passed;
 mod response;
 
 pub use build::ranges;

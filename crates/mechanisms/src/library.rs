@@ -6,8 +6,8 @@ use crate::design::with_tail;
 use crate::interpolation::{cubic_weights, nodes};
 use crate::mechanism::{HeatPath, Mechanism};
 use coil::{
-    Design, Error, HeatPaths, MechanicalState, Mechanics, Output, ParametricModel, Projected, Reduced, Slopes, Tolerances,
-    TurnFields,
+    Design, Error, HeatPaths, MODULI, MechanicalState, Mechanics, Output, ParametricModel, Projected, Reduced, Slopes,
+    Tolerances, TurnFields,
 };
 use nalgebra::{DMatrix, DVector};
 use progress::Step;
@@ -17,8 +17,7 @@ use winding::{Half, LayerDefect, Winding};
 /// The three bias parts as functionals of drives and modes.
 pub(crate) type Functionals = [DVector<f64>; 3];
 
-/// Range of the factor on the transverse moduli that is tabulated.
-const MODULUS: [f64; 2] = [0.15, 2.2];
+/// Factors on the transverse moduli that are tabulated, within the range that is modelled.
 const MODULUS_NODES: usize = 9;
 
 /// All that is solved in full for a design: a parametric model, and the mechanics of open bonds.
@@ -118,7 +117,7 @@ impl Library {
     fn at(models: Arc<Models>, heat_paths: Vec<(String, HeatPath)>, design: Design) -> Result<Self, Error> {
         let model = &models.model;
         let moduli = if design.mechanics == Mechanics::Elastic {
-            nodes(MODULUS[0].ln(), MODULUS[1].ln(), MODULUS_NODES)
+            nodes(MODULI[0].ln(), MODULI[1].ln(), MODULUS_NODES)
         } else {
             Vec::new()
         };

@@ -1,8 +1,7 @@
 //! A library's responses to the chamber of one recording.
 
-use crate::instruments::Passed;
 use crate::library::{Functionals, Library};
-use crate::{RATE, SPOOL};
+use crate::passed::{Passed, passed};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::{Error, Output, Parameter, Profile, Reduced};
 use diagnosis::State;
@@ -33,7 +32,7 @@ pub(crate) struct Clock {
     /// place of each row of the recording
     pub(crate) rows: Vec<usize>,
     /// whether a reading begins at an instant that is not a row's
-    begins: Vec<bool>,
+    pub(crate) begins: Vec<bool>,
 }
 
 impl Delay {
@@ -76,17 +75,12 @@ fn undelayed(time: &[f64], course: &[f64], Delay { lag, clock }: Delay) -> Vec<f
     }
     let rates = recording::condition::slopes(time, course);
     let last = time.len() - 1;
-    let mut k = 0;
     let at = |t: &f64| {
         let t = (t + clock).clamp(time[0], time[last]);
-        while k + 2 <= last && time[k + 1] < t {
-            k += 1;
-        }
-        while k > 0 && time[k] > t {
-            k -= 1;
-        }
-        let share = if last > 0 { (t - time[k]) / (time[k + 1] - time[k]) } else { 0.0 };
-        let between = |x: &[f64]| if last > 0 { x[k] + share * (x[k + 1] - x[k]) } else { x[k] };
+        let after = time.partition_point(|instant| *instant < t).clamp(last.min(1), last);
+        let before = after.saturating_sub(1);
+        let share = if after > before { (t - time[before]) / (time[after] - time[before]) } else { 0.0 };
+        let between = |x: &[f64]| x[before] + share * (x[after] - x[before]);
         between(course) + lag * between(&rates)
     };
     time.iter().map(at).collect()
@@ -143,9 +137,14 @@ impl Course {
         [0, 1, 2].map(|p: usize| (&self.rates * (&functionals[p] * DEG_PER_H_PER_RAD_PER_S)).as_slice().to_vec())
     }
 
-    fn series(&self, model: &Reduced) -> Series {
+    pub(crate) fn series(&self, model: &Reduced) -> Series {
         Series { sensor: self.output(model.thermometer()), parts: self.parts(&model.parts().each_ref().map(Output::vector)) }
     }
+}
+
+/// The rate: all three parts together.
+pub(crate) fn total(parts: &Parts) -> Vec<f64> {
+    (0..parts[0].len()).map(|n| parts[0][n] + parts[1][n] + parts[2][n]).collect()
 }
 
 fn minus(a: &Series, b: &Series) -> Series {
@@ -159,60 +158,6 @@ fn difference(a: &Parts, b: &Parts) -> Parts {
 fn less(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
-
-/// Responses to errors of the chamber's temperature are followed for so many of their own times, and in so many steps of each.
-const FOLLOWED: (usize, usize) = (60, 6);
-
-/// What errors of the chamber's temperature of size `sd` \[K\], each over a `time` \[s\] and independent of the next, do to thermometer and rate.
-///
-/// The response of a channel to them is the sum of its responses h to hats of one error each: its variance is ∫h²/time, its correlation time
-/// that after which the autocorrelation of h has fallen to 1/e.
-fn passed(model: &Reduced, (sd, width): (f64, f64), averaging: f64) -> Passed {
-    if sd <= 0.0 || !width.is_finite() || width <= 0.0 {
-        return Passed::NONE;
-    }
-    let (many, steps) = FOLLOWED;
-    let step = width / steps as f64;
-    let time: Vec<f64> = (0..many * steps).map(|n| step * n as f64).collect();
-    let hat: Vec<f64> = time.iter().map(|t| sd * (1.0 - (t / width - 1.0).abs()).max(0.0)).collect();
-    let clock = Clock { begins: vec![false; time.len()], rows: (0..time.len()).collect(), chamber: hat.clone(), time };
-    let Series { sensor, parts } = Course::new(model, &clock, &[hat], &[0.0]).series(model);
-    let rate: Vec<f64> = (0..sensor.len()).map(|n| parts[0][n] + parts[1][n] + parts[2][n]).collect();
-    // a reading is a mean
-    let window = ((averaging / step).round() as usize).max(1);
-    let mean: Vec<f64> =
-        (0..rate.len()).map(|n| rate[n.saturating_sub(window - 1)..=n].iter().sum::<f64>() / window as f64).collect();
-    let of = |h: &[f64]| {
-        let product = |lag: usize| h.iter().zip(&h[lag..]).map(|(a, b)| a * b).sum::<f64>();
-        let square = product(0);
-        let lag = (1..h.len()).find(|lag| product(*lag) < square / std::f64::consts::E).unwrap_or(h.len());
-        ((square * step / width).sqrt(), lag as f64 * step)
-    };
-    let [spool, rate] = [of(&sensor), of(&mean)];
-    Passed { sd: [spool.0, rate.0], time: [spool.1, rate.1] }
-}
-
-impl Passed {
-    /// With what the model itself is off, which no gain makes up for.
-    fn with_model_error(self, base: &Series) -> Self {
-        let rate: Vec<f64> = (0..base.sensor.len()).map(|n| base.parts[0][n] + base.parts[1][n] + base.parts[2][n]).collect();
-        let with = |channel: usize, by: f64| {
-            let [own, added] = [self.sd[channel].powi(2), by * by];
-            let time = (own * self.time[channel] + added * MODEL_ERROR_TIME) / (own + added).max(f64::MIN_POSITIVE);
-            ((own + added).sqrt(), time)
-        };
-        let size = |series: &[f64]| (series.iter().map(|x| x * x).sum::<f64>() / series.len().max(1) as f64).sqrt();
-        let mean = base.sensor.iter().sum::<f64>() / base.sensor.len().max(1) as f64;
-        let around: Vec<f64> = base.sensor.iter().map(|t| t - mean).collect();
-        let [spool, rate] = [with(SPOOL, MODEL_ERROR[SPOOL] * size(&around)), with(RATE, MODEL_ERROR[RATE] * size(&rate))];
-        Self { sd: [spool.0, rate.0], time: [spool.1, rate.1] }
-    }
-}
-
-/// What a model is off beside its gain, of thermometer and rate, relative to their own size: two codes that solve the same equations on meshes of
-/// their own differ by as much; and the time over which that is one error, of the order of a coil's slowest transients \[s\].
-const MODEL_ERROR: [f64; 2] = [2e-4, 1.5e-3];
-const MODEL_ERROR_TIME: f64 = 1500.0;
 
 /// What was recorded of the chamber.
 #[derive(Debug, Clone)]
@@ -296,13 +241,6 @@ impl Prepared {
     /// Instants \[s\].
     pub fn time(&self) -> &[f64] {
         &self.time
-    }
-
-    /// Median time between rows \[s\].
-    pub(crate) fn interval(&self) -> f64 {
-        let mut steps: Vec<f64> = self.time.windows(2).map(|t| t[1] - t[0]).collect();
-        steps.sort_by(f64::total_cmp);
-        steps.get(steps.len() / 2).copied().unwrap_or(60.0)
     }
 
     /// Temperature of the chamber in every row, freed of its sensor's noise \[°C\].
@@ -419,7 +357,7 @@ impl Clock {
     /// Derivatives of thermometer and mean bias parts by every constant, in the rows.
     fn slopes(&self, library: &Library) -> Vec<Series> {
         // derivatives need no steps between the readings
-        let kept: Vec<usize> = (0..self.time.len()).filter(|n| n % BETWEEN == 0 || *n + 1 == self.time.len()).collect();
+        let kept: Vec<usize> = (0..self.time.len()).step_by(BETWEEN).collect();
         let of = |series: &[f64]| -> Vec<f64> { kept.iter().map(|&n| series[n]).collect() };
         let (time, chamber) = (of(&self.time), of(&self.chamber));
         let first = chamber[0];

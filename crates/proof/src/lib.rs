@@ -27,6 +27,7 @@ mod failure;
 pub mod files;
 pub mod generator;
 mod identified;
+mod ordinary;
 pub mod peers;
 pub mod program;
 pub mod statistics;

@@ -8,7 +8,7 @@ use std::cmp::Reverse;
 use std::ops::Range;
 
 use crate::Error;
-use crate::series::{GAP, check_series, interval};
+use crate::series::{GAP, check_series, median_interval};
 use crate::statistics::chi_square_quantile;
 
 /// One point of an Allan plot.
@@ -48,7 +48,7 @@ const SHORTEST: usize = 8;
 /// [`Error::Length`], [`Error::Time`], [`Error::Value`] for bad series; [`Error::TooFew`] for fewer than eight rows.
 pub fn allan(time: &[f64], values: &[f64], mask: &[bool]) -> Result<Vec<AllanPoint>, Error> {
     let used = check_series(time, mask, &[("values", values)])?;
-    let Some(interval) = interval(time).filter(|_| used >= SHORTEST) else {
+    let Some(interval) = median_interval(time).filter(|_| used >= SHORTEST) else {
         return Err(Error::TooFew { found: used, needed: SHORTEST });
     };
     let lattice = Lattice::new(time, values, mask, interval);

@@ -14,3 +14,4 @@ pub mod statistics;
 
 pub use error::Error;
 pub use record::{Channel, Recording, Sampling};
+pub use series::median_interval;

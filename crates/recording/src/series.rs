@@ -7,7 +7,7 @@ use crate::statistics::median;
 pub(crate) const GAP: f64 = 1.5;
 
 /// Median time between rows \[s\]; `None` of fewer than two.
-pub(crate) fn interval(time: &[f64]) -> Option<f64> {
+pub fn median_interval(time: &[f64]) -> Option<f64> {
     median(time.windows(2).map(|pair| pair[1] - pair[0]).collect())
 }
 

@@ -51,7 +51,10 @@ impl Parser<'_> {
         match self.next() {
             Some('(') => self.group(),
             Some('[') => self.list('[', ']').map(Value::Array),
-            Some('{') => self.map(),
+            Some('{') => self.object('{', '}', |parser| {
+                parser.next();
+                parser.text()
+            }),
             Some('"') => self.text().map(Value::String),
             Some(c) if c.is_alphabetic() => self.name(),
             Some(_) => {
@@ -90,34 +93,21 @@ impl Parser<'_> {
         if !keyed {
             return self.list('(', ')').map(Value::Array);
         }
-        self.take('(');
-        let mut object = Map::new();
-        while !self.take(')') {
-            let key = self.word();
-            if !self.take(':') {
-                return Err(format!("`{key}` wants a colon and a value"));
-            }
-            object.insert(key, self.value()?);
-            if !self.take(',') && self.next() != Some(')') {
-                return Err("a comma or `)` is missing".into());
-            }
-        }
-        Ok(Value::Object(object))
+        self.object('(', ')', |parser| Ok(parser.word()))
     }
 
-    /// Values by texts between braces.
-    fn map(&mut self) -> Result<Value, String> {
-        self.take('{');
+    /// Values by keys.
+    fn object(&mut self, open: char, close: char, key: fn(&mut Self) -> Result<String, String>) -> Result<Value, String> {
+        self.take(open);
         let mut object = Map::new();
-        while !self.take('}') {
-            self.next();
-            let key = self.text()?;
+        while !self.take(close) {
+            let key = key(self)?;
             if !self.take(':') {
                 return Err(format!("`{key}` wants a colon and a value"));
             }
             object.insert(key, self.value()?);
-            if !self.take(',') && self.next() != Some('}') {
-                return Err("a comma or `}` is missing".into());
+            if !self.take(',') && self.next() != Some(close) {
+                return Err(format!("a comma or `{close}` is missing"));
             }
         }
         Ok(Value::Object(object))

@@ -20,7 +20,7 @@ const RATES: usize = 8;
 const SAMPLES: usize = 250;
 
 /// Factors on the transverse moduli that states may have.
-pub(super) const MODULI: [f64; 2] = [0.15, 2.2];
+pub const MODULI: [f64; 2] = [0.15, 2.2];
 
 /// States of the mechanics that laws with a state go through.
 const STATES: [MechanicalState; 3] = [
@@ -319,7 +319,7 @@ impl Parameter {
             self,
             Self::AxialModulus
                 | Self::TransverseModulus
-                | Self::ShearModulus
+                | Self::ShearRatio
                 | Self::AxialPoisson
                 | Self::TransversePoisson
                 | Self::AxialExpansion

@@ -16,7 +16,7 @@ mod strip;
 mod structure;
 mod tolerance;
 
-pub use build::Effort;
+pub use build::{Effort, MODULI};
 pub use parameter::{Parameter, Range};
 pub use slopes::{Courses, Slopes};
 pub use tolerance::{Number, Tolerance, Tolerances};
@@ -258,7 +258,7 @@ impl ParametricModel {
             let problem = "a bond that is open has a mechanical model of its own; see ParametricModel::project";
             return Err(Error::design("mechanics", problem.into()));
         }
-        let [softest, stiffest] = build::MODULI;
+        let [softest, stiffest] = MODULI;
         // a hair of rounding: nodes are even in the logarithm
         let beyond = |factor: f64| !(softest * (1.0 - 1e-9)..=stiffest * (1.0 + 1e-9)).contains(&factor);
         if let Some(state) = states.iter().find(|s| beyond(s.transverse_modulus)) {

@@ -17,8 +17,8 @@ pub enum Parameter {
     AxialModulus,
     /// E_r of the coil \[Pa\]; G_zr keeps its ratio to it.
     TransverseModulus,
-    /// G_zr of the coil \[Pa\].
-    ShearModulus,
+    /// G_zr/E_r of the coil.
+    ShearRatio,
     /// ν_zr of the coil.
     AxialPoisson,
     /// ν_r of the coil.
@@ -134,7 +134,7 @@ impl Parameter {
         Self::CoilDensity,
         Self::AxialModulus,
         Self::TransverseModulus,
-        Self::ShearModulus,
+        Self::ShearRatio,
         Self::AxialPoisson,
         Self::TransversePoisson,
         Self::AxialExpansion,
@@ -169,7 +169,7 @@ impl Parameter {
     pub fn tolerance(self) -> Tolerance {
         match self {
             Self::CoilConductivity | Self::TransverseModulus | Self::MediumConductivity | Self::Film => Tolerance::Relative(0.10),
-            Self::CoilSpecificHeat | Self::ShearModulus | Self::SpoolConductivity | Self::MediumSpecificHeat => {
+            Self::CoilSpecificHeat | Self::ShearRatio | Self::SpoolConductivity | Self::MediumSpecificHeat => {
                 Tolerance::Relative(0.05)
             }
             Self::TransverseExpansion | Self::AxialExpansion => Tolerance::Relative(0.05),
@@ -197,7 +197,7 @@ impl Parameter {
             Self::CoilDensity => Some(body.density),
             Self::AxialModulus => Some(body.elastic.e_z),
             Self::TransverseModulus => Some(body.elastic.e_r),
-            Self::ShearModulus => Some(body.elastic.g_zr),
+            Self::ShearRatio => Some(body.elastic.g_zr / body.elastic.e_r),
             Self::AxialPoisson => Some(body.elastic.nu_zr),
             Self::TransversePoisson => Some(body.elastic.nu_r),
             Self::AxialExpansion => Some(body.elastic.alpha_z),
@@ -272,7 +272,7 @@ impl Parameter {
                 body.elastic.g_zr *= value / before;
                 body.elastic.e_r = value;
             }
-            Self::ShearModulus => body.elastic.g_zr = value,
+            Self::ShearRatio => body.elastic.g_zr = value * body.elastic.e_r,
             Self::AxialPoisson => body.elastic.nu_zr = value,
             Self::TransversePoisson => body.elastic.nu_r = value,
             Self::AxialExpansion => body.elastic.alpha_z = value,

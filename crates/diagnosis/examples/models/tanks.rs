@@ -104,14 +104,7 @@ impl Tanks {
     /// they were measured to a tenth.
     pub(crate) fn new(feeds: Vec<Feed>, doubt: f64) -> Self {
         // Bernoulli's law is good for a tenth of a volt
-        let noise = NoisePrior {
-            white: (0.1, 0.3),
-            drift: (0.1, 0.3),
-            drift_time: (100.0, 0.5),
-            walk: (1e-6, 0.5),
-            passed: (0.0, 1.0),
-            passed_time: 1.0,
-        };
+        let noise = NoisePrior::new((0.1, 0.3), (0.1, 0.3), (100.0, 0.5), (1e-6, 0.5));
         let channel = Channel { name: "lower level".into(), unit: "V".into(), offset_sd: 0.05, averaging: 0.0, noise };
         let mut tanks =
             Self { feeds, states: Vec::new(), channels: vec![channel], nuisances: constants(doubt), mechanisms: library() };

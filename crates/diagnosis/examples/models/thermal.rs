@@ -43,27 +43,13 @@ fn mechanism(id: &str, stage: &str, parameters: &[(&str, Prior)], starts: &[&[f6
 
 /// Noise of a sensor whose rows scatter by `white`: slow terms of a few times that.
 pub(crate) fn coloured(white: f64) -> NoisePrior {
-    NoisePrior {
-        white: (white, 0.5),
-        drift: (3.0 * white, 0.7),
-        drift_time: (200.0, 0.7),
-        walk: (1e-3 * white, 1.0),
-        passed: (0.0, 1.0),
-        passed_time: 1.0,
-    }
+    NoisePrior::new((white, 0.5), (3.0 * white, 0.7), (200.0, 0.7), (1e-3 * white, 1.0))
 }
 
 /// Noise that is white alone: a fit under it is one by least squares.
 pub(crate) fn plain(white: f64) -> NoisePrior {
     let none = (1e-6 * white, 1e-3);
-    NoisePrior {
-        white: (white, 2.0),
-        drift: none,
-        drift_time: (200.0, 1e-3),
-        walk: (1e-9 * white, 1e-3),
-        passed: (0.0, 1.0),
-        passed_time: 1.0,
-    }
+    NoisePrior::new((white, 2.0), none, (200.0, 1e-3), (1e-9 * white, 1e-3))
 }
 
 impl Thermal {

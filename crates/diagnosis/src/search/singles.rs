@@ -24,7 +24,7 @@ impl<M: ForwardModel> Pool<'_, M> {
         let mut leader = self.fitter.fit(&nominal.hypothesis, &calm, Some(nominal))?;
         let mut round = 0;
         loop {
-            let fits = self.round(round, nominal, &leader)?;
+            let fits = self.round(round, &leader)?;
             let best = self.fitter.fit_with_noise(&fits[0].hypothesis, &fits[0], 2)?;
             let gained = best.log_evidence - if round == 0 { nominal.log_evidence } else { leader.log_evidence };
             if round == 0 || gained > LEADS {
@@ -38,14 +38,13 @@ impl<M: ForwardModel> Pool<'_, M> {
     }
 
     /// Every mechanism, with every choice, and the constants re-estimated, under the leader's noise; best first.
-    fn round(&self, round: usize, nominal: &Fit, leader: &Fit) -> Result<Vec<Fit>, Error<M::Error>> {
-        let known = if round > 0 { leader } else { nominal };
+    fn round(&self, round: usize, leader: &Fit) -> Result<Vec<Fit>, Error<M::Error>> {
         let count = self.singles.len();
         let mut fits: Vec<Fit> = Vec::new();
         for (k, hypotheses) in self.singles.iter().enumerate() {
             (self.progress)(Step::counted(SINGLES, round * count + k, ROUNDS * count));
             for hypothesis in hypotheses {
-                fits.push(self.fitter.fit(hypothesis, &leader.noise, Some(known))?);
+                fits.push(self.fitter.fit(hypothesis, &leader.noise, Some(leader))?);
             }
         }
         fits.push(self.fitter.fit(&Hypothesis::RECALIBRATED, &leader.noise, Some(leader))?);

@@ -33,14 +33,7 @@ impl Lines {
 
     /// The same in a unit of which `unit` make one.
     pub(crate) fn in_unit(rows: usize, unit: f64) -> Self {
-        let noise = NoisePrior {
-            white: (WHITE * unit, KNOWN),
-            drift: (TINY * unit, KNOWN),
-            drift_time: (1000.0, KNOWN),
-            walk: (TINY * unit, KNOWN),
-            passed: (0.0, 1.0),
-            passed_time: 1.0,
-        };
+        let noise = NoisePrior::new((WHITE * unit, KNOWN), (TINY * unit, KNOWN), (1000.0, KNOWN), (TINY * unit, KNOWN));
         let mechanism = |id: &str| Omission {
             id: id.into(),
             stage: "any".into(),

@@ -47,7 +47,7 @@ pub(crate) struct CoilFile {
     /// From the coil's strains to those of the glass.
     pub(crate) dehomogenization: DehomogenizationFile,
     /// One standard deviation of what a unit may be from this drawing, by the keys of its numbers; usual ones where none is given.
-    #[serde(default, skip_serializing_if = "TolerancesFile::is_empty")]
+    #[serde(default, deserialize_with = "super::tolerances::each_once", skip_serializing_if = "TolerancesFile::is_empty")]
     pub(crate) tolerances: TolerancesFile,
 }
 

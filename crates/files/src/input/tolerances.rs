@@ -1,10 +1,12 @@
 //! The tolerances of `COIL.ron`: how far a unit may be from the drawing.
 
 use std::collections::BTreeMap;
+use std::fmt::Formatter;
 
 use coil::{Design, Number, Parameter, Tolerance, Tolerances};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::{Error, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::InputError;
 use super::group::Group;
@@ -19,6 +21,29 @@ pub(crate) enum ToleranceFile {
 /// Tolerances by the keys of the numbers that they are of.
 pub(crate) type TolerancesFile = BTreeMap<String, ToleranceFile>;
 
+/// Reads tolerances, no key twice.
+pub(super) fn each_once<'de, D: Deserializer<'de>>(deserializer: D) -> Result<TolerancesFile, D::Error> {
+    struct Keys;
+    impl<'de> Visitor<'de> for Keys {
+        type Value = TolerancesFile;
+
+        fn expecting(&self, formatter: &mut Formatter) -> std::fmt::Result {
+            formatter.write_str("tolerances by the keys of their numbers")
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<TolerancesFile, A::Error> {
+            let mut all = TolerancesFile::new();
+            while let Some((key, tolerance)) = entries.next_entry::<String, _>()? {
+                if all.insert(key.clone(), tolerance).is_some() {
+                    return Err(A::Error::custom(format!("{key:?} has two tolerances")));
+                }
+            }
+            Ok(all)
+        }
+    }
+    deserializer.deserialize_map(Keys)
+}
+
 const MM: f64 = 1e-3;
 const MPA: f64 = 1e6;
 const GPA: f64 = 1e9;
@@ -27,7 +52,7 @@ const GPA: f64 = 1e9;
 const KEYS: &[(&str, Number, f64)] = &[
     ("coil.material.e_z_gpa", Number::Constant(Parameter::AxialModulus), GPA),
     ("coil.material.e_r_mpa", Number::Constant(Parameter::TransverseModulus), MPA),
-    ("coil.material.g_zr_mpa", Number::Constant(Parameter::ShearModulus), MPA),
+    ("coil.material.g_zr_mpa", Number::Constant(Parameter::ShearRatio), MPA),
     ("coil.material.nu_zr", Number::Constant(Parameter::AxialPoisson), 1.0),
     ("coil.material.nu_r", Number::Constant(Parameter::TransversePoisson), 1.0),
     ("coil.material.alpha_z_per_k", Number::Constant(Parameter::AxialExpansion), 1.0),
@@ -74,6 +99,8 @@ pub(super) fn tolerances(at: &Group, file: &TolerancesFile, design: &Design) -> 
         let Some(drawn) = drawn else {
             return Err(at.fault("", format!("{key:?} has a tolerance, but the design has no such number"), "remove it"));
         };
+        // G_zr varies as a ratio to E_r
+        let unit = if *number == Number::Constant(Parameter::ShearRatio) { unit / design.body.elastic.e_r } else { *unit };
         let (value, unit) = match tolerance {
             ToleranceFile::Relative(value) => (*value, None),
             ToleranceFile::Absolute(value) => (*value, Some(unit)),
@@ -87,6 +114,9 @@ pub(super) fn tolerances(at: &Group, file: &TolerancesFile, design: &Design) -> 
         }
         if unit.is_none() && *number == Number::Tail {
             return of("a share of a tail's length says nothing where it is 0; give it in m".into());
+        }
+        if *number != Number::Tail && drawn == 0.0 {
+            return of("the design's own value is 0, of which nothing varies".into());
         }
         let share = unit.map_or(value, |unit| value * unit / drawn.abs());
         if *number != Number::Tail && share > MOST {
@@ -151,6 +181,10 @@ mod tests {
             ("\"coil.density_kg_per_m3\": Absolute(1000.0)", "of the value is more than 0.5"),
             ("\"heat.film_w_per_m2k\": Relative(0.1)", "the design has no such number"),
             ("\"coil.density_kg_per_m3\": 0.1", "tolerances"),
+            (
+                "\"coil.density_kg_per_m3\": Relative(0.1), \"coil.density_kg_per_m3\": Relative(0.2)",
+                "\"coil.density_kg_per_m3\" has two tolerances",
+            ),
         ];
         for (entry, expected) in cases {
             assert!(with(entry).contains(expected), "{entry}: {}", with(entry));

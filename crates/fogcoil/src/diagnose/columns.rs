@@ -22,7 +22,7 @@ pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record, answered: &[f
     let predicted = gyro.respond(number, &expected(gyro.nuisances()), &[])?;
     let Observation { time, channels } = &record.observed;
     let (spool, rate) = (&channels[SPOOL_CHANNEL], &channels[RATE_CHANNEL]);
-    let left = rms(spool, &predicted[SPOOL_CHANNEL], 1.0);
+    let left = spread(spool, &predicted[SPOOL_CHANNEL], 1.0);
     if left > FAIR_K {
         let exchanged = [
             (format!("{SPOOL} and {RATE}"), &record.chamber, rate),
@@ -30,7 +30,7 @@ pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record, answered: &[f
             (format!("{CHAMBER} and {RATE}"), rate, spool),
         ];
         for (columns, chamber, thermometer) in exchanged {
-            let would = rms(thermometer, &thermometer_under(gyro.library(), time, chamber)?, 1.0);
+            let would = spread(thermometer, &thermometer_under(gyro.library(), time, chamber)?, 1.0);
             if SUSPECT * would < left && would < answered[SPOOL_CHANNEL] {
                 let [left, would] = [left, would].map(|k| significant(k, 2));
                 let text = format!(
@@ -41,7 +41,7 @@ pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record, answered: &[f
             }
         }
     }
-    let [left, would] = [1.0, -1.0].map(|sign| rms(rate, &predicted[RATE_CHANNEL], sign));
+    let [left, would] = [1.0, -1.0].map(|sign| spread(rate, &predicted[RATE_CHANNEL], sign));
     Ok((REVERSED * would < left && would < answered[RATE_CHANNEL]).then(|| {
         let [left, would] = [left, would].map(|r| significant(r, 2));
         let text = format!(
@@ -60,7 +60,7 @@ fn thermometer_under(library: &Library, time: &[f64], chamber: &[f64]) -> Result
 }
 
 /// Standard deviation of what is recorded less `sign` times what is predicted; 0 where nothing is recorded.
-fn rms(recorded: &[f64], predicted: &[f64], sign: f64) -> f64 {
+fn spread(recorded: &[f64], predicted: &[f64], sign: f64) -> f64 {
     let left: Vec<f64> = recorded.iter().zip(predicted).map(|(y, p)| y - sign * p).filter(|r| r.is_finite()).collect();
     let count = left.len().max(1) as f64;
     let mean = left.iter().sum::<f64>() / count;

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::Outcome;
 
-/// Standard deviations from the drawing, or how much better it is known than before, from which a constant is worth a line.
+/// Standard deviations from the drawing from which a constant is worth a line.
 const MOVED: f64 = 1.0;
 
 /// A number of design or instrument as the records leave it.
@@ -46,11 +46,9 @@ impl Outcome {
     pub(super) fn constants_json(&self) -> Value {
         let of = |c: &Constant| {
             let p = &c.posterior;
-            let known = p.prior.value(0.0);
-            let before = (p.prior.value(1.0) - p.prior.value(-1.0)) / 2.0;
             json!({
                 "name": p.name, "kind": c.kind, "value": p.value(), "ci90": p.ci90(),
-                "drawing": known, "tolerance": before, "moved_sigma": c.moved(),
+                "drawing": p.prior.value(0.0), "tolerance": p.prior.sd(), "moved_sigma": c.moved(),
             })
         };
         Value::Array(self.constants().iter().map(of).collect())

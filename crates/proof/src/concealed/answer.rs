@@ -29,12 +29,26 @@ pub(crate) struct Answer {
     pub(crate) structure: Option<String>,
     #[serde(default)]
     pub(crate) holdout: Option<Held>,
+    /// What the records leave of the design's constants and the instruments.
+    #[serde(default)]
+    pub(crate) constants: Vec<Constant>,
+}
+
+/// A constant as it is left.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+pub(crate) struct Constant {
+    pub(crate) name: String,
+    pub(crate) value: f64,
+    pub(crate) ci90: [f64; 2],
+    /// In the drawing.
+    pub(crate) drawing: f64,
 }
 
 /// What was fitted, held against the record held out, whether it was accepted or not.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
 pub(crate) struct Held {
     pub(crate) rmse_model: f64,
+    pub(crate) rmse_nominal: f64,
 }
 
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]

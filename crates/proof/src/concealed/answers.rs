@@ -65,7 +65,7 @@ fn answers(from: &Path, units: &[String], coil: &CoilCase, cache: &Cache, clock:
 }
 
 /// Writes the answers into a folder, all or none.
-fn write(into: &Path, units: &[String], answers: &[Written], program: Option<&str>) -> Result<(), Failure> {
+pub(crate) fn write(into: &Path, units: &[String], answers: &[Written], program: Option<&str>) -> Result<(), Failure> {
     let contents = answers.iter().flatten().cloned();
     let mut all: Vec<(PathBuf, String)> = units.iter().flat_map(|unit| paths(into, unit)).zip(contents).collect();
     all.extend(program.map(|hash| (into.join(PROGRAM), format!("{hash}\n"))));
@@ -105,7 +105,7 @@ pub(crate) fn open(only: &[String]) -> Result<Vec<Case>, Failure> {
 }
 
 /// Name of the file that says which program answered.
-const PROGRAM: &str = "PROGRAM";
+pub(crate) const PROGRAM: &str = "PROGRAM";
 
 /// Answers the sealed units into `fixtures/concealed/answers`, once.
 pub(crate) fn sealed() -> Result<bool, Failure> {

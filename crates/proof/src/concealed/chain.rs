@@ -46,12 +46,12 @@ pub(crate) fn rms(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// Mean of what is not NaN.
-pub(super) fn mean(values: impl Iterator<Item = f64>) -> f64 {
+pub(crate) fn mean(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.filter(|v| !v.is_nan()).fold((0.0, 0_usize), |(sum, count), v| (sum + v, count + 1));
     sum / count.max(1) as f64
 }
 
-fn used(case: &RecordCase, channel: &str) -> Result<Series, Failure> {
+pub(crate) fn used(case: &RecordCase, channel: &str) -> Result<Series, Failure> {
     let missing = || Failure(format!("{}: there is no {channel}", case.fingerprint.file.display()));
     Ok(case.report.used(&case.recording).channel(channel).ok_or_else(missing)?.values.clone())
 }

@@ -16,8 +16,17 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::files::root;
-use crate::{Failure, program};
+use crate::{Failure, ordinary, program};
 use score::Scored;
+
+pub(crate) use answer::{Answer, Constant, MORE_THAN_NOT, Written, answered, record};
+#[cfg(test)]
+pub(crate) use answer::{Fitted, Probable};
+pub(crate) use answers::{PROGRAM, each, write};
+pub(crate) use chain::{mean, rms, used};
+pub(crate) use report::{lines, markdown, publish};
+pub(crate) use score::{HeldOut, Parameter};
+pub(crate) use summary::{Bound, Form, ScoreRow, failures};
 
 /// Diagnose units that conceal something, and hold the answers against the truth
 ///
@@ -27,6 +36,12 @@ pub struct Prove {
     /// An open unit by its number, instead of all of fixtures/concealed/open
     #[arg(long = "case", value_name = "NN", value_parser = case, group = "units")]
     cases: Vec<String>,
+    /// Ordinary units of three drawings, fixtures/ordinary, instead; with --sealed, its sealed ones, once
+    #[arg(long, conflicts_with_all = ["cases", "recommended", "synthetic", "again"])]
+    ordinary: bool,
+    /// Of the ordinary open units one by its name
+    #[arg(long = "unit", value_name = "NAME", requires = "ordinary", conflicts_with = "sealed")]
+    names: Vec<String>,
     /// Answer the sealed units, once
     #[arg(long, group = "units")]
     sealed: bool,
@@ -51,6 +66,9 @@ fn case(number: &str) -> Result<String, std::num::ParseIntError> {
 impl Prove {
     /// Runs it: whether everything is as asked. [`Failure`] says what went wrong.
     pub fn run(mut self) -> Result<bool, Failure> {
+        if self.ordinary {
+            return if self.sealed { ordinary::sealed() } else { ordinary::open(&self.names) };
+        }
         if self.synthetic {
             return synthetic::run(&self.plan);
         }

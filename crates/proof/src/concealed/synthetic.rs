@@ -187,8 +187,7 @@ mod tests {
         assert_eq!(of(Kind::Null).filter(|s| s.detected).count(), 0, "falsely detected");
         assert!(scored.iter().all(|s| !s.misnamed), "confident and wrong");
         let strong = || of(Kind::Single).filter(|s| s.tier != Tier::Weak);
-        // one of them may be what constants and instruments can do
-        assert!(strong().count() > 2 && strong().all(|s| s.detected) && strong().filter(|s| s.right).count() > 1);
+        assert!(strong().count() > 0 && strong().all(|s| s.detected && s.right));
         // nothing is made or answered anew
         let written = || -> Vec<_> {
             let files = |folder: std::path::PathBuf| std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());

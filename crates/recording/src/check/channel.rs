@@ -106,7 +106,7 @@ fn missing(time: &[f64], present: &[bool], useless: Severity, findings: &mut Vec
 /// Second differences, or fourth ones where those show that the second hold a signal's curvature. Of noise far below the resolution
 /// it gives what the resolution leaves of it. `None` without three used neighbours.
 pub fn white_noise(time: &[f64], values: &[f64], mask: &[bool]) -> Option<f64> {
-    let interval = series::interval(time)?;
+    let interval = series::median_interval(time)?;
     let from = |weights: &[f64]| {
         let reach = weights.len() - 1;
         let difference = |row: usize| {

@@ -43,7 +43,7 @@ impl Data {
         let named = names.iter().map(String::as_str).zip(columns.iter().copied());
         let used = check_series(time, mask, &std::iter::once(("values", values)).chain(named).collect::<Vec<_>>())?;
         let needed = FEWEST_ROWS + columns.len();
-        let Some(interval) = series::interval(time).filter(|_| used >= needed) else {
+        let Some(interval) = series::median_interval(time).filter(|_| used >= needed) else {
             return Err(Error::TooFew { found: used, needed });
         };
         let group = used.div_ceil(MOST_ROWS);

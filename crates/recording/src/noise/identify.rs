@@ -4,8 +4,8 @@ use super::data::{Data, Series};
 use super::regression::Regression;
 use super::{NoiseModel, Whitener};
 use crate::Error;
+use crate::median_interval;
 use crate::minimise::{Effort, nelder_mead};
-use crate::series::interval;
 use nalgebra::{Cholesky, DMatrix};
 
 /// A term of the noise beside the white one.
@@ -34,7 +34,7 @@ impl Bounds {
     /// Drift and walk; correlation times from four median intervals to the whole length.
     pub fn new(averaging: f64, time: &[f64]) -> Self {
         let length = time.last().copied().unwrap_or(1.0) - time.first().copied().unwrap_or(0.0);
-        let shortest = 4.0 * interval(time).unwrap_or(1.0);
+        let shortest = 4.0 * median_interval(time).unwrap_or(1.0);
         Self { averaging, drift_time: [shortest, length.max(2.0 * shortest)], terms: vec![Term::Drift, Term::Walk] }
     }
 }

@@ -11,7 +11,7 @@ mod spectrum;
 mod stages;
 
 use charts::{Axis, facts, nice, page, row, significant};
-use diagnosis::{Fit, ForwardModel, Nuisance, Prior, Role, Verdict};
+use diagnosis::{Fit, ForwardModel, Nuisance, Role, Verdict};
 use files::Note;
 use maud::{Markup, html};
 use mechanisms::{RATE, SPOOL};
@@ -191,13 +191,9 @@ impl Outcome {
 /// A number of the nominal model with its uncertainty: of what has a unit in that, else relative.
 fn sized(nuisance: &Nuisance) -> String {
     let name = nuisance.parameter.name.trim_end_matches(" (model)");
-    let spread = match nuisance.parameter.prior {
-        Prior::Normal { sd, .. } => sd,
-        Prior::LogNormal { spread, .. } => spread,
-        Prior::Uniform { low, high } => (high - low) / 12.0_f64.sqrt(),
-    };
+    let spread = nuisance.parameter.prior.sd();
     match name.strip_suffix(" [K]") {
-        Some(name) => format!("{name} {spread} K"),
+        Some(name) => format!("{name} {} K", significant(spread, 2)),
         None => format!("{name} {} %", significant(100.0 * spread, 1)),
     }
 }

@@ -5,9 +5,9 @@ use charts::{Cells, Figure, grid, significant};
 use maud::{Markup, html};
 use mechanisms::RATE;
 use recording::allan::{AllanPoint, allan};
+use recording::median_interval;
 
 use super::Shown;
-use super::spectrum::median_interval;
 use crate::check::Allan;
 use crate::diagnose::Outcome;
 
@@ -35,7 +35,7 @@ impl Outcome {
         let left: Vec<(Shown, Vec<AllanPoint>)> =
             self.each().filter_map(|mut shown| shown.pop()).map(|shown| (shown, deviation(&shown))).collect();
         let figures = left.iter().filter_map(|(shown, points)| {
-            let interval = median_interval(&shown.record.observed.time);
+            let interval = median_interval(&shown.record.observed.time).unwrap_or(1.0);
             let allan = Allan { points, model: best.noise_model(shown.number, RATE), interval };
             let caption =
                 format!("Of what the {} leaves of the rate, and of the noise model that was fitted with it.", shown.name);

@@ -3,6 +3,7 @@
 use charts::{Axis, Cells, Figure, Panel, Series, Style, grid, significant};
 use diagnosis::whiteness;
 use maud::{Markup, html};
+use recording::median_interval;
 
 use super::{Quantity, Shown};
 use crate::diagnose::Outcome;
@@ -49,7 +50,7 @@ impl Outcome {
         let mut series = Vec::new();
         for (n, fit) in shown.iter().enumerate() {
             let time = &fit.record.observed.time;
-            let interval = median_interval(time);
+            let interval = median_interval(time).unwrap_or(1.0);
             let bands = bands(&fit.whitened(q.channel), interval);
             if n == 0 {
                 let edge = |z: f64| bands.iter().map(|b| (b.frequency, chi_square(2.0 * b.count, z) / (2.0 * b.count))).collect();
@@ -73,12 +74,6 @@ pub(super) fn judged(p: f64) -> String {
         let p_text = if p < 1e-3 { "p < 0.001".to_owned() } else { format!("p = {p:.3}") };
         format!("{p_text}: {}", if p < WHITE { "not white" } else { "white" })
     }
-}
-
-pub(super) fn median_interval(time: &[f64]) -> f64 {
-    let mut intervals: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
-    intervals.sort_by(f64::total_cmp);
-    intervals.get(intervals.len() / 2).copied().unwrap_or(1.0)
 }
 
 /// A mean over neighbouring frequencies.
