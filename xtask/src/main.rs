@@ -99,6 +99,7 @@ mod tests {
         assert!(matches!(parsed("figures"), Ok(Chore::Figures { out }) if out.as_os_str() == "docs/pictures"));
         assert!(matches!(parsed("prove --sealed --again x"), Ok(Chore::Prove(_))));
         assert!(matches!(parsed("prove --ordinary --unit U1847 --unit U4615"), Ok(Chore::Prove(_))));
+        assert!(matches!(parsed("prove --ordinary --changed --unit U7986"), Ok(Chore::Prove(_))));
         assert!(matches!(parsed("prove --ordinary --sealed"), Ok(Chore::Prove(_))));
         assert!(matches!(parsed("docs-check --page README.md"), Ok(Chore::DocsCheck(_))));
         assert!(matches!(parsed("bench cell --repetitions 3"), Ok(Chore::Bench(_))));
@@ -123,6 +124,7 @@ mod tests {
             "prove --synthetic --recommended",
             "prove --ordinary --case 3",
             "prove --unit U1847",
+            "prove --changed",
             "docs-check --tutorial --write",
             "identify --cells 0",
             "bench",

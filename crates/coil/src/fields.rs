@@ -51,7 +51,18 @@ impl TurnFields {
     /// # Errors
     /// [`Error::Bias`] if an optical constant is out of range.
     pub fn bias_parts(&self, optics: &Optics, winding: &Winding) -> Result<[DVector<f64>; 3], Error> {
-        let (c, w) = (optics.coefficients(winding.length())?, DVector::from_vec(winding.weights()));
+        self.bias_parts_weighted(optics, winding, winding.weights())
+    }
+
+    /// The same where the fields are at other turns than the winding's, `weights` being what each of them stands for \[m²\].
+    ///
+    /// # Errors
+    /// As [`Self::bias_parts`].
+    ///
+    /// # Panics
+    /// If there are not as many weights as turns.
+    pub fn bias_parts_weighted(&self, optics: &Optics, winding: &Winding, weights: Vec<f64>) -> Result<[DVector<f64>; 3], Error> {
+        let (c, w) = (optics.coefficients(winding.length())?, DVector::from_vec(weights));
         let bore = DVector::from_column_slice(&self.bore) * winding.tail_weight();
         let temperature = self.temperature.tr_mul(&w) + &bore;
         let free = bore * optics.thermal_expansion;

@@ -132,11 +132,11 @@ pub trait ForwardModel {
     /// What keeps the model from responding.
     fn respond(&self, record: usize, nuisances: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error>;
 
-    /// The same model where it is good about these nuisances, if it is not yet: a model that is linear in some of them is made anew there.
+    /// The same model where it is good about these nuisances and mechanisms, if it is not yet: a model that is linear in some of them is made anew there.
     ///
     /// # Errors
     /// What keeps the model from being made.
-    fn about(&self, _nuisances: &[f64]) -> Result<Option<Self>, Self::Error>
+    fn about(&self, _nuisances: &[f64], _active: &[Active]) -> Result<Option<Self>, Self::Error>
     where
         Self: Sized,
     {

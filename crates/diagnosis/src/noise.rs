@@ -130,11 +130,6 @@ impl Noise {
         Self::with(models, sum, observations)
     }
 
-    /// Whether this is a copy of the other.
-    pub(crate) fn is(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.whiteners, &other.whiteners)
-    }
-
     pub(crate) fn model(&self, record: usize, channel: usize) -> &NoiseModel {
         &self.models[record][channel]
     }

@@ -2,7 +2,7 @@
 
 use crate::fit::{Fit, Fitter, Hypothesis, alternatives};
 use crate::noise::Noise;
-use crate::{Error, ForwardModel, Observation};
+use crate::{Error, ForwardModel, Nuisance, Observation, Role};
 use progress::Step;
 
 const TASK: &str = "finding the constants about which to compare";
@@ -10,6 +10,8 @@ const TASK: &str = "finding the constants about which to compare";
 const ROUNDS: usize = 6;
 /// Gain of ln evidence by which a mechanism beside the constants leads.
 const MATTERS: f64 = 3.0;
+/// Standard deviations from the drawing beyond which a constant is far.
+const STRAINED: f64 = 2.0;
 /// Choices of a mechanism that are tried.
 const CHOICES: usize = 3;
 
@@ -44,7 +46,7 @@ pub fn settled<M: ForwardModel>(
                 _ => candidates(model, mechanisms),
             };
             let (leader, _) = leader(here, records, observations, known.as_ref(), &among)?;
-            let next = here.about(&leader.nuisances[0]).map_err(Error::Model)?;
+            let next = here.about(&leader.nuisances[0], &leader.active).map_err(Error::Model)?;
             known = Some(leader);
             match next {
                 Some(next) => about = Some(next),
@@ -61,12 +63,23 @@ pub fn settled<M: ForwardModel>(
     let (about, recalibrated) = follow(false, 0)?;
     let here = about.as_ref().unwrap_or(model);
     let (_, gain) = leader(here, records, observations, Some(&recalibrated), &candidates(model, true))?;
-    if gain <= MATTERS {
+    // constants that had to go far may stand for a mechanism that is near the drawing: about them it does not show
+    if gain <= MATTERS && strain(model, &recalibrated) <= STRAINED {
         return Ok(Settled { model: about, recalibrated });
     }
     let (beside, leader) = follow(true, ROUNDS)?;
-    let better = leader.log_evidence > recalibrated.log_evidence + MATTERS;
+    // each at its best, about its own constants
+    let better = leader.log_evidence > recalibrated.log_evidence;
     Ok(Settled { model: if better { beside } else { about }, recalibrated })
+}
+
+/// The farthest that a constant of the design is from the drawing, standard deviations.
+fn strain<M: ForwardModel>(model: &M, fit: &Fit) -> f64 {
+    let of = |(nuisance, value): (&Nuisance, &f64)| match nuisance.role {
+        Role::Constant => nuisance.parameter.prior.standard(*value).abs(),
+        Role::ModelError | Role::Sensor => 0.0,
+    };
+    model.nuisances().iter().zip(&fit.nuisances[0]).map(of).fold(0.0, f64::max)
 }
 
 /// The mechanisms that have a name, each alone, of many choices a few; none at all where they are not asked for.
@@ -98,7 +111,7 @@ fn leader<M: ForwardModel>(
     let recalibrated = fitter.fit(&Hypothesis::RECALIBRATED, &noise, known)?;
     let mut best = recalibrated.clone();
     for hypothesis in among {
-        best = Fit::better(Some(best), fitter.fit(hypothesis, &noise, Some(&recalibrated))?);
+        best = Fit::better(Some(best), fitter.screened(hypothesis, &recalibrated)?);
     }
     let gain = best.log_evidence - recalibrated.log_evidence;
     // what the leader leaves is noise: the next round compares under that

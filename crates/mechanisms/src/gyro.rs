@@ -27,6 +27,10 @@ pub struct Gyro<'m> {
     nuisances: Vec<Nuisance>,
     kinds: Vec<&'m dyn Mechanism>,
     mechanisms: Vec<diagnosis::Omission>,
+    /// places of constants on which a mechanism's parameter is a factor, and the mechanisms' ids
+    factored: Vec<(usize, String)>,
+    /// constants that were told and what came of them, by record
+    moved: RefCell<Vec<(usize, Vec<f64>, Series)>>,
     /// the last effects that were worked out, by record and mechanism
     known: RefCell<Vec<(usize, Active, Arc<Known>)>>,
 }
@@ -36,6 +40,12 @@ struct Known {
     effect: Effect,
     gain: [f64; 3],
 }
+
+/// Share of the drawing's value within which the model is made where a mechanism is a factor on the constant.
+const FACTOR: f64 = 0.5;
+
+/// Constants that are moved from where others are known.
+const FEW: usize = 2;
 
 /// Effects that are kept.
 const KEPT: usize = 12;
@@ -79,10 +89,12 @@ impl<'m> Gyro<'m> {
         Ok(Self {
             channels: channels(averaging, white, interval, records.first().map_or(Passed::NONE, |r| r.passed)),
             nuisances: nuisances(library.design(), library.tolerances(), records.iter().map(Prepared::noise).fold(0.0, f64::max)),
+            factored: library.factored(),
             chain: Chain::new(library),
             records,
             kinds,
             mechanisms,
+            moved: RefCell::default(),
             known: RefCell::default(),
         })
     }
@@ -128,27 +140,57 @@ impl<'m> Gyro<'m> {
         self.kinds[active.mechanism].extended(design, active)
     }
 
-    /// Parts and thermometer of the nominal model with its uncertain numbers at `u`.
-    fn recalibrated(&self, record: &Prepared, u: &[f64]) -> (Parts, Vec<f64>) {
-        let (mut parts, mut sensor) = (record.nominal.parts.clone(), record.nominal.sensor.clone());
-        let mut change = |of: &Series, factor: f64| {
-            parts.iter_mut().zip(&of.parts).for_each(|(part, change)| add(part, change, factor));
-            add(&mut sensor, &of.sensor, factor);
-        };
-        let library = self.library();
-        for (k, (constant, value)) in library.constants.iter().zip(library.values()).enumerate() {
-            let by = constant.value(u[instruments::CONSTANTS + k]) - value;
-            // rounding is no change
-            if by.abs() > 1e-9 * constant.tolerance {
-                change(&record.slopes[k], by);
-            }
+    /// Adds what a constant of the design changes on its way from one value to another, as told.
+    fn move_constant(&self, record: &Prepared, k: usize, [from, to]: [f64; 2], series: &mut Series) {
+        let constant = &self.library().constants[k];
+        let [from, to] = [from, to].map(|told| constant.value(told));
+        // rounding is no change
+        if (to - from).abs() <= 1e-9 * constant.tolerance {
+            return;
         }
+        let Some((_, id)) = self.factored.iter().find(|(place, _)| *place == k) else {
+            series.change(&record.slopes[k], to - from);
+            return;
+        };
+        let here = self.library().values()[k];
+        for (value, sign) in [(to, 1.0), (from, -1.0)] {
+            let Change { parts, thermometer, .. } = self.chain.along(record, id, (value / here).ln());
+            series.change(&Series { sensor: thermometer.unwrap_or_default(), parts }, sign);
+        }
+    }
+
+    /// Parts and thermometer with the design's constants at those of `u`; kept for as long as other numbers are varied, or one of them.
+    fn with_constants(&self, record: usize, u: &[f64]) -> Series {
+        let told = &u[instruments::CONSTANTS..];
+        let prepared = &self.records[record];
+        let mut moved = self.moved.borrow_mut();
+        let differs = |known: &[f64]| (0..told.len()).filter(|k| known[*k] != told[*k]).collect::<Vec<_>>();
+        if let Some((_, known, series)) = moved.iter().find(|(own, known, _)| *own == record && differs(known).len() <= FEW) {
+            let mut series = series.clone();
+            differs(known).into_iter().for_each(|k| self.move_constant(prepared, k, [known[k], told[k]], &mut series));
+            return series;
+        }
+        let mut series = prepared.nominal.clone();
+        for (k, (constant, value)) in self.library().constants.iter().zip(self.library().values()).enumerate() {
+            self.move_constant(prepared, k, [constant.told(value), told[k]], &mut series);
+        }
+        moved.retain(|(own, ..)| *own != record);
+        moved.push((record, told.to_vec(), series.clone()));
+        series
+    }
+
+    /// Parts and thermometer of the nominal model with its uncertain numbers at `u`.
+    fn recalibrated(&self, number: usize, u: &[f64]) -> (Parts, Vec<f64>) {
+        let (record, library) = (&self.records[number], self.library());
+        let mut series = self.with_constants(number, u);
+        let mut change = |of: &Series, factor: f64| series.change(of, factor);
         // (1 + τ d/dt) e^(c d/dt) over the same at the values at which the model is exact, to the second order
         let late = u[instruments::CHAMBER_DELAY] - record.delay.total();
         let squared = u[instruments::CHAMBER_LAG_SQUARED] - record.delay.lag.powi(2);
         change(&record.rates[0], late);
         change(&record.rates[1], (late * late - squared) / 2.0);
         change(&record.off_rest, u[instruments::REST]);
+        let Series { mut parts, mut sensor } = series;
         let filter = u[instruments::RATE_FILTER] / 2.0;
         parts.iter_mut().zip(&record.rates[1].parts).for_each(|(part, second)| add(part, second, filter));
         let late = u[instruments::RATE_DELAY];
@@ -175,6 +217,20 @@ impl<'m> Gyro<'m> {
         if lag > 0.0 {
             *thermometer = lagged(&record.time, thermometer, lag);
         }
+    }
+
+    /// Nuisances where a mechanism that is a factor on a constant takes its place, and the mechanisms that are left. Such a factor is all that the
+    /// unit deviates by from the drawing: what the constant's tolerance adds to the factor's own spread is little, and no record could tell them apart.
+    fn with_factors<'a>(&self, u: &[f64], active: &'a [Active]) -> (Vec<f64>, Vec<&'a Active>) {
+        let (mut moved, mut others) = (u.to_vec(), Vec::new());
+        for active in active {
+            let id = &self.mechanisms[active.mechanism].id;
+            match self.factored.iter().find(|(_, own)| own == id) {
+                Some((k, _)) => moved[instruments::CONSTANTS + k] = active.values[0],
+                None => others.push(active),
+            }
+        }
+        (moved, others)
     }
 
     /// What a mechanism does in a record; kept for as long as other unknowns are varied.
@@ -240,8 +296,10 @@ impl ForwardModel for Gyro<'_> {
         let number = record;
         let record = &self.records[number];
         let nominal = &record.nominal.parts;
-        let (mut parts, mut thermometer) = self.recalibrated(record, u);
-        let effects = active.iter().map(|a| self.effect(number, a)).collect::<Result<Vec<_>, _>>()?;
+        let (moved, others) = self.with_factors(u, active);
+        let u = &moved;
+        let (mut parts, mut thermometer) = self.recalibrated(number, u);
+        let effects = others.into_iter().map(|a| self.effect(number, a)).collect::<Result<Vec<_>, _>>()?;
         // mechanisms act on a coil that has the others: each one's gain on a part acts on the others' changes, too
         let mut gain: [f64; 3] = [0, 1, 2].map(|p: usize| share(&parts[p], &nominal[p]));
         let changes = || effects.iter().filter_map(|known| known.change().map(|change| (change, known.gain)));
@@ -275,8 +333,8 @@ impl ForwardModel for Gyro<'_> {
         Ok(vec![thermometer, readings.rate])
     }
 
-    fn about(&self, u: &[f64]) -> Result<Option<Self>, Error> {
-        let here = self.here();
+    fn about(&self, u: &[f64], active: &[Active]) -> Result<Option<Self>, Error> {
+        let (here, (u, _)) = (self.here(), self.with_factors(u, active));
         // no thermometer has a negative square: that is left to what is linear
         let wanted = |k: usize| if k == instruments::CHAMBER_LAG_SQUARED { u[k].max(0.0) } else { u[k] };
         let moved = |k: usize| (wanted(k) - here[k]).abs() / self.nuisances[k].parameter.prior.sd();
@@ -285,9 +343,13 @@ impl ForwardModel for Gyro<'_> {
             return Ok(None);
         }
         let library = self.library();
-        let within =
-            |(c, told): (&Constant, &f64)| c.value(*told).clamp(c.drawn - MOST * c.tolerance, c.drawn + MOST * c.tolerance);
-        let values: Vec<f64> = library.constants.iter().zip(&u[instruments::CONSTANTS..]).map(within).collect();
+        let within = |(k, (c, told)): (usize, (&Constant, &f64))| {
+            // as far as the paths of heat go, which were modelled for any design within its tolerances
+            let paths = self.factored.iter().any(|(place, _)| *place == k);
+            let by = if paths { FACTOR * c.drawn } else { MOST * c.tolerance };
+            c.value(*told).clamp(c.drawn - by, c.drawn + by)
+        };
+        let values: Vec<f64> = library.constants.iter().zip(&u[instruments::CONSTANTS..]).enumerate().map(within).collect();
         let library = library.about(&values)?;
         let lag = u[instruments::CHAMBER_LAG_SQUARED].max(0.0).sqrt();
         let delay = Delay { lag, clock: u[instruments::CHAMBER_DELAY] - lag };
@@ -299,6 +361,8 @@ impl ForwardModel for Gyro<'_> {
             nuisances: self.nuisances.clone(),
             kinds: self.kinds.clone(),
             mechanisms: self.mechanisms.clone(),
+            factored: self.factored.clone(),
+            moved: RefCell::default(),
             known: RefCell::default(),
         }))
     }

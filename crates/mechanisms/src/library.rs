@@ -6,11 +6,12 @@ use crate::design::with_tail;
 use crate::interpolation::{cubic_weights, nodes};
 use crate::mechanism::{HeatPath, Mechanism};
 use coil::{
-    Design, Error, HeatPaths, MODULI, MechanicalState, Mechanics, Output, ParametricModel, Projected, Reduced, Slopes,
+    Design, Error, HeatPaths, MODULI, MechanicalState, Mechanics, Output, Parameter, ParametricModel, Projected, Reduced, Slopes,
     Tolerances, TurnFields,
 };
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use progress::Step;
+use std::collections::HashMap;
 use std::sync::Arc;
 use winding::{Half, LayerDefect, Winding};
 
@@ -168,6 +169,12 @@ impl Library {
         })
     }
 
+    /// Constants on which the parameter of a mechanism is a factor: their places, and the ids.
+    pub(crate) fn factored(&self) -> Vec<(usize, String)> {
+        let place = |parameter: Parameter| self.constants.iter().position(|c| c.parameter == parameter);
+        self.heat_paths.iter().filter_map(|(id, path)| Some((place(path.factor_on?)?, id.clone()))).collect()
+    }
+
     /// What each opening changes of the parts, by its open share.
     pub(crate) fn of_openings(&self) -> impl Iterator<Item = (f64, Functionals)> + '_ {
         let first = 1 + 2 * self.moduli.len();
@@ -187,7 +194,8 @@ impl Library {
         }
         design.winding.defect = defect;
         let wound = winding::wind(&design.winding)?;
-        moved(&self.fields, &sound, &wound, defect.map_or(0, |d| d.layer)).bias_parts(&design.optics, &wound)
+        let weights = moved(&sound, &wound, defect.map_or(0, |d| d.layer));
+        self.fields.bias_parts_weighted(&design.optics, &wound, weights)
     }
 }
 
@@ -195,40 +203,22 @@ impl Library {
 fn is_nominal(x: f64) -> bool {
     x.abs() <= 1e-12
 }
-/// Fields at the turns of a winding with a defect in one layer: cubic along that layer, as they are elsewhere.
-fn moved(fields: &TurnFields, sound: &Winding, wound: &Winding, layer: usize) -> TurnFields {
+
+/// What the turns of a sound winding stand for in one with a defect in a layer: fields are cubic along that layer, elsewhere as they are \[m²\].
+fn moved(sound: &Winding, wound: &Winding, layer: usize) -> Vec<f64> {
     let mut along: Vec<(f64, usize)> =
         sound.turns().iter().enumerate().filter(|(_, t)| t.layer == layer).map(|(i, t)| (t.y, i)).collect();
     along.sort_by(|a, b| a.0.total_cmp(&b.0));
     let places: Vec<f64> = along.iter().map(|p| p.0).collect();
     // both windings have the other layers' turns in one order along each half
-    let mut others: std::collections::HashMap<(usize, usize, bool), usize> = std::collections::HashMap::new();
-    for (i, t) in sound.turns().iter().enumerate() {
-        others.insert((t.layer, t.turn, t.half == Half::Cw), i);
-    }
-    let rows: Vec<Vec<(usize, f64)>> = wound
-        .turns()
-        .iter()
-        .map(|t| match others.get(&(t.layer, t.turn, t.half == Half::Cw)) {
-            Some(&i) if t.layer != layer => vec![(i, 1.0)],
-            _ => cubic_weights(&places, t.y).into_iter().zip(&along).filter(|(w, _)| *w != 0.0).map(|(w, p)| (p.1, w)).collect(),
-        })
-        .collect();
-    let of = |matrix: &DMatrix<f64>| {
-        let mut result = DMatrix::zeros(rows.len(), matrix.ncols());
-        for (i, row) in rows.iter().enumerate() {
-            for (j, weight) in row {
-                for k in 0..matrix.ncols() {
-                    result[(i, k)] += weight * matrix[(*j, k)];
-                }
-            }
+    let key = |t: &winding::Turn| (t.layer, t.turn, t.half == Half::Cw);
+    let others: HashMap<_, usize> = sound.turns().iter().enumerate().map(|(i, t)| (key(t), i)).collect();
+    let mut weights = vec![0.0; sound.turns().len()];
+    for (t, weight) in wound.turns().iter().zip(wound.weights()) {
+        match others.get(&key(t)) {
+            Some(&i) if t.layer != layer => weights[i] += weight,
+            _ => cubic_weights(&places, t.y).into_iter().zip(&along).for_each(|(share, (_, i))| weights[*i] += share * weight),
         }
-        result
-    };
-    TurnFields {
-        temperature: of(&fields.temperature),
-        axial: of(&fields.axial),
-        radial: of(&fields.radial),
-        bore: fields.bore.clone(),
     }
+    weights
 }

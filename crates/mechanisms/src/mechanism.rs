@@ -127,6 +127,8 @@ pub struct HeatPath {
     pub design: fn(&Design, f64) -> Design,
     /// Coordinate of a small change by which a mismatch is sought in the heat flow; `None` where it is sought elsewhere.
     pub nudge: Option<f64>,
+    /// The constant of the design on which the mechanism's only parameter is a factor, the coordinate its logarithm; `None` of any other path.
+    pub factor_on: Option<coil::Parameter>,
 }
 
 /// What a mechanism does in a record.

@@ -1,5 +1,6 @@
 //! A library's responses to the chamber of one recording.
 
+use crate::chain::add;
 use crate::library::{Functionals, Library};
 use crate::passed::{Passed, passed};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
@@ -145,6 +146,14 @@ impl Course {
 /// The rate: all three parts together.
 pub(crate) fn total(parts: &Parts) -> Vec<f64> {
     (0..parts[0].len()).map(|n| parts[0][n] + parts[1][n] + parts[2][n]).collect()
+}
+
+impl Series {
+    /// Adds a multiple of a change.
+    pub(crate) fn change(&mut self, by: &Self, factor: f64) {
+        self.parts.iter_mut().zip(&by.parts).for_each(|(part, change)| add(part, change, factor));
+        add(&mut self.sensor, &by.sensor, factor);
+    }
 }
 
 fn minus(a: &Series, b: &Series) -> Series {

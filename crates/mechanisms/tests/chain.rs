@@ -112,6 +112,33 @@ fn a_bond_that_opens_follows_the_chain() {
     agrees("debond", &[28.0, 8.0, 0.24], None, &[RATE]);
 }
 
+/// However far from the drawing: by its tolerance, or by the mechanism that is a factor on it and takes its place.
+#[test]
+fn a_constant_with_a_path_of_its_own_follows_the_chain() {
+    let (nominal, moved, factor) = {
+        let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+        let place =
+            gyro.nuisances().iter().position(|n| n.parameter.name == "conductivity of the surroundings").expect("a place");
+        let mut u = middle.clone();
+        u[place] = 0.6;
+        let active = Active { mechanism: gyro.find("air-path").expect("a mechanism"), values: vec![0.6], choice: None };
+        let of = |u: &[f64], active: &[Active]| gyro.respond(0, u, active).expect("response");
+        let factor = of(&middle, std::slice::from_ref(&active));
+        assert_eq!(factor, of(&u, &[active]));
+        (of(&middle, &[]), of(&u, &[]), factor)
+    };
+    assert_eq!(moved, factor);
+    let mut changed = design();
+    changed.surroundings.conductivity *= 0.6;
+    let (exact, exact_nominal) = (anew(&changed), anew(&design()));
+    for channel in [SPOOL, RATE] {
+        let effect = minus(&exact[channel], &exact_nominal[channel]);
+        let off = rms(&minus(&minus(&moved[channel], &nominal[channel]), &effect));
+        assert!(off < SHARE * rms(&effect), "channel {channel}: off by {off:e} of {:e}", rms(&effect));
+    }
+}
+
 #[test]
 fn heat_paths_follow_the_chain() {
     agrees("interface-resistance", &[1.3e-3], None, &[RATE, SPOOL]);

@@ -31,9 +31,14 @@ impl<'a, M: ForwardModel> Objective<'a, M> {
         Self { fitter, hypothesis, noise, layout: fitter.layout(hypothesis), like: None }
     }
 
-    /// The same beside a fit that is known.
-    pub(super) fn beside_known(self, known: Option<&'a Fit>) -> Self {
-        Self { like: known.filter(|fit| fit.noise.is(self.noise)), ..self }
+    /// The same with the derivatives of a fit under the same noise.
+    pub(super) fn with_derivatives_of(self, like: &'a Fit) -> Self {
+        Self { like: Some(like), ..self }
+    }
+
+    /// Whether derivatives by nuisances are its own.
+    pub(super) fn is_exact(&self) -> bool {
+        self.like.is_none()
     }
 
     pub(super) fn point(&self, u: DVector<f64>) -> Result<Point, Error<M::Error>> {

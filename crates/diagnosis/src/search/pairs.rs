@@ -31,7 +31,7 @@ impl<M: ForwardModel> Pool<'_, M> {
         let kin_of_first = self.kin(fit);
         let mut fits = Vec::new();
         for (pair, kin) in self.beside(fit.hypothesis.mechanisms[0]) {
-            fits.push((self.fitter.fit(&pair, &fit.noise, Some(fit))?, kin));
+            fits.push((self.fitter.screened(&pair, fit)?, kin));
         }
         fits.sort_by(|a, b| b.0.log_evidence.total_cmp(&a.0.log_evidence));
         let lead = fits.first().map_or(0.0, |f| f.0.log_evidence);

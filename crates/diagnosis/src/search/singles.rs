@@ -44,7 +44,7 @@ impl<M: ForwardModel> Pool<'_, M> {
         for (k, hypotheses) in self.singles.iter().enumerate() {
             (self.progress)(Step::counted(SINGLES, round * count + k, ROUNDS * count));
             for hypothesis in hypotheses {
-                fits.push(self.fitter.fit(hypothesis, &leader.noise, Some(leader))?);
+                fits.push(self.fitter.screened(hypothesis, leader)?);
             }
         }
         fits.push(self.fitter.fit(&Hypothesis::RECALIBRATED, &leader.noise, Some(leader))?);
@@ -70,7 +70,7 @@ impl<M: ForwardModel> Pool<'_, M> {
             } else {
                 // another choice of a mechanism that has its own noise is fitted in that
                 let known = leaders.iter().find(|l| again && l.hypothesis.mechanisms[0].0 == mechanism);
-                let own = known.map(|leader| self.fitter.fit(&fit.hypothesis, &leader.noise, Some(&fit))).transpose()?;
+                let own = known.map(|leader| self.fitter.screened(&fit.hypothesis, leader)).transpose()?;
                 self.push(own.map_or(fit.clone(), |own| Fit::better(Some(fit), own)), None);
             }
             if !again {

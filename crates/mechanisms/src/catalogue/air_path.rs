@@ -2,7 +2,7 @@
 
 use crate::interpolation::nodes;
 use crate::mechanism::{Effect, Extent, HeatPath, Named, Offer, Stage, Steady};
-use coil::Design;
+use coil::{Design, Parameter};
 use diagnosis::Prior;
 
 pub(crate) const ID: &str = "air-path";
@@ -23,16 +23,20 @@ pub(super) const AIR_PATH: Named = Named {
         nodes: nodes(-0.9, 0.9, 9),
         design: |design, x| with_air(design, x.exp()),
         nudge: Some(coordinate(1.02)),
+        factor_on: Some(Parameter::MediumConductivity),
     }),
     steady: &[Steady::Design(with_air)],
     extent: Extent::everywhere,
     caveat: |_| None,
     offer: |design, _| {
-        applies(design).then(|| Offer::one("conductivity_factor", Prior::LogNormal { median: 1.0, spread: 0.2 }, &[1.0]))
+        applies(design).then(|| Offer::one("conductivity_factor", Prior::LogNormal { median: 1.0, spread: SPREAD }, &[1.0]))
     },
     effect: |chain, record, active| Ok(Effect::Coil(chain.along(record, ID, coordinate(active.values[0])))),
     extended: |design, active| Some(with_air(design, active.values[0])),
 };
+
+/// Spread of ln of the factor: convection in a gap of centimetres may double what still gas conducts, a thinner or a heavier gas halve it.
+const SPREAD: f64 = 0.4;
 
 fn applies(design: &Design) -> bool {
     // a film takes the place of the still medium

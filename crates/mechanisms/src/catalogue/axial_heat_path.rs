@@ -23,6 +23,7 @@ pub(super) const AXIAL_HEAT_PATH: Named = Named {
         nodes: nodes(0.0, 0.9, 12),
         design: |design, x| with_mount(design, CONDUCTANCE * x / (1.0 - x)),
         nudge: Some(coordinate(0.1)),
+        factor_on: None,
     }),
     steady: &[Steady::Design(with_mount)],
     extent: Extent::everywhere,

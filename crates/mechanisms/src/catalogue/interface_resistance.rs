@@ -22,6 +22,7 @@ pub(super) const INTERFACE_RESISTANCE: Named = Named {
         nodes: nodes(0.0, 0.85, 7),
         design: |design, x| with_hub_resistance(design, RESISTANCE * x / (1.0 - x)),
         nudge: Some(coordinate(2e-4)),
+        factor_on: None,
     }),
     steady: &[Steady::Design(with_hub_resistance)],
     extent: Extent::everywhere,

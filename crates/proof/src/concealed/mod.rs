@@ -39,6 +39,9 @@ pub struct Prove {
     /// Ordinary units of three drawings, fixtures/ordinary, instead; with --sealed, its sealed ones, once
     #[arg(long, conflicts_with_all = ["cases", "recommended", "synthetic", "again"])]
     ordinary: bool,
+    /// Whether what says nothing of the coil leaves the answers to ordinary units as they are: offsets, units, sampling
+    #[arg(long, requires = "ordinary", conflicts_with = "sealed")]
+    changed: bool,
     /// Of the ordinary open units one by its name
     #[arg(long = "unit", value_name = "NAME", requires = "ordinary", conflicts_with = "sealed")]
     names: Vec<String>,
@@ -67,7 +70,11 @@ impl Prove {
     /// Runs it: whether everything is as asked. [`Failure`] says what went wrong.
     pub fn run(mut self) -> Result<bool, Failure> {
         if self.ordinary {
-            return if self.sealed { ordinary::sealed() } else { ordinary::open(&self.names) };
+            return match (self.sealed, self.changed) {
+                (true, _) => ordinary::sealed(),
+                (_, true) => ordinary::changed(&self.names),
+                _ => ordinary::open(&self.names),
+            };
         }
         if self.synthetic {
             return synthetic::run(&self.plan);

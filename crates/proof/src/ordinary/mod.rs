@@ -2,6 +2,7 @@
 //!
 //! Answered from the drawing with its usual tolerances, all of them, and only then held against their truths.
 
+mod change;
 mod score;
 mod truth;
 
@@ -17,7 +18,9 @@ use crate::concealed::{
     Answer, HeldOut, PROGRAM, Written, answered, each, failures, lines, markdown, mean, publish, record, rms, used, write,
 };
 use crate::files::{self, root};
+use crate::statistics::rate;
 use crate::{Failure, program};
+use change::Change;
 use score::{Scored, score, summary};
 use truth::{Kind, Truth};
 
@@ -55,14 +58,30 @@ fn name(unit: &str) -> &str {
 fn answers(names: &[String]) -> Result<Vec<Written>, Failure> {
     let (clock, cache) = (Instant::now(), Cache::of_user());
     each(names, |unit| {
-        let (start, at, coil) = (Instant::now(), folder().join(unit), drawing(unit)?);
-        let fitted = FITTED.map(|file| record(&at.join(file)));
-        let fitted = fitted.into_iter().collect::<Result<Vec<_>, _>>()?;
-        let outcome = diagnose::diagnose(&coil, &fitted, &[record(&at.join(HELD_OUT))?], &cache, &|_| ())?;
-        let prediction = outcome.prediction().ok_or_else(|| Failure("nothing is predicted".into()))?;
+        let start = Instant::now();
+        let written = diagnosed(&drawing(unit)?, &folder().join(unit), &cache)?;
         eprintln!("[{:5.0} s] {unit} is answered ({:.0} s)", clock.elapsed().as_secs_f64(), start.elapsed().as_secs_f64());
-        Ok([format!("{}\n", outcome.json()), prediction])
+        Ok(written)
     })
+}
+
+/// What the program writes of the unit whose records are in a folder.
+fn diagnosed(coil: &CoilCase, at: &Path, cache: &Cache) -> Result<Written, Failure> {
+    let fitted = FITTED.map(|file| record(&at.join(file)));
+    let fitted = fitted.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let outcome = diagnose::diagnose(coil, &fitted, &[record(&at.join(HELD_OUT))?], cache, &|_| ())?;
+    let prediction = outcome.prediction().ok_or_else(|| Failure("nothing is predicted".into()))?;
+    Ok([format!("{}\n", outcome.json()), prediction])
+}
+
+/// The open units, or those named.
+fn named(only: &[String]) -> Result<Vec<String>, Failure> {
+    let all = units("open")?;
+    if let Some(missing) = only.iter().find(|unit| !all.iter().any(|known| name(known) == *unit)) {
+        let known: Vec<&str> = all.iter().map(|unit| name(unit)).collect();
+        return Err(Failure(format!("there is no open unit {missing}; there are {}", known.join(", "))));
+    }
+    Ok(all.into_iter().filter(|unit| only.is_empty() || only.iter().any(|n| n == name(unit))).collect())
 }
 
 /// A unit with all that is said of it.
@@ -77,12 +96,7 @@ struct Case {
 /// answered. Whether every score is as asked.
 pub(crate) fn open(only: &[String]) -> Result<bool, Failure> {
     let program = program::hash(&root())?;
-    let all = units("open")?;
-    if let Some(missing) = only.iter().find(|unit| !all.iter().any(|known| name(known) == *unit)) {
-        let known: Vec<&str> = all.iter().map(|unit| name(unit)).collect();
-        return Err(Failure(format!("there is no open unit {missing}; there are {}", known.join(", "))));
-    }
-    let paths: Vec<String> = all.into_iter().filter(|unit| only.is_empty() || only.iter().any(|n| n == name(unit))).collect();
+    let paths = named(only)?;
     let names: Vec<String> = paths.iter().map(|unit| name(unit).to_owned()).collect();
     let into = root().join("target/prove/ordinary");
     write(&into, &names, &answers(&paths)?, None)?;
@@ -99,6 +113,39 @@ pub(crate) fn open(only: &[String]) -> Result<bool, Failure> {
     println!("{}", lines(&rows));
     failures(&rows).for_each(|row| eprintln!("FAILS: {}: {}", row.group, row.quantity));
     Ok(failures(&rows).next().is_none())
+}
+
+/// Share of changed records that must be answered alike.
+const ALIKE: f64 = 0.97;
+
+/// Answers open units, or those named, from records that are changed in ways that say nothing of the coil; whether verdict and set stay the same in
+/// 97 of 100.
+pub(crate) fn changed(only: &[String]) -> Result<bool, Failure> {
+    let (cache, into) = (Cache::of_user(), root().join("target/prove/changed"));
+    let paths = named(only)?;
+    let told = |answer: &Answer| {
+        let mut set = answer.set.clone();
+        set.sort();
+        (answer.verdict.clone(), set)
+    };
+    let alike = each(&paths, |unit| {
+        let read = |[json, _]: &Written| -> Result<_, Failure> { Ok(told(&serde_json::from_str(json)?)) };
+        let first = read(&diagnosed(&drawing(unit)?, &folder().join(unit), &cache)?)?;
+        let mut alike = 0;
+        for change in Change::ALL {
+            let at = into.join(change.folder()).join(name(unit));
+            change.write(&[FITTED[0], FITTED[1], HELD_OUT], &folder().join(unit), &at)?;
+            let other = read(&diagnosed(&change.drawing(drawing(unit)?), &at, &cache)?)?;
+            let said = if other == first { "the same".to_owned() } else { format!("{other:?} instead of {first:?}") };
+            eprintln!("{unit}, {}: {said}", change.name());
+            alike += usize::from(other == first);
+        }
+        Ok(alike)
+    })?;
+    let (hits, cases) = (alike.iter().sum(), Change::ALL.len() * paths.len());
+    let share = rate(hits, cases).map_or(f64::NAN, |measured| measured.value);
+    println!("{hits} of {cases} answers are the same: {:.0} %, asked {:.0} %", 100.0 * share, 100.0 * ALIKE);
+    Ok(share >= ALIKE)
 }
 
 fn case(unit: &str, answers: &Path) -> Result<Case, Failure> {
