@@ -100,6 +100,10 @@ remarks! {
         "With --spool: no smooth chamber makes the model follow the thermometer to its noise.",
         "The chamber that was inferred, and the bias under it, are in error by more than is said.",
         "Start the record at rest, give the readings' true --spool-noise, or check the design's heat paths.";
+    ImpossibleResult "impossible-result":
+        "The simulated thermometer leaves what temperatures can be: below absolute zero, or above 1000 degC.",
+        "The model is linear and goes on all the same; its result means nothing there.",
+        "Check the power of `heat.heaters` (in W, cooling is negative) and the profile.";
     // recordings as they are read
     DeclaredInterval "declared-interval":
         "A recording has no column of instants; they are counted with the interval that was declared.",
@@ -171,9 +175,18 @@ remarks! {
         "Its noise is known as an upper bound only, and small effects below a step cannot be seen.",
         "Record more digits.";
     Unit "unit":
-        "A channel's values, or its noise, are not of the size that its unit makes them.",
-        "Everything that follows is off by the ratio of the units.",
+        "A channel's values, or its noise, are not of the size that its unit makes them, or it starts at what another unit makes a room's temperature.",
+        "Everything that follows is off by the ratio of the units; a recording whose rate is impossible at rest, or far too small, cannot be used.",
         "Give the unit with --unit KEY=UNIT, or in the map file.";
+    Impossible "impossible":
+        "Values lie beyond what physics allows (absolute zero, what a coil survives), or repeat far outside what is plausible: a logger's code \
+         for an overload or a lost sensor.",
+        "They are not used.",
+        "Check the sensor, its cable and its range.";
+    Moving "moving":
+        "The rate is beyond a hundred times the Earth's in several rows that are no outliers.",
+        "The recording cannot be used: the unit was not at rest, and may have stood differently afterwards.",
+        "Cut out the rows in which it was moved, and those on one side of them.";
     Constant "constant":
         "A channel has one value throughout.",
         "It tells nothing; a recording whose rate, or whose chamber, is constant cannot be used.",
@@ -317,6 +330,9 @@ impl Remark {
             FindingKind::Saturation { .. } => Self::Saturation,
             FindingKind::Quantised { .. } => Self::Quantised,
             FindingKind::Unit { .. } => Self::Unit,
+            FindingKind::Impossible(_) => Self::Impossible,
+            FindingKind::Moving { .. } => Self::Moving,
+            FindingKind::Start { .. } => Self::Unit,
             FindingKind::Constant { .. } => Self::Constant,
             FindingKind::Empty => Self::Empty,
             FindingKind::TooShort { .. } => Self::TooShort,

@@ -16,6 +16,9 @@ pub(crate) struct Check {
     /// What is known of the record besides its columns [default: meta.ron beside it, if it is there]
     #[arg(long, value_name = "FILE")]
     pub(crate) meta: Option<PathBuf>,
+    /// Write a map file that says how the recording seems to be read, and check it so read [default: RECORD.map.ron beside it]
+    #[arg(long, value_name = "FILE.map.ron", num_args = 0..=1, conflicts_with = "map")]
+    pub(crate) write_map: Option<Option<PathBuf>>,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,

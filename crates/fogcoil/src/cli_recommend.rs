@@ -1,12 +1,12 @@
 //! `recommend`: its arguments, and what it does with them.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use fogcoil::cache::Cache;
 use fogcoil::output::Content;
 use fogcoil::recommend::Limits;
-use fogcoil::{Error, diagnose, input, output, recommend};
+use fogcoil::{Error, diagnose, input, recommend};
 
 use crate::cli_check::Format;
 use crate::progress::Progress;
@@ -58,11 +58,10 @@ fn id(text: &str) -> Result<String, std::convert::Infallible> {
 
 pub(crate) fn run(arguments: &Recommend, progress: &Progress) -> Result<(), Error> {
     let Recommend { coil, between, records, coldest, hottest, fastest, hours, out, json, meta, format, no_cache } = arguments;
-    let inputs: Vec<&Path> = [coil].into_iter().chain(records).map(PathBuf::as_path).collect();
-    output::check_outputs(&inputs, &[out.as_deref()])?;
-    let case = progress.read_coil(coil)?;
-    diagnose::check_design(&case, coil)?;
     let options = format.options(meta.clone());
+    let inputs: Vec<PathBuf> = records.iter().flat_map(|record| options.files(record)).collect();
+    let case = progress.read_coil_for(coil, &inputs, &[out.as_deref()])?;
+    diagnose::check_design(&case, coil)?;
     let records = records.iter().map(|path| input::read_record(path, &options)).collect::<Result<Vec<_>, _>>()?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
     let limits = Limits { coldest: *coldest, hottest: *hottest, fastest: *fastest, hours: *hours };

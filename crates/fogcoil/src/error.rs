@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::input::InputError;
+use crate::input::{self, InputError};
 
 /// Errors of the program.
 #[derive(Debug, thiserror::Error)]
@@ -10,7 +10,7 @@ use crate::input::InputError;
 pub enum Error {
     /// A file cannot be used, solved or written, or what was asked for contradicts itself or a file.
     #[error(transparent)]
-    File(#[from] files::Error),
+    File(files::Error),
     /// Standard output cannot be written.
     #[error("standard output cannot be written: {0}")]
     Stdout(std::io::Error),
@@ -31,6 +31,31 @@ pub enum Error {
         /// The instant \[s\].
         time: f64,
     },
+}
+
+/// What to say of a design whose equations no factorisation solves: its numbers are too far apart.
+fn unsolvable(file: &Path, part: &str) -> InputError {
+    let (field, numbers) = match part {
+        "chamber" => ("heat", "heat.film_w_per_m2k, heat.mounts, conductivities, and thicknesses"),
+        "coil" => ("coil", "coil.material"),
+        _ => ("spool", "the stiffness of spool.material beside coil.material, thicknesses, and spool.flanges.overhang_mm"),
+    };
+    let problem = "the design's numbers are too far apart to be solved in double precision".to_owned();
+    let remedy = format!("check {numbers}");
+    input::fault_in(file, field, problem, remedy)
+}
+
+impl From<files::Error> for Error {
+    fn from(error: files::Error) -> Self {
+        use coil::Error::Solve;
+        use fem_core::Error::NotPositiveDefinite;
+        match error {
+            files::Error::Coil { file, source: Solve { part, source: NotPositiveDefinite { .. } } } => {
+                unsolvable(&file, part).into()
+            }
+            other => Self::File(other),
+        }
+    }
 }
 
 impl From<InputError> for Error {

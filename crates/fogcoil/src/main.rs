@@ -65,8 +65,7 @@ fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
 }
 
 fn run_wind(coil: &Path, csv: Option<&Path>, svg: Option<&Path>, json: bool, progress: &Progress) -> Result<(), Error> {
-    output::check_outputs(&[coil], &[csv, svg])?;
-    let case = progress.read_coil(coil)?;
+    let case = progress.read_coil_for(coil, &[], &[csv, svg])?;
     let mut files = Vec::new();
     files.extend(csv.map(|path| (path, Content::Text(wind::csv(&case.winding)))));
     files.extend(svg.map(|path| (path, Content::Text(picture::svg(&case.name, &case.winding)))));
@@ -80,12 +79,12 @@ fn run_wind(coil: &Path, csv: Option<&Path>, svg: Option<&Path>, json: bool, pro
 
 fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> {
     let Diagnose { coil, fits, holdouts, json, prediction, model_out, report, meta, format, no_cache } = arguments;
-    let inputs: Vec<&Path> = [coil].into_iter().chain(fits).chain(holdouts).map(PathBuf::as_path).collect();
-    let json_file = json.as_ref().and_then(Option::as_deref);
-    output::check_outputs(&inputs, &[json_file, prediction.as_deref(), model_out.as_deref(), report.as_deref()])?;
-    let case = progress.read_coil(coil)?;
-    diagnose::check_design(&case, coil)?;
     let options = format.options(meta.clone());
+    let inputs: Vec<PathBuf> = fits.iter().chain(holdouts).flat_map(|record| options.files(record)).collect();
+    let json_file = json.as_ref().and_then(Option::as_deref);
+    let outputs = [json_file, prediction.as_deref(), model_out.as_deref(), report.as_deref()];
+    let case = progress.read_coil_for(coil, &inputs, &outputs)?;
+    diagnose::check_design(&case, coil)?;
     let read = |paths: &[PathBuf]| paths.iter().map(|path| input::read_record(path, &options)).collect::<Result<Vec<_>, _>>();
     let (fits, holdouts) = progress.during("reading the records", || Ok::<_, Error>((read(fits)?, read(holdouts)?)))?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
@@ -108,11 +107,21 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
 }
 
 fn run_check(arguments: &Check, progress: &Progress) -> Result<(), Error> {
-    let Check { record, format, meta, json, svg } = arguments;
+    let Check { record, format, meta, write_map, json, svg } = arguments;
     let quiet = progress.is_silent();
-    output::check_outputs(&[record], &[svg.as_deref()])?;
-    let case = progress
-        .during(&format!("reading {}", record.display()), || input::read_record(record, &format.options(meta.clone())))?;
+    let options = format.options(meta.clone());
+    output::check_outputs(&options.files(record), &[svg.as_deref()])?;
+    let reading = format!("reading {}", record.display());
+    let case = match write_map {
+        None => progress.during(&reading, || input::read_record(record, &options))?,
+        Some(path) => {
+            let path = path.clone().unwrap_or_else(|| record.with_extension("map.ron"));
+            let (map, case) = progress.during(&reading, || input::propose_map(record, &options))?;
+            output::write_new(&path, &map)?;
+            progress.note(&format!("{} is written", path.display()));
+            case
+        }
+    };
     if quiet && !*json && svg.is_none() {
         print(&check::warnings(&case))?;
         return Ok(case.require_usable()?);
@@ -147,9 +156,8 @@ fn run_trim(coil: &Path, profile: Option<&Path>, json: bool, progress: &Progress
 
 fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> {
     let Simulate { coil, profile, between, step, spool, spool_noise, out, report, json, no_cache } = arguments;
-    let inputs: Vec<&Path> = [Some(coil), profile.as_ref(), spool.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
-    output::check_outputs(&inputs, &[Some(out), report.as_deref()])?;
-    let case = progress.read_coil(coil)?;
+    let inputs: Vec<PathBuf> = [profile, spool].into_iter().flatten().cloned().collect();
+    let case = progress.read_coil_for(coil, &inputs, &[Some(out), report.as_deref()])?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
     let drawn = report.is_some() && case.winding.turns().len() <= figures::MOST_TURNS;
     let model = |drives: &[Drive]| {
@@ -184,6 +192,7 @@ fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> 
     progress.tell(&profile.notes);
     let task = format!("simulating {} rows", profile.profile.time.len());
     let simulation = progress.during(&task, || simulate::simulate(&case, &profile, &model))?;
+    progress.tell(simulation.warning().as_slice());
     let rows = |out: &mut dyn Write| simulation.write_csv(out);
     let mut files = vec![(out.as_path(), Content::Written(&rows))];
     if let Some(path) = report {

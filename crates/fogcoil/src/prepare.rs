@@ -51,6 +51,17 @@ fn refuse(case: &RecordCase, field: &str, problem: String, remedy: &str) -> Erro
     InputError { file, line: None, field: Some(field.to_owned()), problem, remedy: remedy.to_owned() }.into()
 }
 
+/// Refuses a chamber that has one value throughout beside a spool that moves: what moves it was not recorded.
+fn refuse_dead(case: &RecordCase, chamber: &[f64], spool: &[f64]) -> Result<(), Error> {
+    let moved: Vec<f64> = spool.iter().copied().filter(|value| value.is_finite()).collect();
+    // from rest, where chamber and spool agree to the tolerance, a chamber at rest holds the spool within it on either side
+    if moved.is_empty() || span(chamber) > 0.0 || span(&moved) <= 2.0 * REST.tolerance {
+        return Ok(());
+    }
+    let problem = format!("is {} degC throughout, while the spool moves by {:.1} K", chamber[0], span(&moved));
+    Err(refuse(case, CHAMBER, problem, "check the chamber's sensor and the choice of its column"))
+}
+
 /// A recording's usable values, averaged down where there are very many; what was done is added to `notes`.
 pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, Error> {
     case.require_usable()?;
@@ -73,6 +84,7 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
         let problem = "there is no chamber temperature to drive the model with".to_owned();
         return Err(refuse(case, CHAMBER, problem, "give a column with values"));
     };
+    refuse_dead(case, &chamber, &spool)?;
     let count = rate.iter().filter(|r| r.is_finite()).count();
     if count < FEWEST_ROWS {
         let problem = format!("{count} rows with a rate are too few to tell anything");

@@ -1,7 +1,7 @@
 //! What is going on, on standard error: notes, and a bar for what takes longer than a second; a line in its place where nobody watches.
 
 use std::io::{IsTerminal, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
@@ -73,7 +73,7 @@ impl Progress {
         notes.iter().for_each(|note| self.say(&note.line()));
     }
 
-    fn note(&self, text: &str) {
+    pub(crate) fn note(&self, text: &str) {
         self.say(&format!("note: {text}"));
     }
 
@@ -162,6 +162,20 @@ impl Progress {
         }
         self.note(&are_written(&names));
         Ok(())
+    }
+
+    /// As [`Self::read_coil`], after a check that no output would overwrite the coil file, a cell file that it names, or another input.
+    pub(crate) fn read_coil_for(
+        &self,
+        path: &Path,
+        inputs: &[PathBuf],
+        outputs: &[Option<&Path>],
+    ) -> Result<input::CoilCase, Error> {
+        output::check_outputs(&[&[path.to_owned()], inputs].concat(), outputs)?;
+        let case = self.read_coil(path)?;
+        let files: Vec<PathBuf> = case.fingerprints.iter().map(|read| read.file.clone()).collect();
+        output::check_outputs(&files, outputs)?;
+        Ok(case)
     }
 
     /// Reads a coil file and says what in it looks like a mistake.

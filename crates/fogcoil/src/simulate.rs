@@ -9,7 +9,7 @@ use coil::{
     CHECKS, COARSER, Drive, Dynamics, Profile, ReductionError, Response, STANDARD, STEADY, SteadySensitivity, ThermalState,
     TurnFields, chamber_from_sensor,
 };
-use files::Remark;
+use files::{Note, Remark};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -301,6 +301,17 @@ impl Simulation<'_> {
     /// From the first to the last instant \[s\].
     pub fn duration(&self) -> f64 {
         self.row(self.count() - 1).time - self.row(0).time
+    }
+
+    /// A warning of a thermometer outside what profiles may hold.
+    pub fn warning(&self) -> Option<Note> {
+        let impossible = |row: &SimulatedRow| !(ABSOLUTE_ZERO_C..=HOTTEST_C).contains(&row.spool);
+        let row = self.rows().find(impossible)?;
+        let text = format!(
+            "spool_c is {:.0} degC at {:.0} s, outside {ABSOLUTE_ZERO_C} to {HOTTEST_C} degC; check heat.heaters and the profile",
+            row.spool, row.time
+        );
+        Some(Remark::ImpossibleResult.warning(text).at(&self.case.file))
     }
 
     /// The rows in windows.

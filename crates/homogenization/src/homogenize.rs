@@ -30,7 +30,7 @@ pub struct Homogenized {
     pub constants: Constants,
     /// Estimated relative error of each: [`SAFETY`] times its distance from its value with fewer multipoles ([`homogenize_to`], which
     /// adds what rounding may do) or two polynomial orders higher ([`homogenize_on`]), and no less than a tenth of the worst one's. A
-    /// constant that is nearly zero is compared with [`NEGLIGIBLE`] of its natural scale instead.
+    /// constant that is nearly zero is compared with [`Constants::size`] instead.
     pub relative_error: Constants,
     /// Stiffness, thermal stress, conductivity and glass strain behind the constants.
     pub effective: Effective,
@@ -103,7 +103,8 @@ pub(crate) fn worst(errors: &[(&'static str, f64)]) -> (&'static str, f64) {
 }
 
 impl Constants {
-    /// What the relative error of each is relative to: its size, or [`NEGLIGIBLE`] of its natural scale if that is larger.
+    /// What the relative error of each is relative to: its size, or [`NEGLIGIBLE`] of its natural scale if that is larger; of the row M, which has
+    /// zeros without contrast, that scale itself where it is less than [`NEGLIGIBLE`] of it.
     pub fn size(&self) -> Self {
         let expansion = self.alpha_z.abs().max(self.alpha_r.abs());
         let scale = |(name, value): (&str, f64)| match name {
@@ -111,7 +112,14 @@ impl Constants {
             "nu_zr" | "nu_r" | "nu_rz" | "m_rx" | "m_ry" | "m_rz" => 1.0,
             _ => value.abs(),
         };
-        Self::of(self.named().map(|named| named.1.abs().max(NEGLIGIBLE * scale(named))))
+        let size = |named: (&str, f64)| {
+            let (value, scale) = (named.1.abs(), scale(named));
+            match named.0 {
+                name if name.starts_with("m_") && value < NEGLIGIBLE * scale => scale,
+                _ => value.max(NEGLIGIBLE * scale),
+            }
+        };
+        Self::of(self.named().map(size))
     }
 }
 

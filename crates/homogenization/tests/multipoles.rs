@@ -5,8 +5,8 @@ mod common;
 use common::{glass, on, reference, solid, two_phase};
 use homogenization::identify::Random;
 use homogenization::{
-    Constants, Constituent, Error, Extent, FibreCell, Homogenized, Integration, NEGLIGIBLE, Packing, Ring, Role, TOLERANCE,
-    effective, effective_with, homogenize_to, multipoles,
+    Constants, Constituent, Error, Extent, FibreCell, Homogenized, Integration, Packing, Ring, Role, TOLERANCE, effective,
+    effective_with, homogenize_to, multipoles,
 };
 
 const PACKINGS: [Packing; 2] = [Packing::Hexagonal, Packing::Square];
@@ -124,15 +124,10 @@ fn anything(random: &mut Random) -> FibreCell {
 
 /// No constant of `found` is farther from `exact` than its estimate says.
 fn assert_covered(found: &Homogenized, exact: &Constants, what: &str) {
-    let expansion = NEGLIGIBLE * exact.alpha_r.abs().max(exact.alpha_z.abs());
+    let sizes = found.constants.size().named();
     let all = found.constants.named().into_iter().zip(exact.named()).zip(found.relative_error.named());
-    for (((name, found), (_, exact)), (_, estimate)) in all {
-        let floor = match name {
-            "alpha_z" | "alpha_r" | "m_rt" => expansion,
-            name if name.starts_with("nu") || name.starts_with("m_") => NEGLIGIBLE,
-            _ => 0.0,
-        };
-        let error = (found - exact).abs() / exact.abs().max(floor);
+    for ((((name, found), (_, exact)), (_, estimate)), (_, size)) in all.zip(sizes) {
+        let error = (found - exact).abs() / size;
         assert!(error <= estimate, "{what}, {name}: {error:e}, estimated {estimate:e}");
     }
 }

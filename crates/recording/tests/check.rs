@@ -49,6 +49,7 @@ fn expectations() -> Expectations {
         mistaken: vec![unit("deg/s", 3600.0, 0.0)],
         offset: Some(Offset { largest: 0.5, explained: 15.1, of: "Earth rate not removed".into() }),
         essential: true,
+        ..Expectation::default()
     };
     Expectations { channels: vec![temperature, rate], fewest_rows: 100 }
 }

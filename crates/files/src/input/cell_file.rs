@@ -15,6 +15,7 @@ use super::quantity::{
 #[serde(deny_unknown_fields)]
 pub(super) struct CellFile {
     /// Its name.
+    #[serde(deserialize_with = "super::name::printable")]
     pub(super) name: String,
     /// Distance of neighbouring fibres; not beside `cell_um`.
     #[serde(default)]
@@ -86,6 +87,7 @@ pub(super) struct VoidFile {
 #[serde(deny_unknown_fields)]
 pub(super) struct RingFile {
     /// Its name.
+    #[serde(deserialize_with = "super::name::printable")]
     pub(super) name: String,
     /// Of a round ring.
     #[serde(default)]

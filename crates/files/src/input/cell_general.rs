@@ -171,7 +171,12 @@ fn misplaced(top: &Group, file: &CellFile, fibres: usize, error: &LayoutError) -
     };
     match error {
         LayoutError::Nesting { ring: i, thickness, .. } => {
-            let problem = format!("does not lie inside ring {} (least thickness {:.3} um)", i + 1, 1e6 * thickness);
+            let um = 1e6 * thickness;
+            if *thickness > 0.0 {
+                let problem = format!("leaves ring {} only {um:.3} um thick at its thinnest, too thin to be meshed", i + 1);
+                return top.fault(&ring(*i), problem, "make the ring around it wider, or move this one towards its centre");
+            }
+            let problem = format!("does not lie inside ring {} (least thickness {um:.3} um)", i + 1);
             top.fault(&ring(*i), problem, "list the rings from the inside out, each inside the next")
         }
         LayoutError::Overlap { first, second, film } => {

@@ -22,6 +22,7 @@ use super::winding_file::WindingFile;
 #[serde(deny_unknown_fields)]
 pub(crate) struct CoilFile {
     /// Its name.
+    #[serde(deserialize_with = "super::name::printable")]
     pub(crate) name: String,
     /// How the fibre lies.
     pub(crate) winding: WindingFile,

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::InputError;
 use super::group::Group;
 use super::mirror::{Mirror, mirrored};
-use super::quantity::{Factor, HysteresisK, Share, TemperatureC, TimeS};
+use super::quantity::{Factor, HysteresisK, RelaxingShare, Share, TemperatureC, TimeS};
 use super::winding_file::SideFile;
 
 /// Rows of the longest temperature table accepted: each costs a model.
@@ -28,7 +28,7 @@ pub(crate) enum MechanicsFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct RelaxingFile {
     /// What relaxes.
-    fraction: Share,
+    fraction: RelaxingShare,
     /// In what time.
     time_s: TimeS,
 }

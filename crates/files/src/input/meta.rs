@@ -42,18 +42,28 @@ pub struct TemperatureSensor {
     pub spool_quantisation_c: f64,
 }
 
+/// Longest interval between rows \[s\]: thirty years.
+pub(super) const MOST_INTERVAL_S: f64 = 1e9;
+
 /// Reads and checks a meta file.
 pub(super) fn read(path: &Path) -> Result<Meta, InputError> {
     let source = Source::read(path)?;
     let meta: Meta = source.parse(None)?;
     let sensor = &meta.temperature_sensor;
     let values = [
-        ("sample_interval_s", meta.sample_interval_s),
         ("temperature_sensor.noise_c", sensor.noise_c),
         ("temperature_sensor.chamber_quantisation_c", sensor.chamber_quantisation_c),
         ("temperature_sensor.spool_quantisation_c", sensor.spool_quantisation_c),
         ("nominal_arw_deg_per_sqrt_h", meta.nominal_arw_deg_per_sqrt_h.unwrap_or(0.0)),
     ];
+    if !(0.0..=MOST_INTERVAL_S).contains(&meta.sample_interval_s) {
+        let problem = format!("{:e} s is not an interval of 0 to {MOST_INTERVAL_S:e} s", meta.sample_interval_s);
+        return Err(source.fault(
+            "sample_interval_s",
+            problem,
+            "give the seconds over which a rate is a mean, or leave the field out",
+        ));
+    }
     match values.into_iter().find(|(_, value)| !(*value >= 0.0 && value.is_finite())) {
         Some((field, value)) => {
             Err(source.fault(field, format!("{value} is not 0 or more"), "give the value, or leave the field out"))

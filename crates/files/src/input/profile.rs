@@ -13,12 +13,12 @@ use crate::remark::{Note, Remark};
 /// Most rows of a profile: two and a half years at 4 s.
 const MOST_ROWS: usize = 20_000_000;
 /// Accepted temperatures \[degC\].
-const ABSOLUTE_ZERO_C: f64 = -273.15;
+pub(super) const ABSOLUTE_ZERO_C: f64 = -273.15;
 const MOST_C: f64 = 1000.0;
 /// A chamber that never gets below this \[degC\] is noted as possibly recorded in kelvin.
 const KELVIN_C: f64 = 180.0;
 /// Latest instant, either side of 0 [s]: 30 000 years, to catch a wrong unit.
-const MOST_S: f64 = 1e12;
+pub(super) const MOST_S: f64 = 1e12;
 /// Shortest interval between rows [s]: a hundredth of the rounding of a time counted from 1970.
 const SHORTEST_S: f64 = 1e-6;
 

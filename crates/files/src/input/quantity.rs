@@ -72,6 +72,7 @@ quantities! {
     PlaceUm: -1e6 to 1e6, "um", "85.0", from_um, to_um;
     AngleDeg: -360.0 to 360.0, "deg", "30.0", f64::to_radians, f64::to_degrees;
     PitchMm: 1e-3 to 50.0, "mm", "0.170", from_mm, to_mm;
+    WallMm: 0.01 to 1e5, "mm", "2.0", from_mm, to_mm;
     LengthMm: 1e-3 to 1e5, "mm", "43.5", from_mm, to_mm;
     ExtraLengthMm: 0.0 to 1e5, "mm", "1.0", from_mm, to_mm;
     PositionMm: -1e5 to 1e5, "mm", "10.01", from_mm, to_mm;
@@ -88,6 +89,7 @@ quantities! {
     Conductance: 1e-6 to 1e6, "W/(m2 K)", "50.0", identity, identity;
     Factor: 1e-3 to 1e3, "", "1.5", identity, identity;
     Share: 1e-6 to 0.999, "", "0.3", identity, identity;
+    RelaxingShare: 1e-6 to 0.8, "", "0.3", identity, identity;
     TimeS: 1e-3 to 1e9, "s", "1800.0", identity, identity;
     TemperatureC: -273.15 to 1000.0, "degC", "-20.0", identity, identity;
     HysteresisK: 0.0 to 1000.0, "K", "5.0", identity, identity;

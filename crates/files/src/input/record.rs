@@ -1,6 +1,6 @@
 //! A recording: instants, temperatures and the gyro's rate.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use recording::check::{Expectation, Expectations, Offset, Report, Severity, check};
 use recording::{Channel, Recording, Sampling};
@@ -8,10 +8,11 @@ use recording::{Channel, Recording, Sampling};
 use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::meta::{self, Meta};
+use super::profile::ABSOLUTE_ZERO_C;
+use super::record_clock::Clock;
 use super::record_columns::RecordColumns;
 use super::record_format::{Key, RecordFormat, RecordOptions};
-use super::rows::{Rows, quoted};
-use super::timestamp::{self, FORMS, is_ambiguous};
+use super::rows::{NOT_UTF8, Rows, quoted};
 use crate::Error;
 use crate::remark::{Note, Remark};
 
@@ -21,12 +22,20 @@ const MOST_ROWS: usize = 10_000_000;
 const FEW_ROWS: usize = 100;
 /// Where temperatures may lie \[°C\].
 const TEMPERATURE_C: [f64; 2] = [-100.0, 200.0];
-/// Where rates and their noise may lie at rest \[deg/h\]: up to consumer gyros, whose bias is below a degree a second.
-const RATE_DEG_PER_H: [f64; 2] = [-3600.0, 3600.0];
-/// Noise below this is not that of a gyro's sample \[deg/h\].
-const NOISE_DEG_PER_H: [f64; 2] = [2e-5, 3600.0];
+/// Temperatures \[°C\] that a sensor on a coil can tell: from absolute zero to where polyimide, the most resistant polymer on a fibre, decomposes.
+const POSSIBLE_C: [f64; 2] = [ABSOLUTE_ZERO_C, 400.0];
+/// Rooms \[°C\].
+const ROOM_C: [f64; 2] = [15.0, 30.0];
 /// The Earth's rate \[deg/h\] with two parts in a thousand (IERS Conventions 2010: 7.292115e-5 rad/s).
 const EARTH_DEG_PER_H: f64 = 15.041 * 1.002;
+/// Where rates may lie at rest \[deg/h\]: a hundred times the Earth's, far beyond an optical gyro's bias.
+const RATE_DEG_PER_H: [f64; 2] = [-100.0 * EARTH_DEG_PER_H, 100.0 * EARTH_DEG_PER_H];
+/// Rates \[deg/h\] that a gyro can tell: some thousand degrees a second.
+const POSSIBLE_DEG_PER_H: [f64; 2] = [-1e8, 1e8];
+/// Noise below this is not that of a gyro's sample \[deg/h\].
+const NOISE_DEG_PER_H: [f64; 2] = [2e-5, 3600.0];
+/// Rates that never reach this \[deg/h\] would, in deg/s, never reach the Earth's.
+const SMALL_DEG_PER_H: f64 = EARTH_DEG_PER_H / 3600.0;
 /// A constant offset above this is no bias of the gyros that this program is for \[deg/h\].
 const OFFSET_DEG_PER_H: f64 = 0.5;
 
@@ -79,10 +88,19 @@ impl RecordCase {
 /// # Errors
 /// [`Error::Input`]: what is wrong, in which file, line and column, and how to mend it; [`Error::Usage`] for wrong options.
 pub fn read_record(path: &Path, options: &RecordOptions) -> Result<RecordCase, Error> {
-    let format = RecordFormat::read(path, options)?;
-    let beside = Some(path.with_file_name("meta.ron")).filter(|beside| beside.is_file());
-    let meta = options.meta.clone().or(beside).map(|path| meta::read(&path)).transpose()?;
-    checked(Rows::open(path, "a recording (*.csv)", format.dialect)?, &format, meta)
+    read_as(path, &RecordFormat::read(path, options)?, options)
+}
+
+/// [`read_record`] in a known format.
+pub(super) fn read_as(path: &Path, format: &RecordFormat, options: &RecordOptions) -> Result<RecordCase, Error> {
+    let meta = known(options.meta_of(path))?;
+    checked(Rows::open(path, "a recording (*.csv)", format.dialect)?, format, meta).map_err(|error| match error {
+        Error::Input(wrong) if wrong.problem == NOT_UTF8 => {
+            let remedy = format!("{}, or let `fogcoil check RECORD --write-map` find how it is encoded", wrong.remedy);
+            InputError { remedy, ..wrong }.into()
+        }
+        other => other,
+    })
 }
 
 /// Checks a recording that is not in a file, in the standard columns: the case that [`read_record`] would read from a file of this
@@ -91,20 +109,36 @@ pub fn read_record(path: &Path, options: &RecordOptions) -> Result<RecordCase, E
 /// # Errors
 /// As [`read_record`]; messages call the text `path`.
 pub fn check_record(path: &Path, text: String, meta: Option<&Path>) -> Result<RecordCase, Error> {
-    let meta = meta.map(meta::read).transpose()?;
+    let meta = known(meta.map(Path::to_owned))?;
     checked(Rows::of(path, text), &RecordFormat::standard(), meta)
 }
 
-fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<Meta>) -> Result<RecordCase, Error> {
+/// A meta file with its path.
+fn known(meta: Option<PathBuf>) -> Result<Option<(PathBuf, Meta)>, InputError> {
+    meta.map(|path| meta::read(&path).map(|meta| (path, meta))).transpose()
+}
+
+fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<(PathBuf, Meta)>) -> Result<RecordCase, Error> {
     rows.header("time_s,chamber_c,spool_c,rate_deg_per_h")?;
     let columns = RecordColumns::read(&rows, format)?;
     let (recording, relative) = read_rows(&mut rows, &columns, format)?;
     let report = check(&recording, &expectations(&recording, format));
-    let interval = report.instants.as_ref().map_or(0.0, |instants| instants.interval);
+    let [interval, span] = report.instants.as_ref().map_or([0.0; 2], |instants| [instants.interval, instants.span]);
+    let meta = meta.map(|(path, meta)| fits(&path, meta, span)).transpose()?;
     let averaging = meta.as_ref().map(|meta| meta.sample_interval_s).filter(|seconds| *seconds > 0.0).unwrap_or(interval);
     let mut notes = notes(&columns, format, relative);
     notes.extend(meta.as_ref().and_then(|meta| interval_note(meta, interval)));
     Ok(RecordCase { recording, report, averaging, meta, notes, fingerprint: rows.fingerprint() })
+}
+
+/// The meta file of a recording that lasts `span` \[s\], unless a rate would be a mean over more.
+fn fits(path: &Path, meta: Meta, span: f64) -> Result<Meta, InputError> {
+    let interval = meta.sample_interval_s;
+    if span == 0.0 || interval <= span {
+        return Ok(meta);
+    }
+    let problem = format!("sample_interval_s: {interval} s is longer than the recording, {span} s");
+    Err(InputError::whole(path, problem, "give the seconds over which a rate is a mean, or leave the field out"))
 }
 
 /// The recording, and whether its instants count from its first row.
@@ -113,6 +147,7 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
         [Key::Chamber, Key::Spool, Key::Rate].into_iter().filter_map(|key| Some((key, columns.column(key)?))).collect();
     let mut clock = Clock::new(columns, format);
     let mut values: Vec<Vec<f64>> = vec![Vec::new(); channels.len()];
+    let mut impossible: Vec<Option<(usize, InputError)>> = vec![None; channels.len()];
     let mut time: Vec<f64> = Vec::new();
     while rows.advance()? {
         let expected = columns.names.len();
@@ -121,9 +156,21 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
             return Err(rows.fault(None, format!("more than {MOST_ROWS} rows"), "split the recording, or average it"));
         }
         time.push(clock.read(rows, columns, time.len())?);
-        for ((key, column), values) in channels.iter().zip(&mut values) {
-            let value = rows.value(*column, &columns.names[*column])?;
-            values.push(value.map_or(f64::NAN, |value| format.column(*key).standard(value)));
+        for (((key, column), values), impossible) in channels.iter().zip(&mut values).zip(&mut impossible) {
+            let name = &columns.names[*column];
+            let value = rows.value(*column, name)?.map_or(f64::NAN, |value| format.column(*key).standard(value));
+            let [low, high] = possible(*key);
+            if value < low || value > high {
+                impossible.get_or_insert_with(|| (0, beyond(rows, *key, name, value))).0 += 1;
+            }
+            values.push(value);
+        }
+    }
+    for (values, impossible) in values.iter().zip(impossible) {
+        // of fewer, `check` says that they are not used
+        let present = values.iter().filter(|value| !value.is_nan()).count();
+        if let Some((count, first)) = impossible.filter(|(count, _)| 2 * count > present) {
+            return Err(InputError { problem: format!("{}, and so are {count} of {present} values", first.problem), ..first });
         }
     }
     if time.is_empty() {
@@ -137,7 +184,23 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
     };
     let channels = channels.iter().zip(values).map(channel).collect();
     let recording = Recording::new(time, channels).map_err(|error| rows.whole_fault(&error.to_string(), ""))?;
-    Ok((recording, clock.first.is_some()))
+    Ok((recording, clock.counts_dates()))
+}
+
+/// What no value is beyond, in the standard unit.
+fn possible(key: Key) -> [f64; 2] {
+    if key == Key::Rate { POSSIBLE_DEG_PER_H } else { POSSIBLE_C }
+}
+
+/// The complaint about a value that is impossible.
+fn beyond(rows: &Rows, key: Key, name: &str, value: f64) -> InputError {
+    let ([low, high], unit) = (possible(key), key.units()[0].names[0]);
+    let shown = if value.abs() < 1e6 { format!("{value}") } else { format!("{value:e}") };
+    let key = key.name();
+    let remedy = format!(
+        "check the column, its unit (--unit {key}=UNIT, or unit in the map file) and its scale (--scale {key}=FACTOR, or scale)"
+    );
+    rows.fault(Some(name), format!("{shown} {unit} is impossible ({low} to {high} {unit})"), remedy)
 }
 
 fn count_remedy(found: usize, expected: usize) -> &'static str {
@@ -148,67 +211,26 @@ fn count_remedy(found: usize, expected: usize) -> &'static str {
     }
 }
 
-/// Instants from a column, from dates, or from the rows' number.
-struct Clock<'a> {
-    column: Option<usize>,
-    format: &'a RecordFormat,
-    /// First instant of dates \[s since 1970\], from which the others count.
-    first: Option<f64>,
-}
-
-impl<'a> Clock<'a> {
-    fn new(columns: &RecordColumns, format: &'a RecordFormat) -> Self {
-        Self { column: columns.column(Key::Time), format, first: None }
-    }
-
-    fn read(&mut self, rows: &Rows, columns: &RecordColumns, number: usize) -> Result<f64, InputError> {
-        let Some(column) = self.column else { return Ok(number as f64 * self.format.interval.unwrap_or(1.0)) };
-        if (number == 0 || self.first.is_some())
-            && let Some(seconds) = timestamp::seconds(rows.field(column))
-        {
-            return Ok(seconds - *self.first.get_or_insert(seconds));
-        }
-        let name = &columns.names[column];
-        if self.first.is_some() {
-            let problem = format!("{} is not a date and time like that of the first row", quoted(rows.field(column)));
-            return Err(rows.fault(Some(name), problem, format!("write it like {FORMS}")));
-        }
-        match rows.value(column, name).map_err(|error| not_an_instant(error, rows.field(column)))? {
-            Some(value) => Ok(self.format.column(Key::Time).standard(value)),
-            None => Err(rows.fault(Some(name), "is empty", "every row needs an instant; remove the row")),
-        }
-    }
-}
-
-/// The complaint about a field that is no number, where it may be a date.
-fn not_an_instant(error: InputError, text: &str) -> InputError {
-    if text.parse::<f64>().is_ok() || error.remedy.contains("--decimal-comma") {
-        return error;
-    }
-    let problem = if is_ambiguous(text) {
-        format!("{} does not say whether the day or the month is first", quoted(text))
-    } else {
-        error.problem
-    };
-    let remedy = format!("write seconds like 20.5, or dates like {FORMS}; with no column of instants, --interval SECONDS");
-    InputError { problem, remedy, ..error }
-}
-
 /// What a gyro's record holds.
 fn expectations(recording: &Recording, format: &RecordFormat) -> Expectations {
     let of = |channel: &Channel| {
         let key = Key::ALL.into_iter().find(|key| key.standard() == channel.name).unwrap_or(Key::Rate);
         let mistaken = format.column(key).mistaken(key);
         if key != Key::Rate {
-            return Expectation { values: TEMPERATURE_C, mistaken, ..Expectation::default() };
+            // who says the unit knows where the recording starts
+            let start = if format.column(key).is_standard(key) { ROOM_C } else { Expectation::default().start };
+            return Expectation { values: TEMPERATURE_C, possible: possible(key), start, mistaken, ..Expectation::default() };
         }
         let of = format!("Earth's rate not removed (up to {:.2} deg/h times the sine of the latitude)", EARTH_DEG_PER_H / 1.002);
         Expectation {
             values: RATE_DEG_PER_H,
+            possible: possible(key),
             noise: NOISE_DEG_PER_H,
+            least_size: SMALL_DEG_PER_H,
             mistaken,
             offset: Some(Offset { largest: OFFSET_DEG_PER_H, explained: EARTH_DEG_PER_H, of }),
             essential: true,
+            ..Expectation::default()
         }
     };
     Expectations { channels: recording.channels().iter().map(of).collect(), fewest_rows: FEW_ROWS }
@@ -248,6 +270,7 @@ fn notes(columns: &RecordColumns, format: &RecordFormat, relative: bool) -> Vec<
         [] => {}
         [name] => notes.push(Remark::IgnoredColumn.note(format!("the column {} is not used", quoted(name)))),
         ref names => {
+            let names: Vec<String> = names.iter().map(|name| quoted(name)).collect();
             let message = format!("{} columns are not used: {}", names.len(), names.join(", "));
             notes.push(Remark::IgnoredColumn.note(message));
         }

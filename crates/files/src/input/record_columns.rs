@@ -26,10 +26,15 @@ impl RecordColumns {
             let declared = format.column(key).name.as_deref();
             let name = declared.unwrap_or(key.standard());
             let found: Vec<usize> = (0..names.len()).filter(|&column| names[column] == name).collect();
+            let plain = declared.is_none() && format.column(key).is_standard(key);
             at[key as usize] = match found[..] {
+                [_] if key == Key::Time && format.interval.is_some() => {
+                    let problem = "the instants stand in this column, and an interval is given too";
+                    return Err(rows.fault(Some(name), problem, "leave out --interval (interval_s in the map file)"));
+                }
                 [column] => Some(column),
-                [] if declared.is_none() && (key == Key::Chamber || key == Key::Spool) => None,
-                [] if declared.is_none() && key == Key::Time && format.interval.is_some() => None,
+                [] if plain && (key == Key::Chamber || key == Key::Spool) => None,
+                [] if plain && key == Key::Time && format.interval.is_some() => None,
                 [] => return Err(absent(rows, key, name, &names)),
                 _ => return Err(rows.fault(Some(name), "the column is there more than once", "rename all but one")),
             };

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use recording::check::Unit;
-use schemars::JsonSchema;
-use serde::Deserialize;
 
 use super::InputError;
+use super::encoding::Encoding;
+use super::map_file::MapFile;
+use super::meta::MOST_INTERVAL_S;
 use super::profile_columns::TIME;
 use super::rows::Dialect;
 use super::source::Source;
@@ -72,10 +73,19 @@ impl Key {
         self.unit(pair.1.trim()).ok()
     }
 
-    fn unit(self, name: &str) -> Result<ColumnUnit, String> {
+    pub(super) fn unit(self, name: &str) -> Result<ColumnUnit, String> {
         let found = self.units().iter().find(|unit| unit.names.contains(&name));
         let choices = || self.units().iter().map(|unit| unit.names[0]).collect::<Vec<_>>().join(", ");
         found.copied().ok_or_else(|| format!("`{name}` is no unit of {}; choose {}", self.name(), choices()))
+    }
+}
+
+/// Refuses a flag that speaks of a column twice.
+fn once<T>(flag: &str, declared: &[(Key, T)]) -> Result<(), String> {
+    let twice = |n: &usize| declared[..*n].iter().any(|(key, _)| *key == declared[*n].0);
+    match (0..declared.len()).find(twice) {
+        Some(n) => Err(format!("{flag}: {} is given twice; give it once", declared[n].0.name())),
+        None => Ok(()),
     }
 }
 
@@ -111,38 +121,6 @@ pub struct RecordOptions {
     pub interval: Option<f64>,
 }
 
-/// How a logger's file is read, `RECORD.map.ron`; what is left out is standard.
-#[derive(Deserialize, JsonSchema, Default)]
-#[serde(deny_unknown_fields, default)]
-pub(super) struct MapFile {
-    /// Between the fields: a character, or `tab`; empty: a comma.
-    separator: String,
-    /// Whether numbers are written like 20,5.
-    decimal_comma: bool,
-    /// Seconds between rows, for a file without instants; 0: it has them.
-    interval_s: f64,
-    /// The instants: s, ms, us, ns, min, h; dates need no unit.
-    time: ColumnFile,
-    /// The chamber's temperature: degC, K or degF.
-    chamber: ColumnFile,
-    /// The spool's thermometer: degC, K or degF.
-    spool: ColumnFile,
-    /// The rate: deg/h, deg/s, rad/s or mrad/s.
-    rate: ColumnFile,
-}
-
-/// A column of a logger's file.
-#[derive(Deserialize, JsonSchema, Default, Clone)]
-#[serde(deny_unknown_fields, default)]
-struct ColumnFile {
-    /// Its name in the file; empty: the standard one.
-    column: String,
-    /// Its unit; empty: the standard one.
-    unit: String,
-    /// Units in a count; 0: it holds no counts.
-    scale: f64,
-}
-
 /// How a file is read, complete.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RecordFormat {
@@ -160,12 +138,27 @@ pub(super) struct ColumnFormat {
     pub(super) count: f64,
 }
 
+impl RecordOptions {
+    /// The map file of a record, if there is one.
+    fn map_of(&self, record: &Path) -> Option<PathBuf> {
+        self.map.clone().or_else(|| Some(record.with_extension("map.ron")).filter(|beside| beside.is_file()))
+    }
+
+    /// The meta file of a record, if there is one.
+    pub(super) fn meta_of(&self, record: &Path) -> Option<PathBuf> {
+        self.meta.clone().or_else(|| Some(record.with_file_name("meta.ron")).filter(|beside| beside.is_file()))
+    }
+
+    /// Every file that is read for a record.
+    pub fn files(&self, record: &Path) -> Vec<PathBuf> {
+        [Some(record.to_owned()), self.map_of(record), self.meta_of(record)].into_iter().flatten().collect()
+    }
+}
+
 impl RecordFormat {
     /// From the flags and the map file, if there is one.
     pub(super) fn read(record: &Path, options: &RecordOptions) -> Result<Self, Error> {
-        let beside = record.with_extension("map.ron");
-        let path = options.map.clone().or_else(|| beside.is_file().then_some(beside));
-        let mut format = match path {
+        let mut format = match options.map_of(record) {
             Some(path) => Self::from_file(&path)?,
             None => Self::standard(),
         };
@@ -184,7 +177,7 @@ impl RecordFormat {
     }
 
     /// From a map file; an error is field and problem.
-    fn of(file: &MapFile) -> Result<Self, (String, String)> {
+    pub(super) fn of(file: &MapFile) -> Result<Self, (String, String)> {
         let at = |field: String| |problem: String| (field, problem);
         let mut format = Self::standard();
         if file.decimal_comma {
@@ -193,6 +186,10 @@ impl RecordFormat {
         if !file.separator.is_empty() {
             format.dialect.separator = separator(&file.separator).map_err(at("separator".into()))?;
         }
+        if !file.encoding.is_empty() {
+            format.dialect.encoding = encoding(&file.encoding).map_err(at("encoding".into()))?;
+        }
+        format.dialect.preamble = file.preamble_lines.into();
         format.interval = interval(file.interval_s).map_err(at("interval_s".into()))?;
         for (key, column) in Key::ALL.into_iter().zip([&file.time, &file.chamber, &file.spool, &file.rate]) {
             let format = &mut format.columns[key as usize];
@@ -207,7 +204,7 @@ impl RecordFormat {
         Ok(format)
     }
 
-    fn declare(&mut self, options: &RecordOptions) -> Result<(), String> {
+    pub(super) fn declare(&mut self, options: &RecordOptions) -> Result<(), String> {
         if let Some(text) = &options.separator {
             self.dialect.separator = separator(text).map_err(|problem| format!("--separator: {problem}"))?;
         }
@@ -217,6 +214,9 @@ impl RecordFormat {
         if let Some(seconds) = options.interval {
             self.interval = interval(seconds).map_err(|problem| format!("--interval: {problem}"))?;
         }
+        once("--column", &options.columns)?;
+        once("--unit", &options.units)?;
+        once("--scale", &options.scales)?;
         for (key, name) in &options.columns {
             self.columns[*key as usize].name = Some(name.clone());
         }
@@ -246,6 +246,11 @@ impl ColumnFormat {
         Ok(())
     }
 
+    /// Whether unit and count are those of the key's standard column.
+    pub(super) fn is_standard(&self, key: Key) -> bool {
+        self.unit == key.units()[0] && self.count == 1.0
+    }
+
     pub(super) fn standard(&self, value: f64) -> f64 {
         self.unit.scale * self.count * value + self.unit.offset
     }
@@ -269,9 +274,15 @@ fn separator(text: &str) -> Result<u8, String> {
     }
 }
 
+fn encoding(text: &str) -> Result<Encoding, String> {
+    let found = Encoding::ALL.iter().find(|(_, name)| text.eq_ignore_ascii_case(name));
+    let choices = || Encoding::ALL.map(|(_, name)| name).join(", ");
+    found.map(|(encoding, _)| *encoding).ok_or_else(|| format!("`{}` is not read; choose {}", text.escape_debug(), choices()))
+}
+
 /// 0 is none.
 fn interval(seconds: f64) -> Result<Option<f64>, String> {
-    if !(0.0..1e9).contains(&seconds) {
+    if !(0.0..=MOST_INTERVAL_S).contains(&seconds) {
         return Err(format!("{seconds} s is not an interval; give the seconds between rows"));
     }
     Ok((seconds > 0.0).then_some(seconds))

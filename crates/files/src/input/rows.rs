@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use csv::{ErrorKind, StringRecord, Terminator};
 
 use super::InputError;
+use super::encoding::{Decoded, Encoding};
 use super::fingerprint::{Fingerprint, Hash};
 
 /// Largest table [bytes]: 2 GiB.
@@ -24,20 +25,27 @@ const QUOTED: usize = 40;
 pub(crate) struct Dialect {
     pub(crate) separator: u8,
     pub(crate) decimal: char,
+    pub(crate) encoding: Encoding,
+    /// Lines above the names that are not read.
+    pub(crate) preamble: u64,
 }
 
 impl Dialect {
     /// Commas between the fields, a point in numbers.
-    pub(crate) const STANDARD: Self = Self { separator: b',', decimal: '.' };
+    pub(crate) const STANDARD: Self = Self { separator: b',', decimal: '.', encoding: Encoding::Utf8, preamble: 0 };
 }
 
+/// What is said of text in another encoding.
+pub(super) const NOT_UTF8: &str = "is not UTF-8 text";
 /// What a field without a value may hold, in lower case.
 const MISSING: [&str; 9] = ["", "nan", "na", "n/a", "null", "none", "-", "--", "#n/a"];
+/// What a meter writes beyond its range, in lower case, perhaps behind a sign.
+const OVERLOAD: [&str; 6] = ["ovld", "overload", "ol", "overrange", "over range", "overflow"];
 
 pub(crate) struct Rows {
     path: PathBuf,
     dialect: Dialect,
-    reader: csv::Reader<Chain<Metered, &'static [u8]>>,
+    reader: csv::Reader<Chain<Decoded<Metered>, &'static [u8]>>,
     record: StringRecord,
     /// Whether a row was met.
     begun: bool,
@@ -103,7 +111,7 @@ impl Rows {
             .quoting(false)
             .delimiter(dialect.separator)
             .terminator(Terminator::Any(b'\n'))
-            .from_reader(metered.chain(&b"\n"[..]));
+            .from_reader(Decoded::new(metered, dialect.encoding).chain(&b"\n"[..]));
         Self { path: path.to_owned(), dialect, reader, record: StringRecord::new(), begun: false }
     }
 
@@ -113,6 +121,7 @@ impl Rows {
             match self.reader.read_record(&mut self.record) {
                 Ok(false) => return Ok(false),
                 Ok(true) if self.count() == 1 && self.field(0).is_empty() => {}
+                Ok(true) if !self.begun && self.line() <= self.dialect.preamble => {}
                 Ok(true) if !self.begun && self.field(0).starts_with('#') => {}
                 Ok(true) => {
                     self.begun = true;
@@ -138,7 +147,7 @@ impl Rows {
 
     fn unreadable(&self, error: &csv::Error) -> InputError {
         match error.kind() {
-            ErrorKind::Utf8 { .. } => self.fault(None, "is not UTF-8 text", "save the file as \"CSV UTF-8\""),
+            ErrorKind::Utf8 { .. } => self.fault(None, NOT_UTF8, "save the file as \"CSV UTF-8\""),
             ErrorKind::Io(error) => InputError::whole(&self.path, format!("cannot be read: {error}"), ""),
             _ => self.fault(None, error.to_string(), ""),
         }
@@ -196,13 +205,16 @@ impl Rows {
     /// A field as a finite number in the table's dialect; `None` if it says that there is none.
     pub(crate) fn value(&self, column: usize, name: &str) -> Result<Option<f64>, InputError> {
         let text = self.field(column);
-        let value = match self.dialect.decimal {
-            '.' => text.parse::<f64>(),
-            other => text.replace(other, ".").parse::<f64>(),
-        };
+        let decimal = self.dialect.decimal;
+        if decimal != '.' && text.contains('.') && text.replace([decimal, '.'], "").parse::<f64>().is_ok() {
+            let problem = format!("{} has a point, but decimals have a comma here", quoted(text));
+            let remedy = "take out points between thousands, or leave out --decimal-comma (decimal_comma in the map file)";
+            return Err(self.fault(Some(name), problem, remedy));
+        }
+        let value = text.replace(decimal, ".").parse::<f64>();
         match value {
             Ok(value) if value.is_finite() => Ok(Some(value)),
-            _ if MISSING.iter().any(|word| text.eq_ignore_ascii_case(word)) => Ok(None),
+            _ if is_missing(text) => Ok(None),
             Ok(_) => Err(self.fault(Some(name), format!("{} is not a finite number", quoted(text)), "leave the field empty")),
             Err(_) if self.dialect.decimal == '.' && text.replacen(',', ".", 1).parse::<f64>().is_ok() => {
                 Err(self.fault(Some(name), format!("{} has a decimal comma", quoted(text)), "add --decimal-comma"))
@@ -214,9 +226,14 @@ impl Rows {
         }
     }
 
+    /// The line of this row, from 1.
+    fn line(&self) -> u64 {
+        self.reader.position().line().saturating_sub(1)
+    }
+
     /// A complaint about this row.
     pub(crate) fn fault(&self, column: Option<&str>, problem: impl Into<String>, remedy: impl Into<String>) -> InputError {
-        let line = usize::try_from(self.reader.position().line().saturating_sub(1)).unwrap_or(usize::MAX);
+        let line = usize::try_from(self.line()).unwrap_or(usize::MAX);
         InputError { line: Some(line.max(1)), field: column.map(str::to_owned), ..InputError::whole(&self.path, problem, remedy) }
     }
 
@@ -226,9 +243,14 @@ impl Rows {
 
     /// The content read so far.
     pub(crate) fn fingerprint(&self) -> Fingerprint {
-        let metered = self.reader.get_ref().get_ref().0;
+        let metered = &self.reader.get_ref().get_ref().0.source;
         metered.hash.fingerprint(self.path.clone())
     }
+}
+
+fn is_missing(text: &str) -> bool {
+    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
+    MISSING.iter().any(|word| text.eq_ignore_ascii_case(word)) || OVERLOAD.iter().any(|word| unsigned.eq_ignore_ascii_case(word))
 }
 
 /// A piece of a file in a message: short, on one line.

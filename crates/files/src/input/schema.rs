@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 
 use super::cell_file::CellFile;
 use super::coil_file::CoilFile;
+use super::map_file::MapFile;
 use super::meta::Meta;
-use super::record_format::MapFile;
 use super::targets_file::TargetsFile;
 
 /// How the JSON that a schema speaks of is written as RON.

@@ -31,6 +31,14 @@ pub fn read_ron<T: DeserializeOwned>(path: &Path) -> Result<T, InputError> {
     Source::read(path)?.parse(None)
 }
 
+/// A complaint about a field of a case file that was read before, with its line if the file is still there.
+pub fn fault_in(path: &Path, field: &str, problem: String, remedy: String) -> InputError {
+    match Source::read(path) {
+        Ok(source) => source.fault(field, problem, remedy),
+        Err(_) => InputError { field: Some(field.to_owned()), ..InputError::whole(path, problem, remedy) },
+    }
+}
+
 #[derive(Debug, Clone)]
 pub(crate) struct Source {
     path: PathBuf,

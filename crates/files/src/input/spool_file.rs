@@ -9,7 +9,7 @@ use super::InputError;
 use super::group::Group;
 use super::mirror::{Mirror, mirrored, says_default};
 use super::quantity::{
-    Conductivity, Density, ExpansionPerK, ExtraLengthMm, LagS, LengthMm, ModulusGpa, PositionMm, SpecificHeat,
+    Conductivity, Density, ExpansionPerK, ExtraLengthMm, LagS, LengthMm, ModulusGpa, PositionMm, SpecificHeat, WallMm,
 };
 use super::winding_file::SideFile;
 use crate::units::to_mm;
@@ -60,7 +60,7 @@ mirrored! {
         /// What it is made of.
         material: SolidFile = material,
         /// Radial thickness of the hub.
-        hub_thickness_mm: LengthMm = hub_thickness,
+        hub_thickness_mm: WallMm = hub_thickness,
         /// Whether the coil is bonded to the hub; if not, a gap of 0.2 mm.
         hub_bonded: bool = hub_contact,
         /// None, one or two.
@@ -72,7 +72,7 @@ mirrored! {
         /// On which side of the coil.
         side: SideFile = side,
         /// Along y.
-        thickness_mm: LengthMm = thickness,
+        thickness_mm: WallMm = thickness,
         /// Beyond the coil's outer radius.
         overhang_mm: ExtraLengthMm = overhang,
         /// Whether the coil is bonded to it; if not, a gap of 0.2 mm.

@@ -12,6 +12,7 @@ use super::quantity::FibreUm;
 #[serde(deny_unknown_fields)]
 pub(crate) struct TargetsFile {
     /// Its name.
+    #[serde(deserialize_with = "super::name::printable")]
     pub(crate) name: String,
     /// Distance of neighbouring fibres, hexagonal.
     pub(crate) pitch_um: FibreUm,
@@ -66,6 +67,7 @@ pub(crate) struct Entries {
 #[serde(deny_unknown_fields)]
 pub(crate) struct CellPrior {
     /// Its name.
+    #[serde(deserialize_with = "super::name::printable")]
     pub(crate) name: String,
     /// Rings from the inside out, 1 to 16.
     pub(crate) rings: Vec<RingFile>,
@@ -78,6 +80,7 @@ pub(crate) struct CellPrior {
 #[serde(deny_unknown_fields)]
 pub(crate) struct RingFile {
     /// Its name.
+    #[serde(deserialize_with = "super::name::printable")]
     pub(crate) name: String,
     /// Range that holds 90 % of the expectation.
     pub(crate) outer_diameter_um: (FibreUm, FibreUm),

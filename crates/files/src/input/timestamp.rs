@@ -3,9 +3,20 @@
 /// How instants are written that are dates, for messages.
 pub(crate) const FORMS: &str = "2024-05-01T12:00:00.5Z, or day first 01.05.2024 12:00:00.5";
 
-/// Seconds since 1970-01-01T00:00:00Z of `2024-05-01T12:00:00.5+02:00` or `01.05.2024 12:00:00.5`; a blank may stand for the T, a comma for
-/// the point, and the zone, then UTC, be absent.
-pub(crate) fn seconds(text: &str) -> Option<f64> {
+/// A date and time of day.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Date {
+    /// Since 1970-01-01T00:00:00Z.
+    pub(crate) seconds: f64,
+    /// Whether its zone is written.
+    pub(crate) is_zoned: bool,
+    /// Whether the month has the day.
+    pub(crate) exists: bool,
+}
+
+/// Reads `2024-05-01T12:00:00.5+02:00` or `01.05.2024 12:00:00.5`; a blank may stand for the T, a comma for the point, and the zone, then
+/// UTC, be absent.
+pub(crate) fn date(text: &str) -> Option<Date> {
     let (date, rest) = (text.get(..10)?, text.get(11..)?);
     if !matches!(text.as_bytes()[10], b'T' | b't' | b' ') {
         return None;
@@ -17,15 +28,19 @@ pub(crate) fn seconds(text: &str) -> Option<f64> {
     };
     let (year, month, day) = (whole(year)?, whole(month)?, whole(day)?);
     let (clock, zone) = match rest.find(['Z', 'z', '+', '-']) {
-        Some(at) => (&rest[..at], zone(&rest[at..])?),
-        None => (rest, 0.0),
+        Some(at) => (&rest[..at], Some(zone(&rest[at..])?)),
+        None => (rest, None),
     };
     let mut parts = clock.split(':');
     let (hour, minute) = (whole(parts.next()?)?, whole(parts.next()?)?);
     let second: f64 = parts.next().unwrap_or("0").replace(',', ".").parse().ok()?;
     let valid = (1..=12).contains(&month) && (1..=31).contains(&day) && hour < 24 && minute < 60 && (0.0..61.0).contains(&second);
-    let seconds = |days: i64| (days * 86_400 + hour * 3600 + minute * 60) as f64 + second - zone;
-    (valid && parts.next().is_none()).then(|| seconds(days(year, month, day)))
+    let seconds = |days: i64| (days * 86_400 + hour * 3600 + minute * 60) as f64 + second - zone.unwrap_or(0.0);
+    (valid && parts.next().is_none()).then(|| Date {
+        seconds: seconds(days(year, month, day)),
+        is_zoned: zone.is_some(),
+        exists: day <= length(year, month),
+    })
 }
 
 /// Whether a text seems to be a date of which it is not said whether the day or the month is first: `02/03/2026 08:00`.
@@ -50,6 +65,12 @@ fn zone(text: &str) -> Option<f64> {
     (hours < 24 && minutes < 60 && digits.len() <= 4).then(|| sign * (hours * 3600 + minutes * 60) as f64)
 }
 
+/// Days of a month.
+fn length(year: i64, month: i64) -> i64 {
+    let (after, next) = if month == 12 { (year + 1, 1) } else { (year, month + 1) };
+    days(after, next, 1) - days(year, month, 1)
+}
+
 /// Days since 1970-01-01 in the Gregorian calendar (H. Hinnant, *chrono-compatible low-level date algorithms*).
 fn days(year: i64, month: i64, day: i64) -> i64 {
     let year = year - i64::from(month <= 2);
@@ -61,7 +82,7 @@ fn days(year: i64, month: i64, day: i64) -> i64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{is_ambiguous, seconds};
+    use super::{date, is_ambiguous};
 
     #[test]
     fn instants() {
@@ -77,7 +98,9 @@ mod tests {
             ("01.01.1970T00:00:01,25", 1.25),
         ];
         for (text, expected) in cases {
-            assert_eq!(seconds(text), Some(expected), "{text}");
+            let date = date(text).unwrap();
+            let zoned = text[11..].contains(['Z', '+', '-']);
+            assert_eq!((date.seconds, date.is_zoned, date.exists), (expected, zoned, true), "{text}");
         }
         #[rustfmt::skip]
         let refused = [
@@ -86,7 +109,12 @@ mod tests {
             "05/01/2024 10:00:00", "2024.05.01 10:00:00", "01-05-2024 10:00:00", "01.13.2024 10:00:00", "01.5.20241 10:00:00",
         ];
         for text in refused {
-            assert_eq!(seconds(text), None, "{text}");
+            assert_eq!(date(text), None, "{text}");
+        }
+        let days =
+            [("2024-02-29", true), ("2026-02-29", false), ("1900-02-29", false), ("2026-04-31", false), ("2026-12-31", true)];
+        for (day, exists) in days {
+            assert_eq!(date(&format!("{day}T00:00:00")).unwrap().exists, exists, "{day}");
         }
         for (text, ambiguous) in
             [("05/01/2024 10:00", true), ("5/1/24", true), ("2024/05/01", false), ("1/2", false), ("20.5", false)]

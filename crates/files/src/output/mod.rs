@@ -131,8 +131,8 @@ fn temporary(target: &Path) -> io::Result<NamedTempFile> {
 ///
 /// # Errors
 /// [`Error::Usage`] or [`Error::Output`] names the file.
-pub fn check_outputs(inputs: &[&Path], outputs: &[Option<&Path>]) -> Result<(), Error> {
-    let mut taken: Vec<PathBuf> = inputs.iter().filter_map(|input| place(input).ok()).collect();
+pub fn check_outputs<P: AsRef<Path>>(inputs: &[P], outputs: &[Option<&Path>]) -> Result<(), Error> {
+    let mut taken: Vec<PathBuf> = inputs.iter().filter_map(|input| place(input.as_ref()).ok()).collect();
     for output in outputs.iter().flatten() {
         let target = place(output)?;
         if taken.contains(&target) {

@@ -70,6 +70,42 @@ fn verdict(content: &str) -> (String, String, String) {
     (json["verdict"].as_str().unwrap().to_owned(), stderr(&output), page)
 }
 
+/// What moves the spool was not recorded.
+#[test]
+fn a_dead_chamber_beside_a_moving_spool_is_refused() {
+    let (folder, report) = folder();
+    folder.write("r.csv", changed(|_, f| format!("{},20.00,{},{}", f[0], f[2], f[3])));
+    let output = folder.run(&["diagnose", "coil.ron", "--fit", "r.csv", "--report", "r.html", "--json", "j.json"]);
+    let message = stderr(&output);
+    assert_eq!((output.status.code(), stdout(&output).as_str()), (Some(2), ""), "{message}");
+    let says = "error: r.csv: chamber_c: is 20 degC throughout, while the spool moves by ";
+    assert!(message.lines().any(|line| line.starts_with(says) && line.contains("check the chamber's sensor")), "{message}");
+    assert!(!report.exists() && !folder.path("j.json").exists());
+}
+
+/// `diagnose` says no more of a record than `check` does.
+#[test]
+fn what_check_refuses_or_doubts_is_refused_or_doubted() {
+    let refused = |content: String, says: &str| {
+        let (folder, _) = folder();
+        folder.write("r.csv", content);
+        let output = folder.run(&["diagnose", "coil.ron", "--fit", "r.csv"]);
+        assert_eq!((output.status.code(), stdout(&output).as_str()), (Some(2), ""));
+        assert!(stderr(&output).contains(says), "`{says}` in {}", stderr(&output));
+    };
+    let number = |text: &str| text.parse::<f64>().unwrap();
+    refused(changed(|_, f| format!("{},{}e300,{},{}", f[0], f[1], f[2], f[3])), "r.csv:2: chamber_c: ");
+    refused(changed(|_, f| format!("{},{},{}e300,{}", f[0], f[1], f[2], f[3])), "r.csv:2: spool_c: ");
+    refused(changed(|_, f| format!("{},{},{},{:e}", f[0], f[1], f[2], number(f[3]) / 3600.0)), "is it in deg/s");
+    let fahrenheit = |text: &str| format!("{:.2}", 1.8 * number(text) + 32.0);
+    let text = changed(|_, f| format!("{},{},{},{}", f[0], fahrenheit(f[1]), fahrenheit(f[2]), f[3]));
+    let (_, notes, _) = verdict(&text.lines().take(121).fold(String::new(), |hour, line| hour + line + "\n"));
+    for channel in ["chamber_c", "spool_c"] {
+        let hint = format!("warning: r.csv: {channel}: starts at ");
+        assert!(notes.lines().any(|line| line.starts_with(&hint) && line.contains("is it in degF?")), "{notes}");
+    }
+}
+
 #[test]
 fn a_soak_or_an_hour_names_nothing() {
     let soak = record(300, |n, e| [30.0 * n as f64, 20.0 + 0.01 * e[0], 20.0 + 0.01 * e[1], 0.03 + 0.01 * e[2]]);

@@ -143,6 +143,9 @@ fn flags_and_map_files_that_cannot_be() {
     map("(rate: (\n unit: \"kg\"))", &["r.map.ron:2: rate.unit: `kg` is no unit of rate"]);
     map("(separator: \"xx\")", &["r.map.ron:1: separator: `xx` cannot separate fields"]);
     map("(interval_s: -1.0)", &["r.map.ron:1: interval_s: "]);
+    map("(encoding: \"ebcdic\")", &["r.map.ron:1: encoding: `ebcdic` is not read; choose utf-8, utf-16le"]);
+    map("(preamble_lines: -1)", &["r.map.ron:1: preamble_lines: "]);
+    map("(preamble_lines: 9999)", &["r.csv: is empty"]);
 
     let folder = Folder::new();
     folder.write("r.csv", &good);

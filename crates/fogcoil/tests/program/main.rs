@@ -3,20 +3,25 @@
 #![allow(clippy::unwrap_used)] // helpers of tests
 
 mod bad_diagnosis;
+mod bad_extremes;
 mod bad_input;
+mod bad_instants;
 mod bad_profile;
 mod bad_record;
 mod cache;
 mod cell_general;
 mod check;
+mod check_impossible;
 mod common;
 mod diagnose;
 mod good_input;
 mod identify;
 mod model_out;
 mod mutated_input;
+mod outputs;
 mod recommend;
 mod report;
 mod simulate;
 mod spool;
 mod terminal;
+mod write_map;

@@ -1,6 +1,7 @@
 //! One channel of a recording.
 
-use super::{Expectation, Finding, FindingKind, Instants, Repair, Severity, outliers, runs, units};
+use super::units::Course;
+use super::{Expectation, Finding, FindingKind, Instants, Repair, Severity, codes, outliers, runs, units};
 use crate::statistics::{median, normal_quantile, robust_sd};
 use crate::{Channel, series};
 
@@ -32,6 +33,7 @@ pub(super) struct Context<'a> {
     pub(super) values: &'a [f64],
     pub(super) summary: &'a ChannelSummary,
     pub(super) interval: f64,
+    pub(super) expectation: &'a Expectation,
 }
 
 /// Steps of resolution, in standard deviations of the noise, from which on it hides the noise.
@@ -48,7 +50,12 @@ pub(super) fn judge(time: &[f64], channel: &Channel, expectation: &Expectation, 
     let mut findings = Vec::new();
     let useless = if expectation.essential { Severity::Error } else { Severity::Warning };
     missing(time, &mask, useless, &mut findings);
-    let present: Vec<f64> = channel.values.iter().copied().filter(|value| value.is_finite()).collect();
+    findings.extend(codes::judge(time, &channel.values, expectation, &mut mask));
+    let used = |mask: &[bool]| channel.values.iter().zip(mask).filter(|(_, used)| **used).map(|(v, _)| *v).collect::<Vec<_>>();
+    let present = used(&mask);
+    if present.is_empty() && findings.iter().all(|finding| finding.kind != FindingKind::Empty) {
+        findings.push(Finding::whole(FindingKind::Empty, useless));
+    }
     let mut summary = ChannelSummary {
         name: channel.name.clone(),
         unit: channel.unit.clone(),
@@ -66,10 +73,13 @@ pub(super) fn judge(time: &[f64], channel: &Channel, expectation: &Expectation, 
         } else {
             summary.step = runs::step(&present);
             summary.noise = white_noise(time, &channel.values, &mask);
-            let context = Context { time, values: &channel.values, summary: &summary, interval: instants.interval };
+            let interval = instants.interval;
+            let context = Context { time, values: &channel.values, summary: &summary, interval, expectation };
             findings.extend(runs::judge(&context, &mut mask));
             findings.extend(outliers::judge(&context, &mut mask));
-            findings.extend(units::judge(&summary, extremes(present), expectation));
+            if let Some(course) = Course::new(&used(&mask)) {
+                findings.extend(units::judge(&summary, &course, expectation));
+            }
             if let (Some(step), Some(noise)) = (summary.step, summary.noise)
                 && step > COARSE * noise
             {
@@ -77,9 +87,9 @@ pub(super) fn judge(time: &[f64], channel: &Channel, expectation: &Expectation, 
             }
         }
     }
-    let used = || channel.values.iter().zip(&mask).filter(|(_, used)| **used).map(|(value, _)| *value);
-    (summary.used, summary.least, summary.largest) =
-        (used().count(), used().reduce(f64::min).unwrap_or(f64::NAN), used().reduce(f64::max).unwrap_or(f64::NAN));
+    let used = used(&mask);
+    let extreme = |fold: fn(f64, f64) -> f64| used.iter().copied().reduce(fold).unwrap_or(f64::NAN);
+    (summary.used, summary.least, summary.largest) = (used.len(), extreme(f64::min), extreme(f64::max));
     for finding in &mut findings {
         (finding.channel, finding.unit) = (Some(channel.name.clone()), channel.unit.clone());
     }
@@ -146,11 +156,4 @@ const INNER: f64 = 4.0;
 fn largest_but(share: f64, mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() - 1 - (share * values.len() as f64) as usize]
-}
-
-/// Values below and above which a hundredth lies.
-fn extremes(mut values: Vec<f64>) -> [f64; 2] {
-    values.sort_by(f64::total_cmp);
-    let rank = values.len() / 100;
-    [values[rank], values[values.len() - 1 - rank]]
 }

@@ -76,6 +76,22 @@ pub enum FindingKind {
         /// Units in which it would be plausible.
         candidates: Vec<String>,
     },
+    /// Values that no measurement gives; the largest \[u\].
+    Impossible(f64),
+    /// Values that what is at rest does not give, for longer than outliers do.
+    Moving {
+        /// The largest \[u\].
+        largest: f64,
+        /// What is plausible \[u\].
+        range: [f64; 2],
+    },
+    /// A start that would be a room's in another unit.
+    Start {
+        /// The start \[u\].
+        found: f64,
+        /// That unit.
+        candidate: String,
+    },
     /// One value \[u\] throughout.
     Constant(f64),
     /// No value at all.
@@ -133,7 +149,10 @@ impl Finding {
                 "check the sensor's cable and the choice of the column"
             }
             (FindingKind::Stuck { .. } | FindingKind::Saturation { .. }, _) => "check the sensor and its range",
-            (FindingKind::Unit { .. }, _) => "check the column's unit",
+            (FindingKind::Unit { .. } | FindingKind::Start { .. }, _) => {
+                "if so, say it: --unit KEY=UNIT, or unit in the map file"
+            }
+            (FindingKind::Moving { .. }, _) => "cut out the rows in which the unit was moved",
             (FindingKind::Offset { .. }, _) => "remove it, or accept that the offset is fitted",
             (FindingKind::TooShort { .. }, _) => "give a longer recording",
             _ => "",
@@ -164,6 +183,17 @@ impl Finding {
                 let verb = if *what == "noise" { "is" } else { "are" };
                 write!(f, "{what} of {} {unit} {verb} implausible ({} to {} {unit})", Short(*found), Short(*low), Short(*high))?;
                 if candidates.is_empty() { Ok(()) } else { write!(f, "; is it in {}?", candidates.join(" or ")) }
+            }
+            FindingKind::Impossible(largest) => write!(f, "values that no measurement gives, up to {} {unit}", Short(*largest)),
+            FindingKind::Moving { largest, range: [low, high] } => write!(
+                f,
+                "values of up to {} {unit}, impossible at rest ({} to {} {unit})",
+                Short(*largest),
+                Short(*low),
+                Short(*high)
+            ),
+            FindingKind::Start { found, candidate } => {
+                write!(f, "starts at {} {unit}; a room has as many {candidate}: is it in {candidate}?", Short(*found))
             }
             FindingKind::Constant(value) => write!(f, "is {} {unit} throughout", Short(*value)),
             FindingKind::Empty => write!(f, "has no value at all"),

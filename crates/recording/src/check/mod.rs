@@ -3,6 +3,7 @@
 //! Nothing is altered: [`check`] says which rows to keep and, channel by channel, which values to trust, and lists why.
 
 mod channel;
+mod codes;
 mod finding;
 mod instants;
 mod outliers;

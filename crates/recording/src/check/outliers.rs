@@ -1,6 +1,7 @@
 //! Lone values far from their neighbours.
 
 use super::channel::Context;
+use super::units::within;
 use super::{Finding, FindingKind, Repair, Severity};
 use crate::statistics::median;
 
@@ -22,8 +23,23 @@ const CODE: f64 = 20.0;
 /// off together.
 ///
 /// The first and last two rows are not judged, but for codes.
-pub(super) fn judge(context: &Context, mask: &mut [bool]) -> Option<Finding> {
-    let Context { time, values, summary, .. } = context;
+pub(super) fn judge(context: &Context, mask: &mut [bool]) -> Vec<Finding> {
+    let mut found = lone_values(context, mask).unwrap_or_default();
+    let moving = moving(context, mask);
+    found.extend(codes(context.values, mask));
+    found.sort_by_key(|(row, _)| *row);
+    found.dedup_by_key(|(row, _)| *row);
+    let largest = found.iter().fold(0.0_f64, |most, (_, distance)| most.max(*distance));
+    let outliers = found.first().zip(found.last()).map(|((first, _), (last, _))| {
+        let span = [context.time[*first], context.time[*last]];
+        Finding::at(FindingKind::Outliers(largest), Severity::Note, span, found.len(), Repair::Masked)
+    });
+    outliers.into_iter().chain(moving).collect()
+}
+
+/// Rows of lone values, with their distance from the median; they are not used. `None` without noise to judge by.
+fn lone_values(context: &Context, mask: &mut [bool]) -> Option<Vec<(usize, f64)>> {
+    let Context { time, summary, .. } = context;
     let noise = summary.noise?.max(summary.step.unwrap_or(0.0) / 2.0);
     let mut found = Vec::new();
     for together in 1..=TOGETHER {
@@ -35,13 +51,21 @@ pub(super) fn judge(context: &Context, mask: &mut [bool]) -> Option<Finding> {
         }
         found.iter().for_each(|(row, _)| mask[*row] = false);
     }
-    found.extend(codes(values, mask));
-    found.sort_by_key(|(row, _)| *row);
-    found.dedup_by_key(|(row, _)| *row);
-    let (first, last) = (found.first()?.0, found.last()?.0);
-    let largest = found.iter().fold(0.0_f64, |most, (_, distance)| most.max(*distance));
-    let span = [time[first], time[last]];
-    Some(Finding::at(FindingKind::Outliers(largest), Severity::Note, span, found.len(), Repair::Masked))
+    Some(found)
+}
+
+/// Values of an essential channel that are not plausible, where most are: more than outliers, they say that what is recorded was moved.
+fn moving(context: &Context, mask: &mut [bool]) -> Option<Finding> {
+    let Context { time, values, summary, expectation, .. } = context;
+    let range = expectation.values;
+    let rows: Vec<usize> = (0..time.len()).filter(|&row| mask[row] && !within(values[row], range)).collect();
+    if !expectation.essential || !within(summary.median, range) || rows.len() <= TOGETHER {
+        return None;
+    }
+    rows.iter().for_each(|&row| mask[row] = false);
+    let largest = rows.iter().map(|&row| values[row]).reduce(|a, b| if b.abs() > a.abs() { b } else { a })?;
+    let span = [time[rows[0]], time[rows[rows.len() - 1]]];
+    Some(Finding::at(FindingKind::Moving { largest, range }, Severity::Error, span, rows.len(), Repair::Masked))
 }
 
 /// Distance of the rows `used[n..n + together]` from their neighbours, if they are outliers.

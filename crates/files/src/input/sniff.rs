@@ -1,0 +1,104 @@
+//! What a logger's file looks like: encoding, separator, decimal sign, the line of names, some rows below it.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use super::InputError;
+use super::encoding::{Decoded, Encoding};
+use super::timestamp;
+
+/// Bytes that are looked at.
+const SAMPLE: u64 = 1 << 18;
+/// Rows below the names that have to be like them.
+const ROWS: usize = 20;
+/// Separators, and their names in map files; the first of those that do equally well is taken.
+const SEPARATORS: [(char, &str); 4] = [('\t', "tab"), (';', ";"), (',', ","), ('|', "|")];
+
+/// A table in a file.
+pub(super) struct Sniffed {
+    pub(super) encoding: Encoding,
+    /// Its name in map files.
+    pub(super) separator: &'static str,
+    pub(super) decimal_comma: bool,
+    /// Lines above the names.
+    pub(super) preamble: usize,
+    pub(super) names: Vec<String>,
+    /// Some rows, with as many fields as there are names.
+    pub(super) rows: Vec<Vec<String>>,
+}
+
+/// Looks at the beginning of a file.
+///
+/// # Errors
+/// If it cannot be read, or shows no line of names above rows of numbers.
+pub(super) fn sniff(path: &Path) -> Result<Sniffed, InputError> {
+    let fault = |problem: String, remedy: &str| InputError::whole(path, problem, remedy);
+    let unreadable = |error: std::io::Error| fault(format!("cannot be read: {error}"), "check the path and its permissions");
+    let file = File::open(path).map_err(unreadable)?;
+    if file.metadata().map_err(unreadable)?.is_dir() {
+        return Err(fault("is a directory".into(), "give the path of a recording (*.csv)"));
+    }
+    let mut bytes = Vec::new();
+    file.take(SAMPLE).read_to_end(&mut bytes).map_err(unreadable)?;
+    let encoding = Encoding::of(&bytes);
+    let whole = (bytes.len() as u64) < SAMPLE;
+    let mut decoded = Vec::new();
+    Decoded::new(&bytes[..], encoding).read_to_end(&mut decoded).map_err(unreadable)?;
+    let text = String::from_utf8_lossy(&decoded);
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    let mut lines: Vec<&str> = text.lines().collect();
+    if !whole {
+        lines.pop();
+    }
+    let tables = SEPARATORS.iter().filter_map(|(separator, name)| table(&lines, *separator, name));
+    let best = tables.reduce(|best, other| if other.names.len() > best.names.len() { other } else { best });
+    let nothing = || {
+        let remedy = "a recording has a line of names above rows of numbers, separated by commas, semicolons, tabs or bars";
+        fault("shows no table".into(), remedy)
+    };
+    best.map(|table| Sniffed { encoding, ..table }).ok_or_else(nothing)
+}
+
+/// The table that `separator` makes of the lines, if one stands there.
+fn table(lines: &[&str], separator: char, name: &'static str) -> Option<Sniffed> {
+    let decimal_comma = separator != ',';
+    (0..lines.len()).find_map(|header| {
+        let names = fields(lines[header], separator);
+        let is_name = |field: &String| !field.is_empty() && !is_value(field, decimal_comma);
+        let remark = names[0].starts_with('#');
+        if names.len() < 2
+            || remark
+            || names.iter().filter(|name| !name.is_empty()).count() < 2
+            || !names.iter().all(|n| n.is_empty() || is_name(n))
+        {
+            return None;
+        }
+        let below = lines[header + 1..].iter().filter(|line| !line.trim().is_empty()).take(ROWS);
+        let rows: Vec<Vec<String>> = below.map(|line| fields(line, separator)).collect();
+        let alike = |row: &Vec<String>| row.len() == names.len() && row.iter().any(|field| is_value(field, decimal_comma));
+        if rows.is_empty() || !rows.iter().all(alike) {
+            return None;
+        }
+        let numbers = || rows.iter().flatten().filter(|field| timestamp::date(field).is_none());
+        let comma = numbers().any(|field| field.contains(',') && is_value(field, true));
+        let point = numbers().any(|field| field.parse::<f64>().is_ok() && field.contains('.'));
+        let decimal_comma = decimal_comma && comma && !point;
+        Some(Sniffed { encoding: Encoding::Utf8, separator: name, decimal_comma, preamble: header, names, rows })
+    })
+}
+
+/// The fields of a line without blanks and quotes around them.
+fn fields(line: &str, separator: char) -> Vec<String> {
+    let bare = |field: &str| {
+        let field = field.trim();
+        field.strip_prefix('"').and_then(|inner| inner.strip_suffix('"')).map_or(field, str::trim).to_owned()
+    };
+    line.split(separator).map(bare).collect()
+}
+
+/// Whether a field is a number or an instant.
+pub(super) fn is_value(field: &str, decimal_comma: bool) -> bool {
+    let number = if decimal_comma { field.replacen(',', ".", 1).parse::<f64>() } else { field.parse::<f64>() };
+    number.is_ok() || timestamp::date(field).is_some() || timestamp::is_ambiguous(field)
+}

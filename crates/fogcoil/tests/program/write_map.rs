@@ -1,0 +1,193 @@
+//! `check --write-map` on files as loggers write them: what it proposes is what is then read.
+
+use std::process::Output;
+
+use crate::common::{Folder, stderr, stdout};
+use fogcoil::input::{CHAMBER, RATE, RecordOptions, SPOOL, read_record};
+
+/// Instant, chamber, spool, rate in s, degC, degC, deg/h.
+fn rows() -> Vec<[f64; 4]> {
+    let noise = |n: usize, k: usize| ((n * 7919 + k * 104_729) % 1009) as f64 / 504.5 - 1.0;
+    let row = |n: usize| {
+        let chamber = 20.0 + 0.1 * n as f64;
+        [30.0 * n as f64, chamber + 0.01 * noise(n, 1), chamber - 2.0 + 0.01 * noise(n, 2), 0.2 + 0.02 * noise(n, 3)]
+    };
+    (0..200).map(row).collect()
+}
+
+fn lines(row: impl Fn(usize, [f64; 4]) -> String) -> String {
+    rows().into_iter().enumerate().map(|(n, values)| row(n, values) + "\r\n").collect()
+}
+
+fn date(n: usize) -> String {
+    format!("2026-03-02 {:02}:{:02}:{:02}", 8 + n / 120, n / 2 % 60, n % 2 * 30)
+}
+
+fn utf16(text: &str, bytes: fn(u16) -> [u8; 2]) -> Vec<u8> {
+    "\u{feff}".encode_utf16().chain(text.encode_utf16()).flat_map(bytes).collect()
+}
+
+fn latin(text: &str) -> Vec<u8> {
+    text.chars().map(|c| u8::try_from(u32::from(c)).unwrap()).collect()
+}
+
+/// Writes the map beside `r.csv`, expects its content, and that the file is read as the recording of [`rows`].
+fn proposes(content: Vec<u8>, map: &str) {
+    let folder = Folder::new();
+    folder.write("r.csv", content);
+    let output = folder.run(&["check", "r.csv", "--write-map"]);
+    assert_eq!(output.status.code(), Some(0), "{}{}", stderr(&output), stdout(&output));
+    assert!(
+        stderr(&output).contains("note: r.map.ron is written") && stdout(&output).starts_with("r.csv: usable"),
+        "{}",
+        stderr(&output)
+    );
+    let written = std::fs::read_to_string(folder.path("r.map.ron")).unwrap();
+    let (heading, rest) = written.split_once('\n').unwrap();
+    assert!(heading.starts_with("// How `r.csv` is read, proposed by"), "{written}");
+    assert_eq!(rest, map);
+    let case = read_record(&folder.path("r.csv"), &RecordOptions::default()).unwrap();
+    assert_eq!(folder.names(), ["r.csv", "r.map.ron"]);
+    for (k, name) in [(1, CHAMBER), (2, SPOOL), (3, RATE)] {
+        let values = &case.recording.channel(name).unwrap().values;
+        for (row, (t, value)) in rows().iter().zip(case.recording.time().iter().zip(values)) {
+            assert!((row[0] - t).abs() < 1e-9 && (row[k] - value).abs() < 1e-3, "{name} at {t}: {value} {}", row[k]);
+        }
+    }
+}
+
+#[test]
+fn a_german_logger_in_windows_1252() {
+    let comma = |value: f64| format!("{value:.6}").replace('.', ",");
+    let text = "Zeit [s];T_Kammer (°C);T_Spule (°C);Drehrate [°/s];Status\r\n".to_owned()
+        + &lines(|_, [t, c, s, r]| {
+            format!("{};{};{};{};ok", comma(t), comma(c), comma(s), format!("{:.9}", r / 3600.0).replace('.', ","))
+        });
+    proposes(
+        latin(&text),
+        r#"(
+    encoding: "windows-1252",
+    separator: ";",
+    decimal_comma: true,
+    time: (column: "Zeit [s]"),
+    chamber: (column: "T_Kammer (°C)"),
+    spool: (column: "T_Spule (°C)"),
+    rate: (column: "Drehrate [°/s]", unit: "deg/s"),
+)
+"#,
+    );
+}
+
+#[test]
+fn a_bench_logger_in_utf_16_below_a_preamble() {
+    let preamble = "Name:,Climate test\r\nOwner:,Lab\r\nComments:,\r\nAcquisition Date:,2026-03-02\r\n\r\n";
+    let header = "Scan,Time,101 <Chamber set> (C),102 <Temp Chamber> (C),Alarm 102,103 <Temp Spool> (C),Gyro rate (deg/hr)\r\n";
+    let text =
+        preamble.to_owned() + header + &lines(|n, [_, c, s, r]| format!("{n},{},{:.1},{c:.5},0,{s:.5},{r:.6}", date(n), 20.0));
+    for bytes in [u16::to_le_bytes, u16::to_be_bytes] {
+        let name = if bytes(1) == [1, 0] { "utf-16le" } else { "utf-16be" };
+        let map = r#"(
+    encoding: "NAME",
+    preamble_lines: 5,
+    time: (column: "Time"),
+    chamber: (column: "102 <Temp Chamber> (C)"),
+    spool: (column: "103 <Temp Spool> (C)"),
+    rate: (column: "Gyro rate (deg/hr)"),
+)
+"#;
+        proposes(utf16(&text, bytes), &map.replace("NAME", name));
+    }
+}
+
+#[test]
+fn tabs_milliseconds_fahrenheit_and_radians_below_a_mark() {
+    let text = "\u{feff}# run 7\r\ntime_ms\tTemp Chamber (°F)\tHub (°F)\tomega [rad/s]\r\n".to_owned()
+        + &lines(|_, [t, c, s, r]| {
+            format!("{}\t{:.5}\t{:.5}\t{:e}", 1e3 * t, 1.8 * c + 32.0, 1.8 * s + 32.0, r / 206_264.806_247)
+        });
+    proposes(
+        text.into_bytes(),
+        r#"(
+    preamble_lines: 1,
+    separator: "tab",
+    time: (column: "time_ms", unit: "ms"),
+    chamber: (column: "Temp Chamber (°F)", unit: "degF"),
+    spool: (column: "Hub (°F)", unit: "degF"),
+    rate: (column: "omega [rad/s]", unit: "rad/s"),
+)
+"#,
+    );
+}
+
+/// What is not sure stands beside its column.
+#[test]
+fn doubts_are_written_down() {
+    let text = "t,oven,ambient,coil,gyro\n".to_owned() + &lines(|_, [t, c, s, r]| format!("{t},{c:.5},25,{s:.5},{r:.6}"));
+    proposes(
+        text.into_bytes(),
+        r#"(
+    time: (column: "t"), // its name says no unit: taken as s
+    chamber: (column: "oven"), // its name says no unit: taken as degC // or `ambient`
+    spool: (column: "coil"), // its name says no unit: taken as degC
+    rate: (column: "gyro"), // its name says no unit: taken as deg/h
+)
+"#,
+    );
+    let standard =
+        "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &lines(|_, [t, c, s, r]| format!("{t},{c:.5},{s:.5},{r:.6}"));
+    proposes(standard.into_bytes(), "(\n)\n");
+}
+
+#[test]
+fn nothing_is_overwritten_and_nothing_written_in_vain() {
+    let folder = Folder::new();
+    let refused = |arguments: &[&str], parts: &[&str]| {
+        let before = folder.names();
+        let output: Output = folder.run(arguments);
+        let message = stderr(&output);
+        assert_eq!((output.status.code(), stdout(&output).as_str()), (Some(2), ""), "{message}");
+        parts.iter().for_each(|part| assert!(message.contains(part), "`{part}` in {message}"));
+        assert_eq!(folder.names(), before);
+    };
+    let text = "Zeit;Kammer;Wert\n".to_owned() + &lines(|n, [t, c, _, r]| format!("{t};{c:.3};{}", r + n as f64 * 1e-4));
+    folder.write("r.csv", &text);
+    refused(
+        &["check", "r.csv", "--write-map"],
+        &["r.csv:1: rate_deg_per_h: the column is missing", "`Wert`", "--column rate=NAME"],
+    );
+    folder.write("empty.csv", "");
+    refused(&["check", "empty.csv", "--write-map"], &["empty.csv: shows no table", "a line of names above rows"]);
+    folder.write("image.csv", [0x89, b'P', b'N', b'G', 0, 0, 1, 255].repeat(500));
+    refused(&["check", "image.csv", "--write-map"], &["image.csv: shows no table"]);
+    folder.write("us.csv", "Time,Chamber (C),Rate (deg/h)\n".to_owned() + &"02/03/2026 08:00:00,20.5,0.1\n".repeat(5));
+    refused(&["check", "us.csv", "--write-map"], &["us.csv:2: Time: `02/03/2026 08:00:00` does not say whether the day"]);
+    folder.write("wide.csv", utf16(&text, u16::to_le_bytes));
+    refused(
+        &["check", "wide.csv"],
+        &["wide.csv:1: is not UTF-8 text; save the file as", "or let `fogcoil check RECORD --write-map` find"],
+    );
+    refused(&["check", "r.csv", "--write-map", "--map", "x.ron"], &["--write-map", "--map"]);
+    refused(&["check", "r.csv", "--column", "rate=Wert", "--write-map", "r.csv"], &["r.csv: exists and is left as it is"]);
+
+    // what the user says is in the map
+    let output = folder.run(&[
+        "check",
+        "r.csv",
+        "--write-map",
+        "m.ron",
+        "--column",
+        "rate=Wert",
+        "--unit",
+        "rate=deg/s",
+        "--scale",
+        "rate=1e-3",
+    ]);
+    let map = std::fs::read_to_string(folder.path("m.ron")).unwrap();
+    assert!(map.contains("    rate: (column: \"Wert\", unit: \"deg/s\", scale: 0.001),\n"), "{map}{}", stderr(&output));
+    refused(
+        &["check", "r.csv", "--column", "rate=Wert", "--write-map", "m.ron"],
+        &["m.ron: exists and is left as it is; give another name"],
+    );
+    assert_eq!(std::fs::read_to_string(folder.path("m.ron")).unwrap(), map);
+    assert_eq!(folder.run(&["check", "r.csv", "--map", "m.ron", "--scale", "rate=1"]).status.code(), Some(0));
+}
