@@ -25,7 +25,9 @@ impl Diagnosis {
         // many hypotheses that a record says nothing about are no finding: one of them has to stand out
         let design = |c: &&Candidate| matches!(kind(model, c), Verdict::None | Verdict::Recalibrate);
         let most = |of: &mut dyn Iterator<Item = &Candidate>| of.map(Candidate::log_evidence).fold(f64::NEG_INFINITY, f64::max);
-        let gain = most(&mut candidates.iter()) - most(&mut candidates.iter().filter(design));
+        // the likeliest one, not one that explains more with more
+        let finding = candidates.iter().find(|c| !design(c)).map_or(f64::NEG_INFINITY, Candidate::log_evidence);
+        let gain = finding - most(&mut candidates.iter().filter(design));
         let verdict = decide(verdicts, gain);
         let mechanisms = marginals(model, &candidates, plain);
         lead(model, &mut candidates, verdict, &mechanisms);
@@ -80,7 +82,7 @@ fn kind<M: ForwardModel>(model: &M, candidate: &Candidate) -> Verdict {
     }
 }
 
-/// The verdict by the probabilities of all four, and the largest gain of ln evidence over the design and its constants.
+/// The verdict by the probabilities of all four, and the gain of ln evidence of the likeliest finding over the design and its constants.
 fn decide([none, recalibrate, explained, unknown]: [f64; 4], gain: f64) -> Verdict {
     let design = none + recalibrate;
     // never a finding while the design is likelier

@@ -119,6 +119,7 @@ fn the_page_stands_alone(page: &str) {
 
 /// A unit that two records leave to several mechanisms: both records are drawn, and the profile that would tell the mechanisms apart.
 #[test]
+#[ignore = "minutes"]
 fn the_report_holds_every_record_and_the_recommended_profile() {
     let folder = Folder::new();
     folder.write("coil.ron", CLEAN_COIL);

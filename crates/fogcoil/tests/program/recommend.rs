@@ -90,6 +90,7 @@ fn what_cannot_be_recommended_is_said_at_once() {
 }
 
 #[test]
+#[ignore = "minutes"]
 fn the_paper_s_second_coil_is_explained_by_a_tail_and_hardly_by_its_constants() {
     let folder = Folder::new();
     folder.write("coil.ron", COIL);
