@@ -54,8 +54,9 @@ pub(crate) fn wind<'py>(py: Python<'py>, coil: &Coil) -> (Vec<&'static str>, Vec
 /// The steady sensitivity as JSON, with the errors of the parts.
 #[pyfunction]
 pub(crate) fn sensitivity(py: Python, coil: &Coil) -> PyResult<String> {
-    let result = py.detach(|| coil.case.steady_sensitivity()).map_err(raised)?;
-    let (mut object, errors) = (ramp::json(&result), result.part_errors);
+    let computed = || Ok::<_, fogcoil::FileError>((coil.case.steady_sensitivity()?, coil.case.sensitivity_band()?));
+    let (result, band) = py.detach(computed).map_err(raised)?;
+    let (mut object, errors) = (ramp::json(&coil.case, &result, &band), result.part_errors);
     object["part_error_estimates"] = json!({"shupe": errors.shupe, "eo_axial": errors.eo_axial, "eo_radial": errors.eo_radial});
     Ok(object.to_string())
 }

@@ -46,7 +46,7 @@ fn missing(package: &Value, folder: &Path) -> Vec<String> {
     wanted.into_iter().filter(|(found, _)| !found).map(|(_, missing)| missing.to_owned()).chain(path_only).collect()
 }
 
-/// Checks a library with its own features only and with all of them, its tests, and runs these. What has a program is checked without it as
+/// Checks a library with its own features only and with all of them, and runs its tests. What has a program is checked without it as
 /// well: other projects take it so.
 fn alone(name: &str, package: &Value) -> Result<(), Failure> {
     let run = |words: &[&str]| cargo(&[words, &["--quiet", "--package", name]].concat());
@@ -57,7 +57,6 @@ fn alone(name: &str, package: &Value) -> Result<(), Failure> {
     if package["features"].as_object().is_some_and(|features| !features.is_empty()) {
         run(&["check", "--all-features"])?;
     }
-    run(&["check", "--tests"])?;
     run(&["test"]).map(drop)
 }
 

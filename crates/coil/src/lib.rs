@@ -23,6 +23,7 @@
 //! 391 (1984), for the Krylov space of the reduction; G. Rozza, D. B. P. Huynh and A. T. Patera, *Arch. Comput. Methods Eng.* 15, 229 (2008), for
 //! the reduced basis over parameters.
 
+mod band;
 mod design;
 mod dynamics;
 mod error;
@@ -40,6 +41,7 @@ mod thermal;
 mod trim;
 mod turns;
 
+pub use band::{Band, sensitivity_band};
 pub use design::{
     Body, Contact, Dehomogenization, Design, Drifts, FactorsAt, Flange, FlangeContact, HeatPaths, Heater, Mechanics, Mount,
     Opening, Sensor, Side, Solid, Spool, Surroundings,
@@ -61,7 +63,7 @@ pub use sensitivity::{CHECKS, COARSE, FINE, SAFETY, SHARE, STEADY, SteadySensiti
 pub use thermal::{
     Drive, FullRun, Output, Outputs, RampLag, Reduced, Reduction, Step, Steps, ThermalModel, ThermalState, ramp_lag,
 };
-pub use trim::{PRIORS, TailTrim, TurnTrim, tail_asymmetry, trim_tails, trim_turns};
+pub use trim::{TailTrim, TurnTrim, tail_asymmetry, trim_tails, trim_turns, with_asymmetry};
 pub use turns::TurnValues;
 
 #[cfg(doctest)]

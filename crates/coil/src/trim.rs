@@ -1,29 +1,18 @@
 //! Which tails, or which turns removed at the ends, null the steady sensitivity of a coil, and how surely.
 
+use crate::band::{Band, sensitivity_band};
 use crate::grid::Grading;
-use crate::{Design, Error, MechanicalState, Model, STEADY};
+use crate::{Design, Error, MechanicalState, Model, STEADY, Tolerances};
 use bias::{Sensitivity, Slice};
 use winding::{Half, Tails};
-
-/// Standard uncertainties of the constants, relative: assumed for a designer who does not know them better, not measured.
-pub const PRIORS: [(&str, f64); 6] = [
-    ("transverse stiffness E_r, G", 0.10),
-    ("E_z", 0.03),
-    ("alpha_r", 0.03),
-    ("alpha_z", 0.03),
-    ("spool expansion", 0.02),
-    ("thermo-optic coefficient", 0.10),
-];
 
 /// A tail asymmetry that nulls the sensitivity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TailTrim {
     /// CW tail minus CCW tail, the shorter one kept as it is \[m\].
     pub cw_minus_ccw: f64,
-    /// Standard uncertainty that the [`PRIORS`] leave \[m\].
-    pub uncertainty: f64,
-    /// What each prior contributes to it \[m\], in their order.
-    pub contributions: Vec<f64>,
+    /// What the design's tolerances leave of the sensitivity, (°/h)/(°C/min); over the slope it is the uncertainty of the asymmetry.
+    pub band: Band,
     /// Change of the sensitivity per metre at the null, (°/h)/(°C/min)/m.
     pub slope: f64,
     /// Sensitivity before, (°/h)/(°C/min).
@@ -86,11 +75,8 @@ impl Fibre {
 
     /// CW − CCW asymmetry that gives `target`, and the slope there, by the secant method.
     fn asymmetry(&self, design: &Design, target: f64) -> Result<(f64, f64), Error> {
-        let common = design.winding.tails.cw.min(design.winding.tails.ccw);
-        let s = |x: f64| {
-            let tails = Tails { cw: common + x.max(0.0), ccw: common + (-x).max(0.0) };
-            self.sensitivity(design, tails, 0..self.turns.len()).map(|s| s - target)
-        };
+        let s =
+            |x: f64| self.sensitivity(design, with_asymmetry(design, x).winding.tails, 0..self.turns.len()).map(|s| s - target);
         let (mut x0, mut x1) = (0.0, 0.5);
         let (mut f0, mut f1) = (s(x0)?, s(x1)?);
         let mut slope = (f1 - f0) / (x1 - x0);
@@ -111,23 +97,6 @@ const MET: f64 = 1e-6;
 /// Steps of the secant method; the sensitivity is nearly linear in the tails, three suffice.
 const SECANT_STEPS: usize = 12;
 
-fn moved(design: &Design, prior: usize, by: f64) -> Design {
-    let mut d = design.clone();
-    let (factor, e) = (1.0 + by * PRIORS[prior].1, &mut d.body.elastic);
-    match prior {
-        0 => {
-            e.e_r *= factor;
-            e.g_zr *= factor;
-        }
-        1 => e.e_z *= factor,
-        2 => e.alpha_r *= factor,
-        3 => e.alpha_z *= factor,
-        4 => d.spool.iter_mut().for_each(|s| s.material.elastic.thermal_expansion *= factor),
-        _ => d.optics.thermo_optic *= factor,
-    }
-    d
-}
-
 /// Tail asymmetry CW − CCW \[m\] that gives a steady sensitivity of `target` (°/h)/(°C/min), the shorter tail kept as it is, and the
 /// change of sensitivity per metre there.
 ///
@@ -137,22 +106,31 @@ pub fn tail_asymmetry(design: &Design, target: f64) -> Result<(f64, f64), Error>
     Fibre::new(design)?.asymmetry(design, target)
 }
 
-/// The tail asymmetry that nulls the steady sensitivity of `design`, with the uncertainty that its constants leave.
+impl TailTrim {
+    /// Standard uncertainty of the asymmetry \[m\].
+    pub fn uncertainty(&self) -> f64 {
+        (self.band.sd / self.slope).abs()
+    }
+}
+
+/// The tail asymmetry that nulls the steady sensitivity of `design`, with the uncertainty that its tolerances leave.
 ///
 /// # Errors
 /// [`Error`] names the dimension or property at fault, or the solve that failed.
-pub fn trim_tails(design: &Design) -> Result<TailTrim, Error> {
+pub fn trim_tails(design: &Design, tolerances: &Tolerances) -> Result<TailTrim, Error> {
     let fibre = Fibre::new(design)?;
     let (cw_minus_ccw, slope) = fibre.asymmetry(design, 0.0)?;
     let before = fibre.sensitivity(design, design.winding.tails, 0..fibre.turns.len())?;
-    let mut contributions = Vec::new();
-    for prior in 0..PRIORS.len() {
-        // downwards: upwards a transverse stiffness can become indefinite
-        let changed = moved(design, prior, -1.0);
-        contributions.push((Fibre::new(&changed)?.asymmetry(&changed, 0.0)?.0 - cw_minus_ccw).abs());
-    }
-    let uncertainty = contributions.iter().map(|c| c * c).sum::<f64>().sqrt();
-    Ok(TailTrim { cw_minus_ccw, uncertainty, contributions, slope, before })
+    let band = sensitivity_band(&with_asymmetry(design, cw_minus_ccw), tolerances)?;
+    Ok(TailTrim { cw_minus_ccw, band, slope, before })
+}
+
+/// A design with the CW tail longer than the CCW one by so much \[m\], the shorter one as it is.
+pub fn with_asymmetry(design: &Design, cw_minus_ccw: f64) -> Design {
+    let mut design = design.clone();
+    let common = design.winding.tails.cw.min(design.winding.tails.ccw);
+    design.winding.tails = Tails { cw: common + cw_minus_ccw.max(0.0), ccw: common + (-cw_minus_ccw).max(0.0) };
+    design
 }
 
 /// What cutting off up to `most` turns from either outer end leaves of the sensitivity, tails as they are.

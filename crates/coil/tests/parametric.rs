@@ -6,7 +6,7 @@ use coil::{
     Contact, Design, Drive, Dynamics, Error, Fidelity, Flange, MechanicalState, Mechanics, ModelEffort, Opening, Parameter,
     ParametricModel, Profile, Range, Reduced, Side, Steps,
 };
-use common::{QUICK, reference};
+use common::{QUICK, random, reference};
 use std::sync::OnceLock;
 use winding::LayerDefect;
 
@@ -33,14 +33,6 @@ fn model() -> &'static ParametricModel {
 
 fn modelled(design: &Design) -> ParametricModel {
     ParametricModel::new(design, &ranges(design), &QUICK.resolution, &ModelEffort::default(), &|| ()).expect("model")
-}
-
-/// A pseudo-random number in [0, 1).
-fn random(seed: &mut u64) -> f64 {
-    *seed ^= *seed << 13;
-    *seed ^= *seed >> 7;
-    *seed ^= *seed << 17;
-    (*seed >> 11) as f64 / (1u64 << 53) as f64
 }
 
 /// A design at a random point of the box, heaters left out.

@@ -2,13 +2,13 @@
 
 mod common;
 
-use coil::{PRIORS, steady_sensitivity, trim_tails, trim_turns};
+use coil::{Number, Parameter, Tolerances, sensitivity_band, steady_sensitivity, trim_tails, trim_turns};
 use common::{changed, reference};
 use winding::Half;
 
 #[test]
 fn exact_the_trimmed_coil_has_no_sensitivity() {
-    let trim = trim_tails(&reference()).expect("trim");
+    let trim = trim_tails(&reference(), &Tolerances::default()).expect("trim");
     assert!((trim.before + 2.7335).abs() < 1e-3 && (trim.slope - 1.82).abs() < 0.02, "{trim:?}");
     let trimmed = changed(|d| d.winding.tails.cw = trim.cw_minus_ccw);
     let left = steady_sensitivity(&trimmed).expect("solve").sensitivity.total();
@@ -17,14 +17,17 @@ fn exact_the_trimmed_coil_has_no_sensitivity() {
 
 #[test]
 fn exact_uncertainty_is_that_of_the_sensitivity_over_the_slope() {
-    let trim = trim_tails(&reference()).expect("trim");
-    assert_eq!(trim.contributions.len(), PRIORS.len());
+    let trim = trim_tails(&reference(), &Tolerances::default()).expect("trim");
+    let of = |parameter: Parameter| {
+        trim.band.changes.iter().find(|(number, _)| *number == Number::Constant(parameter)).expect("a change").1
+    };
     // E_r 5 % changes S by 3 %, so 10 % by about 6 %
-    let er = trim.contributions[0] * trim.slope / trim.before.abs();
-    assert!((0.04..0.09).contains(&er), "{er}");
-    assert!(trim.contributions[5] < 1e-9, "the thermo-optic coefficient has no part in a steady ramp");
-    let square: f64 = trim.contributions.iter().map(|c| c * c).sum();
-    assert!((trim.uncertainty - square.sqrt()).abs() < 1e-15);
+    let er = of(Parameter::TransverseModulus) / trim.before;
+    assert!((0.04..0.09).contains(&er.abs()), "{er}");
+    let trimmed = changed(|d| d.winding.tails.cw = trim.cw_minus_ccw);
+    let left = sensitivity_band(&trimmed, &Tolerances::default()).expect("a band");
+    assert!((trim.uncertainty() - left.sd / trim.slope.abs()).abs() < 1e-12, "{}", trim.uncertainty());
+    assert!((0.05..1.0).contains(&trim.uncertainty()), "{} m", trim.uncertainty());
 }
 
 #[test]

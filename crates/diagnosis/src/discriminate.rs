@@ -3,6 +3,7 @@
 use crate::fit::{Fit, Fitter, Hypothesis, expected};
 use crate::noise::Noise;
 use crate::{Active, Channel, Error, ForwardModel, Nuisance, Observation, Omission, State};
+use nalgebra::DMatrix;
 use recording::noise::NoiseModel;
 
 /// Records that may be made of a unit.
@@ -58,6 +59,10 @@ impl<M: ForwardModel> ForwardModel for Under<'_, M> {
         self.model.nuisances()
     }
 
+    fn precision(&self) -> Option<&DMatrix<f64>> {
+        self.model.precision()
+    }
+
     fn mechanisms(&self) -> &[Omission] {
         self.model.mechanisms()
     }
@@ -103,7 +108,7 @@ pub fn separation<M: ForwardModel>(
     let mut nearest: Option<(f64, Fit)> = None;
     for rival in rivals {
         let fit = fitter.fit(rival, &noise, None)?;
-        let squared = fit.whitened.norm_squared() + fit.u.norm_squared();
+        let squared = 2.0 * fit.value();
         if nearest.as_ref().is_none_or(|(least, _)| squared < *least) {
             nearest = Some((squared, fit));
         }

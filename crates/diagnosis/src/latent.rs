@@ -1,6 +1,6 @@
 //! Which part of the chain a mismatch comes from: one flexible input at a time, placed at each stage.
 
-use crate::fit::{Fit, curvature};
+use crate::fit::Fit;
 use crate::locate::whiteness;
 use crate::{Error, ForwardModel, Latent, Observation};
 use nalgebra::{Cholesky, DMatrix, DVector};
@@ -132,7 +132,7 @@ impl Fit {
     fn after(&self, columns: &DMatrix<f64>, scale: f64) -> DVector<f64> {
         let scaled = columns * scale;
         let all = DMatrix::from_columns(&self.jacobian.column_iter().chain(scaled.column_iter()).collect::<Vec<_>>());
-        match Cholesky::new(curvature(&all)) {
+        match Cholesky::new(self.beforehand.curvature(&all)) {
             Some(factor) => &self.whitened - &all * factor.solve(&all.tr_mul(&self.whitened)),
             None => self.whitened.clone(),
         }
@@ -159,10 +159,10 @@ impl Fit {
         }
         let own = self.jacobian.ncols();
         let all = DMatrix::from_columns(&self.jacobian.column_iter().chain(columns.column_iter()).collect::<Vec<_>>());
-        let covariance = Cholesky::new(curvature(&all)).ok_or(Error::NotFinite)?.inverse();
+        let covariance = Cholesky::new(self.beforehand.curvature(&all)).ok_or(Error::NotFinite)?.inverse();
         // the fit's own unknowns are where they fit best, at u
         let mut gradient = all.tr_mul(&self.whitened);
-        gradient.rows_mut(0, own).zip_apply(&self.u, |g, u| *g -= u);
+        gradient.rows_mut(0, own).zip_apply(&self.beforehand.slope(&self.u), |g, u| *g -= u);
         let amplitudes = &covariance * gradient;
         let member = own..all.ncols();
         Ok(Some(MemberResolution {

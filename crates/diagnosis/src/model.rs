@@ -1,6 +1,7 @@
 //! What the engine needs of a forward model.
 
 use crate::{Parameter, Prior};
+use nalgebra::DMatrix;
 
 /// One output that is both predicted and recorded.
 #[derive(Debug, Clone, PartialEq)]
@@ -122,6 +123,12 @@ pub trait ForwardModel {
 
     /// Uncertain numbers of the nominal model.
     fn nuisances(&self) -> &[Nuisance];
+
+    /// Precision of the nuisances beforehand, each in standard deviations of its own prior, where some go together: the inverse of their
+    /// correlations. Those of which every record has its own are independent of all others.
+    fn precision(&self) -> Option<&DMatrix<f64>> {
+        None
+    }
 
     /// The library.
     fn mechanisms(&self) -> &[Omission];

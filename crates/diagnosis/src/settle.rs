@@ -21,6 +21,8 @@ pub struct Settled<M> {
     pub model: Option<M>,
     /// The constants re-estimated, nothing else at work, under the model that is good about *them*: to be compared with all others.
     pub recalibrated: Fit,
+    /// The mechanism that explains most beside the constants, by its number, and how much ln evidence it gains on them alone, if it leads on them.
+    pub suspect: Option<(usize, f64)>,
 }
 
 /// The model about the constants of the likeliest hypothesis: constants alone, or one mechanism beside them. Each is followed to where the model
@@ -62,15 +64,17 @@ pub fn settled<M: ForwardModel>(
     };
     let (about, recalibrated) = follow(false, 0)?;
     let here = about.as_ref().unwrap_or(model);
-    let (_, gain) = leader(here, records, observations, Some(&recalibrated), &candidates(model, true))?;
+    let (leading, gain) = leader(here, records, observations, Some(&recalibrated), &candidates(model, true))?;
     // constants that had to go far may stand for a mechanism that is near the drawing: about them it does not show
+    let suspect = leading.hypothesis.mechanisms.first().map(|(mechanism, _)| (*mechanism, gain));
     if gain <= MATTERS && strain(model, &recalibrated) <= STRAINED {
-        return Ok(Settled { model: about, recalibrated });
+        return Ok(Settled { model: about, recalibrated, suspect });
     }
     let (beside, leader) = follow(true, ROUNDS)?;
     // each at its best, about its own constants
-    let better = leader.log_evidence > recalibrated.log_evidence;
-    Ok(Settled { model: if better { beside } else { about }, recalibrated })
+    let gain = leader.log_evidence - recalibrated.log_evidence;
+    let suspect = leader.hypothesis.mechanisms.first().map(|(mechanism, _)| (*mechanism, gain));
+    Ok(Settled { model: if gain > 0.0 { beside } else { about }, recalibrated, suspect })
 }
 
 /// The farthest that a constant of the design is from the drawing, standard deviations.

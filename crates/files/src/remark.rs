@@ -232,6 +232,10 @@ remarks! {
         "The model follows the recording far better with the rate negated.",
         "The answer is void if the sign is wrong.",
         "Check the sense of the gyro's axis and `winding.cw_climbs`.";
+    DoubtedUnit "doubted-unit":
+        "A unit that `calibrate` was given as a good one is explained better by a mechanism than by its constants.",
+        "What it has of a fault goes into the constants of the lot.",
+        "Diagnose it alone; leave it out unless it is good.";
     TakenBack "taken-back":
         "The likeliest explanation predicts a record that was held out worse than the nominal model, or no better and far from its noise.",
         "The explanation is taken back: the verdict is none or unknown.",

@@ -6,6 +6,7 @@ use clap::{ArgGroup, Args, Parser, Subcommand};
 use clap_complete::Shell;
 use fogcoil::input::Between;
 
+use crate::cli_calibrate::Calibrate;
 use crate::cli_check::{Check, Format};
 use crate::cli_explain::Explain;
 use crate::cli_homogenize::Homogenize;
@@ -76,6 +77,8 @@ pub(crate) enum Command {
     Simulate(Simulate),
     /// What differs between a unit's recording and its design, and what most likely causes it
     Diagnose(Diagnose),
+    /// Constants of a lot from records of its good units, as a design for its further units
+    Calibrate(Calibrate),
     /// Which chamber programme, or which further sensor, tells mechanisms apart
     Recommend(Recommend),
     /// What an id means, of a mechanism or of a warning; which change of a coil would give a measured sensitivity

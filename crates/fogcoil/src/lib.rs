@@ -27,6 +27,7 @@
 //! ```
 
 pub mod cache;
+pub mod calibrate;
 pub mod check;
 pub mod comparison;
 pub mod diagnose;
@@ -36,6 +37,7 @@ pub mod figures;
 pub mod glossary;
 pub mod homogenize;
 pub mod identify;
+mod keys;
 pub mod picture;
 pub mod picture_cell;
 pub mod prepare;

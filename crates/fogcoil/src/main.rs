@@ -1,6 +1,7 @@
 //! The command line: arguments in, exit status out. Everything else is in the library.
 
 mod cli;
+mod cli_calibrate;
 mod cli_check;
 mod cli_explain;
 mod cli_homogenize;
@@ -41,6 +42,7 @@ fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
     let progress = &Progress::new(*quiet);
     match command {
         Command::Homogenize(arguments) => cli_homogenize::run(arguments, progress),
+        Command::Calibrate(arguments) => cli_calibrate::run(arguments, progress),
         Command::Check(arguments) => run_check(arguments, progress),
         Command::Completions { shell } => cli_manual::completions(*shell),
         Command::Diagnose(arguments) => run_diagnose(arguments, progress),
@@ -59,7 +61,9 @@ fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
         Command::Sensitivity { coil, json } => {
             let case = progress.read_coil(coil)?;
             let result = progress.during("modelling the coil", || case.steady_sensitivity())?;
-            print(&if *json { line(&sensitivity::json(&result)) } else { sensitivity::text(&case, &result) })
+            let band = progress.during("varying it within its tolerances", || case.sensitivity_band())?;
+            let object = || line(&sensitivity::json(&case, &result, &band));
+            print(&if *json { object() } else { sensitivity::text(&case, &result, &band) })
         }
     }
 }

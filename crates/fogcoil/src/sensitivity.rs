@@ -1,15 +1,52 @@
 //! `fogcoil sensitivity`: bias per temperature rate in a steady ramp, by part.
 
-use coil::{Mechanics, SteadySensitivity};
+use coil::{Band, Mechanics, Number, SteadySensitivity, Tolerance};
 use serde_json::{Value, json};
 
-use crate::input::{CoilCase, Origin};
-use crate::table::{plus_minus, table};
+use crate::input::{CoilCase, Origin, keyed};
+use crate::table::{plus_minus, significant, table};
 
-/// The parts and their total in (deg/h)/(degC/min), the error estimate of the total in the same unit, and the fibre's length in m.
-pub fn json(result: &SteadySensitivity) -> Value {
+/// What a number of the design contributes to a band.
+pub(crate) struct Share {
+    /// Its key.
+    pub(crate) key: &'static str,
+    /// One standard deviation of it, in words.
+    pub(crate) tolerance: String,
+    /// What that changes.
+    pub(crate) change: f64,
+    /// Of the variance.
+    pub(crate) share: f64,
+}
+
+/// Least share of the variance that is worth a line.
+const WORTH: f64 = 0.005;
+
+impl Share {
+    /// Those of a design's band that are worth a line, the largest first.
+    pub(crate) fn of(case: &CoilCase, band: &Band) -> Vec<Self> {
+        let of = |((number, change), share): (&(Number, f64), &f64)| {
+            let (key, _) = keyed(*number, &case.design)?;
+            let tolerance = match case.tolerances.of(*number) {
+                Tolerance::Relative(share) => format!("{} %", significant(100.0 * share, 2)),
+                Tolerance::Absolute(by) if *number == Number::Tail => format!("{} m", significant(by, 2)),
+                Tolerance::Absolute(by) => format!("{} mm", significant(1e3 * by, 2)),
+                Tolerance::Exact => return None,
+            };
+            (share.abs() >= WORTH).then_some(Self { key, tolerance, change: *change, share: *share })
+        };
+        band.changes.iter().zip(&band.shares).filter_map(of).collect()
+    }
+}
+
+/// The parts and their total in (deg/h)/(degC/min), the error estimate of the total in the same unit, the fibre's length in m, and what tolerances make
+/// of the total.
+pub fn json(case: &CoilCase, result: &SteadySensitivity, band: &Band) -> Value {
     let parts = result.sensitivity;
+    let shares = Share::of(case, band);
+    let share = |s: &Share| json!({"key": s.key, "tolerance": s.tolerance, "change": s.change, "share": s.share});
     json!({
+        "tolerance_sd": band.sd,
+        "tolerance_shares": shares.iter().map(share).collect::<Vec<_>>(),
         "shupe": parts.shupe,
         "eo_axial": parts.eo_axial,
         "eo_radial": parts.eo_radial,
@@ -20,7 +57,7 @@ pub fn json(result: &SteadySensitivity) -> Value {
 }
 
 /// The parts as a table, and where the numbers behind them come from.
-pub fn text(case: &CoilCase, result: &SteadySensitivity) -> String {
+pub fn text(case: &CoilCase, result: &SteadySensitivity, band: &Band) -> String {
     let (parts, errors) = (result.sensitivity, result.part_errors);
     let row = |name: &str, value: f64, error: f64, meaning: &str| {
         vec![name.to_owned(), format!("{:.5}", (value * 1e5).round() / 1e5 + 0.0), plus_minus(error), meaning.to_owned()]
@@ -31,14 +68,20 @@ pub fn text(case: &CoilCase, result: &SteadySensitivity) -> String {
         row("eo_radial", parts.eo_radial, errors.eo_radial, "strain across the fibre, eq. (2)"),
         row("total", parts.total(), result.error_estimate, "the sum of the three"),
     ];
+    let head = ["tolerance (1 sigma)", "", "change", "share"].map(str::to_owned).to_vec();
+    let share = |s: Share| vec![s.key.into(), s.tolerance, format!("{:+.4}", s.change), format!("{:.0} %", 100.0 * s.share)];
+    let shares: Vec<Vec<String>> = std::iter::once(head).chain(Share::of(case, band).into_iter().map(share)).collect();
     format!(
         "{}: steady-ramp sensitivity in (deg/h)/(degC/min), numerical error beside it\n\n{}\n\
+         tolerances of the design leave the total uncertain by {} (1 sigma, linear); optical constants are taken as exact\n\n{}\n\
          fibre {:.4} m; {} unknowns\n\
          coil constants: {}; dehomogenisation row: {}\n\
          The value follows from the file's spool, bonding and materials; where one of them was chosen to match a measurement, so was\n\
          this value.\n",
         case.name,
         table(&rows),
+        significant(band.sd, 2),
+        table(&shares),
         result.length,
         result.unknowns,
         origin(&case.provenance.material),

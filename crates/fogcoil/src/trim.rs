@@ -3,12 +3,13 @@
 use std::fmt::Write;
 
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
-use coil::{Design, Dynamics, PRIORS, STANDARD, TailTrim, TurnTrim, trim_tails, trim_turns};
+use coil::{Design, Dynamics, STANDARD, TailTrim, TurnTrim, trim_tails, trim_turns, with_asymmetry};
 use serde_json::{Value, json};
 use winding::Half;
 
 use crate::Error;
 use crate::input::{CoilCase, ProfileCase};
+use crate::sensitivity::Share;
 use crate::table::{significant, table};
 use crate::wind::name;
 
@@ -32,7 +33,7 @@ pub struct Trim {
 /// [`files::Error::Coil`] if the coil cannot be solved.
 pub fn trim(case: &CoilCase, profile: Option<&ProfileCase>) -> Result<Trim, Error> {
     let at = Error::of_coil(&case.file);
-    let tails = trim_tails(&case.design).map_err(at)?;
+    let tails = trim_tails(&case.design, &case.tolerances).map_err(at)?;
     let turns = trim_turns(&case.design, MOST_TURNS).map_err(at)?;
     let run = |design: &Design, profile: &ProfileCase| -> Result<[f64; 2], Error> {
         let rows = Dynamics::new(design, &profile.drives, &STANDARD).and_then(|d| d.simulate(&profile.profile)).map_err(at)?;
@@ -42,17 +43,9 @@ pub fn trim(case: &CoilCase, profile: Option<&ProfileCase>) -> Result<Trim, Erro
     };
     let transients = match profile {
         None => None,
-        Some(profile) => Some([run(&case.design, profile)?, run(&trimmed(&case.design, &tails), profile)?]),
+        Some(profile) => Some([run(&case.design, profile)?, run(&with_asymmetry(&case.design, tails.cw_minus_ccw), profile)?]),
     };
     Ok(Trim { tails, turns, transients })
-}
-
-fn trimmed(design: &Design, trim: &TailTrim) -> Design {
-    let mut design = design.clone();
-    let shorter = design.winding.tails.cw.min(design.winding.tails.ccw);
-    design.winding.tails.cw = shorter + trim.cw_minus_ccw.max(0.0);
-    design.winding.tails.ccw = shorter + (-trim.cw_minus_ccw).max(0.0);
-    design
 }
 
 /// All of it; lengths in m, sensitivities in (deg/h)/(degC/min), bias in deg/h.
@@ -65,7 +58,7 @@ pub fn json(trim: &Trim) -> Value {
     json!({
         "sensitivity": trim.tails.before,
         "tail_cw_minus_ccw_m": trim.tails.cw_minus_ccw,
-        "tail_standard_uncertainty_m": trim.tails.uncertainty,
+        "tail_standard_uncertainty_m": trim.tails.uncertainty(),
         "sensitivity_per_m": trim.tails.slope,
         "turns_cut_off": trim.turns.iter().map(turns).collect::<Vec<_>>(),
         "transients_deg_per_h": transients,
@@ -74,17 +67,19 @@ pub fn json(trim: &Trim) -> Value {
 
 /// All of it in words and tables.
 pub fn text(case: &CoilCase, trim: &Trim) -> String {
-    let TailTrim { cw_minus_ccw, uncertainty, contributions, slope, before } = &trim.tails;
+    let TailTrim { cw_minus_ccw, band, slope, before } = &trim.tails;
+    let uncertainty = trim.tails.uncertainty();
     let (longer, difference) = if *cw_minus_ccw >= 0.0 { ("CW", *cw_minus_ccw) } else { ("CCW", -cw_minus_ccw) };
     let mut text = format!(
         "{}: sensitivity {before:.4} (deg/h)/(degC/min); null it by either\n\n\
          tails: the {longer} tail longer by {difference:.3} ± {uncertainty:.3} m (standard uncertainty); each metre adds {slope:.3} (deg/h)/(degC/min)\n\n",
         case.name
     );
-    let row = |((what, size), part): (&(&str, f64), &f64)| {
-        [format!("  {what}"), format!("{:.0} %", 100.0 * size), format!("{part:.3}"), "m of it".into()]
-    };
-    let _ = writeln!(text, "{}", table(&PRIORS.iter().zip(contributions).map(row).collect::<Vec<_>>()));
+    let rows = Share::of(case, band).into_iter().map(|share| {
+        let by = (share.change / slope).abs();
+        [format!("  {}", share.key), share.tolerance, format!("{by:.3}"), "m of it".into()]
+    });
+    let _ = writeln!(text, "{}", table(&rows.collect::<Vec<_>>()));
     let best = trim.turns.iter().min_by(|a, b| a.sensitivity.abs().total_cmp(&b.sensitivity.abs()));
     if let Some(best) = best.filter(|best| best.sensitivity.abs() < before.abs()) {
         let TurnTrim { half, turns, length, sensitivity } = best;

@@ -109,6 +109,16 @@ pub(crate) fn others(design: &Design, tolerances: &Tolerances) -> [Nuisance; 3] 
     ]
 }
 
+/// The number of a design that the forward model gives a name; `None` for a name of something else.
+pub fn number_of(name: &str) -> Option<Number> {
+    match name {
+        DN_DT => Some(Number::ThermoOptic),
+        TAILS => Some(Number::Tail),
+        SENSOR_LAG => Some(Number::SensorLag),
+        _ => Parameter::ALL.iter().find(|p| self::name(**p) == name).map(|p| Number::Constant(*p)),
+    }
+}
+
 /// Standard deviation of what has no tolerance.
 const KNOWN: f64 = 1e-9;
 

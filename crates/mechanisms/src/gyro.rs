@@ -1,15 +1,16 @@
 //! The coil's chain as a forward model for diagnosis: nominal constants, their uncertainties, and the library of mechanisms.
 
 use crate::chain::{Chain, add};
-use crate::constants::Constant;
+use crate::constants::{Constant, number_of};
 use crate::instruments::{self, MINUTE, USUAL_NOISE, channels, nuisances};
 use crate::library::Library;
 use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Scene, Sight};
 use crate::passed::Passed;
 use crate::response::{Delay, Parts, Prepared, Series, total};
 use crate::{REFERENCE_C, lagged};
-use coil::{Design, Error};
+use coil::{Design, Error, Number, Tolerances};
 use diagnosis::{Active, Channel, ForwardModel, Latent, Nuisance, State};
+use nalgebra::DMatrix;
 use recording::median_interval;
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -25,6 +26,8 @@ pub struct Gyro<'m> {
     records: Vec<Prepared>,
     channels: Vec<Channel>,
     nuisances: Vec<Nuisance>,
+    /// of the nuisances, where constants of the design go together
+    precision: Option<DMatrix<f64>>,
     kinds: Vec<&'m dyn Mechanism>,
     mechanisms: Vec<diagnosis::Omission>,
     /// places of constants on which a mechanism's parameter is a factor, and the mechanisms' ids
@@ -86,9 +89,12 @@ impl<'m> Gyro<'m> {
         let scene = Scene { temperatures: range, noise: white[RATE] * (interval / MINUTE).sqrt() };
         let offered = mechanisms.iter().filter_map(|m| Some((*m, entry(*m, library.design(), &scene)?)));
         let (kinds, mechanisms) = offered.unzip();
+        let noise = records.iter().map(Prepared::noise).fold(0.0, f64::max);
+        let nuisances = nuisances(library.design(), library.tolerances(), noise);
         Ok(Self {
             channels: channels(averaging, white, interval, records.first().map_or(Passed::NONE, |r| r.passed)),
-            nuisances: nuisances(library.design(), library.tolerances(), records.iter().map(Prepared::noise).fold(0.0, f64::max)),
+            precision: precision(&nuisances, library.tolerances())?,
+            nuisances,
             factored: library.factored(),
             chain: Chain::new(library),
             records,
@@ -254,6 +260,24 @@ impl<'m> Gyro<'m> {
     }
 }
 
+/// The precision of nuisances of which the tolerances say that some go together.
+fn precision(nuisances: &[Nuisance], tolerances: &Tolerances) -> Result<Option<DMatrix<f64>>, Error> {
+    if tolerances.correlations.is_empty() {
+        return Ok(None);
+    }
+    let numbers: Vec<Option<Number>> = nuisances.iter().map(|n| number_of(&n.parameter.name)).collect();
+    let all: Vec<Number> = numbers.iter().copied().flatten().collect();
+    let Some(factor) = tolerances.correlation(&all).cholesky() else {
+        return Err(Error::Design { field: "correlations".into(), problem: "contradict each other".into() });
+    };
+    let (inverse, mut precision) = (factor.inverse(), DMatrix::identity(nuisances.len(), nuisances.len()));
+    let places: Vec<usize> = (0..numbers.len()).filter(|n| numbers[*n].is_some()).collect();
+    for (i, a) in places.iter().enumerate() {
+        places.iter().enumerate().for_each(|(j, b)| precision[(*a, *b)] = inverse[(i, j)]);
+    }
+    Ok(Some(precision))
+}
+
 fn entry(mechanism: &dyn Mechanism, design: &Design, scene: &Scene) -> Option<diagnosis::Omission> {
     let facts = mechanism.facts();
     let Offer { parameters, choice, starts } = mechanism.offer(design, scene)?;
@@ -286,6 +310,10 @@ impl ForwardModel for Gyro<'_> {
 
     fn nuisances(&self) -> &[Nuisance] {
         &self.nuisances
+    }
+
+    fn precision(&self) -> Option<&DMatrix<f64>> {
+        self.precision.as_ref()
     }
 
     fn mechanisms(&self) -> &[diagnosis::Omission] {
@@ -359,6 +387,7 @@ impl ForwardModel for Gyro<'_> {
             records,
             channels: self.channels.clone(),
             nuisances: self.nuisances.clone(),
+            precision: self.precision.clone(),
             kinds: self.kinds.clone(),
             mechanisms: self.mechanisms.clone(),
             factored: self.factored.clone(),

@@ -81,22 +81,38 @@ const FILTER_SQUARED_S2: f64 = 500.0;
 /// How late the rate's readings may be against the spool's thermometer \[s\]: another logger, and the filter.
 const RATE_DELAY_S: f64 = 5.0;
 
+/// Numbers of the instruments: name, and the column that it is of with what it is there.
+const READINGS: [(&str, &str); 6] = [
+    ("gain of the chamber's thermometer", "chamber_c.gain"),
+    ("delay of the chamber's readings [s]", "chamber_c.delay_s"),
+    ("squared lag of the chamber's thermometer [s2]", "chamber_c.lag_squared_s2"),
+    ("gain of the spool's thermometer", "spool_c.gain"),
+    ("squared time constant of the rate's filter [s2]", "rate_deg_per_h.filter_squared_s2"),
+    ("delay of the rate's readings [s]", "rate_deg_per_h.delay_s"),
+];
+
+/// The column of a record that an instrument's number of this name is of, and what it is there, as scripts read it: `chamber_c.gain`; `None` for a name
+/// of something else.
+pub fn reading_of(name: &str) -> Option<&'static str> {
+    READINGS.iter().find(|(known, _)| *known == name).map(|(_, key)| *key)
+}
+
 /// Everything about a unit and its instruments that is known to a tolerance only; `noise` is that of the chamber's thermometer \[K\], from which the
 /// start is known.
 pub(crate) fn nuisances(design: &Design, tolerances: &Tolerances, noise: f64) -> Vec<Nuisance> {
-    let sensor = |name: &str, mean: f64, sd: f64| Nuisance::normal(name, mean, sd, Role::Sensor);
+    let sensor = |reading: usize, mean: f64, sd: f64| Nuisance::normal(READINGS[reading].0, mean, sd, Role::Sensor);
     let mut all = vec![
         Nuisance::normal("gain of the rate", 1.0, GAIN_ERROR, Role::ModelError),
         Nuisance::normal("gain of the Shupe part (model)", 1.0, SHUPE_ERROR, Role::ModelError),
         Nuisance { local: true, ..Nuisance::normal("start off rest [K]", 0.0, REST_ERROR_K.hypot(noise), Role::ModelError) },
-        sensor("gain of the chamber's thermometer", 1.0, THERMOMETER_GAIN),
-        sensor("delay of the chamber's readings [s]", 0.0, DELAY_S),
-        sensor("squared lag of the chamber's thermometer [s2]", 0.0, LAG_SQUARED_S2),
-        sensor("gain of the spool's thermometer", 1.0, THERMOMETER_GAIN),
+        sensor(0, 1.0, THERMOMETER_GAIN),
+        sensor(1, 0.0, DELAY_S),
+        sensor(2, 0.0, LAG_SQUARED_S2),
+        sensor(3, 1.0, THERMOMETER_GAIN),
     ];
     all.extend(others(design, tolerances));
-    all.push(sensor("squared time constant of the rate's filter [s2]", 0.0, FILTER_SQUARED_S2));
-    all.push(sensor("delay of the rate's readings [s]", 0.0, RATE_DELAY_S));
+    all.push(sensor(4, 0.0, FILTER_SQUARED_S2));
+    all.push(sensor(5, 0.0, RATE_DELAY_S));
     all.extend(constants(design, tolerances).iter().map(|constant| constant.nuisance()));
     all
 }

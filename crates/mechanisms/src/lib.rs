@@ -20,10 +20,10 @@ mod response;
 pub use build::ranges;
 pub use catalogue::{CATALOGUE, find};
 pub use chain::Chain;
-pub use constants::with_constant;
+pub use constants::{number_of, with_constant};
 pub use design::REFERENCE_C;
 pub use gyro::{Gyro, RATE, SPOOL};
-pub use instruments::USUAL_NOISE;
+pub use instruments::{USUAL_NOISE, reading_of};
 pub use library::{Library, Models};
 pub use mechanism::{
     Change, Digits, Effect, Extent, Facts, HeatPath, Mechanism, Naming, Offer, Readings, Scene, Sight, Stage, Steady, lagged,

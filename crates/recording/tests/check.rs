@@ -195,6 +195,22 @@ fn outliers_are_masked_and_nothing_else() {
 }
 
 #[test]
+fn codes_are_masked_and_a_short_signal_is_not() {
+    let codes = [0, 1, 700, 701, 702, 703, 704, 1200];
+    let (finding, report) =
+        only(altered(|s| codes.iter().for_each(|&row| s.rate[row] = if row < 703 { 9999.0 } else { -9999.0 })));
+    assert!(matches!(finding.kind, FindingKind::Impossible(size) if size.abs() == 9999.0), "{finding}");
+    assert_eq!((0..ROWS).filter(|&row| !report.masks[1][row]).collect::<Vec<_>>(), codes);
+    // a pulse of twenty minutes, 500 times the noise of a quiet day
+    let pulse = |row: usize| {
+        if (600..640).contains(&row) { 10.0 * ((row - 600) as f64 / 40.0 * std::f64::consts::PI).sin() } else { 0.0 }
+    };
+    let quiet = altered(|s| s.rate.iter_mut().enumerate().for_each(|(row, rate)| *rate = 0.05 * *rate + pulse(row)));
+    let report = quiet.report();
+    assert!(report.masks[1].iter().all(|used| *used), "{:?}", report.findings);
+}
+
+#[test]
 fn gaps_jitter_and_clock_steps() {
     let (finding, report) = only(altered(|s| add(&mut s.time[700..], 1800.0)));
     assert_eq!(finding.kind, FindingKind::Gap { length: 1830.0, missing: 60 });

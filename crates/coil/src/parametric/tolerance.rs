@@ -2,6 +2,7 @@
 
 use super::Parameter;
 use crate::Design;
+use nalgebra::DMatrix;
 
 /// How far a number of a design may be from its drawing, one standard deviation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,6 +42,38 @@ pub enum Number {
 }
 
 impl Number {
+    /// Its value in a design, SI, of a tail the CW one's; `None` if the design has no such number.
+    pub fn of(self, design: &Design) -> Option<f64> {
+        match self {
+            Self::Constant(parameter) => parameter.of(design),
+            Self::ThermoOptic => Some(design.optics.thermo_optic),
+            Self::Tail => Some(design.winding.tails.cw),
+            Self::SensorLag => Some(design.sensor.lag),
+        }
+    }
+
+    /// The design with another value of it; unchanged if it has no such number.
+    #[must_use]
+    pub fn set(self, design: &Design, value: f64) -> Design {
+        let mut changed = design.clone();
+        match self {
+            Self::Constant(parameter) => return parameter.set(design, value),
+            Self::ThermoOptic => changed.optics.thermo_optic = value,
+            Self::Tail => changed.winding.tails.cw = value,
+            Self::SensorLag => changed.sensor.lag = value,
+        }
+        changed
+    }
+
+    /// Share of its variance that units of a lot usually have in common: half where it is a material's, of one batch with others of its kind; none where it
+    /// is cut, machined or mounted unit by unit.
+    pub fn shared(self) -> f64 {
+        match self.tolerance() {
+            Tolerance::Relative(_) if self != Self::SensorLag => 0.5,
+            Tolerance::Relative(_) | Tolerance::Absolute(_) | Tolerance::Exact => 0.0,
+        }
+    }
+
     /// How far it usually is from the drawing: [`Parameter::tolerance`]; of ∂n/∂T what handbooks of silica differ by, of a tail's length what it
     /// is cut to, of a thermometer's lag what glueing it makes of it.
     pub fn tolerance(self) -> Tolerance {
@@ -59,12 +92,23 @@ impl Number {
 pub struct Tolerances {
     /// Those that are given.
     pub given: Vec<(Number, Tolerance)>,
+    /// Correlations of two numbers, where units of a lot have told them; all others are independent.
+    pub correlations: Vec<(Number, Number, f64)>,
 }
 
 impl Tolerances {
     /// Of a number.
     pub fn of(&self, number: Number) -> Tolerance {
         self.given.iter().find(|(given, _)| *given == number).map_or_else(|| number.tolerance(), |(_, tolerance)| *tolerance)
+    }
+
+    /// Correlations of some numbers, all with all.
+    pub fn correlation(&self, numbers: &[Number]) -> DMatrix<f64> {
+        let of = |a: Number, b: Number| {
+            let both = |(first, second, _): &&(Number, Number, f64)| [*first, *second] == [a, b] || [*first, *second] == [b, a];
+            self.correlations.iter().find(both).map_or(0.0, |(_, _, r)| *r)
+        };
+        DMatrix::from_fn(numbers.len(), numbers.len(), |i, j| if i == j { 1.0 } else { of(numbers[i], numbers[j]) })
     }
 
     /// Every constant of a design that has one, with its drawn value and one standard deviation, SI.

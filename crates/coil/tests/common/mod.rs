@@ -110,3 +110,17 @@ pub(crate) fn run(design: &Design, drives: &[Drive], profile: &Profile) -> Vec<R
 pub(crate) fn half_minutes(count: u32) -> Vec<f64> {
     (0..count).map(|k| 30.0 * f64::from(k)).collect()
 }
+
+/// A pseudo-random number in [0, 1).
+pub(crate) fn random(seed: &mut u64) -> f64 {
+    *seed ^= *seed << 13;
+    *seed ^= *seed >> 7;
+    *seed ^= *seed << 17;
+    (*seed >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// A standard normal number (Box and Muller).
+pub(crate) fn normal(seed: &mut u64) -> f64 {
+    let [a, b] = [random(seed), random(seed)];
+    (-2.0 * (1.0 - a).ln()).sqrt() * (std::f64::consts::TAU * b).cos()
+}

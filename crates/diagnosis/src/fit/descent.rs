@@ -1,4 +1,4 @@
-//! The way to the least objective: Levenberg's (1944) and Marquardt's (1963) method on whitened residuals and standard-normal priors.
+//! The way to the least objective: Levenberg's (1944) and Marquardt's (1963) method on whitened residuals and normal priors.
 
 use super::objective::{Objective, Point};
 use crate::{Error, ForwardModel};
@@ -12,12 +12,6 @@ const SETTLED: f64 = 5e-3;
 const STRIDE: f64 = 2.0;
 /// Damping at first, at least, and where no step is left; relative to the diagonal.
 const DAMPING: [f64; 3] = [1e-3, 1e-9, 1e8];
-
-/// JᵀJ + I, the curvature of the objective where the prediction is nearly linear.
-pub(crate) fn curvature(jacobian: &DMatrix<f64>) -> DMatrix<f64> {
-    // a product of blocks is several times as fast as one of columns
-    jacobian.transpose() * jacobian + DMatrix::identity(jacobian.ncols(), jacobian.ncols())
-}
 
 impl<M: ForwardModel> Objective<'_, M> {
     /// The nearest minimum below a point, with the derivatives there.
@@ -45,8 +39,8 @@ impl<M: ForwardModel> Objective<'_, M> {
 
     /// One step down, damped as little as leads down; the same point if none does.
     fn step(&self, at: Point, jacobian: &DMatrix<f64>, damping: &mut f64) -> Result<Point, Error<M::Error>> {
-        let normal = curvature(jacobian);
-        let gradient = jacobian.tr_mul(&at.whitened) - &at.u;
+        let normal = self.beforehand.curvature(jacobian);
+        let gradient = jacobian.tr_mul(&at.whitened) - self.beforehand.slope(&at.u);
         let [_, least, most] = DAMPING;
         while *damping < most {
             let mut damped = normal.clone();

@@ -1,5 +1,6 @@
 //! What is fitted, and what a fit finds.
 
+use super::beforehand::Beforehand;
 use super::unknowns::{Layout, Unknown, expected};
 use crate::noise::Noise;
 use crate::{Active, Channel, ForwardModel, Observation, Role};
@@ -53,6 +54,7 @@ pub struct Fit {
     pub residuals: Vec<Vec<Vec<f64>>>,
     pub(crate) u: DVector<f64>,
     pub(crate) layout: Layout,
+    pub(crate) beforehand: Beforehand,
     pub(crate) covariance: DMatrix<f64>,
     pub(crate) noise: Noise,
     pub(crate) whitened: DVector<f64>,
@@ -63,6 +65,11 @@ impl Fit {
     /// Noise of a channel of a record that was fitted.
     pub fn noise_model(&self, record: usize, channel: usize) -> &recording::noise::NoiseModel {
         self.noise.model(record, channel)
+    }
+
+    /// −ln p of records and unknowns, but for what all fits under the same noise share.
+    pub(crate) fn value(&self) -> f64 {
+        self.whitened.norm_squared() / 2.0 + self.beforehand.energy(&self.u)
     }
 
     /// The likelier of two; of equals the first.
@@ -150,5 +157,15 @@ impl<'a, M: ForwardModel> Fitter<'a, M> {
             layout.extend((0..self.model.channels().len()).map(|channel| Unknown::Offset { record, channel }));
         }
         layout
+    }
+
+    /// What is known of some unknowns; `None` if the model's word is no density.
+    pub(super) fn beforehand(&self, layout: &Layout) -> Option<Beforehand> {
+        let shared = |i: usize| match layout[i] {
+            Unknown::Nuisance { number, record: None } => Some(number),
+            _ => None,
+        };
+        let precision = self.model.precision();
+        Beforehand::new(layout.len(), |i, j| Some(precision?[(shared(i)?, shared(j)?)]))
     }
 }

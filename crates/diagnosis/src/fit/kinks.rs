@@ -1,6 +1,5 @@
 //! A second look around a fit whose responses have kinks, which make local minima.
 
-use super::descent::curvature;
 use super::objective::{Objective, Point};
 use super::{Fit, Fitter};
 use crate::{Error, ForwardModel};
@@ -16,8 +15,8 @@ impl<M: ForwardModel> Fitter<'_, M> {
     pub(super) fn searched(&self, mut best: Fit) -> Result<Fit, Error<M::Error>> {
         for _ in 0..SEARCHES {
             let (hypothesis, noise) = (best.hypothesis.clone(), best.noise.clone());
-            let objective = Objective::new(self, &hypothesis, &noise);
-            let value = (best.whitened.norm_squared() + best.u.norm_squared()) / 2.0;
+            let objective = Objective::new(self, &hypothesis, &noise)?;
+            let value = best.value();
             let Some(found) = objective.beside(&best)?.filter(|found| found.value <= value - WORTH) else { break };
             let fit = objective.concluded(objective.descend(found)?)?;
             if fit.log_evidence <= best.log_evidence {
@@ -73,9 +72,9 @@ impl<M: ForwardModel> Objective<'_, M> {
         let held = || std::iter::once(i).chain(other);
         let at = self.point(u)?;
         let mut jacobian = self.jacobian(&at, Some(&best.jacobian))?;
-        let gradient = jacobian.tr_mul(&at.whitened) - &at.u;
+        let gradient = jacobian.tr_mul(&at.whitened) - self.beforehand.slope(&at.u);
         held().for_each(|k| jacobian.column_mut(k).fill(0.0));
-        let Some(factor) = Cholesky::new(curvature(&jacobian)) else { return Ok(None) };
+        let Some(factor) = Cholesky::new(self.beforehand.curvature(&jacobian)) else { return Ok(None) };
         let mut step = factor.solve(&gradient);
         held().for_each(|k| step[k] = 0.0);
         self.shorten(&mut step, |_| true);

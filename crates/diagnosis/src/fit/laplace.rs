@@ -1,14 +1,13 @@
 //! The evidence of a hypothesis by Laplace's method.
 //!
 //! p(data) = ∫ p(data | u) φ(u) du is taken for the integral of the normal density that has its maximum and curvature. With the unknowns û at the
-//! maximum and their covariance C = (JᵀJ + I)⁻¹,
+//! maximum, their precision P beforehand and their covariance C = (JᵀJ + P)⁻¹,
 //!
-//! ln p(data) ≈ −½ ‖r(û)‖² − ½ ‖û‖² + ½ ln det C − ½ ln det Σ + ln p(noise),
+//! ln p(data) ≈ −½ ‖r(û)‖² − ½ ûᵀPû + ½ ln det P + ½ ln det C − ½ ln det Σ + ln p(noise),
 //!
 //! up to −n/2 ln 2π, which all fits to the same rows share. Exact where the prediction is linear in u (Tierney and Kadane 1986; MacKay 2003, ch. 27).
 
 use super::Fit;
-use super::descent::curvature;
 use super::objective::{Objective, Point};
 use crate::{Error, ForwardModel};
 use nalgebra::{Cholesky, DMatrix, Dyn};
@@ -16,9 +15,10 @@ use nalgebra::{Cholesky, DMatrix, Dyn};
 impl<M: ForwardModel> Objective<'_, M> {
     /// The fit at a minimum with its derivatives.
     pub(super) fn concluded(&self, (at, jacobian): (Point, DMatrix<f64>)) -> Result<Fit, Error<M::Error>> {
-        let normal: Cholesky<f64, Dyn> = Cholesky::new(curvature(&jacobian)).ok_or(Error::NotFinite)?;
+        let normal: Cholesky<f64, Dyn> = Cholesky::new(self.beforehand.curvature(&jacobian)).ok_or(Error::NotFinite)?;
         let half_log_det: f64 = normal.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
-        let log_evidence = -at.value - half_log_det - self.noise.half_log_det() + self.noise.log_prior;
+        let before = self.beforehand.half_log_det().ok_or(Error::NotFinite)?;
+        let log_evidence = -at.value - half_log_det + before - self.noise.half_log_det() + self.noise.log_prior;
         if !log_evidence.is_finite() {
             return Err(Error::NotFinite);
         }
@@ -31,6 +31,7 @@ impl<M: ForwardModel> Objective<'_, M> {
             offsets: self.offsets(&at.u),
             residuals: self.residuals(&at.u, &at.responses),
             layout: self.layout.clone(),
+            beforehand: self.beforehand.clone(),
             covariance: normal.inverse(),
             noise: self.noise.clone(),
             whitened: at.whitened,

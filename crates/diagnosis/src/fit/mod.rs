@@ -2,6 +2,7 @@
 //!
 //! [`fitter`]: what may be at work; [`unknowns`]: what is found; [`objective`]: what is made least; [`descent`], [`kinks`]: how; [`laplace`]: proof.
 
+mod beforehand;
 mod descent;
 mod fitter;
 mod kinks;
@@ -9,7 +10,8 @@ mod laplace;
 mod objective;
 mod unknowns;
 
-pub(crate) use descent::curvature;
+#[cfg(test)]
+pub(crate) use beforehand::Beforehand;
 pub use fitter::{Fit, Hypothesis, alternatives};
 pub(crate) use fitter::{Fitter, Offset};
 use objective::Objective;
@@ -27,13 +29,13 @@ const NOISE_SETTLED: f64 = 0.1;
 impl<M: ForwardModel> Fitter<'_, M> {
     /// Fits a hypothesis under a known noise; `known` gives a place to start from.
     pub(crate) fn fit(&self, hypothesis: &Hypothesis, noise: &Noise, known: Option<&Fit>) -> Result<Fit, Error<M::Error>> {
-        self.best(&Objective::new(self, hypothesis, noise), known)
+        self.best(&Objective::new(self, hypothesis, noise)?, known)
     }
 
     /// The same beside a fit under the same noise, whose derivatives by nuisances are taken for this one's: several times as fast. Mechanisms change
     /// what nuisances do, but by little of it; where the records know a nuisance far better than its prior, the fit may stay behind the best.
     pub(crate) fn screened(&self, hypothesis: &Hypothesis, beside: &Fit) -> Result<Fit, Error<M::Error>> {
-        self.best(&Objective::new(self, hypothesis, &beside.noise).with_derivatives_of(beside), Some(beside))
+        self.best(&Objective::new(self, hypothesis, &beside.noise)?.with_derivatives_of(beside), Some(beside))
     }
 
     fn best(&self, objective: &Objective<M>, known: Option<&Fit>) -> Result<Fit, Error<M::Error>> {

@@ -1,5 +1,7 @@
-//! What a fit makes least: −ln p(data, u) = ½ ‖r(u)‖² + ½ ‖u‖², up to a constant, with the whitened residual r of all records and channels.
+//! What a fit makes least: −ln p(data, u) = ½ ‖r(u)‖² + ½ uᵀPu, up to a constant, with the whitened residual r of all records and channels
+//! and the precision P of what is known beforehand.
 
+use super::beforehand::Beforehand;
 use super::fitter::{Fit, Fitter, Hypothesis};
 use super::unknowns::{Layout, Unknown};
 use crate::noise::Noise;
@@ -14,6 +16,7 @@ pub(super) struct Objective<'a, M> {
     pub(super) hypothesis: &'a Hypothesis,
     pub(super) noise: &'a Noise,
     pub(super) layout: Layout,
+    pub(super) beforehand: Beforehand,
     /// A fit under the same noise, whose derivatives by what is no mechanism's are taken over.
     like: Option<&'a Fit>,
 }
@@ -27,8 +30,12 @@ pub(super) struct Point {
 }
 
 impl<'a, M: ForwardModel> Objective<'a, M> {
-    pub(super) fn new(fitter: &'a Fitter<'a, M>, hypothesis: &'a Hypothesis, noise: &'a Noise) -> Self {
-        Self { fitter, hypothesis, noise, layout: fitter.layout(hypothesis), like: None }
+    /// # Errors
+    /// [`Error::NotFinite`] if what the model knows of its nuisances beforehand is no density.
+    pub(super) fn new(fitter: &'a Fitter<'a, M>, hypothesis: &'a Hypothesis, noise: &'a Noise) -> Result<Self, Error<M::Error>> {
+        let layout = fitter.layout(hypothesis);
+        let beforehand = fitter.beforehand(&layout).ok_or(Error::NotFinite)?;
+        Ok(Self { fitter, hypothesis, noise, layout, beforehand, like: None })
     }
 
     /// The same with the derivatives of a fit under the same noise.
@@ -44,7 +51,7 @@ impl<'a, M: ForwardModel> Objective<'a, M> {
     pub(super) fn point(&self, u: DVector<f64>) -> Result<Point, Error<M::Error>> {
         let responses = self.responses(&u)?;
         let whitened = self.whiten(&self.residuals(&u, &responses));
-        let value = (whitened.norm_squared() + u.norm_squared()) / 2.0;
+        let value = whitened.norm_squared() / 2.0 + self.beforehand.energy(&u);
         Ok(Point { u, responses, whitened, value })
     }
 

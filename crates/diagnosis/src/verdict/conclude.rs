@@ -22,12 +22,7 @@ impl Diagnosis {
         let model = fitter.model;
         weigh(&mut candidates);
         let verdicts = verdicts(model, &candidates);
-        // many hypotheses that a record says nothing about are no finding: one of them has to stand out
-        let design = |c: &&Candidate| matches!(kind(model, c), Verdict::None | Verdict::Recalibrate);
-        let most = |of: &mut dyn Iterator<Item = &Candidate>| of.map(Candidate::log_evidence).fold(f64::NEG_INFINITY, f64::max);
-        // the likeliest one, not one that explains more with more
-        let finding = candidates.iter().find(|c| !design(c)).map_or(f64::NEG_INFINITY, Candidate::log_evidence);
-        let gain = finding - most(&mut candidates.iter().filter(design));
+        let gain = gain(model, &candidates);
         let verdict = decide(verdicts, gain);
         let mechanisms = marginals(model, &candidates, plain);
         lead(model, &mut candidates, verdict, &mechanisms);
@@ -54,6 +49,53 @@ fn weigh(candidates: &mut [Candidate]) {
     let most = candidates[0].log_weight;
     let sum: f64 = candidates.iter().map(|c| (c.log_weight - most).exp()).sum();
     candidates.iter_mut().for_each(|c| c.probability = (c.log_weight - most).exp() / sum);
+}
+
+/// Gain of ln evidence of the likeliest finding over the design and its constants.
+///
+/// Many hypotheses that a record says nothing about are no finding: one of them has to stand out, all choices of its mechanisms together. It
+/// is the likeliest one, not one that explains more with more.
+fn gain<M: ForwardModel>(model: &M, candidates: &[Candidate]) -> f64 {
+    let (design, findings): (Vec<&Candidate>, Vec<&Candidate>) =
+        candidates.iter().partition(|c| matches!(kind(model, c), Verdict::None | Verdict::Recalibrate));
+    let mut groups: Vec<Vec<&Candidate>> = Vec::new();
+    for candidate in findings {
+        match groups.iter_mut().find(|group| of_one_kind(group[0], candidate)) {
+            Some(group) => group.push(candidate),
+            None => groups.push(vec![candidate]),
+        }
+    }
+    let likeliest = groups.iter().map(|group| marginal(group)).max_by(|a, b| a.log_weight.total_cmp(&b.log_weight));
+    let design = design.iter().map(|c| c.log_evidence()).fold(f64::NEG_INFINITY, f64::max);
+    likeliest.map_or(f64::NEG_INFINITY, |finding| finding.log_evidence - design)
+}
+
+/// Whether two candidates differ in choices alone: a layer, an instant.
+fn of_one_kind(a: &Candidate, b: &Candidate) -> bool {
+    let mechanisms = |c: &Candidate| {
+        let mut all: Vec<usize> = c.fit.hypothesis.mechanisms.iter().map(|(m, _)| *m).collect();
+        all.sort_unstable();
+        all
+    };
+    let structure = |c: &Candidate| c.rival.as_ref().map(|r| (r.structure, r.channel));
+    mechanisms(a) == mechanisms(b) && structure(a) == structure(b)
+}
+
+/// Candidates as one.
+struct Marginal {
+    /// ln of their weights' sum.
+    log_weight: f64,
+    /// ln of the mean of their evidences, by their prior probabilities.
+    log_evidence: f64,
+}
+
+fn marginal(candidates: &[&Candidate]) -> Marginal {
+    let log_sum = |terms: &dyn Fn(&Candidate) -> f64| {
+        let most = candidates.iter().map(|c| terms(c)).fold(f64::MIN, f64::max);
+        most + candidates.iter().map(|c| (terms(c) - most).exp()).sum::<f64>().ln()
+    };
+    let log_weight = log_sum(&|c| c.log_weight);
+    Marginal { log_weight, log_evidence: log_weight - log_sum(&|c| c.log_weight - c.log_evidence()) }
 }
 
 /// Whether no structure was added to a candidate.
@@ -126,6 +168,32 @@ mod tests {
         assert_eq!(decide([0.1, 0.2, 0.2, 0.5], 9.0), Verdict::Unknown);
         // equal shares speak for what has a name
         assert_eq!(decide([0.2, 0.0, 0.4, 0.4], 9.0), Verdict::Explained);
+    }
+
+    #[test]
+    fn a_finding_gains_what_all_choices_of_its_mechanism_gain_together() {
+        let model = library(&[true, true]);
+        let with = |mechanisms: &[usize], log_evidence: f64, log_prior: f64| {
+            let mut candidate = candidate(mechanisms, 0.0);
+            candidate.fit.log_evidence = log_evidence;
+            candidate.log_weight = log_evidence + log_prior;
+            candidate
+        };
+        let choices = |n: usize| (0..n).map(|_| with(&[0], 6.0, -(n as f64).ln())).collect::<Vec<_>>();
+        let gained = |findings: Vec<Candidate>| {
+            gain(&model, &[vec![with(&[], 1.0, 0.0), with(&[], f64::NEG_INFINITY, 0.0)], findings].concat())
+        };
+        // the same in however many choices
+        for n in [1, 2, 50] {
+            assert!((gained(choices(n)) - 5.0).abs() < 1e-12);
+        }
+        // one choice out of fifty that explains it: the mean is what counts
+        let mut one = choices(50);
+        one[1..].iter_mut().for_each(|c| (c.fit.log_evidence, c.log_weight) = (-1e3, -1e3 - 50_f64.ln()));
+        assert!((gained(one) - (5.0 - 50_f64.ln())).abs() < 1e-12);
+        // another that explains more, but is less likely of itself, says nothing
+        assert!((gained([choices(50), vec![with(&[1], 8.0, -3.0)]].concat()) - 5.0).abs() < 1e-12);
+        assert_eq!(gained(Vec::new()), f64::NEG_INFINITY);
     }
 
     #[test]

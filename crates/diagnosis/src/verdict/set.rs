@@ -60,7 +60,7 @@ fn needed(candidates: &[&Candidate], mechanism: usize, excluded: f64) -> bool {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::fit::{Fit, Hypothesis};
+    use crate::fit::{Beforehand, Fit, Hypothesis};
     use crate::noise::Noise;
     use crate::{Active, Channel, Nuisance, Omission, State};
 
@@ -111,6 +111,7 @@ pub(super) mod tests {
             residuals: Vec::new(),
             u: nalgebra::DVector::zeros(0),
             layout: Vec::new(),
+            beforehand: Beforehand::new(0, |_, _| None).expect("nothing is known of nothing"),
             covariance: nalgebra::DMatrix::zeros(0, 0),
             noise: Noise::typical(&[], &[]).expect("no noise"),
             whitened: nalgebra::DVector::zeros(0),

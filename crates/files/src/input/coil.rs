@@ -157,7 +157,7 @@ fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
         let problem = "the thermometer lies outside the solids, and a film stands in place of the medium";
         return Err(top.fault("sensor", problem, "move it into the spool or the coil, or remove heat.film_w_per_m2k").into());
     }
-    let tolerances = tolerances(&top.group("tolerances"), &file.tolerances, &design)?;
+    let tolerances = tolerances(&top, &file.tolerances, &file.correlations, &design)?;
     let name = file.name;
     let provenance = Provenance { material, dehomogenization: row };
     let (file, fingerprints) = (path.to_owned(), cells.fingerprints);
@@ -172,6 +172,14 @@ impl CoilCase {
     /// [`Error::Coil`] if the coil cannot be solved.
     pub fn steady_sensitivity(&self) -> Result<SteadySensitivity, Error> {
         coil::steady_sensitivity(&self.design).map_err(|source| Error::Coil { file: self.file.clone(), source })
+    }
+
+    /// What its tolerances make of that.
+    ///
+    /// # Errors
+    /// As [`Self::steady_sensitivity`].
+    pub fn sensitivity_band(&self) -> Result<coil::Band, Error> {
+        coil::sensitivity_band(&self.design, &self.tolerances).map_err(|source| Error::Coil { file: self.file.clone(), source })
     }
 }
 

@@ -1,7 +1,7 @@
 //! `COIL.ron` as it is written: the whole, the winding as a body, optics, drifts, dehomogenisation.
 
 use bias::{Optics, StrainConvention};
-use coil::{Dehomogenization, Design, Drifts, HeatPaths, Mechanics};
+use coil::{Dehomogenization, Design, Drifts, HeatPaths, Mechanics, Tolerances};
 use fem_core::material::TransverselyIsotropic;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -14,7 +14,7 @@ use super::quantity::{
     Photoelastic, Ratio, SpecificHeat, StrainRatio, TemperatureC,
 };
 use super::spool_file::{SensorFile, SpoolFile, SurroundingsFile};
-use super::tolerances::TolerancesFile;
+use super::tolerances::{self, CorrelationFile, TolerancesFile};
 use super::winding_file::WindingFile;
 
 /// A coil on its spool, `COIL.ron`.
@@ -50,6 +50,9 @@ pub(crate) struct CoilFile {
     /// One standard deviation of what a unit may be from this drawing, by the keys of its numbers; usual ones where none is given.
     #[serde(default, deserialize_with = "super::tolerances::each_once", skip_serializing_if = "TolerancesFile::is_empty")]
     pub(crate) tolerances: TolerancesFile,
+    /// Correlations of two numbers that have a tolerance, by their keys: of a lot whose units were calibrated; all others are independent.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) correlations: Vec<CorrelationFile>,
 }
 
 /// The potted winding as a body.
@@ -169,8 +172,8 @@ impl Default for DriftsFile {
 }
 
 impl CoilFile {
-    /// The file that says `design`, its constants written out.
-    pub(crate) fn new(name: &str, design: &Design) -> Self {
+    /// The file that says `design`, its constants written out, and how far a unit may be from it.
+    pub(crate) fn new(name: &str, design: &Design, known: &Tolerances) -> Self {
         let body = &design.body;
         let (elastic, conductivity_z, conductivity_r) = (body.elastic, body.conductivity_z, body.conductivity_r);
         let coil = BodyFile {
@@ -192,7 +195,8 @@ impl CoilFile {
             optics: Mirror::of(&design.optics),
             drifts: Mirror::of(&design.drifts),
             dehomogenization: DehomogenizationFile::Matrix(Mirror::of(&design.dehomogenization)),
-            tolerances: TolerancesFile::new(),
+            tolerances: tolerances::written(known, design),
+            correlations: tolerances::correlated(known),
         }
     }
 }

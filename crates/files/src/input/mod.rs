@@ -62,3 +62,4 @@ pub use schema::schemas;
 pub use source::{fault_in, read_ron, read_text};
 pub use spool::{SpoolCase, read_spool};
 pub use targets::{TargetsCase, read_targets};
+pub use tolerances::keyed;

@@ -18,6 +18,9 @@ pub(crate) enum ToleranceFile {
     Absolute(f64),
 }
 
+/// Keys of two numbers, and their correlation.
+pub(crate) type CorrelationFile = (String, String, f64);
+
 /// Tolerances by the keys of the numbers that they are of.
 pub(crate) type TolerancesFile = BTreeMap<String, ToleranceFile>;
 
@@ -78,29 +81,100 @@ const KEYS: &[(&str, Number, f64)] = &[
     ("sensor.lag_s", Number::SensorLag, 1.0),
 ];
 
+/// The key of a number that has a tolerance, and what a design says there, in the key's unit; `None` where the design has no such number.
+pub fn keyed(number: Number, design: &Design) -> Option<(&'static str, f64)> {
+    let (key, unit) = key(number, design)?;
+    Some((key, number.of(design)? / unit))
+}
+
 /// Largest share: beyond, a number says nothing.
 const MOST: f64 = 0.5;
 
-/// The tolerances that a file gives, checked.
-pub(super) fn tolerances(at: &Group, file: &TolerancesFile, design: &Design) -> Result<Tolerances, InputError> {
+/// The tolerances and correlations that a file gives, checked.
+pub(super) fn tolerances(
+    top: &Group,
+    file: &TolerancesFile,
+    correlations: &[CorrelationFile],
+    design: &Design,
+) -> Result<Tolerances, InputError> {
+    let given = given(&top.group("tolerances"), file, design)?;
+    let tolerances = Tolerances { given, correlations: Vec::new() };
+    let correlations = correlated_by(top, correlations, &tolerances, design)?;
+    Ok(Tolerances { correlations, ..tolerances })
+}
+
+/// The correlations that a file gives.
+fn correlated_by(
+    top: &Group,
+    file: &[CorrelationFile],
+    tolerances: &Tolerances,
+    design: &Design,
+) -> Result<Vec<(Number, Number, f64)>, InputError> {
+    let mut all: Vec<(Number, Number, f64)> = Vec::new();
+    for (at, (first, second, r)) in top.each("correlations", file) {
+        let known = |key: &String| {
+            let number = KEYS.iter().find(|(known, ..)| known == key).map(|(_, number, _)| *number);
+            let has = |n: &Number| n.of(design).is_some_and(|drawn| tolerances.of(*n).of(drawn) > 0.0);
+            number.filter(has).ok_or_else(|| at.fault("", format!("{key:?} is no number with a tolerance"), "see tolerances"))
+        };
+        let (a, b) = (known(first)?, known(second)?);
+        if a == b || all.iter().any(|(c, d, _)| [a, b] == [*c, *d] || [a, b] == [*d, *c]) {
+            return Err(at.fault("", format!("{first:?} and {second:?} are given twice, or are one"), "give every pair once"));
+        }
+        if r.is_nan() || r.abs() >= 1.0 {
+            return Err(at.fault("", format!("{r} is no correlation"), "give a number between -1 and 1"));
+        }
+        all.push((a, b, *r));
+    }
+    let of_all = Tolerances { given: Vec::new(), correlations: all };
+    let numbers: Vec<Number> = KEYS.iter().map(|(_, number, _)| *number).collect();
+    if of_all.correlation(&numbers).cholesky().is_none() {
+        let problem = "the correlations contradict each other: they are of no distribution";
+        return Err(top.fault("correlations", problem, "give those that fogcoil calibrate writes, all of them"));
+    }
+    Ok(of_all.correlations)
+}
+
+/// The key of a number, and its unit in SI in a design.
+fn key(number: Number, design: &Design) -> Option<(&'static str, f64)> {
+    let (key, _, unit) = KEYS.iter().find(|(_, known, _)| *known == number)?;
+    // G_zr varies as a ratio to E_r
+    let ratio = if number == Number::Constant(Parameter::ShearRatio) { design.body.elastic.e_r } else { 1.0 };
+    Some((key, unit / ratio))
+}
+
+/// Tolerances as a file has them.
+pub(super) fn written(tolerances: &Tolerances, design: &Design) -> TolerancesFile {
+    let of = |(number, tolerance): &(Number, Tolerance)| {
+        let (key, unit) = key(*number, design)?;
+        let tolerance = match tolerance {
+            Tolerance::Relative(share) => ToleranceFile::Relative(*share),
+            Tolerance::Absolute(by) => ToleranceFile::Absolute(by / unit),
+            Tolerance::Exact => ToleranceFile::Absolute(0.0),
+        };
+        Some((key.to_owned(), tolerance))
+    };
+    tolerances.given.iter().filter_map(of).collect()
+}
+
+/// Correlations as a file has them.
+pub(super) fn correlated(tolerances: &Tolerances) -> Vec<CorrelationFile> {
+    let name = |number: Number| KEYS.iter().find(|(_, known, _)| *known == number).map(|(key, ..)| (*key).to_owned());
+    tolerances.correlations.iter().filter_map(|(a, b, r)| Some((name(*a)?, name(*b)?, *r))).collect()
+}
+
+/// The tolerances that a file gives.
+fn given(at: &Group, file: &TolerancesFile, design: &Design) -> Result<Vec<(Number, Tolerance)>, InputError> {
     let mut given = Vec::new();
     for (key, tolerance) in file {
-        let Some((_, number, unit)) = KEYS.iter().find(|(known, ..)| known == key) else {
+        let Some((_, number, _)) = KEYS.iter().find(|(known, ..)| known == key) else {
             let problem = format!("{key:?} is no number that has a tolerance");
             let all: Vec<&str> = KEYS.iter().map(|(key, ..)| *key).collect();
             return Err(at.fault("", problem, format!("give one of {}", all.join(", "))));
         };
-        let drawn = match number {
-            Number::Constant(parameter) => parameter.of(design),
-            Number::ThermoOptic => Some(design.optics.thermo_optic),
-            Number::Tail => Some(0.0),
-            Number::SensorLag => Some(design.sensor.lag),
-        };
-        let Some(drawn) = drawn else {
+        let (Some(drawn), Some((_, unit))) = (number.of(design), self::key(*number, design)) else {
             return Err(at.fault("", format!("{key:?} has a tolerance, but the design has no such number"), "remove it"));
         };
-        // G_zr varies as a ratio to E_r
-        let unit = if *number == Number::Constant(Parameter::ShearRatio) { unit / design.body.elastic.e_r } else { *unit };
         let (value, unit) = match tolerance {
             ToleranceFile::Relative(value) => (*value, None),
             ToleranceFile::Absolute(value) => (*value, Some(unit)),
@@ -124,7 +198,7 @@ pub(super) fn tolerances(at: &Group, file: &TolerancesFile, design: &Design) -> 
         }
         given.push((*number, unit.map_or(Tolerance::Relative(value), |unit| Tolerance::Absolute(value * unit))));
     }
-    Ok(Tolerances { given })
+    Ok(given)
 }
 
 /// The keys of a design's numbers with the usual tolerances: all that it has.

@@ -6,7 +6,7 @@ use std::fs;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use coil::Design;
+use coil::{Design, Tolerances};
 use ron::ser::{PrettyConfig, to_string_pretty};
 use tempfile::NamedTempFile;
 
@@ -18,13 +18,13 @@ pub use vtu::vtu;
 /// Groups nested deeper than this stand on one line.
 const LINES: usize = 2;
 
-/// The content of a coil file for `design`, with `comments` above it, a line each.
+/// The content of a coil file for `design` that a unit is `known` to keep, with `comments` above it, a line each.
 ///
 /// Every number reads back to the same double; one that no decimal in the file's unit gives, to a neighbour of it.
-pub fn coil_file(name: &str, design: &Design, comments: &[String]) -> String {
+pub fn coil_file(name: &str, design: &Design, known: &Tolerances, comments: &[String]) -> String {
     let layout = PrettyConfig::new().depth_limit(LINES).new_line("\n");
     // the types of a coil file have nothing that RON cannot say
-    let text = to_string_pretty(&CoilFile::new(name, design), layout).unwrap_or_default();
+    let text = to_string_pretty(&CoilFile::new(name, design, known), layout).unwrap_or_default();
     let comments = comments.iter().flat_map(|comment| comment.lines()).map(|line| format!("// {line}\n"));
     comments.chain([text, "\n".to_owned()]).collect()
 }

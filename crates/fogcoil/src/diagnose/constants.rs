@@ -1,9 +1,11 @@
 //! What the records say of the design's constants and of the instruments, beside what was known.
 
 use diagnosis::{Place, Posterior, Role};
+use mechanisms::reading_of;
 use serde_json::{Value, json};
 
 use super::Outcome;
+use crate::keys::interval_by_key;
 
 /// Standard deviations from the drawing from which a constant is worth a line.
 const MOVED: f64 = 1.0;
@@ -42,15 +44,49 @@ impl Outcome {
         moved
     }
 
-    /// All of them as scripts read them.
-    pub(super) fn constants_json(&self) -> Value {
+    /// All of them as scripts read them, in the words of the terminal.
+    pub(super) fn unknowns_json(&self) -> Value {
         let of = |c: &Constant| {
             let p = &c.posterior;
             json!({
                 "name": p.name, "kind": c.kind, "value": p.value(), "ci90": p.ci90(),
-                "drawing": p.prior.value(0.0), "tolerance": p.prior.sd(), "moved_sigma": c.moved(),
+                "drawing": p.prior.value(0.0), "tolerance": p.prior.sd(), "sigmas": c.moved(),
             })
         };
         Value::Array(self.constants().iter().map(of).collect())
     }
+
+    /// The constants of the drawing that moved by more than [`WORTH`], by their keys and in the units of these, the farthest first.
+    pub(super) fn constants_json(&self) -> Value {
+        let all = self.constants();
+        let told = all.iter().map(|c| (c.posterior.name.as_str(), c.posterior.value()));
+        worth(&all, "design", |p| interval_by_key(self.gyro.library().design(), told.clone(), &p.name, ends(p)))
+    }
+
+    /// Numbers of the instruments likewise.
+    pub(super) fn sensors_json(&self) -> Value {
+        worth(&self.constants(), "instrument", |p| {
+            let [value, low, high] = ends(p);
+            Some((reading_of(&p.name)?, value, [low, high]))
+        })
+    }
+}
+
+fn ends(posterior: &Posterior) -> [f64; 3] {
+    let [low, high] = posterior.ci90();
+    [posterior.value(), low, high]
+}
+
+/// Standard deviations from which scripts are told of a constant.
+const WORTH: f64 = 0.5;
+
+/// Those of a kind that moved, as key, value and interval.
+fn worth(all: &[Constant], kind: &str, of: impl Fn(&Posterior) -> Option<(&'static str, f64, [f64; 2])>) -> Value {
+    let mut moved: Vec<&Constant> = all.iter().filter(|c| c.kind == kind && c.moved().abs() > WORTH).collect();
+    moved.sort_by(|a, b| b.moved().abs().total_cmp(&a.moved().abs()));
+    let told = |c: &Constant| {
+        let (key, value, ci90) = of(&c.posterior)?;
+        Some(json!({"key": key, "value": value, "ci90": ci90, "sigmas": c.moved()}))
+    };
+    moved.into_iter().filter_map(told).collect()
 }

@@ -17,7 +17,7 @@ impl Outcome {
     /// Why there is none: nothing was found, or a coil file cannot hold it.
     pub fn model(&self) -> Result<String, String> {
         let best = &self.diagnosis.best().fit;
-        let nominal = self.gyro.library().design();
+        let (nominal, known) = (self.gyro.library().design(), self.gyro.library().tolerances());
         let found = match self.diagnosis.verdict {
             Verdict::Unknown | Verdict::None => Vec::new(),
             _ if !self.accepted() => Vec::new(),
@@ -25,7 +25,7 @@ impl Outcome {
         };
         let mut comments = self.heading();
         if found.is_empty() {
-            return Ok(coil_file(&self.name, nominal, &comments));
+            return Ok(coil_file(&self.name, nominal, known, &comments));
         }
         comments.extend(found.iter().filter(|p| p.record.is_none()).map(|p| said(p, self.interval(p))));
         let mut design = nominal.clone();
@@ -50,7 +50,7 @@ impl Outcome {
             names if names.is_empty() => format!("{}, recalibrated", self.name),
             names => format!("{}, {names}", self.name),
         };
-        let text = coil_file(&name, &design, &comments);
+        let text = coil_file(&name, &design, known, &comments);
         check_coil("the extended model".as_ref(), &text).map_err(|error| error.to_string())?;
         Ok(text)
     }

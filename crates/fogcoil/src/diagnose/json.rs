@@ -42,11 +42,24 @@ impl Outcome {
             "set": set,
             "parameters": parameters,
             "constants": self.constants_json(),
+            "sensors": self.sensors_json(),
+            "unknowns": self.unknowns_json(),
+            "named": self.named_json(),
             "located": located.unwrap_or(nowhere),
             "structure": self.structure(),
             "holdout": held,
             "notes": self.notes,
             "note_ids": self.notes.iter().map(|note| note.remark.id()).collect::<Vec<_>>(),
         })
+    }
+
+    /// The best explanation by mechanisms with a name, whatever the verdict; null where none is worth telling.
+    fn named_json(&self) -> Value {
+        let Some(best) = self.best_named() else { return Value::Null };
+        let ids: Vec<&str> = best.fit.active.iter().map(|a| self.id(a.mechanism)).collect();
+        let estimates = (0..ids.len()).flat_map(|place| best.fit.estimates(&self.gyro, place));
+        let parameters: serde_json::Map<String, Value> =
+            estimates.map(|e| (e.name, json!({"value": e.value, "ci90": e.ci90}))).collect();
+        json!({"id": ids[0], "ids": ids, "probability": best.probability, "parameters": parameters})
     }
 }

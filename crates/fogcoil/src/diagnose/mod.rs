@@ -13,8 +13,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use diagnosis::{
-    Contradiction, Diagnosis, ForwardModel, HeldOut, Hypothesis, Judged, Judgement, Observation, Ruling, Settings, Settled,
-    Verdict,
+    Candidate, Contradiction, Diagnosis, ForwardModel, HeldOut, Hypothesis, Judged, Judgement, Observation, Ruling, Settings,
+    Settled, Verdict,
 };
 use files::{Note, Remark};
 use mechanisms::{CATALOGUE, Extent, Gyro, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL, USUAL_NOISE};
@@ -74,7 +74,8 @@ pub fn diagnose(
     let observations: Vec<Observation> = read.iter().map(|r| r.observed.clone()).collect();
     let numbers: Vec<usize> = (0..fits.len()).collect();
     let failed = Error::of_diagnosis(&case.file);
-    let Settled { model: about, recalibrated } = diagnosis::settled(&drawn, &numbers, &observations, progress).map_err(failed)?;
+    let Settled { model: about, recalibrated, .. } =
+        diagnosis::settled(&drawn, &numbers, &observations, progress).map_err(failed)?;
     let gyro = about.as_ref().unwrap_or(&drawn);
     let settings = Settings::default();
     let mut diagnosis =
@@ -106,7 +107,7 @@ fn rms(series: &[f64]) -> f64 {
 }
 
 /// White noise of thermometer and rate in a sample of some records, the quietest of them.
-fn noise_of(records: &[Record]) -> [f64; 2] {
+pub(crate) fn noise_of(records: &[Record]) -> [f64; 2] {
     let of = |channel: usize| {
         let white = |r: &Record| {
             let values = &r.observed.channels[channel];
@@ -129,7 +130,7 @@ fn taken_back(file: &Path, why: Contradiction) -> Note {
 }
 
 /// A record that is given twice would be counted, or judged, by itself.
-fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -> Result<(), Error> {
+pub(crate) fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -> Result<(), Error> {
     let mut known: Vec<&Fingerprint> = Vec::new();
     for RecordCase { fingerprint, .. } in records {
         if let Some(first) = known.iter().find(|k| (k.bytes, k.fnv1a) == (fingerprint.bytes, fingerprint.fnv1a)) {
@@ -182,6 +183,17 @@ impl Outcome {
             let mechanism = &self.gyro.mechanisms()[a.mechanism];
             (mechanism.id.as_str(), mechanism.stage.as_str(), self.gyro.extent(a, self.diagnosis.choice(n)))
         })
+    }
+
+    /// The likeliest candidate of which all mechanisms have a name, and there is one, alone or beside a structure; none where nothing is called a
+    /// finding.
+    fn best_named(&self) -> Option<&Candidate> {
+        let named = |c: &&Candidate| {
+            let active = &c.fit.active;
+            !active.is_empty() && active.iter().all(|a| self.gyro.mechanisms()[a.mechanism].named)
+        };
+        let found = matches!(self.diagnosis.verdict, Verdict::Explained | Verdict::Unknown);
+        self.diagnosis.candidates.iter().filter(|_| found).find(named)
     }
 
     /// Rms of recorded less predicted thermometer in a record held out, of the design and of what was fitted \[K\], if it was recorded.

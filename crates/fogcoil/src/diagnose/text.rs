@@ -37,6 +37,13 @@ impl Outcome {
         if d.verdict == Verdict::Unknown {
             out.push_str("What to do: check signs, columns, units and times (fogcoil check), then repeat the test under another profile.\n");
         }
+        if let (Verdict::Unknown, Some(best)) = (d.verdict, self.best_named()) {
+            let ids: Vec<&str> = best.fit.active.iter().map(|a| self.id(a.mechanism)).collect();
+            let values = (0..ids.len()).flat_map(|place| best.fit.estimates(&self.gyro, place));
+            let values: Vec<String> = values.map(|e| format!("{} = {}", e.name, significant(e.value, 4))).collect();
+            let [ids, values] = [ids.join(" and "), values.join(", ")];
+            let _ = writeln!(out, "The nearest that has a name: {ids} ({values}).");
+        }
         if let Some(alternatives) = self.alternatives() {
             let _ = writeln!(out, "{alternatives}");
         }

@@ -51,7 +51,7 @@ fn the_model_is_the_design_with_the_bond(folder: &Folder, json: &serde_json::Val
     let Mechanics::Opening(bond) = model.mechanics else { panic!("{:?}", model.mechanics) };
     assert_eq!(bond.below, below);
     // its constants are those that the answer tells, each put in at its place, and nothing else
-    let constants = json["constants"].as_array().unwrap().iter().filter(|c| c["kind"] == "design");
+    let constants = json["unknowns"].as_array().unwrap().iter().filter(|c| c["kind"] == "design");
     let put = |design: Design, c: &serde_json::Value| {
         with_constant(&design, c["name"].as_str().unwrap(), c["value"].as_f64().unwrap()).unwrap()
     };

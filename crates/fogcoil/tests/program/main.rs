@@ -9,6 +9,7 @@ mod bad_instants;
 mod bad_profile;
 mod bad_record;
 mod cache;
+mod calibrate;
 mod cell_general;
 mod check;
 mod check_impossible;

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use crate::common::{CELL, COIL, Folder, change};
-use coil::{Design, Drive, Dynamics, Profile, STANDARD};
+use coil::{Design, Drive, Dynamics, Profile, STANDARD, Tolerances};
 use diagnosis::{Active, ForwardModel};
 use fogcoil::cache::Cache;
 use fogcoil::input::{RATE, RecordOptions, check_coil, read_coil, read_record};
@@ -65,7 +65,7 @@ fn active(gyro: &Gyro, (id, values, choice): (&str, &[f64], Option<f64>)) -> Act
 
 /// Written and read.
 fn back(design: &Design) -> Design {
-    let text = coil_file("a \"name\"", design, &["a comment\nof two lines".into()]);
+    let text = coil_file("a \"name\"", design, &Tolerances::default(), &["a comment\nof two lines".into()]);
     let case = check_coil(Path::new("m.ron"), &text).unwrap_or_else(|error| panic!("{error}\n{text}"));
     assert_eq!(case.name, "a \"name\"");
     case.design

@@ -30,7 +30,7 @@ pub(crate) struct Answer {
     #[serde(default)]
     pub(crate) holdout: Option<Held>,
     /// What the records leave of the design's constants and the instruments.
-    #[serde(default)]
+    #[serde(default, rename = "unknowns")]
     pub(crate) constants: Vec<Constant>,
 }
 

@@ -1,6 +1,6 @@
 //! What the record that is fitted cannot separate from the truth, asked for the names that an answer gives.
 
-use diagnosis::{Active, ForwardModel, Observation, Plan, alternatives, separation};
+use diagnosis::{Active, ForwardModel, Hypothesis, Observation, Plan, alternatives, separation};
 use mechanisms::{RATE, SPOOL};
 use recording::noise::NoiseModel;
 
@@ -32,7 +32,7 @@ fn noise(truth: &Truth) -> [NoiseModel; 2] {
     if SPOOL < RATE { [spool, rate] } else { [rate, spool] }
 }
 
-/// Adds to the truth's sets what the answer names and the record cannot separate: the best fit of the other family to the noise-free response
+/// Takes the strength of what is concealed for what the design's tolerances leave of it, and adds to the truth's sets what the answer names and the record cannot separate: the best fit of the other family to the noise-free response
 /// lies within [`NEAREST`], amplitudes and shapes free, the forward model granted its errors.
 pub(super) fn extend(truth: &mut Truth, answer: &Answer, model: &chain::Unit) -> Result<(), Failure> {
     if !matches!(truth.kind(), Kind::Single | Kind::Double) {
@@ -48,6 +48,14 @@ pub(super) fn extend(truth: &mut Truth, answer: &Answer, model: &chain::Unit) ->
     let noise = noise(truth);
     let plan = Plan { records: &[FIT], instants: &instants, noise: Some(&noise) };
     let concealed: Vec<_> = truth.concealed().cloned().collect();
+    // what the design's constants leave of an effect within their tolerances is all that can be found
+    for true_one in &concealed {
+        let Some(active) = model.at_work(true_one, -3.0) else { continue };
+        let left = separation(gyro, &plan, &[active], &[Hypothesis::RECALIBRATED])
+            .map_err(|e| Failure(format!("{} against the constants: {e}", true_one.id)))?;
+        let left = left.squared.sqrt();
+        truth.snr.iter_mut().filter(|s| s.id == true_one.id).for_each(|s| s.snr = s.snr.min(left));
+    }
     for (place, true_one) in concealed.iter().enumerate() {
         // what the truth does not name is at its smallest: a heater is switched on with the record
         let Some(active) = model.at_work(true_one, -3.0) else { continue };

@@ -16,19 +16,15 @@ const LONE: [f64; 2] = [0.6, 0.5];
 
 /// Values in a row that may be outliers together: a logger that repeats a bad one.
 const TOGETHER: usize = 3;
-/// Distance from the median, in spans that four fifths of the values have, that no signal reaches: a code for an overload.
-const CODE: f64 = 20.0;
 
 /// Hampel's test against the median of three neighbours on each side, which a ramp passes; a step, or a bend, is no outlier. Up to three rows may be
 /// off together.
 ///
-/// The first and last two rows are not judged, but for codes.
+/// The first and last two rows are not judged.
 pub(super) fn judge(context: &Context, mask: &mut [bool]) -> Vec<Finding> {
     let mut found = lone_values(context, mask).unwrap_or_default();
     let moving = moving(context, mask);
-    found.extend(codes(context.values, mask));
     found.sort_by_key(|(row, _)| *row);
-    found.dedup_by_key(|(row, _)| *row);
     let largest = found.iter().fold(0.0_f64, |most, (_, distance)| most.max(*distance));
     let outliers = found.first().zip(found.last()).map(|((first, _), (last, _))| {
         let span = [context.time[*first], context.time[*last]];
@@ -97,16 +93,4 @@ fn lone(context: &Context, used: &[usize], n: usize, together: usize, noise: f64
     let beside = [left, right].map(|side| side * distance.signum());
     let alone = beside.into_iter().all(|side| side > LONE[0] * distance.abs()) && range < LONE[1] * distance.abs();
     (same && distance.abs() > FAR * noise && alone).then_some(distance.abs())
-}
-
-/// Rows with codes for an overload, with their distance from the median; they are not used.
-fn codes(values: &[f64], mask: &mut [bool]) -> Vec<(usize, f64)> {
-    let mut sorted: Vec<f64> = values.iter().zip(mask.iter()).filter(|(_, used)| **used).map(|(value, _)| *value).collect();
-    sorted.sort_by(f64::total_cmp);
-    let Some(last) = sorted.len().checked_sub(1) else { return Vec::new() };
-    let (middle, span) = (sorted[last / 2], sorted[last - last / 10] - sorted[last / 10]);
-    let rows = (0..values.len()).filter(|&row| mask[row] && span > 0.0 && (values[row] - middle).abs() > CODE * span);
-    let found: Vec<(usize, f64)> = rows.map(|row| (row, (values[row] - middle).abs())).collect();
-    found.iter().for_each(|(row, _)| mask[*row] = false);
-    found
 }

@@ -1,0 +1,285 @@
+//! `fogcoil calibrate`: records of good units of a lot in; the lot's constants, with what further units may deviate by, out.
+//!
+//! A lot is made of the same batches: part of what its units deviate by from the drawing they have in common. What each unit's records say of its
+//! constants is weighed together ([`diagnosis::Lot`]); the design file that comes of it has the lot's values, tolerances of what units differ by, and
+//! correlations of what the records know only together.
+
+use coil::{Design, Number, Tolerance, Tolerances};
+use diagnosis::{Active, Believed, ForwardModel, Lot, Observation, Prior, Said, Settled};
+use files::{Note, Remark};
+use mechanisms::{CATALOGUE, Gyro, Library, Prepared, number_of, with_constant};
+use progress::Step;
+use serde_json::{Value, json};
+use statrs::distribution::{ContinuousCDF, Normal};
+
+use crate::Error;
+use crate::cache::Cache;
+use crate::diagnose::{noise_of, refuse_copies};
+use crate::input::{CoilCase, Fingerprint, InputError, RecordCase, check_coil, keyed};
+use crate::keys::interval_by_key;
+use crate::output::coil_file;
+use crate::prepare::{Record, library, ready};
+use crate::table::{significant, table};
+
+/// Correlations smaller than this are left out: with as many constants as a design has they change no tolerance by more than a thousandth.
+const LEAST_CORRELATION: f64 = 1e-3;
+/// Gain of ln evidence by a mechanism from which a unit is doubted: a likelihood ratio of e⁵ = 148.
+const DOUBTED: f64 = 5.0;
+
+/// A lot, calibrated.
+pub struct Outcome {
+    case: CoilCase,
+    constants: Vec<Constant>,
+    lot: Lot,
+    units: Vec<Vec<Fingerprint>>,
+    /// by how many standard deviations an effect stands out of a unit's records, known from the drawing and from the lot
+    effects: Vec<(String, [f64; 2])>,
+    notes: Vec<Note>,
+}
+
+/// A constant that the units of a lot have partly in common.
+struct Constant {
+    /// of the forward model's nuisances
+    at: usize,
+    name: String,
+    number: Number,
+    prior: Prior,
+}
+
+/// A unit as it was fitted.
+struct Unit {
+    gyro: Gyro<'static>,
+    fit: diagnosis::Fit,
+    records: usize,
+}
+
+/// Calibrates the lot of the design `case` from its good `units`, each with its records.
+///
+/// # Errors
+/// [`files::Error::Input`] names the record that cannot be used and why; [`files::Error::Coil`] if the design cannot be modelled.
+pub fn calibrate(
+    case: &CoilCase,
+    units: &[Vec<RecordCase>],
+    cache: &Cache,
+    progress: &(dyn Fn(Step) + Sync),
+) -> Result<Outcome, Error> {
+    refuse_copies(units.iter().flatten())?;
+    if !case.tolerances.correlations.is_empty() {
+        let (file, problem) = (case.file.clone(), "is calibrated already".to_owned());
+        let remedy = "give the drawing, and all units of the lot together".to_owned();
+        return Err(InputError { file, line: None, field: Some("correlations".into()), problem, remedy }.into());
+    }
+    let mut notes = Vec::new();
+    let library = library(case, cache, progress)?;
+    let mut fitted = Vec::new();
+    for records in units {
+        let read: Vec<Record> = records.iter().map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
+        let (unit, doubt) = fit(case, &library, &read, progress)?;
+        notes.extend(doubt.map(|text| Remark::DoubtedUnit.warning(text).at(&records[0].fingerprint.file)));
+        fitted.push(unit);
+    }
+    let Some(first) = fitted.first() else { return Err(Error::usage("give at least one --unit")) };
+    let constants = constants(&first.gyro);
+    let numbers: Vec<usize> = constants.iter().map(|c| c.at).collect();
+    let failed = Error::of_diagnosis(&case.file);
+    let said = |unit: &Unit| -> Result<Said, Error> {
+        let believed = unit.fit.believed(&unit.gyro, &numbers).map_err(failed)?;
+        Said::of(&believed).ok_or_else(not_finite)
+    };
+    let said = fitted.iter().map(said).collect::<Result<Vec<_>, _>>()?;
+    let shared: Vec<f64> = constants.iter().map(|c| c.number.shared()).collect();
+    let lot = Lot::of(&said, &shared).ok_or_else(not_finite)?;
+    let effects = effects(first, &numbers, &lot.further).map_err(failed)?;
+    let units = units.iter().map(|records| records.iter().map(|r| r.fingerprint.clone()).collect()).collect();
+    Ok(Outcome { case: case.clone(), constants, lot, units, effects, notes })
+}
+
+fn not_finite() -> Error {
+    Error::Diagnosis("what the units say of the lot is not finite".into())
+}
+
+/// The constants of a unit, nothing else at work; and why it may not be good, if so.
+fn fit(
+    case: &CoilCase,
+    library: &Library,
+    read: &[Record],
+    progress: &(dyn Fn(Step) + Sync),
+) -> Result<(Unit, Option<String>), Error> {
+    let coil = Error::of_coil(&case.file);
+    let prepared = |r: &Record| Prepared::new(library, &r.observed.time, &r.chamber, r.averaging);
+    let prepared = read.iter().map(prepared).collect::<Result<Vec<_>, _>>().map_err(coil)?;
+    let drawn = Gyro::fitted_to(library.clone(), CATALOGUE, prepared, read.len(), noise_of(read)).map_err(coil)?;
+    let observations: Vec<Observation> = read.iter().map(|r| r.observed.clone()).collect();
+    let numbers: Vec<usize> = (0..read.len()).collect();
+    let settled = diagnosis::settled(&drawn, &numbers, &observations, progress).map_err(Error::of_diagnosis(&case.file))?;
+    let Settled { model, recalibrated, suspect } = settled;
+    let doubt = suspect.filter(|(_, gain)| *gain > DOUBTED).map(|(mechanism, gain)| {
+        let id = &drawn.mechanisms()[mechanism].id;
+        format!("{id} explains this unit better than its constants do (ln odds {gain:.0} before its prior): is it a good one? See fogcoil diagnose")
+    });
+    Ok((Unit { gyro: model.unwrap_or(drawn), fit: recalibrated, records: read.len() }, doubt))
+}
+
+/// Those constants of a model that a lot has partly in common.
+fn constants(gyro: &Gyro) -> Vec<Constant> {
+    let of = |(at, nuisance): (usize, &diagnosis::Nuisance)| {
+        let name = nuisance.parameter.name.clone();
+        let number = number_of(&name).filter(|number| number.shared() > 0.0)?;
+        Some(Constant { at, name, number, prior: nuisance.parameter.prior })
+    };
+    gyro.nuisances().iter().enumerate().filter_map(of).collect()
+}
+
+/// By how much each named mechanism, at the size from which its fit starts, stands out of a unit's records: known from the drawing, and from the lot.
+fn effects(unit: &Unit, numbers: &[usize], further: &Believed) -> Result<Vec<(String, [f64; 2])>, diagnosis::Error<coil::Error>> {
+    let records: Vec<usize> = (0..unit.records).collect();
+    let mut all = Vec::new();
+    for (mechanism, omission) in unit.gyro.mechanisms().iter().enumerate().filter(|(_, m)| m.named) {
+        let Some(values) = omission.starts.iter().max_by_key(|values| values.iter().filter(|v| **v != 0.0).count()) else {
+            continue;
+        };
+        // a fit that starts at none of it: as much as it may well be
+        let size =
+            |(value, parameter): (&f64, &diagnosis::Parameter)| if *value == 0.0 { parameter.prior.value(1.0) } else { *value };
+        let values = values.iter().zip(&omission.parameters).map(size).collect();
+        let choice = omission.choice.as_ref().and_then(|(_, choices)| choices.get(choices.len() / 2).copied());
+        let effect = Active { mechanism, values, choice };
+        let by = |known| unit.fit.stands_out(&unit.gyro, &records, &effect, known);
+        all.push((omission.id.clone(), [by(None)?, by(Some((numbers, &further.covariance)))?]));
+    }
+    Ok(all)
+}
+
+impl Outcome {
+    /// What a user should know besides.
+    pub fn notes(&self) -> &[Note] {
+        &self.notes
+    }
+
+    /// The constants as told where they are at `mean`.
+    fn told<'a>(&'a self, mean: &'a Believed) -> impl Iterator<Item = (&'a str, f64)> + Clone {
+        self.constants.iter().zip(mean.mean.iter()).map(|(c, u)| (c.name.as_str(), c.prior.value(*u)))
+    }
+
+    /// The lot's design: its values, tolerances of what units differ by, correlations of what was told together only.
+    fn design(&self) -> (Design, Tolerances) {
+        let Lot { further, .. } = &self.lot;
+        let put = |design: Design, (name, told): (&str, f64)| with_constant(&design, name, told).unwrap_or(design);
+        let design = self.told(further).fold(self.case.design.clone(), put);
+        let mut tolerances = self.case.tolerances.clone();
+        let sd = further.sd();
+        for (k, constant) in self.constants.iter().enumerate() {
+            let share = constant.prior.sd() * sd[k] / constant.prior.value(further.mean[k]);
+            tolerances.given.retain(|(number, _)| *number != constant.number);
+            tolerances.given.push((constant.number, Tolerance::Relative(rounded(share.abs()))));
+        }
+        for i in 0..self.constants.len() {
+            for j in 0..i {
+                let r = further.covariance[(i, j)] / (sd[i] * sd[j]);
+                let r = (r / LEAST_CORRELATION).round() / (1.0 / LEAST_CORRELATION);
+                if r != 0.0 {
+                    tolerances.correlations.push((self.constants[j].number, self.constants[i].number, r));
+                }
+            }
+        }
+        (design, tolerances)
+    }
+
+    /// The coil file of the lot.
+    ///
+    /// # Errors
+    /// Why a coil file cannot hold it.
+    pub fn file(&self) -> Result<String, Error> {
+        let (design, tolerances) = self.design();
+        let name = format!("{}, calibrated", self.case.name);
+        let unit = |files: &Vec<Fingerprint>| {
+            let names: Vec<String> = files.iter().map(|f| f.file.display().to_string()).collect();
+            format!("  {}", names.join(", "))
+        };
+        let heading = format!("{}, the lot of these good units, by fogcoil calibrate:", self.case.name);
+        let told = "Values are fitted to their records; tolerances are of a further unit of the lot, with their correlations.";
+        let comments: Vec<String> =
+            std::iter::once(heading).chain(self.units.iter().map(unit)).chain([told.to_owned()]).collect();
+        let text = coil_file(&name, &design, &tolerances, &comments);
+        check_coil("the lot's design".as_ref(), &text)?;
+        Ok(text)
+    }
+
+    /// Some constants as scripts read them.
+    fn told_json(&self, believed: &Believed) -> Value {
+        let (half, sd) = (half_of_90(), believed.sd());
+        let of = |(k, constant): (usize, &Constant)| {
+            let u = believed.mean[k];
+            let at = [u, u - half * sd[k], u + half * sd[k]].map(|u| constant.prior.value(u));
+            let (key, value, ci90) = interval_by_key(&self.case.design, self.told(believed), &constant.name, at)?;
+            Some(json!({"key": key, "value": value, "ci90": ci90, "sigmas": u}))
+        };
+        self.constants.iter().enumerate().filter_map(of).collect()
+    }
+
+    /// One object, as scripts read it.
+    pub fn json(&self) -> Value {
+        let files = |unit: &Vec<Fingerprint>| unit.iter().map(|f| f.file.display().to_string()).collect::<Vec<_>>();
+        let units = self.units.iter().zip(&self.lot.units);
+        let sd = self.lot.further.sd();
+        let tolerances = self.constants.iter().enumerate().filter_map(|(k, constant)| {
+            let (key, _) = keyed(constant.number, &self.case.design)?;
+            Some(json!({"key": key, "drawing": constant.prior.sd(), "lot": constant.prior.sd() * sd[k]}))
+        });
+        let effects = self.effects.iter().map(|(id, [drawing, lot])| json!({"id": id, "drawing": drawing, "lot": lot}));
+        json!({
+            "constants": self.told_json(&self.lot.common),
+            "units": units
+                .map(|(unit, believed)| json!({"files": files(unit), "constants": self.told_json(believed)}))
+                .collect::<Vec<_>>(),
+            "tolerances": tolerances.collect::<Vec<_>>(),
+            "stands_out": effects.collect::<Vec<_>>(),
+            "notes": self.notes,
+        })
+    }
+
+    /// For people: the lot's constants, each unit's, and what a further unit shows the sooner.
+    pub fn text(&self) -> String {
+        let Lot { common, units, further } = &self.lot;
+        let (half, sd) = (half_of_90(), common.sd());
+        let mut rows = vec![["constant (fitted)", "lot", "90 % interval", "sigma", "tolerance"].map(str::to_owned).to_vec()];
+        rows[0].extend((1..=units.len()).map(|n| format!("unit {n}")));
+        for (k, constant) in self.constants.iter().enumerate() {
+            let u = common.mean[k];
+            let at = |u: f64| constant.prior.value(u);
+            let told = |u: f64| significant(at(u), 4);
+            let mut row = vec![
+                constant.name.clone(),
+                told(u),
+                format!("{} to {}", told(u - half * sd[k]), told(u + half * sd[k])),
+                format!("{u:+.1}"),
+                format!("{} -> {}", significant(constant.prior.sd(), 2), significant(constant.prior.sd() * further.sd()[k], 2)),
+            ];
+            row.extend(units.iter().map(|unit| told(unit.mean[k])));
+            rows.push(row);
+        }
+        let mut found: Vec<&(String, [f64; 2])> = self.effects.iter().filter(|(_, [drawing, _])| *drawing > 0.0).collect();
+        found.sort_by(|a, b| (b.1[1] / b.1[0]).total_cmp(&(a.1[1] / a.1[0])));
+        let effects = found.iter().map(|(id, [drawing, lot])| vec![id.clone(), format!("{:.2}", drawing / lot)]);
+        let head = vec!["mechanism".to_owned(), "smallest effect found, of that without the lot".to_owned()];
+        let effects: Vec<Vec<String>> = std::iter::once(head).chain(effects).collect();
+        format!(
+            "{}: the lot of {} good units. A constant is a factor on the drawing's value; sigma is what the lot deviates by, in tolerances;\n\
+             tolerance: of a unit about the drawing, and of a further unit about the lot.\n\n{}\n{}",
+            self.case.name,
+            units.len(),
+            table(&rows),
+            table(&effects),
+        )
+    }
+}
+
+/// A tolerance to four digits.
+fn rounded(share: f64) -> f64 {
+    format!("{share:.3e}").parse().unwrap_or(share)
+}
+
+/// Standard deviations from the middle of a normal density to the ends of its interval of 90 %.
+fn half_of_90() -> f64 {
+    Normal::standard().inverse_cdf(0.95)
+}
