@@ -161,6 +161,9 @@ pub(crate) struct Simulate {
     /// Write a page with plots here
     #[arg(long, value_name = "R.html")]
     pub(crate) report: Option<PathBuf>,
+    /// Write rate and thermometer with one standard deviation by the design's tolerances here, and tell which tolerance matters
+    #[arg(long, value_name = "BAND.csv")]
+    pub(crate) band: Option<PathBuf>,
     /// Print the summary as one JSON object
     #[arg(long)]
     pub(crate) json: bool,

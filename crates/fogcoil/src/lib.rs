@@ -26,6 +26,7 @@
 //! # }
 //! ```
 
+pub mod band;
 pub mod cache;
 pub mod calibrate;
 pub mod check;

@@ -24,7 +24,7 @@ use fogcoil::glossary::Remark;
 use fogcoil::input::Between;
 use fogcoil::output::Content;
 use fogcoil::{
-    Error, check, diagnose, figures, identify, input, output, picture, report, sensitivity, simulate, summary, trim, wind,
+    Error, band, check, diagnose, figures, identify, input, output, picture, report, sensitivity, simulate, summary, trim, wind,
 };
 
 fn main() -> ExitCode {
@@ -159,9 +159,9 @@ fn run_trim(coil: &Path, profile: Option<&Path>, json: bool, progress: &Progress
 }
 
 fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> {
-    let Simulate { coil, profile, between, step, spool, spool_noise, out, report, json, no_cache } = arguments;
+    let Simulate { coil, profile, between, step, spool, spool_noise, out, report, band, json, no_cache } = arguments;
     let inputs: Vec<PathBuf> = [profile, spool].into_iter().flatten().cloned().collect();
-    let case = progress.read_coil_for(coil, &inputs, &[Some(out), report.as_deref()])?;
+    let case = progress.read_coil_for(coil, &inputs, &[Some(out), report.as_deref(), band.as_deref()])?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
     let drawn = report.is_some() && case.winding.turns().len() <= figures::MOST_TURNS;
     let model = |drives: &[Drive]| {
@@ -197,14 +197,20 @@ fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> 
     let task = format!("simulating {} rows", profile.profile.time.len());
     let simulation = progress.during(&task, || simulate::simulate(&case, &profile, &model))?;
     progress.tell(simulation.warning().as_slice());
+    let within = band.as_ref().map(|_| progress.tasks(|tell| band::band(&simulation, &cache, tell))).transpose()?;
     let rows = |out: &mut dyn Write| simulation.write_csv(out);
+    let bands = |out: &mut dyn Write| within.iter().try_for_each(|within| within.write_csv(out));
     let mut files = vec![(out.as_path(), Content::Written(&rows))];
+    files.extend(band.as_deref().map(|path| (path, Content::Written(&bands))));
     if let Some(path) = report {
         let measured = progress.during("solving on finer meshes", || figures::Convergence::measure(&case, &cache))?;
         files.push((path, Content::Text(report::html(&simulation, fields.as_ref(), Some(&measured)))));
     }
     progress.during(&format!("writing {}", out.display()), || progress.save(&files))?;
-    print(&if *json { line(&summary::json(&simulation)) } else { summary::text(&simulation) })
+    let mut object = summary::json(&simulation);
+    object["tolerances"] = within.as_ref().map_or(serde_json::Value::Null, band::Band::json);
+    let told = within.as_ref().map_or(String::new(), band::Band::text);
+    print(&if *json { line(&object) } else { summary::text(&simulation) + &told })
 }
 
 fn line(json: &serde_json::Value) -> String {

@@ -324,7 +324,7 @@ impl Simulation<'_> {
         Self::windowed(self.row(0), self.coarser_rows().skip(1))
     }
 
-    fn windowed(first: SimulatedRow, rows: impl Iterator<Item = SimulatedRow>) -> impl Iterator<Item = Window> {
+    pub(crate) fn windowed(first: SimulatedRow, rows: impl Iterator<Item = SimulatedRow>) -> impl Iterator<Item = Window> {
         let (mut start, mut last, mut turned) = (first, first, 0.0);
         rows.filter_map(move |row| {
             turned += row.rate * (row.time - last.time);
@@ -351,7 +351,7 @@ impl Simulation<'_> {
 }
 
 /// The shortest text that reads back to the same double; plain between a millionth and a quadrillion.
-fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     match value.abs() {
         0.0 => "0".into(),
         1e-6..1e15 => value.to_string(),

@@ -80,7 +80,7 @@ const READ_OUT: usize = 3;
 
 /// Least-squares line through points that come one by one (Welford's update).
 #[derive(Default)]
-struct Regression {
+pub(crate) struct Regression {
     count: f64,
     mean: [f64; 2],
     xx: f64,
@@ -92,7 +92,7 @@ const STILL: f64 = 1e-9;
 
 impl Regression {
     /// Of the rate on the thermometer's rate.
-    fn of(windows: impl Iterator<Item = Window>) -> Self {
+    pub(crate) fn of(windows: impl Iterator<Item = Window>) -> Self {
         let mut regression = Self::default();
         windows.for_each(|window| regression.add(window.spool_rate, window.rate));
         regression
@@ -107,7 +107,7 @@ impl Regression {
         self.xy += dx * (y - self.mean[1]);
     }
 
-    fn slope(&self) -> Option<f64> {
+    pub(crate) fn slope(&self) -> Option<f64> {
         (self.xx > self.count * STILL * STILL).then(|| self.xy / self.xx)
     }
 }

@@ -1,14 +1,9 @@
 //! `fogcoil recommend` and `fogcoil explain` as a user runs them.
 
-use crate::common::{CLEAN_COIL, COIL, Folder, change, stderr, stdout};
+use crate::common::{CLEAN_COIL, COIL, Folder, change, schema, stderr, stdout};
 use serde_json::Value;
 
 const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/concealed/open/case_13");
-
-fn schema(name: &str) -> Value {
-    let path = format!("{}/../../docs/schema/{name}.schema.json", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
 
 fn json(folder: &Folder, arguments: &[&str], name: &str) -> Value {
     let output = folder.run(arguments);

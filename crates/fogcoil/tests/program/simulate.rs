@@ -1,6 +1,6 @@
 //! `simulate` on good profiles: the contract, the physics, the report.
 
-use crate::common::{COIL, Folder, change, stderr, stdout};
+use crate::common::{COIL, Folder, change, schema, stderr, stdout};
 use std::fmt::Write;
 
 const HEADER: &str = "time_s,chamber_c,spool_c,shupe_deg_per_h,eo_axial_deg_per_h,eo_radial_deg_per_h,rate_deg_per_h";
@@ -289,4 +289,56 @@ fn the_read_out_s_drift_is_named_and_the_parts_add_up() {
     assert!((parts + of("read_out_deg_per_h") - of("rate_deg_per_h")).abs() < 1e-12);
     let text = stdout(&folder.run(&["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv", "--quiet"]));
     assert!(text.contains("read-out") && text.contains("the sum of the four"), "{text}");
+}
+
+/// The band against the full model with one constant a standard deviation to either side.
+#[test]
+fn the_band_is_what_a_tolerance_away_makes_of_the_rate() {
+    let folder = Folder::new();
+    folder.write("p.csv", "time_s,chamber_c\n0,20\n1800,20\n3600,50\n9000,50\n");
+    let run = |coil: &str, more: &[&str]| -> (serde_json::Value, Vec<f64>) {
+        folder.write("c.ron", coil);
+        let arguments = ["simulate", "c.ron", "--profile", "p.csv", "--step", "60", "--out", "b.csv", "--json", "--quiet"];
+        let output = folder.run(&[&arguments, more].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let text = std::fs::read_to_string(folder.path("b.csv")).unwrap();
+        let rates = text.lines().skip(1).map(|line| line.rsplit(',').next().unwrap().parse().unwrap()).collect();
+        (serde_json::from_str(&stdout(&output)).unwrap(), rates)
+    };
+    let (json, rates) = run(COIL, &["--band", "band.csv"]);
+    assert_eq!(fogcoil::schema::misfit(&json, &schema("simulate")), None);
+    let table = std::fs::read_to_string(folder.path("band.csv")).unwrap();
+    let rows: Vec<Vec<f64>> =
+        table.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect();
+    let band = &json["tolerances"];
+    let peak = rows.iter().position(|row| row[0] == json["peak"]["time_s"].as_f64().unwrap()).unwrap();
+    let sd = band["peak_deg_per_h"].as_f64().unwrap();
+    assert!((rows[peak][1] - rates[peak]).abs() < 1e-12 && (rows[peak][2] - sd).abs() < 1e-12, "{:?}", rows[peak]);
+    let shares = band["shares_at_peak"].as_array().unwrap();
+    let share = |key: &str| shares.iter().find(|s| s["key"] == key).unwrap()["share"].as_f64().unwrap();
+    assert!((shares.iter().map(|s| s["share"].as_f64().unwrap()).sum::<f64>() - 1.0).abs() < 1e-9);
+    let scaled = |text: &str, key: &str, factor: f64| {
+        let (before, rest) = text.split_once(&format!("{key}: ")).unwrap();
+        let (value, after) = rest.split_once(',').unwrap();
+        format!("{before}{key}: {},{after}", value.parse::<f64>().unwrap() * factor)
+    };
+    let stiffer = |factor: f64| scaled(&scaled(COIL, "e_r_mpa", factor), "g_zr_mpa", factor);
+    let conducting = |factor: f64| {
+        let at = COIL.find("surroundings").unwrap();
+        format!("{}{}", &COIL[..at], scaled(&COIL[at..], "conductivity_w_per_mk", factor))
+    };
+    let cases: [(&str, &dyn Fn(f64) -> String); 2] =
+        [("coil.material.e_r_mpa", &stiffer), ("surroundings.medium.conductivity_w_per_mk", &conducting)];
+    for (key, with) in cases {
+        let [up, down] = [1.1, 0.9].map(|factor| run(&with(factor), &[]).1[peak]);
+        let change = ((up - down) / 2.0).abs();
+        let told = sd * share(key).sqrt();
+        // 2 %: the parametric model's own error, and what is not linear in a tenth
+        assert!((told / change - 1.0).abs() < 0.02, "{key}: {told} {change}");
+    }
+    // what it is not made for is said
+    folder.write("walls.csv", "time_s,chamber_c,left_c\n0,20,20\n3600,30,25\n");
+    let output = folder.run(&["simulate", "c.ron", "--profile", "walls.csv", "--out", "w.csv", "--band", "w2.csv"]);
+    assert!(output.status.code() == Some(2) && stderr(&output).contains("--band"), "{}", stderr(&output));
+    assert!(!folder.path("w.csv").exists() && !folder.path("w2.csv").exists());
 }

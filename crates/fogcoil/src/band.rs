@@ -1,0 +1,168 @@
+//! What the tolerances of a design make of a simulation: the response to each number a standard deviation away, to first order.
+
+use std::io::{self, Write};
+
+use coil::{Drive, Mechanics, Number};
+use diagnosis::{ForwardModel, expected};
+use mechanisms::{Gyro, Prepared, RATE, SPOOL, number_of};
+use nalgebra::{DMatrix, DVector};
+use progress::Step;
+use serde_json::{Value, json};
+
+use crate::Error;
+use crate::cache::Cache;
+use crate::input::keyed;
+use crate::prepare::library;
+use crate::simulate::{SimulatedRow, Simulation};
+use crate::summary::{Regression, Summary};
+use crate::table::{significant, table};
+
+/// A simulation's band: one standard deviation of everything that follows from it.
+pub struct Band {
+    /// Instant \[s\], rate \[deg/h\] and its standard deviation, thermometer \[°C\] and its own, of every row.
+    rows: Vec<[f64; 5]>,
+    /// Of the rate in the row with the largest |rate| \[deg/h\].
+    pub peak: f64,
+    /// Of the root of the mean square \[deg/h\].
+    pub rms: f64,
+    /// Of the slope on the thermometer's rate \[(deg/h)/(degC/min)\]; `None` if there is none.
+    pub slope: Option<f64>,
+    /// Shares of the variance at the peak by the keys of the numbers, the largest first.
+    pub shares: Vec<(&'static str, f64)>,
+}
+
+/// How many shares are told.
+const TOLD: usize = 6;
+
+/// What one standard deviation of a number changes in every row: thermometer and rate.
+struct Change {
+    number: Number,
+    rows: [Vec<f64>; 2],
+}
+
+/// The band of a simulation by the tolerances of its design.
+///
+/// # Errors
+/// [`Error`] where tolerances are not known of what drives the profile or of the design's mechanics, or the design cannot be modelled.
+pub fn band(simulation: &Simulation, cache: &Cache, progress: &(dyn Fn(Step) + Sync)) -> Result<Band, Error> {
+    let (case, profile) = (simulation.case, simulation.profile);
+    if profile.drives != [Drive::Chamber] {
+        return Err(Error::usage(
+            "--band: tolerances are taken of profiles with chamber_c alone; leave out the other columns, or --band",
+        ));
+    }
+    if case.design.mechanics != Mechanics::Elastic {
+        return Err(Error::usage("--band: tolerances are taken of a design whose mechanics is Elastic; leave out --band"));
+    }
+    let at = Error::of_coil(&case.file);
+    let library = library(case, cache, progress)?;
+    let prepared = Prepared::new(&library, &profile.profile.time, profile.chamber(), 0.0).map_err(at)?;
+    let gyro = Gyro::new(library, &[], vec![prepared]).map_err(at)?;
+    let changes = changes(&gyro).map_err(at)?;
+    let numbers: Vec<Number> = changes.iter().map(|change| change.number).collect();
+    Ok(Band::of(simulation, &changes, &case.tolerances.correlation(&numbers)))
+}
+
+fn changes(gyro: &Gyro) -> Result<Vec<Change>, coil::Error> {
+    let mut all = Vec::new();
+    for (at, nuisance) in gyro.nuisances().iter().enumerate() {
+        let Some(number) = number_of(&nuisance.parameter.name) else { continue };
+        let respond = |u: f64| {
+            let mut values = expected(gyro.nuisances());
+            values[at] = nuisance.parameter.prior.value(u);
+            gyro.respond(0, &values, &[])
+        };
+        let [up, down] = [respond(1.0)?, respond(-1.0)?];
+        let half = |channel: usize| up[channel].iter().zip(&down[channel]).map(|(a, b)| (a - b) / 2.0).collect();
+        all.push(Change { number, rows: [half(SPOOL), half(RATE)] });
+    }
+    Ok(all)
+}
+
+/// Standard deviation of what changes by `changes` where the numbers go together so.
+fn sd(changes: &[f64], correlation: &DMatrix<f64>) -> f64 {
+    let changes = DVector::from_column_slice(changes);
+    changes.dot(&(correlation * &changes)).max(0.0).sqrt()
+}
+
+impl Band {
+    fn of(simulation: &Simulation, changes: &[Change], correlation: &DMatrix<f64>) -> Self {
+        let summary = Summary::of(simulation);
+        // the summary of the simulation with one number a standard deviation away
+        let changed = |change: &Change, sign: f64| {
+            let row = |(n, row): (usize, SimulatedRow)| SimulatedRow {
+                spool: row.spool + sign * change.rows[0][n],
+                rate: row.rate + sign * change.rows[1][n],
+                ..row
+            };
+            let rows: Vec<SimulatedRow> = simulation.rows().enumerate().map(row).collect();
+            let squares = rows.windows(2).map(|w| w[1].rate.powi(2) * (w[1].time - w[0].time)).sum::<f64>();
+            let rms = if summary.duration > 0.0 { (squares / summary.duration).sqrt() } else { 0.0 };
+            let slope = Regression::of(Simulation::windowed(rows[0], rows.iter().skip(1).copied())).slope();
+            (rms, slope.unwrap_or(0.0))
+        };
+        let half = |change: &Change| {
+            let [up, down] = [changed(change, 1.0), changed(change, -1.0)];
+            ((up.0 - down.0) / 2.0, (up.1 - down.1) / 2.0)
+        };
+        let (rms, slope): (Vec<f64>, Vec<f64>) = changes.iter().map(half).unzip();
+        let at = |channel: usize, n: usize| changes.iter().map(|c| c.rows[channel][n]).collect::<Vec<f64>>();
+        let of_row = |(n, row): (usize, SimulatedRow)| {
+            [row.time, row.rate, sd(&at(1, n), correlation), row.spool, sd(&at(0, n), correlation)]
+        };
+        let peak = simulation.rows().position(|row| row.time == summary.peak.time).unwrap_or(0);
+        let own = at(1, peak);
+        let with_others = correlation * DVector::from_column_slice(&own);
+        let variance: f64 = own.iter().zip(with_others.iter()).map(|(a, b)| a * b).sum();
+        let share = |(change, (own, all)): (&Change, (&f64, &f64))| {
+            let (key, _) = keyed(change.number, &simulation.case.design)?;
+            (variance > 0.0).then(|| (key, own * all / variance))
+        };
+        let mut shares: Vec<(&'static str, f64)> =
+            changes.iter().zip(own.iter().zip(with_others.iter())).filter_map(share).collect();
+        shares.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+        Self {
+            rows: simulation.rows().enumerate().map(of_row).collect(),
+            peak: variance.max(0.0).sqrt(),
+            rms: sd(&rms, correlation),
+            slope: summary.slope.map(|_| sd(&slope, correlation)),
+            shares,
+        }
+    }
+
+    /// One object, as scripts read it: one standard deviation each.
+    pub fn json(&self) -> Value {
+        let shares = self.shares.iter().map(|(key, share)| json!({"key": key, "share": share}));
+        json!({
+            "peak_deg_per_h": self.peak,
+            "rms_deg_per_h": self.rms,
+            "slope": self.slope,
+            "shares_at_peak": shares.collect::<Vec<_>>(),
+        })
+    }
+
+    /// For people.
+    pub fn text(&self) -> String {
+        let line = |name: &str, value: String, unit: &str| vec![name.to_owned(), value, unit.to_owned()];
+        let mut rows = vec![
+            line("by the design's tolerances (1 sigma, linear)", String::new(), ""),
+            line("  largest |rate|", format!("± {}", significant(self.peak, 2)), "deg/h"),
+            line("  root mean square of the rate", format!("± {}", significant(self.rms, 2)), "deg/h"),
+        ];
+        rows.extend(self.slope.map(|slope| line("  slope", format!("± {}", significant(slope, 2)), "(deg/h)/(degC/min)")));
+        let share = |(key, share): &(&str, f64)| {
+            line(&format!("    {key}"), format!("{:.0} %", 100.0 * share), "of the variance at the peak")
+        };
+        rows.extend(self.shares.iter().take(TOLD).map(share));
+        table(&rows)
+    }
+
+    /// Writes `time_s,rate_deg_per_h,rate_sd_deg_per_h,spool_c,spool_sd_c`.
+    ///
+    /// # Errors
+    /// What `out` says.
+    pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(out, "time_s,rate_deg_per_h,rate_sd_deg_per_h,spool_c,spool_sd_c")?;
+        self.rows.iter().try_for_each(|row| writeln!(out, "{}", row.map(crate::simulate::number).join(",")))
+    }
+}
