@@ -140,7 +140,7 @@ pub(crate) fn diagnose<'py>(
             }
         };
         let outcome = diagnosis::diagnose(&coil.case, &all(&fit)?, &all(&holdout)?, &cache(code), &note)?;
-        let prediction = outcome.predicted_rate().map(|columns| columns.map(<[f64]>::to_vec));
+        let prediction = outcome.predicted_rate();
         Ok((outcome.json().to_string(), outcome.text(), prediction, outcome.model().ok()))
     };
     let result = py.detach(run);

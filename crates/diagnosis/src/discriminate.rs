@@ -59,6 +59,10 @@ impl<M: ForwardModel> ForwardModel for Under<'_, M> {
         self.model.nuisances()
     }
 
+    fn stands_for(&self, mechanism: usize) -> Option<usize> {
+        self.model.stands_for(mechanism)
+    }
+
     fn precision(&self) -> Option<&DMatrix<f64>> {
         self.model.precision()
     }

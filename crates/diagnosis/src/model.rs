@@ -133,6 +133,12 @@ pub trait ForwardModel {
     /// The library.
     fn mechanisms(&self) -> &[Omission];
 
+    /// The nuisance in whose place a mechanism's first parameter stands while it is at work, told alike: a factor on a constant is all that the unit
+    /// deviates by there, and no record could tell the two apart.
+    fn stands_for(&self, _mechanism: usize) -> Option<usize> {
+        None
+    }
+
     /// Response of every channel at the instants of a record, with nuisances at given values and mechanisms at work.
     ///
     /// # Errors

@@ -10,6 +10,9 @@ use diagnosis::{
 const ROWS: usize = 600;
 const STEP_S: f64 = 30.0;
 
+/// Number of the mechanism that stands for the constant, where a bath has it.
+const FACTOR: usize = 2;
+
 struct Bath {
     channels: Vec<Channel>,
     nuisances: Vec<Nuisance>,
@@ -75,6 +78,10 @@ impl ForwardModel for Bath {
         &self.mechanisms
     }
 
+    fn stands_for(&self, mechanism: usize) -> Option<usize> {
+        (mechanism == FACTOR).then_some(1)
+    }
+
     fn respond(&self, record: usize, nuisances: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
         let State { level, rate } = &self.states[record];
         let mut y: Vec<f64> = rate.iter().map(|r| 100.0 * nuisances[0] * nuisances[1] * r).collect();
@@ -87,6 +94,8 @@ impl ForwardModel for Bath {
                         *y = x;
                     }
                 }
+                // in place of the constant
+                FACTOR => y.iter_mut().for_each(|y| *y *= active.values[0] / nuisances[1]),
                 _ => y.iter_mut().zip(level).zip(rate).for_each(|((y, l), r)| *y += active.values[0] * l * r),
             }
         }
@@ -172,6 +181,22 @@ fn what_is_concealed_is_named_its_parameter_covered_and_the_held_out_record_pred
         // 90 % of 20 are 18; 14 or fewer would be rarer than one in twenty
         assert!(covered >= 15, "mechanism {concealed}: {covered} of 20 intervals hold the truth");
     }
+}
+
+/// A third mechanism that is a factor on the constant, far beyond its tolerance: it takes the constant's place, and is not found beside it.
+#[test]
+fn a_mechanism_that_stands_for_a_constant_takes_its_place() {
+    let mut bath = Bath::new();
+    let factor = Parameter::new("factor", Prior::LogNormal { median: 1.0, spread: 0.3 });
+    bath.mechanisms.push(mechanism("factor", "thermal", vec![factor], vec![1.3]));
+    let y = bath.respond(0, &[1.0, 0.7], &[]).expect("a response").remove(0);
+    let found = run(&bath, &y, 1);
+    assert_eq!((found.verdict, found.mechanisms[0].0, found.set.as_slice()), (Verdict::Explained, FACTOR, &[FACTOR][..]));
+    let told = &found.parameters[0][0];
+    assert!(told.ci90[0] < 0.7 && 0.7 < told.ci90[1] && told.ci90[1] - told.ci90[0] < 0.02, "{told:?}");
+    // one number is known once
+    let names: Vec<String> = found.best().fit.posteriors(&bath).into_iter().map(|p| p.name).collect();
+    assert!(names.iter().any(|name| name == "factor") && names.iter().all(|name| name != "constant"), "{names:?}");
 }
 
 #[test]

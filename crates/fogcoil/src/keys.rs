@@ -4,7 +4,7 @@ use coil::{Design, Number};
 use files::input::keyed;
 use mechanisms::{number_of, with_constant};
 
-/// The key of the constant of this name, and its value in the key's unit where `all` constants have the values told of them, but this one the
+/// The key of the constant of this name, one of `all`, and its value in the key's unit where these have the values told of them, but this one the
 /// value `told`; `None` for a name that is none of the design's. Of tails it is the difference, which is what a record knows.
 pub(crate) fn by_key<'n>(
     design: &Design,
@@ -32,4 +32,29 @@ pub(crate) fn interval_by_key<'n>(
     let of = |told: f64| by_key(design, all.clone(), name, told);
     let ((key, value), (_, low), (_, high)) = (of(value)?, of(low)?, of(high)?);
     Some((key, value, [low.min(high), low.max(high)]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn constants_are_told_in_the_units_of_their_keys() {
+        let reference = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/coil-reference.ron");
+        let design = crate::input::read_coil(reference.as_ref()).unwrap().design;
+        let all = [("E_r and G", 1.1), ("G/E_r", 1.05), ("hub thickness [mm]", 4.05), ("dn/dT", 1.0), ("gain of the rate", 1.0)];
+        let of = |name: &str, told: f64| by_key(&design, all.into_iter(), name, told).unwrap();
+        let near = |(key, value): (&str, f64), expected: (&str, f64)| {
+            assert!(key == expected.0 && (value / expected.1 - 1.0).abs() < 1e-12, "{key} {value} {expected:?}");
+        };
+        near(of("E_r and G", 1.1), ("coil.material.e_r_mpa", 1.1 * 95.2));
+        // G is what both leave of it
+        near(of("G/E_r", 1.05), ("coil.material.g_zr_mpa", 1.1 * 1.05 * 24.1));
+        near(of("hub thickness [mm]", 4.05), ("spool.hub_thickness_mm", 4.05));
+        near(of("dn/dT", 0.9), ("optics.thermo_optic_per_k", 0.9 * design.optics.thermo_optic));
+        near(of("CW tail less CCW tail [m]", 0.4), ("winding.tails_m", 0.4));
+        assert_eq!(by_key(&design, all.into_iter(), "gain of the rate", 1.0), None);
+        let (key, value, [low, high]) = interval_by_key(&design, all.into_iter(), "E_r and G", [1.1, 1.2, 1.0]).unwrap();
+        assert!(key == "coil.material.e_r_mpa" && low < value && value < high);
+    }
 }

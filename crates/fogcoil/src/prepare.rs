@@ -30,6 +30,31 @@ pub(crate) struct Record {
     pub(crate) observed: Observation,
     pub(crate) chamber: Vec<f64>,
     pub(crate) averaging: f64,
+    /// instants of the rows before they were averaged \[s\], and how much earlier than its instant the middle of an averaged one lies
+    instants: (Vec<f64>, f64),
+}
+
+impl Record {
+    /// Instants of the record's rows, before they were averaged.
+    pub(crate) fn instants(&self) -> &[f64] {
+        &self.instants.0
+    }
+
+    /// What is told of its rows as averaged, at the instants before: on straight lines between the middles of the means.
+    pub(crate) fn at_instants(&self, values: &[f64]) -> Vec<f64> {
+        let (instants, earlier) = (&self.instants.0, self.instants.1);
+        let time = &self.observed.time;
+        if instants.len() == time.len() || time.len() < 2 {
+            return values.to_vec();
+        }
+        let at = |t: &f64| {
+            let t = t + earlier;
+            let after = time.partition_point(|end| *end < t).clamp(1, time.len() - 1);
+            let share = (t - time[after - 1]) / (time[after] - time[after - 1]);
+            values[after - 1] + share * (values[after] - values[after - 1])
+        };
+        instants.iter().map(at).collect()
+    }
 }
 
 /// The library of a design, from the cache if it is there; `progress` is told how far it is.
@@ -68,9 +93,12 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     let file = &case.fingerprint.file;
     let interval = case.report.instants.as_ref().map_or(0.0, |instants| instants.interval);
     let used = case.report.used(&case.recording);
+    let before = used.time().to_vec();
+    let mut earlier = 0.0;
     let (used, averaging) = match thinned(&used, interval, &THINNING) {
         None => (used, case.averaging),
         Some(Thinned { recording, every, rows }) => {
+            earlier = interval * (every - 1) as f64 / 2.0;
             let (left, interval) = (recording.time().len(), interval * every as f64);
             let message = format!("{rows} rows are averaged by {every} to {left} of {interval:.3} s");
             notes.push(Remark::Averaged.note(message).at(file));
@@ -111,7 +139,7 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
         say(Remark::NotAtRest, format!("does not start at rest ({off}), as the model does: what this leaves is no finding"));
     }
     let (fingerprint, observed) = (case.fingerprint.clone(), Observation { time, channels: vec![spool, rate] });
-    Ok(Record { fingerprint, observed, chamber, averaging })
+    Ok(Record { fingerprint, observed, chamber, averaging, instants: (before, earlier) })
 }
 
 #[cfg(test)]
@@ -137,6 +165,10 @@ mod tests {
         // 200 whole groups before the gap, of which 15 rows are cut off, and 199 after it
         assert_eq!((time.len(), time[0], time[199], time[200]), (399, 29.0, 5999.0, 6044.0 + 3600.0));
         assert_eq!(ready.averaging, 30.0);
+        // what is told of the means reads back at every row: the rate rises on a straight line, but for an hour without one
+        assert_eq!(ready.instants().len(), 12_000);
+        let again = ready.at_instants(rate);
+        assert!([0, 15, 3000, 9000, 11_999].iter().all(|&n| (again[n] - (0.001 * n as f64 + 0.0001)).abs() < 1e-9), "{again:?}");
         assert!((rate[0] - (0.0145 + 0.0001)).abs() < 1e-12 && (rate[200] - (6.0295 + 0.0001)).abs() < 1e-9, "{rate:?}");
         assert!((ready.chamber[0] - 20.029).abs() < 1e-12 && (spool[0] - 20.0195).abs() < 1e-3, "{}", spool[0]);
         assert!(notes.iter().any(|note| note.text.contains("12000 rows are averaged by 30 to 399 of 30.000 s")), "{notes:?}");

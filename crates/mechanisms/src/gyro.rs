@@ -230,9 +230,8 @@ impl<'m> Gyro<'m> {
     fn with_factors<'a>(&self, u: &[f64], active: &'a [Active]) -> (Vec<f64>, Vec<&'a Active>) {
         let (mut moved, mut others) = (u.to_vec(), Vec::new());
         for active in active {
-            let id = &self.mechanisms[active.mechanism].id;
-            match self.factored.iter().find(|(_, own)| own == id) {
-                Some((k, _)) => moved[instruments::CONSTANTS + k] = active.values[0],
+            match self.stands_for(active.mechanism) {
+                Some(number) => moved[number] = active.values[0],
                 None => others.push(active),
             }
         }
@@ -310,6 +309,11 @@ impl ForwardModel for Gyro<'_> {
 
     fn nuisances(&self) -> &[Nuisance] {
         &self.nuisances
+    }
+
+    fn stands_for(&self, mechanism: usize) -> Option<usize> {
+        let id = &self.mechanisms[mechanism].id;
+        self.factored.iter().find(|(_, own)| own == id).map(|(k, _)| instruments::CONSTANTS + k)
     }
 
     fn precision(&self) -> Option<&DMatrix<f64>> {

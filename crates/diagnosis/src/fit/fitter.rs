@@ -138,11 +138,12 @@ impl<'a, M: ForwardModel> Fitter<'a, M> {
         self.offsets[record][channel]
     }
 
-    /// The unknowns of a hypothesis: nuisances that are free, mechanisms' parameters, offsets.
+    /// The unknowns of a hypothesis: nuisances that are free and not stood for by a mechanism, mechanisms' parameters, offsets.
     pub(super) fn layout(&self, hypothesis: &Hypothesis) -> Layout {
-        let free = |role: Role| role != Role::Constant || hypothesis.constants_free;
+        let taken: Vec<usize> = hypothesis.mechanisms.iter().filter_map(|(m, _)| self.model.stands_for(*m)).collect();
+        let free = |number: usize, role: Role| (role != Role::Constant || hypothesis.constants_free) && !taken.contains(&number);
         let mut layout = Layout::new();
-        for (number, nuisance) in self.model.nuisances().iter().enumerate().filter(|(_, n)| free(n.role)) {
+        for (number, nuisance) in self.model.nuisances().iter().enumerate().filter(|(n, nuisance)| free(*n, nuisance.role)) {
             if nuisance.local {
                 layout.extend((0..self.observations.len()).map(|r| Unknown::Nuisance { number, record: Some(r) }));
             } else {

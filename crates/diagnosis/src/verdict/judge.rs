@@ -4,6 +4,9 @@ use super::set::{likely, marginals, named};
 use super::{Diagnosis, Verdict};
 use crate::{Candidate, Error, ForwardModel, HeldOut, Observation, as_designed};
 
+/// Probability of a mechanism from which it is named although a structure is left beside it.
+const SURE: f64 = 0.8;
+
 /// A record that was held out, predicted twice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
@@ -53,7 +56,7 @@ impl Diagnosis {
     /// Predicts the records `held` (numbers of the model's, with what was observed) and lets them judge the verdict by `channel`; `fitted` is the first
     /// record that was fitted, and `drawn` the model that is exact as it is designed, before it [`crate::settled`].
     ///
-    /// - A structure beside mechanisms that have a name is no bar to naming them if *every* record is predicted to within its noise, and clearly
+    /// - A structure beside mechanisms that have a name, one of them nearly certain, is no bar to naming them if *every* record is predicted to within its noise, and clearly
     ///   better than by the nominal model: the verdict becomes [`Verdict::Explained`], and their probabilities count the candidates with a
     ///   structure.
     /// - An explanation, or a recalibration, is taken back if *any* record contradicts it ([`Contradiction`]). Then there is nothing to explain if
@@ -77,13 +80,15 @@ impl Diagnosis {
             Ok(Judged { accepted: by_model.rmse[channel] <= nominal.rmse[channel], nominal, model: by_model })
         };
         let records = held.iter().map(predicted).collect::<Result<Vec<_>, _>>()?;
-        let ruling = rule(self.verdict, self.is_beside_named(model), &records, channel);
+        let counted = |c: &Candidate| named(model, c);
+        let beside = marginals(model, &self.candidates, counted);
+        let sure = beside.iter().any(|(_, probability)| *probability >= SURE);
+        let ruling = rule(self.verdict, sure && self.is_beside_named(model), &records, channel);
         match ruling {
             Ruling::Stands => {}
             Ruling::AcceptedBeside => {
-                let counted = |c: &Candidate| named(model, c);
                 self.verdict = Verdict::Explained;
-                self.mechanisms = marginals(model, &self.candidates, counted);
+                self.mechanisms = beside;
                 self.set = likely(&self.mechanisms, &self.candidates, counted, self.excluded, |m| model.mechanisms()[m].named);
             }
             Ruling::TakenBack { record, .. } => {

@@ -210,17 +210,17 @@ impl Outcome {
     /// Instants \[s\], and what the accepted model predicts of the rate \[deg/h\], of the first record that was held out, if one was.
     ///
     /// A model that predicts it worse than the nominal one is not accepted: then the nominal prediction is given.
-    pub fn predicted_rate(&self) -> Option<[&[f64]; 2]> {
-        let held = self.holdouts.first()?;
-        let chosen = if held.accepted { &held.model } else { &held.nominal };
-        Some([&held.record.observed.time, &chosen.prediction[RATE_CHANNEL]])
+    pub fn predicted_rate(&self) -> Option<[Vec<f64>; 2]> {
+        let Held { record, model, nominal, accepted } = self.holdouts.first()?;
+        let chosen = if *accepted { model } else { nominal };
+        Some([record.instants().to_vec(), record.at_instants(&chosen.prediction[RATE_CHANNEL])])
     }
 
     /// [`Self::predicted_rate`] as a table `time_s,rate_deg_per_h`.
     pub fn prediction(&self) -> Option<String> {
         let [time, rates] = self.predicted_rate()?;
         let mut text = "time_s,rate_deg_per_h\n".to_owned();
-        for (t, rate) in time.iter().zip(rates) {
+        for (t, rate) in time.iter().zip(&rates) {
             let _ = writeln!(text, "{t},{rate}");
         }
         Some(text)

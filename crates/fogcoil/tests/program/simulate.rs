@@ -291,7 +291,7 @@ fn the_read_out_s_drift_is_named_and_the_parts_add_up() {
     assert!(text.contains("read-out") && text.contains("the sum of the four"), "{text}");
 }
 
-/// The band against the full model with one constant a standard deviation to either side.
+/// The band against the full model with one constant a little to either side.
 #[test]
 fn the_band_is_what_a_tolerance_away_makes_of_the_rate() {
     let folder = Folder::new();
@@ -330,11 +330,11 @@ fn the_band_is_what_a_tolerance_away_makes_of_the_rate() {
     let cases: [(&str, &dyn Fn(f64) -> String); 2] =
         [("coil.material.e_r_mpa", &stiffer), ("surroundings.medium.conductivity_w_per_mk", &conducting)];
     for (key, with) in cases {
-        let [up, down] = [1.1, 0.9].map(|factor| run(&with(factor), &[]).1[peak]);
-        let change = ((up - down) / 2.0).abs();
+        // both have a tolerance of a tenth, and the band is linear: the slope at the drawing
+        let [up, down] = [1.01, 0.99].map(|factor| run(&with(factor), &[]).1[peak]);
+        let change = (0.1 / 0.02 * (up - down)).abs();
         let told = sd * share(key).sqrt();
-        // 2 %: the parametric model's own error, and what is not linear in a tenth
-        assert!((told / change - 1.0).abs() < 0.02, "{key}: {told} {change}");
+        assert!((told / change - 1.0).abs() < 0.01, "{key}: {told} {change}");
     }
     // what it is not made for is said
     folder.write("walls.csv", "time_s,chamber_c,left_c\n0,20,20\n3600,30,25\n");

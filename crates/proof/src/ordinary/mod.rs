@@ -158,11 +158,11 @@ fn case(unit: &str, answers: &Path) -> Result<Case, Failure> {
     }
     let left: Vec<f64> = recorded.iter().zip(&predicted).map(|(y, p)| y - p).collect();
     let offset = mean(left.iter().copied());
-    let held = HeldOut {
-        nominal: answer.holdout.map_or(f64::NAN, |held| held.rmse_nominal),
-        model: rms(left.iter().map(|r| r - offset)),
-        truth: truth.holdout_noise_rms_deg_per_h,
-    };
+    let model = rms(left.iter().map(|r| r - offset));
+    // of many rows the answer's errors are those of means over some: the noise that both predictions lose by that is the same
+    let lost = |rmse_model: f64| model.powi(2) - rmse_model.powi(2);
+    let nominal = answer.holdout.map_or(f64::NAN, |h| (h.rmse_nominal.powi(2) + lost(h.rmse_model)).max(0.0).sqrt());
+    let held = HeldOut { nominal, model, truth: truth.holdout_noise_rms_deg_per_h };
     let scored = score(&truth, &answer, held, drawing(unit)?.design.sensor.lag);
     Ok(Case { unit: unit.to_owned(), truth, answer, scored })
 }
