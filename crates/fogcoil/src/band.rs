@@ -56,11 +56,23 @@ pub fn band(simulation: &Simulation, cache: &Cache, progress: &(dyn Fn(Step) + S
     }
     let at = Error::of_coil(&case.file);
     let library = library(case, cache, progress)?;
-    let prepared = Prepared::new(&library, &profile.profile.time, profile.chamber(), 0.0).map_err(at)?;
+    let (time, chamber) = divided(&profile.profile.time, profile.chamber());
+    let prepared = Prepared::new(&library, &time, &chamber, 0.0).map_err(at)?;
     let gyro = Gyro::new(library, &[], vec![prepared]).map_err(at)?;
     let changes = changes(&gyro).map_err(at)?;
     let numbers: Vec<Number> = changes.iter().map(|change| change.number).collect();
     Ok(Band::of(simulation, &changes, &case.tolerances.correlation(&numbers)))
+}
+
+/// Straight lines between rows, divided: a record is taken as smooth between its rows, a profile has corners.
+const PARTS: usize = 8;
+
+fn divided(time: &[f64], course: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let divided = |x: &[f64]| {
+        let between = x.windows(2).flat_map(|w| (1..=PARTS).map(|k| w[0] + (w[1] - w[0]) * k as f64 / PARTS as f64));
+        x.first().copied().into_iter().chain(between).collect()
+    };
+    (divided(time), divided(course))
 }
 
 fn changes(gyro: &Gyro) -> Result<Vec<Change>, coil::Error> {
@@ -73,8 +85,12 @@ fn changes(gyro: &Gyro) -> Result<Vec<Change>, coil::Error> {
             gyro.respond(0, &values, &[])
         };
         let [up, down] = [respond(1.0)?, respond(-1.0)?];
-        let half = |channel: usize| up[channel].iter().zip(&down[channel]).map(|(a, b)| (a - b) / 2.0).collect();
-        all.push(Change { number, rows: [half(SPOOL), half(RATE)] });
+        let half = |channel: usize| -> Vec<f64> { up[channel].iter().zip(&down[channel]).map(|(a, b)| (a - b) / 2.0).collect() };
+        let [spool, rate] = [half(SPOOL), half(RATE)];
+        // the rate is a mean since the row before
+        let mean = |part: &[f64]| part.iter().sum::<f64>() / PARTS as f64;
+        let rate = rate[..1].iter().copied().chain(rate[1..].chunks(PARTS).map(mean)).collect();
+        all.push(Change { number, rows: [spool.into_iter().step_by(PARTS).collect(), rate] });
     }
     Ok(all)
 }

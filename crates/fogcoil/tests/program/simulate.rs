@@ -324,7 +324,7 @@ fn the_band_is_what_a_tolerance_away_makes_of_the_rate() {
     };
     let stiffer = |factor: f64| scaled(&scaled(COIL, "e_r_mpa", factor), "g_zr_mpa", factor);
     let conducting = |factor: f64| {
-        let at = COIL.find("surroundings").unwrap();
+        let at = COIL.find("medium: (").unwrap();
         format!("{}{}", &COIL[..at], scaled(&COIL[at..], "conductivity_w_per_mk", factor))
     };
     let cases: [(&str, &dyn Fn(f64) -> String); 2] =
@@ -334,7 +334,8 @@ fn the_band_is_what_a_tolerance_away_makes_of_the_rate() {
         let [up, down] = [1.01, 0.99].map(|factor| run(&with(factor), &[]).1[peak]);
         let change = (0.1 / 0.02 * (up - down)).abs();
         let told = sd * share(key).sqrt();
-        assert!((told / change - 1.0).abs() < 0.01, "{key}: {told} {change}");
+        // the parametric model's own error
+        assert!((told / change - 1.0).abs() < 0.005, "{key}: {told} {change}");
     }
     // what it is not made for is said
     folder.write("walls.csv", "time_s,chamber_c,left_c\n0,20,20\n3600,30,25\n");
