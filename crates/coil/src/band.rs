@@ -1,6 +1,8 @@
 //! What a design's tolerances make of a number that follows from it: slopes by differences, one standard deviation to either side.
 
 use crate::{Design, Error, MeshFineness, Model, Number, Parameter, Tolerances};
+use nalgebra::{DMatrix, DVector};
+use std::f64::consts::SQRT_2;
 
 /// One standard deviation of a number that follows from a design, and where it comes from.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,7 +16,7 @@ pub struct Band {
 }
 
 /// The mesh behind the slopes: good to a per cent of them.
-pub(crate) const SLOPES: MeshFineness = MeshFineness { order: 4, layers: 2, ratio: 0.15 };
+const SLOPES: MeshFineness = MeshFineness { order: 4, layers: 2, ratio: 0.15 };
 
 /// Whether a number acts in a uniform ramp, in which no heat flows.
 fn acts_in_a_ramp(number: Number) -> bool {
@@ -45,53 +47,46 @@ fn acts_in_a_ramp(number: Number) -> bool {
     }
 }
 
-impl Band {
-    /// Of what follows `of` a design in a steady ramp. Where the design cannot have a number on one side, as a Poisson's ratio beyond its bound, the other
-    /// side counts alone.
-    ///
-    /// # Errors
-    /// What `of` says of the design itself.
-    pub(crate) fn in_a_ramp(
-        design: &Design,
-        tolerances: &Tolerances,
-        of: impl Fn(&Design) -> Result<f64, Error>,
-    ) -> Result<Self, Error> {
-        let here = of(design)?;
-        let constants = Parameter::ALL.iter().map(|p| Number::Constant(*p));
-        let numbers = constants.chain([Number::Tail]).filter(|n| acts_in_a_ramp(*n));
-        let mut changes: Vec<(Number, f64)> = Vec::new();
-        for number in numbers {
-            let Some(drawn) = number.of(design) else { continue };
-            let sd = tolerances.of(number).of(drawn);
-            if sd <= 0.0 {
-                continue;
-            }
-            // a tail is not shortened below nothing
-            let down = if number == Number::Tail { None } else { of(&number.set(design, drawn - sd)).ok() };
-            let change = match (of(&number.set(design, drawn + sd)).ok(), down) {
-                (Some(up), Some(down)) => (up - down) / 2.0,
-                (Some(up), None) => up - here,
-                (None, Some(down)) => here - down,
-                (None, None) => continue,
-            };
-            // both tails vary alike, each by itself
-            changes.push((number, if number == Number::Tail { std::f64::consts::SQRT_2 * change } else { change }));
-        }
-        changes.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-        let numbers: Vec<Number> = changes.iter().map(|(number, _)| *number).collect();
-        let each = nalgebra::DVector::from_iterator(changes.len(), changes.iter().map(|(_, change)| *change));
-        let with_others = tolerances.correlation(&numbers) * &each;
-        let variance = each.dot(&with_others).max(0.0);
-        let share = |(own, all): (&f64, &f64)| if variance > 0.0 { own * all / variance } else { 0.0 };
-        let shares = each.iter().zip(with_others.iter()).map(share).collect();
-        Ok(Self { sd: variance.sqrt(), changes, shares })
-    }
+/// One standard deviation of a number that changes by `changes` when each of some numbers goes one standard deviation, these going together as
+/// their `correlation` says; and the share of its variance that each has, with its part of what correlated ones share: all add up to 1.
+pub fn propagated(changes: &[f64], correlation: &DMatrix<f64>) -> (f64, Vec<f64>) {
+    let own = DVector::from_column_slice(changes);
+    let with_others = correlation * &own;
+    let variance = own.dot(&with_others).max(0.0);
+    let share = |(own, all): (&f64, &f64)| if variance > 0.0 { own * all / variance } else { 0.0 };
+    (variance.sqrt(), own.iter().zip(with_others.iter()).map(share).collect())
 }
 
-/// What the tolerances of a design make of its steady-ramp sensitivity, (°/h)/(°C/min).
+/// What the tolerances of a design make of its steady-ramp sensitivity, (°/h)/(°C/min). Where the design cannot have a number on one side, as a
+/// Poisson's ratio beyond its bound, the other side counts alone.
 ///
 /// # Errors
-/// [`Error`] names the dimension or property at fault, or the solve that failed.
+/// [`Error`] names the dimension or property at fault, or the solve that failed, of the design itself or on both sides of it.
 pub fn sensitivity_band(design: &Design, tolerances: &Tolerances) -> Result<Band, Error> {
-    Band::in_a_ramp(design, tolerances, |design| Ok(Model::new(design, &SLOPES)?.sensitivity()?.total()))
+    let of = |design: &Design| -> Result<f64, Error> { Ok(Model::new(design, &SLOPES)?.sensitivity()?.total()) };
+    let here = of(design)?;
+    let constants = Parameter::ALL.iter().map(|p| Number::Constant(*p));
+    let mut changes: Vec<(Number, f64)> = Vec::new();
+    for number in constants.chain([Number::Tail]).filter(|n| acts_in_a_ramp(*n)) {
+        let Some(drawn) = number.of(design) else { continue };
+        let sd = tolerances.of(number).of(drawn);
+        if sd <= 0.0 {
+            continue;
+        }
+        let up = of(&number.set(design, drawn + sd));
+        // a tail is not shortened below nothing
+        let down = (number != Number::Tail).then(|| of(&number.set(design, drawn - sd)).ok()).flatten();
+        let change = match (up, down) {
+            (Ok(up), Some(down)) => (up - down) / 2.0,
+            (Ok(up), None) => up - here,
+            (Err(_), Some(down)) => here - down,
+            (Err(error), None) => return Err(error),
+        };
+        // both tails vary alike, each by itself
+        changes.push((number, if number == Number::Tail { SQRT_2 * change } else { change }));
+    }
+    changes.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+    let (numbers, each): (Vec<Number>, Vec<f64>) = changes.iter().copied().unzip();
+    let (sd, shares) = propagated(&each, &tolerances.correlation(&numbers));
+    Ok(Band { sd, changes, shares })
 }

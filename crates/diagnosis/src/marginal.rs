@@ -18,15 +18,9 @@ pub(crate) fn estimates<M: ForwardModel>(model: &M, candidates: &[Candidate], pl
     if choice.is_none() {
         return estimates;
     }
-    // the same mechanisms, by number
-    let sorted = |c: &Candidate| {
-        let mut numbers: Vec<usize> = c.fit.hypothesis.mechanisms.iter().map(|m| m.0).collect();
-        numbers.sort_unstable();
-        numbers
-    };
     let like = |c: &&Candidate| {
         c.rival == candidates[0].rival
-            && sorted(c) == sorted(&candidates[0])
+            && c.fit.hypothesis.numbers() == best.hypothesis.numbers()
             && c.fit.hypothesis.constants_free == best.hypothesis.constants_free
     };
     let kin: Vec<(&Candidate, usize)> = candidates

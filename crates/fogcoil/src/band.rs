@@ -2,10 +2,10 @@
 
 use std::io::{self, Write};
 
-use coil::{Drive, Mechanics, Number};
+use coil::{Drive, Mechanics, Number, propagated};
 use diagnosis::{ForwardModel, expected};
 use mechanisms::{Gyro, Prepared, RATE, SPOOL, number_of};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use progress::Step;
 use serde_json::{Value, json};
 
@@ -18,7 +18,7 @@ use crate::summary::{Regression, Summary};
 use crate::table::{significant, table};
 
 /// A simulation's band: one standard deviation of everything that follows from it.
-pub struct Band {
+pub struct CourseBand {
     /// Instant \[s\], rate \[deg/h\] and its standard deviation, thermometer \[°C\] and its own, of every row.
     rows: Vec<[f64; 5]>,
     /// Of the rate in the row with the largest |rate| \[deg/h\].
@@ -44,7 +44,7 @@ struct Change {
 ///
 /// # Errors
 /// [`Error`] where tolerances are not known of what drives the profile or of the design's mechanics, or the design cannot be modelled.
-pub fn band(simulation: &Simulation, cache: &Cache, progress: &(dyn Fn(Step) + Sync)) -> Result<Band, Error> {
+pub fn band(simulation: &Simulation, cache: &Cache, progress: &(dyn Fn(Step) + Sync)) -> Result<CourseBand, Error> {
     let (case, profile) = (simulation.case, simulation.profile);
     if profile.drives != [Drive::Chamber] {
         return Err(Error::usage(
@@ -61,7 +61,7 @@ pub fn band(simulation: &Simulation, cache: &Cache, progress: &(dyn Fn(Step) + S
     let gyro = Gyro::new(library, &[], vec![prepared]).map_err(at)?;
     let changes = changes(&gyro).map_err(at)?;
     let numbers: Vec<Number> = changes.iter().map(|change| change.number).collect();
-    Ok(Band::of(simulation, &changes, &case.tolerances.correlation(&numbers)))
+    Ok(CourseBand::of(simulation, &changes, &case.tolerances.correlation(&numbers)))
 }
 
 /// Straight lines between rows, divided: a record is taken as smooth between its rows, a profile has corners.
@@ -95,13 +95,7 @@ fn changes(gyro: &Gyro) -> Result<Vec<Change>, coil::Error> {
     Ok(all)
 }
 
-/// Standard deviation of what changes by `changes` where the numbers go together so.
-fn sd(changes: &[f64], correlation: &DMatrix<f64>) -> f64 {
-    let changes = DVector::from_column_slice(changes);
-    changes.dot(&(correlation * &changes)).max(0.0).sqrt()
-}
-
-impl Band {
+impl CourseBand {
     fn of(simulation: &Simulation, changes: &[Change], correlation: &DMatrix<f64>) -> Self {
         let summary = Summary::of(simulation);
         // the summary of the simulation with one number a standard deviation away
@@ -123,25 +117,19 @@ impl Band {
         };
         let (rms, slope): (Vec<f64>, Vec<f64>) = changes.iter().map(half).unzip();
         let at = |channel: usize, n: usize| changes.iter().map(|c| c.rows[channel][n]).collect::<Vec<f64>>();
-        let of_row = |(n, row): (usize, SimulatedRow)| {
-            [row.time, row.rate, sd(&at(1, n), correlation), row.spool, sd(&at(0, n), correlation)]
-        };
+        let sd = |changes: &[f64]| propagated(changes, correlation).0;
+        let of_row = |(n, row): (usize, SimulatedRow)| [row.time, row.rate, sd(&at(1, n)), row.spool, sd(&at(0, n))];
         let peak = simulation.rows().position(|row| row.time == summary.peak.time).unwrap_or(0);
-        let own = at(1, peak);
-        let with_others = correlation * DVector::from_column_slice(&own);
-        let variance: f64 = own.iter().zip(with_others.iter()).map(|(a, b)| a * b).sum();
-        let share = |(change, (own, all)): (&Change, (&f64, &f64))| {
-            let (key, _) = keyed(change.number, &simulation.case.design)?;
-            (variance > 0.0).then(|| (key, own * all / variance))
-        };
+        let (at_peak, of_numbers) = propagated(&at(1, peak), correlation);
+        let key = |number: Number| keyed(number, &simulation.case.design).map(|(key, _)| key);
         let mut shares: Vec<(&'static str, f64)> =
-            changes.iter().zip(own.iter().zip(with_others.iter())).filter_map(share).collect();
+            changes.iter().zip(of_numbers).filter_map(|(change, share)| Some((key(change.number)?, share))).collect();
         shares.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
         Self {
             rows: simulation.rows().enumerate().map(of_row).collect(),
-            peak: variance.max(0.0).sqrt(),
-            rms: sd(&rms, correlation),
-            slope: summary.slope.map(|_| sd(&slope, correlation)),
+            peak: at_peak,
+            rms: sd(&rms),
+            slope: summary.slope.map(|_| sd(&slope)),
             shares,
         }
     }

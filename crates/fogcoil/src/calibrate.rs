@@ -7,21 +7,20 @@
 use coil::{Design, Number, Tolerance, Tolerances};
 use diagnosis::{Active, Believed, ForwardModel, Lot, Observation, Prior, Said, Settled};
 use files::{Note, Remark};
-use mechanisms::{CATALOGUE, Gyro, Library, Prepared, number_of, with_constant};
+use mechanisms::{Gyro, Library, number_of, with_constant};
 use progress::Step;
+use recording::statistics::normal_quantile;
 use serde_json::{Value, json};
-use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::Error;
 use crate::cache::Cache;
-use crate::diagnose::{noise_of, refuse_copies};
 use crate::input::{CoilCase, Fingerprint, InputError, RecordCase, check_coil, keyed};
 use crate::keys::interval_by_key;
 use crate::output::coil_file;
-use crate::prepare::{Record, library, ready};
+use crate::prepare::{Record, gyro, library, ready, refuse_copies};
 use crate::table::{significant, table};
 
-/// Correlations smaller than this are left out: with as many constants as a design has they change no tolerance by more than a thousandth.
+/// The last digit to which correlations are written.
 const LEAST_CORRELATION: f64 = 1e-3;
 /// Gain of ln evidence by a mechanism from which a unit is doubted: a likelihood ratio of e⁵ = 148.
 const DOUBTED: f64 = 5.0;
@@ -105,10 +104,7 @@ fn fit(
     read: &[Record],
     progress: &(dyn Fn(Step) + Sync),
 ) -> Result<(Unit, Option<String>), Error> {
-    let coil = Error::of_coil(&case.file);
-    let prepared = |r: &Record| Prepared::new(library, &r.observed.time, &r.chamber, r.averaging);
-    let prepared = read.iter().map(prepared).collect::<Result<Vec<_>, _>>().map_err(coil)?;
-    let drawn = Gyro::fitted_to(library.clone(), CATALOGUE, prepared, read.len(), noise_of(read)).map_err(coil)?;
+    let drawn = gyro(library, read, read.len()).map_err(Error::of_coil(&case.file))?;
     let observations: Vec<Observation> = read.iter().map(|r| r.observed.clone()).collect();
     let numbers: Vec<usize> = (0..read.len()).collect();
     let settled = diagnosis::settled(&drawn, &numbers, &observations, progress).map_err(Error::of_diagnosis(&case.file))?;
@@ -281,5 +277,5 @@ fn rounded(share: f64) -> f64 {
 
 /// Standard deviations from the middle of a normal density to the ends of its interval of 90 %.
 fn half_of_90() -> f64 {
-    Normal::standard().inverse_cdf(0.95)
+    normal_quantile(0.95)
 }

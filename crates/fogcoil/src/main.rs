@@ -208,8 +208,8 @@ fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> 
     }
     progress.during(&format!("writing {}", out.display()), || progress.save(&files))?;
     let mut object = summary::json(&simulation);
-    object["tolerances"] = within.as_ref().map_or(serde_json::Value::Null, band::Band::json);
-    let told = within.as_ref().map_or(String::new(), band::Band::text);
+    object["tolerances"] = within.as_ref().map_or(serde_json::Value::Null, band::CourseBand::json);
+    let told = within.as_ref().map_or(String::new(), band::CourseBand::text);
     print(&if *json { line(&object) } else { summary::text(&simulation) + &told })
 }
 

@@ -4,9 +4,9 @@ use bias::units::S_PER_MIN;
 use coil::COARSE;
 use diagnosis::Observation;
 use files::{Note, Remark};
-use mechanisms::{CATALOGUE, Library, Models};
+use mechanisms::{CATALOGUE, Gyro, Library, Models, Prepared, RATE as RATE_NUMBER, SPOOL as SPOOL_NUMBER, USUAL_NOISE};
 use progress::Step;
-use recording::check::Severity;
+use recording::check::{Severity, white_noise};
 use recording::condition::{Rest, Thinned, Thinning, Unrest, bridged, span, thinned, unrest};
 
 use crate::Error;
@@ -140,6 +140,43 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     }
     let (fingerprint, observed) = (case.fingerprint.clone(), Observation { time, channels: vec![spool, rate] });
     Ok(Record { fingerprint, observed, chamber, averaging, instants: (before, earlier) })
+}
+
+/// The forward model of some records, of which the first `fitted` are fitted.
+///
+/// # Errors
+/// [`coil::Error`] names the dimension or property at fault.
+pub(crate) fn gyro(library: &Library, records: &[Record], fitted: usize) -> Result<Gyro<'static>, coil::Error> {
+    let prepared = |r: &Record| Prepared::new(library, &r.observed.time, &r.chamber, r.averaging);
+    let prepared = records.iter().map(prepared).collect::<Result<Vec<_>, _>>()?;
+    Gyro::fitted_to(library.clone(), CATALOGUE, prepared, fitted, noise_of(&records[..fitted]))
+}
+
+/// White noise of thermometer and rate in a sample of some records, the quietest of them.
+fn noise_of(records: &[Record]) -> [f64; 2] {
+    let of = |channel: usize| {
+        let white = |r: &Record| {
+            let values = &r.observed.channels[channel];
+            white_noise(&r.observed.time, values, &values.iter().map(|v| v.is_finite()).collect::<Vec<_>>())
+        };
+        let each = records.iter().filter_map(white).filter(|sd| *sd > 0.0);
+        each.reduce(f64::min).unwrap_or(USUAL_NOISE[channel])
+    };
+    [of(SPOOL_NUMBER), of(RATE_NUMBER)]
+}
+
+/// A record that is given twice would be counted, or judged, by itself.
+pub(crate) fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -> Result<(), Error> {
+    let mut known: Vec<&Fingerprint> = Vec::new();
+    for RecordCase { fingerprint, .. } in records {
+        if let Some(first) = known.iter().find(|k| (k.bytes, k.fnv1a) == (fingerprint.bytes, fingerprint.fnv1a)) {
+            let problem = format!("is the same recording as {}", first.file.display());
+            let remedy = "give every recording once: what was fitted cannot judge";
+            return Err(InputError::whole(&fingerprint.file, problem, remedy).into());
+        }
+        known.push(fingerprint);
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -22,6 +22,13 @@ impl Hypothesis {
     /// Nothing is left out, but the design's own constants are re-estimated.
     pub const RECALIBRATED: Self = Self { mechanisms: Vec::new(), constants_free: true };
 
+    /// Numbers of its mechanisms, in increasing order.
+    pub(crate) fn numbers(&self) -> Vec<usize> {
+        let mut numbers: Vec<usize> = self.mechanisms.iter().map(|(number, _)| *number).collect();
+        numbers.sort_unstable();
+        numbers
+    }
+
     /// Whether a mechanism is at work, whatever its choice.
     pub(crate) fn has(&self, mechanism: usize) -> bool {
         self.mechanisms.iter().any(|(number, _)| *number == mechanism)

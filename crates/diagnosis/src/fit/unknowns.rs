@@ -105,16 +105,17 @@ impl<M: ForwardModel> Objective<'_, M> {
             // a mechanism that is already fitted goes on from there
             let same = |a: &&Active| a.mechanism == mechanism && a.choice == choice;
             let fitted = known.and_then(|fit| fit.active.iter().find(same)).map(|a| vec![a.values.clone()]);
-            let mut values = fitted.unwrap_or_else(|| self.fitter.model.mechanisms()[mechanism].starts.clone());
-            // what stands for a constant goes on from where that was
-            if let (Some(number), Some(known)) = (self.fitter.model.stands_for(mechanism), known) {
-                let goes_on = |start: &Vec<f64>| {
-                    let mut start = start.clone();
-                    start[0] = known.nuisances[0][number];
-                    start
-                };
-                values.extend(values.first().map(goes_on));
-            }
+            let values = fitted.unwrap_or_else(|| {
+                let mut values = self.fitter.model.mechanisms()[mechanism].starts.clone();
+                // what stands for a constant goes on from where that was
+                if let (Some(number), Some(known), Some(first)) = (self.fitter.model.stands_for(mechanism), known, values.first())
+                {
+                    let mut goes_on = first.clone();
+                    goes_on[0] = known.nuisances[0][number];
+                    values.push(goes_on);
+                }
+                values
+            });
             starts = starts.iter().flat_map(|u| values.iter().map(|values| self.placed(u, place, values))).collect();
         }
         starts

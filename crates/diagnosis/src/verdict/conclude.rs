@@ -72,13 +72,8 @@ fn gain<M: ForwardModel>(model: &M, candidates: &[Candidate]) -> f64 {
 
 /// Whether two candidates differ in choices alone: a layer, an instant.
 fn of_one_kind(a: &Candidate, b: &Candidate) -> bool {
-    let mechanisms = |c: &Candidate| {
-        let mut all: Vec<usize> = c.fit.hypothesis.mechanisms.iter().map(|(m, _)| *m).collect();
-        all.sort_unstable();
-        all
-    };
     let structure = |c: &Candidate| c.rival.as_ref().map(|r| (r.structure, r.channel));
-    mechanisms(a) == mechanisms(b) && structure(a) == structure(b)
+    a.fit.hypothesis.numbers() == b.fit.hypothesis.numbers() && structure(a) == structure(b)
 }
 
 /// Candidates as one.

@@ -17,14 +17,13 @@ use diagnosis::{
     Settled, Verdict,
 };
 use files::{Note, Remark};
-use mechanisms::{CATALOGUE, Extent, Gyro, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL, USUAL_NOISE};
+use mechanisms::{Extent, Gyro, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 use progress::Step;
-use recording::check::white_noise;
 
 use crate::Error;
 use crate::cache::Cache;
 use crate::input::{CoilCase, Fingerprint, InputError, RecordCase};
-use crate::prepare::{Record, library, ready};
+use crate::prepare::{Record, gyro, library, ready, refuse_copies};
 
 /// A diagnosis with what it was made from.
 pub struct Outcome {
@@ -66,10 +65,7 @@ pub fn diagnose(
     let mut read: Vec<Record> = fits.iter().chain(holdouts).map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
     let library = library(case, cache, progress)?;
     progress(Step::begins("running every model under the recorded chamber"));
-    let prepared = |r: &Record| Prepared::new(&library, &r.observed.time, &r.chamber, r.averaging);
-    let prepared = read.iter().map(prepared).collect::<Result<Vec<_>, _>>().map_err(coil)?;
-    let white = noise_of(&read[..fits.len()]);
-    let drawn = Gyro::fitted_to(library, CATALOGUE, prepared, fits.len(), white).map_err(coil)?;
+    let drawn = gyro(&library, &read, fits.len()).map_err(coil)?;
     let held = read.split_off(fits.len());
     let observations: Vec<Observation> = read.iter().map(|r| r.observed.clone()).collect();
     let numbers: Vec<usize> = (0..fits.len()).collect();
@@ -106,19 +102,6 @@ fn rms(series: &[f64]) -> f64 {
     (sum / count.max(1.0)).sqrt()
 }
 
-/// White noise of thermometer and rate in a sample of some records, the quietest of them.
-pub(crate) fn noise_of(records: &[Record]) -> [f64; 2] {
-    let of = |channel: usize| {
-        let white = |r: &Record| {
-            let values = &r.observed.channels[channel];
-            white_noise(&r.observed.time, values, &values.iter().map(|v| v.is_finite()).collect::<Vec<_>>())
-        };
-        let each = records.iter().filter_map(white).filter(|sd| *sd > 0.0);
-        each.reduce(f64::min).unwrap_or(USUAL_NOISE[channel])
-    };
-    [of(SPOOL_CHANNEL), of(RATE_CHANNEL)]
-}
-
 fn taken_back(file: &Path, why: Contradiction) -> Note {
     let how = match why {
         Contradiction::ClearlyWorse => "clearly worse than by the nominal model",
@@ -127,20 +110,6 @@ fn taken_back(file: &Path, why: Contradiction) -> Note {
     let file = file.display();
     Remark::TakenBack
         .note(format!("{file} is predicted {how}: the likeliest explanation is taken back; is it a record of the same unit?"))
-}
-
-/// A record that is given twice would be counted, or judged, by itself.
-pub(crate) fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -> Result<(), Error> {
-    let mut known: Vec<&Fingerprint> = Vec::new();
-    for RecordCase { fingerprint, .. } in records {
-        if let Some(first) = known.iter().find(|k| (k.bytes, k.fnv1a) == (fingerprint.bytes, fingerprint.fnv1a)) {
-            let problem = format!("is the same recording as {}", first.file.display());
-            let remedy = "give every recording once: what was fitted cannot judge";
-            return Err(InputError::whole(&fingerprint.file, problem, remedy).into());
-        }
-        known.push(fingerprint);
-    }
-    Ok(())
 }
 
 fn name(verdict: Verdict) -> &'static str {
