@@ -1,6 +1,7 @@
 //! Which part of the chain a mismatch comes from: one flexible input at a time, placed at each stage.
 
 use crate::fit::Fit;
+use crate::fit::products;
 use crate::locate::whiteness;
 use crate::{Error, ForwardModel, Latent, Observation};
 use nalgebra::{Cholesky, DMatrix, DVector};
@@ -131,8 +132,8 @@ impl Fit {
     /// What is left of the whitened residual after functions of amplitude `scale` and the fit's own unknowns have taken their part.
     fn after(&self, columns: &DMatrix<f64>, scale: f64) -> DVector<f64> {
         let scaled = columns * scale;
-        let all = DMatrix::from_columns(&self.jacobian.column_iter().chain(scaled.column_iter()).collect::<Vec<_>>());
-        match Cholesky::new(self.beforehand.curvature(&all)) {
+        let all = DMatrix::from_columns(&self.jacobian().column_iter().chain(scaled.column_iter()).collect::<Vec<_>>());
+        match Cholesky::new(self.beforehand.curvature(products(&all))) {
             Some(factor) => &self.whitened - &all * factor.solve(&all.tr_mul(&self.whitened)),
             None => self.whitened.clone(),
         }
@@ -157,9 +158,9 @@ impl Fit {
         for (k, scale) in scales.iter().enumerate() {
             columns.column_mut(k).scale_mut(if *scale > 0.0 { prior / scale } else { 0.0 });
         }
-        let own = self.jacobian.ncols();
-        let all = DMatrix::from_columns(&self.jacobian.column_iter().chain(columns.column_iter()).collect::<Vec<_>>());
-        let covariance = Cholesky::new(self.beforehand.curvature(&all)).ok_or(Error::NotFinite)?.inverse();
+        let own = self.jacobian().ncols();
+        let all = DMatrix::from_columns(&self.jacobian().column_iter().chain(columns.column_iter()).collect::<Vec<_>>());
+        let covariance = Cholesky::new(self.beforehand.curvature(products(&all))).ok_or(Error::NotFinite)?.inverse();
         // the fit's own unknowns are where they fit best, at u
         let mut gradient = all.tr_mul(&self.whitened);
         gradient.rows_mut(0, own).zip_apply(&self.beforehand.slope(&self.u), |g, u| *g -= u);

@@ -150,8 +150,8 @@ impl Fit {
                 self.beforehand.with(&places, &precision)
             }
         };
-        let factor = beforehand.curvature(&self.jacobian).cholesky().ok_or(Error::NotFinite)?;
-        let shared = self.jacobian.tr_mul(&column);
+        let factor = beforehand.curvature(self.derivatives.products.clone()).cholesky().ok_or(Error::NotFinite)?;
+        let shared = self.jacobian().tr_mul(&column);
         Ok((column.norm_squared() - shared.dot(&factor.solve(&shared))).max(0.0).sqrt())
     }
 }

@@ -156,6 +156,12 @@ pub trait ForwardModel {
         Ok(None)
     }
 
+    /// Nuisances about which the model may be made first, beside the middles of their priors: where it is far from linear in one of them, the
+    /// nearest minimum need not be the least.
+    fn starts(&self) -> Vec<Vec<f64>> {
+        Vec::new()
+    }
+
     /// State of the nominal system during a record.
     fn state(&self, record: usize) -> &State;
 

@@ -38,11 +38,11 @@ impl Fit {
     /// Gain of ln evidence by adding functions with independent normal amplitudes of standard deviation `scale`, for each scale.
     pub(crate) fn gain(&self, columns: &DMatrix<f64>, scales: &[f64]) -> Vec<f64> {
         // the fit's own unknowns are marginalised: they have the covariance (JᵀJ + P)⁻¹
-        let shared = self.jacobian.tr_mul(columns);
+        let shared = self.jacobian().tr_mul(columns);
         let free = columns.tr_mul(columns) - shared.tr_mul(&(&self.covariance * &shared));
         let SymmetricEigen { eigenvalues, eigenvectors } = ((&free + free.transpose()) / 2.0).symmetric_eigen();
         // what is left of the fit's own gradient, where it has not quite settled, is not the functions' merit
-        let unsettled = self.jacobian.tr_mul(&self.whitened) - self.beforehand.slope(&self.u);
+        let unsettled = self.jacobian().tr_mul(&self.whitened) - self.beforehand.slope(&self.u);
         let along = eigenvectors.tr_mul(&(columns.tr_mul(&self.whitened) - shared.tr_mul(&(&self.covariance * unsettled))));
         let of = |scale: &f64| {
             eigenvalues

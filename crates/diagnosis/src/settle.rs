@@ -8,6 +8,8 @@ use progress::Step;
 const TASK: &str = "finding the constants about which to compare";
 /// Times that a model is made anew, at most: each time the distance to where it settles shrinks as its square.
 const ROUNDS: usize = 6;
+/// Rounds after which the likeliest of several starts is followed.
+const TRIED: usize = 2;
 /// Gain of ln evidence by which a mechanism beside the constants leads.
 const MATTERS: f64 = 3.0;
 /// Standard deviations from the drawing beyond which a constant is far.
@@ -36,45 +38,92 @@ pub fn settled<M: ForwardModel>(
     observations: &[Observation],
     progress: &dyn Fn(Step),
 ) -> Result<Settled<M>, Error<M::Error>> {
-    let follow = |mechanisms: bool, first: usize| -> Result<(Option<M>, Fit), Error<M::Error>> {
-        let mut about: Option<M> = None;
-        let mut known: Option<Fit> = None;
-        for round in 0..ROUNDS {
-            progress(Step::counted(TASK, first + round, 2 * ROUNDS));
-            let here = about.as_ref().unwrap_or(model);
-            // who leads is settled after two rounds
-            let among = match &known {
-                Some(known) if round > 1 => vec![known.hypothesis.clone()],
-                _ => candidates(model, mechanisms),
-            };
-            let (leader, _) = leader(here, records, observations, known.as_ref(), &among)?;
-            let next = here.about(&leader.nuisances[0], &leader.active).map_err(Error::Model)?;
-            known = Some(leader);
-            match next {
-                Some(next) => about = Some(next),
-                None => break,
-            }
-        }
-        let here = about.as_ref().unwrap_or(model);
-        let fitter = Fitter::new(here, records, observations).map_err(Error::Model)?;
-        let among = known.as_ref().map_or_else(Vec::new, |known| vec![known.hypothesis.clone()]);
-        let (last, _) = leader(here, records, observations, known.as_ref(), &among)?;
-        let fit = fitter.fit_with_noise(&last.hypothesis, &last, 2)?;
-        Ok((about, fit))
+    let mut steps = 0;
+    let mut told = || {
+        progress(Step::counted(TASK, steps, 2 * ROUNDS));
+        steps += 1;
     };
-    let (about, recalibrated) = follow(false, 0)?;
-    let here = about.as_ref().unwrap_or(model);
-    let (leading, gain) = leader(here, records, observations, Some(&recalibrated), &candidates(model, true))?;
+    let way = |start: Option<&Vec<f64>>| -> Result<Way<M>, Error<M::Error>> {
+        let about = start.map(|start| model.about(start, &[])).transpose().map_err(Error::Model)?.flatten();
+        Ok(Way { model, records, observations, about, known: None, rounds: 0, arrived: false })
+    };
+    // how likely the constants are from where a way starts is seen when they have been found about it
+    let (mut alone, mut first, mut most) = (way(None)?, None, f64::NEG_INFINITY);
+    let starts = model.starts();
+    for start in std::iter::once(None).chain(starts.iter().map(Some)) {
+        told();
+        let mut tried = way(start)?;
+        (0..TRIED).try_for_each(|_| tried.go_on(false))?;
+        let evidence = tried.settled()?.log_evidence;
+        if evidence > most {
+            (alone, first, most) = (tried, start, evidence);
+        }
+    }
+    while !alone.arrived {
+        told();
+        alone.go_on(false)?;
+    }
+    let recalibrated = alone.settled()?;
+    let (leading, gain) = leader(alone.here(), records, observations, Some(&recalibrated), &candidates(model, true))?;
     // constants that had to go far may stand for a mechanism that is near the drawing: about them it does not show
     let suspect = leading.hypothesis.mechanisms.first().map(|(mechanism, _)| (*mechanism, gain));
     if gain <= MATTERS && strain(model, &recalibrated) <= STRAINED {
-        return Ok(Settled { model: about, recalibrated, suspect });
+        return Ok(Settled { model: alone.about, recalibrated, suspect });
     }
-    let (beside, leader) = follow(true, ROUNDS)?;
+    let mut beside = way(first)?;
+    while !beside.arrived {
+        told();
+        beside.go_on(true)?;
+    }
+    let leader = beside.settled()?;
     // each at its best, about its own constants
     let gain = leader.log_evidence - recalibrated.log_evidence;
     let suspect = leader.hypothesis.mechanisms.first().map(|(mechanism, _)| (*mechanism, gain));
-    Ok(Settled { model: if gain > 0.0 { beside } else { about }, recalibrated, suspect })
+    Ok(Settled { model: if gain > 0.0 { beside.about } else { alone.about }, recalibrated, suspect })
+}
+
+/// On the way from a model to one that is good about what is found by it.
+struct Way<'a, M> {
+    model: &'a M,
+    records: &'a [usize],
+    observations: &'a [Observation],
+    about: Option<M>,
+    known: Option<Fit>,
+    rounds: usize,
+    arrived: bool,
+}
+
+impl<M: ForwardModel> Way<'_, M> {
+    fn here(&self) -> &M {
+        self.about.as_ref().unwrap_or(self.model)
+    }
+
+    /// One round: fits constants alone, or with each of the mechanisms beside them, and makes the model anew about the likeliest.
+    fn go_on(&mut self, mechanisms: bool) -> Result<(), Error<M::Error>> {
+        if self.arrived {
+            return Ok(());
+        }
+        // who leads is settled after two rounds
+        let among = match &self.known {
+            Some(known) if self.rounds > 1 => vec![known.hypothesis.clone()],
+            _ => candidates(self.model, mechanisms),
+        };
+        let (leader, _) = leader(self.here(), self.records, self.observations, self.known.as_ref(), &among)?;
+        let next = self.here().about(&leader.nuisances[0], &leader.active).map_err(Error::Model)?;
+        self.known = Some(leader);
+        self.rounds += 1;
+        self.arrived = next.is_none() || self.rounds == ROUNDS;
+        self.about = next.or(self.about.take());
+        Ok(())
+    }
+
+    /// The likeliest under the model as it is here, with its own noise.
+    fn settled(&self) -> Result<Fit, Error<M::Error>> {
+        let among = self.known.as_ref().map_or_else(Vec::new, |known| vec![known.hypothesis.clone()]);
+        let (last, _) = leader(self.here(), self.records, self.observations, self.known.as_ref(), &among)?;
+        let fitter = Fitter::new(self.here(), self.records, self.observations).map_err(Error::Model)?;
+        fitter.fit_with_noise(&last.hypothesis, &last, 2)
+    }
 }
 
 /// The farthest that a constant of the design is from the drawing, standard deviations.

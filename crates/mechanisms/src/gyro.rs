@@ -34,6 +34,8 @@ pub struct Gyro<'m> {
     factored: Vec<(usize, String)>,
     /// constants that were told and what came of them, by record
     moved: RefCell<Vec<(usize, Vec<f64>, Series)>>,
+    /// the nominal model at the last nuisances that were told, by record
+    recalibrated: RefCell<Vec<(usize, Vec<f64>, Arc<Recalibrated>)>>,
     /// the last effects that were worked out, by record and mechanism
     known: RefCell<Vec<(usize, Active, Arc<Known>)>>,
 }
@@ -41,6 +43,15 @@ pub struct Gyro<'m> {
 /// An effect, and what share of every nominal part is in its change of that part.
 struct Known {
     effect: Effect,
+    gain: [f64; 3],
+}
+
+/// The nominal model with its uncertain numbers somewhere.
+#[derive(Clone)]
+struct Recalibrated {
+    parts: Parts,
+    thermometer: Vec<f64>,
+    /// share of every nominal part in these
     gain: [f64; 3],
 }
 
@@ -101,6 +112,7 @@ impl<'m> Gyro<'m> {
             kinds,
             mechanisms,
             moved: RefCell::default(),
+            recalibrated: RefCell::default(),
             known: RefCell::default(),
         })
     }
@@ -185,16 +197,32 @@ impl<'m> Gyro<'m> {
         series
     }
 
+    /// The nominal model with its uncertain numbers at `u`; kept for as long as mechanisms' own are varied.
+    fn recalibrated(&self, number: usize, u: &[f64]) -> Arc<Recalibrated> {
+        let mut known = self.recalibrated.borrow_mut();
+        if let Some((.., series)) = known.iter().find(|(own, at, _)| *own == number && at == u) {
+            return Arc::clone(series);
+        }
+        let (parts, thermometer) = self.with_nuisances(number, u);
+        let nominal = &self.records[number].nominal.parts;
+        let gain = [0, 1, 2].map(|p: usize| share(&parts[p], &nominal[p]));
+        let series = Arc::new(Recalibrated { parts, thermometer, gain });
+        known.retain(|(own, ..)| *own != number);
+        known.push((number, u.to_vec(), Arc::clone(&series)));
+        series
+    }
+
     /// Parts and thermometer of the nominal model with its uncertain numbers at `u`.
-    fn recalibrated(&self, number: usize, u: &[f64]) -> (Parts, Vec<f64>) {
+    fn with_nuisances(&self, number: usize, u: &[f64]) -> (Parts, Vec<f64>) {
         let (record, library) = (&self.records[number], self.library());
         let mut series = self.with_constants(number, u);
         let mut change = |of: &Series, factor: f64| series.change(of, factor);
-        // (1 + τ d/dt) e^(c d/dt) over the same at the values at which the model is exact, to the second order
+        // (1 + τ d/dt) e^(c d/dt) beside the values at which the model is exact, of the delay to the second order
         let late = u[instruments::CHAMBER_DELAY] - record.delay.total();
         let squared = u[instruments::CHAMBER_LAG_SQUARED] - record.delay.lag.powi(2);
-        change(&record.rates[0], late);
-        change(&record.rates[1], (late * late - squared) / 2.0);
+        change(&record.later, late);
+        change(&record.rates[1], late * late / 2.0);
+        change(&record.slower, squared);
         change(&record.off_rest, u[instruments::REST]);
         let Series { mut parts, mut sensor } = series;
         let filter = u[instruments::RATE_FILTER] / 2.0;
@@ -330,10 +358,9 @@ impl ForwardModel for Gyro<'_> {
         let nominal = &record.nominal.parts;
         let (moved, others) = self.with_factors(u, active);
         let u = &moved;
-        let (mut parts, mut thermometer) = self.recalibrated(number, u);
+        let Recalibrated { mut parts, mut thermometer, mut gain } = Recalibrated::clone(&self.recalibrated(number, u));
         let effects = others.into_iter().map(|a| self.effect(number, a)).collect::<Result<Vec<_>, _>>()?;
         // mechanisms act on a coil that has the others: each one's gain on a part acts on the others' changes, too
-        let mut gain: [f64; 3] = [0, 1, 2].map(|p: usize| share(&parts[p], &nominal[p]));
         let changes = || effects.iter().filter_map(|known| known.change().map(|change| (change, known.gain)));
         for (change, own) in changes() {
             for p in 0..3 {
@@ -396,8 +423,20 @@ impl ForwardModel for Gyro<'_> {
             mechanisms: self.mechanisms.clone(),
             factored: self.factored.clone(),
             moved: RefCell::default(),
+            recalibrated: RefCell::default(),
             known: RefCell::default(),
         }))
+    }
+
+    /// With a slow thermometer in the chamber, and a very slow one: beyond its two cumulants its lag is not linear.
+    fn starts(&self) -> Vec<Vec<f64>> {
+        let squared = self.nuisances[instruments::CHAMBER_LAG_SQUARED].parameter.prior;
+        let with_lag = |deviations: f64| {
+            let mut start = diagnosis::expected(&self.nuisances);
+            start[instruments::CHAMBER_LAG_SQUARED] = squared.value(deviations);
+            start
+        };
+        vec![with_lag(1.0), with_lag(3.0)]
     }
 
     fn latent(&self, record: usize) -> Result<Vec<Latent>, Error> {

@@ -41,7 +41,22 @@ impl Delay {
     pub fn total(&self) -> f64 {
         self.lag + self.clock
     }
+
+    /// Another clock.
+    fn later(self, by: f64) -> Self {
+        Self { clock: self.clock + by, ..self }
+    }
+
+    /// Another thermometer, its squared lag larger and the delay as it is.
+    fn slower(self, by: f64) -> Self {
+        let lag = (self.lag * self.lag + by).sqrt();
+        Self { lag, clock: self.total() - lag }
+    }
 }
+
+/// Changes by which derivatives are found: far below intervals and time constants, far above rounding \[s, s²\].
+const DELAYED: f64 = 1.0;
+const SLOWER: f64 = 25.0;
 
 /// Parts into which an interval is divided to follow the chamber between its readings.
 const BETWEEN: usize = 4;
@@ -199,6 +214,10 @@ pub struct Prepared {
     pub(crate) off_rest: Series,
     /// rate of change of everything \[1/s\], and the rate of that \[1/s²\]
     pub(crate) rates: [Series; 2],
+    /// change per second by which the chamber's readings are later
+    pub(crate) later: Series,
+    /// change per second² of the squared lag of the chamber's thermometer where the delay is kept
+    pub(crate) slower: Series,
     /// phase of a ∂n/∂T that is curved about the usual reference, differenced \[deg/h per 1/K²\]
     pub(crate) curved: Vec<f64>,
     /// change per metre of the CW tail
@@ -310,13 +329,21 @@ impl Prepared {
 
     fn run(library: &Library, time: &[f64], recorded: Recorded, averaging: f64, delay: Delay) -> Result<Self, Error> {
         let mut clock = Clock::new(time, &recorded.chamber, averaging);
-        clock.chamber = undelayed(&clock.time, &clock.chamber, delay);
+        let said = clock.chamber;
+        clock.chamber = undelayed(&clock.time, &said, delay);
         let first = clock.chamber[0];
         let run = |model: &Reduced| Course::new(model, &clock, std::slice::from_ref(&clock.chamber), &[first]);
         let course = run(&library.base);
         let base = course.series(&library.base);
         let nominal = library.with_drifts(&course, &base, time, averaging)?;
         let off = Course::new(&library.base, &clock, std::slice::from_ref(&clock.chamber), &[first + OFF_REST]);
+        // everything is linear in what drives it
+        let under = |other: Delay, by: f64| {
+            let there = undelayed(&clock.time, &said, other);
+            let change: Vec<f64> = there.iter().zip(&clock.chamber).map(|(there, here)| (there - here) / by).collect();
+            let first = change[0];
+            Course::new(&library.base, &clock, &[change], &[first]).series(&library.base)
+        };
         let paths = library.paths.iter().map(|path| {
             let mut changes: Vec<Series> = path.models.iter().map(|model| minus(&run(model).series(model), &base)).collect();
             changes.insert(path.nominal, minus(&base, &base));
@@ -354,6 +381,8 @@ impl Prepared {
             heater,
             course,
             nominal,
+            later: under(delay.later(DELAYED), DELAYED),
+            slower: under(delay.slower(SLOWER), SLOWER),
             rates: [first_rates, second_rates],
             tail,
             coil,

@@ -195,6 +195,21 @@ fn outliers_are_masked_and_nothing_else() {
 }
 
 #[test]
+fn a_steep_ramp_hides_no_outlier_and_its_corners_are_none() {
+    for seed in 0..20 {
+        let mut sample = sound(seed, 0.01);
+        // a triangle of 40 noises a row
+        let noise = sound(seed, 0.01).report().channels[1].noise.unwrap();
+        let rows = [330, 450, 451, 570, 1130];
+        sample.rate.iter_mut().enumerate().for_each(|(row, rate)| *rate += 40.0 * noise * (row % 200).abs_diff(100) as f64);
+        rows.iter().for_each(|&row| sample.rate[row] += if row % 3 == 0 { 60.0 } else { -60.0 } * noise);
+        let report = sample.report();
+        let masked: Vec<usize> = (0..ROWS).filter(|&row| !report.masks[1][row]).collect();
+        assert_eq!(masked, rows, "seed {seed}: {:?}", report.findings);
+    }
+}
+
+#[test]
 fn codes_are_masked_and_a_short_signal_is_not() {
     let codes = [0, 1, 700, 701, 702, 703, 704, 1200];
     let (finding, report) =

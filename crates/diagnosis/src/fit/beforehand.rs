@@ -45,11 +45,9 @@ impl Beforehand {
 
     /// JᵀJ and their precision, the curvature of −ln p where the prediction is nearly linear; columns beyond the unknowns are independent of them,
     /// each with standard deviation 1.
-    pub(crate) fn curvature(&self, jacobian: &DMatrix<f64>) -> DMatrix<f64> {
-        // a product of blocks is several times as fast as one of columns
-        let mut curvature = jacobian.transpose() * jacobian;
-        let own = self.precision.nrows();
-        (own..jacobian.ncols()).for_each(|i| curvature[(i, i)] += 1.0);
+    pub(crate) fn curvature(&self, products: DMatrix<f64>) -> DMatrix<f64> {
+        let (mut curvature, own) = (products, self.precision.nrows());
+        (own..curvature.ncols()).for_each(|i| curvature[(i, i)] += 1.0);
         curvature.view_mut((0, 0), (own, own)).zip_apply(&self.precision, |c, p| *c += p);
         curvature
     }

@@ -1,8 +1,9 @@
 //! The way to the least objective: Levenberg's (1944) and Marquardt's (1963) method on whitened residuals and normal priors.
 
+use super::derivatives::Derivatives;
 use super::objective::{Objective, Point};
 use crate::{Error, ForwardModel};
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use nalgebra::{Cholesky, DVector, Dyn};
 
 /// Steps at most.
 const MOST_STEPS: usize = 16;
@@ -15,32 +16,58 @@ const DAMPING: [f64; 3] = [1e-3, 1e-9, 1e8];
 
 impl<M: ForwardModel> Objective<'_, M> {
     /// The nearest minimum below a point, with the derivatives there.
-    pub(super) fn descend(&self, from: Point) -> Result<(Point, DMatrix<f64>), Error<M::Error>> {
+    pub(super) fn descend(&self, from: Point) -> Result<(Point, Derivatives), Error<M::Error>> {
         let mut at = from;
         let mut damping = DAMPING[0];
-        let mut jacobian = self.jacobian(&at, None)?;
-        let mut is_own = true;
+        let mut derivatives = self.derivatives(&at)?;
+        let (mut is_own, mut undamped) = (true, false);
         for _ in 0..MOST_STEPS {
             let before = at.value;
-            at = self.step(at, &jacobian, &mut damping)?;
-            let settled = before - at.value < SETTLED;
+            at = self.step(at, &derivatives, &mut damping)?;
+            let mut settled = before - at.value < SETTLED;
+            // what goes together moves little under damping, however far it has to go
+            if settled && !undamped && self.left(&at, &derivatives)? >= SETTLED {
+                (damping, undamped, settled) = (DAMPING[1], true, false);
+            }
             // derivatives that hardly change are found anew where they seem to lead no further
             if settled && (is_own || !self.is_exact()) {
                 break;
             }
-            jacobian = self.jacobian(&at, Some(&jacobian).filter(|_| !settled))?;
             is_own = settled;
+            self.found_anew(&at, is_own, &mut derivatives)?;
         }
         if !is_own {
-            jacobian = self.jacobian(&at, None)?;
+            self.found_anew(&at, true, &mut derivatives)?;
         }
-        Ok((at, jacobian))
+        Ok((at, derivatives))
+    }
+
+    /// Derivatives at another point: all of them, where they are its own, or those that change.
+    fn found_anew(&self, at: &Point, all: bool, derivatives: &mut Derivatives) -> Result<(), Error<M::Error>> {
+        if all && self.is_exact() {
+            *derivatives = self.derivatives(at)?;
+            return Ok(());
+        }
+        self.renew(at, derivatives)
+    }
+
+    /// By how much −ln p would fall on the way to its minimum if the prediction were linear.
+    fn left(&self, at: &Point, derivatives: &Derivatives) -> Result<f64, Error<M::Error>> {
+        let gradient = self.gradient(at, derivatives);
+        let normal: Cholesky<f64, Dyn> =
+            Cholesky::new(self.beforehand.curvature(derivatives.products.clone())).ok_or(Error::NotFinite)?;
+        Ok(gradient.dot(&normal.solve(&gradient)) / 2.0)
+    }
+
+    /// Of ln p.
+    fn gradient(&self, at: &Point, derivatives: &Derivatives) -> DVector<f64> {
+        derivatives.jacobian.tr_mul(&at.whitened) - self.beforehand.slope(&at.u)
     }
 
     /// One step down, damped as little as leads down; the same point if none does.
-    fn step(&self, at: Point, jacobian: &DMatrix<f64>, damping: &mut f64) -> Result<Point, Error<M::Error>> {
-        let normal = self.beforehand.curvature(jacobian);
-        let gradient = jacobian.tr_mul(&at.whitened) - self.beforehand.slope(&at.u);
+    fn step(&self, at: Point, derivatives: &Derivatives, damping: &mut f64) -> Result<Point, Error<M::Error>> {
+        let normal = self.beforehand.curvature(derivatives.products.clone());
+        let gradient = self.gradient(&at, derivatives);
         let [_, least, most] = DAMPING;
         while *damping < most {
             let mut damped = normal.clone();

@@ -1,6 +1,7 @@
 //! What is fitted, and what a fit finds.
 
 use super::beforehand::Beforehand;
+use super::derivatives::Derivatives;
 use super::unknowns::{Layout, Unknown, expected};
 use crate::noise::Noise;
 use crate::{Active, Channel, ForwardModel, Observation, Role};
@@ -65,7 +66,7 @@ pub struct Fit {
     pub(crate) covariance: DMatrix<f64>,
     pub(crate) noise: Noise,
     pub(crate) whitened: DVector<f64>,
-    pub(crate) jacobian: DMatrix<f64>,
+    pub(crate) derivatives: Derivatives,
 }
 
 impl Fit {

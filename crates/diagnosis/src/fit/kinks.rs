@@ -29,11 +29,20 @@ impl<M: ForwardModel> Fitter<'_, M> {
 }
 
 impl<M: ForwardModel> Objective<'_, M> {
-    /// The least of the points around a fit; `None` if no parameter asks for any.
-    fn beside(&self, best: &Fit) -> Result<Option<Point>, Error<M::Error>> {
+    /// Whether a mechanism's parameter asks for a second look.
+    pub(super) fn has_kinks(&self) -> bool {
+        self.kinked().next().is_some()
+    }
+
+    fn kinked(&self) -> impl Iterator<Item = usize> {
         let asks =
             |i: &usize| self.layout[*i].is_mechanism() && self.parameter(self.layout[*i]).is_some_and(|p| !p.around.is_empty());
-        let searched: Vec<usize> = (0..self.layout.len()).filter(asks).collect();
+        (0..self.layout.len()).filter(asks)
+    }
+
+    /// The least of the points around a fit; `None` if no parameter asks for any.
+    fn beside(&self, best: &Fit) -> Result<Option<Point>, Error<M::Error>> {
+        let searched: Vec<usize> = self.kinked().collect();
         // one alone, or one against another: the sum of two may be what the records know
         let moves = searched
             .iter()
@@ -71,10 +80,15 @@ impl<M: ForwardModel> Objective<'_, M> {
     ) -> Result<Option<Point>, Error<M::Error>> {
         let held = || std::iter::once(i).chain(other);
         let at = self.point(u)?;
-        let mut jacobian = self.jacobian(&at, Some(&best.jacobian))?;
-        let gradient = jacobian.tr_mul(&at.whitened) - self.beforehand.slope(&at.u);
-        held().for_each(|k| jacobian.column_mut(k).fill(0.0));
-        let Some(factor) = Cholesky::new(self.beforehand.curvature(&jacobian)) else { return Ok(None) };
+        let mut derivatives = best.derivatives.clone();
+        self.renew(&at, &mut derivatives)?;
+        let gradient = derivatives.jacobian.tr_mul(&at.whitened) - self.beforehand.slope(&at.u);
+        let mut products = derivatives.products;
+        for k in held() {
+            products.row_mut(k).fill(0.0);
+            products.column_mut(k).fill(0.0);
+        }
+        let Some(factor) = Cholesky::new(self.beforehand.curvature(products)) else { return Ok(None) };
         let mut step = factor.solve(&gradient);
         held().for_each(|k| step[k] = 0.0);
         self.shorten(&mut step, |_| true);

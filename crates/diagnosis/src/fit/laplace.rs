@@ -8,14 +8,16 @@
 //! up to −n/2 ln 2π, which all fits to the same rows share. Exact where the prediction is linear in u (Tierney and Kadane 1986; MacKay 2003, ch. 27).
 
 use super::Fit;
+use super::derivatives::Derivatives;
 use super::objective::{Objective, Point};
 use crate::{Error, ForwardModel};
-use nalgebra::{Cholesky, DMatrix, Dyn};
+use nalgebra::{Cholesky, Dyn};
 
 impl<M: ForwardModel> Objective<'_, M> {
     /// The fit at a minimum with its derivatives.
-    pub(super) fn concluded(&self, (at, jacobian): (Point, DMatrix<f64>)) -> Result<Fit, Error<M::Error>> {
-        let normal: Cholesky<f64, Dyn> = Cholesky::new(self.beforehand.curvature(&jacobian)).ok_or(Error::NotFinite)?;
+    pub(super) fn concluded(&self, (at, derivatives): (Point, Derivatives)) -> Result<Fit, Error<M::Error>> {
+        let normal: Cholesky<f64, Dyn> =
+            Cholesky::new(self.beforehand.curvature(derivatives.products.clone())).ok_or(Error::NotFinite)?;
         let half_log_det: f64 = normal.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
         let before = self.beforehand.half_log_det().ok_or(Error::NotFinite)?;
         let log_evidence = -at.value - half_log_det + before - self.noise.half_log_det() + self.noise.log_prior;
@@ -36,7 +38,7 @@ impl<M: ForwardModel> Objective<'_, M> {
             noise: self.noise.clone(),
             whitened: at.whitened,
             u: at.u,
-            jacobian,
+            derivatives,
         })
     }
 }

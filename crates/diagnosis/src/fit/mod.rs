@@ -1,8 +1,10 @@
 //! One hypothesis fitted to the records, and its evidence.
 //!
-//! [`fitter`]: what may be at work; [`unknowns`]: what is found; [`objective`]: what is made least; [`descent`], [`kinks`]: how; [`laplace`]: proof.
+//! [`fitter`]: what may be at work; [`unknowns`]: what is found; [`objective`]: what is made least, with its [`derivatives`]; [`descent`],
+//! [`kinks`]: how; [`laplace`]: proof.
 
 mod beforehand;
+mod derivatives;
 mod descent;
 mod fitter;
 mod kinks;
@@ -12,6 +14,9 @@ mod unknowns;
 
 #[cfg(test)]
 pub(crate) use beforehand::Beforehand;
+#[cfg(test)]
+pub(crate) use derivatives::Derivatives;
+pub(crate) use derivatives::products;
 pub use fitter::{Fit, Hypothesis, alternatives};
 pub(crate) use fitter::{Fitter, Offset};
 use objective::Objective;
@@ -23,6 +28,8 @@ use crate::{Error, ForwardModel};
 
 /// Starts that are followed to the end.
 const STARTS: usize = 4;
+/// Difference of ln p below which two fits have ended alike: some times that at which one settles.
+const ALIKE: f64 = 0.05;
 /// Gain of ln evidence by another round of fitting the noise below which none follows.
 const NOISE_SETTLED: f64 = 0.1;
 
@@ -46,7 +53,12 @@ impl<M: ForwardModel> Fitter<'_, M> {
         let mut best: Option<Fit> = None;
         for start in tried {
             let fit = objective.concluded(objective.descend(start)?)?;
+            // two that end alike speak for all where no kink makes other minima
+            let alike = best.as_ref().is_some_and(|best| (fit.value() - best.value()).abs() < ALIKE);
             best = Some(Fit::better(best, fit));
+            if alike && !objective.has_kinks() {
+                break;
+            }
         }
         best.ok_or(Error::NoStart)
     }

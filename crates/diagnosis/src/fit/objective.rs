@@ -6,7 +6,7 @@ use super::fitter::{Fit, Fitter, Hypothesis};
 use super::unknowns::{Layout, Unknown};
 use crate::noise::Noise;
 use crate::{Error, ForwardModel, Observation};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 /// Series `[record][channel][row]`.
 pub(super) type Series = Vec<Vec<Vec<f64>>>;
@@ -18,7 +18,7 @@ pub(super) struct Objective<'a, M> {
     pub(super) layout: Layout,
     pub(super) beforehand: Beforehand,
     /// A fit under the same noise, whose derivatives by what is no mechanism's are taken over.
-    like: Option<&'a Fit>,
+    pub(super) like: Option<&'a Fit>,
 }
 
 /// Unknowns, and what follows from them.
@@ -55,18 +55,23 @@ impl<'a, M: ForwardModel> Objective<'a, M> {
         Ok(Point { u, responses, whitened, value })
     }
 
-    fn responses(&self, u: &DVector<f64>) -> Result<Series, Error<M::Error>> {
+    pub(super) fn responses(&self, u: &DVector<f64>) -> Result<Series, Error<M::Error>> {
         let (nuisances, active) = self.at(u);
         let of = |(record, n): (&usize, &Vec<f64>)| self.fitter.model.respond(*record, n, &active).map_err(Error::Model);
         self.fitter.records.iter().zip(&nuisances).map(of).collect()
     }
 
     /// Series of all records and channels, whitened, one behind another.
-    fn whiten(&self, series: &Series) -> DVector<f64> {
+    pub(super) fn whiten(&self, series: &Series) -> DVector<f64> {
         let mut all = Vec::new();
         for (record, channels) in series.iter().enumerate() {
             for (channel, series) in channels.iter().enumerate() {
-                all.extend(self.noise.whiten(record, channel, series));
+                // of nothing nothing is left, and many a mechanism does nothing to one of the channels
+                if series.iter().all(|x| *x == 0.0) {
+                    all.resize(all.len() + self.noise.rows(record, channel).len(), 0.0);
+                } else {
+                    all.extend(self.noise.whiten(record, channel, series));
+                }
             }
         }
         DVector::from_vec(all)
@@ -95,48 +100,5 @@ impl<'a, M: ForwardModel> Objective<'a, M> {
             }
         }
         offsets
-    }
-
-    /// Whitened derivatives of the prediction by every unknown; by those that are no mechanism's, which hardly change on the way, from `known`.
-    pub(super) fn jacobian(&self, at: &Point, known: Option<&DMatrix<f64>>) -> Result<DMatrix<f64>, Error<M::Error>> {
-        let mut columns = Vec::with_capacity(self.layout.len());
-        for (i, unknown) in self.layout.iter().enumerate() {
-            if let (None, Some(column)) = (known, self.taken_over(*unknown)) {
-                columns.push(column);
-                continue;
-            }
-            columns.push(match (known, *unknown) {
-                (Some(known), unknown) if !unknown.is_mechanism() => known.column(i).into_owned(),
-                (_, Unknown::Offset { record, channel }) => self.whiten(&self.constant(record, channel)),
-                (_, unknown) => self.whiten(&self.derivative(at, i, self.parameter(unknown).map_or(1.0, |p| p.step))?),
-            });
-        }
-        Ok(DMatrix::from_columns(&columns))
-    }
-
-    fn taken_over(&self, unknown: Unknown) -> Option<DVector<f64>> {
-        let like = self.like.filter(|_| !unknown.is_mechanism())?;
-        let at = like.layout.iter().position(|other| *other == unknown)?;
-        Some(like.jacobian.column(at).into_owned())
-    }
-
-    /// Derivative by unknown `i`, by a difference away from the end of the range that is looked at.
-    fn derivative(&self, at: &Point, i: usize, step: f64) -> Result<Series, Error<M::Error>> {
-        let mut beside = at.u.clone();
-        let step = if at.u[i] > 0.0 { -step } else { step };
-        beside[i] += step;
-        let mut there = self.responses(&beside)?;
-        for (there, here) in there.iter_mut().flatten().flatten().zip(at.responses.iter().flatten().flatten()) {
-            *there = (*there - here) / step;
-        }
-        Ok(there)
-    }
-
-    /// An offset of one standard deviation in one channel of one record.
-    fn constant(&self, record: usize, channel: usize) -> Series {
-        let offset = self.fitter.offset(record, channel).sd;
-        let of = |at: (usize, usize), rows: usize| vec![if at == (record, channel) { offset } else { 0.0 }; rows];
-        let channels = |(r, o): (usize, &Observation)| (0..o.channels.len()).map(|c| of((r, c), o.time.len())).collect();
-        self.fitter.observations.iter().enumerate().map(channels).collect()
     }
 }

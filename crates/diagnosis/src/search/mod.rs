@@ -138,11 +138,16 @@ impl<M: ForwardModel> Pool<'_, M> {
         self.fitter.model.mechanisms()[mechanism].named
     }
 
-    /// Adds every structure to the likeliest candidates, under their own noise or calmer noise, which has not swallowed it: the likelier.
+    /// Adds every structure to the likeliest candidates and to the design's constants alone, under their own noise or calmer noise, which has not
+    /// swallowed it: the likelier.
     fn rivals(&mut self) -> Result<(), Error<M::Error>> {
         let mut order: Vec<usize> = (0..self.candidates.len()).collect();
         order.sort_by(|&a, &b| self.candidates[b].log_weight.total_cmp(&self.candidates[a].log_weight));
+        // the design's constants beside a structure are weighed in any case: among mechanisms alone the nearest would stand for it
+        let design =
+            order.iter().skip(LEADERS).copied().find(|at| self.candidates[*at].fit.hypothesis == Hypothesis::RECALIBRATED);
         order.truncate(LEADERS);
+        order.extend(design);
         let Fitter { model, records, observations, .. } = self.fitter;
         let times: Vec<&[f64]> = observations.iter().map(|o| o.time.as_slice()).collect();
         for at in order {

@@ -60,7 +60,7 @@ fn needed(candidates: &[&Candidate], mechanism: usize, excluded: f64) -> bool {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::fit::{Beforehand, Fit, Hypothesis};
+    use crate::fit::{Beforehand, Derivatives, Fit, Hypothesis};
     use crate::noise::Noise;
     use crate::{Active, Channel, Nuisance, Omission, State};
 
@@ -115,7 +115,7 @@ pub(super) mod tests {
             covariance: nalgebra::DMatrix::zeros(0, 0),
             noise: Noise::typical(&[], &[]).expect("no noise"),
             whitened: nalgebra::DVector::zeros(0),
-            jacobian: nalgebra::DMatrix::zeros(0, 0),
+            derivatives: Derivatives { jacobian: nalgebra::DMatrix::zeros(0, 0), products: nalgebra::DMatrix::zeros(0, 0) },
         };
         Candidate { fit, rival: None, log_weight: 0.0, probability }
     }

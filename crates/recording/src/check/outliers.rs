@@ -17,13 +17,18 @@ const LONE: [f64; 2] = [0.6, 0.5];
 /// Values in a row that may be outliers together: a logger that repeats a bad one.
 const TOGETHER: usize = 3;
 
-/// Hampel's test against the median of three neighbours on each side, which a ramp passes; a step, or a bend, is no outlier. Up to three rows may be
-/// off together.
+/// Hampel's test against three neighbours on each side, less the line of their median slope (Theil and Sen): a ramp hides no outlier, and a step, or a
+/// bend, is none. Up to three rows may be off together.
 ///
 /// The first and last two rows are not judged.
 pub(super) fn judge(context: &Context, mask: &mut [bool]) -> Vec<Finding> {
+    let before = mask.to_vec();
     let mut found = lone_values(context, mask).unwrap_or_default();
-    let moving = moving(context, mask);
+    let moving = moving(context, &before, mask);
+    if moving.is_some() {
+        // the crests of a motion are no outliers
+        found.retain(|(row, _)| within(context.values[*row], context.expectation.values));
+    }
     found.sort_by_key(|(row, _)| *row);
     let largest = found.iter().fold(0.0_f64, |most, (_, distance)| most.max(*distance));
     let outliers = found.first().zip(found.last()).map(|((first, _), (last, _))| {
@@ -50,14 +55,16 @@ fn lone_values(context: &Context, mask: &mut [bool]) -> Option<Vec<(usize, f64)>
     Some(found)
 }
 
-/// Values of an essential channel that are not plausible, where most are: more than outliers, they say that what is recorded was moved.
-fn moving(context: &Context, mask: &mut [bool]) -> Option<Finding> {
+/// Values of an essential channel that are not plausible, where most are: more than outliers, they say that what is recorded was moved. `before` are the
+/// rows that were used before outliers were taken out.
+fn moving(context: &Context, before: &[bool], mask: &mut [bool]) -> Option<Finding> {
     let Context { time, values, summary, expectation, .. } = context;
     let range = expectation.values;
-    let rows: Vec<usize> = (0..time.len()).filter(|&row| mask[row] && !within(values[row], range)).collect();
-    if !expectation.essential || !within(summary.median, range) || rows.len() <= TOGETHER {
+    let implausible = |used: &[bool]| (0..time.len()).filter(|&row| used[row] && !within(values[row], range)).collect::<Vec<_>>();
+    if !expectation.essential || !within(summary.median, range) || implausible(mask).len() <= TOGETHER {
         return None;
     }
+    let rows = implausible(before);
     rows.iter().for_each(|&row| mask[row] = false);
     let largest = rows.iter().map(|&row| values[row]).reduce(|a, b| if b.abs() > a.abs() { b } else { a })?;
     let span = [time[rows[0]], time[rows[rows.len() - 1]]];
@@ -69,10 +76,6 @@ fn lone(context: &Context, used: &[usize], n: usize, together: usize, noise: f64
     let Context { time, values, interval, .. } = context;
     let end = n + together;
     let (row, last) = (used[n], used[end - 1]);
-    let [left, right] = [values[row] - values[used[n - 1]], values[last] - values[used[end]]];
-    if left.signum() != right.signum() || left.abs().min(right.abs()) <= LONE[0] * FAR * noise {
-        return None; // what no median can make an outlier
-    }
     let near = |m: &usize| (time[used[*m]] - time[row]).abs().min((time[used[*m]] - time[last]).abs()) < NEAR * interval;
     let before: Vec<usize> = (n.saturating_sub(REACH)..n).filter(near).collect();
     let after: Vec<usize> = (end..(end + REACH).min(used.len())).filter(near).collect();
@@ -80,17 +83,30 @@ fn lone(context: &Context, used: &[usize], n: usize, together: usize, noise: f64
     if balanced < 2 {
         return None;
     }
-    let (before, after) = (&before[before.len() - balanced..], &after[..balanced]);
-    let around: Vec<f64> = before.iter().chain(after).map(|&m| values[used[m]]).collect();
+    let neighbours: Vec<usize> = before[before.len() - balanced..].iter().chain(&after[..balanced]).map(|&m| used[m]).collect();
+    let beside = |level: &dyn Fn(usize) -> f64| [level(row) - level(used[n - 1]), level(last) - level(used[end])];
+    // a line hardly changes the sum of both
+    if beside(&|row| values[row]).iter().sum::<f64>().abs() <= LONE[0] * FAR * noise {
+        return None;
+    }
+    let slope = median_slope(context, &neighbours)?;
+    let level = |row: usize| values[row] - slope * (time[row] - time[last]);
+    let around: Vec<f64> = neighbours.iter().map(|row| level(*row)).collect();
     // one of the neighbours may be an outlier itself
     let mut sorted = around.clone();
     sorted.sort_by(f64::total_cmp);
     let range = (sorted[sorted.len() - 2] - sorted[0]).min(sorted[sorted.len() - 1] - sorted[1]);
     let middle = median(around)?;
-    let distances = || used[n..end].iter().map(|row| values[*row] - middle);
+    let distances = || used[n..end].iter().map(|row| level(*row) - middle);
     let distance = distances().fold(f64::INFINITY, |least, d| if d.abs() < f64::abs(least) { d } else { least });
     let same = distances().all(|d| d.signum() == distance.signum());
-    let beside = [left, right].map(|side| side * distance.signum());
-    let alone = beside.into_iter().all(|side| side > LONE[0] * distance.abs()) && range < LONE[1] * distance.abs();
+    let alone = beside(&level).into_iter().all(|side| side * distance.signum() > LONE[0] * distance.abs())
+        && range < LONE[1] * distance.abs();
     (same && distance.abs() > FAR * noise && alone).then_some(distance.abs())
+}
+
+/// Median of the slopes between any two of some rows.
+fn median_slope(Context { time, values, .. }: &Context, rows: &[usize]) -> Option<f64> {
+    let pairs = rows.iter().enumerate().flat_map(|(k, a)| rows[k + 1..].iter().map(move |b| (*a, *b)));
+    median(pairs.map(|(a, b)| (values[b] - values[a]) / (time[b] - time[a])).collect())
 }
