@@ -1,7 +1,9 @@
-//! Documents that quote code which other tests compile and run.
+//! What no compiler checks: documents that quote code which tests compile and run, and tests that no program holds.
+
+use std::path::PathBuf;
 
 fn read(path: &str) -> String {
-    let path: std::path::PathBuf = [env!("CARGO_MANIFEST_DIR"), "..", path].iter().collect();
+    let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "..", path].iter().collect();
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
@@ -11,4 +13,20 @@ fn the_worked_example_of_a_mechanism_is_the_one_that_is_tested() {
     let example = read("crates/mechanisms/tests/read_out_curvature/mod.rs");
     assert!(page.contains(&format!("```rust,ignore\n{example}```\n")), "copy the file into the page");
     assert!(read("crates/mechanisms/tests/chain.rs").contains("\nmod read_out_curvature;\n"), "it is not compiled");
+}
+
+/// A crate's tests are modules of one program, which has to name them.
+#[test]
+fn every_file_of_tests_is_compiled() {
+    let crates: PathBuf = [env!("CARGO_MANIFEST_DIR"), "..", "crates"].iter().collect();
+    let mut seen = 0;
+    for folder in std::fs::read_dir(&crates).expect("crates").map(|entry| entry.expect("a crate").path().join("tests")) {
+        let Ok(all) = std::fs::read_to_string(folder.join("main.rs")) else { continue };
+        for file in std::fs::read_dir(&folder).expect("tests").map(|entry| entry.expect("a file").path()) {
+            let name = file.file_stem().and_then(|name| name.to_str()).expect("a name").to_owned();
+            assert!(name == "main" || all.contains(&format!("\nmod {name};\n")), "{} is not compiled", file.display());
+            seen += 1;
+        }
+    }
+    assert!(seen > 40, "{seen}");
 }

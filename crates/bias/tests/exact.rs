@@ -1,10 +1,8 @@
 //! Against integrals done by hand.
 
-mod common;
-
+use crate::common::{SILICA, any_partition, still};
 use approx::assert_relative_eq;
 use bias::{Bias, Error, LENGTH_SLACK, Optics, Slice, StrainConvention, bias};
-use common::{SILICA, any_partition, still};
 use proptest::prelude::*;
 
 const LENGTH: f64 = 1000.0;

@@ -1,9 +1,7 @@
 //! Linearity, exchange of the fibre's ends, and what the strain convention leaves unchanged.
 
-mod common;
-
+use crate::common::{SILICA, any_partition, still};
 use bias::{Bias, Optics, Slice, StrainConvention, bias};
-use common::{SILICA, any_partition, still};
 use proptest::prelude::*;
 
 const LENGTH: f64 = 1000.0;

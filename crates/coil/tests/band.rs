@@ -1,9 +1,7 @@
 //! What tolerances make of a sensitivity: the linear band against sampled designs, and its exact cases.
 
-mod common;
-
+use crate::common::{changed, normal, reference};
 use coil::{Design, FINE, MeshFineness, Model, Number, Parameter, Tolerance, Tolerances, sensitivity_band};
-use common::{changed, normal, reference};
 use winding::Tails;
 
 const QUICK: MeshFineness = MeshFineness { order: 4, layers: 1, ratio: 0.2 };

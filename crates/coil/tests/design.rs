@@ -1,9 +1,7 @@
 //! Bad designs end in a message that names the field; good ones are laid out where they belong.
 
-mod common;
-
+use crate::common::{changed, reference, spool};
 use coil::{Bonds, COARSE, Contact, Design, Domain, Error, Flange, Grid, Layout, MeshFineness, Model, Region, Side, ramp_lag};
-use common::{changed, reference, spool};
 
 #[test]
 fn exact_layout_of_the_reference_coil() {

@@ -1,13 +1,11 @@
 //! A coil in time: the reduced model against all unknowns, ramps against the steady sensitivity, heat paths against each other.
 
-mod common;
-
+use crate::common::{QUICK, changed, dynamics, half_minutes, reference, run, scaled, spool};
 use bias::{Bias, Sensitivity};
 use coil::{
     COARSER, Contact, Drive, Dynamics, FactorsAt, Fidelity, Heater, Mechanics, MeshFineness, Model, Mount, Opening, Profile,
     STANDARD, Side, ThermalModel, functionals,
 };
-use common::{QUICK, changed, dynamics, half_minutes, reference, run, scaled, spool};
 
 /// Chamber: rest, a step of 20 K within 10 s, rest, a ramp of 1 K/min, rest.
 fn step_and_ramp(interval: f64) -> Profile {

@@ -1,18 +1,16 @@
 //! The coil in time and under heat against closed forms: composite cylinder, thermal stress of rings, energy, order of the stepping.
 
-mod common;
-
+use crate::common::{changed, reference};
 use coil::{
     Drive, Dynamics, Error, Fidelity, Heater, MeshFineness, Model, Mount, Outputs, Profile, Reduction, STANDARD, Side,
     ThermalModel, functionals,
 };
-use common::{changed, reference};
 use fem_core::material::ThermoElastic;
 use fem_core::{Constraints, Form, Mesh, Problem, State, Transient, polynomial};
 use nalgebra::{DMatrix, Matrix4, Vector4};
 use std::f64::consts::PI;
 
-const QUICK: MeshFineness = common::QUICK.resolution;
+const QUICK: MeshFineness = crate::common::QUICK.resolution;
 
 /// A tube's wall in (r, y): one region between each two of `lines`, one element high.
 fn wall(order: usize, lines: &[f64], height: f64) -> Mesh {
@@ -299,7 +297,7 @@ fn coil_law() -> ThermoElastic {
 }
 
 fn spool_law() -> ThermoElastic {
-    common::aluminium().elastic.law().expect("law")
+    crate::common::aluminium().elastic.law().expect("law")
 }
 
 #[test]
@@ -448,7 +446,7 @@ fn mms_the_coils_heat_flow_is_stepped_to_second_order() {
 /// A staircase of 10 K steps at 2 K/min through a controller with a lag of 80 s, rows every 30 s.
 fn staircase() -> Profile {
     let programme = |t: f64| (0..4).map(|k| (t - 600.0 - 3000.0 * f64::from(k)).clamp(0.0, 300.0) / 30.0).sum::<f64>();
-    let time = common::half_minutes(450);
+    let time = crate::common::half_minutes(450);
     let mut chamber = 0.0;
     let mut course = Vec::new();
     for t in &time {

@@ -1,10 +1,8 @@
 //! Fields at the turns, rebuilt from a reduced model: they carry the bias, obey uniform temperature, and agree with all unknowns.
 
-mod common;
-
+use crate::common::{QUICK, changed, half_minutes, reference};
 use bias::{Bias, bias};
 use coil::{Drive, Dynamics, FactorsAt, Mechanics, Model, Profile, Side, ThermalModel, ThermalState};
-use common::{QUICK, changed, half_minutes, reference};
 use winding::Tails;
 
 /// Rest, a ramp of 1 K/min for ten minutes, a soak.

@@ -1,9 +1,7 @@
 //! The chamber from the thermometer: against the posterior written out in full, and against known chambers.
 
-mod common;
-
+use crate::common::{QUICK, changed, dynamics, half_minutes, reference};
 use coil::{Drive, Dynamics, Error, Fidelity, Heater, Profile, STANDARD, Side, chamber_from_sensor};
-use common::{QUICK, changed, dynamics, half_minutes, reference};
 use nalgebra::{DMatrix, DVector};
 
 /// Thermometer and total bias under a course of the chamber.

@@ -1,12 +1,10 @@
 //! The parametric model: exact properties, the full chain at points of the box, its error estimate, its derivatives.
 
-mod common;
-
+use crate::common::{QUICK, random, reference};
 use coil::{
     Contact, Design, Drive, Dynamics, Error, Fidelity, Flange, MechanicalState, Mechanics, ModelEffort, Opening, Parameter,
     ParametricModel, Profile, Range, Reduced, Side, Steps,
 };
-use common::{QUICK, random, reference};
 use std::sync::OnceLock;
 use winding::LayerDefect;
 
@@ -109,10 +107,10 @@ fn the_full_chain_at_points_of_the_box() {
 #[test]
 fn the_full_chain_of_other_designs() {
     let mut without_flange = reference();
-    common::spool(&mut without_flange).flanges.clear();
+    crate::common::spool(&mut without_flange).flanges.clear();
     let mut with_two = reference();
     let gap = Flange { side: Side::Left, thickness: 3e-3, overhang: 1e-3, contact: Contact::Gap };
-    common::spool(&mut with_two).flanges.push(gap);
+    crate::common::spool(&mut with_two).flanges.push(gap);
     let mut free = reference();
     free.spool = None;
     free.sensor.radius = 45e-3;
@@ -131,7 +129,7 @@ fn exact_conductivities_and_capacities_in_proportion_change_nothing() {
     scaled.body.specific_heat *= 1.05;
     scaled.surroundings.conductivity *= 1.05;
     scaled.surroundings.specific_heat *= 1.05;
-    let material = &mut common::spool(&mut scaled).material;
+    let material = &mut crate::common::spool(&mut scaled).material;
     material.conductivity *= 1.05;
     material.specific_heat *= 1.05;
     let [a, b] = [reference(), scaled].map(|design| courses(&at(model, &design), &profile));
@@ -167,13 +165,13 @@ fn a_design_beyond_the_box_or_with_other_parts_is_noticed() {
     let mut rewound = reference();
     rewound.winding.defect = Some(LayerDefect { layer: 3, turns: 1 });
     let mut unlike = reference();
-    common::spool(&mut unlike).hub_thickness = f64::NAN;
+    crate::common::spool(&mut unlike).hub_thickness = f64::NAN;
     for design in [open, rewound, unlike] {
         assert!(matches!(model.at(&design), Err(Error::Design { .. })));
         assert!(matches!(model.slopes(&design, &[]), Err(Error::Design { .. })));
     }
     let mut without_flange = reference();
-    common::spool(&mut without_flange).flanges.clear();
+    crate::common::spool(&mut without_flange).flanges.clear();
     assert!(matches!(model.at(&without_flange), Err(Error::Design { .. })));
     let mut larger = reference();
     larger.body.outer_radius += 1e-4;

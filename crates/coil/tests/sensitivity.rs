@@ -1,10 +1,8 @@
 //! Steady-ramp sensitivity: adjoint against brute force, symmetries, exact cases, the reference coil's numbers.
 
-mod common;
-
+use crate::common::{changed, reference, spool};
 use bias::{Bias, Sensitivity, StrainConvention};
 use coil::{COARSE, Contact, Design, FINE, Flange, MeshFineness, Model, Side, steady_sensitivity};
-use common::{changed, reference, spool};
 use fem_core::material::{Isotropic, TransverselyIsotropic};
 use winding::{ClimbSide, Pattern, Tails, TurnLength};
 
@@ -94,7 +92,7 @@ fn exact_adjoint_matches_brute_force_differencing() {
 #[test]
 fn exact_one_isotropic_material_expands_freely_and_has_no_bias() {
     let design = changed(|d| {
-        let Isotropic { youngs_modulus: e, poisson_ratio: nu, thermal_expansion: a } = common::aluminium().elastic;
+        let Isotropic { youngs_modulus: e, poisson_ratio: nu, thermal_expansion: a } = crate::common::aluminium().elastic;
         let g = e / (2.0 * (1.0 + nu));
         d.body.elastic = TransverselyIsotropic { e_z: e, e_r: e, g_zr: g, nu_zr: nu, nu_r: nu, alpha_z: a, alpha_r: a };
     });

@@ -1,9 +1,7 @@
 //! Trimming: the null is a null of the whole model, and its uncertainty is what the constants leave.
 
-mod common;
-
+use crate::common::{changed, reference};
 use coil::{Number, Parameter, Tolerances, sensitivity_band, steady_sensitivity, trim_tails, trim_turns};
-use common::{changed, reference};
 use winding::Half;
 
 #[test]

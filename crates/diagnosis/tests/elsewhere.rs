@@ -1,6 +1,5 @@
 //! The models of the examples, which know no coil, on data made in miniature: `cargo run --example` needs a file, this does not.
 
-mod common;
 #[path = "../examples/models/tanks.rs"]
 #[allow(dead_code)] // the example uses the rest
 mod tanks;
@@ -8,7 +7,7 @@ mod tanks;
 #[allow(dead_code)]
 mod thermal;
 
-use common::normal;
+use crate::common::normal;
 use diagnosis::{Active, Diagnosis, ForwardModel, Hypothesis, Observation, Settings, Verdict, diagnose, fitted};
 use tanks::{Feed, Tanks, UPPER_OVERFLOW};
 use thermal::{RIPPLE, SLOW_PART, Thermal, coloured};

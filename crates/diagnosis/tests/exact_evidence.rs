@@ -1,9 +1,7 @@
 //! Evidence, posterior and separation of linear models under white noise, against the Gaussian integrals in closed form.
 
-mod common;
-
-use common::lines::{Lines, PRIOR_SD, WHITE, alone};
-use common::normal;
+use crate::common::lines::{Lines, PRIOR_SD, WHITE, alone};
+use crate::common::normal;
 use diagnosis::{Fit, Hypothesis, Observation, Plan, Settings, Verdict, diagnose, fitted, separation};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;

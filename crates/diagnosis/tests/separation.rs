@@ -1,8 +1,6 @@
 //! How well records tell hypotheses apart: which alternative counts, under which noise, and what is refused. (Its size: `exact_evidence`.)
 
-mod common;
-
-use common::lines::{Lines, PRIOR_SD, WHITE};
+use crate::common::lines::{Lines, PRIOR_SD, WHITE};
 use diagnosis::{Active, Hypothesis, Observation, Plan, alternatives, separation};
 use recording::noise::NoiseModel;
 

@@ -1,7 +1,5 @@
 //! A thermometer in a bath, of which the nominal model knows the bath and the gain: the engine must name what is left out, and only then.
 
-mod common;
-
 use diagnosis::{
     Active, Channel, Contradiction, Diagnosis, ForwardModel, Judged, Latent, NoisePrior, Nuisance, Observation, Omission,
     Parameter, Prior, Role, Ruling, Settings, State, Structure, Verdict, diagnose,
@@ -126,7 +124,7 @@ impl ForwardModel for Bath {
 
 /// White noise of 0.1 and a drift of 0.03 over 1500 s.
 fn noise(seed: u64) -> Vec<f64> {
-    let mut normal = common::normal(seed);
+    let mut normal = crate::common::normal(seed);
     let keep = (-STEP_S / 1500.0_f64).exp();
     let mut drift = 0.03 * normal();
     (0..ROWS)

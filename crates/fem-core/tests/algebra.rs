@@ -1,8 +1,6 @@
 //! Assembly and sparse algebra against dense matrices; the coupling against the load.
 
-mod common;
-
-use common::{Noise, distorted};
+use crate::common::{Noise, distorted};
 use fem_core::{Constraints, DofMap, Edge, Error, Form, Mesh, Pattern, Problem, ReferenceElement, SparseMatrix, material};
 use nalgebra::{DMatrix, DVector};
 
@@ -161,14 +159,14 @@ fn exact_edge_masses_add_up_to_the_surface() {
     let pi = std::f64::consts::PI;
     let surface = [2.0 * (outer - inner + height), 2.0 * pi * ((inner + outer) * height + outer * outer - inner * inner)];
     for (form, surface) in [Form::DIFFUSION, Form::AXISYMMETRIC_DIFFUSION].into_iter().zip(surface) {
-        let mesh = common::mapped(3, [2, 2], |[x, y]| [inner + (outer - inner) * x, height * y], |_| 0);
+        let mesh = crate::common::mapped(3, [2, 2], |[x, y]| [inner + (outer - inner) * x, height * y], |_| 0);
         let edges = [(0, Edge::XiLow), (2, Edge::XiLow), (1, Edge::XiHigh), (3, Edge::XiHigh)];
         let edges = edges.into_iter().chain([(0, Edge::EtaLow), (1, Edge::EtaLow), (2, Edge::EtaHigh), (3, Edge::EtaHigh)]);
         let edges: Vec<_> = edges.map(|(e, edge)| (e, edge, h)).collect();
         let n = mesh.nodes().len();
         let mass = dense(&Problem::new(&mesh, form, 5).edge_mass(&unconstrained(n), &edges));
         assert!((mass.sum() / (h * surface) - 1.0).abs() < 1e-12);
-        let on = common::on_boundary(&mesh);
+        let on = crate::common::on_boundary(&mesh);
         assert!((0..n).all(|i| on[i] == (mass[(i, i)] != 0.0)), "only the boundary's nodes");
     }
 }

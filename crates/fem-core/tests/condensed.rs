@@ -1,14 +1,12 @@
 //! Condensation changes nothing but the work.
 
-mod common;
-
 use fem_core::{Constraints, Error, Form, Problem};
 use nalgebra::DMatrix;
 
 #[test]
 fn exact_the_condensed_system_has_the_same_solution() {
     for order in [1, 2, 3, 6] {
-        let mesh = common::distorted(order, 3);
+        let mesh = crate::common::distorted(order, 3);
         let problem = Problem::new(&mesh, Form::PLANE_STRAIN, order + 2);
         let mut constraints = Constraints::new(2 * mesh.nodes().len());
         for unknown in [0, 1, 2 * order + 1] {
@@ -32,7 +30,7 @@ fn exact_the_condensed_system_has_the_same_solution() {
 
 #[test]
 fn bounds_a_body_that_is_not_held_is_refused() {
-    let mesh = common::distorted(4, 2);
+    let mesh = crate::common::distorted(4, 2);
     let problem = Problem::new(&mesh, Form::PLANE_STRAIN, 6);
     let map = Constraints::new(2 * mesh.nodes().len()).eliminate(&problem.used(|_| true));
     let laws = vec![Some(DMatrix::identity(3, 3)); mesh.region_count()];
@@ -41,7 +39,7 @@ fn bounds_a_body_that_is_not_held_is_refused() {
 
 #[test]
 fn exact_one_element_is_solved_inside() {
-    let mesh = common::mapped(4, [1, 1], |x| x, |_| 0);
+    let mesh = crate::common::mapped(4, [1, 1], |x| x, |_| 0);
     let problem = Problem::new(&mesh, Form::DIFFUSION, 5);
     let mut constraints = Constraints::new(mesh.nodes().len());
     constraints.hold(0).expect("unknown");
@@ -63,9 +61,9 @@ fn exact_one_element_is_solved_inside() {
 /// Two bodies that do not touch, elements that take no part, more elements than a tree of one level holds, many loads at once.
 #[test]
 fn exact_a_gap_of_inactive_elements_and_many_loads_change_nothing() {
-    let mesh = common::mapped(3, [9, 5], |[x, y]| [1.0 + x, 0.4 * y + 0.1 * x * x], |column| usize::from(column == 4));
+    let mesh = crate::common::mapped(3, [9, 5], |[x, y]| [1.0 + x, 0.4 * y + 0.1 * x * x], |column| usize::from(column == 4));
     let problem = Problem::new(&mesh, Form::AXISYMMETRIC_ELASTICITY, 5);
-    let law = common::stiffness(Form::AXISYMMETRIC_ELASTICITY, &common::coil());
+    let law = crate::common::stiffness(Form::AXISYMMETRIC_ELASTICITY, &crate::common::coil());
     let laws = [Some(law), None];
     let mut constraints = Constraints::new(2 * mesh.nodes().len());
     for corner in [0, 9 * 3] {
@@ -85,7 +83,7 @@ fn exact_a_gap_of_inactive_elements_and_many_loads_change_nothing() {
 #[test]
 fn exact_selective_integration_sums_two_parts() {
     let order = 3;
-    let mesh = common::distorted(order, 2);
+    let mesh = crate::common::distorted(order, 2);
     let [full, fewer] = [order + 2, order].map(|points| Problem::new(&mesh, Form::PLANE_STRAIN, points));
     let mut constraints = Constraints::new(2 * mesh.nodes().len());
     [0, 1, 2 * order + 1].into_iter().for_each(|unknown| constraints.hold(unknown).expect("unknown"));

@@ -1,8 +1,6 @@
 //! Closed forms of rings, tubes and composite walls.
 
-mod common;
-
-use common::{annulus, coil, edge_weights, isotropic, nodal_error, solve, stiffness, thermal_stress, wall};
+use crate::common::{annulus, coil, edge_weights, isotropic, nodal_error, solve, stiffness, thermal_stress, wall};
 use fem_core::material::ThermoElastic;
 use fem_core::{Constraints, Form, Mesh, Problem};
 use nalgebra::{DMatrix, Matrix2, Vector2};

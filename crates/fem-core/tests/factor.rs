@@ -1,8 +1,6 @@
 //! The factor: what it refuses, and that it repeats its bits.
 
-mod common;
-
-use common::{Noise, distorted, isotropic, on_boundary, stiffness};
+use crate::common::{Noise, distorted, isotropic, on_boundary, stiffness};
 use fem_core::{
     BACKWARD_ERROR_LIMIT, Constraints, DofMap, Error, Factor, Form, Mesh, Pattern, Problem, SparseMatrix, SymbolicFactor,
 };

@@ -1,8 +1,6 @@
 //! Manufactured solutions: orders of convergence in h and p.
 
-mod common;
-
-use common::{Field, errors, mapped, on_boundary, solve};
+use crate::common::{Field, errors, mapped, on_boundary, solve};
 use fem_core::{Constraints, Form, Mesh, Problem};
 use nalgebra::{DMatrix, DVector};
 

@@ -1,8 +1,6 @@
 //! Fields in the space of the elements are reproduced on any mesh.
 
-mod common;
-
-use common::{
+use crate::common::{
     annulus, coil, distorted, isotropic, nodal_error, on_boundary, solve, stiffness, strains_at_centres, thermal_stress,
 };
 use fem_core::{Form, Measure, Mesh, Problem};
@@ -82,7 +80,7 @@ fn is_stress_free(mesh: &Mesh, form: Form, held: &[usize], z_strain: bool) {
     let (alpha, law) = (23.6e-6, isotropic(68.9e9, 0.33, 23.6e-6));
     let beta = thermal_stress(form, &law);
     let source = match z_strain {
-        true => DMatrix::from_fn(3, 1, |i, _| beta[i] - law.stiffness[(common::rows(form)[i], 2)] * alpha),
+        true => DMatrix::from_fn(3, 1, |i, _| beta[i] - law.stiffness[(crate::common::rows(form)[i], 2)] * alpha),
         false => beta.clone(),
     };
     let problem = Problem::new(mesh, form, points(mesh, form));

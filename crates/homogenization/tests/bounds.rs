@@ -1,8 +1,6 @@
 //! Bounds of the constants and of their numerical error; what is refused.
 
-mod common;
-
-use common::{cells, glass, on, reference, solid, solve, two_phase};
+use crate::common::{cells, glass, on, reference, solid, solve, two_phase};
 use homogenization::{Constants, Constituent, Discretization, Error, Extent, FibreCell, Role, effective, homogenize};
 use nalgebra::Matrix6;
 use std::sync::OnceLock;

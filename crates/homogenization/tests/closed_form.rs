@@ -2,9 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{cells, on, reference, solid, solve, two_phase};
+use crate::common::{cells, on, reference, solid, solve, two_phase};
 use fem_core::material::Isotropic;
 use homogenization::bounds::{Range, bounds, cylinders};
 use homogenization::{

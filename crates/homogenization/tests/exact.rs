@@ -1,9 +1,7 @@
 //! Exact relations of composites.
 
-mod common;
-
+use crate::common::{cells, glass, reference, solid, solve, two_phase};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use common::{cells, glass, reference, solid, solve, two_phase};
 use homogenization::{Constituent, Discretization, Extent, FibreCell, free_cell, homogenize};
 use nalgebra::{Matrix6, Vector6};
 

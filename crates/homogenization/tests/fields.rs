@@ -2,10 +2,8 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod common;
-
+use crate::common::{glass, reference, solid};
 use approx::assert_relative_eq;
-use common::{glass, reference, solid};
 use homogenization::fields::{Component, Convention, Fields, Load};
 use homogenization::irregular::{Arrangement, Cell, Inclusion, Layout, Outline, Phase, Solid};
 use homogenization::{Role, homogenize};

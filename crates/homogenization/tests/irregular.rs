@@ -2,10 +2,8 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod common;
-
+use crate::common::{glass, reference, solid, varied};
 use approx::assert_relative_eq;
-use common::{glass, reference, solid, varied};
 use fem_core::material::{Orthotropic, ThermoElastic};
 use homogenization::irregular::{
     Arrangement, Cell, Inclusion, Layout, Outline, PeriodicMesh, Phase, Response, Solid, Solution, displace,
@@ -77,7 +75,7 @@ fn difference(a: &Response, b: &Response) -> f64 {
 /// The regular cell, by another mesh, without the use of its symmetry.
 #[test]
 fn exact_agreement_with_the_structured_route() {
-    for cell in common::cells() {
+    for cell in crate::common::cells() {
         let c = homogenize(&cell).unwrap().constants;
         let irregular = Cell::of_fibres(&cell, &Arrangement::hexagonal(cell.pitch, 1, 1)).unwrap().homogenize_to(1e-5).unwrap();
         let d = irregular.constants;

@@ -1,8 +1,6 @@
 //! Multipoles against finite elements, which share nothing with them but the constituents; reduced integration against full.
 
-mod common;
-
-use common::{glass, on, reference, solid, two_phase};
+use crate::common::{glass, on, reference, solid, two_phase};
 use homogenization::identify::Random;
 use homogenization::{
     Constants, Constituent, Error, Extent, FibreCell, Homogenized, Integration, Packing, Ring, Role, TOLERANCE, effective,
@@ -12,7 +10,7 @@ use homogenization::{
 const PACKINGS: [Packing; 2] = [Packing::Hexagonal, Packing::Square];
 
 fn cells() -> impl Iterator<Item = FibreCell> {
-    common::cells().flat_map(|cell| PACKINGS.map(|packing| FibreCell { packing, ..cell.clone() }))
+    crate::common::cells().flat_map(|cell| PACKINGS.map(|packing| FibreCell { packing, ..cell.clone() }))
 }
 
 /// Largest relative distance of a constant.

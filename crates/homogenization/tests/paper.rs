@@ -1,8 +1,6 @@
 //! Table I of the paper, from constituents that were identified from it: the cell reproduces every printed digit.
 
-mod common;
-
-use common::reference;
+use crate::common::reference;
 use homogenization::homogenize;
 
 #[test]

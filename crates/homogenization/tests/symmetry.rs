@@ -1,9 +1,7 @@
 //! What the symmetry of the lattice and of the law demands.
 
-mod common;
-
+use crate::common::{cells, solve};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use common::{cells, solve};
 use homogenization::Extent;
 
 /// Hexagonal symmetry makes the plane isotropic: the shear modulus from a shear load of its own is (C11 − C12)/2.

@@ -35,7 +35,7 @@ pub struct Gyro<'m> {
     /// constants that were told and what came of them, by record
     moved: RefCell<Vec<(usize, Vec<f64>, Series)>>,
     /// the nominal model at the last nuisances that were told, by record
-    recalibrated: RefCell<Vec<(usize, Vec<f64>, Arc<Recalibrated>)>>,
+    recalibrated: RefCell<Vec<Arc<Recalibrated>>>,
     /// the last effects that were worked out, by record and mechanism
     known: RefCell<Vec<(usize, Active, Arc<Known>)>>,
 }
@@ -47,8 +47,10 @@ struct Known {
 }
 
 /// The nominal model with its uncertain numbers somewhere.
-#[derive(Clone)]
 struct Recalibrated {
+    record: usize,
+    /// the uncertain numbers
+    at: Vec<f64>,
     parts: Parts,
     thermometer: Vec<f64>,
     /// share of every nominal part in these
@@ -200,16 +202,16 @@ impl<'m> Gyro<'m> {
     /// The nominal model with its uncertain numbers at `u`; kept for as long as mechanisms' own are varied.
     fn recalibrated(&self, number: usize, u: &[f64]) -> Arc<Recalibrated> {
         let mut known = self.recalibrated.borrow_mut();
-        if let Some((.., series)) = known.iter().find(|(own, at, _)| *own == number && at == u) {
-            return Arc::clone(series);
+        if let Some(same) = known.iter().find(|known| known.record == number && known.at == u) {
+            return Arc::clone(same);
         }
         let (parts, thermometer) = self.with_nuisances(number, u);
         let nominal = &self.records[number].nominal.parts;
         let gain = [0, 1, 2].map(|p: usize| share(&parts[p], &nominal[p]));
-        let series = Arc::new(Recalibrated { parts, thermometer, gain });
-        known.retain(|(own, ..)| *own != number);
-        known.push((number, u.to_vec(), Arc::clone(&series)));
-        series
+        let here = Arc::new(Recalibrated { record: number, at: u.to_vec(), parts, thermometer, gain });
+        known.retain(|known| known.record != number);
+        known.push(Arc::clone(&here));
+        here
     }
 
     /// Parts and thermometer of the nominal model with its uncertain numbers at `u`.
@@ -358,7 +360,8 @@ impl ForwardModel for Gyro<'_> {
         let nominal = &record.nominal.parts;
         let (moved, others) = self.with_factors(u, active);
         let u = &moved;
-        let Recalibrated { mut parts, mut thermometer, mut gain } = Recalibrated::clone(&self.recalibrated(number, u));
+        let without = self.recalibrated(number, u);
+        let (mut parts, mut thermometer, mut gain) = (without.parts.clone(), without.thermometer.clone(), without.gain);
         let effects = others.into_iter().map(|a| self.effect(number, a)).collect::<Result<Vec<_>, _>>()?;
         // mechanisms act on a coil that has the others: each one's gain on a part acts on the others' changes, too
         let changes = || effects.iter().filter_map(|known| known.change().map(|change| (change, known.gain)));

@@ -2,9 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "the coverage reached is shown")]
 
-mod common;
-
-use common::{Random, even, simulate};
+use crate::common::{Random, even, simulate};
 use proptest::prelude::*;
 use recording::allan::{AllanPoint, allan};
 use recording::noise::NoiseModel;

@@ -1,8 +1,6 @@
 //! Sound recordings pass; each defect is found, said and, where that is right, taken out of use.
 
-mod common;
-
-use common::Random;
+use crate::common::Random;
 use recording::check::{Expectation, Expectations, Finding, FindingKind, Offset, Repair, Report, Severity, Unit, check};
 use recording::{Channel, Error, Recording, Sampling};
 

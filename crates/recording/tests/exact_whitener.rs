@@ -1,8 +1,6 @@
 //! Whitening against the dense covariance matrix of the same noise.
 
-mod common;
-
-use common::{Random, cholesky, even, simulate};
+use crate::common::{Random, cholesky, even, simulate};
 use proptest::prelude::*;
 use recording::Error;
 use recording::noise::{NoiseModel, Whitener};

@@ -1,8 +1,6 @@
 //! Simulated noise is found again, with intervals that cover it.
 
-mod common;
-
-use common::{Random, even, simulate};
+use crate::common::{Random, even, simulate};
 use recording::Error;
 use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Series, Term, identify};
 

@@ -1,8 +1,6 @@
 //! Shape of the mesh: areas, circles, orientation, conformity.
 
-mod common;
-
-use common::{Case, EXTENTS, any_case, on_hexagon, polar};
+use crate::common::{Case, EXTENTS, any_case, on_hexagon, polar};
 use fem_core::{Form, Mesh, Problem};
 use proptest::prelude::*;
 use rve_mesh::{CellMesh, Extent, LatticeCell, Packing, Resolution};

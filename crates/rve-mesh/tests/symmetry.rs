@@ -1,8 +1,6 @@
 //! The relations between boundary nodes are those of the lattice.
 
-mod common;
-
-use common::{any_case, on_hexagon};
+use crate::common::{any_case, on_hexagon};
 use proptest::prelude::*;
 use rve_mesh::{CellMesh, Extent};
 use std::collections::HashSet;

@@ -1,8 +1,6 @@
 //! How much each pattern gains on the one before.
 
-mod common;
-
-use common::REFERENCE;
+use crate::common::REFERENCE;
 use proptest::prelude::*;
 use winding::{Pattern, Spec, TurnLength, wind};
 

@@ -1,9 +1,7 @@
 //! Against closed formulas.
 
-mod common;
-
+use crate::common::{ALL, REFERENCE, any_spec};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use common::{ALL, REFERENCE, any_spec};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 use winding::{ClimbSide, Half, LayerDefect, Pattern, Spec, Tails, TurnLength, wind};

@@ -1,8 +1,6 @@
 //! Against the paper: Osunluk, Ogut and Ozbay, *Thermally Induced Bias Errors for a Fiber Coil with Practical Quadrupole Winding*.
 
-mod common;
-
-use common::{ALL, REFERENCE, any_spec};
+use crate::common::{ALL, REFERENCE, any_spec};
 use proptest::prelude::*;
 use winding::{ClimbSide, Half, Pattern, Spec, wind};
 

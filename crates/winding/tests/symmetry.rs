@@ -1,9 +1,7 @@
 //! The two symmetries of a winding: exchanging the fibre's ends, and turning the coil round.
 
-mod common;
-
+use crate::common::{ALL, any_spec};
 use bias::{Bias, Optics, Slice, StrainConvention, bias};
-use common::{ALL, any_spec};
 use proptest::prelude::*;
 use winding::{Spec, Turn, wind};
 

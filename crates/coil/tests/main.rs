@@ -1,0 +1,12 @@
+//! All tests of the crate in one program: linked once.
+
+mod band;
+mod common;
+mod design;
+mod dynamics;
+mod exact;
+mod fields;
+mod inverse;
+mod parametric;
+mod sensitivity;
+mod trim;

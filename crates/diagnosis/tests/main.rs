@@ -1,0 +1,7 @@
+//! All tests of the crate in one program: linked once.
+
+mod common;
+mod elsewhere;
+mod exact_evidence;
+mod separation;
+mod toy;

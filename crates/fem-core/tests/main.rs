@@ -1,0 +1,10 @@
+//! All tests of the crate in one program: linked once.
+
+mod algebra;
+mod common;
+mod condensed;
+mod exact;
+mod factor;
+mod mms;
+mod patch;
+mod transient;

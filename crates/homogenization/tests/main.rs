@@ -1,0 +1,12 @@
+//! All tests of the crate in one program: linked once.
+
+mod bounds;
+mod closed_form;
+mod common;
+mod exact;
+mod fields;
+mod identify;
+mod irregular;
+mod multipoles;
+mod paper;
+mod symmetry;

@@ -1,0 +1,8 @@
+//! All tests of the crate in one program: linked once.
+
+mod allan;
+mod check;
+mod common;
+mod condition;
+mod exact_whitener;
+mod identify;

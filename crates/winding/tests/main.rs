@@ -1,0 +1,7 @@
+//! All tests of the crate in one program: linked once.
+
+mod bounds;
+mod common;
+mod exact;
+mod paper;
+mod symmetry;
