@@ -38,9 +38,10 @@ pub fn settled<M: ForwardModel>(
     observations: &[Observation],
     progress: &dyn Fn(Step),
 ) -> Result<Settled<M>, Error<M::Error>> {
-    let mut steps = 0;
+    let starts = model.starts();
+    let (mut steps, most) = (0, 1 + starts.len() + 2 * ROUNDS - TRIED);
     let mut told = || {
-        progress(Step::counted(TASK, steps, 2 * ROUNDS));
+        progress(Step::counted(TASK, steps, most));
         steps += 1;
     };
     let way = |start: Option<&Vec<f64>>| -> Result<Way<M>, Error<M::Error>> {
@@ -49,7 +50,6 @@ pub fn settled<M: ForwardModel>(
     };
     // how likely the constants are from where a way starts is seen when they have been found about it
     let (mut alone, mut first, mut most) = (way(None)?, None, f64::NEG_INFINITY);
-    let starts = model.starts();
     for start in std::iter::once(None).chain(starts.iter().map(Some)) {
         told();
         let mut tried = way(start)?;

@@ -1,12 +1,12 @@
 //! The coil's chain as a forward model for diagnosis: nominal constants, their uncertainties, and the library of mechanisms.
 
-use crate::chain::{Chain, add};
 use crate::constants::{Constant, number_of};
 use crate::instruments::{self, MINUTE, USUAL_NOISE, channels, nuisances};
+use crate::law_tools::{Chain, add};
 use crate::library::Library;
 use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Scene, Sight};
 use crate::passed::Passed;
-use crate::response::{Delay, Parts, Prepared, Series, total};
+use crate::record_to_bias::{Delay, Parts, Prepared, Series, total};
 use crate::{REFERENCE_C, lagged};
 use coil::{Design, Error, Number, Tolerances};
 use diagnosis::{Active, Channel, ForwardModel, Latent, Nuisance, State};

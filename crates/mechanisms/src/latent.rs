@@ -1,8 +1,8 @@
 //! Flexible inputs at every stage of a coil's chain, and what single layers do.
 
-use crate::chain::Chain;
+use crate::law_tools::Chain;
 use crate::mechanism::{Change, Mechanism, Stage, lagged};
-use crate::response::{Prepared, total};
+use crate::record_to_bias::{Prepared, total};
 use coil::Error;
 use diagnosis::Latent;
 

@@ -5,31 +5,31 @@
 
 mod build;
 mod catalogue;
-mod chain;
 mod constants;
 mod design;
 mod gyro;
 mod instruments;
 mod interpolation;
 mod latent;
+mod law_tools;
 mod library;
 mod mechanism;
 mod passed;
-mod response;
+mod record_to_bias;
 
 pub use build::ranges;
 pub use catalogue::{CATALOGUE, find};
-pub use chain::Chain;
 pub use constants::{number_of, with_constant};
 pub use design::REFERENCE_C;
 pub use gyro::{Gyro, RATE, SPOOL};
 pub use instruments::{USUAL_NOISE, reading_of};
+pub use law_tools::Chain;
 pub use library::{Library, Models};
 pub use mechanism::{
     Change, Digits, Effect, Extent, Facts, HeatPath, Mechanism, Naming, Offer, Readings, Scene, Sight, Stage, Steady, lagged,
     middles, rates_per_hour,
 };
-pub use response::{Delay, Parts, Prepared};
+pub use record_to_bias::{Delay, Parts, Prepared};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -1,6 +1,6 @@
 //! Mechanisms: all that the program needs to know of one, as a trait that one file implements.
 
-use crate::response::Parts;
+use crate::record_to_bias::Parts;
 use crate::{Chain, Prepared, REFERENCE_C};
 use bias::units::S_PER_H;
 use coil::{Design, Error, MechanicalState};

@@ -1,6 +1,6 @@
 //! Errors of the chamber's temperature and of the model, as thermometer and rate have them: terms of each channel's noise.
 
-use crate::response::{Clock, Course, Series, total};
+use crate::record_to_bias::{Clock, Course, Series, total};
 use crate::{RATE, SPOOL};
 use coil::Reduced;
 

@@ -15,7 +15,7 @@ const STRIDE: f64 = 2.0;
 const DAMPING: [f64; 3] = [1e-3, 1e-9, 1e8];
 
 impl<M: ForwardModel> Objective<'_, M> {
-    /// The nearest minimum below a point, with the derivatives there.
+    /// The nearest minimum below a point, with the derivatives there or a negligible step before.
     pub(super) fn descend(&self, from: Point) -> Result<(Point, Derivatives), Error<M::Error>> {
         let mut at = from;
         let mut damping = DAMPING[0];
@@ -34,6 +34,10 @@ impl<M: ForwardModel> Objective<'_, M> {
                 break;
             }
             is_own = settled;
+            // with derivatives of its own it sets out afresh
+            if is_own {
+                (damping, undamped) = (DAMPING[0], false);
+            }
             self.found_anew(&at, is_own, &mut derivatives)?;
         }
         if !is_own {

@@ -29,9 +29,10 @@ impl<M: ForwardModel> Fitter<'_, M> {
 }
 
 impl<M: ForwardModel> Objective<'_, M> {
-    /// Whether a mechanism's parameter asks for a second look.
-    pub(super) fn has_kinks(&self) -> bool {
-        self.kinked().next().is_some()
+    /// Whether a fit may end in several places: a mechanism has several parameters, or one that asks for a second look.
+    pub(super) fn may_have_many_minima(&self) -> bool {
+        let several = |(mechanism, _): &(usize, Option<f64>)| self.fitter.model.mechanisms()[*mechanism].parameters.len() > 1;
+        self.kinked().next().is_some() || self.hypothesis.mechanisms.iter().any(several)
     }
 
     fn kinked(&self) -> impl Iterator<Item = usize> {

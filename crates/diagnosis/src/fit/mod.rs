@@ -28,7 +28,7 @@ use crate::{Error, ForwardModel};
 
 /// Starts that are followed to the end.
 const STARTS: usize = 4;
-/// Difference of ln p below which two fits have ended alike: some times that at which one settles.
+/// Difference of ln p below which two fits have ended alike: ten times the change at which one settles.
 const ALIKE: f64 = 0.05;
 /// Gain of ln evidence by another round of fitting the noise below which none follows.
 const NOISE_SETTLED: f64 = 0.1;
@@ -53,10 +53,10 @@ impl<M: ForwardModel> Fitter<'_, M> {
         let mut best: Option<Fit> = None;
         for start in tried {
             let fit = objective.concluded(objective.descend(start)?)?;
-            // two that end alike speak for all where no kink makes other minima
+            // two that end alike speak for all where a mechanism has one parameter and no kinks: one minimum
             let alike = best.as_ref().is_some_and(|best| (fit.value() - best.value()).abs() < ALIKE);
             best = Some(Fit::better(best, fit));
-            if alike && !objective.has_kinks() {
+            if alike && !objective.may_have_many_minima() {
                 break;
             }
         }

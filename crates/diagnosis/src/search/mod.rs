@@ -144,10 +144,10 @@ impl<M: ForwardModel> Pool<'_, M> {
         let mut order: Vec<usize> = (0..self.candidates.len()).collect();
         order.sort_by(|&a, &b| self.candidates[b].log_weight.total_cmp(&self.candidates[a].log_weight));
         // the design's constants beside a structure are weighed in any case: among mechanisms alone the nearest would stand for it
-        let design =
-            order.iter().skip(LEADERS).copied().find(|at| self.candidates[*at].fit.hypothesis == Hypothesis::RECALIBRATED);
-        order.truncate(LEADERS);
-        order.extend(design);
+        let (likeliest, others) = order.split_at(order.len().min(LEADERS));
+        let alone = |at: &&usize| self.candidates[**at].fit.hypothesis.mechanisms.is_empty();
+        let design = if likeliest.iter().any(|at| alone(&at)) { None } else { others.iter().find(alone) };
+        let order: Vec<usize> = likeliest.iter().chain(design).copied().collect();
         let Fitter { model, records, observations, .. } = self.fitter;
         let times: Vec<&[f64]> = observations.iter().map(|o| o.time.as_slice()).collect();
         for at in order {

@@ -4,7 +4,7 @@ use crate::Prepared;
 use crate::design::bonded_flange;
 use crate::interpolation::cubic_weights;
 use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, across, grid};
-use crate::response::Parts;
+use crate::record_to_bias::Parts;
 use coil::{Bonds, Design, MechanicalState, Mechanics, Opening};
 use diagnosis::{Parameter, Prior};
 

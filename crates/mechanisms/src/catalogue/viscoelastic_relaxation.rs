@@ -3,7 +3,7 @@
 use crate::Prepared;
 use crate::interpolation::weights;
 use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, grid};
-use crate::response::Parts;
+use crate::record_to_bias::Parts;
 use coil::{Design, MechanicalState, Mechanics, Relaxation};
 use diagnosis::{Parameter, Prior};
 

@@ -85,10 +85,6 @@ fn lone(context: &Context, used: &[usize], n: usize, together: usize, noise: f64
     }
     let neighbours: Vec<usize> = before[before.len() - balanced..].iter().chain(&after[..balanced]).map(|&m| used[m]).collect();
     let beside = |level: &dyn Fn(usize) -> f64| [level(row) - level(used[n - 1]), level(last) - level(used[end])];
-    // a line hardly changes the sum of both
-    if beside(&|row| values[row]).iter().sum::<f64>().abs() <= LONE[0] * FAR * noise {
-        return None;
-    }
     let slope = median_slope(context, &neighbours)?;
     let level = |row: usize| values[row] - slope * (time[row] - time[last]);
     let around: Vec<f64> = neighbours.iter().map(|row| level(*row)).collect();

@@ -3,7 +3,7 @@
 use crate::interpolation::weights;
 use crate::library::{Functionals, Library};
 use crate::mechanism::Change;
-use crate::response::{Course, Parts, Prepared, Series};
+use crate::record_to_bias::{Course, Parts, Prepared, Series};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::Error;
 use nalgebra::DVector;

@@ -1,6 +1,6 @@
 //! A library's responses to the chamber of one recording.
 
-use crate::chain::add;
+use crate::law_tools::add;
 use crate::library::{Functionals, Library};
 use crate::passed::{Passed, passed};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
@@ -41,22 +41,7 @@ impl Delay {
     pub fn total(&self) -> f64 {
         self.lag + self.clock
     }
-
-    /// Another clock.
-    fn later(self, by: f64) -> Self {
-        Self { clock: self.clock + by, ..self }
-    }
-
-    /// Another thermometer, its squared lag larger and the delay as it is.
-    fn slower(self, by: f64) -> Self {
-        let lag = (self.lag * self.lag + by).sqrt();
-        Self { lag, clock: self.total() - lag }
-    }
 }
-
-/// Changes by which derivatives are found: far below intervals and time constants, far above rounding \[s, s²\].
-const DELAYED: f64 = 1.0;
-const SLOWER: f64 = 25.0;
 
 /// Parts into which an interval is divided to follow the chamber between its readings.
 const BETWEEN: usize = 4;
@@ -95,9 +80,14 @@ fn undelayed(time: &[f64], course: &[f64], Delay { lag, clock }: Delay) -> Vec<f
         let t = (t + clock).clamp(time[0], time[last]);
         let after = time.partition_point(|instant| *instant < t).clamp(last.min(1), last);
         let before = after.saturating_sub(1);
-        let share = if after > before { (t - time[before]) / (time[after] - time[before]) } else { 0.0 };
+        let span = time[after] - time[before];
+        let share = if after > before { (t - time[before]) / span } else { 0.0 };
         let between = |x: &[f64]| x[before] + share * (x[after] - x[before]);
-        between(course) + lag * between(&rates)
+        // the cubic that has the rates at both ends
+        let rise = course[after] - course[before];
+        let (leaving, arriving) = (span * rates[before] - rise, span * rates[after] - rise);
+        let bend = share * (1.0 - share) * ((1.0 - share) * leaving - share * arriving);
+        between(course) + bend + lag * between(&rates)
     };
     time.iter().map(at).collect()
 }
@@ -337,13 +327,17 @@ impl Prepared {
         let base = course.series(&library.base);
         let nominal = library.with_drifts(&course, &base, time, averaging)?;
         let off = Course::new(&library.base, &clock, std::slice::from_ref(&clock.chamber), &[first + OFF_REST]);
-        // everything is linear in what drives it
-        let under = |other: Delay, by: f64| {
-            let there = undelayed(&clock.time, &said, other);
-            let change: Vec<f64> = there.iter().zip(&clock.chamber).map(|(there, here)| (there - here) / by).collect();
+        // everything is linear in what drives it, which with s as it was said is s(t + c) + τ s′(t + c): its derivative by the delay c + τ is the same of s′,
+        // that by τ² where c + τ is kept −½ s″(t + c)
+        let under = |change: Vec<f64>| {
             let first = change[0];
             Course::new(&library.base, &clock, &[change], &[first]).series(&library.base)
         };
+        let said_rates = recording::condition::slopes(&clock.time, &said);
+        let bends = recording::condition::slopes(&clock.time, &said_rates);
+        let later = under(undelayed(&clock.time, &said_rates, delay));
+        let bends = undelayed(&clock.time, &bends, Delay { lag: 0.0, ..delay });
+        let slower = under(bends.iter().map(|bend| -bend / 2.0).collect());
         let paths = library.paths.iter().map(|path| {
             let mut changes: Vec<Series> = path.models.iter().map(|model| minus(&run(model).series(model), &base)).collect();
             changes.insert(path.nominal, minus(&base, &base));
@@ -369,7 +363,7 @@ impl Prepared {
             averaging,
             off_rest: minus(&off.series(&library.base), &base),
             slopes: clock.slopes(library),
-            curved: crate::chain::Curvature::new(library, crate::REFERENCE_C)?.rates(&course, time, averaging),
+            curved: crate::law_tools::Curvature::new(library, crate::REFERENCE_C)?.rates(&course, time, averaging),
             expansion: library
                 .constants
                 .iter()
@@ -381,8 +375,8 @@ impl Prepared {
             heater,
             course,
             nominal,
-            later: under(delay.later(DELAYED), DELAYED),
-            slower: under(delay.slower(SLOWER), SLOWER),
+            later,
+            slower,
             rates: [first_rates, second_rates],
             tail,
             coil,
@@ -430,7 +424,7 @@ impl Library {
         let drifts = self.design().drifts;
         let mut series = base.clone();
         if drifts.thermo_optic_curvature != 0.0 {
-            let form = crate::chain::Curvature::new(self, drifts.reference)?;
+            let form = crate::law_tools::Curvature::new(self, drifts.reference)?;
             let curved = form.rates(course, time, averaging);
             series.parts[0].iter_mut().zip(curved).for_each(|(part, by)| *part += drifts.thermo_optic_curvature * by);
         }
