@@ -1,7 +1,6 @@
 //! Which part of the chain a mismatch comes from: one flexible input at a time, placed at each stage.
 
-use crate::fit::Fit;
-use crate::fit::products;
+use crate::fit::{Fit, products};
 use crate::locate::whiteness;
 use crate::{Error, ForwardModel, Latent, Observation};
 use nalgebra::{Cholesky, DMatrix, DVector};

@@ -6,7 +6,7 @@ use crate::{Error, ForwardModel, Nuisance, Observation, Role};
 use progress::Step;
 
 const TASK: &str = "finding the constants about which to compare";
-/// Times that a model is made anew, at most: each time the distance to where it settles shrinks as its square.
+/// Times that a model is made anew, at most. Where it is smooth, each time the distance to where it settles shrinks as its square.
 const ROUNDS: usize = 6;
 /// Rounds after which the likeliest of several starts is followed.
 const TRIED: usize = 2;
@@ -49,16 +49,17 @@ pub fn settled<M: ForwardModel>(
         Ok(Way { model, records, observations, about, known: None, rounds: 0, arrived: false })
     };
     // how likely the constants are from where a way starts is seen when they have been found about it
-    let (mut alone, mut first, mut most) = (way(None)?, None, f64::NEG_INFINITY);
+    let mut likeliest = None;
     for start in std::iter::once(None).chain(starts.iter().map(Some)) {
         told();
         let mut tried = way(start)?;
         (0..TRIED).try_for_each(|_| tried.go_on(false))?;
         let evidence = tried.settled()?.log_evidence;
-        if evidence > most {
-            (alone, first, most) = (tried, start, evidence);
+        if likeliest.as_ref().is_none_or(|(_, _, most)| evidence > *most) {
+            likeliest = Some((tried, start, evidence));
         }
     }
+    let (mut alone, first, _) = likeliest.ok_or(Error::NoStart)?;
     while !alone.arrived {
         told();
         alone.go_on(false)?;

@@ -4,4 +4,5 @@ mod common;
 mod elsewhere;
 mod exact_evidence;
 mod separation;
+mod starts;
 mod toy;

@@ -1,11 +1,14 @@
 //! How the models of a design are made: what is solved in full, side by side.
 
-use crate::catalogue::{debond, self_heating};
-use crate::library::{Models, heat_paths, unheated};
+use crate::catalogue::debond;
+use crate::design::{can_be_heated, with_heater};
+use crate::heat_path::HeatPath;
+use crate::library::{Library, Models, unheated};
 use crate::mechanism::Mechanism;
 use coil::{Bonds, COARSE, Design, Error, MechanicalState, Model, ModelEffort, ParametricModel, Range, Tolerances};
 use progress::Step;
 use rayon::prelude::*;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The task, as it is told.
@@ -16,6 +19,15 @@ const OPEN: [f64; 23] = [
     0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09, 0.1, 0.125, 0.15, 0.18, 0.21, 0.25, 0.3, 0.36, 0.44, 0.53, 0.62, 0.71,
     0.8, 0.9,
 ];
+
+/// The paths of heat that a design has, by the ids of their mechanisms.
+fn heat_paths(design: &Design, mechanisms: &[&dyn Mechanism]) -> Vec<(String, HeatPath)> {
+    let of = |m: &&dyn Mechanism| {
+        let facts = m.facts();
+        facts.heat_path.map(|path| (facts.id.to_owned(), path))
+    };
+    mechanisms.iter().filter_map(of).filter(|(_, path)| (path.applies)(design)).collect()
+}
 
 /// The ranges that a parametric model of `design` must hold for: its parameters' `tolerances`, and from any design within them as far as the
 /// `mechanisms` go.
@@ -29,8 +41,8 @@ pub fn ranges(design: &Design, tolerances: &Tolerances, mechanisms: &[&dyn Mecha
             path.nodes.iter().for_each(|x| Range::widened(&mut ranges, design, &(path.design)(from, *x)));
         }
     }
-    if self_heating::applies(design) {
-        Range::widened(&mut ranges, design, &self_heating::with_heater(design, 1.0));
+    if can_be_heated(design) {
+        Range::widened(&mut ranges, design, &with_heater(design, 1.0));
     }
     ranges
 }
@@ -65,5 +77,25 @@ impl Models {
         };
         let openings = open.par_iter().map(opening).collect::<Result<_, _>>()?;
         Ok(Self { drawing: drawing.clone(), tolerances: tolerances.clone(), model, openings })
+    }
+}
+
+impl Library {
+    /// Makes every model that the `mechanisms` need, for the usual tolerances; `progress` is told how many are made.
+    ///
+    /// # Errors
+    /// [`Error`] names the dimension or property at fault, or the solve that failed.
+    pub fn build(design: &Design, mechanisms: &[&dyn Mechanism], progress: &(dyn Fn(Step) + Sync)) -> Result<Self, Error> {
+        Self::new(Models::build(design, &Tolerances::default(), mechanisms, progress)?, mechanisms)
+    }
+
+    /// The models of the drawing itself; the `mechanisms` are those that `models` were built for.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn new(models: Models, mechanisms: &[&dyn Mechanism]) -> Result<Self, Error> {
+        let design = unheated(&models.drawing);
+        let paths = heat_paths(&design, mechanisms);
+        Self::at(Arc::new(models), paths, design)
     }
 }

@@ -1,6 +1,6 @@
 //! Places of a design at which mechanisms act.
 
-use coil::{Contact, Design, Side};
+use coil::{Contact, Design, Heater, Side};
 
 /// Temperature at which ∂n/∂T has its nominal value, and at which a read-out's temperature coefficient is zero \[°C\].
 pub const REFERENCE_C: f64 = 20.0;
@@ -32,5 +32,19 @@ pub(crate) fn with_tail(design: &Design, cw_minus_ccw: f64) -> Design {
     let mut changed = design.clone();
     changed.winding.tails.cw += cw_minus_ccw.max(0.0);
     changed.winding.tails.ccw += (-cw_minus_ccw).max(0.0);
+    changed
+}
+
+/// Whether a design has a flange to heat, and no heater of its own.
+pub(crate) fn can_be_heated(design: &Design) -> bool {
+    flange(design).is_some() && design.heat.heaters.is_empty()
+}
+
+/// Power in the first flange \[W\].
+pub(crate) fn with_heater(design: &Design, power: f64) -> Design {
+    let mut changed = design.clone();
+    if let Some(side) = flange(design) {
+        changed.heat.heaters.push(Heater { side, power });
+    }
     changed
 }

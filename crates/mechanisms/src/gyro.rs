@@ -1,24 +1,20 @@
 //! The coil's chain as a forward model for diagnosis: nominal constants, their uncertainties, and the library of mechanisms.
 
+use crate::REFERENCE_C;
 use crate::constants::{Constant, number_of};
+use crate::course::{Delay, Parts, RATE, Series, add, total};
 use crate::instruments::{self, MINUTE, USUAL_NOISE, channels, nuisances};
-use crate::law_tools::{Chain, add};
+use crate::law_tools::Chain;
 use crate::library::Library;
-use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Scene, Sight};
+use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Scene, Sight, lagged};
 use crate::passed::Passed;
-use crate::record_to_bias::{Delay, Parts, Prepared, Series, total};
-use crate::{REFERENCE_C, lagged};
+use crate::record_to_bias::Prepared;
 use coil::{Design, Error, Number, Tolerances};
 use diagnosis::{Active, Channel, ForwardModel, Latent, Nuisance, State};
 use nalgebra::DMatrix;
 use recording::median_interval;
 use std::cell::RefCell;
 use std::sync::Arc;
-
-/// Order of the channels.
-pub const SPOOL: usize = 0;
-/// Order of the channels.
-pub const RATE: usize = 1;
 
 /// A design's library and the recordings it is compared with.
 pub struct Gyro<'m> {

@@ -1,8 +1,8 @@
 //! What is read: channels with their noise, and what instruments and the model itself may be off.
 
 use crate::constants::{constants, others};
+use crate::course::{RATE, SPOOL};
 use crate::passed::Passed;
-use crate::{RATE, SPOOL};
 use coil::{Design, Tolerances};
 use diagnosis::{Channel, NoisePrior, Nuisance, Role};
 

@@ -1,8 +1,9 @@
 //! Flexible inputs at every stage of a coil's chain, and what single layers do.
 
+use crate::course::total;
 use crate::law_tools::Chain;
 use crate::mechanism::{Change, Mechanism, Stage, lagged};
-use crate::record_to_bias::{Prepared, total};
+use crate::record_to_bias::Prepared;
 use coil::Error;
 use diagnosis::Latent;
 

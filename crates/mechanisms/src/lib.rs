@@ -5,9 +5,13 @@
 
 mod build;
 mod catalogue;
+mod change;
 mod constants;
+mod course;
+mod curvature;
 mod design;
 mod gyro;
+mod heat_path;
 mod instruments;
 mod interpolation;
 mod latent;
@@ -19,17 +23,20 @@ mod record_to_bias;
 
 pub use build::ranges;
 pub use catalogue::{CATALOGUE, find};
+pub use change::Change;
 pub use constants::{number_of, with_constant};
+pub use course::{Delay, Parts, RATE, SPOOL};
 pub use design::REFERENCE_C;
-pub use gyro::{Gyro, RATE, SPOOL};
+pub use gyro::Gyro;
+pub use heat_path::HeatPath;
 pub use instruments::{USUAL_NOISE, reading_of};
 pub use law_tools::Chain;
 pub use library::{Library, Models};
 pub use mechanism::{
-    Change, Digits, Effect, Extent, Facts, HeatPath, Mechanism, Naming, Offer, Readings, Scene, Sight, Stage, Steady, lagged,
-    middles, rates_per_hour,
+    Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Readings, Scene, Sight, Stage, Steady, lagged, middles,
+    rates_per_hour,
 };
-pub use record_to_bias::{Delay, Parts, Prepared};
+pub use record_to_bias::Prepared;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -1,16 +1,15 @@
 //! Reduced models of a design, and of what it may leave out: once for every design of a box, and at one of them.
 
-use crate::catalogue::self_heating;
 use crate::constants::{Constant, constants};
-use crate::design::with_tail;
+use crate::design::{can_be_heated, with_heater, with_tail};
+use crate::heat_path::HeatPath;
 use crate::interpolation::{cubic_weights, nodes};
-use crate::mechanism::{HeatPath, Mechanism};
+
 use coil::{
     Design, Error, HeatPaths, MODULI, MechanicalState, Mechanics, Output, Parameter, ParametricModel, Projected, Reduced, Slopes,
     Tolerances, TurnFields,
 };
 use nalgebra::DVector;
-use progress::Step;
 use std::collections::HashMap;
 use std::sync::Arc;
 use winding::{Half, LayerDefect, Winding};
@@ -70,15 +69,6 @@ pub(crate) fn unheated(design: &Design) -> Design {
     Design { heat: HeatPaths { heaters: Vec::new(), ..design.heat.clone() }, ..design.clone() }
 }
 
-/// The paths of heat that a design has, by the ids of their mechanisms.
-pub(crate) fn heat_paths(design: &Design, mechanisms: &[&dyn Mechanism]) -> Vec<(String, HeatPath)> {
-    let of = |m: &&dyn Mechanism| {
-        let facts = m.facts();
-        facts.heat_path.map(|path| (facts.id.to_owned(), path))
-    };
-    mechanisms.iter().filter_map(of).filter(|(_, path)| (path.applies)(design)).collect()
-}
-
 impl Models {
     /// The design that they were made for.
     pub fn design(&self) -> &Design {
@@ -87,24 +77,6 @@ impl Models {
 }
 
 impl Library {
-    /// Makes every model that the `mechanisms` need, for the usual tolerances; `progress` is told how many are made.
-    ///
-    /// # Errors
-    /// [`Error`] names the dimension or property at fault, or the solve that failed.
-    pub fn build(design: &Design, mechanisms: &[&dyn Mechanism], progress: &(dyn Fn(Step) + Sync)) -> Result<Self, Error> {
-        Self::new(Models::build(design, &Tolerances::default(), mechanisms, progress)?, mechanisms)
-    }
-
-    /// The models of the drawing itself; the `mechanisms` are those that `models` were built for.
-    ///
-    /// # Errors
-    /// As [`Self::build`].
-    pub fn new(models: Models, mechanisms: &[&dyn Mechanism]) -> Result<Self, Error> {
-        let design = unheated(&models.drawing);
-        let paths = heat_paths(&design, mechanisms);
-        Self::at(Arc::new(models), paths, design)
-    }
-
     /// The same of the drawing with its constants at other values, in their order.
     ///
     /// # Errors
@@ -115,7 +87,7 @@ impl Library {
         Self::at(Arc::clone(&self.models), self.heat_paths.clone(), design)
     }
 
-    fn at(models: Arc<Models>, heat_paths: Vec<(String, HeatPath)>, design: Design) -> Result<Self, Error> {
+    pub(crate) fn at(models: Arc<Models>, heat_paths: Vec<(String, HeatPath)>, design: Design) -> Result<Self, Error> {
         let model = &models.model;
         let moduli = if design.mechanics == Mechanics::Elastic {
             nodes(MODULI[0].ln(), MODULI[1].ln(), MODULUS_NODES)
@@ -140,7 +112,7 @@ impl Library {
             let models = at.collect::<Result<_, _>>()?;
             paths.push(Tabulated { id: id.clone(), nominal, nodes: path.nodes.clone(), models });
         }
-        let heated = self_heating::applies(&models.drawing).then(|| self_heating::with_heater(&design, 1.0));
+        let heated = can_be_heated(&models.drawing).then(|| with_heater(&design, 1.0));
         let heater = heated.map(|heated| model.in_states(&heated, &[MechanicalState::NOMINAL])).transpose()?;
         Ok(Self { models, heat_paths, design, constants, base, slopes, fields, moduli, paths, heater })
     }

@@ -1,7 +1,11 @@
 //! Mechanisms: all that the program needs to know of one, as a trait that one file implements.
 
-use crate::record_to_bias::Parts;
-use crate::{Chain, Prepared, REFERENCE_C};
+use crate::REFERENCE_C;
+pub(crate) use crate::change::Change;
+use crate::course::Parts;
+pub(crate) use crate::heat_path::HeatPath;
+use crate::law_tools::Chain;
+use crate::record_to_bias::Prepared;
 use bias::units::S_PER_H;
 use coil::{Design, Error, MechanicalState};
 use diagnosis::{Active, Parameter, Prior};
@@ -116,55 +120,12 @@ impl Offer {
     }
 }
 
-/// A path of heat whose strength is a mechanism's parameter: the library tabulates the coil along it.
-#[derive(Debug, Clone)]
-pub struct HeatPath {
-    /// Whether a design has it.
-    pub applies: fn(&Design) -> bool,
-    /// Values of the path's coordinate that are tabulated, increasing, among them 0, the design as it is; the response is smooth in it.
-    pub nodes: Vec<f64>,
-    /// The design at a coordinate.
-    pub design: fn(&Design, f64) -> Design,
-    /// Coordinate of a small change by which a mismatch is sought in the heat flow; `None` where it is sought elsewhere.
-    pub nudge: Option<f64>,
-    /// The constant of the design on which the mechanism's only parameter is a factor, the coordinate its logarithm; `None` of any other path.
-    pub factor_on: Option<coil::Parameter>,
-}
-
 /// What a mechanism does in a record.
 pub enum Effect {
     /// It changes the coil's response.
     Coil(Change),
     /// It acts on the readings, after everything that changes the coil, in the order of the hypothesis.
     Readings(Box<dyn Fn(&mut Readings) + Send + Sync>),
-}
-
-/// Change of a coil's response, a value for each row of a record.
-#[derive(Debug, Clone)]
-pub struct Change {
-    /// Of the bias: Shupe, elasto-optic axial and radial \[deg/h\].
-    pub parts: Parts,
-    /// Of the spool's thermometer \[K\]; `None` if there is none.
-    pub thermometer: Option<Vec<f64>>,
-    /// Of the rate beside the bias \[deg/h\]; `None` if there is none.
-    pub rate: Option<Vec<f64>>,
-}
-
-impl Change {
-    /// Nothing changes.
-    pub fn none(record: &Prepared) -> Self {
-        Self::of_parts([0, 1, 2].map(|_| vec![0.0; record.time.len()]))
-    }
-
-    /// The bias changes alone.
-    pub fn of_parts(parts: Parts) -> Self {
-        Self { parts, thermometer: None, rate: None }
-    }
-
-    /// The rate changes, but no part of the bias.
-    pub fn of_rate(record: &Prepared, rate: Vec<f64>) -> Self {
-        Self { rate: Some(rate), ..Self::none(record) }
-    }
 }
 
 /// What thermometer and gyroscope say, a value for each row of a record.

@@ -1,7 +1,6 @@
 //! Errors of the chamber's temperature and of the model, as thermometer and rate have them: terms of each channel's noise.
 
-use crate::record_to_bias::{Clock, Course, Series, total};
-use crate::{RATE, SPOOL};
+use crate::course::{Clock, Course, RATE, SPOOL, Series, total};
 use coil::Reduced;
 
 /// What the channels have of errors that are passed through the coil.

@@ -1,177 +1,15 @@
 //! A library's responses to the chamber of one recording.
 
-use crate::law_tools::add;
-use crate::library::{Functionals, Library};
+use crate::course::{BETWEEN, Clock, Course, Delay, Parts, Series, minus, undelayed};
+use crate::curvature::Curvature;
+use crate::library::Library;
 use crate::passed::{Passed, passed};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
-use coil::{Error, Output, Parameter, Profile, Reduced};
+use coil::{Error, Parameter, Profile, Reduced};
 use diagnosis::State;
-use nalgebra::DMatrix;
 
-/// Mean bias parts in every row \[deg/h\]: Shupe, elasto-optic axial and radial.
-pub type Parts = [Vec<f64>; 3];
-
-/// Rows that end this much later than the averaging span after the row before are gaps \[spans\].
-const GAP: f64 = 1.5;
 /// Change of the first chamber temperature for the effect of an unsettled start \[K\].
 const OFF_REST: f64 = 1.0;
-
-/// What instruments of the chamber are taken to be off \[s\].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Delay {
-    /// Time constant of its thermometer.
-    pub lag: f64,
-    /// How late its log's clock is.
-    pub clock: f64,
-}
-
-/// Instants of a recording and those before them at which a reading that follows a gap begins.
-#[derive(Debug, Clone)]
-pub(crate) struct Clock {
-    pub(crate) time: Vec<f64>,
-    pub(crate) chamber: Vec<f64>,
-    /// place of each row of the recording
-    pub(crate) rows: Vec<usize>,
-    /// whether a reading begins at an instant that is not a row's
-    pub(crate) begins: Vec<bool>,
-}
-
-impl Delay {
-    /// Both together.
-    pub fn total(&self) -> f64 {
-        self.lag + self.clock
-    }
-}
-
-/// Parts into which an interval is divided to follow the chamber between its readings.
-const BETWEEN: usize = 4;
-
-impl Clock {
-    /// Between readings the chamber is smooth ([`Profile::smoothed`]), without corners. After a gap one begins `averaging` seconds before.
-    pub(crate) fn new(time: &[f64], chamber: &[f64], averaging: f64) -> Self {
-        let (mut t, mut c) = (Vec::with_capacity(time.len()), Vec::with_capacity(time.len()));
-        let (mut rows, mut starts) = (Vec::with_capacity(time.len()), Vec::new());
-        for n in 0..time.len() {
-            let dt = if n > 0 { time[n] - time[n - 1] } else { 0.0 };
-            if averaging > 0.0 && dt > GAP * averaging {
-                starts.push(t.len() * BETWEEN);
-                t.push(time[n] - averaging);
-                c.push(chamber[n] - (chamber[n] - chamber[n - 1]) * averaging / dt);
-            }
-            rows.push(t.len() * BETWEEN);
-            t.push(time[n]);
-            c.push(chamber[n]);
-        }
-        let Profile { time, mut drives } = Profile { time: t, drives: vec![c] }.smoothed(BETWEEN);
-        let mut begins = vec![false; time.len()];
-        starts.into_iter().for_each(|n| begins[n] = true);
-        Self { time, chamber: drives.swap_remove(0), rows, begins }
-    }
-}
-
-/// A course at later instants, plus a time constant times its rate: the chamber behind its thermometer and its log. Beyond its ends it stays.
-fn undelayed(time: &[f64], course: &[f64], Delay { lag, clock }: Delay) -> Vec<f64> {
-    if lag == 0.0 && clock == 0.0 {
-        return course.to_vec();
-    }
-    let rates = recording::condition::slopes(time, course);
-    let last = time.len() - 1;
-    let at = |t: &f64| {
-        let t = (t + clock).clamp(time[0], time[last]);
-        let after = time.partition_point(|instant| *instant < t).clamp(last.min(1), last);
-        let before = after.saturating_sub(1);
-        let span = time[after] - time[before];
-        let share = if after > before { (t - time[before]) / span } else { 0.0 };
-        let between = |x: &[f64]| x[before] + share * (x[after] - x[before]);
-        // the cubic that has the rates at both ends
-        let rise = course[after] - course[before];
-        let (leaving, arriving) = (span * rates[before] - rise, span * rates[after] - rise);
-        let bend = share * (1.0 - share) * ((1.0 - share) * leaving - share * arriving);
-        between(course) + bend + lag * between(&rates)
-    };
-    time.iter().map(at).collect()
-}
-
-/// Thermometer and bias parts of one model in the rows of a recording.
-#[derive(Debug, Clone)]
-pub(crate) struct Series {
-    pub(crate) sensor: Vec<f64>,
-    pub(crate) parts: Parts,
-}
-
-/// Drives and modes of one reduced model in the rows of a recording, and their mean rates.
-#[derive(Debug, Clone)]
-pub(crate) struct Course {
-    /// rows × (drives + modes)
-    pub(crate) states: DMatrix<f64>,
-    pub(crate) rates: DMatrix<f64>,
-}
-
-impl Course {
-    /// Runs `drives` from rest at `rest`; both in the order of the model's drives.
-    pub(crate) fn new(model: &Reduced, clock: &Clock, drives: &[Vec<f64>], rest: &[f64]) -> Self {
-        let mut steps = model.steps(&clock.time, drives, rest);
-        // where the reading of the row began
-        let (mut began, mut before) = (0, steps.state().vector());
-        let mut states = DMatrix::zeros(clock.rows.len(), before.len());
-        let (mut rates, mut row) = (states.clone(), 0);
-        for n in 0..clock.time.len() {
-            if n > 0 {
-                steps.next();
-            }
-            let now = steps.state().vector();
-            if clock.rows.get(row) == Some(&n) {
-                states.set_row(row, &now.transpose());
-                if n > 0 {
-                    rates.set_row(row, &((&now - before) / (clock.time[n] - clock.time[began])).transpose());
-                }
-                row += 1;
-                (began, before) = (n, now);
-            } else if clock.begins[n] {
-                (began, before) = (n, now);
-            }
-        }
-        Self { states, rates }
-    }
-
-    pub(crate) fn output(&self, output: &Output) -> Vec<f64> {
-        (&self.states * output.vector()).as_slice().to_vec()
-    }
-
-    /// Mean bias parts in every row.
-    pub(crate) fn parts(&self, functionals: &Functionals) -> Parts {
-        [0, 1, 2].map(|p: usize| (&self.rates * (&functionals[p] * DEG_PER_H_PER_RAD_PER_S)).as_slice().to_vec())
-    }
-
-    pub(crate) fn series(&self, model: &Reduced) -> Series {
-        Series { sensor: self.output(model.thermometer()), parts: self.parts(&model.parts().each_ref().map(Output::vector)) }
-    }
-}
-
-/// The rate: all three parts together.
-pub(crate) fn total(parts: &Parts) -> Vec<f64> {
-    (0..parts[0].len()).map(|n| parts[0][n] + parts[1][n] + parts[2][n]).collect()
-}
-
-impl Series {
-    /// Adds a multiple of a change.
-    pub(crate) fn change(&mut self, by: &Self, factor: f64) {
-        self.parts.iter_mut().zip(&by.parts).for_each(|(part, change)| add(part, change, factor));
-        add(&mut self.sensor, &by.sensor, factor);
-    }
-}
-
-fn minus(a: &Series, b: &Series) -> Series {
-    Series { sensor: less(&a.sensor, &b.sensor), parts: difference(&a.parts, &b.parts) }
-}
-
-fn difference(a: &Parts, b: &Parts) -> Parts {
-    [0, 1, 2].map(|p: usize| less(&a[p], &b[p]))
-}
-
-fn less(a: &[f64], b: &[f64]) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| a - b).collect()
-}
 
 /// What was recorded of the chamber.
 #[derive(Debug, Clone)]
@@ -363,7 +201,7 @@ impl Prepared {
             averaging,
             off_rest: minus(&off.series(&library.base), &base),
             slopes: clock.slopes(library),
-            curved: crate::law_tools::Curvature::new(library, crate::REFERENCE_C)?.rates(&course, time, averaging),
+            curved: Curvature::new(library, crate::REFERENCE_C)?.rates(&course, time, averaging),
             expansion: library
                 .constants
                 .iter()
@@ -424,7 +262,7 @@ impl Library {
         let drifts = self.design().drifts;
         let mut series = base.clone();
         if drifts.thermo_optic_curvature != 0.0 {
-            let form = crate::law_tools::Curvature::new(self, drifts.reference)?;
+            let form = Curvature::new(self, drifts.reference)?;
             let curved = form.rates(course, time, averaging);
             series.parts[0].iter_mut().zip(curved).for_each(|(part, by)| *part += drifts.thermo_optic_curvature * by);
         }

@@ -45,14 +45,16 @@
 //! # Ok::<(), winding::Error>(())
 //! ```
 
+mod check;
 mod error;
 mod pattern;
 mod spec;
 mod turn;
 mod winding;
 
+pub use check::MAX_TURNS;
 pub use error::Error;
-pub use spec::{ClimbSide, Half, LayerDefect, MAX_TURNS, Pattern, Spec, Tails, TurnLength};
+pub use spec::{ClimbSide, Half, LayerDefect, Pattern, Spec, Tails, TurnLength};
 pub use turn::Turn;
 pub use winding::{Winding, wind};
 

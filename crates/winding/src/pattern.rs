@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use crate::{ClimbSide, Half, Pattern, Spec};
+use crate::spec::{ClimbSide, Half, Pattern, Spec};
 
 /// A place of the lattice and the half that takes it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,6 +80,27 @@ pub(crate) fn owned_stretch(spec: &Spec, layer: usize) -> (usize, usize) {
     match spec.cw_climbs {
         ClimbSide::Right => (first, last),
         ClimbSide::Left => (spec.turns_in(layer) + 1 - last, spec.turns_in(layer) + 1 - first),
+    }
+}
+
+impl Spec {
+    /// Axial position of a turn's centre as wound \[m\].
+    pub(crate) fn centre(&self, layer: usize, turn: usize) -> f64 {
+        let surplus = self.surplus_in(layer);
+        if surplus == 0 {
+            return self.position(layer, turn);
+        }
+        let (first, last) = owned_stretch(self, layer);
+        let designed = last + 1 - first;
+        let wound = designed.saturating_add_signed(surplus);
+        if turn < first {
+            self.position(layer, turn)
+        } else if turn < first + wound {
+            let share = (turn - first) as f64 + 0.5;
+            self.position(layer, first) + (share * designed as f64 / wound as f64 - 0.5) * self.pitch
+        } else {
+            self.position(layer, turn.saturating_add_signed(-surplus))
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! `cargo xtask bench cell`: from the reference cell to its constants, ours and the peers', error against time.
 
-use super::{Progress, publish};
+use super::publish::{Progress, publish};
 use homogenization::{Constants, Discretization, FibreCell, Homogenized, TOLERANCE, effective, homogenize_to, multipoles};
 use proof::Failure;
 use proof::files::root;

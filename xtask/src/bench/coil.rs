@@ -1,6 +1,6 @@
 //! `cargo xtask bench coil`: the coil job of `benches/peers`, ours and the peers found, interleaved, times beside errors.
 
-use super::{Progress, publish};
+use super::publish::{Progress, publish};
 use proof::Failure;
 use proof::coil_job::{self as job, JobResult, STORED, Setting};
 use proof::peers::{self, Program};

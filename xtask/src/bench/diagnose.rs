@@ -1,6 +1,6 @@
 //! `cargo xtask bench diagnose`: whole diagnoses of the open cases, on one thread.
 
-use super::{Progress, publish};
+use super::publish::{Progress, publish};
 use fogcoil::cache::Cache;
 use fogcoil::diagnose;
 use fogcoil::input::{self, RecordOptions};

@@ -5,14 +5,13 @@ mod cell;
 mod coil;
 mod diagnose;
 mod parametric;
+mod publish;
 mod reduced;
 mod sensitivity;
 
 use clap::{Args, Subcommand};
 use proof::Failure;
-use proof::files::{renew, root};
 use std::path::PathBuf;
-use std::time::Instant;
 
 /// Fewest repetitions from which a median is taken.
 const FEWEST: u64 = 3;
@@ -76,28 +75,4 @@ impl Bench {
         }
         Ok(true)
     }
-}
-
-/// Prints what is going on, with the seconds since the start.
-struct Progress(Instant);
-
-impl Progress {
-    fn new() -> Self {
-        Self(Instant::now())
-    }
-
-    fn say(&self, what: &str) {
-        eprintln!("[{:5.1} s] {what}", self.0.elapsed().as_secs_f64());
-    }
-}
-
-fn reference_coil() -> Result<::coil::Design, Failure> {
-    Ok(fogcoil::input::read_coil(&root().join("fixtures/coil-reference.ron"))?.design)
-}
-
-/// Prints a section and puts it into docs/benchmarks.md.
-fn publish(name: &str, section: &str) -> Result<(), Failure> {
-    println!("\n{section}");
-    let marks = [&format!("<!-- {name}: written by `cargo xtask bench {name}` -->")[..], &format!("<!-- {name} end -->")];
-    renew(&root().join("docs/benchmarks.md"), marks, &format!("\n\n{section}\n"))
 }

@@ -1,6 +1,6 @@
 //! `cargo xtask bench parametric`: the parametric model against the full chain at random points of three boxes.
 
-use super::{Progress, publish};
+use super::publish::{Progress, publish};
 use ::coil::{
     COARSE, Design, Drive, Dynamics, Fidelity, MODEL_SAFETY, ModelEffort, Parameter, ParametricModel, Profile, Range, Reduced,
 };

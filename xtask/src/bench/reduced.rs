@@ -1,6 +1,6 @@
 //! `cargo xtask bench reduced`: a day by the reduced model and by the full one, times and distances.
 
-use super::{Progress, publish, reference_coil};
+use super::publish::{Progress, publish, reference_coil};
 use ::coil::{Drive, Dynamics, Model, Profile, Response, STANDARD, ThermalModel, functionals};
 use proof::Failure;
 use proof::peers::Stopwatch;

@@ -1,6 +1,6 @@
 //! `cargo xtask bench sensitivity`: from design to steady sensitivity, beside NGSolve.
 
-use super::{Progress, publish, reference_coil};
+use super::publish::{Progress, publish, reference_coil};
 use ::coil::{COARSE, Design, Layout, MeshFineness, Model, Region, steady_sensitivity};
 use bias::units::DEG_PER_H_PER_K_PER_MIN_PER_RAD_PER_K;
 use fem_core::material::ThermoElastic;

@@ -1,12 +1,13 @@
 //! How a parametric model is made: full solutions at chosen designs of the box, compressed.
 
+use super::effort::{Effort, MODULI};
 use super::heat::{self, Heat, stored};
-use super::parameter::Range;
+use super::model::{ParametricModel, Turns, Weighted};
 use super::project::Fields;
+use super::range::Range;
 use super::section::Section;
 use super::strip::Strip;
 use super::structure::{self, Structure};
-use super::{ParametricModel, Turns, Weighted};
 use crate::grid::Grading;
 use crate::layout::Skins;
 use crate::thermal::{Shifted, properties};
@@ -18,9 +19,6 @@ const RATES: usize = 8;
 
 /// Designs of the box whose coefficients the kept terms hold.
 const SAMPLES: usize = 250;
-
-/// Factors on the transverse moduli that states may have.
-pub const MODULI: [f64; 2] = [0.15, 2.2];
 
 /// States of the mechanics that laws with a state go through.
 const STATES: [MechanicalState; 3] = [
@@ -103,44 +101,6 @@ pub(super) fn placed(design: &Design, ranges: &[Range], shares: &[f64]) -> Desig
         changed.body.elastic.nu_r = changed.body.elastic.nu_r.min(design.body.elastic.nu_r);
     }
     changed
-}
-
-/// Effort of making a model.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Effort {
-    /// Designs whose heat flow is solved in full.
-    pub heat: usize,
-    /// Designs whose mechanics is solved in full.
-    pub mechanics: usize,
-    /// Fields of temperature below this, relative to the largest, are left out.
-    pub least_temperature: f64,
-    /// Fields of displacement, likewise.
-    pub least_displacement: f64,
-    /// Temperature fields at most.
-    pub most_temperatures: usize,
-    /// Displacement fields at most.
-    pub most_displacements: usize,
-}
-
-impl Default for Effort {
-    fn default() -> Self {
-        Self {
-            heat: 20,
-            mechanics: 15,
-            least_temperature: 1e-6,
-            least_displacement: 1e-5,
-            most_temperatures: 80,
-            most_displacements: 200,
-        }
-    }
-}
-
-impl Effort {
-    /// Designs that are solved in full, the nominal one included.
-    pub fn solutions(&self) -> usize {
-        self.heat + self.mechanics + 2
-    }
 }
 
 impl ParametricModel {

@@ -1,6 +1,5 @@
 //! Numbers of a design that may differ from one coil to the next.
 
-use super::{Tolerance, Tolerances};
 use crate::{Contact, Design, FlangeContact, Heater, Mount, Side};
 
 /// A number of a design.
@@ -63,58 +62,25 @@ pub enum Parameter {
     Heater(Side),
 }
 
-/// A parameter and the range that a model must hold for.
+/// How far a number of a design may be from its drawing, one standard deviation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Range {
-    /// The parameter.
-    pub parameter: Parameter,
-    /// Its least value.
-    pub low: f64,
-    /// Its largest value.
-    pub high: f64,
+pub enum Tolerance {
+    /// A share of the value.
+    Relative(f64),
+    /// In the value's unit.
+    Absolute(f64),
+    /// A number that a drawing has as it is: 0 unless something is wrong.
+    Exact,
 }
 
-/// Standard deviations that a usual range reaches to either side.
-const REACH: f64 = 3.0;
-
-impl Range {
-    /// The ranges of every parameter of `design` that usually differs from the drawing: three standard deviations of
-    /// [`Parameter::tolerance`] to either side.
-    pub fn usual(design: &Design) -> Vec<Self> {
-        Self::tolerated(design, &Tolerances::default())
-    }
-
-    /// The ranges of every parameter of `design` that has a tolerance: three standard deviations to either side, the usual ones at least.
-    pub fn tolerated(design: &Design, tolerances: &Tolerances) -> Vec<Self> {
-        let usual = Tolerances::default().constants(design);
-        let mut all = tolerances.constants(design);
-        for (parameter, value, by) in usual {
-            match all.iter_mut().find(|(other, ..)| *other == parameter) {
-                Some((.., given)) => *given = given.max(by),
-                None => all.push((parameter, value, by)),
-            }
-        }
-        let of = |(parameter, value, by): (Parameter, f64, f64)| {
-            // a wall keeps half of its thickness, whatever the tolerance
-            let by = REACH
-                * if matches!(parameter.tolerance(), Tolerance::Absolute(_)) { by.min(value.abs() / (2.0 * REACH)) } else { by };
-            Self { parameter, low: value - by, high: value + by }
-        };
-        all.into_iter().map(of).collect()
-    }
-
-    /// Ranges that hold every parameter of `design`, too.
-    pub fn widened(ranges: &mut Vec<Self>, from: &Design, design: &Design) {
-        for &parameter in Parameter::ALL {
-            let (Some(before), Some(value)) = (parameter.of(from), parameter.of(design)) else { continue };
-            match ranges.iter_mut().find(|range| range.parameter == parameter) {
-                Some(range) => (range.low, range.high) = (range.low.min(value), range.high.max(value)),
-                None if value != before => {
-                    ranges.push(Self { parameter, low: before.min(value), high: before.max(value) });
-                }
-                None => {}
-            }
+impl Tolerance {
+    /// One standard deviation of a number that is drawn as `value`, in its unit.
+    pub fn of(self, value: f64) -> f64 {
+        match self {
+            Self::Relative(share) => share * value.abs(),
+            Self::Absolute(by) => by,
+            Self::Exact => 0.0,
         }
     }
 }

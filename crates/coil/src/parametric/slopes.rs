@@ -1,7 +1,8 @@
 //! Derivatives of every output of a parametric model with respect to its parameters.
 
+use super::model::ParametricModel;
+use super::parameter::Parameter;
 use super::section::Section;
-use super::{Parameter, ParametricModel};
 use crate::{Design, Error, MechanicalState, Outputs, Reduced};
 use nalgebra::{DMatrix, DVector};
 

@@ -1,16 +1,20 @@
 //! A parametric model as it is kept on disk: all but its mesh, which its design and its fineness give again.
 
+use super::effort::Effort;
 use super::heat::Heat;
+use super::model::{ParametricModel, Turns};
 use super::project::Fields;
+use super::range::Range;
 use super::section::{Section, domain};
 use super::structure::Structure;
-use super::{Effort, ParametricModel, Range, Turns};
 use crate::layout::Skins;
 use crate::{Bonds, Design, Error, Grid, Layout, MeshFineness};
 use nalgebra::DVector;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-#[derive(serde::Serialize, serde::Deserialize)]
-pub(super) struct Stored {
+#[derive(Serialize, Deserialize)]
+struct Stored {
     design: Design,
     ranges: Vec<Range>,
     resolution: MeshFineness,
@@ -50,5 +54,17 @@ impl TryFrom<Stored> for ParametricModel {
         let layout = Layout::with_skins(&design, Skins::All)?;
         let grid = Grid::new(&layout, &resolution, domain(&design), Bonds::Closed)?;
         Ok(Self { design, ranges, resolution, effort, section, grid, temperatures, heat, structure, turns, coil_mean })
+    }
+}
+
+impl Serialize for ParametricModel {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        Stored::from(self.clone()).serialize(to)
+    }
+}
+
+impl<'de> Deserialize<'de> for ParametricModel {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        Stored::deserialize(from)?.try_into().map_err(D::Error::custom)
     }
 }

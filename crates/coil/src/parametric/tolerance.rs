@@ -1,31 +1,8 @@
 //! How far the numbers of a unit may be from its drawing.
 
-use super::Parameter;
+use super::parameter::{Parameter, Tolerance};
 use crate::Design;
 use nalgebra::DMatrix;
-
-/// How far a number of a design may be from its drawing, one standard deviation.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Tolerance {
-    /// A share of the value.
-    Relative(f64),
-    /// In the value's unit.
-    Absolute(f64),
-    /// A number that a drawing has as it is: 0 unless something is wrong.
-    Exact,
-}
-
-impl Tolerance {
-    /// One standard deviation of a number that is drawn as `value`, in its unit.
-    pub fn of(self, value: f64) -> f64 {
-        match self {
-            Self::Relative(share) => share * value.abs(),
-            Self::Absolute(by) => by,
-            Self::Exact => 0.0,
-        }
-    }
-}
 
 /// A number of a design that has a tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

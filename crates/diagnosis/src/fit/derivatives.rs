@@ -1,9 +1,5 @@
-//! Whitened derivatives of the prediction by every unknown, with their products, and how either is kept.
+//! Whitened derivatives of the prediction by every unknown, with their products.
 
-use super::Fit;
-use super::objective::{Objective, Point, Series};
-use super::unknowns::Unknown;
-use crate::{Error, ForwardModel, Observation};
 use nalgebra::{DMatrix, DVector};
 
 /// A matrix J with a column of whitened derivatives for each unknown, and JᵀJ.
@@ -14,13 +10,13 @@ pub(crate) struct Derivatives {
 }
 
 impl Derivatives {
-    fn new(columns: &[DVector<f64>]) -> Self {
+    pub(super) fn new(columns: &[DVector<f64>]) -> Self {
         let jacobian = DMatrix::from_columns(columns);
         Self { products: products(&jacobian), jacobian }
     }
 
     /// Puts other columns in the places of some.
-    fn put(&mut self, places: &[usize], columns: &[DVector<f64>]) {
+    pub(super) fn put(&mut self, places: &[usize], columns: &[DVector<f64>]) {
         for (place, column) in places.iter().zip(columns) {
             self.jacobian.column_mut(*place).copy_from(column);
         }
@@ -36,76 +32,4 @@ impl Derivatives {
 pub(crate) fn products(jacobian: &DMatrix<f64>) -> DMatrix<f64> {
     // a product of blocks is several times as fast as one of columns
     jacobian.transpose() * jacobian
-}
-
-impl<M: ForwardModel> Objective<'_, M> {
-    /// At a point; by what is no mechanism's, from a fit beside this one, if there is one ([`Self::with_derivatives_of`]).
-    pub(super) fn derivatives(&self, at: &Point) -> Result<Derivatives, Error<M::Error>> {
-        let Some(like) = self.like else {
-            let all = (0..self.layout.len()).map(|i| self.column(at, i)).collect::<Result<Vec<_>, _>>()?;
-            return Ok(Derivatives::new(&all));
-        };
-        let known: Vec<Option<usize>> =
-            self.layout.iter().map(|unknown| like.layout.iter().position(|own| own == unknown && !own.is_mechanism())).collect();
-        let of = &like.derivatives;
-        let zeros = DMatrix::zeros(of.jacobian.nrows(), known.len());
-        let mut derivatives = Derivatives { jacobian: zeros, products: DMatrix::zeros(known.len(), known.len()) };
-        for (i, from) in known.iter().enumerate().filter_map(|(i, from)| Some((i, (*from)?))) {
-            derivatives.jacobian.column_mut(i).copy_from(&of.jacobian.column(from));
-            for (j, other) in known.iter().enumerate().filter_map(|(j, other)| Some((j, (*other)?))) {
-                derivatives.products[(i, j)] = of.products[(from, other)];
-            }
-        }
-        let new: Vec<usize> = (0..known.len()).filter(|i| known[*i].is_none()).collect();
-        self.renewed(at, &new, &mut derivatives)?;
-        Ok(derivatives)
-    }
-
-    /// Derivatives by mechanisms' parameters anew at a point: those by all else hardly change on the way.
-    pub(super) fn renew(&self, at: &Point, derivatives: &mut Derivatives) -> Result<(), Error<M::Error>> {
-        let own: Vec<usize> = (0..self.layout.len()).filter(|i| self.layout[*i].is_mechanism()).collect();
-        self.renewed(at, &own, derivatives)
-    }
-
-    fn renewed(&self, at: &Point, places: &[usize], derivatives: &mut Derivatives) -> Result<(), Error<M::Error>> {
-        let columns = places.iter().map(|i| self.column(at, *i)).collect::<Result<Vec<_>, _>>()?;
-        derivatives.put(places, &columns);
-        Ok(())
-    }
-
-    fn column(&self, at: &Point, i: usize) -> Result<DVector<f64>, Error<M::Error>> {
-        let unknown = self.layout[i];
-        let series = match unknown {
-            Unknown::Offset { record, channel } => self.constant(record, channel),
-            _ => self.derivative(at, i, self.parameter(unknown).map_or(1.0, |p| p.step))?,
-        };
-        Ok(self.whiten(&series))
-    }
-
-    /// Derivative by unknown `i`, by a difference away from the end of the range that is looked at.
-    fn derivative(&self, at: &Point, i: usize, step: f64) -> Result<Series, Error<M::Error>> {
-        let mut beside = at.u.clone();
-        let step = if at.u[i] > 0.0 { -step } else { step };
-        beside[i] += step;
-        let mut there = self.responses(&beside)?;
-        for (there, here) in there.iter_mut().flatten().flatten().zip(at.responses.iter().flatten().flatten()) {
-            *there = (*there - here) / step;
-        }
-        Ok(there)
-    }
-
-    /// An offset of one standard deviation in one channel of one record.
-    fn constant(&self, record: usize, channel: usize) -> Series {
-        let offset = self.fitter.offset(record, channel).sd;
-        let of = |at: (usize, usize), rows: usize| vec![if at == (record, channel) { offset } else { 0.0 }; rows];
-        let channels = |(r, o): (usize, &Observation)| (0..o.channels.len()).map(|c| of((r, c), o.time.len())).collect();
-        self.fitter.observations.iter().enumerate().map(channels).collect()
-    }
-}
-
-impl Fit {
-    /// Whitened derivatives by every unknown.
-    pub(crate) fn jacobian(&self) -> &DMatrix<f64> {
-        &self.derivatives.jacobian
-    }
 }

@@ -64,7 +64,7 @@ impl<M: ForwardModel> Objective<'_, M> {
     }
 
     /// Of ln p.
-    fn gradient(&self, at: &Point, derivatives: &Derivatives) -> DVector<f64> {
+    pub(super) fn gradient(&self, at: &Point, derivatives: &Derivatives) -> DVector<f64> {
         derivatives.jacobian.tr_mul(&at.whitened) - self.beforehand.slope(&at.u)
     }
 

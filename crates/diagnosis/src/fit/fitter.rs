@@ -2,48 +2,11 @@
 
 use super::beforehand::Beforehand;
 use super::derivatives::Derivatives;
+use super::hypothesis::Hypothesis;
 use super::unknowns::{Layout, Unknown, expected};
 use crate::noise::Noise;
 use crate::{Active, Channel, ForwardModel, Observation, Role};
 use nalgebra::{DMatrix, DVector};
-
-/// Which mechanisms are at work, and whether the nominal constants are re-estimated.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Hypothesis {
-    /// Numbers in the library, each with the value of its choice, if it has one.
-    pub mechanisms: Vec<(usize, Option<f64>)>,
-    /// Whether the design's own constants are free.
-    pub constants_free: bool,
-}
-
-impl Hypothesis {
-    /// Nothing is left out.
-    pub const NOMINAL: Self = Self { mechanisms: Vec::new(), constants_free: false };
-
-    /// Nothing is left out, but the design's own constants are re-estimated.
-    pub const RECALIBRATED: Self = Self { mechanisms: Vec::new(), constants_free: true };
-
-    /// Numbers of its mechanisms, in increasing order.
-    pub(crate) fn numbers(&self) -> Vec<usize> {
-        let mut numbers: Vec<usize> = self.mechanisms.iter().map(|(number, _)| *number).collect();
-        numbers.sort_unstable();
-        numbers
-    }
-
-    /// Whether a mechanism is at work, whatever its choice.
-    pub(crate) fn has(&self, mechanism: usize) -> bool {
-        self.mechanisms.iter().any(|(number, _)| *number == mechanism)
-    }
-}
-
-/// The hypotheses of one mechanism alone, one for each of its choices, beside constants that are free.
-pub fn alternatives<M: ForwardModel>(model: &M, mechanism: usize) -> Vec<Hypothesis> {
-    let of = |choice| Hypothesis { mechanisms: vec![(mechanism, choice)], constants_free: true };
-    match &model.mechanisms()[mechanism].choice {
-        None => vec![of(None)],
-        Some((_, values)) => values.iter().map(|v| of(Some(*v))).collect(),
-    }
-}
 
 /// A hypothesis at its most probable parameters.
 #[derive(Debug, Clone)]
@@ -73,6 +36,11 @@ impl Fit {
     /// Noise of a channel of a record that was fitted.
     pub fn noise_model(&self, record: usize, channel: usize) -> &recording::noise::NoiseModel {
         self.noise.model(record, channel)
+    }
+
+    /// Whitened derivatives by every unknown.
+    pub(crate) fn jacobian(&self) -> &DMatrix<f64> {
+        &self.derivatives.jacobian
     }
 
     /// −ln p of records and unknowns, but for what all fits under the same noise share.

@@ -83,7 +83,7 @@ impl<M: ForwardModel> Objective<'_, M> {
         let at = self.point(u)?;
         let mut derivatives = best.derivatives.clone();
         self.renew(&at, &mut derivatives)?;
-        let gradient = derivatives.jacobian.tr_mul(&at.whitened) - self.beforehand.slope(&at.u);
+        let gradient = self.gradient(&at, &derivatives);
         let mut products = derivatives.products;
         for k in held() {
             products.row_mut(k).fill(0.0);

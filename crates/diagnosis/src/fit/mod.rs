@@ -6,10 +6,13 @@
 mod beforehand;
 mod derivatives;
 mod descent;
+mod differences;
 mod fitter;
+mod hypothesis;
 mod kinks;
 mod laplace;
 mod objective;
+mod starts;
 mod unknowns;
 
 #[cfg(test)]
@@ -17,8 +20,9 @@ pub(crate) use beforehand::Beforehand;
 #[cfg(test)]
 pub(crate) use derivatives::Derivatives;
 pub(crate) use derivatives::products;
-pub use fitter::{Fit, Hypothesis, alternatives};
+pub use fitter::Fit;
 pub(crate) use fitter::{Fitter, Offset};
+pub use hypothesis::{Hypothesis, alternatives};
 use objective::Objective;
 pub use unknowns::expected;
 pub(crate) use unknowns::{Unknown, parameter};

@@ -2,10 +2,11 @@
 //! and the precision P of what is known beforehand.
 
 use super::beforehand::Beforehand;
-use super::fitter::{Fit, Fitter, Hypothesis};
-use super::unknowns::{Layout, Unknown};
+use super::fitter::{Fit, Fitter, Offset};
+use super::hypothesis::Hypothesis;
+use super::unknowns::{Layout, Unknown, expected, parameter};
 use crate::noise::Noise;
-use crate::{Error, ForwardModel, Observation};
+use crate::{Active, Error, ForwardModel, Observation, Parameter, Prior};
 use nalgebra::DVector;
 
 /// Series `[record][channel][row]`.
@@ -46,6 +47,43 @@ impl<'a, M: ForwardModel> Objective<'a, M> {
     /// Whether derivatives by nuisances are its own.
     pub(super) fn is_exact(&self) -> bool {
         self.like.is_none()
+    }
+
+    pub(super) fn parameter(&self, unknown: Unknown) -> Option<&Parameter> {
+        parameter(self.fitter.model, self.hypothesis, unknown)
+    }
+
+    pub(super) fn prior(&self, unknown: Unknown) -> Prior {
+        match unknown {
+            Unknown::Offset { record, channel } => {
+                let Offset { mean, sd } = self.fitter.offset(record, channel);
+                Prior::Normal { mean, sd }
+            }
+            _ => self.parameter(unknown).map_or(Prior::Normal { mean: 0.0, sd: 1.0 }, |p| p.prior),
+        }
+    }
+
+    /// Nuisances of every record and mechanisms at the unknowns.
+    pub(super) fn at(&self, u: &DVector<f64>) -> (Vec<Vec<f64>>, Vec<Active>) {
+        let model = self.fitter.model;
+        let mut nuisances = vec![expected(model.nuisances()); self.fitter.observations.len()];
+        let still = |&(mechanism, choice): &(usize, Option<f64>)| {
+            let values = vec![0.0; model.mechanisms()[mechanism].parameters.len()];
+            Active { mechanism, values, choice }
+        };
+        let mut active: Vec<Active> = self.hypothesis.mechanisms.iter().map(still).collect();
+        for (unknown, u) in self.layout.iter().zip(u.iter()) {
+            let value = self.prior(*unknown).value(*u);
+            match *unknown {
+                Unknown::Nuisance { number, record } => {
+                    let records = record.map_or(0..nuisances.len(), |r| r..r + 1);
+                    nuisances[records].iter_mut().for_each(|n| n[number] = value);
+                }
+                Unknown::Mechanism { place, parameter } => active[place].values[parameter] = value,
+                Unknown::Offset { .. } => {}
+            }
+        }
+        (nuisances, active)
     }
 
     pub(super) fn point(&self, u: DVector<f64>) -> Result<Point, Error<M::Error>> {

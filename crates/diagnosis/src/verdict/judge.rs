@@ -56,9 +56,9 @@ impl Diagnosis {
     /// Predicts the records `held` (numbers of the model's, with what was observed) and lets them judge the verdict by `channel`; `fitted` is the first
     /// record that was fitted, and `drawn` the model that is exact as it is designed, before it [`crate::settled`].
     ///
-    /// - A structure beside mechanisms that have a name, one of them nearly certain, is no bar to naming them if *every* record is predicted to within its noise, and clearly
-    ///   better than by the nominal model: the verdict becomes [`Verdict::Explained`], and their probabilities count the candidates with a
-    ///   structure.
+    /// - A structure beside mechanisms that have a name, one of them nearly certain, is no bar to naming them if *every* record is predicted to within
+    ///   its noise, and clearly better than by the nominal model: the verdict becomes [`Verdict::Explained`], and their probabilities count the
+    ///   candidates with a structure.
     /// - An explanation, or a recalibration, is taken back if *any* record contradicts it ([`Contradiction`]). Then there is nothing to explain if
     ///   the nominal model predicts that record to within noise, else what there is is unknown; the mechanisms lose their probabilities, which
     ///   were of the fitted records alone.

@@ -6,7 +6,7 @@ use ron::ser::to_string;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::record_format::{Key, RecordOptions};
+use super::record_options::{Key, RecordOptions};
 
 /// How a logger's file is read, `RECORD.map.ron`; what is left out is standard.
 #[derive(Deserialize, JsonSchema, Default)]

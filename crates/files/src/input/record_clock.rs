@@ -3,7 +3,8 @@
 use super::InputError;
 use super::profile::MOST_S;
 use super::record_columns::RecordColumns;
-use super::record_format::{Key, RecordFormat};
+use super::record_format::RecordFormat;
+use super::record_options::Key;
 use super::rows::{Rows, quoted};
 use super::timestamp::{self, Date, FORMS, is_ambiguous};
 

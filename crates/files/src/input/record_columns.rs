@@ -1,7 +1,8 @@
 //! The header of a recording: which column is what.
 
 use super::InputError;
-use super::record_format::{Key, RecordFormat};
+use super::record_format::RecordFormat;
+use super::record_options::Key;
 use super::rows::{Rows, quoted};
 
 const MOST_NAMES: usize = 12;

@@ -1,6 +1,6 @@
 //! Which column of a logger's file is what, by the usual words and units in its name.
 
-use super::record_format::Key;
+use super::record_options::Key;
 use super::sniff::{Sniffed, is_value};
 
 /// Words in names of columns, in lower case; those of up to three letters stand alone.

@@ -59,6 +59,16 @@ const MOST_VALUES: usize = 20_000_000;
 /// Fewest rows for each lag.
 const ROWS_A_LAG: usize = 20;
 
+impl GyroNoise {
+    /// What is fitted beside it, in words.
+    fn taken_off(&self) -> String {
+        match self.driver {
+            Some(name) => format!("an offset and what {} linear lags of {name} explain", self.lags.len()),
+            None => "an offset".into(),
+        }
+    }
+}
+
 impl<'a> Analysis<'a> {
     /// Analyses a recording.
     pub fn new(case: &'a RecordCase) -> Self {
@@ -140,7 +150,7 @@ fn lags(interval: f64, span: f64, rows: usize) -> Vec<f64> {
 pub fn svg(analysis: &Analysis) -> Option<String> {
     let noise = analysis.noise.as_ref()?;
     let file = analysis.case.fingerprint.file.file_name().unwrap_or_default().to_string_lossy();
-    let caption = format!("{file}; beside {}.", text::taken_off(noise));
+    let caption = format!("{file}; beside {}.", noise.taken_off());
     let title = format!("Allan deviation of the rate, {file}");
     let allan = Allan { points: &noise.allan, model: &noise.estimate.model, interval: noise.interval };
     Some(allan.figure("allan", title, caption)?.document())

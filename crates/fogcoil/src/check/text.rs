@@ -100,16 +100,9 @@ pub(super) fn severity(severity: Severity) -> &'static str {
     }
 }
 
-pub(super) fn taken_off(noise: &GyroNoise) -> String {
-    match noise.driver {
-        Some(name) => format!("an offset and what {} linear lags of {name} explain", noise.lags.len()),
-        None => "an offset".into(),
-    }
-}
-
 fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
     let estimate = &noise.estimate;
-    let _ = writeln!(out, "\nNoise of the rate beside {} (fitted; slow terms: upper bounds):\n", taken_off(noise));
+    let _ = writeln!(out, "\nNoise of the rate beside {} (fitted; slow terms: upper bounds):\n", noise.taken_off());
     let model = &estimate.model;
     let StandardErrors { white, drift, drift_time, walk, quantisation } = estimate.standard_errors;
     let row = |name: &str, value: f64, error: Option<f64>, unit: &str| {

@@ -4,7 +4,7 @@ use diagnosis::Plan;
 use mechanisms::Gyro;
 use progress::Step;
 
-use super::{Explanation, STRAINED, active};
+use super::explanation::{Explanation, STRAINED, active};
 use crate::recommend::{Contender, Odds, Programme, everything, odds, usual};
 
 /// What tells two explanations apart.

@@ -6,7 +6,7 @@ use charts::{Axis, Colours, Figure, HeatMap, Height, Panel, signed};
 use coil::{Drive, ThermalState, TurnFields};
 use winding::Winding;
 
-use super::MOST_TURNS;
+use super::document::MOST_TURNS;
 use crate::simulate::Simulation;
 use crate::units::to_mm;
 

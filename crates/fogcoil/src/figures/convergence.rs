@@ -4,7 +4,7 @@ use charts::{Axis, Figure, Panel, Series, Style};
 use coil::{COARSE, MeshFineness, Model, SAFETY};
 use serde::{Deserialize, Serialize};
 
-use super::Document;
+use super::document::Document;
 use crate::Error;
 use crate::cache::Cache;
 use crate::input::CoilCase;

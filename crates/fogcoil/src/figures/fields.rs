@@ -4,8 +4,8 @@ use charts::{Axis, Colours, Figure, HeatMap, Height, Panel, Series, Style, signe
 use coil::{Mechanics, ThermalState, TurnFields, TurnValues};
 use winding::Winding;
 
-use super::MOST_TURNS;
 use super::course::time_axis;
+use super::document::MOST_TURNS;
 use crate::simulate::{Sample, Simulation};
 use crate::units::{DurationUnit, to_ppm};
 

@@ -6,6 +6,7 @@
 mod contributions;
 mod convergence;
 mod course;
+mod document;
 mod fields;
 mod model;
 mod signatures;
@@ -19,14 +20,9 @@ use crate::simulate::Simulation;
 
 pub use contributions::contributions_in_ramp;
 pub use convergence::{Convergence, convergence};
+pub use document::{Document, MOST_TURNS};
 pub use signatures::signatures;
 pub use spools::{OnSpool, spools, spools_element};
-
-/// Most turns of which fields are drawn: twice a 5 km coil of 6 cm diameter; more would take gigabytes.
-pub const MOST_TURNS: usize = 50_000;
-
-/// A figure as a file: name without extension, and SVG document.
-pub type Document = (&'static str, String);
 
 /// All figures; those of the fields only with `fields`.
 fn all<'a>(simulation: &'a Simulation, fields: Option<&TurnFields>) -> Vec<Figure<'a>> {

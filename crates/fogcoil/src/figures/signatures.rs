@@ -2,7 +2,7 @@
 
 use charts::{Axis, Figure, Panel};
 
-use super::Document;
+use super::document::Document;
 use crate::Error;
 use crate::cache::Cache;
 use crate::comparison::{CHANNELS, Responses, chamber};

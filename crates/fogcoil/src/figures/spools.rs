@@ -3,7 +3,7 @@
 use charts::{Axis, Figure, Panel, Series, Style};
 use maud::Markup;
 
-use super::Document;
+use super::document::Document;
 
 /// A coil on a spool.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,7 +4,7 @@ use charts::{facts, nice, row};
 use coil::{CHECKS, Drive, ReductionError, STEADY, Side};
 use maud::Markup;
 
-use super::provenance;
+use super::provenance::provenance;
 use crate::input::Between;
 use crate::sensitivity::origin;
 use crate::simulate::Simulation;

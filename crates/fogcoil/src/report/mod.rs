@@ -1,13 +1,15 @@
-//! The page of a simulation; [`provenance`] serves other pages as well.
+//! The page of a simulation; its last section, [`provenance`], serves other pages as well.
 
 mod facts;
+mod provenance;
+
+pub use provenance::provenance;
 
 use charts::{nice, row, signed, significant};
 use coil::TurnFields;
 use maud::{Markup, html};
 
 use crate::figures;
-use crate::input::Fingerprint;
 use crate::simulate::Simulation;
 use crate::summary::{Summary, entries};
 
@@ -60,17 +62,4 @@ fn summary(simulation: &Simulation) -> Markup {
         row(&format!("{part}{}", named.map_or(name.trim(), |(_, words)| *words)), nice(format!("{value} {unit}").trim_end()))
     };
     charts::facts("Summary", &entries(simulation).into_iter().map(words).collect::<Vec<_>>())
-}
-
-/// The last section of a page: `what` was run of fogcoil, on which files with their hashes, with which options; the same inputs give the same.
-pub fn provenance(what: &str, files: &[(&str, &Fingerprint)], options: &[(String, String)]) -> Markup {
-    let program = row("program", format!("fogcoil {}, {what}", env!("CARGO_PKG_VERSION")));
-    let of = |(role, file): &(&str, &Fingerprint)| {
-        row(role, format!("{}, {} bytes, SHA-256 {}", file.file.display(), file.bytes, file.sha256))
-    };
-    let rows: Vec<_> = std::iter::once(program).chain(files.iter().map(of)).chain(options.iter().cloned()).collect();
-    html! {
-        h2 { "Provenance" } "\n"
-        (charts::facts("Program, inputs and options", &rows))
-    }
 }

@@ -28,11 +28,13 @@
 
 mod accuracy;
 mod cell;
+mod phase;
 mod response;
 mod solve;
 
 pub use accuracy::HomogenizedCell;
-pub use cell::{Cell, Phase, Solid};
+pub use cell::Cell;
+pub use phase::{Phase, Solid};
 pub use response::{Directional, LOADS, Response, TEMPERATURE};
 pub use rve_mesh::{Arrangement, Inclusion, Layout, LayoutError, Outline, PeriodicMesh, displace};
 pub use solve::Solution;

@@ -1,10 +1,10 @@
 //! A bond of coil and flange whose outer part opens in the cold.
 
 use crate::Prepared;
+use crate::course::Parts;
 use crate::design::bonded_flange;
 use crate::interpolation::cubic_weights;
 use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, across, grid};
-use crate::record_to_bias::Parts;
 use coil::{Bonds, Design, MechanicalState, Mechanics, Opening};
 use diagnosis::{Parameter, Prior};
 

@@ -1,8 +1,7 @@
 //! Power that is dissipated in a flange since the unit was switched on.
 
-use crate::design::flange;
+use crate::design::{can_be_heated, with_heater};
 use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, grid};
-use coil::{Design, Heater};
 use diagnosis::{Parameter, Prior};
 
 pub(super) const SELF_HEATING: Named = Named {
@@ -30,7 +29,7 @@ pub(super) const SELF_HEATING: Named = Named {
     },
     caveat: |_| Some("simulate switches the heater on at the first row, not before_s earlier"),
     offer: |design, _| {
-        applies(design).then(|| Offer {
+        can_be_heated(design).then(|| Offer {
             parameters: vec![
                 Parameter::new("power_w", Prior::LogNormal { median: 0.05, spread: 1.4 }),
                 Parameter::new("before_s", Prior::LogNormal { median: 30.0, spread: 1.0 }),
@@ -50,17 +49,3 @@ pub(super) const SELF_HEATING: Named = Named {
 
 /// Share of its final rise at which a heated unit has settled.
 const RISEN: f64 = 0.95;
-
-/// Whether a design has a flange to heat, and no heater of its own.
-pub(crate) fn applies(design: &Design) -> bool {
-    flange(design).is_some() && design.heat.heaters.is_empty()
-}
-
-/// Power in the first flange \[W\].
-pub(crate) fn with_heater(design: &Design, power: f64) -> Design {
-    let mut changed = design.clone();
-    if let Some(side) = flange(design) {
-        changed.heat.heaters.push(Heater { side, power });
-    }
-    changed
-}

@@ -1,9 +1,9 @@
 //! Transverse stiffness that relaxes with a time constant.
 
 use crate::Prepared;
+use crate::course::Parts;
 use crate::interpolation::weights;
 use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, grid};
-use crate::record_to_bias::Parts;
 use coil::{Design, MechanicalState, Mechanics, Relaxation};
 use diagnosis::{Parameter, Prior};
 

@@ -1,7 +1,7 @@
 //! Values that are no measurement: what physics forbids, and what a logger writes beyond its range.
 
-use super::units::within;
-use super::{Expectation, Finding, FindingKind, Repair, Severity};
+use super::expectation::{Expectation, within};
+use super::{Finding, FindingKind, Repair, Severity};
 
 /// Sizes that codes have at most: an overload of either sign, no sensor, no number.
 const SIZES: usize = 4;

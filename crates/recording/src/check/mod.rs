@@ -4,16 +4,20 @@
 
 mod channel;
 mod codes;
+mod expectation;
 mod finding;
 mod instants;
 mod outliers;
 mod runs;
+mod summary;
 mod units;
+mod white_noise;
 
-pub use channel::{ChannelSummary, white_noise};
+pub use expectation::{Expectation, Offset, Unit};
 pub use finding::{Finding, FindingKind, Repair, Severity};
 pub use instants::{Gap, Instants};
-pub use units::{Expectation, Offset, Unit};
+pub use summary::ChannelSummary;
+pub use white_noise::white_noise;
 
 use crate::Recording;
 

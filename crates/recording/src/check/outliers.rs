@@ -1,7 +1,7 @@
 //! Lone values far from their neighbours.
 
-use super::channel::Context;
-use super::units::within;
+use super::expectation::within;
+use super::summary::Context;
 use super::{Finding, FindingKind, Repair, Severity};
 use crate::statistics::median;
 

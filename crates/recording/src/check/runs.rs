@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::channel::Context;
+use super::summary::Context;
 use super::{Finding, FindingKind, Repair, Severity};
 use crate::statistics::median;
 

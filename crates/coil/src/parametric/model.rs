@@ -1,0 +1,406 @@
+//! The parametric model and what it gives of a design.
+
+use super::effort::{Effort, MODULI};
+use super::heat::Heat;
+use super::parameter::Parameter;
+use super::project::Fields;
+use super::range::Range;
+use super::section::Section;
+use super::structure::{Solved, Structure};
+use crate::probe::Prober;
+use crate::{Bonds, Design, Error, Grid, MechanicalState, MeshFineness, Model, Outputs, Reduced, TurnFields};
+use nalgebra::{DMatrix, DVector};
+use winding::{Spec, Winding};
+
+/// Heat flow and thermo-elasticity of a design and of all that differ from it within ranges of [`Parameter`]s, projected once on fields
+/// of temperature and displacement.
+#[derive(Debug, Clone)]
+pub struct ParametricModel {
+    pub(super) design: Design,
+    pub(super) ranges: Vec<Range>,
+    pub(super) resolution: MeshFineness,
+    pub(super) effort: Effort,
+    pub(super) section: Section,
+    pub(super) grid: Grid,
+    /// temperatures at the nodes of the grid's lattice, 1 first
+    pub(super) temperatures: Fields,
+    pub(super) heat: Heat,
+    pub(super) structure: Structure,
+    pub(super) turns: Turns,
+    pub(super) coil_mean: DVector<f64>,
+}
+
+/// Bias parts of some mechanics as functionals of a parametric model's fields of temperature; made by [`ParametricModel::project`].
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Projected {
+    parts: [DVector<f64>; 3],
+}
+
+impl Projected {
+    /// These less others.
+    #[must_use]
+    pub fn less(&self, other: &Self) -> Self {
+        Self { parts: [0, 1, 2].map(|p: usize| &self.parts[p] - &other.parts[p]) }
+    }
+}
+
+/// Share of the fields on which a coarser model stands.
+const COARSER: f64 = 0.6;
+
+/// Factor on the distance to the coarser model that estimates the error of the bias: an estimate, not a bound. At random points of the
+/// boxes of `cargo xtask bench parametric` it covers; directions that are missing from both models are not seen.
+pub const MODEL_SAFETY: f64 = 3.0;
+
+/// What the turns have of every field, a row each: temperature of temperature fields, strains of displacement fields.
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Turns {
+    pub(super) temperature: DMatrix<f64>,
+    pub(super) radial: DMatrix<f64>,
+    pub(super) axial: DMatrix<f64>,
+    pub(super) hoop: DMatrix<f64>,
+    /// sums of each with the weights of the nominal winding, and with the turns' lengths
+    pub(super) weighted: Weighted,
+    pub(super) lengths: Weighted,
+}
+
+/// Sums over turns: of temperature fields, and of the strains rr, yy, hoop of displacement fields.
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Weighted {
+    pub(super) temperature: DVector<f64>,
+    pub(super) strains: [DVector<f64>; 3],
+}
+
+impl Turns {
+    pub(super) fn sums(&self, weights: &[f64]) -> Weighted {
+        let w = DVector::from_column_slice(weights);
+        let of = |m: &DMatrix<f64>| m.tr_mul(&w);
+        Weighted { temperature: of(&self.temperature), strains: [of(&self.radial), of(&self.axial), of(&self.hoop)] }
+    }
+}
+
+impl ParametricModel {
+    /// The design that it was made about.
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// The ranges that it was made for.
+    pub fn ranges(&self) -> &[Range] {
+        &self.ranges
+    }
+
+    /// Number of temperature fields and of displacement fields.
+    pub fn size(&self) -> [usize; 2] {
+        [self.heat.size(), self.turns.hoop.ncols()]
+    }
+
+    /// Memory that it takes \[bytes\].
+    pub fn bytes(&self) -> usize {
+        let of = |m: &DMatrix<f64>| m.len();
+        let turns = [&self.turns.temperature, &self.turns.radial, &self.turns.axial, &self.turns.hoop];
+        let numbers =
+            of(&self.temperatures.values) + turns.map(of).iter().sum::<usize>() + self.heat.numbers() + self.structure.numbers();
+        numbers * std::mem::size_of::<f64>()
+    }
+
+    /// The first parameter of `design` that lies outside its range, with its value.
+    pub fn outside(&self, design: &Design) -> Option<(Parameter, f64)> {
+        Parameter::ALL.iter().find_map(|&parameter| {
+            let (value, nominal) = (parameter.of(design)?, parameter.of(&self.design)?);
+            let range = self.ranges.iter().find(|range| range.parameter == parameter);
+            let [low, high] = range.map_or([nominal; 2], |range| [range.low, range.high]);
+            // a hair of rounding
+            let slack = 1e-9 * (high - low).max(1e-3 * nominal.abs());
+            // not `<`: a NaN lies in no range
+            let inside = low - slack <= value && value <= high + slack;
+            (!inside).then_some((parameter, value))
+        })
+    }
+
+    /// The nearest design within the ranges: each parameter of `design` that lies outside its own is taken to its end.
+    pub fn nearest(&self, design: &Design) -> Design {
+        let within = |design: Design, range: &Range| match range.parameter.of(&design) {
+            Some(value) if !(range.low..=range.high).contains(&value) => {
+                range.parameter.set(&design, value.clamp(range.low, range.high))
+            }
+            _ => design,
+        };
+        self.ranges.iter().fold(design.clone(), within)
+    }
+
+    /// The model made anew for ranges that hold `design`, too: nothing is extrapolated. `solved` is told as [`Self::new`] tells.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn including(&self, design: &Design, solved: &(dyn Fn() + Sync)) -> Result<Self, Error> {
+        let mut ranges = self.ranges.clone();
+        Range::widened(&mut ranges, &self.design, design);
+        Self::new(&self.design, &ranges, &self.resolution, &self.effort, solved)
+    }
+
+    /// How far the constants and dimensions of `design` lie outside the combinations that the model was made for, relative to their size: 0
+    /// within the box.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub fn left_out(&self, design: &Design) -> Result<f64, Error> {
+        let changed = Section::new(design)?;
+        let structure = self.structure.left_out(design, &changed, &MechanicalState::NOMINAL)?;
+        Ok(self.heat.left_out(design, &changed)?.max(structure))
+    }
+
+    /// The reduced model of a changed design, driven by the chamber, and by its heaters if it has any; mounts follow the chamber. The
+    /// thermometer's lag and the drifts are for [`crate::Dynamics`].
+    ///
+    /// # Errors
+    /// [`Error::Design`] if the design cannot be reached from the one that was modelled, or lies outside the box.
+    pub fn at(&self, design: &Design) -> Result<Reduced, Error> {
+        self.on(design, self.size())
+    }
+
+    /// As [`Self::at`], on six tenths of the fields: within the box [`MODEL_SAFETY`] times the distance between the two estimates what the model leaves out.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub fn coarser(&self, design: &Design) -> Result<Reduced, Error> {
+        self.on(design, self.size().map(|size| ((size as f64 * COARSER) as usize).max(2)))
+    }
+
+    /// As [`Self::at`], with the bias parts of these states of the mechanics in place of the design's own, in their order.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub fn in_states(&self, design: &Design, states: &[MechanicalState]) -> Result<Reduced, Error> {
+        self.of_states(design, self.size(), states, &[])
+    }
+
+    /// The bias parts of a full mechanical model of the design that this was made about, on the fields of temperature: what no state of the
+    /// reduced mechanics has, as a bond that is open.
+    ///
+    /// # Errors
+    /// [`Error::Resolution`] if a node of the other's mesh lies outside this one's.
+    pub fn project(&self, model: &Model) -> Result<Projected, Error> {
+        let operator = model.bias_operator()?;
+        let fields = self.at_nodes(&self.section, model.grid(), Prober::new(&self.grid))?;
+        let of = |part: &[f64]| fields.tr_mul(&DVector::from_column_slice(part));
+        Ok(Projected { parts: [of(&operator.shupe), of(&operator.eo_axial), of(&operator.eo_radial)] })
+    }
+
+    /// As [`Self::in_states`], with the bias parts of projected mechanics behind them, in their order.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub fn in_states_and(&self, design: &Design, states: &[MechanicalState], projected: &[Projected]) -> Result<Reduced, Error> {
+        self.of_states(design, self.size(), states, projected)
+    }
+
+    /// Every temperature field at the nodes of a grid of a changed section: one row a node.
+    pub(super) fn at_nodes(&self, changed: &Section, grid: &Grid, mut prober: Prober) -> Result<DMatrix<f64>, Error> {
+        let fields: Vec<Vec<f64>> = (0..self.temperatures.values.ncols())
+            .map(|k| self.grid.places().iter().map(|&place| self.temperatures.values[(place, k)]).collect())
+            .collect();
+        let mut values = DMatrix::zeros(grid.mesh().nodes().len(), fields.len());
+        for (node, place) in grid.mesh().nodes().iter().enumerate() {
+            let [r, y] = self.section.reference(changed, *place);
+            let probe = prober.probe("spool", r, y)?;
+            fields.iter().enumerate().for_each(|(k, field)| values[(node, k)] = probe.value_of(field));
+        }
+        Ok(values)
+    }
+
+    fn on(&self, design: &Design, size: [usize; 2]) -> Result<Reduced, Error> {
+        self.of_states(design, size, &design.states().0, &[])
+    }
+
+    fn of_states(
+        &self,
+        design: &Design,
+        [temperatures, displacements]: [usize; 2],
+        states: &[MechanicalState],
+        projected: &[Projected],
+    ) -> Result<Reduced, Error> {
+        self.holds(design, states)?;
+        let changed = Section::new(design)?;
+        let modes = self.heat.modes(design, &changed, temperatures)?;
+        let mut functionals = self.functionals_on(design, &changed, states, displacements)?;
+        functionals.parts.extend(projected.iter().map(|p| p.parts.clone()));
+        let outputs = functionals.map(|of| modes.output(of));
+        Ok(modes.model(outputs))
+    }
+
+    /// Whether this is a model of `design` in these states of its mechanics.
+    pub(super) fn holds(&self, design: &Design, states: &[MechanicalState]) -> Result<(), Error> {
+        if states.iter().any(|state| state.bonds == Bonds::Opened) {
+            let problem = "a bond that is open has a mechanical model of its own; see ParametricModel::project";
+            return Err(Error::design("mechanics", problem.into()));
+        }
+        let [softest, stiffest] = MODULI;
+        // a hair of rounding: nodes are even in the logarithm
+        let beyond = |factor: f64| !(softest * (1.0 - 1e-9)..=stiffest * (1.0 + 1e-9)).contains(&factor);
+        if let Some(state) = states.iter().find(|s| beyond(s.transverse_modulus)) {
+            let problem = format!(
+                "{} lies outside the factors {softest} to {stiffest} on the moduli that were modelled",
+                state.transverse_modulus
+            );
+            return Err(Error::design("mechanics", problem));
+        }
+        if let Some((parameter, value)) = self.outside(design) {
+            let problem =
+                format!("{parameter:?} of {value:e} lies outside the range that was modelled; see ParametricModel::including");
+            return Err(Error::design("design", problem));
+        }
+        let flanges = |design: &Design| design.spool.as_ref().map_or(Vec::new(), |spool| spool.flanges.clone());
+        let by: Vec<[f64; 2]> = flanges(design)
+            .iter()
+            .zip(flanges(&self.design))
+            .map(|(to, from)| [to.thickness - from.thickness, to.overhang - from.overhang])
+            .collect();
+        if by.windows(2).any(|w| (0..2).any(|k| (w[0][k] - w[1][k]).abs() > crate::grid::COINCIDENT)) {
+            let problem = "the flanges change unlike one another, which was not modelled; model the design anew";
+            return Err(Error::design("spool.flanges", problem.into()));
+        }
+        Ok(())
+    }
+
+    /// Outputs as functionals of the temperature fields.
+    pub(super) fn functionals(
+        &self,
+        design: &Design,
+        changed: &Section,
+        states: &[MechanicalState],
+    ) -> Result<Outputs<DVector<f64>>, Error> {
+        self.functionals_on(design, changed, states, usize::MAX)
+    }
+
+    fn functionals_on(
+        &self,
+        design: &Design,
+        changed: &Section,
+        states: &[MechanicalState],
+        displacements: usize,
+    ) -> Result<Outputs<DVector<f64>>, Error> {
+        let thermometer = self.place(changed, [design.sensor.radius, design.sensor.y])?;
+        let bore = self.bore_value(design, changed)?;
+        let (winding, sums) = self.wound(design)?;
+        let parts = states.iter().map(|state| {
+            let solved = self.structure.solved(design, changed, state, displacements)?;
+            self.parts(design, &winding, &sums, &bore, &solved)
+        });
+        Ok(Outputs { thermometer, coil_mean: self.coil_mean.clone(), parts: parts.collect::<Result<_, _>>()? })
+    }
+
+    /// Every temperature field at a place of a changed section.
+    pub(super) fn place(&self, changed: &Section, at: [f64; 2]) -> Result<DVector<f64>, Error> {
+        let [r, y] = self.section.reference(changed, at);
+        self.value(r, y)
+    }
+
+    /// Every temperature field at the bore of a changed design, whose temperature the tails have.
+    pub(super) fn bore_value(&self, design: &Design, changed: &Section) -> Result<DVector<f64>, Error> {
+        let [low, high] = self.bore_ends(changed);
+        self.place(changed, [self.bore(changed), design.sensor.y.clamp(low, high)])
+    }
+
+    /// Sums over turns as functionals of the displacement: of the strain along the fibre, and across it; one a column.
+    pub(super) fn strain_functionals(&self, design: &Design, sums: &Weighted) -> DMatrix<f64> {
+        let ([rr, yy, hoop], m) = (&sums.strains, design.dehomogenization);
+        DMatrix::from_columns(&[hoop.clone(), rr * m.m_rx + yy * m.m_ry + hoop * m.m_rz])
+    }
+
+    /// Bias parts as functionals of the temperature fields.
+    pub(super) fn parts(
+        &self,
+        design: &Design,
+        winding: &Winding,
+        sums: &Weighted,
+        bore: &DVector<f64>,
+        solved: &Solved,
+    ) -> Result<[DVector<f64>; 3], Error> {
+        let c = design.optics.coefficients(winding.length())?;
+        let free = bore * winding.tail_weight();
+        let temperature = &sums.temperature + &free;
+        let through = solved.through(&self.strain_functionals(design, sums));
+        let expansion = free * design.optics.thermal_expansion;
+        let axial = through.column(0) + &expansion;
+        let radial = through.column(1) + &sums.temperature * design.dehomogenization.m_rt + expansion;
+        Ok([
+            &temperature * c.shupe,
+            axial * c.axial + &temperature * c.axial_per_temperature_rate,
+            radial * c.radial + temperature * c.radial_per_temperature_rate,
+        ])
+    }
+
+    /// Winding of a changed design and its turns' sums.
+    pub(super) fn wound(&self, design: &Design) -> Result<(Winding, Weighted), Error> {
+        let winding = winding::wind(&design.winding)?;
+        let (nominal, of) = (self.design.winding.tails, design.winding.tails);
+        if (Spec { tails: nominal, ..design.winding }) != self.design.winding {
+            let problem = "this design is wound otherwise than the one that was modelled, beyond its tails; model it anew";
+            return Err(Error::design("winding", problem.into()));
+        }
+        // tails shift every turn's weight by its length
+        let by = (of.cw - of.ccw) - (nominal.cw - nominal.ccw);
+        let add = |a: &DVector<f64>, b: &DVector<f64>| a + b * by;
+        let (w, l) = (&self.turns.weighted, &self.turns.lengths);
+        let strains = [0, 1, 2].map(|k| add(&w.strains[k], &l.strains[k]));
+        Ok((winding, Weighted { temperature: add(&w.temperature, &l.temperature), strains }))
+    }
+
+    /// Temperature and strain of every turn of a changed design, per unit of its drives and modes, in a state of its mechanics.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub fn fields(&self, design: &Design, state: &MechanicalState) -> Result<TurnFields, Error> {
+        self.holds(design, std::slice::from_ref(state))?;
+        self.wound(design)?;
+        let changed = Section::new(design)?;
+        let modes = self.heat.modes(design, &changed, self.heat.size())?;
+        let n = self.heat.size();
+        let mut columns = DMatrix::zeros(n, 1 + usize::from(modes.heater.is_some()) + modes.rates.len());
+        columns[(0, 0)] = 1.0;
+        if let Some(field) = &modes.heater {
+            columns.view_mut((1, 1), (n - 1, 1)).copy_from(field);
+        }
+        let first = columns.ncols() - modes.rates.len();
+        columns.view_mut((1, first), (n - 1, modes.rates.len())).copy_from(&modes.shapes);
+        let displacements = self.structure.solved(design, &changed, state, usize::MAX)?.displacements() * &columns;
+        let temperature = &self.turns.temperature * &columns;
+        let axial = &self.turns.hoop * &displacements;
+        let m = design.dehomogenization;
+        let radial = &self.turns.radial * &displacements * m.m_rx
+            + &self.turns.axial * &displacements * m.m_ry
+            + &axial * m.m_rz
+            + &temperature * m.m_rt;
+        let bore = columns.tr_mul(&self.bore_value(design, &changed)?);
+        Ok(TurnFields { temperature, axial, radial, bore: bore.as_slice().to_vec() })
+    }
+
+    /// Every temperature field at a place of the reference section.
+    pub(super) fn value(&self, r: f64, y: f64) -> Result<DVector<f64>, Error> {
+        let mut nodal = vec![0.0; self.grid.mesh().nodes().len()];
+        self.grid.probe("sensor", r, y)?.add_value(&mut nodal, 1.0);
+        let mut functional = DVector::zeros(self.temperatures.values.ncols());
+        for (node, weight) in nodal.iter().enumerate().filter(|(_, w)| **w != 0.0) {
+            functional += self.temperatures.values.row(self.grid.places()[node]).transpose() * *weight;
+        }
+        Ok(functional)
+    }
+
+    /// Radius of the hub's bore, or of the coil's where there is no spool.
+    pub(super) fn bore(&self, section: &Section) -> f64 {
+        let columns = section.rectangles().filter(|(.., region)| *region != crate::Region::Medium).map(|(i, ..)| i);
+        columns.min().map_or(0.0, |i| section.lines[0][i])
+    }
+
+    /// Lower and upper end of the bore.
+    pub(super) fn bore_ends(&self, section: &Section) -> [f64; 2] {
+        let solid: Vec<(usize, usize)> =
+            section.rectangles().filter(|(.., region)| *region != crate::Region::Medium).map(|(i, j, _)| (i, j)).collect();
+        let first = solid.iter().map(|(i, _)| *i).min().unwrap_or(0);
+        let rows = || solid.iter().filter(|(i, _)| *i == first).map(|(_, j)| *j);
+        [section.lines[1][rows().min().unwrap_or(0)], section.lines[1][rows().max().unwrap_or(0) + 1]]
+    }
+}

@@ -1,0 +1,19 @@
+//! The last section of a page.
+
+use charts::row;
+use maud::{Markup, html};
+
+use crate::input::Fingerprint;
+
+/// The last section of a page: `what` was run of fogcoil, on which files with their hashes, with which options; the same inputs give the same.
+pub fn provenance(what: &str, files: &[(&str, &Fingerprint)], options: &[(String, String)]) -> Markup {
+    let program = row("program", format!("fogcoil {}, {what}", env!("CARGO_PKG_VERSION")));
+    let of = |(role, file): &(&str, &Fingerprint)| {
+        row(role, format!("{}, {} bytes, SHA-256 {}", file.file.display(), file.bytes, file.sha256))
+    };
+    let rows: Vec<_> = std::iter::once(program).chain(files.iter().map(of)).chain(options.iter().cloned()).collect();
+    html! {
+        h2 { "Provenance" } "\n"
+        (charts::facts("Program, inputs and options", &rows))
+    }
+}

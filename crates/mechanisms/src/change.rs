@@ -1,0 +1,32 @@
+//! The change of a response, as a mechanism makes it.
+
+use crate::course::Parts;
+use crate::record_to_bias::Prepared;
+
+/// Change of a coil's response, a value for each row of a record.
+#[derive(Debug, Clone)]
+pub struct Change {
+    /// Of the bias: Shupe, elasto-optic axial and radial \[deg/h\].
+    pub parts: Parts,
+    /// Of the spool's thermometer \[K\]; `None` if there is none.
+    pub thermometer: Option<Vec<f64>>,
+    /// Of the rate beside the bias \[deg/h\]; `None` if there is none.
+    pub rate: Option<Vec<f64>>,
+}
+
+impl Change {
+    /// Nothing changes.
+    pub fn none(record: &Prepared) -> Self {
+        Self::of_parts([0, 1, 2].map(|_| vec![0.0; record.time.len()]))
+    }
+
+    /// The bias changes alone.
+    pub fn of_parts(parts: Parts) -> Self {
+        Self { parts, thermometer: None, rate: None }
+    }
+
+    /// The rate changes, but no part of the bias.
+    pub fn of_rate(record: &Prepared, rate: Vec<f64>) -> Self {
+        Self { rate: Some(rate), ..Self::none(record) }
+    }
+}

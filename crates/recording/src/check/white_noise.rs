@@ -1,0 +1,51 @@
+//! White noise of a channel.
+
+use crate::series;
+use crate::statistics::{normal_quantile, robust_sd};
+
+/// Standard deviation of white noise from differences of neighbours, which a slow signal hardly touches; outliers do not count.
+///
+/// Second differences, or fourth ones where those show that the second hold a signal's curvature. Of noise far below the resolution
+/// it gives what the resolution leaves of it. `None` without three used neighbours.
+pub fn white_noise(time: &[f64], values: &[f64], mask: &[bool]) -> Option<f64> {
+    let interval = series::median_interval(time)?;
+    let from = |weights: &[f64]| {
+        let reach = weights.len() - 1;
+        let difference = |row: usize| {
+            let rows = row..=row + reach;
+            let together = time[row + reach] - time[row] < (reach as f64 + 0.5) * interval;
+            let used = together && rows.clone().all(|row| mask[row]);
+            used.then(|| rows.zip(weights).map(|(row, weight)| weight * values[row]).sum::<f64>())
+        };
+        let differences: Vec<f64> = (0..time.len().saturating_sub(reach)).filter_map(difference).collect();
+        Some(inner_sd(&differences)? / weights.iter().map(|weight| weight * weight).sum::<f64>().sqrt())
+    };
+    let second = from(&SECOND)?;
+    Some(from(&FOURTH).filter(|fourth| *fourth < CURVED * second).unwrap_or(second))
+}
+
+/// Weights of second differences: no slope passes.
+const SECOND: [f64; 3] = [1.0, -2.0, 1.0];
+/// Weights of fourth differences: no cubic passes.
+const FOURTH: [f64; 5] = [1.0, -4.0, 6.0, -4.0, 1.0];
+/// Share of the second differences' estimate that the fourth ones' falls below if there is curvature: far beyond chance.
+const CURVED: f64 = 0.7;
+
+/// Root mean square of values about 0 without their outliers.
+fn inner_sd(values: &[f64]) -> Option<f64> {
+    let robust = robust_sd(values.iter().copied(), 0.0)?;
+    // of a coarsely resolved series the median may be 0: then the size that 5 % exceed, 1.96 standard deviations, takes its place
+    let exceeded = || largest_but(0.05, values.iter().map(|value| value.abs()).collect()) / normal_quantile(0.975);
+    let scale = if robust > 0.0 { robust } else { exceeded() };
+    let inner = || values.iter().filter(|value| value.abs() <= INNER * scale);
+    Some((inner().map(|value| value * value).sum::<f64>() / inner().count() as f64).sqrt())
+}
+
+/// Values beyond so many standard deviations are outliers.
+const INNER: f64 = 4.0;
+
+/// The largest value but a share of them.
+fn largest_but(share: f64, mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() - 1 - (share * values.len() as f64) as usize]
+}
