@@ -1,4 +1,5 @@
-//! No circle of files: a reader can begin with a file that uses no other, and go on.
+//! No circle of files: a reader can begin with a file that names nothing of another, and go on. What a file names counts: types, functions, modules. A method
+//! of a type that is implemented in several files is not followed to the file that has it.
 
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,6 +15,8 @@ struct Said {
     used: Vec<Names>,
     /// names that it has from elsewhere, and where those are
     imported: BTreeMap<String, Names>,
+    /// what it names by them, or by its own
+    named: Vec<Names>,
 }
 
 /// The files of a crate that lie on circles: each uses another of them, and is used by one. What only a test uses does not count, nor does a name that is
@@ -52,6 +55,10 @@ impl Said {
         let mut said = Self::default();
         let tokens: TokenStream = text.parse().unwrap_or_else(|error| panic!("{}: {error}", module.join("::")));
         said.read(module, tokens, files);
+        // what it passes on, it may use itself
+        let by_name = |path: &Names| Some([said.imported.get(&path[0])?, &path[1..]].concat());
+        let by_name: Vec<Names> = said.named.iter().filter_map(by_name).collect();
+        said.used.extend(by_name);
         said
     }
 
@@ -65,7 +72,14 @@ impl Said {
                     public = false;
                     continue;
                 }
-                TokenTree::Ident(word) if word == "use" => {
+                TokenTree::Ident(word) if word == "mod" && matches!(tokens.get(at + 2), Some(TokenTree::Group(_))) => {
+                    let inside = [module.clone(), vec![tokens[at + 1].to_string()]].concat();
+                    let TokenTree::Group(body) = &tokens[at + 2] else { continue };
+                    self.read(&inside, body.stream(), files);
+                    (at, public) = (at + 2, false);
+                }
+                // `use<'a>` is a bound
+                TokenTree::Ident(word) if word == "use" && !is(&tokens, at + 1, '<') => {
                     let end = (at..tokens.len()).find(|&n| is(&tokens, n, ';')).unwrap_or(tokens.len());
                     for (path, name) in tree(&tokens[at + 1..end], &[]) {
                         let Some(path) = absolute(module, &path, files) else { continue };
@@ -82,10 +96,15 @@ impl Said {
                 }
                 TokenTree::Ident(_) => {
                     let (path, end) = path(&tokens, at);
-                    if path.len() > 1 {
-                        self.used.extend(absolute(module, &path, files));
-                    }
+                    let is_whole = path.len() > 1 || is_named(&tokens, at);
                     (at, public) = (end - 1, false);
+                    if path.len() > 1
+                        && let Some(path) = absolute(module, &path, files)
+                    {
+                        self.used.push(path);
+                    } else if is_whole {
+                        self.named.push(path);
+                    }
                 }
                 TokenTree::Group(group) => {
                     self.read(module, group.stream(), files);
@@ -98,6 +117,14 @@ impl Said {
     }
 }
 
+/// Whether a lone word names an item: a type, or a function that is called.
+fn is_named(tokens: &[TokenTree], at: usize) -> bool {
+    let word = tokens[at].to_string();
+    let is_before = |what: &str| at > 0 && tokens[at - 1].to_string() == what;
+    let called = matches!(tokens.get(at + 1), Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis);
+    !is_before(".") && !is_before("fn") && (word.starts_with(char::is_uppercase) || called)
+}
+
 /// Whether an attribute is `[cfg(test)]`.
 fn is_of_tests(attribute: Option<&TokenTree>) -> bool {
     attribute.is_some_and(|attribute| attribute.to_string().replace(' ', "") == "[cfg(test)]")
@@ -108,7 +135,14 @@ fn end_of_item(tokens: &[TokenTree], from: usize) -> usize {
     let is_use = |n: usize| matches!(&tokens[n], TokenTree::Ident(word) if word == "use");
     let import = (from..tokens.len()).take(3).any(is_use);
     let is_body = |n: usize| matches!(&tokens[n], TokenTree::Group(group) if group.delimiter() == Delimiter::Brace);
-    (from..tokens.len()).find(|&n| is(tokens, n, ';') || !import && is_body(n)).map_or(tokens.len(), |n| n + 1)
+    // a field, or an arm of a match
+    let of_item = |n: usize| {
+        ["fn", "mod", "use", "impl", "struct", "enum", "const", "static", "trait", "type"]
+            .contains(&tokens[n].to_string().as_str())
+    };
+    let lone = !(from..tokens.len()).take(4).any(of_item);
+    let ends = |n: &usize| is(tokens, *n, ';') || lone && is(tokens, *n, ',') || !import && is_body(*n);
+    (from..tokens.len()).find(ends).map_or(tokens.len(), |n| n + 1)
 }
 
 fn is(tokens: &[TokenTree], at: usize, sign: char) -> bool {
@@ -209,7 +243,7 @@ fn no_crate_has_a_circle_of_files() {
 }
 
 #[test]
-fn a_circle_is_seen_however_it_is_written() {
+fn a_circle_of_names_is_seen_however_they_are_written() {
     let files = |texts: &[(&str, &str)]| -> BTreeMap<Names, String> {
         let names = |path: &str| path.split("::").filter(|name| !name.is_empty()).map(str::to_owned).collect();
         texts.iter().map(|(path, text)| (names(path), (*text).to_owned())).collect()

@@ -14,7 +14,8 @@ pub const RATE: usize = 1;
 pub type Parts = [Vec<f64>; 3];
 
 /// Rows that end this much later than the averaging span after the row before are gaps \[spans\].
-const GAP: f64 = 1.5;
+pub(crate) const GAP: f64 = 1.5;
+
 /// What instruments of the chamber are taken to be off \[s\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Delay {
@@ -24,7 +25,14 @@ pub struct Delay {
     pub clock: f64,
 }
 
-/// Instants of a recording and those before them at which a reading that follows a gap begins.
+impl Delay {
+    /// Both together.
+    pub fn total(&self) -> f64 {
+        self.lag + self.clock
+    }
+}
+
+/// Instants of a recording with those between them, and those at which a reading that follows a gap begins.
 #[derive(Debug, Clone)]
 pub(crate) struct Clock {
     pub(crate) time: Vec<f64>,
@@ -33,13 +41,6 @@ pub(crate) struct Clock {
     pub(crate) rows: Vec<usize>,
     /// whether a reading begins at an instant that is not a row's
     pub(crate) begins: Vec<bool>,
-}
-
-impl Delay {
-    /// Both together.
-    pub fn total(&self) -> f64 {
-        self.lag + self.clock
-    }
 }
 
 /// Parts into which an interval is divided to follow the chamber between its readings.

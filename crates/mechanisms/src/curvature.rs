@@ -1,6 +1,6 @@
 //! A ∂n/∂T that is curved, which no reduced model has.
 
-use crate::course::Course;
+use crate::course::{Course, GAP};
 use crate::library::Library;
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::Error;
@@ -38,11 +38,11 @@ impl Curvature {
         (0..states.nrows())
             .map(|n| {
                 let dt = if n > 0 { time[n] - time[n - 1] } else { 0.0 };
-                let span = if averaging > 0.0 { dt.min(averaging) } else { dt };
-                if n == 0 || span < dt {
+                let is_after_gap = averaging > 0.0 && dt > GAP * averaging;
+                if n == 0 || is_after_gap {
                     // after a gap: the mean over the span from the state at its end
                     let (s, r) = (states.row(n).transpose(), rates.row(n).transpose());
-                    let middle = s - &r * (span / 2.0);
+                    let middle = s - &r * (averaging / 2.0);
                     (middle.transpose() * form * &r)[(0, 0)] - reference * linear.dot(&r)
                 } else {
                     (phases[n] - phases[n - 1]) / dt

@@ -9,7 +9,7 @@ use nalgebra::{Cholesky, DVector, Dyn};
 const MOST_STEPS: usize = 16;
 /// Change of ln p at which a fit has settled: far below what odds can tell.
 const SETTLED: f64 = 5e-3;
-/// Largest step of a mechanism's unknown [u]: half of a prior's reach.
+/// Largest step of a mechanism's unknown, and of any beside a kink [u]: half of a prior's reach.
 const STRIDE: f64 = 2.0;
 /// Damping at first, at least, and where no step is left; relative to the diagonal.
 const DAMPING: [f64; 3] = [1e-3, 1e-9, 1e8];

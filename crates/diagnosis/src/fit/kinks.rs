@@ -1,7 +1,7 @@
 //! A second look around a fit whose responses have kinks, which make local minima.
 
+use super::fitter::{Fit, Fitter};
 use super::objective::{Objective, Point};
-use super::{Fit, Fitter};
 use crate::{Error, ForwardModel};
 use nalgebra::{Cholesky, DVector};
 

@@ -1,14 +1,14 @@
 //! The evidence of a hypothesis by Laplace's method.
 //!
-//! p(data) = ∫ p(data | u) φ(u) du is taken for the integral of the normal density that has its maximum and curvature. With the unknowns û at the
+//! p(data) = ∫ p(data | u) φ(u) du, with the normal density φ of the unknowns beforehand, is taken for the integral of the normal density that has its maximum and curvature. With the unknowns û at the
 //! maximum, their precision P beforehand and their covariance C = (JᵀJ + P)⁻¹,
 //!
 //! ln p(data) ≈ −½ ‖r(û)‖² − ½ ûᵀPû + ½ ln det P + ½ ln det C − ½ ln det Σ + ln p(noise),
 //!
 //! up to −n/2 ln 2π, which all fits to the same rows share. Exact where the prediction is linear in u (Tierney and Kadane 1986; MacKay 2003, ch. 27).
 
-use super::Fit;
 use super::derivatives::Derivatives;
+use super::fitter::Fit;
 use super::objective::{Objective, Point};
 use crate::{Error, ForwardModel};
 use nalgebra::{Cholesky, Dyn};

@@ -1,7 +1,7 @@
 //! One hypothesis fitted to the records, and its evidence.
 //!
-//! [`fitter`]: what may be at work; [`unknowns`]: what is found; [`objective`]: what is made least, with its [`derivatives`]; [`descent`],
-//! [`kinks`]: how; [`laplace`]: proof.
+//! [`hypothesis`]: what may be at work; [`unknowns`]: what is found, and [`beforehand`] what is known of it; [`objective`]: what is made least, with its
+//! [`derivatives`], found by [`differences`]; from [`starts`] by [`descent`], and beside [`kinks`]: how; [`laplace`]: the evidence; [`fitter`]: all together.
 
 mod beforehand;
 mod derivatives;

@@ -7,8 +7,10 @@ use mechanisms::{CATALOGUE, Gyro, Library, Prepared, RATE, SPOOL};
 use progress::Step;
 use recording::noise::NoiseModel;
 
-use super::bench::{self, Contender, Failure, everything, odds, prepared, usual};
-use super::{Course, Limits, Odds, Ranked, Recommendation, Size, WithSensor, check, programmes};
+use super::bench::{self, Contender, Failure, Odds, everything, odds, prepared, usual};
+use super::course::Course;
+use super::programme::{Limits, programmes};
+use super::recommendation::{Ranked, Recommendation, Size, WithSensor};
 use crate::Error;
 use crate::prepare::Record;
 
@@ -165,4 +167,16 @@ fn finer([spool, rate]: [NoiseModel; 2]) -> [NoiseModel; 2] {
 fn over(noise: &NoiseModel, averaging: f64) -> NoiseModel {
     let share = if noise.averaging > 0.0 { (noise.averaging / averaging).sqrt() } else { 1.0 };
     NoiseModel { averaging, white: noise.white * share, ..*noise }
+}
+
+/// Refuses what leaves nothing to tell apart.
+pub(super) fn check(between: &[String], limits: &Limits) -> Result<(), Error> {
+    limits.check()?;
+    if let Some((_, id)) = between.iter().enumerate().find(|(k, id)| between[..*k].contains(*id)) {
+        return Err(Error::usage(format!("--between: {id} is given twice")));
+    }
+    if between.len() < 2 {
+        return Err(Error::usage("--between: give two or more ids, separated by commas"));
+    }
+    Ok(())
 }
