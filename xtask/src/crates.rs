@@ -77,9 +77,15 @@ pub(crate) fn run() -> Result<bool, Failure> {
         alone(name, package)?;
         println!("[{:4.0} s] {name} stands alone", start.elapsed().as_secs_f64());
     }
+    // cargo keeps what it unpacked of a package by the place it was packed at and its version: a place that was never used holds nothing old
+    let targets = root().join("target");
+    std::fs::create_dir_all(&targets)?;
+    let place = tempfile::tempdir_in(targets)?;
+    let target = place.path().to_string_lossy();
     let kept = packages.iter().filter(|package| !published(package)).filter_map(|package| package["name"].as_str());
     let excluded = kept.flat_map(|name| ["--exclude", name]);
-    cargo(&["package", "--workspace", "--allow-dirty"].into_iter().chain(excluded).collect::<Vec<_>>())?;
+    let words = ["package", "--workspace", "--allow-dirty", "--target-dir", &*target];
+    cargo(&words.into_iter().chain(excluded).collect::<Vec<_>>())?;
     println!("[{:4.0} s] every package is complete", start.elapsed().as_secs_f64());
     Ok(true)
 }

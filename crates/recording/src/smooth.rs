@@ -2,21 +2,28 @@
 
 use crate::Error;
 use crate::series::check_series;
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::{Matrix3, Vector3};
 
-/// Degrees of freedom of the disturbances' Student distribution: a programme turns seldom, but then sharply.
-const FREEDOM: f64 = 2.0;
-const ROUNDS: usize = 8;
-/// ln of a disturbance's variance over the noise's that is searched, and how closely it is found.
-const RATIOS: (f64, f64) = (-20.0, 20.0);
+/// Degrees of freedom of the steps' Student distribution, here Cauchy's: a programme turns seldom, but then sharply.
+const FREEDOM: f64 = 1.0;
+/// Dimensions of a step: how large, and when within its interval.
+const RANK: f64 = 2.0;
+/// Time constants that are tried, in mean intervals: from next to none on, each twice the one before.
+const LAGS: [f64; 9] = [0.35, 0.7, 1.4, 2.8, 5.6, 11.0, 22.0, 45.0, 90.0];
+/// Rounds of reweighting at each of them, and then at the likeliest.
+const TRIED: usize = 12;
+const ROUNDS: usize = 25;
+/// ln of a step's variance over the noise's that is searched, at first and about a known one, and how closely it is found.
+const RATIOS: (f64, f64) = (-25.0, 20.0);
+const NEAR: f64 = 1.5;
 const CLOSE: f64 = 0.1;
 /// Variance of an unknown start over the noise's.
-const UNKNOWN: f64 = 1e8;
+const UNKNOWN: f64 = 1e6;
 /// Fewest rows that can be smoothed.
 pub const FEWEST_ROWS: usize = 8;
 
-type Vector = Vector2<f64>;
-type Matrix = Matrix2<f64>;
+type Vector = Vector3<f64>;
+type Matrix = Matrix3<f64>;
 
 /// A course freed of white noise.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,12 +49,13 @@ fn resolution(values: &[f64]) -> f64 {
     if least.is_finite() { least } else { 0.0 }
 }
 
-/// Frees a series of white noise: its slope wanders, mostly little, at times much.
+/// Frees a series of white noise: it follows a programme whose slope wanders, mostly little, at times much, through a lag.
 ///
 /// The noise has at least the size of the last digit that is written, beside its rounding: no thermometer is better than its display.
-/// The slope is a random walk whose steps follow Student's distribution with two degrees of freedom, so that ramps and soaks are smoothed
-/// while the corners between them stay; the sizes of noise and steps are the most likely ones. Kalman's filter and the smoother of Rauch,
-/// Tung and Striebel (1965), reweighted as Lange, Little and Taylor (1989) do. From a series without noise next to nothing is taken.
+/// The programme's slope is a random walk whose steps follow Student's distribution with one degree of freedom, so that ramps and soaks are smoothed
+/// while the corners between them stay; a first-order follower, the chamber behind its controller, rounds them. The sizes of noise and steps and the
+/// time constant are the most likely ones. Kalman's filter and the smoother of Rauch, Tung and Striebel (1965), reweighted as Lange, Little and Taylor
+/// (1989) do. From a series without noise next to nothing is taken.
 ///
 /// # Errors
 /// [`Error`] if instants do not increase, a value is not finite, or there are fewer than [`FEWEST_ROWS`].
@@ -60,69 +68,115 @@ pub fn smoothed(time: &[f64], values: &[f64]) -> Result<Smoothed, Error> {
     let unit = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
     let steps: Vec<f64> = time.windows(2).map(|t| (t[1] - t[0]) / unit).collect();
     let step = resolution(values);
-    let least = step * step * (1.0 + 1.0 / 12.0);
-    let mut weights = vec![1.0; steps.len()];
-    let mut ratio = most_likely(&steps, values, &weights, least);
-    for round in 1..ROUNDS {
-        let filter = Filter::new(&steps, values, ratio, &weights);
-        let variance = filter.variance().max(least).max(f64::MIN_POSITIVE);
-        let (_, squares, _) = filter.smooth(variance);
-        for (w, square) in weights.iter_mut().zip(&squares) {
-            *w = (FREEDOM + 2.0) / (FREEDOM + square / variance);
-        }
-        if round < 4 {
-            ratio = most_likely(&steps, values, &weights, least);
+    let series = Readings { steps: &steps, values, least: step * step * (1.0 + 1.0 / 12.0) };
+    let mut found = Found {
+        lag: LAGS[0],
+        ln_ratio: series.most_likely(LAGS[0], &vec![1.0; steps.len()], RATIOS),
+        weights: vec![1.0; steps.len()],
+    };
+    let mut likeliest: Option<(f64, Found)> = None;
+    for lag in LAGS {
+        found.lag = lag;
+        (0..TRIED).for_each(|_| series.reweigh(&mut found));
+        let deviance = series.deviance(&found);
+        if likeliest.as_ref().is_none_or(|(least, _)| deviance < *least) {
+            likeliest = Some((deviance, found.clone()));
         }
     }
-    let filter = Filter::new(&steps, values, ratio, &weights);
-    let variance = filter.variance().max(least);
+    let mut found = likeliest.map_or(found, |(_, found)| found);
+    (0..ROUNDS).for_each(|_| series.reweigh(&mut found));
+    let filter = series.filter(&found);
+    let variance = filter.variance().max(series.least);
     let (values, _, variances) = filter.smooth(variance);
     let noise = variance.sqrt();
     let left = noise * (variances.iter().sum::<f64>() / variances.len() as f64).max(0.0).sqrt();
-    let of = 1.0 / crate::statistics::median(variances).unwrap_or(1.0).clamp(f64::MIN_POSITIVE, 1.0);
-    Ok(Smoothed { values, noise, left, of })
+    let usual = crate::statistics::median(variances).unwrap_or(1.0).clamp(f64::MIN_POSITIVE, 1.0);
+    Ok(Smoothed { values, noise, left, of: 1.0 / usual })
 }
 
-/// The most likely variance of a step over that of the noise: golden section in its logarithm.
-fn most_likely(steps: &[f64], values: &[f64], weights: &[f64], least: f64) -> f64 {
-    let of = |x: f64| Filter::new(steps, values, x.exp(), weights).deviance(least);
-    let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
-    let (mut a, mut b) = RATIOS;
-    let (mut x, mut y) = (b - golden * (b - a), a + golden * (b - a));
-    let (mut at_x, mut at_y) = (of(x), of(y));
-    while b - a > CLOSE {
-        if at_x < at_y {
-            (b, y, at_y) = (y, x, at_x);
-            x = b - golden * (b - a);
-            at_x = of(x);
-        } else {
-            (a, x, at_x) = (x, y, at_y);
-            y = a + golden * (b - a);
-            at_y = of(y);
-        }
+/// A series to be smoothed: intervals, values, and the least variance of their noise.
+struct Readings<'a> {
+    steps: &'a [f64],
+    values: &'a [f64],
+    least: f64,
+}
+
+/// What is found of a series: the follower's time constant in mean intervals, ln of a step's variance over the noise's, and every step's weight.
+#[derive(Clone)]
+struct Found {
+    lag: f64,
+    ln_ratio: f64,
+    weights: Vec<f64>,
+}
+
+impl Readings<'_> {
+    fn filter<'a>(&'a self, found: &'a Found) -> Filter<'a> {
+        Filter::new(self.steps, self.values, found.lag, found.ln_ratio.exp(), &found.weights)
     }
-    ((a + b) / 2.0).exp()
+
+    /// One round: weights by how unlikely steps are, then the likeliest size of steps.
+    fn reweigh(&self, found: &mut Found) {
+        let filter = self.filter(found);
+        let variance = filter.variance().max(self.least).max(f64::MIN_POSITIVE);
+        let (_, squares, _) = filter.smooth(variance);
+        for (w, square) in found.weights.iter_mut().zip(&squares) {
+            *w = (FREEDOM + RANK) / (FREEDOM + square / variance);
+        }
+        found.ln_ratio = self.most_likely(found.lag, &found.weights, (found.ln_ratio - NEAR, found.ln_ratio + NEAR));
+    }
+
+    /// −2 ln of the likelihood, but for a constant: of the weights the variational bound (Tipping and Lawrence 2005).
+    fn deviance(&self, found: &Found) -> f64 {
+        let of_weights: f64 = found.weights.iter().map(|w| w.ln() - w).sum();
+        self.filter(found).deviance(self.least) - FREEDOM * of_weights
+    }
+
+    /// ln of the most likely variance of a step over that of the noise: golden section.
+    fn most_likely(&self, lag: f64, weights: &[f64], (mut a, mut b): (f64, f64)) -> f64 {
+        let of = |x: f64| Filter::new(self.steps, self.values, lag, x.exp(), weights).deviance(self.least);
+        let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
+        let (mut x, mut y) = (b - golden * (b - a), a + golden * (b - a));
+        let (mut at_x, mut at_y) = (of(x), of(y));
+        while b - a > CLOSE {
+            if at_x < at_y {
+                (b, y, at_y) = (y, x, at_x);
+                x = b - golden * (b - a);
+                at_x = of(x);
+            } else {
+                (a, x, at_x) = (x, y, at_y);
+                y = a + golden * (b - a);
+                at_y = of(y);
+            }
+        }
+        ((a + b) / 2.0).clamp(RATIOS.0, RATIOS.1)
+    }
 }
 
-fn inverse(a: &Matrix) -> Matrix {
-    let det = a[(0, 0)] * a[(1, 1)] - a[(0, 1)] * a[(1, 0)];
-    Matrix::new(a[(1, 1)], -a[(0, 1)], -a[(1, 0)], a[(0, 0)]) / det
+/// The state: programme, its slope, and how far the course is behind the programme; with constant slope v the last follows e' = v − e/lag.
+fn forward(dt: f64, lag: f64) -> Matrix {
+    let forget = (-dt / lag).exp();
+    Matrix::new(1.0, dt, 0.0, 0.0, 1.0, 0.0, 0.0, lag * (1.0 - forget), forget)
 }
 
-fn forward(dt: f64) -> Matrix {
-    Matrix::new(1.0, dt, 0.0, 1.0)
+/// Covariance of what steps of the slope, of unit intensity, add over an interval: at the two points of Gauss's rule, exact for cubics.
+fn wander(dt: f64, lag: f64) -> Matrix {
+    let at = |share: f64| {
+        let left = dt * share;
+        Vector::new(left, 1.0, lag * (1.0 - (-left / lag).exp()))
+    };
+    let off = 0.5 / 3.0_f64.sqrt();
+    [0.5 - off, 0.5 + off].into_iter().map(|share| at(share) * at(share).transpose() * (dt / 2.0)).sum()
 }
 
-/// Covariance of what a random walk of the slope, of unit intensity, adds over an interval.
-fn wander(dt: f64) -> Matrix {
-    Matrix::new(dt.powi(3) / 3.0, dt * dt / 2.0, dt * dt / 2.0, dt)
-}
+/// The course is the programme less its distance.
+const COURSE: Vector = Vector::new(1.0, 0.0, -1.0);
 
 /// Kalman's filter, variances in units of the noise's.
 struct Filter<'a> {
-    steps: &'a [f64],
     ratio: f64,
     weights: &'a [f64],
+    /// of every step: how the state goes on, and what wandering adds
+    moves: Vec<(Matrix, Matrix)>,
     /// mean and covariance after each value
     states: Vec<(Vector, Matrix)>,
     squares: f64,
@@ -131,29 +185,36 @@ struct Filter<'a> {
 }
 
 impl<'a> Filter<'a> {
-    fn new(steps: &'a [f64], values: &[f64], ratio: f64, weights: &'a [f64]) -> Self {
+    fn new(steps: &[f64], values: &[f64], lag: f64, ratio: f64, weights: &'a [f64]) -> Self {
         let mut states = Vec::with_capacity(values.len());
-        let (mut x, mut p) = (Vector::new(values[0], 0.0), UNKNOWN * Matrix::identity());
+        let mut moves: Vec<(Matrix, Matrix)> = Vec::with_capacity(steps.len());
+        // it starts at rest behind its programme, wherever that is
+        let (mut x, mut p) = (Vector::new(values[0], 0.0, 0.0), UNKNOWN * Matrix::identity());
         let (mut squares, mut log_det, mut count) = (0.0, 0.0, 0);
         for (n, value) in values.iter().enumerate() {
             if n > 0 {
-                let f = forward(steps[n - 1]);
+                let same = n > 1 && steps[n - 1] == steps[n - 2];
+                let (f, q) = if same { moves[n - 2] } else { (forward(steps[n - 1], lag), wander(steps[n - 1], lag)) };
+                moves.push((f, q));
                 x = f * x;
-                p = f * p * f.transpose() + ratio / weights[n - 1] * wander(steps[n - 1]);
+                p = f * p * f.transpose() + ratio / weights[n - 1] * q;
             }
-            let (surprise, s) = (value - x[0], p[(0, 0)] + 1.0);
-            // the first two say where it starts
-            if n > 1 {
+            let across = p * COURSE;
+            let (surprise, s) = (value - COURSE.dot(&x), COURSE.dot(&across) + 1.0);
+            // the first three say where it starts
+            if n > 2 {
                 squares += surprise * surprise / s;
                 log_det += s.ln();
                 count += 1;
             }
-            let gain: Vector = p.column(0) / s;
+            let gain: Vector = across / s;
             x += gain * surprise;
-            p -= gain * gain.transpose() * s;
+            // Joseph's form keeps it positive
+            let kept = Matrix::identity() - gain * COURSE.transpose();
+            p = kept * p * kept.transpose() + gain * gain.transpose();
             states.push((x, p));
         }
-        Self { steps, ratio, weights, states, squares, log_det, count }
+        Self { ratio, weights, moves, states, squares, log_det, count }
     }
 
     /// Most likely variance of the noise.
@@ -175,22 +236,23 @@ impl<'a> Filter<'a> {
         let mut squares = vec![0.0; last];
         let (mut x, mut p) = self.states[last];
         let mut variances = vec![0.0; last + 1];
-        (values[last], variances[last]) = (x[0], p[(0, 0)]);
+        (values[last], variances[last]) = (COURSE.dot(&x), COURSE.dot(&(p * COURSE)));
         for n in (0..last).rev() {
-            let (f, q) = (forward(self.steps[n]), wander(self.steps[n]));
+            let (f, q) = &self.moves[n];
             let (here, here_p) = &self.states[n];
-            let (ahead, ahead_p) = (f * here, f * here_p * f.transpose() + self.ratio / self.weights[n] * q);
-            let gain = here_p * f.transpose() * inverse(&ahead_p);
-            let smooth = here + gain * (x - ahead);
-            let smooth_p = here_p + gain * (p - ahead_p) * gain.transpose();
-            // the disturbance is x(n+1) − F x(n); x(n) and x(n+1) share the covariance gain · p
-            let shared = f * (gain * p);
-            let d = x - f * smooth;
-            let spread = p - (shared + shared.transpose()) + f * smooth_p * f.transpose();
-            let q = inverse(&q);
-            squares[n] = (d.dot(&(q * d)) + variance * (q * spread).trace()).max(0.0) / self.ratio;
-            (x, p) = (smooth, smooth_p);
-            (values[n], variances[n]) = (x[0], p[(0, 0)]);
+            let size = self.ratio / self.weights[n];
+            let (ahead, ahead_p) = (f * here, f * here_p * f.transpose() + size * q);
+            let Some(precision) = ahead_p.try_inverse() else { continue };
+            let gain = here_p * f.transpose() * precision;
+            // the disturbance d of covariance size·q has the mean size·q r and loses size·q (Λ − ΛPΛ) size·q of it
+            let r = precision * (x - ahead);
+            let lost = precision - precision * p * precision;
+            let known = size * r.dot(&(q * r));
+            let unknown = RANK - size * (lost * q).trace();
+            squares[n] = (known + variance * unknown).max(0.0) / self.weights[n];
+            x = here + gain * (x - ahead);
+            p = here_p + gain * (p - ahead_p) * gain.transpose();
+            (values[n], variances[n]) = (COURSE.dot(&x), COURSE.dot(&(p * COURSE)));
         }
         (values, squares, variances)
     }
@@ -239,6 +301,24 @@ mod tests {
         // at the four corners, too
         for corner in [200, 400, 667, 933] {
             assert!(off[corner - 8..corner + 12].iter().all(|o| o.abs() < 0.03), "{:?}", &off[corner - 8..corner + 12]);
+        }
+    }
+
+    /// What is left is as much as it says, over many noises, and far less than the noise; a lag is found.
+    #[test]
+    fn what_is_left_of_noise_is_little_and_known() {
+        for (lag, most) in [(90.0, 0.25), (20.0, 0.15), (300.0, 0.25)] {
+            let (time, course) = programme(lag);
+            let all = noise(20 * course.len());
+            let (mut left, mut said) = (0.0, 0.0);
+            for seed in 0..20 {
+                let noisy: Vec<f64> = course.iter().zip(&all[seed * course.len()..]).map(|(c, e)| c + 0.05 * e).collect();
+                let smooth = smoothed(&time, &noisy).unwrap();
+                let off: Vec<f64> = smooth.values.iter().zip(&course).map(|(a, b)| a - b).collect();
+                (left, said) = (left + rms(&off).powi(2), said + smooth.left.powi(2));
+            }
+            assert!((left / 20.0_f64).sqrt() < most * 0.05, "lag {lag} s: {}", (left / 20.0_f64).sqrt());
+            assert!((0.8..1.5).contains(&(left / said).sqrt()), "lag {lag} s: {}", (left / said).sqrt());
         }
     }
 

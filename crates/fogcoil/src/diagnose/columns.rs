@@ -17,8 +17,14 @@ const REVERSED: f64 = 2.5;
 const FAIR_K: f64 = 0.5;
 
 /// The warning about a record, if there is one: `number` is its number in `gyro`, the design as it is, and `answered` what the answer leaves of
-/// each channel, rms. What the answer explains as well is no mistake.
-pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record, answered: &[f64]) -> Result<Option<Note>, coil::Error> {
+/// each channel, rms. What the answer explains as well is no mistake; without an explanation nothing is answered.
+pub(super) fn warning(
+    gyro: &Gyro,
+    number: usize,
+    record: &Record,
+    answered: Option<&[f64]>,
+) -> Result<Option<Note>, coil::Error> {
+    let explains_more = |would: f64, channel: usize| answered.is_none_or(|answered| would < answered[channel]);
     let predicted = gyro.respond(number, &expected(gyro.nuisances()), &[])?;
     let Observation { time, channels } = &record.observed;
     let (spool, rate) = (&channels[SPOOL_CHANNEL], &channels[RATE_CHANNEL]);
@@ -31,7 +37,7 @@ pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record, answered: &[f
         ];
         for (columns, chamber, thermometer) in exchanged {
             let would = spread(thermometer, &thermometer_under(gyro.library(), time, chamber)?, 1.0);
-            if SUSPECT * would < left && would < answered[SPOOL_CHANNEL] {
+            if SUSPECT * would < left && explains_more(would, SPOOL_CHANNEL) {
                 let [left, would] = [left, would].map(|k| significant(k, 2));
                 let text = format!(
                     "{columns} seem to be exchanged: the model leaves {left} K rms of the thermometer as it stands, {would} K with \
@@ -42,7 +48,7 @@ pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record, answered: &[f
         }
     }
     let [left, would] = [1.0, -1.0].map(|sign| spread(rate, &predicted[RATE_CHANNEL], sign));
-    Ok((REVERSED * would < left && would < answered[RATE_CHANNEL]).then(|| {
+    Ok((REVERSED * would < left && explains_more(would, RATE_CHANNEL)).then(|| {
         let [left, would] = [left, would].map(|r| significant(r, 2));
         let text = format!(
             "{RATE} seems to have the other sign: the nominal model leaves {left} deg/h rms as it stands, {would} with the rate \

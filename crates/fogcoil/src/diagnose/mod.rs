@@ -86,6 +86,7 @@ pub fn diagnose(
     let fitted_to = best.fit.residuals.iter().map(|channels| channels.iter().map(|r| rms(r)).collect());
     let answered: Vec<Vec<f64>> = fitted_to.chain(records.iter().map(|judged| judged.model.rmse.clone())).collect();
     for (number, (record, answered)) in read.iter().chain(&held).zip(&answered).enumerate() {
+        let answered = (diagnosis.verdict != Verdict::Unknown).then_some(answered.as_slice());
         notes.extend(columns::warning(&drawn, number, record, answered).map_err(coil)?);
     }
     let with_predictions =
