@@ -4,8 +4,9 @@ use bias::units::S_PER_MIN;
 use coil::COARSE;
 use diagnosis::Observation;
 use files::{Note, Remark};
-use mechanisms::{CATALOGUE, Gyro, Library, Models, Prepared, RATE as RATE_NUMBER, SPOOL as SPOOL_NUMBER, USUAL_NOISE};
+use mechanisms::{CATALOGUE, Chamber, Gyro, Library, Models, Prepared, RATE as RATE_NUMBER, SPOOL as SPOOL_NUMBER, USUAL_NOISE};
 use progress::Step;
+use recording::Recording;
 use recording::check::{Severity, white_noise};
 use recording::condition::{Rest, Thinned, Thinning, Unrest, bridged, span, thinned, unrest};
 
@@ -18,6 +19,8 @@ const FEWEST_ROWS: usize = 60;
 /// Rows beyond which neighbours are averaged, a day of half minutes; the interval \[s\] to which they are, as a coil's fastest transients take
 /// minutes; most rows that are compared: of more, the interval grows.
 const THINNING: Thinning = Thinning { many_rows: 3_000, interval: 30.0, most_rows: 30_000 };
+/// The same of the chamber's readings before they are freed of noise: where a programme turns, half a minute is much.
+const THINNING_CHAMBER: Thinning = Thinning { many_rows: 9_000, interval: 10.0, most_rows: 9_000 };
 /// Range of the chamber \[K\] below which it is noted that nothing shows.
 const FEWEST_KELVIN: f64 = 5.0;
 /// What chamber and spool may differ by at rest, and the chamber move by in the first minutes \[K\]: thermometers' offsets and noise.
@@ -28,7 +31,10 @@ const REST: Rest = Rest { duration: 600.0, tolerance: 0.5 };
 pub(crate) struct Record {
     pub(crate) fingerprint: Fingerprint,
     pub(crate) observed: Observation,
+    /// as read, averaged as the others are
     pub(crate) chamber: Vec<f64>,
+    /// what drives the model
+    pub(crate) drive: Chamber,
     pub(crate) averaging: f64,
     /// instants of the rows before they were averaged \[s\], and how much earlier than its instant the middle of an averaged one lies
     instants: (Vec<f64>, f64),
@@ -94,6 +100,8 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     let interval = case.report.instants.as_ref().map_or(0.0, |instants| instants.interval);
     let used = case.report.used(&case.recording);
     let before = used.time().to_vec();
+    let fine = thinned(&used, interval, &THINNING_CHAMBER).map(|thinned| thinned.recording);
+    let drive = drive(fine.as_ref().unwrap_or(&used));
     let mut earlier = 0.0;
     let (used, averaging) = match thinned(&used, interval, &THINNING) {
         None => (used, case.averaging),
@@ -108,7 +116,7 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     let time = used.time().to_vec();
     let values = |name| used.channel(name).map_or_else(|| vec![f64::NAN; time.len()], |channel| channel.values.clone());
     let (spool, rate) = (values(SPOOL), values(RATE));
-    let Some(chamber) = bridged(&time, &values(CHAMBER)) else {
+    let Some((chamber, drive)) = bridged(&time, &values(CHAMBER)).zip(drive) else {
         let problem = "there is no chamber temperature to drive the model with".to_owned();
         return Err(refuse(case, CHAMBER, problem, "give a column with values"));
     };
@@ -139,7 +147,13 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
         say(Remark::NotAtRest, format!("does not start at rest ({off}), as the model does: what this leaves is no finding"));
     }
     let (fingerprint, observed) = (case.fingerprint.clone(), Observation { time, channels: vec![spool, rate] });
-    Ok(Record { fingerprint, observed, chamber, averaging, instants: (before, earlier) })
+    Ok(Record { fingerprint, observed, chamber, drive, averaging, instants: (before, earlier) })
+}
+
+/// What the chamber's readings say; `None` where there are none.
+fn drive(recording: &Recording) -> Option<Chamber> {
+    let readings = bridged(recording.time(), &recording.channel(CHAMBER)?.values)?;
+    Some(Chamber::recorded(recording.time(), &readings))
 }
 
 /// The forward model of some records, of which the first `fitted` are fitted.
@@ -147,7 +161,7 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
 /// # Errors
 /// [`coil::Error`] names the dimension or property at fault.
 pub(crate) fn gyro(library: &Library, records: &[Record], fitted: usize) -> Result<Gyro<'static>, coil::Error> {
-    let prepared = |r: &Record| Prepared::new(library, &r.observed.time, &r.chamber, r.averaging);
+    let prepared = |r: &Record| Prepared::under(library, &r.observed.time, &r.drive, r.averaging);
     let prepared = records.iter().map(prepared).collect::<Result<Vec<_>, _>>()?;
     Gyro::fitted_to(library.clone(), CATALOGUE, prepared, fitted, noise_of(&records[..fitted]))
 }

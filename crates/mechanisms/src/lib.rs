@@ -5,6 +5,7 @@
 
 mod build;
 mod catalogue;
+mod chamber;
 mod change;
 mod constants;
 mod course;
@@ -23,6 +24,7 @@ mod record_to_bias;
 
 pub use build::ranges;
 pub use catalogue::{CATALOGUE, find};
+pub use chamber::Chamber;
 pub use change::Change;
 pub use constants::{number_of, with_constant};
 pub use course::{Delay, Parts, RATE, SPOOL};

@@ -1,5 +1,6 @@
 //! A library's responses to the chamber of one recording.
 
+use crate::chamber::Chamber;
 use crate::course::{BETWEEN, Clock, Course, Delay, Parts, Series, minus, undelayed};
 use crate::curvature::Curvature;
 use crate::library::Library;
@@ -11,22 +12,11 @@ use diagnosis::State;
 /// Change of the first chamber temperature for the effect of an unsettled start \[K\].
 const OFF_REST: f64 = 1.0;
 
-/// What was recorded of the chamber.
-#[derive(Debug, Clone)]
-struct Recorded {
-    /// freed of its sensor's noise \[°C\]
-    chamber: Vec<f64>,
-    /// standard deviation of that noise \[K\]
-    noise: f64,
-    /// what is left of it, and over which time it is one error \[K, s\]
-    left: (f64, f64),
-}
-
 /// A recording's instants and chamber, and what every model of a library does under it.
 #[derive(Debug, Clone)]
 pub struct Prepared {
     pub(crate) time: Vec<f64>,
-    recorded: Recorded,
+    recorded: Chamber,
     pub(crate) delay: Delay,
     /// as it was, not as its thermometer said \[°C\]
     pub(crate) chamber: Vec<f64>,
@@ -119,21 +109,24 @@ impl Prepared {
         &self.nominal.parts
     }
 
-    /// Runs every model of `library` under a recorded chamber temperature \[°C\], first freed of its sensor's noise
-    /// ([`recording::smooth`]): passed through the model, that noise would be correlated with every mechanism. Readings of the rate are means
-    /// over `averaging` seconds, or since the row before where that is nearer.
+    /// Runs every model of `library` under a chamber temperature \[°C\] that was read at the rows, first freed of its sensor's noise. Readings of the
+    /// rate are means over `averaging` seconds, or since the row before where that is nearer.
     ///
     /// # Errors
     /// [`Error::Profile`] names the instant that is out of order or not finite.
     pub fn new(library: &Library, time: &[f64], chamber: &[f64], averaging: f64) -> Result<Self, Error> {
         Profile { time: time.to_vec(), drives: vec![chamber.to_vec()] }.check(1)?;
-        // what is too short is left as it is
-        let smooth = recording::smooth::smoothed(time, chamber).ok();
-        let noise = smooth.as_ref().map_or(0.0, |s| s.noise);
-        let span = (time[time.len() - 1] - time[0]) / (time.len() - 1).max(1) as f64;
-        let left = smooth.as_ref().map_or((0.0, span), |s| (s.left, span * s.of));
-        let recorded = Recorded { chamber: smooth.map_or(chamber.to_vec(), |s| s.values), noise, left };
-        Self::run(library, time, recorded, averaging, Delay::default())
+        Self::run(library, time, Chamber::recorded(time, chamber), averaging, Delay::default())
+    }
+
+    /// The same under a chamber that was read at instants of its own, often more of them than rows.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn under(library: &Library, time: &[f64], chamber: &Chamber, averaging: f64) -> Result<Self, Error> {
+        let chamber = chamber.at(time);
+        Profile { time: time.to_vec(), drives: vec![chamber.values.clone()] }.check(1)?;
+        Self::run(library, time, chamber, averaging, Delay::default())
     }
 
     /// The same recording under the models of another library, its chamber's readings late by `delay`.
@@ -155,8 +148,8 @@ impl Prepared {
         self.recorded.noise
     }
 
-    fn run(library: &Library, time: &[f64], recorded: Recorded, averaging: f64, delay: Delay) -> Result<Self, Error> {
-        let mut clock = Clock::new(time, &recorded.chamber, averaging);
+    fn run(library: &Library, time: &[f64], recorded: Chamber, averaging: f64, delay: Delay) -> Result<Self, Error> {
+        let mut clock = Clock::new(time, &recorded.values, averaging);
         let said = clock.chamber;
         clock.chamber = undelayed(&clock.time, &said, delay);
         let first = clock.chamber[0];

@@ -10,6 +10,8 @@ const FREEDOM: f64 = 1.0;
 const RANK: f64 = 2.0;
 /// Time constants that are tried, in mean intervals: from next to none on, each twice the one before.
 const LAGS: [f64; 9] = [0.35, 0.7, 1.4, 2.8, 5.6, 11.0, 22.0, 45.0, 90.0];
+/// Times the likeliest as yet beyond which no longer one is tried.
+const FAR: f64 = 3.0;
 /// Rounds of reweighting at each of them, and then at the likeliest.
 const TRIED: usize = 12;
 const ROUNDS: usize = 25;
@@ -79,8 +81,14 @@ pub fn smoothed(time: &[f64], values: &[f64]) -> Result<Smoothed, Error> {
         found.lag = lag;
         (0..TRIED).for_each(|_| series.reweigh(&mut found));
         let deviance = series.deviance(&found);
-        if likeliest.as_ref().is_none_or(|(least, _)| deviance < *least) {
-            likeliest = Some((deviance, found.clone()));
+        match &likeliest {
+            Some((least, best)) if deviance >= *least => {
+                // longer ones than this fit less and less
+                if lag > FAR * best.lag {
+                    break;
+                }
+            }
+            _ => likeliest = Some((deviance, found.clone())),
         }
     }
     let mut found = likeliest.map_or(found, |(_, found)| found);

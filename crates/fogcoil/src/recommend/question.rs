@@ -45,7 +45,7 @@ impl Question<'_> {
         let failed = Error::of_diagnosis(file);
         let programmes = programmes(&limits);
         progress(Step::begins("running every model under every programme"));
-        let recorded = given.iter().map(|r| Prepared::new(&library, &r.observed.time, &r.chamber, r.averaging));
+        let recorded = given.iter().map(|r| Prepared::under(&library, &r.observed.time, &r.drive, r.averaging));
         let all = recorded.chain(programmes.iter().map(|programme| prepared(&library, programme)));
         let all = all.collect::<Result<Vec<_>, _>>().map_err(coil)?;
         let gyro = Gyro::new(library, CATALOGUE, all).map_err(coil)?;

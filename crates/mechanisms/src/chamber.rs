@@ -1,0 +1,68 @@
+//! The chamber's temperature as its thermometer and log say.
+
+/// Readings of the chamber's thermometer, freed of its noise ([`recording::smooth`]): passed through the model, that noise would be correlated with
+/// every mechanism.
+#[derive(Debug, Clone)]
+pub struct Chamber {
+    time: Vec<f64>,
+    /// freed of noise \[°C\]
+    pub(crate) values: Vec<f64>,
+    /// standard deviation of that noise \[K\]
+    pub(crate) noise: f64,
+    /// what is left of it, and over which time it is one error \[K, s\]
+    pub(crate) left: (f64, f64),
+}
+
+impl Chamber {
+    /// Frees readings \[°C\] of their noise; what is too short is left as it is. The more readings, the better: average none beforehand.
+    pub fn recorded(time: &[f64], readings: &[f64]) -> Self {
+        let interval = (time[time.len() - 1] - time[0]) / (time.len() - 1).max(1) as f64;
+        match recording::smooth::smoothed(time, readings) {
+            Ok(smooth) => {
+                let left = (smooth.left, interval * smooth.of);
+                Self { time: time.to_vec(), values: smooth.values, noise: smooth.noise, left }
+            }
+            Err(_) => Self { time: time.to_vec(), values: readings.to_vec(), noise: 0.0, left: (0.0, interval) },
+        }
+    }
+
+    /// The same at other instants, on straight lines between its own, constant before the first and after the last.
+    pub fn at(&self, instants: &[f64]) -> Self {
+        let last = self.time.len() - 1;
+        let at = |t: &f64| {
+            let after = self.time.partition_point(|own| own < t).min(last);
+            let before = after.saturating_sub(1);
+            let span = self.time[after] - self.time[before];
+            let share = if span > 0.0 { ((t - self.time[before]) / span).clamp(0.0, 1.0) } else { 0.0 };
+            self.values[before] + share * (self.values[after] - self.values[before])
+        };
+        Self { time: instants.to_vec(), values: instants.iter().map(at).collect(), noise: self.noise, left: self.left }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_readings_than_rows_leave_less_noise_in_the_rows() {
+        let noise = |n: usize| ((n * 7919 % 1000) as f64 / 1000.0 - 0.5) * 0.2;
+        let course = |t: f64| 20.0 + 0.005 * (t - 6000.0).clamp(0.0, 8000.0);
+        let off = |every: usize| {
+            let time: Vec<f64> = (0..2000).step_by(every).map(|n| 10.0 * n as f64).collect();
+            let readings: Vec<f64> = time.iter().map(|t| course(*t) + noise((t / 10.0) as usize)).collect();
+            let rows: Vec<f64> = (0..320).map(|n| 60.0 * f64::from(n)).collect();
+            let chamber = Chamber::recorded(&time, &readings).at(&rows);
+            let squares = chamber.values.iter().zip(&rows).map(|(value, t)| (value - course(*t)).powi(2));
+            (squares.sum::<f64>() / 320.0).sqrt()
+        };
+        let [all, few] = [off(1), off(6)];
+        assert!(all < 0.7 * few && all < 0.02, "{all} K from all readings, {few} K from every sixth");
+    }
+
+    #[test]
+    fn beyond_its_ends_it_stays() {
+        let chamber = Chamber::recorded(&[0.0, 10.0, 20.0], &[5.0, 6.0, 8.0]);
+        assert_eq!(chamber.at(&[-5.0, 0.0, 15.0, 20.0, 99.0]).values, [5.0, 5.0, 7.0, 8.0, 8.0]);
+    }
+}
