@@ -20,7 +20,7 @@ const FEWEST_ROWS: usize = 60;
 /// minutes; most rows that are compared: of more, the interval grows.
 const THINNING: Thinning = Thinning { many_rows: 3_000, interval: 30.0, most_rows: 30_000 };
 /// The same of the chamber's readings before they are freed of noise: where a programme turns, half a minute is much.
-const THINNING_CHAMBER: Thinning = Thinning { many_rows: 9_000, interval: 10.0, most_rows: 9_000 };
+const THINNING_CHAMBER: Thinning = Thinning { many_rows: 9_000, interval: 10.0, most_rows: 30_000 };
 /// Range of the chamber \[K\] below which it is noted that nothing shows.
 const FEWEST_KELVIN: f64 = 5.0;
 /// What chamber and spool may differ by at rest, and the chamber move by in the first minutes \[K\]: thermometers' offsets and noise.
@@ -152,8 +152,9 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
 
 /// What the chamber's readings say; `None` where there are none.
 fn drive(recording: &Recording) -> Option<Chamber> {
-    let readings = bridged(recording.time(), &recording.channel(CHAMBER)?.values)?;
-    Some(Chamber::recorded(recording.time(), &readings))
+    let readings = recording.time().iter().zip(&recording.channel(CHAMBER)?.values).filter(|(_, value)| value.is_finite());
+    let (time, readings): (Vec<f64>, Vec<f64>) = readings.unzip();
+    (!time.is_empty()).then(|| Chamber::recorded(&time, &readings))
 }
 
 /// The forward model of some records, of which the first `fitted` are fitted.

@@ -16,7 +16,7 @@ pub struct Chamber {
 impl Chamber {
     /// Frees readings \[°C\] of their noise; what is too short is left as it is. The more readings, the better: average none beforehand.
     pub fn recorded(time: &[f64], readings: &[f64]) -> Self {
-        let interval = (time[time.len() - 1] - time[0]) / (time.len() - 1).max(1) as f64;
+        let interval = recording::median_interval(time).unwrap_or(1.0);
         match recording::smooth::smoothed(time, readings) {
             Ok(smooth) => {
                 let left = (smooth.left, interval * smooth.of);

@@ -1,14 +1,14 @@
 //! A measured course without its sensor's noise.
 
 use crate::Error;
-use crate::series::check_series;
+use crate::series::{check_series, median_interval};
 use nalgebra::{Matrix3, Vector3};
 
 /// Degrees of freedom of the steps' Student distribution, here Cauchy's: a programme turns seldom, but then sharply.
 const FREEDOM: f64 = 1.0;
 /// Dimensions of a step: how large, and when within its interval.
 const RANK: f64 = 2.0;
-/// Time constants that are tried, in mean intervals: from next to none on, each twice the one before.
+/// Time constants that are tried, in usual intervals: from next to none on, each twice the one before.
 const LAGS: [f64; 9] = [0.35, 0.7, 1.4, 2.8, 5.6, 11.0, 22.0, 45.0, 90.0];
 /// Times the likeliest as yet beyond which no longer one is tried.
 const FAR: f64 = 3.0;
@@ -66,8 +66,8 @@ pub fn smoothed(time: &[f64], values: &[f64]) -> Result<Smoothed, Error> {
     if found < FEWEST_ROWS {
         return Err(Error::TooFew { found, needed: FEWEST_ROWS });
     }
-    // intervals in units of their mean
-    let unit = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
+    // intervals in units of the usual one
+    let unit = median_interval(time).unwrap_or(1.0);
     let steps: Vec<f64> = time.windows(2).map(|t| (t[1] - t[0]) / unit).collect();
     let step = resolution(values);
     let series = Readings { steps: &steps, values, least: step * step * (1.0 + 1.0 / 12.0) };
@@ -81,6 +81,7 @@ pub fn smoothed(time: &[f64], values: &[f64]) -> Result<Smoothed, Error> {
         found.lag = lag;
         (0..TRIED).for_each(|_| series.reweigh(&mut found));
         let deviance = series.deviance(&found);
+        let deviance = if deviance.is_finite() { deviance } else { f64::INFINITY };
         match &likeliest {
             Some((least, best)) if deviance >= *least => {
                 // longer ones than this fit less and less
@@ -109,7 +110,7 @@ struct Readings<'a> {
     least: f64,
 }
 
-/// What is found of a series: the follower's time constant in mean intervals, ln of a step's variance over the noise's, and every step's weight.
+/// What is found of a series: the follower's time constant in usual intervals, ln of a step's variance over the noise's, and every step's weight.
 #[derive(Clone)]
 struct Found {
     lag: f64,
@@ -160,24 +161,32 @@ impl Readings<'_> {
     }
 }
 
-/// The state: programme, its slope, and how far the course is behind the programme; with constant slope v the last follows e' = v − e/lag.
+/// The state: the course, the programme's slope v, and how far the course is behind its programme, e, which follows e' = v − e/lag.
 fn forward(dt: f64, lag: f64) -> Matrix {
     let forget = (-dt / lag).exp();
-    Matrix::new(1.0, dt, 0.0, 0.0, 1.0, 0.0, 0.0, lag * (1.0 - forget), forget)
+    let behind = lag * (1.0 - forget);
+    Matrix::new(1.0, dt - behind, 1.0 - forget, 0.0, 1.0, 0.0, 0.0, behind, forget)
 }
 
 /// Covariance of what steps of the slope, of unit intensity, add over an interval: at the two points of Gauss's rule, exact for cubics.
 fn wander(dt: f64, lag: f64) -> Matrix {
     let at = |share: f64| {
         let left = dt * share;
-        Vector::new(left, 1.0, lag * (1.0 - (-left / lag).exp()))
+        let behind = lag * (1.0 - (-left / lag).exp());
+        Vector::new(left - behind, 1.0, behind)
     };
     let off = 0.5 / 3.0_f64.sqrt();
     [0.5 - off, 0.5 + off].into_iter().map(|share| at(share) * at(share).transpose() * (dt / 2.0)).sum()
 }
 
-/// The course is the programme less its distance.
-const COURSE: Vector = Vector::new(1.0, 0.0, -1.0);
+/// What is known of the state before a value, and what the value says.
+struct Predicted {
+    mean: Vector,
+    covariance: Matrix,
+    surprise: f64,
+    /// variance of the surprise
+    spread: f64,
+}
 
 /// Kalman's filter, variances in units of the noise's.
 struct Filter<'a> {
@@ -185,8 +194,7 @@ struct Filter<'a> {
     weights: &'a [f64],
     /// of every step: how the state goes on, and what wandering adds
     moves: Vec<(Matrix, Matrix)>,
-    /// mean and covariance after each value
-    states: Vec<(Vector, Matrix)>,
+    states: Vec<Predicted>,
     squares: f64,
     log_det: f64,
     count: usize,
@@ -196,7 +204,6 @@ impl<'a> Filter<'a> {
     fn new(steps: &[f64], values: &[f64], lag: f64, ratio: f64, weights: &'a [f64]) -> Self {
         let mut states = Vec::with_capacity(values.len());
         let mut moves: Vec<(Matrix, Matrix)> = Vec::with_capacity(steps.len());
-        // it starts at rest behind its programme, wherever that is
         let (mut x, mut p) = (Vector::new(values[0], 0.0, 0.0), UNKNOWN * Matrix::identity());
         let (mut squares, mut log_det, mut count) = (0.0, 0.0, 0);
         for (n, value) in values.iter().enumerate() {
@@ -207,20 +214,19 @@ impl<'a> Filter<'a> {
                 x = f * x;
                 p = f * p * f.transpose() + ratio / weights[n - 1] * q;
             }
-            let across = p * COURSE;
-            let (surprise, s) = (value - COURSE.dot(&x), COURSE.dot(&across) + 1.0);
+            let (surprise, spread) = (value - x[0], p[(0, 0)] + 1.0);
             // the first three say where it starts
             if n > 2 {
-                squares += surprise * surprise / s;
-                log_det += s.ln();
+                squares += surprise * surprise / spread;
+                log_det += spread.ln();
                 count += 1;
             }
-            let gain: Vector = across / s;
+            states.push(Predicted { mean: x, covariance: p, surprise, spread });
+            let gain: Vector = p.column(0) / spread;
             x += gain * surprise;
             // Joseph's form keeps it positive
-            let kept = Matrix::identity() - gain * COURSE.transpose();
+            let kept = without_course(&gain);
             p = kept * p * kept.transpose() + gain * gain.transpose();
-            states.push((x, p));
         }
         Self { ratio, weights, moves, states, squares, log_det, count }
     }
@@ -237,33 +243,40 @@ impl<'a> Filter<'a> {
     }
 
     /// The smoothed values, and of every step the expected square of its disturbance over its variance at weight 1, times the noise's
-    /// variance, which is `variance`; and the variance of every smoothed value over the noise's.
+    /// variance, which is `variance`; and the variance of every smoothed value over the noise's. By the adjoint recursion (de Jong 1989; Koopman 1993),
+    /// which divides by no covariance.
     fn smooth(&self, variance: f64) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
-        let last = self.states.len() - 1;
-        let mut values = vec![0.0; last + 1];
-        let mut squares = vec![0.0; last];
-        let (mut x, mut p) = self.states[last];
-        let mut variances = vec![0.0; last + 1];
-        (values[last], variances[last]) = (COURSE.dot(&x), COURSE.dot(&(p * COURSE)));
-        for n in (0..last).rev() {
-            let (f, q) = &self.moves[n];
-            let (here, here_p) = &self.states[n];
-            let size = self.ratio / self.weights[n];
-            let (ahead, ahead_p) = (f * here, f * here_p * f.transpose() + size * q);
-            let Some(precision) = ahead_p.try_inverse() else { continue };
-            let gain = here_p * f.transpose() * precision;
-            // the disturbance d of covariance size·q has the mean size·q r and loses size·q (Λ − ΛPΛ) size·q of it
-            let r = precision * (x - ahead);
-            let lost = precision - precision * p * precision;
-            let known = size * r.dot(&(q * r));
-            let unknown = RANK - size * (lost * q).trace();
-            squares[n] = (known + variance * unknown).max(0.0) / self.weights[n];
-            x = here + gain * (x - ahead);
-            p = here_p + gain * (p - ahead_p) * gain.transpose();
-            (values[n], variances[n]) = (COURSE.dot(&x), COURSE.dot(&(p * COURSE)));
+        let count = self.states.len();
+        let (mut values, mut squares, mut variances) = (vec![0.0; count], vec![0.0; count - 1], vec![0.0; count]);
+        // what the later values say of the next state
+        let (mut r, mut known) = (Vector::zeros(), Matrix::zeros());
+        for n in (0..count).rev() {
+            let Predicted { mean, covariance, surprise, spread } = &self.states[n];
+            if n + 1 < count {
+                let (f, q) = &self.moves[n];
+                let size = self.ratio / self.weights[n];
+                // the disturbance has the mean size·q r and the covariance size·q less size·q known size·q
+                let square = size * r.dot(&(q * r)) + variance * (RANK - size * (known * q).trace());
+                squares[n] = square.max(0.0) / self.weights[n];
+                (r, known) = (f.transpose() * r, f.transpose() * known * f);
+            }
+            let kept = without_course(&(covariance.column(0) / *spread));
+            (r, known) = (kept.transpose() * r, kept.transpose() * known * kept);
+            r[0] += surprise / spread;
+            known[(0, 0)] += 1.0 / spread;
+            let across: Vector = covariance.column(0).into();
+            values[n] = mean[0] + across.dot(&r);
+            variances[n] = covariance[(0, 0)] - across.dot(&(known * across));
         }
         (values, squares, variances)
     }
+}
+
+/// I − gain · (1, 0, 0).
+fn without_course(gain: &Vector) -> Matrix {
+    let mut kept = Matrix::identity();
+    kept.column_mut(0).axpy(-1.0, gain, 1.0);
+    kept
 }
 
 #[cfg(test)]
@@ -328,6 +341,21 @@ mod tests {
             assert!((left / 20.0_f64).sqrt() < most * 0.05, "lag {lag} s: {}", (left / 20.0_f64).sqrt());
             assert!((0.8..1.5).contains(&(left / said).sqrt()), "lag {lag} s: {}", (left / said).sqrt());
         }
+    }
+
+    #[test]
+    fn gaps_are_no_harm() {
+        let (time, course) = programme(90.0);
+        let noise = noise(course.len());
+        // half a day without readings, and every third reading missing
+        let late = |n: usize| if n > 500 { 43_200.0 } else { 0.0 };
+        let kept: Vec<usize> = (0..course.len()).filter(|n| n % 3 != 0 || *n < 300).collect();
+        let time: Vec<f64> = kept.iter().map(|&n| time[n] + late(n)).collect();
+        let noisy: Vec<f64> = kept.iter().map(|&n| course[n] + 0.05 * noise[n]).collect();
+        let smooth = smoothed(&time, &noisy).unwrap();
+        let off: Vec<f64> = smooth.values.iter().zip(&kept).map(|(a, &n)| a - course[n]).collect();
+        assert!(rms(&off) < 0.02 && off.iter().all(|o| o.abs() < 0.12), "{} {off:?}", rms(&off));
+        assert!((smooth.noise / 0.05 - 1.0).abs() < 0.15, "{}", smooth.noise);
     }
 
     #[test]
