@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use coil::{Drive, Mechanics, Number, propagated};
 use diagnosis::{ForwardModel, expected};
-use mechanisms::{Gyro, Prepared, RATE, SPOOL, number_of};
+use mechanisms::{Chamber, Gyro, Prepared, RATE, SPOOL, number_of};
 use nalgebra::DMatrix;
 use progress::Step;
 use serde_json::{Value, json};
@@ -57,7 +57,7 @@ pub fn band(simulation: &Simulation, cache: &Cache, progress: &(dyn Fn(Step) + S
     let at = Error::of_coil(&case.file);
     let library = library(case, cache, progress)?;
     let (time, chamber) = divided(&profile.profile.time, profile.chamber());
-    let prepared = Prepared::new(&library, &time, &chamber, 0.0).map_err(at)?;
+    let prepared = Prepared::under(&library, &time, &Chamber::given(&time, &chamber), 0.0).map_err(at)?;
     let gyro = Gyro::new(library, &[], vec![prepared]).map_err(at)?;
     let changes = changes(&gyro).map_err(at)?;
     let numbers: Vec<Number> = changes.iter().map(|change| change.number).collect();

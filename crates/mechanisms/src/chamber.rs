@@ -14,15 +14,21 @@ pub struct Chamber {
 }
 
 impl Chamber {
+    /// A course \[°C\] that was given, not read: it has no noise, and its corners stay.
+    pub fn given(time: &[f64], values: &[f64]) -> Self {
+        let interval = recording::median_interval(time).unwrap_or(1.0);
+        Self { time: time.to_vec(), values: values.to_vec(), noise: 0.0, left: (0.0, interval) }
+    }
+
     /// Frees readings \[°C\] of their noise; what is too short is left as it is. The more readings, the better: average none beforehand.
     pub fn recorded(time: &[f64], readings: &[f64]) -> Self {
-        let interval = recording::median_interval(time).unwrap_or(1.0);
+        let as_read = Self::given(time, readings);
         match recording::smooth::smoothed(time, readings) {
             Ok(smooth) => {
-                let left = (smooth.left, interval * smooth.of);
-                Self { time: time.to_vec(), values: smooth.values, noise: smooth.noise, left }
+                let left = (smooth.left, as_read.left.1 * smooth.of);
+                Self { values: smooth.values, noise: smooth.noise, left, ..as_read }
             }
-            Err(_) => Self { time: time.to_vec(), values: readings.to_vec(), noise: 0.0, left: (0.0, interval) },
+            Err(_) => as_read,
         }
     }
 

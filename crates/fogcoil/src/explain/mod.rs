@@ -7,7 +7,7 @@ mod test;
 
 use coil::{COARSE, Design, MechanicalState, Model};
 use diagnosis::{ForwardModel, Prior, Role, expected};
-use mechanisms::{CATALOGUE, Gyro, Mechanism, Prepared, RATE, Steady};
+use mechanisms::{CATALOGUE, Chamber, Gyro, Mechanism, Prepared, RATE, Steady};
 use progress::Step;
 
 use crate::Error;
@@ -67,7 +67,7 @@ pub fn explain(
     let mut programmes = programmes(&Limits::USUAL);
     programmes.dedup_by_key(|programme| programme.family);
     let (time, chamber) = ramp();
-    let ramp = std::iter::once(Prepared::new(&library, &time, &chamber, 0.0));
+    let ramp = std::iter::once(Prepared::under(&library, &time, &Chamber::given(&time, &chamber), 0.0));
     let records = ramp.chain(programmes.iter().map(|programme| prepared(&library, programme)));
     let records = records.collect::<Result<Vec<_>, _>>().map_err(coil)?;
     let gyro = Gyro::new(library, CATALOGUE, records).map_err(coil)?;

@@ -1,7 +1,7 @@
 //! Contenders, and how well a test tells them apart.
 
 use diagnosis::{Active, ForwardModel, Hypothesis, Observation, Plan, Settings, alternatives, expected, separation};
-use mechanisms::{Gyro, Library, Prepared, RATE, SPOOL};
+use mechanisms::{Chamber, Gyro, Library, Prepared, RATE, SPOOL};
 use recording::noise::NoiseModel;
 
 use super::Programme;
@@ -111,7 +111,7 @@ pub(crate) fn odds(gyro: &Gyro, contenders: &[Contender], plan: &Plan) -> Result
 
 pub(crate) fn prepared(library: &Library, programme: &Programme) -> Result<Prepared, coil::Error> {
     let (time, chamber) = programme.sampled(INTERVAL);
-    Prepared::new(library, &time, &chamber, INTERVAL)
+    Prepared::under(library, &time, &Chamber::given(&time, &chamber), INTERVAL)
 }
 
 /// Both channels at every instant of a programme.
