@@ -5,7 +5,8 @@ use std::sync::OnceLock;
 
 use fogcoil::cache::Cache;
 use fogcoil::homogenize as cells;
-use fogcoil::input::{self, AnyCell, Between, RecordCase, RecordOptions, at_temperature};
+use fogcoil::input::{self, AnyCell, Between, ProfileCase, RecordCase, RecordOptions, at_temperature};
+use fogcoil::simulate::SimulatedRow;
 use fogcoil::units::to_mm;
 use fogcoil::{Error, diagnose as diagnosis, sensitivity as ramp, simulate as runs, summary, wind as turns};
 use progress::Step;
@@ -66,6 +67,53 @@ fn cache(code: Option<PathBuf>) -> Cache {
     code.map_or(Cache::NONE, |file| Cache::of_user().of_code_in(file))
 }
 
+fn checked_profile(py: Python, coil: &Coil, columns: &[Column], between: &str) -> PyResult<ProfileCase> {
+    let between = match between {
+        "linear" => Between::Linear,
+        "cubic" => Between::Cubic,
+        other => return Err(InputError::new_err(format!("between: {other:?} is not known; give \"linear\" or \"cubic\""))),
+    };
+    let read =
+        || input::check_profile("profile".as_ref(), table(columns), &coil.case.design).map_err(|error| at_element(error.into()));
+    let mut profile = py.detach(read).map_err(raised)?;
+    profile.between = between;
+    warn(py, profile.notes.clone())?;
+    Ok(profile)
+}
+
+fn columns<'py>(py: Python<'py>, rows: &[SimulatedRow]) -> Columns<'py> {
+    runs::COLUMNS.map(|(name, of)| (name, bytes(py, rows.iter().map(of)))).into()
+}
+
+/// A design's model for all designs that differ from it within a box. Immutable.
+#[pyclass(frozen, module = "fogcoil")]
+pub(crate) struct DesignBox(runs::DesignBox);
+
+#[pymethods]
+impl DesignBox {
+    #[new]
+    fn new(py: Python, coil: &Coil, code: Option<PathBuf>) -> PyResult<Self> {
+        py.detach(|| runs::DesignBox::about(&coil.case, &cache(code), &|_| ())).map(Self).map_err(raised)
+    }
+
+    fn including(&self, py: Python, coil: &Coil) -> PyResult<Self> {
+        py.detach(|| self.0.including(&coil.case)).map(Self).map_err(raised)
+    }
+
+    /// The columns of the result, and the estimated errors of thermometer and rate.
+    fn simulate<'py>(
+        &self,
+        py: Python<'py>,
+        coil: &Coil,
+        profile: Vec<Column>,
+        between: &str,
+    ) -> PyResult<(Columns<'py>, [f64; 2])> {
+        let profile = checked_profile(py, coil, &profile, between)?;
+        let varied = py.detach(|| self.0.simulate(&coil.case, &profile)).map_err(raised)?;
+        Ok((columns(py, &varied.rows), varied.errors))
+    }
+}
+
 /// The columns of the result, and its summary as JSON.
 #[pyfunction]
 pub(crate) fn simulate<'py>(
@@ -75,17 +123,7 @@ pub(crate) fn simulate<'py>(
     between: &str,
     code: Option<PathBuf>,
 ) -> PyResult<(Columns<'py>, String)> {
-    let between = match between {
-        "linear" => Between::Linear,
-        "cubic" => Between::Cubic,
-        other => return Err(InputError::new_err(format!("between: {other:?} is not known; give \"linear\" or \"cubic\""))),
-    };
-    let case = &coil.case;
-    let read =
-        || input::check_profile("profile".as_ref(), table(&profile), &case.design).map_err(|error| at_element(error.into()));
-    let mut profile = py.detach(read).map_err(raised)?;
-    profile.between = between;
-    warn(py, profile.notes.clone())?;
+    let (case, profile) = (&coil.case, checked_profile(py, coil, &profile, between)?);
     let run = || {
         let model = runs::model(case, &profile.drives, &cache(code))?;
         let simulation = runs::simulate(case, &profile, &model)?;
@@ -93,7 +131,7 @@ pub(crate) fn simulate<'py>(
         Ok((simulation.rows().collect::<Vec<_>>(), object))
     };
     let (rows, object) = py.detach(run).map_err(|error: Error| raised(error))?;
-    Ok((runs::COLUMNS.map(|(name, of)| (name, bytes(py, rows.iter().map(of)))).into(), object))
+    Ok((columns(py, &rows), object))
 }
 
 /// A record: the file, or what messages call it, and its columns if it is no file.

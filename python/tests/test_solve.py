@@ -106,3 +106,43 @@ def test_other_threads_run_while_a_coil_is_solved(coil: fogcoil.Coil) -> None:
     done.set()
     ticker.join()
     assert sum(begun < at < ended for at in ticks) > 5, (begun, ended, len(ticks))
+
+
+def test_a_box_of_designs_simulates_as_the_full_chain_does(coil: fogcoil.Coil) -> None:
+    box = fogcoil.DesignBox(coil)
+    time_s = np.arange(0.0, 6 * 3600.0, 60.0)
+    chamber_c = 20.0 + 20.0 * np.sin(time_s / 3000.0)
+    thin = coil.replace({"spool.hub_thickness_mm": float(coil["spool.hub_thickness_mm"]) - 0.12})
+    began = time.perf_counter()
+    found = box.simulate(thin, time_s, chamber_c)
+    quick = time.perf_counter() - began
+    began = time.perf_counter()
+    full = fogcoil.simulate(thin, time_s, chamber_c, cache=False)
+    assert quick < time.perf_counter() - began
+    for key in ("spool_c", "rate_deg_per_h"):
+        off = np.abs(found[key] - full[key]).max()
+        assert off < found.summary["error_estimate"][key] < 2e-3 * np.ptp(full[key]), key
+    change = np.abs(full["rate_deg_per_h"] - fogcoil.simulate(coil, time_s, chamber_c)["rate_deg_per_h"]).max()
+    assert np.abs(found["rate_deg_per_h"] - full["rate_deg_per_h"]).max() < 0.05 * change
+
+
+def test_a_design_outside_a_box_is_refused_until_the_box_includes_it(coil: fogcoil.Coil) -> None:
+    box = fogcoil.DesignBox(coil)
+    thick = coil.replace({"spool.hub_thickness_mm": float(coil["spool.hub_thickness_mm"]) + 0.3})
+    time_s, chamber_c = [0.0, 600.0, 1200.0], [20.0, 30.0, 30.0]
+    with pytest.raises(fogcoil.InputError, match="HubThickness.*outside the range"):
+        box.simulate(thick, time_s, chamber_c)
+    found = box.including(thick).simulate(thick, time_s, chamber_c)
+    full = fogcoil.simulate(thick, time_s, chamber_c)
+    np.testing.assert_allclose(found["spool_c"], full["spool_c"], atol=5e-3)
+
+
+def test_a_box_holds_the_heater_of_its_own_design(coil: fogcoil.Coil) -> None:
+    # in the bare hub: the reference spool has no flange at the left
+    heated = coil.replace({"heat": "(heaters: [(side: Left, power_w: 0.5)])"})
+    time_s = np.arange(0.0, 6 * 3600.0, 60.0)
+    found = fogcoil.DesignBox(heated).simulate(heated, time_s, np.full_like(time_s, 20.0))
+    full = fogcoil.simulate(heated, time_s, np.full_like(time_s, 20.0))
+    assert full["spool_c"][-1] > 25.0
+    np.testing.assert_allclose(found["spool_c"], full["spool_c"], atol=5e-3)
+    np.testing.assert_allclose(found["rate_deg_per_h"], full["rate_deg_per_h"], atol=5e-3 * np.abs(full["rate_deg_per_h"]).max())

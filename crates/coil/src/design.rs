@@ -199,9 +199,9 @@ pub struct HeatPaths {
     /// Thermal contact resistances between flanges and the coil's faces; a face that is not listed has none.
     #[cfg_attr(feature = "serde", serde(default))]
     pub flange_contacts: Vec<FlangeContact>,
-    /// Mounts at the outer faces of flanges.
+    /// Mounts at the outer faces of the spool's ends.
     pub mounts: Vec<Mount>,
-    /// Power dissipated in flanges from the first instant of a profile.
+    /// Power dissipated in the spool's ends from the first instant of a profile.
     pub heaters: Vec<Heater>,
     /// Film that couples every surface of the solids to the chamber's temperature \[W/(m² K)\], in place of the still medium.
     pub film: Option<f64>,

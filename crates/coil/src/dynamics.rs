@@ -2,8 +2,8 @@
 
 use crate::mechanics::Blend;
 use crate::{
-    BiasOperator, Design, Drifts, Drive, Error, MechanicalState, MeshFineness, Model, Output, Outputs, Profile, Reduced,
-    Reduction, Steps, ThermalModel, ThermalState, TurnFields,
+    BiasOperator, Design, Drifts, Drive, Error, MODEL_SAFETY, MechanicalState, MeshFineness, Model, Output, Outputs,
+    ParametricModel, Profile, Reduced, Reduction, Steps, ThermalModel, ThermalState, TurnFields,
 };
 use bias::Bias;
 use nalgebra::{DMatrix, DVector};
@@ -75,8 +75,8 @@ pub const REDUCTION_SAFETY: f64 = 4.0;
 /// Estimates of what the reduction leaves out, for any course of the drives and readings that are means over a second or more.
 ///
 /// A response to any course is the convolution of the drive's rate with the step response, so a difference of step responses bounds
-/// the difference of responses for every course of bounded rate. What is taken is [`REDUCTION_SAFETY`] times the difference to a model
-/// with two thirds of the modes, the worst over drives and mechanical states: an estimate, not a bound.
+/// the difference of responses for every course of bounded rate. What is taken is [`REDUCTION_SAFETY`] ([`MODEL_SAFETY`]) times the difference to
+/// a model with two thirds of the modes (three quarters of a parametric model's fields), the worst over drives and mechanical states: an estimate, not a bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ReductionError {
@@ -87,7 +87,7 @@ pub struct ReductionError {
 }
 
 impl ReductionError {
-    fn between(reduced: &Reduced, smaller: &Reduced, drives: usize) -> Self {
+    fn between(reduced: &Reduced, smaller: &Reduced, drives: usize, safety: f64) -> Self {
         let times: Vec<f64> = [0.0].into_iter().chain(reduced.instants()).collect();
         let variation = |f: &dyn Fn(f64) -> f64| {
             let values: Vec<f64> = times.iter().map(|&t| f(t)).collect();
@@ -98,13 +98,13 @@ impl ReductionError {
             let thermometer = |model: &Reduced, t: f64| model.step_response(model.thermometer(), drive, t);
             let off = |t: f64| (thermometer(reduced, t) - thermometer(smaller, t)).abs();
             let sensor: f64 = times.windows(2).map(|w| (w[1] - w[0]) * off(w[0]).max(off(w[1]))).sum();
-            worst.sensor = worst.sensor.max(REDUCTION_SAFETY * sensor);
+            worst.sensor = worst.sensor.max(safety * sensor);
             for (parts, of_smaller) in reduced.outputs().parts.iter().zip(&smaller.outputs().parts) {
                 let bias = |model: &Reduced, parts: &[Output; 3], t: f64| {
                     parts.iter().map(|part| model.step_response(part, drive, t)).sum::<f64>()
                 };
                 let missing = variation(&|t| bias(reduced, parts, t) - bias(smaller, of_smaller, t));
-                worst.bias = worst.bias.max(REDUCTION_SAFETY * missing / variation(&|t| bias(reduced, parts, t)));
+                worst.bias = worst.bias.max(safety * missing / variation(&|t| bias(reduced, parts, t)));
             }
         }
         worst
@@ -178,6 +178,47 @@ impl Dynamics {
         Ok((dynamics, fields))
     }
 
+    /// Of a design in a parametric model's box, in milliseconds: driven by the chamber, and by its heaters if it has any. The second stands on
+    /// fewer of the model's fields and leaves out what is quadratic in temperature; see [`Self::distance`].
+    ///
+    /// # Errors
+    /// As [`ParametricModel::at`].
+    pub fn varied(model: &ParametricModel, design: &Design) -> Result<[Self; 2], Error> {
+        let drives = if design.heat.heaters.is_empty() { vec![Drive::Chamber] } else { vec![Drive::Chamber, Drive::Heaters] };
+        let curvature = if design.drifts.thermo_optic_curvature == 0.0 {
+            None
+        } else {
+            Some(Curvature::new(design, &model.fields(design, &MechanicalState::NOMINAL)?)?)
+        };
+        let (reduced, coarser) = (model.at(design)?, model.coarser(design)?);
+        let error = ReductionError::between(&reduced, &coarser, drives.len(), MODEL_SAFETY);
+        let of = |reduced: Reduced, curvature: Option<Curvature>| Self {
+            reduced,
+            error,
+            blend: design.states().1,
+            sensor_lag: design.sensor.lag,
+            drives: drives.clone(),
+            drifts: design.drifts,
+            curvature,
+        };
+        Ok([of(reduced, curvature), of(coarser, None)])
+    }
+
+    /// Largest distances of thermometer \[K\] and rate \[rad/s\] from those of another along a profile, without what is quadratic in temperature;
+    /// NaN if any value is.
+    ///
+    /// # Errors
+    /// As [`Self::simulate`].
+    pub fn distance(&self, other: &Self, profile: &Profile) -> Result<[f64; 2], Error> {
+        let linear = |dynamics: &Self| Self { curvature: None, ..dynamics.clone() }.simulate(profile);
+        let (ours, theirs) = (linear(self)?, linear(other)?);
+        let largest = |of: fn(&Response) -> f64| {
+            let apart = ours.iter().zip(&theirs).map(|(a, b)| (of(a) - of(b)).abs());
+            apart.fold(0.0, |most: f64, d| if d.is_nan() || most.is_nan() { f64::NAN } else { most.max(d) })
+        };
+        Ok([largest(|r| r.sensor), largest(Response::rate)])
+    }
+
     fn reduce(design: &Design, drives: &[Drive], fidelity: &Fidelity) -> Result<Parts, Error> {
         if fidelity.modes == 0 {
             return Err(Error::Resolution("a reduced model needs at least one mode".into()));
@@ -193,7 +234,7 @@ impl Dynamics {
             }
         }
         let Reduction { reduced, smaller, modes } = Reduction::new(&thermal, &outputs, fidelity.modes * drives.len())?;
-        let error = ReductionError::between(&reduced, &smaller, drives.len());
+        let error = ReductionError::between(&reduced, &smaller, drives.len(), REDUCTION_SAFETY);
         let curvature = if design.drifts.thermo_optic_curvature == 0.0 {
             None
         } else {

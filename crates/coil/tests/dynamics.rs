@@ -146,19 +146,28 @@ fn bounds_heat_paths_act_in_the_right_direction() {
 
 #[test]
 fn exact_a_heater_settles_where_its_power_leaves_through_the_mount() {
-    // nearly all heat leaves through a strong mount: the flange face sits at power / (conductance × area) above it
-    let design = changed(|d| {
-        d.heat.mounts.push(Mount { side: Side::Right, conductance: 2000.0 });
-        d.heat.heaters.push(Heater { side: Side::Right, power: 1.0 });
-        d.surroundings.conductivity = 1e-6;
-    });
-    let time: Vec<f64> = (0..5000).map(|k| 60.0 * f64::from(k)).collect();
-    let profile = Profile { drives: vec![vec![20.0; time.len()], vec![1.0; time.len()]], time };
-    let rows = run(&design, &[Drive::Chamber, Drive::Heaters], &profile);
-    assert!((rows[0].sensor - 20.0).abs() < 1e-9 && rows[0].bias == Bias::ZERO, "rest before the heater is on: {:?}", rows[0]);
-    let area = std::f64::consts::PI * (49.825e-3f64.powi(2) - 39.5e-3f64.powi(2));
-    let rise = rows[rows.len() - 1].sensor - 20.0;
-    assert!((rise * 2000.0 * area - 1.0).abs() < 0.02, "{rise} K against {} K", 1.0 / (2000.0 * area));
+    // nearly all heat leaves through the mount: its face sits at power / (conductance × area) above it, be it a flange's or the bare hub's
+    for (flanged, outer, conductance) in [(true, 49.825e-3f64, 2000.0), (false, 43.5e-3, 20.0)] {
+        let design = changed(|d| {
+            d.heat.mounts.push(Mount { side: Side::Right, conductance });
+            d.heat.heaters.push(Heater { side: Side::Right, power: 1.0 });
+            d.surroundings.conductivity = 1e-6;
+            if !flanged {
+                spool(d).flanges.clear();
+            }
+        });
+        let time: Vec<f64> = (0..5000).map(|k| 60.0 * f64::from(k)).collect();
+        let profile = Profile { drives: vec![vec![20.0; time.len()], vec![1.0; time.len()]], time };
+        let rows = run(&design, &[Drive::Chamber, Drive::Heaters], &profile);
+        assert!(
+            (rows[0].sensor - 20.0).abs() < 1e-9 && rows[0].bias == Bias::ZERO,
+            "rest before the heater is on: {:?}",
+            rows[0]
+        );
+        let area = std::f64::consts::PI * (outer.powi(2) - 39.5e-3f64.powi(2));
+        let (rise, expected) = (rows[rows.len() - 1].sensor - 20.0, 1.0 / (conductance * area));
+        assert!((rise / expected - 1.0).abs() < 0.02, "{rise} K against {expected} K");
+    }
 }
 
 #[test]
@@ -258,9 +267,12 @@ fn exact_the_thermometers_own_lag_adds_to_the_ramps() {
 
 #[test]
 fn exact_a_strong_mount_takes_the_spool_to_its_own_temperature_on_either_side() {
-    for side in [Side::Left, Side::Right] {
+    // the reference spool has a flange at the right and its bare hub at the left
+    for (side, flanged) in [(Side::Left, true), (Side::Right, true), (Side::Left, false)] {
         let design = changed(|d| {
-            spool(d).flanges[0].side = side;
+            if flanged {
+                spool(d).flanges[0].side = side;
+            }
             d.heat.mounts.push(Mount { side, conductance: 1e5 });
             d.sensor.y = 9.01e-3;
         });

@@ -117,7 +117,31 @@ fn the_full_chain_of_other_designs() {
     let mut in_film = reference();
     in_film.heat.film = Some(8.0);
     for design in [without_flange, with_two, free, in_film] {
-        holds(&modelled(&design), 2, &mut 7);
+        let model = modelled(&design);
+        holds(&model, 2, &mut 7);
+        heaters_settle(&model);
+    }
+}
+
+#[test]
+fn the_few_modes_of_a_design_respond_as_all_of_them_do() {
+    let (model, profile, mut seed) = (model(), profile(), 5);
+    for heated in [0.0, 0.5] {
+        let design = Parameter::Heater(Side::Right).set(&somewhere(&reference(), model.ranges(), &mut seed), heated);
+        let (few, all) = (at(model, &design), model.slopes(&design, &[]).expect("a design of the box").reduced().clone());
+        assert!(2 * few.rates().len() < all.rates().len());
+        let drives: Vec<Vec<f64>> =
+            [profile.drives[0].clone(), vec![1.0; profile.time.len()]].into_iter().take(1 + usize::from(heated > 0.0)).collect();
+        // from rest, and after a jump by 20 K
+        for (rest, within) in [(drives[0][0], 2e-6), (0.0, 2e-5)] {
+            let run = |reduced: &Reduced| reduced.run(&profile.time, &drives, &[rest, 0.0]);
+            let (few, all) = (run(&few), run(&all));
+            let off = distance(&few.thermometer, &all.thermometer);
+            assert!(off < 2e-4, "{off} K");
+            for (few, all) in few.parts[0].iter().zip(&all.parts[0]) {
+                assert!(distance(few, all) < within * largest(all), "{:e} of {:e}", distance(few, all), largest(all));
+            }
+        }
     }
 }
 
@@ -197,21 +221,33 @@ fn the_distance_to_a_coarser_model_covers_the_error() {
 
 #[test]
 fn derivatives_are_those_of_differences() {
-    let (model, profile) = (model(), profile());
+    let model = model();
     let design = Parameter::Mount(Side::Right).set(&somewhere(model.design(), model.ranges(), &mut 5), 3.0);
-    let free: Vec<&Range> = model.ranges().iter().filter(|range| !matches!(range.parameter, Parameter::Heater(_))).collect();
+    derivatives(model, &design);
+    // with a second drive, of which the heater's power is a parameter
+    derivatives(model, &Parameter::Heater(Side::Right).set(&design, 0.4));
+}
+
+fn derivatives(model: &ParametricModel, design: &Design) {
+    let mut profile = profile();
+    profile.drives.push(profile.time.iter().map(|t| 1.0 + (t / 5000.0).sin()).collect());
+    let heated = !design.heat.heaters.is_empty();
+    profile.drives.truncate(1 + usize::from(heated));
+    let off = |range: &&Range| matches!(range.parameter, Parameter::Heater(_)) && !heated;
+    let free: Vec<&Range> = model.ranges().iter().filter(|range| !off(range)).collect();
     let parameters: Vec<Parameter> = free.iter().map(|range| range.parameter).collect();
-    let slopes = model.slopes(&design, &parameters).unwrap();
-    let rest = [profile.drives[0][0]];
+    let slopes = model.slopes(design, &parameters).expect("a design of the box");
+    let rest = [profile.drives[0][0], 0.0];
     let all = slopes.run(&profile.time, &profile.drives, &rest);
     let flat = |outputs: &coil::Outputs<Vec<f64>>| -> Vec<Vec<f64>> {
         [&outputs.thermometer, &outputs.coil_mean].into_iter().chain(&outputs.parts[0]).cloned().collect()
     };
-    let at = |design: &Design| flat(&model.slopes(design, &[]).unwrap().run(&profile.time, &profile.drives, &rest).outputs);
+    let at =
+        |design: &Design| flat(&model.slopes(design, &[]).expect("inside").run(&profile.time, &profile.drives, &rest).outputs);
     for (k, Range { parameter, low, high }) in free.into_iter().enumerate() {
-        let value = parameter.of(&design).unwrap();
+        let value = parameter.of(design).expect("a number of it");
         let by = 1e-3 * value.min(high - low);
-        let [low, high] = [-by, by].map(|by| at(&parameter.set(&design, value + by)));
+        let [low, high] = [-by, by].map(|by| at(&parameter.set(design, value + by)));
         for (o, slope) in flat(&all.slopes[k]).iter().enumerate() {
             let difference: Vec<f64> = high[o].iter().zip(&low[o]).map(|(h, l)| (h - l) / (2.0 * by)).collect();
             // what differences lose of an output that the parameter hardly moves
@@ -244,19 +280,26 @@ fn the_full_chain_of_a_stiffer_and_a_softer_state() {
 
 #[test]
 fn exact_heaters_add_up_and_settle_at_what_conduction_carries() {
-    let model = model();
+    heaters_settle(model());
+}
+
+/// In the flange at the right, or in the hub of a spool that has none there.
+fn heaters_settle(model: &ParametricModel) {
+    if model.design().spool.is_none() {
+        return;
+    }
+    let with = |power: f64| Parameter::Heater(Side::Right).set(model.design(), power);
     let heated = |power: f64| {
-        let design = Parameter::Heater(Side::Right).set(&reference(), power);
-        let reduced = model.at(&design).unwrap();
+        let design = with(power);
+        let reduced = at(model, &design);
         let profile = Profile { time: vec![0.0, 1e7], drives: vec![vec![0.0; 2], vec![1.0; 2]] };
         let mut steps = reduced.steps(&profile.time, &profile.drives, &[0.0, 0.0]);
         steps.next();
         reduced.thermometer().of(steps.state())
     };
-    let dynamics =
-        Dynamics::new(&Parameter::Heater(Side::Right).set(&reference(), 1.0), &[Drive::Chamber, Drive::Heaters], &QUICK).unwrap();
+    let dynamics = Dynamics::new(&with(1.0), &[Drive::Chamber, Drive::Heaters], &QUICK).expect("model");
     let steady =
-        dynamics.simulate(&Profile { time: vec![0.0, 1e7], drives: vec![vec![0.0; 2], vec![1.0; 2]] }).unwrap()[1].sensor;
+        dynamics.simulate(&Profile { time: vec![0.0, 1e7], drives: vec![vec![0.0; 2], vec![1.0; 2]] }).expect("rows")[1].sensor;
     assert!((heated(1.0) / steady - 1.0).abs() < 1e-4, "{} against {steady}", heated(1.0));
     assert!((heated(0.5) / heated(1.0) - 0.5).abs() < 1e-9);
 }

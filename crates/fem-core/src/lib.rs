@@ -30,6 +30,7 @@
 
 mod condensed;
 mod constraints;
+pub mod dense;
 mod error;
 mod form;
 mod geometry;
@@ -47,7 +48,7 @@ pub use constraints::{Constraints, DofMap};
 pub use error::Error;
 pub use form::{Form, Operator};
 pub use geometry::{Edge, ElementGeometry, Measure, ReferenceElement};
-pub use linear::{BACKWARD_ERROR_LIMIT, Factor, PROBE_ERROR_LIMIT, SymbolicFactor, symmetric_eigen};
+pub use linear::{BACKWARD_ERROR_LIMIT, Factor, PROBE_ERROR_LIMIT, SymbolicFactor};
 pub use mesh::Mesh;
 pub use problem::{Coupling, Problem};
 pub use sparse::{Pattern, SparseMatrix};

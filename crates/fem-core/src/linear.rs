@@ -1,4 +1,4 @@
-//! Sparse Cholesky factorisation with a residual check: the only module that names the factorisation library.
+//! Sparse Cholesky factorisation with a residual check: with [`crate::dense`] the only module that names the factorisation library.
 
 use crate::{Error, SparseMatrix};
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -159,18 +159,6 @@ impl Factor {
         }
         Ok(x)
     }
-}
-
-/// Eigenvalues, increasing, and orthonormal eigenvectors (columns) of a dense symmetric matrix, whose lower triangle counts.
-///
-/// # Errors
-/// [`Error::NotPositiveDefinite`] if the iteration does not end, as when an entry is not finite.
-pub fn symmetric_eigen(matrix: &DMatrix<f64>) -> Result<(Vec<f64>, DMatrix<f64>), Error> {
-    let n = matrix.nrows();
-    let failed = |e| Error::NotPositiveDefinite { unknowns: n, detail: format!("no eigenvectors: {e:?}") };
-    let eigen = MatRef::from_column_major_slice(matrix.as_slice(), n, n).self_adjoint_eigen(Side::Lower).map_err(failed)?;
-    let (values, vectors) = (eigen.S(), eigen.U());
-    Ok(((0..n).map(|i| values[i]).collect(), DMatrix::from_fn(n, n, |i, j| vectors[(i, j)])))
 }
 
 /// The first unknowns of a dense symmetric matrix, eliminated: `[L_ii; L_oi]` of `L Lᵀ`.

@@ -63,18 +63,26 @@ impl Record {
     }
 }
 
-/// The library of a design, from the cache if it is there; `progress` is told how far it is.
+/// The models of a design, from the cache if they are there; `progress` is told how far they are.
 ///
 /// # Errors
 /// [`files::Error::Coil`] if the design cannot be modelled.
-pub fn library(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(Step) + Sync)) -> Result<Library, Error> {
+pub fn models(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(Step) + Sync)) -> Result<Models, Error> {
     const TASK: &str = "modelling the coil and what its model may leave out (half a minute, once for a design)";
     let key = (&case.design, &case.tolerances, COARSE);
     let built = cache.load_or_build("models", &key, || {
         progress(Step::begins(TASK));
         Models::build(&case.design, &case.tolerances, CATALOGUE, &|step| progress(Step { task: TASK, ..step }))
     });
-    built.and_then(|(models, _)| Library::new(models, CATALOGUE)).map_err(Error::of_coil(&case.file))
+    built.map(|(models, _)| models).map_err(Error::of_coil(&case.file))
+}
+
+/// The library of a design, of its [`models`].
+///
+/// # Errors
+/// As [`models`].
+pub fn library(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(Step) + Sync)) -> Result<Library, Error> {
+    Library::new(models(case, cache, progress)?, CATALOGUE).map_err(Error::of_coil(&case.file))
 }
 
 fn refuse(case: &RecordCase, field: &str, problem: String, remedy: &str) -> Error {

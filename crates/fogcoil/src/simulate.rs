@@ -6,10 +6,11 @@ use std::io::{self, Write};
 use bias::Bias;
 use bias::units::{DEG_PER_H_PER_RAD_PER_S, K_PER_MIN_PER_K_PER_S};
 use coil::{
-    CHECKS, COARSER, Drive, Dynamics, Profile, ReductionError, Response, STANDARD, STEADY, SteadySensitivity, ThermalState,
-    TurnFields, chamber_from_sensor,
+    CHECKS, COARSER, Drive, Dynamics, MODEL_SAFETY, ParametricModel, Profile, ReductionError, Response, STANDARD, STEADY,
+    SteadySensitivity, ThermalState, TurnFields, chamber_from_sensor,
 };
 use files::{Note, Remark};
+use progress::Step;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -98,6 +99,23 @@ pub struct SimulatedRow {
     pub read_out: f64,
     /// The sum of the four \[deg/h\].
     pub rate: f64,
+}
+
+impl SimulatedRow {
+    fn of(profile: &ProfileCase, n: usize, response: Response) -> Self {
+        let Response { sensor, bias, .. } = response;
+        let bias = bias * DEG_PER_H_PER_RAD_PER_S;
+        Self {
+            time: profile.profile.time[n],
+            chamber: profile.chamber()[n],
+            spool: sensor,
+            shupe: bias.shupe,
+            eo_axial: bias.eo_axial,
+            eo_radial: bias.eo_radial,
+            read_out: response.read_out * DEG_PER_H_PER_RAD_PER_S,
+            rate: response.rate() * DEG_PER_H_PER_RAD_PER_S,
+        }
+    }
 }
 
 /// Rates over the shortest run of whole rows that spans [`WINDOW_S`].
@@ -199,21 +217,87 @@ fn assembled(case: &CoilCase, drives: &[Drive], cache: &Cache, dynamics: Dynamic
     Ok(Model { dynamics, coarser, steady, source: if of_steady == source { source } else { Source::Built } })
 }
 
+/// A design's model for all designs that differ from it within a box of their constants and dimensions.
+#[derive(Debug, Clone)]
+pub struct DesignBox {
+    model: ParametricModel,
+}
+
+/// What a design of a [`DesignBox`] does under a profile.
+#[derive(Debug, Clone)]
+pub struct Varied {
+    /// Rows of the result.
+    pub rows: Vec<SimulatedRow>,
+    /// Estimates, not bounds, of how far thermometer \[K\] and rate \[deg/h\] are anywhere from those of [`simulate`], which has the same mesh.
+    pub errors: [f64; 2],
+}
+
+impl DesignBox {
+    /// Three standard deviations of the tolerances of `case` to either side, and mounts, contacts and heaters as far as mechanisms go; from the
+    /// cache if it is there. `progress` is told how far it is.
+    ///
+    /// # Errors
+    /// [`files::Error::Coil`] if the design cannot be modelled.
+    pub fn about(case: &CoilCase, cache: &Cache, progress: &(dyn Fn(Step) + Sync)) -> Result<Self, Error> {
+        let all = Self { model: crate::prepare::models(case, cache, progress)?.parametric().clone() };
+        // a heater of its own is no part of what a diagnosis needs
+        if all.model.outside(&case.design).is_some() { all.including(case) } else { Ok(all) }
+    }
+
+    /// The box made anew, so wide that it holds `case`, too.
+    ///
+    /// # Errors
+    /// As [`Self::about`].
+    pub fn including(&self, case: &CoilCase) -> Result<Self, Error> {
+        Ok(Self { model: self.model.including(&case.design, &|| ()).map_err(Error::of_coil(&case.file))? })
+    }
+
+    /// Runs a profile from rest at its first instant.
+    ///
+    /// # Errors
+    /// As [`simulate`], and [`files::Error::Coil`] if the design lies outside the box or cannot be reached.
+    pub fn simulate(&self, case: &CoilCase, profile: &ProfileCase) -> Result<Varied, Error> {
+        if let Some(drive) = profile.drives.iter().find(|drive| !matches!(drive, Drive::Chamber | Drive::Heaters)) {
+            return Err(Error::usage(format!(
+                "a box of designs is driven by its chamber alone; leave out {drive:?} of the profile"
+            )));
+        }
+        let [dynamics, coarser] = Dynamics::varied(&self.model, &case.design).map_err(Error::of_coil(&case.file))?;
+        let rows = run(&dynamics, profile)?.into_iter().enumerate().map(|(n, r)| SimulatedRow::of(profile, n, r)).collect();
+        let at = Error::of_coil(&profile.fingerprint.file);
+        let [spool, rate] = dynamics.distance(&coarser, &course(profile)).map_err(at)?;
+        if !(spool.is_finite() && rate.is_finite()) {
+            return Err(Error::NotFinite { file: profile.fingerprint.file.clone(), time: profile.profile.time[0] });
+        }
+        Ok(Varied { rows, errors: [MODEL_SAFETY * spool, MODEL_SAFETY * DEG_PER_H_PER_RAD_PER_S * rate] })
+    }
+}
+
+/// A profile's responses at its rows.
+fn run(dynamics: &Dynamics, profile: &ProfileCase) -> Result<Vec<Response>, Error> {
+    let file = &profile.fingerprint.file;
+    let responses = by_row(dynamics.simulate(&course(profile)).map_err(Error::of_coil(file))?, profile.between.parts());
+    match responses.iter().position(|r| !(r.sensor.is_finite() && r.rate().is_finite())) {
+        Some(row) => Err(Error::NotFinite { file: file.clone(), time: profile.profile.time[row] }),
+        None => Ok(responses),
+    }
+}
+
+/// A profile as it is run: divided where it is a cubic between its rows.
+fn course(profile: &ProfileCase) -> Cow<'_, Profile> {
+    match profile.between.parts() {
+        1 => Cow::Borrowed(&profile.profile),
+        parts => Cow::Owned(profile.profile.smoothed(parts)),
+    }
+}
+
 /// Runs a profile from rest at its first instant.
 ///
 /// # Errors
 /// [`files::Error::Coil`] if the profile cannot be run; [`Error::NotFinite`] if the model gives no number.
 pub fn simulate<'a>(case: &'a CoilCase, profile: &'a ProfileCase, model: &Model) -> Result<Simulation<'a>, Error> {
-    let file = || profile.fingerprint.file.clone();
-    let parts = profile.between.parts();
-    let course = if parts == 1 { Cow::Borrowed(&profile.profile) } else { Cow::Owned(profile.profile.smoothed(parts)) };
-    let at = Error::of_coil(&profile.fingerprint.file);
-    let responses = by_row(model.dynamics.simulate(&course).map_err(at)?, parts);
-    let coarser = by_row(model.coarser.simulate(&course).map_err(at)?, parts);
-    if let Some(row) = responses.iter().position(|r| !(r.sensor.is_finite() && r.rate().is_finite())) {
-        return Err(Error::NotFinite { file: file(), time: profile.profile.time[row] });
-    }
-    let samples = samples(&model.dynamics, &course).map_err(at)?;
+    let (responses, coarser) = (run(&model.dynamics, profile)?, run(&model.coarser, profile)?);
+    let samples = samples(&model.dynamics, &course(profile)).map_err(Error::of_coil(&profile.fingerprint.file))?;
     let (reduction, modes) = (model.dynamics.reduction_error(), model.dynamics.reduced().rates().len());
     Ok(Simulation { case, profile, steady: model.steady, reduction, modes, source: model.source, responses, coarser, samples })
 }
@@ -261,18 +345,7 @@ impl Simulation<'_> {
     }
 
     fn row_of(&self, n: usize, response: Response) -> SimulatedRow {
-        let Response { sensor, bias, .. } = response;
-        let bias = bias * DEG_PER_H_PER_RAD_PER_S;
-        SimulatedRow {
-            time: self.profile.profile.time[n],
-            chamber: self.profile.chamber()[n],
-            spool: sensor,
-            shupe: bias.shupe,
-            eo_axial: bias.eo_axial,
-            eo_radial: bias.eo_radial,
-            read_out: response.read_out * DEG_PER_H_PER_RAD_PER_S,
-            rate: response.rate() * DEG_PER_H_PER_RAD_PER_S,
-        }
+        SimulatedRow::of(self.profile, n, response)
     }
 
     /// Differences of the rows from those on a coarser mesh; an estimate of the mesh's error.

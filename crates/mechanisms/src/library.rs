@@ -70,9 +70,9 @@ pub(crate) fn unheated(design: &Design) -> Design {
 }
 
 impl Models {
-    /// The design that they were made for.
-    pub fn design(&self) -> &Design {
-        &self.drawing
+    /// The model of every design within a box about the drawing.
+    pub fn parametric(&self) -> &ParametricModel {
+        &self.model
     }
 }
 

@@ -9,17 +9,20 @@ Every function takes a design as a path, as RON text, or as a :class:`Coil` (a :
 Keys and columns are those of the command line (``--json``, CSV) and carry their units; what has none in its name is SI, sensitivities are
 in (deg/h)/(degC/min). Signs: y = 0 is the coil's left face, z = 0 the outer end of the CCW half.
 
+A :class:`DesignBox` simulates one changed design after another in milliseconds.
+
 Bad input is an :class:`InputError`, a :class:`ValueError` whose message says what, where and how to mend it; ``RuntimeError`` is a failure
 of the program's own. Other threads run while anything is computed, so that ``concurrent.futures.ThreadPoolExecutor`` makes sweeps parallel.
 """
 
 from fogcoil._diagnose import Diagnosis, Record, diagnose
 from fogcoil._native import Cell, Coil, InputError, __version__
-from fogcoil._solve import Sensitivity, Simulation, homogenize, sensitivity, simulate, wind
+from fogcoil._solve import DesignBox, Sensitivity, Simulation, homogenize, sensitivity, simulate, wind
 
 __all__ = [
     "Cell",
     "Coil",
+    "DesignBox",
     "Diagnosis",
     "InputError",
     "Record",

@@ -11,7 +11,7 @@ use super::structure::{self, Structure};
 use crate::grid::Grading;
 use crate::layout::Skins;
 use crate::thermal::{Shifted, properties};
-use crate::{Design, Error, Grid, Layout, MechanicalState, MeshFineness, Model, Parameter, Region};
+use crate::{Design, Error, Grid, Layout, MechanicalState, MeshFineness, Model, Parameter, Region, Side};
 use nalgebra::{DMatrix, DVector};
 
 /// Rates of growth at which a design's heat flow is solved, besides none.
@@ -29,9 +29,6 @@ const STATES: [MechanicalState; 3] = [
 
 /// Weight of stored heat beside conduction in the size of a field \[1/s\]: a coil's slowest rates are of its order.
 const STORED: f64 = 1e-3;
-
-/// The fastest rate of growth \[1/s\]: no reading is much shorter than its inverse.
-const FASTEST: f64 = 0.3;
 
 /// The lattice of nodes of a thermal mesh.
 #[derive(PartialEq)]
@@ -56,14 +53,6 @@ impl Lattice {
         grid.places().iter().zip(field).for_each(|(place, value)| laid[*place] = *value);
         laid
     }
-}
-
-/// Rates at which a drive grows, at whose responses the heat flow is kept \[1/s\]: none, then evenly in the logarithm between the slowest of
-/// the coil and the fastest that a reading shows.
-fn rates(slowest: f64) -> Vec<f64> {
-    let first = 0.3 * slowest;
-    let step = (FASTEST / first).ln() / (RATES - 1) as f64;
-    [0.0].into_iter().chain((0..RATES).map(|k| first * (step * k as f64).exp())).collect()
 }
 
 /// Columns that make fields with the inner products `gram` orthonormal, the largest first, without those below `least` of the largest.
@@ -117,9 +106,15 @@ impl ParametricModel {
     ) -> Result<Self, Error> {
         let section = Section::new(design)?;
         let ranges: Vec<Range> = ranges.iter().copied().filter(|r| r.parameter.of(design).is_some()).collect();
-        let flanges: Vec<crate::Side> = design.spool.iter().flat_map(|s| s.flanges.iter().map(|f| f.side)).collect();
         let skinned = |design: &Design| Layout::with_skins(design, Skins::All);
-        let heated = |k: usize| if flanges.is_empty() { None } else { Some(flanges[k % flanges.len()]) };
+        // flanges, and the hub where it has a heater or may have one
+        let hot_end = |side: Side| {
+            let free = ranges.iter().any(|range| range.parameter == Parameter::Heater(side));
+            let heated = design.heat.heaters.iter().any(|heater| heater.side == side);
+            design.spool.is_some() && (Region::end(design, side) == Region::flange(side) || free || heated)
+        };
+        let ends: Vec<Side> = [Side::Left, Side::Right].into_iter().filter(|side| hot_end(*side)).collect();
+        let heated = |k: usize| if ends.is_empty() { None } else { Some(ends[k % ends.len()]) };
         let hot: Vec<Range> = ranges.iter().copied().filter(|r| r.parameter.of_heat()).collect();
         let stiff: Vec<Range> = ranges.iter().copied().filter(|r| r.parameter.of_mechanics()).collect();
         let layout = skinned(design)?;
@@ -150,7 +145,7 @@ impl ParametricModel {
             };
             let mut loads = vec![load(&|region| properties(&changed, region).map_or(0.0, |(_, c)| c))?];
             if let Some(side) = heated(k) {
-                loads.push(load(&|region| f64::from(u8::from(region == Region::flange(side))))?);
+                loads.push(load(&|region| f64::from(u8::from(region == Region::end(design, side))))?);
             }
             let mut solve = |rate: f64| -> Result<f64, Error> {
                 let solutions = heat.solve(&layout, &changed, rate, &loads)?;
@@ -160,7 +155,7 @@ impl ParametricModel {
             if k == 0 {
                 slowest = 1.0 / solve(0.0)?;
             }
-            for rate in rates(slowest).into_iter().skip(usize::from(k == 0)) {
+            for rate in heat::rates(slowest, RATES).skip(usize::from(k == 0)) {
                 solve(rate)?;
             }
         }
@@ -172,7 +167,7 @@ impl ParametricModel {
         let mut values = kept.values.insert_column(0, 0.0);
         values.set_column(0, &raw.values.column(0));
         let temperatures = Fields { width: lattice.width, values };
-        let heat = Heat::new(&section, &strips, &temperatures);
+        let heat = Heat::new(design, &section, &strips, &temperatures);
         let mechanics = |design: &Design, state: &MechanicalState| -> Result<Model, Error> {
             Model::on(&skinned(design)?, design, resolution, Grading::Even, state)
         };

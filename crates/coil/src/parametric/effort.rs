@@ -27,7 +27,7 @@ impl Default for Effort {
             heat: 20,
             mechanics: 15,
             least_temperature: 1e-6,
-            least_displacement: 1e-5,
+            least_displacement: 1e-4,
             most_temperatures: 80,
             most_displacements: 200,
         }

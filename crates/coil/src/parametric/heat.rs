@@ -1,11 +1,23 @@
 //! Heat flow on a reduced basis: integrals over rectangles once, their sum for every design.
 
-use super::project::{Fields, Kind, Terms, edge_integral, inner_products, integrals};
+use super::project::{Fields, Kind, Stencil, Terms, combined, edge_integral, inner_products, integrals};
 use super::section::Section;
 use super::strip::{Op, Stretch, Strip};
 use crate::thermal::properties;
 use crate::{Design, Error, Reduced, Region, Side};
+use fem_core::dense::{self, DenseFactor, product};
 use nalgebra::{DMatrix, DVector};
+
+/// The fastest rate of growth \[1/s\]: no reading is much shorter than its inverse.
+const FASTEST: f64 = 0.3;
+
+/// Rates at which a drive grows, at whose responses a heat flow is kept \[1/s\]: none, then `count` evenly in the logarithm between the slowest
+/// of the coil and the fastest that a reading shows.
+pub(super) fn rates(slowest: f64, count: usize) -> impl Iterator<Item = f64> {
+    let first = 0.3 * slowest;
+    let step = (FASTEST / first).ln() / (count - 1) as f64;
+    [0.0].into_iter().chain((0..count).map(move |k| first * (step * k as f64).exp()))
+}
 
 /// Integrals over a rectangle that conduct, in the order of [`conduction`].
 const CONDUCTION: [Kind; 4] = [
@@ -27,7 +39,7 @@ struct Face {
     along: usize,
     strip: usize,
     line: usize,
-    /// The flange whose outer face it is.
+    /// The end of the spool whose outer face it is.
     outer: Option<Side>,
     /// Whether nothing is modelled beyond it.
     free: bool,
@@ -84,8 +96,8 @@ pub(super) fn stored(
     Ok(load)
 }
 
-/// Faces of a section that can exchange heat: outer faces of flanges, and in a section without a medium all that is free.
-fn faces(section: &Section) -> Vec<Face> {
+/// Faces of a design's section that can exchange heat: outer faces of the spool's ends, and in a section without a medium all that is free.
+fn faces(section: &Section, design: &Design) -> Vec<Face> {
     let mut faces = Vec::new();
     for (i, j, region) in section.rectangles() {
         let beyond = |i: Option<usize>, j: Option<usize>| section.region(i, j);
@@ -96,7 +108,7 @@ fn faces(section: &Section) -> Vec<Face> {
             (1, j, i + 1, beyond(Some(i + 1), Some(j)), None),
         ];
         for (along, strip, line, beyond, side) in sides {
-            let outer = side.filter(|side| region == Region::flange(*side));
+            let outer = side.filter(|side| region == Region::end(design, *side));
             let free = beyond.is_none() && !(region == Region::Medium);
             if free || outer.is_some_and(|_| beyond == Some(Region::Medium)) {
                 faces.push(Face { along, strip, line, outer, free });
@@ -121,14 +133,14 @@ pub(super) fn energy(section: &Section, strips: &[Vec<Strip>; 2], fields: &Field
 }
 
 impl Heat {
-    /// Projects on `fields` of the reference `section`, whose `strips` lie along r and y.
-    pub(super) fn new(section: &Section, strips: &[Vec<Strip>; 2], fields: &Fields) -> Self {
+    /// Projects on `fields` of the `section` of `design`, whose `strips` lie along r and y.
+    pub(super) fn new(design: &Design, section: &Section, strips: &[Vec<Strip>; 2], fields: &Fields) -> Self {
         let over = |kinds: &[Kind]| -> Vec<DMatrix<f64>> {
             let rectangle = |(i, j, _)| integrals(kinds, &[fields], &[fields], [&strips[0][i], &strips[1][j]], false);
             section.rectangles().flat_map(rectangle).collect()
         };
         let (mut conduction, storage) = (over(&CONDUCTION), over(&STORAGE));
-        let faces = faces(section);
+        let faces = faces(section, design);
         for face in &faces {
             let strip = &strips[face.along][face.strip];
             let other = &strips[1 - face.along];
@@ -142,7 +154,7 @@ impl Heat {
             conduction.push(if face.along == 0 { integral(Op::Mass(1)) } else { DMatrix::zeros(0, 0) });
         }
         let uniform = storage.iter().map(|m| m.column(0).into_owned()).collect();
-        let (conduction, storage) = (Terms::new(conduction), Terms::new(storage));
+        let (conduction, storage) = (Terms::new(conduction, true), Terms::new(storage, true));
         Self { section: section.clone(), faces, conduction, storage, uniform }
     }
 
@@ -190,10 +202,11 @@ impl Heat {
         Ok([k, c])
     }
 
-    /// Conductivity and capacity on all fields for a design whose section is `changed`.
-    pub(super) fn matrices(&self, design: &Design, changed: &Section) -> Result<(DMatrix<f64>, DMatrix<f64>), Error> {
-        let [k, c] = self.coefficients(design, changed)?;
-        Ok((self.conduction.sum(&k), self.storage.sum(&c)))
+    /// What conductivity and capacity on all fields change by: differences over designs with their sections and weights; `None` where nothing
+    /// changes.
+    pub(super) fn change(&self, stencil: &Stencil) -> Result<[Option<DMatrix<f64>>; 2], Error> {
+        let [k, c] = combined(stencil, |design, section| self.coefficients(design, section))?;
+        Ok([k.map(|k| self.conduction.sum(&k)), c.map(|c| self.storage.sum(&c))])
     }
 
     /// Power of each heater of `design` onto each field \[W\].
@@ -203,7 +216,7 @@ impl Heat {
         for heater in &design.heat.heaters {
             let mut onto = DVector::<f64>::zeros(self.size());
             for (n, (i, j, region)) in self.section.rectangles().enumerate() {
-                if region == Region::flange(heater.side) {
+                if region == Region::end(design, heater.side) {
                     let coefficients = storage(1.0, [stretches[0][i], stretches[1][j]]);
                     (0..2).for_each(|k| onto += &self.uniform[2 * n + k] * coefficients[k]);
                 }
@@ -214,30 +227,106 @@ impl Heat {
         Ok(load / std::f64::consts::TAU)
     }
 
-    /// Modes of a design on the first `fields` of the fields, the constant one included.
-    pub(super) fn modes(&self, design: &Design, changed: &Section, fields: usize) -> Result<Modes, Error> {
+    /// Heat flow of a design on the first `fields` of the fields, the constant one included.
+    pub(super) fn system(&self, design: &Design, changed: &Section, fields: usize) -> Result<System, Error> {
         let n = fields.min(self.size()) - 1;
-        let (k, c) = self.matrices(design, changed)?;
+        let [k, c] = self.coefficients(design, changed)?;
+        let (k, c) = (self.conduction.sum(&k), self.storage.sum(&c));
         let inner = |m: &DMatrix<f64>| m.view((1, 1), (n, n)).into_owned();
-        let failed = || Error::Resolution("the reduced heat flow is not positive definite; model the design anew".into());
-        let factor = inner(&c).cholesky().ok_or_else(failed)?;
-        let l = factor.l();
-        let half = l.solve_lower_triangular(&inner(&k)).ok_or_else(failed)?;
-        let symmetric = l.solve_lower_triangular(&half.transpose()).ok_or_else(failed)?;
-        let solved = fem_core::symmetric_eigen(&symmetric).map_err(|source| Error::Solve { part: "chamber", source })?;
-        let (rates, vectors) = solved;
-        let shapes = l.tr_solve_lower_triangular(&vectors).ok_or_else(failed)?;
-        let stored = c.column(0).rows(1, n).into_owned();
-        let heater = if design.heat.heaters.is_empty() {
-            None
-        } else {
-            let onto = shapes.tr_mul(&self.heated(design, changed)?.rows(1, n));
-            Some(&shapes * DVector::from_fn(n, |i, _| onto[i] / rates[i]))
+        let stored = c.view((1, 0), (n, 1)).into_owned();
+        let (conduction, storage) = (inner(&k), inner(&c));
+        let heated = (!design.heat.heaters.is_empty()).then(|| self.heated(design, changed)).transpose()?;
+        let loads = match heated {
+            Some(heated) => stored.insert_column(1, 0.0).map_with_location(|i, j, v| if j == 1 { heated[i + 1] } else { v }),
+            None => stored,
         };
-        let chamber = shapes.tr_mul(&stored);
-        let heated = heater.as_ref().map(|field| shapes.tr_mul(&(inner(&c) * field)));
-        let drive = (0..n).map(|i| [chamber[i]].into_iter().chain(heated.as_ref().map(|h| h[i])).collect()).collect();
-        Ok(Modes { rates, shapes, drive, heater })
+        Ok(System { conduction, storage, loads })
+    }
+}
+
+/// Heat flow on fields that are 0 at the chamber's wall.
+pub(super) struct System {
+    conduction: DMatrix<f64>,
+    storage: DMatrix<f64>,
+    /// what the chamber's rate, and the heaters, put onto each field
+    loads: DMatrix<f64>,
+}
+
+/// Rates of growth of the drives at whose responses a design's modes hold, besides none.
+pub(super) const SHIFTS: usize = 4;
+
+/// Derivatives with respect to the rate that are held beside the responses themselves.
+const MOMENTS: usize = 2;
+
+/// A direction that is this small after orthogonalisation, relative to before, is rounding.
+const DEPENDENT: f64 = 1e-10;
+
+fn indefinite<E>(_: E) -> Error {
+    Error::Resolution("the reduced heat flow is not positive definite; model the design anew".into())
+}
+
+impl System {
+    /// All modes.
+    pub(super) fn all_modes(&self) -> Result<Modes, Error> {
+        let factor = DenseFactor::new(self.storage.clone()).map_err(indefinite)?;
+        let half = factor.forward(self.conduction.clone());
+        let symmetric = factor.forward(half.transpose());
+        let (rates, vectors) = dense::symmetric_eigen(&symmetric).map_err(indefinite)?;
+        let steady = DenseFactor::new(self.conduction.clone()).map_err(indefinite)?.solve(self.loads.clone());
+        Ok(self.modes_of(rates, factor.backward(vectors), &steady))
+    }
+
+    /// The few modes that respond to the drives as all of them do: those of the fields that drives cause which grow at `shifts` rates, a rational
+    /// Krylov space.
+    pub(super) fn modes(&self, shifts: usize) -> Result<Modes, Error> {
+        let (n, drives) = self.loads.shape();
+        let steady = DenseFactor::new(self.conduction.clone()).map_err(indefinite)?.solve(self.loads.clone());
+        let ramp = steady.columns(0, 1).into_owned();
+        let slowest = ramp.dot(&self.loads.column(0)) / ramp.dot(&product(&self.storage, &ramp));
+        let room = n.min(drives * (MOMENTS * (shifts + 1) + 1));
+        let (mut basis, mut stored, mut count) = (DMatrix::zeros(n, room), DMatrix::zeros(n, room), 0);
+        let mut hold = |fields: &DMatrix<f64>| {
+            for field in fields.column_iter().take(room - count) {
+                let (mut field, size) = (field.into_owned(), field.dot(&(&self.storage * field)).sqrt());
+                for _ in 0..2 {
+                    let along = stored.columns(0, count).tr_mul(&field);
+                    field.gemv(-1.0, &basis.columns(0, count), &along, 1.0);
+                }
+                let image = &self.storage * &field;
+                let left = field.dot(&image).sqrt();
+                // not `<=`: a NaN is not a direction
+                if left > DEPENDENT * size {
+                    basis.set_column(count, &(field / left));
+                    stored.set_column(count, &(image / left));
+                    count += 1;
+                }
+            }
+        };
+        for rate in rates(slowest, shifts) {
+            let factor = DenseFactor::new(&self.conduction + &self.storage * rate).map_err(indefinite)?;
+            let mut fields = factor.solve(self.loads.clone());
+            for moment in 0..MOMENTS {
+                if moment > 0 {
+                    fields = factor.solve(product(&self.storage, &fields));
+                }
+                hold(&fields);
+            }
+        }
+        // what a jump of the drives leaves at once
+        hold(&DenseFactor::new(self.storage.clone()).map_err(indefinite)?.solve(self.loads.clone()));
+        let basis = basis.columns(0, count).into_owned();
+        let small = dense::transposed_product(&basis, &product(&self.conduction, &basis));
+        let (rates, vectors) = dense::symmetric_eigen(&small).map_err(indefinite)?;
+        Ok(self.modes_of(rates, product(&basis, &vectors), &steady))
+    }
+
+    /// Modes of these rates and shapes; `steady` is what the loads lead to.
+    fn modes_of(&self, rates: Vec<f64>, shapes: DMatrix<f64>, steady: &DMatrix<f64>) -> Modes {
+        let heater = (self.loads.ncols() > 1).then(|| steady.column(1).into_owned());
+        let chamber = shapes.tr_mul(&self.loads.column(0));
+        let heated = heater.as_ref().map(|field| shapes.tr_mul(&(&self.storage * field)));
+        let drive = (0..rates.len()).map(|i| [chamber[i]].into_iter().chain(heated.as_ref().map(|h| h[i])).collect()).collect();
+        Modes { rates, shapes, drive, heater }
     }
 }
 
@@ -255,7 +344,7 @@ pub(super) struct Modes {
 impl Modes {
     /// An output by its values on all reduced fields.
     pub(super) fn output(&self, of_fields: &DVector<f64>) -> crate::Output {
-        let inner = of_fields.rows(1, self.rates.len());
+        let inner = of_fields.rows(1, self.shapes.nrows());
         let heater = self.heater.as_ref().map(|field| inner.dot(field));
         crate::Output {
             at_rest: [of_fields[0]].into_iter().chain(heater).collect(),

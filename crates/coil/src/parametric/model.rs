@@ -1,12 +1,12 @@
 //! The parametric model and what it gives of a design.
 
 use super::effort::{Effort, MODULI};
-use super::heat::Heat;
+use super::heat::{Heat, SHIFTS};
 use super::parameter::Parameter;
 use super::project::Fields;
 use super::range::Range;
 use super::section::Section;
-use super::structure::{Solved, Structure};
+use super::structure::Structure;
 use crate::probe::Prober;
 use crate::{Bonds, Design, Error, Grid, MechanicalState, MeshFineness, Model, Outputs, Reduced, TurnFields};
 use nalgebra::{DMatrix, DVector};
@@ -46,7 +46,7 @@ impl Projected {
 }
 
 /// Share of the fields on which a coarser model stands.
-const COARSER: f64 = 0.6;
+const COARSER: f64 = 0.75;
 
 /// Factor on the distance to the coarser model that estimates the error of the bias: an estimate, not a bound. At random points of the
 /// boxes of `cargo xtask bench parametric` it covers; directions that are missing from both models are not seen.
@@ -161,7 +161,7 @@ impl ParametricModel {
         self.on(design, self.size())
     }
 
-    /// As [`Self::at`], on six tenths of the fields: within the box [`MODEL_SAFETY`] times the distance between the two estimates what the model leaves out.
+    /// As [`Self::at`], on three quarters of the fields: within the box [`MODEL_SAFETY`] times the distance between the two estimates what the model leaves out.
     ///
     /// # Errors
     /// As [`Self::at`].
@@ -224,8 +224,10 @@ impl ParametricModel {
     ) -> Result<Reduced, Error> {
         self.holds(design, states)?;
         let changed = Section::new(design)?;
-        let modes = self.heat.modes(design, &changed, temperatures)?;
-        let mut functionals = self.functionals_on(design, &changed, states, displacements)?;
+        // what is coarser has fewer modes, too: the distance shows what they leave out
+        let shifts = if temperatures < self.heat.size() { SHIFTS - 1 } else { SHIFTS };
+        let modes = self.heat.system(design, &changed, temperatures)?.modes(shifts)?;
+        let mut functionals = self.functionals(design, &changed, states, displacements)?;
         functionals.parts.extend(projected.iter().map(|p| p.parts.clone()));
         let outputs = functionals.map(|of| modes.output(of));
         Ok(modes.model(outputs))
@@ -248,9 +250,15 @@ impl ParametricModel {
             return Err(Error::design("mechanics", problem));
         }
         if let Some((parameter, value)) = self.outside(design) {
-            let problem =
-                format!("{parameter:?} of {value:e} lies outside the range that was modelled; see ParametricModel::including");
+            let problem = format!(
+                "{parameter:?} of {value:e} lies outside the range that was modelled; model a box that includes this design"
+            );
             return Err(Error::design("design", problem));
+        }
+        let (of, nominal) = (&design.surroundings, &self.design.surroundings);
+        if design.heat.film.is_none() && of.density != nominal.density {
+            let problem = format!("{} kg/m³ was not modelled; give the medium another specific heat instead", of.density);
+            return Err(Error::design("surroundings.density", problem));
         }
         let flanges = |design: &Design| design.spool.as_ref().map_or(Vec::new(), |spool| spool.flanges.clone());
         let by: Vec<[f64; 2]> = flanges(design)
@@ -265,17 +273,8 @@ impl ParametricModel {
         Ok(())
     }
 
-    /// Outputs as functionals of the temperature fields.
-    pub(super) fn functionals(
-        &self,
-        design: &Design,
-        changed: &Section,
-        states: &[MechanicalState],
-    ) -> Result<Outputs<DVector<f64>>, Error> {
-        self.functionals_on(design, changed, states, usize::MAX)
-    }
-
-    fn functionals_on(
+    /// Outputs as functionals of the temperature fields, on so many displacement fields.
+    fn functionals(
         &self,
         design: &Design,
         changed: &Section,
@@ -287,7 +286,8 @@ impl ParametricModel {
         let (winding, sums) = self.wound(design)?;
         let parts = states.iter().map(|state| {
             let solved = self.structure.solved(design, changed, state, displacements)?;
-            self.parts(design, &winding, &sums, &bore, &solved)
+            let through = solved.through(&solved.adjoint(&self.strain_functionals(design, &sums)));
+            self.parts(design, &winding, &sums, &bore, &through)
         });
         Ok(Outputs { thermometer, coil_mean: self.coil_mean.clone(), parts: parts.collect::<Result<_, _>>()? })
     }
@@ -310,19 +310,18 @@ impl ParametricModel {
         DMatrix::from_columns(&[hoop.clone(), rr * m.m_rx + yy * m.m_ry + hoop * m.m_rz])
     }
 
-    /// Bias parts as functionals of the temperature fields.
+    /// Bias parts as functionals of the temperature fields; `through` are the strain functionals as such.
     pub(super) fn parts(
         &self,
         design: &Design,
         winding: &Winding,
         sums: &Weighted,
         bore: &DVector<f64>,
-        solved: &Solved,
+        through: &DMatrix<f64>,
     ) -> Result<[DVector<f64>; 3], Error> {
         let c = design.optics.coefficients(winding.length())?;
         let free = bore * winding.tail_weight();
         let temperature = &sums.temperature + &free;
-        let through = solved.through(&self.strain_functionals(design, sums));
         let expansion = free * design.optics.thermal_expansion;
         let axial = through.column(0) + &expansion;
         let radial = through.column(1) + &sums.temperature * design.dehomogenization.m_rt + expansion;
@@ -357,7 +356,7 @@ impl ParametricModel {
         self.holds(design, std::slice::from_ref(state))?;
         self.wound(design)?;
         let changed = Section::new(design)?;
-        let modes = self.heat.modes(design, &changed, self.heat.size())?;
+        let modes = self.heat.system(design, &changed, self.heat.size())?.modes(SHIFTS)?;
         let n = self.heat.size();
         let mut columns = DMatrix::zeros(n, 1 + usize::from(modes.heater.is_some()) + modes.rates.len());
         columns[(0, 0)] = 1.0;

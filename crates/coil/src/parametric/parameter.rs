@@ -54,11 +54,11 @@ pub enum Parameter {
     HubResistance,
     /// Contact resistance between a flange and the coil \[m² K/W\].
     FlangeResistance(Side),
-    /// Conductance of a flange's mount \[W/(m² K)\].
+    /// Conductance of the mount of the spool's end on a side, a flange or the hub \[W/(m² K)\].
     Mount(Side),
     /// Film coefficient of all surfaces \[W/(m² K)\].
     Film,
-    /// Power dissipated in a flange \[W\].
+    /// Power dissipated in the spool's end on a side, a flange or the hub \[W\].
     Heater(Side),
 }
 
@@ -184,9 +184,9 @@ impl Parameter {
             Self::FlangeResistance(side) => {
                 flange(side).filter(|f| f.contact == Contact::Bonded).map(|_| heat.flange_resistance(side))
             }
-            Self::Mount(side) => flange(side).map(|_| heat.mounts.iter().filter(|m| m.side == side).map(|m| m.conductance).sum()),
+            Self::Mount(side) => spool.map(|_| heat.mounts.iter().filter(|m| m.side == side).map(|m| m.conductance).sum()),
             Self::Film => heat.film,
-            Self::Heater(side) => flange(side).map(|_| heat.heaters.iter().filter(|h| h.side == side).map(|h| h.power).sum()),
+            Self::Heater(side) => spool.map(|_| heat.heaters.iter().filter(|h| h.side == side).map(|h| h.power).sum()),
         }
     }
 

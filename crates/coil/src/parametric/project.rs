@@ -1,6 +1,9 @@
 //! Fields on a lattice and their integrals over rectangles, strip by strip.
 
+use super::section::Section;
 use super::strip::{Op, Strip};
+use crate::{Design, Error};
+use fem_core::dense::product;
 use nalgebra::{DMatrix, DVector};
 
 /// Fields at the nodes of a lattice, one a column; r fastest.
@@ -107,7 +110,11 @@ pub(super) fn edge_integral(op: Op, fields: &Fields, strip: &Strip, along: usize
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Terms {
-    matrices: Vec<DMatrix<f64>>,
+    shape: (usize, usize),
+    /// whether the lower triangles stand for the matrices
+    symmetric: bool,
+    /// entries of each matrix, one a column
+    entries: DMatrix<f64>,
     /// coefficients of the kept matrices from those of the integrals, once compressed
     onto: Option<DMatrix<f64>>,
     /// sizes of the integrals
@@ -118,19 +125,27 @@ pub(super) struct Terms {
 const LEAST_TERM: f64 = 1e-13;
 
 impl Terms {
-    pub(super) fn new(matrices: Vec<DMatrix<f64>>) -> Self {
-        let sizes = matrices.iter().map(DMatrix::norm).collect();
-        Self { matrices, onto: None, sizes }
+    /// Of matrices of one shape, or 0 × 0 for nothing.
+    pub(super) fn new(matrices: Vec<DMatrix<f64>>, symmetric: bool) -> Self {
+        let sizes: Vec<f64> = matrices.iter().map(DMatrix::norm).collect();
+        let shape @ (rows, columns) = matrices.iter().map(DMatrix::shape).max().unwrap_or((0, 0));
+        let first = |column: usize| if symmetric { column } else { 0 };
+        let mut entries = DMatrix::zeros((0..columns).map(|j| rows - first(j)).sum(), matrices.len());
+        for (matrix, mut entries) in matrices.iter().zip(entries.column_iter_mut()).filter(|(m, _)| !m.is_empty()) {
+            let all = (0..columns).flat_map(|j| matrix.column(j).into_iter().skip(first(j)));
+            entries.iter_mut().zip(all).for_each(|(entry, value)| *entry = *value);
+        }
+        Self { shape, symmetric, entries, onto: None, sizes }
     }
 
     /// Numbers that it holds.
     pub(super) fn numbers(&self) -> usize {
-        self.matrices.iter().map(DMatrix::len).sum::<usize>() + self.onto.as_ref().map_or(0, DMatrix::len)
+        self.entries.len() + self.onto.as_ref().map_or(0, DMatrix::len)
     }
 
     /// Shape of the sum.
     pub(super) fn shape(&self) -> (usize, usize) {
-        self.matrices.iter().map(DMatrix::shape).max().unwrap_or((0, 0))
+        self.shape
     }
 
     /// The same on the combinations that the coefficients of `samples` (one a column) span.
@@ -149,28 +164,32 @@ impl Terms {
         let all = svd.u.expect("left vectors were asked for");
         let kept: Vec<usize> =
             (0..svd.singular_values.len()).filter(|&i| svd.singular_values[i] > LEAST_TERM * largest).collect();
-        let (rows, columns) = self.shape();
-        let combined = |&k: &usize| {
-            let mut sum = DMatrix::zeros(rows, columns);
-            for (i, m) in self.matrices.iter().enumerate().filter(|(i, m)| !m.is_empty() && self.sizes[*i] > 0.0) {
-                sum += m * (all[(i, k)] / self.sizes[i]);
-            }
-            sum
-        };
-        let onto = DMatrix::from_fn(kept.len(), self.matrices.len(), |k, i| all[(i, kept[k])] * self.sizes[i]);
-        Self { matrices: kept.iter().map(combined).collect(), onto: Some(onto), sizes: self.sizes.clone() }
+        let count = self.sizes.len();
+        let weight = |i: usize, k: usize| if self.sizes[i] > 0.0 { all[(i, kept[k])] / self.sizes[i] } else { 0.0 };
+        let onto = DMatrix::from_fn(kept.len(), count, |k, i| all[(i, kept[k])] * self.sizes[i]);
+        let entries = product(&self.entries, &DMatrix::from_fn(count, kept.len(), weight));
+        Self { entries, onto: Some(onto), sizes: self.sizes.clone(), ..*self }
     }
 
     /// Σ cᵢ Mᵢ.
     pub(super) fn sum(&self, coefficients: &[f64]) -> DMatrix<f64> {
-        let reduced = self.onto.as_ref().map(|onto| onto * DVector::from_column_slice(coefficients));
-        let coefficients = reduced.as_ref().map_or(coefficients, |c| c.as_slice());
-        let (rows, columns) = self.shape();
-        let mut sum = DMatrix::zeros(rows, columns);
-        for (c, m) in coefficients.iter().zip(&self.matrices).filter(|(c, m)| **c != 0.0 && !m.is_empty()) {
-            sum.as_mut_slice().iter_mut().zip(m.as_slice()).for_each(|(s, m)| *s += c * m);
+        let given = DMatrix::from_column_slice(coefficients.len(), 1, coefficients);
+        let sum = match &self.onto {
+            Some(onto) => product(&self.entries, &product(onto, &given)),
+            None => product(&self.entries, &given),
+        };
+        let (rows, columns) = self.shape;
+        if !self.symmetric {
+            return sum.reshape_generic(nalgebra::Dyn(rows), nalgebra::Dyn(columns));
         }
-        sum
+        let mut matrix = DMatrix::zeros(rows, columns);
+        let mut entries = sum.iter();
+        for j in 0..columns {
+            for (i, value) in (j..rows).zip(&mut entries) {
+                (matrix[(i, j)], matrix[(j, i)]) = (*value, *value);
+            }
+        }
+        matrix
     }
 
     /// How far coefficients are from those that were kept, relative to their size: 0 within the box.
@@ -180,4 +199,22 @@ impl Terms {
         let kept = (onto * DVector::from_column_slice(coefficients)).norm_squared();
         if size > 0.0 { ((size - kept).max(0.0) / size).sqrt() } else { 0.0 }
     }
+}
+
+/// Designs with their sections over which something is differenced, each with its weight.
+pub(super) type Stencil = [(f64, Design, Section)];
+
+/// Weighted sums of two lists of coefficients over a stencil; `None` for one that sums to nothing.
+pub(super) fn combined(
+    stencil: &Stencil,
+    of: impl Fn(&Design, &Section) -> Result<[Vec<f64>; 2], Error>,
+) -> Result<[Option<Vec<f64>>; 2], Error> {
+    let mut sums: [Vec<f64>; 2] = Default::default();
+    for (weight, design, section) in stencil {
+        for (sum, coefficients) in sums.iter_mut().zip(of(design, section)?) {
+            sum.resize(coefficients.len(), 0.0);
+            sum.iter_mut().zip(coefficients).for_each(|(sum, c)| *sum += weight * c);
+        }
+    }
+    Ok(sums.map(|sum| Some(sum).filter(|sum| sum.iter().any(|c| *c != 0.0))))
 }

@@ -1,10 +1,14 @@
 //! Derivatives of every output of a parametric model with respect to its parameters.
 
+use super::heat::Modes;
 use super::model::ParametricModel;
 use super::parameter::Parameter;
 use super::section::Section;
+use super::structure::Solved;
 use crate::{Design, Error, MechanicalState, Outputs, Reduced};
+use fem_core::dense::{product, transposed_product};
 use nalgebra::{DMatrix, DVector};
+use winding::Winding;
 
 /// A model at a design with the derivatives of its outputs, ready to run.
 #[derive(Debug, Clone)]
@@ -60,95 +64,160 @@ impl Parameter {
         }
     }
 
-    /// Designs at which something is evaluated, each with its weight, for the derivative with respect to it.
-    fn stencil(self, design: &Design) -> Vec<(Design, f64)> {
-        let Some(value) = self.of(design) else { return Vec::new() };
+    /// Designs with their sections at which something is evaluated, each with its weight, for the derivative with respect to it.
+    fn stencil(self, design: &Design) -> Result<Vec<(f64, Design, Section)>, Error> {
+        let value = self.of(design).ok_or_else(|| Error::design("parameter", format!("this design has no {self:?}")))?;
         let h = self.step(design, value);
-        let at = |by: f64, weight: f64| (self.set(design, value + by * h), weight / h);
         let one_sided = matches!(self, Self::HubResistance | Self::FlangeResistance(_) | Self::Mount(_)) && value < h;
-        if one_sided { vec![at(0.0, -1.5), at(1.0, 2.0), at(2.0, -0.5)] } else { vec![at(-1.0, -0.5), at(1.0, 0.5)] }
+        let weights: &[(f64, f64)] =
+            if one_sided { &[(0.0, -1.5), (1.0, 2.0), (2.0, -0.5)] } else { &[(-1.0, -0.5), (1.0, 0.5)] };
+        let at = |(by, weight): &(f64, f64)| {
+            let design = self.set(design, value + by * h);
+            let section = Section::new(&design)?;
+            Ok((weight / h, design, section))
+        };
+        weights.iter().map(at).collect()
     }
 }
 
 /// What changes with a parameter, on the reduced fields.
 struct Change {
-    conduction: DMatrix<f64>,
-    storage: DMatrix<f64>,
+    /// conductivity and capacity
+    heat: [Option<DMatrix<f64>>; 2],
     heated: DVector<f64>,
-    thermometer: DVector<f64>,
-    /// of each state
-    parts: Vec<[DVector<f64>; 3]>,
+    /// outputs' own, beside that of the temperature
+    outputs: Outputs<DVector<f64>>,
+}
+
+/// A design's mechanics in one state, with the adjoints of the strains.
+struct Strained {
+    solved: Solved,
+    adjoint: DMatrix<f64>,
+}
+
+/// Modes of a design with what makes derivatives of them.
+struct Modal {
+    modes: Modes,
+    /// outputs' values on the modes, one a column
+    outputs: DMatrix<f64>,
+    /// one over the difference of two rates, 0 where they are one
+    apart: DMatrix<f64>,
+    /// pairs of modes whose rates are one
+    together: Vec<(usize, usize)>,
+}
+
+/// Values on all fields but the constant one, one output a column.
+fn inner(outputs: &Outputs<DVector<f64>>, n: usize) -> DMatrix<f64> {
+    DMatrix::from_columns(&outputs.iter().map(|output| output.rows(1, n)).collect::<Vec<_>>())
+}
+
+impl Modal {
+    fn new(modes: Modes, outputs: &Outputs<DVector<f64>>) -> Self {
+        let n = modes.rates.len();
+        let one = |i: usize, j: usize| (modes.rates[i] - modes.rates[j]).abs() <= ONE_RATE * modes.rates[i];
+        let apart = |i, j| if one(i, j) { 0.0 } else { 1.0 / (modes.rates[i] - modes.rates[j]) };
+        let apart = DMatrix::from_fn(n, n, apart);
+        let together = (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).filter(|&(i, j)| one(i, j)).collect();
+        let outputs = transposed_product(&modes.shapes, &inner(outputs, n));
+        Self { modes, outputs, apart, together }
+    }
+
+    /// Derivatives of all outputs with a change.
+    fn slopes(&self, change: &Change) -> Outputs<Slope> {
+        let Self { modes, outputs, .. } = self;
+        let n = modes.rates.len();
+        let onto = |m: &Option<DMatrix<f64>>| {
+            let m = m.as_ref()?.view((1, 1), (n, n)).into_owned();
+            Some(transposed_product(&modes.shapes, &product(&m, &modes.shapes)))
+        };
+        let [conduction, storage] = change.heat.each_ref().map(onto);
+        let on_modes = |field: DVector<f64>| modes.shapes.tr_mul(&field.rows(1, n));
+        let stored = change.heat[1].as_ref().map(|c| on_modes(c.column(0).into_owned()));
+        let heated = on_modes(change.heated.clone());
+        let moved = transposed_product(&modes.shapes, &inner(&change.outputs, n));
+        let mut slopes = change.outputs.map(|_| Slope { of_drives: Vec::new() });
+        for d in 0..modes.drive.first().map_or(0, Vec::len) {
+            let drive = DVector::from_iterator(n, modes.drive.iter().map(|drives| drives[d]));
+            // what one mode drives in another
+            let mut across = DMatrix::zeros(n, n);
+            if let Some(conduction) = &conduction {
+                across += conduction;
+            }
+            if let Some(storage) = &storage {
+                storage
+                    .column_iter()
+                    .zip(across.column_iter_mut())
+                    .zip(&modes.rates)
+                    .for_each(|((h, mut a), rate)| a -= h * *rate);
+            }
+            across.column_iter_mut().zip(drive.iter()).for_each(|(mut column, l)| column *= *l);
+            // what each mode's own part changes by at once, and what is at rest
+            let mut at_once = DVector::zeros(n);
+            let mut steady = DVector::zeros(n);
+            if d == 0 {
+                at_once += storage.as_ref().map_or(DVector::zeros(n), |h| h * &drive);
+                at_once -= stored.as_ref().unwrap_or(&DVector::zeros(n));
+            } else {
+                let flow = &heated - conduction.as_ref().map_or(DVector::zeros(n), |g| g * &drive);
+                steady = DVector::from_fn(n, |i, _| flow[i] / modes.rates[i]);
+                at_once -= &steady;
+            }
+            let apart = across.component_mul(&self.apart);
+            let from_others = apart.column_sum();
+            let to_others = transposed_product(&apart, outputs);
+            for (k, (slope, change)) in slopes.iter_mut().zip(change.outputs.iter()).enumerate() {
+                let (m, dm) = (outputs.column(k), moved.column(k));
+                let once = m.component_mul(&(&at_once - &from_others)) - dm.component_mul(&drive) + to_others.column(k);
+                let mut twice = vec![0.0; n];
+                for &(i, j) in &self.together {
+                    let half = m[i] * across[(i, j)] / 2.0;
+                    twice[i] += half;
+                    twice[j] += half;
+                }
+                let rest = if d == 0 { change[0] } else { dm.dot(&drive) + m.dot(&steady) };
+                slope.of_drives.push(OfDrive { rest, once: once.as_slice().to_vec(), twice });
+            }
+        }
+        slopes
+    }
 }
 
 impl ParametricModel {
-    /// The model of a changed design with the derivatives of its outputs with respect to `parameters`, of which the design must have each.
+    /// The model of a changed design, on all of its modes, with the derivatives of its outputs with respect to `parameters`, each of which must
+    /// have a range; a heater that is off is no drive, and its derivative 0.
     ///
     /// # Errors
     /// As [`Self::at`].
     pub fn slopes(&self, design: &Design, parameters: &[Parameter]) -> Result<Slopes, Error> {
-        let changed = Section::new(design)?;
-        let modes = self.heat.modes(design, &changed, self.heat.size())?;
         let states = design.states().0;
         self.holds(design, &states)?;
-        let n = self.heat.size() - 1;
-        let mut at = Vec::new();
-        for state in &states {
+        if let Some(fixed) = parameters.iter().find(|p| self.ranges.iter().all(|range| range.parameter != **p)) {
+            return Err(Error::design("parameter", format!("{fixed:?} has no range in this model")));
+        }
+        let changed = Section::new(design)?;
+        let (winding, sums) = self.wound(design)?;
+        let functionals = self.strain_functionals(design, &sums);
+        let bore = self.bore_value(design, &changed)?;
+        let strained = states.iter().map(|state| {
             let solved = self.structure.solved(design, &changed, state, usize::MAX)?;
-            at.push(solved);
-        }
-        let outputs = self.functionals(design, &changed, &states)?;
-        let mut slopes = Vec::new();
-        for &parameter in parameters {
-            let change = self.change(parameter, design, &changed, &states, &at)?;
-            let inner = |m: &DMatrix<f64>| modes.shapes.tr_mul(&(m.view((1, 1), (n, n)) * &modes.shapes));
-            let (g, h) = (inner(&change.conduction), inner(&change.storage));
-            let stored = modes.shapes.tr_mul(&change.storage.column(0).rows(1, n));
-            let heated = modes.shapes.tr_mul(&change.heated.rows(1, n));
-            let drives = modes.drive.first().map_or(0, Vec::len);
-            let of = |output: &DVector<f64>, change: &DVector<f64>| -> Slope {
-                let (m, dm) = (modes.shapes.tr_mul(&output.rows(1, n)), modes.shapes.tr_mul(&change.rows(1, n)));
-                let of_drive = |d: usize| {
-                    let l = |i: usize| modes.drive[i][d];
-                    let (mut once, mut twice) = (vec![0.0; n], vec![0.0; n]);
-                    let mut rest = if d == 0 { change[0] } else { (0..n).map(|i| dm[i] * l(i)).sum() };
-                    for i in 0..n {
-                        once[i] -= dm[i] * l(i);
-                        let (gl, hl): (f64, f64) =
-                            (0..n).fold((0.0, 0.0), |(g0, h0), j| (g0 + g[(i, j)] * l(j), h0 + h[(i, j)] * l(j)));
-                        if d == 0 {
-                            once[i] += m[i] * (hl - stored[i]);
-                        } else {
-                            let steady = m[i] * (heated[i] - gl) / modes.rates[i];
-                            once[i] -= steady;
-                            rest += steady;
-                        }
-                        for j in 0..n {
-                            let a = m[i] * l(j) * (g[(i, j)] - modes.rates[j] * h[(i, j)]);
-                            let apart = modes.rates[i] - modes.rates[j];
-                            if apart.abs() <= ONE_RATE * modes.rates[i] {
-                                twice[i] += a / 2.0;
-                                twice[j] += a / 2.0;
-                            } else {
-                                once[j] += a / apart;
-                                once[i] -= a / apart;
-                            }
-                        }
-                    }
-                    OfDrive { rest, once, twice }
-                };
-                Slope { of_drives: (0..drives).map(of_drive).collect() }
-            };
-            let nothing = DVector::zeros(n + 1);
-            let parts =
-                outputs.parts.iter().zip(&change.parts).map(|(parts, changes)| [0, 1, 2].map(|p| of(&parts[p], &changes[p])));
-            slopes.push(Outputs {
-                thermometer: of(&outputs.thermometer, &change.thermometer),
-                coil_mean: of(&outputs.coil_mean, &nothing),
-                parts: parts.collect(),
-            });
-        }
+            let adjoint = solved.adjoint(&functionals);
+            Ok(Strained { solved, adjoint })
+        });
+        let strained = strained.collect::<Result<Vec<_>, Error>>()?;
+        let parts = strained.iter().map(|s| self.parts(design, &winding, &sums, &bore, &s.solved.through(&s.adjoint)));
+        let outputs = Outputs {
+            thermometer: self.place(&changed, [design.sensor.radius, design.sensor.y])?,
+            coil_mean: self.coil_mean.clone(),
+            parts: parts.collect::<Result<_, _>>()?,
+        };
+        let modes = self.heat.system(design, &changed, self.heat.size())?.all_modes()?;
         let reduced = outputs.map(|output| modes.output(output));
-        Ok(Slopes { reduced: modes.model(reduced), slopes })
+        let modal = Modal::new(modes, &outputs);
+        let slopes = parameters
+            .iter()
+            .map(|&parameter| Ok(modal.slopes(&self.change(parameter, design, &changed, &winding, &states, &strained)?)));
+        let slopes = slopes.collect::<Result<_, Error>>()?;
+        Ok(Slopes { reduced: modal.modes.model(reduced), slopes })
     }
 
     fn change(
@@ -156,53 +225,38 @@ impl ParametricModel {
         parameter: Parameter,
         design: &Design,
         section: &Section,
+        winding: &Winding,
         states: &[MechanicalState],
-        solved: &[super::structure::Solved],
+        strained: &[Strained],
     ) -> Result<Change, Error> {
         let n = self.heat.size();
-        let stencil = parameter.stencil(design);
-        if stencil.is_empty() {
-            return Err(Error::design("parameter", format!("this design has no {parameter:?}")));
-        }
-        let zero = || DVector::zeros(n);
-        let (mut conduction, mut storage) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
-        let (mut heated, mut thermometer, mut bore) = (zero(), zero(), zero());
-        let m = self.turns.hoop.ncols();
-        let mut mechanics = vec![(DMatrix::zeros(m, m), DMatrix::zeros(m, n)); states.len()];
-        for (of, weight) in &stencil {
-            let changed = Section::new(of)?;
-            if parameter.of_heat() {
-                let (k, c) = self.heat.matrices(of, &changed)?;
-                conduction += k * *weight;
-                storage += c * *weight;
-            }
-            heated += self.heat.heated(of, &changed)? * *weight;
-            thermometer += self.place(&changed, [of.sensor.radius, of.sensor.y])? * *weight;
-            bore += self.bore_value(of, &changed)? * *weight;
-            if parameter.of_mechanics() {
-                for (state, (a, b)) in states.iter().zip(&mut mechanics) {
-                    let [stiffness, load] = self.structure.matrices(of, &changed, state)?;
-                    *a += stiffness * *weight;
-                    *b += load * *weight;
-                }
+        let stencil = parameter.stencil(design)?;
+        let (mut heated, mut thermometer, mut bore) = (DVector::zeros(n), DVector::zeros(n), DVector::zeros(n));
+        for (weight, of, changed) in &stencil {
+            heated += self.heat.heated(of, changed)? * *weight;
+            if changed != section {
+                thermometer += self.place(changed, [of.sensor.radius, of.sensor.y])? * *weight;
+                bore += self.bore_value(of, changed)? * *weight;
             }
         }
-        let (winding, sums) = self.wound(design)?;
-        let _ = section;
-        let functionals = self.strain_functionals(design, &sums);
-        let (c, w) = (design.optics.coefficients(winding.length())?, winding.tail_weight());
-        let tails = &bore * w;
-        let parts = solved.iter().zip(&mechanics).map(|(solved, (a, b))| {
-            let through = if parameter.of_mechanics() { solved.changed(&functionals, a, b) } else { DMatrix::zeros(n, 2) };
-            let free = &tails * design.optics.thermal_expansion;
-            let (axial, radial) = (through.column(0) + &free, through.column(1) + free);
-            [
+        let heat = if parameter.of_heat() { self.heat.change(&stencil)? } else { [None, None] };
+        let (c, tails) = (design.optics.coefficients(winding.length())?, &bore * winding.tail_weight());
+        let free = &tails * design.optics.thermal_expansion;
+        let mut parts = Vec::new();
+        for (state, Strained { solved, adjoint }) in states.iter().zip(strained) {
+            let through = if parameter.of_mechanics() {
+                solved.changed(adjoint, &self.structure.change(&stencil, state)?)
+            } else {
+                DMatrix::zeros(n, 2)
+            };
+            let (axial, radial) = (through.column(0) + &free, through.column(1) + &free);
+            parts.push([
                 &tails * c.shupe,
                 axial * c.axial + &tails * c.axial_per_temperature_rate,
                 radial * c.radial + &tails * c.radial_per_temperature_rate,
-            ]
-        });
-        Ok(Change { conduction, storage, heated, thermometer, parts: parts.collect() })
+            ]);
+        }
+        Ok(Change { heat, heated, outputs: Outputs { thermometer, coil_mean: DVector::zeros(n), parts } })
     }
 }
 
@@ -218,58 +272,55 @@ impl Slopes {
     /// # Panics
     /// If there is no instant, or a course is shorter than `time`.
     pub fn run(&self, time: &[f64], courses: &[Vec<f64>], rest: &[f64]) -> Courses {
+        // a few instants at once: their states stay near, and the outputs are a product of matrices
+        const AT_ONCE: usize = 128;
         let (rows, n, drives) = (time.len(), self.reduced.rates().len(), courses.len());
-        // columns: of each drive u, then w and v of every mode
-        let width = 1 + 2 * n;
-        let mut states = DMatrix::zeros(width * drives, rows);
-        let mut known: (f64, Vec<[f64; 4]>) = (f64::NAN, Vec::new());
-        for (d, course) in courses.iter().enumerate() {
-            let (mut w, mut v) = (vec![course[0] - rest[d]; n], vec![0.0; n]);
-            for row in 0..rows {
-                if row > 0 {
-                    let dt = time[row] - time[row - 1];
-                    if dt != known.0 {
-                        known = (dt, self.reduced.rates().iter().map(|rate| interval(*rate, dt)).collect());
-                    }
-                    let slope = (course[row] - course[row - 1]) / dt;
-                    for ((w, v), [decay, push, twice, of_w]) in w.iter_mut().zip(&mut v).zip(&known.1) {
-                        *v = *v * decay + *w * of_w + slope * twice;
-                        *w = *w * decay + slope * push;
-                    }
-                }
-                let mut column = states.view_mut((d * width, row), (width, 1));
-                column[0] = course[row];
-                column.rows_mut(1, n).copy_from_slice(&w);
-                column.rows_mut(1 + n, n).copy_from_slice(&v);
-            }
-        }
         let of_model = self.reduced.outputs().map(|output| {
-            let mut of = Vec::with_capacity(width * drives);
-            for d in 0..drives {
-                of.push(output.at_rest[d]);
-                of.extend(output.modal.iter().zip(&self.reduced.drive).map(|(m, l)| -m * l[d]));
-                of.extend(std::iter::repeat_n(0.0, n));
-            }
-            of
+            let of_drive = |d: usize| {
+                let once = output.modal.iter().zip(&self.reduced.drive).map(move |(m, l)| -m * l[d]);
+                [output.at_rest[d]].into_iter().chain(once).chain(std::iter::repeat_n(0.0, n))
+            };
+            (0..drives).flat_map(of_drive).collect::<Vec<f64>>()
         });
         let of_slopes = self.slopes.iter().map(|slope| {
-            slope.map(|slope| {
-                slope
-                    .of_drives
-                    .iter()
-                    .flat_map(|of| [of.rest].into_iter().chain(of.once.iter().copied()).chain(of.twice.iter().copied()))
-                    .collect::<Vec<f64>>()
-            })
+            let of_drive = |of: &OfDrive| [&[of.rest][..], &of.once, &of.twice].concat();
+            slope.map(|slope| slope.of_drives.iter().flat_map(of_drive).collect::<Vec<f64>>())
         });
         let all: Vec<Outputs<Vec<f64>>> = [of_model].into_iter().chain(of_slopes).collect();
-        let mut columns = Vec::new();
-        for outputs in &all {
-            columns.extend([&outputs.thermometer, &outputs.coil_mean].into_iter().chain(outputs.parts.iter().flatten()));
+        let columns: Vec<&Vec<f64>> = all.iter().flat_map(Outputs::iter).collect();
+        // of each drive u, then w and v of every mode
+        let width = 1 + 2 * n;
+        let weights = DMatrix::from_fn(width * drives, columns.len(), |j, k| columns[k][j]);
+        let mut results: Vec<Outputs<Vec<f64>>> = all.iter().map(|outputs| outputs.map(|_| Vec::with_capacity(rows))).collect();
+        let mut states = DMatrix::zeros(width * drives, AT_ONCE.min(rows));
+        let mut modes: Vec<[Vec<f64>; 2]> =
+            courses.iter().zip(rest).map(|(course, rest)| [vec![course[0] - rest; n], vec![0.0; n]]).collect();
+        let mut known: (f64, Vec<[f64; 4]>) = (f64::NAN, Vec::new());
+        for first in (0..rows).step_by(AT_ONCE) {
+            let count = AT_ONCE.min(rows - first);
+            for (row, mut column) in (first..).zip(states.column_iter_mut()).take(count) {
+                let dt = if row > 0 { time[row] - time[row - 1] } else { known.0 };
+                if row > 0 && dt != known.0 {
+                    known = (dt, self.reduced.rates().iter().map(|rate| interval(*rate, dt)).collect());
+                }
+                for (d, (course, [w, v])) in courses.iter().zip(&mut modes).enumerate() {
+                    if row > 0 {
+                        let slope = (course[row] - course[row - 1]) / dt;
+                        for ((w, v), [decay, push, twice, of_w]) in w.iter_mut().zip(v.iter_mut()).zip(&known.1) {
+                            *v = *v * decay + *w * of_w + slope * twice;
+                            *w = *w * decay + slope * push;
+                        }
+                    }
+                    column[d * width] = course[row];
+                    column.rows_mut(d * width + 1, n).copy_from_slice(w);
+                    column.rows_mut(d * width + 1 + n, n).copy_from_slice(v);
+                }
+            }
+            let block = transposed_product(&states, &weights);
+            let values = results.iter_mut().flat_map(Outputs::iter_mut);
+            values.zip(block.column_iter()).for_each(|(values, new)| values.extend(new.iter().take(count)));
         }
-        let weights = DMatrix::from_fn(columns.len(), width * drives, |k, j| columns[k][j]);
-        let values = (weights * states).transpose();
-        let mut next = values.column_iter().map(|column| column.as_slice().to_vec());
-        let mut results = all.iter().map(|outputs| outputs.map(|_| next.next().unwrap_or_default()));
+        let mut results = results.into_iter();
         let outputs = results.next().expect("the model itself comes first");
         Courses { outputs, slopes: results.collect() }
     }

@@ -1,11 +1,12 @@
 //! Thermo-elasticity on a reduced basis: integrals over rectangles once, their sum for every design and mechanical state.
 
-use super::project::{Fields, Kind, Terms, inner_products, integrals};
+use super::project::{Fields, Kind, Stencil, Terms, combined, inner_products, integrals};
 use super::section::Section;
 use super::strip::{INVERSE, Op, Stretch, Strip};
 use crate::model::region_law;
 use crate::{Design, Error, MechanicalState, Region};
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use fem_core::dense::{DenseFactor, transposed_product};
+use nalgebra::{DMatrix, DVector};
 
 const fn of(rows: usize, columns: usize, r: Op, y: Op) -> Kind {
     Kind { of: [rows, columns], r, y }
@@ -90,7 +91,7 @@ pub(super) struct Structure {
 
 /// A structure of one design in one state, factorised.
 pub(super) struct Solved {
-    factor: Cholesky<f64, Dyn>,
+    factor: DenseFactor,
     /// displacement fields × temperature fields
     load: DMatrix<f64>,
 }
@@ -125,7 +126,7 @@ impl Structure {
         };
         let stiffness = each(&|strips| integrals(&STIFFNESS, &[u, v], &[u, v], strips, true));
         let load = each(&|strips| integrals(&LOAD, &[u, v], &[temperatures], strips, false));
-        Self { section: section.clone(), stiffness: Terms::new(stiffness), load: Terms::new(load) }
+        Self { section: section.clone(), stiffness: Terms::new(stiffness, true), load: Terms::new(load, false) }
     }
 
     /// The same with as few terms as the designs of `samples` need.
@@ -167,15 +168,10 @@ impl Structure {
         Ok([k, f])
     }
 
-    /// Stiffness and load of a design whose section is `changed`.
-    pub(super) fn matrices(
-        &self,
-        design: &Design,
-        changed: &Section,
-        state: &MechanicalState,
-    ) -> Result<[DMatrix<f64>; 2], Error> {
-        let [k, f] = self.coefficients(design, changed, state)?;
-        Ok([self.stiffness.sum(&k), self.load.sum(&f)])
+    /// What stiffness and load change by: differences over designs with their sections and weights; `None` where nothing changes.
+    pub(super) fn change(&self, stencil: &Stencil, state: &MechanicalState) -> Result<[Option<DMatrix<f64>>; 2], Error> {
+        let [k, f] = combined(stencil, |design, section| self.coefficients(design, section, state))?;
+        Ok([k.map(|k| self.stiffness.sum(&k)), f.map(|f| self.load.sum(&f))])
     }
 
     /// Factorised for a design whose section is `changed`, on the first `fields` of the displacement fields.
@@ -186,28 +182,41 @@ impl Structure {
         state: &MechanicalState,
         fields: usize,
     ) -> Result<Solved, Error> {
-        let [stiffness, load] = self.matrices(design, changed, state)?;
-        let m = fields.min(stiffness.nrows());
-        let (stiffness, load) = (stiffness.view((0, 0), (m, m)).into_owned(), load.rows(0, m).into_owned());
-        let failed = || Error::Resolution("the reduced stiffness is not positive definite; model the design anew".into());
-        Ok(Solved { factor: stiffness.cholesky().ok_or_else(failed)?, load })
+        let [k, f] = self.coefficients(design, changed, state)?;
+        let (mut stiffness, mut load) = (self.stiffness.sum(&k), self.load.sum(&f));
+        if fields < stiffness.nrows() {
+            (stiffness, load) = (stiffness.view((0, 0), (fields, fields)).into_owned(), load.rows(0, fields).into_owned());
+        }
+        let failed = |_| Error::Resolution("the reduced stiffness is not positive definite; model the design anew".into());
+        Ok(Solved { factor: DenseFactor::new(stiffness).map_err(failed)?, load })
     }
 }
 
 impl Solved {
-    /// Functionals of the displacement as functionals of the temperature fields: adjoint, one a column.
-    pub(super) fn through(&self, functionals: &DMatrix<f64>) -> DMatrix<f64> {
-        self.load.tr_mul(&self.factor.solve(&functionals.rows(0, self.load.nrows()).into_owned()))
+    /// Displacements that a functional of the displacement weighs temperatures with: adjoint, one a column.
+    pub(super) fn adjoint(&self, functionals: &DMatrix<f64>) -> DMatrix<f64> {
+        self.factor.solve(functionals.rows(0, self.load.nrows()).into_owned())
+    }
+
+    /// Functionals of the displacement as functionals of the temperature fields, by their adjoints.
+    pub(super) fn through(&self, adjoint: &DMatrix<f64>) -> DMatrix<f64> {
+        transposed_product(&self.load, adjoint)
     }
 
     /// What changes of [`Self::through`] with a change of the stiffness and of the load.
-    pub(super) fn changed(&self, functionals: &DMatrix<f64>, stiffness: &DMatrix<f64>, load: &DMatrix<f64>) -> DMatrix<f64> {
-        let adjoint = self.factor.solve(functionals);
-        load.tr_mul(&adjoint) - self.load.tr_mul(&self.factor.solve(&(stiffness * &adjoint)))
+    pub(super) fn changed(&self, adjoint: &DMatrix<f64>, [stiffness, load]: &[Option<DMatrix<f64>>; 2]) -> DMatrix<f64> {
+        let mut change = DMatrix::zeros(self.load.ncols(), adjoint.ncols());
+        if let Some(load) = load {
+            change += transposed_product(load, adjoint);
+        }
+        if let Some(stiffness) = stiffness {
+            change -= transposed_product(&self.load, &self.factor.solve(stiffness * adjoint));
+        }
+        change
     }
 
     /// Displacement caused by each temperature field.
     pub(super) fn displacements(&self) -> DMatrix<f64> {
-        self.factor.solve(&self.load)
+        self.factor.solve(self.load.clone())
     }
 }

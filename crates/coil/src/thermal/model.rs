@@ -231,11 +231,11 @@ fn surface_edges(design: &Design, layout: &Layout, grid: &Grid, drives: &[Drive]
         edges.extend(grid.free_edges().into_iter().map(|(e, edge, _)| (e, edge, film, Drive::Chamber)));
     }
     for mount in &design.heat.mounts {
-        let region = Region::flange(mount.side);
-        let Some(flange) = layout.solids.iter().find(|s| s.region == region) else { continue };
+        let region = Region::end(design, mount.side);
+        let Some(end) = layout.solids.iter().find(|s| s.region == region) else { continue };
         let (outer, wanted) = match mount.side {
-            Side::Left => (flange.y[0], Edge::EtaLow),
-            Side::Right => (flange.y[1], Edge::EtaHigh),
+            Side::Left => (end.y[0], Edge::EtaLow),
+            Side::Right => (end.y[1], Edge::EtaHigh),
         };
         let own = Drive::Mount(mount.side);
         let drive = if drives.contains(&own) { own } else { Drive::Chamber };
@@ -245,11 +245,11 @@ fn surface_edges(design: &Design, layout: &Layout, grid: &Grid, drives: &[Drive]
     edges
 }
 
-/// Adds the heaters' power to a load, spread evenly over their flanges.
+/// Adds the heaters' power to a load, spread evenly over their ends of the spool.
 fn heat(design: &Design, mesh: &Mesh, problem: &Problem, all: &DofMap, load: &mut [f64]) -> Result<(), Error> {
     let volumes = problem.region_measures().map_err(failed)?;
     for heater in &design.heat.heaters {
-        let region = Region::flange(heater.side) as usize;
+        let region = Region::end(design, heater.side) as usize;
         let mut density = vec![None; Region::COUNT];
         density[region] = Some(DMatrix::from_element(1, 1, heater.power / volumes[region]));
         let source = problem.mass(all, &density).map_err(failed)?.multiply(&vec![1.0; mesh.nodes().len()]);

@@ -18,6 +18,16 @@ pub struct Outputs<F> {
 }
 
 impl<F> Outputs<F> {
+    /// All of them, in the order of [`Self::map`].
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &F> {
+        [&self.thermometer, &self.coil_mean].into_iter().chain(self.parts.iter().flatten())
+    }
+
+    /// As [`Self::iter`].
+    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut F> {
+        [&mut self.thermometer, &mut self.coil_mean].into_iter().chain(self.parts.iter_mut().flatten())
+    }
+
     /// The same outputs by another means.
     pub fn map<G>(&self, mut of: impl FnMut(&F) -> G) -> Outputs<G> {
         Outputs {

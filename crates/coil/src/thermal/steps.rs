@@ -1,7 +1,9 @@
 //! A reduced model stepped through a course of its drives, from rest.
 
 use super::modal::Interval;
-use super::{Reduced, Step, ThermalState};
+use super::{Output, Outputs, Reduced, Step, ThermalState};
+use fem_core::dense::transposed_product;
+use nalgebra::{DMatrix, DVector};
 
 /// Steps a reduced model through a course, exactly; made by [`Reduced::steps`]. Yields each step after it is made: the state is then
 /// that at its end.
@@ -33,6 +35,44 @@ impl Reduced {
         self.jump(&mut amplitudes, &drives.iter().zip(rest).map(|(u, rest)| u - rest).collect::<Vec<_>>());
         let state = ThermalState { drives, amplitudes };
         Steps { model: self, time, courses, at: 0, state, interval: self.interval(0.0) }
+    }
+
+    /// Every output at every instant of `time`, as [`Self::steps`] goes through them; a drive without a course stays at 0.
+    ///
+    /// # Panics
+    /// As [`Self::steps`].
+    pub fn run(&self, time: &[f64], courses: &[Vec<f64>], rest: &[f64]) -> Outputs<Vec<f64>> {
+        // a few instants at once: their states stay near, and the outputs are a product of matrices
+        const AT_ONCE: usize = 128;
+        let weights: Vec<DVector<f64>> = self.outputs.iter().map(Output::vector).collect();
+        assert!(!time.is_empty(), "an instant at least");
+        let (weights, drives) = (DMatrix::from_columns(&weights), self.outputs.thermometer.at_rest.len());
+        let courses = &courses[..drives.min(courses.len())];
+        let mut states = DMatrix::zeros(weights.nrows(), AT_ONCE.min(time.len()));
+        let mut values = self.outputs.map(|_| Vec::with_capacity(time.len()));
+        let (mut amplitudes, mut slope) = (vec![0.0; self.rates.len()], vec![0.0; courses.len()]);
+        let mut interval = self.interval(0.0);
+        for first in (0..time.len()).step_by(AT_ONCE) {
+            let count = AT_ONCE.min(time.len() - first);
+            for (n, mut column) in (first..).zip(states.column_iter_mut()).take(count) {
+                if n == 0 {
+                    slope.iter_mut().zip(courses.iter().zip(rest)).for_each(|(by, (course, rest))| *by = course[0] - rest);
+                    self.jump(&mut amplitudes, &slope);
+                } else {
+                    let dt = time[n] - time[n - 1];
+                    if interval.dt != dt {
+                        interval = self.interval(dt);
+                    }
+                    slope.iter_mut().zip(courses).for_each(|(slope, course)| *slope = (course[n] - course[n - 1]) / dt);
+                    self.advance(&mut amplitudes, &slope, &interval);
+                }
+                column.iter_mut().zip(courses).for_each(|(u, course)| *u = course[n]);
+                column.rows_mut(drives, amplitudes.len()).copy_from_slice(&amplitudes);
+            }
+            let block = transposed_product(&states, &weights);
+            values.iter_mut().zip(block.column_iter()).for_each(|(values, new)| values.extend(new.iter().take(count)));
+        }
+        values
     }
 
     /// The state `since` seconds after the start of a step.

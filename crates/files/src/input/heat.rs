@@ -18,10 +18,10 @@ mirrored! {
         /// Contact resistances between flanges and the coil's faces; none unless given.
         #[serde(skip_serializing_if = "Vec::is_empty")]
         flange_contacts: Vec<FlangeContactFile> = flange_contacts,
-        /// Paths from a flange to its mount; none unless given.
+        /// Paths from an end of the spool, a flange or the bare hub, to its mount; none unless given.
         #[serde(skip_serializing_if = "Vec::is_empty")]
         mounts: Vec<MountFile> = mounts,
-        /// Heat dissipated in a flange; none unless given.
+        /// Heat dissipated in an end of the spool; none unless given.
         #[serde(skip_serializing_if = "Vec::is_empty")]
         heaters: Vec<HeaterFile> = heaters,
         /// Film coefficient of every surface to the chamber, in place of the still medium; None unless given.
@@ -36,17 +36,17 @@ mirrored! {
         resistance_m2k_per_w: Resistance = resistance,
     }
 
-    /// A path from a flange's outer face to its mount, or to the chamber.
+    /// A path from the outer face of a flange, or of the hub where there is no flange, to its mount, or to the chamber.
     MountFile is Mount {
-        /// Of the flange.
+        /// Of the spool.
         side: SideFile = side,
         /// Conductance per area.
         conductance_w_per_m2k: Conductance = conductance,
     }
 
-    /// Heat dissipated evenly in a flange, on from the first row of the profile.
+    /// Heat dissipated evenly in a flange, or in the hub where there is no flange, on from the first row of the profile.
     HeaterFile is Heater {
-        /// Of the flange.
+        /// Of the spool.
         side: SideFile = side,
         /// Power.
         power_w: PowerW = power,
@@ -62,6 +62,12 @@ pub(super) fn paths(at: &Group, file: &HeatFile, spool: Option<&Spool>) -> Resul
     }
     one_a_side(at, "flange_contacts", paths.flange_contacts.iter().map(|contact| contact.side), spool)?;
     for (i, contact) in paths.flange_contacts.iter().enumerate() {
+        let side = contact.side;
+        if !spool.iter().flat_map(|spool| &spool.flanges).any(|flange| flange.side == side) {
+            let problem = format!("the spool has no flange at the side {side:?}");
+            let remedy = "name a side that has one in spool.flanges, or add it there";
+            return Err(at.fault(&format!("flange_contacts[{i}].side"), problem, remedy));
+        }
         let gap = |f: &coil::Flange| f.side == contact.side && f.contact == Contact::Gap;
         if spool.iter().flat_map(|spool| &spool.flanges).any(gap) {
             let problem = "this flange is not bonded to the coil, so there is no contact to resist";
@@ -74,14 +80,13 @@ pub(super) fn paths(at: &Group, file: &HeatFile, spool: Option<&Spool>) -> Resul
     Ok(paths)
 }
 
-/// Refuses sides at which no flange stands, and a second of a kind at one.
+/// Refuses sides of a spool that is not there, and a second of a kind at one.
 fn one_a_side(at: &Group, name: &str, sides: impl Iterator<Item = Side>, spool: Option<&Spool>) -> Result<(), InputError> {
     let mut taken = Vec::new();
     for (i, side) in sides.enumerate() {
         let fault = |problem: String, remedy: &str| Err(at.fault(&format!("{name}[{i}].side"), problem, remedy));
-        if !spool.iter().flat_map(|spool| &spool.flanges).any(|flange| flange.side == side) {
-            let problem = format!("the spool has no flange at the side {side:?}");
-            return fault(problem, "name a side that has one in spool.flanges, or add it there");
+        if spool.is_none() {
+            return fault(format!("there is no spool that has an end at the side {side:?}"), "remove the entry, or add a spool");
         }
         if taken.contains(&side) {
             return fault(format!("a second one at the side {side:?}"), "give at most one a side, with the values combined");

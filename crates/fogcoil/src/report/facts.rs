@@ -30,10 +30,13 @@ pub(super) fn coil(simulation: &Simulation) -> Markup {
         rows.push(row("contact resistance at the hub", format!("{} m² K/W", heat.hub_resistance)));
     }
     for mount in &heat.mounts {
-        rows.push(row(&format!("mount, {} flange", side(mount.side)), format!("{} W/(m² K)", mount.conductance)));
+        rows.push(row(&format!("mount, {} end of the spool", side(mount.side)), format!("{} W/(m² K)", mount.conductance)));
     }
     for heater in &heat.heaters {
-        rows.push(row(&format!("heater, {} flange", side(heater.side)), format!("{} W, on from the first row", heater.power)));
+        rows.push(row(
+            &format!("heater, {} end of the spool", side(heater.side)),
+            format!("{} W, on from the first row", heater.power),
+        ));
     }
     if let Some(film) = heat.film {
         rows.push(row("film in place of the medium", format!("{film} W/(m² K)")));
@@ -115,8 +118,8 @@ fn name(drive: Drive) -> &'static str {
         Drive::Chamber => "chamber wall (chamber_c)",
         Drive::EndWall(Side::Left) => "left end wall (left_c)",
         Drive::EndWall(Side::Right) => "right end wall (right_c)",
-        Drive::Mount(Side::Left) => "mount of the left flange (mount_left_c)",
-        Drive::Mount(Side::Right) => "mount of the right flange (mount_right_c)",
+        Drive::Mount(Side::Left) => "mount at the left (mount_left_c)",
+        Drive::Mount(Side::Right) => "mount at the right (mount_right_c)",
         Drive::Heaters => "heaters",
     }
 }
