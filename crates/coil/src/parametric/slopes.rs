@@ -267,13 +267,14 @@ impl Slopes {
     }
 
     /// Runs `courses`, one a drive, at the instants `time` \[s\] from rest with the drives at `rest`: outputs and derivatives at every instant,
-    /// in phases \[rad\] for the parts of the bias.
+    /// in phases \[rad\] for the parts of the bias. A drive without a course stays at 0, a course without a drive does nothing.
     ///
     /// # Panics
     /// If there is no instant, or a course is shorter than `time`.
     pub fn run(&self, time: &[f64], courses: &[Vec<f64>], rest: &[f64]) -> Courses {
         // a few instants at once: their states stay near, and the outputs are a product of matrices
         const AT_ONCE: usize = 128;
+        let courses = &courses[..self.reduced.thermometer().at_rest.len().min(courses.len())];
         let (rows, n, drives) = (time.len(), self.reduced.rates().len(), courses.len());
         let of_model = self.reduced.outputs().map(|output| {
             let of_drive = |d: usize| {
