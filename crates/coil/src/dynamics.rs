@@ -178,20 +178,20 @@ impl Dynamics {
         Ok((dynamics, fields))
     }
 
-    /// Of a design in a parametric model's box, in milliseconds: driven by the chamber, and by its heaters if it has any. The second stands on
-    /// fewer of the model's fields and leaves out what is quadratic in temperature; see [`Self::distance`].
+    /// Of a design in a parametric model's box, in milliseconds: driven by the chamber, and by its heaters if it has any. The others stand
+    /// on fewer of the model's fields and leave out what is quadratic in temperature; see [`Self::distance`].
     ///
     /// # Errors
     /// As [`ParametricModel::at`].
-    pub fn varied(model: &ParametricModel, design: &Design) -> Result<[Self; 2], Error> {
+    pub fn varied(model: &ParametricModel, design: &Design) -> Result<[Self; 3], Error> {
         let drives = if design.heat.heaters.is_empty() { vec![Drive::Chamber] } else { vec![Drive::Chamber, Drive::Heaters] };
         let curvature = if design.drifts.thermo_optic_curvature == 0.0 {
             None
         } else {
             Some(Curvature::new(design, &model.fields(design, &MechanicalState::NOMINAL)?)?)
         };
-        let (reduced, coarser) = (model.at(design)?, model.coarser(design)?);
-        let error = ReductionError::between(&reduced, &coarser, drives.len(), MODEL_SAFETY);
+        let (reduced, [more, fewer]) = (model.at(design)?, model.coarser(design)?);
+        let error = ReductionError::between(&reduced, &fewer, drives.len(), MODEL_SAFETY);
         let of = |reduced: Reduced, curvature: Option<Curvature>| Self {
             reduced,
             error,
@@ -201,7 +201,7 @@ impl Dynamics {
             drifts: design.drifts,
             curvature,
         };
-        Ok([of(reduced, curvature), of(coarser, None)])
+        Ok([of(reduced, curvature), of(more, None), of(fewer, None)])
     }
 
     /// Largest distances of thermometer \[K\] and rate \[rad/s\] from those of another along a profile, without what is quadratic in temperature;

@@ -109,7 +109,7 @@ fn judged<M: ForwardModel>(
         let own = Offset::of(channel, recorded, predicted);
         predicted.iter_mut().for_each(|p| *p += offsets[c]);
         // an offset that may be anything is this record's own
-        let by = if channel.offset_sd.is_finite() { offsets[c] } else { own.mean };
+        let by = if channel.offset.1.is_finite() { offsets[c] } else { own.mean };
         let residual: Vec<f64> = recorded.iter().zip(predicted.iter()).map(|(y, p)| y - (p - offsets[c] + by)).collect();
         let used: Vec<f64> = residual.iter().copied().filter(|r| !r.is_nan()).collect();
         rmse.push((used.iter().map(|r| r * r).sum::<f64>() / used.len().max(1) as f64).sqrt());

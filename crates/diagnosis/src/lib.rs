@@ -20,7 +20,7 @@ mod verdict;
 
 pub use discriminate::{Plan, Separation, fitted, separation};
 pub use error::Error;
-pub use fit::{Fit, Hypothesis, alternatives, expected};
+pub use fit::{Fit, Hypothesis, Sampled, Samples, alternatives, expected, sampled};
 pub use hold_out::{HeldOut, as_designed};
 pub use latent::{MemberResolution, Stage};
 pub use locate::{Block, Cell, FREQUENCIES, Spectrum, whiteness};

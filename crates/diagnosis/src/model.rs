@@ -10,9 +10,9 @@ pub struct Channel {
     pub name: String,
     /// Unit.
     pub unit: String,
-    /// Standard deviation of the constant that is added to every recording of the channel, infinite where it may be anything; it is a nuisance,
-    /// never a finding.
-    pub offset_sd: f64,
+    /// Mean and standard deviation of the constant that is added to every recording of the channel, the latter infinite where it may be anything; it
+    /// is a nuisance, never a finding.
+    pub offset: (f64, f64),
     /// Span of a sample's mean \[s\], 0 for momentary values.
     pub averaging: f64,
     /// What is known of its noise.

@@ -3,6 +3,7 @@
 mod common;
 mod elsewhere;
 mod exact_evidence;
+mod sampled;
 mod separation;
 mod starts;
 mod toy;

@@ -25,7 +25,7 @@ impl Oscillation {
     fn new(starts: &[f64]) -> Self {
         let noise = NoisePrior::new((WHITE, 1e-4), (1e-9, 1e-4), (100.0, 1e-4), (1e-9, 1e-4));
         Self {
-            channels: vec![Channel { name: "y".into(), unit: "1".into(), offset_sd: 1.0, averaging: 0.0, noise }],
+            channels: vec![Channel { name: "y".into(), unit: "1".into(), offset: (0.0, 1.0), averaging: 0.0, noise }],
             nuisances: vec![Nuisance::normal("frequency", 1.0, 0.5, Role::Constant)],
             state: State { level: vec![0.0; ROWS], rate: vec![0.0; ROWS] },
             starts: starts.iter().map(|start| vec![*start]).collect(),

@@ -35,7 +35,7 @@ impl Bath {
         };
         let noise = NoisePrior::new((0.1, 0.7), (0.03, 0.7), (1500.0, 0.5), (1e-5, 1.0));
         Self {
-            channels: vec![Channel { name: "y".into(), unit: "1".into(), offset_sd: 1.0, averaging: 0.0, noise }],
+            channels: vec![Channel { name: "y".into(), unit: "1".into(), offset: (0.0, 1.0), averaging: 0.0, noise }],
             nuisances: vec![
                 Nuisance::normal("gain", 1.0, 1e-3, Role::ModelError),
                 Nuisance::normal("constant", 1.0, 0.03, Role::Constant),

@@ -4,7 +4,10 @@ use bias::units::S_PER_MIN;
 use coil::COARSE;
 use diagnosis::Observation;
 use files::{Note, Remark};
-use mechanisms::{CATALOGUE, Chamber, Gyro, Library, Models, Prepared, RATE as RATE_NUMBER, SPOOL as SPOOL_NUMBER, USUAL_NOISE};
+use mechanisms::{
+    CATALOGUE, Chamber, Gyro, Instrument, Instruments, Library, Models, Prepared, RATE as RATE_NUMBER, SPOOL as SPOOL_NUMBER,
+    USUAL_NOISE,
+};
 use progress::Step;
 use recording::Recording;
 use recording::check::{Severity, white_noise};
@@ -12,7 +15,7 @@ use recording::condition::{Rest, Thinned, Thinning, Unrest, bridged, span, thinn
 
 use crate::Error;
 use crate::cache::Cache;
-use crate::input::{CHAMBER, CoilCase, Fingerprint, InputError, RATE, RecordCase, SPOOL};
+use crate::input::{CHAMBER, CoilCase, Fingerprint, InputError, Meta, RATE, RecordCase, SPOOL, Thermometer};
 
 /// Fewest rows with a rate from which anything is said.
 const FEWEST_ROWS: usize = 60;
@@ -36,6 +39,8 @@ pub(crate) struct Record {
     /// what drives the model
     pub(crate) drive: Chamber,
     pub(crate) averaging: f64,
+    /// what is known of its instruments
+    meta: Option<Meta>,
     /// instants of the rows before they were averaged \[s\], and how much earlier than its instant the middle of an averaged one lies
     instants: (Vec<f64>, f64),
 }
@@ -109,7 +114,9 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     let used = case.report.used(&case.recording);
     let before = used.time().to_vec();
     let fine = thinned(&used, interval, &THINNING_CHAMBER).map(|thinned| thinned.recording);
-    let drive = drive(fine.as_ref().unwrap_or(&used));
+    // means of readings have no last digit
+    let digit = case.meta.as_ref().filter(|_| fine.is_none()).and_then(|meta| meta.resolutions()[0]);
+    let drive = drive(fine.as_ref().unwrap_or(&used), digit);
     let mut earlier = 0.0;
     let (used, averaging) = match thinned(&used, interval, &THINNING) {
         None => (used, case.averaging),
@@ -155,14 +162,14 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
         say(Remark::NotAtRest, format!("does not start at rest ({off}), as the model does: what this leaves is no finding"));
     }
     let (fingerprint, observed) = (case.fingerprint.clone(), Observation { time, channels: vec![spool, rate] });
-    Ok(Record { fingerprint, observed, chamber, drive, averaging, instants: (before, earlier) })
+    Ok(Record { fingerprint, observed, chamber, drive, averaging, meta: case.meta.clone(), instants: (before, earlier) })
 }
 
 /// What the chamber's readings say; `None` where there are none.
-fn drive(recording: &Recording) -> Option<Chamber> {
+fn drive(recording: &Recording, digit: Option<f64>) -> Option<Chamber> {
     let readings = recording.time().iter().zip(&recording.channel(CHAMBER)?.values).filter(|(_, value)| value.is_finite());
     let (time, readings): (Vec<f64>, Vec<f64>) = readings.unzip();
-    (!time.is_empty()).then(|| Chamber::recorded(&time, &readings))
+    (!time.is_empty()).then(|| Chamber::recorded(&time, &readings, digit))
 }
 
 /// The forward model of some records, of which the first `fitted` are fitted.
@@ -172,18 +179,57 @@ fn drive(recording: &Recording) -> Option<Chamber> {
 pub(crate) fn gyro(library: &Library, records: &[Record], fitted: usize) -> Result<Gyro<'static>, coil::Error> {
     let prepared = |r: &Record| Prepared::under(library, &r.observed.time, &r.drive, r.averaging);
     let prepared = records.iter().map(prepared).collect::<Result<Vec<_>, _>>()?;
-    Gyro::fitted_to(library.clone(), CATALOGUE, prepared, fitted, noise_of(&records[..fitted]))
+    Gyro::fitted_to(
+        library.clone(),
+        CATALOGUE,
+        prepared,
+        fitted,
+        &Instruments { earth: earth_of(records), ..instruments_of(&records[..fitted]) },
+    )
 }
 
-/// White noise of thermometer and rate in a sample of some records, the quietest of them.
-fn noise_of(records: &[Record]) -> [f64; 2] {
+/// What some records say of their instruments: of each number, the first that says it.
+fn instruments_of(records: &[Record]) -> Instruments {
+    let metas = || records.iter().filter_map(|record| record.meta.as_ref());
+    let first = |of: &dyn Fn(&Meta) -> Option<f64>| metas().find_map(of);
+    let thermometer = |of: fn(&Meta) -> &Thermometer| Instrument {
+        offset_sd: first(&|meta| of(meta).offset_sd),
+        gain_sd: first(&|meta| of(meta).gain_sd),
+        lag: first(&|meta| of(meta).lag_s),
+        clock_sd: first(&|meta| of(meta).clock_offset_sd_s),
+    };
+    let rate = Instrument {
+        offset_sd: first(&|meta| meta.rate_deg_per_h.offset_sd),
+        gain_sd: first(&|meta| meta.rate_deg_per_h.scale_factor_sd),
+        lag: None,
+        clock_sd: first(&|meta| meta.rate_deg_per_h.clock_offset_sd_s),
+    };
+    // a display adds the noise of its rounding, and means of readings have neither its nor the sensor's
+    let as_read = records.iter().all(|record| record.instants().len() == record.observed.time.len());
+    let of_spool = first(&|meta| meta.spool_c.noise).filter(|_| as_read).filter(|noise| *noise > 0.0);
+    let mut white = noise_of(records, [of_spool.unwrap_or(USUAL_NOISE[SPOOL_NUMBER]), USUAL_NOISE[RATE_NUMBER]]);
+    let least = first(&|meta| meta.resolutions()[1]).filter(|_| as_read).map_or(0.0, |digit| digit / 12.0_f64.sqrt());
+    white[SPOOL_NUMBER] = white[SPOOL_NUMBER].max(least);
+    let (chamber, spool) = (thermometer(|meta| &meta.chamber_c), thermometer(|meta| &meta.spool_c));
+    Instruments { white, chamber, spool, rate, earth: None }
+}
+
+/// Earth's rate, where all records tell the same.
+fn earth_of(records: &[Record]) -> Option<f64> {
+    let told = |record: &Record| record.meta.as_ref().and_then(|meta| meta.rate_deg_per_h.earth());
+    let first = told(records.first()?)?;
+    records.iter().all(|record| told(record) == Some(first)).then_some(first)
+}
+
+/// White noise of thermometer and rate in a sample of some records, the quietest of them; `usual` where none tells.
+fn noise_of(records: &[Record], usual: [f64; 2]) -> [f64; 2] {
     let of = |channel: usize| {
         let white = |r: &Record| {
             let values = &r.observed.channels[channel];
             white_noise(&r.observed.time, values, &values.iter().map(|v| v.is_finite()).collect::<Vec<_>>())
         };
         let each = records.iter().filter_map(white).filter(|sd| *sd > 0.0);
-        each.reduce(f64::min).unwrap_or(USUAL_NOISE[channel])
+        each.reduce(f64::min).unwrap_or(usual[channel])
     };
     [of(SPOOL_NUMBER), of(RATE_NUMBER)]
 }

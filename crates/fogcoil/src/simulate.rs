@@ -262,10 +262,20 @@ impl DesignBox {
                 "a box of designs is driven by its chamber alone; leave out {drive:?} of the profile"
             )));
         }
-        let [dynamics, coarser] = Dynamics::varied(&self.model, &case.design).map_err(Error::of_coil(&case.file))?;
+        let [dynamics, coarser @ ..] = Dynamics::varied(&self.model, &case.design).map_err(Error::of_coil(&case.file))?;
         let rows = run(&dynamics, profile)?.into_iter().enumerate().map(|(n, r)| SimulatedRow::of(profile, n, r)).collect();
         let at = Error::of_coil(&profile.fingerprint.file);
-        let [spool, rate] = dynamics.distance(&coarser, &course(profile)).map_err(at)?;
+        let course = course(profile);
+        let distances =
+            coarser.iter().map(|coarser| dynamics.distance(coarser, &course)).collect::<Result<Vec<_>, _>>().map_err(at)?;
+        // not `max`, which passes over a NaN
+        let largest = |k: usize| {
+            distances
+                .iter()
+                .map(|d| d[k])
+                .fold(0.0, |most: f64, d| if d.is_nan() || most.is_nan() { f64::NAN } else { most.max(d) })
+        };
+        let [spool, rate] = [largest(0), largest(1)];
         if !(spool.is_finite() && rate.is_finite()) {
             return Err(Error::NotFinite { file: profile.fingerprint.file.clone(), time: profile.profile.time[0] });
         }

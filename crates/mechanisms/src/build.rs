@@ -1,11 +1,11 @@
 //! How the models of a design are made: what is solved in full, side by side.
 
 use crate::catalogue::debond;
-use crate::design::{can_be_heated, with_heater};
+use crate::design::{heatable_flanges, with_heater};
 use crate::heat_path::HeatPath;
 use crate::library::{Library, Models, unheated};
 use crate::mechanism::Mechanism;
-use coil::{Bonds, COARSE, Design, Error, MechanicalState, Model, ModelEffort, ParametricModel, Range, Tolerances};
+use coil::{Bonds, COARSE, Design, Error, MechanicalState, Model, ModelEffort, ParametricModel, Range, Side, Tolerances};
 use progress::Step;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -20,13 +20,14 @@ const OPEN: [f64; 23] = [
     0.8, 0.9,
 ];
 
-/// The paths of heat that a design has, by the ids of their mechanisms.
-fn heat_paths(design: &Design, mechanisms: &[&dyn Mechanism]) -> Vec<(String, HeatPath)> {
+/// The paths of heat that a design has, by the ids of their mechanisms and their places.
+fn heat_paths(design: &Design, mechanisms: &[&dyn Mechanism]) -> Vec<(String, usize, HeatPath)> {
     let of = |m: &&dyn Mechanism| {
         let facts = m.facts();
         facts.heat_path.map(|path| (facts.id.to_owned(), path))
     };
-    mechanisms.iter().filter_map(of).filter(|(_, path)| (path.applies)(design)).collect()
+    let places = |(id, path): (String, HeatPath)| (0..(path.places)(design)).map(move |place| (id.clone(), place, path.clone()));
+    mechanisms.iter().filter_map(of).flat_map(places).collect()
 }
 
 /// The ranges that a parametric model of `design` must hold for: its parameters' `tolerances`, and from any design within them as far as the
@@ -36,13 +37,13 @@ pub fn ranges(design: &Design, tolerances: &Tolerances, mechanisms: &[&dyn Mecha
     let mut ranges = usual.clone();
     let at_end = |end: fn(&Range) -> f64| usual.iter().fold(design.clone(), |d, range| range.parameter.set(&d, end(range)));
     let tolerated = [design.clone(), at_end(|range| range.low), at_end(|range| range.high)];
-    for (_, path) in heat_paths(design, mechanisms) {
+    for (_, place, path) in heat_paths(design, mechanisms) {
         for from in &tolerated {
-            path.nodes.iter().for_each(|x| Range::widened(&mut ranges, design, &(path.design)(from, *x)));
+            path.nodes.iter().for_each(|x| Range::widened(&mut ranges, design, &(path.design)(from, place, *x)));
         }
     }
-    if can_be_heated(design) {
-        Range::widened(&mut ranges, design, &with_heater(design, 1.0));
+    for side in heatable_flanges(design) {
+        Range::widened(&mut ranges, design, &with_heater(design, side, 1.0));
     }
     ranges
 }
@@ -59,23 +60,24 @@ impl Models {
         progress: &(dyn Fn(Step) + Sync),
     ) -> Result<Self, Error> {
         let design = &unheated(drawing);
-        let open = if debond::applies(design) { &OPEN[..] } else { &[] };
-        let (done, all) = (AtomicUsize::new(0), ModelEffort::default().solutions() + open.len());
+        let open = debond::flanges(design);
+        let (done, all) = (AtomicUsize::new(0), ModelEffort::default().solutions() + open.len() * OPEN.len());
         let one = || progress(Step::counted(TASK, done.fetch_add(1, Ordering::Relaxed) + 1, all));
         let model =
             ParametricModel::new(design, &ranges(design, tolerances, mechanisms), &COARSE, &ModelEffort::default(), &one)?;
         // temperatures at which the bond opens do not matter: both states are known
         let [below, hysteresis] = debond::OPENS;
-        let opening = |share: &f64| -> Result<_, Error> {
-            let opened = debond::with_opening(design, below, hysteresis, *share);
+        let opening = |side: Side, share: f64| -> Result<_, Error> {
+            let opened = debond::with_opening(design, side, below, hysteresis, share);
             let at = |bonds| {
                 model.project(&Model::in_state(&opened, &COARSE, &MechanicalState { bonds, ..MechanicalState::NOMINAL })?)
             };
             let change = at(Bonds::Opened)?.less(&at(Bonds::Closed)?);
             one();
-            Ok((*share, change))
+            Ok((share, change))
         };
-        let openings = open.par_iter().map(opening).collect::<Result<_, _>>()?;
+        let of_flange = |side: Side| OPEN.par_iter().map(|share| opening(side, *share)).collect::<Result<_, _>>();
+        let openings = open.into_iter().map(of_flange).collect::<Result<_, _>>()?;
         Ok(Self { drawing: drawing.clone(), tolerances: tolerances.clone(), model, openings })
     }
 }

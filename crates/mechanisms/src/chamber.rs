@@ -20,10 +20,11 @@ impl Chamber {
         Self { time: time.to_vec(), values: values.to_vec(), noise: 0.0, left: (0.0, interval) }
     }
 
-    /// Frees readings \[°C\] of their noise; what is too short is left as it is. The more readings, the better: average none beforehand.
-    pub fn recorded(time: &[f64], readings: &[f64]) -> Self {
+    /// Frees readings \[°C\] of their noise, `digit` the last one that the thermometer shows, if it is known; what is too short is left as it is. The
+    /// more readings, the better: average none beforehand.
+    pub fn recorded(time: &[f64], readings: &[f64], digit: Option<f64>) -> Self {
         let as_read = Self::given(time, readings);
-        match recording::smooth::smoothed(time, readings) {
+        match recording::smooth::smoothed(time, readings, digit) {
             Ok(smooth) => {
                 let left = (smooth.left, as_read.left.1 * smooth.of);
                 Self { values: smooth.values, noise: smooth.noise, left, ..as_read }
@@ -32,9 +33,11 @@ impl Chamber {
         }
     }
 
-    /// The same at other instants, on straight lines between its own, constant before the first and after the last.
+    /// The same at other instants, on straight lines between its own, constant before the first and after the last; NaN where there is none.
     pub fn at(&self, instants: &[f64]) -> Self {
-        let last = self.time.len() - 1;
+        let Some(last) = self.time.len().checked_sub(1) else {
+            return Self { time: instants.to_vec(), values: vec![f64::NAN; instants.len()], ..self.clone() };
+        };
         let at = |t: &f64| {
             let after = self.time.partition_point(|own| own < t).min(last);
             let before = after.saturating_sub(1);
@@ -58,7 +61,7 @@ mod tests {
             let time: Vec<f64> = (0..2000).step_by(every).map(|n| 10.0 * n as f64).collect();
             let readings: Vec<f64> = time.iter().map(|t| course(*t) + noise((t / 10.0) as usize)).collect();
             let rows: Vec<f64> = (0..320).map(|n| 60.0 * f64::from(n)).collect();
-            let chamber = Chamber::recorded(&time, &readings).at(&rows);
+            let chamber = Chamber::recorded(&time, &readings, None).at(&rows);
             let squares = chamber.values.iter().zip(&rows).map(|(value, t)| (value - course(*t)).powi(2));
             (squares.sum::<f64>() / 320.0).sqrt()
         };
@@ -68,7 +71,8 @@ mod tests {
 
     #[test]
     fn beyond_its_ends_it_stays() {
-        let chamber = Chamber::recorded(&[0.0, 10.0, 20.0], &[5.0, 6.0, 8.0]);
+        let chamber = Chamber::recorded(&[0.0, 10.0, 20.0], &[5.0, 6.0, 8.0], None);
         assert_eq!(chamber.at(&[-5.0, 0.0, 15.0, 20.0, 99.0]).values, [5.0, 5.0, 7.0, 8.0, 8.0]);
+        assert!(Chamber::recorded(&[], &[], None).at(&[1.0]).values[0].is_nan());
     }
 }

@@ -120,7 +120,7 @@ pub fn number_of(name: &str) -> Option<Number> {
 }
 
 /// Standard deviation of what has no tolerance.
-const KNOWN: f64 = 1e-9;
+pub(crate) const KNOWN: f64 = 1e-9;
 
 /// A design with a number that is uncertain at a value, by the name that the forward model gives it; `None` for a name of something else.
 pub fn with_constant(design: &Design, name: &str, value: f64) -> Option<Design> {

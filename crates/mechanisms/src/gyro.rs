@@ -3,7 +3,7 @@
 use crate::REFERENCE_C;
 use crate::constants::{Constant, number_of};
 use crate::course::{Delay, Parts, RATE, Series, add, total};
-use crate::instruments::{self, MINUTE, USUAL_NOISE, channels, nuisances};
+use crate::instruments::{self, Instruments, MINUTE, channels, nuisances};
 use crate::law_tools::Chain;
 use crate::library::Library;
 use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Scene, Sight, lagged};
@@ -75,11 +75,10 @@ impl<'m> Gyro<'m> {
     /// [`Error`] names the dimension or property at fault.
     pub fn new(library: Library, mechanisms: &[&'m dyn Mechanism], records: Vec<Prepared>) -> Result<Self, Error> {
         let all = records.len();
-        Self::fitted_to(library, mechanisms, records, all, USUAL_NOISE)
+        Self::fitted_to(library, mechanisms, records, all, &Instruments::default())
     }
 
-    /// The same where only the first `fitted` of the records are fitted: the others' temperatures say nothing beforehand. `white` is the white noise
-    /// of thermometer \[K\] and rate \[deg/h\] in a sample, as the records or a data sheet tell.
+    /// The same where only the first `fitted` of the records are fitted: the others' temperatures say nothing beforehand; read by these `instruments`.
     ///
     /// # Errors
     /// [`Error`] names the dimension or property at fault.
@@ -88,20 +87,20 @@ impl<'m> Gyro<'m> {
         mechanisms: &[&'m dyn Mechanism],
         records: Vec<Prepared>,
         fitted: usize,
-        white: [f64; 2],
+        instruments: &Instruments,
     ) -> Result<Self, Error> {
         let temperatures = || records.iter().take(fitted).flat_map(|r| r.coil.iter().copied());
         let coldest = temperatures().fold(f64::INFINITY, f64::min);
         let range = [coldest, temperatures().fold(f64::NEG_INFINITY, f64::max).max(coldest + 1e-3)];
         let (averaging, interval) =
             records.first().map_or((0.0, MINUTE), |r| (r.averaging, median_interval(&r.time).unwrap_or(MINUTE)));
-        let scene = Scene { temperatures: range, noise: white[RATE] * (interval / MINUTE).sqrt() };
+        let scene = Scene { temperatures: range, noise: instruments.white[RATE] * (interval / MINUTE).sqrt() };
         let offered = mechanisms.iter().filter_map(|m| Some((*m, entry(*m, library.design(), &scene)?)));
         let (kinds, mechanisms) = offered.unzip();
         let noise = records.iter().map(Prepared::noise).fold(0.0, f64::max);
-        let nuisances = nuisances(library.design(), library.tolerances(), noise);
+        let nuisances = nuisances(library.design(), library.tolerances(), instruments, noise);
         Ok(Self {
-            channels: channels(averaging, white, interval, records.first().map_or(Passed::NONE, |r| r.passed)),
+            channels: channels(averaging, instruments, interval, records.first().map_or(Passed::NONE, |r| r.passed)),
             precision: precision(&nuisances, library.tolerances())?,
             nuisances,
             factored: library.factored(),
@@ -170,7 +169,7 @@ impl<'m> Gyro<'m> {
         };
         let here = self.library().values()[k];
         for (value, sign) in [(to, 1.0), (from, -1.0)] {
-            let Change { parts, thermometer, .. } = self.chain.along(record, id, (value / here).ln());
+            let Change { parts, thermometer, .. } = self.chain.along(record, id, 0, (value / here).ln());
             series.change(&Series { sensor: thermometer.unwrap_or_default(), parts }, sign);
         }
     }

@@ -1,10 +1,10 @@
 //! What is read: channels with their noise, and what instruments and the model itself may be off.
 
-use crate::constants::{constants, others};
+use crate::constants::{KNOWN, constants, others};
 use crate::course::{RATE, SPOOL};
 use crate::passed::Passed;
 use coil::{Design, Tolerances};
-use diagnosis::{Channel, NoisePrior, Nuisance, Role};
+use diagnosis::{Channel, NoisePrior, Nuisance, Prior, Role};
 
 // order of the nuisances; the design's constants follow
 pub(crate) const GAIN: usize = 0;
@@ -36,10 +36,71 @@ const DAY: f64 = 86_400.0;
 /// Uncertainty of the size of what is passed through the coil: smoothing says how much noise is left in a quiet stretch, not at every turn of a programme.
 const PASSED_SPREAD: f64 = 0.5;
 
-/// Thermometer and rate; `white` is what each has of white noise in a sample of `interval` \[s\].
-pub(crate) fn channels(averaging: f64, white: [f64; 2], interval: f64, passed: Passed) -> Vec<Channel> {
+/// What is known of an instrument, standard deviations; where nothing is, a wide one stands.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Instrument {
+    /// Of its offset \[unit of the channel\].
+    pub offset_sd: Option<f64>,
+    /// Of its gain, relative.
+    pub gain_sd: Option<f64>,
+    /// Its time constant \[s\].
+    pub lag: Option<f64>,
+    /// Of its clock \[s\].
+    pub clock_sd: Option<f64>,
+}
+
+/// What is known of the instruments of a record.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Instruments {
+    /// White noise of thermometer \[K\] and rate \[deg/h\] in a sample.
+    pub white: [f64; 2],
+    /// The chamber's thermometer.
+    pub chamber: Instrument,
+    /// The spool's.
+    pub spool: Instrument,
+    /// The gyroscope; its gain is its scale factor.
+    pub rate: Instrument,
+    /// Earth's rate in the record \[deg/h\].
+    pub earth: Option<f64>,
+}
+
+impl Default for Instruments {
+    fn default() -> Self {
+        let unknown = Instrument::default();
+        Self { white: USUAL_NOISE, chamber: unknown, spool: unknown, rate: unknown, earth: None }
+    }
+}
+
+impl Instruments {
+    /// Mean and standard deviation of the offsets of the spool's thermometer against the chamber's, and of the rate. A thermometer's offset and
+    /// Earth's rate say nothing of the coil: unless both are known, anything.
+    fn offsets(&self) -> [(f64, f64); 2] {
+        const ANYTHING: (f64, f64) = (0.0, f64::INFINITY);
+        let spool = self.spool.offset_sd.zip(self.chamber.offset_sd).map_or(ANYTHING, |(a, b)| (0.0, a.hypot(b).max(KNOWN)));
+        [
+            spool,
+            self.earth.zip(self.rate.offset_sd).map_or(ANYTHING, |(earth, sd)| {
+                let of_scale = earth * self.rate.gain_sd.unwrap_or(0.0);
+                (earth, sd.hypot(of_scale).max(KNOWN))
+            }),
+        ]
+    }
+
+    /// Mean and standard deviation of the delay \[s\] and of the squared lag \[s²\] of the chamber's readings.
+    fn delay(&self) -> [(f64, f64); 2] {
+        let Instrument { lag, clock_sd, .. } = self.chamber;
+        // the spool's readings are late against the model's time, too
+        let clock = clock_sd.unwrap_or(CLOCK_S).hypot(self.spool.clock_sd.unwrap_or(RATE_DELAY_S));
+        let by_lag = lag.map_or(LAG_S, |lag| LAG_SHARE * lag);
+        let squared = lag.map_or((0.0, LAG_SQUARED_S2), |lag| (lag * lag, (2.0 * LAG_SHARE * lag * lag).max(KNOWN)));
+        [(lag.unwrap_or(0.0), clock.hypot(by_lag).max(KNOWN)), squared]
+    }
+}
+
+/// Thermometer and rate in samples of `interval` \[s\].
+pub(crate) fn channels(averaging: f64, instruments: &Instruments, interval: f64, passed: Passed) -> Vec<Channel> {
     let noise = |channel: usize| {
-        let white = white[channel];
+        let white = instruments.white[channel];
         let in_a_minute = white * (interval / MINUTE).sqrt();
         NoisePrior {
             white: (white, WHITE_SPREAD),
@@ -50,11 +111,11 @@ pub(crate) fn channels(averaging: f64, white: [f64; 2], interval: f64, passed: P
             passed_time: passed.time[channel].max(interval),
         }
     };
-    // a thermometer's offset and Earth's rate say nothing of the coil
+    let offsets = instruments.offsets();
     let channel = |name: &str, unit: &str, averaging: f64, number: usize| Channel {
         name: name.into(),
         unit: unit.into(),
-        offset_sd: f64::INFINITY,
+        offset: offsets[number],
         averaging,
         noise: noise(number),
     };
@@ -70,8 +131,11 @@ const REST_ERROR_K: f64 = 0.005;
 /// Gain of a thermometer about its span's middle: class B of IEC 60751 is 0.3 K + 0.5 % of the temperature.
 const THERMOMETER_GAIN: f64 = 0.004;
 /// How late the chamber's readings may be against the gyroscope's \[s\]: a thermometer's time constant in moving air, and a clock that is read by
-/// the minute, together.
-const DELAY_S: f64 = 45.0;
+/// the minute.
+const LAG_S: f64 = 33.2;
+const CLOCK_S: f64 = 30.0;
+/// What a time constant that is given may be off, relative: moving air is never quite the same.
+const LAG_SHARE: f64 = 0.2;
 /// Square of the time constant of the chamber's thermometer \[s²\]: half a minute's, either way. Of a thermometer with the time constant τ on a
 /// log that is late by c, the delay τ + c is the first cumulant and τ² the second: in them the response is linear, which it is not in τ and c.
 const LAG_SQUARED_S2: f64 = 1000.0;
@@ -97,22 +161,61 @@ pub fn reading_of(name: &str) -> Option<&'static str> {
     READINGS.iter().find(|(known, _)| *known == name).map(|(_, key)| *key)
 }
 
-/// Everything about a unit and its instruments that is known to a tolerance only; `noise` is that of the chamber's thermometer \[K\], from which the
+/// Everything about a unit and its `instruments` that is known to a tolerance only; `noise` is that of the chamber's thermometer \[K\], from which the
 /// start is known.
-pub(crate) fn nuisances(design: &Design, tolerances: &Tolerances, noise: f64) -> Vec<Nuisance> {
+pub(crate) fn nuisances(design: &Design, tolerances: &Tolerances, instruments: &Instruments, noise: f64) -> Vec<Nuisance> {
+    let gain = |of: &Instrument| of.gain_sd.unwrap_or(THERMOMETER_GAIN).max(KNOWN);
+    let [(delay, delay_sd), (squared, squared_sd)] = instruments.delay();
     let sensor = |reading: usize, mean: f64, sd: f64| Nuisance::normal(READINGS[reading].0, mean, sd, Role::Sensor);
     let mut all = vec![
-        Nuisance::normal("gain of the rate", 1.0, GAIN_ERROR, Role::ModelError),
+        Nuisance::normal("gain of the rate", 1.0, GAIN_ERROR.hypot(instruments.rate.gain_sd.unwrap_or(0.0)), Role::ModelError),
         Nuisance::normal("gain of the Shupe part (model)", 1.0, SHUPE_ERROR, Role::ModelError),
         Nuisance { local: true, ..Nuisance::normal("start off rest [K]", 0.0, REST_ERROR_K.hypot(noise), Role::ModelError) },
-        sensor(0, 1.0, THERMOMETER_GAIN),
-        sensor(1, 0.0, DELAY_S),
-        sensor(2, 0.0, LAG_SQUARED_S2),
-        sensor(3, 1.0, THERMOMETER_GAIN),
+        sensor(0, 1.0, gain(&instruments.chamber)),
+        sensor(1, delay, delay_sd),
+        sensor(2, squared, squared_sd),
+        sensor(3, 1.0, gain(&instruments.spool)),
     ];
     all.extend(others(design, tolerances));
+    if let Some(lag) = instruments.spool.lag.filter(|_| design.sensor.lag > 0.0) {
+        let of_drawn = lag / design.sensor.lag;
+        all[LAG].parameter.prior = Prior::Normal { mean: of_drawn, sd: (LAG_SHARE * of_drawn).max(KNOWN) };
+    }
     all.push(sensor(4, 0.0, FILTER_SQUARED_S2));
-    all.push(sensor(5, 0.0, RATE_DELAY_S));
+    let [of_spool, of_rate] = [instruments.spool.clock_sd, instruments.rate.clock_sd];
+    let apart = of_spool.unwrap_or(RATE_DELAY_S).hypot(of_rate.unwrap_or(0.0)).max(KNOWN);
+    all.push(sensor(5, 0.0, apart));
     all.extend(constants(design, tolerances).iter().map(|constant| constant.nuisance()));
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_data_sheet_narrows_what_instruments_may_be_off() {
+        let usual = Instruments::default();
+        assert_eq!(usual.offsets(), [(0.0, f64::INFINITY); 2]);
+        let [delay, squared] = usual.delay();
+        assert!(delay.0 == 0.0 && (delay.1 - 45.0).abs() < 0.1 && squared == (0.0, LAG_SQUARED_S2));
+        let known = |offset_sd: f64, lag: f64, clock_sd: f64| Instrument {
+            offset_sd: Some(offset_sd),
+            gain_sd: Some(1e-4),
+            lag: Some(lag),
+            clock_sd: Some(clock_sd),
+        };
+        let chamber = known(0.03, 20.0, 3.0);
+        let sheet = Instruments { chamber, spool: known(0.04, 5.0, 0.0), ..usual };
+        let [delay, squared] = sheet.delay();
+        assert!(delay == (20.0, 5.0) && squared == (400.0, 160.0), "{delay:?} {squared:?}");
+        let [spool, rate] = sheet.offsets();
+        assert!((spool.1 - 0.05).abs() < 1e-12 && rate.1.is_infinite());
+        // one thermometer's offset alone, or a bias beside an unknown rate of Earth, says nothing
+        assert!(Instruments { chamber, ..usual }.offsets()[0].1.is_infinite());
+        let gyroscope = Instruments { rate: known(0.02, 0.0, 0.0), ..usual };
+        assert!(gyroscope.offsets()[1].1.is_infinite());
+        let (earth, sd) = Instruments { earth: Some(9.7), ..gyroscope }.offsets()[1];
+        assert!(earth == 9.7 && (sd - 0.02_f64.hypot(9.7e-4)).abs() < 1e-12);
+    }
 }

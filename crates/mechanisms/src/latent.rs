@@ -61,16 +61,16 @@ impl Chain {
         let mut thermal = Functions::new();
         for mechanism in mechanisms {
             let facts = mechanism.facts();
-            if let Some(nudge) = facts.heat_path.and_then(|path| path.nudge) {
-                thermal.extend(shaped(&self.along(record, facts.id, nudge), &hats));
+            if let Some((path, nudge)) = facts.heat_path.as_ref().and_then(|path| Some((path, path.nudge?))) {
+                let places = 0..(path.places)(self.library().design());
+                places.for_each(|place| thermal.extend(shaped(&self.along(record, facts.id, place, nudge), &hats)));
             }
         }
         for before in SWITCHED_ON {
             let scaled = |series: &[f64]| series.iter().map(|x| POWER * x).collect();
-            thermal.push(self.heated(record, before).map_or_else(
-                || vec![vec![0.0; rows]; 2],
-                |heated| vec![scaled(&heated.sensor), total(&[0, 1, 2].map(|p: usize| scaled(&heated.parts[p])))],
-            ));
+            let heated = (0..record.heaters.len()).filter_map(|place| self.heated(record, place, before));
+            let functions = heated.map(|heated| vec![scaled(&heated.sensor), total(&heated.parts.each_ref().map(|p| scaled(p)))]);
+            thermal.extend(functions);
         }
         add(Stage::Thermal, thermal);
 
@@ -83,7 +83,7 @@ impl Chain {
         material.extend(constants.map(|(c, slope)| of_rate(total(&slope.parts).iter().map(|x| x * c.tolerance).collect())));
         add(Stage::Material, material);
 
-        let bond = record.openings.iter().step_by((record.openings.len() / 2).max(1));
+        let bond = record.openings.iter().flat_map(|flange| flange.iter().step_by((flange.len() / 2).max(1)));
         add(Stage::Bond, bond.flat_map(|(_, open)| shaped(&Change::of_parts(open.clone()), &hats)).collect());
 
         let layers = self.library().design().winding.layers;

@@ -27,11 +27,11 @@ impl Chain {
         &self.library
     }
 
-    /// What the coil does at a coordinate of the heat path of mechanism `id`, less what it does as designed.
-    pub fn along(&self, record: &Prepared, id: &str, coordinate: f64) -> Change {
+    /// What the coil does at a coordinate of the heat path of mechanism `id` at a place, counted from 0, less what it does as designed.
+    pub fn along(&self, record: &Prepared, id: &str, place: usize, coordinate: f64) -> Change {
         let mut change = Change { thermometer: Some(vec![0.0; record.time.len()]), ..Change::none(record) };
-        if let Some((_, nodes, series)) = record.paths.iter().find(|(path, ..)| path == id) {
-            for (w, series) in weights(nodes, coordinate).into_iter().zip(series) {
+        if let Some(path) = record.paths.iter().find(|path| path.id == id && path.place == place) {
+            for (w, series) in weights(&path.nodes, coordinate).into_iter().zip(&path.changes) {
                 for p in 0..3 {
                     add(&mut change.parts[p], &series.parts[p], w);
                 }
@@ -43,9 +43,9 @@ impl Chain {
         change
     }
 
-    /// What a watt in the first flange does that is switched on `before` \[s\] the first row; `None` without a flange, or if it has a heater.
-    pub(crate) fn heated(&self, record: &Prepared, before: f64) -> Option<Series> {
-        Some(record.heater.as_ref()?.at(self.library.heater.as_ref()?, before))
+    /// What a watt in a flange does, of those that may be heated, that is switched on `before` \[s\] the first row; `None` without such a flange.
+    pub(crate) fn heated(&self, record: &Prepared, place: usize, before: f64) -> Option<Series> {
+        Some(record.heaters.get(place)?.at(self.library.heaters.get(place)?, before))
     }
 
     /// Parts of a coil whose CW tail is longer than its CCW tail by so much more \[m\], less the nominal ones \[deg/h\].

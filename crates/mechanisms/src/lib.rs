@@ -31,7 +31,7 @@ pub use course::{Delay, Parts, RATE, SPOOL};
 pub use design::REFERENCE_C;
 pub use gyro::Gyro;
 pub use heat_path::HeatPath;
-pub use instruments::{USUAL_NOISE, reading_of};
+pub use instruments::{Instrument, Instruments, USUAL_NOISE, reading_of};
 pub use law_tools::Chain;
 pub use library::{Library, Models};
 pub use mechanism::{

@@ -1,13 +1,13 @@
 //! Reduced models of a design, and of what it may leave out: once for every design of a box, and at one of them.
 
 use crate::constants::{Constant, constants};
-use crate::design::{can_be_heated, with_heater, with_tail};
+use crate::design::{heatable_flanges, with_heater, with_tail};
 use crate::heat_path::HeatPath;
 use crate::interpolation::{cubic_weights, nodes};
 
 use coil::{
-    Design, Error, HeatPaths, MODULI, MechanicalState, Mechanics, Output, Parameter, ParametricModel, Projected, Reduced, Slopes,
-    Tolerances, TurnFields,
+    Design, Error, HeatPaths, MODULI, MechanicalState, Mechanics, Output, Parameter, ParametricModel, Projected, Reduced, Side,
+    Slopes, Tolerances, TurnFields,
 };
 use nalgebra::DVector;
 use std::collections::HashMap;
@@ -27,8 +27,8 @@ pub struct Models {
     pub(crate) drawing: Design,
     pub(crate) tolerances: Tolerances,
     pub(crate) model: ParametricModel,
-    /// by the open share: opened less closed
-    pub(crate) openings: Vec<(f64, Projected)>,
+    /// of each flange whose bond can open, by the open share: opened less closed
+    pub(crate) openings: Vec<Vec<(f64, Projected)>>,
 }
 
 /// The coil along a path of heat.
@@ -36,6 +36,8 @@ pub struct Models {
 pub(crate) struct Tabulated {
     /// Id of the mechanism whose path it is.
     pub(crate) id: String,
+    /// Which of the places at which the design has it.
+    pub(crate) place: usize,
     /// Nodes in the path's coordinate, increasing.
     pub(crate) nodes: Vec<f64>,
     /// Which node is the design as it is.
@@ -48,8 +50,8 @@ pub(crate) struct Tabulated {
 #[derive(Debug, Clone)]
 pub struct Library {
     models: Arc<Models>,
-    /// those that conduct heat, by their ids
-    heat_paths: Vec<(String, HeatPath)>,
+    /// those that conduct heat, by their ids and places
+    heat_paths: Vec<(String, usize, HeatPath)>,
     /// the drawing with its constants at the values that this is made for
     design: Design,
     pub(crate) constants: Vec<Constant>,
@@ -60,8 +62,8 @@ pub struct Library {
     /// ln of the factor on the transverse moduli at nodes; empty if mechanics changes
     pub(crate) moduli: Vec<f64>,
     pub(crate) paths: Vec<Tabulated>,
-    /// driven by the chamber and by a heater of 1 W
-    pub(crate) heater: Option<Reduced>,
+    /// driven by the chamber and by 1 W in a flange: of each that may be heated
+    pub(crate) heaters: Vec<Reduced>,
 }
 
 /// A design without a heater of its own: that is no drive of a recording.
@@ -87,7 +89,7 @@ impl Library {
         Self::at(Arc::clone(&self.models), self.heat_paths.clone(), design)
     }
 
-    pub(crate) fn at(models: Arc<Models>, heat_paths: Vec<(String, HeatPath)>, design: Design) -> Result<Self, Error> {
+    pub(crate) fn at(models: Arc<Models>, heat_paths: Vec<(String, usize, HeatPath)>, design: Design) -> Result<Self, Error> {
         let model = &models.model;
         let moduli = if design.mechanics == Mechanics::Elastic {
             nodes(MODULI[0].ln(), MODULI[1].ln(), MODULUS_NODES)
@@ -98,23 +100,24 @@ impl Library {
         let wider = |x: &f64| MechanicalState { transverse_expansion: 2.0, ..softer(x) };
         let states: Vec<MechanicalState> =
             [MechanicalState::NOMINAL].into_iter().chain(moduli.iter().map(softer)).chain(moduli.iter().map(wider)).collect();
-        let openings: Vec<Projected> = models.openings.iter().map(|(_, opened)| opened.clone()).collect();
+        let openings: Vec<Projected> = models.openings.iter().flatten().map(|(_, opened)| opened.clone()).collect();
         let base = model.in_states_and(&design, &states, &openings)?;
         let fields = model.fields(&design, &MechanicalState::NOMINAL)?;
         let constants = constants(&models.drawing, &models.tolerances);
         let parameters: Vec<_> = constants.iter().map(|c| c.parameter).collect();
         let slopes = model.slopes(&design, &parameters)?;
         let mut paths = Vec::new();
-        for (id, path) in &heat_paths {
+        for (id, place, path) in &heat_paths {
             let nominal = path.nodes.iter().position(|x| is_nominal(*x)).unwrap_or(0);
             let others = path.nodes.iter().filter(|x| !is_nominal(**x));
-            let at = others.map(|x| model.in_states(&model.nearest(&(path.design)(&design, *x)), &[MechanicalState::NOMINAL]));
+            let at =
+                others.map(|x| model.in_states(&model.nearest(&(path.design)(&design, *place, *x)), &[MechanicalState::NOMINAL]));
             let models = at.collect::<Result<_, _>>()?;
-            paths.push(Tabulated { id: id.clone(), nominal, nodes: path.nodes.clone(), models });
+            paths.push(Tabulated { id: id.clone(), place: *place, nominal, nodes: path.nodes.clone(), models });
         }
-        let heated = can_be_heated(&models.drawing).then(|| with_heater(&design, 1.0));
-        let heater = heated.map(|heated| model.in_states(&heated, &[MechanicalState::NOMINAL])).transpose()?;
-        Ok(Self { models, heat_paths, design, constants, base, slopes, fields, moduli, paths, heater })
+        let heated = |side: Side| model.in_states(&with_heater(&design, side, 1.0), &[MechanicalState::NOMINAL]);
+        let heaters = heatable_flanges(&models.drawing).into_iter().map(heated).collect::<Result<_, _>>()?;
+        Ok(Self { models, heat_paths, design, constants, base, slopes, fields, moduli, paths, heaters })
     }
 
     /// The design that it was made for, as it is drawn.
@@ -144,13 +147,14 @@ impl Library {
     /// Constants on which the parameter of a mechanism is a factor: their places, and the ids.
     pub(crate) fn factored(&self) -> Vec<(usize, String)> {
         let place = |parameter: Parameter| self.constants.iter().position(|c| c.parameter == parameter);
-        self.heat_paths.iter().filter_map(|(id, path)| Some((place(path.factor_on?)?, id.clone()))).collect()
+        self.heat_paths.iter().filter_map(|(id, _, path)| Some((place(path.factor_on?)?, id.clone()))).collect()
     }
 
-    /// What each opening changes of the parts, by its open share.
-    pub(crate) fn of_openings(&self) -> impl Iterator<Item = (f64, Functionals)> + '_ {
-        let first = 1 + 2 * self.moduli.len();
-        self.models.openings.iter().enumerate().map(move |(k, (share, _))| (*share, self.functionals(first + k)))
+    /// What each opening of each flange changes of the parts, by its open share.
+    pub(crate) fn of_openings(&self) -> Vec<Vec<(f64, Functionals)>> {
+        let mut states = 1 + 2 * self.moduli.len()..;
+        let mut of = |(share, _): &(f64, Projected)| Some((*share, self.functionals(states.next()?)));
+        self.models.openings.iter().map(|flange| flange.iter().filter_map(&mut of).collect()).collect()
     }
 
     fn functionals(&self, state: usize) -> Functionals {

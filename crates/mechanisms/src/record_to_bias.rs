@@ -3,7 +3,7 @@
 use crate::chamber::Chamber;
 use crate::course::{BETWEEN, Clock, Course, Delay, Parts, Series, minus, undelayed};
 use crate::curvature::Curvature;
-use crate::library::Library;
+use crate::library::{Functionals, Library};
 use crate::passed::{Passed, passed};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::{Error, Parameter, Profile, Reduced};
@@ -46,11 +46,21 @@ pub struct Prepared {
     expansion: Option<(usize, f64)>,
     /// parts at each node of the transverse modulus, with the nominal α_r and per unit of its factor
     pub(crate) modulus: Vec<(f64, Parts, Parts)>,
-    /// changes at every node of each mechanism's path, zero at the nominal one
-    pub(crate) paths: Vec<(String, Vec<f64>, Vec<Series>)>,
-    /// open minus closed
-    pub(crate) openings: Vec<(f64, Parts)>,
-    pub(crate) heater: Option<Heating>,
+    pub(crate) paths: Vec<Along>,
+    /// of each flange whose bond can open: open minus closed
+    pub(crate) openings: Vec<Vec<(f64, Parts)>>,
+    /// of each flange that may be heated
+    pub(crate) heaters: Vec<Heating>,
+}
+
+/// Changes along a path of heat.
+#[derive(Debug, Clone)]
+pub(crate) struct Along {
+    pub(crate) id: String,
+    pub(crate) place: usize,
+    pub(crate) nodes: Vec<f64>,
+    /// at every node, zero at the nominal one
+    pub(crate) changes: Vec<Series>,
 }
 
 /// A watt in a flange that is switched on some time before the first row: every mode decays on its own.
@@ -116,7 +126,7 @@ impl Prepared {
     /// [`Error::Profile`] names the instant that is out of order or not finite.
     pub fn new(library: &Library, time: &[f64], chamber: &[f64], averaging: f64) -> Result<Self, Error> {
         Profile { time: time.to_vec(), drives: vec![chamber.to_vec()] }.check(1)?;
-        Self::run(library, time, Chamber::recorded(time, chamber), averaging, Delay::default())
+        Self::run(library, time, Chamber::recorded(time, chamber, None), averaging, Delay::default())
     }
 
     /// The same under a chamber that was read at instants of its own, often more of them than rows.
@@ -172,9 +182,11 @@ impl Prepared {
         let paths = library.paths.iter().map(|path| {
             let mut changes: Vec<Series> = path.models.iter().map(|model| minus(&run(model).series(model), &base)).collect();
             changes.insert(path.nominal, minus(&base, &base));
-            (path.id.clone(), path.nodes.clone(), changes)
+            Along { id: path.id.clone(), place: path.place, nodes: path.nodes.clone(), changes }
         });
-        let heater = library.heater.as_ref().map(|model| Heating::new(model, &clock, averaging));
+        let heaters = library.heaters.iter().map(|model| Heating::new(model, &clock, averaging)).collect();
+        let opened = |(share, change): (f64, Functionals)| (share, course.parts(&change));
+        let openings = library.of_openings().into_iter().map(|flange| flange.into_iter().map(opened).collect()).collect();
         let coil = course.output(library.base.coil_mean());
         let level = nominal.sensor.clone();
         let slopes_of = |series: &[f64]| recording::condition::slopes(time, series);
@@ -201,9 +213,9 @@ impl Prepared {
                 .position(|c| c.parameter == Parameter::SpoolExpansion)
                 .map(|k| (k, library.values()[k])),
             modulus: library.of_modulus().map(|(x, n, f)| (x, course.parts(&n), course.parts(&f))).collect(),
-            openings: library.of_openings().map(|(share, change)| (share, course.parts(&change))).collect(),
+            openings,
             paths: paths.collect(),
-            heater,
+            heaters,
             course,
             nominal,
             later,

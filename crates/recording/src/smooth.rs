@@ -10,8 +10,6 @@ const FREEDOM: f64 = 1.0;
 const RANK: f64 = 2.0;
 /// Time constants that are tried, in usual intervals: from next to none on, each twice the one before.
 const LAGS: [f64; 9] = [0.35, 0.7, 1.4, 2.8, 5.6, 11.0, 22.0, 45.0, 90.0];
-/// Times the likeliest as yet beyond which no longer one is tried.
-const FAR: f64 = 3.0;
 /// Rounds of reweighting at each of them, and then at the likeliest.
 const TRIED: usize = 12;
 const ROUNDS: usize = 25;
@@ -40,20 +38,26 @@ pub struct Smoothed {
     pub of: f64,
 }
 
-/// Least step between two values of a series that differ; 0 of a constant.
+/// The last digit of a display: the least step between two values that differ, if most moves by it stand alone. Moves that go on are those of a
+/// ramp that is even, and say nothing of a display: 0, as of a constant.
 fn resolution(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let range = sorted[sorted.len() - 1] - sorted[0];
     // what rounding leaves of one value is no step
-    let steps = sorted.windows(2).map(|w| w[1] - w[0]).filter(|step| *step > 1e-7 * range);
+    let rounding = 1e-7 * range;
+    let steps = sorted.windows(2).map(|w| w[1] - w[0]).filter(|step| *step > rounding);
     let least = steps.fold(f64::INFINITY, f64::min);
-    if least.is_finite() { least } else { 0.0 }
+    let moves: Vec<f64> = values.windows(2).map(|w| w[1] - w[0]).collect();
+    let by_least = || (0..moves.len()).filter(|&n| (moves[n].abs() - least).abs() <= rounding);
+    let going_on = by_least().filter(|&n| moves.get(n + 1).is_some_and(|next| (next - moves[n]).abs() <= rounding));
+    if 2 * going_on.count() < by_least().count() { least } else { 0.0 }
 }
 
 /// Frees a series of white noise: it follows a programme whose slope wanders, mostly little, at times much, through a lag.
 ///
-/// The noise has at least the size of the last digit that is written, beside its rounding: no thermometer is better than its display.
+/// The noise has at least the size of the last `digit`, beside its rounding: no thermometer is better than its display. Where it is not given, the
+/// values tell.
 /// The programme's slope is a random walk whose steps follow Student's distribution with one degree of freedom, so that ramps and soaks are smoothed
 /// while the corners between them stay; a first-order follower, the chamber behind its controller, rounds them. The sizes of noise and steps and the
 /// time constant are the most likely ones. Kalman's filter and the smoother of Rauch, Tung and Striebel (1965), reweighted as Lange, Little and Taylor
@@ -61,7 +65,7 @@ fn resolution(values: &[f64]) -> f64 {
 ///
 /// # Errors
 /// [`Error`] if instants do not increase, a value is not finite, or there are fewer than [`FEWEST_ROWS`].
-pub fn smoothed(time: &[f64], values: &[f64]) -> Result<Smoothed, Error> {
+pub fn smoothed(time: &[f64], values: &[f64], digit: Option<f64>) -> Result<Smoothed, Error> {
     let found = check_series(time, &vec![true; time.len()], &[("values", values)])?;
     if found < FEWEST_ROWS {
         return Err(Error::TooFew { found, needed: FEWEST_ROWS });
@@ -69,30 +73,28 @@ pub fn smoothed(time: &[f64], values: &[f64]) -> Result<Smoothed, Error> {
     // intervals in units of the usual one
     let unit = median_interval(time).unwrap_or(1.0);
     let steps: Vec<f64> = time.windows(2).map(|t| (t[1] - t[0]) / unit).collect();
-    let step = resolution(values);
+    let step = digit.unwrap_or_else(|| resolution(values));
     let series = Readings { steps: &steps, values, least: step * step * (1.0 + 1.0 / 12.0) };
-    let mut found = Found {
-        lag: LAGS[0],
-        ln_ratio: series.most_likely(LAGS[0], &vec![1.0; steps.len()], RATIOS),
-        weights: vec![1.0; steps.len()],
+    let even = |lag: f64| {
+        let weights = vec![1.0; steps.len()];
+        Found { lag, ln_ratio: series.most_likely(lag, &weights, RATIOS), weights }
     };
-    let mut likeliest: Option<(f64, Found)> = None;
+    // weights have many optima: from even ones, and from those of the time constant before
+    let mut found = even(LAGS[0]);
+    let mut likeliest = (f64::INFINITY, found.clone());
     for lag in LAGS {
-        found.lag = lag;
-        (0..TRIED).for_each(|_| series.reweigh(&mut found));
-        let deviance = series.deviance(&found);
-        let deviance = if deviance.is_finite() { deviance } else { f64::INFINITY };
-        match &likeliest {
-            Some((least, best)) if deviance >= *least => {
-                // longer ones than this fit less and less
-                if lag > FAR * best.lag {
-                    break;
-                }
-            }
-            _ => likeliest = Some((deviance, found.clone())),
+        let [warm, cold] = [Found { lag, ..found }, even(lag)].map(|mut start| {
+            (0..TRIED).for_each(|_| series.reweigh(&mut start));
+            (series.deviance(&start), start)
+        });
+        let deviance;
+        (deviance, found) = if warm.0 <= cold.0 { warm } else { cold };
+        // not `>`: a NaN is no likelihood
+        if deviance < likeliest.0 {
+            likeliest = (deviance, found.clone());
         }
     }
-    let mut found = likeliest.map_or(found, |(_, found)| found);
+    let mut found = likeliest.1;
     (0..ROUNDS).for_each(|_| series.reweigh(&mut found));
     let filter = series.filter(&found);
     let variance = filter.variance().max(series.least);
@@ -315,7 +317,7 @@ mod tests {
     fn noise_goes_and_corners_stay() {
         let (time, course) = programme(90.0);
         let noisy: Vec<f64> = course.iter().zip(noise(course.len())).map(|(c, e)| c + 0.01 * e).collect();
-        let smooth = smoothed(&time, &noisy).unwrap();
+        let smooth = smoothed(&time, &noisy, None).unwrap();
         assert!((smooth.noise / 0.01 - 1.0).abs() < 0.1, "{}", smooth.noise);
         let off: Vec<f64> = smooth.values.iter().zip(&course).map(|(a, b)| a - b).collect();
         assert!(rms(&off) < 0.005, "{}", rms(&off));
@@ -334,7 +336,7 @@ mod tests {
             let (mut left, mut said) = (0.0, 0.0);
             for seed in 0..20 {
                 let noisy: Vec<f64> = course.iter().zip(&all[seed * course.len()..]).map(|(c, e)| c + 0.05 * e).collect();
-                let smooth = smoothed(&time, &noisy).unwrap();
+                let smooth = smoothed(&time, &noisy, None).unwrap();
                 let off: Vec<f64> = smooth.values.iter().zip(&course).map(|(a, b)| a - b).collect();
                 (left, said) = (left + rms(&off).powi(2), said + smooth.left.powi(2));
             }
@@ -352,7 +354,7 @@ mod tests {
         let kept: Vec<usize> = (0..course.len()).filter(|n| n % 3 != 0 || *n < 300).collect();
         let time: Vec<f64> = kept.iter().map(|&n| time[n] + late(n)).collect();
         let noisy: Vec<f64> = kept.iter().map(|&n| course[n] + 0.05 * noise[n]).collect();
-        let smooth = smoothed(&time, &noisy).unwrap();
+        let smooth = smoothed(&time, &noisy, None).unwrap();
         let off: Vec<f64> = smooth.values.iter().zip(&kept).map(|(a, &n)| a - course[n]).collect();
         assert!(rms(&off) < 0.02 && off.iter().all(|o| o.abs() < 0.12), "{} {off:?}", rms(&off));
         assert!((smooth.noise / 0.05 - 1.0).abs() < 0.15, "{}", smooth.noise);
@@ -361,17 +363,30 @@ mod tests {
     #[test]
     fn a_quiet_series_stays() {
         let (time, course) = programme(200.0);
-        let smooth = smoothed(&time, &course).unwrap();
+        let smooth = smoothed(&time, &course, None).unwrap();
         let off = smooth.values.iter().zip(&course).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
         assert!(off < 1e-3, "{off}");
     }
 
+    /// Half a kelvin a row is not the last digit of a display; a digit that a slow course is rounded to is.
+    #[test]
+    fn a_programme_of_even_steps_stays() {
+        let time: Vec<f64> = (0..400).map(|n| 30.0 * f64::from(n)).collect();
+        let steps: Vec<f64> = (0..400).map(|n| 20.0 + 0.5 * (f64::from(n) - 100.0).clamp(0.0, 80.0)).collect();
+        let smooth = smoothed(&time, &steps, None).unwrap();
+        let off = smooth.values.iter().zip(&steps).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+        assert!(off < 1e-3, "{off}");
+        let rounded: Vec<f64> = time.iter().map(|t| (20.0 + (t / 1500.0).sin()).mul_add(10.0, 0.0).round() / 10.0).collect();
+        assert!((resolution(&rounded) - 0.1).abs() < 1e-9);
+        assert!((resolution(&steps)).abs() < 1e-12);
+    }
+
     #[test]
     fn what_cannot_be_smoothed_is_refused() {
-        assert!(matches!(smoothed(&[0.0, 1.0, 2.0], &[1.0, 2.0, 3.0]), Err(Error::TooFew { .. })));
+        assert!(matches!(smoothed(&[0.0, 1.0, 2.0], &[1.0, 2.0, 3.0], None), Err(Error::TooFew { .. })));
         let time: Vec<f64> = (0..10).map(f64::from).collect();
-        assert!(matches!(smoothed(&time, &[f64::NAN; 10]), Err(Error::Value { .. })));
+        assert!(matches!(smoothed(&time, &[f64::NAN; 10], None), Err(Error::Value { .. })));
         // a constant is kept
-        assert!(smoothed(&time, &[5.0; 10]).unwrap().values.iter().all(|v| (v - 5.0).abs() < 1e-9));
+        assert!(smoothed(&time, &[5.0; 10], None).unwrap().values.iter().all(|v| (v - 5.0).abs() < 1e-9));
     }
 }

@@ -62,6 +62,13 @@ pub struct Tails {
     pub ccw: f64,
 }
 
+impl Tails {
+    /// Weight of both in the bias beside `wound` \[m\] of fibre in turns, W = ∫ (L − 2z) dz \[m²\].
+    pub fn weight(&self, wound: f64) -> f64 {
+        (self.ccw - self.cw) * wound
+    }
+}
+
 /// A layer with too many or too few turns, spread evenly over the width that its owner's turns should take.
 ///
 /// The turns belong to the half that owns the layer; where the other half passes, its turn stays at the end.

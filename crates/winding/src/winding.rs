@@ -99,8 +99,7 @@ impl Winding {
 
     /// Weight of both bare tails together, W = ∫ (L − 2z) dz \[m²\].
     pub fn tail_weight(&self) -> f64 {
-        let (ccw, cw) = self.tail_spans();
-        [ccw, cw].iter().map(|(start, end)| (end - start) * (self.length - start - end)).sum()
+        self.spec.tails.weight(self.wound_length())
     }
 
     /// The spans (`z_start`, `z_end`) of the bare tails \[m\]: first the CCW tail, then the CW tail. Empty spans for no tails.

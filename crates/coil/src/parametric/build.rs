@@ -14,8 +14,8 @@ use crate::thermal::{Shifted, properties};
 use crate::{Design, Error, Grid, Layout, MechanicalState, MeshFineness, Model, Parameter, Region, Side};
 use nalgebra::{DMatrix, DVector};
 
-/// Rates of growth at which a design's heat flow is solved, besides none.
-const RATES: usize = 8;
+/// Rates of growth at which a design's heat flow is solved, besides none. More designs are worth more than more rates.
+const RATES: usize = 6;
 
 /// Designs of the box whose coefficients the kept terms hold.
 const SAMPLES: usize = 250;
@@ -114,7 +114,6 @@ impl ParametricModel {
             design.spool.is_some() && (Region::end(design, side) == Region::flange(side) || free || heated)
         };
         let ends: Vec<Side> = [Side::Left, Side::Right].into_iter().filter(|side| hot_end(*side)).collect();
-        let heated = |k: usize| if ends.is_empty() { None } else { Some(ends[k % ends.len()]) };
         let hot: Vec<Range> = ranges.iter().copied().filter(|r| r.parameter.of_heat()).collect();
         let stiff: Vec<Range> = ranges.iter().copied().filter(|r| r.parameter.of_mechanics()).collect();
         let layout = skinned(design)?;
@@ -144,8 +143,8 @@ impl ParametricModel {
                 Ok(heat.grid().places().iter().map(|place| laid[*place] * std::f64::consts::TAU).collect())
             };
             let mut loads = vec![load(&|region| properties(&changed, region).map_or(0.0, |(_, c)| c))?];
-            if let Some(side) = heated(k) {
-                loads.push(load(&|region| f64::from(u8::from(region == Region::end(design, side))))?);
+            for side in &ends {
+                loads.push(load(&|region| f64::from(u8::from(region == Region::end(design, *side))))?);
             }
             let mut solve = |rate: f64| -> Result<f64, Error> {
                 let solutions = heat.solve(&layout, &changed, rate, &loads)?;
@@ -224,7 +223,15 @@ impl ParametricModel {
         let temperature =
             DMatrix::from_columns(&loads.iter().map(|t| DVector::from_vec(model.temperature_at_turns(t))).collect::<Vec<_>>());
         let empty = || Weighted { temperature: DVector::zeros(0), strains: [0, 1, 2].map(|_| DVector::zeros(0)) };
-        let mut turns = Turns { temperature, radial: all(0), axial: all(1), hoop: all(2), weighted: empty(), lengths: empty() };
+        let mut turns = Turns {
+            temperature,
+            radial: all(0),
+            axial: all(1),
+            hoop: all(2),
+            weighted: empty(),
+            lengths: empty(),
+            wound: winding.wound_length(),
+        };
         turns.weighted = turns.sums(&weights);
         turns.lengths = turns.sums(&lengths);
         let mean = grid.coil_mean()?;

@@ -24,11 +24,11 @@ pub struct Effort {
 impl Default for Effort {
     fn default() -> Self {
         Self {
-            heat: 20,
+            heat: 40,
             mechanics: 15,
             least_temperature: 1e-6,
             least_displacement: 1e-4,
-            most_temperatures: 80,
+            most_temperatures: 100,
             most_displacements: 200,
         }
     }

@@ -10,7 +10,7 @@ use super::structure::Structure;
 use crate::probe::Prober;
 use crate::{Bonds, Design, Error, Grid, MechanicalState, MeshFineness, Model, Outputs, Reduced, TurnFields};
 use nalgebra::{DMatrix, DVector};
-use winding::{Spec, Winding};
+use winding::Spec;
 
 /// Heat flow and thermo-elasticity of a design and of all that differ from it within ranges of [`Parameter`]s, projected once on fields
 /// of temperature and displacement.
@@ -45,11 +45,11 @@ impl Projected {
     }
 }
 
-/// Share of the fields on which a coarser model stands.
-const COARSER: f64 = 0.75;
+/// Shares of the fields on which coarser models stand.
+const COARSER: [f64; 2] = [0.85, 0.75];
 
-/// Factor on the distance to the coarser model that estimates the error of the bias: an estimate, not a bound. At random points of the
-/// boxes of `cargo xtask bench parametric` it covers; directions that are missing from both models are not seen.
+/// Factor on the larger of the distances to the coarser models that estimates the error of the bias: an estimate, not a bound. At random points of the
+/// boxes of `cargo xtask bench parametric` it covers; directions that are missing from all of them are not seen.
 pub const MODEL_SAFETY: f64 = 3.0;
 
 /// What the turns have of every field, a row each: temperature of temperature fields, strains of displacement fields.
@@ -63,6 +63,15 @@ pub(super) struct Turns {
     /// sums of each with the weights of the nominal winding, and with the turns' lengths
     pub(super) weighted: Weighted,
     pub(super) lengths: Weighted,
+    /// length of the fibre without its tails \[m\]
+    pub(super) wound: f64,
+}
+
+/// The fibre of a changed design: its length with tails \[m\], the weight of those \[m²\], and sums over its turns.
+pub(super) struct Fibre {
+    pub(super) length: f64,
+    pub(super) tail_weight: f64,
+    pub(super) sums: Weighted,
 }
 
 /// Sums over turns: of temperature fields, and of the strains rr, yy, hoop of displacement fields.
@@ -161,12 +170,15 @@ impl ParametricModel {
         self.on(design, self.size())
     }
 
-    /// As [`Self::at`], on three quarters of the fields: within the box [`MODEL_SAFETY`] times the distance between the two estimates what the model leaves out.
+    /// As [`Self::at`], on a part of the fields, once and once more: within the box [`MODEL_SAFETY`] times the larger of the distances to them estimates what
+    /// the model leaves out. One alone may by chance be as near to the truth, or as far from it.
     ///
     /// # Errors
     /// As [`Self::at`].
-    pub fn coarser(&self, design: &Design) -> Result<Reduced, Error> {
-        self.on(design, self.size().map(|size| ((size as f64 * COARSER) as usize).max(2)))
+    pub fn coarser(&self, design: &Design) -> Result<[Reduced; 2], Error> {
+        let on = |share: f64| self.on(design, self.size().map(|size| ((size as f64 * share) as usize).max(2)));
+        let [more, fewer] = COARSER;
+        Ok([on(more)?, on(fewer)?])
     }
 
     /// As [`Self::at`], with the bias parts of these states of the mechanics in place of the design's own, in their order.
@@ -283,11 +295,11 @@ impl ParametricModel {
     ) -> Result<Outputs<DVector<f64>>, Error> {
         let thermometer = self.place(changed, [design.sensor.radius, design.sensor.y])?;
         let bore = self.bore_value(design, changed)?;
-        let (winding, sums) = self.wound(design)?;
+        let fibre = self.fibre(design)?;
         let parts = states.iter().map(|state| {
             let solved = self.structure.solved(design, changed, state, displacements)?;
-            let through = solved.through(&solved.adjoint(&self.strain_functionals(design, &sums)));
-            self.parts(design, &winding, &sums, &bore, &through)
+            let through = solved.through(&solved.adjoint(&self.strain_functionals(design, &fibre.sums)));
+            self.parts(design, &fibre, &bore, &through)
         });
         Ok(Outputs { thermometer, coil_mean: self.coil_mean.clone(), parts: parts.collect::<Result<_, _>>()? })
     }
@@ -314,13 +326,12 @@ impl ParametricModel {
     pub(super) fn parts(
         &self,
         design: &Design,
-        winding: &Winding,
-        sums: &Weighted,
+        Fibre { length, tail_weight, sums }: &Fibre,
         bore: &DVector<f64>,
         through: &DMatrix<f64>,
     ) -> Result<[DVector<f64>; 3], Error> {
-        let c = design.optics.coefficients(winding.length())?;
-        let free = bore * winding.tail_weight();
+        let c = design.optics.coefficients(*length)?;
+        let free = bore * *tail_weight;
         let temperature = &sums.temperature + &free;
         let expansion = free * design.optics.thermal_expansion;
         let axial = through.column(0) + &expansion;
@@ -332,9 +343,9 @@ impl ParametricModel {
         ])
     }
 
-    /// Winding of a changed design and its turns' sums.
-    pub(super) fn wound(&self, design: &Design) -> Result<(Winding, Weighted), Error> {
-        let winding = winding::wind(&design.winding)?;
+    /// The fibre of a changed design, which differs from that of the reference in its tails alone.
+    pub(super) fn fibre(&self, design: &Design) -> Result<Fibre, Error> {
+        design.winding.validate()?;
         let (nominal, of) = (self.design.winding.tails, design.winding.tails);
         if (Spec { tails: nominal, ..design.winding }) != self.design.winding {
             let problem = "this design is wound otherwise than the one that was modelled, beyond its tails; model it anew";
@@ -343,9 +354,10 @@ impl ParametricModel {
         // tails shift every turn's weight by its length
         let by = (of.cw - of.ccw) - (nominal.cw - nominal.ccw);
         let add = |a: &DVector<f64>, b: &DVector<f64>| a + b * by;
-        let (w, l) = (&self.turns.weighted, &self.turns.lengths);
+        let (w, l, wound) = (&self.turns.weighted, &self.turns.lengths, self.turns.wound);
         let strains = [0, 1, 2].map(|k| add(&w.strains[k], &l.strains[k]));
-        Ok((winding, Weighted { temperature: add(&w.temperature, &l.temperature), strains }))
+        let sums = Weighted { temperature: add(&w.temperature, &l.temperature), strains };
+        Ok(Fibre { length: of.ccw + wound + of.cw, tail_weight: of.weight(wound), sums })
     }
 
     /// Temperature and strain of every turn of a changed design, per unit of its drives and modes, in a state of its mechanics.
@@ -354,7 +366,7 @@ impl ParametricModel {
     /// As [`Self::at`].
     pub fn fields(&self, design: &Design, state: &MechanicalState) -> Result<TurnFields, Error> {
         self.holds(design, std::slice::from_ref(state))?;
-        self.wound(design)?;
+        self.fibre(design)?;
         let changed = Section::new(design)?;
         let modes = self.heat.system(design, &changed, self.heat.size())?.modes(SHIFTS)?;
         let n = self.heat.size();

@@ -1,14 +1,13 @@
 //! Derivatives of every output of a parametric model with respect to its parameters.
 
 use super::heat::Modes;
-use super::model::ParametricModel;
+use super::model::{Fibre, ParametricModel};
 use super::parameter::Parameter;
 use super::section::Section;
 use super::structure::Solved;
 use crate::{Design, Error, MechanicalState, Outputs, Reduced};
 use fem_core::dense::{product, transposed_product};
 use nalgebra::{DMatrix, DVector};
-use winding::Winding;
 
 /// A model at a design with the derivatives of its outputs, ready to run.
 #[derive(Debug, Clone)]
@@ -195,8 +194,8 @@ impl ParametricModel {
             return Err(Error::design("parameter", format!("{fixed:?} has no range in this model")));
         }
         let changed = Section::new(design)?;
-        let (winding, sums) = self.wound(design)?;
-        let functionals = self.strain_functionals(design, &sums);
+        let fibre = self.fibre(design)?;
+        let functionals = self.strain_functionals(design, &fibre.sums);
         let bore = self.bore_value(design, &changed)?;
         let strained = states.iter().map(|state| {
             let solved = self.structure.solved(design, &changed, state, usize::MAX)?;
@@ -204,7 +203,7 @@ impl ParametricModel {
             Ok(Strained { solved, adjoint })
         });
         let strained = strained.collect::<Result<Vec<_>, Error>>()?;
-        let parts = strained.iter().map(|s| self.parts(design, &winding, &sums, &bore, &s.solved.through(&s.adjoint)));
+        let parts = strained.iter().map(|s| self.parts(design, &fibre, &bore, &s.solved.through(&s.adjoint)));
         let outputs = Outputs {
             thermometer: self.place(&changed, [design.sensor.radius, design.sensor.y])?,
             coil_mean: self.coil_mean.clone(),
@@ -215,7 +214,7 @@ impl ParametricModel {
         let modal = Modal::new(modes, &outputs);
         let slopes = parameters
             .iter()
-            .map(|&parameter| Ok(modal.slopes(&self.change(parameter, design, &changed, &winding, &states, &strained)?)));
+            .map(|&parameter| Ok(modal.slopes(&self.change(parameter, design, &changed, &fibre, &states, &strained)?)));
         let slopes = slopes.collect::<Result<_, Error>>()?;
         Ok(Slopes { reduced: modal.modes.model(reduced), slopes })
     }
@@ -225,7 +224,7 @@ impl ParametricModel {
         parameter: Parameter,
         design: &Design,
         section: &Section,
-        winding: &Winding,
+        fibre: &Fibre,
         states: &[MechanicalState],
         strained: &[Strained],
     ) -> Result<Change, Error> {
@@ -240,7 +239,7 @@ impl ParametricModel {
             }
         }
         let heat = if parameter.of_heat() { self.heat.change(&stencil)? } else { [None, None] };
-        let (c, tails) = (design.optics.coefficients(winding.length())?, &bore * winding.tail_weight());
+        let (c, tails) = (design.optics.coefficients(fibre.length)?, &bore * fibre.tail_weight);
         let free = &tails * design.optics.thermal_expansion;
         let mut parts = Vec::new();
         for (state, Strained { solved, adjoint }) in states.iter().zip(strained) {

@@ -9,7 +9,23 @@ pub(crate) struct Interval {
     /// Its length \[s\].
     pub(crate) dt: f64,
     decay: Vec<f64>,
-    push: Vec<f64>,
+    /// For each drive, what each mode loses per unit of its slope.
+    push: Vec<Vec<f64>>,
+}
+
+impl Interval {
+    /// The modes at its end, `now`, from those `before`, the drives changing at `slope`: exact.
+    pub(crate) fn step(&self, before: &[f64], now: &mut [f64], slope: &[f64]) {
+        now.iter_mut().zip(before).zip(&self.decay).for_each(|((now, before), decay)| *now = before * decay);
+        self.push(now, slope);
+    }
+
+    /// Drive by drive: a pass over all modes at once is several times as quick as one over the drives of each.
+    fn push(&self, amplitudes: &mut [f64], slope: &[f64]) {
+        for (push, slope) in self.push.iter().zip(slope) {
+            amplitudes.iter_mut().zip(push).for_each(|(q, push)| *q -= push * slope);
+        }
+    }
 }
 
 /// What a mode feels of the drives, of which there are few.
@@ -25,15 +41,16 @@ impl Reduced {
 
     /// What an interval of `dt` \[s\] does to each mode.
     pub(crate) fn interval(&self, dt: f64) -> Interval {
-        let of = |f: &dyn Fn(f64) -> f64| self.rates.iter().map(|rate| f(rate * dt)).collect();
-        Interval { dt, decay: of(&|x| (-x).exp()), push: of(&|x| dt * settled(x)) }
+        let drives = self.drive.first().map_or(0, Vec::len);
+        let push =
+            |d: usize| self.rates.iter().zip(&self.drive).map(|(rate, drive)| drive[d] * dt * settled(rate * dt)).collect();
+        Interval { dt, decay: self.rates.iter().map(|rate| (-rate * dt).exp()).collect(), push: (0..drives).map(push).collect() }
     }
 
     /// Advances the modes by an interval over which the drives change at `slope`: exact.
     pub(crate) fn advance(&self, amplitudes: &mut [f64], slope: &[f64], interval: &Interval) {
-        for (((q, drive), decay), push) in amplitudes.iter_mut().zip(&self.drive).zip(&interval.decay).zip(&interval.push) {
-            *q = *q * decay - forced(drive, slope) * push;
-        }
+        amplitudes.iter_mut().zip(&interval.decay).for_each(|(q, decay)| *q *= decay);
+        interval.push(amplitudes, slope);
     }
 
     /// Mean of an output over a step: exact.

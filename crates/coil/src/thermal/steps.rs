@@ -48,29 +48,35 @@ impl Reduced {
         assert!(!time.is_empty(), "an instant at least");
         let (weights, drives) = (DMatrix::from_columns(&weights), self.outputs.thermometer.at_rest.len());
         let courses = &courses[..drives.min(courses.len())];
-        let mut states = DMatrix::zeros(weights.nrows(), AT_ONCE.min(time.len()));
+        let size = weights.nrows();
+        // the last column of a block is the first of the next
+        let mut states = DMatrix::<f64>::zeros(size, 1 + AT_ONCE.min(time.len()));
         let mut values = self.outputs.map(|_| Vec::with_capacity(time.len()));
-        let (mut amplitudes, mut slope) = (vec![0.0; self.rates.len()], vec![0.0; courses.len()]);
+        let mut slope: Vec<f64> = courses.iter().zip(rest).map(|(course, rest)| course[0] - rest).collect();
+        self.jump(&mut states.as_mut_slice()[drives..size], &slope);
         let mut interval = self.interval(0.0);
         for first in (0..time.len()).step_by(AT_ONCE) {
             let count = AT_ONCE.min(time.len() - first);
-            for (n, mut column) in (first..).zip(states.column_iter_mut()).take(count) {
-                if n == 0 {
-                    slope.iter_mut().zip(courses.iter().zip(rest)).for_each(|(by, (course, rest))| *by = course[0] - rest);
-                    self.jump(&mut amplitudes, &slope);
-                } else {
-                    let dt = time[n] - time[n - 1];
-                    if interval.dt != dt {
-                        interval = self.interval(dt);
-                    }
-                    slope.iter_mut().zip(courses).for_each(|(slope, course)| *slope = (course[n] - course[n - 1]) / dt);
-                    self.advance(&mut amplitudes, &slope, &interval);
+            for n in 0..count {
+                let (before, now) = states.as_mut_slice()[n * size..(n + 2) * size].split_at_mut(size);
+                let row = first + n;
+                courses.iter().zip(&mut *now).for_each(|(course, u)| *u = course[row]);
+                if row == 0 {
+                    now[drives..].copy_from_slice(&before[drives..]);
+                    continue;
                 }
-                column.iter_mut().zip(courses).for_each(|(u, course)| *u = course[n]);
-                column.rows_mut(drives, amplitudes.len()).copy_from_slice(&amplitudes);
+                let dt = time[row] - time[row - 1];
+                if interval.dt != dt {
+                    interval = self.interval(dt);
+                }
+                slope.iter_mut().zip(courses).for_each(|(slope, course)| *slope = (course[row] - course[row - 1]) / dt);
+                interval.step(&before[drives..], &mut now[drives..], &slope);
             }
             let block = transposed_product(&states, &weights);
-            values.iter_mut().zip(block.column_iter()).for_each(|(values, new)| values.extend(new.iter().take(count)));
+            let rows = block.column_iter().map(|column| column.into_iter().skip(1).take(count));
+            values.iter_mut().zip(rows).for_each(|(values, new)| values.extend(new));
+            let last = count * size..(count + 1) * size;
+            states.as_mut_slice().copy_within(last, 0);
         }
         values
     }

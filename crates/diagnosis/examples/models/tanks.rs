@@ -105,7 +105,7 @@ impl Tanks {
     pub(crate) fn new(feeds: Vec<Feed>, doubt: f64) -> Self {
         // Bernoulli's law is good for a tenth of a volt
         let noise = NoisePrior::new((0.1, 0.3), (0.1, 0.3), (100.0, 0.5), (1e-6, 0.5));
-        let channel = Channel { name: "lower level".into(), unit: "V".into(), offset_sd: 0.05, averaging: 0.0, noise };
+        let channel = Channel { name: "lower level".into(), unit: "V".into(), offset: (0.0, 0.05), averaging: 0.0, noise };
         let mut tanks =
             Self { feeds, states: Vec::new(), channels: vec![channel], nuisances: constants(doubt), mechanisms: library() };
         let middle: Vec<f64> = tanks.nuisances.iter().map(|n| n.parameter.prior.value(0.0)).collect();

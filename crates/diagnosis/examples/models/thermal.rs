@@ -58,7 +58,7 @@ impl Thermal {
     pub(crate) fn new(time: Vec<f64>, temperature: Vec<f64>, cut: usize, size: f64, noise: NoisePrior) -> Self {
         let of = |sd: f64| Prior::Normal { mean: 0.0, sd };
         let term = |name: &str| Nuisance::normal(name, 0.0, size, Role::ModelError);
-        let channel = Channel { name: "rate".into(), unit: "rad/s".into(), offset_sd: 10.0 * size, averaging: 0.0, noise };
+        let channel = Channel { name: "rate".into(), unit: "rad/s".into(), offset: (0.0, 10.0 * size), averaging: 0.0, noise };
         let mechanisms = vec![
             mechanism("rate-and-time", "regression", &[("per_k_per_s", of(20.0 * size)), ("per_hour", of(size))], &[&[0.0, 0.0]]),
             mechanism(

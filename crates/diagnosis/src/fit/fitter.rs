@@ -77,8 +77,9 @@ const ANYTHING: f64 = 10.0;
 impl Offset {
     /// Of a channel of which `recorded` is known and `predicted`.
     pub(crate) fn of(channel: &Channel, recorded: &[f64], predicted: &[f64]) -> Self {
-        if channel.offset_sd.is_finite() {
-            return Self { mean: 0.0, sd: channel.offset_sd };
+        let (mean, sd) = channel.offset;
+        if sd.is_finite() {
+            return Self { mean, sd };
         }
         let moments = |values: &mut dyn Iterator<Item = f64>| {
             let (mut sum, mut squares, mut count) = (0.0, 0.0, 0.0_f64);

@@ -1,7 +1,7 @@
 //! One hypothesis fitted to the records, and its evidence.
 //!
 //! [`hypothesis`]: what may be at work; [`unknowns`]: what is found, and [`beforehand`] what is known of it; [`objective`]: what is made least, with its
-//! [`derivatives`], found by [`differences`]; from [`starts`] by [`descent`], and beside [`kinks`]: how; [`laplace`]: the evidence; [`fitter`]: all together.
+//! [`derivatives`], found by [`differences`]; from [`starts`] by [`descent`], and beside [`kinks`]: how; [`laplace`]: the evidence; [`fitter`]: all together. [`mod@sampled`] checks it.
 
 mod beforehand;
 mod derivatives;
@@ -12,6 +12,7 @@ mod hypothesis;
 mod kinks;
 mod laplace;
 mod objective;
+mod sampled;
 mod starts;
 mod unknowns;
 
@@ -24,6 +25,7 @@ pub use fitter::Fit;
 pub(crate) use fitter::{Fitter, Offset};
 pub use hypothesis::{Hypothesis, alternatives};
 use objective::Objective;
+pub use sampled::{Sampled, Samples, sampled};
 pub use unknowns::expected;
 pub(crate) use unknowns::{Unknown, parameter};
 

@@ -44,7 +44,7 @@ impl Lines {
             weight: 1.0,
         };
         Self {
-            channels: vec![Channel { name: "y".into(), unit: "1".into(), offset_sd: 3.0 * unit, averaging: 0.0, noise }],
+            channels: vec![Channel { name: "y".into(), unit: "1".into(), offset: (0.0, 3.0 * unit), averaging: 0.0, noise }],
             mechanisms: vec![mechanism("wave"), mechanism("bend")],
             state: State { level: vec![0.0; rows], rate: vec![0.0; rows] },
             unit,
@@ -61,12 +61,12 @@ impl Lines {
 
     /// The same with an offset that is known to be 0.
     pub(crate) fn without_offset(mut self) -> Self {
-        self.channels[0].offset_sd = TINY;
+        self.channels[0].offset.1 = TINY;
         self
     }
 
     pub(crate) fn offset_sd(&self) -> f64 {
-        self.channels[0].offset_sd
+        self.channels[0].offset.1
     }
 
     /// Response to a size of 1.

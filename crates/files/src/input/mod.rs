@@ -54,7 +54,7 @@ pub(crate) use coil_file::CoilFile;
 pub use edit::{field_text, with_fields};
 pub use error::InputError;
 pub use fingerprint::Fingerprint;
-pub use meta::{Meta, TemperatureSensor};
+pub use meta::{Meta, Rate, TemperatureSensor, Thermometer};
 pub use profile::{Between, Inference, ProfileCase, check_profile, read_profile};
 pub use propose::propose_map;
 pub use record::{RecordCase, check_record, read_record};

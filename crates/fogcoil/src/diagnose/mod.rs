@@ -17,7 +17,7 @@ use diagnosis::{
     Settled, Verdict,
 };
 use files::{Note, Remark};
-use mechanisms::{Extent, Gyro, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
+use mechanisms::{CATALOGUE, Extent, Gyro, Mechanism, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 use progress::Step;
 
 use crate::Error;
@@ -66,6 +66,12 @@ pub fn diagnose(
     let library = library(case, cache, progress)?;
     progress(Step::begins("running every model under the recorded chamber"));
     let drawn = gyro(&library, &read, fits.len()).map_err(coil)?;
+    let offered = |mechanism: &&&dyn Mechanism| drawn.find(mechanism.facts().id).is_none();
+    let missing: Vec<String> = CATALOGUE.iter().filter(offered).map(|mechanism| mechanism.facts().id.to_owned()).collect();
+    if !missing.is_empty() {
+        let message = format!("not offered, as the design leaves no place for it: {}", missing.join(", "));
+        notes.push(Remark::NotOffered.note(message).at(&case.file));
+    }
     let held = read.split_off(fits.len());
     let observations: Vec<Observation> = read.iter().map(|r| r.observed.clone()).collect();
     let numbers: Vec<usize> = (0..fits.len()).collect();
@@ -95,6 +101,25 @@ pub fn diagnose(
     let (name, coil, design) = (case.name.clone(), case.file.clone(), case.fingerprints.clone());
     let gyro = about.unwrap_or(drawn);
     Ok(Outcome { name, coil, design, gyro, diagnosis, fits: read, holdouts, notes })
+}
+
+impl Outcome {
+    /// The best explanation by its mechanisms' ids; `constants` where there are none.
+    pub fn hypothesis(&self) -> String {
+        let ids: Vec<&str> = self.diagnosis.best().fit.active.iter().map(|active| self.id(active.mechanism)).collect();
+        if ids.is_empty() { "constants".to_owned() } else { ids.join(" + ") }
+    }
+
+    /// Samples of what the best explanation leaves unknown, without the structure beside it: four walks of so many `steps`, the same for one `seed`.
+    ///
+    /// # Errors
+    /// [`files::Error::Coil`] if the design cannot be modelled somewhere on the way.
+    pub fn sampled(&self, steps: usize, seed: u64) -> Result<diagnosis::Samples, Error> {
+        let observations: Vec<Observation> = self.fits.iter().map(|record| record.observed.clone()).collect();
+        let numbers: Vec<usize> = (0..observations.len()).collect();
+        let fit = &self.diagnosis.best().fit;
+        diagnosis::sampled(&self.gyro, &numbers, &observations, fit, steps, seed).map_err(Error::of_diagnosis(&self.coil))
+    }
 }
 
 /// Root mean square of what is there.

@@ -11,7 +11,7 @@ pub(super) const ADHESIVE_CONTENT: Named = Named {
     id: ID,
     title: "More or less adhesive",
     stage: Stage::Material,
-    equation: "The polymer's share of the cross-section is v = 0.80 + Δ. Rules of mixtures along the fibre (Voigt) and across it (Reuss), with the polymer's\n\
+    equation: "The polymer's share of the cross-section is v = v_0 + Δ. Rules of mixtures along the fibre (Voigt) and across it (Reuss), with the polymer's\n\
         constants such that Δ = 0 gives the design's:\n\
         \n\
         ```\n\
@@ -20,7 +20,8 @@ pub(super) const ADHESIVE_CONTENT: Named = Named {
         ρc = (1 − v) (ρc)_g + v (ρc)_p\n\
         ```\n\
         \n\
-        with g the glass and p the polymer.",
+        with g the glass, fused silica, and p the polymer. v_0 follows from the design's E_z with E_p = 1 GPa; any E_p up to 3 GPa moves it by 0.03 at most.\n\
+        A design whose constants are not those of silica in a polymer is not offered this mechanism.",
     place: "The material of the coil: `coil.material` and the heat capacity, from which mechanics and heat flow follow.",
     signature: "A softer, more expanding coil changes the strain by nearly one factor everywhere: in slow ramps a gain, like a longer tail. Its heat capacity\n\
         and conductivity change too, and these show in fast transients.",
@@ -28,45 +29,68 @@ pub(super) const ADHESIVE_CONTENT: Named = Named {
     meaning: "the coil holds more (+) or less (−) polymer than designed, as a share of its volume",
     inspection: "weigh the coil before and after potting, or section a sister unit",
     heat_path: Some(|| HeatPath {
-        applies: |_| true,
-        nodes: nodes(-0.12, 0.12, 5),
-        design: with_polymer,
+        places: |design| usize::from(glass(design).is_some()),
+        nodes: nodes(-0.6, 0.6, 5),
+        design: |design, _, x| with_polymer(design, x * glass(design).unwrap_or(0.0)),
         nudge: None,
         factor_on: None,
     }),
     steady: &[Steady::Design(with_polymer)],
     extent: Extent::everywhere,
-    caveat: |_| None,
-    offer: |_, _| Some(Offer::one("polymer_fraction_change", Prior::Normal { mean: 0.0, sd: 0.03 }, &[0.0])),
-    effect: |chain, record, active| Ok(Effect::Coil(chain.along(record, ID, active.values[0]))),
+    caveat: |_| Some("the fibre is taken as silica, its share as the coil's stiffness along the fibre says"),
+    offer: |design, _| {
+        let prior = Prior::Normal { mean: 0.0, sd: PACKING * glass(design)? };
+        Some(Offer::one("polymer_fraction_change", prior, &[0.0]))
+    },
+    effect: |chain, record, active| {
+        let share = glass(chain.library().design()).unwrap_or(1.0);
+        Ok(Effect::Coil(chain.along(record, ID, 0, active.values[0] / share)))
+    },
     extended: |design, active| Some(with_polymer(design, active.values[0])),
 };
 
-/// Share of polymer in the coil's cross-section that the reference design has; fibre of 80 µm in a cell of 170 µm pitch.
-const POLYMER_FRACTION: f64 = 0.80;
-/// Bounds of a change of it that leave glass and polymer their places.
-const LEAST_POLYMER: f64 = 0.5;
-const MOST_POLYMER: f64 = 0.95;
-
 /// Fused silica: E \[Pa\], α \[1/K\], k \[W/(m K)\], ρc \[J/(m³ K)\].
 const GLASS: [f64; 4] = [70.2e9, 0.55e-6, 1.38, 2200.0 * 740.0];
+/// E of coatings and adhesive together \[Pa\]: soft silicones have a thousandth of it, stiff epoxies three times as much; the share of glass that
+/// follows moves by 0.03 at most.
+const POLYMER_E: f64 = 1e9;
+/// Shares of glass between which a coil is one of fibres in polymer.
+const GLASS_SHARES: [f64; 2] = [0.02, 0.7];
+/// Most glass that round fibres leave room for, and least that is left of the design's.
+const MOST_GLASS: f64 = 0.9;
+const LEAST_OF_GLASS: f64 = 0.1;
+/// Standard deviation of the glass' share, relative: a winding is packed as closely as its pitch is kept.
+const PACKING: f64 = 0.15;
+
+/// Share of glass in a coil's cross-section, from its stiffness along the fibre; `None` where its constants are not those of silica in a polymer.
+fn glass(design: &Design) -> Option<f64> {
+    let body = &design.body;
+    let [e_g, alpha_g, k_g, c_g] = GLASS;
+    let share = (body.elastic.e_z - POLYMER_E) / (e_g - POLYMER_E);
+    let of_polymer = [
+        body.elastic.alpha_z * body.elastic.e_z - share * e_g * alpha_g,
+        1.0 / body.conductivity_r - share / k_g,
+        body.density * body.specific_heat - share * c_g,
+    ];
+    let fits = (GLASS_SHARES[0]..=GLASS_SHARES[1]).contains(&share) && of_polymer.iter().all(|constant| *constant > 0.0);
+    fits.then_some(share)
+}
 
 /// More polymer by `change` of the cross-section: rules of mixtures along the fibre (Voigt) and across it (Reuss), with the polymer's
-/// constants such that the nominal body has [`POLYMER_FRACTION`].
+/// constants such that the nominal body has them.
 fn with_polymer(design: &Design, change: f64) -> Design {
     let mut changed = design.clone();
+    let Some(share) = glass(design) else { return changed };
     let body = &mut changed.body;
     let [e_g, alpha_g, k_g, c_g] = GLASS;
-    let v = POLYMER_FRACTION;
-    let new = (v + change).clamp(LEAST_POLYMER, MOST_POLYMER);
+    let (v, new) = (1.0 - share, 1.0 - (share - change).clamp(LEAST_OF_GLASS * share, MOST_GLASS));
     let e = &mut body.elastic;
-    let e_p = (e.e_z - (1.0 - v) * e_g) / v;
-    let alpha_p = (e.alpha_z * e.e_z - (1.0 - v) * e_g * alpha_g) / (v * e_p);
+    let alpha_p = (e.alpha_z * e.e_z - (1.0 - v) * e_g * alpha_g) / (v * POLYMER_E);
     let k_p = v / (1.0 / body.conductivity_r - (1.0 - v) / k_g);
     let stored = body.density * body.specific_heat;
     let c_p = (stored - (1.0 - v) * c_g) / v;
-    e.e_z = (1.0 - new) * e_g + new * e_p;
-    e.alpha_z = ((1.0 - new) * e_g * alpha_g + new * e_p * alpha_p) / e.e_z;
+    e.e_z = (1.0 - new) * e_g + new * POLYMER_E;
+    e.alpha_z = ((1.0 - new) * e_g * alpha_g + new * POLYMER_E * alpha_p) / e.e_z;
     e.e_r *= v / new;
     e.g_zr *= v / new;
     e.alpha_r *= new / v;

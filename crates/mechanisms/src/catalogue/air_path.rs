@@ -19,9 +19,9 @@ pub(super) const AIR_PATH: Named = Named {
     meaning: "the surroundings conduct heat better or worse than designed, by conductivity_factor",
     inspection: "repeat the test in vacuum or in another gas",
     heat_path: Some(|| HeatPath {
-        applies,
+        places: |design| usize::from(applies(design)),
         nodes: nodes(-0.9, 0.9, 9),
-        design: |design, x| with_air(design, x.exp()),
+        design: |design, _, x| with_air(design, x.exp()),
         nudge: Some(coordinate(1.02)),
         factor_on: Some(Parameter::MediumConductivity),
     }),
@@ -31,7 +31,7 @@ pub(super) const AIR_PATH: Named = Named {
     offer: |design, _| {
         applies(design).then(|| Offer::one("conductivity_factor", Prior::LogNormal { median: 1.0, spread: SPREAD }, &[1.0]))
     },
-    effect: |chain, record, active| Ok(Effect::Coil(chain.along(record, ID, coordinate(active.values[0])))),
+    effect: |chain, record, active| Ok(Effect::Coil(chain.along(record, ID, 0, coordinate(active.values[0])))),
     extended: |design, active| Some(with_air(design, active.values[0])),
 };
 

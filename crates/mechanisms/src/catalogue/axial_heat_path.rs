@@ -1,9 +1,9 @@
 //! A flange whose outer face exchanges heat with the chamber through its mount.
 
-use crate::design::flange;
+use crate::design::{choice_of, chosen, flanges};
 use crate::interpolation::nodes;
 use crate::mechanism::{Effect, Extent, HeatPath, Named, Offer, Stage, Steady};
-use coil::{Design, Mount};
+use coil::{Design, Mount, Side};
 use diagnosis::Prior;
 
 const ID: &str = "axial-heat-path";
@@ -19,27 +19,30 @@ pub(super) const AXIAL_HEAT_PATH: Named = Named {
     meaning: "the flange's outer face exchanges heat with the chamber through its mount",
     inspection: "repeat the test with the flange insulated from its mount",
     heat_path: Some(|| HeatPath {
-        applies,
+        places: |design| sides(design).len(),
         nodes: nodes(0.0, 0.9, 12),
-        design: |design, x| with_mount(design, CONDUCTANCE * x / (1.0 - x)),
+        design: |design, place, x| with_mount(design, place, CONDUCTANCE * x / (1.0 - x)),
         nudge: Some(coordinate(0.1)),
         factor_on: None,
     }),
-    steady: &[Steady::Design(with_mount)],
+    steady: &[Steady::Design(|design, conductance| with_mount(design, 0, conductance))],
     extent: Extent::everywhere,
     caveat: |_| None,
     offer: |design, _| {
-        applies(design).then(|| Offer::one("conductance_w_per_m2k", Prior::LogNormal { median: 1.5, spread: 1.2 }, &[0.5, 4.0]))
+        let (prior, sides) = (Prior::LogNormal { median: 1.5, spread: 1.2 }, sides(design));
+        let offer = || Offer { choice: choice_of(&sides), ..Offer::one("conductance_w_per_m2k", prior, &[0.5, 4.0]) };
+        (!sides.is_empty()).then(offer)
     },
-    effect: |chain, record, active| Ok(Effect::Coil(chain.along(record, ID, coordinate(active.values[0])))),
-    extended: |design, active| Some(with_mount(design, active.values[0])),
+    effect: |chain, record, active| Ok(Effect::Coil(chain.along(record, ID, chosen(active), coordinate(active.values[0])))),
+    extended: |design, active| Some(with_mount(design, chosen(active), active.values[0])),
 };
 
 /// Conductance at which the coordinate is one half [W/(m² K)].
 const CONDUCTANCE: f64 = 2.0;
 
-fn applies(design: &Design) -> bool {
-    flange(design).is_some() && design.heat.mounts.is_empty()
+/// Flanges that may be coupled: none in a design with mounts of its own.
+fn sides(design: &Design) -> Vec<Side> {
+    if design.heat.mounts.is_empty() { flanges(design) } else { Vec::new() }
 }
 
 /// Coordinate in which the response is smooth.
@@ -47,11 +50,11 @@ fn coordinate(conductance: f64) -> f64 {
     conductance.max(0.0) / (conductance.max(0.0) + CONDUCTANCE)
 }
 
-/// The outer face of the first flange coupled to the chamber [W/(m² K)].
-fn with_mount(design: &Design, conductance: f64) -> Design {
+/// The outer face of a flange coupled to the chamber [W/(m² K)].
+fn with_mount(design: &Design, place: usize, conductance: f64) -> Design {
     let mut changed = design.clone();
-    if let Some(side) = flange(design).filter(|_| conductance > 0.0) {
-        changed.heat.mounts.push(Mount { side, conductance });
+    if let Some(side) = flanges(design).get(place).filter(|_| conductance > 0.0) {
+        changed.heat.mounts.push(Mount { side: *side, conductance });
     }
     changed
 }

@@ -2,10 +2,10 @@
 
 use crate::Prepared;
 use crate::course::Parts;
-use crate::design::bonded_flange;
+use crate::design::{bonded_flanges, choice_of, chosen};
 use crate::interpolation::cubic_weights;
 use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, across, grid};
-use coil::{Bonds, Design, MechanicalState, Mechanics, Opening};
+use coil::{Bonds, Design, MechanicalState, Mechanics, Opening, Side};
 use diagnosis::{Parameter, Prior};
 
 pub(super) const DEBOND: Named = Named {
@@ -24,9 +24,7 @@ pub(super) const DEBOND: Named = Named {
     heat_path: None,
     steady: &[Steady::Changes {
         parameter: 2,
-        changed: |d, share| {
-            (with_opening(d, OPENS[0], OPENS[1], share), MechanicalState { bonds: Bonds::Opened, ..MechanicalState::NOMINAL })
-        },
+        changed: |d, share| (with_first_opening(d, share), MechanicalState { bonds: Bonds::Opened, ..MechanicalState::NOMINAL }),
         when: "while the bond is open",
     }],
     extent: |active, _| {
@@ -35,8 +33,8 @@ pub(super) const DEBOND: Named = Named {
     },
     caveat: |_| None,
     offer: |design, scene| {
-        let range = scene.temperatures;
-        applies(design).then(|| Offer {
+        let (range, flanges) = (scene.temperatures, flanges(design));
+        (!flanges.is_empty()).then(|| Offer {
             parameters: vec![
                 Parameter::new("debond_c", Prior::Uniform { low: range[0], high: range[1] })
                     .with_step(0.02)
@@ -46,17 +44,17 @@ pub(super) const DEBOND: Named = Named {
                     .with_search(&AROUND_K),
                 Parameter::new("fraction", Prior::Uniform { low: 0.01, high: 0.9 }).with_step(0.05),
             ],
-            choice: None,
+            choice: choice_of(&flanges),
             starts: grid(&[&across(range, 40), &[3.0, 9.0], &[0.05, 0.15, 0.35, 0.6]]),
         })
     },
     effect: |_, record, active| {
         let v = &active.values;
-        Ok(Effect::Coil(Change::of_parts(opened(record, v[0], v[1], v[2]))))
+        Ok(Effect::Coil(Change::of_parts(opened(record, chosen(active), v[0], v[1], v[2]))))
     },
     extended: |design, active| {
         let v = &active.values;
-        (design.mechanics == Mechanics::Elastic).then(|| with_opening(design, v[0], v[1], v[2]))
+        Some(with_opening(design, *flanges(design).get(chosen(active))?, v[0], v[1], v[2]))
     },
 };
 
@@ -65,22 +63,25 @@ const AROUND_K: [f64; 6] = [0.06, 0.15, 0.4, 1.0, 2.2, 4.5];
 /// A flange's bond is taken as open below this \[°C\], with this hysteresis \[K\]; in a steady state neither matters.
 pub(crate) const OPENS: [f64; 2] = [0.0, 1.0];
 
-/// Whether a design has a bond that can open.
-pub(crate) fn applies(design: &Design) -> bool {
-    design.mechanics == Mechanics::Elastic && bonded_flange(design).is_some()
+/// Flanges whose bond can open: none in a design whose mechanics changes already.
+pub(crate) fn flanges(design: &Design) -> Vec<Side> {
+    if design.mechanics == Mechanics::Elastic { bonded_flanges(design) } else { Vec::new() }
 }
 
-pub(crate) fn with_opening(design: &Design, below: f64, hysteresis: f64, fraction: f64) -> Design {
-    match bonded_flange(design) {
-        Some(side) => Design { mechanics: Mechanics::Opening(Opening { side, below, hysteresis, fraction }), ..design.clone() },
-        None => design.clone(),
-    }
+pub(crate) fn with_opening(design: &Design, side: Side, below: f64, hysteresis: f64, fraction: f64) -> Design {
+    Design { mechanics: Mechanics::Opening(Opening { side, below, hysteresis, fraction }), ..design.clone() }
+}
+
+fn with_first_opening(design: &Design, fraction: f64) -> Design {
+    let [below, hysteresis] = OPENS;
+    flanges(design).first().map_or_else(|| design.clone(), |side| with_opening(design, *side, below, hysteresis, fraction))
 }
 
 /// Parts of a coil whose bond opens, less those of one whose bond holds.
-fn opened(record: &Prepared, below: f64, hysteresis: f64, share: f64) -> Parts {
+fn opened(record: &Prepared, place: usize, below: f64, hysteresis: f64, share: f64) -> Parts {
+    let openings = &record.openings[place];
     // nothing open changes nothing
-    let nodes: Vec<f64> = std::iter::once(0.0).chain(record.openings.iter().map(|(share, _)| *share)).collect();
+    let nodes: Vec<f64> = std::iter::once(0.0).chain(openings.iter().map(|(share, _)| *share)).collect();
     let w = &cubic_weights(&nodes, share.clamp(0.0, nodes[nodes.len() - 1]))[1..];
     let mut change: Parts = [0, 1, 2].map(|_| vec![0.0; record.time.len()]);
     let mut open = record.coil[0] < below;
@@ -97,7 +98,7 @@ fn opened(record: &Prepared, below: f64, hysteresis: f64, share: f64) -> Parts {
             if open { after(below) } else { 0.0 }
         };
         if part > 0.0 {
-            for (w, (_, parts)) in w.iter().zip(&record.openings).filter(|(w, _)| **w != 0.0) {
+            for (w, (_, parts)) in w.iter().zip(openings).filter(|(w, _)| **w != 0.0) {
                 for p in 0..3 {
                     change[p][n] += part * w * parts[p][n];
                 }

@@ -18,9 +18,9 @@ pub(super) const INTERFACE_RESISTANCE: Named = Named {
     meaning: "heat passes between hub and coil through a contact resistance",
     inspection: "heat the hub and record a thermometer on the coil's outer surface",
     heat_path: Some(|| HeatPath {
-        applies,
+        places: |design| usize::from(applies(design)),
         nodes: nodes(0.0, 0.85, 7),
-        design: |design, x| with_hub_resistance(design, RESISTANCE * x / (1.0 - x)),
+        design: |design, _, x| with_hub_resistance(design, RESISTANCE * x / (1.0 - x)),
         nudge: Some(coordinate(2e-4)),
         factor_on: None,
     }),
@@ -30,7 +30,7 @@ pub(super) const INTERFACE_RESISTANCE: Named = Named {
     offer: |design, _| {
         applies(design).then(|| Offer::one("resistance_m2k_per_w", Prior::LogNormal { median: 7e-4, spread: 0.9 }, &[5e-4]))
     },
-    effect: |chain, record, active| Ok(Effect::Coil(chain.along(record, ID, coordinate(active.values[0])))),
+    effect: |chain, record, active| Ok(Effect::Coil(chain.along(record, ID, 0, coordinate(active.values[0])))),
     extended: |design, active| Some(with_hub_resistance(design, active.values[0])),
 };
 

@@ -1,6 +1,6 @@
 //! Power that is dissipated in a flange since the unit was switched on.
 
-use crate::design::{can_be_heated, with_heater};
+use crate::design::{choice_of, chosen, heatable_flanges, with_heater};
 use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, grid};
 use diagnosis::{Parameter, Prior};
 
@@ -29,22 +29,28 @@ pub(super) const SELF_HEATING: Named = Named {
     },
     caveat: |_| Some("simulate switches the heater on at the first row, not before_s earlier"),
     offer: |design, _| {
-        can_be_heated(design).then(|| Offer {
+        let flanges = heatable_flanges(design);
+        (!flanges.is_empty()).then(|| Offer {
             parameters: vec![
                 Parameter::new("power_w", Prior::LogNormal { median: 0.05, spread: 1.4 }),
                 Parameter::new("before_s", Prior::LogNormal { median: 30.0, spread: 1.0 }),
             ],
-            choice: None,
+            choice: choice_of(&flanges),
             starts: grid(&[&[0.005, 0.05], &[10.0, 60.0, 300.0]]),
         })
     },
     effect: |chain, record, active| {
-        let Some(series) = chain.heated(record, active.values[1]) else { return Ok(Effect::Coil(Change::none(record))) };
+        let Some(series) = chain.heated(record, chosen(active), active.values[1]) else {
+            return Ok(Effect::Coil(Change::none(record)));
+        };
         let scaled = |s: &[f64]| s.iter().map(|x| active.values[0] * x).collect::<Vec<f64>>();
         let parts = [0, 1, 2].map(|p: usize| scaled(&series.parts[p]));
         Ok(Effect::Coil(Change { thermometer: Some(scaled(&series.sensor)), ..Change::of_parts(parts) }))
     },
-    extended: |design, active| Some(with_heater(design, active.values[0])),
+    extended: |design, active| {
+        let side = *heatable_flanges(design).get(chosen(active))?;
+        Some(with_heater(design, side, active.values[0]))
+    },
 };
 
 /// Share of its final rise at which a heated unit has settled.

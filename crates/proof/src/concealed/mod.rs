@@ -24,7 +24,7 @@ pub(crate) use answer::{Answer, Constant, MORE_THAN_NOT, Written, answered, reco
 pub(crate) use answer::{Fitted, Probable};
 pub(crate) use answers::{PROGRAM, each, write};
 pub(crate) use chain::{mean, rms, used};
-pub(crate) use report::{lines, markdown, publish};
+pub(crate) use report::{lines, markdown, publish, short};
 pub(crate) use score::{HeldOut, Parameter};
 pub(crate) use summary::{Bound, Form, ScoreRow, failures};
 
@@ -51,6 +51,12 @@ pub struct Prove {
     /// Answer the sealed units again, into DIR, and compare with the answers that are there
     #[arg(long, value_name = "DIR", requires = "sealed")]
     again: Option<PathBuf>,
+    /// Units of which one thing is ordinary that was once taken for a fault
+    #[arg(long, group = "units", conflicts_with = "ordinary")]
+    rows: bool,
+    /// The intervals of ten ordinary units against a sampler's
+    #[arg(long, group = "units", conflicts_with = "ordinary")]
+    posteriors: bool,
     /// Whether what is recommended tells mechanisms apart
     #[arg(long, group = "units")]
     recommended: bool,
@@ -75,6 +81,12 @@ impl Prove {
                 (_, true) => ordinary::changed(&self.names),
                 _ => ordinary::open(&self.names),
             };
+        }
+        if self.posteriors {
+            return ordinary::posteriors();
+        }
+        if self.rows {
+            return ordinary::rows();
         }
         if self.synthetic {
             return synthetic::run(&self.plan);

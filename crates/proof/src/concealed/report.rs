@@ -11,7 +11,7 @@ use crate::truth::{Kind, Tier};
 use crate::{Failure, files};
 
 /// A number in three or four significant digits.
-fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     if value == 0.0 || (1e-3..1e5).contains(&value.abs()) {
         let decimals = (3.0 - value.abs().max(1e-300).log10().floor()).clamp(0.0, 6.0) as usize;
         let text = format!("{value:.decimals$}");

@@ -15,6 +15,7 @@ mod heat;
 mod law;
 mod matched;
 mod noise;
+mod ordinary;
 mod outside;
 mod plant;
 mod random;
@@ -26,6 +27,7 @@ mod unit;
 mod tests;
 
 pub(crate) use noise::SPAN;
+pub(crate) use ordinary::{NOTHING, Ordinary};
 pub use random::Random;
 pub(crate) use record::THERMOMETER;
 pub use unit::{Generator, Unit, Which};
@@ -33,7 +35,7 @@ pub use unit::{Generator, Unit, Which};
 use sha2::{Digest, Sha256};
 
 /// What the units are made by, by file.
-const SOURCES: [(&str, &str); 14] = [
+const SOURCES: [(&str, &str); 15] = [
     ("build.rs", include_str!("build.rs")),
     ("chamber.rs", include_str!("chamber.rs")),
     ("effect.rs", include_str!("effect.rs")),
@@ -41,6 +43,7 @@ const SOURCES: [(&str, &str); 14] = [
     ("law.rs", include_str!("law.rs")),
     ("matched.rs", include_str!("matched.rs")),
     ("noise.rs", include_str!("noise.rs")),
+    ("ordinary.rs", include_str!("ordinary.rs")),
     ("outside.rs", include_str!("outside.rs")),
     ("plant.rs", include_str!("plant.rs")),
     ("random.rs", include_str!("random.rs")),

@@ -222,7 +222,8 @@ fn kinds(n: usize, random: &mut Random) -> Vec<Kind> {
     }
 }
 
-fn meta(sensors: &Sensors, arw: Option<f64>) -> String {
+/// How a record was sampled, as RON.
+pub(super) fn meta(sensors: &Sensors, arw: Option<f64>) -> String {
     format!(
         "(\n    design: \"reference-coil\",\n    sample_interval_s: {SPAN:?},\n    rate_is: \"mean over the 30 s that end at time_s\",\n    \
          temperature_sensor: (noise_c: {THERMOMETER}, chamber_quantisation_c: 0.01, spool_quantisation_c: {}),\n    \

@@ -3,6 +3,8 @@
 //! Answered from the drawing with its usual tolerances, all of them, and only then held against their truths.
 
 mod change;
+mod posteriors;
+mod rows;
 mod score;
 mod truth;
 
@@ -23,6 +25,9 @@ use crate::{Failure, program};
 use change::Change;
 use score::{Scored, score, summary};
 use truth::{Kind, Truth};
+
+pub(crate) use posteriors::run as posteriors;
+pub(crate) use rows::run as rows;
 
 /// Records of a unit that are fitted, and the one that is held out.
 const FITTED: [&str; 2] = ["run1.csv", "run2.csv"];

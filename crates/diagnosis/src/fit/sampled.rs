@@ -1,0 +1,221 @@
+//! Samples of a fit's unknowns, against which Laplace's intervals are held.
+//!
+//! Metropolis and Hastings' walk whose proposals keep the normal density of a minimum: û + ρ (u − û) + √(1 − ρ²) ξ (S. L. Cotter and others, *Statistical
+//! Science* 28, 424 (2013)). What is accepted is decided by what that density misses, so that a posterior that is normal is sampled at every step; with ρ = 0
+//! the walk jumps from one minimum to another, as the mixture of all their densities proposes. No derivatives are needed.
+
+use super::fitter::{Fit, Fitter};
+use super::hypothesis::Hypothesis;
+use super::objective::{Objective, Point};
+use crate::posterior::Posterior;
+use crate::{Error, ForwardModel, Observation};
+use nalgebra::{Cholesky, DMatrix, DVector};
+use rand::rngs::SmallRng;
+use rand::{Rng, SeedableRng};
+use rand_distr::StandardNormal;
+
+/// Walks, each begun elsewhere.
+const WALKS: usize = 4;
+/// Share of a walk that is left out: it may not have forgotten its start.
+const FORGOTTEN: f64 = 0.2;
+/// How much of its place a walk keeps in a step; nothing where it jumps.
+const KEPT: [f64; 4] = [0.0, 0.7, 0.95, 0.99];
+/// −ln p above the least beyond which a minimum holds nothing.
+const FAR: f64 = 15.0;
+/// Distance of two minima, in standard deviations of the first, below which they are one.
+const ONE: f64 = 1.0;
+/// Fewest steps of a walk.
+const FEWEST: usize = 20;
+/// A walk begins as many times farther from a minimum as the unknowns are spread.
+const SPREAD: f64 = 1.5;
+
+/// An unknown as Laplace's method and a sampler have it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sampled {
+    /// As Laplace's method has it.
+    pub laplace: Posterior,
+    /// Ends of the samples' interval that holds it with probability 0.9.
+    pub ci90: [f64; 2],
+    /// Share of the samples within Laplace's interval.
+    pub inside: f64,
+    /// Number of independent samples that tell as much of it.
+    pub effective: f64,
+    /// By how much the walks' spread together is larger than each one's (Gelman and Rubin 1992): 1 where they agree.
+    pub disagreement: f64,
+}
+
+/// What a sampler finds of a fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Samples {
+    /// Every unknown but offsets.
+    pub unknowns: Vec<Sampled>,
+    /// Minima between which it walked.
+    pub minima: usize,
+    /// Share of the steps that were taken.
+    pub taken: f64,
+}
+
+/// A normal density about a minimum.
+struct Mode {
+    at: DVector<f64>,
+    lower: DMatrix<f64>,
+    precision: DMatrix<f64>,
+    half_log_det: f64,
+}
+
+impl Mode {
+    fn of(fit: &Fit) -> Option<Self> {
+        let factor = Cholesky::new(fit.covariance.clone())?;
+        let half_log_det = factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
+        Some(Self { at: fit.u.clone(), lower: factor.l(), precision: factor.inverse(), half_log_det })
+    }
+
+    /// −ln of the density, but for a constant.
+    fn energy(&self, u: &DVector<f64>) -> f64 {
+        let off = u - &self.at;
+        (&self.precision * &off).dot(&off) / 2.0
+    }
+
+    fn draw(&self, random: &mut SmallRng) -> DVector<f64> {
+        &self.lower * DVector::from_fn(self.at.len(), |_, _| random.sample::<f64, _>(StandardNormal))
+    }
+}
+
+/// −ln of the densities' mixture, but for a constant.
+fn mixture(modes: &[Mode], u: &DVector<f64>) -> f64 {
+    let each: Vec<f64> = modes.iter().map(|mode| mode.energy(u) + mode.half_log_det).collect();
+    let least = each.iter().copied().fold(f64::INFINITY, f64::min);
+    least - each.iter().map(|energy| (least - energy).exp()).sum::<f64>().ln()
+}
+
+/// Walks about the posterior of a hypothesis, under the noise of `fit`: `steps` of each of four, the same for one `seed`.
+///
+/// # Errors
+/// What keeps the model from responding; [`Error::NotFinite`] if a minimum has no normal density.
+pub fn sampled<M: ForwardModel>(
+    model: &M,
+    records: &[usize],
+    observations: &[Observation],
+    fit: &Fit,
+    steps: usize,
+    seed: u64,
+) -> Result<Samples, Error<M::Error>> {
+    let steps = steps.max(FEWEST);
+    let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
+    let hypothesis: &Hypothesis = &fit.hypothesis;
+    let objective = Objective::new(&fitter, hypothesis, &fit.noise)?;
+    let modes = objective.modes(fit)?;
+    let mut random = SmallRng::seed_from_u64(seed);
+    let (mut walks, mut taken) = (Vec::new(), 0);
+    for number in 0..WALKS {
+        let own = &modes[number % modes.len()];
+        let begun = objective.point(&own.at + own.draw(&mut random) * SPREAD).ok().filter(|point| point.value.is_finite());
+        let mut at = begun.map_or_else(|| objective.point(own.at.clone()), Ok)?;
+        let mut walk: Vec<DVector<f64>> = Vec::with_capacity(steps);
+        for _ in 0..steps {
+            let mode = &modes[random.random_range(0..modes.len())];
+            let kept = KEPT[random.random_range(0..KEPT.len())];
+            let to = &mode.at + (&at.u - &mode.at) * kept + mode.draw(&mut random) * (1.0 - kept * kept).sqrt();
+            // where the model cannot respond the walk does not go
+            let Ok(next) = objective.point(to) else {
+                walk.push(at.u.clone());
+                continue;
+            };
+            // −ln of what is proposed where the walk jumps, and of what proposals keep where it does not
+            let proposed = |u: &DVector<f64>| if kept == 0.0 { mixture(&modes, u) } else { mode.energy(u) };
+            let missed = |point: &Point| point.value - proposed(&point.u);
+            // a NaN, of what the model cannot compute, is not gone to
+            if random.random::<f64>().ln() < missed(&at) - missed(&next) {
+                at = next;
+                taken += 1;
+            }
+            walk.push(at.u.clone());
+        }
+        walks.push(walk.split_off((FORGOTTEN * steps as f64) as usize));
+    }
+    let known = fit.posteriors(model);
+    let of = |(i, laplace): (usize, Posterior)| {
+        let series: Vec<Vec<f64>> = walks.iter().map(|walk| walk.iter().map(|u| u[i]).collect()).collect();
+        described(laplace, &series)
+    };
+    let unknowns = known.into_iter().enumerate().map(of).collect();
+    Ok(Samples { unknowns, minima: modes.len(), taken: taken as f64 / (WALKS * steps) as f64 })
+}
+
+impl<M: ForwardModel> Objective<'_, M> {
+    /// Minima to which the mechanisms' own starts and `fit` lead, the likeliest first.
+    fn modes(&self, fit: &Fit) -> Result<Vec<Mode>, Error<M::Error>> {
+        let anew = Fit { active: Vec::new(), ..fit.clone() };
+        let mut starts = self.starts(Some(&anew)).into_iter().map(|u| self.point(u)).collect::<Result<Vec<_>, _>>()?;
+        starts.sort_by(|a, b| a.value.total_cmp(&b.value));
+        starts.truncate(super::STARTS);
+        starts.insert(0, self.point(fit.u.clone())?);
+        let mut fits = Vec::new();
+        for start in starts {
+            // a start that leads nowhere is no minimum
+            if let Ok(found) = self.descend(start).and_then(|end| self.concluded(end)) {
+                fits.push(found);
+            }
+        }
+        fits.sort_by(|a, b| a.value().total_cmp(&b.value()));
+        let mut modes: Vec<Mode> = Vec::new();
+        let least = fits.first().map_or(0.0, Fit::value);
+        for fit in fits.iter().filter(|fit| fit.value() - least < FAR) {
+            // one that has no width is no density
+            let Some(mode) = Mode::of(fit) else { continue };
+            let known = modes.iter().any(|known| known.energy(&mode.at) < ONE * ONE / 2.0);
+            if !known {
+                modes.push(mode);
+            }
+        }
+        if modes.is_empty() { Err(Error::NoStart) } else { Ok(modes) }
+    }
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+fn variance(values: &[f64]) -> f64 {
+    let mean = mean(values);
+    values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (values.len() as f64 - 1.0).max(1.0)
+}
+
+fn described(laplace: Posterior, walks: &[Vec<f64>]) -> Sampled {
+    let mut all: Vec<f64> = walks.concat();
+    all.sort_by(f64::total_cmp);
+    let quantile = |share: f64| all[((share * all.len() as f64) as usize).min(all.len() - 1)];
+    let ends = [quantile(0.05), quantile(0.95)].map(|u| laplace.prior.value(u));
+    let half = recording::statistics::normal_quantile(0.95) * laplace.sd;
+    let inside = all.iter().filter(|u| (**u - laplace.u).abs() <= half).count() as f64 / all.len() as f64;
+    // halves of walks: a walk that drifts disagrees with itself
+    let halves: Vec<&[f64]> = walks.iter().flat_map(|walk| [&walk[..walk.len() / 2], &walk[walk.len() / 2..]]).collect();
+    let within = mean(&halves.iter().map(|half| variance(half)).collect::<Vec<_>>());
+    let between = variance(&halves.iter().map(|half| mean(half)).collect::<Vec<_>>());
+    let disagreement = if within > 0.0 { (1.0 + between / within).sqrt() } else { f64::INFINITY };
+    Sampled { laplace, ci90: ends, inside, effective: effective(walks, within), disagreement }
+}
+
+/// Number of independent samples: by the sum of autocorrelations while neighbouring pairs of them are positive (Geyer 1992).
+fn effective(walks: &[Vec<f64>], within: f64) -> f64 {
+    let length = walks.iter().map(Vec::len).min().unwrap_or(0);
+    if within <= 0.0 || length < 4 {
+        return 0.0;
+    }
+    let at = |lag: usize| {
+        let of = |walk: &Vec<f64>| {
+            let middle = mean(walk);
+            (lag..length).map(|n| (walk[n] - middle) * (walk[n - lag] - middle)).sum::<f64>() / length as f64
+        };
+        mean(&walks.iter().map(of).collect::<Vec<_>>()) / within
+    };
+    let mut sum = 0.0;
+    for pair in 0..length / 4 {
+        let two = at(2 * pair) + at(2 * pair + 1);
+        if two <= 0.0 {
+            break;
+        }
+        sum += two;
+    }
+    (walks.len() * length) as f64 / (2.0 * sum - 1.0).max(1.0)
+}
