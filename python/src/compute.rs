@@ -121,12 +121,15 @@ pub(crate) fn simulate<'py>(
     coil: &Coil,
     profile: Vec<Column>,
     between: &str,
+    mechanisms: Vec<PathBuf>,
     code: Option<PathBuf>,
 ) -> PyResult<(Columns<'py>, String)> {
     let (case, profile) = (&coil.case, checked_profile(py, coil, &profile, between)?);
     let run = || {
-        let model = runs::model(case, &profile.drives, &cache(code))?;
-        let simulation = runs::simulate(case, &profile, &model)?;
+        let (own, cache) = (input::read_mechanisms(&mechanisms)?, cache(code));
+        let model = runs::model(case, &profile.drives, &cache)?;
+        let mut simulation = runs::simulate(case, &profile, &model)?;
+        simulation.add(&own, &cache, &|_| ())?;
         let object = summary::json(&simulation).to_string();
         Ok((simulation.rows().collect::<Vec<_>>(), object))
     };
@@ -137,11 +140,12 @@ pub(crate) fn simulate<'py>(
 /// A record: the file, or what messages call it, and its columns if it is no file.
 type Record = (PathBuf, Option<Vec<Column>>);
 
-fn read((path, columns): &Record, meta: Option<&Path>) -> Result<RecordCase, Error> {
+fn read((path, columns): &Record, meta: Option<&Path>, further: &[String]) -> Result<RecordCase, Error> {
     match columns {
-        Some(columns) => input::check_record(path, table(columns), meta).map_err(|error| at_element(error.into())),
+        Some(columns) => input::check_record(path, table(columns), meta, further).map_err(|error| at_element(error.into())),
         None => {
-            let options = RecordOptions { meta: meta.map(Path::to_owned), ..RecordOptions::default() };
+            let meta = meta.map(Path::to_owned);
+            let options = RecordOptions { meta, further: further.to_vec(), ..RecordOptions::default() };
             Ok(input::read_record(path, &options)?)
         }
     }
@@ -150,13 +154,22 @@ fn read((path, columns): &Record, meta: Option<&Path>) -> Result<RecordCase, Err
 /// The outcome as JSON and in words, the prediction of the first record held out, and the extended design, where there is one.
 type Diagnosed<'py> = (String, String, Option<Columns<'py>>, Option<Coil>);
 
+/// Further columns of records that mechanisms of a user's own name.
+#[pyfunction]
+pub(crate) fn further_columns(mechanisms: Vec<PathBuf>) -> PyResult<Vec<String>> {
+    let read = || Ok::<_, Error>(input::further_columns(&input::read_mechanisms(&mechanisms)?));
+    read().map_err(raised)
+}
+
 /// What records of a unit say about its design.
 #[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "as many as Python gives")]
 pub(crate) fn diagnose<'py>(
     py: Python<'py>,
     coil: &Coil,
     fit: Vec<Record>,
     holdout: Vec<Record>,
+    mechanisms: Vec<PathBuf>,
     meta: Option<PathBuf>,
     code: Option<PathBuf>,
     progress: Option<Py<PyAny>>,
@@ -171,13 +184,18 @@ pub(crate) fn diagnose<'py>(
     let raised_by_callback = OnceLock::new();
     let run = || -> Result<_, Error> {
         diagnosis::check_design(&coil.case, &coil.case.file)?;
-        let all = |records: &[Record]| records.iter().map(|record| read(record, meta.as_deref())).collect::<Result<Vec<_>, _>>();
+        let own = input::read_mechanisms(&mechanisms)?;
+        let further = input::further_columns(&own);
+        let all = |records: &[Record]| {
+            records.iter().map(|record| read(record, meta.as_deref(), &further)).collect::<Result<Vec<_>, _>>()
+        };
         let note = |step: Step| {
             if let Err(error) = said(step) {
                 let _ = raised_by_callback.set(error);
             }
         };
-        let outcome = diagnosis::diagnose(&coil.case, &all(&fit)?, &all(&holdout)?, &cache(code), &note)?;
+        let outcome =
+            diagnosis::diagnose(&coil.case, &input::with_catalogue(&own), &all(&fit)?, &all(&holdout)?, &cache(code), &note)?;
         let prediction = outcome.predicted_rate();
         Ok((outcome.json().to_string(), outcome.text(), prediction, outcome.model().ok()))
     };

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import pathlib
+
 import numpy as np
 import numpy.typing as npt
+
+import pytest
 
 import fogcoil
 
@@ -59,3 +63,30 @@ def test_a_concealed_drift_is_found_and_the_extended_design_simulates(coil: fogc
     again = fogcoil.simulate(model, held["time_s"], np.interp(held["time_s"], [1500, 4500], [20, 0.0]))
     # the same, but for a constant offset
     assert np.std(again["rate_deg_per_h"] - held["rate_deg_per_h"]) < 1.3 * NOISE
+
+
+HUMIDITY = """(
+    id: "damp-board", title: "A board that feels the humidity", stage: Electronics,
+    parameters: [(name: "size", unit: "deg/h/%", prior: Normal(0.0, 0.01))],
+    columns: [(name: "humidity", unit: "%")],
+    laws: [Rate("size * (humidity - 50)")],
+)"""
+
+
+def test_a_mechanism_of_a_file_sees_a_further_column(coil: fogcoil.Coil, tmp_path: pathlib.Path) -> None:
+    design, path = free_coil(coil), tmp_path / "damp.ron"
+    path.write_text(HUMIDITY)
+
+    def damp(to_c: float, seed: int) -> dict[str, npt.NDArray[np.float64]]:
+        of = record(design, to_c, seed)
+        humidity = 50 + 30 * np.sin(of["time_s"] / 700)
+        drift = DRIFT * (of["spool_c"] - 20)
+        return {**of, "humidity": humidity, "rate_deg_per_h": of["rate_deg_per_h"] - drift + 0.0005 * (humidity - 50)}
+
+    fit, held = damp(60.0, 3), damp(0.0, 4)
+    found = fogcoil.diagnose(design, [fit], [held], mechanisms=[path])
+    assert found["verdict"] == "explained" and found["set"] == ["damp-board"], found["text"]
+    assert abs(found["parameters"]["size_deg_per_h_per_percent"]["value"] - 0.0005) < 2e-5
+    fit.pop("humidity")
+    with pytest.raises(fogcoil.InputError, match="humidity"):
+        fogcoil.diagnose(design, [fit], mechanisms=[path])

@@ -76,7 +76,8 @@ pub const REDUCTION_SAFETY: f64 = 4.0;
 ///
 /// A response to any course is the convolution of the drive's rate with the step response, so a difference of step responses bounds
 /// the difference of responses for every course of bounded rate. What is taken is [`REDUCTION_SAFETY`] ([`MODEL_SAFETY`]) times the difference to
-/// a model with two thirds of the modes (three quarters of a parametric model's fields), the worst over drives and mechanical states: an estimate, not a bound.
+/// a model with two thirds of the modes (two models on a part of a parametric model's fields), the worst over these, drives and mechanical states: an
+/// estimate, not a bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ReductionError {
@@ -87,6 +88,11 @@ pub struct ReductionError {
 }
 
 impl ReductionError {
+    /// The larger of each.
+    fn worst(self, other: Self) -> Self {
+        Self { sensor: self.sensor.max(other.sensor), bias: self.bias.max(other.bias) }
+    }
+
     fn between(reduced: &Reduced, smaller: &Reduced, drives: usize, safety: f64) -> Self {
         let times: Vec<f64> = [0.0].into_iter().chain(reduced.instants()).collect();
         let variation = |f: &dyn Fn(f64) -> f64| {
@@ -191,7 +197,8 @@ impl Dynamics {
             Some(Curvature::new(design, &model.fields(design, &MechanicalState::NOMINAL)?)?)
         };
         let (reduced, [more, fewer]) = (model.at(design)?, model.coarser(design)?);
-        let error = ReductionError::between(&reduced, &fewer, drives.len(), MODEL_SAFETY);
+        let errors = [&more, &fewer].map(|coarser| ReductionError::between(&reduced, coarser, drives.len(), MODEL_SAFETY));
+        let error = errors[0].worst(errors[1]);
         let of = |reduced: Reduced, curvature: Option<Curvature>| Self {
             reduced,
             error,
@@ -204,16 +211,16 @@ impl Dynamics {
         Ok([of(reduced, curvature), of(more, None), of(fewer, None)])
     }
 
-    /// Largest distances of thermometer \[K\] and rate \[rad/s\] from those of another along a profile, without what is quadratic in temperature;
+    /// Largest distances of thermometer \[K\] and rate \[rad/s\] from those of others along a profile, without what is quadratic in temperature;
     /// NaN if any value is.
     ///
     /// # Errors
     /// As [`Self::simulate`].
-    pub fn distance(&self, other: &Self, profile: &Profile) -> Result<[f64; 2], Error> {
+    pub fn distance(&self, others: &[Self], profile: &Profile) -> Result<[f64; 2], Error> {
         let linear = |dynamics: &Self| Self { curvature: None, ..dynamics.clone() }.simulate(profile);
-        let (ours, theirs) = (linear(self)?, linear(other)?);
+        let (ours, theirs) = (linear(self)?, others.iter().map(linear).collect::<Result<Vec<_>, _>>()?);
         let largest = |of: fn(&Response) -> f64| {
-            let apart = ours.iter().zip(&theirs).map(|(a, b)| (of(a) - of(b)).abs());
+            let apart = theirs.iter().flat_map(|theirs| ours.iter().zip(theirs)).map(|(a, b)| (of(a) - of(b)).abs());
             apart.fold(0.0, |most: f64, d| if d.is_nan() || most.is_nan() { f64::NAN } else { most.max(d) })
         };
         Ok([largest(|r| r.sensor), largest(Response::rate)])

@@ -205,8 +205,8 @@ impl Filter<'_> {
         let (n, m) = (self.size(), self.chamber());
         let interval = self.model.interval(dt);
         let (mut decay, mut push) = (vec![1.0; m], vec![0.0; m]);
-        self.model.advance(&mut decay, &[0.0], &interval);
-        self.model.advance(&mut push, &[1.0], &interval);
+        interval.advance(&mut decay, &[0.0]);
+        interval.advance(&mut push, &[1.0]);
         push.extend([dt, 1.0]);
         let mut step = Transition { dt, decay, push, follow: None };
         if self.lag > 0.0 {

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod compose;
 mod discriminate;
 mod error;
 mod fit;
@@ -18,6 +19,7 @@ mod settle;
 mod structure;
 mod verdict;
 
+pub use compose::{Composed, compose};
 pub use discriminate::{Plan, Separation, fitted, separation};
 pub use error::Error;
 pub use fit::{Fit, Hypothesis, Sampled, Samples, alternatives, expected, sampled};

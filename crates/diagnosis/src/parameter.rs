@@ -77,7 +77,7 @@ pub struct Parameter {
 impl Parameter {
     /// A parameter on which the response depends smoothly.
     pub fn new(name: impl Into<String>, prior: Prior) -> Self {
-        Self { name: name.into(), prior, step: 0.02, around: Vec::new() }
+        Self { name: name.into(), prior, step: 1e-3, around: Vec::new() }
     }
 
     /// The same with another step for differences.

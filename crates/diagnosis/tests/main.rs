@@ -1,6 +1,7 @@
 //! All tests of the crate in one program: linked once.
 
 mod common;
+mod compose;
 mod elsewhere;
 mod exact_evidence;
 mod sampled;

@@ -2,6 +2,10 @@
 //!
 //! Divisions by powers of ten are correctly rounded, so `from_mm(43.5)` is the double nearest to 0.0435.
 
+use std::borrow::Cow;
+
+use laws::Unit;
+
 use bias::units::{DEG_PER_H_PER_RAD_PER_S, S_PER_H, S_PER_MIN};
 
 /// What a key in a case file may end in, after the quantity's name.
@@ -54,7 +58,7 @@ pub fn to_ppm(ratio: f64) -> f64 {
 }
 
 /// The unit of a mechanism's parameter, by the end of its name; 1 if it has none.
-pub fn parameter_unit(name: &str) -> &'static str {
+pub fn parameter_unit(name: &str) -> Cow<'static, str> {
     const UNITS: [(&str, &str); 13] = [
         ("_m2k_per_w", "m² K/W"),
         ("_w_per_m2k", "W/(m² K)"),
@@ -71,7 +75,69 @@ pub fn parameter_unit(name: &str) -> &'static str {
         ("_s", "s"),
         ("_w", "W"),
     ];
-    UNITS.iter().find(|(end, _)| name.ends_with(end)).map_or("1", |(_, unit)| unit)
+    let words = words_of_unit(name);
+    // of a longer unit the end says nothing
+    let whole = |end: &str| {
+        name.ends_with(end) && words.iter().map(|word| word.len() + 1).sum::<usize>() <= end.trim_start_matches('_').len() + 1
+    };
+    match UNITS.iter().find(|(end, _)| whole(end)) {
+        Some((_, unit)) => Cow::Borrowed(unit),
+        None => Cow::Owned(unit_of_words(&words)),
+    }
+}
+
+/// Units whose names are not capital and in no other way like the word in a parameter's name.
+const WORDS: [&str; 24] = [
+    "K", "W", "mW", "Pa", "hPa", "kPa", "MPa", "GPa", "J", "N", "V", "mV", "A", "mA", "T", "mT", "uT", "G", "Hz", "degC", "deg",
+    "rad", "min", "h",
+];
+
+fn unit_of_word(word: &str) -> Option<String> {
+    let letters = word.trim_end_matches(|c: char| c.is_ascii_digit());
+    let unit = WORDS.iter().find(|unit| unit.eq_ignore_ascii_case(letters) || letters == "c" && **unit == "degC");
+    match (word, unit) {
+        ("per", _) => Some("/".to_owned()),
+        ("percent", _) => Some("%".to_owned()),
+        (_, Some(unit)) => Some(format!("{unit}{}", &word[letters.len()..])),
+        _ => ["m", "mm", "um", "s", "ms", "d", "g", "kg", "ppm"].contains(&letters).then(|| word.to_owned()),
+    }
+}
+
+/// The words that a name ends in which are units, or `per`.
+fn words_of_unit(name: &str) -> Vec<&str> {
+    let mut words: Vec<&str> = name.rsplit('_').take_while(|word| unit_of_word(word).is_some()).collect();
+    words.reverse();
+    words
+}
+
+/// The unit in words; 1 if there are none.
+fn unit_of_words(words: &[&str]) -> String {
+    let mut unit = String::new();
+    for word in words.iter().filter_map(|word| unit_of_word(word)) {
+        let joined = unit.is_empty() || unit.ends_with('/') || word == "/";
+        unit.push_str(if joined { "" } else { " " });
+        unit.push_str(&word);
+    }
+    match unit.as_str() {
+        "" | "/" => "1".to_owned(),
+        over if over.starts_with('/') => format!("1{over}"),
+        _ => unit,
+    }
+}
+
+/// What a name ends in whose number has a unit: `deg_per_h_per_k` of `deg/h/K`; empty of a pure number, or of what is no unit.
+pub(crate) fn suffix(unit: &str) -> String {
+    let words = Unit::words(unit).unwrap_or_default();
+    let word = |(name, power): &(&str, f64)| {
+        let name = if *name == "%" { "percent".to_owned() } else { name.to_ascii_lowercase().replace("degc", "c") };
+        match power.abs() {
+            1.0 => name,
+            power => format!("{name}{power}").replace('.', "_"),
+        }
+    };
+    let above = words.iter().filter(|(name, power)| *name != "1" && *power > 0.0).map(word);
+    let below = words.iter().filter(|(name, power)| *name != "1" && *power < 0.0).map(|unit| format!("per_{}", word(unit)));
+    above.chain(below).collect::<Vec<_>>().join("_")
 }
 
 /// A unit of a recording's column: value in the standard unit = scale · value + offset.
@@ -135,5 +201,30 @@ impl DurationUnit {
     /// Seconds in this unit.
     pub fn of_seconds(self, seconds: f64) -> f64 {
         seconds / self.seconds
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_name_ends_in_its_unit_and_says_it() {
+        for (unit, suffix_of, said) in [
+            ("deg/h/K", "deg_per_h_per_k", "(deg/h)/K"),
+            ("s", "s", "s"),
+            ("1", "", "1"),
+            ("1/K2", "per_k2", "1/K²"),
+            ("W/(m2 K)", "w_per_m2_per_k", "W/m2/K"),
+            ("deg/h/(K/s)", "deg_s_per_h_per_k", "deg s/h/K"),
+            ("deg/h/uT", "deg_per_h_per_ut", "deg/h/uT"),
+            ("%", "percent", "%"),
+            ("degC", "c", "degC"),
+            ("K/min", "k_per_min", "K/min"),
+            ("1/min", "per_min", "1/min"),
+        ] {
+            let name = format!("size_{}", suffix(unit));
+            assert_eq!((suffix(unit).as_str(), parameter_unit(name.trim_end_matches('_')).as_ref()), (suffix_of, said), "{unit}");
+        }
     }
 }

@@ -4,12 +4,13 @@ use std::io::{self, Write};
 
 use coil::{Drive, Mechanics, Number, propagated};
 use diagnosis::{ForwardModel, expected};
-use mechanisms::{Chamber, Gyro, Prepared, RATE, SPOOL, number_of};
+use mechanisms::{Gyro, RATE, SPOOL, number_of};
 use nalgebra::DMatrix;
 use progress::Step;
 use serde_json::{Value, json};
 
 use crate::Error;
+use crate::beside;
 use crate::cache::Cache;
 use crate::input::keyed;
 use crate::prepare::library;
@@ -56,23 +57,10 @@ pub fn band(simulation: &Simulation, cache: &Cache, progress: &(dyn Fn(Step) + S
     }
     let at = Error::of_coil(&case.file);
     let library = library(case, cache, progress)?;
-    let (time, chamber) = divided(&profile.profile.time, profile.chamber());
-    let prepared = Prepared::under(&library, &time, &Chamber::given(&time, &chamber), 0.0).map_err(at)?;
-    let gyro = Gyro::new(library, &[], vec![prepared]).map_err(at)?;
+    let gyro = beside::under(library, &[], profile).map_err(at)?;
     let changes = changes(&gyro).map_err(at)?;
     let numbers: Vec<Number> = changes.iter().map(|change| change.number).collect();
     Ok(CourseBand::of(simulation, &changes, &case.tolerances.correlation(&numbers)))
-}
-
-/// Straight lines between rows, divided: a record is taken as smooth between its rows, a profile has corners.
-const PARTS: usize = 8;
-
-fn divided(time: &[f64], course: &[f64]) -> (Vec<f64>, Vec<f64>) {
-    let divided = |x: &[f64]| {
-        let between = x.windows(2).flat_map(|w| (1..=PARTS).map(|k| w[0] + (w[1] - w[0]) * k as f64 / PARTS as f64));
-        x.first().copied().into_iter().chain(between).collect()
-    };
-    (divided(time), divided(course))
 }
 
 fn changes(gyro: &Gyro) -> Result<Vec<Change>, coil::Error> {
@@ -84,13 +72,9 @@ fn changes(gyro: &Gyro) -> Result<Vec<Change>, coil::Error> {
             values[at] = nuisance.parameter.prior.value(u);
             gyro.respond(0, &values, &[])
         };
-        let [up, down] = [respond(1.0)?, respond(-1.0)?];
-        let half = |channel: usize| -> Vec<f64> { up[channel].iter().zip(&down[channel]).map(|(a, b)| (a - b) / 2.0).collect() };
-        let [spool, rate] = [half(SPOOL), half(RATE)];
-        // the rate is a mean since the row before
-        let mean = |part: &[f64]| part.iter().sum::<f64>() / PARTS as f64;
-        let rate = rate[..1].iter().copied().chain(rate[1..].chunks(PARTS).map(mean)).collect();
-        all.push(Change { number, rows: [spool.into_iter().step_by(PARTS).collect(), rate] });
+        let [up, down] = [beside::at_rows(&respond(1.0)?), beside::at_rows(&respond(-1.0)?)];
+        let half = |channel: usize| up[channel].iter().zip(&down[channel]).map(|(a, b)| (a - b) / 2.0).collect();
+        all.push(Change { number, rows: [half(SPOOL), half(RATE)] });
     }
     Ok(all)
 }

@@ -7,7 +7,7 @@
 use coil::{Design, Number, Tolerance, Tolerances};
 use diagnosis::{Active, Believed, ForwardModel, Lot, Observation, Prior, Said, Settled};
 use files::{Note, Remark};
-use mechanisms::{Gyro, Library, number_of, with_constant};
+use mechanisms::{CATALOGUE, Gyro, Library, number_of, with_constant};
 use progress::Step;
 use recording::statistics::normal_quantile;
 use serde_json::{Value, json};
@@ -104,7 +104,7 @@ fn fit(
     read: &[Record],
     progress: &(dyn Fn(Step) + Sync),
 ) -> Result<(Unit, Option<String>), Error> {
-    let drawn = gyro(library, read, read.len()).map_err(Error::of_coil(&case.file))?;
+    let drawn = gyro(library, CATALOGUE, read, read.len()).map_err(Error::of_coil(&case.file))?;
     let observations: Vec<Observation> = read.iter().map(|r| r.observed.clone()).collect();
     let numbers: Vec<usize> = (0..read.len()).collect();
     let settled = diagnosis::settled(&drawn, &numbers, &observations, progress).map_err(Error::of_diagnosis(&case.file))?;

@@ -85,7 +85,7 @@ pub(crate) enum Command {
     Explain(Explain),
     /// Is a recording usable? Gaps, units, outliers, noise, Allan deviation
     Check(Check),
-    /// A commented file to start from: a coil design, a cell, targets to identify, or a profile
+    /// A commented file to start from: a coil design, a cell, targets to identify, a mechanism of your own, or a profile
     New(New),
     /// Completions of the command line, for a shell to read
     Completions {
@@ -112,13 +112,16 @@ pub(crate) struct Diagnose {
     /// Record of the same unit to judge on
     #[arg(long = "holdout", value_name = "B.csv")]
     pub(crate) holdouts: Vec<PathBuf>,
+    /// A mechanism of your own beside the program's (`fogcoil new --kind mechanism`); may be given more than once
+    #[arg(long = "mechanism", value_name = "MECHANISM.ron")]
+    pub(crate) mechanisms: Vec<PathBuf>,
     /// Write one JSON object here; without a file, print it alone
     #[arg(long, value_name = "J", num_args = 0..=1)]
     pub(crate) json: Option<Option<PathBuf>>,
     /// Write the prediction of the first held-out record here
     #[arg(long, value_name = "P.csv", requires = "holdouts")]
     pub(crate) prediction: Option<PathBuf>,
-    /// Write the extended design here, a coil file with what was found at its place
+    /// Write the extended design here, a coil file with what was found at its place; a mechanism of your own gets M.ID.ron beside it
     #[arg(long, value_name = "M.ron")]
     pub(crate) model_out: Option<PathBuf>,
     /// Write a page with plots here
@@ -155,6 +158,9 @@ pub(crate) struct Simulate {
     /// Standard deviation of the record's readings in K, rounding included
     #[arg(long, value_name = "K", conflicts_with = "profile", value_parser = noise, default_value = "0.01")]
     pub(crate) spool_noise: f64,
+    /// A mechanism of your own that is at work, its parameters with values; may be given more than once
+    #[arg(long = "mechanism", value_name = "MECHANISM.ron")]
+    pub(crate) mechanisms: Vec<PathBuf>,
     /// Write the result here, a row for each of the profile's (and of --step)
     #[arg(long, value_name = "B.csv")]
     pub(crate) out: PathBuf,

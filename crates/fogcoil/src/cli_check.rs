@@ -56,7 +56,7 @@ pub(crate) struct Format {
 impl Format {
     pub(crate) fn options(&self, meta: Option<PathBuf>) -> RecordOptions {
         let Self { map, columns, units, scales, separator, decimal_comma, interval } = self.clone();
-        RecordOptions { map, meta, columns, units, scales, separator, decimal_comma, interval }
+        RecordOptions { map, meta, columns, units, scales, separator, decimal_comma, interval, further: Vec::new() }
     }
 }
 

@@ -4,14 +4,15 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use fogcoil::cache::Cache;
-use fogcoil::{Error, diagnose, explain, glossary};
+use fogcoil::{Error, diagnose, explain, glossary, input};
 
 use crate::progress::Progress;
 use crate::{line, print};
 
 #[derive(Args)]
 pub(crate) struct Explain {
-    /// Id of a mechanism, a warning or a note; with --sensitivity the case file of a coil; without either all ids are listed
+    /// Id of a mechanism, a warning or a note, or the file of a mechanism of your own; with --sensitivity the case file of a coil; without
+    /// either all ids are listed
     #[arg(value_name = "ID|COIL.ron", required_if_eq("signed", "true"))]
     subject: Option<PathBuf>,
     /// Measured steady sensitivity in (deg/h)/(degC/min), a magnitude
@@ -37,6 +38,10 @@ pub(crate) fn run(arguments: &Explain, progress: &Progress) -> Result<(), Error>
             let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
             let result = progress.tasks(|tell| explain::explain(&case, *measured, !signed, &cache, tell))?;
             (explain::json(&result), explain::text(&case, &result))
+        }
+        (Some(file), None) if file.is_file() && file.extension().is_some_and(|end| end == "ron") => {
+            let case = input::read_mechanism(file)?;
+            (glossary::own_json(&case), glossary::own_text(&case))
         }
         (Some(id), None) => {
             let entry = look_up(id)?;

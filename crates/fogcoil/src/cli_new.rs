@@ -26,6 +26,8 @@ enum Kind {
     Cell,
     /// Measured constants and the cells to try, for identify
     Targets,
+    /// A mechanism of your own, for diagnose, simulate, recommend and explain
+    Mechanism,
     /// A profile of the chamber's temperature, for simulate and trim
     Profile,
 }
@@ -36,6 +38,7 @@ impl Kind {
             Self::Coil => include_str!("../templates/coil.ron"),
             Self::Cell => include_str!("../templates/cell.ron"),
             Self::Targets => include_str!("../templates/targets.ron"),
+            Self::Mechanism => include_str!("../templates/mechanism.ron"),
             Self::Profile => include_str!("../templates/profile.csv"),
         }
     }
@@ -46,6 +49,7 @@ impl Kind {
             Self::Coil => "fogcoil sensitivity",
             Self::Cell => "fogcoil homogenize",
             Self::Targets => "fogcoil identify",
+            Self::Mechanism => "fogcoil explain",
             Self::Profile => "fogcoil simulate COIL.ron --step 30 --out BIAS.csv --profile",
         }
     }

@@ -1,5 +1,6 @@
 //! Why a command did not finish.
 
+use mechanisms::Mechanism;
 use std::path::{Path, PathBuf};
 
 use crate::input::{self, InputError};
@@ -80,6 +81,23 @@ impl Error {
         move |error| match error {
             diagnosis::Error::Model(source) => Self::of_coil(file)(source),
             other => Self::Diagnosis(other.to_string()),
+        }
+    }
+
+    /// The same of a diagnosis with mechanisms of a user's own: a law of theirs may be no number somewhere.
+    pub(crate) fn of_diagnosis_with(
+        file: &Path,
+        mechanisms: &[&dyn Mechanism],
+    ) -> impl Fn(diagnosis::Error<coil::Error>) -> Self + Clone {
+        let own: Vec<String> =
+            mechanisms.iter().map(|m| m.facts().id.to_owned()).filter(|id| mechanisms::find(id).is_none()).collect();
+        let file = file.to_owned();
+        move |error| match error {
+            diagnosis::Error::NotFinite if !own.is_empty() => Self::usage(format!(
+                "--mechanism: a law of {} is no finite number somewhere within its priors; bound it, e.g. by max(...), or narrow the priors",
+                own.join(", ")
+            )),
+            other => Self::of_diagnosis(&file)(other),
         }
     }
 

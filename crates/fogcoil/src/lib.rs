@@ -27,10 +27,12 @@
 //! ```
 
 pub mod band;
+mod beside;
 pub mod cache;
 pub mod calibrate;
 pub mod check;
 pub mod comparison;
+mod compose;
 pub mod diagnose;
 mod error;
 pub mod explain;

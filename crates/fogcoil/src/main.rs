@@ -21,7 +21,7 @@ use cli_check::Check;
 use coil::Drive;
 use fogcoil::cache::Cache;
 use fogcoil::glossary::Remark;
-use fogcoil::input::Between;
+use fogcoil::input::{Between, RecordOptions};
 use fogcoil::output::Content;
 use fogcoil::{
     Error, band, check, diagnose, figures, identify, input, output, picture, report, sensitivity, simulate, summary, trim, wind,
@@ -82,17 +82,22 @@ fn run_wind(coil: &Path, csv: Option<&Path>, svg: Option<&Path>, json: bool, pro
 }
 
 fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> {
-    let Diagnose { coil, fits, holdouts, json, prediction, model_out, report, meta, format, no_cache } = arguments;
-    let options = format.options(meta.clone());
-    let inputs: Vec<PathBuf> = fits.iter().chain(holdouts).flat_map(|record| options.files(record)).collect();
+    let Diagnose { coil, fits, holdouts, mechanisms, json, prediction, model_out, report, meta, format, no_cache } = arguments;
+    let own = input::read_mechanisms(mechanisms)?;
+    let options = RecordOptions { further: input::further_columns(&own), ..format.options(meta.clone()) };
+    let records = fits.iter().chain(holdouts).flat_map(|record| options.files(record));
+    let inputs: Vec<PathBuf> = records.chain(mechanisms.iter().cloned()).collect();
+    let own_out: Vec<Option<PathBuf>> = own.iter().map(|own| Some(beside(model_out.as_deref()?, &own.mechanism.id))).collect();
     let json_file = json.as_ref().and_then(Option::as_deref);
-    let outputs = [json_file, prediction.as_deref(), model_out.as_deref(), report.as_deref()];
+    let mut outputs = vec![json_file, prediction.as_deref(), model_out.as_deref(), report.as_deref()];
+    outputs.extend(own_out.iter().map(Option::as_deref));
     let case = progress.read_coil_for(coil, &inputs, &outputs)?;
     diagnose::check_design(&case, coil)?;
     let read = |paths: &[PathBuf]| paths.iter().map(|path| input::read_record(path, &options)).collect::<Result<Vec<_>, _>>();
     let (fits, holdouts) = progress.during("reading the records", || Ok::<_, Error>((read(fits)?, read(holdouts)?)))?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
-    let outcome = progress.tasks(|tell| diagnose::diagnose(&case, &fits, &holdouts, &cache, tell))?;
+    let outcome =
+        progress.tasks(|tell| diagnose::diagnose(&case, &input::with_catalogue(&own), &fits, &holdouts, &cache, tell))?;
     progress.tell(outcome.notes());
     let object = line(&outcome.json());
     let mut files = Vec::new();
@@ -104,10 +109,24 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
             Err(why) => progress.tell(&[Remark::NoModel.note(format!("nothing to write: {why}")).at(path)]),
         }
     }
+    for (own, path) in own.iter().zip(&own_out) {
+        if let (Some(path), Some(values)) = (path, outcome.found_of(&own.mechanism.id)) {
+            files.push((path, Content::Text(own.with_values(&values)?)));
+        }
+    }
+    let laws = outcome.laws()?.into_iter();
+    let laws: Vec<(PathBuf, String)> = laws.filter_map(|(id, text)| Some((beside(model_out.as_deref()?, &id), text))).collect();
+    output::check_outputs(&inputs, &laws.iter().map(|(path, _)| Some(path.as_path())).collect::<Vec<_>>())?;
+    files.extend(laws.iter().map(|(path, text)| (path.as_path(), Content::Text(text.clone()))));
     let page = || progress.during("drawing the report, with the test to make next", || outcome.report());
     files.extend(report.as_deref().map(|path| (path, Content::Text(page()))));
     progress.save(&files)?;
     print(&if *json == Some(None) { object } else { outcome.text() })
+}
+
+/// `M.ID.ron` beside `M.ron`.
+fn beside(model: &Path, id: &str) -> PathBuf {
+    model.with_extension(format!("{id}.ron"))
 }
 
 fn run_check(arguments: &Check, progress: &Progress) -> Result<(), Error> {
@@ -159,8 +178,9 @@ fn run_trim(coil: &Path, profile: Option<&Path>, json: bool, progress: &Progress
 }
 
 fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> {
-    let Simulate { coil, profile, between, step, spool, spool_noise, out, report, band, json, no_cache } = arguments;
-    let inputs: Vec<PathBuf> = [profile, spool].into_iter().flatten().cloned().collect();
+    let Simulate { coil, profile, between, step, spool, spool_noise, mechanisms, out, report, band, json, no_cache } = arguments;
+    let own = input::read_mechanisms(mechanisms)?;
+    let inputs: Vec<PathBuf> = [profile, spool].into_iter().flatten().chain(mechanisms).cloned().collect();
     let case = progress.read_coil_for(coil, &inputs, &[Some(out), report.as_deref(), band.as_deref()])?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
     let drawn = report.is_some() && case.winding.turns().len() <= figures::MOST_TURNS;
@@ -195,7 +215,8 @@ fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> 
     };
     progress.tell(&profile.notes);
     let task = format!("simulating {} rows", profile.profile.time.len());
-    let simulation = progress.during(&task, || simulate::simulate(&case, &profile, &model))?;
+    let mut simulation = progress.during(&task, || simulate::simulate(&case, &profile, &model))?;
+    progress.tasks(|tell| simulation.add(&own, &cache, tell))?;
     progress.tell(simulation.warning().as_slice());
     let within = band.as_ref().map(|_| progress.tasks(|tell| band::band(&simulation, &cache, tell))).transpose()?;
     let rows = |out: &mut dyn Write| simulation.write_csv(out);

@@ -1,12 +1,14 @@
 //! What a diagnosis or a recommendation starts from: a design's library of models, and recordings as the engine wants them.
 
+use std::collections::BTreeMap;
+
 use bias::units::S_PER_MIN;
 use coil::COARSE;
 use diagnosis::Observation;
 use files::{Note, Remark};
 use mechanisms::{
-    CATALOGUE, Chamber, Gyro, Instrument, Instruments, Library, Models, Prepared, RATE as RATE_NUMBER, SPOOL as SPOOL_NUMBER,
-    USUAL_NOISE,
+    CATALOGUE, Chamber, Gyro, Instrument, Instruments, Library, Mechanism, Models, Prepared, RATE as RATE_NUMBER,
+    SPOOL as SPOOL_NUMBER, USUAL_NOISE,
 };
 use progress::Step;
 use recording::Recording;
@@ -39,6 +41,8 @@ pub(crate) struct Record {
     /// what drives the model
     pub(crate) drive: Chamber,
     pub(crate) averaging: f64,
+    /// further columns, which laws name, without gaps
+    columns: BTreeMap<String, Vec<f64>>,
     /// what is known of its instruments
     meta: Option<Meta>,
     /// instants of the rows before they were averaged \[s\], and how much earlier than its instant the middle of an averaged one lies
@@ -46,6 +50,12 @@ pub(crate) struct Record {
 }
 
 impl Record {
+    /// What every model of a library does under it.
+    pub(crate) fn prepared(&self, library: &Library) -> Result<Prepared, coil::Error> {
+        let prepared = Prepared::under(library, &self.observed.time, &self.drive, self.averaging)?;
+        Ok(prepared.with_columns(self.columns.clone()))
+    }
+
     /// Instants of the record's rows, before they were averaged.
     pub(crate) fn instants(&self) -> &[f64] {
         &self.instants.0
@@ -131,6 +141,20 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     let time = used.time().to_vec();
     let values = |name| used.channel(name).map_or_else(|| vec![f64::NAN; time.len()], |channel| channel.values.clone());
     let (spool, rate) = (values(SPOOL), values(RATE));
+    let standard = |name: &str| [CHAMBER, SPOOL, RATE].contains(&name);
+    let further = used.channels().iter().filter(|channel| !standard(&channel.name));
+    let mut columns = BTreeMap::new();
+    for channel in further {
+        let Some(values) = bridged(&time, &channel.values) else {
+            return Err(refuse(
+                case,
+                &channel.name,
+                "there is no value in the column".to_owned(),
+                "a mechanism's file names it: give values",
+            ));
+        };
+        columns.insert(channel.name.clone(), values);
+    }
     let Some((chamber, drive)) = bridged(&time, &values(CHAMBER)).zip(drive) else {
         let problem = "there is no chamber temperature to drive the model with".to_owned();
         return Err(refuse(case, CHAMBER, problem, "give a column with values"));
@@ -162,7 +186,7 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
         say(Remark::NotAtRest, format!("does not start at rest ({off}), as the model does: what this leaves is no finding"));
     }
     let (fingerprint, observed) = (case.fingerprint.clone(), Observation { time, channels: vec![spool, rate] });
-    Ok(Record { fingerprint, observed, chamber, drive, averaging, meta: case.meta.clone(), instants: (before, earlier) })
+    Ok(Record { fingerprint, observed, chamber, drive, averaging, columns, meta: case.meta.clone(), instants: (before, earlier) })
 }
 
 /// What the chamber's readings say; `None` where there are none.
@@ -176,12 +200,16 @@ fn drive(recording: &Recording, digit: Option<f64>) -> Option<Chamber> {
 ///
 /// # Errors
 /// [`coil::Error`] names the dimension or property at fault.
-pub(crate) fn gyro(library: &Library, records: &[Record], fitted: usize) -> Result<Gyro<'static>, coil::Error> {
-    let prepared = |r: &Record| Prepared::under(library, &r.observed.time, &r.drive, r.averaging);
-    let prepared = records.iter().map(prepared).collect::<Result<Vec<_>, _>>()?;
+pub(crate) fn gyro<'m>(
+    library: &Library,
+    mechanisms: &[&'m dyn Mechanism],
+    records: &[Record],
+    fitted: usize,
+) -> Result<Gyro<'m>, coil::Error> {
+    let prepared = records.iter().map(|record| record.prepared(library)).collect::<Result<Vec<_>, _>>()?;
     Gyro::fitted_to(
         library.clone(),
-        CATALOGUE,
+        mechanisms,
         prepared,
         fitted,
         &Instruments { earth: earth_of(records), ..instruments_of(&records[..fitted]) },

@@ -67,6 +67,8 @@ pub struct Simulation<'a> {
     coarser: Vec<Response>,
     /// States at instants evenly spaced over the course; none if it has no duration.
     pub(crate) samples: Vec<Sample>,
+    /// what mechanisms add to thermometer \[K\] and rate \[deg/h\] in every row; none without mechanisms
+    pub(crate) added: Vec<[f64; 2]>,
 }
 
 /// Instants between the first and the last at which fields can be drawn: the middles of as many equal intervals.
@@ -97,7 +99,9 @@ pub struct SimulatedRow {
     pub eo_radial: f64,
     /// The read-out's own drift with temperature \[deg/h\]; not a column of the result.
     pub read_out: f64,
-    /// The sum of the four \[deg/h\].
+    /// What mechanisms of a user's own add \[deg/h\]; a column of the result where there are any.
+    pub mechanisms: f64,
+    /// The sum of the five \[deg/h\].
     pub rate: f64,
 }
 
@@ -113,6 +117,7 @@ impl SimulatedRow {
             eo_axial: bias.eo_axial,
             eo_radial: bias.eo_radial,
             read_out: response.read_out * DEG_PER_H_PER_RAD_PER_S,
+            mechanisms: 0.0,
             rate: response.rate() * DEG_PER_H_PER_RAD_PER_S,
         }
     }
@@ -265,17 +270,7 @@ impl DesignBox {
         let [dynamics, coarser @ ..] = Dynamics::varied(&self.model, &case.design).map_err(Error::of_coil(&case.file))?;
         let rows = run(&dynamics, profile)?.into_iter().enumerate().map(|(n, r)| SimulatedRow::of(profile, n, r)).collect();
         let at = Error::of_coil(&profile.fingerprint.file);
-        let course = course(profile);
-        let distances =
-            coarser.iter().map(|coarser| dynamics.distance(coarser, &course)).collect::<Result<Vec<_>, _>>().map_err(at)?;
-        // not `max`, which passes over a NaN
-        let largest = |k: usize| {
-            distances
-                .iter()
-                .map(|d| d[k])
-                .fold(0.0, |most: f64, d| if d.is_nan() || most.is_nan() { f64::NAN } else { most.max(d) })
-        };
-        let [spool, rate] = [largest(0), largest(1)];
+        let [spool, rate] = dynamics.distance(&coarser, &course(profile)).map_err(at)?;
         if !(spool.is_finite() && rate.is_finite()) {
             return Err(Error::NotFinite { file: profile.fingerprint.file.clone(), time: profile.profile.time[0] });
         }
@@ -309,7 +304,18 @@ pub fn simulate<'a>(case: &'a CoilCase, profile: &'a ProfileCase, model: &Model)
     let (responses, coarser) = (run(&model.dynamics, profile)?, run(&model.coarser, profile)?);
     let samples = samples(&model.dynamics, &course(profile)).map_err(Error::of_coil(&profile.fingerprint.file))?;
     let (reduction, modes) = (model.dynamics.reduction_error(), model.dynamics.reduced().rates().len());
-    Ok(Simulation { case, profile, steady: model.steady, reduction, modes, source: model.source, responses, coarser, samples })
+    Ok(Simulation {
+        case,
+        profile,
+        steady: model.steady,
+        reduction,
+        modes,
+        source: model.source,
+        responses,
+        coarser,
+        samples,
+        added: Vec::new(),
+    })
 }
 
 /// Responses at the rows of a course that was divided into `parts` between each two: the means of a row are those of its parts.
@@ -355,7 +361,11 @@ impl Simulation<'_> {
     }
 
     fn row_of(&self, n: usize, response: Response) -> SimulatedRow {
-        SimulatedRow::of(self.profile, n, response)
+        let row = SimulatedRow::of(self.profile, n, response);
+        match self.added.get(n) {
+            Some([spool, rate]) => SimulatedRow { spool: row.spool + spool, mechanisms: *rate, rate: row.rate + rate, ..row },
+            None => row,
+        }
     }
 
     /// Differences of the rows from those on a coarser mesh; an estimate of the mesh's error.
@@ -428,8 +438,11 @@ impl Simulation<'_> {
     /// # Errors
     /// What `out` says.
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        writeln!(out, "{}", COLUMNS.map(|(name, _)| name).join(","))?;
-        self.rows().try_for_each(|row| writeln!(out, "{}", COLUMNS.map(|(_, of)| number(of(&row))).join(",")))
+        const OWN: Column = ("mechanisms_deg_per_h", |row| row.mechanisms);
+        let columns: Vec<Column> = COLUMNS.into_iter().chain((!self.added.is_empty()).then_some(OWN)).collect();
+        let line = |of: &dyn Fn(&Column) -> String| columns.iter().map(of).collect::<Vec<_>>().join(",");
+        writeln!(out, "{}", line(&|(name, _)| (*name).to_owned()))?;
+        self.rows().try_for_each(|row| writeln!(out, "{}", line(&|(_, of)| number(of(&row)))))
     }
 }
 

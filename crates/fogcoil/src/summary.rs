@@ -224,9 +224,14 @@ pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
     if drifting {
         all.push(entry("  read-out", rate(peak.read_out, read_out), "deg/h"));
     }
+    let beyond = !simulation.added.is_empty();
+    if beyond {
+        all.push(entry("  mechanisms", significant(peak.mechanisms, 4), "deg/h, by reduced models"));
+    }
     let changing = simulation.case.design.mechanics != Mechanics::Elastic;
     let nominal = if changing { "(deg/h)/(degC/min), of the nominal state" } else { "(deg/h)/(degC/min)" };
-    let of_all = if drifting { "deg/h, the sum of the four" } else { "deg/h, the sum of the three" };
+    let of_all = ["deg/h, the sum of the three", "deg/h, the sum of the four", "deg/h, the sum of the five"];
+    let of_all = of_all[usize::from(drifting) + usize::from(beyond)];
     let slope = slope.zip(errors.slope).map_or("none".into(), |(slope, error)| rate(slope, error));
     all.extend([
         entry("  rate", rate(peak.rate, sum), of_all),

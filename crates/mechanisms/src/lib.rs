@@ -21,6 +21,7 @@ mod library;
 mod mechanism;
 mod passed;
 mod record_to_bias;
+mod written;
 
 pub use build::ranges;
 pub use catalogue::{CATALOGUE, find};
@@ -39,6 +40,7 @@ pub use mechanism::{
     rates_per_hour,
 };
 pub use record_to_bias::Prepared;
+pub use written::{Body, INPUTS, Input, Target, Written};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -72,6 +72,16 @@ pub struct Facts<'a> {
     pub caveat: fn(&Design) -> Option<&'static str>,
 }
 
+impl<'a> Facts<'a> {
+    /// A check of the unit itself that decides about it, if it is an explanation.
+    pub fn inspection(&self) -> Option<&'a str> {
+        match self.naming {
+            Naming::Named { inspection, .. } => Some(inspection),
+            Naming::Described { .. } => None,
+        }
+    }
+}
+
 /// Formats a number to so many significant digits.
 pub type Digits<'a> = &'a dyn Fn(f64, usize) -> String;
 
@@ -209,6 +219,9 @@ pub trait Mechanism: Send + Sync {
 
     /// The design with it put in at its place; `None` if a design has no place for it, or the place is taken.
     fn extended(&self, design: &Design, active: &Active) -> Option<Design>;
+
+    /// Further columns of a record that its law sees.
+    fn columns(&self) -> Vec<&str>;
 }
 
 /// A mechanism that explains, in one literal without defaults: the fields of [`Facts`] and the methods of [`Mechanism`].
@@ -250,6 +263,10 @@ impl Mechanism for Named {
     fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
         (self.extended)(design, active)
     }
+
+    fn columns(&self) -> Vec<&str> {
+        Vec::new()
+    }
 }
 
 /// A mechanism that only describes a structure and has no place in a design, in one literal without defaults.
@@ -285,6 +302,10 @@ impl Mechanism for Described {
 
     fn extended(&self, _: &Design, _: &Active) -> Option<Design> {
         None
+    }
+
+    fn columns(&self) -> Vec<&str> {
+        Vec::new()
     }
 }
 

@@ -8,6 +8,7 @@ use crate::passed::{Passed, passed};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::{Error, Parameter, Profile, Reduced};
 use diagnosis::State;
+use std::collections::BTreeMap;
 
 /// Change of the first chamber temperature for the effect of an unsettled start \[K\].
 const OFF_REST: f64 = 1.0;
@@ -51,6 +52,8 @@ pub struct Prepared {
     pub(crate) openings: Vec<Vec<(f64, Parts)>>,
     /// of each flange that may be heated
     pub(crate) heaters: Vec<Heating>,
+    /// further columns by their names
+    pub(crate) columns: BTreeMap<String, Vec<f64>>,
 }
 
 /// Changes along a path of heat.
@@ -144,7 +147,22 @@ impl Prepared {
     /// # Errors
     /// As [`Self::new`].
     pub fn again(&self, library: &Library, delay: Delay) -> Result<Self, Error> {
-        Self::run(library, &self.time, self.recorded.clone(), self.averaging, delay)
+        let again = Self::run(library, &self.time, self.recorded.clone(), self.averaging, delay)?;
+        Ok(Self { columns: self.columns.clone(), ..again })
+    }
+
+    /// The same with further columns of the recording, a value for each row, that laws name.
+    #[must_use]
+    pub fn with_columns(self, columns: BTreeMap<String, Vec<f64>>) -> Self {
+        Self { columns, ..self }
+    }
+
+    /// What a model does under drives of its own, from rest.
+    pub(crate) fn driven(&self, model: &Reduced, drives: &[Vec<f64>]) -> Series {
+        let clocks: Vec<Clock> = drives.iter().map(|drive| Clock::new(&self.time, drive, self.averaging)).collect();
+        let rest: Vec<f64> = drives.iter().map(|drive| drive[0]).collect();
+        let drives: Vec<Vec<f64>> = clocks.iter().map(|clock| clock.chamber.clone()).collect();
+        Course::new(model, &clocks[0], &drives, &rest).series(model)
     }
 
     /// Parts per relative change of the spool's expansion; `None` without a spool.
@@ -216,6 +234,7 @@ impl Prepared {
             openings,
             paths: paths.collect(),
             heaters,
+            columns: BTreeMap::new(),
             course,
             nominal,
             later,

@@ -3,6 +3,7 @@
 #[path = "../../coil/tests/common/mod.rs"]
 mod common;
 mod read_out_curvature;
+mod written;
 
 use coil::{Contact, Design, Drive, Dynamics, Heater, Mechanics, Profile, STANDARD, Side};
 use common::reference as design;

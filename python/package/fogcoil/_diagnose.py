@@ -37,6 +37,8 @@ class Diagnosis(TypedDict):
     """``stage``, ``temperature_c``, ``time_s``, ``layers`` of the first mechanism; None where it cannot be located."""
     structure: str | None
     """What was seen, in words."""
+    composed: dict[str, Any] | None
+    """Where the verdict is ``unknown``: the small law that was composed, with ``terms`` (equation and parameters) and ``accepted``."""
     holdout: dict[str, Any] | None
     """Of the first record held out: ``rmse_nominal``, ``rmse_model``, ``noise_floor`` [deg/h] and more."""
     notes: list[str]
@@ -54,22 +56,26 @@ def diagnose(
     fit: Sequence[Record],
     holdout: Sequence[Record] = (),
     *,
+    mechanisms: Sequence[str | os.PathLike[str]] = (),
     meta: str | os.PathLike[str] | None = None,
     cache: bool = True,
     progress: Callable[[str], object] | None = None,
 ) -> Diagnosis:
     """Which mechanism explains why recordings of one unit differ from its design, fitted to ``fit`` and judged on ``holdout``.
 
-    ``meta`` is the path of a meta file; without it, ``meta.ron`` beside a CSV is read. ``progress`` (e.g. ``print``) is called with
+    ``mechanisms`` are paths of files of your own (``fogcoil new --kind mechanism``), weighed against those of the program; the columns that
+    they name are read from the records, too. ``meta`` is the path of a meta file; without it, ``meta.ron`` beside a CSV is read. ``progress`` (e.g. ``print``) is called with
     what is being done, and at each tenth of a long task. The first diagnosis of a design takes half a minute longer; with ``cache`` its models are kept on disk.
     """
-    fits = [record(f"fit[{n}]", given) for n, given in enumerate(sequence("fit", fit))]
-    held = [record(f"holdout[{n}]", given) for n, given in enumerate(sequence("holdout", holdout))]
+    own = list(mechanisms)
+    further = _native.further_columns(own)
+    fits = [record(f"fit[{n}]", given, further) for n, given in enumerate(sequence("fit", fit))]
+    held = [record(f"holdout[{n}]", given, further) for n, given in enumerate(sequence("holdout", holdout))]
     if not fits:
         raise InputError("fit: no record is given; give at least one")
     code = CODE if cache else None
     told = None if progress is None else by_tenths(progress)
-    found, text, prediction, model = _native.diagnose(coil_of(coil), fits, held, meta, code, told)
+    found, text, prediction, model = _native.diagnose(coil_of(coil), fits, held, own, meta, code, told)
     result: dict[str, Any] = json.loads(found)
     result.update(text=text, prediction=None if prediction is None else arrays(prediction), model=model)
     return cast(Diagnosis, result)
@@ -96,13 +102,13 @@ def sequence(name: str, records: Sequence[Record]) -> list[Record]:
     return list(records)
 
 
-def record(name: str, given: Record) -> _native.Record:
+def record(name: str, given: Record, further: Sequence[str] = ()) -> _native.Record:
     """A record for the compiled part; messages call columns in memory ``name``."""
     if isinstance(given, (str, os.PathLike)):
         return os.fspath(given), None
     names = getattr(getattr(given, "dtype", None), "names", None) or given
     try:
-        columns = {column: given[column] for column in (*ESSENTIAL, *TEMPERATURES) if column in names}
+        columns = {column: given[column] for column in (*ESSENTIAL, *TEMPERATURES, *further) if column in names}
     except (TypeError, LookupError) as error:
         raise InputError(f"{name}: is neither a path nor columns by name ({error})") from None
     missing = [column for column in ESSENTIAL if column not in columns]

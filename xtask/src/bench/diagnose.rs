@@ -26,7 +26,7 @@ pub(crate) fn run() -> Result<(), Failure> {
             let mut watch = Stopwatch::start();
             let (fit, holdout) = (record("fit.csv")?, record("holdout.csv")?);
             let count = fit.kept().time().len();
-            let outcome = diagnose::diagnose(&coil, &[fit], &[holdout], &cache, &|_| ())?;
+            let outcome = diagnose::diagnose(&coil, ::mechanisms::CATALOGUE, &[fit], &[holdout], &cache, &|_| ())?;
             let (json, page) = (outcome.json(), outcome.report());
             let seconds = watch.lap();
             std::hint::black_box(page);

@@ -20,6 +20,12 @@ impl Interval {
         self.push(now, slope);
     }
 
+    /// The same in place.
+    pub(crate) fn advance(&self, amplitudes: &mut [f64], slope: &[f64]) {
+        amplitudes.iter_mut().zip(&self.decay).for_each(|(q, decay)| *q *= decay);
+        self.push(amplitudes, slope);
+    }
+
     /// Drive by drive: a pass over all modes at once is several times as quick as one over the drives of each.
     fn push(&self, amplitudes: &mut [f64], slope: &[f64]) {
         for (push, slope) in self.push.iter().zip(slope) {
@@ -45,12 +51,6 @@ impl Reduced {
         let push =
             |d: usize| self.rates.iter().zip(&self.drive).map(|(rate, drive)| drive[d] * dt * settled(rate * dt)).collect();
         Interval { dt, decay: self.rates.iter().map(|rate| (-rate * dt).exp()).collect(), push: (0..drives).map(push).collect() }
-    }
-
-    /// Advances the modes by an interval over which the drives change at `slope`: exact.
-    pub(crate) fn advance(&self, amplitudes: &mut [f64], slope: &[f64], interval: &Interval) {
-        amplitudes.iter_mut().zip(&interval.decay).for_each(|(q, decay)| *q *= decay);
-        interval.push(amplitudes, slope);
     }
 
     /// Mean of an output over a step: exact.

@@ -84,7 +84,7 @@ impl Reduced {
     /// The state `since` seconds after the start of a step.
     pub fn within(&self, step: &Step, since: f64) -> ThermalState {
         let mut state = step.from.clone();
-        self.advance(&mut state.amplitudes, &step.slope, &self.interval(since));
+        self.interval(since).advance(&mut state.amplitudes, &step.slope);
         state.drives.iter_mut().zip(&step.slope).for_each(|(u, slope)| *u += slope * since);
         state
     }
@@ -109,7 +109,7 @@ impl Iterator for Steps<'_> {
             self.interval = self.model.interval(dt);
         }
         let mut amplitudes = self.state.amplitudes.clone();
-        self.model.advance(&mut amplitudes, &slope, &self.interval);
+        self.interval.advance(&mut amplitudes, &slope);
         Some(Step { from: std::mem::replace(&mut self.state, ThermalState { drives, amplitudes }), slope, dt })
     }
 }

@@ -1,15 +1,16 @@
 //! Samples of a fit's unknowns, against which Laplace's intervals are held.
 //!
 //! Metropolis and Hastings' walk whose proposals keep the normal density of a minimum: û + ρ (u − û) + √(1 − ρ²) ξ (S. L. Cotter and others, *Statistical
-//! Science* 28, 424 (2013)). What is accepted is decided by what that density misses, so that a posterior that is normal is sampled at every step; with ρ = 0
-//! the walk jumps from one minimum to another, as the mixture of all their densities proposes. No derivatives are needed.
+//! Science* 28, 424 (2013)), along all of that density's axes or a few of them: the fewer, the farther it goes at once where the posterior is not normal.
+//! What is accepted is decided by what that density misses, so that a posterior that is normal is sampled at every step. Now and then, with ρ = 0 along
+//! all axes, the walk jumps from one minimum to another, as the mixture of all their densities proposes. No derivatives are needed.
 
 use super::fitter::{Fit, Fitter};
 use super::hypothesis::Hypothesis;
 use super::objective::{Objective, Point};
 use crate::posterior::Posterior;
 use crate::{Error, ForwardModel, Observation};
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 use rand_distr::StandardNormal;
@@ -18,8 +19,9 @@ use rand_distr::StandardNormal;
 const WALKS: usize = 4;
 /// Share of a walk that is left out: it may not have forgotten its start.
 const FORGOTTEN: f64 = 0.2;
-/// How much of its place a walk keeps in a step; nothing where it jumps.
-const KEPT: [f64; 4] = [0.0, 0.7, 0.95, 0.99];
+/// How a walk goes on: it jumps, or keeps so much of its place along this share of the axes.
+const MOVES: [Option<(f64, f64)>; 6] =
+    [None, Some((0.7, 1.0)), Some((0.95, 1.0)), Some((0.3, 0.3)), Some((0.0, 0.1)), Some((0.0, 0.03))];
 /// −ln p above the least beyond which a minimum holds nothing.
 const FAR: f64 = 15.0;
 /// Distance of two minima, in standard deviations of the first, below which they are one.
@@ -58,7 +60,8 @@ pub struct Samples {
 /// A normal density about a minimum.
 struct Mode {
     at: DVector<f64>,
-    lower: DMatrix<f64>,
+    /// its axes, each a standard deviation long
+    axes: DMatrix<f64>,
     precision: DMatrix<f64>,
     half_log_det: f64,
 }
@@ -67,7 +70,9 @@ impl Mode {
     fn of(fit: &Fit) -> Option<Self> {
         let factor = Cholesky::new(fit.covariance.clone())?;
         let half_log_det = factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
-        Some(Self { at: fit.u.clone(), lower: factor.l(), precision: factor.inverse(), half_log_det })
+        let SymmetricEigen { eigenvalues, eigenvectors: mut axes } = fit.covariance.clone().symmetric_eigen();
+        axes.column_iter_mut().zip(eigenvalues.iter()).for_each(|(mut axis, square)| axis.scale_mut(square.max(0.0).sqrt()));
+        Some(Self { at: fit.u.clone(), axes, precision: factor.inverse(), half_log_det })
     }
 
     /// −ln of the density, but for a constant.
@@ -77,7 +82,23 @@ impl Mode {
     }
 
     fn draw(&self, random: &mut SmallRng) -> DVector<f64> {
-        &self.lower * DVector::from_fn(self.at.len(), |_, _| random.sample::<f64, _>(StandardNormal))
+        &self.axes * DVector::from_fn(self.at.len(), |_, _| random.sample::<f64, _>(StandardNormal))
+    }
+
+    /// From `u` on, by a proposal that keeps the density: `kept` of its place remains along each axis that is of the `share`.
+    fn beside(&self, u: &DVector<f64>, (kept, share): (f64, f64), random: &mut SmallRng) -> DVector<f64> {
+        let places = &self.precision * (u - &self.at);
+        // one of them at least
+        let one = random.random_range(0..self.at.len());
+        let by = DVector::from_fn(self.at.len(), |axis, _| {
+            if axis != one && random.random::<f64>() >= share {
+                return 0.0;
+            }
+            // A⁻¹ = Aᵀ P for axes A with A Aᵀ = P⁻¹
+            let place = self.axes.column(axis).dot(&places);
+            (kept - 1.0) * place + (1.0 - kept * kept).sqrt() * random.sample::<f64, _>(StandardNormal)
+        });
+        u + &self.axes * by
     }
 }
 
@@ -114,15 +135,18 @@ pub fn sampled<M: ForwardModel>(
         let mut walk: Vec<DVector<f64>> = Vec::with_capacity(steps);
         for _ in 0..steps {
             let mode = &modes[random.random_range(0..modes.len())];
-            let kept = KEPT[random.random_range(0..KEPT.len())];
-            let to = &mode.at + (&at.u - &mode.at) * kept + mode.draw(&mut random) * (1.0 - kept * kept).sqrt();
+            let going = MOVES[random.random_range(0..MOVES.len())];
+            let to = match going {
+                None => &mode.at + mode.draw(&mut random),
+                Some(going) => mode.beside(&at.u, going, &mut random),
+            };
             // where the model cannot respond the walk does not go
             let Ok(next) = objective.point(to) else {
                 walk.push(at.u.clone());
                 continue;
             };
             // −ln of what is proposed where the walk jumps, and of what proposals keep where it does not
-            let proposed = |u: &DVector<f64>| if kept == 0.0 { mixture(&modes, u) } else { mode.energy(u) };
+            let proposed = |u: &DVector<f64>| if going.is_none() { mixture(&modes, u) } else { mode.energy(u) };
             let missed = |point: &Point| point.value - proposed(&point.u);
             // a NaN, of what the model cannot compute, is not gone to
             if random.random::<f64>().ln() < missed(&at) - missed(&next) {

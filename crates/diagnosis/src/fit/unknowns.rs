@@ -34,12 +34,12 @@ pub fn expected(nuisances: &[Nuisance]) -> Vec<f64> {
     nuisances.iter().map(|n| n.parameter.prior.value(0.0)).collect()
 }
 
-/// The parameter that an unknown stands for; none for an offset.
+/// The parameter that an unknown stands for; none for an offset, or for a mechanism that the model does not have.
 pub(crate) fn parameter<'m, M: ForwardModel>(model: &'m M, hypothesis: &Hypothesis, unknown: Unknown) -> Option<&'m Parameter> {
     match unknown {
         Unknown::Nuisance { number, .. } => Some(&model.nuisances()[number].parameter),
         Unknown::Mechanism { place, parameter } => {
-            Some(&model.mechanisms()[hypothesis.mechanisms[place].0].parameters[parameter])
+            model.mechanisms().get(hypothesis.mechanisms[place].0)?.parameters.get(parameter)
         }
         Unknown::Offset { .. } => None,
     }

@@ -19,6 +19,7 @@ pub(crate) struct Lines {
     mechanisms: Vec<Omission>,
     state: State,
     unit: f64,
+    power: i32,
 }
 
 /// One mechanism alone.
@@ -48,7 +49,21 @@ impl Lines {
             mechanisms: vec![mechanism("wave"), mechanism("bend")],
             state: State { level: vec![0.0; rows], rate: vec![0.0; rows] },
             unit,
+            power: 1,
         }
+    }
+
+    /// The same where the first mechanism acts by the square of its size: a size and its opposite are one.
+    pub(crate) fn squared(rows: usize) -> Self {
+        let mut lines = Self { power: 2, ..Self::new(rows) };
+        lines.mechanisms[0].starts = vec![vec![-1.0], vec![1.0]];
+        lines
+    }
+
+    /// The same where fits start from a size.
+    pub(crate) fn starting_at(mut self, size: f64) -> Self {
+        self.mechanisms.iter_mut().for_each(|mechanism| mechanism.starts = vec![vec![size]]);
+        self
     }
 
     /// The same with a third mechanism that chooses between the columns of the others.
@@ -104,7 +119,7 @@ impl ForwardModel for Lines {
         for active in active {
             y.iter_mut()
                 .zip(self.column(active.choice.map_or(active.mechanism, |c| c as usize)))
-                .for_each(|(y, x)| *y += active.values[0] * x);
+                .for_each(|(y, x)| *y += active.values[0].powi(self.power) * x);
         }
         Ok(vec![y])
     }

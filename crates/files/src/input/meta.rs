@@ -80,7 +80,7 @@ pub struct Rate {
     pub elevation_deg: Option<f64>,
 }
 
-/// Earth's rotation \[deg/h\].
+/// Earth's rotation \[deg/h\]: 7.292115e-5 rad/s (WGS 84).
 const EARTH: f64 = 15.041_067;
 
 impl Rate {

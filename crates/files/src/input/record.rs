@@ -105,13 +105,13 @@ pub(super) fn read_as(path: &Path, format: &RecordFormat, options: &RecordOption
 }
 
 /// Checks a recording that is not in a file, in the standard columns: the case that [`read_record`] would read from a file of this
-/// content with nothing beside it but `meta`, which is the path of a meta file.
+/// content with nothing beside it but `meta`, which is the path of a meta file; `further` columns are read as they stand.
 ///
 /// # Errors
 /// As [`read_record`]; messages call the text `path`.
-pub fn check_record(path: &Path, text: String, meta: Option<&Path>) -> Result<RecordCase, Error> {
+pub fn check_record(path: &Path, text: String, meta: Option<&Path>, further: &[String]) -> Result<RecordCase, Error> {
     let meta = known(meta.map(Path::to_owned))?;
-    checked(Rows::of(path, text), &RecordFormat::standard(), meta)
+    checked(Rows::of(path, text), &RecordFormat { further: further.to_vec(), ..RecordFormat::standard() }, meta)
 }
 
 /// A meta file with its path.
@@ -149,6 +149,7 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
     let mut clock = Clock::new(columns, format);
     let mut values: Vec<Vec<f64>> = vec![Vec::new(); channels.len()];
     let mut impossible: Vec<Option<(usize, InputError)>> = vec![None; channels.len()];
+    let mut further: Vec<Vec<f64>> = vec![Vec::new(); columns.further.len()];
     let mut time: Vec<f64> = Vec::new();
     while rows.advance()? {
         let expected = columns.names.len();
@@ -165,6 +166,9 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
                 impossible.get_or_insert_with(|| (0, beyond(rows, *key, name, value))).0 += 1;
             }
             values.push(value);
+        }
+        for (column, values) in columns.further.iter().zip(&mut further) {
+            values.push(rows.value(*column, &columns.names[*column])?.unwrap_or(f64::NAN));
         }
     }
     for (values, impossible) in values.iter().zip(impossible) {
@@ -183,7 +187,13 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
         values,
         sampling: if *key == Key::Rate { Sampling::Mean } else { Sampling::Momentary },
     };
-    let channels = channels.iter().zip(values).map(channel).collect();
+    let beside = columns.further.iter().zip(further).map(|(column, values)| Channel {
+        name: columns.names[*column].clone(),
+        unit: String::new(),
+        values,
+        sampling: Sampling::Momentary,
+    });
+    let channels = channels.iter().zip(values).map(channel).chain(beside).collect();
     let recording = Recording::new(time, channels).map_err(|error| rows.whole_fault(&error.to_string(), ""))?;
     Ok((recording, clock.counts_dates()))
 }
@@ -215,7 +225,8 @@ fn count_remedy(found: usize, expected: usize) -> &'static str {
 /// What a gyro's record holds.
 fn expectations(recording: &Recording, format: &RecordFormat) -> Expectations {
     let of = |channel: &Channel| {
-        let key = Key::ALL.into_iter().find(|key| key.standard() == channel.name).unwrap_or(Key::Rate);
+        // of a further column nothing is expected
+        let Some(key) = Key::ALL.into_iter().find(|key| key.standard() == channel.name) else { return Expectation::default() };
         let mistaken = format.column(key).mistaken(key);
         if key != Key::Rate {
             // who says the unit knows where the recording starts

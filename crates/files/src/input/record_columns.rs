@@ -11,6 +11,8 @@ pub(super) struct RecordColumns {
     pub(super) names: Vec<String>,
     /// Column of each key; of the temperatures, and of the time where an interval stands for it, `None` if there is none.
     at: [Option<usize>; 4],
+    /// Further columns.
+    pub(super) further: Vec<usize>,
 }
 
 impl RecordColumns {
@@ -40,7 +42,8 @@ impl RecordColumns {
                 _ => return Err(rows.fault(Some(name), "the column is there more than once", "rename all but one")),
             };
         }
-        Ok(Self { names, at })
+        let further = format.further.iter().map(|name| further(rows, name, &names)).collect::<Result<_, _>>()?;
+        Ok(Self { names, at, further })
     }
 
     pub(super) fn column(&self, key: Key) -> Option<usize> {
@@ -48,19 +51,36 @@ impl RecordColumns {
     }
 
     pub(super) fn ignored(&self) -> Vec<&str> {
-        let unused = |column: &usize| !self.at.contains(&Some(*column));
+        let unused = |column: &usize| !self.at.contains(&Some(*column)) && !self.further.contains(column);
         let names = (0..self.names.len()).filter(unused).map(|column| self.names[column].as_str());
         names.filter(|name| !name.is_empty()).collect()
     }
 }
 
-fn absent(rows: &Rows, key: Key, name: &str, names: &[String]) -> InputError {
+/// The column of this name that a mechanism needs.
+fn further(rows: &Rows, name: &str, names: &[String]) -> Result<usize, InputError> {
+    let found: Vec<usize> = (0..names.len()).filter(|&column| names[column] == name).collect();
+    match found[..] {
+        [column] => Ok(column),
+        [] => {
+            let remedy = format!("the columns here are {}; a mechanism's file names this one", shown(names));
+            Err(rows.fault(Some(name), "the column is missing", remedy))
+        }
+        _ => Err(rows.fault(Some(name), "the column is there more than once", "rename all but one")),
+    }
+}
+
+fn shown(names: &[String]) -> String {
     let mut shown: Vec<String> = names.iter().take(MOST_NAMES).map(|name| quoted(name)).collect();
     if names.len() > MOST_NAMES {
         shown.push("...".into());
     }
+    shown.join(", ")
+}
+
+fn absent(rows: &Rows, key: Key, name: &str, names: &[String]) -> InputError {
     let interval = if key == Key::Time { ", or, without instants, --interval SECONDS" } else { "" };
-    let remedy = format!("the columns here are {}; say which it is: --column {}=NAME{interval}", shown.join(", "), key.name());
+    let remedy = format!("the columns here are {}; say which it is: --column {}=NAME{interval}", shown(names), key.name());
     rows.fault(Some(name), "the column is missing", remedy)
 }
 

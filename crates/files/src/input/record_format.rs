@@ -30,6 +30,8 @@ pub(super) struct RecordFormat {
     /// Seconds between rows, for a file without instants.
     pub(super) interval: Option<f64>,
     pub(super) columns: [ColumnFormat; 4],
+    /// Names of further columns that are read as they stand.
+    pub(super) further: Vec<String>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -48,12 +50,13 @@ impl RecordFormat {
             None => Self::standard(),
         };
         format.declare(options).map_err(Error::Usage)?;
+        format.further.clone_from(&options.further);
         Ok(format)
     }
 
     pub(super) fn standard() -> Self {
         let columns = Key::ALL.map(|key| ColumnFormat { name: None, unit: key.units()[0], count: 1.0 });
-        Self { dialect: Dialect::STANDARD, interval: None, columns }
+        Self { dialect: Dialect::STANDARD, interval: None, columns, further: Vec::new() }
     }
 
     fn from_file(path: &Path) -> Result<Self, InputError> {

@@ -101,6 +101,8 @@ pub struct RecordOptions {
     pub decimal_comma: bool,
     /// Seconds between rows, for a file without instants.
     pub interval: Option<f64>,
+    /// Further columns that are read as they stand.
+    pub further: Vec<String>,
 }
 
 impl RecordOptions {

@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::cell_file::CellFile;
 use super::coil_file::CoilFile;
 use super::map_file::MapFile;
+use super::mechanism_file::MechanismFile;
 use super::meta::Meta;
 use super::targets_file::TargetsFile;
 
@@ -14,12 +15,13 @@ use super::targets_file::TargetsFile;
 const RON: &str = "The file is RON: an object is written (key: value, ...), a list [a, b] or, of fixed length, (a, b), an object with one \
     capitalised key, {\"Name\": x}, is Name(x), a capitalised string is written without quotes, null is None. Numbers are in the unit x-unit.";
 
-/// JSON Schemas of the files that the program reads, by name: `coil`, `cell`, `targets`, `meta`, `map`.
-pub fn schemas() -> [(&'static str, Value); 5] {
+/// JSON Schemas of the files that the program reads, by name: `coil`, `cell`, `targets`, `mechanism`, `meta`, `map`.
+pub fn schemas() -> [(&'static str, Value); 6] {
     [
         ("coil", of::<CoilFile>()),
         ("cell", of::<CellFile>()),
         ("targets", of::<TargetsFile>()),
+        ("mechanism", of::<MechanismFile>()),
         ("meta", of::<Meta>()),
         ("map", of::<MapFile>()),
     ]

@@ -39,7 +39,7 @@ pub fn fault_in(path: &Path, field: &str, problem: String, remedy: String) -> In
     }
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Source {
     path: PathBuf,
     text: String,
@@ -75,6 +75,10 @@ impl Source {
     /// A file named inside this one: relative to it, or absolute.
     pub(crate) fn neighbour(&self, path: &str) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(path)
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
     }
 
     pub(crate) fn fingerprint(&self) -> Fingerprint {
@@ -135,6 +139,8 @@ pub(super) struct Kind {
 pub(super) static COIL: Kind = Kind { name: "a coil file", mark: "winding", command: "fogcoil new FILE" };
 pub(super) static CELL: Kind = Kind { name: "a cell file", mark: "adhesive", command: "fogcoil new --kind cell FILE" };
 pub(super) static TARGETS: Kind = Kind { name: "a file of targets", mark: "targets", command: "fogcoil new --kind targets FILE" };
+pub(super) static MECHANISM: Kind =
+    Kind { name: "a mechanism's file", mark: "laws", command: "fogcoil new --kind mechanism FILE" };
 
 /// Problem and remedy if `text` is not of the kind that is wanted but of another, a table, or nothing.
 fn mistaken(text: &str, wanted: Option<&Kind>) -> Option<(String, String)> {
@@ -148,7 +154,7 @@ fn mistaken(text: &str, wanted: Option<&Kind>) -> Option<(String, String)> {
     } else {
         let (map, wanted) = (FieldMap::new(text), wanted?);
         let is = |kind: &Kind| matches!(map.find(kind.mark), (Some(_), ""));
-        let found = [&COIL, &CELL, &TARGETS].into_iter().find(|kind| is(kind)).filter(|_| !is(wanted))?;
+        let found = [&COIL, &CELL, &TARGETS, &MECHANISM].into_iter().find(|kind| is(kind)).filter(|_| !is(wanted))?;
         format!("is {}, but {} is read here", found.name, wanted.name)
     };
     let remedy = wanted.map_or("write fields in parentheses, (name: value, ...)".to_owned(), |kind| {

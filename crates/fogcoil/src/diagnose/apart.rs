@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use diagnosis::{Candidate, Verdict};
+use diagnosis::{Candidate, ForwardModel, Verdict};
 
 use super::Outcome;
 
@@ -21,7 +21,7 @@ pub(super) struct Explanation<'a> {
     pub(super) open: bool,
 }
 
-impl Outcome {
+impl Outcome<'_> {
     /// Mechanisms with probabilities worth saying, most probable first.
     pub(super) fn likely(&self) -> impl Iterator<Item = (&str, f64)> {
         self.diagnosis.mechanisms.iter().filter(|(_, p)| *p >= NEGLIGIBLE).map(|(m, p)| (self.id(*m), *p))
@@ -37,8 +37,16 @@ impl Outcome {
             of("its constants re-estimated", recalibrate, Verdict::Recalibrate),
         ];
         let set: Vec<&str> = d.set.iter().map(|m| self.id(*m)).collect();
-        let mechanisms = self.likely().take(SHOWN);
-        all.extend(mechanisms.map(|(name, probability)| Explanation { name, probability, open: set.contains(&name) }));
+        let likely = self.likely().take(SHOWN);
+        all.extend(likely.map(|(name, probability)| Explanation { name, probability, open: set.contains(&name) }));
+        // a user's own are told in any case; those that are not offered are noted
+        for (number, mechanism) in self.gyro.mechanisms().iter().enumerate() {
+            let name = mechanism.id.as_str();
+            if mechanisms::find(name).is_none() && all.iter().all(|told| told.name != name) {
+                let probability = d.mechanisms.iter().find(|(m, _)| *m == number).map_or(0.0, |(_, p)| *p);
+                all.push(Explanation { name, probability, open: set.contains(&name) });
+            }
+        }
         all.push(of("something without a name", unknown, Verdict::Unknown));
         all
     }

@@ -23,7 +23,7 @@ impl Constant {
     }
 }
 
-impl Outcome {
+impl Outcome<'_> {
     /// Every constant of the design and number of an instrument that was free in the best hypothesis, as it is left.
     pub(super) fn constants(&self) -> Vec<Constant> {
         let of = |posterior: Posterior| {

@@ -8,7 +8,7 @@ use crate::input::check_coil;
 use crate::output::coil_file;
 use crate::table::significant;
 
-impl Outcome {
+impl Outcome<'_> {
     /// A coil file of the design with what was found, fitted, that `fogcoil simulate` runs.
     ///
     /// Where the nominal model suffices, or predicts a held-out record better, it is the nominal design.
@@ -16,9 +16,13 @@ impl Outcome {
     /// # Errors
     /// Why there is none: nothing was found, or a coil file cannot hold it.
     pub fn model(&self) -> Result<String, String> {
-        let best = &self.diagnosis.best().fit;
+        let composed = self.law();
+        let best = composed.map_or(&self.diagnosis.best().fit, |composed| &composed.fit);
         let (nominal, known) = (self.gyro.library().design(), self.gyro.library().tolerances());
         let found = match self.diagnosis.verdict {
+            Verdict::Unknown if composed.is_some() => {
+                best.posteriors(&self.gyro).into_iter().filter(|p| matches!(p.place, Place::Nominal(_))).collect()
+            }
             Verdict::Unknown | Verdict::None => Vec::new(),
             _ if !self.accepted() => Vec::new(),
             Verdict::Recalibrate | Verdict::Explained => best.posteriors(&self.gyro),
@@ -35,7 +39,9 @@ impl Outcome {
                 None => return Err(format!("a coil file cannot hold a change of {}", posterior.name)),
             }
         }
-        for (place, active) in best.active.iter().enumerate() {
+        // laws that were composed have files of their own
+        let listed = best.active.iter().filter(|active| active.mechanism < self.gyro.mechanisms().len());
+        for (place, active) in listed.enumerate() {
             if let (Some((name, value)), Some([low, high])) = (self.choice(active), self.diagnosis.choice(place)) {
                 comments.push(format!("  {name} = {value} ({low} to {high}), compared with every other"));
             }
@@ -68,6 +74,9 @@ impl Outcome {
             ));
         }
         lines.push(match self.diagnosis.verdict {
+            Verdict::Unknown if self.law().is_some() => {
+                "Constants fitted beside a law that was composed, in a file of its own (--mechanism); most probable values with 90 % intervals:".into()
+            }
             Verdict::None | Verdict::Unknown => "This is the nominal design, unchanged.".into(),
             _ if !self.accepted() => "What was fitted is not accepted: this is the nominal design, unchanged.".into(),
             _ => "Fitted, not measured; most probable values with 90 % intervals:".to_owned(),

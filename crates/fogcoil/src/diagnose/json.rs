@@ -5,8 +5,9 @@ use mechanisms::RATE as RATE_CHANNEL;
 use serde_json::{Value, json};
 
 use super::{Outcome, name};
+use crate::compose::Composed;
 
-impl Outcome {
+impl Outcome<'_> {
     /// One object, as scripts read it.
     pub fn json(&self) -> Value {
         let d = &self.diagnosis;
@@ -47,6 +48,7 @@ impl Outcome {
             "named": self.named_json(),
             "located": located.unwrap_or(nowhere),
             "structure": self.structure(),
+            "composed": self.composed.as_ref().map(Composed::json),
             "holdout": held,
             "notes": self.notes,
             "note_ids": self.notes.iter().map(|note| note.remark.id()).collect::<Vec<_>>(),

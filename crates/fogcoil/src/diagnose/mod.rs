@@ -17,22 +17,27 @@ use diagnosis::{
     Settled, Verdict,
 };
 use files::{Note, Remark};
-use mechanisms::{CATALOGUE, Extent, Gyro, Mechanism, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
+use mechanisms::{Extent, Gyro, Mechanism, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 use progress::Step;
 
 use crate::Error;
 use crate::cache::Cache;
+use crate::compose::{Composed, compose};
 use crate::input::{CoilCase, Fingerprint, InputError, RecordCase};
 use crate::prepare::{Record, gyro, library, ready, refuse_copies};
 
 /// A diagnosis with what it was made from.
-pub struct Outcome {
+pub struct Outcome<'m> {
     name: String,
     coil: PathBuf,
     design: Vec<Fingerprint>,
     /// about the constants that the records speak for
-    gyro: Gyro<'static>,
+    gyro: Gyro<'m>,
+    /// what it was asked for
+    mechanisms: Vec<&'m dyn Mechanism>,
     diagnosis: Diagnosis,
+    /// a law for what is unknown, if one gains enough
+    composed: Option<Composed>,
     fits: Vec<Record>,
     holdouts: Vec<Held>,
     notes: Vec<Note>,
@@ -46,36 +51,38 @@ struct Held {
     accepted: bool,
 }
 
-/// Diagnoses a unit of the design `case` from the records `fits`, judged on `holdouts`.
+/// Diagnoses a unit of the design `case` from the records `fits`, judged on `holdouts`, as far as `mechanisms` go: [`mechanisms::CATALOGUE`], or more.
 ///
 /// `progress` is told each task as it begins; of one that can be counted again and again.
 ///
 /// # Errors
 /// [`files::Error::Input`] names the record that cannot be used and why; [`files::Error::Coil`] if the design cannot be modelled.
-pub fn diagnose(
+pub fn diagnose<'m>(
     case: &CoilCase,
+    mechanisms: &[&'m dyn Mechanism],
     fits: &[RecordCase],
     holdouts: &[RecordCase],
     cache: &Cache,
     progress: &(dyn Fn(Step) + Sync),
-) -> Result<Outcome, Error> {
+) -> Result<Outcome<'m>, Error> {
     let coil = Error::of_coil(&case.file);
     refuse_copies(fits.iter().chain(holdouts))?;
     let mut notes = Vec::new();
     let mut read: Vec<Record> = fits.iter().chain(holdouts).map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
     let library = library(case, cache, progress)?;
     progress(Step::begins("running every model under the recorded chamber"));
-    let drawn = gyro(&library, &read, fits.len()).map_err(coil)?;
+    let drawn = gyro(&library, mechanisms, &read, fits.len()).map_err(coil)?;
     let offered = |mechanism: &&&dyn Mechanism| drawn.find(mechanism.facts().id).is_none();
-    let missing: Vec<String> = CATALOGUE.iter().filter(offered).map(|mechanism| mechanism.facts().id.to_owned()).collect();
+    let missing: Vec<String> = mechanisms.iter().filter(offered).map(|mechanism| mechanism.facts().id.to_owned()).collect();
     if !missing.is_empty() {
         let message = format!("not offered, as the design leaves no place for it: {}", missing.join(", "));
         notes.push(Remark::NotOffered.note(message).at(&case.file));
     }
+    check_laws(&drawn, mechanisms, &read)?;
     let held = read.split_off(fits.len());
     let observations: Vec<Observation> = read.iter().map(|r| r.observed.clone()).collect();
     let numbers: Vec<usize> = (0..fits.len()).collect();
-    let failed = Error::of_diagnosis(&case.file);
+    let failed = &Error::of_diagnosis_with(&case.file, mechanisms);
     let Settled { model: about, recalibrated, .. } =
         diagnosis::settled(&drawn, &numbers, &observations, progress).map_err(failed)?;
     let gyro = about.as_ref().unwrap_or(&drawn);
@@ -88,6 +95,10 @@ pub fn diagnose(
     if let Ruling::TakenBack { record, why } = ruling {
         notes.push(taken_back(&held[record].fingerprint.file, why));
     }
+    let rate_of =
+        |judged: &Judged| if judged.accepted { judged.model.rmse[RATE_CHANNEL] } else { judged.nominal.rmse[RATE_CHANNEL] };
+    let predicted: Vec<f64> = records.iter().map(rate_of).collect();
+    let composed = compose(gyro, &drawn, &diagnosis, &observations, &numbered, &predicted, progress).map_err(failed)?;
     let best = diagnosis.best();
     let fitted_to = best.fit.residuals.iter().map(|channels| channels.iter().map(|r| rms(r)).collect());
     let answered: Vec<Vec<f64>> = fitted_to.chain(records.iter().map(|judged| judged.model.rmse.clone())).collect();
@@ -97,13 +108,18 @@ pub fn diagnose(
     }
     let with_predictions =
         |(record, Judged { nominal, model, accepted }): (Record, Judged)| Held { record, nominal, model, accepted };
-    let holdouts = held.into_iter().zip(records).map(with_predictions).collect();
+    let mut holdouts: Vec<Held> = held.into_iter().zip(records).map(with_predictions).collect();
+    if let Some(composed) = composed.as_ref().filter(|composed| composed.accepted) {
+        for (held, by_law) in holdouts.iter_mut().zip(&composed.held) {
+            (held.model, held.accepted) = (by_law.clone(), true);
+        }
+    }
     let (name, coil, design) = (case.name.clone(), case.file.clone(), case.fingerprints.clone());
     let gyro = about.unwrap_or(drawn);
-    Ok(Outcome { name, coil, design, gyro, diagnosis, fits: read, holdouts, notes })
+    Ok(Outcome { name, coil, design, gyro, mechanisms: mechanisms.to_vec(), diagnosis, composed, fits: read, holdouts, notes })
 }
 
-impl Outcome {
+impl Outcome<'_> {
     /// The best explanation by its mechanisms' ids; `constants` where there are none.
     pub fn hypothesis(&self) -> String {
         let ids: Vec<&str> = self.diagnosis.best().fit.active.iter().map(|active| self.id(active.mechanism)).collect();
@@ -120,6 +136,35 @@ impl Outcome {
         let fit = &self.diagnosis.best().fit;
         diagnosis::sampled(&self.gyro, &numbers, &observations, fit, steps, seed).map_err(Error::of_diagnosis(&self.coil))
     }
+}
+
+/// Refuses a law of a user's own that is no number where its fits start.
+fn check_laws(gyro: &Gyro, mechanisms: &[&dyn Mechanism], records: &[Record]) -> Result<(), Error> {
+    let own = mechanisms.iter().map(|mechanism| mechanism.facts().id).filter(|id| mechanisms::find(id).is_none());
+    let middle = diagnosis::expected(gyro.nuisances());
+    for mechanism in own.filter_map(|id| gyro.find(id)) {
+        let omission = &gyro.mechanisms()[mechanism];
+        for (number, record) in records.iter().enumerate() {
+            for values in &omission.starts {
+                let active = diagnosis::Active { mechanism, values: values.clone(), choice: None };
+                let Ok(response) = gyro.respond(number, &middle, &[active]) else { continue };
+                let bad = (0..record.observed.time.len()).find(|row| response.iter().any(|series| !series[*row].is_finite()));
+                if let Some(row) = bad {
+                    let at: Vec<String> =
+                        omission.parameters.iter().zip(values).map(|(p, v)| format!("{} = {v}", p.name)).collect();
+                    let text = format!(
+                        "--mechanism: the law of `{}` is no finite number at {} s of {}, where {}; bound it, e.g. by max(...), or give other starts",
+                        omission.id,
+                        record.observed.time[row],
+                        record.fingerprint.file.display(),
+                        at.join(", ")
+                    );
+                    return Err(Error::usage(text));
+                }
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Root mean square of what is there.
@@ -150,13 +195,14 @@ fn name(verdict: Verdict) -> &'static str {
 /// What the design as it is is called.
 const NOMINAL: &str = "nominal model";
 
-impl Outcome {
+impl Outcome<'_> {
     /// What the model that the verdict rests on is called, where it is not the nominal one.
     fn found(&self) -> Option<&'static str> {
         match self.diagnosis.verdict {
             Verdict::None => None,
             Verdict::Recalibrate => Some("recalibrated model"),
             Verdict::Explained => Some("extended model"),
+            Verdict::Unknown if self.law().is_some() => Some("with the composed law"),
             Verdict::Unknown if self.diagnosis.best().fit.hypothesis == Hypothesis::NOMINAL => None,
             Verdict::Unknown => Some("best of the library"),
         }
@@ -219,6 +265,31 @@ impl Outcome {
             let _ = writeln!(text, "{t},{rate}");
         }
         Some(text)
+    }
+
+    /// The law that was composed, if records held out bear it out.
+    fn law(&self) -> Option<&Composed> {
+        self.composed.as_ref().filter(|composed| composed.accepted)
+    }
+
+    /// Mechanisms' files with what was composed, by their ids; none unless records held out bear it out.
+    ///
+    /// # Errors
+    /// [`files::Error::Input`] if a value cannot be written.
+    pub fn laws(&self) -> Result<Vec<(String, String)>, Error> {
+        self.law().map_or_else(|| Ok(Vec::new()), Composed::files)
+    }
+
+    /// Fitted values of a mechanism's parameters, if it is part of an accepted explanation.
+    pub fn found_of(&self, id: &str) -> Option<Vec<f64>> {
+        let best = &self.diagnosis.best().fit;
+        let found = self.diagnosis.verdict == Verdict::Explained && self.accepted();
+        best.active.iter().filter(|_| found).find(|active| self.id(active.mechanism) == id).map(|active| active.values.clone())
+    }
+
+    /// A check of the unit itself that decides about a mechanism.
+    fn inspection(&self, id: &str) -> Option<&str> {
+        self.mechanisms.iter().find(|mechanism| mechanism.facts().id == id).and_then(|mechanism| mechanism.facts().inspection())
     }
 
     /// What a user should know besides.

@@ -7,7 +7,7 @@ use mechanisms::Naming;
 use super::Outcome;
 use crate::table::significant;
 
-impl Outcome {
+impl Outcome<'_> {
     /// What the residual looks like where nothing explains it.
     pub(super) fn structure(&self) -> Option<String> {
         let best = self.diagnosis.best();

@@ -3,14 +3,14 @@
 use std::fmt::Write;
 
 use bias::units::S_PER_H;
-use diagnosis::Verdict;
+use diagnosis::{Estimate, Verdict};
 use mechanisms::{Extent, Naming, RATE as RATE_CHANNEL};
 
 use super::{NOMINAL, Outcome};
 use crate::table::{significant, table};
 use crate::units::parameter_unit;
 
-impl Outcome {
+impl Outcome<'_> {
     /// For people: verdict, place, alternatives, parameters, held-out errors.
     pub fn text(&self) -> String {
         let d = &self.diagnosis;
@@ -34,6 +34,10 @@ impl Outcome {
         if self.holdouts.is_empty() && d.verdict != Verdict::None {
             out.push_str("No record was held out: what was fitted is not proven on data that it has not seen (--holdout).\n");
         }
+        let composed = self.composed.as_ref().map(|composed| composed.text());
+        if let Some((law, _)) = &composed {
+            out.push_str(law);
+        }
         if d.verdict == Verdict::Unknown {
             out.push_str("What to do: check signs, columns, units and times (fogcoil check), then repeat the test under another profile.\n");
         }
@@ -51,11 +55,13 @@ impl Outcome {
         let line = |name: &str, value: String, unit: &str| vec![name.to_owned(), value, unit.to_owned(), String::new()];
         let mut rows = vec![line("explanation", "probability".into(), "")];
         rows.extend(self.explanations().iter().map(|e| line(e.name, format!("{:.3}", e.probability), "")));
-        if d.verdict == Verdict::Explained {
+        let explained = d.parameters.iter().flatten().filter(|_| d.verdict == Verdict::Explained);
+        let estimates: Vec<&Estimate> = explained.chain(composed.iter().flat_map(|(_, estimates)| estimates)).collect();
+        if !estimates.is_empty() {
             rows.push(["parameter (fitted)", "value", "", "90 % interval"].map(str::to_owned).to_vec());
-            for estimate in d.parameters.iter().flatten() {
+            for estimate in estimates {
                 let interval = estimate.ci90.map(|end| significant(end, 4)).join(" to ");
-                let unit = parameter_unit(&estimate.name).to_owned();
+                let unit = parameter_unit(&estimate.name).into_owned();
                 rows.push(vec![estimate.name.clone(), significant(estimate.value, 4), unit, interval]);
             }
         }

@@ -74,11 +74,8 @@ pub(super) fn counts() -> [usize; 3] {
 }
 
 /// A check of the unit itself that decides about a mechanism.
-pub(crate) fn inspection(id: &str) -> Option<&'static str> {
-    match mechanisms::find(id)?.facts().naming {
-        Naming::Named { inspection, .. } => Some(inspection),
-        Naming::Described { .. } => None,
-    }
+fn inspection(id: &str) -> Option<&'static str> {
+    mechanisms::find(id)?.facts().inspection()
 }
 
 impl Subject {
@@ -167,7 +164,7 @@ fn rows(page: &str, first: &str) -> Vec<Vec<String>> {
     Vec::new()
 }
 
-fn indented(text: &str) -> String {
+pub(super) fn indented(text: &str) -> String {
     text.lines().map(|line| format!("  {line}").trim_end().to_owned()).collect::<Vec<_>>().join("\n")
 }
 

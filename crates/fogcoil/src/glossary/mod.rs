@@ -1,10 +1,11 @@
 //! `fogcoil explain ID`: what the ids mean that the program prints, of mechanisms and of its own remarks.
 
 mod mechanism;
+mod own;
 
 pub use files::{Explanation, Note, Remark, Severity};
-pub(crate) use mechanism::inspection;
 pub use mechanism::{Subject, all as mechanisms};
+pub use own::{own_json, own_text};
 
 use std::fmt::Write;
 

@@ -7,6 +7,7 @@ mod question;
 mod recommendation;
 mod say;
 
+use mechanisms::Mechanism;
 use progress::Step;
 
 use crate::Error;
@@ -30,6 +31,7 @@ pub(crate) use say::{number, sentence, with};
 /// cannot be used; [`files::Error::Coil`] if the design cannot be modelled.
 pub fn recommend(
     case: &CoilCase,
+    mechanisms: &[&dyn Mechanism],
     between: &[String],
     records: &[RecordCase],
     limits: &Limits,
@@ -38,6 +40,6 @@ pub fn recommend(
 ) -> Result<Recommendation, Error> {
     question::check(between, limits)?;
     let given = records.iter().map(|record| ready(record, &mut Vec::new())).collect::<Result<_, _>>()?;
-    let question = Question { file: &case.file, between, records: given, limits: *limits, thorough: true };
+    let question = Question { file: &case.file, mechanisms, between, records: given, limits: *limits, thorough: true };
     question.answer(library(case, cache, progress)?, progress)
 }

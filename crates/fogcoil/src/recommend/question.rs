@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use diagnosis::{Active, ForwardModel, Observation, Plan, fitted};
-use mechanisms::{CATALOGUE, Gyro, Library, Prepared, RATE, SPOOL};
+use mechanisms::{Gyro, Library, Mechanism, RATE, SPOOL};
 use progress::Step;
 use recording::noise::NoiseModel;
 
@@ -30,6 +30,8 @@ struct Repeat {
 
 pub(crate) struct Question<'a> {
     pub(crate) file: &'a Path,
+    /// all that there are
+    pub(crate) mechanisms: &'a [&'a dyn Mechanism],
     pub(crate) between: &'a [String],
     pub(crate) records: Vec<Record>,
     pub(crate) limits: Limits,
@@ -39,18 +41,31 @@ pub(crate) struct Question<'a> {
 
 impl Question<'_> {
     pub(crate) fn answer(self, library: Library, progress: &dyn Fn(Step)) -> Result<Recommendation, Error> {
-        let Self { file, between, records: given, limits, thorough } = self;
+        let Self { file, mechanisms, between, records: given, limits, thorough } = self;
         check(between, &limits)?;
+        let asked: Vec<&dyn Mechanism> =
+            mechanisms.iter().copied().filter(|m| between.iter().any(|id| id == m.facts().id)).collect();
+        if let Some((id, column)) = asked.iter().find_map(|m| Some((m.facts().id, *m.columns().first()?))) {
+            let text = format!(
+                "--between: the law of `{id}` names the column {column}, which no programme of the chamber tells; leave it out of --between"
+            );
+            return Err(Error::usage(text));
+        }
         let coil = Error::of_coil(file);
-        let failed = Error::of_diagnosis(file);
+        let failed = &Error::of_diagnosis_with(file, mechanisms);
         let programmes = programmes(&limits);
         progress(Step::begins("running every model under every programme"));
-        let recorded = given.iter().map(|r| Prepared::under(&library, &r.observed.time, &r.drive, r.averaging));
+        let recorded = given.iter().map(|record| record.prepared(&library));
         let all = recorded.chain(programmes.iter().map(|programme| prepared(&library, programme)));
         let all = all.collect::<Result<Vec<_>, _>>().map_err(coil)?;
-        let gyro = Gyro::new(library, CATALOGUE, all).map_err(coil)?;
+        let gyro = Gyro::new(library, mechanisms, all).map_err(coil)?;
         let named = |id: &String| {
-            let unknown = || format!("--between: `{id}` is not in this design's library; it holds {}", Contender::known(&gyro));
+            let unknown = || {
+                format!(
+                    "--between: `{id}` is not in this design's library; it holds {}, and mechanisms of your own (--mechanism)",
+                    Contender::known(&gyro)
+                )
+            };
             Contender::named(&gyro, id).map_err(failed)?.ok_or_else(|| Error::usage(unknown()))
         };
         let mut contenders = between.iter().map(named).collect::<Result<Vec<_>, _>>()?;
@@ -118,8 +133,11 @@ impl Question<'_> {
         }
         let plan = Plan { records: &[number], instants: &[everything(best)], noise: Some(&proposed_noise) };
         let course = Course::new(&gyro, &contenders, &profiles[0].1.odds, (number, best), &plan).map_err(failed)?;
+        let inspection = |m: &&dyn Mechanism| Some((m.facts().id.to_owned(), m.facts().inspection()?.to_owned()));
+        let ordered = between.iter().filter_map(|id| asked.iter().find(|m| m.facts().id == id));
         Ok(Recommendation {
             between: between.to_vec(),
+            inspections: ordered.filter_map(inspection).collect(),
             limits,
             sizes: contenders.iter().filter_map(|c| c.truth.as_ref()).map(|active| size(&gyro, active)).collect(),
             fitted: recorded > 0,

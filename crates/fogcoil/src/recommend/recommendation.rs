@@ -38,6 +38,8 @@ pub struct Size {
 pub struct Recommendation {
     /// Ids to be told apart.
     pub between: Vec<String>,
+    /// Of those that are mechanisms: a check of the unit itself that decides.
+    pub inspections: Vec<(String, String)>,
     /// Within these limits.
     pub limits: Limits,
     /// At these sizes.

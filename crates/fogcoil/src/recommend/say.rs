@@ -5,7 +5,6 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::{Limits, Odds, Ranked, Recommendation, Size, WithSensor};
-use crate::glossary::inspection;
 use crate::table::{significant, table};
 
 /// Most programmes in the table.
@@ -46,13 +45,9 @@ pub fn json(r: &Recommendation) -> Value {
         "repeat": with(object(odds), json!({"name": name})),
         "profiles": r.profiles.iter().map(profile).collect::<Vec<_>>(),
         "sensors": r.sensors.iter().map(sensor).collect::<Vec<_>>(),
-        "inspections": inspections(r).iter().map(|(id, what)| json!({"id": id, "what": what})).collect::<Vec<_>>(),
+        "inspections": r.inspections.iter().map(|(id, what)| json!({"id": id, "what": what})).collect::<Vec<_>>(),
         "recommendation": sentence(r),
     })
-}
-
-fn inspections(r: &Recommendation) -> Vec<(&str, &'static str)> {
-    r.between.iter().filter_map(|id| Some((id.as_str(), inspection(id)?))).collect()
 }
 
 /// ln odds or σ, as precise as they are meant.
@@ -82,8 +77,7 @@ pub(crate) fn sentence(r: &Recommendation) -> String {
             let _ = write!(out, "Add {}: with {} it gives ln odds {}.", s.sensor, s.programme, number(s.odds.log_odds));
         }
         None => {
-            let of = |(id, what): (&str, &str)| format!("for {id}, {what}");
-            let checks: Vec<String> = inspections(r).into_iter().map(of).collect();
+            let checks: Vec<String> = r.inspections.iter().map(|(id, what)| format!("for {id}, {what}")).collect();
             let _ = write!(out, "Neither does a finer thermometer on the spool. Look at the unit itself: {}.", checks.join("; "));
         }
     }

@@ -20,6 +20,7 @@ mod identify;
 mod model_out;
 mod mutated_input;
 mod outputs;
+mod own_mechanism;
 mod recommend;
 mod report;
 mod simulate;

@@ -46,4 +46,9 @@ impl Mechanism for ReadOutCurvature {
     fn extended(&self, _: &Design, _: &Active) -> Option<Design> {
         None
     }
+
+    /// It sees what all records have.
+    fn columns(&self) -> Vec<&str> {
+        Vec::new()
+    }
 }

@@ -77,7 +77,7 @@ pub(crate) fn record(file: &Path) -> Result<RecordCase, Failure> {
 
 /// Runs the diagnosis as `fogcoil diagnose` does.
 pub(crate) fn answer(coil: &CoilCase, [fit, holdout]: &[PathBuf; 2], cache: &Cache) -> Result<Written, Failure> {
-    let outcome = diagnose::diagnose(coil, &[record(fit)?], &[record(holdout)?], cache, &|_| ())?;
+    let outcome = diagnose::diagnose(coil, mechanisms::CATALOGUE, &[record(fit)?], &[record(holdout)?], cache, &|_| ())?;
     let prediction = outcome.prediction().ok_or_else(|| Failure(format!("{}: nothing is predicted", holdout.display())))?;
     Ok([format!("{}\n", outcome.json()), prediction])
 }

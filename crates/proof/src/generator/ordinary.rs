@@ -29,6 +29,8 @@ pub(crate) struct Ordinary {
     pub constants: [f64; 3],
     /// CW tail \[m\].
     pub tail: f64,
+    /// Electronics that follow the spool with a time constant \[s\] and add a rate for every kelvin that they are behind \[deg/h/K\].
+    pub board: (f64, f64),
 }
 
 /// Nothing.
@@ -41,6 +43,7 @@ pub(crate) const NOTHING: Ordinary = Ordinary {
     ripple: 0.0,
     constants: [1.0; 3],
     tail: 0.0,
+    board: (0.0, 0.0),
 };
 
 /// Temperature about which gains act \[°C\].
@@ -69,11 +72,31 @@ impl Ordinary {
         Course { temperature: (0..lagged.len()).map(told).collect(), turns: course.turns.clone() }
     }
 
-    fn signal(&self, signal: &Signal) -> Signal {
+    fn signal(&self, time: &[f64], signal: &Signal) -> Signal {
+        let board = self.slow_board(time, &signal.spool);
         Signal {
             spool: signal.spool.iter().map(|t| MIDDLE + (t - MIDDLE) * (1.0 + self.gains[1])).collect(),
-            rate: signal.rate.iter().map(|rate| rate + self.earth).collect(),
+            rate: signal.rate.iter().zip(board).map(|(rate, board)| rate + self.earth + board).collect(),
         }
+    }
+
+    /// What slow electronics add: they are settled at first, and the spool is linear between rows.
+    fn slow_board(&self, time: &[f64], spool: &[f64]) -> Vec<f64> {
+        let (tau, size) = self.board;
+        let (mut behind, mut before) = (0.0, 0.0);
+        let of = |n: usize| {
+            if n == 0 || tau == 0.0 {
+                return 0.0;
+            }
+            let dt = time[n] - time[n - 1];
+            let forget = (-dt / tau).exp();
+            // behind' = slope − behind/τ
+            behind = behind * forget + (spool[n] - spool[n - 1]) / dt * tau * (1.0 - forget);
+            let mean = size * (behind + before) / 2.0;
+            before = behind;
+            mean
+        };
+        (0..time.len()).map(of).collect()
     }
 }
 
@@ -101,7 +124,7 @@ impl Generator {
             let mut scene = Scene::draw(family, random);
             let ripple = |n: usize| of.ripple * (TAU * n as f64 * STEP / PERIOD).sin();
             scene.course.temperature.iter_mut().enumerate().for_each(|(n, t)| *t += ripple(n));
-            let signal = of.signal(&scene.signal(&plant, &[]));
+            let signal = of.signal(&scene.time, &scene.signal(&plant, &[]));
             let readings = noise.sample(&scene.time, since, random);
             since += scene.time[scene.time.len() - 1] + 6.0 * 3600.0;
             sensors.write(&of.read(&scene.course), &scene.time, &signal, &readings, noise.white(0.0), random)

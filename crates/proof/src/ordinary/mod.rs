@@ -74,7 +74,7 @@ fn answers(names: &[String]) -> Result<Vec<Written>, Failure> {
 fn diagnosed(coil: &CoilCase, at: &Path, cache: &Cache) -> Result<Written, Failure> {
     let fitted = FITTED.map(|file| record(&at.join(file)));
     let fitted = fitted.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let outcome = diagnose::diagnose(coil, &fitted, &[record(&at.join(HELD_OUT))?], cache, &|_| ())?;
+    let outcome = diagnose::diagnose(coil, mechanisms::CATALOGUE, &fitted, &[record(&at.join(HELD_OUT))?], cache, &|_| ())?;
     let prediction = outcome.prediction().ok_or_else(|| Failure("nothing is predicted".into()))?;
     Ok([format!("{}\n", outcome.json()), prediction])
 }

@@ -15,12 +15,14 @@ struct Row {
     what: &'static str,
     of: Ordinary,
     concealed: Option<&'static str>,
+    /// Whether the mechanism of the tutorial is weighed, too.
+    own: bool,
 }
 
 /// Units of each row.
 const SEEDS: [u64; 2] = [1, 2];
 
-const ROWS: [Row; 11] = [
+const ROWS: [Row; 12] = [
     row("nothing", NOTHING),
     row("Earth's rate left in, 7.5 deg/h", Ordinary { earth: 7.5, ..NOTHING }),
     row("spool thermometer 0.5 K off", Ordinary { spool_offset: 0.5, ..NOTHING }),
@@ -38,11 +40,18 @@ const ROWS: [Row; 11] = [
         what: "CW tail 2.5 m longer beside a thermometer's gain of 0.3 %",
         of: Ordinary { tail: 2.5, gains: [0.0, 0.003], ..NOTHING },
         concealed: Some("tail-asymmetry"),
+        own: false,
+    },
+    Row {
+        what: "electronics that warm up slowly, of which a user's own file tells",
+        of: Ordinary { board: (1500.0, 0.006), ..NOTHING },
+        concealed: Some("slow-board"),
+        own: true,
     },
 ];
 
 const fn row(what: &'static str, of: Ordinary) -> Row {
-    Row { what, of, concealed: None }
+    Row { what, of, concealed: None, own: false }
 }
 
 /// Whether an answer is right: nothing is named where nothing is concealed, what is concealed is named alone.
@@ -58,6 +67,7 @@ fn right(answer: &Answer, concealed: Option<&str>) -> bool {
 pub(crate) fn run() -> Result<bool, Failure> {
     let program = program::hash(&root())?;
     let (cache, into) = (Cache::of_user(), root().join("target/prove/rows"));
+    let own = input::read_mechanisms(&[root().join("crates/fogcoil/templates/mechanism.ron")])?;
     let coil = input::read_coil(&root().join("fixtures/coil-reference.ron"))?;
     let generator = Generator::new(coil.design.clone())?;
     let named = |row: &Row, seed: u64| format!("{}, unit {seed}", row.what);
@@ -71,7 +81,8 @@ pub(crate) fn run() -> Result<bool, Failure> {
         let text = [("fit.csv", fit), ("holdout.csv", holdout), ("meta.ron", meta)];
         files::write_all(&text.map(|(file, text)| (at.join(file), text)))?;
         let (fit, holdout) = (record(&at.join("fit.csv"))?, record(&at.join("holdout.csv"))?);
-        let outcome = diagnose::diagnose(&coil, &[fit], &[holdout], &cache, &|_| ())?;
+        let kinds = input::with_catalogue(if row.own { &own } else { &[] });
+        let outcome = diagnose::diagnose(&coil, &kinds, &[fit], &[holdout], &cache, &|_| ())?;
         let answer: Answer = serde_json::from_str(&outcome.json().to_string())?;
         eprintln!("{name}: {} {:?}", answer.verdict, answer.set);
         Ok((right(&answer, row.concealed), answer))

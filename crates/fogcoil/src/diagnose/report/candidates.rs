@@ -23,7 +23,7 @@ struct Group<'a> {
 /// What a rival's hypotheses are known by.
 type Fits = Box<dyn Fn(&Candidate) -> bool>;
 
-impl Outcome {
+impl Outcome<'_> {
     pub(super) fn candidates(&self) -> Markup {
         let d = &self.diagnosis;
         let [.., library, _] = d.verdicts();

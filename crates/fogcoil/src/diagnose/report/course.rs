@@ -6,7 +6,7 @@ use maud::{Markup, html};
 use super::{Clock, Shown};
 use crate::diagnose::{Outcome, Record};
 
-impl Outcome {
+impl Outcome<'_> {
     pub(super) fn course(&self) -> Markup {
         html! { (self.recording().element()) (self.residuals().element()) }
     }

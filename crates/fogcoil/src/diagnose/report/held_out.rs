@@ -9,7 +9,7 @@ use super::course::{self, multiples};
 use super::spectrum;
 use crate::diagnose::{Held, NOMINAL, Outcome};
 
-impl Outcome {
+impl Outcome<'_> {
     pub(super) fn held_out(&self) -> Markup {
         if self.holdouts.is_empty() {
             return Markup::default();
@@ -89,7 +89,7 @@ impl Outcome {
 }
 
 /// Whiteness of what a prediction leaves, whatever its offset.
-fn judged(outcome: &Outcome, held: &Held, prediction: &HeldOut) -> String {
+fn judged(outcome: &Outcome<'_>, held: &Held, prediction: &HeldOut) -> String {
     let observed = &held.record.observed;
     let residual: Vec<f64> = observed.channels[RATE].iter().zip(&prediction.prediction[RATE]).map(|(y, p)| y - p).collect();
     let used: Vec<f64> = residual.iter().copied().filter(|r| r.is_finite()).collect();

@@ -82,7 +82,7 @@ impl Clock {
     }
 }
 
-impl Outcome {
+impl Outcome<'_> {
     /// A page that needs nothing but itself.
     pub fn report(&self) -> String {
         let body = html! {
@@ -147,6 +147,9 @@ impl Outcome {
         }
         if let Some(structure) = self.structure() {
             rows.push(row("structure", nice(&structure)));
+        }
+        if let Some(composed) = &self.composed {
+            rows.push(row("composed law", nice(&composed.text().0)));
         }
         rows.extend(self.fits.iter().map(|record| row("fitted", format!("{}, {}", record.name(), record.span()))));
         for held in &self.holdouts {

@@ -5,14 +5,13 @@ use diagnosis::{Settings, Verdict};
 use maud::{Markup, html};
 
 use crate::diagnose::Outcome;
-use crate::glossary::inspection;
 use crate::recommend::{Course, Limits, Odds, Question, Recommendation, number, sentence};
 use crate::units::DurationUnit;
 
 /// Share of the squared distance from which a thermometer's course is drawn.
 const WORTH_DRAWING: f64 = 0.05;
 
-impl Outcome {
+impl Outcome<'_> {
     pub(super) fn next_test(&self) -> Markup {
         let between = self.apart();
         if between.is_empty() {
@@ -20,7 +19,8 @@ impl Outcome {
         }
         let command = format!("{} --out next.csv", self.recommend(&between));
         let (records, limits) = (self.fits.clone(), Limits::USUAL);
-        let question = Question { file: &self.coil, between: &between, records, limits, thorough: false };
+        let question =
+            Question { file: &self.coil, mechanisms: &self.mechanisms, between: &between, records, limits, thorough: false };
         html! {
             @match question.answer(self.gyro.library().clone(), &|_| ()) {
                 Ok(found) => (recommended(&found)),
@@ -38,7 +38,7 @@ impl Outcome {
     fn nothing_to_tell_apart(&self) -> String {
         let proven = !self.holdouts.is_empty() && self.accepted();
         let names = self.names();
-        let looks: Vec<&str> = names.iter().filter_map(|id| inspection(id)).collect();
+        let looks: Vec<&str> = names.iter().filter_map(|id| self.inspection(id)).collect();
         let (names, looks) = (names.join(" and "), looks.join("; "));
         let likeliest = self.likely().next().filter(|(_, p)| *p >= Settings::default().excluded);
         match self.diagnosis.verdict {

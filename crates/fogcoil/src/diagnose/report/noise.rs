@@ -11,7 +11,7 @@ use super::Shown;
 use crate::check::Allan;
 use crate::diagnose::Outcome;
 
-impl Outcome {
+impl Outcome<'_> {
     pub(super) fn noise(&self) -> Markup {
         let best = &self.diagnosis.best().fit;
         let mut rows = Vec::new();

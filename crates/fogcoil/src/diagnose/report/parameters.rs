@@ -11,7 +11,7 @@ const POINTS: usize = 400;
 /// How far a density is drawn [standard deviations].
 const REACH: f64 = 5.0;
 
-impl Outcome {
+impl Outcome<'_> {
     pub(super) fn parameters(&self) -> Markup {
         let all = self.diagnosis.best().fit.posteriors(&self.gyro);
         let wanted = |p: &&Posterior| match self.diagnosis.verdict {
@@ -40,7 +40,7 @@ impl Outcome {
             .iter()
             .map(|p| {
                 let interval = |ends: [f64; 2]| ends.map(|end| significant(end, 4)).join(" to ");
-                let unit = parameter_unit(&p.name).to_owned();
+                let unit = parameter_unit(&p.name).into_owned();
                 let [after, before] = [self.interval(p), central(p, 0.0, 1.0)].map(interval);
                 vec![p.name.clone(), significant(p.value(), 4), unit, after, before]
             })

@@ -13,7 +13,7 @@ use crate::diagnose::Outcome;
 /// z at which the colours end.
 const MOST_Z: f64 = 10.0;
 
-impl Outcome {
+impl Outcome<'_> {
     pub(super) fn place(&self) -> Markup {
         // a figure of one record needs a panel at least
         let drawn = [self.map(), self.blocks(), self.coherence()].into_iter().filter(|figure| !figure.panels.is_empty());

@@ -16,7 +16,7 @@ const WIDER: f64 = 1.25;
 /// Probability below which a residual is called coloured.
 pub(super) const WHITE: f64 = 0.01;
 
-impl Outcome {
+impl Outcome<'_> {
     pub(super) fn spectra(&self) -> Markup {
         let of = |shown: Vec<Shown>| self.quantities().map(|q| self.spectrum(&shown, q)).collect::<Vec<_>>();
         let figure = Figure {

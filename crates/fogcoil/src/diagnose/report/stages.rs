@@ -11,7 +11,7 @@ use crate::diagnose::Outcome;
 /// Turns that a layer may be off by beforehand, 1σ: as the library's.
 const TURNS: f64 = 3.0;
 
-impl Outcome {
+impl Outcome<'_> {
     pub(super) fn stages(&self) -> Markup {
         let stages = &self.diagnosis.stages;
         let gain = |gain: f64| if gain.abs() < 0.05 { "0.0".into() } else { format!("{gain:.1}") };

@@ -1,17 +1,21 @@
 //! The coil's chain as a forward model for diagnosis: nominal constants, their uncertainties, and the library of mechanisms.
 
+mod nominal;
+mod recalibrated;
+
 use crate::REFERENCE_C;
 use crate::constants::{Constant, number_of};
-use crate::course::{Delay, Parts, RATE, Series, add, total};
+use crate::course::{Delay, RATE, Series, add, total};
 use crate::instruments::{self, Instruments, MINUTE, channels, nuisances};
 use crate::law_tools::Chain;
 use crate::library::Library;
-use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Scene, Sight, lagged};
+use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Scene, Sight};
 use crate::passed::Passed;
 use crate::record_to_bias::Prepared;
 use coil::{Design, Error, Number, Tolerances};
 use diagnosis::{Active, Channel, ForwardModel, Latent, Nuisance, State};
 use nalgebra::DMatrix;
+use recalibrated::{Recalibrated, share};
 use recording::median_interval;
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -26,6 +30,7 @@ pub struct Gyro<'m> {
     precision: Option<DMatrix<f64>>,
     kinds: Vec<&'m dyn Mechanism>,
     mechanisms: Vec<diagnosis::Omission>,
+    scene: Scene,
     /// places of constants on which a mechanism's parameter is a factor, and the mechanisms' ids
     factored: Vec<(usize, String)>,
     /// constants that were told and what came of them, by record
@@ -42,22 +47,8 @@ struct Known {
     gain: [f64; 3],
 }
 
-/// The nominal model with its uncertain numbers somewhere.
-struct Recalibrated {
-    record: usize,
-    /// the uncertain numbers
-    at: Vec<f64>,
-    parts: Parts,
-    thermometer: Vec<f64>,
-    /// share of every nominal part in these
-    gain: [f64; 3],
-}
-
 /// Share of the drawing's value within which the model is made where a mechanism is a factor on the constant.
 const FACTOR: f64 = 0.5;
-
-/// Constants that are moved from where others are known.
-const FEW: usize = 2;
 
 /// Effects that are kept.
 const KEPT: usize = 12;
@@ -108,10 +99,52 @@ impl<'m> Gyro<'m> {
             records,
             kinds,
             mechanisms,
+            scene,
             moved: RefCell::default(),
             recalibrated: RefCell::default(),
             known: RefCell::default(),
         })
+    }
+
+    /// The same model with more mechanisms behind its own; each starts from here.
+    #[must_use]
+    pub fn beside<'a>(&self, more: &[&'a dyn Mechanism]) -> Gyro<'a>
+    where
+        'm: 'a,
+    {
+        let design = self.library().design();
+        let offered = more.iter().filter_map(|m| Some((*m, entry(*m, design, &self.scene)?)));
+        let (new, omissions): (Vec<&'a dyn Mechanism>, Vec<diagnosis::Omission>) = offered.unzip();
+        Gyro {
+            chain: Chain::new(self.library().clone()),
+            records: self.records.clone(),
+            channels: self.channels.clone(),
+            nuisances: self.nuisances.clone(),
+            precision: self.precision.clone(),
+            kinds: self.kinds.iter().map(|kind| *kind as &'a dyn Mechanism).chain(new).collect(),
+            mechanisms: self.mechanisms.iter().cloned().chain(omissions).collect(),
+            factored: self.factored.clone(),
+            scene: self.scene,
+            moved: RefCell::default(),
+            recalibrated: RefCell::default(),
+            known: RefCell::default(),
+        }
+    }
+
+    /// Largest |part| of the bias as designed in the first of its records \[deg/h\]: Shupe, elasto-optic axial and radial, and the sum.
+    pub fn largest_parts(&self, records: usize) -> [f64; 4] {
+        let largest = |series: &[f64]| series.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+        let of = |record: &Prepared| {
+            let [shupe, axial, radial] = record.nominal.parts.each_ref().map(|part| largest(part));
+            [shupe, axial, radial, largest(&total(&record.nominal.parts))]
+        };
+        let most = |a: [f64; 4], b: [f64; 4]| [0, 1, 2, 3].map(|k: usize| a[k].max(b[k]));
+        self.records.iter().take(records).map(of).fold([0.0; 4], most)
+    }
+
+    /// Where the coil was in the fitted records, and how quiet the gyroscope is.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
     }
 
     /// Constants and delays at which this model is linear: nuisances at which its response is exact.
@@ -153,101 +186,6 @@ impl<'m> Gyro<'m> {
     /// A design with a mechanism put in at its place; `None` if a design has no place for it, or the place is taken.
     pub fn extended(&self, design: &Design, active: &Active) -> Option<Design> {
         self.kinds[active.mechanism].extended(design, active)
-    }
-
-    /// Adds what a constant of the design changes on its way from one value to another, as told.
-    fn move_constant(&self, record: &Prepared, k: usize, [from, to]: [f64; 2], series: &mut Series) {
-        let constant = &self.library().constants[k];
-        let [from, to] = [from, to].map(|told| constant.value(told));
-        // rounding is no change
-        if (to - from).abs() <= 1e-9 * constant.tolerance {
-            return;
-        }
-        let Some((_, id)) = self.factored.iter().find(|(place, _)| *place == k) else {
-            series.change(&record.slopes[k], to - from);
-            return;
-        };
-        let here = self.library().values()[k];
-        for (value, sign) in [(to, 1.0), (from, -1.0)] {
-            let Change { parts, thermometer, .. } = self.chain.along(record, id, 0, (value / here).ln());
-            series.change(&Series { sensor: thermometer.unwrap_or_default(), parts }, sign);
-        }
-    }
-
-    /// Parts and thermometer with the design's constants at those of `u`; kept for as long as other numbers are varied, or one of them.
-    fn with_constants(&self, record: usize, u: &[f64]) -> Series {
-        let told = &u[instruments::CONSTANTS..];
-        let prepared = &self.records[record];
-        let mut moved = self.moved.borrow_mut();
-        let differs = |known: &[f64]| (0..told.len()).filter(|k| known[*k] != told[*k]).collect::<Vec<_>>();
-        if let Some((_, known, series)) = moved.iter().find(|(own, known, _)| *own == record && differs(known).len() <= FEW) {
-            let mut series = series.clone();
-            differs(known).into_iter().for_each(|k| self.move_constant(prepared, k, [known[k], told[k]], &mut series));
-            return series;
-        }
-        let mut series = prepared.nominal.clone();
-        for (k, (constant, value)) in self.library().constants.iter().zip(self.library().values()).enumerate() {
-            self.move_constant(prepared, k, [constant.told(value), told[k]], &mut series);
-        }
-        moved.retain(|(own, ..)| *own != record);
-        moved.push((record, told.to_vec(), series.clone()));
-        series
-    }
-
-    /// The nominal model with its uncertain numbers at `u`; kept for as long as mechanisms' own are varied.
-    fn recalibrated(&self, number: usize, u: &[f64]) -> Arc<Recalibrated> {
-        let mut known = self.recalibrated.borrow_mut();
-        if let Some(same) = known.iter().find(|known| known.record == number && known.at == u) {
-            return Arc::clone(same);
-        }
-        let (parts, thermometer) = self.with_nuisances(number, u);
-        let nominal = &self.records[number].nominal.parts;
-        let gain = [0, 1, 2].map(|p: usize| share(&parts[p], &nominal[p]));
-        let here = Arc::new(Recalibrated { record: number, at: u.to_vec(), parts, thermometer, gain });
-        known.retain(|known| known.record != number);
-        known.push(Arc::clone(&here));
-        here
-    }
-
-    /// Parts and thermometer of the nominal model with its uncertain numbers at `u`.
-    fn with_nuisances(&self, number: usize, u: &[f64]) -> (Parts, Vec<f64>) {
-        let (record, library) = (&self.records[number], self.library());
-        let mut series = self.with_constants(number, u);
-        let mut change = |of: &Series, factor: f64| series.change(of, factor);
-        // (1 + τ d/dt) e^(c d/dt) beside the values at which the model is exact, of the delay to the second order
-        let late = u[instruments::CHAMBER_DELAY] - record.delay.total();
-        let squared = u[instruments::CHAMBER_LAG_SQUARED] - record.delay.lag.powi(2);
-        change(&record.later, late);
-        change(&record.rates[1], late * late / 2.0);
-        change(&record.slower, squared);
-        change(&record.off_rest, u[instruments::REST]);
-        let Series { mut parts, mut sensor } = series;
-        let filter = u[instruments::RATE_FILTER] / 2.0;
-        parts.iter_mut().zip(&record.rates[1].parts).for_each(|(part, second)| add(part, second, filter));
-        let late = u[instruments::RATE_DELAY];
-        parts.iter_mut().zip(&record.rates[0].parts).for_each(|(part, first)| add(part, first, -late));
-        parts.iter_mut().zip(&record.tail).for_each(|(part, tail)| add(part, tail, u[instruments::TAIL]));
-        let thermo_optic = {
-            let o = &library.design().optics;
-            let (a, b) = (o.thermo_optic, o.refractive_index * o.thermal_expansion);
-            (a * u[instruments::THERMO_OPTIC] + b) / (a + b)
-        };
-        let shupe = thermo_optic * u[instruments::SHUPE];
-        parts[0].iter_mut().for_each(|s| *s *= shupe);
-        // a chamber that moved by more than its thermometer said moves everything by more, from rest
-        let gain = 1.0 / u[instruments::CHAMBER_GAIN];
-        parts.iter_mut().flatten().for_each(|x| *x *= gain);
-        let rest = sensor[0];
-        sensor.iter_mut().for_each(|t| *t = rest + (*t - rest) * gain);
-        (parts, sensor)
-    }
-
-    /// What a thermometer of the spool says of its temperature.
-    fn read(&self, record: &Prepared, thermometer: &mut Vec<f64>, u: &[f64]) {
-        let lag = self.library().design().sensor.lag * u[instruments::LAG];
-        if lag > 0.0 {
-            *thermometer = lagged(&record.time, thermometer, lag);
-        }
     }
 
     /// Nuisances where a mechanism that is a factor on a constant takes its place, and the mechanisms that are left. Such a factor is all that the
@@ -316,13 +254,6 @@ impl Known {
             Effect::Readings(_) => None,
         }
     }
-}
-
-/// How much of a series another one is: ⟨a, b⟩/⟨b, b⟩.
-fn share(a: &[f64], b: &[f64]) -> f64 {
-    let of = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let size = of(b, b);
-    if size > 0.0 { of(a, b) / size } else { 0.0 }
 }
 
 impl ForwardModel for Gyro<'_> {
@@ -420,6 +351,7 @@ impl ForwardModel for Gyro<'_> {
             kinds: self.kinds.clone(),
             mechanisms: self.mechanisms.clone(),
             factored: self.factored.clone(),
+            scene: self.scene,
             moved: RefCell::default(),
             recalibrated: RefCell::default(),
             known: RefCell::default(),

@@ -1,0 +1,546 @@
+//! Mechanisms of a user's own: `MECHANISM.ron`.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use diagnosis::{Parameter, Prior};
+use laws::{Expression, Fault, State, System, Unit, check_name};
+use mechanisms::{CATALOGUE, INPUTS, Input, Mechanism, Target, Written};
+
+use super::InputError;
+use super::group::Group;
+use super::mechanism_file::{GoesFile, LawFile, MechanismFile, ParameterFile, PriorFile};
+use super::mirror::Mirror;
+use super::source::{MECHANISM, Source};
+use crate::Error;
+
+/// Most parameters, columns, states and laws, each.
+const MOST: usize = 8;
+/// Most values from which fits of a parameter start, and most combinations of them.
+const MOST_STARTS: usize = 50;
+const MOST_COMBINATIONS: usize = 128;
+/// Longest id.
+const LONGEST_ID: usize = 40;
+/// Step for differences, in standard deviations of the prior, of a parameter at which a law jumps.
+const JUMPING_STEP: f64 = 0.05;
+
+/// A mechanism's file that has been read and checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MechanismCase {
+    /// The file it was read from.
+    pub file: PathBuf,
+    /// The mechanism.
+    pub mechanism: Written,
+    /// Its parameters' values, as `simulate` takes them; `None` of one that has none.
+    pub values: Vec<Option<f64>>,
+    /// Names of the parameters in the file.
+    pub names: Vec<String>,
+    source: Source,
+}
+
+impl MechanismCase {
+    /// Values of all parameters.
+    ///
+    /// # Errors
+    /// The parameter that has none.
+    pub fn at(&self) -> Result<Vec<f64>, InputError> {
+        let missing = |k: usize| {
+            let remedy = "give it, e.g. value: Some(0.1), or take the file that `fogcoil diagnose --model-out` writes".to_owned();
+            self.source.fault(&format!("parameters[{k}]"), "the parameter has no value", remedy)
+        };
+        self.values.iter().enumerate().map(|(k, value)| value.ok_or_else(|| missing(k))).collect()
+    }
+
+    /// The file's text with values of the parameters put in.
+    ///
+    /// # Errors
+    /// If a value cannot be written.
+    pub fn with_values(&self, values: &[f64]) -> Result<String, InputError> {
+        let mut file: MechanismFile = self.source.parse(Some(&MECHANISM))?;
+        file.parameters.iter_mut().zip(values).for_each(|(parameter, value)| parameter.value = Some(*value));
+        let pretty = ron::ser::PrettyConfig::new().struct_names(false);
+        ron::ser::to_string_pretty(&file, pretty)
+            .map(|text| text + "\n")
+            .map_err(|error| InputError::whole(&self.file, error.to_string(), ""))
+    }
+}
+
+/// Reads and checks a mechanism's file.
+///
+/// # Errors
+/// What is wrong, in which file, line and field, and how to mend it.
+pub fn read_mechanism(path: &Path) -> Result<MechanismCase, InputError> {
+    checked(Source::read(path)?)
+}
+
+/// Checks a mechanism that is not in a file, with the content of one; messages call it `path`.
+///
+/// # Errors
+/// As [`read_mechanism`].
+pub fn check_mechanism(path: &Path, text: String) -> Result<MechanismCase, InputError> {
+    checked(Source::of(path, text))
+}
+
+fn checked(source: Source) -> Result<MechanismCase, InputError> {
+    let file: MechanismFile = source.parse(Some(&MECHANISM))?;
+    let top = Group::whole(&source);
+    check_id(&top, &file.id)?;
+    for (field, count, least) in [
+        ("parameters", file.parameters.len(), 1),
+        ("columns", file.columns.len(), 0),
+        ("states", file.states.len(), 0),
+        ("laws", file.laws.len(), 1),
+    ] {
+        if !(least..=MOST).contains(&count) {
+            return Err(top.fault(field, format!("{count} are given"), format!("give {least} to {MOST}")));
+        }
+    }
+    let quantities = Quantities::of(&top, &file)?;
+    let states = file
+        .states
+        .iter()
+        .enumerate()
+        .map(|(k, state)| quantities.state(&top.group(&format!("states[{k}].goes")), k, &state.goes));
+    let states = states.collect::<Result<Vec<_>, _>>()?;
+    let (mut targets, mut written) = (Vec::new(), Vec::new());
+    for (k, law) in file.laws.iter().enumerate() {
+        let (target, text) = target(law);
+        let unit = Unit::parse(target.unit()).unwrap_or(Unit::ONE);
+        written.push(quantities.expression(&top, &format!("laws[{k}]"), text, unit, Sight::All)?);
+        targets.push(target);
+    }
+    quantities.check_used(&top, &file, &states, &written)?;
+    let mut parameters = Vec::new();
+    for (here, parameter) in top.each("parameters", &file.parameters) {
+        let prior = prior(&here, parameter.prior)?;
+        check_starts(&here, parameter, prior)?;
+        let own = Parameter::new(reported(&parameter.name, &parameter.unit), prior);
+        let k = parameters.len();
+        let plays = |state: &State| matches!(state, State::Play { width, .. } if width.has(k));
+        let jumps = written.iter().chain(states.iter().flat_map(expressions)).any(|expression| expression.jumps(k));
+        // where a small step changes nothing, or all at once, a larger one tells the slope
+        parameters.push(if jumps || states.iter().any(plays) { own.with_step(JUMPING_STEP) } else { own });
+    }
+    let starts = starts(&top, &file.parameters, &parameters)?;
+    let (system, inputs) = quantities.system(states, written);
+    let equation = equation(&file);
+    let MechanismFile { id, title, stage, meaning, signature, inspection, source: literature, .. } = file;
+    let or = |text: String, other: &str| if text.is_empty() { other.to_owned() } else { text };
+    let mechanism = Written {
+        meaning: or(meaning, &title),
+        inspection: or(inspection, "change what its law depends on, and nothing else"),
+        signature,
+        source: literature,
+        stage: stage.model(),
+        id,
+        title,
+        equation,
+        parameters,
+        starts,
+        inputs,
+        system,
+        targets,
+    };
+    let values = file.parameters.iter().map(|parameter| parameter.value).collect();
+    let names = file.parameters.into_iter().map(|parameter| parameter.name).collect();
+    Ok(MechanismCase { file: source.path().to_owned(), mechanism, values, names, source })
+}
+
+/// Reads mechanisms of a user's own, each once.
+///
+/// # Errors
+/// As [`read_mechanism`]; [`Error::Usage`] if one is given twice.
+pub fn read_mechanisms(paths: &[PathBuf]) -> Result<Vec<MechanismCase>, Error> {
+    let own = paths.iter().map(|path| read_mechanism(path)).collect::<Result<Vec<_>, _>>()?;
+    let twice = own.iter().enumerate().find(|(k, case)| own[..*k].iter().any(|other| other.mechanism.id == case.mechanism.id));
+    match twice {
+        Some((_, case)) => Err(Error::Usage(format!(
+            "{}: the mechanism `{}` is given twice; give each id once",
+            case.file.display(),
+            case.mechanism.id
+        ))),
+        None => Ok(own),
+    }
+}
+
+/// Further columns of records that mechanisms name.
+pub fn further_columns(own: &[MechanismCase]) -> Vec<String> {
+    let all: BTreeSet<&str> = own.iter().flat_map(|own| own.mechanism.columns()).collect();
+    all.into_iter().map(str::to_owned).collect()
+}
+
+/// The program's mechanisms and a user's own.
+pub fn with_catalogue(own: &[MechanismCase]) -> Vec<&dyn Mechanism> {
+    CATALOGUE.iter().copied().chain(own.iter().map(|own| &own.mechanism as &dyn Mechanism)).collect()
+}
+
+fn check_id(top: &Group, id: &str) -> Result<(), InputError> {
+    let kebab = id.split('-').all(|word| !word.is_empty() && word.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit()));
+    if !kebab || id.len() > LONGEST_ID {
+        let problem = format!("`{}` is no id", id.escape_debug().take(LONGEST_ID).collect::<String>());
+        return Err(top.fault(
+            "id",
+            problem,
+            format!("take up to {LONGEST_ID} small letters, digits and hyphens, e.g. slow-board"),
+        ));
+    }
+    if ["nominal", "recalibrate", "unknown", "none"].contains(&id) || mechanisms::find(id).is_some() {
+        return Err(top.fault(
+            "id",
+            format!("`{id}` is taken by the program itself"),
+            "take another; `fogcoil explain` lists those that are known",
+        ));
+    }
+    Ok(())
+}
+
+/// Which names an expression may have.
+#[derive(Clone, Copy, PartialEq)]
+enum Sight {
+    Parameters,
+    Record,
+    All,
+}
+
+/// Names with their units: parameters, what is seen of a record, states.
+struct Quantities {
+    names: Vec<String>,
+    units: Vec<Unit>,
+    parameters: usize,
+    inputs: Vec<Input>,
+}
+
+impl Quantities {
+    fn of(top: &Group, file: &MechanismFile) -> Result<Self, InputError> {
+        let mut all = Self { names: Vec::new(), units: Vec::new(), parameters: file.parameters.len(), inputs: Vec::new() };
+        for (here, parameter) in top.each("parameters", &file.parameters) {
+            all.take(&here, &parameter.name, &parameter.unit)?;
+        }
+        for (name, input, unit) in INPUTS {
+            all.names.push(name.to_owned());
+            all.units.push(Unit::parse(unit).unwrap_or(Unit::ONE));
+            all.inputs.push(input);
+        }
+        for (here, column) in top.each("columns", &file.columns) {
+            all.take(&here, &column.name, &column.unit)?;
+            all.inputs.push(Input::Column(column.name.clone()));
+        }
+        for (here, state) in top.each("states", &file.states) {
+            all.take(&here, &state.name, &state.unit)?;
+        }
+        Ok(all)
+    }
+
+    fn take(&mut self, here: &Group, name: &str, unit: &str) -> Result<(), InputError> {
+        check_name(name).map_err(|fault| here.fault("name", fault.problem, fault.remedy))?;
+        if self.names.iter().any(|known| known == name) || INPUTS.iter().any(|(known, ..)| *known == name) {
+            return Err(here.fault("name", format!("`{name}` is taken already"), "take another name"));
+        }
+        let unit = Unit::parse(unit).map_err(|fault| here.fault("unit", placed(&fault, unit), fault.remedy.clone()))?;
+        self.names.push(name.to_owned());
+        self.units.push(unit);
+        Ok(())
+    }
+
+    fn expression(&self, here: &Group, field: &str, text: &str, unit: Unit, sight: Sight) -> Result<Expression, InputError> {
+        let seen = match sight {
+            Sight::Parameters => self.parameters,
+            Sight::Record => self.parameters + self.inputs.len(),
+            Sight::All => self.names.len(),
+        };
+        let names: Vec<&str> = self.names[..seen].iter().map(String::as_str).collect();
+        let parsed = Expression::parse(text, &names).and_then(|law| law.check_unit(&self.units, unit).map(|()| law));
+        parsed.map_err(|fault| here.fault(field, placed(&fault, text), fault.remedy.clone()))
+    }
+
+    fn state(&self, here: &Group, number: usize, goes: &GoesFile) -> Result<State, InputError> {
+        let unit = self.units[self.parameters + self.inputs.len() + number];
+        let per_second = unit.over(Unit::parse("s").unwrap_or(Unit::ONE));
+        let of = |field: &str, text: &str, unit: Unit, sight: Sight| self.expression(here, field, text, unit, sight);
+        Ok(match goes {
+            GoesFile::Rate { rate, first } => {
+                State::Rate { rate: of("rate", rate, per_second, Sight::All)?, first: of("first", first, unit, Sight::Record)? }
+            }
+            GoesFile::Play { of: followed, width } => {
+                State::Play { of: of("of", followed, unit, Sight::Record)?, width: of("width", width, unit, Sight::Parameters)? }
+            }
+            GoesFile::Highest(text) => State::Highest(of("", text, unit, Sight::Record)?),
+            GoesFile::Lowest(text) => State::Lowest(of("", text, unit, Sight::Record)?),
+        })
+    }
+
+    /// Refuses a parameter, a column or a state that nothing depends on.
+    fn check_used(&self, top: &Group, file: &MechanismFile, states: &[State], laws: &[Expression]) -> Result<(), InputError> {
+        let used = |k: usize| laws.iter().chain(states.iter().flat_map(expressions)).any(|expression| expression.has(k));
+        let seen = INPUTS.len();
+        let columns = self.parameters + seen;
+        let states = columns + file.columns.len();
+        for (field, first, count) in
+            [("parameters", 0, self.parameters), ("columns", columns, file.columns.len()), ("states", states, file.states.len())]
+        {
+            if let Some(k) = (0..count).find(|k| !used(first + k)) {
+                let problem = format!("nothing depends on `{}`", self.names[first + k]);
+                return Err(top.fault(&format!("{field}[{k}].name"), problem, "name it in a state or a law, or remove it"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The laws in what they see of a record alone.
+    fn system(&self, states: Vec<State>, laws: Vec<Expression>) -> (System, Vec<Input>) {
+        let used = |k: &usize| {
+            let place = self.parameters + k;
+            laws.iter().chain(states.iter().flat_map(expressions)).any(|expression| expression.has(place))
+        };
+        let kept: Vec<usize> = (0..self.inputs.len()).filter(used).collect();
+        let after = self.parameters + self.inputs.len();
+        let places: Vec<usize> =
+            (0..self.parameters).chain(kept.iter().map(|k| self.parameters + k)).chain(after..self.names.len()).collect();
+        let moved = |expression: &Expression| expression.placed(|old| places.iter().position(|kept| *kept == old).unwrap_or(0));
+        let states = states
+            .iter()
+            .map(|state| match state {
+                State::Rate { rate, first } => State::Rate { rate: moved(rate), first: moved(first) },
+                State::Play { of, width } => State::Play { of: moved(of), width: moved(width) },
+                State::Highest(of) => State::Highest(moved(of)),
+                State::Lowest(of) => State::Lowest(moved(of)),
+            })
+            .collect();
+        let laws = laws.iter().map(moved).collect();
+        let inputs: Vec<Input> = kept.into_iter().map(|k| self.inputs[k].clone()).collect();
+        (System { parameters: self.parameters, inputs: inputs.len(), states, laws }, inputs)
+    }
+}
+
+fn expressions(state: &State) -> Vec<&Expression> {
+    match state {
+        State::Rate { rate, first } => vec![rate, first],
+        State::Play { of, width } => vec![of, width],
+        State::Highest(of) | State::Lowest(of) => vec![of],
+    }
+}
+
+/// What is wrong, with the part of the text that it concerns.
+fn placed(fault: &Fault, text: &str) -> String {
+    let part = text.get(fault.at.clone()).unwrap_or("");
+    let character = text.get(..fault.at.start).map_or(0, |before| before.chars().count()) + 1;
+    if part.is_empty() || fault.problem.contains(part) {
+        format!("{} (character {character})", fault.problem)
+    } else {
+        format!("`{}` {} (character {character})", part.escape_debug(), fault.problem)
+    }
+}
+
+fn target(law: &LawFile) -> (Target, &str) {
+    match law {
+        LawFile::Rate(text) => (Target::Rate, text),
+        LawFile::Thermometer(text) => (Target::Thermometer, text),
+        LawFile::Chamber(text) => (Target::Chamber, text),
+        LawFile::FlangePower(text) => (Target::FlangePower, text),
+        LawFile::Stiffness(text) => (Target::Stiffness, text),
+        LawFile::Expansion(text) => (Target::Expansion, text),
+        LawFile::OpenBond(text) => (Target::OpenBond, text),
+        LawFile::Tail(text) => (Target::Tail, text),
+        LawFile::Shupe(text) => (Target::Shupe, text),
+        LawFile::Axial(text) => (Target::Axial, text),
+        LawFile::Radial(text) => (Target::Radial, text),
+        LawFile::Bias(text) => (Target::Bias, text),
+    }
+}
+
+fn prior(here: &Group, file: PriorFile) -> Result<Prior, InputError> {
+    let (numbers, prior, holds, remedy) = match file {
+        PriorFile::Normal(mean, sd) => {
+            ([mean, sd], Prior::Normal { mean, sd }, sd > 0.0, "give Normal(mean, standard deviation), the latter above 0")
+        }
+        PriorFile::LogNormal(median, spread) => (
+            [median, spread],
+            Prior::LogNormal { median, spread },
+            median > 0.0 && spread > 0.0,
+            "give LogNormal(median, standard deviation of the logarithm), both above 0",
+        ),
+        PriorFile::Uniform(low, high) => {
+            ([low, high], Prior::Uniform { low, high }, low < high, "give Uniform(low, high), the lower end first")
+        }
+    };
+    // what the ends of the range that is looked at must be
+    let ends = [-8.0, 8.0].map(|u| prior.value(u));
+    if numbers.iter().chain(&ends).all(|number| number.is_finite()) && holds {
+        return Ok(prior);
+    }
+    Err(here.fault("prior", format!("{} and {} are no prior", numbers[0], numbers[1]), remedy))
+}
+
+/// A parameter's name in every output: it ends in its unit.
+fn reported(name: &str, unit: &str) -> String {
+    let words = crate::units::suffix(unit);
+    // a name that looks like a unit is set apart from its own
+    let apart = if crate::units::parameter_unit(name) == "1" { "" } else { "_in" };
+    match (words.as_str(), apart) {
+        (own, _) if !own.is_empty() && name.ends_with(&format!("_{own}")) => name.to_owned(),
+        ("", "") => name.to_owned(),
+        ("", _) => format!("{name}_in_1"),
+        (own, apart) => format!("{name}{apart}_{own}"),
+    }
+}
+
+fn check_starts(here: &Group, parameter: &ParameterFile, prior: Prior) -> Result<(), InputError> {
+    if parameter.starts.len() > MOST_STARTS {
+        return Err(here.fault("starts", format!("{} are given", parameter.starts.len()), format!("give up to {MOST_STARTS}")));
+    }
+    let outside = |value: &f64| !value.is_finite() || !(prior.value(-8.0)..=prior.value(8.0)).contains(value);
+    let given =
+        parameter.starts.iter().map(|value| ("starts", value)).chain(parameter.value.iter().map(|value| ("value", value)));
+    match given.into_iter().find(|(_, value)| outside(value)) {
+        Some((field, value)) => {
+            Err(here.fault(field, format!("{value} lies outside the prior"), "give a value that the prior allows"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Values from which fits start: all combinations of each parameter's.
+fn starts(top: &Group, files: &[ParameterFile], parameters: &[Parameter]) -> Result<Vec<Vec<f64>>, InputError> {
+    let own = |(file, parameter): (&ParameterFile, &Parameter)| {
+        if !file.starts.is_empty() {
+            return file.starts.clone();
+        }
+        // away from the middle, where a size is 0 and says nothing of the others; one that is no size from three
+        match parameter.prior {
+            Prior::Normal { .. } => vec![parameter.prior.value(0.5)],
+            _ if files.len() > 1 => [-1.0, 0.0, 1.0].map(|u| parameter.prior.value(u)).to_vec(),
+            _ => vec![parameter.prior.value(0.0)],
+        }
+    };
+    let lists: Vec<Vec<f64>> = files.iter().zip(parameters).map(own).collect();
+    let given: usize = files.iter().map(|file| file.starts.len().max(1)).product();
+    if given > MOST_COMBINATIONS {
+        return Err(top.fault(
+            "parameters",
+            format!("their starts make {given} combinations"),
+            format!("give fewer: up to {MOST_COMBINATIONS}"),
+        ));
+    }
+    let (mut all, mut count) = (vec![Vec::new()], given);
+    for (list, file) in lists.iter().zip(files) {
+        // of those that are not given, the middle where there would be too many
+        let own = file.starts.is_empty() && count * list.len() > MOST_COMBINATIONS;
+        let list = if own { &list[list.len() / 2..=list.len() / 2] } else { &list[..] };
+        count *= if file.starts.is_empty() { list.len() } else { 1 };
+        all = all.iter().flat_map(|start: &Vec<f64>| list.iter().map(|value| [start.as_slice(), &[*value]].concat())).collect();
+    }
+    Ok(all)
+}
+
+fn equation(file: &MechanismFile) -> String {
+    let mut lines = Vec::new();
+    for state in &file.states {
+        let name = &state.name;
+        lines.push(match &state.goes {
+            GoesFile::Rate { rate, first } => format!("d{name}/dt = {rate}, at first {first}"),
+            GoesFile::Play { of, width } => format!("{name}: a play of {of}, {width} wide"),
+            GoesFile::Highest(of) => format!("{name}: the highest {of} so far"),
+            GoesFile::Lowest(of) => format!("{name}: the lowest {of} so far"),
+        });
+    }
+    lines.extend(file.laws.iter().map(|law| {
+        let (target, text) = target(law);
+        format!("{} [{}]: {text}", target.place(), target.unit())
+    }));
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SLOW: &str = r#"(
+        id: "slow-board",
+        title: "A board that warms up slowly",
+        stage: Electronics,
+        parameters: [
+            (name: "size", unit: "deg/h/K", prior: Normal(0.0, 0.01)),
+            (name: "tau", unit: "s", prior: LogNormal(1800.0, 1.0), value: Some(600.0)),
+        ],
+        columns: [(name: "supply_v", unit: "V")],
+        states: [(name: "board", unit: "degC", goes: Rate(rate: "(spool - board) / tau", first: "spool"))],
+        laws: [Rate("size * (spool - board) * supply_v / max(abs(supply_v), 1)")],
+    )"#;
+
+    fn read(text: &str) -> Result<MechanismCase, String> {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("m.ron");
+        std::fs::write(&path, text).expect("written");
+        read_mechanism(&path).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_mechanism_is_read_with_what_it_sees_alone() {
+        let case = read(SLOW).expect("a mechanism");
+        let Written { parameters, inputs, system, starts, targets, .. } = &case.mechanism;
+        assert_eq!(parameters.iter().map(|p| p.name.as_str()).collect::<Vec<_>>(), ["size_deg_per_h_per_k", "tau_s"]);
+        assert_eq!(*inputs, [Input::Temperature(mechanisms::Body::Spool, 0), Input::Column("supply_v".into())]);
+        assert_eq!((targets.as_slice(), starts.len(), system.states.len()), (&[Target::Rate][..], 3, 1));
+        assert_eq!(case.mechanism.columns(), ["supply_v"]);
+        assert_eq!(case.values, [None, Some(600.0)]);
+        // a step of the spool by 1 K: the board is 1/e behind after its time constant
+        let time: Vec<f64> = (0..=60).map(|n| 10.0 * f64::from(n)).collect();
+        let spool = time.iter().map(|t| if *t > 0.0 { 1.0 } else { 0.0 }).collect();
+        let rate = system.run(&time, &[0.5, 600.0], &[spool, vec![5.0; 61]]);
+        assert!((rate[0][60] - 0.5 * (-595.0_f64 / 600.0).exp()).abs() < 2e-3, "{}", rate[0][60]);
+    }
+
+    #[test]
+    fn values_are_written_and_read_back() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("m.ron");
+        std::fs::write(&path, SLOW).expect("written");
+        let case = read_mechanism(&path).expect("a mechanism");
+        assert!(case.at().expect_err("no value").to_string().contains("m.ron:6: parameters[0]: the parameter has no value"));
+        let text = case.with_values(&[0.002, 900.0]).expect("a text");
+        std::fs::write(&path, text).expect("written");
+        let again = read_mechanism(&path).expect("a mechanism");
+        assert_eq!((again.at().expect("values"), &again.mechanism), (vec![0.002, 900.0], &case.mechanism));
+    }
+
+    #[test]
+    fn every_mistake_is_one_message_with_line_and_remedy() {
+        for (from, to, says) in [
+            ("slow-board", "Slow Board", "m.ron:2: id: `Slow Board` is no id; take"),
+            ("slow-board", "air-path", "id: `air-path` is taken by the program"),
+            ("\"size\", unit", "\"spool\", unit", "parameters[0].name: `spool` is taken"),
+            ("\"size\", unit", "\"exp\", unit", "parameters[0].name: exp is a function"),
+            ("\"deg/h/K\"", "\"deg/hour\"", "m.ron:6: parameters[0].unit: `hour` is no unit here (character 5); the units are"),
+            ("\"deg/h/K\"", "\"deg/h\"", "m.ron:11: laws[0]: `size * (spool - board) * supply_v / max(abs(supply_v), 1)` is in"),
+            ("Normal(0.0, 0.01)", "Normal(0.0, -0.01)", "parameters[0].prior: 0 and -0.01 are no prior; give Normal"),
+            ("LogNormal(1800.0, 1.0)", "Uniform(5.0, 5.0)", "parameters[1].prior"),
+            ("LogNormal(1800.0, 1.0)", "LogNormal(1800.0, 1e9)", "parameters[1].prior"),
+            ("Some(600.0)", "Some(-600.0)", "parameters[1].value: -600 lies outside"),
+            (
+                "(spool - board) / tau",
+                "(spool - bord) / tau",
+                "m.ron:10: states[0].goes.rate: `bord` is not known (character 10); the names here are",
+            ),
+            ("(spool - board) / tau", "(spool - board) * tau", "states[0].goes.rate"),
+            ("first: \"spool\"", "first: \"board\"", "states[0].goes.first: `board` is not known"),
+            ("Electronics", "Cellar", "stage: `Cellar` is not a choice here; choose"),
+            ("Rate(\"size", "Rate(\"2 * size", "laws"),
+            ("size * (spool", "(spool", "laws[0]"),
+            ("laws: [Rate", "laws: [Torque", "`Torque` is not a choice"),
+            ("title:", "titel:", "unknown field `titel`"),
+        ] {
+            let text = SLOW.replacen(from, to, 1);
+            let wrong = read(&text);
+            if to.starts_with("Rate(\"2") {
+                assert!(wrong.is_ok());
+                continue;
+            }
+            let message = wrong.expect_err(to);
+            assert!(message.contains(says), "{to}: {message}");
+        }
+        let unused = SLOW.replace(" * supply_v / max(abs(supply_v), 1)", "");
+        assert!(read(&unused).expect_err("unused").contains("columns[0].name: nothing depends on `supply_v`"));
+        let none = SLOW.split("laws:").next().expect("a part").to_owned() + "laws: [])";
+        assert!(read(&none).expect_err("none").contains("laws: 0 are given; give 1 to 8"));
+    }
+}

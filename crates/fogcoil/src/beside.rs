@@ -1,0 +1,98 @@
+//! What mechanisms of a user's own add to a simulation.
+
+use diagnosis::{Active, ForwardModel, expected};
+use mechanisms::{Chamber, Gyro, Library, Mechanism, Prepared, RATE, SPOOL};
+use progress::Step;
+
+use crate::Error;
+use crate::cache::Cache;
+use crate::input::{MechanismCase, ProfileCase};
+use crate::prepare::library;
+use crate::simulate::Simulation;
+use coil::{Drive, Mechanics};
+
+/// Straight lines between rows, divided: a record is taken as smooth between its rows, a profile has corners.
+const PARTS: usize = 8;
+
+/// A library under a profile of the chamber, without a sensor's noise.
+pub(crate) fn under<'m>(
+    library: Library,
+    mechanisms: &[&'m dyn Mechanism],
+    profile: &ProfileCase,
+) -> Result<Gyro<'m>, coil::Error> {
+    let (time, chamber) = divided(&profile.profile.time, profile.chamber());
+    let prepared = Prepared::under(&library, &time, &Chamber::given(&time, &chamber), 0.0)?;
+    Gyro::new(library, mechanisms, vec![prepared])
+}
+
+/// A response of such a library at the profile's rows: thermometer, and rate as a mean since the row before.
+pub(crate) fn at_rows(response: &[Vec<f64>]) -> [Vec<f64>; 2] {
+    let mean = |part: &[f64]| part.iter().sum::<f64>() / PARTS as f64;
+    let (spool, rate) = (&response[SPOOL], &response[RATE]);
+    let rate = rate[..1].iter().copied().chain(rate[1..].chunks(PARTS).map(mean)).collect();
+    [spool.iter().copied().step_by(PARTS).collect(), rate]
+}
+
+fn divided(time: &[f64], course: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let divided = |x: &[f64]| {
+        let between = x.windows(2).flat_map(|w| (1..=PARTS).map(|k| w[0] + (w[1] - w[0]) * k as f64 / PARTS as f64));
+        x.first().copied().into_iter().chain(between).collect()
+    };
+    (divided(time), divided(course))
+}
+
+impl Simulation<'_> {
+    /// Adds what mechanisms do at the values that their files give, by the reduced models that a diagnosis has.
+    ///
+    /// # Errors
+    /// [`files::Error::Usage`] where they cannot act, or a law is no number; [`files::Error::Input`] for a parameter without a value.
+    pub fn add(&mut self, own: &[MechanismCase], cache: &Cache, progress: &(dyn Fn(Step) + Sync)) -> Result<(), Error> {
+        if own.is_empty() {
+            return Ok(());
+        }
+        let (case, profile) = (self.case, self.profile);
+        if profile.drives != [Drive::Chamber] {
+            return Err(Error::usage(
+                "--mechanism: acts in profiles with chamber_c alone; leave out the other columns, or --mechanism",
+            ));
+        }
+        if case.design.mechanics != Mechanics::Elastic {
+            return Err(Error::usage("--mechanism: acts in a design whose mechanics is Elastic; leave out --mechanism"));
+        }
+        let values = own.iter().map(MechanismCase::at).collect::<Result<Vec<_>, _>>()?;
+        for MechanismCase { file, mechanism, .. } in own {
+            if let Some(column) = mechanism.columns().first() {
+                let text = format!(
+                    "--mechanism: {}: its law names the column {column}, which no profile has; leave the mechanism out",
+                    file.display()
+                );
+                return Err(Error::usage(text));
+            }
+        }
+        let at = Error::of_coil(&case.file);
+        let kinds: Vec<&dyn Mechanism> = own.iter().map(|own| &own.mechanism as &dyn Mechanism).collect();
+        let gyro = under(library(case, cache, progress)?, &kinds, profile).map_err(at)?;
+        let place = |(own, values): (&MechanismCase, Vec<f64>)| {
+            let id = &own.mechanism.id;
+            let none = || Error::usage(format!("--mechanism: {}: the design has no place for `{id}`", own.file.display()));
+            let mechanism = gyro.find(id).ok_or_else(none)?;
+            Ok(Active { mechanism, values, choice: None })
+        };
+        let active = own.iter().zip(values).map(place).collect::<Result<Vec<_>, Error>>()?;
+        let middle = expected(gyro.nuisances());
+        let respond = |active: &[Active]| gyro.respond(0, &middle, active).map_err(at).map(|response| at_rows(&response));
+        let (with, without) = (respond(&active)?, respond(&[])?);
+        let rows = 0..profile.profile.time.len();
+        self.added = rows.map(|n| [SPOOL, RATE].map(|channel| with[channel][n] - without[channel][n])).collect();
+        match self.added.iter().position(|row| row.iter().any(|value| !value.is_finite())) {
+            Some(row) => {
+                let files: Vec<String> = own.iter().map(|own| own.file.display().to_string()).collect();
+                let at = profile.profile.time[row];
+                let text =
+                    format!("--mechanism: {}: no finite number at {at} s; bound the law, e.g. by max(...)", files.join(", "));
+                Err(Error::usage(text))
+            }
+            None => Ok(()),
+        }
+    }
+}

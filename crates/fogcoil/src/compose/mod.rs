@@ -1,0 +1,151 @@
+//! Laws composed where nothing that is listed explains a record.
+
+mod laws;
+
+use diagnosis::{Diagnosis, Estimate, Fit, HeldOut, Hypothesis, Observation, Verdict, as_designed};
+use mechanisms::{Gyro, Mechanism, RATE};
+use progress::Step;
+use serde_json::{Value, json};
+
+use crate::Error;
+use crate::input::{MechanismCase, check_mechanism};
+use laws::{Law, Ranges};
+
+/// A law that was composed, one or two terms, with its sizes.
+pub(crate) struct Composed {
+    terms: Vec<Term>,
+    /// Its fit, constants and sensors free.
+    pub(crate) fit: Fit,
+    gain: f64,
+    /// titles and ids of laws that the records hardly tell from the last, and by how much ln evidence they are behind
+    others: Vec<(String, String, f64)>,
+    /// What it predicts of each record that was held out.
+    pub(crate) held: Vec<HeldOut>,
+    /// Whether every record that was held out, and there is one, is predicted better by it.
+    pub(crate) accepted: bool,
+}
+
+/// A term of a law.
+struct Term {
+    case: MechanismCase,
+    known: &'static str,
+    values: Vec<f64>,
+    estimates: Vec<Estimate>,
+}
+
+/// ln evidence by which another law is behind and still not excluded, as odds of 1 to 20.
+const NEAR: f64 = 3.0;
+
+/// Composes a law for what a diagnosis leaves unknown; `None` where it leaves nothing, or no law gains enough. `held` are the records held out, by their
+/// numbers, and `answered` the errors of what is predicted of them without a law \[deg/h\], by the design or what was found.
+pub(crate) fn compose(
+    gyro: &Gyro,
+    drawn: &Gyro,
+    diagnosis: &Diagnosis,
+    fitted: &[Observation],
+    held: &[(usize, &Observation)],
+    answered: &[f64],
+    progress: &dyn Fn(Step),
+) -> Result<Option<Composed>, diagnosis::Error<coil::Error>> {
+    if diagnosis.verdict != Verdict::Unknown {
+        return Ok(None);
+    }
+    let best = diagnosis.best();
+    let constants = || diagnosis.candidates.iter().find(|c| c.rival.is_none() && c.fit.hypothesis == Hypothesis::RECALIBRATED);
+    let beside = if diagnosis.is_beside_named(gyro) { Some(&best.fit) } else { constants().map(|c| &c.fit) };
+    let Some(beside) = beside else { return Ok(None) };
+    let ranges = ranges(gyro, fitted);
+    let laws: Vec<Law> = laws::laws(&ranges);
+    // each is a file that the program has written: none is refused
+    let read = |law: &Law| Some((check_mechanism("composed".as_ref(), law.text.clone()).ok()?, law.known));
+    let cases: Vec<(MechanismCase, &'static str)> = laws.iter().filter_map(read).collect();
+    let kinds: Vec<&dyn Mechanism> = cases.iter().map(|(case, _)| &case.mechanism as &dyn Mechanism).collect();
+    let first = diagnosis::ForwardModel::mechanisms(gyro).len();
+    let with = gyro.beside(&kinds);
+    let all = first..diagnosis::ForwardModel::mechanisms(&with).len();
+    let numbers: Vec<usize> = (0..fitted.len()).collect();
+    let Some(found) = diagnosis::compose(&with, all, &numbers, fitted, beside, progress)? else { return Ok(None) };
+    let own = found.fit.active.iter().enumerate().skip(found.fit.active.len() - found.laws);
+    let mut terms = Vec::new();
+    for (place, active) in own {
+        let id = &diagnosis::ForwardModel::mechanisms(&with)[active.mechanism].id;
+        let Some((case, known)) = cases.iter().find(|(case, _)| case.mechanism.id == *id) else { continue };
+        let estimates = found.fit.estimates(&with, place);
+        terms.push(Term { case: case.clone(), known, values: active.values.clone(), estimates });
+    }
+    let other = |(law, behind): &(usize, f64)| {
+        let facts = with.mechanism(*law).facts();
+        (*behind < NEAR).then(|| (facts.title.to_owned(), facts.id.to_owned(), *behind))
+    };
+    let others = found.others.iter().filter_map(other).collect();
+    let mut predictions = Vec::new();
+    let mut accepted = !held.is_empty();
+    for (&(record, observed), answered) in held.iter().zip(answered) {
+        let by_law = found.fit.hold_out(&with, record, observed, &found.fit)?;
+        let nominal = as_designed(drawn, (0, &fitted[0]), (record, observed), &found.fit)?;
+        let better = nominal.clearly_worse_than(&by_law, RATE) && !by_law.proves_nothing(&nominal, RATE);
+        accepted &= better && by_law.rmse[RATE] <= *answered;
+        predictions.push(by_law);
+    }
+    Ok(Some(Composed { terms, fit: found.fit, gain: found.gain, others, held: predictions, accepted }))
+}
+
+fn ranges(gyro: &Gyro, fitted: &[Observation]) -> Ranges {
+    let states = || (0..fitted.len()).map(|record| diagnosis::ForwardModel::state(gyro, record));
+    let rate = states().flat_map(|state| &state.rate).fold(0.0_f64, |most, rate| most.max(rate.abs()));
+    let span = |o: &Observation| o.time.last().zip(o.time.first()).map_or(0.0, |(last, first)| last - first);
+    let duration = fitted.iter().map(span).fold(0.0, f64::max);
+    Ranges::new(gyro.scene(), rate, duration, gyro.largest_parts(fitted.len()))
+}
+
+impl Composed {
+    /// The law with its sizes as mechanisms' files: names and texts.
+    pub(crate) fn files(&self) -> Result<Vec<(String, String)>, Error> {
+        let of = |term: &Term| Ok((term.case.mechanism.id.clone(), term.case.with_values(&term.values)?));
+        self.terms.iter().map(of).collect()
+    }
+
+    /// One object, as scripts read it.
+    pub(crate) fn json(&self) -> Value {
+        let term = |term: &Term| {
+            let parameters: serde_json::Map<String, Value> =
+                term.estimates.iter().map(|e| (e.name.clone(), json!({"value": e.value, "ci90": e.ci90}))).collect();
+            json!({
+                "id": term.case.mechanism.id,
+                "title": term.case.mechanism.title,
+                "stage": term.case.mechanism.stage.name(),
+                "equation": term.case.mechanism.equation,
+                "known_physics": term.known,
+                "parameters": parameters,
+            })
+        };
+        json!({
+            "terms": self.terms.iter().map(term).collect::<Vec<_>>(),
+            "gain": self.gain,
+            "others": self.others.iter().map(|(_, id, behind)| json!({"id": id, "behind": behind})).collect::<Vec<_>>(),
+            "accepted": self.accepted,
+        })
+    }
+
+    /// For people: what it is, its form, its numbers.
+    pub(crate) fn text(&self) -> (String, Vec<Estimate>) {
+        let mut out = String::new();
+        for (k, term) in self.terms.iter().enumerate() {
+            let mechanism = &term.case.mechanism;
+            let begins = if k == 0 { "A law was composed" } else { "and beside it" };
+            out += &format!("{begins}: {} (known physics of this form: {}).\n", mechanism.title, term.known);
+            out.extend(mechanism.equation.lines().map(|line| format!("  {line}\n")));
+        }
+        let by = format!("It gains {:.1} of ln evidence, the choice among all laws paid for", self.gain);
+        let others: Vec<String> = self.others.iter().map(|(title, _, behind)| format!("{title} ({behind:.1} behind)")).collect();
+        let others =
+            if others.is_empty() { String::new() } else { format!("; these records hardly tell it from {}", others.join(", ")) };
+        let judged = match (self.held.is_empty(), self.accepted) {
+            (true, _) => "no record was held out to judge it: give one with --holdout",
+            (false, true) => "accepted: it predicts what was held out better than the design",
+            (false, false) => "not accepted: it does not predict what was held out better than the design",
+        };
+        out += &format!("{by}{others}; {judged}.\n");
+        (out, self.terms.iter().flat_map(|term| term.estimates.clone()).collect())
+    }
+}

@@ -1,0 +1,89 @@
+//! A mechanism of a user's own, as a user runs it; `docs/own-mechanism.md` has the diagnosis.
+
+use crate::common::{CLEAN_COIL, Folder, change, stderr, stdout};
+
+/// A ramp of an hour.
+const PROFILE: &str = "time_s,chamber_c\n0,20\n600,20\n4200,50\n7200,50\n";
+
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.write("coil.ron", CLEAN_COIL);
+    folder.write("p.csv", PROFILE);
+    let output = folder.run(&["new", "--kind", "mechanism", "m.ron"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    folder
+}
+
+fn text(folder: &Folder) -> String {
+    std::fs::read_to_string(folder.path("m.ron")).unwrap()
+}
+
+#[test]
+fn a_mechanism_with_values_is_added_to_a_simulation() {
+    let folder = folder();
+    let simulate = ["simulate", "coil.ron", "--profile", "p.csv", "--step", "60", "--out", "b.csv", "--quiet"];
+    let own = [&simulate[..], &["--mechanism", "m.ron"]].concat();
+    let output = folder.run(&own);
+    assert_eq!(output.status.code(), Some(2));
+    let message = stderr(&output);
+    assert!(message.contains("m.ron:20: parameters[0]: the parameter has no value; give it, e.g. value: Some(0.1)"), "{message}");
+    assert!(!folder.path("b.csv").exists());
+    let with_values = change(
+        &change(&text(&folder), "0.01))", "0.01), value: Some(0.002))"),
+        "1800.0, 1.0))",
+        "1800.0, 1.0), value: Some(600.0))",
+    );
+    folder.write("m.ron", &with_values);
+    let output = folder.run(&own);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stdout(&output).contains("mechanisms") && stdout(&output).contains("the sum of the four"), "{}", stdout(&output));
+    let rows = |name: &str| -> Vec<Vec<f64>> {
+        let text = std::fs::read_to_string(folder.path(name)).unwrap();
+        text.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect()
+    };
+    let with = rows("b.csv");
+    assert_eq!(folder.run(&simulate).status.code(), Some(0));
+    for (with, without) in with.iter().zip(rows("b.csv")) {
+        assert_eq!(with[..6], without[..6], "nothing else changes");
+        assert!((with[6] - without[6] - with[7]).abs() < 1e-12);
+    }
+    // the board, followed by hand, the spool being linear between rows
+    let (mut behind, mut before) = (0.0, 0.0);
+    for pair in with.windows(2) {
+        let (dt, forget) = (pair[1][0] - pair[0][0], (-(pair[1][0] - pair[0][0]) / 600.0_f64).exp());
+        behind = behind * forget + (pair[1][2] - pair[0][2]) / dt * 600.0 * (1.0 - forget);
+        assert!((pair[1][7] - 0.002 * (behind + before) / 2.0).abs() < 0.01 * 0.0073, "{pair:?}");
+        before = behind;
+    }
+    assert!(with[70][7] > 0.007);
+}
+
+#[test]
+fn what_cannot_be_is_refused_with_line_and_remedy() {
+    let folder = folder();
+    let refused = |arguments: &[&str], says: &str| {
+        let output = folder.run(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stdout(&output));
+        let message = stderr(&output);
+        assert!(message.contains(says) && message.matches("error:").count() == 1, "{arguments:?}: {message}");
+    };
+    folder.write("wrong.ron", change(&text(&folder), "size * (spool - board)", "size * (spool - bord)"));
+    refused(
+        &["explain", "wrong.ron"],
+        "wrong.ron:40: laws[0]: `bord` is not known (character 17); the names here are size, tau, time",
+    );
+    let record = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/slow-board/fit.csv");
+    let diagnose = ["diagnose", "coil.ron", "--fit", record, "--mechanism", "m.ron"];
+    refused(&[&diagnose[..], &["--mechanism", "m.ron"]].concat(), "m.ron: the mechanism `slow-board` is given twice");
+    refused(&[&diagnose[..], &["--json", "m.ron"]].concat(), "m.ron");
+    let damp = change(&text(&folder), "states: [", "columns: [(name: \"humidity\", unit: \"1\")],\n    states: [");
+    folder.write("damp.ron", change(&damp, "size * (spool", "humidity * size * (spool"));
+    refused(&["diagnose", "coil.ron", "--fit", record, "--mechanism", "damp.ron"], "humidity: the column is missing");
+    let recommend = ["recommend", "coil.ron", "--between", "slow-board,nominal", "--mechanism", "damp.ron"];
+    refused(&recommend, "the law of `slow-board` names the column humidity, which no programme of the chamber tells");
+    refused(
+        &["explain", "coil.ron"],
+        "coil.ron: is a coil file, but a mechanism's file is read here; `fogcoil new --kind mechanism FILE` writes one",
+    );
+    assert_eq!(text(&folder), include_str!("../../templates/mechanism.ron"), "nothing was overwritten");
+}

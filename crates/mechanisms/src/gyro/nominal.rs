@@ -1,0 +1,110 @@
+//! The nominal model with its uncertain numbers somewhere: constants of the design, sensors, errors of the model.
+
+use super::Gyro;
+use super::recalibrated::{Recalibrated, share};
+use crate::change::Change;
+use crate::course::{Parts, Series, add};
+use crate::instruments;
+use crate::mechanism::lagged;
+use crate::record_to_bias::Prepared;
+use std::sync::Arc;
+
+/// Constants that are moved from where others are known.
+const FEW: usize = 2;
+
+impl Gyro<'_> {
+    /// Adds what a constant of the design changes on its way from one value to another, as told.
+    fn move_constant(&self, record: &Prepared, k: usize, [from, to]: [f64; 2], series: &mut Series) {
+        let constant = &self.library().constants[k];
+        let [from, to] = [from, to].map(|told| constant.value(told));
+        // rounding is no change
+        if (to - from).abs() <= 1e-9 * constant.tolerance {
+            return;
+        }
+        let Some((_, id)) = self.factored.iter().find(|(place, _)| *place == k) else {
+            series.change(&record.slopes[k], to - from);
+            return;
+        };
+        let here = self.library().values()[k];
+        for (value, sign) in [(to, 1.0), (from, -1.0)] {
+            let Change { parts, thermometer, .. } = self.chain.along(record, id, 0, (value / here).ln());
+            series.change(&Series { sensor: thermometer.unwrap_or_default(), parts }, sign);
+        }
+    }
+
+    /// Parts and thermometer with the design's constants at those of `u`; kept for as long as other numbers are varied, or one of them.
+    fn with_constants(&self, record: usize, u: &[f64]) -> Series {
+        let told = &u[instruments::CONSTANTS..];
+        let prepared = &self.records[record];
+        let mut moved = self.moved.borrow_mut();
+        let differs = |known: &[f64]| (0..told.len()).filter(|k| known[*k] != told[*k]).collect::<Vec<_>>();
+        if let Some((_, known, series)) = moved.iter().find(|(own, known, _)| *own == record && differs(known).len() <= FEW) {
+            let mut series = series.clone();
+            differs(known).into_iter().for_each(|k| self.move_constant(prepared, k, [known[k], told[k]], &mut series));
+            return series;
+        }
+        let mut series = prepared.nominal.clone();
+        for (k, (constant, value)) in self.library().constants.iter().zip(self.library().values()).enumerate() {
+            self.move_constant(prepared, k, [constant.told(value), told[k]], &mut series);
+        }
+        moved.retain(|(own, ..)| *own != record);
+        moved.push((record, told.to_vec(), series.clone()));
+        series
+    }
+
+    /// The nominal model with its uncertain numbers at `u`; kept for as long as mechanisms' own are varied.
+    pub(super) fn recalibrated(&self, number: usize, u: &[f64]) -> Arc<Recalibrated> {
+        let mut known = self.recalibrated.borrow_mut();
+        if let Some(same) = known.iter().find(|known| known.record == number && known.at == u) {
+            return Arc::clone(same);
+        }
+        let (parts, thermometer) = self.with_nuisances(number, u);
+        let nominal = &self.records[number].nominal.parts;
+        let gain = [0, 1, 2].map(|p: usize| share(&parts[p], &nominal[p]));
+        let here = Arc::new(Recalibrated { record: number, at: u.to_vec(), parts, thermometer, gain });
+        known.retain(|known| known.record != number);
+        known.push(Arc::clone(&here));
+        here
+    }
+
+    /// Parts and thermometer of the nominal model with its uncertain numbers at `u`.
+    fn with_nuisances(&self, number: usize, u: &[f64]) -> (Parts, Vec<f64>) {
+        let (record, library) = (&self.records[number], self.library());
+        let mut series = self.with_constants(number, u);
+        let mut change = |of: &Series, factor: f64| series.change(of, factor);
+        // (1 + τ d/dt) e^(c d/dt) beside the values at which the model is exact, of the delay to the second order
+        let late = u[instruments::CHAMBER_DELAY] - record.delay.total();
+        let squared = u[instruments::CHAMBER_LAG_SQUARED] - record.delay.lag.powi(2);
+        change(&record.later, late);
+        change(&record.rates[1], late * late / 2.0);
+        change(&record.slower, squared);
+        change(&record.off_rest, u[instruments::REST]);
+        let Series { mut parts, mut sensor } = series;
+        let filter = u[instruments::RATE_FILTER] / 2.0;
+        parts.iter_mut().zip(&record.rates[1].parts).for_each(|(part, second)| add(part, second, filter));
+        let late = u[instruments::RATE_DELAY];
+        parts.iter_mut().zip(&record.rates[0].parts).for_each(|(part, first)| add(part, first, -late));
+        parts.iter_mut().zip(&record.tail).for_each(|(part, tail)| add(part, tail, u[instruments::TAIL]));
+        let thermo_optic = {
+            let o = &library.design().optics;
+            let (a, b) = (o.thermo_optic, o.refractive_index * o.thermal_expansion);
+            (a * u[instruments::THERMO_OPTIC] + b) / (a + b)
+        };
+        let shupe = thermo_optic * u[instruments::SHUPE];
+        parts[0].iter_mut().for_each(|s| *s *= shupe);
+        // a chamber that moved by more than its thermometer said moves everything by more, from rest
+        let gain = 1.0 / u[instruments::CHAMBER_GAIN];
+        parts.iter_mut().flatten().for_each(|x| *x *= gain);
+        let rest = sensor[0];
+        sensor.iter_mut().for_each(|t| *t = rest + (*t - rest) * gain);
+        (parts, sensor)
+    }
+
+    /// What a thermometer of the spool says of its temperature.
+    pub(super) fn read(&self, record: &Prepared, thermometer: &mut Vec<f64>, u: &[f64]) {
+        let lag = self.library().design().sensor.lag * u[instruments::LAG];
+        if lag > 0.0 {
+            *thermometer = lagged(&record.time, thermometer, lag);
+        }
+    }
+}

@@ -1,0 +1,327 @@
+//! Mechanisms whose law is text: a user's own.
+
+use crate::catalogue::debond;
+use crate::course::{GAP, Series, add, total};
+use crate::design::heatable_flanges;
+use crate::interpolation::cubic_weights;
+use crate::law_tools::Chain;
+use crate::mechanism::{Change, Effect, Extent, Facts, Mechanism, Naming, Offer, Scene, Stage, Steady};
+use crate::record_to_bias::Prepared;
+use coil::{Design, Error};
+use diagnosis::{Active, Parameter};
+use laws::System;
+
+/// A mechanism of a user's file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Written {
+    /// Short name in every output, in kebab case.
+    pub id: String,
+    /// A heading.
+    pub title: String,
+    /// Where it acts.
+    pub stage: Stage,
+    /// Its law, as it is written.
+    pub equation: String,
+    /// What a record shows of it.
+    pub signature: String,
+    /// Literature.
+    pub source: String,
+    /// The mechanism in a sentence.
+    pub meaning: String,
+    /// A check of the unit itself that decides about it.
+    pub inspection: String,
+    /// Its parameters.
+    pub parameters: Vec<Parameter>,
+    /// Values of the parameters from which fits start.
+    pub starts: Vec<Vec<f64>>,
+    /// What its laws and states see of a record, in the order of the system's inputs.
+    pub inputs: Vec<Input>,
+    /// Its laws with their states, in parameters and inputs.
+    pub system: System,
+    /// What each law changes.
+    pub targets: Vec<Target>,
+}
+
+/// What a law may see of a record.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Input {
+    /// Seconds since the first row.
+    Time,
+    /// A temperature as designed \[°C\], or a rate of it \[K/s\], or the rate of that \[K/s²\]: so many times differenced.
+    Temperature(Body, usize),
+    /// A part of the bias as designed \[deg/h\]: 0 Shupe, 1 elasto-optic axial, 2 radial.
+    Part(usize),
+    /// All parts together \[deg/h\].
+    Bias,
+    /// A further column of the record, as it stands there.
+    Column(String),
+}
+
+/// Of what a temperature is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Body {
+    /// The chamber.
+    Chamber,
+    /// The spool where its thermometer sits.
+    Spool,
+    /// The coil, its mean.
+    Coil,
+}
+
+/// What a law may change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Target {
+    /// Added to the rate \[deg/h\].
+    Rate,
+    /// Added to what the spool's thermometer sees \[K\].
+    Thermometer,
+    /// Added to the chamber's temperature \[K\]: everything follows.
+    Chamber,
+    /// Heat into the first flange that may be heated \[W\].
+    FlangePower,
+    /// Relative change of the coil's transverse moduli.
+    Stiffness,
+    /// Relative change of the coil's transverse expansion.
+    Expansion,
+    /// Share of the first flange's bond that is open.
+    OpenBond,
+    /// Length by which the CW tail is longer \[m\].
+    Tail,
+    /// Relative change of the thermal phase (Shupe).
+    Shupe,
+    /// Relative change of the elasto-optic axial part.
+    Axial,
+    /// Relative change of the elasto-optic radial part.
+    Radial,
+    /// Relative change of all parts of the bias.
+    Bias,
+}
+
+/// A name in laws, what it stands for, and its unit.
+pub const INPUTS: [(&str, Input, &str); 14] = [
+    ("time", Input::Time, "s"),
+    ("chamber", Input::Temperature(Body::Chamber, 0), "degC"),
+    ("chamber_rate", Input::Temperature(Body::Chamber, 1), "K/s"),
+    ("chamber_rate2", Input::Temperature(Body::Chamber, 2), "K/s2"),
+    ("spool", Input::Temperature(Body::Spool, 0), "degC"),
+    ("spool_rate", Input::Temperature(Body::Spool, 1), "K/s"),
+    ("spool_rate2", Input::Temperature(Body::Spool, 2), "K/s2"),
+    ("coil", Input::Temperature(Body::Coil, 0), "degC"),
+    ("coil_rate", Input::Temperature(Body::Coil, 1), "K/s"),
+    ("coil_rate2", Input::Temperature(Body::Coil, 2), "K/s2"),
+    ("shupe", Input::Part(0), "deg/h"),
+    ("eo_axial", Input::Part(1), "deg/h"),
+    ("eo_radial", Input::Part(2), "deg/h"),
+    ("bias", Input::Bias, "deg/h"),
+];
+
+impl Target {
+    /// Every one.
+    pub const ALL: [Self; 12] = [
+        Self::Rate,
+        Self::Thermometer,
+        Self::Chamber,
+        Self::FlangePower,
+        Self::Stiffness,
+        Self::Expansion,
+        Self::OpenBond,
+        Self::Tail,
+        Self::Shupe,
+        Self::Axial,
+        Self::Radial,
+        Self::Bias,
+    ];
+
+    /// The unit of a law that changes it.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Rate => "deg/h",
+            Self::Thermometer | Self::Chamber => "K",
+            Self::FlangePower => "W",
+            Self::Tail => "m",
+            Self::Stiffness | Self::Expansion | Self::OpenBond | Self::Shupe | Self::Axial | Self::Radial | Self::Bias => "1",
+        }
+    }
+
+    /// What of the model it changes, in words.
+    pub const fn place(self) -> &'static str {
+        match self {
+            Self::Rate => "added to the rate",
+            Self::Thermometer => "added to what the spool's thermometer sees",
+            Self::Chamber => "added to the chamber's temperature",
+            Self::FlangePower => "heat into a flange",
+            Self::Stiffness => "relative change of the coil's transverse moduli",
+            Self::Expansion => "relative change of the coil's transverse expansion",
+            Self::OpenBond => "share of a flange's bond that is open",
+            Self::Tail => "length of the CW tail",
+            Self::Shupe => "relative change of the thermal phase",
+            Self::Axial => "relative change of the elasto-optic axial part",
+            Self::Radial => "relative change of the elasto-optic radial part",
+            Self::Bias => "relative change of all parts of the bias",
+        }
+    }
+
+    /// Whether a design has such a place.
+    fn is_in(self, design: &Design) -> bool {
+        match self {
+            Self::FlangePower => !heatable_flanges(design).is_empty(),
+            Self::OpenBond => !debond::flanges(design).is_empty(),
+            Self::Stiffness | Self::Expansion => design.mechanics == coil::Mechanics::Elastic,
+            _ => true,
+        }
+    }
+}
+
+/// A factor that is still a coil's; what is no number stays none.
+fn least(factor: f64) -> f64 {
+    const LEAST: f64 = 0.05;
+    if factor < LEAST { LEAST } else { factor }
+}
+
+impl Written {
+    fn seen(&self, record: &Prepared) -> Vec<Vec<f64>> {
+        let n = record.time.len();
+        let rates = |series: &[f64]| recording::condition::slopes(&record.time, series);
+        let of = |input: &Input| match input {
+            Input::Time => record.time.iter().map(|t| t - record.time[0]).collect(),
+            Input::Temperature(body, times) => {
+                let level = match body {
+                    Body::Chamber => &record.chamber,
+                    Body::Spool => &record.nominal.sensor,
+                    Body::Coil => &record.coil,
+                };
+                (0..*times).fold(level.clone(), |series, _| rates(&series))
+            }
+            Input::Part(part) => momentary(&record.nominal.parts[*part]),
+            Input::Bias => momentary(&total(&record.nominal.parts)),
+            // a record without the column is refused where it is read
+            Input::Column(name) => record.columns.get(name).cloned().unwrap_or_else(|| vec![f64::NAN; n]),
+        };
+        self.inputs.iter().map(of).collect()
+    }
+}
+
+/// Means over the interval that ends at each row of what is momentary and linear between rows; after a gap, over the span of a reading.
+fn means(record: &Prepared, series: &[f64]) -> Vec<f64> {
+    let averaging = record.averaging;
+    let of = |n: usize| {
+        let Some(before) = n.checked_sub(1) else { return series[0] };
+        let dt = record.time[n] - record.time[before];
+        let gap = averaging > 0.0 && dt > GAP * averaging;
+        let began = if gap { series[n] - (series[n] - series[before]) * averaging / dt } else { series[before] };
+        (began + series[n]) / 2.0
+    };
+    (0..series.len()).map(of).collect()
+}
+
+/// At the rows, of means over the intervals that end there.
+fn momentary(means: &[f64]) -> Vec<f64> {
+    (0..means.len()).map(|n| (means[n] + means[(n + 1).min(means.len() - 1)]) / 2.0).collect()
+}
+
+impl Mechanism for Written {
+    fn facts(&self) -> Facts<'_> {
+        Facts {
+            id: &self.id,
+            title: &self.title,
+            stage: self.stage,
+            equation: &self.equation,
+            place: self.targets.first().map_or("", |target| target.place()),
+            signature: &self.signature,
+            source: &self.source,
+            naming: Naming::Named { meaning: &self.meaning, inspection: &self.inspection },
+            heat_path: None,
+            steady: vec![Steady::Nothing("its law is a user's own")],
+            extent: Extent::everywhere,
+            caveat: |_| Some("whose law is not in this file: give the mechanism's own with --mechanism"),
+        }
+    }
+
+    fn offer(&self, design: &Design, _: &Scene) -> Option<Offer> {
+        let has_place = self.targets.iter().all(|target| target.is_in(design));
+        has_place.then(|| Offer { parameters: self.parameters.clone(), choice: None, starts: self.starts.clone() })
+    }
+
+    fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
+        let told = self.system.run(&record.time, &active.values, &self.seen(record));
+        let of = |target: Target| {
+            let mut sum: Option<Vec<f64>> = None;
+            for (_, series) in self.targets.iter().zip(&told).filter(|(own, _)| **own == target) {
+                let sum = sum.get_or_insert_with(|| vec![0.0; series.len()]);
+                add(sum, series, 1.0);
+            }
+            sum
+        };
+        let mut change = Change {
+            thermometer: of(Target::Thermometer),
+            rate: of(Target::Rate).map(|rate| means(record, &rate)),
+            ..Change::none(record)
+        };
+        let mut follow = |series: Series| {
+            change.parts.iter_mut().zip(&series.parts).for_each(|(part, by)| add(part, by, 1.0));
+            let thermometer = change.thermometer.get_or_insert_with(|| vec![0.0; series.sensor.len()]);
+            add(thermometer, &series.sensor, 1.0);
+        };
+        if let Some(kelvin) = of(Target::Chamber) {
+            follow(record.driven(&chain.library().base, &[kelvin]));
+        }
+        if let Some(watts) = of(Target::FlangePower)
+            && let Some(heated) = chain.library().heaters.first()
+        {
+            follow(record.driven(heated, &[vec![0.0; watts.len()], watts]));
+        }
+        if let Some(open) = of(Target::OpenBond)
+            && let Some(openings) = record.openings.first()
+        {
+            let nodes: Vec<f64> = std::iter::once(0.0).chain(openings.iter().map(|(share, _)| *share)).collect();
+            for (n, share) in means(record, &open).into_iter().enumerate() {
+                let w = cubic_weights(&nodes, share.clamp(0.0, nodes[nodes.len() - 1]));
+                for (w, (_, parts)) in w[1..].iter().zip(openings) {
+                    (0..3).for_each(|p| change.parts[p][n] += w * parts[p][n]);
+                }
+            }
+        }
+        let factor = |target: Target| {
+            of(target).map(|series| means(record, &series).into_iter().map(|x| least(1.0 + x)).collect::<Vec<_>>())
+        };
+        let (stiffness, expansion) = (factor(Target::Stiffness), factor(Target::Expansion));
+        if stiffness.is_some() || expansion.is_some() {
+            let at = |factors: &Option<Vec<f64>>, n: usize| factors.as_ref().map_or(1.0, |factors| factors[n]);
+            let parts = chain.softened(record, |n| (at(&stiffness, n), at(&expansion, n)));
+            change.parts.iter_mut().zip(&parts).for_each(|(part, by)| add(part, by, 1.0));
+        }
+        if let Some(metres) = of(Target::Tail) {
+            for (part, tail) in change.parts.iter_mut().zip(&record.tail) {
+                part.iter_mut().zip(tail).zip(means(record, &metres)).for_each(|((x, tail), metres)| *x += metres * tail);
+            }
+        }
+        for (target, places) in [(Target::Shupe, 0..1), (Target::Axial, 1..2), (Target::Radial, 2..3), (Target::Bias, 0..3)] {
+            if let Some(relative) = of(target) {
+                let relative = means(record, &relative);
+                for p in places {
+                    change.parts[p]
+                        .iter_mut()
+                        .zip(&record.nominal.parts[p])
+                        .zip(&relative)
+                        .for_each(|((x, part), by)| *x += part * by);
+                }
+            }
+        }
+        Ok(Effect::Coil(change))
+    }
+
+    /// A coil file holds no laws: the mechanism's own file does.
+    fn extended(&self, design: &Design, _: &Active) -> Option<Design> {
+        Some(design.clone())
+    }
+
+    fn columns(&self) -> Vec<&str> {
+        let mut columns = Vec::new();
+        for input in &self.inputs {
+            if let Input::Column(name) = input {
+                columns.push(name.as_str());
+            }
+        }
+        columns
+    }
+}

@@ -1,0 +1,127 @@
+//! Laws that are written as text against the program's own mechanisms, and against what they must do exactly.
+
+use super::{gyro, rms};
+use diagnosis::{Active, ForwardModel, Parameter, Prior};
+use laws::{Expression, State, System};
+use mechanisms::{Body, CATALOGUE, Gyro, Input, Mechanism, Prepared, RATE, SPOOL, Stage, Target, Written};
+
+/// A mechanism with parameters a and b that sees the spool's thermometer, the coil's temperature, the rate of the former, the chamber and the time.
+fn written(states: &[(&str, &str)], target: Target, law: &str) -> Written {
+    let mut names = vec!["a", "b", "spool", "coil", "spool_rate", "chamber", "time"];
+    let inputs = vec![
+        Input::Temperature(Body::Spool, 0),
+        Input::Temperature(Body::Coil, 0),
+        Input::Temperature(Body::Spool, 1),
+        Input::Temperature(Body::Chamber, 0),
+        Input::Time,
+    ];
+    names.extend(["x", "y"].iter().take(states.len()));
+    let of = |text: &str| Expression::parse(text, &names).unwrap_or_else(|fault| panic!("{text}: {fault}"));
+    let states = states.iter().map(|(rate, first)| State::Rate { rate: of(rate), first: of(first) }).collect();
+    let system = System { parameters: 2, inputs: inputs.len(), states, laws: vec![of(law)] };
+    let parameter = |name: &str| Parameter::new(name, Prior::Normal { mean: 0.0, sd: 1.0 });
+    let text = String::new;
+    Written {
+        id: "written".into(),
+        title: text(),
+        stage: Stage::Optics,
+        equation: law.into(),
+        signature: text(),
+        source: text(),
+        meaning: text(),
+        inspection: text(),
+        parameters: vec![parameter("a"), parameter("b")],
+        starts: vec![vec![0.0, 0.0]],
+        inputs,
+        system,
+        targets: vec![target],
+    }
+}
+
+/// What a law adds to thermometer and rate, with a and b.
+fn adds(written: &Written, values: [f64; 2]) -> [Vec<f64>; 2] {
+    let (time, chamber) = super::course();
+    let library = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner).library().clone();
+    let prepared = Prepared::new(&library, &time, &chamber, 60.0).expect("prepared");
+    let kinds: Vec<&dyn Mechanism> = CATALOGUE.iter().copied().chain([written as &dyn Mechanism]).collect();
+    added(&Gyro::new(library, &kinds, vec![prepared]).expect("gyro"), "written", values.to_vec(), None)
+}
+
+fn added(gyro: &Gyro, id: &str, values: Vec<f64>, choice: Option<f64>) -> [Vec<f64>; 2] {
+    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let active = Active { mechanism: gyro.find(id).expect("a mechanism"), values, choice };
+    let [with, without] = [&[active][..], &[]].map(|active| gyro.respond(0, &middle, active).expect("a response"));
+    [SPOOL, RATE].map(|channel| super::minus(&with[channel], &without[channel]))
+}
+
+/// The same of one of the program's own.
+fn of_catalogue(id: &str, values: &[f64], choice: Option<f64>) -> [Vec<f64>; 2] {
+    added(&gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner), id, values.to_vec(), choice)
+}
+
+fn close(what: &str, ours: &[Vec<f64>; 2], theirs: &[Vec<f64>; 2], share: f64) {
+    for channel in [SPOOL, RATE] {
+        let (off, size) = (rms(&super::minus(&ours[channel], &theirs[channel])), rms(&theirs[channel]));
+        assert!(off <= share * size + 1e-9, "{what}, channel {channel}: off by {off:e} of {size:e}");
+    }
+}
+
+#[test]
+fn exact_a_law_that_says_what_a_mechanism_says_does_what_it_does() {
+    // temperatures here are the design's, there what the thermometer says: a delay of a second of lag
+    let drift = written(&[], Target::Rate, "a * (spool - 20)");
+    close("drift", &adds(&drift, [2e-3, 0.0]), &of_catalogue("rate-temperature-coefficient", &[2e-3], None), 1e-2);
+    let soft = written(&[], Target::Stiffness, "(a - 1) / (1 + exp(-(coil - b) / 5))");
+    let theirs = of_catalogue("glass-transition", &[35.0, 5.0, 0.7, 1.0], None);
+    close("transition", &adds(&soft, [0.7, 35.0]), &theirs, 2e-3);
+    let wide = written(&[], Target::Expansion, "(a - 1) / (1 + exp(-(coil - b) / 5))");
+    close("expansion", &adds(&wide, [1.2, 35.0]), &of_catalogue("glass-transition", &[35.0, 5.0, 1.0, 1.2], None), 2e-3);
+    let tail = written(&[], Target::Tail, "a");
+    close("tail", &adds(&tail, [0.3, 0.0]), &of_catalogue("tail-asymmetry", &[0.3], None), 2e-3);
+}
+
+#[test]
+fn exact_heat_into_a_flange_warms_as_a_heater_does() {
+    // on from the first row, but for the interval in which a course that is given rises
+    let power = written(&[], Target::FlangePower, "a * step(time - 30)");
+    let theirs = of_catalogue("self-heating", &[0.05, 0.0], Some(1.0));
+    let ours = adds(&power, [0.05, 0.0]);
+    let late = 60..720;
+    for channel in [SPOOL, RATE] {
+        let part = |series: &[f64]| series[late.clone()].to_vec();
+        let (off, size) = (rms(&super::minus(&part(&ours[channel]), &part(&theirs[channel]))), rms(&part(&theirs[channel])));
+        assert!(off < 0.02 * size, "channel {channel}: off by {off:e} of {size:e}");
+    }
+}
+
+#[test]
+fn exact_a_warmer_chamber_warms_everything() {
+    let nominal = |channel: usize| {
+        let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+        gyro.respond(0, &middle, &[]).expect("a response").swap_remove(channel)
+    };
+    // from 20 degC on, where the course begins: a chamber that moves by a hundredth more moves all by as much
+    let gain = adds(&written(&[], Target::Chamber, "a * (chamber - 20)"), [0.01, 0.0]);
+    let by = |series: Vec<f64>, rest: f64| series.into_iter().map(|x| 0.01 * (x - rest)).collect::<Vec<_>>();
+    close("gain", &gain, &[by(nominal(SPOOL), 20.0), by(nominal(RATE), 0.0)], 1e-3);
+    let warmer = adds(&written(&[], Target::Chamber, "a"), [1.5, 0.0]);
+    assert!(warmer[SPOOL].iter().all(|t| (t - 1.5).abs() < 1e-9) && warmer[RATE].iter().all(|r| r.abs() < 1e-9));
+}
+
+#[test]
+fn exact_relative_changes_are_shares_of_the_parts() {
+    let all = adds(&written(&[], Target::Bias, "a"), [0.1, 0.0]);
+    let parts = [Target::Shupe, Target::Axial, Target::Radial].map(|target| adds(&written(&[], target, "a"), [0.1, 0.0]));
+    let sum: Vec<f64> = (0..720).map(|n| parts.iter().map(|part| part[RATE][n]).sum()).collect();
+    assert!(rms(&super::minus(&sum, &all[RATE])) < 1e-9 * rms(&all[RATE]) && rms(&all[RATE]) > 0.0);
+}
+
+#[test]
+fn a_state_of_its_own_follows_the_record() {
+    // a board that is behind the spool by its time constant times the rate, once it follows a slow course
+    let slow = written(&[("(spool - x) / a", "spool")], Target::Rate, "b * (spool - x)");
+    let fast = written(&[], Target::Rate, "a * b * spool_rate");
+    let [lagged, at_once] = [adds(&slow, [20.0, 0.5]), adds(&fast, [20.0, 0.5])];
+    assert!(rms(&super::minus(&lagged[RATE], &at_once[RATE])) < 0.05 * rms(&at_once[RATE]));
+}
