@@ -5,7 +5,7 @@
 
 use crate::fit::{Fit, Fitter, Hypothesis};
 use crate::{Active, Error, ForwardModel, Observation, Prior};
-use nalgebra::DVector;
+use nalgebra::DMatrix;
 use progress::Step;
 use std::ops::Range;
 
@@ -112,7 +112,7 @@ impl<M: ForwardModel> Fitter<'_, M> {
                         column.extend(base.noise.whiten(at, channel, &per_sd));
                     }
                 }
-                let Some((gain, amplitude)) = gained(base, DVector::from_vec(column)) else { continue };
+                let Some((gain, amplitude)) = gained(base, column) else { continue };
                 if most.as_ref().is_none_or(|(most, _)| gain > *most) {
                     let mut values = start.clone();
                     values[0] = amplitude * sd;
@@ -128,13 +128,9 @@ impl<M: ForwardModel> Fitter<'_, M> {
 
 /// ln evidence that a whitened function gains beside a fit, its amplitude known beforehand to a standard deviation of 1, and the likeliest amplitude;
 /// `None` if it is not finite.
-fn gained(base: &Fit, column: DVector<f64>) -> Option<(f64, f64)> {
-    let shared = base.jacobian().tr_mul(&column);
-    // the fit's own unknowns follow
-    let free = column.norm_squared() - (&base.covariance * &shared).dot(&shared);
-    let unsettled = base.jacobian().tr_mul(&base.whitened) - base.beforehand.slope(&base.u);
-    let along = column.dot(&base.whitened) - (&base.covariance * unsettled).dot(&shared);
-    let precision = 1.0 + free.max(0.0);
+fn gained(base: &Fit, column: Vec<f64>) -> Option<(f64, f64)> {
+    let (free, gradient) = base.marginal(&DMatrix::from_vec(column.len(), 1, column));
+    let (precision, along) = (1.0 + free[0].max(0.0), gradient[0]);
     let gain = along * along / precision / 2.0 - precision.ln() / 2.0;
     gain.is_finite().then_some((gain, along / precision))
 }

@@ -35,15 +35,20 @@ fn log_mean_exp(values: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
 }
 
 impl Fit {
-    /// Gain of ln evidence by adding functions with independent normal amplitudes of standard deviation `scale`, for each scale.
-    pub(crate) fn gain(&self, columns: &DMatrix<f64>, scales: &[f64]) -> Vec<f64> {
-        // the fit's own unknowns are marginalised: they have the covariance (JᵀJ + P)⁻¹
+    /// Products of functions, and the gradient of ln p by their amplitudes, the fit's own unknowns marginalised: they have the covariance (JᵀJ + P)⁻¹.
+    pub(crate) fn marginal(&self, columns: &DMatrix<f64>) -> (DMatrix<f64>, DVector<f64>) {
         let shared = self.jacobian().tr_mul(columns);
         let free = columns.tr_mul(columns) - shared.tr_mul(&(&self.covariance * &shared));
-        let SymmetricEigen { eigenvalues, eigenvectors } = ((&free + free.transpose()) / 2.0).symmetric_eigen();
         // what is left of the fit's own gradient, where it has not quite settled, is not the functions' merit
         let unsettled = self.jacobian().tr_mul(&self.whitened) - self.beforehand.slope(&self.u);
-        let along = eigenvectors.tr_mul(&(columns.tr_mul(&self.whitened) - shared.tr_mul(&(&self.covariance * unsettled))));
+        (free, columns.tr_mul(&self.whitened) - shared.tr_mul(&(&self.covariance * unsettled)))
+    }
+
+    /// Gain of ln evidence by adding functions with independent normal amplitudes of standard deviation `scale`, for each scale.
+    pub(crate) fn gain(&self, columns: &DMatrix<f64>, scales: &[f64]) -> Vec<f64> {
+        let (free, gradient) = self.marginal(columns);
+        let SymmetricEigen { eigenvalues, eigenvectors } = ((&free + free.transpose()) / 2.0).symmetric_eigen();
+        let along = eigenvectors.tr_mul(&gradient);
         let of = |scale: &f64| {
             eigenvalues
                 .iter()

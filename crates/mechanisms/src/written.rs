@@ -116,22 +116,6 @@ pub const INPUTS: [(&str, Input, &str); 14] = [
 ];
 
 impl Target {
-    /// Every one.
-    pub const ALL: [Self; 12] = [
-        Self::Rate,
-        Self::Thermometer,
-        Self::Chamber,
-        Self::FlangePower,
-        Self::Stiffness,
-        Self::Expansion,
-        Self::OpenBond,
-        Self::Tail,
-        Self::Shupe,
-        Self::Axial,
-        Self::Radial,
-        Self::Bias,
-    ];
-
     /// The unit of a law that changes it.
     pub const fn unit(self) -> &'static str {
         match self {

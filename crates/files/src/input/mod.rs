@@ -19,6 +19,7 @@ mod map_file;
 mod mechanics;
 mod mechanism;
 mod mechanism_file;
+mod mechanism_quantities;
 mod meta;
 mod mirror;
 mod name;

@@ -100,8 +100,8 @@ impl Form<'_> {
         let Self { id, title, stage, states, target, law, .. } = self;
         let states = if states.is_empty() { String::new() } else { format!("    states: [\n{states}    ],\n") };
         let text = format!(
-            "// Composed by `fogcoil diagnose`: no listed mechanism explains the records. Known physics of this form: {}.\n(\n    id: \"{id}\",\n    \
-             title: \"{title}\",\n    stage: {stage},\n    parameters: [\n{parameters}    ],\n{states}    laws: [{target}(\"{law}\")],\n)\n",
+            "(\n    id: \"{id}\",\n    title: \"{title}\",\n    stage: {stage},\n    source: \"composed by fogcoil diagnose; known physics of this form: {}\",\n    \
+             parameters: [\n{parameters}    ],\n{states}    laws: [{target}(\"{law}\")],\n)\n",
             self.known
         );
         Law { text, known: self.known }

@@ -2,7 +2,7 @@
 
 mod laws;
 
-use diagnosis::{Diagnosis, Estimate, Fit, HeldOut, Hypothesis, Observation, Verdict, as_designed};
+use diagnosis::{Diagnosis, Estimate, Fit, ForwardModel, HeldOut, Hypothesis, Observation, Verdict, as_designed};
 use mechanisms::{Gyro, Mechanism, RATE};
 use progress::Step;
 use serde_json::{Value, json};
@@ -60,15 +60,15 @@ pub(crate) fn compose(
     let read = |law: &Law| Some((check_mechanism("composed".as_ref(), law.text.clone()).ok()?, law.known));
     let cases: Vec<(MechanismCase, &'static str)> = laws.iter().filter_map(read).collect();
     let kinds: Vec<&dyn Mechanism> = cases.iter().map(|(case, _)| &case.mechanism as &dyn Mechanism).collect();
-    let first = diagnosis::ForwardModel::mechanisms(gyro).len();
+    let first = gyro.mechanisms().len();
     let with = gyro.beside(&kinds);
-    let all = first..diagnosis::ForwardModel::mechanisms(&with).len();
+    let all = first..with.mechanisms().len();
     let numbers: Vec<usize> = (0..fitted.len()).collect();
     let Some(found) = diagnosis::compose(&with, all, &numbers, fitted, beside, progress)? else { return Ok(None) };
     let own = found.fit.active.iter().enumerate().skip(found.fit.active.len() - found.laws);
     let mut terms = Vec::new();
     for (place, active) in own {
-        let id = &diagnosis::ForwardModel::mechanisms(&with)[active.mechanism].id;
+        let id = &with.mechanisms()[active.mechanism].id;
         let Some((case, known)) = cases.iter().find(|(case, _)| case.mechanism.id == *id) else { continue };
         let estimates = found.fit.estimates(&with, place);
         terms.push(Term { case: case.clone(), known, values: active.values.clone(), estimates });
@@ -91,7 +91,7 @@ pub(crate) fn compose(
 }
 
 fn ranges(gyro: &Gyro, fitted: &[Observation]) -> Ranges {
-    let states = || (0..fitted.len()).map(|record| diagnosis::ForwardModel::state(gyro, record));
+    let states = || (0..fitted.len()).map(|record| gyro.state(record));
     let rate = states().flat_map(|state| &state.rate).fold(0.0_f64, |most, rate| most.max(rate.abs()));
     let span = |o: &Observation| o.time.last().zip(o.time.first()).map_or(0.0, |(last, first)| last - first);
     let duration = fitted.iter().map(span).fold(0.0, f64::max);
