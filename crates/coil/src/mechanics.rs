@@ -50,20 +50,21 @@ type Parts = [f64; 3];
 pub(crate) enum Blend {
     Elastic,
     Table(Vec<f64>),
-    Relaxing(Relaxation),
+    Relaxing(Box<Relaxation>),
     Opening { below: f64, above: f64, bond: Bonds },
 }
 
 /// A response that follows a relaxing modulus, put together from the responses at constant moduli.
 ///
 /// The modulus is `1 − fraction x` with x = 1/(1 + s `time`): x = 0 is unrelaxed, x = 1 relaxed. The response is interpolated in x by a
-/// polynomial, whose powers are chains of first-order followers.
+/// polynomial, whose powers are chains of first-order followers; by Horner's scheme one chain serves all of them.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Relaxation {
     time: f64,
     to_coefficients: DMatrix<f64>,
-    chains: Vec<Vec<Parts>>,
+    /// follower k follows follower k + 1 and the polynomial's coefficient k + 1; the last follows its coefficient alone
+    followers: [Parts; DEGREE],
 }
 
 impl Relaxation {
@@ -73,7 +74,7 @@ impl Relaxation {
         let powers = DMatrix::from_fn(x.len(), x.len(), |i, j| x[i].powi(j as i32));
         let identity = DMatrix::identity(x.len(), x.len());
         let to_coefficients = powers.lu().solve(&identity).expect("a Vandermonde matrix of distinct points is regular");
-        Self { time, to_coefficients, chains: (0..=DEGREE).map(|j| vec![[0.0; 3]; j]).collect() }
+        Self { time, to_coefficients, followers: [[0.0; 3]; DEGREE] }
     }
 
     /// Points x at which [`Self::rates`] wants the responses.
@@ -84,31 +85,29 @@ impl Relaxation {
     /// Mean rates over the next interval `dt` \[s\] from the rates that the modulus of each node alone would give; `states` has one entry
     /// a node.
     pub fn rates(&mut self, states: &[Parts], dt: f64) -> Parts {
-        // what is left of a chain's differences from its input after `dt` and in the mean: it follows itself, delayed
+        // what is left of the followers' differences from where they tend to, after `dt` and in the mean
         let h = (dt / self.time).max(f64::MIN_POSITIVE);
-        let (mut left, mut mean) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
+        let (mut left, mut mean) = ([0.0; DEGREE], [0.0; DEGREE]);
         let (mut term, mut gone) = ((-h).exp(), -(-h).exp_m1());
-        for m in 0..=DEGREE {
+        for m in 0..DEGREE {
             (left[m], mean[m]) = (term, gone.max(0.0) / h);
             term *= h / (m + 1) as f64;
             gone -= term;
         }
-        let mut sum = [0.0; 3];
-        for (j, chain) in self.chains.iter_mut().enumerate() {
-            for part in 0..3 {
-                let input: f64 = (0..states.len()).map(|i| self.to_coefficients[(j, i)] * states[i][part]).sum();
-                sum[part] += input;
-                // from the last, which needs all before it
-                for k in (0..j).rev() {
-                    let off = |i: usize| chain[i][part] - input;
-                    if k + 1 == j {
-                        sum[part] += (0..j).map(|i| mean[k - i] * off(i)).sum::<f64>();
-                    }
-                    chain[k][part] = input + (0..=k).map(|i| left[k - i] * off(i)).sum::<f64>();
-                }
+        [0, 1, 2].map(|part: usize| {
+            let coefficient = |j: usize| (0..=DEGREE).map(|i| self.to_coefficients[(j, i)] * states[i][part]).sum::<f64>();
+            // a follower tends to the sum of its coefficient and all behind it
+            let (mut tends, mut off) = ([0.0; DEGREE], [0.0; DEGREE]);
+            let mut sum = 0.0;
+            for k in (0..DEGREE).rev() {
+                sum += coefficient(k + 1);
+                (tends[k], off[k]) = (sum, self.followers[k][part] - sum);
             }
-        }
-        sum
+            for k in 0..DEGREE {
+                self.followers[k][part] = tends[k] + (k..DEGREE).map(|i| left[i - k] * off[i]).sum::<f64>();
+            }
+            coefficient(0) + sum + (0..DEGREE).map(|i| mean[i] * off[i]).sum::<f64>()
+        })
     }
 }
 
@@ -155,7 +154,7 @@ impl Design {
             }
             Mechanics::Relaxing { fraction, time } => {
                 let state = |x: &f64| MechanicalState { transverse_modulus: 1.0 - fraction * x, ..nominal };
-                (Relaxation::nodes().iter().map(state).collect(), Blend::Relaxing(Relaxation::new(*time)))
+                (Relaxation::nodes().iter().map(state).collect(), Blend::Relaxing(Box::new(Relaxation::new(*time))))
             }
             Mechanics::Opening(o) => {
                 let opened = MechanicalState { bonds: Bonds::Opened, ..nominal };

@@ -28,6 +28,8 @@ pub struct Composed {
     pub laws: usize,
     /// Gain of ln evidence over what was known, the choice among all laws paid for.
     pub gain: f64,
+    /// What that choice costs of ln evidence.
+    pub choice: f64,
     /// Other laws that were fitted in the place of the last, and by how much ln evidence they stay behind it; the nearest first.
     pub others: Vec<(usize, f64)>,
 }
@@ -76,7 +78,8 @@ pub fn compose<M: ForwardModel>(
         let before = composed.as_ref().map_or(0.0, |composed| composed.gain);
         let last = |fit: &Fit| fit.hypothesis.mechanisms.last().map(|(law, _)| *law);
         let others = own[1..].iter().filter_map(|fit| Some((last(fit)?, best.log_evidence - fit.log_evidence))).collect();
-        composed = Some(Composed { fit: best.clone(), laws: term + 1, gain: before + gain, others });
+        let paid = (term + 1) as f64 * choice;
+        composed = Some(Composed { fit: best.clone(), laws: term + 1, gain: before + gain, choice: paid, others });
     }
     Ok(composed)
 }

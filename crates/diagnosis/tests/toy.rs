@@ -303,7 +303,7 @@ fn an_explanation_that_a_held_out_record_contradicts_is_taken_back() {
     let other = observed(&bath, &bath.truth(1, None), 44);
     let (taken, judgement) = judged(&[(1, &own), (1, &other)]);
     assert_eq!(judgement.ruling, Ruling::TakenBack { record: 1, why: Contradiction::ClearlyWorse });
-    let Judged { nominal, model, accepted } = &judgement.records[1];
+    let Judged { nominal, model, accepted, .. } = &judgement.records[1];
     assert!(nominal.within_noise(0) && !model.within_noise(0) && !accepted);
     assert_eq!((taken.verdict, taken.set.len(), taken.mechanisms.len()), (Verdict::None, 0, 0));
     // a third that neither explains: what there is is unknown

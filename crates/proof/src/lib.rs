@@ -22,6 +22,7 @@
 
 pub mod cells;
 pub mod coil_job;
+mod composed;
 mod concealed;
 mod failure;
 pub mod files;

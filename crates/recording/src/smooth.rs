@@ -74,16 +74,14 @@ pub fn smoothed(time: &[f64], values: &[f64], digit: Option<f64>) -> Result<Smoo
     let unit = median_interval(time).unwrap_or(1.0);
     let steps: Vec<f64> = time.windows(2).map(|t| (t[1] - t[0]) / unit).collect();
     let step = digit.unwrap_or_else(|| resolution(values));
-    let series = Readings { steps: &steps, values, least: step * step * (1.0 + 1.0 / 12.0) };
-    let even = |lag: f64| {
-        let weights = vec![1.0; steps.len()];
-        Found { lag, ln_ratio: series.most_likely(lag, &weights, RATIOS), weights }
-    };
+    let least = step * step * (1.0 + 1.0 / 12.0);
+    let behind = |lag: f64| Readings { values, moves: moves(&steps, lag), least };
     // weights have many optima: from even ones, and from those of the time constant before
-    let mut found = even(LAGS[0]);
-    let mut likeliest = (f64::INFINITY, found.clone());
+    let mut found = behind(LAGS[0]).even();
+    let mut likeliest = (f64::INFINITY, LAGS[0], found.clone());
     for lag in LAGS {
-        let [warm, cold] = [Found { lag, ..found }, even(lag)].map(|mut start| {
+        let series = behind(lag);
+        let [warm, cold] = [found, series.even()].map(|mut start| {
             (0..TRIED).for_each(|_| series.reweigh(&mut start));
             (series.deviance(&start), start)
         });
@@ -91,13 +89,14 @@ pub fn smoothed(time: &[f64], values: &[f64], digit: Option<f64>) -> Result<Smoo
         (deviance, found) = if warm.0 <= cold.0 { warm } else { cold };
         // not `>`: a NaN is no likelihood
         if deviance < likeliest.0 {
-            likeliest = (deviance, found.clone());
+            likeliest = (deviance, lag, found.clone());
         }
     }
-    let mut found = likeliest.1;
+    let (_, lag, mut found) = likeliest;
+    let series = behind(lag);
     (0..ROUNDS).for_each(|_| series.reweigh(&mut found));
     let filter = series.filter(&found);
-    let variance = filter.variance().max(series.least);
+    let variance = filter.said.variance().max(least);
     let (values, _, variances) = filter.smooth(variance);
     let noise = variance.sqrt();
     let left = noise * (variances.iter().sum::<f64>() / variances.len() as f64).max(0.0).sqrt();
@@ -105,46 +104,94 @@ pub fn smoothed(time: &[f64], values: &[f64], digit: Option<f64>) -> Result<Smoo
     Ok(Smoothed { values, noise, left, of: 1.0 / usual })
 }
 
-/// A series to be smoothed: intervals, values, and the least variance of their noise.
+/// A series to be smoothed behind a follower: its values, how the state goes on between them, and the least variance of their noise.
 struct Readings<'a> {
-    steps: &'a [f64],
     values: &'a [f64],
+    moves: Vec<Move>,
     least: f64,
 }
 
-/// What is found of a series: the follower's time constant in usual intervals, ln of a step's variance over the noise's, and every step's weight.
+/// Over a step: how the state goes on, and what wandering adds.
+type Move = (Matrix, Matrix);
+
+/// Over every step, behind a follower of this time constant.
+fn moves(steps: &[f64], lag: f64) -> Vec<Move> {
+    let mut moves: Vec<Move> = Vec::with_capacity(steps.len());
+    for (n, step) in steps.iter().enumerate() {
+        let same = n > 0 && *step == steps[n - 1];
+        moves.push(if same { moves[n - 1] } else { (forward(*step, lag), wander(*step, lag)) });
+    }
+    moves
+}
+
+/// What is found of a series: ln of a step's variance over the noise's, and every step's weight.
 #[derive(Clone)]
 struct Found {
-    lag: f64,
     ln_ratio: f64,
     weights: Vec<f64>,
 }
 
 impl Readings<'_> {
+    /// With even weights.
+    fn even(&self) -> Found {
+        let weights = vec![1.0; self.moves.len()];
+        Found { ln_ratio: self.most_likely(&weights, RATIOS), weights }
+    }
+
     fn filter<'a>(&'a self, found: &'a Found) -> Filter<'a> {
-        Filter::new(self.steps, self.values, found.lag, found.ln_ratio.exp(), &found.weights)
+        let mut states = Vec::with_capacity(self.values.len());
+        let (ratio, weights) = (found.ln_ratio.exp(), &found.weights);
+        let said = self.follow(ratio, weights, |predicted| states.push(predicted));
+        Filter { ratio, weights, moves: &self.moves, states, said }
+    }
+
+    /// Kalman's filter over all values; `met` is told each as it comes.
+    fn follow(&self, ratio: f64, weights: &[f64], mut met: impl FnMut(Predicted)) -> Said {
+        let (mut x, mut p) = (Vector::new(self.values[0], 0.0, 0.0), UNKNOWN * Matrix::identity());
+        let mut said = Said { squares: 0.0, log_det: 0.0, count: 0 };
+        for (n, value) in self.values.iter().enumerate() {
+            if n > 0 {
+                let (f, q) = &self.moves[n - 1];
+                x = f * x;
+                p = f * p * f.transpose() + ratio / weights[n - 1] * q;
+            }
+            let (surprise, spread) = (value - x[0], p[(0, 0)] + 1.0);
+            // the first three say where it starts
+            if n > 2 {
+                said.squares += surprise * surprise / spread;
+                said.log_det += spread.ln();
+                said.count += 1;
+            }
+            met(Predicted { mean: x, covariance: p, surprise, spread });
+            let gain: Vector = p.column(0) / spread;
+            x += gain * surprise;
+            // Joseph's form keeps it positive
+            let kept = without_course(&gain);
+            p = kept * p * kept.transpose() + gain * gain.transpose();
+        }
+        said
     }
 
     /// One round: weights by how unlikely steps are, then the likeliest size of steps.
     fn reweigh(&self, found: &mut Found) {
         let filter = self.filter(found);
-        let variance = filter.variance().max(self.least).max(f64::MIN_POSITIVE);
+        let variance = filter.said.variance().max(self.least).max(f64::MIN_POSITIVE);
         let (_, squares, _) = filter.smooth(variance);
         for (w, square) in found.weights.iter_mut().zip(&squares) {
             *w = (FREEDOM + RANK) / (FREEDOM + square / variance);
         }
-        found.ln_ratio = self.most_likely(found.lag, &found.weights, (found.ln_ratio - NEAR, found.ln_ratio + NEAR));
+        found.ln_ratio = self.most_likely(&found.weights, (found.ln_ratio - NEAR, found.ln_ratio + NEAR));
     }
 
     /// −2 ln of the likelihood, but for a constant: of the weights the variational bound (Tipping and Lawrence 2005).
     fn deviance(&self, found: &Found) -> f64 {
         let of_weights: f64 = found.weights.iter().map(|w| w.ln() - w).sum();
-        self.filter(found).deviance(self.least) - FREEDOM * of_weights
+        self.follow(found.ln_ratio.exp(), &found.weights, |_| ()).deviance(self.least) - FREEDOM * of_weights
     }
 
     /// ln of the most likely variance of a step over that of the noise: golden section.
-    fn most_likely(&self, lag: f64, weights: &[f64], (mut a, mut b): (f64, f64)) -> f64 {
-        let of = |x: f64| Filter::new(self.steps, self.values, lag, x.exp(), weights).deviance(self.least);
+    fn most_likely(&self, weights: &[f64], (mut a, mut b): (f64, f64)) -> f64 {
+        let of = |x: f64| self.follow(x.exp(), weights, |_| ()).deviance(self.least);
         let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
         let (mut x, mut y) = (b - golden * (b - a), a + golden * (b - a));
         let (mut at_x, mut at_y) = (of(x), of(y));
@@ -190,49 +237,14 @@ struct Predicted {
     spread: f64,
 }
 
-/// Kalman's filter, variances in units of the noise's.
-struct Filter<'a> {
-    ratio: f64,
-    weights: &'a [f64],
-    /// of every step: how the state goes on, and what wandering adds
-    moves: Vec<(Matrix, Matrix)>,
-    states: Vec<Predicted>,
+/// What the values say of ratio and weights.
+struct Said {
     squares: f64,
     log_det: f64,
     count: usize,
 }
 
-impl<'a> Filter<'a> {
-    fn new(steps: &[f64], values: &[f64], lag: f64, ratio: f64, weights: &'a [f64]) -> Self {
-        let mut states = Vec::with_capacity(values.len());
-        let mut moves: Vec<(Matrix, Matrix)> = Vec::with_capacity(steps.len());
-        let (mut x, mut p) = (Vector::new(values[0], 0.0, 0.0), UNKNOWN * Matrix::identity());
-        let (mut squares, mut log_det, mut count) = (0.0, 0.0, 0);
-        for (n, value) in values.iter().enumerate() {
-            if n > 0 {
-                let same = n > 1 && steps[n - 1] == steps[n - 2];
-                let (f, q) = if same { moves[n - 2] } else { (forward(steps[n - 1], lag), wander(steps[n - 1], lag)) };
-                moves.push((f, q));
-                x = f * x;
-                p = f * p * f.transpose() + ratio / weights[n - 1] * q;
-            }
-            let (surprise, spread) = (value - x[0], p[(0, 0)] + 1.0);
-            // the first three say where it starts
-            if n > 2 {
-                squares += surprise * surprise / spread;
-                log_det += spread.ln();
-                count += 1;
-            }
-            states.push(Predicted { mean: x, covariance: p, surprise, spread });
-            let gain: Vector = p.column(0) / spread;
-            x += gain * surprise;
-            // Joseph's form keeps it positive
-            let kept = without_course(&gain);
-            p = kept * p * kept.transpose() + gain * gain.transpose();
-        }
-        Self { ratio, weights, moves, states, squares, log_det, count }
-    }
-
+impl Said {
     /// Most likely variance of the noise.
     fn variance(&self) -> f64 {
         self.squares / self.count as f64
@@ -243,7 +255,18 @@ impl<'a> Filter<'a> {
         let variance = self.variance().max(least).max(f64::MIN_POSITIVE);
         self.count as f64 * variance.ln() + self.log_det + self.squares / variance
     }
+}
 
+/// Kalman's filter with all that it met, variances in units of the noise's.
+struct Filter<'a> {
+    ratio: f64,
+    weights: &'a [f64],
+    moves: &'a [Move],
+    states: Vec<Predicted>,
+    said: Said,
+}
+
+impl Filter<'_> {
     /// The smoothed values, and of every step the expected square of its disturbance over its variance at weight 1, times the noise's
     /// variance, which is `variance`; and the variance of every smoothed value over the noise's. By the adjoint recursion (de Jong 1989; Koopman 1993),
     /// which divides by no covariance.

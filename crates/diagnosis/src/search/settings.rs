@@ -30,6 +30,11 @@ impl Default for Settings {
 const DESCRIBED: f64 = 0.5;
 
 impl Settings {
+    /// ln of the probability, before anything is seen, that what is at work is a law that nobody listed, beside the design's constants.
+    pub(crate) fn log_unlisted(&self) -> f64 {
+        (self.unknown * DESCRIBED).ln()
+    }
+
     /// ln of the probability of a hypothesis, beside a structure or alone, before anything is seen.
     pub(super) fn log_prior<M: ForwardModel>(&self, model: &M, hypothesis: &Hypothesis, rival: bool) -> f64 {
         let library = model.mechanisms();

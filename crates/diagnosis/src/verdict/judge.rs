@@ -2,7 +2,7 @@
 
 use super::set::{likely, marginals, named};
 use super::{Diagnosis, Verdict};
-use crate::{Candidate, Error, ForwardModel, HeldOut, Observation, as_designed};
+use crate::{Candidate, Error, ForwardModel, HeldOut, Hypothesis, Observation, as_designed};
 
 /// Probability of a mechanism from which it is named although a structure is left beside it.
 const SURE: f64 = 0.8;
@@ -14,8 +14,23 @@ pub struct Judged {
     pub nominal: HeldOut,
     /// By the best candidate, nothing fitted anew ([`crate::Fit::hold_out`]).
     pub model: HeldOut,
+    /// By the design's own constants re-estimated, nothing fitted anew, if that was compared.
+    pub constants: Option<HeldOut>,
     /// Whether the best candidate's error of the channel that judges is no larger than the nominal model's.
     pub accepted: bool,
+}
+
+impl Judged {
+    /// Whether another prediction of the record is clearly better than the nominal model's and that of its constants re-estimated, proves something, and is
+    /// not clearly worse than what was accepted, by the errors of a channel.
+    pub fn is_beaten_by(&self, other: &HeldOut, channel: usize) -> bool {
+        let beats = |without: &HeldOut| without.clearly_worse_than(other, channel);
+        let answered = if self.accepted { &self.model } else { &self.nominal };
+        beats(&self.nominal)
+            && self.constants.as_ref().is_none_or(beats)
+            && !other.proves_nothing(&self.nominal, channel)
+            && !other.clearly_worse_than(answered, channel)
+    }
 }
 
 /// What the records that were held out do to a verdict.
@@ -57,7 +72,7 @@ impl Diagnosis {
     /// record that was fitted, and `drawn` the model that is exact as it is designed, before it [`crate::settled`].
     ///
     /// - A structure beside mechanisms that have a name, one of them nearly certain, is no bar to naming them if *every* record is predicted to within
-    ///   its noise, and clearly better than by the nominal model: the verdict becomes [`Verdict::Explained`], and their probabilities count the
+    ///   its noise, and clearly better than by the nominal model and by its constants re-estimated: the verdict becomes [`Verdict::Explained`], and their probabilities count the
     ///   candidates with a structure.
     /// - An explanation, or a recalibration, is taken back if *any* record contradicts it ([`Contradiction`]). Then there is nothing to explain if
     ///   the nominal model predicts that record to within noise, else what there is is unknown; the mechanisms lose their probabilities, which
@@ -74,10 +89,12 @@ impl Diagnosis {
         channel: usize,
     ) -> Result<Judgement, Error<M::Error>> {
         let best = &self.best().fit;
+        let constants = self.candidates.iter().find(|c| c.rival.is_none() && c.fit.hypothesis == Hypothesis::RECALIBRATED);
         let predicted = |&(record, observed): &(usize, &Observation)| -> Result<Judged, Error<M::Error>> {
             let by_model = best.hold_out(model, record, observed, best)?;
             let nominal = as_designed(drawn, fitted, (record, observed), best)?;
-            Ok(Judged { accepted: by_model.rmse[channel] <= nominal.rmse[channel], nominal, model: by_model })
+            let constants = constants.map(|c| c.fit.hold_out(model, record, observed, best)).transpose()?;
+            Ok(Judged { accepted: by_model.rmse[channel] <= nominal.rmse[channel], nominal, model: by_model, constants })
         };
         let records = held.iter().map(predicted).collect::<Result<Vec<_>, _>>()?;
         let counted = |c: &Candidate| named(model, c);
@@ -111,7 +128,11 @@ impl Diagnosis {
 
 /// The rules of [`Diagnosis::judge`]: `beside_named` says whether the unknown is a structure beside mechanisms that have a name.
 fn rule(verdict: Verdict, beside_named: bool, records: &[Judged], channel: usize) -> Ruling {
-    let proves = |r: &Judged| r.nominal.clearly_worse_than(&r.model, channel) && r.model.within_noise(channel);
+    // what a mechanism adds is proven over what constants do without it
+    let beats = |other: &HeldOut, r: &Judged| other.clearly_worse_than(&r.model, channel);
+    let proves = |r: &Judged| {
+        beats(&r.nominal, r) && r.constants.as_ref().is_none_or(|constants| beats(constants, r)) && r.model.within_noise(channel)
+    };
     if beside_named && !records.is_empty() && records.iter().all(proves) {
         return Ruling::AcceptedBeside;
     }
@@ -140,7 +161,7 @@ mod tests {
             quiet: vec![1.0; 2],
             log_score,
         };
-        Judged { nominal: of(nominal, 0.0), model: of(model, gain), accepted: model <= nominal }
+        Judged { nominal: of(nominal, 0.0), model: of(model, gain), constants: None, accepted: model <= nominal }
     }
 
     fn ruled(verdict: Verdict, records: &[Judged]) -> Ruling {
@@ -177,6 +198,20 @@ mod tests {
     }
 
     #[test]
+    fn a_law_has_to_beat_the_design_its_constants_and_what_was_accepted() {
+        let constants = |rmse: f64, gain: f64| Some(judged(1.0, rmse, gain).model);
+        let before =
+            |nominal: f64, model: f64, rmse: f64| Judged { constants: constants(rmse, 10.0), ..judged(nominal, model, 20.0) };
+        let beaten = |before: Judged, rmse: f64, gain: f64| before.is_beaten_by(&judged(1.0, rmse, gain).model, 1);
+        assert!(beaten(before(3.0, 1.5, 1.5), 1.1, 40.0));
+        // no better than the constants alone, by error or by likelihood
+        assert!(!beaten(before(3.0, 1.5, 1.1), 1.1, 40.0) && !beaten(before(3.0, 1.5, 1.5), 1.1, 14.0));
+        // worse than the explanation that was accepted; one that was not is no rival
+        assert!(!beaten(before(3.0, 1.0, 1.5), 1.1, 14.9) && beaten(before(1.8, 2.0, 1.5), 1.1, 40.0));
+        assert!(!beaten(before(1.05, 2.0, 1.5), 1.1, 40.0));
+    }
+
+    #[test]
     fn what_stands_beside_a_structure_is_proven_by_all_records_or_none() {
         let [proof, loud, even] = [judged(2.0, 1.2, 6.0), judged(5.0, 1.4, 50.0), judged(1.2, 1.15, 4.0)];
         let of = |records: &[Judged]| rule(Verdict::Unknown, true, records, 1);
@@ -184,6 +219,10 @@ mod tests {
         assert_eq!(of(&[]), Ruling::Stands);
         assert_eq!(of(&[proof.clone(), loud]), Ruling::Stands);
         assert_eq!(of(&[even, proof.clone()]), Ruling::Stands);
-        assert_eq!(rule(Verdict::Unknown, false, &[proof], 1), Ruling::Stands);
+        assert_eq!(rule(Verdict::Unknown, false, std::slice::from_ref(&proof), 1), Ruling::Stands);
+        // where the constants predict as well, the mechanism has proven nothing
+        let with_constants = |rmse: f64, gain: f64| Judged { constants: Some(judged(1.0, rmse, gain).model), ..proof.clone() };
+        assert_eq!(of(&[with_constants(1.2, 6.0)]), Ruling::Stands);
+        assert_eq!(of(&[with_constants(1.5, 0.0)]), Ruling::AcceptedBeside);
     }
 }

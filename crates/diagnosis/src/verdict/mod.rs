@@ -1,11 +1,12 @@
 //! What the recordings say, in a word and in numbers.
 //!
 //! [`conclude`] makes a verdict of weighed candidates, [`set`] says which mechanisms are not excluded, [`judge`] what records that were held
-//! out make of it.
+//! out make of it, [`unlisted`] what a law that was composed makes of it.
 
 mod conclude;
 mod judge;
 mod set;
+mod unlisted;
 
 pub use judge::{Contradiction, Judged, Judgement, Ruling};
 
@@ -26,6 +27,11 @@ pub struct Candidate {
 }
 
 impl Candidate {
+    /// ln of its probability before anything was seen.
+    pub fn log_prior(&self) -> f64 {
+        self.log_weight - self.log_evidence()
+    }
+
     /// ln of the evidence, with that of its structure.
     pub(crate) fn log_evidence(&self) -> f64 {
         self.fit.log_evidence + self.rival.as_ref().map_or(0.0, |r| r.gain)

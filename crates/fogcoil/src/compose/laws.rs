@@ -153,6 +153,7 @@ fn of_temperature<'a>(t: &str, ranges: &Ranges) -> Vec<Form<'a>> {
         let [low, high] = ranges.temperatures.map(|x| format!("{x:.1?}"));
         ("at", "degC", format!("Uniform({low}, {high})"), ranges.across(5))
     };
+    let middle = || ("middle", "degC", "Normal(20.0, 30.0)".to_owned(), vec![20.0]);
     let width = || ("width", "K", "LogNormal(3.0, 0.7)".to_owned(), vec![3.0]);
     vec![
         form(
@@ -161,9 +162,9 @@ fn of_temperature<'a>(t: &str, ranges: &Ranges) -> Vec<Form<'a>> {
             "read-out or source whose drift bends",
             "deg/h/K2",
             far.powi(2),
-            vec![],
+            vec![middle()],
             none(),
-            "size * (T - 20)^2".into(),
+            "size * (T - middle)^2".into(),
         ),
         form(
             "cube",

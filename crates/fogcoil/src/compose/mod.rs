@@ -2,7 +2,7 @@
 
 mod laws;
 
-use diagnosis::{Diagnosis, Estimate, Fit, ForwardModel, HeldOut, Hypothesis, Observation, Verdict, as_designed};
+use diagnosis::{Diagnosis, Estimate, Fit, ForwardModel, HeldOut, Hypothesis, Judged, Observation, Settings, Verdict};
 use mechanisms::{Gyro, Mechanism, RATE};
 use progress::Step;
 use serde_json::{Value, json};
@@ -36,24 +36,23 @@ struct Term {
 /// ln evidence by which another law is behind and still not excluded, as odds of 1 to 20.
 const NEAR: f64 = 3.0;
 
-/// Composes a law for what a diagnosis leaves unknown; `None` where it leaves nothing, or no law gains enough. `held` are the records held out, by their
-/// numbers, and `answered` the errors of what is predicted of them without a law \[deg/h\], by the design or what was found.
+/// Composes a law for what a diagnosis leaves unknown, or names; `None` where it leaves nothing, no law gains enough, or a name is likelier. `held` are the
+/// records held out, by their numbers, and `judged` what is predicted of them without a law.
 pub(crate) fn compose(
     gyro: &Gyro,
-    drawn: &Gyro,
-    diagnosis: &Diagnosis,
+    diagnosis: &mut Diagnosis,
+    settings: &Settings,
     fitted: &[Observation],
     held: &[(usize, &Observation)],
-    answered: &[f64],
+    judged: &[Judged],
     progress: &dyn Fn(Step),
 ) -> Result<Option<Composed>, diagnosis::Error<coil::Error>> {
-    if diagnosis.verdict != Verdict::Unknown {
+    if !matches!(diagnosis.verdict, Verdict::Unknown | Verdict::Explained) {
         return Ok(None);
     }
-    let best = diagnosis.best();
-    let constants = || diagnosis.candidates.iter().find(|c| c.rival.is_none() && c.fit.hypothesis == Hypothesis::RECALIBRATED);
-    let beside = if diagnosis.is_beside_named(gyro) { Some(&best.fit) } else { constants().map(|c| &c.fit) };
-    let Some(beside) = beside else { return Ok(None) };
+    // beside the constants, and beside a mechanism that has a name if it leaves something
+    let constants = diagnosis.candidates.iter().find(|c| c.rival.is_none() && c.fit.hypothesis == Hypothesis::RECALIBRATED);
+    let named = diagnosis.is_beside_named(gyro).then(|| diagnosis.best());
     let ranges = ranges(gyro, fitted);
     let laws: Vec<Law> = laws::laws(&ranges);
     // each is a file that the program has written: none is refused
@@ -64,7 +63,16 @@ pub(crate) fn compose(
     let with = gyro.beside(&kinds);
     let all = first..with.mechanisms().len();
     let numbers: Vec<usize> = (0..fitted.len()).collect();
-    let Some(found) = diagnosis::compose(&with, all, &numbers, fitted, beside, progress)? else { return Ok(None) };
+    let mut likeliest: Option<(f64, diagnosis::Composed)> = None;
+    for beside in constants.into_iter().chain(named) {
+        if let Some(found) = diagnosis::compose(&with, all.clone(), &numbers, fitted, &beside.fit, progress)? {
+            let log_weight = found.fit.log_evidence - found.choice + beside.log_prior();
+            if likeliest.as_ref().is_none_or(|(most, _)| log_weight > *most) {
+                likeliest = Some((log_weight, found));
+            }
+        }
+    }
+    let Some((_, found)) = likeliest else { return Ok(None) };
     let own = found.fit.active.iter().enumerate().skip(found.fit.active.len() - found.laws);
     let mut terms = Vec::new();
     for (place, active) in own {
@@ -80,12 +88,18 @@ pub(crate) fn compose(
     let others = found.others.iter().filter_map(other).collect();
     let mut predictions = Vec::new();
     let mut accepted = !held.is_empty();
-    for (&(record, observed), answered) in held.iter().zip(answered) {
-        let by_law = found.fit.hold_out(&with, record, observed, &found.fit)?;
-        let nominal = as_designed(drawn, (0, &fitted[0]), (record, observed), &found.fit)?;
-        let better = nominal.clearly_worse_than(&by_law, RATE) && !by_law.proves_nothing(&nominal, RATE);
-        accepted &= better && by_law.rmse[RATE] <= *answered;
+    for (&(record, observed), without) in held.iter().zip(judged) {
+        // in the noise in which the others are judged
+        let by_law = found.fit.hold_out(&with, record, observed, &diagnosis.best().fit)?;
+        accepted &= without.is_beaten_by(&by_law, RATE);
         predictions.push(by_law);
+    }
+    // what has a name gives way to a law that is likelier, unless a record that was held out says otherwise
+    if diagnosis.verdict == Verdict::Explained && (accepted || held.is_empty()) {
+        diagnosis.weigh_unlisted(&found, settings);
+    }
+    if diagnosis.verdict == Verdict::Explained {
+        return Ok(None);
     }
     Ok(Some(Composed { terms, fit: found.fit, gain: found.gain, others, held: predictions, accepted }))
 }
@@ -142,8 +156,10 @@ impl Composed {
             if others.is_empty() { String::new() } else { format!("; these records hardly tell it from {}", others.join(", ")) };
         let judged = match (self.held.is_empty(), self.accepted) {
             (true, _) => "no record was held out to judge it: give one with --holdout",
-            (false, true) => "accepted: it predicts what was held out better than the design",
-            (false, false) => "not accepted: it does not predict what was held out better than the design",
+            (false, true) => "accepted: it predicts what was held out better than the design and than its constants re-estimated",
+            (false, false) => {
+                "not accepted: it does not predict what was held out better than the design and than its constants re-estimated"
+            }
         };
         out += &format!("{by}{others}; {judged}.\n");
         (out, self.terms.iter().flat_map(|term| term.estimates.clone()).collect())

@@ -95,10 +95,7 @@ pub fn diagnose<'m>(
     if let Ruling::TakenBack { record, why } = ruling {
         notes.push(taken_back(&held[record].fingerprint.file, why));
     }
-    let rate_of =
-        |judged: &Judged| if judged.accepted { judged.model.rmse[RATE_CHANNEL] } else { judged.nominal.rmse[RATE_CHANNEL] };
-    let predicted: Vec<f64> = records.iter().map(rate_of).collect();
-    let composed = compose(gyro, &drawn, &diagnosis, &observations, &numbered, &predicted, progress).map_err(failed)?;
+    let composed = compose(gyro, &mut diagnosis, &settings, &observations, &numbered, &records, progress).map_err(failed)?;
     let best = diagnosis.best();
     let fitted_to = best.fit.residuals.iter().map(|channels| channels.iter().map(|r| rms(r)).collect());
     let answered: Vec<Vec<f64>> = fitted_to.chain(records.iter().map(|judged| judged.model.rmse.clone())).collect();
@@ -107,7 +104,7 @@ pub fn diagnose<'m>(
         notes.extend(columns::warning(&drawn, number, record, answered).map_err(coil)?);
     }
     let with_predictions =
-        |(record, Judged { nominal, model, accepted }): (Record, Judged)| Held { record, nominal, model, accepted };
+        |(record, Judged { nominal, model, accepted, .. }): (Record, Judged)| Held { record, nominal, model, accepted };
     let mut holdouts: Vec<Held> = held.into_iter().zip(records).map(with_predictions).collect();
     if let Some(composed) = composed.as_ref().filter(|composed| composed.accepted) {
         for (held, by_law) in holdouts.iter_mut().zip(&composed.held) {

@@ -51,13 +51,16 @@ fn relaxed(record: &Prepared, fraction: f64, time: f64) -> Parts {
     let nominal = weights(&nodes, 0.0);
     let mut relaxation = Relaxation::new(time);
     let mut change: Parts = [0, 1, 2].map(|_| vec![0.0; record.time.len()]);
+    let mut states = vec![[0.0; 3]; at.len()];
     #[expect(clippy::needless_range_loop, reason = "rows of many series")]
     for n in 1..record.time.len() {
-        let of = |w: &[f64]| [0, 1, 2].map(|p: usize| w.iter().zip(&record.modulus).map(|(w, m)| w * m.1[p][n]).sum::<f64>());
-        let states: Vec<[f64; 3]> = at.iter().map(|w| of(w)).collect();
-        let (relaxed, unrelaxed) = (relaxation.rates(&states, record.time[n] - record.time[n - 1]), of(&nominal));
+        let of = |w: &[f64], p: usize| w.iter().zip(&record.modulus).map(|(w, m)| w * m.1[p][n]).sum::<f64>();
+        for (state, w) in states.iter_mut().zip(&at) {
+            *state = [0, 1, 2].map(|p: usize| of(w, p));
+        }
+        let relaxed = relaxation.rates(&states, record.time[n] - record.time[n - 1]);
         for p in 0..3 {
-            change[p][n] = relaxed[p] - unrelaxed[p];
+            change[p][n] = relaxed[p] - of(&nominal, p);
         }
     }
     change

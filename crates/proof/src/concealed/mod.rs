@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::files::root;
-use crate::{Failure, ordinary, program};
+use crate::{Failure, composed, ordinary, program};
 use score::Scored;
 
 pub(crate) use answer::{Answer, Constant, MORE_THAN_NOT, Written, answered, record};
@@ -63,6 +63,12 @@ pub struct Prove {
     /// Units of the project's own generator, kept in target/prove, where a run that was stopped goes on
     #[arg(long, group = "units")]
     synthetic: bool,
+    /// Units with laws that no library lists, constants anywhere within their tolerances: whether a law is composed that predicts
+    #[arg(long, group = "units", conflicts_with = "ordinary")]
+    composed: bool,
+    /// How many of those; every second one conceals nothing
+    #[arg(long = "drawn", value_name = "N", requires = "composed", default_value_t = 120)]
+    drawn: usize,
     #[command(flatten)]
     plan: synthetic::Plan,
 }
@@ -87,6 +93,9 @@ impl Prove {
         }
         if self.rows {
             return ordinary::rows();
+        }
+        if self.composed {
+            return composed::run(self.drawn);
         }
         if self.synthetic {
             return synthetic::run(&self.plan);

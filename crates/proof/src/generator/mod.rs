@@ -10,9 +10,11 @@
 
 mod build;
 mod chamber;
+mod drawn;
 mod effect;
 mod heat;
 mod law;
+mod laws;
 mod matched;
 mod noise;
 mod ordinary;
@@ -26,6 +28,7 @@ mod unit;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use drawn::{DrawnUnit, DrawnUnits};
 pub(crate) use noise::SPAN;
 pub(crate) use ordinary::{NOTHING, Ordinary};
 pub use random::Random;
@@ -35,12 +38,14 @@ pub use unit::{Generator, Unit, Which};
 use sha2::{Digest, Sha256};
 
 /// What the units are made by, by file.
-const SOURCES: [(&str, &str); 15] = [
+const SOURCES: [(&str, &str); 17] = [
     ("build.rs", include_str!("build.rs")),
     ("chamber.rs", include_str!("chamber.rs")),
+    ("drawn.rs", include_str!("drawn.rs")),
     ("effect.rs", include_str!("effect.rs")),
     ("heat.rs", include_str!("heat.rs")),
     ("law.rs", include_str!("law.rs")),
+    ("laws.rs", include_str!("laws.rs")),
     ("matched.rs", include_str!("matched.rs")),
     ("noise.rs", include_str!("noise.rs")),
     ("ordinary.rs", include_str!("ordinary.rs")),

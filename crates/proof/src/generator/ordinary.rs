@@ -56,7 +56,7 @@ const SECOND: ProgrammeFamily = ProgrammeFamily::P4;
 
 impl Ordinary {
     /// The course as the chamber's thermometer and log tell it.
-    fn read(&self, course: &Course) -> Course {
+    pub(super) fn read(&self, course: &Course) -> Course {
         let [lag, late] = self.chamber_late;
         let forget = if lag > 0.0 { (-STEP / lag).exp() } else { 0.0 };
         let mut behind = course.temperature[0];
@@ -72,7 +72,7 @@ impl Ordinary {
         Course { temperature: (0..lagged.len()).map(told).collect(), turns: course.turns.clone() }
     }
 
-    fn signal(&self, time: &[f64], signal: &Signal) -> Signal {
+    pub(super) fn signal(&self, time: &[f64], signal: &Signal) -> Signal {
         let board = self.slow_board(time, &signal.spool);
         Signal {
             spool: signal.spool.iter().map(|t| MIDDLE + (t - MIDDLE) * (1.0 + self.gains[1])).collect(),

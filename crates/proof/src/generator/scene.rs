@@ -56,7 +56,7 @@ pub(super) fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
-fn times(a: &[f64], factor: f64) -> Vec<f64> {
+pub(super) fn times(a: &[f64], factor: f64) -> Vec<f64> {
     a.iter().map(|a| a * factor).collect()
 }
 

@@ -102,8 +102,17 @@ impl Whitener {
 struct Filter<'a> {
     model: &'a NoiseModel,
     covariance: [Vector; STATES],
-    /// Interval and span of the last step, the step, and whether the covariance has settled.
-    last: Option<(f64, f64, Step, bool)>,
+    last: Option<Last>,
+}
+
+/// The last step, over an interval and a span.
+struct Last {
+    interval: Option<f64>,
+    span: f64,
+    passage: Passage,
+    step: Step,
+    /// whether the covariance has settled
+    settled: bool,
 }
 
 /// Change of the covariance, relative to the variances it belongs to, below which it has settled: rounding.
@@ -120,21 +129,22 @@ impl<'a> Filter<'a> {
 
     /// `interval` \[s\] since the last row used, `None` for the first; `span` \[s\] since the last row, used or not.
     fn step(&mut self, interval: Option<f64>, span: f64) -> Step {
-        let key = interval.unwrap_or(0.0);
-        if let Some((same, other, step, true)) = &self.last
-            && (*same, *other) == (key, span)
-        {
-            return *step;
-        }
-        let passage = Passage::new(self.model, interval, span);
+        let passage = match self.last.take() {
+            Some(last) if (last.interval, last.span) == (interval, span) => {
+                if last.settled {
+                    return self.last.insert(last).step;
+                }
+                last.passage
+            }
+            _ => Passage::new(self.model, interval, span),
+        };
         let (step, after) = passage.update(&self.covariance);
         let close = |i: usize, j: usize| {
             (after[i][j] - self.covariance[i][j]).abs() <= SETTLED * (after[i][i].abs() * after[j][j].abs()).sqrt()
         };
         let settled = (0..STATES).all(|i| (0..STATES).all(|j| close(i, j)));
         self.covariance = after;
-        self.last = Some((key, span, step, settled));
-        step
+        self.last.insert(Last { interval, span, passage, step, settled }).step
     }
 }
 

@@ -1,0 +1,86 @@
+//! A law that was composed, weighed with the mechanisms that have a name.
+
+use super::{Diagnosis, Verdict};
+use crate::{Candidate, Composed, Settings};
+
+impl Diagnosis {
+    /// Weighs a law that was composed beside the design's constants with all that was compared, under the same `settings`: what is probable of it is
+    /// taken from all others. Where it is likelier than what explained the records, they are unknown, and the law describes them.
+    pub fn weigh_unlisted(&mut self, law: &Composed, settings: &Settings) {
+        let log_weight = law.fit.log_evidence - law.choice + settings.log_unlisted();
+        let ratio = |c: &Candidate| (c.log_weight - log_weight).exp();
+        let others: f64 = self.candidates.iter().map(ratio).sum();
+        self.make_room(1.0 / (1.0 + others));
+    }
+
+    /// Gives something unknown this probability.
+    fn make_room(&mut self, probability: f64) {
+        let left = 1.0 - probability;
+        self.candidates.iter_mut().for_each(|c| c.probability *= left);
+        self.mechanisms.iter_mut().for_each(|(_, p)| *p *= left);
+        self.verdicts.iter_mut().for_each(|p| *p *= left);
+        self.verdicts[3] += probability;
+        let [_, _, explained, unknown] = self.verdicts;
+        if self.verdict == Verdict::Explained && unknown > explained {
+            self.verdict = Verdict::Unknown;
+            self.set.clear();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::set::tests::candidate;
+    use super::*;
+
+    /// A mechanism explains what the constants do not, ten units of evidence better.
+    fn explained() -> Diagnosis {
+        let with = |mechanisms: &[usize], log_weight: f64, probability: f64| {
+            let mut candidate = candidate(mechanisms, probability);
+            (candidate.fit.log_evidence, candidate.log_weight) = (log_weight, log_weight);
+            candidate
+        };
+        let candidates = vec![with(&[0], 10.0, 1.0 - 4.5e-5), with(&[], 0.0, 4.5e-5)];
+        let fit = candidates[1].fit.clone();
+        Diagnosis {
+            verdict: Verdict::Explained,
+            mechanisms: vec![(0, candidates[0].probability)],
+            set: vec![0],
+            parameters: Vec::new(),
+            nominal: fit.clone(),
+            mismatch: fit,
+            stages: Vec::new(),
+            verdicts: [0.0, candidates[1].probability, candidates[0].probability, 0.0],
+            excluded: 0.03,
+            candidates,
+        }
+    }
+
+    fn weighed(log_evidence: f64, choice: f64) -> Diagnosis {
+        let mut diagnosis = explained();
+        let fit = crate::Fit { log_evidence, ..diagnosis.nominal.clone() };
+        diagnosis.weigh_unlisted(&Composed { fit, laws: 1, gain: 0.0, choice, others: Vec::new() }, &Settings::default());
+        diagnosis
+    }
+
+    #[test]
+    fn a_law_takes_a_name_s_place_where_it_is_likelier_with_its_choice_paid() {
+        let prior = Settings::default().log_unlisted();
+        // as likely as all others together, whatever the choice cost
+        for choice in [0.0, 4.0] {
+            let even = weighed(10.0 + 4.5e-5 + choice - prior, choice);
+            assert!(
+                (even.verdicts()[3] - 0.5).abs() < 1e-6 && (even.mechanisms[0].1 - 0.5).abs() < 1e-4,
+                "{:?}",
+                even.verdicts()
+            );
+        }
+        let likelier = weighed(14.0 - prior, 0.0);
+        assert_eq!((likelier.verdict, likelier.set.len()), (Verdict::Unknown, 0));
+        let paid = weighed(14.0 - prior, 8.0);
+        assert_eq!((paid.verdict, paid.set.as_slice()), (Verdict::Explained, &[0][..]));
+        for diagnosis in [likelier, paid] {
+            assert!((diagnosis.verdicts().iter().sum::<f64>() - 1.0).abs() < 1e-6);
+        }
+    }
+}
