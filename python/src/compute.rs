@@ -126,7 +126,7 @@ pub(crate) fn simulate<'py>(
 ) -> PyResult<(Columns<'py>, String)> {
     let (case, profile) = (&coil.case, checked_profile(py, coil, &profile, between)?);
     let run = || {
-        let (own, cache) = (input::read_mechanisms(&mechanisms)?, cache(code));
+        let (own, cache) = (input::read_mechanisms(&mechanisms)?.files_alone()?, cache(code));
         let model = runs::model(case, &profile.drives, &cache)?;
         let mut simulation = runs::simulate(case, &profile, &model)?;
         simulation.add(&own, &cache, &|_| ())?;
@@ -157,7 +157,7 @@ type Diagnosed<'py> = (String, String, Option<Columns<'py>>, Option<Coil>);
 /// Further columns of records that mechanisms of a user's own name.
 #[pyfunction]
 pub(crate) fn further_columns(mechanisms: Vec<PathBuf>) -> PyResult<Vec<String>> {
-    let read = || Ok::<_, Error>(input::further_columns(&input::read_mechanisms(&mechanisms)?));
+    let read = || Ok::<_, Error>(input::read_mechanisms(&mechanisms)?.further_columns());
     read().map_err(raised)
 }
 
@@ -184,8 +184,8 @@ pub(crate) fn diagnose<'py>(
     let raised_by_callback = OnceLock::new();
     let run = || -> Result<_, Error> {
         diagnosis::check_design(&coil.case, &coil.case.file)?;
-        let own = input::read_mechanisms(&mechanisms)?;
-        let further = input::further_columns(&own);
+        let asked = input::read_mechanisms(&mechanisms)?;
+        let further = asked.further_columns();
         let all = |records: &[Record]| {
             records.iter().map(|record| read(record, meta.as_deref(), &further)).collect::<Result<Vec<_>, _>>()
         };
@@ -195,7 +195,7 @@ pub(crate) fn diagnose<'py>(
             }
         };
         let outcome =
-            diagnosis::diagnose(&coil.case, &input::with_catalogue(&own), &all(&fit)?, &all(&holdout)?, &cache(code), &note)?;
+            diagnosis::diagnose(&coil.case, &asked.with_catalogue(), &all(&fit)?, &all(&holdout)?, &cache(code), &note)?;
         let prediction = outcome.predicted_rate();
         Ok((outcome.json().to_string(), outcome.text(), prediction, outcome.model().ok()))
     };

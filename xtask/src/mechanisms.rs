@@ -26,10 +26,13 @@ const MARKS: [&str; 2] = ["<!-- measured: written by `cargo xtask mechanisms` --
 pub(crate) fn run() -> Result<bool, Failure> {
     let case = input::read_coil(COIL.as_ref())?;
     let comparison = Comparison::measure(&case, &Cache::of_user(), &|task| eprintln!("{task}"))?;
+    let on_request = Comparison::on_request(&case, &Cache::of_user(), &|task| eprintln!("{task}"))?;
     fs::create_dir_all(PICTURES)?;
     let pictures = Path::new(PICTURES);
     let mut measured = String::new();
-    for entry in &comparison.entries {
+    let of = |comparison| std::iter::repeat(comparison);
+    let entries = comparison.entries.iter().zip(of(&comparison)).chain(on_request.entries.iter().zip(of(&on_request)));
+    for (entry, comparison) in entries {
         let file = format!("{}.svg", entry.id);
         fs::write(pictures.join(&file), comparison.signature(entry))?;
         let numbers = comparison.page(entry, &format!("../pictures/mechanisms/{file}"));
@@ -42,10 +45,11 @@ pub(crate) fn run() -> Result<bool, Failure> {
     let last = comparison.programmes.len() - 1;
     fs::write(pictures.join("confusion.svg"), comparison.confusion(&[0, last]))?;
     rewrite(&Path::new(PAGES).join("README.md"), &comparison.overview())?;
+    rewrite(&Path::new(PAGES).join("on-request.md"), &on_request.overview())?;
     let coils = COILS.map(|measured| explain(&case, measured, true, &Cache::of_user(), &|task| eprintln!("{measured}: {task}")));
     let [a, b, c] = coils;
     rewrite(&Path::new(PAGES).join("paper-coils.md"), &coils_text(&[a?, b?, c?]))?;
-    println!("{PAGES} and {PICTURES}: {} mechanisms", comparison.entries.len());
+    println!("{PAGES} and {PICTURES}: {} mechanisms", comparison.entries.len() + on_request.entries.len());
     Ok(true)
 }
 

@@ -1,123 +1,97 @@
-//! A measured thermal cycle of a rate sensor: the popular polynomial in temperature, its rate and time fits better and predicts worse; the engine
-//! is to find the history effect, to refuse what the held-out part refutes, and to say what it does not explain.
+//! A rate sensor over one thermal cycle: the popular polynomial in temperature, its rate and time fits better and predicts worse.
 //!
 //! ```sh
-//! cargo run --release -p diagnosis --example imu_thermal_cycle -- imu_thermal_cycle.tsv [COLUMN]
+//! cargo run --release -p diagnosis --example imu_thermal_cycle -- fixtures/real/imu/thermal_cycle.tsv imu.gyro.x
 //! ```
 //!
-//! The file (repository tofupilot/examples, MIT licence, © 2024 tofupilot) has tab-separated columns timestamp (taken as µs), imu.gyro.x, …,
-//! imu.temperature. It is not part of this repository. The last quarter, the final cooling, is held out.
+//! Nominal is a cubic of the temperature. The last quarter of the rows, the final cooling, is held out.
 
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program")]
+#![allow(clippy::print_stdout, reason = "a program")]
 
+#[path = "models/real/mod.rs"]
+mod real;
 #[path = "models/thermal.rs"]
-#[allow(dead_code)] // the test uses the rest
+#[allow(dead_code)] // a test uses the rest
 mod thermal;
 
+use diagnosis::{Fit, Hypothesis, alternatives, fitted, prove};
+use real::law::Law;
+use real::offered::{Offered, Part};
+use real::rate_sensor::RateSensor;
+use real::shapes::Shape;
+use real::study::{BREADTH, Records, Told, study, versus};
+use real::{load, picture, report};
 use std::error::Error;
+use thermal::{RATE_AND_TIME, Thermal, plain};
 
-use diagnosis::{Fit, ForwardModel, Hypothesis, Settings, alternatives, diagnose, fitted};
-use thermal::{RATE_AND_TIME, Thermal, coloured, plain};
+/// Size of thermal effects of such sensors [rad/s], far below which least squares are free.
+const SIZE: f64 = 1.0;
 
-/// Rows averaged into one, about ten seconds.
-const GROUP: usize = 20;
-/// Share of the rows that are fitted.
+/// The popular fit by least squares, its temperature rate taken by central differences: errors of the fitted and the held-out part, and whether the latter
+/// bears it out beside the cubic.
+fn popular(time: &[f64], temperature: &[f64], rate: &[f64], cut: usize) -> Result<String, Box<dyn Error>> {
+    let white = plain(real::noise::scatter(rate));
+    let model = Thermal::new(time.to_vec(), temperature.to_vec(), cut, SIZE, white);
+    let observations = model.observations(rate);
+    let [known, held] = &observations[..] else { return Err("two parts".into()) };
+    let fit = |hypotheses: &[Hypothesis]| fitted(&model, &[0], std::slice::from_ref(known), hypotheses);
+    let (cubic, popular) = (fit(&[Hypothesis::NOMINAL])?, fit(&alternatives(&model, RATE_AND_TIME))?);
+    let proof = prove(&model, &cubic, &popular, &[(1, held)])?;
+    let inside = |fit: &Fit| real::offered::rms(&fit.residuals[0][0]);
+    let [before, after] = proof.rmse(0).map(report::digits);
+    let said = if proof.accepted { "accepted" } else { "REFUSED" };
+    let (cubic, popular) = (report::digits(inside(&cubic)), report::digits(inside(&popular)));
+    Ok(format!(
+        "cubic, then dT/dt by central differences and time: fitted {cubic}, then {popular}; held out {before}, then {after}: {said}"
+    ))
+}
+
 const FITTED: f64 = 0.75;
-/// Size of thermal effects of such sensors [rad/s].
-const SIZE: f64 = 0.01;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
-    let path = arguments.next().ok_or("usage: imu_thermal_cycle PATH [COLUMN]")?;
-    let column = arguments.next().unwrap_or_else(|| "imu.gyro.x".into());
-    let text = std::fs::read_to_string(&path).map_err(|e| format!("{path}: {e}"))?;
-    let [time, temperature, rate] = read(&text, &column)?;
-    let white = scatter(&rate);
-    let [time, temperature, rate] = [time, temperature, rate].map(|series| means(&series));
-    let cut = (FITTED * time.len() as f64) as usize;
-    let mean_white = white / (GROUP as f64).sqrt();
-    let of = |size: f64, noise| Thermal::new(time.clone(), temperature.clone(), cut, size, noise);
-    let model = of(SIZE, coloured(mean_white));
-    let observations = model.observations(&rate);
-    let found = diagnose(&model, &[0], &observations[..1], &Settings::default(), &|_| ())?;
-    let best = &found.best().fit;
-    println!("{column}: {} means of {GROUP} rows, {cut} of them fitted; noise of a row {white:.1e} rad/s", rate.len());
-    println!("verdict: {:?}", found.verdict);
-    for (active, estimates) in best.active.iter().zip(&found.parameters) {
-        println!("named: {} (fitted)", model.mechanisms()[active.mechanism].id);
-        for e in estimates {
-            println!("  {} = {:.4}, 90 % interval {:.4} to {:.4}", e.name, e.value, e.ci90[0], e.ci90[1]);
+    let path = arguments.next().ok_or("usage: imu_thermal_cycle PATH [COLUMN...]")?;
+    let mut columns: Vec<String> = arguments.take_while(|a| a != "--pictures").collect();
+    if columns.is_empty() {
+        columns = ["x", "y", "z"].map(|axis| format!("imu.gyro.{axis}")).to_vec();
+    }
+    for column in columns {
+        println!("\n## {column}");
+        let load::Rates { time, temperature, rates } = load::thermal_cycle(&path, &column)?;
+        let rate = &rates[0];
+        let cut = (FITTED * time.len() as f64) as usize;
+        let plant = RateSensor::new(time.clone(), temperature.clone(), rate, cut, 3);
+        // tests that may be made next
+        let span = time[time.len() - 1] + time[1];
+        let twice: Vec<f64> = time.iter().copied().chain(time.iter().map(|t| span + t)).collect();
+        let plant = plant
+            .with_test(time.clone(), temperature.clone())
+            .with_test(twice.clone(), temperature.iter().chain(&temperature).copied().collect());
+        let mut parts = vec![Part { test: 0, rows: 0..cut }, Part { test: 0, rows: cut..time.len() }];
+        parts.extend([Part { test: 1, rows: 0..time.len() }, Part { test: 2, rows: 0..twice.len() }]);
+        let plain = Offered::nothing(plant, parts);
+        let recorded = [0, 1].map(|r| plain.observed(r, std::slice::from_ref(rate)));
+        let of = |shape| Law::added(shape, 0, 0);
+        let told = [
+            Told { name: "least squares, cubic in T", laws: vec![] },
+            Told { name: "cubic in T and dT/dt", laws: vec![of(Shape::Rate)] },
+            Told { name: "the same and time", laws: vec![of(Shape::Rate), Law::added(Shape::Linear, 1, 0)] },
+            Told { name: "cubic in T, told the lag", laws: vec![of(Shape::Lag)] },
+        ];
+        let records = Records { fitted: &[0], held: &[1] };
+        let found = study(plain, &recorded, &records, &told, BREADTH)?;
+        let title = format!("Rate sensor over a thermal cycle, {column}");
+        let picture = picture::over_time(&found, &recorded, &records, 0, &title, &["final cooling"])?;
+        picture::write(&format!("real-{}.svg", column.replace('.', "-")), &picture)?;
+        print!("{}{}", report::findings(&found), report::table(&found, &["final cooling"]));
+        let (drift, fading) = (Law::added(Shape::Linear, 1, 0), Law::added(Shape::Fading, 1, 0));
+        for (name, record, time) in [("the same cycle", 2, &time), ("two cycles without a pause", 3, &twice)] {
+            let shown = versus(&found, &drift, &fading, record, time)?.max(versus(&found, &fading, &drift, record, time)?);
+            if shown > 0.0 {
+                println!("next test, {name}: a drift in time and one that fades would lie {shown:.1} sigma apart");
+            }
         }
+        println!("{}", popular(&time, &temperature, rate, cut)?);
     }
-    if let Some(rival) = &found.best().rival {
-        println!("not explained: {} (ln evidence +{:.1})", rival.structure.describe(), rival.gain);
-    }
-    // the cubic and the popular fit by least squares: white noise and hardly any prior
-    let squares = of(100.0 * SIZE, plain(mean_white));
-    let by_squares = |hypotheses: &[Hypothesis]| fitted(&squares, &[0], &observations[..1], hypotheses);
-    let cubic = by_squares(&[Hypothesis::NOMINAL])?;
-    let popular = by_squares(&alternatives(&squares, RATE_AND_TIME))?;
-    let judged = |model: &Thermal, fit: &Fit| -> Result<[f64; 2], Box<dyn Error>> {
-        Ok([rms(&fit.residuals[0][0]), fit.hold_out(model, 1, &observations[1], best)?.rmse[0]])
-    };
-    let reference = judged(&squares, &cubic)?[1];
-    println!("\n{:<44} fitted part  held-out part [rad/s]", "rms of what is left by");
-    let rows = [
-        ("a cubic in temperature, least squares", &squares, &cubic),
-        ("  with its rate and time, least squares", &squares, &popular),
-        ("  with what was named", &model, best),
-    ];
-    let shown = if best.active.is_empty() { 2 } else { 3 };
-    for (name, model, fit) in &rows[..shown] {
-        let [inside, outside] = judged(model, fit)?;
-        let accepted = if outside <= reference { "" } else { "  worse than the cubic: not accepted" };
-        println!("{name:<44} {inside:.2e}     {outside:.2e}{accepted}");
-    }
-    let outside = judged(&model, best)?[1];
-    println!(
-        "a mean's noise is {mean_white:.1e}, {:.0} % of the held-out rms: the rest is not explained",
-        100.0 * mean_white / outside
-    );
     Ok(())
-}
-
-fn rms(x: &[f64]) -> f64 {
-    (x.iter().map(|x| x * x).sum::<f64>() / x.len() as f64).sqrt()
-}
-
-/// Standard deviation of the noise of a row, from second differences: slow changes cancel.
-fn scatter(series: &[f64]) -> f64 {
-    let mut d: Vec<f64> = series.windows(3).map(|w| (w[0] - 2.0 * w[1] + w[2]).abs()).collect();
-    d.sort_by(f64::total_cmp);
-    // of a normal variable the median magnitude is 0.6745 σ
-    d[d.len() / 2] / 0.6745 / 6.0_f64.sqrt()
-}
-
-fn means(series: &[f64]) -> Vec<f64> {
-    series.chunks_exact(GROUP).map(|c| c.iter().sum::<f64>() / GROUP as f64).collect()
-}
-
-/// Time from the start \[s\], temperature \[°C\] and one column.
-fn read(text: &str, column: &str) -> Result<[Vec<f64>; 3], Box<dyn Error>> {
-    let mut lines = text.lines();
-    let names: Vec<&str> = lines.next().unwrap_or_default().split('\t').map(str::trim).collect();
-    let find = |name: &str| names.iter().position(|n| *n == name).ok_or(format!("line 1: there is no column {name}"));
-    let places = [find("timestamp")?, find("imu.temperature")?, find(column)?];
-    let mut columns = [const { Vec::new() }; 3];
-    for (n, line) in lines.enumerate().filter(|(_, line)| !line.trim().is_empty()) {
-        let fields: Vec<&str> = line.split('\t').collect();
-        for (column, place) in columns.iter_mut().zip(places) {
-            let field = fields.get(place).copied().unwrap_or_default().trim();
-            let number: f64 =
-                field.parse().map_err(|_| format!("line {}: {} is `{field}`, not a number", n + 2, names[place]))?;
-            column.push(number);
-        }
-    }
-    // the first row is read before the sensor has settled
-    let [time, temperature, rate] = columns.map(|mut c: Vec<f64>| c.split_off(1.min(c.len())));
-    if time.len() < 100 * GROUP {
-        return Err(format!("{} rows are too few", time.len()).into());
-    }
-    let start = time[0];
-    Ok([time.iter().map(|t| 1e-6 * (t - start)).collect(), temperature, rate])
 }

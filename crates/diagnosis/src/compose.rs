@@ -10,14 +10,36 @@ use progress::Step;
 use std::ops::Range;
 
 const TASK: &str = "composing a law for what nothing explains";
-/// Laws that may be added up.
-const TERMS: usize = 2;
-/// Laws that are fitted after they were ranked.
-const FOLLOWED: usize = 6;
-/// Of those, laws that are given noise of their own.
-const LIKELIEST: usize = 3;
 /// Least gain of ln evidence of a law, the choice among all paid for: e³ is strong evidence on the scale of Kass and Raftery (1995).
 const WORTH: f64 = 3.0;
+
+/// How far is looked for laws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Breadth {
+    /// Laws that may be added up.
+    pub terms: usize,
+    /// Laws that are fitted after they were ranked.
+    pub followed: usize,
+    /// Of those, laws that are given noise of their own.
+    pub likeliest: usize,
+    /// What becomes of the laws before the last.
+    pub earlier: Earlier,
+}
+
+/// What becomes of laws beside which another one was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Earlier {
+    /// All stay.
+    Kept,
+    /// Those stay that still gain enough beside the others, the choice paid for.
+    Weighed,
+}
+
+impl Default for Breadth {
+    fn default() -> Self {
+        Self { terms: 2, followed: 6, likeliest: 3, earlier: Earlier::Kept }
+    }
+}
 
 /// Laws that were composed.
 #[derive(Debug, Clone)]
@@ -32,6 +54,8 @@ pub struct Composed {
     pub choice: f64,
     /// Other laws that were fitted in the place of the last, and by how much ln evidence they stay behind it; the nearest first.
     pub others: Vec<(usize, f64)>,
+    /// The fit after every law that was added, the last of them [`Self::fit`].
+    pub steps: Vec<Fit>,
 }
 
 /// The best of the `laws`, by their numbers in the model, one or two of them, beside a fit; `None` if none gains enough.
@@ -46,40 +70,67 @@ pub fn compose<M: ForwardModel>(
     beside: &Fit,
     progress: &dyn Fn(Step),
 ) -> Result<Option<Composed>, Error<M::Error>> {
+    compose_within(model, laws, records, observations, beside, Breadth::default(), progress)
+}
+
+/// The same, looking as far as is asked.
+///
+/// # Errors
+/// As [`compose`].
+pub fn compose_within<M: ForwardModel>(
+    model: &M,
+    laws: Range<usize>,
+    records: &[usize],
+    observations: &[Observation],
+    beside: &Fit,
+    breadth: Breadth,
+    progress: &dyn Fn(Step),
+) -> Result<Option<Composed>, Error<M::Error>> {
     let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
-    let choice = (laws.len().max(1) as f64).ln();
+    let weights: f64 = laws.clone().map(|law| model.mechanisms()[law].weight).sum();
+    // ln of how unlikely a law is before anything is seen
+    let cost = |law: usize| (weights / model.mechanisms()[law].weight).ln();
+    let last = |fit: &Fit| fit.hypothesis.mechanisms.last().map_or(0, |(law, _)| *law);
+    let net = |fit: &Fit| fit.log_evidence - cost(last(fit));
     let mut composed: Option<Composed> = None;
-    for term in 0..TERMS {
-        progress(Step::counted(TASK, term, TERMS));
+    for term in 0..breadth.terms {
+        progress(Step::counted(TASK, term, breadth.terms));
         let known = composed.as_ref().map_or(beside, |composed| &composed.fit);
         // noise that has not swallowed what is sought
         let noise = known.noise.calmed(model.channels(), observations)?;
-        let base = fitter.fit(&known.hypothesis, &noise, Some(known))?;
+        let Some(base) = defined(fitter.fit(&known.hypothesis, &noise, Some(known)))? else { break };
         let taken = known.hypothesis.numbers();
         let mut fits = Vec::new();
-        for law in fitter.ranked(laws.clone().filter(|law| !taken.contains(law)), &base)?.into_iter().take(FOLLOWED) {
+        let mut ranked = fitter.ranked(laws.clone().filter(|law| !taken.contains(law)), &base)?;
+        ranked.sort_by(|a, b| (b.0 - cost(b.1.mechanism)).total_cmp(&(a.0 - cost(a.1.mechanism))));
+        for (_, law) in ranked.into_iter().take(breadth.followed) {
             let mut hypothesis: Hypothesis = base.hypothesis.clone();
             hypothesis.mechanisms.push((law.mechanism, None));
             let mut from = base.clone();
             from.active.push(law);
             fits.extend(defined(fitter.screened(&hypothesis, &from))?);
         }
-        fits.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+        fits.sort_by(|a, b| net(b).total_cmp(&net(a)));
         let mut own = Vec::new();
-        for fit in fits.iter().take(LIKELIEST) {
+        for fit in fits.iter().take(breadth.likeliest) {
             own.extend(defined(fitter.fit_with_noise(&fit.hypothesis, fit, 2))?);
         }
-        own.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+        own.sort_by(|a, b| net(b).total_cmp(&net(a)));
         let Some(best) = own.first() else { break };
-        let gain = best.log_evidence - known.log_evidence - choice;
-        if gain < WORTH {
+        if net(best) - known.log_evidence < WORTH {
             break;
         }
-        let before = composed.as_ref().map_or(0.0, |composed| composed.gain);
-        let last = |fit: &Fit| fit.hypothesis.mechanisms.last().map(|(law, _)| *law);
-        let others = own[1..].iter().filter_map(|fit| Some((last(fit)?, best.log_evidence - fit.log_evidence))).collect();
-        let paid = (term + 1) as f64 * choice;
-        composed = Some(Composed { fit: best.clone(), laws: term + 1, gain: before + gain, choice: paid, others });
+        let others = own[1..].iter().map(|fit| (last(fit), net(best) - net(fit))).collect();
+        let mut fit = best.clone();
+        if breadth.earlier == Earlier::Weighed {
+            fit = fitter.weighed(fit, beside.hypothesis.mechanisms.len(), &cost)?;
+        }
+        let own = &fit.hypothesis.mechanisms[beside.hypothesis.mechanisms.len()..];
+        let choice = own.iter().map(|(law, _)| cost(*law)).sum();
+        let mut steps = composed.map_or_else(Vec::new, |composed| composed.steps);
+        steps.push(fit.clone());
+        composed =
+            Some(Composed { laws: own.len(), gain: fit.log_evidence - beside.log_evidence - choice, choice, fit, others, steps });
     }
     Ok(composed)
 }
@@ -94,8 +145,22 @@ fn defined<E>(fit: Result<Fit, Error<E>>) -> Result<Option<Fit>, Error<E>> {
 }
 
 impl<M: ForwardModel> Fitter<'_, M> {
-    /// Laws by what their sizes would gain beside a fit, each at the best of its starts and of the size that is best there; the best first.
-    fn ranked(&self, laws: impl Iterator<Item = usize>, base: &Fit) -> Result<Vec<Active>, Error<M::Error>> {
+    /// A fit without those of its laws, from number `first` on and before the last, that gain less than they cost.
+    fn weighed(&self, mut fit: Fit, first: usize, cost: &impl Fn(usize) -> f64) -> Result<Fit, Error<M::Error>> {
+        let mut place = first;
+        while place + 1 < fit.hypothesis.mechanisms.len() {
+            let mut hypothesis = fit.hypothesis.clone();
+            let (law, _) = hypothesis.mechanisms.remove(place);
+            match defined(self.fit_with_noise(&hypothesis, &fit, 2))? {
+                Some(without) if fit.log_evidence - without.log_evidence < cost(law) + WORTH => (fit, place) = (without, first),
+                _ => place += 1,
+            }
+        }
+        Ok(fit)
+    }
+
+    /// Laws with what their sizes would gain beside a fit, each at the best of its starts and of the size that is best there.
+    fn ranked(&self, laws: impl Iterator<Item = usize>, base: &Fit) -> Result<Vec<(f64, Active)>, Error<M::Error>> {
         let respond = |at: usize, active: &[Active]| {
             self.model.respond(self.records[at], &base.nuisances[at], active).map_err(Error::Model)
         };
@@ -124,8 +189,7 @@ impl<M: ForwardModel> Fitter<'_, M> {
             }
             ranked.extend(most);
         }
-        ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
-        Ok(ranked.into_iter().map(|(_, law)| law).collect())
+        Ok(ranked)
     }
 }
 

@@ -28,7 +28,7 @@ const NOISE: f64 = 1.3;
 /// Error over the noise that is far more: beyond three times that uncertainty, 1 + 3·0.29, rounded.
 const FAR: f64 = 2.0;
 /// Error over the nominal model's that is hardly less: a tenth of the variance explained, 1 − 0.95².
-const BARELY: f64 = 0.95;
+pub(crate) const BARELY: f64 = 0.95;
 /// Largest drift that is usual, over the median of its prior: about one standard deviation of its logarithm (0.7) above.
 const USUAL: f64 = 2.0;
 /// Share of the error beyond which one prediction is worse than another, by convention: two digits of it.

@@ -1,7 +1,10 @@
 //! A law that is composed is the one that made the record, and none is composed of noise.
 
 use crate::common::lines::{Lines, WHITE, alone};
-use diagnosis::{Fit, Hypothesis, compose, fitted};
+use diagnosis::{
+    Active, Breadth, Channel, Earlier, Fit, ForwardModel, Hypothesis, Nuisance, Observation, Omission, State, compose,
+    compose_within, fitted, prove, proven,
+};
 use rand::SeedableRng;
 use rand::rngs::SmallRng;
 use rand_distr::{Distribution, Normal};
@@ -40,4 +43,102 @@ fn of_noise_nothing_is_composed() {
         let found = compose(&lines, 0..2, &[0], std::slice::from_ref(&observed), &nothing, &|_| ()).expect("composed");
         assert!(found.is_none(), "seed {seed}");
     }
+}
+
+/// Lines with a third law: the sum of two others, and something of its own.
+struct Sum {
+    lines: Lines,
+    laws: Vec<Omission>,
+}
+
+impl Sum {
+    fn new() -> Self {
+        let lines = Lines::new(ROWS).starting_at(1.0);
+        let laws = ["sum", "wave", "ripple"].map(|id| Omission { id: id.into(), ..lines.mechanisms()[0].clone() }).to_vec();
+        Self { lines, laws }
+    }
+
+    fn column(&self, law: usize) -> Vec<f64> {
+        let of = |n: usize| {
+            let x = n as f64 / ROWS as f64;
+            let (wave, ripple) = ((7.0 * x).sin(), (40.0 * x).cos());
+            [wave + ripple + 0.5 * (90.0 * x).sin(), wave, ripple][law]
+        };
+        (0..ROWS).map(of).collect()
+    }
+}
+
+impl ForwardModel for Sum {
+    type Error = std::convert::Infallible;
+
+    fn channels(&self) -> &[Channel] {
+        self.lines.channels()
+    }
+
+    fn nuisances(&self) -> &[Nuisance] {
+        &[]
+    }
+
+    fn mechanisms(&self) -> &[Omission] {
+        &self.laws
+    }
+
+    fn state(&self, record: usize) -> &State {
+        self.lines.state(record)
+    }
+
+    fn respond(&self, _: usize, _: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
+        let mut y = vec![0.0; ROWS];
+        for Active { mechanism, values, .. } in active {
+            y.iter_mut().zip(self.column(*mechanism)).for_each(|(y, x)| *y += values[0] * x);
+        }
+        Ok(vec![y])
+    }
+}
+
+#[test]
+fn a_law_that_others_make_superfluous_is_dropped() {
+    let model = Sum::new();
+    let mut random = SmallRng::seed_from_u64(8);
+    let noise = Normal::new(0.0, WHITE).expect("a density");
+    let y: Vec<f64> =
+        model.column(1).iter().zip(model.column(2)).map(|(a, b)| 2.0 * (a + b) + noise.sample(&mut random)).collect();
+    let observed: [Observation; 1] = [model.lines.observed(&y)];
+    let nothing = fitted(&model, &[0], &observed, &[Hypothesis::NOMINAL]).expect("a fit");
+    let laws = |earlier| {
+        let breadth = Breadth { terms: 3, earlier, ..Breadth::default() };
+        let found = compose_within(&model, 0..3, &[0], &observed, &nothing, breadth, &|_| ()).expect("composed").expect("laws");
+        found.fit.hypothesis.mechanisms.iter().map(|(law, _)| *law).collect::<Vec<_>>()
+    };
+    let kept = laws(Earlier::Kept);
+    assert_eq!((kept[0], kept.len()), (0, 3), "the sum comes first");
+    let mut weighed = laws(Earlier::Weighed);
+    weighed.sort_unstable();
+    assert_eq!(weighed, [1, 2]);
+}
+
+#[test]
+fn what_was_known_stays_beside_what_is_composed() {
+    let (lines, observed, _) = record(1.5, 4);
+    let observed = std::slice::from_ref(&observed);
+    let like = fitted(&lines, &[0], observed, &[alone(0)]).expect("a fit");
+    let breadth = Breadth { earlier: Earlier::Weighed, ..Breadth::default() };
+    let found = compose_within(&lines, 1..2, &[0], observed, &like, breadth, &|_| ()).expect("composed").expect("a law");
+    assert_eq!((found.laws, found.steps.len()), (1, 1));
+    assert_eq!(found.fit.hypothesis.mechanisms, [(0, None), (1, None)]);
+}
+
+#[test]
+fn what_was_held_out_bears_out_the_law_that_made_it_and_no_other() {
+    let (lines, observed, nothing) = record(1.5, 3);
+    let law = fitted(&lines, &[0], std::slice::from_ref(&observed), &[alone(1)]).expect("a fit");
+    let (_, again, _) = record(1.5, 11);
+    let (_, noise, _) = record(0.0, 12);
+    let accepted = |held: &[(usize, &diagnosis::Observation)]| prove(&lines, &nothing, &law, held).expect("predictions").accepted;
+    assert!(accepted(&[(0, &again)]));
+    assert!(!accepted(&[(0, &noise)]) && !accepted(&[(0, &again), (0, &noise)]) && !accepted(&[]));
+    let steps = [law.clone(), nothing.clone()];
+    let last = proven(&lines, &nothing, &steps, &[(0, &again)]).expect("predictions").expect("a law");
+    assert_eq!(last.hypothesis, law.hypothesis);
+    assert!(proven(&lines, &nothing, &steps, &[(0, &noise)]).expect("predictions").is_none());
 }

@@ -1,11 +1,11 @@
 //! The models of the examples, which know no coil, on data made in miniature: `cargo run --example` needs a file, this does not.
 
 #[path = "../examples/models/tanks.rs"]
-#[allow(dead_code)] // the example uses the rest
+#[allow(dead_code)] // a part of the library is tried
 mod tanks;
 #[path = "../examples/models/thermal.rs"]
 #[allow(dead_code)]
-mod thermal;
+pub(crate) mod thermal;
 
 use crate::common::normal;
 use diagnosis::{Active, Diagnosis, ForwardModel, Hypothesis, Observation, Settings, Verdict, diagnose, fitted};

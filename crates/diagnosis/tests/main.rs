@@ -4,6 +4,7 @@ mod common;
 mod compose;
 mod elsewhere;
 mod exact_evidence;
+mod real_recordings;
 mod sampled;
 mod separation;
 mod starts;

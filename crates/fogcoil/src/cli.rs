@@ -112,8 +112,8 @@ pub(crate) struct Diagnose {
     /// Record of the same unit to judge on
     #[arg(long = "holdout", value_name = "B.csv")]
     pub(crate) holdouts: Vec<PathBuf>,
-    /// A mechanism of your own beside the program's (`fogcoil new --kind mechanism`); may be given more than once
-    #[arg(long = "mechanism", value_name = "MECHANISM.ron")]
+    /// A mechanism of your own beside the program's (`fogcoil new --kind mechanism`), or the id of one that is weighed on request (`fogcoil explain`); may be given more than once
+    #[arg(long = "mechanism", value_name = "MECHANISM.ron|ID")]
     pub(crate) mechanisms: Vec<PathBuf>,
     /// Write one JSON object here; without a file, print it alone
     #[arg(long, value_name = "J", num_args = 0..=1)]

@@ -21,8 +21,8 @@ pub(crate) struct Recommend {
     /// Mechanisms to tell apart; `nominal` and `recalibrate` may stand among them
     #[arg(long, value_name = "ID,ID,...", value_delimiter = ',', value_parser = id, required = true)]
     between: Vec<String>,
-    /// A mechanism of your own, whose id may stand in --between; may be given more than once
-    #[arg(long = "mechanism", value_name = "MECHANISM.ron")]
+    /// A mechanism of your own, or the id of one that is weighed on request: its id may then stand in --between; may be given more than once
+    #[arg(long = "mechanism", value_name = "MECHANISM.ron|ID")]
     mechanisms: Vec<PathBuf>,
     /// Record of the unit: gives sizes, noise, and the test that a repeat would repeat; may be given more than once
     #[arg(long = "from", value_name = "A.csv")]
@@ -63,17 +63,17 @@ fn id(text: &str) -> Result<String, std::convert::Infallible> {
 pub(crate) fn run(arguments: &Recommend, progress: &Progress) -> Result<(), Error> {
     let Recommend { coil, between, mechanisms, records, coldest, hottest, fastest, hours, out, json, meta, format, no_cache } =
         arguments;
-    let own = input::read_mechanisms(mechanisms)?;
-    let options = RecordOptions { further: input::further_columns(&own), ..format.options(meta.clone()) };
+    let asked = input::read_mechanisms(mechanisms)?;
+    let options = RecordOptions { further: asked.further_columns(), ..format.options(meta.clone()) };
     let inputs: Vec<PathBuf> =
-        records.iter().flat_map(|record| options.files(record)).chain(mechanisms.iter().cloned()).collect();
+        records.iter().flat_map(|record| options.files(record)).chain(asked.own.iter().map(|own| own.file.clone())).collect();
     let case = progress.read_coil_for(coil, &inputs, &[out.as_deref()])?;
     diagnose::check_design(&case, coil)?;
     let records = records.iter().map(|path| input::read_record(path, &options)).collect::<Result<Vec<_>, _>>()?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
     let limits = Limits { coldest: *coldest, hottest: *hottest, fastest: *fastest, hours: *hours };
-    let result = progress
-        .tasks(|tell| recommend::recommend(&case, &input::with_catalogue(&own), between, &records, &limits, &cache, tell))?;
+    let result =
+        progress.tasks(|tell| recommend::recommend(&case, &asked.with_catalogue(), between, &records, &limits, &cache, tell))?;
     if let Some(path) = out {
         progress.save(&[(path, Content::Text(result.profiles[0].programme.csv()))])?;
     }

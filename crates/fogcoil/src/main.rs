@@ -83,10 +83,11 @@ fn run_wind(coil: &Path, csv: Option<&Path>, svg: Option<&Path>, json: bool, pro
 
 fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> {
     let Diagnose { coil, fits, holdouts, mechanisms, json, prediction, model_out, report, meta, format, no_cache } = arguments;
-    let own = input::read_mechanisms(mechanisms)?;
-    let options = RecordOptions { further: input::further_columns(&own), ..format.options(meta.clone()) };
+    let asked = input::read_mechanisms(mechanisms)?;
+    let own = &asked.own;
+    let options = RecordOptions { further: asked.further_columns(), ..format.options(meta.clone()) };
     let records = fits.iter().chain(holdouts).flat_map(|record| options.files(record));
-    let inputs: Vec<PathBuf> = records.chain(mechanisms.iter().cloned()).collect();
+    let inputs: Vec<PathBuf> = records.chain(own.iter().map(|own| own.file.clone())).collect();
     let own_out: Vec<Option<PathBuf>> = own.iter().map(|own| Some(beside(model_out.as_deref()?, &own.mechanism.id))).collect();
     let json_file = json.as_ref().and_then(Option::as_deref);
     let mut outputs = vec![json_file, prediction.as_deref(), model_out.as_deref(), report.as_deref()];
@@ -96,8 +97,7 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
     let read = |paths: &[PathBuf]| paths.iter().map(|path| input::read_record(path, &options)).collect::<Result<Vec<_>, _>>();
     let (fits, holdouts) = progress.during("reading the records", || Ok::<_, Error>((read(fits)?, read(holdouts)?)))?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
-    let outcome =
-        progress.tasks(|tell| diagnose::diagnose(&case, &input::with_catalogue(&own), &fits, &holdouts, &cache, tell))?;
+    let outcome = progress.tasks(|tell| diagnose::diagnose(&case, &asked.with_catalogue(), &fits, &holdouts, &cache, tell))?;
     progress.tell(outcome.notes());
     let object = line(&outcome.json());
     let mut files = Vec::new();
@@ -179,7 +179,7 @@ fn run_trim(coil: &Path, profile: Option<&Path>, json: bool, progress: &Progress
 
 fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> {
     let Simulate { coil, profile, between, step, spool, spool_noise, mechanisms, out, report, band, json, no_cache } = arguments;
-    let own = input::read_mechanisms(mechanisms)?;
+    let own = input::read_mechanisms(mechanisms)?.files_alone()?;
     let inputs: Vec<PathBuf> = [profile, spool].into_iter().flatten().chain(mechanisms).cloned().collect();
     let case = progress.read_coil_for(coil, &inputs, &[Some(out), report.as_deref(), band.as_deref()])?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };

@@ -2,8 +2,9 @@
 
 use crate::course::total;
 use crate::law_tools::Chain;
-use crate::mechanism::{Change, Mechanism, Stage, lagged};
+use crate::mechanism::{Change, Mechanism, Stage};
 use crate::record_to_bias::Prepared;
+use crate::series::lagged;
 use coil::Error;
 use diagnosis::Latent;
 

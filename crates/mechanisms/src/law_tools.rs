@@ -5,6 +5,8 @@ use crate::course::{Parts, Series, add};
 use crate::interpolation::weights;
 use crate::library::{Functionals, Library};
 use crate::record_to_bias::Prepared;
+use crate::series::rates_per_hour;
+use bias::units::{DEG_PER_H_PER_RAD_PER_S, S_PER_H};
 use coil::Error;
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -81,6 +83,29 @@ impl Chain {
         let functionals = self.library.rewound(0.0, defect)?;
         self.rewound.borrow_mut().insert(key, functionals.clone());
         Ok(functionals)
+    }
+
+    /// Phase of the coil at one temperature throughout, by part, per kelvin: at each node of ln of the factor on the transverse moduli, as designed and
+    /// per unit of the factor on α_r \[deg/h s\].
+    pub(crate) fn even(&self) -> Vec<(f64, [f64; 3], [f64; 3])> {
+        // without a mode: the chamber's drive alone
+        let of = |functionals: &Functionals| functionals.each_ref().map(|part| DEG_PER_H_PER_RAD_PER_S * part[0]);
+        self.library.of_modulus().map(|(x, nominal, per_factor)| (x, of(&nominal), of(&per_factor))).collect()
+    }
+
+    /// Parts of a coil that swells across its fibre by a strain, alike throughout, a value for each row \[deg/h\]: as it would expand by its α_r, less what
+    /// the fibre and the spool do when they are warmed. What the swelling does to the cores alike along the fibre cancels.
+    pub(crate) fn swollen(&self, record: &Prepared, strain: &[f64]) -> Parts {
+        let even = self.even();
+        let nodes: Vec<f64> = even.iter().map(|(x, ..)| *x).collect();
+        let alpha = self.library.design().body.elastic.alpha_r;
+        // a design whose mechanics changes has no such states
+        let w = if nodes.is_empty() { Vec::new() } else { weights(&nodes, 0.0) };
+        let rate = rates_per_hour(&record.time, strain);
+        [0, 1, 2].map(|p: usize| {
+            let per_strain = w.iter().zip(&even).map(|(w, at)| w * at.2[p]).sum::<f64>() / alpha;
+            rate.iter().map(|rate| per_strain * rate / S_PER_H).collect()
+        })
     }
 
     /// Parts of a coil whose transverse moduli and α_r have factors that vary from row to row, less the nominal ones \[deg/h\].

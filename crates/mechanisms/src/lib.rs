@@ -21,10 +21,11 @@ mod library;
 mod mechanism;
 mod passed;
 mod record_to_bias;
+mod series;
 mod written;
 
 pub use build::ranges;
-pub use catalogue::{CATALOGUE, find};
+pub use catalogue::{CATALOGUE, ON_REQUEST, find};
 pub use chamber::Chamber;
 pub use change::Change;
 pub use constants::{number_of, with_constant};
@@ -35,11 +36,9 @@ pub use heat_path::HeatPath;
 pub use instruments::{Instrument, Instruments, USUAL_NOISE, reading_of};
 pub use law_tools::Chain;
 pub use library::{Library, Models};
-pub use mechanism::{
-    Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Readings, Scene, Sight, Stage, Steady, lagged, middles,
-    rates_per_hour,
-};
+pub use mechanism::{Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Readings, Scene, Sight, Stage, Steady};
 pub use record_to_bias::Prepared;
+pub use series::{lagged, middles, rates_per_hour};
 pub use written::{Body, INPUTS, Input, Target, Written};
 
 #[cfg(doctest)]

@@ -1,12 +1,9 @@
 //! Mechanisms: all that the program needs to know of one, as a trait that one file implements.
 
-use crate::REFERENCE_C;
 pub(crate) use crate::change::Change;
-use crate::course::Parts;
 pub(crate) use crate::heat_path::HeatPath;
 use crate::law_tools::Chain;
 use crate::record_to_bias::Prepared;
-use bias::units::S_PER_H;
 use coil::{Design, Error, MechanicalState};
 use diagnosis::{Active, Parameter, Prior};
 
@@ -109,6 +106,8 @@ pub struct Scene {
     pub temperatures: [f64; 2],
     /// White noise of the rate in a reading of a minute \[deg/h\]: electronics and optics of a noisier gyroscope may be off by more.
     pub noise: f64,
+    /// What of Earth's rate the gyroscope turns with \[deg/h\], if it was told.
+    pub earth: Option<f64>,
 }
 
 /// A mechanism as it is offered for a design: its unknowns and where fits of them start.
@@ -235,6 +234,7 @@ pub(crate) struct Named {
     pub(crate) source: &'static str,
     pub(crate) meaning: &'static str,
     pub(crate) inspection: &'static str,
+    pub(crate) columns: &'static [&'static str],
     pub(crate) heat_path: Option<fn() -> HeatPath>,
     pub(crate) steady: &'static [Steady],
     pub(crate) extent: fn(&Active, &Sight) -> Extent,
@@ -265,7 +265,7 @@ impl Mechanism for Named {
     }
 
     fn columns(&self) -> Vec<&str> {
-        Vec::new()
+        self.columns.to_vec()
     }
 }
 
@@ -319,36 +319,4 @@ pub(crate) fn grid(lists: &[&[f64]]) -> Vec<Vec<f64>> {
 /// So many values evenly over a range.
 pub(crate) fn across(range: [f64; 2], count: u32) -> Vec<f64> {
     (0..count).map(|k| range[0] + (range[1] - range[0]) * (f64::from(k) + 0.5) / f64::from(count)).collect()
-}
-
-/// Mean of a function over the interval that ends at each row, from its values at the ends.
-pub fn middles(series: &[f64], of: impl Fn(f64) -> f64) -> Vec<f64> {
-    (0..series.len()).map(|n| (of(series[n]) + of(series[n.saturating_sub(1)])) / 2.0).collect()
-}
-
-/// Rate of a series since the row before \[per hour\]; 0 in the first row.
-pub fn rates_per_hour(time: &[f64], series: &[f64]) -> Vec<f64> {
-    let rate = |n: usize| if n > 0 { (series[n] - series[n - 1]) / (time[n] - time[n - 1]) * S_PER_H } else { 0.0 };
-    (0..time.len()).map(rate).collect()
-}
-
-/// Parts times slope (T − [`REFERENCE_C`]) of a temperature \[°C\].
-pub(crate) fn growing(parts: &Parts, temperature: &[f64], slope: f64) -> Parts {
-    let factor = middles(temperature, |t| slope * (t - REFERENCE_C));
-    [0, 1, 2].map(|p: usize| parts[p].iter().zip(&factor).map(|(x, f)| x * f).collect())
-}
-
-/// A first-order follower of a series that is linear between its instants, exact; it starts settled. `lag` \[s\] > 0.
-pub fn lagged(time: &[f64], series: &[f64], lag: f64) -> Vec<f64> {
-    let mut x = series[0];
-    let mut followed = vec![x];
-    for n in 1..series.len() {
-        let dt = time[n] - time[n - 1];
-        let slope = (series[n] - series[n - 1]) / dt;
-        let forget = (-dt / lag).exp();
-        // x − (series − slope lag) decays
-        x = series[n] - slope * lag + (x - series[n - 1] + slope * lag) * forget;
-        followed.push(x);
-    }
-    followed
 }

@@ -54,6 +54,8 @@ pub struct Prepared {
     pub(crate) heaters: Vec<Heating>,
     /// further columns by their names
     pub(crate) columns: BTreeMap<String, Vec<f64>>,
+    /// what of Earth's rate the gyroscope turned with \[deg/h\], if it was told
+    pub(crate) earth: Option<f64>,
 }
 
 /// Changes along a path of heat.
@@ -148,13 +150,17 @@ impl Prepared {
     /// As [`Self::new`].
     pub fn again(&self, library: &Library, delay: Delay) -> Result<Self, Error> {
         let again = Self::run(library, &self.time, self.recorded.clone(), self.averaging, delay)?;
-        Ok(Self { columns: self.columns.clone(), ..again })
+        Ok(Self { columns: self.columns.clone(), earth: self.earth, ..again })
     }
 
     /// The same with further columns of the recording, a value for each row, that laws name.
     #[must_use]
     pub fn with_columns(self, columns: BTreeMap<String, Vec<f64>>) -> Self {
         Self { columns, ..self }
+    }
+
+    pub(crate) fn turning_with(self, earth: Option<f64>) -> Self {
+        Self { earth, ..self }
     }
 
     /// What a model does under drives of its own, from rest.
@@ -169,6 +175,11 @@ impl Prepared {
     pub(crate) fn of_spool_expansion(&self) -> Option<Parts> {
         let (place, value) = self.expansion?;
         Some(self.slopes[place].parts.each_ref().map(|part| part.iter().map(|x| x * value).collect()))
+    }
+
+    /// A further column, a value for each row; `None` if the record has none of this name.
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        self.columns.get(name).map(Vec::as_slice)
     }
 
     /// Standard deviation of the noise of the chamber's thermometer \[K\].
@@ -235,6 +246,7 @@ impl Prepared {
             paths: paths.collect(),
             heaters,
             columns: BTreeMap::new(),
+            earth: None,
             course,
             nominal,
             later,

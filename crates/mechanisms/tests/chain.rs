@@ -2,6 +2,7 @@
 
 #[path = "../../coil/tests/common/mod.rs"]
 mod common;
+mod on_request;
 mod read_out_curvature;
 mod written;
 

@@ -32,6 +32,7 @@ mod ordinary;
 pub mod peers;
 pub mod program;
 pub mod statistics;
+mod three_records;
 mod truth;
 pub mod validation;
 

@@ -117,7 +117,7 @@ impl<M: ForwardModel> Pool<'_, M> {
             return Ok(nominal);
         }
         let again = self.fitter.fit_with_noise(&Hypothesis::RECALIBRATED, &under_leader(&nominal), 2)?;
-        let known = self.candidates.iter().position(|c| c.fit.hypothesis == Hypothesis::RECALIBRATED);
+        let known = self.candidates.iter().position(Candidate::is_constants_alone);
         let recalibrated = Fit::better(known.map(|at| self.candidates.remove(at).fit), again);
         self.push(recalibrated, None);
         Ok(nominal)

@@ -17,8 +17,7 @@ impl<M: ForwardModel> Pool<'_, M> {
     /// The leader with its own noise, and all fits under the noise of the leader before it, best first.
     pub(super) fn singles(&self, nominal: &Fit) -> Result<(Fit, Vec<Fit>), Error<M::Error>> {
         let (model, observations) = (self.fitter.model, self.fitter.observations);
-        let recalibrated = self.candidates.iter().map(|c| &c.fit).find(|fit| fit.hypothesis == Hypothesis::RECALIBRATED);
-        let nominal = recalibrated.unwrap_or(nominal);
+        let nominal = self.candidates.iter().find(|c| c.is_constants_alone()).map_or(nominal, |c| &c.fit);
         // noise fitted to a residual has swallowed part of the effect: what is sought first is sought in calmer noise
         let calm = nominal.noise.calmed(model.channels(), observations)?;
         let mut leader = self.fitter.fit(&nominal.hypothesis, &calm, Some(nominal))?;

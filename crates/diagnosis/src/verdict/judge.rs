@@ -2,7 +2,7 @@
 
 use super::set::{likely, marginals, named};
 use super::{Diagnosis, Verdict};
-use crate::{Candidate, Error, ForwardModel, HeldOut, Hypothesis, Observation, as_designed};
+use crate::{Candidate, Error, ForwardModel, HeldOut, Observation, as_designed};
 
 /// Probability of a mechanism from which it is named although a structure is left beside it.
 const SURE: f64 = 0.8;
@@ -21,8 +21,8 @@ pub struct Judged {
 }
 
 impl Judged {
-    /// Whether another prediction of the record is clearly better than the nominal model's and that of its constants re-estimated, proves something, and is
-    /// not clearly worse than what was accepted, by the errors of a channel.
+    /// Whether another prediction of the record is clearly better than the nominal model's and that of its constants re-estimated, proves something, and
+    /// is not clearly worse than what was accepted, by the errors of a channel.
     pub fn is_beaten_by(&self, other: &HeldOut, channel: usize) -> bool {
         let beats = |without: &HeldOut| without.clearly_worse_than(other, channel);
         let answered = if self.accepted { &self.model } else { &self.nominal };
@@ -72,8 +72,8 @@ impl Diagnosis {
     /// record that was fitted, and `drawn` the model that is exact as it is designed, before it [`crate::settled`].
     ///
     /// - A structure beside mechanisms that have a name, one of them nearly certain, is no bar to naming them if *every* record is predicted to within
-    ///   its noise, and clearly better than by the nominal model and by its constants re-estimated: the verdict becomes [`Verdict::Explained`], and their probabilities count the
-    ///   candidates with a structure.
+    ///   its noise, and clearly better than by the nominal model and by its constants re-estimated: the verdict becomes [`Verdict::Explained`], and
+    ///   their probabilities count the candidates with a structure.
     /// - An explanation, or a recalibration, is taken back if *any* record contradicts it ([`Contradiction`]). Then there is nothing to explain if
     ///   the nominal model predicts that record to within noise, else what there is is unknown; the mechanisms lose their probabilities, which
     ///   were of the fitted records alone.
@@ -89,7 +89,7 @@ impl Diagnosis {
         channel: usize,
     ) -> Result<Judgement, Error<M::Error>> {
         let best = &self.best().fit;
-        let constants = self.candidates.iter().find(|c| c.rival.is_none() && c.fit.hypothesis == Hypothesis::RECALIBRATED);
+        let constants = self.candidates.iter().find(|c| c.is_constants_alone());
         let predicted = |&(record, observed): &(usize, &Observation)| -> Result<Judged, Error<M::Error>> {
             let by_model = best.hold_out(model, record, observed, best)?;
             let nominal = as_designed(drawn, fitted, (record, observed), best)?;

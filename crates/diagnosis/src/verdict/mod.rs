@@ -10,7 +10,7 @@ mod unlisted;
 
 pub use judge::{Contradiction, Judged, Judgement, Ruling};
 
-use crate::fit::Fit;
+use crate::fit::{Fit, Hypothesis};
 use crate::{Estimate, Rival, Stage};
 
 /// A hypothesis that was compared.
@@ -27,6 +27,11 @@ pub struct Candidate {
 }
 
 impl Candidate {
+    /// The design with its constants free, and nothing else.
+    pub fn is_constants_alone(&self) -> bool {
+        self.rival.is_none() && self.fit.hypothesis == Hypothesis::RECALIBRATED
+    }
+
     /// ln of its probability before anything was seen.
     pub fn log_prior(&self) -> f64 {
         self.log_weight - self.log_evidence()

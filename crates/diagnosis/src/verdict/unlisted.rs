@@ -59,7 +59,10 @@ mod tests {
     fn weighed(log_evidence: f64, choice: f64) -> Diagnosis {
         let mut diagnosis = explained();
         let fit = crate::Fit { log_evidence, ..diagnosis.nominal.clone() };
-        diagnosis.weigh_unlisted(&Composed { fit, laws: 1, gain: 0.0, choice, others: Vec::new() }, &Settings::default());
+        diagnosis.weigh_unlisted(
+            &Composed { fit, laws: 1, gain: 0.0, choice, others: Vec::new(), steps: Vec::new() },
+            &Settings::default(),
+        );
         diagnosis
     }
 

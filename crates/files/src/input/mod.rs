@@ -57,7 +57,7 @@ pub(crate) use coil_file::CoilFile;
 pub use edit::{field_text, with_fields};
 pub use error::InputError;
 pub use fingerprint::Fingerprint;
-pub use mechanism::{MechanismCase, check_mechanism, further_columns, read_mechanism, read_mechanisms, with_catalogue};
+pub use mechanism::{Asked, MechanismCase, check_mechanism, read_mechanism, read_mechanisms};
 pub use meta::{Meta, Rate, TemperatureSensor, Thermometer};
 pub use profile::{Between, Inference, ProfileCase, check_profile, read_profile};
 pub use propose::propose_map;

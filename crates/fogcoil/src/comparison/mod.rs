@@ -5,8 +5,10 @@ mod signature;
 mod text;
 mod trial;
 
+use std::collections::BTreeMap;
+
 use diagnosis::{Active, ForwardModel, Plan, Prior, expected, separation};
-use mechanisms::{CATALOGUE, Gyro, RATE, SPOOL};
+use mechanisms::{CATALOGUE, Gyro, Instruments, Library, Mechanism, ON_REQUEST, Prepared, RATE, SPOOL};
 use progress::Step;
 
 use crate::Error;
@@ -81,7 +83,24 @@ impl Comparison {
     /// # Errors
     /// [`files::Error::Coil`] if the design cannot be modelled.
     pub fn measure(case: &CoilCase, cache: &Cache, progress: &dyn Fn(Step)) -> Result<Self, Error> {
-        let Responses { entries, programmes, gyro, mut contenders, truths } = Responses::of(case, cache)?;
+        Self::among(case, Responses::of(case, cache)?, progress)
+    }
+
+    /// The same of those that are weighed on request, against all.
+    ///
+    /// # Errors
+    /// As [`Self::measure`].
+    pub fn on_request(case: &CoilCase, cache: &Cache, progress: &dyn Fn(Step)) -> Result<Self, Error> {
+        let mut all = Responses::among(case, cache, &[CATALOGUE, ON_REQUEST].concat())?;
+        let asked = |id: &str| ON_REQUEST.iter().any(|mechanism| mechanism.facts().id == id);
+        all.entries.retain(|entry| asked(&entry.id));
+        let Responses { gyro, truths, .. } = &mut all;
+        truths.retain(|truth| asked(&gyro.mechanisms()[truth.mechanism].id));
+        Self::among(case, all, progress)
+    }
+
+    fn among(case: &CoilCase, responses: Responses, progress: &dyn Fn(Step)) -> Result<Self, Error> {
+        let Responses { entries, programmes, gyro, mut contenders, truths } = responses;
         let failed = Error::of_diagnosis(&case.file);
         contenders.push(Contender::recalibrated());
         contenders.extend(Contender::named(&gyro, "nominal").map_err(failed)?);
@@ -112,12 +131,17 @@ impl Comparison {
 impl Responses {
     /// Runs every named mechanism at its typical size.
     pub(crate) fn of(case: &CoilCase, cache: &Cache) -> Result<Self, Error> {
+        Self::among(case, cache, CATALOGUE)
+    }
+
+    fn among(case: &CoilCase, cache: &Cache, mechanisms: &[&'static dyn Mechanism]) -> Result<Self, Error> {
         let coil = Error::of_coil(&case.file);
         let library = library(case, cache, &|_| ())?;
         let mut programmes = programmes(&Limits::USUAL);
         programmes.dedup_by_key(|programme| programme.family);
-        let records = programmes.iter().map(|p| prepared(&library, p)).collect::<Result<Vec<_>, _>>().map_err(coil)?;
-        let gyro = Gyro::new(library, CATALOGUE, records).map_err(coil)?;
+        let records = programmes.iter().map(|p| recorded(&library, p)).collect::<Result<Vec<_>, _>>().map_err(coil)?;
+        let (all, told) = (records.len(), Instruments { earth: Some(EARTH), ..Instruments::default() });
+        let gyro = Gyro::fitted_to(library, mechanisms, records, all, &told).map_err(coil)?;
         let named = gyro.mechanisms().iter().filter(|mechanism| mechanism.named);
         let contenders = named.filter_map(|mechanism| Contender::named(&gyro, &mechanism.id).transpose());
         let contenders = contenders.collect::<Result<Vec<_>, _>>().map_err(Error::of_diagnosis(&case.file))?;
@@ -125,6 +149,23 @@ impl Responses {
         let entries = truths.iter().map(|truth| entry(&gyro, truth, programmes.len())).collect::<Result<_, _>>().map_err(coil)?;
         Ok(Self { entries, programmes, gyro, contenders, truths })
     }
+}
+
+/// Earth's rate about a vertical axis at 40 degrees of latitude \[deg/h\].
+const EARTH: f64 = 9.67;
+/// Humidity in a programme's first third and after it \[%\].
+const HUMIDITY: [f64; 2] = [50.0, 10.0];
+/// A field of the Earth's size \[µT\], and how long it has one direction \[s\].
+const FIELD: (f64, f64) = (50.0, 7200.0);
+
+/// A programme's record, with the further columns that mechanisms see: a humidity that is stepped once, a field that is turned again and again.
+fn recorded(library: &Library, programme: &Programme) -> Result<Prepared, coil::Error> {
+    let prepared = prepared(library, programme)?;
+    let time = prepared.time();
+    let humidity = time.iter().map(|t| HUMIDITY[usize::from(3.0 * t > programme.duration())]).collect();
+    let field = time.iter().map(|t| if (t / FIELD.1).floor() % 2.0 == 0.0 { FIELD.0 } else { -FIELD.0 }).collect();
+    let columns = BTreeMap::from([("humidity_percent".to_owned(), humidity), ("field_ut".to_owned(), field)]);
+    Ok(prepared.with_columns(columns))
 }
 
 fn entry(gyro: &Gyro, truth: &Active, programmes: usize) -> Result<Entry, coil::Error> {

@@ -2,7 +2,7 @@
 
 mod laws;
 
-use diagnosis::{Diagnosis, Estimate, Fit, ForwardModel, HeldOut, Hypothesis, Judged, Observation, Settings, Verdict};
+use diagnosis::{Diagnosis, Estimate, Fit, ForwardModel, HeldOut, Judged, Observation, Settings, Verdict};
 use mechanisms::{Gyro, Mechanism, RATE};
 use progress::Step;
 use serde_json::{Value, json};
@@ -36,8 +36,8 @@ struct Term {
 /// ln evidence by which another law is behind and still not excluded, as odds of 1 to 20.
 const NEAR: f64 = 3.0;
 
-/// Composes a law for what a diagnosis leaves unknown, or names; `None` where it leaves nothing, no law gains enough, or a name is likelier. `held` are the
-/// records held out, by their numbers, and `judged` what is predicted of them without a law.
+/// Composes a law for what a diagnosis leaves unknown, or names; `None` where it leaves nothing, no law gains enough, or a name is likelier. `held` are
+/// the records held out, by their numbers, and `judged` what is predicted of them without a law.
 pub(crate) fn compose(
     gyro: &Gyro,
     diagnosis: &mut Diagnosis,
@@ -51,7 +51,7 @@ pub(crate) fn compose(
         return Ok(None);
     }
     // beside the constants, and beside a mechanism that has a name if it leaves something
-    let constants = diagnosis.candidates.iter().find(|c| c.rival.is_none() && c.fit.hypothesis == Hypothesis::RECALIBRATED);
+    let constants = diagnosis.candidates.iter().find(|c| c.is_constants_alone());
     let named = diagnosis.is_beside_named(gyro).then(|| diagnosis.best());
     let ranges = ranges(gyro, fitted);
     let laws: Vec<Law> = laws::laws(&ranges);

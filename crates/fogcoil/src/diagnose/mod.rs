@@ -75,7 +75,8 @@ pub fn diagnose<'m>(
     let offered = |mechanism: &&&dyn Mechanism| drawn.find(mechanism.facts().id).is_none();
     let missing: Vec<String> = mechanisms.iter().filter(offered).map(|mechanism| mechanism.facts().id.to_owned()).collect();
     if !missing.is_empty() {
-        let message = format!("not offered, as the design leaves no place for it: {}", missing.join(", "));
+        let message =
+            format!("not offered, as the design, or what the meta files tell, leaves no place for it: {}", missing.join(", "));
         notes.push(Remark::NotOffered.note(message).at(&case.file));
     }
     check_laws(&drawn, mechanisms, &read)?;

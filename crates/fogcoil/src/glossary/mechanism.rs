@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use mechanisms::{CATALOGUE, Naming};
+use mechanisms::{CATALOGUE, Naming, ON_REQUEST};
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 use serde_json::{Value, json};
 
@@ -50,7 +50,7 @@ const BESIDE: [Subject; 2] = [
     },
 ];
 
-/// All mechanisms, in the order of the library; then those without a name, and what stands among them in tables.
+/// All mechanisms, in the order of the library; then those without a name, those that are weighed on request, and what stands among them in tables.
 pub fn all() -> impl Iterator<Item = Subject> {
     let of = |mechanism: &&'static dyn mechanisms::Mechanism| {
         let facts = mechanism.facts();
@@ -64,13 +64,22 @@ pub fn all() -> impl Iterator<Item = Subject> {
             source: facts.source,
         }
     };
-    CATALOGUE.iter().map(of).chain(BESIDE)
+    CATALOGUE.iter().chain(ON_REQUEST).map(of).chain(BESIDE)
 }
 
-/// How many have a name, how many have none, and how many stand among them in tables alone.
-pub(super) fn counts() -> [usize; 3] {
-    let named = all().filter(|m| m.stage.is_some()).count();
-    [named, CATALOGUE.len() - named, BESIDE.len()]
+/// How many have a name, how many have none, how many are weighed on request, and how many stand among them in tables alone.
+pub(super) fn counts() -> [usize; 4] {
+    let named = all().filter(|m| m.stage.is_some()).count() - ON_REQUEST.len();
+    [named, CATALOGUE.len() - named, ON_REQUEST.len(), BESIDE.len()]
+}
+
+/// How a mechanism that is weighed on request is asked for; empty of any other.
+fn request(id: &str) -> String {
+    let Some(mechanism) = ON_REQUEST.iter().find(|mechanism| mechanism.facts().id == id) else { return String::new() };
+    let columns = mechanism.columns();
+    let needs =
+        if columns.is_empty() { String::new() } else { format!(", with the column {} in every record", columns.join(", ")) };
+    format!("It is weighed where it is asked for: `fogcoil diagnose ... --mechanism {id}`{needs}.")
 }
 
 /// A check of the unit itself that decides about a mechanism.
@@ -88,8 +97,10 @@ impl Subject {
     /// Its page of docs/mechanisms, with `measured` numbers between the marks.
     pub fn page(&self, measured: &str) -> String {
         let Self { id, title, equation, place, signature, source, .. } = self;
+        let request = request(id);
+        let asked = if request.is_empty() { request } else { format!("{request}\n\n") };
         format!(
-            "# {title}\n\n`{id}`\n\n## Equation\n\n{equation}\n\n## Place in the chain\n\n{place}\n\n## What it looks like\n\n{signature}\n\n\
+            "# {title}\n\n`{id}`\n\n{asked}## Equation\n\n{equation}\n\n## Place in the chain\n\n{place}\n\n## What it looks like\n\n{signature}\n\n\
              ## Source\n\n{source}\n\n## Measured\n\n<!-- measured: written by `cargo xtask mechanisms` -->\n\n{}\n<!-- measured end -->\n",
             measured.trim()
         )
@@ -105,6 +116,7 @@ impl Subject {
         let measured = self.measured();
         say("Equation", self.equation);
         say("Place in the chain", self.place);
+        say("How it is asked for", &request(self.id));
         say("Parameters (prior and typical size as for the reference coil)", &table(&rows(measured, "parameter")));
         say("What it looks like", self.signature);
         say(

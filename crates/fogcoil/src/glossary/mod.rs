@@ -81,9 +81,9 @@ impl Entry {
 
 /// All ids in two groups, a line each.
 pub fn list() -> String {
-    let [named, unnamed, beside] = mechanism::counts();
+    let [named, unnamed, asked, beside] = mechanism::counts();
     let mut out = format!(
-        "Mechanisms: {named} with a name; {unnamed} without one, unknown:..., which describe what has none; {beside} that stand among them in tables:\n\n"
+        "Mechanisms: {named} with a name; {unnamed} without one, unknown:..., which describe what has none; {asked} that are weighed on request, --mechanism ID; {beside} that stand among them in tables:\n\n"
     );
     out.push_str(&table(&mechanisms().map(|m| vec![m.id.to_owned(), m.title.to_owned()]).collect::<Vec<_>>()));
     out.push_str("\nWarnings and notes:\n\n");
@@ -120,7 +120,7 @@ mod tests {
     /// The documents say them in words.
     #[test]
     fn the_mechanisms_are_counted() {
-        assert_eq!(mechanism::counts(), [13, 6, 2]);
+        assert_eq!(mechanism::counts(), [13, 6, 10, 2]);
         assert!(list().starts_with("Mechanisms: 13 with a name; 6 without one, unknown:..., "));
     }
 

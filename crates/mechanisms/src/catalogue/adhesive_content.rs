@@ -28,6 +28,7 @@ pub(super) const ADHESIVE_CONTENT: Named = Named {
     source: "R. Hill, *Journal of the Mechanics and Physics of Solids* 12, 199 (1964).",
     meaning: "the coil holds more (+) or less (−) polymer than designed, as a share of its volume",
     inspection: "weigh the coil before and after potting, or section a sister unit",
+    columns: &[],
     heat_path: Some(|| HeatPath {
         places: |design| usize::from(glass(design).is_some()),
         nodes: nodes(-0.6, 0.6, 5),

@@ -18,6 +18,7 @@ pub(super) const AIR_PATH: Named = Named {
     source: "F. P. Incropera and D. P. DeWitt, *Fundamentals of Heat and Mass Transfer*, Wiley, ch. 9; H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed., Oxford (1959), ch. 1.",
     meaning: "the surroundings conduct heat better or worse than designed, by conductivity_factor",
     inspection: "repeat the test in vacuum or in another gas",
+    columns: &[],
     heat_path: Some(|| HeatPath {
         places: |design| usize::from(applies(design)),
         nodes: nodes(-0.9, 0.9, 9),

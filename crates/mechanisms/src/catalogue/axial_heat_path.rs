@@ -18,6 +18,7 @@ pub(super) const AXIAL_HEAT_PATH: Named = Named {
     source: "F. P. Incropera and D. P. DeWitt, *Fundamentals of Heat and Mass Transfer*, Wiley, ch. 3.",
     meaning: "the flange's outer face exchanges heat with the chamber through its mount",
     inspection: "repeat the test with the flange insulated from its mount",
+    columns: &[],
     heat_path: Some(|| HeatPath {
         places: |design| sides(design).len(),
         nodes: nodes(0.0, 0.9, 12),

@@ -21,6 +21,7 @@ pub(super) const DEBOND: Named = Named {
     meaning: "below debond_c the outer part of the bond between coil and flange, fraction of its width, carries no force; it closes \
               hysteresis_k above",
     inspection: "look at the flange's bond with ultrasound",
+    columns: &[],
     heat_path: None,
     steady: &[Steady::Changes {
         parameter: 2,

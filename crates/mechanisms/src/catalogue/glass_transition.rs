@@ -20,6 +20,7 @@ pub(super) const GLASS_TRANSITION: Named = Named {
     source: "J. D. Ferry, *Viscoelastic Properties of Polymers*, 3rd ed., Wiley (1980), ch. 11.",
     meaning: "transverse stiffness and expansion change around tg_c, by the factors, over some width_k to either side",
     inspection: "measure the adhesive's storage modulus against temperature (DMA)",
+    columns: &[],
     heat_path: None,
     steady: &[
         Steady::Changes {

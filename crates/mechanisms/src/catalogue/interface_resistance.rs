@@ -17,6 +17,7 @@ pub(super) const INTERFACE_RESISTANCE: Named = Named {
     source: "C. V. Madhusudana, *Thermal Contact Conductance*, Springer (1996).",
     meaning: "heat passes between hub and coil through a contact resistance",
     inspection: "heat the hub and record a thermometer on the coil's outer surface",
+    columns: &[],
     heat_path: Some(|| HeatPath {
         places: |design| usize::from(applies(design)),
         nodes: nodes(0.0, 0.85, 7),

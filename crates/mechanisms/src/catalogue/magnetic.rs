@@ -1,6 +1,7 @@
 //! A bias by the stray field of the chamber's heaters and coolers, proportional to the rate of the chamber.
 
-use crate::mechanism::{Change, Described, Offer, Stage, rates_per_hour};
+use crate::mechanism::{Change, Described, Offer, Stage};
+use crate::series::rates_per_hour;
 use diagnosis::Prior;
 
 pub(super) const MAGNETIC: Described = Described {

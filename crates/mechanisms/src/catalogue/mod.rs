@@ -34,7 +34,11 @@ catalogue! {
     magnetic MAGNETIC
 }
 
-/// A mechanism of the [`CATALOGUE`] by its id.
+pub(crate) mod on_request;
+
+pub use on_request::ON_REQUEST;
+
+/// A mechanism of the [`CATALOGUE`], or of those [`ON_REQUEST`], by its id.
 pub fn find(id: &str) -> Option<&'static dyn Mechanism> {
-    CATALOGUE.iter().copied().find(|mechanism| mechanism.facts().id == id)
+    CATALOGUE.iter().chain(ON_REQUEST).copied().find(|mechanism| mechanism.facts().id == id)
 }

@@ -1,6 +1,7 @@
 //! Two polarisation paths that interfere as their birefringence changes: a bias a sin(2πT/P) + b cos(2πT/P) of the spool's temperature T.
 
-use crate::mechanism::{Change, Described, Offer, Stage, grid, middles};
+use crate::mechanism::{Change, Described, Offer, Stage, grid};
+use crate::series::middles;
 use diagnosis::{Parameter, Prior};
 use std::f64::consts::TAU;
 

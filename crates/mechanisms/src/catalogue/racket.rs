@@ -1,6 +1,7 @@
 //! A sensitivity that depends on temperature: all of the bias times 1 + b (T − 20 °C).
 
-use crate::mechanism::{Change, Described, Offer, Stage, growing};
+use crate::mechanism::{Change, Described, Offer, Stage};
+use crate::series::growing;
 use diagnosis::Prior;
 
 pub(super) const RACKET: Described = Described {

@@ -1,6 +1,7 @@
 //! What sets for good the first time a temperature is reached.
 
-use crate::mechanism::{Change, Described, Offer, Stage, rates_per_hour};
+use crate::mechanism::{Change, Described, Offer, Stage};
+use crate::series::rates_per_hour;
 use diagnosis::{Parameter, Prior};
 
 pub(super) const RATCHETING: Described = Described {

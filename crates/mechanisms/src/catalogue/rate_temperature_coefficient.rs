@@ -2,7 +2,7 @@
 
 use crate::REFERENCE_C;
 use crate::design::drifts_about_reference;
-use crate::mechanism::{Effect, Extent, Named, Offer, Stage, Steady};
+use crate::mechanism::{Effect, Extent, Named, Offer, Scene, Stage, Steady};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use diagnosis::Prior;
 
@@ -16,11 +16,12 @@ pub(super) const RATE_TEMPERATURE_COEFFICIENT: Named = Named {
     source: "H. C. Lefèvre, *The Fiber-Optic Gyroscope*, 2nd ed., Artech House (2014); IEEE Std 952, *Specification Format Guide and Test Procedure for Single-Axis Interferometric Fiber Optic Gyros*.",
     meaning: "the read-out adds a rate proportional to the temperature, from 20 degC",
     inspection: "exchange the electronics, or warm them alone",
+    columns: &[],
     heat_path: None,
     steady: &[Steady::Nothing("it follows the temperature, not its rate")],
     extent: Extent::everywhere,
     caveat: |_| None,
-    offer: |_, scene| Some(Offer::one("coefficient_deg_per_h_per_k", Prior::Normal { mean: 0.0, sd: 2.0 * scene.noise }, &[0.0])),
+    offer: |_, scene| Some(Offer::one("coefficient_deg_per_h_per_k", Prior::Normal { mean: 0.0, sd: usual(scene) }, &[0.0])),
     effect: |_, _, active| {
         let coefficient = active.values[0];
         Ok(Effect::Readings(Box::new(move |r| {
@@ -35,3 +36,8 @@ pub(super) const RATE_TEMPERATURE_COEFFICIENT: Named = Named {
         Some(changed)
     },
 };
+
+/// What a rate may follow the temperature by \[deg/h/K\], of all that does so (1σ).
+pub(super) fn usual(scene: &Scene) -> f64 {
+    2.0 * scene.noise
+}

@@ -15,6 +15,7 @@ pub(super) const SELF_HEATING: Named = Named {
     source: "H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed., Oxford (1959), ch. 3.",
     meaning: "power is dissipated at the flange; it was switched on before_s before the first row",
     inspection: "switch the electronics on at a steady chamber temperature",
+    columns: &[],
     heat_path: None,
     steady: &[Steady::Nothing("a constant power makes a constant field, whose rate is zero")],
     // From the switch-on until the thermometer has risen by nearly all that it ever will in the first record.

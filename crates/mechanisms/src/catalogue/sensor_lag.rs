@@ -1,6 +1,7 @@
 //! A spool thermometer with a time constant of its own.
 
-use crate::mechanism::{Effect, Extent, Named, Offer, Stage, Steady, lagged};
+use crate::mechanism::{Effect, Extent, Named, Offer, Stage, Steady};
+use crate::series::lagged;
 use diagnosis::Prior;
 
 pub(super) const SENSOR_LAG: Named = Named {
@@ -13,6 +14,7 @@ pub(super) const SENSOR_LAG: Named = Named {
     source: "L. Michalski, K. Eckersdorf, J. Kucharski and J. McGhee, *Temperature Measurement*, 2nd ed., Wiley (2001).",
     meaning: "the spool's thermometer follows the bore with a time constant of its own",
     inspection: "dip the thermometer alone into a bath",
+    columns: &[],
     heat_path: None,
     steady: &[Steady::Nothing("it acts on the thermometer alone and shifts the temperature, not its rate")],
     extent: Extent::everywhere,

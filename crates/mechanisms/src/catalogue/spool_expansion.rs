@@ -1,6 +1,7 @@
 //! A spool whose expansion depends on temperature, as that of metals does.
 
-use crate::mechanism::{Change, Described, Offer, Stage, growing};
+use crate::mechanism::{Change, Described, Offer, Stage};
+use crate::series::growing;
 use diagnosis::Prior;
 
 pub(super) const SPOOL_EXPANSION: Described = Described {

@@ -22,6 +22,7 @@ pub(super) const TAIL_ASYMMETRY: Named = Named {
     source: "D. M. Shupe, *Applied Optics* 19, 654 (1980); F. Mohr, *Journal of Lightwave Technology* 14, 27 (1996).",
     meaning: "the fibre's tails outside the winding are of unequal length; tail_m is the CW one less the CCW one",
     inspection: "measure both tails' lengths outside the winding",
+    columns: &[],
     heat_path: None,
     steady: &[Steady::Design(with_tail)],
     extent: Extent::everywhere,

@@ -14,6 +14,7 @@ pub(super) const THERMO_OPTIC_CURVATURE: Named = Named {
     source: "D. B. Leviton and B. J. Frey, *Proc. SPIE* 6273, 62732K (2006), for fused silica.",
     meaning: "the fibre's dn/dT depends on temperature",
     inspection: "measure the fibre's dn/dT at both ends of the range",
+    columns: &[],
     heat_path: None,
     steady: &[Steady::Nothing("dn/dT changes alike along the fibre where the temperature is even, and cancels")],
     extent: Extent::everywhere,

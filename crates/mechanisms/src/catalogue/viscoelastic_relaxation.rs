@@ -18,6 +18,7 @@ pub(super) const VISCOELASTIC_RELAXATION: Named = Named {
     source: "J. D. Ferry, *Viscoelastic Properties of Polymers*, 3rd ed., Wiley (1980), ch. 1 to 3.",
     meaning: "the transverse stiffness relaxes by relaxing_fraction with the time constant tau_s",
     inspection: "measure the adhesive's stress relaxation (DMA)",
+    columns: &[],
     heat_path: None,
     steady: &[Steady::Changes {
         parameter: 0,
@@ -36,7 +37,7 @@ pub(super) const VISCOELASTIC_RELAXATION: Named = Named {
             starts: grid(&[&[0.2], &[700.0, 2500.0, 9000.0, 25000.0]]),
         })
     },
-    effect: |_, record, active| Ok(Effect::Coil(Change::of_parts(relaxed(record, active.values[0], active.values[1])))),
+    effect: |_, record, active| Ok(Effect::Coil(Change::of_parts(relaxed(record, active.values[0], active.values[1], None)))),
     extended: |design, active| {
         let (fraction, time) = (active.values[0], active.values[1]);
         let relaxing = || Design { mechanics: Mechanics::Relaxing { fraction, time }, ..design.clone() };
@@ -44,14 +45,24 @@ pub(super) const VISCOELASTIC_RELAXATION: Named = Named {
     },
 };
 
-/// Parts of a coil whose transverse moduli relax, less the nominal ones.
-fn relaxed(record: &Prepared, fraction: f64, time: f64) -> Parts {
+/// Time in which a sudden strain comes about, short beside any relaxation [s].
+const SUDDEN_S: f64 = 1e-3;
+
+/// Parts of a coil whose transverse moduli relax, less the nominal ones; `sudden` are the phases, at each node of the moduli, of a strain that came about
+/// suddenly before the first row.
+pub(super) fn relaxed(record: &Prepared, fraction: f64, time: f64, sudden: Option<&[[f64; 3]]>) -> Parts {
     let nodes: Vec<f64> = record.modulus.iter().map(|(x, ..)| *x).collect();
     let at: Vec<Vec<f64>> = Relaxation::nodes().iter().map(|x| weights(&nodes, (1.0 - fraction * x).ln())).collect();
     let nominal = weights(&nodes, 0.0);
     let mut relaxation = Relaxation::new(time);
     let mut change: Parts = [0, 1, 2].map(|_| vec![0.0; record.time.len()]);
     let mut states = vec![[0.0; 3]; at.len()];
+    if let Some(phases) = sudden {
+        for (state, w) in states.iter_mut().zip(&at) {
+            *state = [0, 1, 2].map(|p: usize| w.iter().zip(phases).map(|(w, phase)| w * phase[p]).sum::<f64>() / SUDDEN_S);
+        }
+        relaxation.rates(&states, SUDDEN_S);
+    }
     #[expect(clippy::needless_range_loop, reason = "rows of many series")]
     for n in 1..record.time.len() {
         let of = |w: &[f64], p: usize| w.iter().zip(&record.modulus).map(|(w, m)| w * m.1[p][n]).sum::<f64>();

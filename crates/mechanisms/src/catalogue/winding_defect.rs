@@ -17,6 +17,7 @@ pub(super) const WINDING_DEFECT: Named = Named {
     source: "N. J. Frigo, *Proc. SPIE* 412, 268 (1983), for what a pattern must balance.",
     meaning: "one layer has turns too many (+) or too few (−)",
     inspection: "count the turns of each layer in the winding record, or section a sister unit",
+    columns: &[],
     heat_path: None,
     steady: &[Steady::Rewinds { turns: 0, changed: with_defect }],
     extent: |_, sight| {

@@ -85,7 +85,9 @@ impl<'m> Gyro<'m> {
         let range = [coldest, temperatures().fold(f64::NEG_INFINITY, f64::max).max(coldest + 1e-3)];
         let (averaging, interval) =
             records.first().map_or((0.0, MINUTE), |r| (r.averaging, median_interval(&r.time).unwrap_or(MINUTE)));
-        let scene = Scene { temperatures: range, noise: instruments.white[RATE] * (interval / MINUTE).sqrt() };
+        let scene =
+            Scene { temperatures: range, noise: instruments.white[RATE] * (interval / MINUTE).sqrt(), earth: instruments.earth };
+        let records: Vec<Prepared> = records.into_iter().map(|record| record.turning_with(instruments.earth)).collect();
         let offered = mechanisms.iter().filter_map(|m| Some((*m, entry(*m, library.design(), &scene)?)));
         let (kinds, mechanisms) = offered.unzip();
         let noise = records.iter().map(Prepared::noise).fold(0.0, f64::max);

@@ -5,8 +5,8 @@ use super::recalibrated::{Recalibrated, share};
 use crate::change::Change;
 use crate::course::{Parts, Series, add};
 use crate::instruments;
-use crate::mechanism::lagged;
 use crate::record_to_bias::Prepared;
+use crate::series::lagged;
 use std::sync::Arc;
 
 /// Constants that are moved from where others are known.
@@ -60,7 +60,9 @@ impl Gyro<'_> {
         }
         let (parts, thermometer) = self.with_nuisances(number, u);
         let nominal = &self.records[number].nominal.parts;
-        let gain = [0, 1, 2].map(|p: usize| share(&parts[p], &nominal[p]));
+        // of a part that is nothing throughout, as at rest, nobody can say what share is left: all
+        let of = |p: usize| if nominal[p].iter().all(|x| *x == 0.0) { 1.0 } else { share(&parts[p], &nominal[p]) };
+        let gain = [0, 1, 2].map(of);
         let here = Arc::new(Recalibrated { record: number, at: u.to_vec(), parts, thermometer, gain });
         known.retain(|known| known.record != number);
         known.push(Arc::clone(&here));

@@ -76,10 +76,17 @@ pub(crate) fn record(file: &Path) -> Result<RecordCase, Failure> {
 }
 
 /// Runs the diagnosis as `fogcoil diagnose` does.
-pub(crate) fn answer(coil: &CoilCase, [fit, holdout]: &[PathBuf; 2], cache: &Cache) -> Result<Written, Failure> {
-    let outcome = diagnose::diagnose(coil, mechanisms::CATALOGUE, &[record(fit)?], &[record(holdout)?], cache, &|_| ())?;
+pub(crate) fn answer_records(coil: &CoilCase, fitted: &[PathBuf], holdout: &Path, cache: &Cache) -> Result<Written, Failure> {
+    let fitted = fitted.iter().map(|file| record(file)).collect::<Result<Vec<_>, _>>()?;
+    let outcome = diagnose::diagnose(coil, mechanisms::CATALOGUE, &fitted, &[record(holdout)?], cache, &|_| ())?;
     let prediction = outcome.prediction().ok_or_else(|| Failure(format!("{}: nothing is predicted", holdout.display())))?;
     Ok([format!("{}\n", outcome.json()), prediction])
+}
+
+/// Runs it for the unit in a folder.
+pub(crate) fn of_unit(coil: &CoilCase, folder: &Path, cache: &Cache) -> Result<Written, Failure> {
+    let [fitted, held_out] = records(folder);
+    answer_records(coil, &[fitted], &held_out, cache)
 }
 
 /// The two files in `folder` that hold the answer of a unit: J, P.

@@ -7,7 +7,7 @@ use fogcoil::cache::Cache;
 use fogcoil::input::{self, CoilCase};
 use rayon::prelude::*;
 
-use super::answer::{Answer, Written, answer, answered, paths, records};
+use super::answer::{Answer, Written, answered, of_unit, paths, records};
 use super::baselines::{REGRESSIONS, regressions, selection};
 use super::chain::{self, Unit};
 use super::score::{HeldOut, Scored, score};
@@ -58,7 +58,7 @@ pub(crate) fn each<T: Send>(units: &[String], work: impl Fn(&str) -> Result<T, F
 fn answers(from: &Path, units: &[String], coil: &CoilCase, cache: &Cache, clock: Instant) -> Result<Vec<Written>, Failure> {
     each(units, |unit| {
         let (start, at) = (Instant::now(), from.join(unit));
-        let files = answer(coil, &records(&at), cache)?;
+        let files = of_unit(coil, &at, cache)?;
         eprintln!("[{:5.1} s] {unit} is answered ({:.0} s)", clock.elapsed().as_secs_f64(), start.elapsed().as_secs_f64());
         Ok(files)
     })

@@ -19,13 +19,13 @@ use crate::files::root;
 use crate::{Failure, composed, ordinary, program};
 use score::Scored;
 
-pub(crate) use answer::{Answer, Constant, MORE_THAN_NOT, Written, answered, record};
+pub(crate) use answer::{Answer, Constant, MORE_THAN_NOT, Written, answer_records, answered, record};
 #[cfg(test)]
 pub(crate) use answer::{Fitted, Probable};
 pub(crate) use answers::{PROGRAM, each, write};
 pub(crate) use chain::{mean, rms, used};
 pub(crate) use report::{lines, markdown, publish, short};
-pub(crate) use score::{HeldOut, Parameter};
+pub(crate) use score::{CONFIDENT, HeldOut, Parameter};
 pub(crate) use summary::{Bound, Form, ScoreRow, failures};
 
 /// Diagnose units that conceal something, and hold the answers against the truth

@@ -4,7 +4,7 @@ use super::answer::{Answer, MORE_THAN_NOT};
 use crate::truth::{Kind, Tier, Truth, stage};
 
 /// Probability from which a name is given with confidence.
-const CONFIDENT: f64 = 0.8;
+pub(crate) const CONFIDENT: f64 = 0.8;
 /// R_nominal/R_true from which a skill is computed.
 const IMPROVABLE: f64 = 1.1;
 /// Part of R_nominal by which a prediction may exceed it before it counts as worse: what offsets estimated otherwise change.

@@ -8,7 +8,7 @@ use clap::Args;
 use fogcoil::cache::Cache;
 use fogcoil::input;
 
-use super::answer::{answer, answered, paths, records};
+use super::answer::{answered, of_unit, paths, records};
 use super::answers::each;
 use super::score::{Scored, score};
 use super::summary::{ScoreRow, failures, summary};
@@ -80,7 +80,7 @@ impl Plan {
         each(&names, |name| {
             let into = paths(&answers, name);
             if !into.iter().all(|file| file.exists()) {
-                let contents = answer(&coil, &records(&folder.join(name)), cache)?;
+                let contents = of_unit(&coil, &folder.join(name), cache)?;
                 files::write_all(&into.into_iter().zip(contents).collect::<Vec<_>>())?;
                 say("is answered", name);
             }

@@ -13,14 +13,12 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use fogcoil::cache::Cache;
-use fogcoil::diagnose;
-use fogcoil::input::{self, CoilCase, RATE};
+use fogcoil::input::{self, CoilCase};
 
-use crate::concealed::{
-    Answer, HeldOut, PROGRAM, Written, answered, each, failures, lines, markdown, mean, publish, record, rms, used, write,
-};
+use crate::concealed::{Answer, HeldOut, PROGRAM, Written, answered, each, failures, lines, markdown, publish, write};
 use crate::files::{self, root};
 use crate::statistics::rate;
+use crate::three_records::{self, FITTED, HELD_OUT, HoldOut};
 use crate::{Failure, program};
 use change::Change;
 use score::{Scored, score, summary};
@@ -28,10 +26,6 @@ use truth::{Kind, Truth};
 
 pub(crate) use posteriors::run as posteriors;
 pub(crate) use rows::run as rows;
-
-/// Records of a unit that are fitted, and the one that is held out.
-const FITTED: [&str; 2] = ["run1.csv", "run2.csv"];
-const HELD_OUT: &str = "holdout.csv";
 
 fn folder() -> PathBuf {
     root().join("fixtures/ordinary")
@@ -64,19 +58,10 @@ fn answers(names: &[String]) -> Result<Vec<Written>, Failure> {
     let (clock, cache) = (Instant::now(), Cache::of_user());
     each(names, |unit| {
         let start = Instant::now();
-        let written = diagnosed(&drawing(unit)?, &folder().join(unit), &cache)?;
+        let written = three_records::answer(&drawing(unit)?, &folder().join(unit), &cache)?;
         eprintln!("[{:5.0} s] {unit} is answered ({:.0} s)", clock.elapsed().as_secs_f64(), start.elapsed().as_secs_f64());
         Ok(written)
     })
-}
-
-/// What the program writes of the unit whose records are in a folder.
-fn diagnosed(coil: &CoilCase, at: &Path, cache: &Cache) -> Result<Written, Failure> {
-    let fitted = FITTED.map(|file| record(&at.join(file)));
-    let fitted = fitted.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let outcome = diagnose::diagnose(coil, mechanisms::CATALOGUE, &fitted, &[record(&at.join(HELD_OUT))?], cache, &|_| ())?;
-    let prediction = outcome.prediction().ok_or_else(|| Failure("nothing is predicted".into()))?;
-    Ok([format!("{}\n", outcome.json()), prediction])
 }
 
 /// The open units, or those named.
@@ -135,12 +120,12 @@ pub(crate) fn changed(only: &[String]) -> Result<bool, Failure> {
     };
     let alike = each(&paths, |unit| {
         let read = |[json, _]: &Written| -> Result<_, Failure> { Ok(told(&serde_json::from_str(json)?)) };
-        let first = read(&diagnosed(&drawing(unit)?, &folder().join(unit), &cache)?)?;
+        let first = read(&three_records::answer(&drawing(unit)?, &folder().join(unit), &cache)?)?;
         let mut alike = 0;
         for change in Change::ALL {
             let at = into.join(change.folder()).join(name(unit));
             change.write(&[FITTED[0], FITTED[1], HELD_OUT], &folder().join(unit), &at)?;
-            let other = read(&diagnosed(&change.drawing(drawing(unit)?), &at, &cache)?)?;
+            let other = read(&three_records::answer(&change.drawing(drawing(unit)?), &at, &cache)?)?;
             let said = if other == first { "the same".to_owned() } else { format!("{other:?} instead of {first:?}") };
             eprintln!("{unit}, {}: {said}", change.name());
             alike += usize::from(other == first);
@@ -157,17 +142,7 @@ fn case(unit: &str, answers: &Path) -> Result<Case, Failure> {
     let at = folder().join(unit);
     let truth = Truth::read(&at.join("truth.ron"))?;
     let (answer, predicted) = answered(answers, name(unit))?;
-    let recorded = used(&record(&at.join(HELD_OUT))?, RATE)?;
-    if predicted.len() != recorded.len() {
-        return Err(Failure(format!("{unit}: {} rates are predicted of {} that were recorded", predicted.len(), recorded.len())));
-    }
-    let left: Vec<f64> = recorded.iter().zip(&predicted).map(|(y, p)| y - p).collect();
-    let offset = mean(left.iter().copied());
-    let model = rms(left.iter().map(|r| r - offset));
-    // of many rows the answer's errors are those of means over some: the noise that both predictions lose by that is the same
-    let lost = |rmse_model: f64| model.powi(2) - rmse_model.powi(2);
-    let nominal = answer.holdout.map_or(f64::NAN, |h| (h.rmse_nominal.powi(2) + lost(h.rmse_model)).max(0.0).sqrt());
-    let held = HeldOut { nominal, model, truth: truth.holdout_noise_rms_deg_per_h };
+    let held = HoldOut::of(&at)?.judge(&answer, &predicted, truth.holdout_noise_rms_deg_per_h)?;
     let scored = score(&truth, &answer, held, drawing(unit)?.design.sensor.lag);
     Ok(Case { unit: unit.to_owned(), truth, answer, scored })
 }

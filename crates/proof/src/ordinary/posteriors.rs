@@ -5,9 +5,10 @@ use std::fmt::Write as _;
 use fogcoil::cache::Cache;
 use fogcoil::diagnose;
 
-use super::{FITTED, drawing, folder};
+use super::{drawing, folder};
 use crate::concealed::{each, publish, record, short};
 use crate::files::root;
+use crate::three_records::FITTED;
 use crate::{Failure, program};
 use diagnosis::{Place, Sampled};
 

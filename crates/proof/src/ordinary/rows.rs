@@ -67,7 +67,8 @@ fn right(answer: &Answer, concealed: Option<&str>) -> bool {
 pub(crate) fn run() -> Result<bool, Failure> {
     let program = program::hash(&root())?;
     let (cache, into) = (Cache::of_user(), root().join("target/prove/rows"));
-    let own = input::read_mechanisms(&[root().join("crates/fogcoil/templates/mechanism.ron")])?;
+    let (usual, own) =
+        (input::Asked::default(), input::read_mechanisms(&[root().join("crates/fogcoil/templates/mechanism.ron")])?);
     let coil = input::read_coil(&root().join("fixtures/coil-reference.ron"))?;
     let generator = Generator::new(coil.design.clone())?;
     let named = |row: &Row, seed: u64| format!("{}, unit {seed}", row.what);
@@ -81,7 +82,7 @@ pub(crate) fn run() -> Result<bool, Failure> {
         let text = [("fit.csv", fit), ("holdout.csv", holdout), ("meta.ron", meta)];
         files::write_all(&text.map(|(file, text)| (at.join(file), text)))?;
         let (fit, holdout) = (record(&at.join("fit.csv"))?, record(&at.join("holdout.csv"))?);
-        let kinds = input::with_catalogue(if row.own { &own } else { &[] });
+        let kinds = if row.own { &own } else { &usual }.with_catalogue();
         let outcome = diagnose::diagnose(&coil, &kinds, &[fit], &[holdout], &cache, &|_| ())?;
         let answer: Answer = serde_json::from_str(&outcome.json().to_string())?;
         eprintln!("{name}: {} {:?}", answer.verdict, answer.set);

@@ -1,11 +1,8 @@
 //! One unit's answer held against its truth, and the scores of many beside what is asked.
 
 use super::truth::{Kind, Truth};
-use crate::concealed::{Answer, Bound, Form, HeldOut, MORE_THAN_NOT, Parameter, ScoreRow};
+use crate::concealed::{Answer, Bound, CONFIDENT, Form, HeldOut, MORE_THAN_NOT, Parameter, ScoreRow};
 use crate::statistics::{Measured, median, rate};
-
-/// Probability from which a name is given with confidence.
-const CONFIDENT: f64 = 0.8;
 
 #[derive(Debug, Clone)]
 pub(super) struct Scored {

@@ -1,0 +1,123 @@
+//! A board with two heaters, each with a thermometer: nominal are two separate lumps, each with its own heater and loss to the room.
+
+use super::noise;
+use super::plant::{Acts, Kind, Moment, Place, Plant, Quantity};
+use diagnosis::{Channel, Nuisance, Parameter, Prior, Role};
+
+/// A test of the board: powers of both heaters \[%\] and what both thermometers read \[°C\].
+#[derive(Debug, Clone)]
+pub(crate) struct Test {
+    pub(crate) time: Vec<f64>,
+    pub(crate) heaters: [Vec<f64>; 2],
+    pub(crate) thermometers: [Vec<f64>; 2],
+}
+
+/// Last digit of the thermometers, as they are written \[K\].
+const DIGIT: f64 = 0.03;
+/// What a thermometer of 10 bits over 3.3 V at 10 mV/K may be off \[K\].
+const OFFSET: f64 = 0.32;
+/// Full power [W/%]: transistors that are said to give about a watt.
+const POWER: Prior = Prior::LogNormal { median: 0.01, spread: 0.3 };
+/// A transistor and its thermometer: some grams.
+const HEAT_CAPACITY: Prior = Prior::LogNormal { median: 3.0, spread: 0.7 };
+/// Ten square centimetres and a board in still air.
+const LOSS: Prior = Prior::LogNormal { median: 0.015, spread: 0.7 };
+
+/// Two transistors of one kind, mounted alike.
+const LIKE: Prior = Prior::LogNormal { median: 1.0, spread: 0.1 };
+
+const QUANTITIES: [Quantity; 5] = [
+    Quantity { name: "heater 1", unit: "%", kind: Kind::Flow },
+    Quantity { name: "heater 2", unit: "%", kind: Kind::Flow },
+    Quantity { name: "temperature 1", unit: "degC", kind: Kind::Level },
+    Quantity { name: "temperature 2", unit: "degC", kind: Kind::Level },
+    Quantity { name: "the time", unit: "s", kind: Kind::Time },
+];
+const PLACES: [Place; 6] = [
+    Place { name: "heat 1", unit: "W", own: Some(2), acts: Acts::Flow },
+    Place { name: "heat 2", unit: "W", own: Some(3), acts: Acts::Flow },
+    Place { name: "loss 1", unit: "W", own: Some(2), acts: Acts::Loss },
+    Place { name: "loss 2", unit: "W", own: Some(3), acts: Acts::Loss },
+    Place { name: "reading 1", unit: "K", own: Some(2), acts: Acts::Reading(0) },
+    Place { name: "reading 2", unit: "K", own: Some(3), acts: Acts::Reading(1) },
+];
+
+#[derive(Clone)]
+pub(crate) struct Heaters {
+    tests: Vec<Test>,
+    channels: Vec<Channel>,
+    nuisances: Vec<Nuisance>,
+}
+
+impl Heaters {
+    /// Tests of one board that begin at the room's temperature; the first rows of the first are fitted.
+    pub(crate) fn new(tests: Vec<Test>, fitted: usize) -> Self {
+        let duration = tests[0].time[fitted - 1];
+        let channel = |k: usize| Channel {
+            name: format!("temperature {}", k + 1),
+            unit: "K".into(),
+            offset: (0.0, OFFSET),
+            averaging: 0.0,
+            noise: noise::of_record(&tests[0].thermometers[k][..fitted], DIGIT, duration),
+        };
+        let constant =
+            |name: &str, prior| Nuisance { parameter: Parameter::new(name, prior), role: Role::Constant, local: false };
+        let nuisances = vec![
+            constant("power 1 W/%", POWER),
+            constant("power 2 W/%", POWER),
+            constant("heat capacity J/K", HEAT_CAPACITY),
+            constant("loss W/K", LOSS),
+            constant("heat capacity 2 over 1", LIKE),
+            constant("loss 2 over 1", LIKE),
+        ];
+        let channels = [0, 1].map(channel).to_vec();
+        Self { channels, nuisances, tests }
+    }
+}
+
+impl Plant for Heaters {
+    fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    fn nuisances(&self) -> &[Nuisance] {
+        &self.nuisances
+    }
+
+    fn quantities(&self) -> &[Quantity] {
+        &QUANTITIES
+    }
+
+    fn places(&self) -> &[Place] {
+        &PLACES
+    }
+
+    fn time(&self, test: usize) -> &[f64] {
+        &self.tests[test].time
+    }
+
+    fn run(&self, test: usize, constants: &[f64], laws: &mut dyn FnMut(Moment<'_>)) -> Vec<Vec<f64>> {
+        let own = &self.tests[test];
+        let like = |k: usize| if k == 0 { [1.0, 1.0] } else { [constants[4], constants[5]] };
+        let of = |k: usize| (constants[k], constants[2] * like(k)[0], constants[3] * like(k)[1]);
+        let room = [0, 1].map(|k| own.thermometers[k][0]);
+        let (mut t, mut flow) = (room, [0.0; 2]);
+        let mut read = vec![Vec::new(); 2];
+        for n in 0..own.time.len() {
+            let step = if n > 0 { own.time[n] - own.time[n - 1] } else { 0.0 };
+            for k in 0..2 {
+                let (_, capacity, loss) = of(k);
+                t[k] += flow[k] / loss * -(-step * loss / capacity).exp_m1();
+            }
+            let heat = |k: usize| of(k).0 * own.heaters[k][n];
+            let off = |k: usize| of(k).2 * (t[k] - room[k]);
+            let mut places = [heat(0), heat(1), off(0), off(1), t[0], t[1]];
+            let quantities = [own.heaters[0][n], own.heaters[1][n], t[0], t[1], own.time[n]];
+            laws(Moment { step, quantities: &quantities, places: &mut places });
+            flow = [places[0] - places[2], places[1] - places[3]];
+            read[0].push(places[4]);
+            read[1].push(places[5]);
+        }
+        read
+    }
+}

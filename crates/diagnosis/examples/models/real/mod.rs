@@ -1,0 +1,22 @@
+//! What the examples on real recordings share: a nominal model tells of its quantities and places, all small laws are offered to it, and what is
+//! composed is judged by what was held out, beside least squares and a network.
+
+#![allow(dead_code, reason = "each example and test uses its part")]
+
+pub(crate) mod cascade;
+pub(crate) mod cell;
+pub(crate) mod chart;
+pub(crate) mod heaters;
+pub(crate) mod law;
+pub(crate) mod load;
+pub(crate) mod network;
+pub(crate) mod noise;
+pub(crate) mod offered;
+pub(crate) mod picture;
+pub(crate) mod plant;
+pub(crate) mod ramp;
+pub(crate) mod rate_sensor;
+pub(crate) mod report;
+pub(crate) mod shapes;
+pub(crate) mod study;
+pub(crate) mod table;

@@ -1,0 +1,115 @@
+//! A small law as a mechanism's file, and how far records go on which its parameters depend.
+
+use std::fmt::Write as _;
+
+use mechanisms::Scene;
+
+/// How far what laws depend on goes in the records that are fitted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Ranges {
+    /// Coldest and hottest \[°C\].
+    pub(super) temperatures: [f64; 2],
+    /// Farthest from 20 °C \[K\].
+    pub(super) far: f64,
+    /// Fastest of the spool \[K/s\].
+    pub(super) rate: f64,
+    /// Longest record \[s\].
+    pub(super) duration: f64,
+    /// Largest |part| of the bias as designed, and of the sum \[deg/h\].
+    pub(super) parts: [f64; 4],
+    /// Size that is expected of an effect \[deg/h\].
+    pub(super) size: f64,
+}
+
+/// Size that is expected of an effect, in noises of a reading of a minute: what is larger is seen by eye, and what is smaller hardly at all.
+const EXPECTED: f64 = 30.0;
+/// Time in which a rate changes as much as it has, for the scale of a second derivative \[s\].
+pub(super) const TURN_S: f64 = 600.0;
+
+impl Ranges {
+    pub(crate) fn new(scene: &Scene, rate: f64, duration: f64, parts: [f64; 4]) -> Self {
+        let temperatures = scene.temperatures;
+        let far = temperatures.map(|t| (t - mechanisms::REFERENCE_C).abs()).into_iter().fold(1.0, f64::max);
+        Self {
+            temperatures,
+            far,
+            rate: rate.max(1e-9),
+            duration: duration.max(1.0),
+            parts: parts.map(|part| part.max(1e-12)),
+            size: EXPECTED * scene.noise,
+        }
+    }
+
+    /// Periods \[K\] that differ by a third of a cycle over the range, or somewhat more, from two cycles in it on, 4 K or longer: what lies between
+    /// them a fit finds.
+    pub(super) fn periods(&self) -> Vec<f64> {
+        const LEAST_K: f64 = 4.0;
+        const MOST: usize = 50;
+        let [low, high] = self.temperatures;
+        let most = ((high - low) / LEAST_K).max(2.0);
+        let step = ((most - 2.0) / (MOST - 1) as f64).clamp(1.0 / 3.0, 0.6);
+        let cycles = (0..MOST).map(|k| 2.0 + step * k as f64).take_while(|cycles| *cycles <= most);
+        let periods: Vec<f64> = cycles.map(|cycles| (high - low).max(1.0) / cycles).collect();
+        if periods.is_empty() { vec![LEAST_K] } else { periods }
+    }
+
+    /// So many temperatures evenly over the range.
+    pub(super) fn across(&self, count: u32) -> Vec<f64> {
+        let [low, high] = self.temperatures;
+        (0..count).map(|k| low + (high - low) * (f64::from(k) + 0.5) / f64::from(count)).collect()
+    }
+}
+
+/// A law as a mechanism's file, and the known physics that has its form.
+pub(crate) struct Law {
+    pub(crate) text: String,
+    pub(crate) known: &'static str,
+}
+
+/// A parameter beside the size: name, unit, prior, starts.
+pub(super) type Beside = (&'static str, &'static str, String, Vec<f64>);
+
+pub(super) struct Form<'a> {
+    pub(super) id: String,
+    pub(super) title: String,
+    pub(super) known: &'static str,
+    pub(super) stage: &'static str,
+    /// What the law is where the size is 1 in its unit, at most
+    pub(super) per_size: f64,
+    pub(super) unit: &'a str,
+    pub(super) beside: Vec<Beside>,
+    pub(super) states: String,
+    pub(super) target: &'static str,
+    pub(super) law: String,
+}
+
+/// Numbers of a prior, to two digits.
+pub(super) fn two(x: f64) -> String {
+    format!("{x:.1e}").parse::<f64>().map_or_else(|_| x.to_string(), |x| format!("{x:?}"))
+}
+
+impl Form<'_> {
+    pub(super) fn law(&self, expected: f64) -> Law {
+        let sd = two(expected / self.per_size);
+        let mut parameters =
+            format!("        (name: \"size\", unit: \"{}\", prior: Normal(0.0, {sd}), starts: [{sd}]),\n", self.unit);
+        for (name, unit, prior, starts) in &self.beside {
+            let starts: Vec<String> = starts.iter().map(|x| two(*x)).collect();
+            let starts = starts.join(", ");
+            let _ = writeln!(parameters, "        (name: \"{name}\", unit: \"{unit}\", prior: {prior}, starts: [{starts}]),");
+        }
+        let Self { id, title, stage, states, target, law, .. } = self;
+        let states = if states.is_empty() { String::new() } else { format!("    states: [\n{states}    ],\n") };
+        let text = format!(
+            "(\n    id: \"{id}\",\n    title: \"{title}\",\n    stage: {stage},\n    source: \"composed by fogcoil diagnose; \
+             known physics of this form: {}\",\n    parameters: [\n{parameters}    ],\n{states}    laws: [{target}(\"{law}\")],\n)\n",
+            self.known
+        );
+        Law { text, known: self.known }
+    }
+}
+
+/// A state that follows `of` with a time constant.
+pub(super) fn lag(name: &str, of: &str, tau: &str) -> String {
+    format!("        (name: \"{name}\", unit: \"degC\", goes: Rate(rate: \"({of} - {name}) / ({tau})\", first: \"{of}\")),\n")
+}
