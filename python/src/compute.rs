@@ -67,14 +67,16 @@ fn cache(code: Option<PathBuf>) -> Cache {
     code.map_or(Cache::NONE, |file| Cache::of_user().of_code_in(file))
 }
 
-fn checked_profile(py: Python, coil: &Coil, columns: &[Column], between: &str) -> PyResult<ProfileCase> {
+fn checked_profile(py: Python, coil: &Coil, columns: &[Column], further: &[String], between: &str) -> PyResult<ProfileCase> {
     let between = match between {
         "linear" => Between::Linear,
         "cubic" => Between::Cubic,
         other => return Err(InputError::new_err(format!("between: {other:?} is not known; give \"linear\" or \"cubic\""))),
     };
-    let read =
-        || input::check_profile("profile".as_ref(), table(columns), &coil.case.design).map_err(|error| at_element(error.into()));
+    let read = || {
+        input::check_profile("profile".as_ref(), table(columns), &coil.case.design, further)
+            .map_err(|error| at_element(error.into()))
+    };
     let mut profile = py.detach(read).map_err(raised)?;
     profile.between = between;
     warn(py, profile.notes.clone())?;
@@ -108,7 +110,7 @@ impl DesignBox {
         profile: Vec<Column>,
         between: &str,
     ) -> PyResult<(Columns<'py>, [f64; 2])> {
-        let profile = checked_profile(py, coil, &profile, between)?;
+        let profile = checked_profile(py, coil, &profile, &[], between)?;
         let varied = py.detach(|| self.0.simulate(&coil.case, &profile)).map_err(raised)?;
         Ok((columns(py, &varied.rows), varied.errors))
     }
@@ -124,9 +126,11 @@ pub(crate) fn simulate<'py>(
     mechanisms: Vec<PathBuf>,
     code: Option<PathBuf>,
 ) -> PyResult<(Columns<'py>, String)> {
-    let (case, profile) = (&coil.case, checked_profile(py, coil, &profile, between)?);
+    let asked = input::read_mechanisms(&mechanisms).map_err(raised)?;
+    let further = asked.further_columns();
+    let (case, profile) = (&coil.case, checked_profile(py, coil, &profile, &further, between)?);
     let run = || {
-        let (own, cache) = (input::read_mechanisms(&mechanisms)?.files_alone()?, cache(code));
+        let (own, cache) = (asked.files_alone()?, cache(code));
         let model = runs::model(case, &profile.drives, &cache)?;
         let mut simulation = runs::simulate(case, &profile, &model)?;
         simulation.add(&own, &cache, &|_| ())?;

@@ -21,7 +21,7 @@ const DIVISIONS: usize = 12;
 /// Draws all figures into `folder`, which is made if it is not there; always `true`.
 pub(crate) fn run(folder: &Path) -> Result<bool, Failure> {
     let case = input::read_coil(COIL.as_ref())?;
-    let profile = input::read_profile(PROFILE.as_ref(), &case.design)?;
+    let profile = input::read_profile(PROFILE.as_ref(), &case.design, &[])?;
     let (model, fields) = simulate::model_with_fields(&case, &profile.drives, &Cache::NONE)?;
     let simulation = simulate::simulate(&case, &profile, &model)?;
     let mut documents = figures::documents(&simulation, Some(&fields));

@@ -7,6 +7,7 @@ mod figures;
 mod mechanisms;
 mod pages;
 mod sabotage;
+mod supply;
 mod validate;
 
 use std::path::PathBuf;
@@ -55,6 +56,7 @@ enum Chore {
     Sabotage,
     /// Each library by itself: what it promises, its own features, its tests, its package
     Crates,
+    Supply(supply::Supply),
     /// Times beside errors, into docs/benchmarks.md
     #[command(subcommand)]
     Bench(bench::Bench),
@@ -72,6 +74,7 @@ fn main() -> ExitCode {
         Chore::Identify(identify) => identify.run(),
         Chore::Sabotage => sabotage::run(),
         Chore::Crates => crates::run(),
+        Chore::Supply(supply) => supply.run(),
         Chore::Bench(bench) => bench.run(),
     };
     match outcome {

@@ -13,7 +13,7 @@ const ENTITIES: [&str; 4] = ["amp;", "lt;", "gt;", "quot;"];
 
 /// Everything that is wrong with a page; nothing if it is whole.
 ///
-/// A page is well-formed, needs nothing but itself, has a title, headings without gaps, no id twice, a name and a description for each
+/// A page is well-formed, needs nothing but itself and says so to the browser, has a title, headings without gaps, no id twice, a name and a description for each
 /// picture, a caption for each table, a scope for each head of a row or column, and a table for each figure.
 pub fn faults(page: &str) -> Vec<String> {
     let mut faults: Vec<String> =
@@ -36,6 +36,7 @@ pub fn faults(page: &str) -> Vec<String> {
     equal("pictures and their descriptions", count("role=\"img\""), count("<desc id="));
     equal("tables and their captions", count("<table"), count("<caption"));
     equal("heads of rows and columns and their scopes", count("<th"), count("<th scope=") + count("<thead"));
+    equal("policies and titles of the page", count(" http-equiv=\"Content-Security-Policy\""), count("<title>"));
     equal("languages and titles of the page", count("<html lang="), count("<title>"));
     if count("<figure") > count("<details>") {
         faults.push("a figure has no table of its data".into());
@@ -107,5 +108,7 @@ mod tests {
             let found = faults(&page(body));
             assert!(found.iter().any(|one| one.contains(fault)), "{body}: {found:?}");
         }
+        let open = page("").replace(" http-equiv=\"Content-Security-Policy\"", "");
+        assert!(faults(&open).iter().any(|one| one.contains("policies")), "{:?}", faults(&open));
     }
 }

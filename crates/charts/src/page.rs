@@ -6,6 +6,9 @@ use crate::style::page_style;
 
 const STYLE: &str = include_str!("page.css");
 
+/// What a browser lets a page do: nothing but be drawn, with the styles in it. No page has a script, a picture or a font of its own.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";
+
 /// A page that needs nothing but itself, on paper, phone and screen, in light and dark: `lead` in its header, `body` below. Control
 /// characters, which no page may hold, are dropped.
 ///
@@ -23,6 +26,7 @@ pub fn page(title: &str, lead: &Markup, body: &Markup) -> String {
         html lang="en" {
             head {
                 meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (title) }
                 style { (PreEscaped(page_style())) (PreEscaped(STYLE)) }

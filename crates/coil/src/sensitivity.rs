@@ -51,6 +51,14 @@ impl Model {
     }
 }
 
+/// Steady-ramp sensitivity of `design` in a mechanical state, on the mesh of [`steady_sensitivity`], whose error is of this value too.
+///
+/// # Errors
+/// As [`steady_sensitivity`].
+pub fn sensitivity_in(design: &Design, state: &MechanicalState) -> Result<Sensitivity, Error> {
+    Model::graded(design, &STEADY, Grading::Strain, state)?.sensitivity()
+}
+
 /// Steady-ramp sensitivity of `design` on [`STEADY`], its error measured by [`CHECKS`].
 ///
 /// # Errors

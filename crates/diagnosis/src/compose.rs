@@ -22,6 +22,9 @@ pub struct Breadth {
     pub followed: usize,
     /// Of those, laws that are given noise of their own.
     pub likeliest: usize,
+    /// Laws that are followed in the place of each that came first, one at a time: laws that explain a record together need not come first each by itself
+    /// (limited discrepancy search with one discrepancy, Harvey and Ginsberg 1995).
+    pub turnings: usize,
     /// What becomes of the laws before the last.
     pub earlier: Earlier,
 }
@@ -37,7 +40,7 @@ pub enum Earlier {
 
 impl Default for Breadth {
     fn default() -> Self {
-        Self { terms: 2, followed: 6, likeliest: 3, earlier: Earlier::Kept }
+        Self { terms: 2, followed: 6, likeliest: 3, turnings: 0, earlier: Earlier::Kept }
     }
 }
 
@@ -56,6 +59,14 @@ pub struct Composed {
     pub others: Vec<(usize, f64)>,
     /// The fit after every law that was added, the last of them [`Self::fit`].
     pub steps: Vec<Fit>,
+}
+
+impl Composed {
+    /// ln of evidence times probability before anything was seen, which is `log_prior` of any laws of this number: terms are found in any order.
+    pub fn log_weight(&self, log_prior: f64) -> f64 {
+        let orders = (1..=self.laws).product::<usize>() as f64;
+        self.fit.log_evidence - self.choice + orders.ln() + log_prior
+    }
 }
 
 /// The best of the `laws`, by their numbers in the model, one or two of them, beside a fit; `None` if none gains enough.
@@ -90,49 +101,71 @@ pub fn compose_within<M: ForwardModel>(
     let weights: f64 = laws.clone().map(|law| model.mechanisms()[law].weight).sum();
     // ln of how unlikely a law is before anything is seen
     let cost = |law: usize| (weights / model.mechanisms()[law].weight).ln();
-    let last = |fit: &Fit| fit.hypothesis.mechanisms.last().map_or(0, |(law, _)| *law);
-    let net = |fit: &Fit| fit.log_evidence - cost(last(fit));
-    let mut composed: Option<Composed> = None;
-    for term in 0..breadth.terms {
-        progress(Step::counted(TASK, term, breadth.terms));
-        let known = composed.as_ref().map_or(beside, |composed| &composed.fit);
-        // noise that has not swallowed what is sought
-        let noise = known.noise.calmed(model.channels(), observations)?;
-        let Some(base) = defined(fitter.fit(&known.hypothesis, &noise, Some(known)))? else { break };
-        let taken = known.hypothesis.numbers();
-        let mut fits = Vec::new();
-        let mut ranked = fitter.ranked(laws.clone().filter(|law| !taken.contains(law)), &base)?;
-        ranked.sort_by(|a, b| (b.0 - cost(b.1.mechanism)).total_cmp(&(a.0 - cost(a.1.mechanism))));
-        for (_, law) in ranked.into_iter().take(breadth.followed) {
-            let mut hypothesis: Hypothesis = base.hypothesis.clone();
-            hypothesis.mechanisms.push((law.mechanism, None));
-            let mut from = base.clone();
-            from.active.push(law);
-            fits.extend(defined(fitter.screened(&hypothesis, &from))?);
+    let first = beside.hypothesis.mechanisms.len();
+    let choice = |fit: &Fit| fit.hypothesis.mechanisms[first..].iter().map(|(law, _)| cost(*law)).sum::<f64>();
+    let net = |fit: &Fit| fit.log_evidence - choice(fit);
+    let mut best = Path { fit: beside.clone(), others: Vec::new(), steps: Vec::new() };
+    let mut met: Vec<Vec<usize>> = Vec::new();
+    let mut without = beside.log_evidence;
+    let mut follow = |mut path: Path, turnings: &mut Vec<Path>| -> Result<Path, Error<M::Error>> {
+        // the same laws in another order are no other way
+        while path.steps.len() < breadth.terms && !met.contains(&path.fit.hypothesis.numbers()) {
+            progress(Step::counted(TASK, path.steps.len(), breadth.terms));
+            met.push(path.fit.hypothesis.numbers());
+            let (known, longer) = fitter.lengthened(&path, &laws, breadth, &cost, first)?;
+            if path.steps.is_empty() {
+                without = known;
+            }
+            let mut longer = longer.into_iter();
+            let Some(next) = longer.next() else { break };
+            turnings.extend(longer);
+            path = next;
         }
-        fits.sort_by(|a, b| net(b).total_cmp(&net(a)));
-        let mut own = Vec::new();
-        for fit in fits.iter().take(breadth.likeliest) {
-            own.extend(defined(fitter.fit_with_noise(&fit.hypothesis, fit, 2))?);
+        Ok(path)
+    };
+    let mut turnings = Vec::new();
+    best = follow(best, &mut turnings)?;
+    for turning in turnings {
+        let other = follow(turning, &mut Vec::new())?;
+        if net(&other.fit) > net(&best.fit) {
+            best = other;
         }
-        own.sort_by(|a, b| net(b).total_cmp(&net(a)));
-        let Some(best) = own.first() else { break };
-        if net(best) - known.log_evidence < WORTH {
-            break;
-        }
-        let others = own[1..].iter().map(|fit| (last(fit), net(best) - net(fit))).collect();
-        let mut fit = best.clone();
-        if breadth.earlier == Earlier::Weighed {
-            fit = fitter.weighed(fit, beside.hypothesis.mechanisms.len(), &cost)?;
-        }
-        let own = &fit.hypothesis.mechanisms[beside.hypothesis.mechanisms.len()..];
-        let choice = own.iter().map(|(law, _)| cost(*law)).sum();
-        let mut steps = composed.map_or_else(Vec::new, |composed| composed.steps);
-        steps.push(fit.clone());
-        composed =
-            Some(Composed { laws: own.len(), gain: fit.log_evidence - beside.log_evidence - choice, choice, fit, others, steps });
     }
-    Ok(composed)
+    let composed = |Path { fit, others, steps }: Path| Composed {
+        laws: fit.hypothesis.mechanisms.len() - first,
+        gain: net(&fit) - without,
+        choice: choice(&fit),
+        fit,
+        others,
+        steps,
+    };
+    Ok((!best.steps.is_empty()).then(|| composed(best)))
+}
+
+/// Laws that were added one after another.
+#[derive(Clone)]
+struct Path {
+    fit: Fit,
+    /// As [`Composed::others`].
+    others: Vec<(usize, f64)>,
+    steps: Vec<Fit>,
+}
+
+/// ln of evidence that a fit gains where its noise is fitted anew from that of another: of two fits, one may have found a likelier noise. At least 0.
+///
+/// # Errors
+/// As [`compose`].
+pub fn gained_by_noise_of<M: ForwardModel>(
+    model: &M,
+    records: &[usize],
+    observations: &[Observation],
+    fit: &Fit,
+    other: &Fit,
+) -> Result<f64, Error<M::Error>> {
+    let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
+    let from = Fit { noise: other.noise.clone(), ..fit.clone() };
+    let again = defined(fitter.fit_with_noise(&fit.hypothesis, &from, 2))?;
+    Ok(again.map_or(0.0, |again| (again.log_evidence - fit.log_evidence).max(0.0)))
 }
 
 /// A fit, unless its law is no number somewhere on the way: then it is no law for these records.
@@ -145,6 +178,64 @@ fn defined<E>(fit: Result<Fit, Error<E>>) -> Result<Option<Fit>, Error<E>> {
 }
 
 impl<M: ForwardModel> Fitter<'_, M> {
+    /// A path with one law more, for every law of the likeliest that gains enough; and ln evidence without it, the noise as well fitted as with it.
+    fn lengthened(
+        &self,
+        path: &Path,
+        laws: &Range<usize>,
+        breadth: Breadth,
+        cost: &impl Fn(usize) -> f64,
+        first: usize,
+    ) -> Result<(f64, Vec<Path>), Error<M::Error>> {
+        let known = &path.fit;
+        let last = |fit: &Fit| fit.hypothesis.mechanisms.last().map_or(0, |(law, _)| *law);
+        let net = |fit: &Fit| fit.log_evidence - cost(last(fit));
+        // noise that has not swallowed what is sought
+        let noise = known.noise.calmed(self.model.channels(), self.observations)?;
+        let Some(base) = defined(self.fit(&known.hypothesis, &noise, Some(known)))? else {
+            return Ok((known.log_evidence, Vec::new()));
+        };
+        let taken = known.hypothesis.numbers();
+        let mut fits = Vec::new();
+        let mut ranked = self.ranked(laws.clone().filter(|law| !taken.contains(law)), &base)?;
+        ranked.sort_by(|a, b| (b.0 - cost(b.1.mechanism)).total_cmp(&(a.0 - cost(a.1.mechanism))));
+        for (_, law) in ranked.into_iter().take(breadth.followed) {
+            let mut hypothesis: Hypothesis = base.hypothesis.clone();
+            hypothesis.mechanisms.push((law.mechanism, None));
+            let mut from = base.clone();
+            from.active.push(law);
+            fits.extend(defined(self.screened(&hypothesis, &from))?);
+        }
+        fits.sort_by(|a, b| net(b).total_cmp(&net(a)));
+        let mut own = Vec::new();
+        for fit in fits.iter().take(breadth.likeliest) {
+            own.extend(defined(self.fit_with_noise(&fit.hypothesis, fit, 2))?);
+        }
+        own.sort_by(|a, b| net(b).total_cmp(&net(a)));
+        // the noise that a law leaves may be likelier without the law, too, than the noise that was found without it
+        let mut without = known.log_evidence;
+        for other in own.first().map(|best| &best.noise).into_iter().chain([&noise]) {
+            let from = Fit { noise: other.clone(), ..known.clone() };
+            let again = defined(self.fit_with_noise(&known.hypothesis, &from, 2))?;
+            without = again.map_or(without, |fit| without.max(fit.log_evidence));
+        }
+        let mut longer = Vec::new();
+        for (place, best) in own.iter().enumerate().take(1 + breadth.turnings) {
+            if net(best) - without < WORTH {
+                break;
+            }
+            let beside = own.iter().enumerate().filter(|(other, _)| *other != place);
+            let others = beside.map(|(_, fit)| (last(fit), net(best) - net(fit))).collect();
+            let mut fit = best.clone();
+            if breadth.earlier == Earlier::Weighed {
+                fit = self.weighed(fit, first, cost)?;
+            }
+            let steps = path.steps.iter().cloned().chain([fit.clone()]).collect();
+            longer.push(Path { fit, others, steps });
+        }
+        Ok((without, longer))
+    }
+
     /// A fit without those of its laws, from number `first` on and before the last, that gain less than they cost.
     fn weighed(&self, mut fit: Fit, first: usize, cost: &impl Fn(usize) -> f64) -> Result<Fit, Error<M::Error>> {
         let mut place = first;
@@ -168,7 +259,9 @@ impl<M: ForwardModel> Fitter<'_, M> {
         let mut ranked: Vec<(f64, Active)> = Vec::new();
         for law in laws {
             let omission = &self.model.mechanisms()[law];
-            let Prior::Normal { sd, .. } = omission.parameters[0].prior else { continue };
+            let prior = omission.parameters[0].prior;
+            let (Prior::Normal { .. } | Prior::Size { .. }) = prior else { continue };
+            let sd = prior.sd();
             let mut most: Option<(f64, Active)> = None;
             for start in &omission.starts {
                 let own = Active { mechanism: law, values: start.clone(), choice: None };
@@ -180,7 +273,7 @@ impl<M: ForwardModel> Fitter<'_, M> {
                         column.extend(base.noise.whiten(at, channel, &per_sd));
                     }
                 }
-                let Some((gain, amplitude)) = gained(base, column) else { continue };
+                let Some((gain, amplitude)) = gained(base, column, prior) else { continue };
                 if most.as_ref().is_none_or(|(most, _)| gain > *most) {
                     let mut values = start.clone();
                     values[0] = amplitude * sd;
@@ -193,11 +286,23 @@ impl<M: ForwardModel> Fitter<'_, M> {
     }
 }
 
-/// ln evidence that a whitened function gains beside a fit, its amplitude known beforehand to a standard deviation of 1, and the likeliest amplitude;
-/// `None` if it is not finite.
-fn gained(base: &Fit, column: Vec<f64>) -> Option<(f64, f64)> {
+/// ln evidence that a whitened function gains beside a fit, its amplitude known beforehand as `prior` says, in whose standard deviations it is, and the
+/// likeliest amplitude; `None` if it is not finite.
+fn gained(base: &Fit, column: Vec<f64>, prior: Prior) -> Option<(f64, f64)> {
     let (free, gradient) = base.marginal(&DMatrix::from_vec(column.len(), 1, column));
-    let (precision, along) = (1.0 + free[0].max(0.0), gradient[0]);
-    let gain = along * along / precision / 2.0 - precision.ln() / 2.0;
-    gain.is_finite().then_some((gain, along / precision))
+    let (free, along) = (free[0].max(0.0), gradient[0]);
+    let precision = 1.0 + free;
+    let normal = (along * along / precision / 2.0 - precision.ln() / 2.0, along / precision);
+    // far out the data alone say how large it is
+    let largest = match prior {
+        Prior::Size { scale } if normal.1.abs() > 1.0 => {
+            let amplitude = along / free;
+            let u = prior.standard(amplitude * scale);
+            let slope = (prior.value(u + 1e-3) - prior.value(u - 1e-3)) / 2e-3 / scale;
+            (along * along / free / 2.0 - u * u / 2.0 - (1.0 + free * slope * slope).ln() / 2.0, amplitude)
+        }
+        _ => normal,
+    };
+    let (gain, amplitude) = if largest.0 > normal.0 { largest } else { normal };
+    gain.is_finite().then_some((gain, amplitude))
 }

@@ -1,7 +1,6 @@
 //! What a fit predicts of a record that it has not seen.
 
 use crate::fit::{Fit, Offset, expected};
-use crate::noise::Noise;
 use crate::{Error, ForwardModel, Observation};
 
 /// A fit judged on a record that it has not seen.
@@ -102,7 +101,7 @@ fn judged<M: ForwardModel>(
     observed: &Observation,
     judge: &Fit,
 ) -> Result<HeldOut, Error<M::Error>> {
-    let noise = Noise::of_record(&judge.noise, 0, observed)?;
+    let noise = judge.noise.pooled(observed)?;
     let (mut rmse, mut log_score) = (Vec::new(), 0.0);
     for (c, (predicted, recorded)) in prediction.iter_mut().zip(&observed.channels).enumerate() {
         let channel = &model.channels()[c];
@@ -121,7 +120,7 @@ fn judged<M: ForwardModel>(
     }
     let floor = |most: f64| {
         let of = |(c, channel): (usize, &crate::Channel)| {
-            let n = judge.noise.model(0, c);
+            let n = noise.model(0, c);
             n.white.hypot(n.drift.min(most * channel.noise.drift.0)).hypot(n.passed)
         };
         model.channels().iter().enumerate().map(of).collect()

@@ -82,7 +82,7 @@ impl Fit {
     /// A channel's residual in a record that was not fitted, whitened by the noise of the first record that was; only the rows that
     /// were observed. Empty where the instants do not increase.
     pub fn whiten(&self, channel: usize, observed: &Observation, residual: &[f64]) -> Vec<f64> {
-        Noise::of_record(&self.noise, 0, observed).map_or(Vec::new(), |noise| noise.whiten(0, channel, residual))
+        self.noise.pooled(observed).map_or(Vec::new(), |noise| noise.whiten(0, channel, residual))
     }
 
     /// The whitened residual of a channel in one of the records fitted, under the noise of `judge`, with the rows it belongs to.

@@ -11,6 +11,8 @@ use std::sync::Arc;
 pub(crate) struct Noise {
     models: Vec<Vec<NoiseModel>>,
     whiteners: Arc<Vec<Vec<Whitener>>>,
+    /// of each record's rows \[s\]
+    intervals: Vec<f64>,
     /// ln p of the noise's own parameters under their priors
     pub(crate) log_prior: f64,
 }
@@ -53,6 +55,11 @@ fn least(cost: impl Fn(&Standard) -> f64, start: Standard) -> Standard {
     standard(&nelder_mead(|x| cost(&standard(x)), &start, &edges, &anywhere, EFFORT).0)
 }
 
+/// Of a record's rows \[s\]; 1 of one that has none.
+fn interval(observed: &Observation) -> f64 {
+    recording::median_interval(&observed.time).unwrap_or(1.0)
+}
+
 fn mask(series: &[f64]) -> Vec<bool> {
     series.iter().map(|v| !v.is_nan()).collect()
 }
@@ -74,7 +81,31 @@ impl Noise {
             models.iter().zip(&o.channels).map(|(m, series)| Whitener::new(m, &o.time, &mask(series))).collect()
         };
         let whiteners = models.iter().zip(observations).map(of).collect::<Result<Vec<_>, _>>()?;
-        Ok(Self { models, whiteners: Arc::new(whiteners), log_prior })
+        let intervals = observations.iter().map(interval).collect();
+        Ok(Self { models, whiteners: Arc::new(whiteners), intervals, log_prior })
+    }
+
+    /// What all records say of the noise of another one: means of the variances, white noise of means as it falls with the length of rows.
+    pub(crate) fn pooled(&self, observed: &Observation) -> Result<Self, recording::Error> {
+        let rows = interval(observed);
+        let channels = 0..self.models.first().map_or(0, Vec::len);
+        let model = |c: usize| {
+            let of = |size: &dyn Fn(&NoiseModel, f64) -> f64| {
+                let each = self.models.iter().zip(&self.intervals).map(|(models, interval)| size(&models[c], *interval).powi(2));
+                (each.sum::<f64>() / self.models.len() as f64).sqrt()
+            };
+            let white =
+                |m: &NoiseModel, interval: f64| if m.averaging > 0.0 { m.white * (interval / rows).sqrt() } else { m.white };
+            NoiseModel {
+                white: of(&white),
+                drift: of(&|m, _| m.drift),
+                drift_time: of(&|m, _| m.drift_time),
+                walk: of(&|m, _| m.walk),
+                passed: of(&|m, _| m.passed),
+                ..self.models[0][c]
+            }
+        };
+        Self::with(vec![channels.map(model).collect()], 0.0, std::slice::from_ref(observed))
     }
 
     /// The same with no more drift and walk than expected beforehand: what an unexplained effect swells is cut back.
@@ -152,6 +183,25 @@ impl Noise {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn records_of_other_rows_say_the_same_of_a_record_in_any_order() {
+        let of =
+            |every: f64| Observation { time: (0..50).map(|n| every * f64::from(n)).collect(), channels: vec![vec![0.0; 50]] };
+        let model =
+            |every: f64, white: f64| vec![NoiseModel { drift: 0.3, drift_time: 900.0, ..NoiseModel::white(white, every) }];
+        let white = |order: [usize; 2], held: f64| {
+            let [fine, coarse] = [(of(60.0), model(60.0, 2.0)), (of(240.0), model(240.0, 1.0))];
+            let all = [fine, coarse];
+            let (observations, models) = order.map(|k| all[k].clone()).into_iter().unzip::<_, _, Vec<_>, Vec<_>>();
+            let pooled = Noise::with(models, 0.0, &observations).and_then(|noise| noise.pooled(&of(held))).expect("noise");
+            *pooled.model(0, 0)
+        };
+        for order in [[0, 1], [1, 0]] {
+            assert!((white(order, 60.0).white - 2.0).abs() < 1e-12 && (white(order, 15.0).white - 4.0).abs() < 1e-12);
+            assert!((white(order, 60.0).drift - 0.3).abs() < 1e-12);
+        }
+    }
 
     #[test]
     fn the_least_cost_is_found_from_the_middles_of_the_priors() {

@@ -13,6 +13,12 @@ pub enum Prior {
         /// Standard deviation, > 0.
         sd: f64,
     },
+    /// A size of either sign whose order of magnitude is uncertain, scale · sinh(u)/sinh(1): near 0 as a normal one, far out as one whose logarithm is
+    /// normal (Johnson, *Biometrika* 36, 149 (1949), system S_U). Ten times the scale costs five of ln evidence, where a normal prior would take fifty.
+    Size {
+        /// Value at u = 1, > 0.
+        scale: f64,
+    },
     /// Its logarithm is normal.
     LogNormal {
         /// Median, > 0.
@@ -29,6 +35,9 @@ pub enum Prior {
     },
 }
 
+/// sinh(1).
+const SINH_1: f64 = 1.175_201_193_643_801_4;
+
 /// Largest |u| that is looked at: 1 in 10¹⁵ of a prior lies beyond.
 const MOST: f64 = 8.0;
 
@@ -38,6 +47,7 @@ impl Prior {
         let u = u.clamp(-MOST, MOST);
         match *self {
             Prior::Normal { mean, sd } => mean + sd * u,
+            Prior::Size { scale } => scale * u.sinh() / SINH_1,
             Prior::LogNormal { median, spread } => median * (spread * u).exp(),
             Prior::Uniform { low, high } => low + (high - low) * Normal::standard().cdf(u),
         }
@@ -52,6 +62,7 @@ impl Prior {
     pub fn standard(&self, value: f64) -> f64 {
         let u = match *self {
             Prior::Normal { mean, sd } => (value - mean) / sd,
+            Prior::Size { scale } => (value / scale * SINH_1).asinh(),
             Prior::LogNormal { median, spread } => (value.max(f64::MIN_POSITIVE) / median).ln() / spread,
             Prior::Uniform { low, high } => {
                 Normal::standard().inverse_cdf(((value - low) / (high - low)).clamp(1e-15, 1.0 - 1e-15))
@@ -99,6 +110,7 @@ mod tests {
     fn value_and_standard_are_each_other_s_inverse() {
         for prior in [
             Prior::Normal { mean: 3.0, sd: 0.2 },
+            Prior::Size { scale: 0.7 },
             Prior::LogNormal { median: 5e-4, spread: 1.3 },
             Prior::Uniform { low: -40.0, high: 60.0 },
         ] {
@@ -106,6 +118,14 @@ mod tests {
                 assert!((prior.standard(prior.value(u)) - u).abs() < 1e-6, "{prior:?} at {u}");
             }
         }
+    }
+
+    #[test]
+    fn a_size_is_as_likely_to_either_side_and_may_be_large() {
+        let (size, normal) = (Prior::Size { scale: 2.0 }, Prior::Normal { mean: 0.0, sd: 2.0 });
+        assert!((size.value(1.0) - 2.0).abs() < 1e-12 && (size.sd() - 2.0).abs() < 1e-12 && size.value(-1.5) == -size.value(1.5));
+        let cost = |prior: Prior| prior.standard(20.0).min(10.0).powi(2) / 2.0;
+        assert!((4.9..5.1).contains(&cost(size)) && cost(normal) > 30.0, "{}", cost(size));
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::input::InputError;
+use crate::shown_path;
 
 /// Errors of reading and writing. Complete on purpose: a program gives each its exit status.
 #[derive(Debug, thiserror::Error)]
@@ -14,7 +15,7 @@ pub enum Error {
     #[error("{0}")]
     Usage(String),
     /// A result cannot be written.
-    #[error("{}: cannot be written: {source}; give a path in a folder that exists and is writable", file.display())]
+    #[error("{}: cannot be written: {source}; give a path in a folder that exists and is writable", shown_path(file))]
     Output {
         /// The file.
         file: PathBuf,
@@ -22,7 +23,7 @@ pub enum Error {
         source: std::io::Error,
     },
     /// A cell could not be solved.
-    #[error("{}: {source}", file.display())]
+    #[error("{}: {source}", shown_path(file))]
     Homogenization {
         /// The cell file.
         file: PathBuf,
@@ -30,7 +31,7 @@ pub enum Error {
         source: homogenization::Error,
     },
     /// A coil could not be solved.
-    #[error("{}: {source}", file.display())]
+    #[error("{}: {source}", shown_path(file))]
     Coil {
         /// The coil file.
         file: PathBuf,

@@ -6,6 +6,8 @@ use std::path::PathBuf;
 use recording::check::FindingKind;
 use serde::{Serialize, Serializer};
 
+use crate::shown_path;
+
 /// What a remark is about and what to do: the columns of the table below.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Explanation {
@@ -288,7 +290,7 @@ impl Note {
 
     /// What is said where it stands among its like: `FILE: text [id]`.
     pub fn message(&self) -> String {
-        let place = self.place.as_ref().map_or(String::new(), |file| format!("{}: ", file.display()));
+        let place = self.place.as_ref().map_or(String::new(), |file| format!("{}: ", shown_path(file)));
         format!("{place}{} [{}]", self.text, self.remark.id())
     }
 

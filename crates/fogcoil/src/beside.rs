@@ -1,8 +1,10 @@
 //! What mechanisms of a user's own add to a simulation.
 
 use diagnosis::{Active, ForwardModel, expected};
+use files::shown_path;
 use mechanisms::{Chamber, Gyro, Library, Mechanism, Prepared, RATE, SPOOL};
 use progress::Step;
+use recording::Seconds;
 
 use crate::Error;
 use crate::cache::Cache;
@@ -20,9 +22,10 @@ pub(crate) fn under<'m>(
     mechanisms: &[&'m dyn Mechanism],
     profile: &ProfileCase,
 ) -> Result<Gyro<'m>, coil::Error> {
-    let (time, chamber) = divided(&profile.profile.time, profile.chamber());
+    let [time, chamber] = [&profile.profile.time, profile.chamber()].map(divided);
     let prepared = Prepared::under(&library, &time, &Chamber::given(&time, &chamber), 0.0)?;
-    Gyro::new(library, mechanisms, vec![prepared])
+    let beside = profile.further.iter().map(|(name, values)| (name.clone(), divided(values))).collect();
+    Gyro::new(library, mechanisms, vec![prepared.with_columns(beside)])
 }
 
 /// A response of such a library at the profile's rows: thermometer, and rate as a mean since the row before.
@@ -33,12 +36,9 @@ pub(crate) fn at_rows(response: &[Vec<f64>]) -> [Vec<f64>; 2] {
     [spool.iter().copied().step_by(PARTS).collect(), rate]
 }
 
-fn divided(time: &[f64], course: &[f64]) -> (Vec<f64>, Vec<f64>) {
-    let divided = |x: &[f64]| {
-        let between = x.windows(2).flat_map(|w| (1..=PARTS).map(|k| w[0] + (w[1] - w[0]) * k as f64 / PARTS as f64));
-        x.first().copied().into_iter().chain(between).collect()
-    };
-    (divided(time), divided(course))
+fn divided(course: &[f64]) -> Vec<f64> {
+    let between = course.windows(2).flat_map(|w| (1..=PARTS).map(|k| w[0] + (w[1] - w[0]) * k as f64 / PARTS as f64));
+    course.first().copied().into_iter().chain(between).collect()
 }
 
 impl Simulation<'_> {
@@ -61,10 +61,10 @@ impl Simulation<'_> {
         }
         let values = own.iter().map(MechanismCase::at).collect::<Result<Vec<_>, _>>()?;
         for MechanismCase { file, mechanism, .. } in own {
-            if let Some(column) = mechanism.columns().first() {
+            if let Some(column) = mechanism.columns().into_iter().find(|column| !profile.further.contains_key(*column)) {
                 let text = format!(
-                    "--mechanism: {}: its law names the column {column}, which no profile has; leave the mechanism out",
-                    file.display()
+                    "--mechanism: {}: its law names the column {column}, which the record of a thermometer has not; give a --profile with it",
+                    shown_path(file)
                 );
                 return Err(Error::usage(text));
             }
@@ -74,7 +74,7 @@ impl Simulation<'_> {
         let gyro = under(library(case, cache, progress)?, &kinds, profile).map_err(at)?;
         let place = |(own, values): (&MechanismCase, Vec<f64>)| {
             let id = &own.mechanism.id;
-            let none = || Error::usage(format!("--mechanism: {}: the design has no place for `{id}`", own.file.display()));
+            let none = || Error::usage(format!("--mechanism: {}: the design has no place for `{id}`", shown_path(&own.file)));
             let mechanism = gyro.find(id).ok_or_else(none)?;
             Ok(Active { mechanism, values, choice: None })
         };
@@ -86,8 +86,8 @@ impl Simulation<'_> {
         self.added = rows.map(|n| [SPOOL, RATE].map(|channel| with[channel][n] - without[channel][n])).collect();
         match self.added.iter().position(|row| row.iter().any(|value| !value.is_finite())) {
             Some(row) => {
-                let files: Vec<String> = own.iter().map(|own| own.file.display().to_string()).collect();
-                let at = profile.profile.time[row];
+                let files: Vec<String> = own.iter().map(|own| shown_path(&own.file)).collect();
+                let at = Seconds(profile.profile.time[row]);
                 let text =
                     format!("--mechanism: {}: no finite number at {at} s; bound the law, e.g. by max(...)", files.join(", "));
                 Err(Error::usage(text))

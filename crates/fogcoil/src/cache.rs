@@ -2,14 +2,17 @@
 //!
 //! A file is named by the SHA-256 of everything the model depends on: the format, the build of the program, the purpose and the key. It
 //! holds a magic number, the format, a SHA-256 over name and payload, and the payload (postcard; doubles bit for bit). What is
-//! truncated, spoilt or of another model fails the check and is built anew. A checksum is no signature: who may write to the folder can
-//! also put a wrong model there. Nothing here is an error: where no file can be read or written, models are built each time.
+//! truncated, spoilt or of another model fails the check and is built anew. A checksum is no signature: on Unix a file counts only if it
+//! belongs to the user, or to the system's administrator, and nobody else may write to it. Nothing here is an error: where no file can be
+//! read or written, models are built each time.
 
 use std::env;
 use std::fs::{self, File};
 use std::io::{Read, Write};
+#[cfg(unix)]
+use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -99,10 +102,29 @@ impl Cache {
     }
 }
 
-/// What the file of the code is, so that no model outlives the code that made it: its length \[bytes\] and when it was written.
-fn this_build(code: Option<&Path>) -> Option<(u64, Duration)> {
+/// What the file of the code is, so that no model outlives the code that made it: its length \[bytes\], when it was written, and on Unix its
+/// place on the disk and when it was put there, as archives and packages may give every build the same instant of writing.
+fn this_build(code: Option<&Path>) -> Option<impl Serialize + use<>> {
     let about = fs::metadata(code.map_or_else(env::current_exe, |file| Ok(file.to_owned())).ok()?).ok()?;
-    Some((about.len(), about.modified().ok()?.duration_since(UNIX_EPOCH).ok()?))
+    #[cfg(unix)]
+    let place = (about.dev(), about.ino(), about.ctime(), about.ctime_nsec());
+    #[cfg(not(unix))]
+    let place = ();
+    Some((about.len(), about.modified().ok()?.duration_since(UNIX_EPOCH).ok()?, place))
+}
+
+/// Whether nobody but the user, or the system's administrator, can have written a file.
+#[cfg(unix)]
+fn is_ours(about: &fs::Metadata) -> bool {
+    /// Write permission of a group or of everybody.
+    const OTHERS: u32 = 0o022;
+    [rustix::process::geteuid().as_raw(), 0].contains(&about.uid()) && about.mode() & OTHERS == 0
+}
+
+/// The same where files have other permissions: those of the user's folder.
+#[cfg(not(unix))]
+fn is_ours(_: &fs::Metadata) -> bool {
+    true
 }
 
 fn name(code: Option<&Path>, purpose: &str, key: &impl Serialize) -> Option<Name> {
@@ -124,6 +146,9 @@ fn load<T: DeserializeOwned>(path: &Path, name: &Name) -> Option<T> {
         return None;
     }
     let file = File::open(path).ok()?;
+    if !is_ours(&file.metadata().ok()?) {
+        return None;
+    }
     let mut bytes = Vec::new();
     // one byte more than allowed: what is too long fails like what is spoilt
     (&file).take(LARGEST + 1).read_to_end(&mut bytes).ok()?;
@@ -181,6 +206,7 @@ mod tests {
     };
     use serde_json::Value;
     use std::convert::Infallible;
+    use std::time::Duration;
 
     const QUICK: Fidelity = Fidelity { resolution: MeshFineness { order: 2, layers: 1, ratio: 0.2 }, modes: 6 };
 
@@ -252,6 +278,40 @@ mod tests {
         fs::remove_file(&file).unwrap();
         fs::create_dir(&file).unwrap();
         assert_eq!(get(&cache, 1, &[6.0]), (vec![6.0], Source::Built), "a folder in its place");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_that_others_can_have_written_is_built_anew() {
+        use std::os::unix::fs::{PermissionsExt, chown};
+        let (_folder, cache, file) = with_one(&MODEL);
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o666)).unwrap();
+        assert_eq!(get(&cache, 1, &[7.0]), (vec![7.0], Source::Built));
+        assert_eq!(get(&cache, 1, &[]), (vec![7.0], Source::Cached), "and kept again");
+        // only the administrator can give a file away
+        if chown(&file, Some(65534), None).is_ok() {
+            assert_eq!(get(&cache, 1, &[8.0]), (vec![8.0], Source::Built));
+            assert_eq!(get(&cache, 1, &[]), (vec![8.0], Source::Cached), "and kept again");
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn another_build_of_the_same_length_and_instant_is_another() {
+        let folder = tempfile::tempdir().unwrap();
+        let code = folder.path().join("code");
+        let install = |content: &str| {
+            let new = folder.path().join("new");
+            fs::write(&new, content).unwrap();
+            File::options().write(true).open(&new).unwrap().set_modified(UNIX_EPOCH).unwrap();
+            fs::rename(&new, &code).unwrap();
+        };
+        let cache = Cache::in_folder(folder.path().join("cache")).of_code_in(&code);
+        install("one");
+        assert_eq!(get(&cache, 1, &[1.0]), (vec![1.0], Source::Built));
+        assert_eq!(get(&cache, 1, &[]), (vec![1.0], Source::Cached));
+        install("two");
+        assert_eq!(get(&cache, 1, &[2.0]), (vec![2.0], Source::Built));
     }
 
     #[test]

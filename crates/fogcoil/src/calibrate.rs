@@ -189,7 +189,7 @@ impl Outcome {
         let (design, tolerances) = self.design();
         let name = format!("{}, calibrated", self.case.name);
         let unit = |files: &Vec<Fingerprint>| {
-            let names: Vec<String> = files.iter().map(|f| f.file.display().to_string()).collect();
+            let names: Vec<String> = files.iter().map(|f| files::shown_path(&f.file)).collect();
             format!("  {}", names.join(", "))
         };
         let heading = format!("{}, the lot of these good units, by fogcoil calibrate:", self.case.name);

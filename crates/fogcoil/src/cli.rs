@@ -15,7 +15,10 @@ use crate::cli_recommend::Recommend;
 
 /// Thermal bias of fibre-optic-gyroscope coils.
 #[derive(Parser)]
-#[command(version, after_help = "Exit status: 0 done; 2 bad usage or input; 1 the program's own failure; 130 interrupted.")]
+#[command(
+    version,
+    after_help = "Exit status: 0 done; 2 bad usage or input; 1 the program's own failure; 130 interrupted, 143 terminated, 129 hung up."
+)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,

@@ -62,12 +62,12 @@ fn relative_error(text: &str) -> Result<f64, String> {
 
 pub(crate) fn run(arguments: &Homogenize, progress: &Progress) -> Result<(), Error> {
     let Homogenize { cell, json, temperatures, vtu, svg, .. } = arguments;
-    output::check_outputs(&[cell], &[vtu.as_deref(), svg.as_deref()])?;
+    progress.reads(std::slice::from_ref(cell), &[vtu.as_deref(), svg.as_deref()])?;
     let any = input::read_any_cell(cell)?;
     let has_tables = matches!(&any, AnyCell::General(general) if general.temperatures().is_some());
     if !temperatures.is_empty() && !has_tables {
         let problem = "no constituent is a table over temperature: the constants are the same at all";
-        return Err(Error::usage(format!("{}: {problem}; leave --temperatures out", cell.display())));
+        return Err(Error::usage(format!("{}: {problem}; leave --temperatures out", files::shown_path(cell))));
     }
     let (text, object) = match any {
         AnyCell::Regular(case, general) => arguments.regular(&case, general, progress)?,

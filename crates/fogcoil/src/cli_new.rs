@@ -57,5 +57,5 @@ impl Kind {
 
 pub(crate) fn run(New { file, kind }: &New) -> Result<(), Error> {
     output::write_new(file, kind.template())?;
-    print(&format!("{} is written; try `{} {0}`\n", file.display(), kind.first()))
+    print(&format!("{} is written; try `{} {0}`\n", files::shown_path(file), kind.first()))
 }

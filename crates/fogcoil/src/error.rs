@@ -1,5 +1,6 @@
 //! Why a command did not finish.
 
+use coil::{Design, Spool};
 use mechanisms::Mechanism;
 use std::path::{Path, PathBuf};
 
@@ -16,7 +17,7 @@ pub enum Error {
     #[error("standard output cannot be written: {0}")]
     Stdout(std::io::Error),
     /// No cell of a kind could be solved.
-    #[error("{}: a kind of cells has none that can be solved; check its ranges", file.display())]
+    #[error("{}: a kind of cells has none that can be solved; check its ranges", files::shown_path(file))]
     Identification {
         /// The file of targets.
         file: PathBuf,
@@ -25,7 +26,7 @@ pub enum Error {
     #[error("the diagnosis failed: {0}")]
     Diagnosis(String),
     /// A simulation gave no number.
-    #[error("{}: the response at {time} s is not a finite number; this is the program's fault, please report it", file.display())]
+    #[error("{}: the response at {} s is not a finite number; this is the program's fault, please report it", files::shown_path(file), recording::Seconds(*time))]
     NotFinite {
         /// The profile.
         file: PathBuf,
@@ -34,14 +35,50 @@ pub enum Error {
     },
 }
 
+/// Film \[W/(m² K)\] that hardly lets heat through.
+const FAINT_FILM: f64 = 1e-3;
+/// Distance of Poisson's ratio from 1/2, at which a solid is incompressible.
+const INCOMPRESSIBLE: f64 = 1e-7;
+/// Modulus of the spool beside the coil's across the fibre.
+const SOFT: f64 = 1e-6;
+/// Overhang of a flange beside the coil's radius.
+const WIDE: f64 = 10.0;
+/// Radius beside the hub's thickness.
+const SLENDER: f64 = 1e4;
+
+/// The number of a design, and how to mend it, that most likely keeps its equations from being solved, if one stands out.
+fn outlier(design: &Design, part: &str) -> Option<(String, &'static str)> {
+    if part == "chamber" {
+        let faint = design.heat.film.is_some_and(|film| film < FAINT_FILM);
+        return faint.then(|| ("heat.film_w_per_m2k".into(), "give the film's conductance in W/(m2 K), e.g. Some(10.0)"));
+    }
+    let Spool { material, hub_thickness, flanges, .. } = design.spool.as_ref()?;
+    let wide = flanges.iter().position(|flange| flange.overhang > WIDE * design.body.outer_radius);
+    if material.elastic.poisson_ratio > 0.5 - INCOMPRESSIBLE {
+        Some(("spool.material.poisson_ratio".into(), "give the measured value, e.g. 0.33; of a solid it is clearly below 0.5"))
+    } else if material.elastic.youngs_modulus < SOFT * design.body.elastic.e_r {
+        Some(("spool.material.youngs_modulus_gpa".into(), "give the modulus in GPa, e.g. 68.9, or leave the spool out (None)"))
+    } else if let Some(flange) = wide {
+        Some((format!("spool.flanges[{flange}].overhang_mm"), "give the overhang beyond the coil in mm, e.g. 1.0"))
+    } else if design.winding.inner_radius > SLENDER * hub_thickness {
+        Some(("winding.inner_radius_mm".into(), "give the radius in mm, e.g. 43.5, and check spool.hub_thickness_mm"))
+    } else {
+        None
+    }
+}
+
 /// What to say of a design whose equations no factorisation solves: its numbers are too far apart.
 fn unsolvable(file: &Path, part: &str) -> InputError {
+    const FAR: &str = "too far apart to be solved in double precision";
+    if let Some((field, remedy)) = input::read_coil(file).ok().and_then(|case| outlier(&case.design, part)) {
+        return input::fault_in(file, &field, format!("this and the design's other numbers are {FAR}"), remedy.to_owned());
+    }
     let (field, numbers) = match part {
         "chamber" => ("heat", "heat.film_w_per_m2k, heat.mounts, conductivities, and thicknesses"),
         "coil" => ("coil", "coil.material"),
         _ => ("spool", "the stiffness of spool.material beside coil.material, thicknesses, and spool.flanges.overhang_mm"),
     };
-    let problem = "the design's numbers are too far apart to be solved in double precision".to_owned();
+    let problem = format!("the design's numbers are {FAR}");
     let remedy = format!("check {numbers}");
     input::fault_in(file, field, problem, remedy)
 }
@@ -49,11 +86,12 @@ fn unsolvable(file: &Path, part: &str) -> InputError {
 impl From<files::Error> for Error {
     fn from(error: files::Error) -> Self {
         use coil::Error::Solve;
-        use fem_core::Error::NotPositiveDefinite;
+        use fem_core::Error::{Mesh, NotPositiveDefinite, Residual, Step};
         match error {
-            files::Error::Coil { file, source: Solve { part, source: NotPositiveDefinite { .. } } } => {
-                unsolvable(&file, part).into()
-            }
+            files::Error::Coil {
+                file,
+                source: Solve { part, source: Mesh(_) | NotPositiveDefinite { .. } | Residual { .. } | Step { .. } },
+            } => unsolvable(&file, part).into(),
             other => Self::File(other),
         }
     }

@@ -9,6 +9,7 @@ mod cli_manual;
 mod cli_new;
 mod cli_recommend;
 mod progress;
+mod signals;
 
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -20,7 +21,7 @@ use cli::{Cli, Command, Diagnose, Simulate};
 use cli_check::Check;
 use coil::Drive;
 use fogcoil::cache::Cache;
-use fogcoil::glossary::Remark;
+use fogcoil::glossary::{Note, Remark};
 use fogcoil::input::{Between, RecordOptions};
 use fogcoil::output::Content;
 use fogcoil::{
@@ -28,14 +29,26 @@ use fogcoil::{
 };
 
 fn main() -> ExitCode {
-    match run(&Cli::parse()) {
+    let cli = Cli::try_parse().unwrap_or_else(|error| refuse(&error));
+    match run(&cli) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             // nobody is left to tell if standard error is closed
-            let _ = writeln!(std::io::stderr().lock(), "error: {error}");
+            let _ = writeln!(std::io::stderr().lock(), "error: {}", files::shown_lines(&error.to_string()));
             ExitCode::from(error.exit_code())
         }
     }
+}
+
+/// Ends the program with what the command line's reader says, whose colours go where a name would give a terminal orders.
+fn refuse(error: &clap::Error) -> ! {
+    let text = error.render().to_string();
+    let shown = files::shown_lines(&text);
+    if shown == text {
+        error.exit();
+    }
+    let _ = write!(std::io::stderr().lock(), "{shown}");
+    std::process::exit(error.exit_code())
 }
 
 fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
@@ -98,7 +111,9 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
     let (fits, holdouts) = progress.during("reading the records", || Ok::<_, Error>((read(fits)?, read(holdouts)?)))?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
     let outcome = progress.tasks(|tell| diagnose::diagnose(&case, &asked.with_catalogue(), &fits, &holdouts, &cache, tell))?;
-    progress.tell(outcome.notes());
+    // the text that is printed begins with the warnings
+    let not_in_text = |note: &&Note| *json == Some(None) || !note.is_warning();
+    progress.tell(&outcome.notes().iter().filter(not_in_text).cloned().collect::<Vec<_>>());
     let object = line(&outcome.json());
     let mut files = Vec::new();
     files.extend(json_file.map(|path| (path, Content::Text(object.clone()))));
@@ -116,7 +131,6 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
     }
     let laws = outcome.laws()?.into_iter();
     let laws: Vec<(PathBuf, String)> = laws.filter_map(|(id, text)| Some((beside(model_out.as_deref()?, &id), text))).collect();
-    output::check_outputs(&inputs, &laws.iter().map(|(path, _)| Some(path.as_path())).collect::<Vec<_>>())?;
     files.extend(laws.iter().map(|(path, text)| (path.as_path(), Content::Text(text.clone()))));
     let page = || progress.during("drawing the report, with the test to make next", || outcome.report());
     files.extend(report.as_deref().map(|path| (path, Content::Text(page()))));
@@ -133,15 +147,15 @@ fn run_check(arguments: &Check, progress: &Progress) -> Result<(), Error> {
     let Check { record, format, meta, write_map, json, svg } = arguments;
     let quiet = progress.is_silent();
     let options = format.options(meta.clone());
-    output::check_outputs(&options.files(record), &[svg.as_deref()])?;
-    let reading = format!("reading {}", record.display());
-    let case = match write_map {
+    let map = write_map.as_ref().map(|path| path.clone().unwrap_or_else(|| record.with_extension("map.ron")));
+    progress.reads(&options.files(record).into_iter().chain(map.clone()).collect::<Vec<_>>(), &[svg.as_deref()])?;
+    let reading = format!("reading {}", files::shown_path(record));
+    let case = match map {
         None => progress.during(&reading, || input::read_record(record, &options))?,
         Some(path) => {
-            let path = path.clone().unwrap_or_else(|| record.with_extension("map.ron"));
             let (map, case) = progress.during(&reading, || input::propose_map(record, &options))?;
             output::write_new(&path, &map)?;
-            progress.note(&format!("{} is written", path.display()));
+            progress.note(&format!("{} is written", files::shown_path(&path)));
             case
         }
     };
@@ -158,7 +172,7 @@ fn run_check(arguments: &Check, progress: &Progress) -> Result<(), Error> {
     case.require_usable()?;
     match (svg, check::svg(&analysis)) {
         (Some(path), Some(picture)) => progress.save(&[(path, Content::Text(picture))]),
-        (Some(path), None) => Err(Error::usage(format!("{}: there is no Allan deviation to draw", path.display()))),
+        (Some(path), None) => Err(Error::usage(format!("{}: there is no Allan deviation to draw", files::shown_path(path)))),
         (None, _) => Ok(()),
     }
 }
@@ -168,7 +182,7 @@ const CLOSER: &str = "give the profile closer rows";
 
 fn run_trim(coil: &Path, profile: Option<&Path>, json: bool, progress: &Progress) -> Result<(), Error> {
     let case = progress.read_coil(coil)?;
-    let mut profile = profile.map(|path| input::read_profile(path, &case.design)).transpose()?;
+    let mut profile = profile.map(|path| input::read_profile(path, &case.design, &[])).transpose()?;
     if let Some(profile) = &mut profile {
         profile.note_long_rows(CLOSER);
         progress.tell(&profile.notes);
@@ -179,7 +193,9 @@ fn run_trim(coil: &Path, profile: Option<&Path>, json: bool, progress: &Progress
 
 fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> {
     let Simulate { coil, profile, between, step, spool, spool_noise, mechanisms, out, report, band, json, no_cache } = arguments;
-    let own = input::read_mechanisms(mechanisms)?.files_alone()?;
+    let asked = input::read_mechanisms(mechanisms)?;
+    let further = asked.further_columns();
+    let own = asked.files_alone()?;
     let inputs: Vec<PathBuf> = [profile, spool].into_iter().flatten().chain(mechanisms).cloned().collect();
     let case = progress.read_coil_for(coil, &inputs, &[Some(out), report.as_deref(), band.as_deref()])?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
@@ -192,14 +208,16 @@ fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> 
     };
     let ((model, fields), profile) = match (profile, spool) {
         (_, Some(spool)) => {
-            let record = progress.during(&format!("reading {}", spool.display()), || input::read_spool(spool, &case.design))?;
+            let record =
+                progress.during(&format!("reading {}", files::shown_path(spool)), || input::read_spool(spool, &case.design))?;
             let model = model(&record.drives)?;
             let profile = progress.during("inferring the chamber", || simulate::infer(record, *spool_noise, &model.0))?;
             (model, profile)
         }
         (Some(profile), None) => {
-            let mut profile =
-                progress.during(&format!("reading {}", profile.display()), || input::read_profile(profile, &case.design))?;
+            let mut profile = progress.during(&format!("reading {}", files::shown_path(profile)), || {
+                input::read_profile(profile, &case.design, &further)
+            })?;
             profile.between = *between;
             match (step, between) {
                 (Some(step), Between::Linear) => profile.divide(*step)?,
@@ -227,7 +245,7 @@ fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> 
         let measured = progress.during("solving on finer meshes", || figures::Convergence::measure(&case, &cache))?;
         files.push((path, Content::Text(report::html(&simulation, fields.as_ref(), Some(&measured)))));
     }
-    progress.during(&format!("writing {}", out.display()), || progress.save(&files))?;
+    progress.during(&format!("writing {}", files::shown_path(out)), || progress.save(&files))?;
     let mut object = summary::json(&simulation);
     object["tolerances"] = within.as_ref().map_or(serde_json::Value::Null, band::CourseBand::json);
     let told = within.as_ref().map_or(String::new(), band::CourseBand::text);
@@ -235,12 +253,12 @@ fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> 
 }
 
 fn line(json: &serde_json::Value) -> String {
-    format!("{json}\n")
+    files::shown_json(&json.to_string()) + "\n"
 }
 
-/// Writes to standard output; a reader that has left is no error.
+/// Writes to standard output what no terminal obeys; a reader that has left is no error.
 fn print(text: &str) -> Result<(), Error> {
     let mut stdout = std::io::stdout().lock();
-    let written = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
+    let written = stdout.write_all(files::shown_lines(text).as_bytes()).and_then(|()| stdout.flush());
     written.or_else(|error| if error.kind() == ErrorKind::BrokenPipe { Ok(()) } else { Err(Error::Stdout(error)) })
 }

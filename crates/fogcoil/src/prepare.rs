@@ -5,15 +5,15 @@ use std::collections::BTreeMap;
 use bias::units::S_PER_MIN;
 use coil::COARSE;
 use diagnosis::Observation;
-use files::{Note, Remark};
+use files::{Note, Remark, shown_path};
 use mechanisms::{
     CATALOGUE, Chamber, Gyro, Instrument, Instruments, Library, Mechanism, Models, Prepared, RATE as RATE_NUMBER,
     SPOOL as SPOOL_NUMBER, USUAL_NOISE,
 };
 use progress::Step;
-use recording::Recording;
 use recording::check::{Severity, white_noise};
 use recording::condition::{Rest, Thinned, Thinning, Unrest, bridged, span, thinned, unrest};
+use recording::{Recording, median_interval};
 
 use crate::Error;
 use crate::cache::Cache;
@@ -249,12 +249,16 @@ fn earth_of(records: &[Record]) -> Option<f64> {
     records.iter().all(|record| told(record) == Some(first)).then_some(first)
 }
 
-/// White noise of thermometer and rate in a sample of some records, the quietest of them; `usual` where none tells.
+/// White noise of thermometer and rate in a sample as the first record has them, of the quietest of some records; `usual` where none tells. That of the
+/// rate, a mean, falls with the length of rows.
 fn noise_of(records: &[Record], usual: [f64; 2]) -> [f64; 2] {
+    let first = records.first().and_then(|r| median_interval(&r.observed.time));
     let of = |channel: usize| {
         let white = |r: &Record| {
             let values = &r.observed.channels[channel];
-            white_noise(&r.observed.time, values, &values.iter().map(|v| v.is_finite()).collect::<Vec<_>>())
+            let white = white_noise(&r.observed.time, values, &values.iter().map(|v| v.is_finite()).collect::<Vec<_>>())?;
+            let longer = median_interval(&r.observed.time).zip(first).map_or(1.0, |(own, first)| own / first);
+            Some(if channel == RATE_NUMBER { white * longer.sqrt() } else { white })
         };
         let each = records.iter().filter_map(white).filter(|sd| *sd > 0.0);
         each.reduce(f64::min).unwrap_or(usual[channel])
@@ -267,7 +271,7 @@ pub(crate) fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -
     let mut known: Vec<&Fingerprint> = Vec::new();
     for RecordCase { fingerprint, .. } in records {
         if let Some(first) = known.iter().find(|k| (k.bytes, k.fnv1a) == (fingerprint.bytes, fingerprint.fnv1a)) {
-            let problem = format!("is the same recording as {}", first.file.display());
+            let problem = format!("is the same recording as {}", shown_path(&first.file));
             let remedy = "give every recording once: what was fitted cannot judge";
             return Err(InputError::whole(&fingerprint.file, problem, remedy).into());
         }

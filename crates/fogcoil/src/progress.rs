@@ -3,6 +3,7 @@
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread;
@@ -14,6 +15,8 @@ use fogcoil::output::{self, Content};
 use fogcoil::{Error, input};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::signals;
+
 /// What takes this long is named.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// Interval between two pictures of a bar that turns.
@@ -21,10 +24,10 @@ const TICK: Duration = Duration::from_millis(120);
 /// A bar, and what stands for it where nothing can be counted.
 const COUNTED: &str = "{spinner} {msg} [{bar:32}] {percent} % {elapsed}";
 const UNCOUNTED: &str = "{spinner} {msg} {elapsed}";
-/// Longest that an interrupt waits for files which are being written.
+/// Longest that an interrupt waits for files which are being written; then it waits as long for them to be given up.
 const LEAVE: Duration = Duration::from_secs(5);
-/// Exit status of an interrupted program: 128 and the signal's number.
-const INTERRUPTED: i32 = 130;
+/// Exit status of an interrupted program: this and the signal's number.
+const INTERRUPTED: i32 = 128;
 
 #[derive(Clone, Copy, PartialEq)]
 enum How {
@@ -43,6 +46,10 @@ pub(crate) struct Progress {
     named: Mutex<String>,
     /// The files that are written; locked while some are being written.
     written: Arc<Mutex<Vec<String>>>,
+    /// Whether files that are being written are to be given up.
+    stop: Arc<AtomicBool>,
+    /// The files that the run reads: no result may replace one.
+    inputs: Mutex<Vec<PathBuf>>,
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -58,10 +65,16 @@ impl Progress {
             (false, true) => How::Bars,
             (false, false) => How::Lines,
         };
-        let progress = Self { how, bar: Arc::default(), named: Mutex::default(), written: Arc::default() };
-        let (bar, written) = (Arc::clone(&progress.bar), Arc::clone(&progress.written));
-        // without a handler the system's own stops the program; what is lost is tidiness
-        let _ = ctrlc::set_handler(move || leave(&bar, &written));
+        let progress = Self {
+            how,
+            bar: Arc::default(),
+            named: Mutex::default(),
+            written: Arc::default(),
+            stop: Arc::default(),
+            inputs: Mutex::default(),
+        };
+        let (bar, written, stop) = (Arc::clone(&progress.bar), Arc::clone(&progress.written), Arc::clone(&progress.stop));
+        signals::on_end(move |signal| leave(signal, &bar, &written, &stop));
         progress
     }
 
@@ -82,7 +95,7 @@ impl Progress {
             return;
         }
         // nobody is left to tell if standard error is closed
-        let say = || drop(writeln!(std::io::stderr().lock(), "{line}"));
+        let say = || drop(writeln!(std::io::stderr().lock(), "{}", files::shown(line)));
         match lock(&self.bar).as_ref() {
             Some(bar) => bar.suspend(say),
             None => say(),
@@ -149,15 +162,24 @@ impl Progress {
         result
     }
 
-    /// Writes files, if any, and says so; an interrupt waits until they are whole.
+    /// Keeps in mind files that the run reads, and refuses results that could not be written, or would replace one of all these.
+    pub(crate) fn reads(&self, inputs: &[PathBuf], outputs: &[Option<&Path>]) -> Result<(), Error> {
+        let mut known = lock(&self.inputs);
+        known.extend_from_slice(inputs);
+        Ok(output::check_outputs(&known, outputs)?)
+    }
+
+    /// Writes files, if any, and says so; an interrupt waits until they are whole. None of them replaces a file that the run
+    /// [reads](Self::reads).
     pub(crate) fn save(&self, files: &[(&Path, Content)]) -> Result<(), Error> {
         if files.is_empty() {
             return Ok(());
         }
-        let names: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
+        self.reads(&[], &files.iter().map(|(path, _)| Some(*path)).collect::<Vec<_>>())?;
+        let names: Vec<String> = files.iter().map(|(path, _)| files::shown_path(path)).collect();
         {
             let mut written = lock(&self.written);
-            output::write_files(files)?;
+            output::write_files_unless(&self.stop, files)?;
             written.extend_from_slice(&names);
         }
         self.note(&are_written(&names));
@@ -171,26 +193,28 @@ impl Progress {
         inputs: &[PathBuf],
         outputs: &[Option<&Path>],
     ) -> Result<input::CoilCase, Error> {
-        output::check_outputs(&[&[path.to_owned()], inputs].concat(), outputs)?;
+        self.reads(&[&[path.to_owned()], inputs].concat(), outputs)?;
         let case = self.read_coil(path)?;
         let files: Vec<PathBuf> = case.fingerprints.iter().map(|read| read.file.clone()).collect();
-        output::check_outputs(&files, outputs)?;
+        self.reads(&files, outputs)?;
         Ok(case)
     }
 
     /// Reads a coil file and says what in it looks like a mistake.
     pub(crate) fn read_coil(&self, path: &Path) -> Result<input::CoilCase, Error> {
-        let case = self.during(&format!("reading {}", path.display()), || input::read_coil(path))?;
+        let case = self.during(&format!("reading {}", files::shown_path(path)), || input::read_coil(path))?;
         case.warnings.iter().for_each(|warning| self.say(&warning.clone().at(path).line()));
         Ok(case)
     }
 }
 
-/// Ends the program that was interrupted, as soon as no file is being written, and says what is written.
-fn leave(bar: &Mutex<Option<ProgressBar>>, written: &Mutex<Vec<String>>) -> ! {
+/// Ends the program that was interrupted, as soon as no file is being written, and says what is written. Files that take long are
+/// given up.
+fn leave(signal: i32, bar: &Mutex<Option<ProgressBar>>, written: &Mutex<Vec<String>>, stop: &AtomicBool) -> ! {
     let asked = Instant::now();
     let mut files = written.try_lock();
-    while matches!(files, Err(TryLockError::WouldBlock)) && asked.elapsed() < LEAVE {
+    while matches!(files, Err(TryLockError::WouldBlock)) && asked.elapsed() < 2 * LEAVE {
+        stop.store(asked.elapsed() > LEAVE, Ordering::Relaxed);
         thread::sleep(Duration::from_millis(10));
         files = written.try_lock();
     }
@@ -200,7 +224,7 @@ fn leave(bar: &Mutex<Option<ProgressBar>>, written: &Mutex<Vec<String>>) -> ! {
     }
     // nobody is left to tell if standard error is closed
     let _ = writeln!(std::io::stderr().lock(), "interrupted; {state}");
-    process::exit(INTERRUPTED)
+    process::exit(INTERRUPTED + signal)
 }
 
 /// Says that files are written; of more than four it names the first.
@@ -234,6 +258,22 @@ mod tests {
             "a and 4 more files are written",
         ];
         assert_eq!(said, expected);
+    }
+
+    #[test]
+    fn no_file_that_the_run_reads_is_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let [read, new] = ["read.ron", "new.ron"].map(|name| folder.path().join(name));
+        std::fs::write(&read, "read").unwrap();
+        let progress = Progress::new(true);
+        progress.reads(std::slice::from_ref(&read), &[Some(&new)]).unwrap();
+        let text = || Content::Text("written".to_owned());
+        // a result whose name is known only once it is found
+        let refused = progress.save(&[(new.as_path(), text()), (read.as_path(), text())]);
+        assert!(refused.unwrap_err().to_string().contains("read.ron: is given twice, or is an input"));
+        assert!(progress.save(&[(new.as_path(), text()), (new.as_path(), text())]).is_err());
+        assert_eq!((std::fs::read_to_string(&read).unwrap().as_str(), new.exists()), ("read", false));
+        progress.save(&[(new.as_path(), text())]).unwrap();
     }
 
     #[test]

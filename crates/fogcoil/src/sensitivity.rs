@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use crate::input::{CoilCase, Origin, keyed};
 use crate::table::{plus_minus, significant, table};
+use crate::units::parameter_unit;
 
 /// What a number of the design contributes to a band.
 pub(crate) struct Share {
@@ -25,11 +26,13 @@ impl Share {
     /// Those of a design's band that are worth a line, the largest first.
     pub(crate) fn of(case: &CoilCase, band: &Band) -> Vec<Self> {
         let of = |((number, change), share): (&(Number, f64), &f64)| {
-            let (key, _) = keyed(*number, &case.design)?;
+            let (key, value) = keyed(*number, &case.design)?;
+            let drawn = number.of(&case.design)?;
+            // in the unit of the key; a length that is 0 is a tail's, in m
+            let in_unit = |si: f64| if drawn == 0.0 { si } else { si * value / drawn };
             let tolerance = match case.tolerances.of(*number) {
                 Tolerance::Relative(share) => format!("{} %", significant(100.0 * share, 2)),
-                Tolerance::Absolute(by) if *number == Number::Tail => format!("{} m", significant(by, 2)),
-                Tolerance::Absolute(by) => format!("{} mm", significant(1e3 * by, 2)),
+                Tolerance::Absolute(by) => format!("{} {}", significant(in_unit(by), 2), parameter_unit(key)),
                 Tolerance::Exact => return None,
             };
             (share.abs() >= WORTH).then_some(Self { key, tolerance, change: *change, share: *share })
@@ -97,7 +100,7 @@ pub fn text(case: &CoilCase, result: &SteadySensitivity, band: &Band) -> String 
 pub(crate) fn origin(origin: &Origin) -> String {
     match origin {
         Origin::Given => "as given in the file".into(),
-        Origin::Cell(path) => format!("homogenised from {}", path.display()),
+        Origin::Cell(path) => format!("homogenised from {}", files::shown_path(path)),
         Origin::Printed => "Table II of Osunluk et al. as printed, misprints included".into(),
     }
 }

@@ -1,6 +1,7 @@
 //! `fogcoil simulate`: a profile in, thermometer and bias out.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use bias::Bias;
@@ -186,6 +187,7 @@ pub fn infer(record: SpoolCase, noise: f64, model: &Model) -> Result<ProfileCase
     Ok(ProfileCase {
         drives,
         profile: Profile { time, drives: courses },
+        further: BTreeMap::new(),
         inferred: Some(inference),
         notes,
         fingerprint,

@@ -1,6 +1,7 @@
 //! What a simulation comes down to: peak, root mean square, and the slope on the thermometer's rate beside the steady sensitivity.
 
 use coil::Mechanics;
+use recording::Seconds;
 use serde_json::{Value, json};
 
 use crate::cache::Source;
@@ -194,7 +195,7 @@ pub fn text(simulation: &Simulation) -> String {
     if simulation.source == Source::Cached {
         rows.push(["model", "from the cache", ""].map(str::to_owned));
     }
-    format!("{} under {}\n\n{}", simulation.case.name, simulation.profile.fingerprint.file.display(), table(&rows))
+    format!("{} under {}\n\n{}", simulation.case.name, files::shown_path(&simulation.profile.fingerprint.file), table(&rows))
 }
 
 /// Name, value and unit of each number, for people.
@@ -215,7 +216,7 @@ pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
         entry("chamber", range(chamber), "degC"),
         entry("spool", format!("{} ± {}", range(spool), significant(errors.spool, 2)), "degC"),
         entry("largest |rate|", rate(peak.rate.abs(), sum), "deg/h"),
-        entry("  at", format!("{}", peak.time), &after),
+        entry("  at", Seconds(peak.time).to_string(), &after),
         entry("  shupe", rate(peak.shupe, shupe), "deg/h"),
         entry("  eo_axial", rate(peak.eo_axial, eo_axial), "deg/h"),
         entry("  eo_radial", rate(peak.eo_radial, eo_radial), "deg/h"),

@@ -130,15 +130,15 @@ const REST_ERROR_K: f64 = 0.005;
 
 /// Gain of a thermometer about its span's middle: class B of IEC 60751 is 0.3 K + 0.5 % of the temperature.
 const THERMOMETER_GAIN: f64 = 0.004;
-/// How late the chamber's readings may be against the gyroscope's \[s\]: a thermometer's time constant in moving air, and a clock that is read by
-/// the minute.
-const LAG_S: f64 = 33.2;
+/// How late the chamber's readings may be against the gyroscope's \[s\]: a thermometer's time constant in moving air (sheathed resistors of 3 to 6 mm
+/// have 20 to 90 s in an air of 1 to 3 m/s), and a clock that is read by the minute.
+const LAG_S: f64 = 60.0;
 const CLOCK_S: f64 = 30.0;
 /// What a time constant that is given may be off, relative: moving air is never quite the same.
 const LAG_SHARE: f64 = 0.2;
-/// Square of the time constant of the chamber's thermometer \[s²\]: half a minute's, either way. Of a thermometer with the time constant τ on a
+/// Square of the time constant of the chamber's thermometer \[s²\]: a minute's, either way. Of a thermometer with the time constant τ on a
 /// log that is late by c, the delay τ + c is the first cumulant and τ² the second: in them the response is linear, which it is not in τ and c.
-const LAG_SQUARED_S2: f64 = 1000.0;
+const LAG_SQUARED_S2: f64 = 3600.0;
 
 /// Square of the time constant of the gyroscope's output filter beyond its averaging \[s²\], some twenty seconds', either way.
 const FILTER_SQUARED_S2: f64 = 500.0;
@@ -198,7 +198,7 @@ mod tests {
         let usual = Instruments::default();
         assert_eq!(usual.offsets(), [(0.0, f64::INFINITY); 2]);
         let [delay, squared] = usual.delay();
-        assert!(delay.0 == 0.0 && (delay.1 - 45.0).abs() < 0.1 && squared == (0.0, LAG_SQUARED_S2));
+        assert!(delay.0 == 0.0 && (delay.1 - 67.3).abs() < 0.1 && squared == (0.0, LAG_SQUARED_S2));
         let known = |offset_sd: f64, lag: f64, clock_sd: f64| Instrument {
             offset_sd: Some(offset_sd),
             gain_sd: Some(1e-4),

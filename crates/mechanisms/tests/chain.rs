@@ -291,8 +291,10 @@ fn the_chamber_s_instruments_act_as_in_a_model_made_anew() {
         (here[delay], here[squared]) = (11.0, lag * lag);
         let about = gyro.about(&here, &[]).expect("a model").expect("another place");
         let of = |model: &Gyro, u: &[f64]| model.respond(0, u, &[]).expect("response");
-        // of second derivatives rows that are far apart know less
-        for (place, by, close) in [(delay, 4.0, 0.1), (squared, 30.0, 0.1 + interval / 240.0)] {
+        // of second derivatives rows that are far apart know less; from no lag to one of ten seconds, the least step at which a model is
+        // made anew, the next term of the expansion is a fifth of the effect
+        let far = if lag > 0.0 { 0.1 } else { 0.25 };
+        for (place, by, close) in [(delay, 6.0, 0.1), (squared, 108.0, far)] {
             let mut beside = here.clone();
             beside[place] += by;
             let anew = of(&about.about(&beside, &[]).expect("a model").expect("another place"), &beside);

@@ -1,5 +1,7 @@
 //! What cannot be computed.
 
+use crate::Seconds;
+
 /// Errors of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -18,7 +20,7 @@ pub enum Error {
     #[error("two channels are named `{0}`; rename one")]
     Name(String),
     /// An instant is not finite, or does not come after the one before.
-    #[error("instant {row}, {time} s, is not finite or not after the one before, {previous} s; drop repeats and sort by time")]
+    #[error("instant {row}, {} s, is not finite or not after the one before, {} s; drop repeats and sort by time", Seconds(*time), Seconds(*previous))]
     Time {
         /// Its row, from 0.
         row: usize,

@@ -8,10 +8,12 @@ pub mod lag;
 pub mod minimise;
 pub mod noise;
 mod record;
+mod seconds;
 mod series;
 pub mod smooth;
 pub mod statistics;
 
 pub use error::Error;
 pub use record::{Channel, Recording, Sampling};
+pub use seconds::Seconds;
 pub use series::median_interval;

@@ -312,7 +312,7 @@ fn units_and_offsets() {
     let (finding, _) = only(altered(|s| add(&mut s.rate, 10.1)));
     assert!(
         matches!(&finding.kind, FindingKind::Offset { of, .. } if of == "Earth rate not removed")
-            && finding.severity == Severity::Warning
+            && finding.severity == Severity::Note
     );
 }
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, TypedDict, Union
 
 import numpy as np
@@ -93,16 +93,18 @@ def simulate(
     mount_right_c: npt.ArrayLike | None = None,
     between: str = "linear",
     mechanisms: Sequence[str | os.PathLike[str]] = (),
+    further: Mapping[str, npt.ArrayLike] | None = None,
     cache: bool = True,
 ) -> Simulation:
     """Thermometer and bias while the chamber follows ``chamber_c`` [degC] at the instants ``time_s`` [s], from rest at the first.
 
     End walls and mounts follow the chamber unless they are given. ``between``: how temperatures run between the instants, ``"linear"`` or
-    ``"cubic"`` (a recorded chamber). ``mechanisms`` are paths of files of your own, with values, that are at work. The coil's model takes seconds to build; with ``cache`` it is kept on disk for the next time.
+    ``"cubic"`` (a recorded chamber). ``mechanisms`` are paths of files of your own, with values, that are at work; ``further`` are
+    the columns that their laws name, at the same instants. The coil's model takes seconds to build; with ``cache`` it is kept on disk for the next time.
     """
     given = {"left_c": left_c, "right_c": right_c, "mount_left_c": mount_left_c, "mount_right_c": mount_right_c}
     drives = {name: values for name, values in given.items() if values is not None}
-    profile = table("profile", {"time_s": time_s, "chamber_c": chamber_c, **drives})
+    profile = table("profile", {"time_s": time_s, "chamber_c": chamber_c, **drives, **(further or {})})
     columns, summary = _native.simulate(coil_of(coil), profile, between, list(mechanisms), CODE if cache else None)
     result = Simulation(arrays(columns))
     result.summary = json.loads(summary)

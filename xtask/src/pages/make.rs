@@ -28,7 +28,7 @@ pub(super) fn all(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
         files.push(path.canonicalize().or_else(|_| fs::write(&path, "").and_then(|()| path.canonicalize()))?);
         Ok(fs::write(path, html)?)
     };
-    let profile = input::read_profile(PROFILE.as_ref(), &case.design)?;
+    let profile = input::read_profile(PROFILE.as_ref(), &case.design, &[])?;
     let (model, fields) = simulate::model_with_fields(&case, &profile.drives, &cache)?;
     let simulation = simulate::simulate(&case, &profile, &model)?;
     write("simulate", report::html(&simulation, Some(&fields), Some(&Convergence::measure(&case, &cache)?)))?;

@@ -25,13 +25,14 @@ const INPUTS: [(&str, &str); 10] = [
 ];
 
 /// The meaning of the words in the tables.
-const WORDS: [(&str, &str); 7] = [
+const WORDS: [(&str, &str); 8] = [
     ("predicted", "follows from inputs that owe nothing to the printed value"),
+    ("verified", "nothing printed is compared: the program agrees with itself, with an identity, or with an independent code"),
     ("identified", "the inputs were identified from the printed values: the cell's constituents, which the paper does not print"),
     ("calibrated", "an input that the paper leaves open was chosen to agree: the spool"),
     ("misprint", "the printed value cannot be right as it stands; the reason is given"),
     ("holds, differs, FAILS", "the outcome of a test; (must): the command fails with this row"),
-    ("shown", "nothing is tested"),
+    ("shown", "nothing is tested, as of an input"),
     (
         "± of a computed value",
         "the program's own estimate of its numerical error; it says nothing about physics that a model leaves out",

@@ -28,11 +28,15 @@ impl Default for Settings {
 
 /// Share of the unknown that the unnamed mechanisms have; the rest is the structures'.
 const DESCRIBED: f64 = 0.5;
+/// A law that nobody listed may have one term or two.
+const NUMBERS: f64 = 2.0;
 
 impl Settings {
-    /// ln of the probability, before anything is seen, that what is at work is a law that nobody listed, beside the design's constants.
-    pub(crate) fn log_unlisted(&self) -> f64 {
-        (self.unknown * DESCRIBED).ln()
+    /// ln of the probability, before anything is seen, that laws of a certain number that nobody listed are at work beside a hypothesis: the design's
+    /// constants, with mechanisms or without. The choice among the laws is not in it.
+    pub fn log_unlisted<M: ForwardModel>(&self, model: &M, beside: &Hypothesis) -> f64 {
+        let mechanisms = if beside.mechanisms.is_empty() { 0.0 } else { self.log_prior(model, beside, false) };
+        mechanisms + (self.unknown * DESCRIBED / NUMBERS).ln()
     }
 
     /// ln of the probability of a hypothesis, beside a structure or alone, before anything is seen.

@@ -1,14 +1,15 @@
 //! A law that was composed, weighed with the mechanisms that have a name.
 
 use super::{Diagnosis, Verdict};
-use crate::{Candidate, Composed, Settings};
+use crate::{Candidate, Composed};
 
 impl Diagnosis {
-    /// Weighs a law that was composed beside the design's constants with all that was compared, under the same `settings`: what is probable of it is
-    /// taken from all others. Where it is likelier than what explained the records, they are unknown, and the law describes them.
-    pub fn weigh_unlisted(&mut self, law: &Composed, settings: &Settings) {
-        let log_weight = law.fit.log_evidence - law.choice + settings.log_unlisted();
-        let ratio = |c: &Candidate| (c.log_weight - log_weight).exp();
+    /// Weighs a law that was composed beside the design's constants with all that was compared, `log_prior` being ln of its
+    /// probability before anything was seen ([`Settings::log_unlisted`](crate::Settings::log_unlisted)): what is probable of it is taken from all others. What was compared gains
+    /// `by_noise` of ln evidence in the noise that the law leaves ([`gained_by_noise_of`](crate::gained_by_noise_of)). Where it is likelier than what explained the records, they are unknown, and the law describes them.
+    pub fn weigh_unlisted(&mut self, law: &Composed, log_prior: f64, by_noise: f64) {
+        let log_weight = law.log_weight(log_prior);
+        let ratio = |c: &Candidate| (c.log_weight + by_noise - log_weight).exp();
         let others: f64 = self.candidates.iter().map(ratio).sum();
         self.make_room(1.0 / (1.0 + others));
     }
@@ -56,33 +57,36 @@ mod tests {
         }
     }
 
-    fn weighed(log_evidence: f64, choice: f64) -> Diagnosis {
+    fn weighed(log_evidence: f64, choice: f64, by_noise: f64) -> Diagnosis {
         let mut diagnosis = explained();
         let fit = crate::Fit { log_evidence, ..diagnosis.nominal.clone() };
         diagnosis.weigh_unlisted(
             &Composed { fit, laws: 1, gain: 0.0, choice, others: Vec::new(), steps: Vec::new() },
-            &Settings::default(),
+            0.0,
+            by_noise,
         );
         diagnosis
     }
 
     #[test]
     fn a_law_takes_a_name_s_place_where_it_is_likelier_with_its_choice_paid() {
-        let prior = Settings::default().log_unlisted();
         // as likely as all others together, whatever the choice cost
         for choice in [0.0, 4.0] {
-            let even = weighed(10.0 + 4.5e-5 + choice - prior, choice);
+            let even = weighed(10.0 + 4.5e-5 + choice, choice, 0.0);
             assert!(
                 (even.verdicts()[3] - 0.5).abs() < 1e-6 && (even.mechanisms[0].1 - 0.5).abs() < 1e-4,
                 "{:?}",
                 even.verdicts()
             );
         }
-        let likelier = weighed(14.0 - prior, 0.0);
+        let likelier = weighed(14.0, 0.0, 0.0);
         assert_eq!((likelier.verdict, likelier.set.len()), (Verdict::Unknown, 0));
-        let paid = weighed(14.0 - prior, 8.0);
+        let paid = weighed(14.0, 8.0, 0.0);
         assert_eq!((paid.verdict, paid.set.as_slice()), (Verdict::Explained, &[0][..]));
-        for diagnosis in [likelier, paid] {
+        // what the law owes to a noise that was found later is no merit of the law
+        let by_noise = weighed(14.0, 0.0, 8.0);
+        assert_eq!((by_noise.verdict, by_noise.set.as_slice()), (Verdict::Explained, &[0][..]));
+        for diagnosis in [likelier, paid, by_noise] {
             assert!((diagnosis.verdicts().iter().sum::<f64>() - 1.0).abs() < 1e-6);
         }
     }

@@ -13,7 +13,7 @@ use super::group::Group;
 use super::mirror::Mirror;
 use super::quantity::FibreUm;
 use super::syntax::MISSING;
-use crate::Error;
+use crate::{Error, shown_path};
 
 const MOST_FIBRES: usize = 100;
 const MOST_REALISATIONS: usize = 1000;
@@ -48,7 +48,7 @@ impl GeneralCase {
         let phase = |(name, role, material): &(String, Role, Material)| {
             let solid = material.at(celsius).ok_or_else(|| {
                 let [low, high] = material.range().unwrap_or_default();
-                let file = self.file.display();
+                let file = shown_path(&self.file);
                 Error::Usage(match celsius {
                     Some(t) => format!("{file}: the table of {name} runs from {low} to {high} degC, {t} degC is outside"),
                     None => {

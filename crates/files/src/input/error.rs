@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use crate::{shown, shown_path};
+
 /// A value, a line or a file that cannot be used: what, where, and how to mend it.
 ///
 /// Displays as one message, `file:line: field: problem; remedy`.
@@ -29,20 +31,30 @@ impl InputError {
 
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.file.display())?;
+        write!(f, "{}", shown_path(&self.file))?;
         if let Some(line) = self.line {
             write!(f, ":{line}")?;
         }
         write!(f, ": ")?;
         if let Some(field) = &self.field {
-            write!(f, "{field}: ")?;
+            write!(f, "{}: ", cut(field))?;
         }
-        write!(f, "{}", self.problem)?;
+        write!(f, "{}", cut(&self.problem))?;
         if !self.remedy.is_empty() {
             write!(f, "; {}", self.remedy)?;
         }
         Ok(())
     }
+}
+
+/// Longest part of a message \[characters\]; what a file holds may be longer.
+const LONGEST: usize = 400;
+
+/// The start of a long text, without what a terminal would obey.
+fn cut(text: &str) -> String {
+    let short: String = text.chars().take(LONGEST).collect();
+    let more = if short.len() < text.len() { "..." } else { "" };
+    shown(&short) + more
 }
 
 impl std::error::Error for InputError {}

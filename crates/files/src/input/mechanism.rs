@@ -13,7 +13,7 @@ use super::mechanism_file::{GoesFile, LawFile, MechanismFile, ParameterFile, Pri
 use super::mechanism_quantities::{Quantities, Sight, expressions};
 use super::mirror::Mirror;
 use super::source::{MECHANISM, Source};
-use crate::Error;
+use crate::{Error, shown_path};
 
 /// Most parameters, columns, states and laws, each.
 const MOST: usize = 8;
@@ -178,7 +178,7 @@ fn read_own(paths: &[&PathBuf]) -> Result<Vec<MechanismCase>, Error> {
     match twice {
         Some((_, case)) => Err(Error::Usage(format!(
             "{}: the mechanism `{}` is given twice; give each id once",
-            case.file.display(),
+            shown_path(&case.file),
             case.mechanism.id
         ))),
         None => Ok(own),
@@ -256,6 +256,7 @@ fn prior(here: &Group, file: PriorFile) -> Result<Prior, InputError> {
         PriorFile::Normal(mean, sd) => {
             ([mean, sd], Prior::Normal { mean, sd }, sd > 0.0, "give Normal(mean, standard deviation), the latter above 0")
         }
+        PriorFile::Size(scale) => ([scale, 0.0], Prior::Size { scale }, scale > 0.0, "give Size(scale), above 0"),
         PriorFile::LogNormal(median, spread) => (
             [median, spread],
             Prior::LogNormal { median, spread },
@@ -310,7 +311,7 @@ fn starts(top: &Group, files: &[ParameterFile], parameters: &[Parameter]) -> Res
         }
         // away from the middle, where a size is 0 and says nothing of the others; one that is no size from three
         match parameter.prior {
-            Prior::Normal { .. } => vec![parameter.prior.value(0.5)],
+            Prior::Normal { .. } | Prior::Size { .. } => vec![parameter.prior.value(0.5)],
             _ if files.len() > 1 => [-1.0, 0.0, 1.0].map(|u| parameter.prior.value(u)).to_vec(),
             _ => vec![parameter.prior.value(0.0)],
         }

@@ -67,11 +67,13 @@ pub(crate) struct ParameterFile {
     pub(crate) value: Option<f64>,
 }
 
-/// What is known of a number beforehand: Normal(mean, standard deviation); LogNormal(median, standard deviation of the logarithm); Uniform(low, high).
+/// What is known of a number beforehand: Normal(mean, standard deviation); Size(scale); LogNormal(median, standard deviation of the logarithm); Uniform(low, high).
 #[derive(Serialize, Deserialize, JsonSchema, Clone, Copy)]
 pub(crate) enum PriorFile {
     /// Mean and standard deviation.
     Normal(f64, f64),
+    /// A size of either sign whose order of magnitude is uncertain: near 0 as Normal(0, scale), far out as one whose logarithm is normal.
+    Size(f64),
     /// Median, and standard deviation of the natural logarithm.
     LogNormal(f64, f64),
     /// Lowest and highest value.

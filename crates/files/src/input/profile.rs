@@ -1,5 +1,6 @@
 //! A profile: the chamber's temperature in time, `time_s,chamber_c` and what else drives the coil.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use coil::{Design, Drive, Profile};
@@ -19,7 +20,7 @@ const MOST_C: f64 = 1000.0;
 const KELVIN_C: f64 = 180.0;
 /// Latest instant, either side of 0 [s]: 30 000 years, to catch a wrong unit.
 pub(super) const MOST_S: f64 = 1e12;
-/// Shortest interval between rows [s]: a hundredth of the rounding of a time counted from 1970.
+/// Shortest interval between rows \[s\], but for what rounding may take from it.
 const SHORTEST_S: f64 = 1e-6;
 
 /// Rows closer than this \[s\] are noted: the model's fastest modes last about as long, and what a jump does within it is not resolved.
@@ -56,6 +57,8 @@ pub struct ProfileCase {
     pub drives: Vec<Drive>,
     /// Instants \[s\] and courses \[°C; heaters in units of their power\].
     pub profile: Profile,
+    /// Further columns that mechanisms' files name, a value for each instant.
+    pub further: BTreeMap<String, Vec<f64>>,
     /// How the chamber's course was inferred from a thermometer; `None` if it is given.
     pub inferred: Option<Inference>,
     /// What a user should know although nothing is wrong.
@@ -121,6 +124,7 @@ impl ProfileCase {
             });
             values.first().copied().into_iter().chain(between).collect()
         };
+        self.further.values_mut().for_each(|values| *values = divided(values));
         self.profile = Profile {
             drives: self.profile.drives.iter().map(|course| divided(course)).collect(),
             time: divided(&self.profile.time),
@@ -130,30 +134,34 @@ impl ProfileCase {
     }
 }
 
-/// Reads and checks the profile of a design. The design's heaters, if it has any, are on throughout.
+/// Reads and checks the profile of a design, with further columns that mechanisms' files name. The design's heaters, if it has any, are on throughout.
 ///
 /// # Errors
 /// What is wrong, in which file, line and column, and how to mend it.
-pub fn read_profile(path: &Path, design: &Design) -> Result<ProfileCase, InputError> {
-    read(Rows::open(path, "a profile (*.csv)", Dialect::STANDARD)?, path, design)
+pub fn read_profile(path: &Path, design: &Design, further: &[String]) -> Result<ProfileCase, InputError> {
+    read(Rows::open(path, "a profile (*.csv)", Dialect::STANDARD)?, path, design, further)
 }
 
 /// Checks a profile that is not in a file: the case that [`read_profile`] would read from a file of this content.
 ///
 /// # Errors
 /// As [`read_profile`]; messages call the text `path`.
-pub fn check_profile(path: &Path, text: String, design: &Design) -> Result<ProfileCase, InputError> {
-    read(Rows::of(path, text), path, design)
+pub fn check_profile(path: &Path, text: String, design: &Design, further: &[String]) -> Result<ProfileCase, InputError> {
+    read(Rows::of(path, text), path, design, further)
 }
 
-fn read(mut rows: Rows, path: &Path, design: &Design) -> Result<ProfileCase, InputError> {
+fn read(mut rows: Rows, path: &Path, design: &Design, further: &[String]) -> Result<ProfileCase, InputError> {
     rows.header("time_s,chamber_c")?;
-    let columns = Columns::read(&rows, design)?;
-    let read: Vec<(usize, &str)> = columns.drives.iter().map(|(column, _)| (*column, columns.names[*column].as_str())).collect();
+    let columns = Columns::read(&rows, design, further)?;
+    let drives = columns.drives.iter().map(|(column, _)| Wanted::temperature(*column, &columns.names[*column]));
+    let beside = columns.further.iter().map(|column| Wanted::number(*column, &columns.names[*column]));
+    let read: Vec<Wanted> = drives.chain(beside).collect();
     let (time, mut courses) = read_rows(&mut rows, columns.names.len(), columns.time, &read, (MOST_ROWS, "profile"))?;
     if time.is_empty() {
         return Err(rows.whole_fault("has no row below its header", "give one for each instant, e.g. 0,20.0"));
     }
+    let beside = courses.split_off(columns.drives.len());
+    let further = further.iter().cloned().zip(beside).collect();
     let mut drives: Vec<Drive> = columns.drives.iter().map(|(_, drive)| *drive).collect();
     if !design.heat.heaters.is_empty() {
         drives.push(Drive::Heaters);
@@ -177,6 +185,7 @@ fn read(mut rows: Rows, path: &Path, design: &Design) -> Result<ProfileCase, Inp
     Ok(ProfileCase {
         drives,
         profile: Profile { time, drives: courses },
+        further,
         inferred: None,
         notes,
         fingerprint: rows.fingerprint(),
@@ -185,12 +194,31 @@ fn read(mut rows: Rows, path: &Path, design: &Design) -> Result<ProfileCase, Inp
     })
 }
 
-/// Instants, and the courses of some columns, by their names, of at most so many rows below a header of `count` columns.
+/// A column that is read.
+pub(super) struct Wanted<'a> {
+    column: usize,
+    name: &'a str,
+    read: fn(&Rows, usize, &str) -> Result<f64, InputError>,
+}
+
+impl<'a> Wanted<'a> {
+    /// A temperature \[°C\].
+    pub(super) fn temperature(column: usize, name: &'a str) -> Self {
+        Self { column, name, read: temperature }
+    }
+
+    /// Any number.
+    fn number(column: usize, name: &'a str) -> Self {
+        Self { column, name, read: Rows::number }
+    }
+}
+
+/// Instants, and the courses of some columns, of at most so many rows below a header of `count` columns.
 pub(super) fn read_rows(
     rows: &mut Rows,
     count: usize,
     at_time: usize,
-    columns: &[(usize, &str)],
+    columns: &[Wanted],
     (most, kind): (usize, &str),
 ) -> Result<(Vec<f64>, Vec<Vec<f64>>), InputError> {
     let mut time: Vec<f64> = Vec::new();
@@ -201,8 +229,8 @@ pub(super) fn read_rows(
             return Err(rows.fault(None, format!("more than {most} rows"), format!("split the {kind}, or thin it out")));
         }
         time.push(instant(rows, at_time, time.last().copied())?);
-        for ((column, name), course) in columns.iter().zip(&mut courses) {
-            course.push(temperature(rows, *column, name)?);
+        for (Wanted { column, name, read }, course) in columns.iter().zip(&mut courses) {
+            course.push(read(rows, *column, name)?);
         }
     }
     Ok((time, courses))
@@ -230,7 +258,8 @@ fn instant(rows: &Rows, column: usize, last: Option<f64>) -> Result<f64, InputEr
             format!("{time} s comes before the row above, {last} s"),
             "sort the rows by time, or split the file where the clock restarts",
         ),
-        Some(last) if time - last < SHORTEST_S => fault(
+        // each of the two is the nearest double to what was written
+        Some(last) if time - last < SHORTEST_S - f64::EPSILON * time.abs().max(last.abs()) => fault(
             format!("{time} s is less than {SHORTEST_S:e} s after the row above"),
             "give seconds; remove one of the rows if it is a repeat",
         ),

@@ -28,13 +28,15 @@ pub(crate) struct Columns {
     pub(crate) time: usize,
     /// Those that drive, the chamber first.
     pub(crate) drives: Vec<(usize, Drive)>,
+    /// Those that mechanisms' files name, in the order in which they are asked for.
+    pub(crate) further: Vec<usize>,
     pub(crate) names: Vec<String>,
     ignored: Vec<String>,
 }
 
 impl Columns {
     /// Reads them from the row at which `rows` stands.
-    pub(crate) fn read(rows: &Rows, design: &Design) -> Result<Self, InputError> {
+    pub(crate) fn read(rows: &Rows, design: &Design, further: &[String]) -> Result<Self, InputError> {
         let names = names(rows, "time_s,chamber_c")?;
         let mut ignored = Vec::new();
         for name in &names {
@@ -42,7 +44,7 @@ impl Columns {
                 check_drive(rows, name, *drive, design)?;
             } else if RESULTS.contains(&name.as_str()) {
                 ignored.push(name.clone());
-            } else if name != TIME {
+            } else if name != TIME && !further.contains(name) {
                 return Err(unknown(rows, name));
             }
         }
@@ -54,7 +56,12 @@ impl Columns {
         let time = find(TIME).ok_or_else(|| missing(TIME))?;
         find(CHAMBER).ok_or_else(|| missing(CHAMBER))?;
         let drives = DRIVES.iter().filter_map(|(name, drive)| Some((find(name)?, *drive))).collect();
-        Ok(Self { time, drives, names, ignored })
+        let beside = |name: &String| {
+            let remedy = "give it a number in each row; the law of a mechanism that is added names it";
+            find(name).ok_or_else(|| rows.fault(Some(name), "the column is missing", remedy))
+        };
+        let further = further.iter().map(beside).collect::<Result<_, _>>()?;
+        Ok(Self { time, drives, further, names, ignored })
     }
 
     /// Which columns are not used.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use recording::check::{Expectation, Expectations, Offset, Report, Severity, check};
-use recording::{Channel, Recording, Sampling};
+use recording::{Channel, Recording, Sampling, Seconds};
 
 use super::InputError;
 use super::fingerprint::Fingerprint;
@@ -138,7 +138,7 @@ fn fits(path: &Path, meta: Meta, span: f64) -> Result<Meta, InputError> {
     if span == 0.0 || interval <= span {
         return Ok(meta);
     }
-    let problem = format!("sample_interval_s: {interval} s is longer than the recording, {span} s");
+    let problem = format!("sample_interval_s: {interval} s is longer than the recording, {} s", Seconds(span));
     Err(InputError::whole(path, problem, "give the seconds over which a rate is a mean, or leave the field out"))
 }
 
@@ -293,6 +293,6 @@ fn notes(columns: &RecordColumns, format: &RecordFormat, relative: bool) -> Vec<
 fn interval_note(meta: &Meta, interval: f64) -> Option<Note> {
     let nominal = meta.sample_interval_s;
     let differs = nominal > 0.0 && interval > 0.0 && (interval / nominal - 1.0).abs() > 0.02;
-    let message = || format!("the rows are {interval} s apart, the meta file says {nominal} s");
+    let message = || format!("the rows are {} s apart, the meta file says {nominal} s", Seconds(interval));
     differs.then(|| Remark::IntervalDiffers.note(message()))
 }

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use coil::{Design, Drive, FEWEST_ROWS};
+use recording::Seconds;
 
 use super::InputError;
 use super::fingerprint::Fingerprint;
-use super::profile::read_rows;
+use super::profile::{Wanted, read_rows};
 use super::profile_columns::{DRIVES, RESULTS, TIME, names};
 use super::rows::{Dialect, Rows, quoted};
 use crate::remark::{Note, Remark};
@@ -43,7 +44,8 @@ pub fn read_spool(path: &Path, design: &Design) -> Result<SpoolCase, InputError>
     let [at_time, at_spool] = [TIME, SPOOL].map(|wanted| names.iter().position(|name| name == wanted));
     let missing = |name| rows.fault(Some(name), "the column is missing", format!("a record starts with a line {TIME},{SPOOL}"));
     let (at_time, at_spool) = (at_time.ok_or_else(|| missing(TIME))?, at_spool.ok_or_else(|| missing(SPOOL))?);
-    let (time, mut courses) = read_rows(&mut rows, names.len(), at_time, &[(at_spool, SPOOL)], (MOST_ROWS, "record"))?;
+    let (time, mut courses) =
+        read_rows(&mut rows, names.len(), at_time, &[Wanted::temperature(at_spool, SPOOL)], (MOST_ROWS, "record"))?;
     let spool = courses.pop().unwrap_or_default();
     if time.len() < FEWEST_ROWS {
         let problem = format!("has {} rows below its header, too few to infer the chamber from", time.len());
@@ -79,6 +81,8 @@ fn gap(time: &[f64]) -> Option<String> {
     let (at, longest) = intervals.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
     intervals.sort_by(f64::total_cmp);
     let median = intervals[intervals.len() / 2];
-    (longest > GAP * median)
-        .then(|| format!("no row for {longest} s after {} s, usually {median} s; there the chamber is taken as linear", time[at]))
+    (longest > GAP * median).then(|| {
+        let [longest, after, median] = [longest, time[at], median].map(Seconds);
+        format!("no row for {longest} s after {after} s, usually {median} s; there the chamber is taken as linear")
+    })
 }

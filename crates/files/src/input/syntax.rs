@@ -2,16 +2,18 @@
 
 use ron::Error;
 
+use super::rows::quoted;
+
 pub(super) const MISSING: &str = "the field is missing";
 
 /// Problem and remedy; `rest` is the text from where the reader stopped.
 pub(crate) fn explain(error: &Error, rest: &str) -> (String, String) {
     let (problem, remedy) = match error {
         Error::NoSuchStructField { expected, found, .. } => {
-            return (format!("unknown field `{found}`"), format!("the fields here are {}", expected.join(", ")));
+            return (format!("unknown field {}", quoted(found)), format!("the fields here are {}", expected.join(", ")));
         }
         Error::NoSuchEnumVariant { expected, found, .. } => {
-            return (format!("`{found}` is not a choice here"), format!("choose {}", expected.join(" or ")));
+            return (format!("{} is not a choice here", quoted(found)), format!("choose {}", expected.join(" or ")));
         }
         // a number that its kind does not accept: problem and remedy
         Error::InvalidValueForType { expected, found } => return (found.clone(), expected.clone()),

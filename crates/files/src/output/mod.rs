@@ -5,6 +5,7 @@ mod vtu;
 use std::fs;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use coil::{Design, Tolerances};
 use ron::ser::{PrettyConfig, to_string_pretty};
@@ -12,6 +13,7 @@ use tempfile::NamedTempFile;
 
 use crate::Error;
 use crate::input::CoilFile;
+use crate::shown_path;
 
 pub use vtu::vtu;
 
@@ -51,15 +53,42 @@ impl Content<'_> {
 /// Bytes that go to a file at once.
 const BUFFER: usize = 1 << 18;
 
+/// A file that is given up when `stop` is set.
+struct Stoppable<'a> {
+    file: &'a mut fs::File,
+    stop: &'a AtomicBool,
+}
+
+impl Write for Stoppable<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.stop.load(Ordering::Relaxed) {
+            return Err(io::Error::other("given up"));
+        }
+        self.file.write(&bytes[..bytes.len().min(BUFFER)])
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
 /// Writes all files: each under another name in its folder first, and renamed when all are complete.
 ///
 /// # Errors
 /// [`Error::Usage`] if a path leads to no plain file, [`Error::Output`] if the file cannot be written.
 pub fn write_files(files: &[(&Path, Content)]) -> Result<(), Error> {
+    write_files_unless(&AtomicBool::new(false), files)
+}
+
+/// [`write_files`], given up when `stop` is set before all are complete: then none is left.
+///
+/// # Errors
+/// As [`write_files`].
+pub fn write_files_unless(stop: &AtomicBool, files: &[(&Path, Content)]) -> Result<(), Error> {
     let stage = |(path, content): &(&Path, Content)| {
         let target = place(path)?;
         let staged = temporary(&target).and_then(|mut file| {
-            content.write_to(file.as_file_mut())?;
+            content.write_to(&mut Stoppable { file: file.as_file_mut(), stop })?;
             file.as_file().sync_all().map(|()| file)
         });
         staged.map(|file| (file, target)).map_err(|source| Error::Output { file: path.to_path_buf(), source })
@@ -85,7 +114,7 @@ pub fn write_new(path: &Path, text: &str) -> Result<(), Error> {
     written.map_err(|source| match source.kind() {
         ErrorKind::AlreadyExists => {
             let remedy = "give another name, or move it away first";
-            Error::Usage(format!("{}: exists and is left as it is; {remedy}", path.display()))
+            Error::Usage(format!("{}: exists and is left as it is; {remedy}", shown_path(path)))
         }
         _ => Error::Output { file: path.to_owned(), source },
     })
@@ -94,14 +123,14 @@ pub fn write_new(path: &Path, text: &str) -> Result<(), Error> {
 /// Where the file at `path` is or will be: in a folder that exists, links resolved.
 fn place(path: &Path) -> Result<PathBuf, Error> {
     const STREAM: &str = "is a device or a pipe; name a file (only a summary, with --json, goes to standard output)";
-    let refuse = |problem: &str| Error::Usage(format!("{}: {problem}", path.display()));
+    let refuse = |problem: &str| Error::Usage(format!("{}: {problem}", shown_path(path)));
     if path == Path::new("-") {
         return Err(refuse("is no file; name one (only a summary, with --json, goes to standard output)"));
     }
     let name = path.file_name().ok_or_else(|| refuse("names no file; give a path that does"))?;
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let found = folder.canonicalize().ok().filter(|found| found.is_dir());
-    let found = found.ok_or_else(|| refuse(&format!("there is no folder {}; make it, or name another", folder.display())))?;
+    let found = found.ok_or_else(|| refuse(&format!("there is no folder {}; make it, or name another", shown_path(folder))))?;
     // what stands there may lead to a plain file that someone else is writing, a log for instance
     if found == Path::new("/dev") || found.starts_with("/dev/fd") || found.starts_with("/proc") {
         return Err(refuse(STREAM));
@@ -137,11 +166,36 @@ pub fn check_outputs<P: AsRef<Path>>(inputs: &[P], outputs: &[Option<&Path>]) ->
         let target = place(output)?;
         if taken.contains(&target) {
             let problem = "is given twice, or is an input; give each result a file of its own";
-            return Err(Error::Usage(format!("{}: {problem}", output.display())));
+            return Err(Error::Usage(format!("{}: {problem}", shown_path(output))));
         }
         // a trial; the file is gone at once
         temporary(&target).map_err(|source| Error::Output { file: output.to_path_buf(), source })?;
         taken.push(target);
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_that_are_given_up_leave_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let [old, new] = ["old.csv", "new.csv"].map(|name| folder.path().join(name));
+        fs::write(&old, "old").unwrap();
+        let stop = AtomicBool::new(false);
+        let written = |out: &mut dyn Write| {
+            stop.store(true, Ordering::Relaxed);
+            out.write_all(&vec![b'x'; 3 * BUFFER])
+        };
+        let files = [(old.as_path(), Content::Text("new".to_owned())), (new.as_path(), Content::Written(&written))];
+        let error = write_files_unless(&stop, &files).unwrap_err();
+        assert!(error.to_string().contains("new.csv: cannot be written: given up"), "{error}");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        assert_eq!(fs::read_to_string(&old).unwrap(), "old");
+        stop.store(false, Ordering::Relaxed);
+        write_files_unless(&stop, &files[..1]).unwrap();
+        assert_eq!(fs::read_to_string(&old).unwrap(), "new");
+    }
 }

@@ -27,7 +27,7 @@ pub fn warnings(case: &RecordCase) -> String {
 pub fn text(analysis: &Analysis) -> String {
     let case = analysis.case;
     let verdict = if case.report.usable() { "usable" } else { "cannot be used" };
-    let mut out = format!("{}: {verdict}\n\n", case.fingerprint.file.display());
+    let mut out = format!("{}: {verdict}\n\n", files::shown_path(&case.fingerprint.file));
     out.push_str(&table(&overview(analysis)));
     out.push('\n');
     out.push_str(&channels(analysis));

@@ -17,6 +17,7 @@ fn prior(prior: Option<&Prior>) -> String {
     match prior {
         None => "each as likely".into(),
         Some(Prior::Normal { mean, sd }) => format!("normal, {} ± {}", n(*mean), n(*sd)),
+        Some(Prior::Size { scale }) => format!("a size of either sign, {}", n(*scale)),
         Some(Prior::LogNormal { median, spread }) => {
             format!("log-normal, median {}, spread of the logarithm {}", n(*median), n(*spread))
         }

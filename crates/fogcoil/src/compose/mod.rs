@@ -63,16 +63,17 @@ pub(crate) fn compose(
     let with = gyro.beside(&kinds);
     let all = first..with.mechanisms().len();
     let numbers: Vec<usize> = (0..fitted.len()).collect();
-    let mut likeliest: Option<(f64, diagnosis::Composed)> = None;
+    let mut likeliest: Option<(f64, f64, diagnosis::Composed)> = None;
     for beside in constants.into_iter().chain(named) {
         if let Some(found) = diagnosis::compose(&with, all.clone(), &numbers, fitted, &beside.fit, progress)? {
-            let log_weight = found.fit.log_evidence - found.choice + beside.log_prior();
-            if likeliest.as_ref().is_none_or(|(most, _)| log_weight > *most) {
-                likeliest = Some((log_weight, found));
+            let log_prior = settings.log_unlisted(gyro, &beside.fit.hypothesis);
+            let log_weight = found.log_weight(log_prior);
+            if likeliest.as_ref().is_none_or(|(most, ..)| log_weight > *most) {
+                likeliest = Some((log_weight, log_prior, found));
             }
         }
     }
-    let Some((_, found)) = likeliest else { return Ok(None) };
+    let Some((_, log_prior, found)) = likeliest else { return Ok(None) };
     let own = found.fit.active.iter().enumerate().skip(found.fit.active.len() - found.laws);
     let mut terms = Vec::new();
     for (place, active) in own {
@@ -96,7 +97,8 @@ pub(crate) fn compose(
     }
     // what has a name gives way to a law that is likelier, unless a record that was held out says otherwise
     if diagnosis.verdict == Verdict::Explained && (accepted || held.is_empty()) {
-        diagnosis.weigh_unlisted(&found, settings);
+        let by_noise = diagnosis::gained_by_noise_of(gyro, &numbers, fitted, &diagnosis.best().fit, &found.fit)?;
+        diagnosis.weigh_unlisted(&found, log_prior, by_noise);
     }
     if diagnosis.verdict == Verdict::Explained {
         return Ok(None);

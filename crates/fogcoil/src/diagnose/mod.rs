@@ -16,9 +16,10 @@ use diagnosis::{
     Candidate, Contradiction, Diagnosis, ForwardModel, HeldOut, Hypothesis, Judged, Judgement, Observation, Ruling, Settings,
     Settled, Verdict,
 };
-use files::{Note, Remark};
+use files::{Note, Remark, shown_path};
 use mechanisms::{Extent, Gyro, Mechanism, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 use progress::Step;
+use recording::Seconds;
 
 use crate::Error;
 use crate::cache::Cache;
@@ -153,8 +154,8 @@ fn check_laws(gyro: &Gyro, mechanisms: &[&dyn Mechanism], records: &[Record]) ->
                     let text = format!(
                         "--mechanism: the law of `{}` is no finite number at {} s of {}, where {}; bound it, e.g. by max(...), or give other starts",
                         omission.id,
-                        record.observed.time[row],
-                        record.fingerprint.file.display(),
+                        Seconds(record.observed.time[row]),
+                        shown_path(&record.fingerprint.file),
                         at.join(", ")
                     );
                     return Err(Error::usage(text));
@@ -176,7 +177,7 @@ fn taken_back(file: &Path, why: Contradiction) -> Note {
         Contradiction::ClearlyWorse => "clearly worse than by the nominal model",
         Contradiction::ProvesNothing => "no better than by the nominal model, far from its noise",
     };
-    let file = file.display();
+    let file = shown_path(file);
     Remark::TakenBack
         .note(format!("{file} is predicted {how}: the likeliest explanation is taken back; is it a record of the same unit?"))
 }

@@ -5,7 +5,7 @@ mod say;
 mod solve;
 mod test;
 
-use coil::{COARSE, Design, MechanicalState, Model};
+use coil::{Design, MechanicalState, sensitivity_in};
 use diagnosis::{ForwardModel, Prior, Role, expected};
 use mechanisms::{CATALOGUE, Chamber, Gyro, Mechanism, Prepared, RATE, Steady};
 use progress::Step;
@@ -72,8 +72,7 @@ pub fn explain(
     let records = records.collect::<Result<Vec<_>, _>>().map_err(coil)?;
     let gyro = Gyro::new(library, CATALOGUE, records).map_err(coil)?;
     progress(Step::begins("solving for every mechanism"));
-    let problem = Problem { design: &case.design, target: measured, error: steady.error_estimate, nominal: None };
-    let problem = Problem { nominal: problem.sensitivity(&case.design, &MechanicalState::NOMINAL), ..problem };
+    let problem = Problem { design: &case.design, target: measured, error: steady.error_estimate, nominal };
     let all = gyro.mechanisms().iter().enumerate();
     let explanations: Vec<Explanation> = all.flat_map(|(k, entry)| problem.explanations(entry, gyro.mechanism(k))).collect();
     let constants = constants(&gyro).map_err(coil)?;
@@ -129,14 +128,14 @@ struct Problem<'a> {
     target: f64,
     /// numerical error of a sensitivity
     error: f64,
-    /// sensitivity on the mesh of all others
-    nominal: Option<f64>,
+    /// sensitivity of the design as it is
+    nominal: f64,
 }
 
 impl Problem<'_> {
     /// `None` where a change is too large to be modelled.
     fn sensitivity(&self, design: &Design, state: &MechanicalState) -> Option<f64> {
-        Some(Model::in_state(design, &COARSE, state).ok()?.sensitivity().ok()?.total())
+        Some(sensitivity_in(design, state).ok()?.total())
     }
 
     fn explanations(&self, entry: &diagnosis::Omission, mechanism: &dyn Mechanism) -> Vec<Explanation> {
@@ -163,7 +162,7 @@ impl Problem<'_> {
         };
         let course = solve::course(&at);
         let (low, high) = course.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p.1), h.max(p.1)));
-        let nominal = self.nominal.unwrap_or(f64::NAN);
+        let nominal = self.nominal;
         if high - low < 1e-6 * nominal.abs() && (high - nominal).abs() < 1e-6 * nominal.abs() {
             return Reach::Unable { why: EVEN };
         }
@@ -198,5 +197,21 @@ impl Problem<'_> {
                 Reach::Gives { value, error, sigma: prior.standard(value), layer: Some((layer, plausible)) }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The error is of the mesh behind the value: the design's own sensitivity is met without any change.
+    #[test]
+    fn what_is_solved_for_and_its_error_are_of_one_mesh() {
+        let case =
+            crate::input::read_coil(concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/coil-reference.ron").as_ref()).unwrap();
+        let steady = case.steady_sensitivity().unwrap();
+        let nominal = steady.sensitivity.total();
+        let problem = Problem { design: &case.design, target: nominal, error: steady.error_estimate, nominal };
+        assert_eq!(problem.sensitivity(&case.design, &MechanicalState::NOMINAL), Some(nominal));
     }
 }

@@ -42,11 +42,10 @@ pub(super) fn nearest(course: &[(f64, f64)], target: f64, f: &impl Fn(f64) -> Op
 pub(super) fn whole(
     target: f64,
     most: i32,
-    at_zero: Option<f64>,
+    zero: f64,
     f: &impl Fn(i32) -> Option<f64>,
     range: &mut [f64; 2],
 ) -> Option<(i32, f64)> {
-    let zero = at_zero?;
     let mut met: Option<(i32, f64)> = None;
     for end in [-most, most] {
         let Some(value) = f(end) else { continue };
@@ -86,9 +85,9 @@ mod tests {
     fn whole_numbers_on_either_side() {
         let f = |n: i32| Some(-2.0 + 0.3 * f64::from(n));
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
-        assert_eq!(whole(-3.0, 12, f(0), &f, &mut range).unwrap().0, -3);
-        assert_eq!(whole(-1.22, 12, f(0), &f, &mut range).unwrap().0, 3);
-        assert_eq!(whole(5.0, 12, f(0), &f, &mut range), None);
+        assert_eq!(whole(-3.0, 12, -2.0, &f, &mut range).unwrap().0, -3);
+        assert_eq!(whole(-1.22, 12, -2.0, &f, &mut range).unwrap().0, 3);
+        assert_eq!(whole(5.0, 12, -2.0, &f, &mut range), None);
         assert!((range[0] + 5.6).abs() < 1e-12 && (range[1] - 1.6).abs() < 1e-12);
     }
 }

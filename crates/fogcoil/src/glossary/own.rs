@@ -37,6 +37,7 @@ pub fn own_text(case: &MechanismCase) -> String {
 fn prior(prior: &Prior) -> String {
     match *prior {
         Prior::Normal { mean, sd } => format!("{mean} ± {sd}"),
+        Prior::Size { scale } => format!("0 ± {scale}, or larger by orders"),
         Prior::LogNormal { median, spread } => format!("{median}, its logarithm ± {spread}"),
         Prior::Uniform { low, high } => format!("{low} to {high}"),
     }

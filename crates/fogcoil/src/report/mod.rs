@@ -8,6 +8,7 @@ pub use provenance::provenance;
 use charts::{nice, row, signed, significant};
 use coil::TurnFields;
 use maud::{Markup, html};
+use recording::Seconds;
 
 use crate::figures;
 use crate::simulate::Simulation;
@@ -43,7 +44,7 @@ fn lead(simulation: &Simulation) -> Markup {
     let Summary { peak, slope, errors, .. } = Summary::of(simulation);
     html! {
         p {
-            "Computed thermal bias of a fibre-optic gyroscope's coil at rest. It is largest at " (peak.time) " s, " (signed(peak.rate, 4))
+            "Computed thermal bias of a fibre-optic gyroscope's coil at rest. It is largest at " (Seconds(peak.time).to_string()) " s, " (signed(peak.rate, 4))
             " ± " (significant(errors.parts[4], 2)) " °/h."
             @if let Some(slope) = slope {
                 " Regressed on the spool's temperature rate, the bias has a slope of " (signed(slope, 3)) " ± "

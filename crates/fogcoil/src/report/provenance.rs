@@ -9,7 +9,7 @@ use crate::input::Fingerprint;
 pub fn provenance(what: &str, files: &[(&str, &Fingerprint)], options: &[(String, String)]) -> Markup {
     let program = row("program", format!("fogcoil {}, {what}", env!("CARGO_PKG_VERSION")));
     let of = |(role, file): &(&str, &Fingerprint)| {
-        row(role, format!("{}, {} bytes, SHA-256 {}", file.file.display(), file.bytes, file.sha256))
+        row(role, format!("{}, {} bytes, SHA-256 {}", files::shown_path(&file.file), file.bytes, file.sha256))
     };
     let rows: Vec<_> = std::iter::once(program).chain(files.iter().map(of)).chain(options.iter().cloned()).collect();
     html! {

@@ -67,7 +67,7 @@ fn verdict(content: &str) -> (String, String, String) {
     let json: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(folder.path("j.json")).unwrap()).unwrap();
     let page = std::fs::read_to_string(report).unwrap();
     assert!(page.ends_with("</html>\n") && !page.contains("NaN") && !page.contains(">inf"));
-    (json["verdict"].as_str().unwrap().to_owned(), stderr(&output), page)
+    (json["verdict"].as_str().unwrap().to_owned(), stdout(&output) + &stderr(&output), page)
 }
 
 /// What moves the spool was not recorded.

@@ -22,12 +22,24 @@ fn unsolved(coil: &str) -> String {
 fn numbers_too_far_apart_are_said_with_their_field() {
     let heated = |heat: &str| change(COIL, "    sensor: (", &format!("    heat: ({heat}),\n    sensor: ("));
     let film = unsolved(&heated("film_w_per_m2k: Some(1e-6)"));
-    assert!(film.contains(": heat: ") && film.contains("check heat.film_w_per_m2k"), "{film}");
-    for (old, new) in [("overhang_mm: 1.0", "overhang_mm: 1000.0"), ("youngs_modulus_gpa: 68.9", "youngs_modulus_gpa: 1e-8")] {
+    assert!(film.contains(": heat.film_w_per_m2k: this and the design's other numbers are too far apart"), "{film}");
+    for (old, new, field) in [
+        ("overhang_mm: 1.0", "overhang_mm: 1000.0", "spool.flanges[0].overhang_mm"),
+        ("youngs_modulus_gpa: 68.9", "youngs_modulus_gpa: 1e-8", "spool.material.youngs_modulus_gpa"),
+        ("poisson_ratio: 0.33", "poisson_ratio: 0.49999999999999994", "spool.material.poisson_ratio"),
+    ] {
         let structure = unsolved(&change(COIL, old, new));
-        assert!(structure.contains(&format!("coil.ron:{}: spool: ", line_of(COIL, "spool: Some("))), "{structure}");
-        assert!(structure.contains("too far apart") && structure.contains("spool.flanges.overhang_mm"), "{structure}");
+        assert!(structure.contains(&format!("coil.ron:{}: {field}: this and", line_of(COIL, old))), "{structure}");
+        assert!(structure.contains("too far apart to be solved") && structure.contains("; give the "), "{structure}");
     }
+    // a coil of 90 m
+    let large = change(COIL, "inner_radius_mm: 43.5", "inner_radius_mm: 90000.0");
+    let large = change(&large, "outer_radius_mm: 48.825", "outer_radius_mm: 90005.325");
+    let large = unsolved(&change(&large, "sensor: (radius_mm: 39.5", "sensor: (radius_mm: 89996.0"));
+    assert!(
+        large.contains(&format!("coil.ron:{}: winding.inner_radius_mm: this and", line_of(COIL, "inner_radius_mm"))),
+        "{large}"
+    );
 }
 
 /// The schema's range is the model's.
@@ -111,4 +123,51 @@ fn a_name_gives_no_orders_to_a_terminal() {
         "{text}"
     );
     assert!(text.chars().all(|c| c == '\n' || !c.is_control()));
+}
+
+/// What a terminal obeys: escape sequences, a carriage return, a change of direction.
+#[cfg(unix)]
+#[test]
+fn a_file_s_name_gives_no_orders_to_a_terminal() {
+    let folder = Folder::new();
+    let name = "a\u{1b}[2J\rb\u{202e}c";
+    let [coil, record, absent] = ["ron", "csv", "none"].map(|end| format!("{name}.{end}"));
+    folder.write(&coil, change(COIL, "(cw: 0.0, ccw: 0.0)", "(cw: 800.0, ccw: 0.0)"));
+    folder.write(&record, "time_s,chamber_c,spool_c,rate_deg_per_h,n\u{1b}[2J\n0,20,20,0.1,1\n30,20,20,0.2,1\n60,21,20,0.1,1\n");
+    let out = format!("o{name}.csv");
+    let runs = [
+        &["wind", &coil, "--csv", &out][..],
+        &["wind", &absent],
+        &["check", &record],
+        &["check", &record, "--json"],
+        &["explain", &absent],
+        &["new", &coil],
+        &["wind", &coil, &absent],
+    ];
+    for arguments in runs {
+        let output = folder.run(arguments);
+        for text in [stdout(&output), stderr(&output)] {
+            assert!(text.chars().all(|c| c == '\n' || !(c.is_control() || c == '\u{202e}')), "{arguments:?}: {text:?}");
+        }
+    }
+    let message = stderr(&folder.run(&["wind", &absent]));
+    assert!(message.starts_with("error: a\\u{1b}[2J\\rb\\u{202e}c.none: cannot be read"), "{message}");
+    let json: serde_json::Value = serde_json::from_str(&stdout(&folder.run(&["check", &record, "--json"]))).unwrap();
+    assert_eq!(json["file"], record.as_str(), "in JSON the name is what it is");
+}
+
+#[test]
+fn a_long_word_is_quoted_in_part() {
+    let folder = Folder::new();
+    let word = "a".repeat(70_000);
+    for text in [
+        change(COIL, "    name:", &format!("    {word}: 1.0,\n    name:")),
+        change(COIL, "PracticalQuadrupole, ", &format!("{word},")),
+        change(COIL, "material: Constants(", &format!("material: {word}(")),
+    ] {
+        folder.write("coil.ron", text);
+        let output = folder.run(&["wind", "coil.ron"]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).len() < 1500 && stderr(&output).contains("aaaa"), "{}", stderr(&output));
+    }
 }

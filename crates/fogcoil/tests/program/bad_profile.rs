@@ -148,3 +148,29 @@ fn heat_paths_that_cannot_be() {
     folder.write("p.csv", "time_s,chamber_c,left_c\n0,20,20\n");
     refuse(&folder, "p.csv", "p.csv:1: left_c: ", "no end wall acts on it");
 }
+
+/// 1 us apart from 1970 on, where doubles are a quarter of it apart.
+#[test]
+fn rows_a_microsecond_apart_are_read() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let run = |times: [&str; 3]| {
+        let rows: String = times.iter().map(|time| format!("{time},20\n")).collect();
+        folder.write("p.csv", format!("time_s,chamber_c\n{rows}"));
+        folder.run(&["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv"])
+    };
+    for times in [
+        ["1700000000.000001", "1700000000.000002", "1700000000.000003"],
+        ["0.3", "0.300001", "0.300002"],
+        ["100000.1", "100000.100001", "100000.100002"],
+    ] {
+        let output = run(times);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    }
+    let output = run(["0.3", "0.3000005", "0.300002"]);
+    assert!(
+        stderr(&output).contains("p.csv:3: time_s: 0.3000005 s is less than 1e-6 s after the row above"),
+        "{}",
+        stderr(&output)
+    );
+}

@@ -256,3 +256,16 @@ fn the_example_of_the_manual_is_read() {
     let noise = Analysis::new(&case).noise.unwrap().estimate;
     assert!((noise.model.white / 0.012).ln().abs() < 3.0 * noise.standard_errors.white.unwrap(), "made with 0.012 deg/h");
 }
+
+#[test]
+fn instants_are_told_to_the_microsecond() {
+    let folder = Folder::new();
+    let rows: String = (0..200).map(|n| format!("{},20,20,{}\n", f64::from(n) / 60.0, 0.1 + 0.01 * f64::from(n % 7))).collect();
+    let twice = format!("{},20,20,0.5\n", 31.0 / 60.0);
+    let at = rows.match_indices('\n').nth(31).unwrap().0 + 1;
+    folder.write("r.csv", format!("t,chamber_c,spool_c,rate_deg_per_h\n{}{twice}{}", &rows[..at], &rows[at..]));
+    let output = folder.run(&["check", "r.csv", "--column", "time=t", "--unit", "time=h"]);
+    let text = stdout(&output) + &stderr(&output);
+    assert!(text.contains(" at 1860 s"), "{text}");
+    assert!(!text.contains("00000000"), "{text}");
+}

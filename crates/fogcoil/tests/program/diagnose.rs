@@ -224,3 +224,23 @@ fn what_cannot_be_diagnosed_is_said_at_once() {
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("same recording"), "{}", stderr(&output));
 }
+
+#[test]
+fn a_warning_is_said_once() {
+    let folder = Folder::new();
+    folder.write("coil.ron", CLEAN_COIL);
+    let text = std::fs::read_to_string(format!("{CASE}/fit.csv")).unwrap();
+    let (header, rows) = text.split_once('\n').unwrap();
+    let columns: Vec<&str> = header.split(',').collect();
+    let chamber = columns.iter().position(|name| *name == "chamber_c").unwrap();
+    let fahrenheit = |row: &str| {
+        let mut fields: Vec<String> = row.split(',').map(str::to_owned).collect();
+        fields[chamber] = format!("{:.2}", fields[chamber].parse::<f64>().unwrap() * 1.8 + 32.0);
+        fields.join(",") + "\n"
+    };
+    folder.write("r.csv", format!("{header}\n{}", rows.lines().take(400).map(fahrenheit).collect::<String>()));
+    let output = folder.run(&["diagnose", "coil.ron", "--fit", "r.csv"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let said = |text: &str| text.matches("is it in degF?").count();
+    assert_eq!((said(&stdout(&output)), said(&stderr(&output))), (1, 0), "{}{}", stdout(&output), stderr(&output));
+}

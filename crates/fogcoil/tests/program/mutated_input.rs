@@ -50,7 +50,7 @@ proptest! {
         let folder = Folder::new();
         let design = read_coil(&folder.write("coil.ron", COIL)).unwrap().design;
         let path = folder.write("p.csv", mutate("time_s,chamber_c,left_c,spool_c\n0,20,20,1\n30,21.5,-1e1,2\r\n\n60,1e2,+3,\n", &edits));
-        match read_profile(&path, &design) {
+        match read_profile(&path, &design, &[]) {
             Ok(case) => prop_assert!(case.profile.drives.iter().all(|course| course.len() == case.profile.time.len())),
             Err(error) => {
                 let message = error.to_string();

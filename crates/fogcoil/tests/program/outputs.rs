@@ -42,3 +42,13 @@ fn a_cell_that_a_coil_names_stays() {
     keeps(&folder, &["wind", "coil.ron", "--csv", "cell.ron"], "cell.ron");
     keeps(&folder, &["simulate", "coil.ron", "--profile", "p.csv", "--out", "cell.ron"], "cell.ron");
 }
+
+#[test]
+fn the_map_that_a_run_writes_is_not_drawn_over() {
+    let folder = Folder::new();
+    folder.write("r.csv", RECORD);
+    let output = folder.run(&["check", "r.csv", "--write-map", "m.map.ron", "--svg", "m.map.ron"]);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(stderr(&output).contains("m.map.ron: is given twice"), "{}", stderr(&output));
+    assert_eq!(folder.names(), ["r.csv"], "nothing half-written");
+}

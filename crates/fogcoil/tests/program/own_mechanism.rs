@@ -56,6 +56,18 @@ fn a_mechanism_with_values_is_added_to_a_simulation() {
         before = behind;
     }
     assert!(with[70][7] > 0.007);
+    // a column that the law names is taken from the profile: twice the supply, twice the effect
+    let law = change(&with_values, "size * (spool", "supply_v * size * (spool");
+    folder.write("m.ron", change(&law, "states: [", "columns: [(name: \"supply_v\", unit: \"1\")],\n    states: ["));
+    let output = folder.run(&own);
+    assert!(stderr(&output).contains("p.csv:1: supply_v: the column is missing"), "{}", stderr(&output));
+    folder.write("p.csv", "time_s,supply_v,chamber_c\n0,2,20\n600,2,20\n4200,2,50\n7200,2,50\n");
+    assert_eq!(folder.run(&own).status.code(), Some(0));
+    for (one, two) in with.iter().zip(rows("b.csv")) {
+        assert!((two[7] - 2.0 * one[7]).abs() < 1e-12, "{two:?}");
+    }
+    let output = folder.run(&simulate);
+    assert!(stderr(&output).contains("unknown column `supply_v`"), "{}", stderr(&output));
 }
 
 #[test]

@@ -88,7 +88,7 @@ fn figures_alone_are_documents_and_the_contributions_add_up() {
     folder.write("coil.ron", COIL);
     folder.write("p.csv", "time_s,chamber_c\n0,20\n3600,40\n7200,30\n");
     let case = fogcoil::input::read_coil(&folder.path("coil.ron")).unwrap();
-    let profile = fogcoil::input::read_profile(&folder.path("p.csv"), &case.design).unwrap();
+    let profile = fogcoil::input::read_profile(&folder.path("p.csv"), &case.design, &[]).unwrap();
     let cache = fogcoil::cache::Cache::NONE;
     let (model, fields) = fogcoil::simulate::model_with_fields(&case, &profile.drives, &cache).unwrap();
     let simulation = fogcoil::simulate::simulate(&case, &profile, &model).unwrap();

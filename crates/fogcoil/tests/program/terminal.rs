@@ -46,7 +46,8 @@ fn a_new_design_runs_and_gives_the_reference_and_is_never_overwritten() {
     fogcoil::input::read_targets(&folder.path("t.ron")).unwrap();
     let case = fogcoil::input::read_coil(&folder.path("c.ron")).unwrap();
     assert!(
-        case.warnings.is_empty() && fogcoil::input::read_profile(&folder.path("p.csv"), &case.design).unwrap().notes.is_empty()
+        case.warnings.is_empty()
+            && fogcoil::input::read_profile(&folder.path("p.csv"), &case.design, &[]).unwrap().notes.is_empty()
     );
     let output = folder.run(&["sensitivity", "c.ron", "--json"]);
     let total: Value = serde_json::from_str(&stdout(&output)).unwrap();
@@ -163,13 +164,31 @@ fn an_interrupt_leaves_nothing_and_a_closed_pipe_is_no_failure() {
     let program = env!("CARGO_BIN_EXE_fogcoil");
     let mut command = Command::new(program);
     command.args(["simulate", "c.ron", "--profile", "p.csv", "--out", "b.csv", "--no-cache"]).current_dir(folder.path("."));
-    let running = command.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+    // signals that whoever runs the tests ignores are ignored by what they start, too
+    let ignored = |signal: &str| {
+        let script = format!("kill {signal} $$; exit 7");
+        Command::new("sh").args(["-c", &script]).status().unwrap().code() == Some(7)
+    };
+    for (signal, status) in [("-INT", 130), ("-TERM", 143), ("-HUP", 129)].into_iter().filter(|(signal, _)| !ignored(signal)) {
+        let running = command.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+        thread::sleep(Duration::from_millis(150));
+        Command::new("kill").args([signal, &running.id().to_string()]).status().unwrap();
+        let output = running.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(status), "{signal}");
+        assert!(stderr(&output).ends_with("interrupted; nothing is written\n"), "{}", stderr(&output));
+        assert_eq!(folder.names(), ["c.ron", "p.csv"], "{signal}");
+    }
+    // as under nohup: a hang-up that is ignored stays so
+    let script = r#"trap "" HUP; exec "$0" simulate c.ron --profile p.csv --out b.csv --no-cache"#;
+    let mut ignoring = Command::new("sh");
+    ignoring.args(["-c", script, program]).current_dir(folder.path("."));
+    let running = ignoring.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
     thread::sleep(Duration::from_millis(150));
-    Command::new("kill").args(["-INT", &running.id().to_string()]).status().unwrap();
-    let output = running.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130));
-    assert!(stderr(&output).ends_with("interrupted; nothing is written\n"), "{}", stderr(&output));
-    assert_eq!(folder.names(), ["c.ron", "p.csv"]);
+    for signal in ["-HUP", "-TERM"] {
+        Command::new("kill").args([signal, &running.id().to_string()]).status().unwrap();
+        thread::sleep(Duration::from_millis(50));
+    }
+    assert_eq!(running.wait_with_output().unwrap().status.code(), Some(143));
     let list = Command::new(program).arg("explain").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
     let mut closed = list.unwrap();
     drop(closed.stdout.take());

@@ -21,7 +21,7 @@ pub(super) const RATE_TEMPERATURE_COEFFICIENT: Named = Named {
     steady: &[Steady::Nothing("it follows the temperature, not its rate")],
     extent: Extent::everywhere,
     caveat: |_| None,
-    offer: |_, scene| Some(Offer::one("coefficient_deg_per_h_per_k", Prior::Normal { mean: 0.0, sd: usual(scene) }, &[0.0])),
+    offer: |_, scene| Some(Offer::one("coefficient_deg_per_h_per_k", Prior::Size { scale: usual(scene) }, &[0.0])),
     effect: |_, _, active| {
         let coefficient = active.values[0];
         Ok(Effect::Readings(Box::new(move |r| {

@@ -27,7 +27,7 @@ pub(super) const TAIL_ASYMMETRY: Named = Named {
     steady: &[Steady::Design(with_tail)],
     extent: Extent::everywhere,
     caveat: |_| None,
-    offer: |_, _| Some(Offer::one("tail_m", Prior::Normal { mean: 0.0, sd: 0.5 }, &[0.0])),
+    offer: |_, _| Some(Offer::one("tail_m", Prior::Size { scale: 0.5 }, &[0.0])),
     effect: |chain, record, active| Ok(Effect::Coil(Change::of_parts(chain.with_tail(record, active.values[0])?))),
     extended: |design, active| Some(with_tail(design, active.values[0])),
 };

@@ -19,7 +19,7 @@ pub(super) const THERMO_OPTIC_CURVATURE: Named = Named {
     steady: &[Steady::Nothing("dn/dT changes alike along the fibre where the temperature is even, and cancels")],
     extent: Extent::everywhere,
     caveat: |_| None,
-    offer: |_, _| Some(Offer::one("curvature_per_k2", Prior::Normal { mean: 0.0, sd: 6e-8 }, &[0.0])),
+    offer: |_, _| Some(Offer::one("curvature_per_k2", Prior::Size { scale: 6e-8 }, &[0.0])),
     effect: |_, record, active| {
         let zero = vec![0.0; record.time.len()];
         let shupe = record.curved.iter().map(|c| active.values[0] * c).collect();

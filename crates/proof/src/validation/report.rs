@@ -9,6 +9,7 @@ use std::fmt::Write as _;
 pub fn kind(kind: Agreement) -> &'static str {
     match kind {
         Agreement::Predicted => "predicted",
+        Agreement::Verified => "verified",
         Agreement::Identified => "identified",
         Agreement::Calibrated => "calibrated",
         Agreement::Misprint => "misprint",

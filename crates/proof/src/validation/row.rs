@@ -11,6 +11,8 @@ use std::time::Instant;
 pub enum Agreement {
     /// Follows from inputs that owe nothing to the printed value.
     Predicted,
+    /// Nothing printed is compared: the program against itself, an identity, a count, or an independent code.
+    Verified,
     /// The inputs were identified from the printed values.
     Identified,
     /// An input the paper leaves open was chosen to agree.

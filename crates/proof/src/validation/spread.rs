@@ -2,11 +2,12 @@
 
 use super::fixtures::{Fixtures, SpoolMaterial};
 use crate::Failure;
-use coil::{COARSE, Contact, Design, Flange, Model, Side, steady_sensitivity};
+use coil::{Contact, Design, Flange, Side, steady_sensitivity};
 use fem_core::material::Isotropic;
 use rayon::prelude::*;
 
-/// Smallest |S| with its numerical error and largest, each with the spool that gives it, and one line per spool: (name, S).
+/// Smallest |S| with its numerical error and largest, each with the spool that gives it, and one line per spool: (name, S). Value and error are of
+/// one solution, [`steady_sensitivity`].
 pub(crate) struct Spread {
     pub(crate) lowest: (String, f64, f64),
     pub(crate) highest: (String, f64),
@@ -53,15 +54,14 @@ fn design(fixtures: &Fixtures, material: &SpoolMaterial, sides: &[Side], hub: Co
 }
 
 pub(crate) fn over_spools(fixtures: &Fixtures) -> Result<Spread, Failure> {
-    let solve = |(name, design): (String, Design)| -> Result<(String, f64, Design), Failure> {
-        let s = Model::new(&design, &COARSE)?.sensitivity()?.total();
-        Ok((name, s, design))
+    let solve = |(name, design): (String, Design)| -> Result<(String, f64, f64), Failure> {
+        let s = steady_sensitivity(&design)?;
+        Ok((name, s.sensitivity.total(), s.error_estimate))
     };
     let mut solved = spools(fixtures).into_par_iter().map(solve).collect::<Result<Vec<_>, _>>()?;
     let lines = solved.iter().map(|(name, s, _)| (name.clone(), *s)).collect();
     solved.sort_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let none = || Failure("fixtures/spool-materials.ron lists no material".into());
     let (lowest, highest) = (solved.first().ok_or_else(none)?, solved.last().ok_or_else(none)?);
-    let error = steady_sensitivity(&lowest.2)?.error_estimate;
-    Ok(Spread { lowest: (lowest.0.clone(), lowest.1.abs(), error), highest: (highest.0.clone(), highest.1.abs()), lines })
+    Ok(Spread { lowest: (lowest.0.clone(), lowest.1.abs(), lowest.2), highest: (highest.0.clone(), highest.1.abs()), lines })
 }

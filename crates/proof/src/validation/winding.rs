@@ -2,13 +2,18 @@
 
 use super::cell::NINE_DIGITS;
 use super::fixtures::{Fixtures, Printed};
-use super::row::{Agreement, ComparisonRow, Section, rounds_to};
+use super::row::{Agreement, ComparisonRow, Section, Verdict, rounds_to};
 use crate::Failure;
 use winding::{Half, Pattern, Spec, wind};
 
 fn row(printed: &Printed, computed: f64, kind: Agreement) -> ComparisonRow {
     // counts are exact
     ComparisonRow::beside(printed, computed, if printed.unit == "-" { 0.0 } else { NINE_DIGITS }, kind)
+}
+
+/// A row of what is put in: it cannot fail, so nothing is tested.
+fn given(printed: &Printed, value: f64, kind: Agreement, reason: &str) -> ComparisonRow {
+    ComparisonRow { verdict: Verdict::Shown, ..row(printed, value, kind) }.because(reason)
 }
 
 fn must_round(row: ComparisonRow) -> ComparisonRow {
@@ -18,7 +23,7 @@ fn must_round(row: ComparisonRow) -> ComparisonRow {
 }
 
 fn counted(id: &str, quantity: &str, computed: usize, expected: usize, reason: &str) -> ComparisonRow {
-    let row = ComparisonRow::shown([id, quantity, "-"], computed as f64, 0.0, Agreement::Predicted);
+    let row = ComparisonRow::shown([id, quantity, "-"], computed as f64, 0.0, Agreement::Verified);
     row.required(computed == expected).because(reason)
 }
 
@@ -40,20 +45,37 @@ pub(crate) fn table_3(fixtures: &Fixtures) -> Result<Section, Failure> {
     );
     section.rows.push(must_round(row(at("III.length")?, coil.length(), Agreement::Predicted)).because(&length));
     let layers = coil.turns().iter().map(|t| t.layer).max().unwrap_or(0);
-    section.rows.push(must_round(row(at("III.layers")?, layers as f64, Agreement::Identified)).because("an input"));
+    section.rows.push(given(at("III.layers")?, layers as f64, Agreement::Identified, "an input"));
     let loops = |layer: usize| coil.turns().iter().filter(|t| t.layer == layer).count();
     let text = format!("holds for odd layers; even layers have {} (see the length)", loops(2));
     let everywhere = loops(1) == 106 && loops(2) == 106;
     section.rows.push(row(at("III.loops")?, loops(1) as f64, Agreement::Misprint).compared(everywhere, text));
     let diameter = "printed as a radius, but it is the diameter";
-    section.rows.push(must_round(row(at("III.inner")?, 2.0 * spec.inner_radius, Agreement::Misprint)).because(diameter));
+    let input = format!("{diameter}; an input");
+    section.rows.push(given(at("III.inner")?, 2.0 * spec.inner_radius, Agreement::Misprint, &input));
     section.rows.push(must_round(row(at("III.outer")?, 2.0 * coil.outer_radius(), Agreement::Misprint)).because(diameter));
-    let height = must_round(row(at("III.height")?, coil.height(), Agreement::Identified));
-    section.rows.push(height.because("the pitch is this height over 106 loops"));
+    let pitch = "an input: the pitch is this height over 106 loops";
+    section.rows.push(given(at("III.height")?, coil.height(), Agreement::Identified, pitch));
     let turns = coil.turns().len();
     section.rows.push(counted("III.turns", "turns", turns, 3798, "18 layers of 106 and 18 of 105"));
     let (cw, ccw) = (coil.count(Half::Cw), coil.count(Half::Ccw));
     section.rows.push(counted("III.cw", "turns of the CW half", cw, 1899, "the first turn of each layer is CCW, the last CW"));
     section.rows.push(counted("III.ccw", "turns of the CCW half", ccw, 1899, "the first turn of each layer is CCW, the last CW"));
     Ok(section)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inputs_are_shown_and_what_is_not_printed_is_verified() {
+        let rows = table_3(&Fixtures::read().unwrap()).unwrap().rows;
+        let row = |id: &str| rows.iter().find(|row| row.id == id).unwrap();
+        for input in ["III.layers", "III.inner", "III.height"] {
+            assert_eq!((row(input).verdict, row(input).must_hold), (Verdict::Shown, false), "{input}");
+        }
+        assert_eq!((row("III.length").kind, row("III.length").must_hold), (Agreement::Predicted, true));
+        assert!(rows.iter().all(|row| row.printed.is_some() || row.kind == Agreement::Verified));
+    }
 }

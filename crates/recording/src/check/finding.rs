@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::Seconds;
+
 /// How bad a finding is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
@@ -231,9 +233,9 @@ impl fmt::Display for Finding {
         }
         self.what(f)?;
         match (self.span, self.rows) {
-            (Some([from, to]), 0) => write!(f, ", from {from} to {to} s")?,
-            (Some([from, to]), rows) if to > from => write!(f, ", from {from} to {to} s ({rows} rows)")?,
-            (Some([at, _]), _) => write!(f, ", at {at} s")?,
+            (Some([from, to]), 0) => write!(f, ", from {} to {} s", Seconds(from), Seconds(to))?,
+            (Some([from, to]), rows) if to > from => write!(f, ", from {} to {} s ({rows} rows)", Seconds(from), Seconds(to))?,
+            (Some([at, _]), _) => write!(f, ", at {} s", Seconds(at))?,
             (None, _) => {}
         }
         match self.repair {

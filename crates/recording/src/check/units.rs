@@ -56,7 +56,7 @@ pub(super) fn judge(summary: &ChannelSummary, course: &Course, expectation: &Exp
         && summary.median.abs() <= *explained
     {
         let kind = FindingKind::Offset { median: summary.median, largest: *largest, of: of.clone() };
-        findings.push(Finding::whole(kind, Severity::Warning));
+        findings.push(Finding::whole(kind, Severity::Note));
     }
     findings
 }

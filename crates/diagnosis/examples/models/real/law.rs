@@ -22,6 +22,8 @@ pub(crate) enum Of {
     Quantity(usize),
     /// The difference of two quantities in one unit.
     Difference(usize, usize),
+    /// What the nominal model has at the first place, over the range of the larger of the two.
+    Place(usize, usize),
 }
 
 /// A small law.
@@ -54,11 +56,12 @@ pub(crate) struct Scales {
 }
 
 impl Scales {
-    fn x(&self, of: Of, q: &[f64]) -> f64 {
+    fn x(&self, of: Of, q: &[f64], nominal: &[f64]) -> f64 {
         let one = |i: usize| (q[i] - self.quantities[i].0) / self.quantities[i].1;
         match of {
             Of::Quantity(i) => one(i),
             Of::Difference(a, b) => (q[b] - q[a]) / self.quantities[a].1.max(self.quantities[b].1),
+            Of::Place(at, other) => nominal[at] / (2.0 * self.places[at].max(self.places[other])),
         }
     }
 
@@ -66,13 +69,16 @@ impl Scales {
     fn half(&self, of: Of) -> f64 {
         match of {
             Of::Quantity(i) => self.quantities[i].1,
-            Of::Difference(..) => 1.0,
+            Of::Difference(..) | Of::Place(..) => 1.0,
         }
     }
 
-    fn rates(&self, of: Of) -> &Rates {
-        let (Of::Quantity(i) | Of::Difference(i, _)) = of;
-        &self.rates[i]
+    fn rates(&self, of: Of) -> Rates {
+        match of {
+            Of::Quantity(i) | Of::Difference(i, _) => self.rates[i],
+            // over any time there is none: no law asks for the rate of what is at a place
+            Of::Place(..) => Rates { over: f64::INFINITY, largest: 1.0 },
+        }
     }
 }
 
@@ -88,7 +94,11 @@ impl Law {
     ) {
         let (places, [past, beside]) = own;
         self.act_at(self.at, self.of, values, scales, nominal, past, moment);
-        if let Some((also, of)) = self.also.and_then(|at| Some((at, Of::Quantity(places[at].own?)))) {
+        let beside_of = |also: usize| match self.of {
+            Of::Place(other, own) => Some(Of::Place(own, other)),
+            _ => places[also].own.map(Of::Quantity),
+        };
+        if let Some((also, of)) = self.also.and_then(|also| Some((also, beside_of(also)?))) {
             self.act_at(also, of, values, scales, nominal, beside, moment);
         }
     }
@@ -104,8 +114,8 @@ impl Law {
         past: &mut Past,
         moment: &mut Moment<'_>,
     ) {
-        let x = scales.x(of, moment.quantities) * scales.half(of) / scales.half(self.of);
-        let shape = self.shape.at(x, moment.step, scales.rates(of), &values[1..], past);
+        let x = scales.x(of, moment.quantities, nominal) * scales.half(of) / scales.half(self.of);
+        let shape = self.shape.at(x, moment.step, &scales.rates(of), &values[1..], past);
         let by = match self.factor {
             Factor::One => scales.places[self.at],
             Factor::Flow(i) => scales.places[self.at] * moment.quantities[i] / scales.quantities[i].1,
@@ -135,6 +145,7 @@ impl Law {
         let of = match self.of {
             Of::Quantity(i) => quantities[i].name.to_owned(),
             Of::Difference(a, b) => format!("{} less {}", quantities[b].name, quantities[a].name),
+            Of::Place(at, _) => places[at].name.to_owned(),
         };
         let goes = self.shape.words(&of);
         match (self.factor, self.from) {
@@ -156,6 +167,7 @@ pub(crate) fn all(quantities: &[Quantity], places: &[Place]) -> Vec<Law> {
         laws.extend(products(quantities, place, at));
         laws.extend(exchanges(quantities, places, at));
         laws.extend(alike(quantities, places, at));
+        laws.extend(shared(places, at));
     }
     laws
 }
@@ -227,4 +239,18 @@ fn exchanges(quantities: &[Quantity], places: &[Place], at: usize) -> Vec<Law> {
         shapes::PASSED_ON.iter().filter_map(law).collect::<Vec<_>>()
     };
     (0..at).filter_map(of).chain((0..places.len()).flat_map(passed)).collect()
+}
+
+/// Two flows of a kind of which each changes with the other, alike: they come from one supply.
+fn shared(places: &[Place], at: usize) -> Vec<Law> {
+    let flows = |place: usize| places[place].acts == Acts::Flow && places[place].unit == places[at].unit;
+    let law = |also: usize| Law {
+        shape: Shape::Linear,
+        of: Of::Place(also, at),
+        factor: Factor::Own,
+        at,
+        from: None,
+        also: Some(also),
+    };
+    (at + 1..places.len()).filter(|also| flows(at) && flows(*also)).map(law).collect()
 }

@@ -6,6 +6,7 @@
 pub(crate) mod cascade;
 pub(crate) mod cell;
 pub(crate) mod chart;
+pub(crate) mod control;
 pub(crate) mod heaters;
 pub(crate) mod law;
 pub(crate) mod load;

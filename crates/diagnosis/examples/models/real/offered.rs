@@ -157,6 +157,23 @@ impl<P: Plant> Offered<P> {
         }
     }
 
+    /// The same with noise that is no larger than what the nominal model leaves by least squares.
+    pub(crate) fn with_noise(
+        mut self,
+        records: &[usize],
+        observations: &[Observation],
+    ) -> Result<Self, diagnosis::Error<std::convert::Infallible>>
+    where
+        P: Clone,
+    {
+        let least = self.by_squares().nominal(records, observations)?;
+        for (c, channel) in self.channels.iter_mut().enumerate() {
+            let left: Vec<f64> = least.residuals.iter().flat_map(|r| &r[c]).copied().filter(|r| r.is_finite()).collect();
+            channel.noise = noise::beside(&channel.noise, rms(&left));
+        }
+        Ok(self)
+    }
+
     /// The nominal model, fitted.
     pub(crate) fn nominal(
         &self,

@@ -14,7 +14,7 @@ use std::convert::Infallible;
 pub(crate) type Error = diagnosis::Error<Infallible>;
 
 /// Laws that are looked for in a recording.
-pub(crate) const BREADTH: Breadth = Breadth { terms: 6, followed: 12, likeliest: 6, earlier: Earlier::Weighed };
+pub(crate) const BREADTH: Breadth = Breadth { terms: 6, followed: 12, likeliest: 6, turnings: 5, earlier: Earlier::Weighed };
 /// Seeds of the networks, of which the median counts.
 const SEEDS: [u64; 3] = [1, 2, 3];
 /// Shares of a record's duration by which a network's inputs are lagged.
@@ -50,13 +50,14 @@ pub(crate) struct Study<P> {
 }
 
 /// Composes a law for records of a plant; `recorded` are the channels of every test.
-pub(crate) fn composed<P: Plant>(
+pub(crate) fn composed<P: Plant + Clone>(
     plain: Offered<P>,
     recorded: &[Observation],
     records: &Records<'_>,
     breadth: Breadth,
 ) -> Result<(Offered<P>, Fit, Option<Composed>), Error> {
     let observations: Vec<Observation> = records.fitted.iter().map(|r| recorded[*r].clone()).collect();
+    let plain = plain.with_noise(records.fitted, &observations)?;
     let nominal = plain.nominal(records.fitted, &observations)?;
     let model = plain.with_laws(&nominal, records.fitted, &observations);
     let all = 0..model.mechanisms().len();
@@ -208,15 +209,4 @@ fn apart<P: Plant>(
     let noise: Vec<_> = (0..channels).map(|c| *like.noise_model(0, c)).collect();
     let plan = Plan { records: &[record], instants: &instants, noise: Some(&noise) };
     Ok(separation(&study.model, &plan, truth, &[rival])?.sigma())
-}
-
-/// The same for one law more, of a size, beside what was composed: how far a record would set that apart from the best without it.
-pub(crate) fn would_show<P: Plant>(study: &Study<P>, law: &Law, size: f64, record: usize, time: &[f64]) -> Result<f64, Error> {
-    let base = study.composed.as_ref().map_or(&study.nominal, |c| &c.fit);
-    let Some(mechanism) = study.model.laws.iter().position(|l| l == law) else { return Ok(0.0) };
-    let mut truth = base.active.clone();
-    let mut values = study.model.mechanisms()[mechanism].starts[0].clone();
-    values[0] = size;
-    truth.push(Active { mechanism, values, choice: None });
-    apart(study, base, &truth, base.hypothesis.clone(), record, time)
 }

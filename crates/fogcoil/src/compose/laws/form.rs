@@ -23,7 +23,7 @@ pub(crate) struct Ranges {
 
 /// Size that is expected of an effect, in noises of a reading of a minute: what is larger is seen by eye, and what is smaller hardly at all.
 const EXPECTED: f64 = 30.0;
-/// Time in which a rate changes as much as it has, for the scale of a second derivative \[s\].
+/// Time constant of a filter through which a second derivative is seen \[s\].
 pub(super) const TURN_S: f64 = 600.0;
 
 impl Ranges {
@@ -91,8 +91,7 @@ pub(super) fn two(x: f64) -> String {
 impl Form<'_> {
     pub(super) fn law(&self, expected: f64) -> Law {
         let sd = two(expected / self.per_size);
-        let mut parameters =
-            format!("        (name: \"size\", unit: \"{}\", prior: Normal(0.0, {sd}), starts: [{sd}]),\n", self.unit);
+        let mut parameters = format!("        (name: \"size\", unit: \"{}\", prior: Size({sd}), starts: [{sd}]),\n", self.unit);
         for (name, unit, prior, starts) in &self.beside {
             let starts: Vec<String> = starts.iter().map(|x| two(*x)).collect();
             let starts = starts.join(", ");
@@ -111,5 +110,10 @@ impl Form<'_> {
 
 /// A state that follows `of` with a time constant.
 pub(super) fn lag(name: &str, of: &str, tau: &str) -> String {
-    format!("        (name: \"{name}\", unit: \"degC\", goes: Rate(rate: \"({of} - {name}) / ({tau})\", first: \"{of}\")),\n")
+    state(name, "degC", of, tau)
+}
+
+/// The same of any quantity.
+pub(super) fn state(name: &str, unit: &str, of: &str, tau: &str) -> String {
+    format!("        (name: \"{name}\", unit: \"{unit}\", goes: Rate(rate: \"({of} - {name}) / ({tau})\", first: \"{of}\")),\n")
 }

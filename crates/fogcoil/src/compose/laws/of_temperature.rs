@@ -1,6 +1,6 @@
 //! Rates that are added, by the temperature of a body.
 
-use super::form::{Form, Ranges, TURN_S, lag, two};
+use super::form::{Form, Ranges, TURN_S, lag, state, two};
 
 /// Width of a transition of a polymer, as calorimetry shows it (ISO 11357-2: some kelvin) \[K\].
 const TRANSITION_K: f64 = 3.0;
@@ -94,15 +94,16 @@ pub(super) fn forms<'a>(t: &str, ranges: &Ranges) -> Vec<Form<'a>> {
             none(),
             "size * T_rate^2".into(),
         ),
+        // a second derivative is always seen through a filter
         form(
             "bend",
             "with the second derivative of",
             "a filter or an inner gradient that builds up",
-            "deg s2/h/K",
-            rate / TURN_S,
-            vec![],
-            none(),
-            "size * T_rate2".into(),
+            "deg s/h/K",
+            rate,
+            vec![tau(TURN_S)],
+            state("x", "K/s", &format!("{t}_rate"), "tau"),
+            "size * (T_rate - x)".into(),
         ),
         form(
             "lag",
@@ -114,15 +115,16 @@ pub(super) fn forms<'a>(t: &str, ranges: &Ranges) -> Vec<Form<'a>> {
             lag("x", t, "tau"),
             "size * (T - x)".into(),
         ),
+        // the mean of a slab, 8/pi^2 of it in the slowest term, then 1/9 and 1/25 of that (Crank, The Mathematics of Diffusion, 4.3)
         form(
             "memory",
             "with the memory of",
             "diffusion: moisture, or heat in a thick part",
             "deg/h/K",
             far,
-            vec![tau(600.0)],
-            lag("x", t, "tau") + &lag("y", t, "5 * tau") + &lag("z", t, "25 * tau"),
-            "size * (T - (x + y + z) / 3)".into(),
+            vec![tau(3000.0)],
+            lag("x", t, "tau") + &lag("y", t, "tau / 9") + &lag("z", t, "tau / 25"),
+            "size * (T - (x + y / 9 + z / 25) / (1 + 1 / 9 + 1 / 25))".into(),
         ),
         form(
             "play",

@@ -32,7 +32,7 @@ pub(super) const CONSTANT_FIELD: Named = Named {
     offer: |_, scene| {
         // no record tells it from a read-out that drifts: what is known of the size of either does not, either
         let per_kelvin = (responsivity(REFERENCE_C + 1.0) - 1.0).abs();
-        let prior = Prior::Normal { mean: 0.0, sd: usual(scene) / per_kelvin };
+        let prior = Prior::Size { scale: usual(scene) / per_kelvin };
         Some(Offer::one("field_bias_deg_per_h", prior, &[0.0]))
     },
     effect: |_, record, active| {

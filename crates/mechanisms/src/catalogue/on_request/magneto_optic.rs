@@ -32,7 +32,7 @@ pub(super) const MAGNETO_OPTIC: Named = Named {
     caveat: |_| None,
     offer: |_, scene| {
         // a coil in the Earth's field, some 50 µT, may be off by several times its noise
-        let prior = Prior::Normal { mean: 0.0, sd: 0.1 * scene.noise };
+        let prior = Prior::Size { scale: 0.1 * scene.noise };
         Some(Offer::one("sensitivity_deg_per_h_per_ut", prior, &[0.0]))
     },
     effect: |_, record, active| {

@@ -31,7 +31,7 @@ pub(super) const SCALE_FACTOR_DRIFT: Named = Named {
     caveat: |_| None,
     offer: |_, scene| {
         // as of a read-out that drifts: no record of a unit that stands still tells them apart
-        let of = |earth: f64| Prior::Normal { mean: 0.0, sd: 1e6 * usual(scene) / earth.abs() };
+        let of = |earth: f64| Prior::Size { scale: 1e6 * usual(scene) / earth.abs() };
         scene.earth.filter(|earth| *earth != 0.0).map(|earth| Offer::one("scale_ppm_per_k", of(earth), &[0.0]))
     },
     effect: |_, record, active| Ok(scaled(record, active.values[0])),
