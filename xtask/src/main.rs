@@ -3,11 +3,14 @@
 mod bench;
 mod crates;
 mod docs;
+mod faults;
 mod figures;
+mod fuzz;
 mod mechanisms;
 mod pages;
 mod sabotage;
 mod supply;
+mod tools;
 mod validate;
 
 use std::path::PathBuf;
@@ -57,6 +60,8 @@ enum Chore {
     /// Each library by itself: what it promises, its own features, its tests, its package
     Crates,
     Supply(supply::Supply),
+    Faults(faults::Faults),
+    Fuzz(fuzz::Fuzz),
     /// Times beside errors, into docs/benchmarks.md
     #[command(subcommand)]
     Bench(bench::Bench),
@@ -75,6 +80,8 @@ fn main() -> ExitCode {
         Chore::Sabotage => sabotage::run(),
         Chore::Crates => crates::run(),
         Chore::Supply(supply) => supply.run(),
+        Chore::Faults(faults) => faults.run(),
+        Chore::Fuzz(fuzz) => fuzz.run(),
         Chore::Bench(bench) => bench.run(),
     };
     match outcome {

@@ -2,8 +2,8 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
+use crate::tools::{cargo, run, tool};
 use proof::Failure;
 use proof::files::{below, failed, root};
 use proof::program::hex;
@@ -38,29 +38,6 @@ impl Supply {
         println!("the bill of materials is {}", bill(&into)?.display());
         Ok(allowed && (!self.twice || built_alike(&into)?))
     }
-}
-
-/// Runs a command where the workspace is; whether it went well.
-fn run(command: &mut Command) -> Result<bool, Failure> {
-    Ok(command.current_dir(root()).status()?.success())
-}
-
-fn cargo() -> Command {
-    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-}
-
-/// A tool of this version, which is installed if it is not there yet.
-fn tool([name, version]: [&str; 2]) -> Result<Command, Failure> {
-    let tools = root().join("target/tools").join(version);
-    let program = tools.join("bin").join(name);
-    if !program.exists() {
-        eprintln!("installing {name} {version}");
-        let install = ["install", "--quiet", "--locked", "--version", version, "--root"];
-        if !run(cargo().args(install).arg(&tools).arg(name))? {
-            return Err(Failure(format!("{name} {version} cannot be installed")));
-        }
-    }
-    Ok(Command::new(program))
 }
 
 /// Writes the program's bill of materials.

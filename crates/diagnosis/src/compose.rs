@@ -4,7 +4,8 @@
 //! the best are fitted, constants and sensors free, and the best of those is kept; then a second law is sought beside it.
 
 use crate::fit::{Fit, Fitter, Hypothesis};
-use crate::{Active, Error, ForwardModel, Observation, Prior};
+use crate::rival::Rival;
+use crate::{Active, Candidate, Error, ForwardModel, Observation, Prior};
 use nalgebra::DMatrix;
 use progress::Step;
 use std::ops::Range;
@@ -159,13 +160,20 @@ pub fn gained_by_noise_of<M: ForwardModel>(
     model: &M,
     records: &[usize],
     observations: &[Observation],
-    fit: &Fit,
+    candidate: &Candidate,
     other: &Fit,
 ) -> Result<f64, Error<M::Error>> {
     let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
+    let fit = &candidate.fit;
     let from = Fit { noise: other.noise.clone(), ..fit.clone() };
-    let again = defined(fitter.fit_with_noise(&fit.hypothesis, &from, 2))?;
-    Ok(again.map_or(0.0, |again| (again.log_evidence - fit.log_evidence).max(0.0)))
+    let Some(again) = defined(fitter.fit_with_noise(&fit.hypothesis, &from, 2))? else { return Ok(0.0) };
+    // of what was noise the structure beside it may have had its part already
+    let structure = candidate.rival.as_ref().map_or(0.0, |before| {
+        let times: Vec<&[f64]> = observations.iter().map(|o| o.time.as_slice()).collect();
+        let same = |r: &Rival| r.structure == before.structure && r.channel == before.channel;
+        again.rivals(model, records, &times).into_iter().find(same).map_or(0.0, |now| now.gain - before.gain)
+    });
+    Ok((again.log_evidence - fit.log_evidence + structure).max(0.0))
 }
 
 /// A fit, unless its law is no number somewhere on the way: then it is no law for these records.

@@ -44,7 +44,8 @@ impl HeldOut {
         self.rmse[channel] > FAR * self.quiet[channel] && self.rmse[channel] > BARELY * nominal.rmse[channel]
     }
 
-    /// Whether `other` predicts a channel clearly better: by its error and by the likelihood of the record.
+    /// Whether `other` predicts a channel clearly better: by its error, and by the likelihood of the whole record, for a fault of one channel may be
+    /// what the other one shows.
     pub fn clearly_worse_than(&self, other: &Self, channel: usize) -> bool {
         self.rmse[channel] > (1.0 + WORSE) * other.rmse[channel] && self.log_score < other.log_score - CLEAR
     }

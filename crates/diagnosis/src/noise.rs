@@ -6,6 +6,11 @@ use recording::minimise::{Effort, nelder_mead};
 use recording::noise::{NoiseModel, Whitener};
 use std::sync::Arc;
 
+/// White noise of rows of one length, in rows of another \[s\]: that of means falls with their length.
+fn white_in(model: &NoiseModel, interval: f64, other: f64) -> f64 {
+    if model.averaging > 0.0 { model.white * (interval / other).sqrt() } else { model.white }
+}
+
 /// The noise models of some records with their whiteners: `[record][channel]`.
 #[derive(Debug, Clone)]
 pub(crate) struct Noise {
@@ -94,10 +99,8 @@ impl Noise {
                 let each = self.models.iter().zip(&self.intervals).map(|(models, interval)| size(&models[c], *interval).powi(2));
                 (each.sum::<f64>() / self.models.len() as f64).sqrt()
             };
-            let white =
-                |m: &NoiseModel, interval: f64| if m.averaging > 0.0 { m.white * (interval / rows).sqrt() } else { m.white };
             NoiseModel {
-                white: of(&white),
+                white: of(&|m, interval| white_in(m, interval, rows)),
                 drift: of(&|m, _| m.drift),
                 drift_time: of(&|m, _| m.drift_time),
                 walk: of(&|m, _| m.walk),
@@ -165,6 +168,11 @@ impl Noise {
         &self.models[record][channel]
     }
 
+    /// White noise of a channel of a record over a minute, whatever its rows.
+    pub(crate) fn white_of_a_minute(&self, record: usize, channel: usize) -> f64 {
+        white_in(&self.models[record][channel], self.intervals[record], 60.0)
+    }
+
     /// Whitened series of a channel of a record, of the rows that are used.
     pub(crate) fn whiten(&self, record: usize, channel: usize, series: &[f64]) -> Vec<f64> {
         self.whiteners[record][channel].apply(series)
@@ -197,6 +205,8 @@ mod tests {
             let pooled = Noise::with(models, 0.0, &observations).and_then(|noise| noise.pooled(&of(held))).expect("noise");
             *pooled.model(0, 0)
         };
+        let minute = Noise::with(vec![model(60.0, 2.0), model(240.0, 1.0)], 0.0, &[of(60.0), of(240.0)]).expect("noise");
+        assert_eq!([0, 1].map(|record| minute.white_of_a_minute(record, 0)), [2.0, 2.0]);
         for order in [[0, 1], [1, 0]] {
             assert!((white(order, 60.0).white - 2.0).abs() < 1e-12 && (white(order, 15.0).white - 4.0).abs() < 1e-12);
             assert!((white(order, 60.0).drift - 0.3).abs() < 1e-12);

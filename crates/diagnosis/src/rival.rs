@@ -22,7 +22,8 @@ pub struct Rival {
     pub gain: f64,
 }
 
-/// Amplitudes that are averaged over, in units of the channel's white noise.
+/// Amplitudes that are averaged over, in units of the channel's white noise over a minute: so a record says the same in rows of a second and of a
+/// minute.
 const AMPLITUDES: [f64; 4] = [0.3, 1.0, 3.0, 10.0];
 
 /// ln of the mean of e^x, each with its share.
@@ -85,7 +86,7 @@ impl Fit {
                 let mut gains = Vec::new();
                 for k in 0..count {
                     if let Some(columns) = self.columns(&alternatives, k, channel, times_of) {
-                        let white = (0..records.len()).map(|r| self.noise.model(r, channel).white).fold(0.0, f64::max);
+                        let white = (0..records.len()).map(|r| self.noise.white_of_a_minute(r, channel)).fold(0.0, f64::max);
                         let scales: Vec<f64> = AMPLITUDES.iter().map(|a| a * white).collect();
                         let even = 1.0 / scales.len() as f64;
                         let gain = log_mean_exp(self.gain(&columns, &scales).into_iter().map(|g| (g, even)));

@@ -242,6 +242,14 @@ remarks! {
         "A unit that `calibrate` was given as a good one is explained better by a mechanism than by its constants.",
         "What it has of a fault goes into the constants of the lot.",
         "Diagnose it alone; leave it out unless it is good.";
+    FewUnits "few-units":
+        "A lot is calibrated from fewer than three units.",
+        "A fault that one of them has looks like the lot's own: what is common to two cannot be told from what one has.",
+        "Give three good units or more.";
+    OtherDesign "other-design":
+        "A meta file says that the unit was built to a design of another name.",
+        "The model may be that of another coil.",
+        "Give the design that the unit was built to, or correct `design` in the meta file.";
     TakenBack "taken-back":
         "The likeliest explanation predicts a record that was held out worse than the nominal model, or no better and far from its noise.",
         "The explanation is taken back: the verdict is none or unknown.",

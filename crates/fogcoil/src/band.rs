@@ -14,7 +14,7 @@ use crate::beside;
 use crate::cache::Cache;
 use crate::input::keyed;
 use crate::prepare::library;
-use crate::simulate::{SimulatedRow, Simulation};
+use crate::simulate::{SimulatedRow, Simulation, number, windowed};
 use crate::summary::{Regression, Summary};
 use crate::table::{significant, table};
 
@@ -92,7 +92,7 @@ impl CourseBand {
             let rows: Vec<SimulatedRow> = simulation.rows().enumerate().map(row).collect();
             let squares = rows.windows(2).map(|w| w[1].rate.powi(2) * (w[1].time - w[0].time)).sum::<f64>();
             let rms = if summary.duration > 0.0 { (squares / summary.duration).sqrt() } else { 0.0 };
-            let slope = Regression::of(Simulation::windowed(rows[0], rows.iter().skip(1).copied())).slope();
+            let slope = Regression::of(windowed(rows[0], rows.iter().skip(1).copied())).slope();
             (rms, slope.unwrap_or(0.0))
         };
         let half = |change: &Change| {
@@ -151,6 +151,6 @@ impl CourseBand {
     /// What `out` says.
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "time_s,rate_deg_per_h,rate_sd_deg_per_h,spool_c,spool_sd_c")?;
-        self.rows.iter().try_for_each(|row| writeln!(out, "{}", row.map(crate::simulate::number).join(",")))
+        self.rows.iter().try_for_each(|row| writeln!(out, "{}", row.map(number).join(",")))
     }
 }

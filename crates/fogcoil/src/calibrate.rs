@@ -17,13 +17,15 @@ use crate::cache::Cache;
 use crate::input::{CoilCase, Fingerprint, InputError, RecordCase, check_coil, keyed};
 use crate::keys::interval_by_key;
 use crate::output::coil_file;
-use crate::prepare::{Record, gyro, library, ready, refuse_copies};
+use crate::prepare::{Record, gyro, library, other_design, ready, refuse_copies};
 use crate::table::{significant, table};
 
 /// The last digit to which correlations are written.
 const LEAST_CORRELATION: f64 = 1e-3;
 /// Gain of ln evidence by a mechanism from which a unit is doubted: a likelihood ratio of e⁵ = 148.
 const DOUBTED: f64 = 5.0;
+/// Units of which two can outvote one.
+const FEW: usize = 3;
 
 /// A lot, calibrated.
 pub struct Outcome {
@@ -68,7 +70,14 @@ pub fn calibrate(
         let remedy = "give the drawing, and all units of the lot together".to_owned();
         return Err(InputError { file, line: None, field: Some("correlations".into()), problem, remedy }.into());
     }
-    let mut notes = Vec::new();
+    let mut notes: Vec<Note> = units.iter().flatten().filter_map(|record| other_design(case, record)).collect();
+    if units.len() < FEW {
+        let message = format!(
+            "a lot of {} cannot tell a fault of one unit from what the lot has in common; give {FEW} units or more",
+            units.len()
+        );
+        notes.push(Remark::FewUnits.warning(message).at(&case.file));
+    }
     let library = library(case, cache, progress)?;
     let mut fitted = Vec::new();
     for records in units {

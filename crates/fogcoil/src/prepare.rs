@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use bias::units::S_PER_MIN;
 use coil::COARSE;
 use diagnosis::Observation;
-use files::{Note, Remark, shown_path};
+use files::{Note, Remark, shown, shown_path};
 use mechanisms::{
     CATALOGUE, Chamber, Gyro, Instrument, Instruments, Library, Mechanism, Models, Prepared, RATE as RATE_NUMBER,
     SPOOL as SPOOL_NUMBER, USUAL_NOISE,
@@ -187,6 +187,14 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     }
     let (fingerprint, observed) = (case.fingerprint.clone(), Observation { time, channels: vec![spool, rate] });
     Ok(Record { fingerprint, observed, chamber, drive, averaging, columns, meta: case.meta.clone(), instants: (before, earlier) })
+}
+
+/// What is to be said of a record whose unit was built to a design of another name; what the program writes has the drawing's name before a comma.
+pub(crate) fn other_design(case: &CoilCase, record: &RecordCase) -> Option<Note> {
+    let told = record.meta.as_ref().map(|meta| meta.design.trim()).filter(|told| !told.is_empty())?;
+    let name = case.name.split(',').next().unwrap_or_default().trim();
+    let message = || format!("the meta file says that the unit was built to `{}`; this design is `{name}`", shown(told));
+    (!told.eq_ignore_ascii_case(name)).then(|| Remark::OtherDesign.note(message()).at(&record.fingerprint.file))
 }
 
 /// What the chamber's readings say; `None` where there are none.

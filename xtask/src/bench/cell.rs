@@ -149,23 +149,12 @@ fn whole_program(path: &Path) -> Result<[f64; 2], Failure> {
     Ok([cpu, wall].map(|s| s / PROCESSES as f64))
 }
 
-/// The program beside this one, as it stands.
-fn program() -> Result<PathBuf, Failure> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let status =
-        Command::new(cargo).args(["build", "--quiet", "--release", "--package", "fogcoil"]).current_dir(root()).status()?;
-    if !status.success() {
-        return Err(Failure(format!("the program does not build: {status}")));
-    }
-    Ok(std::env::current_exe()?.with_file_name("fogcoil"))
-}
-
 /// A peer that fails is left out with a message; one of our own must not.
 pub(crate) fn run(python: Option<&Path>, repetitions: u64) -> Result<(), Failure> {
     let progress = Progress::new();
     let cell = fogcoil::input::read_cell(&cell_file())?.cell;
     let exact = homogenize_to(&cell, CONVERGED)?.constants;
-    let fogcoil = program()?;
+    let fogcoil = crate::tools::program()?;
     let mut programs = programs(python, &progress)?;
     let mut whole = Vec::new();
     for repetition in 0..repetitions {

@@ -4,21 +4,28 @@ use super::{Diagnosis, Verdict};
 use crate::{Candidate, Composed};
 
 impl Diagnosis {
-    /// Weighs a law that was composed beside the design's constants with all that was compared, `log_prior` being ln of its
-    /// probability before anything was seen ([`Settings::log_unlisted`](crate::Settings::log_unlisted)): what is probable of it is taken from all others. What was compared gains
-    /// `by_noise` of ln evidence in the noise that the law leaves ([`gained_by_noise_of`](crate::gained_by_noise_of)). Where it is likelier than what explained the records, they are unknown, and the law describes them.
+    /// Weighs a law that was composed, beside the design's constants or mechanisms that have a name, with all that was compared. `log_prior` is ln of its
+    /// probability before anything was seen ([`Settings::log_unlisted`](crate::Settings::log_unlisted)): what is probable of it is taken from all others,
+    /// and given to the mechanisms beside which it stands. What was compared gains `by_noise` of ln evidence in the noise that the law leaves
+    /// ([`gained_by_noise_of`](crate::gained_by_noise_of)). Where the law is likelier than what explained the records, they are unknown, and the law
+    /// describes them.
     pub fn weigh_unlisted(&mut self, law: &Composed, log_prior: f64, by_noise: f64) {
         let log_weight = law.log_weight(log_prior);
         let ratio = |c: &Candidate| (c.log_weight + by_noise - log_weight).exp();
         let others: f64 = self.candidates.iter().map(ratio).sum();
-        self.make_room(1.0 / (1.0 + others));
+        let beside = law.fit.active.len() - law.laws;
+        let names: Vec<usize> = law.fit.active[..beside].iter().map(|active| active.mechanism).collect();
+        self.make_room(1.0 / (1.0 + others), &names);
     }
 
-    /// Gives something unknown this probability.
-    fn make_room(&mut self, probability: f64) {
+    /// Gives this probability to something unknown beside mechanisms that have a name.
+    fn make_room(&mut self, probability: f64, names: &[usize]) {
         let left = 1.0 - probability;
         self.candidates.iter_mut().for_each(|c| c.probability *= left);
-        self.mechanisms.iter_mut().for_each(|(_, p)| *p *= left);
+        for (mechanism, p) in &mut self.mechanisms {
+            *p = *p * left + if names.contains(mechanism) { probability } else { 0.0 };
+        }
+        self.mechanisms.sort_by(|a, b| b.1.total_cmp(&a.1));
         self.verdicts.iter_mut().for_each(|p| *p *= left);
         self.verdicts[3] += probability;
         let [_, _, explained, unknown] = self.verdicts;
@@ -58,8 +65,15 @@ mod tests {
     }
 
     fn weighed(log_evidence: f64, choice: f64, by_noise: f64) -> Diagnosis {
+        weighed_beside(&[], log_evidence, choice, by_noise)
+    }
+
+    /// The law is the model's eighth mechanism.
+    fn weighed_beside(names: &[usize], log_evidence: f64, choice: f64, by_noise: f64) -> Diagnosis {
         let mut diagnosis = explained();
-        let fit = crate::Fit { log_evidence, ..diagnosis.nominal.clone() };
+        let active = |mechanism: &usize| crate::Active { mechanism: *mechanism, values: Vec::new(), choice: None };
+        let active = names.iter().chain(&[7]).map(active).collect();
+        let fit = crate::Fit { log_evidence, active, ..diagnosis.nominal.clone() };
         diagnosis.weigh_unlisted(
             &Composed { fit, laws: 1, gain: 0.0, choice, others: Vec::new(), steps: Vec::new() },
             0.0,
@@ -86,7 +100,10 @@ mod tests {
         // what the law owes to a noise that was found later is no merit of the law
         let by_noise = weighed(14.0, 0.0, 8.0);
         assert_eq!((by_noise.verdict, by_noise.set.as_slice()), (Verdict::Explained, &[0][..]));
-        for diagnosis in [likelier, paid, by_noise] {
+        // a law beside a name leaves it as probable as it was
+        let beside = weighed_beside(&[0], 14.0, 0.0, 0.0);
+        assert!(beside.mechanisms[0].1 > 0.999 && likelier.mechanisms[0].1 < 0.02, "{:?}", beside.mechanisms);
+        for diagnosis in [likelier, paid, by_noise, beside] {
             assert!((diagnosis.verdicts().iter().sum::<f64>() - 1.0).abs() < 1e-6);
         }
     }

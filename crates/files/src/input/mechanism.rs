@@ -1,11 +1,10 @@
 //! Mechanisms of a user's own: `MECHANISM.ron`.
 
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use diagnosis::{Parameter, Prior};
 use laws::{State, Unit};
-use mechanisms::{CATALOGUE, Mechanism, ON_REQUEST, Target, Written};
+use mechanisms::{Target, Written};
 
 use super::InputError;
 use super::group::Group;
@@ -13,7 +12,6 @@ use super::mechanism_file::{GoesFile, LawFile, MechanismFile, ParameterFile, Pri
 use super::mechanism_quantities::{Quantities, Sight, expressions};
 use super::mirror::Mirror;
 use super::source::{MECHANISM, Source};
-use crate::{Error, shown_path};
 
 /// Most parameters, columns, states and laws, each.
 const MOST: usize = 8;
@@ -142,76 +140,6 @@ fn checked(source: Source) -> Result<MechanismCase, InputError> {
     };
     let values = file.parameters.iter().map(|parameter| parameter.value).collect();
     Ok(MechanismCase { file: source.path().to_owned(), mechanism, values, source })
-}
-
-/// What `--mechanism` asks for beside the program's usual mechanisms.
-#[derive(Default)]
-pub struct Asked {
-    /// Files of a user's own.
-    pub own: Vec<MechanismCase>,
-    /// Those of [`mechanisms::ON_REQUEST`], by their ids.
-    pub listed: Vec<&'static dyn Mechanism>,
-}
-
-/// Reads what `--mechanism` asks for, each once: files, or ids of mechanisms that are weighed on request.
-///
-/// # Errors
-/// As [`read_mechanism`]; [`Error::Usage`] if one is given twice.
-pub fn read_mechanisms(paths: &[PathBuf]) -> Result<Asked, Error> {
-    let (mut listed, mut files): (Vec<&'static dyn Mechanism>, Vec<&PathBuf>) = (Vec::new(), Vec::new());
-    for path in paths {
-        match ON_REQUEST.iter().find(|mechanism| path.as_os_str() == mechanism.facts().id) {
-            Some(mechanism) if listed.iter().any(|other| other.facts().id == mechanism.facts().id) => {
-                let id = mechanism.facts().id;
-                return Err(Error::Usage(format!("--mechanism: `{id}` is asked for twice; give each id once")));
-            }
-            Some(mechanism) => listed.push(*mechanism),
-            None => files.push(path),
-        }
-    }
-    Ok(Asked { own: read_own(&files)?, listed })
-}
-
-fn read_own(paths: &[&PathBuf]) -> Result<Vec<MechanismCase>, Error> {
-    let own = paths.iter().map(|path| read_mechanism(path)).collect::<Result<Vec<_>, _>>()?;
-    let twice = own.iter().enumerate().find(|(k, case)| own[..*k].iter().any(|other| other.mechanism.id == case.mechanism.id));
-    match twice {
-        Some((_, case)) => Err(Error::Usage(format!(
-            "{}: the mechanism `{}` is given twice; give each id once",
-            shown_path(&case.file),
-            case.mechanism.id
-        ))),
-        None => Ok(own),
-    }
-}
-
-impl Asked {
-    /// Files alone, whose parameters have values.
-    ///
-    /// # Errors
-    /// [`Error::Usage`] if a mechanism is asked for by its id.
-    pub fn files_alone(self) -> Result<Vec<MechanismCase>, Error> {
-        match self.listed.first() {
-            Some(listed) => {
-                let id = listed.facts().id;
-                Err(Error::Usage(format!("--mechanism: `{id}` has no values here; simulate takes mechanisms' files")))
-            }
-            None => Ok(self.own),
-        }
-    }
-
-    /// Further columns of records that the mechanisms name.
-    pub fn further_columns(&self) -> Vec<String> {
-        let own = self.own.iter().flat_map(|own| own.mechanism.columns());
-        let all: BTreeSet<&str> = own.chain(self.listed.iter().flat_map(|listed| listed.columns())).collect();
-        all.into_iter().map(str::to_owned).collect()
-    }
-
-    /// The program's mechanisms and those asked for.
-    pub fn with_catalogue(&self) -> Vec<&dyn Mechanism> {
-        let own = self.own.iter().map(|own| &own.mechanism as &dyn Mechanism);
-        CATALOGUE.iter().chain(&self.listed).map(|known| *known as &dyn Mechanism).chain(own).collect()
-    }
 }
 
 fn check_id(top: &Group, id: &str) -> Result<(), InputError> {
@@ -358,6 +286,7 @@ fn equation(file: &MechanismFile) -> String {
 mod tests {
     use super::*;
     use mechanisms::Input;
+    use mechanisms::Mechanism;
 
     const SLOW: &str = r#"(
         id: "slow-board",
@@ -441,19 +370,5 @@ mod tests {
         assert!(read(&unused).expect_err("unused").contains("columns[0].name: nothing depends on `supply_v`"));
         let none = SLOW.split("laws:").next().expect("a part").to_owned() + "laws: [])";
         assert!(read(&none).expect_err("none").contains("laws: 0 are given; give 1 to 8"));
-    }
-
-    #[test]
-    fn what_is_weighed_on_request_is_asked_for_by_its_id() {
-        let ask = |ids: &[&str]| read_mechanisms(&ids.iter().map(PathBuf::from).collect::<Vec<_>>());
-        let asked = ask(&["drying", "moisture"]).unwrap();
-        assert!(asked.own.is_empty());
-        assert_eq!(asked.further_columns(), ["humidity_percent"]);
-        let all: Vec<&str> = asked.with_catalogue().iter().map(|mechanism| mechanism.facts().id).collect();
-        assert_eq!(all.len(), CATALOGUE.len() + 2);
-        assert_eq!(all[CATALOGUE.len()..], ["drying", "moisture"]);
-        // once each, and by its whole id; one of the usual mechanisms is weighed anyway
-        assert!(ask(&["drying", "drying"]).is_err());
-        assert!(ask(&["dryin"]).is_err() && ask(&["debond"]).is_err());
     }
 }

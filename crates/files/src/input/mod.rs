@@ -1,5 +1,6 @@
 //! Case files, profiles and recordings: read, checked to the last value, and turned into SI.
 
+mod asked;
 mod cell;
 mod cell_constants;
 mod cell_file;
@@ -48,6 +49,7 @@ mod tolerances;
 mod warnings;
 mod winding_file;
 
+pub use asked::{Asked, read_mechanisms};
 pub use cell::{AnyCell, CellCase, check_any_cell, read_any_cell, read_cell};
 pub use cell_constants::{AtTemperature, Spread, at_temperature};
 pub use cell_general::GeneralCase;
@@ -57,8 +59,9 @@ pub(crate) use coil_file::CoilFile;
 pub use edit::{field_text, with_fields};
 pub use error::InputError;
 pub use fingerprint::Fingerprint;
-pub use mechanism::{Asked, MechanismCase, check_mechanism, read_mechanism, read_mechanisms};
+pub use mechanism::{MechanismCase, check_mechanism, read_mechanism};
 pub use meta::{Meta, Rate, TemperatureSensor, Thermometer};
+pub use name::meant;
 pub use profile::{Between, Inference, ProfileCase, check_profile, read_profile};
 pub use propose::propose_map;
 pub use record::{RecordCase, check_record, read_record};

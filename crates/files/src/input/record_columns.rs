@@ -100,7 +100,10 @@ fn check_separator(rows: &Rows, format: &RecordFormat) -> Result<(), InputError>
             Err(rows.fault(
                 None,
                 problem,
-                format!("add --separator {flag} (and --decimal-comma if numbers are written like 20,5)"),
+                format!(
+                    "add --separator {flag} (and --decimal-comma if numbers are written like 20,5), or let `fogcoil check RECORD --write-map` \
+                     find how it is written"
+                ),
             ))
         }
         None => Ok(()),

@@ -85,7 +85,11 @@ impl Rows {
     /// Opens a table; `kind` says what is expected, e.g. "a profile (*.csv)".
     pub(crate) fn open(path: &Path, kind: &str, dialect: Dialect) -> Result<Self, InputError> {
         let fault = |problem: String, remedy: &str| InputError::whole(path, problem, remedy);
-        let unreadable = |error: io::Error| fault(format!("cannot be read: {error}"), "check the path and its permissions");
+        let remedy = match path.to_str() {
+            Some(several) if several.contains(',') && !path.exists() => "give the option once for each file, or check the path",
+            _ => "check the path and its permissions",
+        };
+        let unreadable = |error: io::Error| fault(format!("cannot be read: {error}"), remedy);
         let file = File::open(path).map_err(unreadable)?;
         let about = file.metadata().map_err(unreadable)?;
         if about.is_dir() {

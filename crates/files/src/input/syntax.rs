@@ -2,6 +2,7 @@
 
 use ron::Error;
 
+use super::name::meant;
 use super::rows::quoted;
 
 pub(super) const MISSING: &str = "the field is missing";
@@ -10,10 +11,13 @@ pub(super) const MISSING: &str = "the field is missing";
 pub(crate) fn explain(error: &Error, rest: &str) -> (String, String) {
     let (problem, remedy) = match error {
         Error::NoSuchStructField { expected, found, .. } => {
-            return (format!("unknown field {}", quoted(found)), format!("the fields here are {}", expected.join(", ")));
+            let known = expected.join(", ");
+            let meant = meant(found, expected.iter().copied());
+            return (format!("unknown field {}", quoted(found)), format!("the fields here are {known}{meant}"));
         }
         Error::NoSuchEnumVariant { expected, found, .. } => {
-            return (format!("{} is not a choice here", quoted(found)), format!("choose {}", expected.join(" or ")));
+            let meant = meant(found, expected.iter().copied());
+            return (format!("{} is not a choice here", quoted(found)), format!("choose {}{meant}", expected.join(" or ")));
         }
         // a number that its kind does not accept: problem and remedy
         Error::InvalidValueForType { expected, found } => return (found.clone(), expected.clone()),

@@ -10,6 +10,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::InputError;
 use super::group::Group;
+use super::name::meant;
 
 /// One standard deviation of a number: a share of it, or in the unit of its key.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -168,9 +169,9 @@ fn given(at: &Group, file: &TolerancesFile, design: &Design) -> Result<Vec<(Numb
     let mut given = Vec::new();
     for (key, tolerance) in file {
         let Some((_, number, _)) = KEYS.iter().find(|(known, ..)| known == key) else {
-            let problem = format!("{key:?} is no number that has a tolerance");
             let all: Vec<&str> = KEYS.iter().map(|(key, ..)| *key).collect();
-            return Err(at.fault("", problem, format!("give one of {}", all.join(", "))));
+            let problem = format!("{key:?} is no number that has a tolerance");
+            return Err(at.fault("", problem, format!("give one of {}{}", all.join(", "), meant(key, all.iter().copied()))));
         };
         let (Some(drawn), Some((_, unit))) = (number.of(design), self::key(*number, design)) else {
             return Err(at.fault("", format!("{key:?} has a tolerance, but the design has no such number"), "remove it"));

@@ -96,8 +96,8 @@ pub(crate) fn compose(
         predictions.push(by_law);
     }
     // what has a name gives way to a law that is likelier, unless a record that was held out says otherwise
-    if diagnosis.verdict == Verdict::Explained && (accepted || held.is_empty()) {
-        let by_noise = diagnosis::gained_by_noise_of(gyro, &numbers, fitted, &diagnosis.best().fit, &found.fit)?;
+    if accepted || held.is_empty() {
+        let by_noise = diagnosis::gained_by_noise_of(gyro, &numbers, fitted, diagnosis.best(), &found.fit)?;
         diagnosis.weigh_unlisted(&found, log_prior, by_noise);
     }
     if diagnosis.verdict == Verdict::Explained {

@@ -44,6 +44,12 @@ impl Outcome<'_> {
         moved
     }
 
+    /// Whether something moved, and none of it is of the design.
+    pub(super) fn drawing_stands(&self) -> bool {
+        let moved = self.moved();
+        !moved.is_empty() && moved.iter().all(|c| c.kind != "design")
+    }
+
     /// All of them as scripts read them, in the words of the terminal.
     pub(super) fn unknowns_json(&self) -> Value {
         let of = |c: &Constant| {

@@ -25,7 +25,7 @@ use crate::Error;
 use crate::cache::Cache;
 use crate::compose::{Composed, compose};
 use crate::input::{CoilCase, Fingerprint, InputError, RecordCase};
-use crate::prepare::{Record, gyro, library, ready, refuse_copies};
+use crate::prepare::{Record, gyro, library, other_design, ready, refuse_copies};
 
 /// A diagnosis with what it was made from.
 pub struct Outcome<'m> {
@@ -68,7 +68,7 @@ pub fn diagnose<'m>(
 ) -> Result<Outcome<'m>, Error> {
     let coil = Error::of_coil(&case.file);
     refuse_copies(fits.iter().chain(holdouts))?;
-    let mut notes = Vec::new();
+    let mut notes: Vec<Note> = fits.iter().chain(holdouts).filter_map(|record| other_design(case, record)).collect();
     let mut read: Vec<Record> = fits.iter().chain(holdouts).map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
     let library = library(case, cache, progress)?;
     progress(Step::begins("running every model under the recorded chamber"));

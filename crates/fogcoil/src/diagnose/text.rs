@@ -103,6 +103,9 @@ impl Outcome<'_> {
     pub(super) fn verdict(&self) -> String {
         match self.diagnosis.verdict {
             Verdict::None => "The nominal model suffices: no difference beyond noise.".to_owned(),
+            Verdict::Recalibrate if self.drawing_stands() => {
+                "The instruments, recalibrated within what is known of them, suffice: the design is as drawn, and nothing is left out.".to_owned()
+            }
             Verdict::Recalibrate => {
                 "The design's own constants, re-estimated within their tolerances, suffice: nothing is left out.".to_owned()
             }

@@ -12,6 +12,7 @@ use super::course::Course;
 use super::programme::{Limits, programmes};
 use super::recommendation::{Ranked, Recommendation, Size, WithSensor};
 use crate::Error;
+use crate::input::meant;
 use crate::prepare::Record;
 
 /// Noise of a spool thermometer that may be added \[K\], its drift a tenth of the usual.
@@ -62,8 +63,9 @@ impl Question<'_> {
         let named = |id: &String| {
             let unknown = || {
                 format!(
-                    "--between: `{id}` is not in this design's library; it holds {}, and mechanisms of your own (--mechanism)",
-                    Contender::known(&gyro)
+                    "--between: `{id}` is not in this design's library; it holds {}, and mechanisms of your own (--mechanism){}",
+                    Contender::known(&gyro),
+                    meant(id, gyro.mechanisms().iter().map(|mechanism| mechanism.id.as_str()))
                 )
             };
             Contender::named(&gyro, id).map_err(failed)?.ok_or_else(|| Error::usage(unknown()))

@@ -23,9 +23,12 @@ fn lot(folder: &Folder) -> Vec<String> {
 fn a_lot_is_a_design_that_other_commands_read() {
     let folder = Folder::new();
     let [first, second] = &lot(&folder)[..] else { panic!() };
+    folder.write("meta.ron", "(design: \"coil-Z\")");
     let output = folder.run(&["calibrate", "drawing.ron", "--unit", first, "--unit", second, "--out", "lot.ron", "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let notes = json["notes"].to_string();
+    assert!(notes.contains("few-units") && notes.contains("built to `coil-Z`; this design is `coil-B`"), "{notes}");
     let constants = json["constants"].as_array().unwrap();
     // every constant of a material, by its key; none that is cut unit by unit
     let key = |of: &str| constants.iter().find(|c| c["key"] == of);

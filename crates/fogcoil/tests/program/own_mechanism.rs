@@ -90,6 +90,9 @@ fn what_cannot_be_is_refused_with_line_and_remedy() {
     refused(&[&diagnose[..], &["--json", "m.ron"]].concat(), "m.ron");
     let damp = change(&text(&folder), "states: [", "columns: [(name: \"humidity\", unit: \"1\")],\n    states: [");
     folder.write("damp.ron", change(&damp, "size * (spool", "humidity * size * (spool"));
+    refused(&[&diagnose[..], &["--mechanism", "moistures"]].concat(), "did you mean `moisture`?");
+    refused(&[&diagnose[..], &["--mechanism", "air-path"]].concat(), "`air-path` is weighed in any case");
+    refused(&["diagnose", "coil.ron", "--fit", "a.csv,b.csv"], "give the option once for each file");
     refused(&["diagnose", "coil.ron", "--fit", record, "--mechanism", "damp.ron"], "humidity: the column is missing");
     let recommend = ["recommend", "coil.ron", "--between", "slow-board,nominal", "--mechanism", "damp.ron"];
     refused(&recommend, "the law of `slow-board` names the column humidity, which no programme of the chamber tells");

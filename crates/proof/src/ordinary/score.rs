@@ -20,6 +20,8 @@ pub(super) struct Scored {
     /// A name with confidence that is neither true nor of something that could do the same.
     pub(super) misnamed: bool,
     pub(super) held: HeldOut,
+    /// The same for what was fitted, whether it was accepted or not.
+    pub(super) fitted: HeldOut,
     /// Of mechanisms that are true and named.
     pub(super) parameters: Vec<Parameter>,
     /// Of constants, where the answer is right.
@@ -55,6 +57,7 @@ pub(super) fn score(truth: &Truth, answer: &Answer, held: HeldOut, lag: f64) -> 
         right,
         in_set: explained && truth.detectable().all(|effect| listed(&effect.id)),
         misnamed: probable(CONFIDENT).any(|m| !truth.admits(&m.id)),
+        fitted: answer.holdout.map_or(held, |own| HeldOut { nominal: own.rmse_nominal, model: own.rmse_model, ..held }),
         held,
         parameters: true_ones.flat_map(|m| &m.parameters).filter_map(parameter).collect(),
         constants: if is_right { answer.constants.iter().filter_map(constant).collect() } else { Vec::new() },
@@ -110,6 +113,7 @@ pub(super) fn summary(units: &[Scored]) -> Vec<ScoreRow> {
         share("out of the library", "confident and wrong", wrong, &outside, &|u| u.misnamed),
         share("tolerances can do it", "confident and wrong", Bound::AtMost(0.0), &mimicked, &|u| u.misnamed),
         share("all", "held-out prediction made worse", Bound::AtMost(0.0), &all, &|u| u.held.is_worse()),
+        share("all", "made worse by what was fitted, before it was accepted or not", Bound::Open, &all, &|u| u.fitted.is_worse()),
         row(
             "all",
             "90 % intervals that hold the parameter",

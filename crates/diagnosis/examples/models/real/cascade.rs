@@ -2,7 +2,7 @@
 //! Bernoulli's law.
 
 use super::noise;
-use super::plant::{Acts, Kind, Moment, Place, Plant, Quantity};
+use super::plant::{Acts, Facts, Kind, Moment, Place, Plant, Quantity};
 use diagnosis::{Channel, Nuisance, Parameter, Prior, Role};
 
 /// What was fed to the pump \[V\], held for a step \[s\], and the lower level \[V\].
@@ -32,8 +32,7 @@ const PLACES: [Place; 5] = [
 #[derive(Clone)]
 pub(crate) struct Cascade {
     feeds: Vec<Feed>,
-    channels: [Channel; 1],
-    nuisances: Vec<Nuisance>,
+    facts: Facts,
 }
 
 impl Cascade {
@@ -61,25 +60,13 @@ impl Cascade {
             unknown("upper level at the start V", 4.0),
             Nuisance::normal("level at which the sensor reads zero V", 0.0, 1.0, Role::Sensor),
         ];
-        Self { feeds, channels: [channel], nuisances }
+        Self { feeds, facts: Facts { channels: vec![channel], nuisances, quantities: &QUANTITIES, places: &PLACES } }
     }
 }
 
 impl Plant for Cascade {
-    fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
-
-    fn nuisances(&self) -> &[Nuisance] {
-        &self.nuisances
-    }
-
-    fn quantities(&self) -> &[Quantity] {
-        &QUANTITIES
-    }
-
-    fn places(&self) -> &[Place] {
-        &PLACES
+    fn facts(&self) -> &Facts {
+        &self.facts
     }
 
     fn time(&self, test: usize) -> &[f64] {

@@ -2,7 +2,7 @@
 //! its irreversible part).
 
 use super::noise;
-use super::plant::{Acts, Kind, Moment, Place, Plant, Quantity};
+use super::plant::{Acts, Facts, Kind, Moment, Place, Plant, Quantity};
 use diagnosis::{Channel, Nuisance, Parameter, Prior, Role};
 
 /// A test of a cell.
@@ -42,8 +42,7 @@ pub(crate) struct Cell {
     tests: Vec<Test>,
     /// Of every test: the state of charge, and the heat against the open-circuit voltage \[W\].
     drives: Vec<(Vec<f64>, Vec<f64>)>,
-    channels: [Channel; 1],
-    nuisances: [Nuisance; 2],
+    facts: Facts,
 }
 
 impl Cell {
@@ -65,8 +64,12 @@ impl Cell {
         Self {
             tests,
             drives,
-            channels: [channel],
-            nuisances: [constant("heat capacity J/K", HEAT_CAPACITY), constant("loss W/K", LOSS)],
+            facts: Facts {
+                channels: vec![channel],
+                nuisances: vec![constant("heat capacity J/K", HEAT_CAPACITY), constant("loss W/K", LOSS)],
+                quantities: &QUANTITIES,
+                places: &PLACES,
+            },
         }
     }
 }
@@ -92,20 +95,8 @@ fn between(points: &[[f64; 2]], x: f64) -> f64 {
 }
 
 impl Plant for Cell {
-    fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
-
-    fn nuisances(&self) -> &[Nuisance] {
-        &self.nuisances
-    }
-
-    fn quantities(&self) -> &[Quantity] {
-        &QUANTITIES
-    }
-
-    fn places(&self) -> &[Place] {
-        &PLACES
+    fn facts(&self) -> &Facts {
+        &self.facts
     }
 
     fn time(&self, test: usize) -> &[f64] {

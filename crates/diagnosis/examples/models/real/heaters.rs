@@ -1,7 +1,7 @@
 //! A board with two heaters, each with a thermometer: nominal are two separate lumps, each with its own heater and loss to the room.
 
 use super::noise;
-use super::plant::{Acts, Kind, Moment, Place, Plant, Quantity};
+use super::plant::{Acts, Facts, Kind, Moment, Place, Plant, Quantity};
 use diagnosis::{Channel, Nuisance, Parameter, Prior, Role};
 
 /// A test of the board: powers of both heaters \[%\] and what both thermometers read \[°C\].
@@ -44,8 +44,7 @@ const PLACES: [Place; 6] = [
 #[derive(Clone)]
 pub(crate) struct Heaters {
     tests: Vec<Test>,
-    channels: Vec<Channel>,
-    nuisances: Vec<Nuisance>,
+    facts: Facts,
 }
 
 impl Heaters {
@@ -69,26 +68,14 @@ impl Heaters {
             constant("loss 1 W/K", LOSS),
             constant("loss 2 W/K", LOSS),
         ];
-        let channels = [0, 1].map(channel).to_vec();
-        Self { channels, nuisances, tests }
+        let facts = Facts { channels: [0, 1].map(channel).to_vec(), nuisances, quantities: &QUANTITIES, places: &PLACES };
+        Self { facts, tests }
     }
 }
 
 impl Plant for Heaters {
-    fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
-
-    fn nuisances(&self) -> &[Nuisance] {
-        &self.nuisances
-    }
-
-    fn quantities(&self) -> &[Quantity] {
-        &QUANTITIES
-    }
-
-    fn places(&self) -> &[Place] {
-        &PLACES
+    fn facts(&self) -> &Facts {
+        &self.facts
     }
 
     fn time(&self, test: usize) -> &[f64] {

@@ -38,7 +38,7 @@ impl<P: Plant> Offered<P> {
     /// The plant with no law at all, its tests cut into records.
     pub(crate) fn nothing(plant: P, parts: Vec<Part>) -> Self {
         let scales = Scales { quantities: Vec::new(), rates: Vec::new(), places: Vec::new(), duration: 1.0 };
-        let channels = plant.channels().to_vec();
+        let channels = plant.facts().channels.clone();
         Self {
             plant,
             parts,
@@ -53,7 +53,7 @@ impl<P: Plant> Offered<P> {
     /// The same with all laws, on the scales that quantities and places have in the records that a fit is of.
     pub(crate) fn with_laws(mut self, nominal: &Fit, records: &[usize], observations: &[Observation]) -> Self {
         self.scales = self.scales_of(nominal, records, observations);
-        self.laws = law::all(self.plant.quantities(), self.plant.places());
+        self.laws = law::all(self.plant.facts().quantities, self.plant.facts().places);
         self.mechanisms = self.laws.iter().map(|law| self.omission(law)).collect();
         self
     }
@@ -89,7 +89,7 @@ impl<P: Plant> Offered<P> {
             let with = |start: &Vec<f64>| beside.starts.iter().map(|x| [start.as_slice(), &[*x]].concat()).collect::<Vec<_>>();
             starts = starts.iter().flat_map(with).collect();
         }
-        let (quantities, places) = (self.plant.quantities(), self.plant.places());
+        let (quantities, places) = (self.plant.facts().quantities, self.plant.facts().places);
         Omission {
             id: law.words(quantities, places),
             stage: places[law.at].name.into(),
@@ -119,13 +119,13 @@ impl<P: Plant> Offered<P> {
         let quantity = |i: usize| {
             let values = || runs.iter().flatten().map(move |(_, q, _)| q[i]);
             let (low, high) = values().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
-            match self.plant.quantities()[i].kind {
+            match self.plant.facts().quantities[i].kind {
                 Kind::Level => ((low + high) / 2.0, ((high - low) / 2.0).max(1e-9)),
                 Kind::Flow | Kind::Time => (0.0, low.abs().max(high.abs()).max(1e-9)),
                 Kind::Phase => (0.0, 1.0),
             }
         };
-        let quantities: Vec<(f64, f64)> = (0..self.plant.quantities().len()).map(quantity).collect();
+        let quantities: Vec<(f64, f64)> = (0..self.plant.facts().quantities.len()).map(quantity).collect();
         let rate = |i: usize| {
             let rates = Rates { over: RATE_OVER * duration, largest: 1.0 };
             let mut largest = 0.0_f64;
@@ -136,13 +136,13 @@ impl<P: Plant> Offered<P> {
             }
             Rates { largest, ..rates }
         };
-        let place = |i: usize| match self.plant.places()[i].acts {
+        let place = |i: usize| match self.plant.facts().places[i].acts {
             Acts::Reading(channel) => half_range(observations.iter().flat_map(|o| &o.channels[channel]).copied()),
             Acts::Flow | Acts::Loss => half_range(runs.iter().flatten().map(|(_, _, p)| p[i])),
         };
         Scales {
             rates: (0..quantities.len()).map(rate).collect(),
-            places: (0..self.plant.places().len()).map(place).collect(),
+            places: (0..self.plant.facts().places.len()).map(place).collect(),
             duration,
             quantities,
         }
@@ -186,7 +186,7 @@ impl<P: Plant> Offered<P> {
     /// A law's scale in words: what x stands for.
     pub(crate) fn legend(&self, law: &Law) -> String {
         let Of::Quantity(i) = law.of else { return String::new() };
-        let (q, (middle, half)) = (&self.plant.quantities()[i], self.scales.quantities[i]);
+        let (q, (middle, half)) = (&self.plant.facts().quantities[i], self.scales.quantities[i]);
         match q.kind {
             Kind::Phase => String::new(),
             _ => format!("x = ({} - {middle:.4}) / {half:.4} {}", q.name, q.unit),
@@ -220,7 +220,7 @@ impl<P: Plant> ForwardModel for Offered<P> {
     }
 
     fn nuisances(&self) -> &[Nuisance] {
-        self.plant.nuisances()
+        &self.plant.facts().nuisances
     }
 
     fn mechanisms(&self) -> &[Omission] {
@@ -238,7 +238,13 @@ impl<P: Plant> ForwardModel for Offered<P> {
             nominal.clear();
             nominal.extend_from_slice(moment.places);
             for (active, past) in active.iter().zip(&mut pasts) {
-                self.laws[active.mechanism].act(&active.values, &self.scales, &nominal, (self.plant.places(), past), &mut moment);
+                self.laws[active.mechanism].act(
+                    &active.values,
+                    &self.scales,
+                    &nominal,
+                    (self.plant.facts().places, past),
+                    &mut moment,
+                );
             }
         };
         let Part { test, rows } = &self.parts[record];

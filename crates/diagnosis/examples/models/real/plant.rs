@@ -51,12 +51,18 @@ pub(crate) struct Moment<'a> {
     pub(crate) places: &'a mut [f64],
 }
 
+/// What a plant is made of.
+#[derive(Debug, Clone)]
+pub(crate) struct Facts {
+    pub(crate) channels: Vec<Channel>,
+    pub(crate) nuisances: Vec<Nuisance>,
+    pub(crate) quantities: &'static [Quantity],
+    pub(crate) places: &'static [Place],
+}
+
 /// A nominal model of textbook physics that runs through whole tests from their first instant.
 pub(crate) trait Plant {
-    fn channels(&self) -> &[Channel];
-    fn nuisances(&self) -> &[Nuisance];
-    fn quantities(&self) -> &[Quantity];
-    fn places(&self) -> &[Place];
+    fn facts(&self) -> &Facts;
     /// Instants of a test \[s\].
     fn time(&self, test: usize) -> &[f64];
     /// Channels at the instants of a test. At every instant `laws` is shown the moment, and changes what is at the places; with it the model goes on.

@@ -2,8 +2,8 @@
 //! every 2π of phase (Lefèvre 2014), and ramps of the other axes run beside it.
 
 use super::noise;
-use super::plant::{Acts, Kind, Moment, Place, Plant, Quantity};
-use diagnosis::{Channel, Nuisance};
+use super::plant::{Acts, Facts, Kind, Moment, Place, Plant, Quantity};
+use diagnosis::Channel;
 
 const QUANTITIES: [Quantity; 4] = [
     Quantity { name: "ramp 1", unit: "cycle", kind: Kind::Phase },
@@ -18,7 +18,7 @@ pub(crate) struct Ramp {
     time: Vec<f64>,
     /// \[cycle\]
     ramps: [Vec<f64>; 3],
-    channels: [Channel; 1],
+    facts: Facts,
 }
 
 impl Ramp {
@@ -29,25 +29,15 @@ impl Ramp {
         let mean = rate.iter().sum::<f64>() / rate.len() as f64;
         // the rate is the Earth's about an axis of unknown direction
         let offset = (mean, 100.0 * spread);
-        Self { time, ramps, channels: [Channel { name: "rate".into(), unit: "nrad/s".into(), offset, averaging: 0.0, noise }] }
+        let channel = Channel { name: "rate".into(), unit: "nrad/s".into(), offset, averaging: 0.0, noise };
+        let facts = Facts { channels: vec![channel], nuisances: Vec::new(), quantities: &QUANTITIES, places: &PLACES };
+        Self { time, ramps, facts }
     }
 }
 
 impl Plant for Ramp {
-    fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
-
-    fn nuisances(&self) -> &[Nuisance] {
-        &[]
-    }
-
-    fn quantities(&self) -> &[Quantity] {
-        &QUANTITIES
-    }
-
-    fn places(&self) -> &[Place] {
-        &PLACES
+    fn facts(&self) -> &Facts {
+        &self.facts
     }
 
     fn time(&self, _: usize) -> &[f64] {

@@ -2,7 +2,7 @@
 
 use super::noise;
 use super::offered::spread;
-use super::plant::{Acts, Kind, Moment, Place, Plant, Quantity};
+use super::plant::{Acts, Facts, Kind, Moment, Place, Plant, Quantity};
 use diagnosis::{Channel, Nuisance, Parameter, Prior, Role};
 
 const QUANTITIES: [Quantity; 2] = [
@@ -19,8 +19,7 @@ const RANGE_K: f64 = 60.0;
 pub(crate) struct RateSensor {
     /// Instants [s] and temperatures [degC] of every test.
     tests: Vec<(Vec<f64>, Vec<f64>)>,
-    channels: [Channel; 1],
-    nuisances: Vec<Nuisance>,
+    facts: Facts,
 }
 
 impl RateSensor {
@@ -40,7 +39,9 @@ impl RateSensor {
         // a term over the sensor's whole range may be several times what the record shows
         let prior = Prior::Normal { mean: 0.0, sd: 10.0 * size };
         let term = |name: &&str| Nuisance { parameter: Parameter::new(*name, prior), role: Role::Constant, local: false };
-        Self { tests: vec![(time, temperature)], channels: [channel], nuisances: TERMS[..degree].iter().map(term).collect() }
+        let nuisances = TERMS[..degree].iter().map(term).collect();
+        let facts = Facts { channels: vec![channel], nuisances, quantities: &QUANTITIES, places: &PLACES };
+        Self { tests: vec![(time, temperature)], facts }
     }
 
     /// The same with a test that may be made.
@@ -51,20 +52,8 @@ impl RateSensor {
 }
 
 impl Plant for RateSensor {
-    fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
-
-    fn nuisances(&self) -> &[Nuisance] {
-        &self.nuisances
-    }
-
-    fn quantities(&self) -> &[Quantity] {
-        &QUANTITIES
-    }
-
-    fn places(&self) -> &[Place] {
-        &PLACES
+    fn facts(&self) -> &Facts {
+        &self.facts
     }
 
     fn time(&self, test: usize) -> &[f64] {

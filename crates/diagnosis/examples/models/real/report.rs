@@ -22,7 +22,7 @@ pub(crate) fn findings<P: Plant>(study: &Study<P>) -> String {
     for (place, active) in composed.fit.active.iter().enumerate() {
         let law = &model.laws[active.mechanism];
         let scale = model.scales.places[law.at];
-        let unit = model.plant.places()[law.at].unit;
+        let unit = model.plant.facts().places[law.at].unit;
         let said = if accepted(active.mechanism) { "borne out" } else { "not borne out" };
         out += &format!(
             "law ({said}): {}  [{}; size in {scale:.4} {unit}]\n",

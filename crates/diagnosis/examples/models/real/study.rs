@@ -115,7 +115,7 @@ fn features<P: Plant>(model: &Offered<P>, record: usize, constants: &[f64]) -> V
     let moments = model.moments(record, constants);
     let rows = model.rows(record);
     let finer = (moments.len() / rows.end).max(1);
-    let kinds: Vec<Kind> = model.plant.quantities().iter().map(|q| q.kind).collect();
+    let kinds: Vec<Kind> = model.plant.facts().quantities.iter().map(|q| q.kind).collect();
     let mut pasts = vec![[Past::default(), Past::default()]; kinds.len()];
     let mut all = Vec::new();
     for (n, (step, q, _)) in moments.iter().enumerate() {

@@ -1,0 +1,121 @@
+//! What `--mechanism` asks for: files of a user's own, and ids of mechanisms that are weighed on request.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use mechanisms::{CATALOGUE, Mechanism, ON_REQUEST};
+
+use super::mechanism::{MechanismCase, read_mechanism};
+use super::name::meant;
+use crate::{Error, shown, shown_path};
+
+/// What `--mechanism` asks for beside the program's usual mechanisms.
+#[derive(Default)]
+pub struct Asked {
+    /// Files of a user's own.
+    pub own: Vec<MechanismCase>,
+    /// Those of [`mechanisms::ON_REQUEST`], by their ids.
+    pub listed: Vec<&'static dyn Mechanism>,
+}
+
+/// Reads what `--mechanism` asks for, each once: files, or ids of mechanisms that are weighed on request.
+///
+/// # Errors
+/// As [`read_mechanism`]; [`Error::Usage`] if one is given twice.
+pub fn read_mechanisms(paths: &[PathBuf]) -> Result<Asked, Error> {
+    let (mut listed, mut files): (Vec<&'static dyn Mechanism>, Vec<&PathBuf>) = (Vec::new(), Vec::new());
+    for path in paths {
+        match ON_REQUEST.iter().find(|mechanism| path.as_os_str() == mechanism.facts().id) {
+            Some(mechanism) if listed.iter().any(|other| other.facts().id == mechanism.facts().id) => {
+                let id = mechanism.facts().id;
+                return Err(Error::Usage(format!("--mechanism: `{id}` is asked for twice; give each id once")));
+            }
+            Some(mechanism) => listed.push(*mechanism),
+            None => match path.to_str().filter(|id| is_id(id) && !path.exists()) {
+                Some(id) => return Err(unknown_id(id)),
+                None => files.push(path),
+            },
+        }
+    }
+    Ok(Asked { own: read_own(&files)?, listed })
+}
+
+/// Whether a word can be an id and no file's name: it has neither a point nor a separator.
+fn is_id(word: &str) -> bool {
+    word.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-')
+}
+
+/// No file, and no mechanism that is weighed on request.
+fn unknown_id(id: &str) -> Error {
+    let word = shown(id);
+    if CATALOGUE.iter().any(|usual| usual.facts().id == id) {
+        return Error::Usage(format!("--mechanism: `{word}` is weighed in any case; leave it out"));
+    }
+    let ids: Vec<&str> = ON_REQUEST.iter().map(|mechanism| mechanism.facts().id).collect();
+    let meant = meant(id, ids.iter().copied());
+    Error::Usage(format!(
+        "--mechanism: `{word}` is no file and no mechanism that is weighed on request; give a file, or one of {}{meant}",
+        ids.join(", ")
+    ))
+}
+
+fn read_own(paths: &[&PathBuf]) -> Result<Vec<MechanismCase>, Error> {
+    let own = paths.iter().map(|path| read_mechanism(path)).collect::<Result<Vec<_>, _>>()?;
+    let twice = own.iter().enumerate().find(|(k, case)| own[..*k].iter().any(|other| other.mechanism.id == case.mechanism.id));
+    match twice {
+        Some((_, case)) => Err(Error::Usage(format!(
+            "{}: the mechanism `{}` is given twice; give each id once",
+            shown_path(&case.file),
+            case.mechanism.id
+        ))),
+        None => Ok(own),
+    }
+}
+
+impl Asked {
+    /// Files alone, whose parameters have values.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if a mechanism is asked for by its id.
+    pub fn files_alone(self) -> Result<Vec<MechanismCase>, Error> {
+        match self.listed.first() {
+            Some(listed) => {
+                let id = listed.facts().id;
+                Err(Error::Usage(format!("--mechanism: `{id}` has no values here; simulate takes mechanisms' files")))
+            }
+            None => Ok(self.own),
+        }
+    }
+
+    /// Further columns of records that the mechanisms name.
+    pub fn further_columns(&self) -> Vec<String> {
+        let own = self.own.iter().flat_map(|own| own.mechanism.columns());
+        let all: BTreeSet<&str> = own.chain(self.listed.iter().flat_map(|listed| listed.columns())).collect();
+        all.into_iter().map(str::to_owned).collect()
+    }
+
+    /// The program's mechanisms and those asked for.
+    pub fn with_catalogue(&self) -> Vec<&dyn Mechanism> {
+        let own = self.own.iter().map(|own| &own.mechanism as &dyn Mechanism);
+        CATALOGUE.iter().chain(&self.listed).map(|known| *known as &dyn Mechanism).chain(own).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_weighed_on_request_is_asked_for_by_its_id() {
+        let ask = |ids: &[&str]| read_mechanisms(&ids.iter().map(PathBuf::from).collect::<Vec<_>>());
+        let asked = ask(&["drying", "moisture"]).unwrap();
+        assert!(asked.own.is_empty());
+        assert_eq!(asked.further_columns(), ["humidity_percent"]);
+        let all: Vec<&str> = asked.with_catalogue().iter().map(|mechanism| mechanism.facts().id).collect();
+        assert_eq!(all.len(), CATALOGUE.len() + 2);
+        assert_eq!(all[CATALOGUE.len()..], ["drying", "moisture"]);
+        // once each, and by its whole id; one of the usual mechanisms is weighed anyway
+        assert!(ask(&["drying", "drying"]).is_err());
+        assert!(ask(&["dryin"]).is_err() && ask(&["debond"]).is_err());
+    }
+}

@@ -1,0 +1,143 @@
+//! `cargo xtask fuzz`: readers of files, fed with inputs that are guided by the code that they reach.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use proof::Failure;
+use proof::files::{failed, names, renew, root};
+
+use crate::tools::tool;
+
+/// The runner, and the engine that it brings.
+const RUNNER: [&str; 2] = ["cargo-bolero", "0.13.5"];
+const PAGE: &str = "docs/trust.md";
+const MARKS: [&str; 2] = ["<!-- fuzz: written by `cargo xtask fuzz` -->", "<!-- fuzz end -->"];
+/// Longest input of the corpus that is kept \[bytes\], and most inputs of a reader; the shortest come first.
+const LONGEST: u64 = 2048;
+const MOST: usize = 150;
+
+/// Readers by the names of their tests, with files of the repository, whole or a folder's, that fuzzing starts from.
+const READERS: [(&str, &[&str]); 8] = [
+    ("coils", &["fixtures/coil-reference.ron", "fixtures/designs", "crates/fogcoil/templates/coil.ron"]),
+    ("cells", &["fixtures/cell-reference.ron", "fixtures/cells", "crates/fogcoil/templates/cell.ron"]),
+    ("targets", &["fixtures/identify", "crates/fogcoil/templates/targets.ron"]),
+    ("mechanisms", &["crates/fogcoil/templates/mechanism.ron"]),
+    ("expressions", &[]),
+    ("profiles", &["crates/fogcoil/templates/profile.csv"]),
+    ("thermometers", &[]),
+    ("recordings", &["fixtures/recordings"]),
+];
+
+/// Feed every reader of files with inputs that are guided by the code that they reach
+///
+/// The runner is installed into target/tools. Writes docs/trust.md and the corpus that `cargo test` replays, fuzz/src/__fuzz__. Exit status 1 if an input
+/// crashes a reader: it is kept there, too.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Fuzz {
+    /// Readers, by the names of their tests in fuzz/src/readers.rs [default: all]
+    readers: Vec<String>,
+    /// How long each of them is fed
+    #[arg(long, value_name = "MINUTES", default_value_t = 60)]
+    minutes: u64,
+}
+
+/// What came of one reader.
+struct Fed {
+    reader: &'static str,
+    inputs: u64,
+    seconds: u64,
+    /// Edges of code that inputs reach.
+    edges: u64,
+    kept: usize,
+    crashes: usize,
+}
+
+impl Fuzz {
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
+        let known = |name: &String| READERS.iter().any(|(reader, _)| reader == name);
+        if let Some(name) = self.readers.iter().find(|name| !known(name)) {
+            return Err(Failure(format!("{name}: no such reader; choose {}", READERS.map(|(reader, _)| reader).join(", "))));
+        }
+        let chosen = |reader: &str| self.readers.is_empty() || self.readers.iter().any(|name| name == reader);
+        let fed =
+            READERS.iter().filter(|(reader, _)| chosen(reader)).map(|(reader, seeds)| fed(reader, seeds, 60 * self.minutes));
+        let fed = fed.collect::<Result<Vec<_>, _>>()?;
+        let table = table(&fed);
+        print!("{table}");
+        if self.readers.is_empty() {
+            renew(&root().join(PAGE), MARKS, &table)?;
+        }
+        Ok(fed.iter().all(|fed| fed.crashes == 0))
+    }
+}
+
+fn table(all: &[Fed]) -> String {
+    let mut table = String::from(
+        "\n| reader | minutes of one core | inputs | edges of code reached | kept inputs | crashes |\n|---|---|---|---|---|---|\n",
+    );
+    for Fed { reader, inputs, seconds, edges, kept, crashes } in all {
+        table += &format!("| {reader} | {} | {inputs} | {edges} | {kept} | {crashes} |\n", seconds / 60);
+    }
+    table
+}
+
+/// A command of the runner for a reader, with its inputs in a folder.
+fn runner(command: &str, reader: &str, corpus: &Path, crashes: &Path) -> Result<Command, Failure> {
+    let mut runner = tool(RUNNER)?;
+    // the engine needs no sanitizer here, for there is no unsafe code; the toolchain at hand will do
+    runner.args(["bolero", command, "--package", "fuzz", "--rustc-bootstrap", "--sanitizer", "NONE"]);
+    runner.arg("--target-dir").arg(root().join("target/fuzz")).arg("--corpus-dir").arg(corpus).arg("--crashes-dir").arg(crashes);
+    runner.arg(format!("readers::{reader}")).current_dir(root()).stdin(Stdio::null()).stdout(Stdio::null());
+    Ok(runner)
+}
+
+/// The files of a folder, or the file.
+fn files(place: &str) -> Result<Vec<PathBuf>, Failure> {
+    let path = root().join(place);
+    if path.is_file() {
+        return Ok(vec![path]);
+    }
+    let all = names(&path)?.into_iter().map(|name| path.join(name));
+    Ok(all.filter(|path| path.extension().is_some_and(|kind| kind == "ron" || kind == "csv")).collect())
+}
+
+fn fed(reader: &'static str, seeds: &[&str], seconds: u64) -> Result<Fed, Failure> {
+    eprintln!("{reader}: {seconds} s");
+    let own = root().join("fuzz/src/__fuzz__").join(format!("readers__{reader}"));
+    let (kept, crashes, corpus) = (own.join("corpus"), own.join("crashes"), root().join("target/fuzz/corpus").join(reader));
+    for folder in [&kept, &crashes, &corpus] {
+        fs::create_dir_all(folder).map_err(failed(folder))?;
+    }
+    let seeds = seeds.iter().map(|place| files(place)).collect::<Result<Vec<_>, _>>()?;
+    for (number, seed) in seeds.into_iter().flatten().enumerate() {
+        fs::copy(&seed, corpus.join(format!("seed-{number}"))).map_err(failed(&seed))?;
+    }
+    for name in names(&kept)? {
+        fs::copy(kept.join(&name), corpus.join(&name)).map_err(failed(&kept))?;
+    }
+    let mut command = runner("test", reader, &corpus, &crashes)?;
+    let run = command.arg("--time").arg(format!("{seconds}s")).stderr(Stdio::piped()).output()?;
+    let said = String::from_utf8_lossy(&run.stderr).into_owned();
+    let crashed = names(&crashes)?.len();
+    if !run.status.success() && crashed == 0 {
+        return Err(Failure(format!("{reader} was not fuzzed: {}", said.lines().rev().take(5).collect::<Vec<_>>().join("; "))));
+    }
+    let number = |word: &str| said.rsplit_once(word)?.1.split_whitespace().next()?.parse::<u64>().ok();
+    let (inputs, lasted) = (number("Done ").unwrap_or(0), number("runs in ").unwrap_or(0));
+    let edges = number(" cov: ").unwrap_or(0);
+    // inputs that reach what no other does
+    if !runner("reduce", reader, &corpus, &crashes)?.stderr(Stdio::null()).status()?.success() {
+        return Err(Failure(format!("{reader}: the corpus cannot be reduced")));
+    }
+    let size = |name: String| Ok((fs::metadata(corpus.join(&name)).map_err(failed(&corpus))?.len(), name));
+    let mut reduced = names(&corpus)?.into_iter().map(size).collect::<Result<Vec<_>, Failure>>()?;
+    reduced.retain(|(size, _)| *size <= LONGEST);
+    reduced.sort();
+    reduced.truncate(MOST);
+    fs::remove_dir_all(&kept).and_then(|()| fs::create_dir_all(&kept)).map_err(failed(&kept))?;
+    for (_, name) in &reduced {
+        fs::copy(corpus.join(name), kept.join(name)).map_err(failed(&kept))?;
+    }
+    Ok(Fed { reader, inputs, seconds: lasted, edges, kept: reduced.len(), crashes: crashed })
+}
