@@ -53,6 +53,7 @@ enum Chore {
     Mechanisms,
     DocsCheck(docs::DocsCheck),
     Identify(proof::Identify),
+    Survey(proof::Survey),
     /// Break the cell's crates in a copy, one line at a time, and list the tests that turn red
     ///
     /// Writes crates/proof/src/validation/sabotage.md. Exit status 1 if no test sees one of the breaks.
@@ -77,6 +78,7 @@ fn main() -> ExitCode {
         Chore::Mechanisms => mechanisms::run(),
         Chore::DocsCheck(check) => check.run(),
         Chore::Identify(identify) => identify.run(),
+        Chore::Survey(survey) => survey.run(),
         Chore::Sabotage => sabotage::run(),
         Chore::Crates => crates::run(),
         Chore::Supply(supply) => supply.run(),

@@ -63,10 +63,12 @@ pub struct Composed {
 }
 
 impl Composed {
-    /// ln of evidence times probability before anything was seen, which is `log_prior` of any laws of this number: terms are found in any order.
+    /// ln of evidence times probability before anything was seen, which is `log_prior` of any laws of this number: terms are found in any order, and
+    /// others in the place of the last count, too.
     pub fn log_weight(&self, log_prior: f64) -> f64 {
         let orders = (1..=self.laws).product::<usize>() as f64;
-        self.fit.log_evidence - self.choice + orders.ln() + log_prior
+        let kin = 1.0 + self.others.iter().map(|(_, behind)| (-behind).exp()).sum::<f64>();
+        self.fit.log_evidence - self.choice + orders.ln() + kin.ln() + log_prior
     }
 }
 

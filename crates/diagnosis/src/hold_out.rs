@@ -1,7 +1,9 @@
 //! What a fit predicts of a record that it has not seen.
 
-use crate::fit::{Fit, Offset, expected};
+use crate::fit::{Fit, Offset, Unseen, designed};
+use crate::noise::{MINUTE, Noise};
 use crate::{Error, ForwardModel, Observation};
+use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// A fit judged on a record that it has not seen.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,11 +12,15 @@ pub struct HeldOut {
     pub prediction: Vec<Vec<f64>>,
     /// Root mean square of recorded less predicted, of every channel.
     pub rmse: Vec<f64>,
-    /// Standard deviation of the noise in a sample as identified in the fit, of every channel.
+    /// Standard deviation of the noise in a sample as identified in the fit, of every channel, with no more drift and walk than are usual: where a fit
+    /// leaves something unexplained, its noise has swallowed that.
     pub noise_floor: Vec<f64>,
-    /// The same with no more drift than is usual: where a fit leaves something unexplained, its noise has swallowed that.
+    /// Root mean square of means over a minute, or over a row that is longer: so a record says the same in rows of a second and of a minute.
+    pub of_minutes: Vec<f64>,
+    /// The same noise in those means.
     pub quiet: Vec<f64>,
-    /// ln of the likelihood of the record, the offsets known only as well as their priors say, up to a constant that fits with the same noise share.
+    /// ln of the probability density of the record, but for a constant that fits with the same noise share: offsets, what every record has of its own, and
+    /// what the fit leaves open of its unknowns are marginalised.
     pub log_score: f64,
 }
 
@@ -28,7 +34,7 @@ const NOISE: f64 = 1.3;
 const FAR: f64 = 2.0;
 /// Error over the nominal model's that is hardly less: a tenth of the variance explained, 1 − 0.95².
 pub(crate) const BARELY: f64 = 0.95;
-/// Largest drift that is usual, over the median of its prior: about one standard deviation of its logarithm (0.7) above.
+/// Largest drift and walk that are usual, over the medians of their priors: about one standard deviation of the drift's logarithm (0.7) above.
 const USUAL: f64 = 2.0;
 /// Share of the error beyond which one prediction is worse than another, by convention: two digits of it.
 const WORSE: f64 = 0.01;
@@ -36,18 +42,28 @@ const WORSE: f64 = 0.01;
 impl HeldOut {
     /// Whether what it leaves of a channel is no larger than noise.
     pub fn within_noise(&self, channel: usize) -> bool {
-        self.rmse[channel] <= NOISE * self.quiet[channel]
+        self.of_minutes[channel] <= NOISE * self.quiet[channel]
+    }
+
+    /// What it leaves of a channel over the noise in it.
+    pub fn over_noise(&self, channel: usize) -> f64 {
+        self.of_minutes[channel] / self.quiet[channel]
+    }
+
+    /// Whether what it leaves of a channel is far more than noise.
+    pub fn is_far_from_noise(&self, channel: usize) -> bool {
+        self.over_noise(channel) > FAR
     }
 
     /// Whether this is no proof of what was fitted: what it leaves of a channel is far more than noise, and hardly less than `nominal` leaves.
     pub fn proves_nothing(&self, nominal: &Self, channel: usize) -> bool {
-        self.rmse[channel] > FAR * self.quiet[channel] && self.rmse[channel] > BARELY * nominal.rmse[channel]
+        self.is_far_from_noise(channel) && self.of_minutes[channel] > BARELY * nominal.of_minutes[channel]
     }
 
-    /// Whether `other` predicts a channel clearly better: by its error, and by the likelihood of the whole record, for a fault of one channel may be
+    /// Whether `other` predicts a channel clearly better: by its error, and by the probability of the whole record, for a fault of one channel may be
     /// what the other one shows.
     pub fn clearly_worse_than(&self, other: &Self, channel: usize) -> bool {
-        self.rmse[channel] > (1.0 + WORSE) * other.rmse[channel] && self.log_score < other.log_score - CLEAR
+        self.of_minutes[channel] > (1.0 + WORSE) * other.of_minutes[channel] && self.log_score < other.log_score - CLEAR
     }
 }
 
@@ -63,12 +79,7 @@ impl Fit {
         observed: &Observation,
         judge: &Self,
     ) -> Result<HeldOut, Error<M::Error>> {
-        let middle = expected(model.nuisances());
-        // what every record has of its own is not known here
-        let nuisances: Vec<f64> =
-            model.nuisances().iter().enumerate().map(|(i, n)| if n.local { middle[i] } else { self.nuisances[0][i] }).collect();
-        let response = model.respond(record, &nuisances, &self.active).map_err(Error::Model)?;
-        judged(model, response, &self.offsets[0], observed, judge)
+        judged(model, self.unseen(model, record)?, &self.offsets[0], observed, judge)
     }
 }
 
@@ -82,8 +93,8 @@ pub fn as_designed<M: ForwardModel>(
     held: (usize, &Observation),
     judge: &Fit,
 ) -> Result<HeldOut, Error<M::Error>> {
-    let respond = |record| model.respond(record, &expected(model.nuisances()), &[]).map_err(Error::Model);
-    let offsets: Vec<f64> = respond(fitted.0)?
+    let offsets: Vec<f64> = designed(model, fitted.0)?
+        .response
         .iter()
         .zip(&fitted.1.channels)
         .map(|(predicted, recorded)| {
@@ -91,40 +102,99 @@ pub fn as_designed<M: ForwardModel>(
             left.iter().sum::<f64>() / left.len().max(1) as f64
         })
         .collect();
-    judged(model, respond(held.0)?, &offsets, held.1, judge)
+    judged(model, designed(model, held.0)?, &offsets, held.1, judge)
 }
 
-/// A response with offsets against what was observed.
+/// A prediction with offsets against what was observed.
 fn judged<M: ForwardModel>(
     model: &M,
-    mut prediction: Vec<Vec<f64>>,
+    unseen: Unseen,
     offsets: &[f64],
     observed: &Observation,
     judge: &Fit,
 ) -> Result<HeldOut, Error<M::Error>> {
     let noise = judge.noise.pooled(observed)?;
-    let (mut rmse, mut log_score) = (Vec::new(), 0.0);
+    let Unseen { response: mut prediction, moved, loadings } = unseen;
+    let (rows, channels) = (recording::median_interval(&observed.time).unwrap_or(MINUTE), model.channels());
+    let of_a_minute = (MINUTE / rows).floor().max(1.0) as usize;
+    let (mut rmse, mut of_minutes) = (Vec::new(), Vec::new());
+    let (mut left, mut by_offset, mut by_moved) = (Vec::new(), Vec::new(), vec![Vec::new(); moved.len()]);
     for (c, (predicted, recorded)) in prediction.iter_mut().zip(&observed.channels).enumerate() {
-        let channel = &model.channels()[c];
-        let own = Offset::of(channel, recorded, predicted);
+        let own = Offset::of(&channels[c], recorded, predicted);
         predicted.iter_mut().for_each(|p| *p += offsets[c]);
         // an offset that may be anything is this record's own
-        let by = if channel.offset.1.is_finite() { offsets[c] } else { own.mean };
+        let by = if channels[c].offset.1.is_finite() { offsets[c] } else { own.mean };
         let residual: Vec<f64> = recorded.iter().zip(predicted.iter()).map(|(y, p)| y - (p - offsets[c] + by)).collect();
         let used: Vec<f64> = residual.iter().copied().filter(|r| !r.is_nan()).collect();
-        rmse.push((used.iter().map(|r| r * r).sum::<f64>() / used.len().max(1) as f64).sqrt());
-        // an offset of its own, with its prior, is marginalised
+        rmse.push(root_mean_square(&used));
+        let whole = used.chunks_exact(of_a_minute).map(|rows| rows.iter().sum::<f64>() / rows.len() as f64);
+        of_minutes.push(root_mean_square(&whole.collect::<Vec<_>>()));
+        left.extend(noise.whiten(0, c, &residual));
         let ones = vec![own.sd; residual.len()];
-        let (w, o) = (noise.whiten(0, c, &residual), noise.whiten(0, c, &ones));
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        log_score -= (dot(&w, &w) - dot(&w, &o).powi(2) / (1.0 + dot(&o, &o))) / 2.0;
+        by_offset.push(noise.whiten(0, c, &ones));
+        for (all, moved) in by_moved.iter_mut().zip(&moved) {
+            all.extend(noise.whiten(0, c, &moved[c]));
+        }
     }
-    let floor = |most: f64| {
-        let of = |(c, channel): (usize, &crate::Channel)| {
-            let n = noise.model(0, c);
-            n.white.hypot(n.drift.min(most * channel.noise.drift.0)).hypot(n.passed)
-        };
-        model.channels().iter().enumerate().map(of).collect()
-    };
-    Ok(HeldOut { prediction, rmse, noise_floor: floor(f64::INFINITY), quiet: floor(USUAL), log_score })
+    let floor = |rows: usize| (0..channels.len()).map(|c| noise_of(&noise, observed, &channels[c], c, rows)).collect();
+    let (noise_floor, quiet) = (floor(1), floor(of_a_minute));
+    let columns = stacked(&by_offset, &by_moved, loadings, left.len());
+    // what is no number predicts nothing
+    let log_score = log_density(&DVector::from_vec(left), &columns).unwrap_or(f64::NEG_INFINITY);
+    Ok(HeldOut { prediction, rmse, noise_floor, of_minutes, quiet, log_score })
+}
+
+fn root_mean_square(values: &[f64]) -> f64 {
+    (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}
+
+/// Noise of a channel in means of so many rows about the mean of a record, with no more drift and walk than are usual.
+fn noise_of(noise: &Noise, observed: &Observation, channel: &crate::Channel, c: usize, rows: usize) -> f64 {
+    let model = noise.model(0, c);
+    let span = observed.time.last().zip(observed.time.first()).map_or(0.0, |(last, first)| last - first);
+    // a random walk about its own mean
+    let walk = model.walk.min(USUAL * channel.noise.walk.0) * (span / 6.0).sqrt();
+    let drift = model.drift.min(USUAL * channel.noise.drift.0);
+    (model.white / (rows as f64).sqrt()).hypot(drift).hypot(walk).hypot(model.passed)
+}
+
+/// Whitened columns of what is open: an offset in each channel, and the loadings of what else moves the prediction.
+fn stacked(by_offset: &[Vec<f64>], by_moved: &[Vec<f64>], loadings: DMatrix<f64>, rows: usize) -> DMatrix<f64> {
+    let mut columns = DMatrix::zeros(rows, by_offset.len() + by_moved.len());
+    let mut from = 0;
+    for (c, offset) in by_offset.iter().enumerate() {
+        columns.view_mut((from, c), (offset.len(), 1)).copy_from_slice(offset);
+        from += offset.len();
+    }
+    if !by_moved.is_empty() {
+        let moved = DMatrix::from_iterator(rows, by_moved.len(), by_moved.iter().flatten().copied());
+        columns.columns_mut(by_offset.len(), by_moved.len()).copy_from(&(moved * loadings));
+    }
+    columns
+}
+
+/// ln of the density of whitened values that independent standard normal variables move by these columns, without the constant of the normal density;
+/// `None` if it is no number.
+fn log_density(left: &DVector<f64>, columns: &DMatrix<f64>) -> Option<f64> {
+    let precision = columns.tr_mul(columns) + DMatrix::identity(columns.ncols(), columns.ncols());
+    let factor = Cholesky::new(precision)?;
+    let along = columns.tr_mul(left);
+    let log_det: f64 = 2.0 * factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum::<f64>();
+    let score = -(left.norm_squared() - along.dot(&factor.solve(&along)) + log_det) / 2.0;
+    score.is_finite().then_some(score)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_density_is_that_of_the_covariance_with_what_is_open() {
+        let columns = DMatrix::from_row_slice(3, 2, &[1.0_f64, 0.2, -0.5, 2.0, 0.3, 0.1]);
+        let left = DVector::from_vec(vec![0.4_f64, -1.0, 2.0]);
+        let covariance = DMatrix::<f64>::identity(3, 3) + &columns * columns.transpose();
+        let direct = -(left.dot(&(covariance.clone().try_inverse().unwrap() * &left)) + covariance.determinant().ln()) / 2.0;
+        assert!((log_density(&left, &columns).unwrap() - direct).abs() < 1e-12);
+        assert!(log_density(&DVector::from_vec(vec![f64::NAN, 0.0, 0.0]), &columns).is_none());
+    }
 }

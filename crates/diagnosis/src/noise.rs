@@ -6,6 +6,9 @@ use recording::minimise::{Effort, nelder_mead};
 use recording::noise::{NoiseModel, Whitener};
 use std::sync::Arc;
 
+/// Span over which noise is told whatever the rows are \[s\].
+pub(crate) const MINUTE: f64 = 60.0;
+
 /// White noise of rows of one length, in rows of another \[s\]: that of means falls with their length.
 fn white_in(model: &NoiseModel, interval: f64, other: f64) -> f64 {
     if model.averaging > 0.0 { model.white * (interval / other).sqrt() } else { model.white }
@@ -170,7 +173,7 @@ impl Noise {
 
     /// White noise of a channel of a record over a minute, whatever its rows.
     pub(crate) fn white_of_a_minute(&self, record: usize, channel: usize) -> f64 {
-        white_in(&self.models[record][channel], self.intervals[record], 60.0)
+        white_in(&self.models[record][channel], self.intervals[record], MINUTE)
     }
 
     /// Whitened series of a channel of a record, of the rows that are used.

@@ -5,7 +5,7 @@
 //! linear model.
 
 use crate::fit::Fit;
-use crate::structure::{Basis, Reach, bases, jumps, range};
+use crate::structure::{Basis, Reach, bases, range, steps};
 use crate::{ForwardModel, Structure};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
@@ -66,21 +66,22 @@ impl Fit {
     /// How much each structure in each channel would add to the fit, best first.
     pub(crate) fn rivals<M: ForwardModel>(&self, model: &M, records: &[usize], times_of: &[&[f64]]) -> Vec<Rival> {
         let states = || records.iter().map(|r| model.state(*r));
-        let reach = Reach { level: range(states().flat_map(|s| &s.level)), rate: range(states().flat_map(|s| &s.rate)) };
+        let spans = || times_of.iter().map(|time| time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first));
+        let reach = Reach {
+            level: range(states().flat_map(|s| &s.level)),
+            rate: range(states().flat_map(|s| &s.rate)),
+            longest: spans().fold(0.0, f64::max),
+            together: spans().sum::<f64>().max(f64::MIN_POSITIVE),
+        };
         let mut rivals = Vec::new();
         for channel in 0..model.channels().len() {
-            // a jump is one record's own: the others have no step then
-            let found: Vec<Vec<f64>> =
-                times_of.iter().zip(&self.residuals).map(|(time, residual)| jumps(time, &residual[channel])).collect();
-            let jumps_of = |record: usize| -> Vec<Option<f64>> {
-                let own = |(r, at): (usize, &Vec<f64>)| at.iter().map(move |at| (r == record).then_some(*at)).collect::<Vec<_>>();
-                found.iter().enumerate().flat_map(own).collect()
-            };
+            let residuals: Vec<&[f64]> = self.residuals.iter().map(|channels| channels[channel].as_slice()).collect();
+            let steps = steps(times_of, &residuals, &reach);
             for structure in Structure::ALL {
                 let alternatives: Vec<Vec<Basis>> = records
                     .iter()
                     .enumerate()
-                    .map(|(r, record)| bases(structure, times_of[r], model.state(*record), &reach, &jumps_of(r)))
+                    .map(|(r, record)| bases(structure, times_of[r], model.state(*record), &reach, &steps[r]))
                     .collect();
                 let count = alternatives.iter().map(Vec::len).min().unwrap_or(0);
                 let mut gains = Vec::new();

@@ -21,10 +21,32 @@ const CHOICES: usize = 3;
 pub struct Settled<M> {
     /// The model anew, where the one given was not good there.
     pub model: Option<M>,
+    alone: Alone<M>,
     /// The constants re-estimated, nothing else at work, under the model that is good about *them*: to be compared with all others.
     pub recalibrated: Fit,
     /// The mechanism that explains most beside the constants, by its number, and how much ln evidence it gains on them alone, if it leads on them.
     pub suspect: Option<(usize, f64)>,
+}
+
+/// The model that is good about the constants alone.
+enum Alone<M> {
+    /// That of [`Settled::model`].
+    Settled,
+    /// The one given.
+    Given,
+    /// Another one.
+    Other(M),
+}
+
+impl<M> Settled<M> {
+    /// The model by which [`Self::recalibrated`] was found; `given` is the one that was given.
+    pub fn alone<'a>(&'a self, given: &'a M) -> &'a M {
+        match &self.alone {
+            Alone::Settled => self.model.as_ref().unwrap_or(given),
+            Alone::Given => given,
+            Alone::Other(model) => model,
+        }
+    }
 }
 
 /// The model about the constants of the likeliest hypothesis: constants alone, or one mechanism beside them. Each is followed to where the model
@@ -69,7 +91,7 @@ pub fn settled<M: ForwardModel>(
     // constants that had to go far may stand for a mechanism that is near the drawing: about them it does not show
     let suspect = leading.hypothesis.mechanisms.first().map(|(mechanism, _)| (*mechanism, gain));
     if gain <= MATTERS && strain(model, &recalibrated) <= STRAINED {
-        return Ok(Settled { model: alone.about, recalibrated, suspect });
+        return Ok(Settled { model: alone.about, alone: Alone::Settled, recalibrated, suspect });
     }
     let mut beside = way(first)?;
     while !beside.arrived {
@@ -80,7 +102,11 @@ pub fn settled<M: ForwardModel>(
     // each at its best, about its own constants
     let gain = leader.log_evidence - recalibrated.log_evidence;
     let suspect = leader.hypothesis.mechanisms.first().map(|(mechanism, _)| (*mechanism, gain));
-    Ok(Settled { model: if gain > 0.0 { beside.about } else { alone.about }, recalibrated, suspect })
+    Ok(if gain > 0.0 {
+        Settled { model: beside.about, alone: alone.about.map_or(Alone::Given, Alone::Other), recalibrated, suspect }
+    } else {
+        Settled { model: alone.about, alone: Alone::Settled, recalibrated, suspect }
+    })
 }
 
 /// On the way from a model to one that is good about what is found by it.

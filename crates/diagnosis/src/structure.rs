@@ -64,6 +64,16 @@ pub(crate) fn range<'a>(x: impl Iterator<Item = &'a f64>) -> [f64; 2] {
 pub(crate) struct Reach {
     pub(crate) level: [f64; 2],
     pub(crate) rate: [f64; 2],
+    /// Duration of the longest \[s\], and of all together.
+    pub(crate) longest: f64,
+    pub(crate) together: f64,
+}
+
+/// An instant \[s\] at which a step is tried in a record, none where it is another record's own, and the share of probability that it stands for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Jump {
+    pub(crate) at: Option<f64>,
+    pub(crate) share: f64,
 }
 
 /// Smooth bumps: a partition of unity of `count` hats over a range of x.
@@ -108,8 +118,8 @@ fn step_at(time: &[f64], at: f64) -> Vec<f64> {
     time.iter().map(|t| if *t >= at { 1.0 } else { 0.0 }).collect()
 }
 
-/// Alternatives of a structure; its evidence is their mean. A step is tried at the `jumps` too.
-pub(crate) fn bases(structure: Structure, time: &[f64], state: &State, reach: &Reach, jumps: &[Option<f64>]) -> Vec<Basis> {
+/// Alternatives of a structure; its evidence is their mean by their shares. Steps are tried at the `jumps`.
+pub(crate) fn bases(structure: Structure, time: &[f64], state: &State, reach: &Reach, jumps: &[Jump]) -> Vec<Basis> {
     let (level, rate) = (&state.level, &state.rate);
     let range = reach.level[1] - reach.level[0];
     match structure {
@@ -117,21 +127,24 @@ pub(crate) fn bases(structure: Structure, time: &[f64], state: &State, reach: &R
             if range.is_nan() || range <= 0.0 {
                 return Vec::new();
             }
-            (0..PERIODS)
-                .map(|k| {
-                    let period = range / 30.0 * (15.0_f64).powf(k as f64 / (PERIODS - 1) as f64);
+            // a record resolves cycles over its range evenly; beforehand a period may be anything in its logarithm
+            let cycles = || (0..=CYCLES_STEPS).map(|k| FEWEST_CYCLES + k as f64 / STEPS_A_CYCLE);
+            let all: f64 = cycles().map(f64::recip).sum();
+            cycles()
+                .map(|cycles| {
+                    let period = range / cycles;
                     let wave = |shift: f64| -> Vec<f64> {
                         level.iter().map(|l| (std::f64::consts::TAU * l / period + shift).sin()).collect()
                     };
                     let functions = vec![wave(0.0), wave(std::f64::consts::FRAC_PI_2)];
-                    Basis { at: Some(period), share: 1.0 / PERIODS as f64, functions }
+                    Basis { at: Some(period), share: 1.0 / cycles / all, functions }
                 })
                 .collect()
         }
         Structure::Level => one(hats(level, reach.level, 9)),
         Structure::RateByLevel => one(hats(level, reach.level, 7).iter().map(|h| times(h, rate)).collect()),
         Structure::Rate => one(hats(rate, reach.rate, 7)),
-        Structure::History => one(lags(time).iter().map(|tau| follow(time, rate, *tau)).collect()),
+        Structure::History => one(lags(reach.longest).iter().map(|tau| follow(time, rate, *tau)).collect()),
         Structure::Acceleration => one(vec![slopes(time, rate)]),
         Structure::Direction => {
             let most = reach.rate[0].abs().max(reach.rate[1].abs());
@@ -139,19 +152,14 @@ pub(crate) fn bases(structure: Structure, time: &[f64], state: &State, reach: &R
             one(hats(level, reach.level, 4).iter().map(|h| times(h, &direction)).collect())
         }
         Structure::Step => {
-            let (first, last) = (time[0], time[time.len() - 1]);
-            // half of the probability evenly in time, half on all rows, of which those that jump most are tried
-            let even = (1..STEPS).map(|k| {
-                let at = first + (last - first) * k as f64 / STEPS as f64;
-                Basis { at: Some(at), share: 0.5 / (STEPS - 1) as f64, functions: vec![step_at(time, at)] }
-            });
-            let row = 0.5 / time.len() as f64;
-            let at_jump =
-                |at: &Option<f64>| Basis { at: *at, share: row, functions: vec![step_at(time, at.unwrap_or(f64::INFINITY))] };
-            even.chain(jumps.iter().map(at_jump)).collect()
+            let step = |Jump { at, share }: &Jump| Basis {
+                at: *at,
+                share: *share,
+                functions: vec![step_at(time, at.unwrap_or(f64::INFINITY))],
+            };
+            jumps.iter().map(step).collect()
         }
         Structure::Accumulation => {
-            let span = time[time.len() - 1] - time[0];
             let mut wandered = 0.0;
             let wander = (0..time.len())
                 .map(|n| {
@@ -159,22 +167,45 @@ pub(crate) fn bases(structure: Structure, time: &[f64], state: &State, reach: &R
                     wandered
                 })
                 .collect();
-            let settling = |tau: f64| time.iter().map(|t| (-(t - time[0]) / (tau * span)).exp()).collect();
+            let settling = |tau: f64| time.iter().map(|t| (-(t - time[0]) / (tau * reach.longest)).exp()).collect();
             one(vec![wander, time.iter().map(|t| t - time[0]).collect(), settling(0.1), settling(0.3)])
         }
     }
 }
 
-/// Periods that are tried, from a thirtieth to half of the levels' range.
-const PERIODS: usize = 40;
+/// Cycles over the range of the levels that are tried, from the fewest on: a third of a cycle apart a sine between two of them keeps nine tenths of its
+/// power, sinc²(1/6).
+const FEWEST_CYCLES: f64 = 2.0;
+const STEPS_A_CYCLE: f64 = 3.0;
+const CYCLES_STEPS: usize = 84;
 /// Even stretches of a record between which a step is tried.
 const STEPS: usize = 48;
-/// Jumps of a residual at which a step is tried, and the rows before and after that are compared.
+/// Jumps of a residual at which a step is tried besides.
 const JUMPS: usize = 6;
-const BESIDE_JUMP: usize = 10;
+/// What is compared before and after a jump \[s\], and the fewest rows of it.
+const BESIDE_JUMP: f64 = 300.0;
+const FEWEST_BESIDE: usize = 3;
+/// Stretch of time that a jump stands for \[s\]: a step may be anywhere.
+const JUMP: f64 = 60.0;
+
+/// Instants at which a step may be, of every record: half of the probability evenly in time, half on all instants, of which those are tried at which the
+/// residuals jump most. A step is one record's own: for each of them, all alternatives.
+pub(crate) fn steps(times: &[&[f64]], residuals: &[&[f64]], reach: &Reach) -> Vec<Vec<Jump>> {
+    let mut own: Vec<(usize, f64, f64)> = Vec::new();
+    for (record, (time, residual)) in times.iter().zip(residuals).enumerate() {
+        let (Some(first), Some(last)) = (time.first(), time.last()) else { continue };
+        let even = 0.5 * (last - first) / reach.together / (STEPS - 1) as f64;
+        own.extend((1..STEPS).map(|k| (record, first + (last - first) * k as f64 / STEPS as f64, even)));
+        own.extend(jumps(time, residual).into_iter().map(|at| (record, at, 0.5 * JUMP / reach.together)));
+    }
+    let of = |record: usize| own.iter().map(move |&(r, at, share)| Jump { at: (r == record).then_some(at), share }).collect();
+    (0..times.len()).map(of).collect()
+}
 
 /// Instants at which a series changes most between the rows before and the rows after, apart from each other by as many; NaN is left out.
-pub(crate) fn jumps(time: &[f64], series: &[f64]) -> Vec<f64> {
+fn jumps(time: &[f64], series: &[f64]) -> Vec<f64> {
+    let beside = recording::median_interval(time).map_or(FEWEST_BESIDE, |rows| (BESIDE_JUMP / rows).round() as usize);
+    let beside = beside.max(FEWEST_BESIDE);
     let used: Vec<usize> = (0..series.len()).filter(|n| series[*n].is_finite()).collect();
     let sums: Vec<f64> = std::iter::once(0.0)
         .chain(used.iter().scan(0.0, |sum, n| {
@@ -182,28 +213,26 @@ pub(crate) fn jumps(time: &[f64], series: &[f64]) -> Vec<f64> {
             Some(*sum)
         }))
         .collect();
-    let mut found: Vec<(usize, f64)> = (BESIDE_JUMP..used.len().saturating_sub(BESIDE_JUMP))
-        .map(|k| (k, (sums[k + BESIDE_JUMP] - 2.0 * sums[k] + sums[k - BESIDE_JUMP]).abs()))
+    let mut found: Vec<(usize, f64)> = (beside..used.len().saturating_sub(beside))
+        .map(|k| (k, (sums[k + beside] - 2.0 * sums[k] + sums[k - beside]).abs()))
         .collect();
     found.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut chosen: Vec<usize> = Vec::new();
     for (k, _) in found {
-        if chosen.len() < JUMPS && chosen.iter().all(|c| c.abs_diff(k) >= BESIDE_JUMP) {
+        if chosen.len() < JUMPS && chosen.iter().all(|c| c.abs_diff(k) >= beside) {
             chosen.push(k);
         }
     }
     chosen.iter().map(|k| time[used[*k]]).collect()
 }
 
-/// Number of time constants of the history, the shortest in mean intervals, the longest as a share of the record.
+/// Number of time constants of the history, the shortest and the longest as shares of the longest record.
 const LAGS: usize = 5;
-const SHORTEST: f64 = 7.0;
+const SHORTEST: f64 = 0.0025;
 const LONGEST: f64 = 0.3;
 
 /// Time constants of the history \[s\], evenly spaced in their logarithms.
-fn lags(time: &[f64]) -> Vec<f64> {
-    let span = time[time.len() - 1] - time[0];
-    let shortest = SHORTEST * span / (time.len() - 1).max(1) as f64;
-    let longest = (LONGEST * span).max(shortest);
-    (0..LAGS).map(|k| shortest * (longest / shortest).powf(k as f64 / (LAGS - 1) as f64)).collect()
+fn lags(longest: f64) -> Vec<f64> {
+    let of = |k: usize| SHORTEST * longest * (LONGEST / SHORTEST).powf(k as f64 / (LAGS - 1) as f64);
+    (0..LAGS).map(of).collect()
 }

@@ -250,9 +250,13 @@ remarks! {
         "A meta file says that the unit was built to a design of another name.",
         "The model may be that of another coil.",
         "Give the design that the unit was built to, or correct `design` in the meta file.";
+    HeldOutLeft "held-out-left":
+        "What was found leaves more than 1.3 times the noise in a record that was held out (a warning from twice the noise on).",
+        "What was found may be right and not all: something else was at work in that record, or it is of another unit.",
+        "Check that the records are of one unit in one state, and fit the other record, too: `--fit` it, and hold out another.";
     TakenBack "taken-back":
         "The likeliest explanation predicts a record that was held out worse than the nominal model, or no better and far from its noise.",
-        "The explanation is taken back: the verdict is none or unknown.",
+        "The explanation is taken back: the verdict is none or unknown, and `taken_back` lists what it was.",
         "Check that the records are of one unit in one state; something may have changed between them.";
     NoModel "no-model":
         "--model-out was given, but the verdict leaves nothing to put into the design.",

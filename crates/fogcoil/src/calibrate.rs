@@ -117,7 +117,7 @@ fn fit(
     let observations: Vec<Observation> = read.iter().map(|r| r.observed.clone()).collect();
     let numbers: Vec<usize> = (0..read.len()).collect();
     let settled = diagnosis::settled(&drawn, &numbers, &observations, progress).map_err(Error::of_diagnosis(&case.file))?;
-    let Settled { model, recalibrated, suspect } = settled;
+    let Settled { model, recalibrated, suspect, .. } = settled;
     let doubt = suspect.filter(|(_, gain)| *gain > DOUBTED).map(|(mechanism, gain)| {
         let id = &drawn.mechanisms()[mechanism].id;
         format!("{id} explains this unit better than its constants do (ln odds {gain:.0} before its prior): is it a good one? See fogcoil diagnose")

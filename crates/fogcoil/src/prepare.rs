@@ -13,7 +13,8 @@ use mechanisms::{
 use progress::Step;
 use recording::check::{Severity, white_noise};
 use recording::condition::{Rest, Thinned, Thinning, Unrest, bridged, span, thinned, unrest};
-use recording::{Recording, median_interval};
+use recording::smooth::resolution;
+use recording::{Recording, Seconds, median_interval};
 
 use crate::Error;
 use crate::cache::Cache;
@@ -26,8 +27,10 @@ const FEWEST_ROWS: usize = 60;
 const THINNING: Thinning = Thinning { many_rows: 3_000, interval: 30.0, most_rows: 30_000 };
 /// The same of the chamber's readings before they are freed of noise: where a programme turns, half a minute is much.
 const THINNING_CHAMBER: Thinning = Thinning { many_rows: 9_000, interval: 10.0, most_rows: 30_000 };
-/// Range of the chamber \[K\] below which it is noted that nothing shows.
+/// Range of the chamber \[K\] below which it is noted that nothing shows; beyond it what a start or a gap hides may be taken for a finding.
 const FEWEST_KELVIN: f64 = 5.0;
+/// Rows from which what is missing counts as a gap.
+const GAP_ROWS: f64 = 3.0;
 /// What chamber and spool may differ by at rest, and the chamber move by in the first minutes \[K\]: thermometers' offsets and noise.
 const REST: Rest = Rest { duration: 600.0, tolerance: 0.5 };
 
@@ -116,6 +119,28 @@ fn refuse_dead(case: &RecordCase, chamber: &[f64], spool: &[f64]) -> Result<(), 
     Err(refuse(case, CHAMBER, problem, "check the chamber's sensor and the choice of its column"))
 }
 
+/// A warning of the longest gap within which the chamber moved far: how, no reading tells.
+fn moved_in_gap(case: &RecordCase) -> Option<Note> {
+    let chamber = case.recording.channel(CHAMBER)?;
+    let readings: Vec<(f64, f64)> = case
+        .recording
+        .time()
+        .iter()
+        .copied()
+        .zip(chamber.values.iter().copied())
+        .filter(|(_, value)| value.is_finite())
+        .collect();
+    let interval = median_interval(case.recording.time())?;
+    let gaps = readings.windows(2).map(|pair| (pair[1].0 - pair[0].0, (pair[1].1 - pair[0].1).abs()));
+    let far = gaps.filter(|(gap, moved)| *gap > GAP_ROWS * interval && *moved > FEWEST_KELVIN);
+    let (gap, moved) = far.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let text = format!(
+        "the chamber moved by {moved:.1} K within a gap of {}, over which it is taken for a straight line: what the next hours leave may be no finding",
+        Seconds(gap)
+    );
+    Some(Remark::Gap.warning(text))
+}
+
 /// A recording's usable values, averaged down where there are very many; what was done is added to `notes`.
 pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, Error> {
     case.require_usable()?;
@@ -169,6 +194,7 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     notes.extend(warnings.map(|finding| Remark::of_finding(&finding.kind).warning(finding.to_string()).at(file)));
     // how the file was read, where that is doubtful
     notes.extend(case.notes.iter().filter(|note| note.is_warning()).map(|note| note.clone().at(file)));
+    notes.extend(moved_in_gap(case).map(|note| note.at(file)));
     let mut say = |remark: Remark, text: String| notes.push(remark.note(text).at(file));
     let range = span(&chamber);
     if range < FEWEST_KELVIN {
@@ -179,11 +205,14 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
         say(Remark::NoThermometer, "no spool_c: heat paths and the thermometer cannot be told apart".to_owned());
     }
     if let Some(unrest) = unrest(&time, &chamber, &spool, &REST) {
-        let off = match unrest {
-            Unrest::Apart(by) => format!("spool and chamber differ by {by:.1} K"),
-            Unrest::Moving(by) => format!("the chamber moves by {by:.1} K in the first {} min", REST.duration / S_PER_MIN),
+        let (by, off) = match unrest {
+            Unrest::Apart(by) => (by, format!("spool and chamber differ by {by:.1} K, and less and less")),
+            Unrest::Moving(by) => (by, format!("the chamber moves by {by:.1} K in the first {} min", REST.duration / S_PER_MIN)),
         };
-        say(Remark::NotAtRest, format!("does not start at rest ({off}), as the model does: what this leaves is no finding"));
+        let text = format!("does not start at rest ({off}), as the model does: what this leaves is no finding");
+        let far = by > FEWEST_KELVIN;
+        let note = if far { Remark::NotAtRest.warning(text) } else { Remark::NotAtRest.note(text) };
+        notes.push(note.at(file));
     }
     let (fingerprint, observed) = (case.fingerprint.clone(), Observation { time, channels: vec![spool, rate] });
     Ok(Record { fingerprint, observed, chamber, drive, averaging, columns, meta: case.meta.clone(), instants: (before, earlier) })
@@ -244,7 +273,7 @@ fn instruments_of(records: &[Record]) -> Instruments {
     let as_read = records.iter().all(|record| record.instants().len() == record.observed.time.len());
     let of_spool = first(&|meta| meta.spool_c.noise).filter(|_| as_read).filter(|noise| *noise > 0.0);
     let mut white = noise_of(records, [of_spool.unwrap_or(USUAL_NOISE[SPOOL_NUMBER]), USUAL_NOISE[RATE_NUMBER]]);
-    let least = first(&|meta| meta.resolutions()[1]).filter(|_| as_read).map_or(0.0, |digit| digit / 12.0_f64.sqrt());
+    let least = first(&|meta| meta.resolutions()[1]).filter(|_| as_read).map_or(0.0, of_rounding);
     white[SPOOL_NUMBER] = white[SPOOL_NUMBER].max(least);
     let (chamber, spool) = (thermometer(|meta| &meta.chamber_c), thermometer(|meta| &meta.spool_c));
     Instruments { white, chamber, spool, rate, earth: None }
@@ -264,7 +293,10 @@ fn noise_of(records: &[Record], usual: [f64; 2]) -> [f64; 2] {
     let of = |channel: usize| {
         let white = |r: &Record| {
             let values = &r.observed.channels[channel];
-            let white = white_noise(&r.observed.time, values, &values.iter().map(|v| v.is_finite()).collect::<Vec<_>>())?;
+            let is_used: Vec<bool> = values.iter().map(|v| v.is_finite()).collect();
+            let used: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+            // a display that stands still for most rows has the noise of its rounding all the same
+            let white = white_noise(&r.observed.time, values, &is_used)?.max(of_rounding(resolution(&used)));
             let longer = median_interval(&r.observed.time).zip(first).map_or(1.0, |(own, first)| own / first);
             Some(if channel == RATE_NUMBER { white * longer.sqrt() } else { white })
         };
@@ -272,6 +304,11 @@ fn noise_of(records: &[Record], usual: [f64; 2]) -> [f64; 2] {
         each.reduce(f64::min).unwrap_or(usual[channel])
     };
     [of(SPOOL_NUMBER), of(RATE_NUMBER)]
+}
+
+/// Standard deviation of what a display rounds away, evenly within its last digit.
+fn of_rounding(digit: f64) -> f64 {
+    digit / 12.0_f64.sqrt()
 }
 
 /// A record that is given twice would be counted, or judged, by itself.

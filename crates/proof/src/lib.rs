@@ -4,6 +4,7 @@
 //! - [`cells`]: cells of many kinds against much finer solutions, finite elements and NGSolve.
 //! - [`coil_job`]: heat flow and strains of a whole coil by the project's own elements, as the peers of `benches/peers` compute them ([`peers`]).
 //! - [`Identify`]: constituents of cells that are known, from their constants with noise.
+//! - [`Survey`]: errors that are stated of random cells, coils and profiles against the true ones.
 //! - [`generator`]: units that conceal something, made by a plant of their own, which shares no law with what diagnoses them.
 //! - [`Prove`]: those units and the fixtures' answered by the program, and the answers held against the truths.
 //! - [`statistics`]: rates, medians and means with 90 % intervals.
@@ -32,6 +33,7 @@ mod ordinary;
 pub mod peers;
 pub mod program;
 pub mod statistics;
+mod survey;
 mod three_records;
 mod truth;
 pub mod validation;
@@ -39,3 +41,4 @@ pub mod validation;
 pub use concealed::Prove;
 pub use failure::Failure;
 pub use identified::Identify;
+pub use survey::Survey;

@@ -128,7 +128,7 @@ pub struct Rest {
 /// Why a recording does not start at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Unrest {
-    /// What drives and what follows differ at first, by so much \[u\].
+    /// What drives and what follows differ at first, by so much \[u\], and the difference moves within the duration.
     Apart(f64),
     /// What drives moves at first, by so much within the duration \[u\].
     Moving(f64),
@@ -136,14 +136,21 @@ pub enum Unrest {
 
 /// Why a recording does not start at rest, if it does not: from `driver`, which is finite, and `follower`, NaN where it is not known.
 ///
-/// At rest both have one value: a model that starts from equilibrium has no other. The follower's first finite value counts; that the two differ
-/// is said before that the driver moves.
+/// At rest both stand still: a model that starts from equilibrium has no other beginning. Two thermometers may differ all the same, by a constant. The
+/// follower's first finite value counts; that the two differ is said before that the driver moves.
 pub fn unrest(time: &[f64], driver: &[f64], follower: &[f64], rest: &Rest) -> Option<Unrest> {
     let (start, first) = (*time.first()?, *driver.first()?);
-    let apart = follower.iter().find(|value| value.is_finite()).map_or(0.0, |value| (value - first).abs());
-    let early = time.iter().zip(driver).take_while(|(t, _)| *t - start <= rest.duration);
-    let moved = early.fold(0.0_f64, |most, (_, value)| most.max((value - first).abs()));
-    if apart > rest.tolerance { Some(Unrest::Apart(apart)) } else { (moved > rest.tolerance).then_some(Unrest::Moving(moved)) }
+    let early = time.iter().take_while(|t| **t - start <= rest.duration).count();
+    let farthest = |values: &mut dyn Iterator<Item = f64>| {
+        let known: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+        known
+            .first()
+            .map_or((0.0, 0.0), |first| (*first, known.iter().fold(0.0_f64, |most, value| most.max((value - first).abs()))))
+    };
+    let (_, moved) = farthest(&mut driver[..early].iter().copied());
+    let (apart, closing) = farthest(&mut follower[..early].iter().map(|value| value - first));
+    let is_apart = apart.abs() > rest.tolerance && closing > rest.tolerance;
+    if is_apart { Some(Unrest::Apart(apart.abs())) } else { (moved > rest.tolerance).then_some(Unrest::Moving(moved)) }
 }
 
 /// Largest less smallest of the values, those that are NaN left out; −∞ of nothing.

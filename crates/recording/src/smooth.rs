@@ -39,10 +39,13 @@ pub struct Smoothed {
 }
 
 /// The last digit of a display: the least step between two values that differ, if most moves by it stand alone. Moves that go on are those of a
-/// ramp that is even, and say nothing of a display: 0, as of a constant.
-fn resolution(values: &[f64]) -> f64 {
+/// ramp that is even, and say nothing of a display: 0, as of a constant, and of no value. Values must be finite.
+pub fn resolution(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
+    if sorted.is_empty() {
+        return 0.0;
+    }
     let range = sorted[sorted.len() - 1] - sorted[0];
     // what rounding leaves of one value is no step
     let rounding = 1e-7 * range;

@@ -88,13 +88,15 @@ fn what_a_check_masks_or_drops_is_not_used() {
 }
 
 #[test]
-fn rest_is_both_that_they_agree_and_that_they_stay() {
+fn rest_is_that_both_stay_and_do_not_close_in() {
     let rest = Rest { duration: 10.0, tolerance: 0.5 };
     let time = [100.0, 105.0, 110.0, 115.0];
     let of = |driver: [f64; 4], follower: [f64; 4]| unrest(&time, &driver, &follower, &rest);
     assert_eq!(of([20.0, 20.5, 20.0, 90.0], [NAN, 19.5, 0.0, 0.0]), None);
     assert_eq!(of([20.0, 21.0, 20.0, 20.0], [20.25; 4]), Some(Unrest::Moving(1.0)));
     assert_eq!(of([20.0, 21.0, 20.0, 20.0], [NAN, 18.0, 20.0, 20.0]), Some(Unrest::Apart(2.0)));
+    // thermometers that differ by a constant are at rest all the same
+    assert_eq!(of([20.0; 4], [18.7; 4]), None);
     assert_eq!(of([20.0; 4], [NAN; 4]), None);
     assert_eq!(unrest(&[], &[], &[], &rest), None);
 }

@@ -1,7 +1,7 @@
 //! One hypothesis fitted to the records, and its evidence.
 //!
 //! [`hypothesis`]: what may be at work; [`unknowns`]: what is found, and [`beforehand`] what is known of it; [`objective`]: what is made least, with its
-//! [`derivatives`], found by [`differences`]; from [`starts`] by [`descent`], and beside [`kinks`]: how; [`laplace`]: the evidence; [`fitter`]: all together. [`mod@sampled`] checks it.
+//! [`derivatives`], found by [`differences`]; from [`starts`] by [`descent`], and beside [`kinks`]: how; [`laplace`]: the evidence; [`fitter`]: all together; [`unseen`]: what it foretells. [`mod@sampled`] checks it.
 
 mod beforehand;
 mod derivatives;
@@ -15,6 +15,7 @@ mod objective;
 mod sampled;
 mod starts;
 mod unknowns;
+mod unseen;
 
 #[cfg(test)]
 pub(crate) use beforehand::Beforehand;
@@ -28,6 +29,7 @@ use objective::Objective;
 pub use sampled::{Sampled, Samples, sampled};
 pub use unknowns::expected;
 pub(crate) use unknowns::{Unknown, parameter};
+pub(crate) use unseen::{Unseen, designed};
 
 use crate::noise::Noise;
 use crate::{Error, ForwardModel};

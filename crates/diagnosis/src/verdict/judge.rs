@@ -2,7 +2,7 @@
 
 use super::set::{likely, marginals, named};
 use super::{Diagnosis, Verdict};
-use crate::{Candidate, Error, ForwardModel, HeldOut, Observation, as_designed};
+use crate::{Candidate, Error, Fit, ForwardModel, HeldOut, Hypothesis, Observation, as_designed};
 
 /// Probability of a mechanism from which it is named although a structure is left beside it.
 const SURE: f64 = 0.8;
@@ -40,6 +40,8 @@ pub enum Ruling {
     Stands,
     /// Mechanisms beside which a structure was left are proven: unknown becomes explained.
     AcceptedBeside,
+    /// By all records together the design, or its constants re-estimated, are likelier than the explanation: none or recalibrate.
+    Outweighed,
     /// The explanation is taken back: none or unknown remains.
     TakenBack {
         /// Number of the first record that contradicts it, among those held out.
@@ -65,15 +67,19 @@ pub struct Judgement {
     pub records: Vec<Judged>,
     /// What followed.
     pub ruling: Ruling,
+    /// Mechanisms that were taken back, with their probabilities by what was fitted.
+    pub withdrawn: Vec<(usize, f64)>,
 }
 
 impl Diagnosis {
     /// Predicts the records `held` (numbers of the model's, with what was observed) and lets them judge the verdict by `channel`; `fitted` is the first
-    /// record that was fitted, and `drawn` the model that is exact as it is designed, before it [`crate::settled`].
+    /// record that was fitted, and `drawn` the model that is exact as it is designed, before it [`crate::settled`]. `alone` is the fit of the constants
+    /// alone with the model that is good about them ([`crate::Settled::alone`]), if there is one.
     ///
     /// - A structure beside mechanisms that have a name, one of them nearly certain, is no bar to naming them if *every* record is predicted to within
     ///   its noise, and clearly better than by the nominal model and by its constants re-estimated: the verdict becomes [`Verdict::Explained`], and
     ///   their probabilities count the candidates with a structure.
+    /// - An explanation is outweighed where the design or its constants are likelier by what was fitted and by what was held out together.
     /// - An explanation, or a recalibration, is taken back if *any* record contradicts it ([`Contradiction`]). Then there is nothing to explain if
     ///   the nominal model predicts that record to within noise, else what there is is unknown; the mechanisms lose their probabilities, which
     ///   were of the fitted records alone.
@@ -84,25 +90,43 @@ impl Diagnosis {
         &mut self,
         model: &M,
         drawn: &M,
+        alone: Option<(&M, &Fit)>,
         fitted: (usize, &Observation),
         held: &[(usize, &Observation)],
         channel: usize,
     ) -> Result<Judgement, Error<M::Error>> {
-        let best = &self.best().fit;
-        let constants = self.candidates.iter().find(|c| c.is_constants_alone());
+        let best = self.best();
+        let own = self.candidates.iter().find(|c| c.is_constants_alone()).map(|c| (model, &c.fit));
+        let constants = own.map(|own| alone.unwrap_or(own));
         let predicted = |&(record, observed): &(usize, &Observation)| -> Result<Judged, Error<M::Error>> {
-            let by_model = best.hold_out(model, record, observed, best)?;
-            let nominal = as_designed(drawn, fitted, (record, observed), best)?;
-            let constants = constants.map(|c| c.fit.hold_out(model, record, observed, best)).transpose()?;
-            Ok(Judged { accepted: by_model.rmse[channel] <= nominal.rmse[channel], nominal, model: by_model, constants })
+            let nominal = as_designed(drawn, fitted, (record, observed), &best.fit)?;
+            let constants = constants.map(|(model, fit)| fit.hold_out(model, record, observed, &best.fit)).transpose()?;
+            let by_model = match constants.as_ref().filter(|_| best.is_constants_alone()) {
+                Some(constants) => constants.clone(),
+                None => best.fit.hold_out(model, record, observed, &best.fit)?,
+            };
+            Ok(Judged { accepted: is_accepted(&by_model, &nominal, channel), nominal, model: by_model, constants })
         };
-        let records = held.iter().map(predicted).collect::<Result<Vec<_>, _>>()?;
+        let mut records = held.iter().map(predicted).collect::<Result<Vec<_>, _>>()?;
         let counted = |c: &Candidate| named(model, c);
         let beside = marginals(model, &self.candidates, counted);
         let sure = beside.iter().any(|(_, probability)| *probability >= SURE);
-        let ruling = rule(self.verdict, sure && self.is_beside_named(model), &records, channel);
+        let together = together(self.verdicts, &records);
+        let ruling = rule(self.verdict, together, sure && self.is_beside_named(model), &records, channel);
+        let mut withdrawn = Vec::new();
         match ruling {
             Ruling::Stands => {}
+            Ruling::Outweighed => {
+                self.outweighed(together, model);
+                for record in &mut records {
+                    let by_design = || record.nominal.clone();
+                    record.model = match self.verdict {
+                        Verdict::Recalibrate => record.constants.clone().unwrap_or_else(by_design),
+                        _ => by_design(),
+                    };
+                    record.accepted = is_accepted(&record.model, &record.nominal, channel);
+                }
+            }
             Ruling::AcceptedBeside => {
                 self.verdict = Verdict::Explained;
                 self.mechanisms = beside;
@@ -112,10 +136,29 @@ impl Diagnosis {
                 let suffices = records[record].nominal.within_noise(channel);
                 self.verdict = if suffices { Verdict::None } else { Verdict::Unknown };
                 self.set.clear();
-                self.mechanisms.clear();
+                withdrawn = std::mem::take(&mut self.mechanisms);
             }
         }
-        Ok(Judgement { records, ruling })
+        Ok(Judgement { records, ruling, withdrawn })
+    }
+
+    /// Takes the explanation's place by the design or its constants, the likelier by all records `together`.
+    fn outweighed<M: ForwardModel>(&mut self, together: [f64; 4], model: &M) {
+        // no other explanation has a prediction of its own: all keep their shares of what explanations have
+        let left = together[2] / self.verdicts[2];
+        self.mechanisms.iter_mut().for_each(|(_, probability)| *probability *= left.min(1.0));
+        self.verdicts = together;
+        let recalibrate = together[1] > together[0];
+        self.verdict = if recalibrate { Verdict::Recalibrate } else { Verdict::None };
+        let leads = |c: &Candidate| {
+            if recalibrate { c.is_constants_alone() } else { c.rival.is_none() && c.fit.hypothesis == Hypothesis::NOMINAL }
+        };
+        if let Some(at) = self.candidates.iter().position(leads) {
+            self.candidates[..=at].rotate_right(1);
+        }
+        self.set.clear();
+        self.parameters =
+            (0..self.best().fit.active.len()).map(|place| crate::marginal::estimates(model, &self.candidates, place)).collect();
     }
 
     /// Whether what is called unknown is a structure beside mechanisms that have a name.
@@ -126,8 +169,26 @@ impl Diagnosis {
     }
 }
 
-/// The rules of [`Diagnosis::judge`]: `beside_named` says whether the unknown is a structure beside mechanisms that have a name.
-fn rule(verdict: Verdict, beside_named: bool, records: &[Judged], channel: usize) -> Ruling {
+fn is_accepted(model: &HeldOut, nominal: &HeldOut, channel: usize) -> bool {
+    model.rmse[channel] <= nominal.rmse[channel]
+}
+
+/// Probabilities of none, recalibrate, explained and unknown by what was fitted and what was held out; the leading candidate stands for what has no
+/// prediction of its own.
+fn together(verdicts: [f64; 4], records: &[Judged]) -> [f64; 4] {
+    let gain = |of: &dyn Fn(&Judged) -> Option<f64>| -> f64 {
+        records.iter().map(|r| of(r).map_or(0.0, |score| score - r.model.log_score)).sum()
+    };
+    let (none, recalibrate) = (gain(&|r| Some(r.nominal.log_score)), gain(&|r| r.constants.as_ref().map(|c| c.log_score)));
+    let logs = [verdicts[0].ln() + none, verdicts[1].ln() + recalibrate, verdicts[2].ln(), verdicts[3].ln()];
+    let most = logs.into_iter().fold(f64::NEG_INFINITY, f64::max);
+    let sum: f64 = logs.iter().map(|log| (log - most).exp()).sum();
+    logs.map(|log| (log - most).exp() / sum)
+}
+
+/// The rules of [`Diagnosis::judge`]: `together` are the verdicts' probabilities by all records, `beside_named` says whether the unknown is a structure
+/// beside mechanisms that have a name.
+fn rule(verdict: Verdict, together: [f64; 4], beside_named: bool, records: &[Judged], channel: usize) -> Ruling {
     // what a mechanism adds is proven over what constants do without it
     let beats = |other: &HeldOut, r: &Judged| other.clearly_worse_than(&r.model, channel);
     let proves = |r: &Judged| {
@@ -145,7 +206,11 @@ fn rule(verdict: Verdict, beside_named: bool, records: &[Judged], channel: usize
     };
     let found = matches!(verdict, Verdict::Explained | Verdict::Recalibrate);
     let first = records.iter().enumerate().find_map(|(record, r)| Some((record, contradicts(r)?)));
-    first.filter(|_| found).map_or(Ruling::Stands, |(record, why)| Ruling::TakenBack { record, why })
+    if let Some((record, why)) = first.filter(|_| found) {
+        return Ruling::TakenBack { record, why };
+    }
+    let [none, recalibrate, explained, _] = together;
+    if verdict == Verdict::Explained && none + recalibrate >= explained { Ruling::Outweighed } else { Ruling::Stands }
 }
 
 #[cfg(test)]
@@ -158,6 +223,7 @@ mod tests {
             prediction: Vec::new(),
             rmse: vec![f64::NAN, rmse],
             noise_floor: vec![1.0; 2],
+            of_minutes: vec![f64::NAN, rmse],
             quiet: vec![1.0; 2],
             log_score,
         };
@@ -165,7 +231,26 @@ mod tests {
     }
 
     fn ruled(verdict: Verdict, records: &[Judged]) -> Ruling {
-        rule(verdict, false, records, 1)
+        rule(verdict, together(SURELY, records), false, records, 1)
+    }
+
+    /// Probabilities of verdicts that leave the design hardly any.
+    const SURELY: [f64; 4] = [1e-12, 1e-12, 0.9, 0.1];
+
+    #[test]
+    fn an_explanation_is_outweighed_by_all_records_together() {
+        let with_constants =
+            |gain: f64| Judged { constants: Some(judged(5.0, 1.0, 50.0 + gain).model), ..judged(5.0, 1.0, 50.0) };
+        let of = |recalibrate: f64, records: &[Judged]| {
+            let verdicts = [0.0, recalibrate, 1.0 - recalibrate, 0.0];
+            rule(Verdict::Explained, together(verdicts, records), false, records, 1)
+        };
+        // odds of nine to one against the constants, ln 2.2
+        assert_eq!(of(0.1, &[with_constants(2.1)]), Ruling::Stands);
+        assert_eq!(of(0.1, &[with_constants(2.3)]), Ruling::Outweighed);
+        assert_eq!(of(0.1, &[with_constants(1.2), with_constants(1.2)]), Ruling::Outweighed);
+        assert_eq!(of(0.1, &[with_constants(-9.0), with_constants(1.2)]), Ruling::Stands);
+        assert_eq!(of(0.1, &[judged(5.0, 1.0, 50.0)]), Ruling::Stands);
     }
 
     const WORSE: Contradiction = Contradiction::ClearlyWorse;
@@ -189,7 +274,8 @@ mod tests {
 
     #[test]
     fn worse_is_by_error_and_by_likelihood() {
-        let taken_back = |nominal, model, gain| ruled(Verdict::Explained, &[judged(nominal, model, gain)]) != Ruling::Stands;
+        let taken_back =
+            |nominal, model, gain| matches!(ruled(Verdict::Explained, &[judged(nominal, model, gain)]), Ruling::TakenBack { .. });
         assert!(taken_back(1.0, 1.02, -5.1));
         assert!(!taken_back(1.0, 1.02, -4.9) && !taken_back(1.0, 1.009, -50.0));
         // no proof: beyond twice the noise, and by less than a twentieth better
@@ -214,12 +300,12 @@ mod tests {
     #[test]
     fn what_stands_beside_a_structure_is_proven_by_all_records_or_none() {
         let [proof, loud, even] = [judged(2.0, 1.2, 6.0), judged(5.0, 1.4, 50.0), judged(1.2, 1.15, 4.0)];
-        let of = |records: &[Judged]| rule(Verdict::Unknown, true, records, 1);
+        let of = |records: &[Judged]| rule(Verdict::Unknown, SURELY, true, records, 1);
         assert_eq!(of(&[proof.clone(), proof.clone()]), Ruling::AcceptedBeside);
         assert_eq!(of(&[]), Ruling::Stands);
         assert_eq!(of(&[proof.clone(), loud]), Ruling::Stands);
         assert_eq!(of(&[even, proof.clone()]), Ruling::Stands);
-        assert_eq!(rule(Verdict::Unknown, false, std::slice::from_ref(&proof), 1), Ruling::Stands);
+        assert_eq!(rule(Verdict::Unknown, SURELY, false, std::slice::from_ref(&proof), 1), Ruling::Stands);
         // where the constants predict as well, the mechanism has proven nothing
         let with_constants = |rmse: f64, gain: f64| Judged { constants: Some(judged(1.0, rmse, gain).model), ..proof.clone() };
         assert_eq!(of(&[with_constants(1.2, 6.0)]), Ruling::Stands);

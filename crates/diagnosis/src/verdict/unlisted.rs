@@ -7,11 +7,11 @@ impl Diagnosis {
     /// Weighs a law that was composed, beside the design's constants or mechanisms that have a name, with all that was compared. `log_prior` is ln of its
     /// probability before anything was seen ([`Settings::log_unlisted`](crate::Settings::log_unlisted)): what is probable of it is taken from all others,
     /// and given to the mechanisms beside which it stands. What was compared gains `by_noise` of ln evidence in the noise that the law leaves
-    /// ([`gained_by_noise_of`](crate::gained_by_noise_of)). Where the law is likelier than what explained the records, they are unknown, and the law
+    /// ([`gained_by_noise_of`](crate::gained_by_noise_of)), and what the leader gains over the law by records that were held out, `by_held_out`. Where the law is likelier than what explained the records, they are unknown, and the law
     /// describes them.
-    pub fn weigh_unlisted(&mut self, law: &Composed, log_prior: f64, by_noise: f64) {
+    pub fn weigh_unlisted(&mut self, law: &Composed, log_prior: f64, by_noise: f64, by_held_out: f64) {
         let log_weight = law.log_weight(log_prior);
-        let ratio = |c: &Candidate| (c.log_weight + by_noise - log_weight).exp();
+        let ratio = |c: &Candidate| (c.log_weight + by_noise + by_held_out - log_weight).exp();
         let others: f64 = self.candidates.iter().map(ratio).sum();
         let beside = law.fit.active.len() - law.laws;
         let names: Vec<usize> = law.fit.active[..beside].iter().map(|active| active.mechanism).collect();
@@ -78,6 +78,7 @@ mod tests {
             &Composed { fit, laws: 1, gain: 0.0, choice, others: Vec::new(), steps: Vec::new() },
             0.0,
             by_noise,
+            0.0,
         );
         diagnosis
     }

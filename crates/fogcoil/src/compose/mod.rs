@@ -88,17 +88,19 @@ pub(crate) fn compose(
     };
     let others = found.others.iter().filter_map(other).collect();
     let mut predictions = Vec::new();
-    let mut accepted = !held.is_empty();
+    let (mut accepted, mut by_held_out) = (!held.is_empty(), 0.0);
     for (&(record, observed), without) in held.iter().zip(judged) {
         // in the noise in which the others are judged
         let by_law = found.fit.hold_out(&with, record, observed, &diagnosis.best().fit)?;
         accepted &= without.is_beaten_by(&by_law, RATE);
+        by_held_out += without.model.log_score - by_law.log_score;
         predictions.push(by_law);
     }
-    // what has a name gives way to a law that is likelier, unless a record that was held out says otherwise
-    if accepted || held.is_empty() {
+    // what has a name gives way to a law that is likelier by all records; what has none, unless a record that was held out says otherwise
+    let is_named = diagnosis.verdict == Verdict::Explained;
+    if is_named || accepted || held.is_empty() {
         let by_noise = diagnosis::gained_by_noise_of(gyro, &numbers, fitted, diagnosis.best(), &found.fit)?;
-        diagnosis.weigh_unlisted(&found, log_prior, by_noise);
+        diagnosis.weigh_unlisted(&found, log_prior, by_noise, if is_named { by_held_out } else { 0.0 });
     }
     if diagnosis.verdict == Verdict::Explained {
         return Ok(None);

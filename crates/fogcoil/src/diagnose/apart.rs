@@ -19,6 +19,15 @@ pub(super) struct Explanation<'a> {
     pub(super) probability: f64,
     /// whether the records do not exclude it
     pub(super) open: bool,
+    /// whether a record that was held out took it back
+    pub(super) withdrawn: bool,
+}
+
+impl Explanation<'_> {
+    /// As it is told.
+    pub(super) fn said(&self) -> String {
+        if self.withdrawn { format!("{}, taken back", self.name) } else { self.name.to_owned() }
+    }
 }
 
 impl Outcome<'_> {
@@ -31,20 +40,28 @@ impl Outcome<'_> {
     pub(super) fn explanations(&self) -> Vec<Explanation<'_>> {
         let d = &self.diagnosis;
         let [none, recalibrate, _, unknown] = d.verdicts();
-        let of = |name, probability, verdict| Explanation { name, probability, open: d.verdict == verdict };
+        let of = |name, probability, verdict| Explanation { name, probability, open: d.verdict == verdict, withdrawn: false };
         let mut all = vec![
             of("the design as it is", none, Verdict::None),
             of("its constants re-estimated", recalibrate, Verdict::Recalibrate),
         ];
         let set: Vec<&str> = d.set.iter().map(|m| self.id(*m)).collect();
         let likely = self.likely().take(SHOWN);
-        all.extend(likely.map(|(name, probability)| Explanation { name, probability, open: set.contains(&name) }));
+        all.extend(likely.map(|(name, probability)| Explanation {
+            name,
+            probability,
+            open: set.contains(&name),
+            withdrawn: false,
+        }));
+        let withdrawn = self.withdrawn.iter().filter(|(_, p)| *p >= NEGLIGIBLE).take(SHOWN);
+        let withdrawn = withdrawn.map(|(m, p)| Explanation { name: self.id(*m), probability: *p, open: false, withdrawn: true });
+        all.extend(withdrawn);
         // a user's own are told in any case; those that are not offered are noted
         for (number, mechanism) in self.gyro.mechanisms().iter().enumerate() {
             let name = mechanism.id.as_str();
             if mechanisms::find(name).is_none() && all.iter().all(|told| told.name != name) {
                 let probability = d.mechanisms.iter().find(|(m, _)| *m == number).map_or(0.0, |(_, p)| *p);
-                all.push(Explanation { name, probability, open: set.contains(&name) });
+                all.push(Explanation { name, probability, open: set.contains(&name), withdrawn: false });
             }
         }
         all.push(of("something without a name", unknown, Verdict::Unknown));

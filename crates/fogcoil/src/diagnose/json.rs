@@ -41,6 +41,7 @@ impl Outcome<'_> {
             "verdicts": {"none": none, "recalibrate": recalibrate, "explained": by_library, "unknown": unknown},
             "mechanisms": mechanisms,
             "set": set,
+            "taken_back": self.withdrawn.iter().map(|(m, p)| json!({"id": self.id(*m), "probability": p})).collect::<Vec<_>>(),
             "parameters": parameters,
             "constants": self.constants_json(),
             "sensors": self.sensors_json(),

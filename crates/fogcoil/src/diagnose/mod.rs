@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 use diagnosis::{
     Candidate, Contradiction, Diagnosis, ForwardModel, HeldOut, Hypothesis, Judged, Judgement, Observation, Ruling, Settings,
-    Settled, Verdict,
+    Verdict,
 };
 use files::{Note, Remark, shown_path};
 use mechanisms::{Extent, Gyro, Mechanism, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
@@ -26,6 +26,7 @@ use crate::cache::Cache;
 use crate::compose::{Composed, compose};
 use crate::input::{CoilCase, Fingerprint, InputError, RecordCase};
 use crate::prepare::{Record, gyro, library, other_design, ready, refuse_copies};
+use crate::table::significant;
 
 /// A diagnosis with what it was made from.
 pub struct Outcome<'m> {
@@ -41,6 +42,8 @@ pub struct Outcome<'m> {
     composed: Option<Composed>,
     fits: Vec<Record>,
     holdouts: Vec<Held>,
+    /// mechanisms that a record held out took back, with their probabilities by what was fitted
+    withdrawn: Vec<(usize, f64)>,
     notes: Vec<Note>,
 }
 
@@ -85,15 +88,15 @@ pub fn diagnose<'m>(
     let observations: Vec<Observation> = read.iter().map(|r| r.observed.clone()).collect();
     let numbers: Vec<usize> = (0..fits.len()).collect();
     let failed = &Error::of_diagnosis_with(&case.file, mechanisms);
-    let Settled { model: about, recalibrated, .. } =
-        diagnosis::settled(&drawn, &numbers, &observations, progress).map_err(failed)?;
-    let gyro = about.as_ref().unwrap_or(&drawn);
-    let settings = Settings::default();
+    let settled = diagnosis::settled(&drawn, &numbers, &observations, progress).map_err(failed)?;
+    let gyro = settled.model.as_ref().unwrap_or(&drawn);
+    let (settings, recalibrated) = (Settings::default(), settled.recalibrated.clone());
     let mut diagnosis =
         diagnosis::diagnose_beside(gyro, &numbers, &observations, &settings, recalibrated, progress).map_err(failed)?;
     let numbered: Vec<(usize, &Observation)> = (fits.len()..).zip(held.iter().map(|record| &record.observed)).collect();
-    let Judgement { records, ruling } =
-        diagnosis.judge(gyro, &drawn, (0, &read[0].observed), &numbered, RATE_CHANNEL).map_err(failed)?;
+    let alone = Some((settled.alone(&drawn), &settled.recalibrated));
+    let Judgement { records, ruling, withdrawn } =
+        diagnosis.judge(gyro, &drawn, alone, (0, &read[0].observed), &numbered, RATE_CHANNEL).map_err(failed)?;
     if let Ruling::TakenBack { record, why } = ruling {
         notes.push(taken_back(&held[record].fingerprint.file, why));
     }
@@ -102,7 +105,9 @@ pub fn diagnose<'m>(
     let fitted_to = best.fit.residuals.iter().map(|channels| channels.iter().map(|r| rms(r)).collect());
     let answered: Vec<Vec<f64>> = fitted_to.chain(records.iter().map(|judged| judged.model.rmse.clone())).collect();
     for (number, (record, answered)) in read.iter().chain(&held).zip(&answered).enumerate() {
-        let answered = (diagnosis.verdict != Verdict::Unknown).then_some(answered.as_slice());
+        // what was taken back explains the records that were fitted all the same
+        let explains = diagnosis.verdict != Verdict::Unknown || (!withdrawn.is_empty() && number < read.len());
+        let answered = explains.then_some(answered.as_slice());
         notes.extend(columns::warning(&drawn, number, record, answered).map_err(coil)?);
     }
     let with_predictions =
@@ -113,9 +118,22 @@ pub fn diagnose<'m>(
             (held.model, held.accepted) = (by_law.clone(), true);
         }
     }
+    notes.extend(holdouts.iter().filter(|_| diagnosis.verdict != Verdict::Unknown).filter_map(left_over));
     let (name, coil, design) = (case.name.clone(), case.file.clone(), case.fingerprints.clone());
-    let gyro = about.unwrap_or(drawn);
-    Ok(Outcome { name, coil, design, gyro, mechanisms: mechanisms.to_vec(), diagnosis, composed, fits: read, holdouts, notes })
+    let gyro = settled.model.unwrap_or(drawn);
+    Ok(Outcome {
+        name,
+        coil,
+        design,
+        gyro,
+        mechanisms: mechanisms.to_vec(),
+        diagnosis,
+        composed,
+        fits: read,
+        holdouts,
+        withdrawn,
+        notes,
+    })
 }
 
 impl Outcome<'_> {
@@ -172,6 +190,25 @@ fn rms(series: &[f64]) -> f64 {
     (sum / count.max(1.0)).sqrt()
 }
 
+/// What is to be said of a held-out record in which the answer leaves more than noise.
+fn left_over(held: &Held) -> Option<Note> {
+    let answer = if held.accepted { &held.model } else { &held.nominal };
+    let of = |channel: usize, name: &str| {
+        let left = format!("{name} {} times its noise", significant(answer.over_noise(channel), 2));
+        (!answer.within_noise(channel)).then_some((answer.is_far_from_noise(channel), left))
+    };
+    let left: Vec<(bool, String)> =
+        [of(RATE_CHANNEL, "of the rate"), of(SPOOL_CHANNEL, "of the thermometer")].into_iter().flatten().collect();
+    let words: Vec<&str> = left.iter().map(|(_, words)| words.as_str()).collect();
+    let text = format!(
+        "what was found leaves {} in this record, which was held out: something else is at work in it; is it of the same unit, mounted alike?",
+        words.join(" and ")
+    );
+    let far = left.iter().any(|(far, _)| *far);
+    let note = if far { Remark::HeldOutLeft.warning(text) } else { Remark::HeldOutLeft.note(text) };
+    (!left.is_empty()).then(|| note.at(&held.record.fingerprint.file))
+}
+
 fn taken_back(file: &Path, why: Contradiction) -> Note {
     let how = match why {
         Contradiction::ClearlyWorse => "clearly worse than by the nominal model",
@@ -179,7 +216,7 @@ fn taken_back(file: &Path, why: Contradiction) -> Note {
     };
     let file = shown_path(file);
     Remark::TakenBack
-        .note(format!("{file} is predicted {how}: the likeliest explanation is taken back; is it a record of the same unit?"))
+        .warning(format!("{file} is predicted {how}: the likeliest explanation is taken back; is it a record of the same unit?"))
 }
 
 fn name(verdict: Verdict) -> &'static str {
@@ -240,6 +277,12 @@ impl Outcome<'_> {
     fn thermometer(&self, held: &Held) -> Option<[f64; 2]> {
         let recorded = held.record.observed.channels[SPOOL_CHANNEL].iter().any(|v| v.is_finite());
         recorded.then(|| [held.nominal.rmse[SPOOL_CHANNEL], held.model.rmse[SPOOL_CHANNEL]])
+    }
+
+    /// Whether a record that was held out is left with far more than noise.
+    fn is_left_over(&self) -> bool {
+        let answer = |held: &Held| if held.accepted { held.model.clone() } else { held.nominal.clone() };
+        self.holdouts.iter().any(|held| [RATE_CHANNEL, SPOOL_CHANNEL].iter().any(|c| answer(held).is_far_from_noise(*c)))
     }
 
     /// Whether no record that was held out is predicted worse than by the nominal model.

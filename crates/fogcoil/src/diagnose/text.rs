@@ -10,6 +10,9 @@ use super::{NOMINAL, Outcome};
 use crate::table::{significant, table};
 use crate::units::parameter_unit;
 
+/// Probability from which the design is said to suffice without more words.
+const LIKELY: f64 = 0.65;
+
 impl Outcome<'_> {
     /// For people: verdict, place, alternatives, parameters, held-out errors.
     pub fn text(&self) -> String {
@@ -54,7 +57,7 @@ impl Outcome<'_> {
         // of the third column, the units, the heading says nothing
         let line = |name: &str, value: String, unit: &str| vec![name.to_owned(), value, unit.to_owned(), String::new()];
         let mut rows = vec![line("explanation", "probability".into(), "")];
-        rows.extend(self.explanations().iter().map(|e| line(e.name, format!("{:.3}", e.probability), "")));
+        rows.extend(self.explanations().iter().map(|e| line(&e.said(), format!("{:.3}", e.probability), "")));
         let explained = d.parameters.iter().flatten().filter(|_| d.verdict == Verdict::Explained);
         let estimates: Vec<&Estimate> = explained.chain(composed.iter().flat_map(|(_, estimates)| estimates)).collect();
         if !estimates.is_empty() {
@@ -102,13 +105,18 @@ impl Outcome<'_> {
 
     pub(super) fn verdict(&self) -> String {
         match self.diagnosis.verdict {
-            Verdict::None => "The nominal model suffices: no difference beyond noise.".to_owned(),
-            Verdict::Recalibrate if self.drawing_stands() => {
-                "The instruments, recalibrated within what is known of them, suffice: the design is as drawn, and nothing is left out.".to_owned()
+            Verdict::None if !self.withdrawn.is_empty() => {
+                "What explained the fitted records is taken back: the nominal model predicts the record that was held out.".to_owned()
             }
-            Verdict::Recalibrate => {
-                "The design's own constants, re-estimated within their tolerances, suffice: nothing is left out.".to_owned()
-            }
+            Verdict::None => format!("The nominal model suffices{}.", self.how_surely("no difference beyond noise")),
+            Verdict::Recalibrate if self.drawing_stands() => format!(
+                "The instruments, recalibrated within what is known of them, suffice{}.",
+                self.how_surely("the design is as drawn, and nothing is left out")
+            ),
+            Verdict::Recalibrate => format!(
+                "The design's own constants, re-estimated within their tolerances, suffice{}.",
+                self.how_surely("nothing is left out")
+            ),
             Verdict::Explained => {
                 let (best, first) = (self.names(), self.diagnosis.mechanisms.first().map_or("", |(m, _)| self.id(*m)));
                 let all = best.join(" and ");
@@ -119,10 +127,26 @@ impl Outcome<'_> {
                     format!("The recording differs from the design. Most likely: {first}; the best single hypothesis: {all}.")
                 }
             }
+            Verdict::Unknown if !self.withdrawn.is_empty() && self.law().is_none() => {
+                "What explained the fitted records is taken back: a record that was held out contradicts it. What is at work is unknown."
+                    .to_owned()
+            }
             Verdict::Unknown => {
                 let structure = self.structure().map_or(String::new(), |structure| format!(": {structure}"));
                 format!("The recording differs from the design in a way that nothing in the library explains{structure}.")
             }
+        }
+    }
+
+    /// How far it may be said that the design suffices: `surely` where it is likely, and no record that was held out is far from its noise.
+    fn how_surely(&self, surely: &str) -> String {
+        let [none, recalibrate, ..] = self.diagnosis.verdicts();
+        if self.is_left_over() {
+            " for the fitted records, but a record that was held out is left with far more than noise".to_owned()
+        } else if none + recalibrate < LIKELY {
+            format!(", but not surely (probability {:.2})", none + recalibrate)
+        } else {
+            format!(": {surely}")
         }
     }
 

@@ -90,7 +90,7 @@ impl<'m> Gyro<'m> {
         let records: Vec<Prepared> = records.into_iter().map(|record| record.turning_with(instruments.earth)).collect();
         let offered = mechanisms.iter().filter_map(|m| Some((*m, entry(*m, library.design(), &scene)?)));
         let (kinds, mechanisms) = offered.unzip();
-        let noise = records.iter().map(Prepared::noise).fold(0.0, f64::max);
+        let noise = records.iter().take(fitted).map(Prepared::noise).fold(0.0, f64::max);
         let nuisances = nuisances(library.design(), library.tolerances(), instruments, noise);
         Ok(Self {
             channels: channels(averaging, instruments, interval, records.first().map_or(Passed::NONE, |r| r.passed)),

@@ -5,7 +5,6 @@ use diagnosis::{Candidate, ForwardModel, Structure};
 use maud::{Markup, html};
 
 use crate::diagnose::Outcome;
-use crate::diagnose::apart::Explanation;
 
 /// Most rows of the table of hypotheses.
 const MOST: usize = 8;
@@ -33,12 +32,12 @@ impl Outcome<'_> {
             table.bars {
                 caption.unseen { "Explanations and their probabilities" }
                 tbody {
-                    @for Explanation { name, probability, open } in self.explanations() {
-                        tr class=[open.then_some("marked")] {
-                            th scope="row" { (name) }
-                            td { (format!("{probability:.3}")) }
+                    @for explanation in self.explanations() {
+                        tr class=[explanation.open.then_some("marked")] {
+                            th scope="row" { (explanation.said()) }
+                            td { (format!("{:.3}", explanation.probability)) }
                             td.bar aria-hidden="true" {
-                                span style=(format!("width:{:.1}%", 100.0 * probability.clamp(0.0, 1.0))) {}
+                                span style=(format!("width:{:.1}%", 100.0 * explanation.probability.clamp(0.0, 1.0))) {}
                             }
                         } "\n"
                     }

@@ -1,0 +1,114 @@
+//! What a fit knows of a record that it has not seen: a prediction, and how its unknowns may still move it.
+
+use super::Fit;
+use super::unknowns::{Unknown, expected, parameter};
+use crate::{Active, Error, ForwardModel};
+use nalgebra::DMatrix;
+
+/// Responses `[channel][row]`.
+type Response = Vec<Vec<f64>>;
+
+/// A prediction.
+pub(crate) struct Unseen {
+    pub(crate) response: Response,
+    /// What independent standard normal variables do to it: `loadings[(moved, variable)]` of the series `moved`.
+    pub(crate) moved: Vec<Response>,
+    pub(crate) loadings: DMatrix<f64>,
+}
+
+/// Of the model as it is designed; what every record has of its own is free.
+///
+/// # Errors
+/// [`Error`] if the model fails.
+pub(crate) fn designed<M: ForwardModel>(model: &M, record: usize) -> Result<Unseen, Error<M::Error>> {
+    let there = There { nuisances: expected(model.nuisances()), active: Vec::new() };
+    let response = there.respond(model, record)?;
+    let own = own(model, record, &there, &response)?;
+    let loadings = DMatrix::identity(own.len(), own.len());
+    Ok(Unseen { response, moved: own, loadings })
+}
+
+/// Values of all numbers of a model.
+#[derive(Clone)]
+struct There {
+    nuisances: Vec<f64>,
+    active: Vec<Active>,
+}
+
+impl There {
+    fn respond<M: ForwardModel>(&self, model: &M, record: usize) -> Result<Response, Error<M::Error>> {
+        model.respond(record, &self.nuisances, &self.active).map_err(Error::Model)
+    }
+
+    /// The derivative of the response, `response` here, by what `moves` the numbers by one unit in so many steps.
+    fn derivative<M: ForwardModel>(
+        &self,
+        model: &M,
+        record: usize,
+        response: &Response,
+        step: f64,
+        moves: impl FnOnce(&mut Self, f64),
+    ) -> Result<Response, Error<M::Error>> {
+        let mut beside = self.clone();
+        moves(&mut beside, step);
+        let mut there = beside.respond(model, record)?;
+        for (there, here) in there.iter_mut().flatten().zip(response.iter().flatten()) {
+            *there = (*there - here) / step;
+        }
+        Ok(there)
+    }
+}
+
+/// What a standard deviation of each number that every record has of its own does.
+fn own<M: ForwardModel>(model: &M, record: usize, there: &There, response: &Response) -> Result<Vec<Response>, Error<M::Error>> {
+    let local = model.nuisances().iter().enumerate().filter(|(_, nuisance)| nuisance.local);
+    let moved = local.map(|(number, nuisance)| {
+        let prior = nuisance.parameter.prior;
+        there.derivative(model, record, response, nuisance.parameter.step, |there, u| there.nuisances[number] = prior.value(u))
+    });
+    moved.collect()
+}
+
+impl Fit {
+    /// The prediction of a record of the model, with all that this fit leaves open.
+    ///
+    /// # Errors
+    /// [`Error`] if the model fails.
+    pub(crate) fn unseen<M: ForwardModel>(&self, model: &M, record: usize) -> Result<Unseen, Error<M::Error>> {
+        let middle = expected(model.nuisances());
+        // what every record has of its own is not known here
+        let shared = |(number, nuisance): (usize, &crate::Nuisance)| {
+            if nuisance.local { middle[number] } else { self.nuisances[0][number] }
+        };
+        let nuisances = model.nuisances().iter().enumerate().map(shared).collect();
+        let there = There { nuisances, active: self.active.clone() };
+        let response = there.respond(model, record)?;
+        let free: Vec<usize> = (0..self.layout.len()).filter(|i| is_shared(self.layout[*i])).collect();
+        let mut moved = Vec::new();
+        for &i in &free {
+            let Some(parameter) = parameter(model, &self.hypothesis, self.layout[i]) else { continue };
+            // away from the end of the range that is looked at
+            let step = if self.u[i] > 0.0 { -parameter.step } else { parameter.step };
+            let at = |step: f64| parameter.prior.value(self.u[i] + step);
+            moved.push(there.derivative(model, record, &response, step, |there, step| match self.layout[i] {
+                Unknown::Nuisance { number, .. } => there.nuisances[number] = at(step),
+                Unknown::Mechanism { place, parameter } => there.active[place].values[parameter] = at(step),
+                Unknown::Offset { .. } => {}
+            })?);
+        }
+        let own = own(model, record, &there, &response)?;
+        let (known, all) = (moved.len(), moved.len() + own.len());
+        let covariance = DMatrix::from_fn(known, known, |i, j| self.covariance[(free[i], free[j])]);
+        let mut loadings = DMatrix::identity(all, all);
+        // of what is no covariance nothing is known: the fitted values stand
+        let factor = covariance.cholesky().map_or_else(|| DMatrix::zeros(known, known), |factor| factor.unpack());
+        loadings.view_mut((0, 0), (known, known)).copy_from(&factor);
+        moved.extend(own);
+        Ok(Unseen { response, moved, loadings })
+    }
+}
+
+/// Whether an unknown is of all records alike.
+fn is_shared(unknown: Unknown) -> bool {
+    matches!(unknown, Unknown::Nuisance { record: None, .. } | Unknown::Mechanism { .. })
+}
