@@ -23,8 +23,10 @@ pub(crate) struct Ranges {
 
 /// Size that is expected of an effect, in noises of a reading of a minute: what is larger is seen by eye, and what is smaller hardly at all.
 const EXPECTED: f64 = 30.0;
-/// Time constant of a filter through which a second derivative is seen \[s\].
-pub(super) const TURN_S: f64 = 600.0;
+/// What a rate is told over \[s\]: no law is seen in less.
+const MINUTE_S: f64 = 60.0;
+/// Most cycles of a ripple over the range of temperatures of which fits start.
+const MOST_CYCLES: f64 = 25.0;
 
 impl Ranges {
     pub(crate) fn new(scene: &Scene, rate: f64, duration: f64, parts: [f64; 4]) -> Self {
@@ -40,17 +42,28 @@ impl Ranges {
         }
     }
 
-    /// Periods \[K\] that differ by a third of a cycle over the range, or somewhat more, from two cycles in it on, 4 K or longer: what lies between
-    /// them a fit finds.
-    pub(super) fn periods(&self) -> Vec<f64> {
-        const LEAST_K: f64 = 4.0;
-        const MOST: usize = 50;
+    /// A time constant \[s\] of which nothing is known: as likely any between a minute and the longest record, the middle of their logarithms, and a quarter of
+    /// the way between as its standard deviation. Beside it where fits start.
+    pub(super) fn memory(&self) -> Beside {
+        between(MINUTE_S, self.duration)
+    }
+
+    /// The same of what follows within a filter: between a minute and the middle of the former.
+    pub(super) fn filter(&self) -> Beside {
+        between(MINUTE_S, (MINUTE_S * self.duration).sqrt())
+    }
+
+    /// From the coldest to the hottest \[K\], a kelvin at least.
+    pub(super) fn span(&self) -> f64 {
         let [low, high] = self.temperatures;
-        let most = ((high - low) / LEAST_K).max(2.0);
-        let step = ((most - 2.0) / (MOST - 1) as f64).clamp(1.0 / 3.0, 0.6);
-        let cycles = (0..MOST).map(|k| 2.0 + step * k as f64).take_while(|cycles| *cycles <= most);
-        let periods: Vec<f64> = cycles.map(|cycles| (high - low).max(1.0) / cycles).collect();
-        if periods.is_empty() { vec![LEAST_K] } else { periods }
+        (high - low).max(1.0)
+    }
+
+    /// Periods \[K\] that differ by a third of a cycle over the range, or somewhat more, from two cycles in it on: what lies between them a fit finds.
+    pub(super) fn periods(&self) -> Vec<f64> {
+        const STEPS: u32 = 49;
+        let step = (MOST_CYCLES - 2.0) / f64::from(STEPS);
+        (0..=STEPS).map(|k| self.span() / (2.0 + step * f64::from(k))).collect()
     }
 
     /// So many temperatures evenly over the range.
@@ -58,6 +71,13 @@ impl Ranges {
         let [low, high] = self.temperatures;
         (0..count).map(|k| low + (high - low) * (f64::from(k) + 0.5) / f64::from(count)).collect()
     }
+}
+
+/// A time constant between two.
+fn between(least: f64, most: f64) -> Beside {
+    let (middle, spread) = ((least * most).sqrt(), (most / least).ln().max(1.0) / 4.0);
+    let starts = [-1.0, 0.0, 1.0].map(|sd: f64| middle * (sd * spread).exp()).to_vec();
+    ("tau", "s", format!("LogNormal({}, {})", two(middle), two(spread)), starts)
 }
 
 /// A law as a mechanism's file, and the known physics that has its form.

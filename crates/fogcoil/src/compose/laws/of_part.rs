@@ -24,7 +24,6 @@ pub(super) fn forms<'a>(target: &'static str, what: &str, ranges: &Ranges) -> Ve
         target,
         law: law.into(),
     };
-    let tau = ("tau", "s", "LogNormal(3000.0, 1.0)".to_owned(), vec![600.0, 3000.0, 15_000.0]);
     let none = String::new;
     vec![
         form(
@@ -63,7 +62,7 @@ pub(super) fn forms<'a>(target: &'static str, what: &str, ranges: &Ranges) -> Ve
             "relaxation, or swelling by moisture",
             "1/K",
             far,
-            vec![tau],
+            vec![ranges.memory()],
             lag("x", "coil", "tau"),
             "size * (coil - x)",
         ),

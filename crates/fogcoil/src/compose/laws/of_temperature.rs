@@ -1,6 +1,6 @@
 //! Rates that are added, by the temperature of a body.
 
-use super::form::{Form, Ranges, TURN_S, lag, state, two};
+use super::form::{Form, Ranges, lag, state, two};
 
 /// Width of a transition of a polymer, as calorimetry shows it (ISO 11357-2: some kelvin) \[K\].
 const TRANSITION_K: f64 = 3.0;
@@ -25,8 +25,8 @@ pub(super) fn forms<'a>(t: &str, ranges: &Ranges) -> Vec<Form<'a>> {
         law: law.replace('T', t),
     };
     let none = String::new;
-    let tau =
-        |median: f64| ("tau", "s", format!("LogNormal({}, 1.0)", two(median)), [0.2, 1.0, 5.0].map(|x| x * median).to_vec());
+    // a tenth of the range is a play that several turns show
+    let play = ranges.span() / 10.0;
     let at = || {
         let [low, high] = ranges.temperatures.map(|x| format!("{x:.1?}"));
         ("at", "degC", format!("Uniform({low}, {high})"), ranges.across(5))
@@ -101,7 +101,7 @@ pub(super) fn forms<'a>(t: &str, ranges: &Ranges) -> Vec<Form<'a>> {
             "a filter or an inner gradient that builds up",
             "deg s/h/K",
             rate,
-            vec![tau(TURN_S)],
+            vec![ranges.filter()],
             state("x", "K/s", &format!("{t}_rate"), "tau"),
             "size * (T_rate - x)".into(),
         ),
@@ -111,7 +111,7 @@ pub(super) fn forms<'a>(t: &str, ranges: &Ranges) -> Vec<Form<'a>> {
             "slow electronics, or a part of another heat capacity",
             "deg/h/K",
             far,
-            vec![tau(1500.0)],
+            vec![ranges.memory()],
             lag("x", t, "tau"),
             "size * (T - x)".into(),
         ),
@@ -122,7 +122,7 @@ pub(super) fn forms<'a>(t: &str, ranges: &Ranges) -> Vec<Form<'a>> {
             "diffusion: moisture, or heat in a thick part",
             "deg/h/K",
             far,
-            vec![tau(3000.0)],
+            vec![ranges.memory()],
             lag("x", t, "tau") + &lag("y", t, "tau / 9") + &lag("z", t, "tau / 25"),
             "size * (T - (x + y / 9 + z / 25) / (1 + 1 / 9 + 1 / 25))".into(),
         ),
@@ -132,7 +132,7 @@ pub(super) fn forms<'a>(t: &str, ranges: &Ranges) -> Vec<Form<'a>> {
             "hysteresis: friction, or a polymer that yields",
             "deg/h/K",
             far / 2.0,
-            vec![("width", "K", "LogNormal(10.0, 0.8)".to_owned(), vec![4.0, 10.0, 25.0])],
+            vec![("width", "K", format!("LogNormal({}, 0.8)", two(play)), [0.4, 1.0, 2.5].map(|x| x * play).to_vec())],
             format!("        (name: \"x\", unit: \"degC\", goes: Play(of: \"{t}\", width: \"width\")),\n"),
             "size * (T - x)".into(),
         ),
@@ -225,7 +225,7 @@ pub(super) fn forms<'a>(t: &str, ranges: &Ranges) -> Vec<Form<'a>> {
             "field of a heater's current",
             "deg s/h/K",
             rate,
-            vec![tau(2000.0)],
+            vec![ranges.memory()],
             none(),
             "size * max(0, T_rate + (T - 20) / tau)".into(),
         ),
@@ -235,7 +235,7 @@ pub(super) fn forms<'a>(t: &str, ranges: &Ranges) -> Vec<Form<'a>> {
             "field of a cooler's current, or its vibration",
             "deg s/h/K",
             rate,
-            vec![tau(2000.0)],
+            vec![ranges.memory()],
             none(),
             "size * max(0, (20 - T) / tau - T_rate)".into(),
         ),
