@@ -59,7 +59,9 @@ pub use parametric::{
     Tolerance, Tolerances,
 };
 pub use profile::Profile;
-pub use sensitivity::{CHECKS, COARSE, FINE, SAFETY, SHARE, STEADY, SteadySensitivity, sensitivity_in, steady_sensitivity};
+pub use sensitivity::{
+    CHECKS, COARSE, FINE, SAFETY, SHARE, STEADY, SteadySensitivity, sensitivity_in, sensitivity_on, steady_sensitivity,
+};
 pub use thermal::{
     Drive, FullRun, Output, Outputs, RampLag, Reduced, Reduction, Step, Steps, ThermalModel, ThermalState, ramp_lag,
 };

@@ -59,6 +59,14 @@ pub fn sensitivity_in(design: &Design, state: &MechanicalState) -> Result<Sensit
     Model::graded(design, &STEADY, Grading::Strain, state)?.sensitivity()
 }
 
+/// Steady-ramp sensitivity of `design` on a mesh that is graded like [`STEADY`]: to see how far a finer one leads.
+///
+/// # Errors
+/// As [`steady_sensitivity`].
+pub fn sensitivity_on(design: &Design, mesh: &MeshFineness) -> Result<Sensitivity, Error> {
+    Model::graded(design, mesh, Grading::Strain, &MechanicalState::NOMINAL)?.sensitivity()
+}
+
 /// Steady-ramp sensitivity of `design` on [`STEADY`], its error measured by [`CHECKS`].
 ///
 /// # Errors

@@ -15,7 +15,8 @@ pub struct HeldOut {
     /// Standard deviation of the noise in a sample as identified in the fit, of every channel, with no more drift and walk than are usual: where a fit
     /// leaves something unexplained, its noise has swallowed that.
     pub noise_floor: Vec<f64>,
-    /// Root mean square of means over a minute, or over a row that is longer: so a record says the same in rows of a second and of a minute.
+    /// Root mean square of means over a minute, or over a row that is longer: so a record says the same in rows of a second and of a minute. Of a record of
+    /// less than an hour there are sixty means.
     pub of_minutes: Vec<f64>,
     /// The same noise in those means.
     pub quiet: Vec<f64>,
@@ -36,6 +37,8 @@ const FAR: f64 = 2.0;
 pub(crate) const BARELY: f64 = 0.95;
 /// Largest drift and walk that are usual, over the medians of their priors: about one standard deviation of the drift's logarithm (0.7) above.
 const USUAL: f64 = 2.0;
+/// Fewest means that tell an error: to a tenth of it.
+const FEWEST: usize = 60;
 /// Share of the error beyond which one prediction is worse than another, by convention: two digits of it.
 const WORSE: f64 = 0.01;
 
@@ -116,7 +119,7 @@ fn judged<M: ForwardModel>(
     let noise = judge.noise.pooled(observed)?;
     let Unseen { response: mut prediction, moved, loadings } = unseen;
     let (rows, channels) = (recording::median_interval(&observed.time).unwrap_or(MINUTE), model.channels());
-    let of_a_minute = (MINUTE / rows).floor().max(1.0) as usize;
+    let of_a_minute = ((MINUTE / rows).floor() as usize).min(observed.time.len() / FEWEST).max(1);
     let (mut rmse, mut of_minutes) = (Vec::new(), Vec::new());
     let (mut left, mut by_offset, mut by_moved) = (Vec::new(), Vec::new(), vec![Vec::new(); moved.len()]);
     for (c, (predicted, recorded)) in prediction.iter_mut().zip(&observed.channels).enumerate() {
@@ -187,6 +190,74 @@ fn log_density(left: &DVector<f64>, columns: &DMatrix<f64>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Channel, NoisePrior, Nuisance, Omission, State};
+
+    /// A reading of nothing at rows of some seconds.
+    struct Still {
+        channels: Vec<Channel>,
+        rows: usize,
+        state: State,
+    }
+
+    impl ForwardModel for Still {
+        type Error = std::convert::Infallible;
+
+        fn channels(&self) -> &[Channel] {
+            &self.channels
+        }
+
+        fn nuisances(&self) -> &[Nuisance] {
+            &[]
+        }
+
+        fn mechanisms(&self) -> &[Omission] {
+            &[]
+        }
+
+        fn respond(&self, _: usize, _: &[f64], _: &[crate::Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
+            Ok(vec![vec![0.0; self.rows]])
+        }
+
+        fn state(&self, _: usize) -> &State {
+            &self.state
+        }
+    }
+
+    /// Error of minutes over the noise in them, of two hours of a wave of ten minutes in white noise, in rows of so many seconds.
+    fn over_noise(seconds: usize, span: usize) -> f64 {
+        let rows = span / seconds;
+        // noise of a second's rows, averaged
+        let mut state = 1_u64;
+        let mut noise = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / f64::from(1_u32 << 24) - 0.5
+        };
+        let mean = |n: usize, noise: &mut dyn FnMut() -> f64| {
+            let wave = 0.1 * (std::f64::consts::TAU * ((n * seconds) as f64) / 600.0).sin();
+            wave + (0..seconds).map(|_| noise()).sum::<f64>() / seconds as f64
+        };
+        let values: Vec<f64> = (0..rows).map(|n| mean(n, &mut noise)).collect();
+        let time: Vec<f64> = (0..rows).map(|n| (n * seconds) as f64).collect();
+        let white = 1.0 / 12.0_f64.sqrt() / (seconds as f64).sqrt();
+        let noise = NoisePrior::new((white, 1e-3), (1e-9, 1e-3), (1500.0, 1e-3), (1e-12, 1e-3));
+        let channel =
+            Channel { name: "y".into(), unit: "1".into(), offset: (0.0, f64::INFINITY), averaging: seconds as f64, noise };
+        let state = State { level: vec![0.0; rows], rate: vec![0.0; rows] };
+        let model = Still { channels: vec![channel], rows, state };
+        let observed = Observation { time, channels: vec![values] };
+        let fitter = crate::fit::Fitter::new(&model, &[0], std::slice::from_ref(&observed)).unwrap();
+        let typical = Noise::typical(&model.channels, std::slice::from_ref(&observed)).unwrap();
+        let fit = fitter.fit(&crate::Hypothesis::NOMINAL, &typical, None).unwrap();
+        fit.hold_out(&model, 0, &observed, &fit).unwrap().over_noise(0)
+    }
+
+    #[test]
+    fn a_record_says_the_same_in_rows_of_a_second_and_of_a_minute() {
+        let of = [1, 10, 60].map(|seconds| over_noise(seconds, 14_400));
+        assert!(of[0] > 1.8 && of.iter().all(|ratio| (ratio / of[0] - 1.0).abs() < 0.1), "{of:?}");
+        // a record of a minute has an error, too
+        assert!(over_noise(1, 60) > 0.5);
+    }
 
     #[test]
     fn the_density_is_that_of_the_covariance_with_what_is_open() {

@@ -1,15 +1,15 @@
 //! Random coils in a steady ramp.
 
 use bias::Sensitivity;
-use coil::{Design, Error, MeshFineness, Model, steady_sensitivity};
+use coil::{Design, Error, MeshFineness, STEADY, sensitivity_on, steady_sensitivity};
 
 use super::draw;
 use super::tally::{Compared, Drawn};
 use crate::Failure;
 use crate::generator::Random;
 
-/// The mesh behind the true error: three orders and two layers finer, and graded alike everywhere.
-const TRUE: MeshFineness = MeshFineness { order: 10, layers: 4, ratio: 0.15 };
+/// The mesh behind the true error: three orders and two layers finer.
+const TRUE: MeshFineness = MeshFineness { order: STEADY.order + 3, layers: STEADY.layers + 2, ..STEADY };
 
 pub(super) fn reference() -> Result<Design, Failure> {
     Ok(fogcoil::input::read_coil(&crate::files::root().join("fixtures/coil-reference.ron"))?.design)
@@ -27,7 +27,7 @@ pub(super) fn compare(random: &mut Random) -> Result<Drawn, Failure> {
         found => found?,
     };
     let Sensitivity { eo_axial, eo_radial, .. } = found.sensitivity;
-    let truth = Model::new(&design, &TRUE)?.sensitivity()?;
+    let truth = sensitivity_on(&design, &TRUE)?;
     let row = |quantity, stated, ours: f64, other: f64| Compared { quantity, stated, error: (ours - other).abs() };
     let rows = vec![
         row("sensitivity", found.error_estimate, found.sensitivity.total(), truth.total()),

@@ -87,7 +87,9 @@ pub(super) fn coil(random: &mut Random, reference: &Design) -> Design {
     let (inner_radius, pitch) = (winding.inner_radius, winding.pitch);
     let thickness = pitch + (winding.layers - 1) as f64 * pitch * 3.0_f64.sqrt() / 2.0;
     let spool = random.chance(0.9).then(|| spool(random, inner_radius));
-    let height = winding.turns_odd_layers as f64 * pitch;
+    // even layers sit in the grooves: with as many turns they reach half a pitch farther
+    let beyond = if winding.layers > 1 && winding.turns_even_layers == winding.turns_odd_layers { 0.5 } else { 0.0 };
+    let height = (winding.turns_odd_layers as f64 + beyond) * pitch;
     let bore = inner_radius - spool.as_ref().map_or(0.0, |spool| spool.hub_thickness + spool.hub_contact.gap());
     Design {
         body: Body {
