@@ -252,7 +252,7 @@ impl Operator {
 }
 
 impl Function {
-    fn of(self, x: f64) -> f64 {
+    pub(crate) fn of(self, x: f64) -> f64 {
         match self {
             Self::Abs => x.abs(),
             Self::Sign if x == 0.0 => 0.0,
@@ -350,37 +350,6 @@ fn require_pure(term: &Term, units: &[Unit], angle: bool) -> Result<(), Fault> {
             Err(Fault::new(term.at.clone(), problem, remedy))
         }
         _ => Ok(()),
-    }
-}
-
-impl Term {
-    /// Refuses parts without names that have no finite value, the innermost first.
-    pub(crate) fn check_constants(&self) -> Result<(), Fault> {
-        self.finite().map(|_| ())
-    }
-
-    /// Its value where it names nothing.
-    fn finite(&self) -> Result<Option<f64>, Fault> {
-        let value = match &self.node {
-            Node::Number(number) => Some(*number),
-            Node::Value(_) => None,
-            Node::Minus(term) => term.finite()?.map(|x| -x),
-            Node::One(function, term) => term.finite()?.map(|x| function.of(x)),
-            Node::Two(operator, terms) => {
-                let [a, b] = [terms[0].finite()?, terms[1].finite()?];
-                if *operator == Operator::Quotient && b == Some(0.0) {
-                    let remedy = "divide by a quantity that is never 0, e.g. max(abs(x), 1)";
-                    return Err(Fault::new(terms[1].at.clone(), "this divides by 0", remedy));
-                }
-                a.zip(b).map(|(a, b)| operator.of(a, b))
-            }
-        };
-        match value {
-            Some(value) if !value.is_finite() => {
-                Err(Fault::new(self.at.clone(), "this is no finite number", "check the numbers in it"))
-            }
-            value => Ok(value),
-        }
     }
 }
 
