@@ -63,6 +63,11 @@ pub struct Composed {
 }
 
 impl Composed {
+    /// Mechanisms beside which the laws stand, by their numbers.
+    pub fn names(&self) -> Vec<usize> {
+        self.fit.active[..self.fit.active.len() - self.laws].iter().map(|active| active.mechanism).collect()
+    }
+
     /// ln of evidence times probability before anything was seen, which is `log_prior` of any laws of this number: terms are found in any order, and
     /// others in the place of the last count, too.
     pub fn log_weight(&self, log_prior: f64) -> f64 {

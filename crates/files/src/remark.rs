@@ -131,6 +131,10 @@ remarks! {
         "The rows are not as far apart as the meta file says.",
         "The interval of the rows is used; noise per root hour follows from it.",
         "Check the unit of the instants, or mend `sample_interval_s`.";
+    MetaContradicted "meta-contradicted":
+        "A number of the meta file is several times what the record itself shows, or lies further from it than its own uncertainty.",
+        "What the meta file says is believed: noise, offsets and what is left are weighed by it.",
+        "Correct the number in the meta file, or leave it out: what is not known is found from the record.";
     // recordings as they are judged: the kinds of `check`
     Gap "gap":
         "Rows are missing: an interval is much longer than usual.",
@@ -242,6 +246,10 @@ remarks! {
         "A unit that `calibrate` was given as a good one is explained better by a mechanism than by its constants.",
         "What it has of a fault goes into the constants of the lot.",
         "Diagnose it alone; leave it out unless it is good.";
+    UnitMisfit "unit-misfit":
+        "A unit that `calibrate` was given as a good one: the design's constants leave more than twice the noise of its rows and the drift that is usual.",
+        "Its constants are pulled to what the design cannot do, and those of the lot with them; the unit is not called good.",
+        "Check that the unit was built to this design, and its columns and units (fogcoil check); diagnose it alone; leave it out unless it is good.";
     FewUnits "few-units":
         "A lot is calibrated from fewer than three units.",
         "A fault that one of them has looks like the lot's own: what is common to two cannot be told from what one has.",

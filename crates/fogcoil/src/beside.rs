@@ -70,8 +70,9 @@ impl Simulation<'_> {
             }
         }
         let at = Error::of_coil(&case.file);
+        let library = library(case, cache, progress)?;
         let kinds: Vec<&dyn Mechanism> = own.iter().map(|own| &own.mechanism as &dyn Mechanism).collect();
-        let gyro = under(library(case, cache, progress)?, &kinds, profile).map_err(at)?;
+        let gyro = under(library.clone(), &kinds, profile).map_err(at)?;
         let place = |(own, values): (&MechanismCase, Vec<f64>)| {
             let id = &own.mechanism.id;
             let none = || Error::usage(format!("--mechanism: {}: the design has no place for `{id}`", shown_path(&own.file)));
@@ -84,15 +85,46 @@ impl Simulation<'_> {
         let (with, without) = (respond(&active)?, respond(&[])?);
         let rows = 0..profile.profile.time.len();
         self.added = rows.map(|n| [SPOOL, RATE].map(|channel| with[channel][n] - without[channel][n])).collect();
-        match self.added.iter().position(|row| row.iter().any(|value| !value.is_finite())) {
+        match first_bad(&self.added) {
             Some(row) => {
-                let files: Vec<String> = own.iter().map(|own| shown_path(&own.file)).collect();
-                let at = Seconds(profile.profile.time[row]);
-                let text =
-                    format!("--mechanism: {}: no finite number at {at} s; bound the law, e.g. by max(...)", files.join(", "));
-                Err(Error::usage(text))
+                let laws = own
+                    .iter()
+                    .zip(&active)
+                    .flat_map(|(own, active)| (0..own.mechanism.system.laws.len()).map(move |law| (own, active, law)));
+                for (own, active, law) in laws {
+                    if let Some(row) = self.bad_row(own, law, &active.values, &library)? {
+                        return Err(no_number(own, law, profile.profile.time[row]));
+                    }
+                }
+                // each alone is finite, all together are not
+                Err(no_number(&own[0], 0, profile.profile.time[row]))
             }
             None => Ok(()),
         }
     }
+
+    /// The first row in which a law of a mechanism, alone, is no finite number.
+    fn bad_row(&self, own: &MechanismCase, law: usize, values: &[f64], library: &Library) -> Result<Option<usize>, Error> {
+        let mut alone = own.mechanism.clone();
+        alone.system.laws = vec![alone.system.laws[law].clone()];
+        alone.targets = vec![alone.targets[law]];
+        let at = Error::of_coil(&self.case.file);
+        let gyro = under(library.clone(), &[&alone as &dyn Mechanism], self.profile).map_err(at)?;
+        let Some(mechanism) = gyro.find(&alone.id) else { return Ok(None) };
+        let active = Active { mechanism, values: values.to_vec(), choice: None };
+        let response = gyro.respond(0, &expected(gyro.nuisances()), &[active]).map_err(at)?;
+        let [spool, rate] = at_rows(&response);
+        Ok(first_bad(&spool.into_iter().zip(rate).map(|(spool, rate)| [spool, rate]).collect::<Vec<_>>()))
+    }
+}
+
+/// The first row that is no finite number.
+fn first_bad(rows: &[[f64; 2]]) -> Option<usize> {
+    rows.iter().position(|row| row.iter().any(|value| !value.is_finite()))
+}
+
+/// A law that has no value at an instant \[s\].
+fn no_number(own: &MechanismCase, law: usize, time: f64) -> Error {
+    let problem = format!("the law of `{}` is no finite number at {} s of the profile", own.mechanism.id, Seconds(time));
+    own.law_fault(law, problem, "bound it, e.g. by max(...), or give its parameters other values").into()
 }

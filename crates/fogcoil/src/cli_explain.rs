@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use fogcoil::cache::Cache;
-use fogcoil::{Error, diagnose, explain, glossary, input};
+use fogcoil::{Error, diagnose, explain, glossary, input, shown_path};
 
 use crate::progress::Progress;
 use crate::{line, print};
@@ -40,6 +40,11 @@ pub(crate) fn run(arguments: &Explain, progress: &Progress) -> Result<(), Error>
             (explain::json(&result), explain::text(&case, &result))
         }
         (Some(file), None) if file.is_file() && file.extension().is_some_and(|end| end == "ron") => {
+            if input::is_coil(file) {
+                let text =
+                    "is a coil file; add --sensitivity S, as it was measured, and the changes that would give it are explained";
+                return Err(Error::usage(format!("{}: {text}", shown_path(file))));
+            }
             let case = input::read_mechanism(file)?;
             (glossary::own_json(&case), glossary::own_text(&case))
         }
@@ -53,13 +58,15 @@ pub(crate) fn run(arguments: &Explain, progress: &Progress) -> Result<(), Error>
 }
 
 fn look_up(id: &Path) -> Result<glossary::Entry, Error> {
-    let name = id.to_string_lossy();
-    glossary::look_up(&name).map_err(|near| {
-        Error::usage(if id.extension().is_some() || id.is_file() {
-            format!("{name}: of a coil file a sensitivity is explained; add --sensitivity S, as it was measured")
-        } else {
-            let near = near.join(", ");
-            format!("{name}: is no id of a mechanism, a warning or a note; nearest: {near}; `fogcoil explain` lists all")
-        })
+    let name = shown_path(id);
+    if id.exists() {
+        let text = "give an id, a mechanism's file (*.ron), or a coil's with --sensitivity S; `fogcoil check` reads recordings";
+        return Err(Error::usage(format!("{name}: is no mechanism's file; {text}")));
+    }
+    glossary::look_up(&id.to_string_lossy()).map_err(|near| {
+        let (near, none) = (near.join(", "), if id.extension().is_some() { "no file, and no id" } else { "no id" });
+        Error::usage(format!(
+            "{name}: is {none} of a mechanism, a warning or a note; nearest: {near}; `fogcoil explain` lists all"
+        ))
     })
 }

@@ -71,6 +71,7 @@ pub(crate) fn run(arguments: &Recommend, progress: &Progress) -> Result<(), Erro
     diagnose::check_design(&case, coil)?;
     let records = records.iter().map(|path| input::read_record(path, &options)).collect::<Result<Vec<_>, _>>()?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
+    progress.tell(&recommend::notes(&case, &records));
     let limits = Limits { coldest: *coldest, hottest: *hottest, fastest: *fastest, hours: *hours };
     let result =
         progress.tasks(|tell| recommend::recommend(&case, &asked.with_catalogue(), between, &records, &limits, &cache, tell))?;

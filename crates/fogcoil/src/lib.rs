@@ -9,6 +9,7 @@
 //! - [`diagnose`] compares recordings with a design and names what the design leaves out.
 //! - [`recommend`] finds the test that tells mechanisms apart; [`explain`] solves for what would give a measured sensitivity.
 //! - [`prepare`] makes what these start from: a design's library of models, and recordings as the engine wants them.
+//! - [`contradictions`] are what a meta file says and its record does not.
 //! - [`glossary`] explains the ids of mechanisms, warnings and notes.
 //!
 //! The functions neither print nor parse arguments; `main.rs` does.
@@ -33,6 +34,8 @@ pub mod calibrate;
 pub mod check;
 pub mod comparison;
 mod compose;
+pub mod contradictions;
+mod copies;
 pub mod diagnose;
 mod error;
 pub mod explain;
@@ -54,7 +57,7 @@ pub mod trim;
 pub mod wind;
 
 pub use error::Error;
-pub use files::{Error as FileError, input, output, schema, units};
+pub use files::{Error as FileError, input, output, schema, shown_path, units};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -193,9 +193,8 @@ fn run_trim(coil: &Path, profile: Option<&Path>, json: bool, progress: &Progress
 
 fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> {
     let Simulate { coil, profile, between, step, spool, spool_noise, mechanisms, out, report, band, json, no_cache } = arguments;
-    let asked = input::read_mechanisms(mechanisms)?;
-    let further = asked.further_columns();
-    let own = asked.files_alone()?;
+    let own = input::read_simulated(mechanisms)?;
+    let further = input::further_columns(&own);
     let inputs: Vec<PathBuf> = [profile, spool].into_iter().flatten().chain(mechanisms).cloned().collect();
     let case = progress.read_coil_for(coil, &inputs, &[Some(out), report.as_deref(), band.as_deref()])?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };

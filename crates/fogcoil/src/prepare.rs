@@ -18,6 +18,8 @@ use recording::{Recording, Seconds, median_interval};
 
 use crate::Error;
 use crate::cache::Cache;
+use crate::contradictions::contradictions;
+use crate::copies::contains;
 use crate::input::{CHAMBER, CoilCase, Fingerprint, InputError, Meta, RATE, RecordCase, SPOOL, Thermometer};
 
 /// Fewest rows with a rate from which anything is said.
@@ -195,6 +197,7 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     // how the file was read, where that is doubtful
     notes.extend(case.notes.iter().filter(|note| note.is_warning()).map(|note| note.clone().at(file)));
     notes.extend(moved_in_gap(case).map(|note| note.at(file)));
+    notes.extend(contradictions(case));
     let mut say = |remark: Remark, text: String| notes.push(remark.note(text).at(file));
     let range = span(&chamber);
     if range < FEWEST_KELVIN {
@@ -223,7 +226,7 @@ pub(crate) fn other_design(case: &CoilCase, record: &RecordCase) -> Option<Note>
     let told = record.meta.as_ref().map(|meta| meta.design.trim()).filter(|told| !told.is_empty())?;
     let name = case.name.split(',').next().unwrap_or_default().trim();
     let message = || format!("the meta file says that the unit was built to `{}`; this design is `{name}`", shown(told));
-    (!told.eq_ignore_ascii_case(name)).then(|| Remark::OtherDesign.note(message()).at(&record.fingerprint.file))
+    (!told.eq_ignore_ascii_case(name)).then(|| Remark::OtherDesign.warning(message()).at(&record.fingerprint.file))
 }
 
 /// What the chamber's readings say; `None` where there are none.
@@ -311,16 +314,27 @@ fn of_rounding(digit: f64) -> f64 {
     digit / 12.0_f64.sqrt()
 }
 
-/// A record that is given twice would be counted, or judged, by itself.
+/// A record that is given twice, whole or in part, would be counted, or judged, by itself.
 pub(crate) fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -> Result<(), Error> {
-    let mut known: Vec<&Fingerprint> = Vec::new();
-    for RecordCase { fingerprint, .. } in records {
-        if let Some(first) = known.iter().find(|k| (k.bytes, k.fnv1a) == (fingerprint.bytes, fingerprint.fnv1a)) {
-            let problem = format!("is the same recording as {}", shown_path(&first.file));
+    let mut known: Vec<&RecordCase> = Vec::new();
+    let same = |a: &Fingerprint, b: &Fingerprint| (a.bytes, a.fnv1a) == (b.bytes, b.fnv1a);
+    for record in records {
+        let refused = |own: &RecordCase, is: &str, other: &RecordCase| {
+            let problem = format!("{is} {}", shown_path(&other.fingerprint.file));
             let remedy = "give every recording once: what was fitted cannot judge";
-            return Err(InputError::whole(&fingerprint.file, problem, remedy).into());
+            Err(InputError::whole(&own.fingerprint.file, problem, remedy).into())
+        };
+        for other in &known {
+            if same(&record.fingerprint, &other.fingerprint) {
+                return refused(record, "is the same recording as", other);
+            }
+            for (part, whole) in [(record, *other), (*other, record)] {
+                if contains(whole, part) {
+                    return refused(part, "is a part of another recording: all its rows stand in", whole);
+                }
+            }
         }
-        known.push(fingerprint);
+        known.push(record);
     }
     Ok(())
 }

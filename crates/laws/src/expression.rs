@@ -252,7 +252,7 @@ impl Operator {
 }
 
 impl Function {
-    fn of(self, x: f64) -> f64 {
+    pub(crate) fn of(self, x: f64) -> f64 {
         match self {
             Self::Abs => x.abs(),
             Self::Sign if x == 0.0 => 0.0,

@@ -3,6 +3,7 @@
 mod expression;
 mod fault;
 mod parse;
+mod shown;
 mod system;
 mod unit;
 

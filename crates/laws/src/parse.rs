@@ -36,7 +36,7 @@ impl Expression {
     /// min and max. It cannot loop, and has no effect but its value.
     ///
     /// # Errors
-    /// The name that is not known, or the sign that does not belong there.
+    /// The name that is not known, the sign that does not belong there, or numbers that have no finite value, such as 1 / 0.
     pub fn parse(text: &str, names: &[&str]) -> Result<Self, Fault> {
         if text.len() > LONGEST {
             let remedy = "divide it: a state or another law may hold a part";
@@ -48,7 +48,9 @@ impl Expression {
         let Some(sum) = whole.into_iter().find(|pair| pair.as_rule() == Rule::sum) else {
             return Err(Fault::new(0..text.len(), "there is no expression", "write one, e.g. size * spool_rate"));
         };
-        Ok(Self { root: reader.sum(sum)? })
+        let root = reader.sum(sum)?;
+        root.check_constants()?;
+        Ok(Self { root })
     }
 }
 
@@ -96,9 +98,9 @@ fn misread(text: &str, error: &pest::error::Error<Rule>) -> Fault {
     };
     let rest = text[at.start..].chars().next();
     let here = rest.map_or_else(|| "at the end".to_owned(), |c| format!("at `{}`", c.escape_debug()));
-    let operand = wanted
-        .iter()
-        .any(|rule| matches!(rule, Rule::number | Rule::name | Rule::sum | Rule::call | Rule::operand | Rule::minus));
+    let operand = wanted.iter().any(|rule| {
+        matches!(rule, Rule::number | Rule::name | Rule::sum | Rule::call | Rule::group | Rule::operand | Rule::minus)
+    });
     let needed = if operand { "a number, a name or a bracket" } else { "an operator + - * / ^ or a closing bracket" };
     let remedy = "write products with *, powers with ^, decimals with a point";
     Fault::new(at, format!("{here} {needed} is needed"), remedy)
@@ -142,7 +144,11 @@ impl Names<'_> {
             }
             Rule::name => self.named(pair.as_str(), at),
             Rule::call => self.called(pair, at),
-            _ => self.sum(pair).map(|term| Term { at, ..term }),
+            // with its brackets: what is quoted of a text has both
+            _ => match pair.into_inner().next() {
+                Some(sum) => self.sum(sum).map(|term| Term { at, ..term }),
+                None => Err(Fault::new(at, "there is nothing between these brackets", "write an expression there")),
+            },
         }
     }
 
@@ -183,6 +189,37 @@ impl Names<'_> {
             format!("`{name}` is no function"),
             format!("the functions are {}; a product needs *", known.join(", ")),
         ))
+    }
+}
+
+impl Term {
+    /// Refuses parts without names that have no finite value, the innermost first.
+    pub(crate) fn check_constants(&self) -> Result<(), Fault> {
+        self.finite().map(|_| ())
+    }
+
+    /// Its value where it names nothing.
+    fn finite(&self) -> Result<Option<f64>, Fault> {
+        let value = match &self.node {
+            Node::Number(number) => Some(*number),
+            Node::Value(_) => None,
+            Node::Minus(term) => term.finite()?.map(|x| -x),
+            Node::One(function, term) => term.finite()?.map(|x| function.of(x)),
+            Node::Two(operator, terms) => {
+                let [a, b] = [terms[0].finite()?, terms[1].finite()?];
+                if *operator == Operator::Quotient && b == Some(0.0) {
+                    let remedy = "divide by a quantity that is never 0, e.g. max(abs(x), 1)";
+                    return Err(Fault::new(terms[1].at.clone(), "this divides by 0", remedy));
+                }
+                a.zip(b).map(|(a, b)| operator.of(a, b))
+            }
+        };
+        match value {
+            Some(value) if !value.is_finite() => {
+                Err(Fault::new(self.at.clone(), "this is no finite number", "check the numbers in it"))
+            }
+            value => Ok(value),
+        }
     }
 }
 
@@ -247,6 +284,13 @@ mod tests {
             ("x = 3", 2..2, "at `=`"),
             ("\u{1b}[2J", 0..0, "at `\\u{1b}`"),
             ("open(\"/etc\")", 5..5, "at `\\\"`"),
+            ("x / 0", 4..5, "divides by 0"),
+            ("x * (y + tau / (2 - 2.0))", 15..24, "divides by 0"),
+            ("x / -0", 4..6, "divides by 0"),
+            ("ln(0) * x", 0..5, "is no finite number"),
+            ("x + sqrt(1 - 2)", 4..15, "is no finite number"),
+            ("x * 0^-1", 4..8, "is no finite number"),
+            ("x * (1e300 * 1e300)", 4..19, "is no finite number"),
         ] {
             let fault = Expression::parse(text, &NAMES).expect_err(text);
             assert!(fault.at == at && fault.problem.contains(says) && !fault.remedy.is_empty(), "{text}: {fault:?}");
@@ -281,6 +325,9 @@ mod tests {
             ("y^x", "1", 2..3, "pure number", "divide"),
             ("x^(x/x)", "K", 0..1, "a power that varies", "divide"),
             ("x", "deg/h", 0..1, "is in K, where deg/h is needed", "parameter"),
+            ("y * exp(-(x - 20))", "deg/h", 8..17, "in K, where a pure number", "divide"),
+            ("(x - 20) * (y + x) + 5", "deg/h K", 16..17, "beside a term in deg/h", "parameter"),
+            ("(x - 20) / tau", "deg/h", 0..14, "is in K/s", "parameter"),
             ("60 * x / tau", "K/min", 0..12, "is in K/s, where K/min is needed", "a factor of 60 does not"),
             ("sin(y)", "1", 4..5, "pure number", "divide"),
         ] {

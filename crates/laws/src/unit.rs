@@ -1,12 +1,11 @@
 //! Units: a factor and powers of base units.
 
 use crate::Fault;
-use std::fmt;
 
 /// Base units: metre, kilogram, second, kelvin, ampere, radian.
-const BASES: [&str; 6] = ["m", "kg", "s", "K", "A", "rad"];
+pub(crate) const BASES: [&str; 6] = ["m", "kg", "s", "K", "A", "rad"];
 /// Relative difference of factors, and difference of powers, below which two are the same.
-const SAME: f64 = 1e-9;
+pub(crate) const SAME: f64 = 1e-9;
 /// Longest unit that is read, bytes.
 const LONGEST: usize = 80;
 /// Largest power of a unit.
@@ -15,14 +14,14 @@ const MOST_POWER: f64 = 12.0;
 /// A unit as a multiple of a product of powers of m, kg, s, K, A and rad. A temperature in °C counts as kelvins: differences alone have meaning here.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
-    factor: f64,
-    powers: [f64; 6],
+    pub(crate) factor: f64,
+    pub(crate) powers: [f64; 6],
 }
 
 /// A unit's name, its factor, and its powers of the base units.
-type Named = (&'static str, f64, [i8; 6]);
+pub(crate) type Named = (&'static str, f64, [i8; 6]);
 
-const UNITS: [Named; 46] = [
+pub(crate) const UNITS: [Named; 46] = [
     ("1", 1.0, [0; 6]),
     ("%", 1e-2, [0; 6]),
     ("ppm", 1e-6, [0; 6]),
@@ -106,7 +105,7 @@ impl Unit {
         if reader.at < text.len() { Err(reader.fault("a unit ends before this point")) } else { Ok(words) }
     }
 
-    fn of((_, factor, powers): &Named) -> Self {
+    pub(crate) fn of((_, factor, powers): &Named) -> Self {
         Self { factor: *factor, powers: powers.map(f64::from) }
     }
 
@@ -142,40 +141,6 @@ impl Unit {
     /// By how much numbers in this unit are larger in the other.
     pub fn in_units_of(self, other: Self) -> f64 {
         self.factor / other.factor
-    }
-}
-
-impl fmt::Display for Unit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.known().unwrap_or_else(|| self.of_bases()))
-    }
-}
-
-impl Unit {
-    /// The shortest name of known units: one, over one, over two.
-    fn known(&self) -> Option<String> {
-        let named = || UNITS.iter().map(|unit| (unit.0, Self::of(unit)));
-        let single = || named().find(|(_, unit)| self.is(*unit)).map(|(name, _)| name.to_owned());
-        let ratio = |of: Self| {
-            named().find_map(|(a, over)| {
-                named().skip(1).find(|(_, under)| of.is(over.over(*under))).map(|(b, _)| format!("{a}/{b}"))
-            })
-        };
-        single()
-            .or_else(|| ratio(*self))
-            .or_else(|| named().skip(1).find_map(|(c, last)| ratio(self.times(last)).map(|ab| format!("{ab}/{c}"))))
-    }
-
-    fn of_bases(&self) -> String {
-        let mut words = Vec::new();
-        if (self.factor - 1.0).abs() > SAME {
-            words.push(format!("{:.6e}", self.factor));
-        }
-        let powers = self.powers.iter().zip(BASES).filter(|(power, _)| power.abs() > SAME);
-        words.extend(
-            powers.map(|(power, base)| if (power - 1.0).abs() < SAME { base.to_owned() } else { format!("{base}^{power}") }),
-        );
-        words.join(" ")
     }
 }
 

@@ -1,21 +1,18 @@
 //! A law that was composed, weighed with the mechanisms that have a name.
 
 use super::{Diagnosis, Verdict};
-use crate::{Candidate, Composed};
+use crate::Candidate;
 
 impl Diagnosis {
-    /// Weighs a law that was composed, beside the design's constants or mechanisms that have a name, with all that was compared. `log_prior` is ln of its
-    /// probability before anything was seen ([`Settings::log_unlisted`](crate::Settings::log_unlisted)): what is probable of it is taken from all others,
-    /// and given to the mechanisms beside which it stands. What was compared gains `by_noise` of ln evidence in the noise that the law leaves
-    /// ([`gained_by_noise_of`](crate::gained_by_noise_of)), and what the leader gains over the law by records that were held out, `by_held_out`. Where the law is likelier than what explained the records, they are unknown, and the law
-    /// describes them.
-    pub fn weigh_unlisted(&mut self, law: &Composed, log_prior: f64, by_noise: f64, by_held_out: f64) {
-        let log_weight = law.log_weight(log_prior);
+    /// Weighs a law that was composed, beside the design's constants or mechanisms that have a name, with all that was compared: `log_weight` is ln of its
+    /// evidence and prior probability ([`Composed::log_weight`](crate::Composed::log_weight)). What is probable of it is taken from all others, and given to
+    /// the mechanisms `names` that stand beside it. What was compared gains `by_noise` of ln evidence in the noise that the law leaves
+    /// ([`gained_by_noise_of`](crate::gained_by_noise_of)), and what the leader gains over the law by records that were held out, `by_held_out`. Where the law
+    /// is likelier than what explained the records, they are unknown, and the law describes them.
+    pub fn weigh_unlisted(&mut self, log_weight: f64, names: &[usize], by_noise: f64, by_held_out: f64) {
         let ratio = |c: &Candidate| (c.log_weight + by_noise + by_held_out - log_weight).exp();
         let others: f64 = self.candidates.iter().map(ratio).sum();
-        let beside = law.fit.active.len() - law.laws;
-        let names: Vec<usize> = law.fit.active[..beside].iter().map(|active| active.mechanism).collect();
-        self.make_room(1.0 / (1.0 + others), &names);
+        self.make_room(1.0 / (1.0 + others), names);
     }
 
     /// Gives this probability to something unknown beside mechanisms that have a name.
@@ -68,18 +65,15 @@ mod tests {
         weighed_beside(&[], log_evidence, choice, by_noise)
     }
 
-    /// The law is the model's eighth mechanism.
     fn weighed_beside(names: &[usize], log_evidence: f64, choice: f64, by_noise: f64) -> Diagnosis {
         let mut diagnosis = explained();
+        // the law is the model's eighth mechanism
         let active = |mechanism: &usize| crate::Active { mechanism: *mechanism, values: Vec::new(), choice: None };
         let active = names.iter().chain(&[7]).map(active).collect();
         let fit = crate::Fit { log_evidence, active, ..diagnosis.nominal.clone() };
-        diagnosis.weigh_unlisted(
-            &Composed { fit, laws: 1, gain: 0.0, choice, others: Vec::new(), steps: Vec::new() },
-            0.0,
-            by_noise,
-            0.0,
-        );
+        let law = crate::Composed { fit, laws: 1, gain: 0.0, choice, others: Vec::new(), steps: Vec::new() };
+        assert_eq!(law.names(), names);
+        diagnosis.weigh_unlisted(law.log_weight(0.0), names, by_noise, 0.0);
         diagnosis
     }
 

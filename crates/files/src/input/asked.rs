@@ -72,21 +72,45 @@ fn read_own(paths: &[&PathBuf]) -> Result<Vec<MechanismCase>, Error> {
     }
 }
 
-impl Asked {
-    /// Files alone, whose parameters have values.
-    ///
-    /// # Errors
-    /// [`Error::Usage`] if a mechanism is asked for by its id.
-    pub fn files_alone(self) -> Result<Vec<MechanismCase>, Error> {
-        match self.listed.first() {
-            Some(listed) => {
-                let id = listed.facts().id;
-                Err(Error::Usage(format!("--mechanism: `{id}` has no values here; simulate takes mechanisms' files")))
-            }
-            None => Ok(self.own),
-        }
+/// Reads mechanisms' files that are simulated, each once: their parameters have values.
+///
+/// # Errors
+/// As [`read_mechanism`]; [`Error::Usage`] if one is given twice, or if an id is given: the program's own mechanisms stand in the design.
+pub fn read_simulated(paths: &[PathBuf]) -> Result<Vec<MechanismCase>, Error> {
+    let files: Vec<&PathBuf> = paths.iter().collect();
+    match files.iter().find_map(|path| path.to_str().filter(|id| is_id(id) && !path.exists())) {
+        Some(id) => Err(not_simulated(id)),
+        None => read_own(&files),
     }
+}
 
+/// Further columns that mechanisms' files name.
+pub fn further_columns(own: &[MechanismCase]) -> Vec<String> {
+    let all: BTreeSet<&str> = own.iter().flat_map(|own| own.mechanism.columns()).collect();
+    all.into_iter().map(str::to_owned).collect()
+}
+
+/// What to do with an id where files are simulated.
+fn not_simulated(id: &str) -> Error {
+    let mut listed = CATALOGUE.iter().chain(ON_REQUEST).map(|mechanism| mechanism.facts());
+    let text = match listed.find(|facts| facts.id == id) {
+        Some(facts) => {
+            let place = facts.place.trim_end_matches('.');
+            let place = place[..1].to_lowercase() + &place[1..];
+            format!(
+                "simulate takes the files of your own mechanisms; `{id}` is one of the program's: put it into the coil file ({place}), or take the \
+                 coil file that `fogcoil diagnose --model-out` writes"
+            )
+        }
+        None => {
+            let ids = CATALOGUE.iter().chain(ON_REQUEST).map(|mechanism| mechanism.facts().id);
+            format!("`{}` is no file; give a mechanism's file (`fogcoil new --kind mechanism FILE`){}", shown(id), meant(id, ids))
+        }
+    };
+    Error::Usage(format!("--mechanism: {text}"))
+}
+
+impl Asked {
     /// Further columns of records that the mechanisms name.
     pub fn further_columns(&self) -> Vec<String> {
         let own = self.own.iter().flat_map(|own| own.mechanism.columns());

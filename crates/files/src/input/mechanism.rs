@@ -48,6 +48,11 @@ impl MechanismCase {
         self.values.iter().enumerate().map(|(k, value)| value.ok_or_else(|| missing(k))).collect()
     }
 
+    /// A complaint about one of its laws.
+    pub fn law_fault(&self, law: usize, problem: String, remedy: &str) -> InputError {
+        self.source.fault(&format!("laws[{law}]"), problem, remedy)
+    }
+
     /// The file's text with values of the parameters put in.
     ///
     /// # Errors
@@ -347,6 +352,11 @@ mod tests {
             ("\"deg/h/K\"", "\"deg/hour\"", "m.ron:6: parameters[0].unit: `hour` is no unit here (character 5); the units are"),
             ("\"deg/h/K\"", "\"deg/h\"", "m.ron:11: laws[0]: `size * (spool - board) * supply_v / max(abs(supply_v), 1)` is in"),
             ("Normal(0.0, 0.01)", "Normal(0.0, -0.01)", "parameters[0].prior: 0 and -0.01 are no prior; give Normal"),
+            (
+                "Normal(0.0, 0.01)",
+                "Normal(0.0)",
+                "m.ron:6: parameters[0].prior: 1 value is given, which is not how many are needed; write Normal(mean, standard deviation), e.g.",
+            ),
             ("LogNormal(1800.0, 1.0)", "Uniform(5.0, 5.0)", "parameters[1].prior"),
             ("LogNormal(1800.0, 1.0)", "LogNormal(1800.0, 1e9)", "parameters[1].prior"),
             ("Some(600.0)", "Some(-600.0)", "parameters[1].value: -600 lies outside"),
@@ -359,6 +369,17 @@ mod tests {
             ("first: \"spool\"", "first: \"board\"", "states[0].goes.first: `board` is not known"),
             ("Electronics", "Cellar", "stage: `Cellar` is not a choice here; choose"),
             ("size * (spool", "(spool", "laws[0]"),
+            (
+                "size * (spool",
+                "size * exp(-(spool - 20)) * (spool",
+                "laws[0]: `-(spool - 20)` in K, where a pure number is needed",
+            ),
+            ("size * (spool", "size * (spool - board) * sqrt(tau) * (spool", "is in deg/h s^0.5 K, where deg/h is needed"),
+            (
+                "size * (spool",
+                "size / (1 - 1) * (spool",
+                "m.ron:11: laws[0]: `(1 - 1)` this divides by 0 (character 8); divide by",
+            ),
             ("laws: [Rate", "laws: [Torque", "`Torque` is not a choice"),
             ("title:", "titel:", "unknown field `titel`"),
         ] {

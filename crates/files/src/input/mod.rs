@@ -49,7 +49,7 @@ mod tolerances;
 mod warnings;
 mod winding_file;
 
-pub use asked::{Asked, read_mechanisms};
+pub use asked::{Asked, further_columns, read_mechanisms, read_simulated};
 pub use cell::{AnyCell, CellCase, check_any_cell, read_any_cell, read_cell};
 pub use cell_constants::{AtTemperature, Spread, at_temperature};
 pub use cell_general::GeneralCase;
@@ -67,7 +67,7 @@ pub use propose::propose_map;
 pub use record::{RecordCase, check_record, read_record};
 pub use record_options::{CHAMBER, Key, RATE, RecordOptions, SPOOL};
 pub use schema::schemas;
-pub use source::{fault_in, read_ron, read_text};
+pub use source::{fault_in, is_coil, read_ron, read_text};
 pub use spool::{SpoolCase, read_spool};
 pub use targets::{TargetsCase, read_targets};
 pub use tolerances::keyed;

@@ -15,11 +15,26 @@ pub(super) fn printable<'de, D: Deserializer<'de>>(deserializer: D) -> Result<St
 /// are alike, `tails_m` and `turns` are not.
 const ALIKE: f64 = 0.85;
 
-/// ", did you mean ...?" where one of the known names is much like a name that is not known; otherwise nothing.
+/// Letters of a name from which another that begins with it is meant.
+const BEGUN: usize = 3;
+
+/// The one known name that goes on where `name` ends; of several, the one that goes on with an underscore.
+fn begun<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
+    let goes_on: Vec<&str> = known.iter().copied().filter(|other| name.len() >= BEGUN && other.starts_with(name)).collect();
+    let apart: Vec<&str> = goes_on.iter().copied().filter(|other| other[name.len()..].starts_with('_')).collect();
+    match (&goes_on[..], &apart[..]) {
+        ([one], _) | (_, [one]) => Some(one),
+        _ => None,
+    }
+}
+
+/// ", did you mean ...?" where a known name begins with one that is not known, or where one of the known names is much like a name that is not known; otherwise nothing.
 pub fn meant<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     let likeness = |other: &&str| strsim::jaro_winkler(name, other);
-    let nearest = known.into_iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
-    nearest.filter(|other| likeness(other) >= ALIKE).map_or(String::new(), |other| format!("; did you mean `{other}`?"))
+    let known: Vec<&str> = known.into_iter().collect();
+    let nearest = || known.iter().copied().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    let meant = begun(name, &known).or_else(|| nearest().filter(|other| likeness(other) >= ALIKE));
+    meant.map_or(String::new(), |other| format!("; did you mean `{other}`?"))
 }
 
 #[cfg(test)]
@@ -36,5 +51,9 @@ mod tests {
             assert_eq!(meant(other, known), "", "{other}");
         }
         assert_eq!(meant("tail", []), "");
+        // a key without its unit is meant, whatever is alike besides
+        let keys = ["coil.material.e_z_gpa", "coil.material.e_r_mpa", "coil.material.nu_r", "coil.material.alpha_r_per_k"];
+        assert_eq!(meant("coil.material.e_r", keys), "; did you mean `coil.material.e_r_mpa`?");
+        assert_eq!(meant("coil.material.alpha", keys), "; did you mean `coil.material.alpha_r_per_k`?");
     }
 }

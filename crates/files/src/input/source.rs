@@ -101,6 +101,9 @@ impl Source {
             field = join(&field, missing);
         }
         let (mut problem, mut remedy) = explain(&error.code, &self.text[offset..]);
+        if field.split(['.', '[']).next() == Some("tolerances") && self.text[offset..].starts_with(is_number) {
+            (problem, remedy) = ("a number alone is no tolerance".into(), HOW_MUCH.into());
+        }
         if map.is_cut_short {
             problem = format!("the file is cut short, or a bracket is never closed (the reader stopped here: {problem})");
             remedy = "close every bracket, or get the whole file".into();
@@ -127,6 +130,15 @@ impl Source {
     }
 }
 
+/// How a tolerance is written.
+const HOW_MUCH: &str =
+    "write one standard deviation, Relative(0.05) for 5 % of the value, or Absolute(0.05) in the unit of the key";
+
+/// Whether a number begins with it.
+fn is_number(c: char) -> bool {
+    c.is_ascii_digit() || "+-.".contains(c)
+}
+
 /// A kind of case file that `fogcoil new` writes.
 pub(super) struct Kind {
     name: &'static str,
@@ -141,6 +153,11 @@ pub(super) static CELL: Kind = Kind { name: "a cell file", mark: "adhesive", com
 pub(super) static TARGETS: Kind = Kind { name: "a file of targets", mark: "targets", command: "fogcoil new --kind targets FILE" };
 pub(super) static MECHANISM: Kind =
     Kind { name: "a mechanism's file", mark: "laws", command: "fogcoil new --kind mechanism FILE" };
+
+/// Whether a file can be read and looks like a coil's.
+pub fn is_coil(path: &Path) -> bool {
+    Source::read(path).is_ok_and(|source| matches!(FieldMap::new(&source.text).find(COIL.mark), (Some(_), "")))
+}
 
 /// Problem and remedy if `text` is not of the kind that is wanted but of another, a table, or nothing.
 fn mistaken(text: &str, wanted: Option<&Kind>) -> Option<(String, String)> {

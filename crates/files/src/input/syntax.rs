@@ -7,6 +7,21 @@ use super::rows::quoted;
 
 pub(super) const MISSING: &str = "the field is missing";
 
+/// What is written with several numbers: names of the program's choices, and how they look.
+const FORMS: [(&str, &str); 4] = [
+    ("PriorFile::Normal", "write Normal(mean, standard deviation), e.g. Normal(0.0, 0.01)"),
+    ("PriorFile::LogNormal", "write LogNormal(median, standard deviation of the logarithm), e.g. LogNormal(1800.0, 1.0)"),
+    ("PriorFile::Uniform", "write Uniform(low, high), e.g. Uniform(0.0, 50.0)"),
+    ("a tuple of size 3", "write (\"first key\", \"second key\", 0.5)"),
+];
+
+/// A choice that was written with too few or too many values: problem and remedy.
+fn length(expected: &str, found: usize) -> (String, String) {
+    let form = FORMS.iter().find(|(name, _)| expected.contains(name)).map_or("compare with the reference file", |(_, form)| form);
+    let values = if found == 1 { "1 value is given".to_owned() } else { format!("{found} values are given") };
+    (format!("{values}, which is not how many are needed"), form.to_owned())
+}
+
 /// Problem and remedy; `rest` is the text from where the reader stopped.
 pub(crate) fn explain(error: &Error, rest: &str) -> (String, String) {
     let (problem, remedy) = match error {
@@ -19,6 +34,7 @@ pub(crate) fn explain(error: &Error, rest: &str) -> (String, String) {
             let meant = meant(found, expected.iter().copied());
             return (format!("{} is not a choice here", quoted(found)), format!("choose {}{meant}", expected.join(" or ")));
         }
+        Error::ExpectedDifferentLength { expected, found } => return length(expected, *found),
         // a number that its kind does not accept: problem and remedy
         Error::InvalidValueForType { expected, found } => return (found.clone(), expected.clone()),
         Error::MissingStructField { .. } => (MISSING, "add it to the group that ends here"),

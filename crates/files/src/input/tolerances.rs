@@ -255,7 +255,11 @@ mod tests {
             ("\"coil.density_kg_per_m3\": Relative(3.0)", "3 of the value is more than 0.5"),
             ("\"coil.density_kg_per_m3\": Absolute(1000.0)", "of the value is more than 0.5"),
             ("\"heat.film_w_per_m2k\": Relative(0.1)", "the design has no such number"),
-            ("\"coil.density_kg_per_m3\": 0.1", "tolerances"),
+            (
+                "\"coil.density_kg_per_m3\": 0.1",
+                "tolerances: a number alone is no tolerance; write one standard deviation, Relative(0.05)",
+            ),
+            ("\"coil.material.e_r\": Relative(0.1)", "did you mean `coil.material.e_r_mpa`?"),
             (
                 "\"coil.density_kg_per_m3\": Relative(0.1), \"coil.density_kg_per_m3\": Relative(0.2)",
                 "\"coil.density_kg_per_m3\" has two tolerances",

@@ -33,6 +33,29 @@ struct Term {
     estimates: Vec<Estimate>,
 }
 
+/// Laws that were found beside a hypothesis, and what they foretell of the records held out.
+struct Found {
+    law: diagnosis::Composed,
+    /// ln of the probability of any laws beside it, before anything is seen
+    log_prior: f64,
+    held: Vec<HeldOut>,
+}
+
+impl Found {
+    fn log_weight(&self) -> f64 {
+        self.law.log_weight(self.log_prior)
+    }
+
+    /// Whether records held out are predicted clearly better with the names beside this law than by another law alone, and none clearly worse; where no
+    /// record was held out, the fitted ones alone have said so.
+    fn bears_out_names_over(&self, alone: &Self) -> bool {
+        let pairs = || self.held.iter().zip(&alone.held);
+        let better = pairs().any(|(with, alone)| alone.clearly_worse_than(with, RATE));
+        let worse = pairs().any(|(with, alone)| with.clearly_worse_than(alone, RATE));
+        self.held.is_empty() || (better && !worse)
+    }
+}
+
 /// ln evidence by which another law is behind and still not excluded, as odds of 1 to 20.
 const NEAR: f64 = 3.0;
 
@@ -63,17 +86,29 @@ pub(crate) fn compose(
     let with = gyro.beside(&kinds);
     let all = first..with.mechanisms().len();
     let numbers: Vec<usize> = (0..fitted.len()).collect();
-    let mut likeliest: Option<(f64, f64, diagnosis::Composed)> = None;
+    let mut all_found: Vec<Found> = Vec::new();
     for beside in constants.into_iter().chain(named) {
-        if let Some(found) = diagnosis::compose(&with, all.clone(), &numbers, fitted, &beside.fit, progress)? {
-            let log_prior = settings.log_unlisted(gyro, &beside.fit.hypothesis);
-            let log_weight = found.log_weight(log_prior);
-            if likeliest.as_ref().is_none_or(|(most, ..)| log_weight > *most) {
-                likeliest = Some((log_weight, log_prior, found));
-            }
+        if let Some(law) = diagnosis::compose(&with, all.clone(), &numbers, fitted, &beside.fit, progress)? {
+            // in the noise in which the others are judged
+            let predicted =
+                |&(record, observed): &(usize, &Observation)| law.fit.hold_out(&with, record, observed, &diagnosis.best().fit);
+            let held = held.iter().map(predicted).collect::<Result<Vec<_>, _>>()?;
+            all_found.push(Found { log_prior: settings.log_unlisted(gyro, &beside.fit.hypothesis), law, held });
         }
     }
-    let Some((_, log_prior, found)) = likeliest else { return Ok(None) };
+    all_found.sort_by(|a, b| b.log_weight().total_cmp(&a.log_weight()));
+    let mut all_found = all_found.into_iter();
+    let Some(likeliest) = all_found.next() else { return Ok(None) };
+    let (log_weight, mut names) = (likeliest.log_weight(), likeliest.law.names());
+    // a name beside a law has to be borne out, as the law has
+    let chosen = match all_found.next() {
+        Some(alone) if !names.is_empty() && !likeliest.bears_out_names_over(&alone) => {
+            names.clear();
+            alone
+        }
+        _ => likeliest,
+    };
+    let Found { law: found, held: predictions, .. } = chosen;
     let own = found.fit.active.iter().enumerate().skip(found.fit.active.len() - found.laws);
     let mut terms = Vec::new();
     for (place, active) in own {
@@ -87,20 +122,14 @@ pub(crate) fn compose(
         (*behind < NEAR).then(|| (facts.title.to_owned(), facts.id.to_owned(), *behind))
     };
     let others = found.others.iter().filter_map(other).collect();
-    let mut predictions = Vec::new();
-    let (mut accepted, mut by_held_out) = (!held.is_empty(), 0.0);
-    for (&(record, observed), without) in held.iter().zip(judged) {
-        // in the noise in which the others are judged
-        let by_law = found.fit.hold_out(&with, record, observed, &diagnosis.best().fit)?;
-        accepted &= without.is_beaten_by(&by_law, RATE);
-        by_held_out += without.model.log_score - by_law.log_score;
-        predictions.push(by_law);
-    }
+    let accepted =
+        !held.is_empty() && judged.iter().zip(&predictions).all(|(without, by_law)| without.is_beaten_by(by_law, RATE));
+    let by_held_out = judged.iter().zip(&predictions).map(|(without, by_law)| without.model.log_score - by_law.log_score).sum();
     // what has a name gives way to a law that is likelier by all records; what has none, unless a record that was held out says otherwise
     let is_named = diagnosis.verdict == Verdict::Explained;
     if is_named || accepted || held.is_empty() {
         let by_noise = diagnosis::gained_by_noise_of(gyro, &numbers, fitted, diagnosis.best(), &found.fit)?;
-        diagnosis.weigh_unlisted(&found, log_prior, by_noise, if is_named { by_held_out } else { 0.0 });
+        diagnosis.weigh_unlisted(log_weight, &names, by_noise, if is_named { by_held_out } else { 0.0 });
     }
     if diagnosis.verdict == Verdict::Explained {
         return Ok(None);

@@ -2,6 +2,7 @@
 
 mod bench;
 mod course;
+mod no_place;
 mod programme;
 mod question;
 mod recommendation;
@@ -12,8 +13,10 @@ use progress::Step;
 
 use crate::Error;
 use crate::cache::Cache;
+use crate::contradictions::contradictions;
 use crate::input::{CoilCase, RecordCase};
-use crate::prepare::{library, ready};
+use crate::prepare::{library, other_design, ready};
+use files::Note;
 
 pub use bench::Odds;
 pub(crate) use bench::{Contender, everything, odds, prepared, told_apart, usual};
@@ -23,6 +26,11 @@ pub(crate) use question::Question;
 pub use recommendation::{Ranked, Recommendation, Size, WithSensor};
 pub use say::{json, text};
 pub(crate) use say::{number, sentence, with};
+
+/// What speaks against taking sizes and noise from some records: units of another design, meta files that their records contradict.
+pub fn notes(case: &CoilCase, records: &[RecordCase]) -> Vec<Note> {
+    records.iter().flat_map(|record| other_design(case, record).into_iter().chain(contradictions(record))).collect()
+}
 
 /// Finds what tells the mechanisms `between` apart; `records` of the unit, if there are any, give sizes, noise, and the test that is repeated.
 ///

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use crate::Error;
+use crate::table::significant;
 
 /// What the chamber can do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -127,15 +128,15 @@ pub fn programmes(limits: &Limits) -> Vec<Programme> {
         let travel = 2.0 * limits.range();
         let rate = (travel / (hours * HOUR - REST - 3.0 * dwell * HOUR)).min(fast);
         let corners = Path::new(limits).cycle(&[coldest, hottest, start], rate, dwell * HOUR);
-        add("slow ramp", format!("slow ramp, {:.2} K/min, dwells of {dwell:.1} h", rate * 60.0), corners);
+        add("slow ramp", format!("slow ramp, {} K/min, dwells of {dwell:.1} h", pace(rate * 60.0)), corners);
     }
     for (rate, dwell) in [(fast, 3.0), (fast, 1.0), (fast / 2.0, 3.0)] {
         let corners = Path::new(limits).cycle(&[coldest, hottest], rate, dwell * HOUR);
-        add("fast ramp", format!("fast ramp, {:.2} K/min, dwells of {dwell:.0} h", rate * 60.0), corners);
+        add("fast ramp", format!("fast ramp, {} K/min, dwells of {dwell:.0} h", pace(rate * 60.0)), corners);
     }
     for (step, minutes) in [(5.0, 20.0), (10.0, 45.0), (20.0, 90.0)] {
         let corners = Path::new(limits).cycle(&stairs(limits, start, step), fast, minutes * 60.0);
-        let name = format!("staircase, steps of {step:.0} K at {fastest:.2} K/min, dwells of {minutes:.0} min");
+        let name = format!("staircase, steps of {step:.0} K at {} K/min, dwells of {minutes:.0} min", pace(fastest));
         add("staircase", name, corners);
     }
     for period in [0.5, 1.5, 4.0] {
@@ -144,9 +145,14 @@ pub fn programmes(limits: &Limits) -> Vec<Programme> {
     }
     for share in [1.0, 0.5, 0.25, 0.1] {
         let corners = Path::new(limits).cycle(&[coldest, hottest], share * fast, 0.0);
-        add("cycles", format!("cycles without dwells, {:.2} K/min", share * fastest), corners);
+        add("cycles", format!("cycles without dwells, {} K/min", pace(share * fastest)), corners);
     }
     programmes
+}
+
+/// A rate [K/min] with two decimals, a slow one with two digits.
+fn pace(rate: f64) -> String {
+    if rate < 0.1 { significant(rate, 2) } else { format!("{rate:.2}") }
 }
 
 /// Down, up and back to the start in equal steps.
@@ -235,11 +241,13 @@ mod tests {
     fn every_programme_keeps_the_limits_and_fills_the_test() {
         let narrow = Limits { coldest: 25.0, hottest: 29.0, fastest: 0.1, hours: 2.5 };
         let warm = Limits { coldest: 30.0, hottest: 80.0, fastest: 10.0, hours: 100.0 };
-        for limits in [Limits::USUAL, narrow, warm] {
+        let slow = Limits { coldest: 19.0, hottest: 20.5, fastest: 0.02, hours: 24.0 };
+        for limits in [Limits::USUAL, narrow, warm, slow] {
             for programme in programmes(&limits) {
                 let name = &programme.name;
                 assert!((programme.duration() - limits.hours * HOUR).abs() < 1e-6, "{name}: {}", programme.duration());
                 assert_eq!(programme.corners[0].1, programme.corners[1].1, "{name} begins at rest");
+                assert!(!name.contains(" 0.00 K/min"), "{name}");
                 for pair in programme.corners.windows(2) {
                     let ((t0, a), (t1, b)) = (pair[0], pair[1]);
                     assert!(t1 > t0 && (b - a).abs() / (t1 - t0) <= limits.fastest / 60.0 * 1.000_001, "{name}: {pair:?}");

@@ -9,10 +9,10 @@ use recording::noise::NoiseModel;
 
 use super::bench::{self, Contender, Failure, Odds, everything, odds, prepared, usual};
 use super::course::Course;
+use super::no_place::not_there;
 use super::programme::{Limits, programmes};
 use super::recommendation::{Ranked, Recommendation, Size, WithSensor};
 use crate::Error;
-use crate::input::meant;
 use crate::prepare::Record;
 
 /// Noise of a spool thermometer that may be added \[K\], its drift a tenth of the usual.
@@ -61,14 +61,8 @@ impl Question<'_> {
         let all = all.collect::<Result<Vec<_>, _>>().map_err(coil)?;
         let gyro = Gyro::new(library, mechanisms, all).map_err(coil)?;
         let named = |id: &String| {
-            let unknown = || {
-                format!(
-                    "--between: `{id}` is not in this design's library; it holds {}, and mechanisms of your own (--mechanism){}",
-                    Contender::known(&gyro),
-                    meant(id, gyro.mechanisms().iter().map(|mechanism| mechanism.id.as_str()))
-                )
-            };
-            Contender::named(&gyro, id).map_err(failed)?.ok_or_else(|| Error::usage(unknown()))
+            let unknown = || Error::usage(not_there(id, &gyro, mechanisms));
+            Contender::named(&gyro, id).map_err(failed)?.ok_or_else(unknown)
         };
         let mut contenders = between.iter().map(named).collect::<Result<Vec<_>, _>>()?;
         if contenders.iter().all(|c| c.truth.is_none()) {

@@ -107,13 +107,19 @@ pub fn text(r: &Recommendation) -> String {
     };
     let mut rows = vec![["profile", "sigma", "ln odds", "gain", "truth / taken for it"].map(str::to_owned)];
     rows.extend(r.profiles.iter().take(SHOWN).map(|p| row(&p.programme.name, &p.odds)));
-    rows.push(row(&format!("again: {}", r.repeat.0), &r.repeat.1));
+    let (compared, gain) = if r.fitted {
+        ("again", "over the recorded test done again")
+    } else {
+        ("for comparison", "over the slow ramp, which a test usually is")
+    };
+    rows.push(row(&format!("{compared}: {}", r.repeat.0), &r.repeat.1));
     rows.extend(r.sensors.iter().map(|s| row(&format!("{} with {}", s.programme, s.sensor), &s.odds)));
     out.push('\n');
     out.push_str(&table(&rows));
-    out.push_str(
+    let _ = writeln!(
+        out,
         "(sigma: what the profile shows of the difference, in standard deviations of the noise; ln odds: expected, of the truth over what may \
-         be taken for it, of the pair that is hardest to tell apart; gain: over the last record's test done again)\n",
+         be taken for it, of the pair that is hardest to tell apart; gain: in ln odds, {gain})"
     );
     out
 }

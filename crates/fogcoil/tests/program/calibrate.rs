@@ -39,6 +39,15 @@ fn a_lot_is_a_design_that_other_commands_read() {
         assert!(low < value && value < high && constant["sigmas"].as_f64().unwrap().abs() < 3.0, "{constant}");
     }
     let units = json["units"].as_array().unwrap();
+    // both fit: what is left of them is their noise; but the meta file names another design, so that neither is called good
+    for unit in units {
+        assert_eq!(unit["good"], false);
+        for channel in ["rate_deg_per_h", "spool_c"] {
+            let [rms, noise] = ["rms", "noise_with_drift"].map(|what| unit["left"][channel][what].as_f64().unwrap());
+            assert!(0.3 * noise < rms && rms < 1.5 * noise, "{channel}: {rms} {noise}");
+        }
+    }
+    assert!(!notes.contains("unit-misfit") && notes.contains("warning: U4907-run1.csv: the meta file says"), "{notes}");
     assert_eq!((units.len(), units[0]["files"].as_array().unwrap().len()), (2, 2));
     // what units of a lot have in common is known better than a unit, and a further unit better than one of the drawing
     let medium = "surroundings.medium.conductivity_w_per_mk";
@@ -47,6 +56,10 @@ fn a_lot_is_a_design_that_other_commands_read() {
     assert!(json["stands_out"].as_array().unwrap().iter().all(|e| e["lot"].as_f64() >= e["drawing"].as_f64()), "{json}");
     // the file has the values, says where they come from, and is a design
     let text = std::fs::read_to_string(folder.path("lot.ron")).unwrap();
+    for says in ["the lot of 2 units, none of which can be called good", "// warning: drawing.ron: a lot of 2", "[other-design]"]
+    {
+        assert!(text.contains(says), "{says}: {text}");
+    }
     assert!(text.contains("by fogcoil calibrate") && text.contains("U4907-run1.csv") && text.contains("correlations:"));
     let case = fogcoil::input::read_coil(&folder.path("lot.ron")).unwrap();
     let conductivity = key(medium).unwrap()["value"].as_f64().unwrap();
@@ -73,6 +86,24 @@ fn a_lot_is_a_design_that_other_commands_read() {
     }
 }
 
+/// Records of another coil, of another size: whatever constants are fitted, much more than noise is left.
+#[test]
+fn units_of_another_design_are_not_called_good() {
+    let folder = Folder::new();
+    folder.write("drawing.ron", std::fs::read_to_string(format!("{ORDINARY}/drawing.ron")).unwrap());
+    let other = std::fs::read_to_string(format!("{ORDINARY}/../A/open/U4615/run1.csv")).unwrap();
+    folder.write("other.csv", other);
+    let output = folder.run(&["calibrate", "drawing.ron", "--unit", "other.csv", "--out", "lot.ron"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let (text, warned) = (stdout(&output), stderr(&output));
+    assert!(text.starts_with("coil-B: the lot of 1 unit, none of which can be called good."), "{text}");
+    assert!(text.contains("does not fit") && text.contains("noise of a row"), "{text}");
+    assert!(!text.contains("smallest effect found, of that without the lot"), "{text}");
+    assert!(warned.contains("warning: other.csv: the design's constants leave") && warned.contains("[unit-misfit]"), "{warned}");
+    let lot = std::fs::read_to_string(folder.path("lot.ron")).unwrap();
+    assert!(lot.contains("other.csv (doubted)") && lot.contains("[unit-misfit]") && lot.contains("[few-units]"), "{lot}");
+}
+
 #[test]
 fn what_cannot_be_calibrated_is_said_at_once() {
     let folder = Folder::new();
@@ -86,6 +117,17 @@ fn what_cannot_be_calibrated_is_said_at_once() {
     refused(&["calibrate", "drawing.ron", "--out", "lot.ron"], "--unit");
     refused(&["calibrate", "drawing.ron", "--unit", "a.csv,,b.csv", "--out", "lot.ron"], "a record has no name");
     refused(&["calibrate", "drawing.ron", "--unit", first, "--unit", first, "--out", "lot.ron"], "same recording");
+    // the second half of a record, its clock set back, proves nothing of what was fitted to the whole
+    let whole = first.split(',').next().unwrap();
+    let text = std::fs::read_to_string(folder.path(whole)).unwrap();
+    let late = text.lines().skip(600).map(|line| {
+        let (time, rest) = line.split_once(',').unwrap();
+        format!("{},{rest}\n", time.parse::<f64>().unwrap() - 11_980.0)
+    });
+    folder.write("half.csv", text.lines().next().unwrap().to_owned() + "\n" + &late.collect::<String>());
+    let says = format!("half.csv: is a part of another recording: all its rows stand in {whole}");
+    refused(&["diagnose", "drawing.ron", "--fit", whole, "--holdout", "half.csv"], &says);
+    refused(&["diagnose", "drawing.ron", "--fit", "half.csv", "--holdout", whole], &says);
     refused(&["calibrate", "drawing.ron", "--unit", first, "--unit", second, "--out", "drawing.ron"], "drawing.ron");
     let soft = std::fs::read_to_string(folder.path("drawing.ron")).unwrap();
     assert!(!soft.contains("mechanics:"));

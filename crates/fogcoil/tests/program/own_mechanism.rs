@@ -71,6 +71,25 @@ fn a_mechanism_with_values_is_added_to_a_simulation() {
 }
 
 #[test]
+fn a_law_that_is_no_number_is_told_by_its_line() {
+    let folder = folder();
+    let values = change(
+        &change(&text(&folder), "0.01))", "0.01), value: Some(0.002))"),
+        "1800.0, 1.0))",
+        "1800.0, 1.0), value: Some(600.0))",
+    );
+    let two = change(&values, "    laws: [", "    laws: [\n        Thermometer(\"0 * (spool - board)\"),\n        ");
+    let broken = change(&two, "size * (spool", "ln(time / tau) / ln(time / tau) * size * (spool");
+    let line = crate::common::line_of(&broken, "ln(time / tau) / ln(time / tau) * size");
+    folder.write("m.ron", &broken);
+    let output = folder.run(&["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv", "--quiet", "--mechanism", "m.ron"]);
+    assert_eq!(output.status.code(), Some(2));
+    let says = format!("m.ron:{line}: laws[1]: the law of `slow-board` is no finite number at 0 s of the profile; bound it");
+    assert!(stderr(&output).contains(&says), "{says}: {}", stderr(&output));
+    assert!(!folder.path("b.csv").exists());
+}
+
+#[test]
 fn what_cannot_be_is_refused_with_line_and_remedy() {
     let folder = folder();
     let refused = |arguments: &[&str], says: &str| {
@@ -96,9 +115,20 @@ fn what_cannot_be_is_refused_with_line_and_remedy() {
     refused(&["diagnose", "coil.ron", "--fit", record, "--mechanism", "damp.ron"], "humidity: the column is missing");
     let recommend = ["recommend", "coil.ron", "--between", "slow-board,nominal", "--mechanism", "damp.ron"];
     refused(&recommend, "the law of `slow-board` names the column humidity, which no programme of the chamber tells");
+    // what simulate runs has values: of a file, or in the design
+    let simulate = ["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv", "--mechanism"];
+    refused(
+        &[&simulate[..], &["debond"]].concat(),
+        "--mechanism: simulate takes the files of your own mechanisms; `debond` is one of the program's: put it into the coil file (the bond of coil and \
+         flange: `mechanics: Opening(...)`), or take the coil file that `fogcoil diagnose --model-out` writes",
+    );
+    refused(&[&simulate[..], &["ratcheting"]].concat(), "(the bond of coil and spool; a coil file has no key for it)");
+    refused(&[&simulate[..], &["debnd"]].concat(), "did you mean `debond`?");
     refused(
         &["explain", "coil.ron"],
-        "coil.ron: is a coil file, but a mechanism's file is read here; `fogcoil new --kind mechanism FILE` writes one",
+        "coil.ron: is a coil file; add --sensitivity S, as it was measured, and the changes that would give it are explained",
     );
+    refused(&["explain", "missing.csv"], "missing.csv: is no file, and no id of a mechanism, a warning or a note; nearest:");
+    refused(&["explain", "p.csv"], "p.csv: is no mechanism's file; give an id, a mechanism's file (*.ron)");
     assert_eq!(text(&folder), include_str!("../../templates/mechanism.ron"), "nothing was overwritten");
 }

@@ -39,6 +39,14 @@ fn a_fast_profile_is_recommended_and_can_be_simulated() {
     assert!(!stderr(&output).contains("modelling"), "the library is in the cache: {}", stderr(&output));
     let r: Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(r["profiles"][0]["decides"], false);
+    for profile in r["profiles"].as_array().unwrap() {
+        assert!(!profile["name"].as_str().unwrap().contains(" 0.00 K/min"), "{profile}");
+    }
+    // without a record nothing is done again
+    let output = folder.run(&between[..4]);
+    let table = stdout(&output);
+    assert!(!table.contains("again") && !table.contains("last record"), "{table}");
+    assert!(table.contains("for comparison: slow ramp") && table.contains("gain: in ln odds, over the slow ramp"), "{table}");
     let says = r["recommendation"].as_str().unwrap();
     assert!(says.starts_with("No profile within the limits") && says.contains("tails' lengths"), "{says}");
 }
@@ -71,6 +79,7 @@ fn what_cannot_be_recommended_is_said_at_once() {
             "`gremlins` is not in this design's library; it holds tail-asymmetry, winding-defect",
         ),
         (&["--between", "nominal,recalibrate"], "a mechanism's"),
+        (&["--between", "tail-asymmetry,drying"], "`drying` is weighed on request: add --mechanism drying"),
         (&["--between", "debond,air-path", "--coldest", "60", "--hottest", "-40"], "--coldest 60 --hottest -40"),
         (&["--between", "debond,air-path", "--fastest", "0"], "--fastest 0"),
         (&["--between", "debond,air-path", "--hours", "nan"], "--hours NaN"),

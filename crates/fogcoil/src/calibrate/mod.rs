@@ -4,21 +4,20 @@
 //! constants is weighed together ([`diagnosis::Lot`]); the design file that comes of it has the lot's values, tolerances of what units differ by, and
 //! correlations of what the records know only together.
 
+mod left;
+mod text;
+
 use coil::{Design, Number, Tolerance, Tolerances};
 use diagnosis::{Active, Believed, ForwardModel, Lot, Observation, Prior, Said, Settled};
 use files::{Note, Remark};
 use mechanisms::{CATALOGUE, Gyro, Library, number_of, with_constant};
 use progress::Step;
-use recording::statistics::normal_quantile;
-use serde_json::{Value, json};
 
 use crate::Error;
 use crate::cache::Cache;
-use crate::input::{CoilCase, Fingerprint, InputError, RecordCase, check_coil, keyed};
-use crate::keys::interval_by_key;
-use crate::output::coil_file;
+use crate::input::{CoilCase, Fingerprint, InputError, RecordCase};
 use crate::prepare::{Record, gyro, library, other_design, ready, refuse_copies};
-use crate::table::{significant, table};
+use left::LeftOfUnit;
 
 /// The last digit to which correlations are written.
 const LEAST_CORRELATION: f64 = 1e-3;
@@ -32,7 +31,7 @@ pub struct Outcome {
     case: CoilCase,
     constants: Vec<Constant>,
     lot: Lot,
-    units: Vec<Vec<Fingerprint>>,
+    units: Vec<Told>,
     /// by how many standard deviations an effect stands out of a unit's records, known from the drawing and from the lot
     effects: Vec<(String, [f64; 2])>,
     notes: Vec<Note>,
@@ -52,6 +51,15 @@ struct Unit {
     gyro: Gyro<'static>,
     fit: diagnosis::Fit,
     records: usize,
+    left: LeftOfUnit,
+}
+
+/// What is told of a unit beside its constants.
+struct Told {
+    files: Vec<Fingerprint>,
+    left: LeftOfUnit,
+    /// nothing speaks against it
+    good: bool,
 }
 
 /// Calibrates the lot of the design `case` from its good `units`, each with its records.
@@ -79,11 +87,14 @@ pub fn calibrate(
         notes.push(Remark::FewUnits.warning(message).at(&case.file));
     }
     let library = library(case, cache, progress)?;
-    let mut fitted = Vec::new();
+    let (mut fitted, mut told) = (Vec::new(), Vec::new());
     for records in units {
         let read: Vec<Record> = records.iter().map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
-        let (unit, doubt) = fit(case, &library, &read, progress)?;
-        notes.extend(doubt.map(|text| Remark::DoubtedUnit.warning(text).at(&records[0].fingerprint.file)));
+        let (unit, doubts) = fit(case, &library, &read, progress)?;
+        let files: Vec<Fingerprint> = records.iter().map(|record| record.fingerprint.clone()).collect();
+        let other = records.iter().any(|record| other_design(case, record).is_some());
+        told.push(Told { left: unit.left, good: doubts.is_empty() && !other, files });
+        notes.extend(doubts.into_iter().map(|note| note.at(&records[0].fingerprint.file)));
         fitted.push(unit);
     }
     let Some(first) = fitted.first() else { return Err(Error::usage("give at least one --unit")) };
@@ -98,21 +109,20 @@ pub fn calibrate(
     let shared: Vec<f64> = constants.iter().map(|c| c.number.shared()).collect();
     let lot = Lot::of(&said, &shared).ok_or_else(not_finite)?;
     let effects = effects(first, &numbers, &lot.further).map_err(failed)?;
-    let units = units.iter().map(|records| records.iter().map(|r| r.fingerprint.clone()).collect()).collect();
-    Ok(Outcome { case: case.clone(), constants, lot, units, effects, notes })
+    Ok(Outcome { case: case.clone(), constants, lot, units: told, effects, notes })
 }
 
 fn not_finite() -> Error {
     Error::Diagnosis("what the units say of the lot is not finite".into())
 }
 
-/// The constants of a unit, nothing else at work; and why it may not be good, if so.
+/// The constants of a unit, nothing else at work; and what speaks against it.
 fn fit(
     case: &CoilCase,
     library: &Library,
     read: &[Record],
     progress: &(dyn Fn(Step) + Sync),
-) -> Result<(Unit, Option<String>), Error> {
+) -> Result<(Unit, Vec<Note>), Error> {
     let drawn = gyro(library, CATALOGUE, read, read.len()).map_err(Error::of_coil(&case.file))?;
     let observations: Vec<Observation> = read.iter().map(|r| r.observed.clone()).collect();
     let numbers: Vec<usize> = (0..read.len()).collect();
@@ -122,7 +132,11 @@ fn fit(
         let id = &drawn.mechanisms()[mechanism].id;
         format!("{id} explains this unit better than its constants do (ln odds {gain:.0} before its prior): is it a good one? See fogcoil diagnose")
     });
-    Ok((Unit { gyro: model.unwrap_or(drawn), fit: recalibrated, records: read.len() }, doubt))
+    let gyro = model.unwrap_or(drawn);
+    let left = LeftOfUnit::of(&gyro, &recalibrated, &observations);
+    let doubts = doubt.map(|text| Remark::DoubtedUnit.warning(text));
+    let doubts = doubts.into_iter().chain(left.misfit().map(|text| Remark::UnitMisfit.warning(text))).collect();
+    Ok((Unit { gyro, fit: recalibrated, records: read.len(), left }, doubts))
 }
 
 /// Those constants of a model that a lot has partly in common.
@@ -189,102 +203,9 @@ impl Outcome {
         }
         (design, tolerances)
     }
-
-    /// The coil file of the lot.
-    ///
-    /// # Errors
-    /// Why a coil file cannot hold it.
-    pub fn file(&self) -> Result<String, Error> {
-        let (design, tolerances) = self.design();
-        let name = format!("{}, calibrated", self.case.name);
-        let unit = |files: &Vec<Fingerprint>| {
-            let names: Vec<String> = files.iter().map(|f| files::shown_path(&f.file)).collect();
-            format!("  {}", names.join(", "))
-        };
-        let heading = format!("{}, the lot of these good units, by fogcoil calibrate:", self.case.name);
-        let told = "Values are fitted to their records; tolerances are of a further unit of the lot, with their correlations.";
-        let comments: Vec<String> =
-            std::iter::once(heading).chain(self.units.iter().map(unit)).chain([told.to_owned()]).collect();
-        let text = coil_file(&name, &design, &tolerances, &comments);
-        check_coil("the lot's design".as_ref(), &text)?;
-        Ok(text)
-    }
-
-    /// Some constants as scripts read them.
-    fn told_json(&self, believed: &Believed) -> Value {
-        let (half, sd) = (half_of_90(), believed.sd());
-        let of = |(k, constant): (usize, &Constant)| {
-            let u = believed.mean[k];
-            let at = [u, u - half * sd[k], u + half * sd[k]].map(|u| constant.prior.value(u));
-            let (key, value, ci90) = interval_by_key(&self.case.design, self.told(believed), &constant.name, at)?;
-            Some(json!({"key": key, "value": value, "ci90": ci90, "sigmas": u}))
-        };
-        self.constants.iter().enumerate().filter_map(of).collect()
-    }
-
-    /// One object, as scripts read it.
-    pub fn json(&self) -> Value {
-        let files = |unit: &Vec<Fingerprint>| unit.iter().map(|f| f.file.display().to_string()).collect::<Vec<_>>();
-        let units = self.units.iter().zip(&self.lot.units);
-        let sd = self.lot.further.sd();
-        let tolerances = self.constants.iter().enumerate().filter_map(|(k, constant)| {
-            let (key, _) = keyed(constant.number, &self.case.design)?;
-            Some(json!({"key": key, "drawing": constant.prior.sd(), "lot": constant.prior.sd() * sd[k]}))
-        });
-        let effects = self.effects.iter().map(|(id, [drawing, lot])| json!({"id": id, "drawing": drawing, "lot": lot}));
-        json!({
-            "constants": self.told_json(&self.lot.common),
-            "units": units
-                .map(|(unit, believed)| json!({"files": files(unit), "constants": self.told_json(believed)}))
-                .collect::<Vec<_>>(),
-            "tolerances": tolerances.collect::<Vec<_>>(),
-            "stands_out": effects.collect::<Vec<_>>(),
-            "notes": self.notes,
-        })
-    }
-
-    /// For people: the lot's constants, each unit's, and what a further unit shows the sooner.
-    pub fn text(&self) -> String {
-        let Lot { common, units, further } = &self.lot;
-        let (half, sd) = (half_of_90(), common.sd());
-        let mut rows = vec![["constant (fitted)", "lot", "90 % interval", "sigma", "tolerance"].map(str::to_owned).to_vec()];
-        rows[0].extend((1..=units.len()).map(|n| format!("unit {n}")));
-        for (k, constant) in self.constants.iter().enumerate() {
-            let u = common.mean[k];
-            let at = |u: f64| constant.prior.value(u);
-            let told = |u: f64| significant(at(u), 4);
-            let mut row = vec![
-                constant.name.clone(),
-                told(u),
-                format!("{} to {}", told(u - half * sd[k]), told(u + half * sd[k])),
-                format!("{u:+.1}"),
-                format!("{} -> {}", significant(constant.prior.sd(), 2), significant(constant.prior.sd() * further.sd()[k], 2)),
-            ];
-            row.extend(units.iter().map(|unit| told(unit.mean[k])));
-            rows.push(row);
-        }
-        let mut found: Vec<&(String, [f64; 2])> = self.effects.iter().filter(|(_, [drawing, _])| *drawing > 0.0).collect();
-        found.sort_by(|a, b| (b.1[1] / b.1[0]).total_cmp(&(a.1[1] / a.1[0])));
-        let effects = found.iter().map(|(id, [drawing, lot])| vec![id.clone(), format!("{:.2}", drawing / lot)]);
-        let head = vec!["mechanism".to_owned(), "smallest effect found, of that without the lot".to_owned()];
-        let effects: Vec<Vec<String>> = std::iter::once(head).chain(effects).collect();
-        format!(
-            "{}: the lot of {} good units. A constant is a factor on the drawing's value; sigma is what the lot deviates by, in tolerances;\n\
-             tolerance: of a unit about the drawing, and of a further unit about the lot.\n\n{}\n{}",
-            self.case.name,
-            units.len(),
-            table(&rows),
-            table(&effects),
-        )
-    }
 }
 
 /// A tolerance to four digits.
 fn rounded(share: f64) -> f64 {
     format!("{share:.3e}").parse().unwrap_or(share)
-}
-
-/// Standard deviations from the middle of a normal density to the ends of its interval of 90 %.
-fn half_of_90() -> f64 {
-    normal_quantile(0.95)
 }
