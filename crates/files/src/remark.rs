@@ -94,6 +94,10 @@ remarks! {
         "A profile has one row.",
         "Nothing can happen in it: the model starts at rest, and the result is one row at rest.",
         "Give rows from the start to the end of what the chamber does.";
+    Fahrenheit "fahrenheit":
+        "A profile's chamber_c starts at what is a room's temperature in degF and none in degC.",
+        "If it is in degF, every change of temperature, and with it the bias, is 1.8 times too large.",
+        "Write (F - 32) / 1.8 if so.";
     Kelvin "kelvin":
         "A profile's chamber_c never falls to what would be usual in degC: it may be in kelvin.",
         "Differences are right all the same; what depends on the temperature itself (transitions, bonds that open) is not.",
@@ -115,6 +119,10 @@ remarks! {
         "A recording lacks the chamber's, the spool's temperature, or the rate.",
         "What that column would tell is not used; without chamber_c there is no diagnosis.",
         "Record it, or name its column with --column KEY=NAME.";
+    UnusedTemperature "unused-temperature":
+        "A recording has columns that seem to be temperatures and are not read, and lacks the chamber's or the spool's.",
+        "As if they were absent: without chamber_c there is no diagnosis, without spool_c heat paths cannot be told apart.",
+        "Say which is which with --column chamber=NAME and --column spool=NAME, or in the map file.";
     MappedColumn "mapped-column":
         "A quantity is read from a column of another name or unit, as the flags or the map file say.",
         "None if it is the right one.",
@@ -123,10 +131,18 @@ remarks! {
         "The name of a recording's column ends in a unit in brackets, and the column is read in another.",
         "Everything that follows is off by the ratio of the units, if the name is right.",
         "Give the unit with --unit KEY=UNIT, or in the map file.";
+    UnknownUnit "unknown-unit":
+        "The name of a recording's column ends in brackets, and what is in them is no unit that is known.",
+        "The column is read in the standard unit: everything that follows is off by the ratio of the units.",
+        "Give the unit with --unit KEY=UNIT and --scale KEY=FACTOR (values are FACTOR units), or unit and scale in the map file.";
     Dates "dates":
         "Instants are dates.",
         "They count in seconds from the first row.",
         "None is needed.";
+    TimesOfDay "times-of-day":
+        "Instants are times of day without a date.",
+        "They count from the first row, and a day is added where they pass midnight; a gap of more than half a day is not seen.",
+        "Record the date too, if the logger can.";
     IntervalDiffers "interval-differs":
         "The rows are not as far apart as the meta file says.",
         "The interval of the rows is used; noise per root hour follows from it.",
@@ -184,6 +200,14 @@ remarks! {
         "A channel's values, or its noise, are not of the size that its unit makes them, or it starts at what another unit makes a room's temperature.",
         "Everything that follows is off by the ratio of the units; a recording whose rate is impossible at rest, or far too small, cannot be used.",
         "Give the unit with --unit KEY=UNIT, or in the map file.";
+    TooFast "too-fast":
+        "The chamber changes by more than 30 K/min for several rows: twice the fastest rate of the standard for chambers (IEC 60068-2-14, Nb).",
+        "If the instants are in another unit, every time constant and rate of change is off by the ratio of the units.",
+        "Give the unit of the instants with --unit time=UNIT, or in the map file.";
+    Span "span":
+        "A recording of many rows lasts less than a minute, or one lasts longer than 100 days.",
+        "If the instants are in another unit, every time constant and rate of change is off by the ratio of the units.",
+        "Give the unit of the instants with --unit time=UNIT, or in the map file.";
     Impossible "impossible":
         "Values lie beyond what physics allows (absolute zero, what a coil survives), or repeat far outside what is plausible: a logger's code \
          for an overload or a lost sensor.",
@@ -206,9 +230,10 @@ remarks! {
         "Noise and slow effects cannot be told from one another, or nothing can be said.",
         "Give a longer recording.";
     Offset "offset":
-        "The median rate is larger than a gyroscope's bias, and the Earth's rate would explain it.",
+        "The median rate is larger than a gyroscope's bias; the Earth's rate would explain it, or even that does not, as the message says.",
         "The offset is fitted; a model's absolute bias is not tested.",
-        "Subtract the Earth's rate along the axis (15.04 deg/h times the sine of the latitude for a vertical one), or accept it.";
+        "Subtract the Earth's rate along the axis (15.04 deg/h times the sine of the latitude for a vertical one), or accept it; \
+         beyond 15.04 deg/h check unit and scale.";
     OtherFinding "other":
         "`check` found something that has no page of its own.",
         "The message says it.",
@@ -360,6 +385,8 @@ impl Remark {
             FindingKind::Saturation { .. } => Self::Saturation,
             FindingKind::Quantised { .. } => Self::Quantised,
             FindingKind::Unit { .. } => Self::Unit,
+            FindingKind::TooFast { .. } => Self::TooFast,
+            FindingKind::Span { .. } => Self::Span,
             FindingKind::Impossible(_) => Self::Impossible,
             FindingKind::Moving { .. } => Self::Moving,
             FindingKind::Start { .. } => Self::Unit,

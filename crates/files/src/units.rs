@@ -147,35 +147,53 @@ pub(crate) struct ColumnUnit {
     pub(crate) scale: f64,
     /// Added after the factor.
     pub(crate) offset: f64,
+    /// Whether it is so rare that nobody is asked for it who did not say it.
+    pub(crate) is_rare: bool,
 }
 
 const fn unit(names: &'static [&'static str], scale: f64, offset: f64) -> ColumnUnit {
-    ColumnUnit { names, scale, offset }
+    ColumnUnit { names, scale, offset, is_rare: false }
+}
+
+const fn rare(names: &'static [&'static str], scale: f64, offset: f64) -> ColumnUnit {
+    ColumnUnit { names, scale, offset, is_rare: true }
 }
 
 /// Units of instants; the standard one, s, first.
-pub(crate) const TIMES: [ColumnUnit; 6] = [
+pub(crate) const TIMES: [ColumnUnit; 7] = [
     unit(&["s"], 1.0, 0.0),
     unit(&["ms"], 1e-3, 0.0),
     unit(&["us", "\u{b5}s", "\u{3bc}s"], 1e-6, 0.0),
     unit(&["ns"], 1e-9, 0.0),
     unit(&["min"], S_PER_MIN, 0.0),
     unit(&["h"], S_PER_H, 0.0),
+    unit(&["d"], 24.0 * S_PER_H, 0.0),
 ];
 
 /// Units of temperatures; the standard one, degC, first.
-pub(crate) const TEMPERATURES: [ColumnUnit; 3] = [
+pub(crate) const TEMPERATURES: [ColumnUnit; 5] = [
     unit(&["degC", "\u{b0}C", "C"], 1.0, 0.0),
     unit(&["K"], 1.0, -273.15),
     unit(&["degF", "\u{b0}F", "F"], 5.0 / 9.0, -160.0 / 9.0),
+    rare(&["mdegC", "m\u{b0}C"], 1e-3, 0.0),
+    rare(&["mK"], 1e-3, -273.15),
 ];
 
 /// Units of rates; the standard one, deg/h, first.
-pub(crate) const RATES: [ColumnUnit; 4] = [
+pub(crate) const RATES: [ColumnUnit; 12] = [
     unit(&["deg/h", "\u{b0}/h", "dph"], 1.0, 0.0),
     unit(&["deg/s", "\u{b0}/s", "dps"], S_PER_H, 0.0),
     unit(&["rad/s"], DEG_PER_H_PER_RAD_PER_S, 0.0),
     unit(&["mrad/s"], 1e-3 * DEG_PER_H_PER_RAD_PER_S, 0.0),
+    rare(&["mdeg/s", "m\u{b0}/s", "mdps"], 1e-3 * S_PER_H, 0.0),
+    rare(&["udeg/s", "\u{b5}\u{b0}/s", "\u{3bc}\u{b0}/s", "\u{b5}deg/s", "\u{3bc}deg/s"], 1e-6 * S_PER_H, 0.0),
+    rare(&["mdeg/h", "m\u{b0}/h"], 1e-3, 0.0),
+    rare(&["deg/min", "\u{b0}/min"], S_PER_H / S_PER_MIN, 0.0),
+    rare(&["urad/s", "\u{b5}rad/s", "\u{3bc}rad/s"], 1e-6 * DEG_PER_H_PER_RAD_PER_S, 0.0),
+    rare(&["nrad/s"], 1e-9 * DEG_PER_H_PER_RAD_PER_S, 0.0),
+    // 3600 in a degree, 3600 s in an hour
+    rare(&["arcsec/s"], 1.0, 0.0),
+    rare(&["rad/h"], DEG_PER_H_PER_RAD_PER_S / S_PER_H, 0.0),
 ];
 
 /// The unit in which a span of time is shown to people: seconds up to five minutes, minutes up to five hours, hours beyond.

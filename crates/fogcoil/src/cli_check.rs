@@ -36,7 +36,7 @@ pub(crate) struct Format {
     /// Name of a column in the file; KEY is time, chamber, spool or rate
     #[arg(long = "column", value_name = "KEY=NAME", value_parser = pair::<String>)]
     columns: Vec<(Key, String)>,
-    /// Unit of a column: s, ms, us, ns, min, h; degC, K, degF; deg/h, deg/s, rad/s, mrad/s (dates need none)
+    /// Unit of a column: s, ms, us, ns, min, h, d; degC, K, degF; deg/h, deg/s, mdeg/s, rad/s, mrad/s, urad/s (dates need none)
     #[arg(long = "unit", value_name = "KEY=UNIT", value_parser = pair::<String>)]
     units: Vec<(Key, String)>,
     /// Units in a count, for a column of counts
@@ -51,12 +51,15 @@ pub(crate) struct Format {
     /// Seconds between rows, for a file without instants
     #[arg(long, value_name = "S")]
     interval: Option<f64>,
+    /// Column of the time of day, where the column of instants holds the date alone
+    #[arg(long, value_name = "NAME")]
+    time_of_day: Option<String>,
 }
 
 impl Format {
     pub(crate) fn options(&self, meta: Option<PathBuf>) -> RecordOptions {
-        let Self { map, columns, units, scales, separator, decimal_comma, interval } = self.clone();
-        RecordOptions { map, meta, columns, units, scales, separator, decimal_comma, interval, further: Vec::new() }
+        let Self { map, columns, units, scales, separator, decimal_comma, interval, time_of_day } = self.clone();
+        RecordOptions { map, meta, columns, units, scales, separator, decimal_comma, interval, time_of_day, further: Vec::new() }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Sound recordings pass; each defect is found, said and, where that is right, taken out of use.
 
 use crate::common::Random;
-use recording::check::{Expectation, Expectations, Finding, FindingKind, Offset, Repair, Report, Severity, Unit, check};
+use recording::check::{Clock, Expectation, Expectations, Finding, FindingKind, Offset, Repair, Report, Severity, Unit, check};
 use recording::{Channel, Error, Recording, Sampling};
 
 const ROWS: usize = 2000;
@@ -33,11 +33,18 @@ fn sound(seed: u64, resolution: f64) -> Sample {
     Sample { time, temperature, rate }
 }
 
+fn clock() -> Clock {
+    let units = [("ms", 1e-3), ("min", 60.0), ("h", 3600.0), ("d", 86_400.0)];
+    let mistaken = units.map(|(name, scale)| Unit { name: name.into(), scale, offset: 0.0 }).to_vec();
+    Clock { span: [60.0, 1e7], usual: 36_000.0, mistaken, key: "time".into() }
+}
+
 fn expectations() -> Expectations {
     let unit = |name: &str, scale: f64, offset: f64| Unit { name: name.into(), scale, offset };
     let temperature = Expectation {
         values: [-120.0, 180.0],
         noise: [1e-3, 1.0],
+        fastest: 0.5,
         mistaken: vec![unit("K", 1.0, -273.15), unit("0.01 degC", 0.01, 0.0)],
         ..Expectation::default()
     };
@@ -49,7 +56,7 @@ fn expectations() -> Expectations {
         essential: true,
         ..Expectation::default()
     };
-    Expectations { channels: vec![temperature, rate], fewest_rows: 100 }
+    Expectations { channels: vec![temperature, rate], fewest_rows: 100, clock: clock() }
 }
 
 impl Sample {
@@ -333,4 +340,34 @@ fn short_and_misshapen() {
     assert!(matches!(new(vec![0.0], vec![channel("a", vec![])]), Error::Length { .. }));
     assert!(matches!(new(vec![0.0], vec![channel("a", vec![0.0]), channel("a", vec![0.0])]), Error::Name(_)));
     assert!(matches!(new(vec![0.0, NAN], vec![]), Error::Value { row: 1, .. }));
+}
+
+/// The unit of the instants is asked for where the chamber is faster than any, or the recording too short or too long.
+#[test]
+fn instants_in_another_unit() {
+    for (scale, kind, unit) in [(60.0, "fast", "min"), (86_400.0, "span", "d"), (1e-3, "span", "ms"), (3600.0, "span", "h")] {
+        let report = altered(|sample| sample.time.iter_mut().for_each(|t| *t /= scale)).report();
+        let found: Vec<(&str, &Vec<String>)> = report
+            .findings
+            .iter()
+            .filter_map(|finding| match &finding.kind {
+                FindingKind::TooFast { candidates, .. } => Some(("fast", candidates)),
+                FindingKind::Span { candidates, .. } => Some(("span", candidates)),
+                _ => None,
+            })
+            .collect();
+        assert!(found.iter().any(|(which, units)| *which == kind && units[0] == unit), "{scale}: {found:?}");
+        let said = format!("; if so, say it: --unit time={unit}");
+        assert!(report.findings.iter().any(|finding| finding.to_string().contains(&said)), "{:?}", report.findings);
+    }
+    // a jump from row to row is none of a chamber, nor is noise in close rows
+    let jump = altered(|sample| add(&mut sample.temperature[1000..], 60.0)).report();
+    assert!(jump.findings.iter().all(|finding| !matches!(finding.kind, FindingKind::TooFast { .. })), "{:?}", jump.findings);
+    let close = altered(|sample| {
+        sample.time.iter_mut().for_each(|t| *t /= 3000.0);
+        sample.temperature = sound(2, 0.01).temperature[..200].iter().copied().cycle().take(ROWS).collect();
+        sample.time.iter_mut().enumerate().for_each(|(n, t)| *t = 0.04 * n as f64);
+    });
+    let close = close.report();
+    assert!(close.findings.iter().all(|finding| !matches!(finding.kind, FindingKind::TooFast { .. })), "{:?}", close.findings);
 }

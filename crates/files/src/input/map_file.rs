@@ -16,19 +16,23 @@ pub(super) struct MapFile {
     pub(super) encoding: String,
     /// Lines above the names of the columns that are not read; those that begin with # need not be counted.
     pub(super) preamble_lines: u32,
+    /// Lines below the names of the columns that are not read: their units.
+    pub(super) lines_below_names: u32,
     /// Between the fields: a character, or `tab`; empty: a comma.
     pub(super) separator: String,
     /// Whether numbers are written like 20,5.
     pub(super) decimal_comma: bool,
     /// Seconds between rows, for a file without instants; 0: it has them.
     pub(super) interval_s: f64,
-    /// The instants: s, ms, us, ns, min, h; dates need no unit.
+    /// The instants: s, ms, us, ns, min, h, d; dates need no unit.
     pub(super) time: ColumnFile,
+    /// The column of the time of day, where that of the instants holds the date alone; empty: there is none.
+    pub(super) time_of_day: String,
     /// The chamber's temperature: degC, K or degF.
     pub(super) chamber: ColumnFile,
     /// The spool's thermometer: degC, K or degF.
     pub(super) spool: ColumnFile,
-    /// The rate: deg/h, deg/s, rad/s or mrad/s.
+    /// The rate: deg/h, deg/s, mdeg/s, rad/s, mrad/s and others.
     pub(super) rate: ColumnFile,
 }
 
@@ -70,6 +74,9 @@ impl MapFile {
         }
         self.decimal_comma |= options.decimal_comma;
         self.interval_s = options.interval.unwrap_or(self.interval_s);
+        if let Some(name) = &options.time_of_day {
+            self.time_of_day.clone_from(name);
+        }
         for (key, name) in &options.columns {
             self.column_mut(*key).column.clone_from(name);
         }
@@ -81,31 +88,16 @@ impl MapFile {
         }
     }
 
-    /// The file's content; `doubts` are said beside the columns that they are about.
-    pub(super) fn text(&self, heading: &str, doubts: &[(Key, String)]) -> String {
-        // text and numbers have nothing that RON cannot say
-        let quoted = |text: &str| to_string(text).unwrap_or_default();
+    /// The file's content; `doubts` are said beside the columns that they are about, `asides` below them.
+    pub(super) fn text(&self, heading: &str, doubts: &[(Key, String)], asides: &[String]) -> String {
         let mut out = heading.lines().fold(String::new(), |out, line| out + "// " + line + "\n") + "(\n";
-        let mut line = |key: &str, value: String| out += &format!("    {key}: {value},\n");
-        if !self.encoding.is_empty() {
-            line("encoding", quoted(&self.encoding));
-        }
-        if self.preamble_lines > 0 {
-            line("preamble_lines", self.preamble_lines.to_string());
-        }
-        if !self.separator.is_empty() {
-            line("separator", quoted(&self.separator));
-        }
-        if self.decimal_comma {
-            line("decimal_comma", "true".into());
-        }
-        if self.interval_s > 0.0 {
-            line("interval_s", format!("{:?}", self.interval_s));
+        for (key, value) in self.dialect() {
+            let _ = writeln!(out, "    {key}: {value},");
         }
         for key in Key::ALL {
             let ColumnFile { column, unit, scale } = self.column(key);
             let texts = [("column", column), ("unit", unit)].into_iter().filter(|(_, text)| !text.is_empty());
-            let mut parts: Vec<String> = texts.map(|(name, text)| format!("{name}: {}", quoted(text))).collect();
+            let mut parts: Vec<String> = texts.map(|(name, text)| format!("{name}: {}", in_quotes(text))).collect();
             if *scale != 0.0 {
                 parts.push(format!("scale: {scale:?}"));
             }
@@ -114,7 +106,32 @@ impl MapFile {
             if !parts.is_empty() || !doubt.is_empty() {
                 let _ = writeln!(out, "    {}: ({}),{doubt}", key.name(), parts.join(", "));
             }
+            if key == Key::Time && !self.time_of_day.is_empty() {
+                let _ = writeln!(out, "    time_of_day: {},", in_quotes(&self.time_of_day));
+            }
+        }
+        for aside in asides {
+            let _ = writeln!(out, "    // {}", aside.replace(char::is_control, " "));
         }
         out + ")\n"
     }
+
+    /// The fields that say how the table is written, but for those that are standard.
+    fn dialect(&self) -> Vec<(&'static str, String)> {
+        let fields = [
+            ("encoding", in_quotes(&self.encoding), !self.encoding.is_empty()),
+            ("preamble_lines", self.preamble_lines.to_string(), self.preamble_lines > 0),
+            ("lines_below_names", self.lines_below_names.to_string(), self.lines_below_names > 0),
+            ("separator", in_quotes(&self.separator), !self.separator.is_empty()),
+            ("decimal_comma", "true".into(), self.decimal_comma),
+            ("interval_s", format!("{:?}", self.interval_s), self.interval_s > 0.0),
+        ];
+        fields.into_iter().filter(|(.., said)| *said).map(|(key, value, _)| (key, value)).collect()
+    }
+}
+
+/// A text as RON writes it.
+pub(super) fn in_quotes(text: &str) -> String {
+    // text has nothing that RON cannot say
+    to_string(text).unwrap_or_default()
 }

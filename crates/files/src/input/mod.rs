@@ -31,7 +31,9 @@ mod quantity;
 mod record;
 mod record_clock;
 mod record_columns;
+mod record_expectations;
 mod record_format;
+mod record_notes;
 mod record_options;
 mod rows;
 mod scanner;
@@ -46,6 +48,7 @@ mod targets;
 mod targets_file;
 mod timestamp;
 mod tolerances;
+mod unit_names;
 mod warnings;
 mod winding_file;
 

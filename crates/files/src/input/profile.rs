@@ -8,6 +8,8 @@ use coil::{Design, Drive, Profile};
 use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::profile_columns::{Columns, TIME};
+use super::record_expectations::ROOM_C;
+use super::record_options::Key;
 use super::rows::{Dialect, Rows};
 use crate::remark::{Note, Remark};
 
@@ -16,7 +18,7 @@ const MOST_ROWS: usize = 20_000_000;
 /// Accepted temperatures \[degC\].
 pub(super) const ABSOLUTE_ZERO_C: f64 = -273.15;
 const MOST_C: f64 = 1000.0;
-/// A chamber that never gets below this \[degC\] is noted as possibly recorded in kelvin.
+/// A chamber that never gets below this \[degC\] is warned of as possibly recorded in kelvin.
 const KELVIN_C: f64 = 180.0;
 /// Latest instant, either side of 0 [s]: 30 000 years, to catch a wrong unit.
 pub(super) const MOST_S: f64 = 1e12;
@@ -178,10 +180,7 @@ fn read(mut rows: Rows, path: &Path, design: &Design, further: &[String]) -> Res
         );
         notes.push(Remark::CloseRows.note(problem).at(path));
     }
-    if courses[0].iter().all(|celsius| *celsius > KELVIN_C) {
-        let problem = format!("chamber_c never falls below {KELVIN_C} degC; if it is in kelvin, subtract 273.15");
-        notes.push(Remark::Kelvin.note(problem).at(path));
-    }
+    notes.extend(other_unit(&courses[0]).map(|note| note.at(path)));
     Ok(ProfileCase {
         drives,
         profile: Profile { time, drives: courses },
@@ -192,6 +191,20 @@ fn read(mut rows: Rows, path: &Path, design: &Design, further: &[String]) -> Res
         between: Between::Linear,
         step: None,
     })
+}
+
+/// What is said of a chamber whose course seems to be in another unit than \[°C\].
+fn other_unit(chamber: &[f64]) -> Option<Note> {
+    if chamber.iter().all(|celsius| *celsius > KELVIN_C) {
+        let problem = format!("chamber_c never falls below {KELVIN_C} degC; if it is in kelvin, subtract 273.15");
+        return Some(Remark::Kelvin.warning(problem));
+    }
+    let (first, fahrenheit) = (*chamber.first()?, Key::Chamber.unit("degF").ok()?);
+    let is_room = |celsius: f64| (ROOM_C[0]..=ROOM_C[1]).contains(&celsius);
+    let mistaken = !is_room(first) && is_room(fahrenheit.scale * first + fahrenheit.offset);
+    let problem =
+        || format!("chamber_c starts at {first} degC; a room has as many degF: if it is in degF, subtract 32 and divide by 1.8");
+    mistaken.then(|| Remark::Fahrenheit.warning(problem()))
 }
 
 /// A column that is read.

@@ -2,16 +2,21 @@
 
 use std::path::Path;
 
+use recording::check::{FindingKind, Severity};
+
 use super::encoding::Encoding;
-use super::map_file::MapFile;
+use super::map_file::{MapFile, in_quotes};
 use super::record::{self, RecordCase};
 use super::record_format::RecordFormat;
 use super::record_options::{Key, RecordOptions};
 use super::rows::quoted;
 use super::sniff::{Sniffed, sniff};
-use super::sniff_columns::{Found, find};
+use super::sniff_columns::{Found, date_and_time, find, holds, unit, unused_temperatures};
 use super::timestamp;
 use crate::Error;
+
+/// Most lines of temperatures that are not used.
+const MOST_ASIDES: usize = 25;
 
 /// A map file for a recording, `RECORD.map.ron`: its content, and the recording as it is read with it.
 ///
@@ -20,45 +25,122 @@ use crate::Error;
 /// # Errors
 /// As [`read_record`](super::read_record), and if the file shows no table.
 pub fn propose_map(path: &Path, options: &RecordOptions) -> Result<(String, RecordCase), Error> {
-    let table = sniff(path)?;
-    let (mut map, doubts) = proposed(&table);
+    let Proposal { mut map, mut doubts, asides } = proposed(&sniff(path)?);
     map.declare(options);
-    let mut format = RecordFormat::of(&map).map_err(|(field, problem)| Error::Usage(format!("{field}: {problem}")))?;
-    format.declare(options).map_err(Error::Usage)?;
-    let case = record::read_as(path, &format, options)?;
+    let case = read(path, &map, options)?;
+    let case = match another_unit(&map, &case) {
+        Some((key, units)) => {
+            let standard = key.units()[0].names[0];
+            let others: String = units[1..].iter().map(|other| format!(", or {other}")).collect();
+            doubts.retain(|(of, doubt)| *of != key || doubt.starts_with("or "));
+            doubts.insert(0, (key, format!("the values are not of the size of {standard}: taken as {}{others}", units[0])));
+            map.column_mut(key).unit.clone_from(&units[0]);
+            read(path, &map, options)?
+        }
+        None => case,
+    };
     let file = path.file_name().unwrap_or_default().to_string_lossy();
     let heading = format!("How {} is read, proposed by `fogcoil check --write-map`: see whether it is right.", quoted(&file));
-    Ok((map.text(&heading, &doubts), case))
+    Ok((map.text(&heading, &doubts, &asides), case))
 }
 
-/// The map that a table suggests, and what is not sure of it.
-fn proposed(table: &Sniffed) -> (MapFile, Vec<(Key, String)>) {
+fn read(path: &Path, map: &MapFile, options: &RecordOptions) -> Result<RecordCase, Error> {
+    let mut format = RecordFormat::of(map).map_err(|(field, problem)| Error::Usage(format!("{field}: {problem}")))?;
+    format.declare(options).map_err(Error::Usage)?;
+    record::read_as(path, &format, options)
+}
+
+/// Another unit that a rate has to be in, where nothing says its unit, and those that it may be in, the likeliest first.
+fn another_unit(map: &MapFile, case: &RecordCase) -> Option<(Key, Vec<String>)> {
+    let rate = map.column(Key::Rate);
+    let said = !rate.unit.is_empty() || rate.scale != 0.0;
+    let units = case.report.findings.iter().find_map(|finding| match &finding.kind {
+        FindingKind::Unit { candidates, .. } if finding.severity == Severity::Error && !candidates.is_empty() => Some(candidates),
+        _ => None,
+    });
+    units.filter(|_| !said).map(|units| (Key::Rate, units.clone()))
+}
+
+/// The map that a table suggests.
+struct Proposal {
+    map: MapFile,
+    /// What is not sure of a column.
+    doubts: Vec<(Key, String)>,
+    /// What may be in the map.
+    asides: Vec<String>,
+}
+
+fn proposed(table: &Sniffed) -> Proposal {
     let skipped = u32::try_from(table.preamble).unwrap_or(u32::MAX);
     let mut map = MapFile {
         encoding: if table.encoding == Encoding::Utf8 { String::new() } else { table.encoding.name().into() },
         preamble_lines: skipped,
+        lines_below_names: u32::from(!table.units.is_empty()),
         separator: if table.separator == "," { String::new() } else { table.separator.into() },
         decimal_comma: table.decimal_comma,
         ..MapFile::default()
     };
-    let mut doubts = Vec::new();
+    let (mut doubts, mut taken) = (Vec::new(), Vec::new());
     for key in Key::ALL {
-        let Some(Found { column, unit, others }) = find(table, key) else { continue };
-        let (name, standard) = (&table.names[column], key.units()[0].names[0]);
-        let dates = key == Key::Time && table.rows.iter().all(|row| timestamp::date(&row[column]).is_some());
-        let of = map.column_mut(key);
-        if name != key.standard() {
-            of.column.clone_from(name);
-        }
-        match unit.filter(|_| !dates) {
-            Some(unit) if unit != standard => of.unit = unit.into(),
-            None if !dates && name != key.standard() => doubts.push((key, format!("its name says no unit: taken as {standard}"))),
-            _ => {}
-        }
-        if !others.is_empty() {
-            let others: Vec<String> = others.iter().map(|other| quoted(&table.names[*other])).collect();
-            doubts.push((key, format!("or {}", others.join(" or "))));
+        let two = date_and_time(table).filter(|_| key == Key::Time);
+        let found = find(table, key);
+        if let Some((day, time)) =
+            two.filter(|(day, time)| found.as_ref().is_none_or(|found| [*day, *time].contains(&found.column)))
+        {
+            map.time.column.clone_from(&table.names[day]);
+            map.time_of_day.clone_from(&table.names[time]);
+        } else if let Some(found) = found {
+            propose_column(table, key, &found, &mut map, &mut doubts);
+            taken.push(found.column);
         }
     }
-    (map, doubts)
+    let asides = asides(table, &map, &taken);
+    Proposal { map, doubts, asides }
+}
+
+/// Puts a column that was found into the map, and what is not sure of it among the doubts.
+fn propose_column(table: &Sniffed, key: Key, found: &Found, map: &mut MapFile, doubts: &mut Vec<(Key, String)>) {
+    let Found { column, unit, foreign, others } = found;
+    let (name, standard) = (&table.names[*column], key.units()[0].names[0]);
+    let is_instant = |field: &str| timestamp::date(field).is_some() || timestamp::time_of_day(field).is_some();
+    let dates = key == Key::Time && holds(table, *column, is_instant);
+    let of = map.column_mut(key);
+    if name != key.standard() {
+        of.column.clone_from(name);
+    }
+    match unit.filter(|_| !dates) {
+        Some(unit) if unit != standard => of.unit = unit.into(),
+        None if !dates && name != key.standard() => doubts.push((key, no_unit(foreign.as_deref(), standard))),
+        _ => {}
+    }
+    if !others.is_empty() {
+        let others: Vec<String> = others.iter().map(|other| quoted(&table.names[*other])).collect();
+        doubts.push((key, format!("or {}", others.join(" or "))));
+    }
+}
+
+/// Temperatures that nothing says whose they are, as lines of the map for those that are wanted.
+fn asides(table: &Sniffed, map: &MapFile, taken: &[usize]) -> Vec<String> {
+    let has = |key: Key| !map.column(key).column.is_empty() || table.names.iter().any(|name| name == key.standard());
+    let unused = unused_temperatures(table, taken);
+    let line = |key: Key, column: usize| {
+        let (name, standard) = (&table.names[column], key.units()[0].names[0]);
+        let unit = unit(table, column, key).filter(|unit| *unit != standard);
+        let unit = unit.map_or(String::new(), |unit| format!(", unit: {}", in_quotes(unit)));
+        format!("{}: (column: {}{unit}),", key.name(), in_quotes(name))
+    };
+    let wanted = [Key::Chamber, Key::Spool].into_iter().filter(|key| !has(*key));
+    let lines: Vec<String> =
+        wanted.flat_map(|key| unused.iter().map(move |column| (key, *column))).map(|(key, column)| line(key, column)).collect();
+    let heading =
+        (!lines.is_empty()).then(|| "temperatures that are not used; take the // from the lines that are right:".to_owned());
+    heading.into_iter().chain(lines).take(MOST_ASIDES).collect()
+}
+
+/// What is said of a column whose name has no unit, or in its place something that is none.
+fn no_unit(foreign: Option<&str>, standard: &str) -> String {
+    match foreign {
+        Some(text) => format!("{} is no unit here: taken as {standard}; write unit: ..., scale: ...", quoted(text)),
+        None => format!("its name says no unit: taken as {standard}"),
+    }
 }

@@ -2,43 +2,24 @@
 
 use std::path::{Path, PathBuf};
 
-use recording::check::{Expectation, Expectations, Offset, Report, Severity, check};
+use recording::check::{Report, Severity, check};
 use recording::{Channel, Recording, Sampling, Seconds};
 
 use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::meta::{self, Meta};
-use super::profile::ABSOLUTE_ZERO_C;
 use super::record_clock::Clock;
 use super::record_columns::RecordColumns;
+use super::record_expectations::{expectations, possible};
 use super::record_format::RecordFormat;
+use super::record_notes::{interval_note, notes};
 use super::record_options::{Key, RecordOptions};
-use super::rows::{NOT_UTF8, Rows, quoted};
+use super::rows::{NOT_UTF8, Rows};
 use crate::Error;
-use crate::remark::{Note, Remark};
+use crate::remark::Note;
 
 /// Most rows: what fits in a gigabyte with its checks.
 const MOST_ROWS: usize = 10_000_000;
-/// Rows below which a recording is noted as short.
-const FEW_ROWS: usize = 100;
-/// Where temperatures may lie \[°C\].
-const TEMPERATURE_C: [f64; 2] = [-100.0, 200.0];
-/// Temperatures \[°C\] that a sensor on a coil can tell: from absolute zero to where polyimide, the most resistant polymer on a fibre, decomposes.
-const POSSIBLE_C: [f64; 2] = [ABSOLUTE_ZERO_C, 400.0];
-/// Rooms \[°C\].
-const ROOM_C: [f64; 2] = [15.0, 30.0];
-/// The Earth's rate \[deg/h\] with two parts in a thousand (IERS Conventions 2010: 7.292115e-5 rad/s).
-const EARTH_DEG_PER_H: f64 = 15.041 * 1.002;
-/// Where rates may lie at rest \[deg/h\]: a hundred times the Earth's, far beyond an optical gyro's bias.
-const RATE_DEG_PER_H: [f64; 2] = [-100.0 * EARTH_DEG_PER_H, 100.0 * EARTH_DEG_PER_H];
-/// Rates \[deg/h\] that a gyro can tell: some thousand degrees a second.
-const POSSIBLE_DEG_PER_H: [f64; 2] = [-1e8, 1e8];
-/// Noise below this is not that of a gyro's sample \[deg/h\].
-const NOISE_DEG_PER_H: [f64; 2] = [2e-5, 3600.0];
-/// Rates that never reach this \[deg/h\] would, in deg/s, never reach the Earth's.
-const SMALL_DEG_PER_H: f64 = EARTH_DEG_PER_H / 3600.0;
-/// A constant offset above this is no bias of the gyros that this program is for \[deg/h\].
-const OFFSET_DEG_PER_H: f64 = 0.5;
 
 /// A recording that has been read and checked; nothing in it was altered but units.
 #[derive(Debug, Clone, PartialEq)]
@@ -122,12 +103,15 @@ fn known(meta: Option<PathBuf>) -> Result<Option<(PathBuf, Meta)>, InputError> {
 fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<(PathBuf, Meta)>) -> Result<RecordCase, Error> {
     rows.header("time_s,chamber_c,spool_c,rate_deg_per_h")?;
     let columns = RecordColumns::read(&rows, format)?;
-    let (recording, relative) = read_rows(&mut rows, &columns, format)?;
-    let report = check(&recording, &expectations(&recording, format));
+    for _ in 0..format.dialect.below {
+        rows.advance()?;
+    }
+    let (recording, dates) = read_rows(&mut rows, &columns, format)?;
+    let report = check(&recording, &expectations(&recording, format, dates.is_some()));
     let [interval, span] = report.instants.as_ref().map_or([0.0; 2], |instants| [instants.interval, instants.span]);
     let meta = meta.map(|(path, meta)| fits(&path, meta, span)).transpose()?;
     let averaging = meta.as_ref().map(|meta| meta.sample_interval_s).filter(|seconds| *seconds > 0.0).unwrap_or(interval);
-    let mut notes = notes(&columns, format, relative);
+    let mut notes = notes(&columns, format, dates);
     notes.extend(meta.as_ref().and_then(|meta| interval_note(meta, interval)));
     Ok(RecordCase { recording, report, averaging, meta, notes, fingerprint: rows.fingerprint() })
 }
@@ -142,8 +126,8 @@ fn fits(path: &Path, meta: Meta, span: f64) -> Result<Meta, InputError> {
     Err(InputError::whole(path, problem, "give the seconds over which a rate is a mean, or leave the field out"))
 }
 
-/// The recording, and whether its instants count from its first row.
-fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) -> Result<(Recording, bool), InputError> {
+/// The recording, and what is to be said of its instants.
+fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) -> Result<(Recording, Option<Note>), InputError> {
     let channels: Vec<(Key, usize)> =
         [Key::Chamber, Key::Spool, Key::Rate].into_iter().filter_map(|key| Some((key, columns.column(key)?))).collect();
     let mut clock = Clock::new(columns, format);
@@ -153,6 +137,9 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
     let mut time: Vec<f64> = Vec::new();
     while rows.advance()? {
         let expected = columns.names.len();
+        if rows.count() != expected {
+            rows.check_commas()?;
+        }
         rows.check_count(expected, " ", |_, found| count_remedy(found, expected))?;
         if time.len() == MOST_ROWS {
             return Err(rows.fault(None, format!("more than {MOST_ROWS} rows"), "split the recording, or average it"));
@@ -171,6 +158,7 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
             values.push(rows.value(*column, &columns.names[*column])?.unwrap_or(f64::NAN));
         }
     }
+    rows.check_commas()?;
     for (values, impossible) in values.iter().zip(impossible) {
         // of fewer, `check` says that they are not used
         let present = values.iter().filter(|value| !value.is_nan()).count();
@@ -195,12 +183,7 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
     });
     let channels = channels.iter().zip(values).map(channel).chain(beside).collect();
     let recording = Recording::new(time, channels).map_err(|error| rows.whole_fault(&error.to_string(), ""))?;
-    Ok((recording, clock.counts_dates()))
-}
-
-/// What no value is beyond, in the standard unit.
-fn possible(key: Key) -> [f64; 2] {
-    if key == Key::Rate { POSSIBLE_DEG_PER_H } else { POSSIBLE_C }
+    Ok((recording, clock.note()))
 }
 
 /// The complaint about a value that is impossible.
@@ -220,79 +203,4 @@ fn count_remedy(found: usize, expected: usize) -> &'static str {
     } else {
         "complete the row (a missing value is an empty field), or remove it"
     }
-}
-
-/// What a gyro's record holds.
-fn expectations(recording: &Recording, format: &RecordFormat) -> Expectations {
-    let of = |channel: &Channel| {
-        // of a further column nothing is expected
-        let Some(key) = Key::ALL.into_iter().find(|key| key.standard() == channel.name) else { return Expectation::default() };
-        let mistaken = format.column(key).mistaken(key);
-        if key != Key::Rate {
-            // who says the unit knows where the recording starts
-            let start = if format.column(key).is_standard(key) { ROOM_C } else { Expectation::default().start };
-            return Expectation { values: TEMPERATURE_C, possible: possible(key), start, mistaken, ..Expectation::default() };
-        }
-        let of = format!("Earth's rate not removed (up to {:.2} deg/h times the sine of the latitude)", EARTH_DEG_PER_H / 1.002);
-        Expectation {
-            values: RATE_DEG_PER_H,
-            possible: possible(key),
-            noise: NOISE_DEG_PER_H,
-            least_size: SMALL_DEG_PER_H,
-            mistaken,
-            offset: Some(Offset { largest: OFFSET_DEG_PER_H, explained: EARTH_DEG_PER_H, of }),
-            essential: true,
-            ..Expectation::default()
-        }
-    };
-    Expectations { channels: recording.channels().iter().map(of).collect(), fewest_rows: FEW_ROWS }
-}
-
-fn notes(columns: &RecordColumns, format: &RecordFormat, relative: bool) -> Vec<Note> {
-    let mut notes = Vec::new();
-    for key in Key::ALL {
-        let Some(column) = columns.column(key) else {
-            notes.push(if key == Key::Time {
-                Remark::DeclaredInterval.note("there is no column of instants: the interval that was declared stands for it")
-            } else {
-                let message = format!("there is no column {}; a model can do without it, less surely", key.standard());
-                Remark::AbsentColumn.note(message)
-            });
-            continue;
-        };
-        let (name, form) = (&columns.names[column], format.column(key));
-        let standard = key.units()[0];
-        if name != key.standard() || form.unit != standard || form.count != 1.0 {
-            let counts = if form.count == 1.0 { String::new() } else { format!("counts of {} ", form.count) };
-            let unit = form.unit.names[0];
-            let message = format!("{} is read from the column {}, in {counts}{unit}", key.name(), quoted(name));
-            notes.push(Remark::MappedColumn.note(message));
-        }
-        if let Some(named) = key.unit_in(name).filter(|named| *named != form.unit) {
-            let (named, unit, key) = (named.names[0], form.unit.names[0], key.name());
-            let message =
-                format!("the column {} is read in {unit}; if its name is right, add --unit {key}={named}", quoted(name));
-            notes.push(Remark::UnitInName.warning(message));
-        }
-    }
-    if relative {
-        notes.push(Remark::Dates.note("instants are dates; they count from the first row"));
-    }
-    match columns.ignored()[..] {
-        [] => {}
-        [name] => notes.push(Remark::IgnoredColumn.note(format!("the column {} is not used", quoted(name)))),
-        ref names => {
-            let names: Vec<String> = names.iter().map(|name| quoted(name)).collect();
-            let message = format!("{} columns are not used: {}", names.len(), names.join(", "));
-            notes.push(Remark::IgnoredColumn.note(message));
-        }
-    }
-    notes
-}
-
-fn interval_note(meta: &Meta, interval: f64) -> Option<Note> {
-    let nominal = meta.sample_interval_s;
-    let differs = nominal > 0.0 && interval > 0.0 && (interval / nominal - 1.0).abs() > 0.02;
-    let message = || format!("the rows are {} s apart, the meta file says {nominal} s", Seconds(interval));
-    differs.then(|| Remark::IntervalDiffers.note(message()))
 }

@@ -1,4 +1,6 @@
-//! The instants of a recording: from a column of seconds, from dates, or from the rows' number.
+//! The instants of a recording: from a column of seconds, from dates, from times of day, or from the rows' number.
+
+use std::borrow::Cow;
 
 use super::InputError;
 use super::profile::MOST_S;
@@ -6,23 +8,50 @@ use super::record_columns::RecordColumns;
 use super::record_format::RecordFormat;
 use super::record_options::Key;
 use super::rows::{Rows, quoted};
-use super::timestamp::{self, Date, FORMS, is_ambiguous};
+use super::timestamp::{self, Date, FORMS, is_ambiguous, is_day, time_of_day};
+use super::unit_names::spelled;
+use crate::remark::{Note, Remark};
+
+/// Seconds of a day.
+const DAY_S: f64 = 86_400.0;
 
 pub(super) struct Clock<'a> {
     column: Option<usize>,
+    time_of_day: Option<usize>,
     format: &'a RecordFormat,
-    /// First instant of dates, from which the others count.
-    first: Option<Date>,
+    form: Form,
+}
+
+/// How instants are written, as the first row says.
+#[derive(Clone, Copy, PartialEq)]
+enum Form {
+    Numbers,
+    /// Since the first.
+    Dates(Date),
+    /// Seconds of the day of the first row and of the last, and of the days between \[s\].
+    Times {
+        first: f64,
+        last: f64,
+        days: f64,
+    },
 }
 
 impl<'a> Clock<'a> {
     pub(super) fn new(columns: &RecordColumns, format: &'a RecordFormat) -> Self {
-        Self { column: columns.column(Key::Time), format, first: None }
+        Self { column: columns.column(Key::Time), time_of_day: columns.time_of_day, format, form: Form::Numbers }
     }
 
-    /// Whether instants are dates.
-    pub(super) fn counts_dates(&self) -> bool {
-        self.first.is_some()
+    /// What is to be said of instants that are no numbers.
+    pub(super) fn note(&self) -> Option<Note> {
+        match self.form {
+            Form::Numbers => None,
+            Form::Dates(_) => Some(Remark::Dates.note("instants are dates; they count from the first row")),
+            Form::Times { .. } => {
+                let text =
+                    "instants are times of day; they count from the first row, and a day is added where they pass midnight";
+                Some(Remark::TimesOfDay.note(text))
+            }
+        }
     }
 
     /// The instant of row `number` \[s\].
@@ -39,40 +68,72 @@ impl<'a> Clock<'a> {
     }
 
     fn of_column(&mut self, rows: &Rows, column: usize, name: &str, number: usize) -> Result<f64, InputError> {
-        let text = rows.field(column);
-        if (number == 0 || self.first.is_some())
-            && let Some(date) = timestamp::date(text)
-        {
-            return self
-                .of_date(date)
-                .map_err(|(problem, remedy)| rows.fault(Some(name), format!("{} {problem}", quoted(text)), remedy));
+        let text = match self.time_of_day {
+            Some(clock) => Cow::Owned(format!("{} {}", rows.field(column), rows.field(clock))),
+            None => Cow::Borrowed(rows.field(column)),
+        };
+        if number == 0 {
+            self.form = first(&text);
         }
-        if self.first.is_some() {
-            let problem = format!("{} is not a date and time like that of the first row", quoted(text));
-            return Err(rows.fault(Some(name), problem, format!("write it like {FORMS}")));
-        }
-        match rows.value(column, name).map_err(|error| not_an_instant(error, text))? {
-            Some(value) => Ok(self.format.column(Key::Time).standard(value)),
-            None => Err(rows.fault(Some(name), "is empty", "every row needs an instant; remove the row")),
+        let fault = |(problem, remedy): (&str, &str)| rows.fault(Some(name), format!("{} {problem}", quoted(&text)), remedy);
+        let unlike = |what: &str| {
+            let problem = format!("{} is not {what} like that of the first row", quoted(&text));
+            rows.fault(Some(name), problem, format!("write it like {FORMS}"))
+        };
+        match self.form {
+            Form::Dates(first) => {
+                let date = timestamp::date(&text).ok_or_else(|| unlike("a date and time"))?;
+                self.of_date(first, date).map_err(fault)
+            }
+            Form::Times { first, last, days } => {
+                let now = time_of_day(&text).ok_or_else(|| unlike("a time of day"))?;
+                self.check_unit("is a time of day, which has no unit or scale").map_err(fault)?;
+                // half a day back is midnight
+                let days = if now < last - DAY_S / 2.0 { days + DAY_S } else { days };
+                self.form = Form::Times { first, last: now, days };
+                Ok(days + now - first)
+            }
+            Form::Numbers if self.time_of_day.is_some() => Err(not_a_date(rows, name, &text)),
+            Form::Numbers => match rows.value(column, name).map_err(|error| not_an_instant(error, &text))? {
+                Some(value) => Ok(self.format.column(Key::Time).standard(value)),
+                None => Err(rows.fault(Some(name), "is empty", "every row needs an instant; remove the row")),
+            },
         }
     }
 
+    /// Refuses unit and scale of instants that have none; an error is problem and remedy.
+    fn check_unit(&self, problem: &'static str) -> Result<(), (&'static str, &'static str)> {
+        let remedy = "leave out --unit time and --scale time (unit and scale in the map file)";
+        if self.format.column(Key::Time).is_standard(Key::Time) { Ok(()) } else { Err((problem, remedy)) }
+    }
+
     /// Seconds since the first date; an error is problem and remedy.
-    fn of_date(&mut self, date: Date) -> Result<f64, (&'static str, &'static str)> {
+    fn of_date(&self, first: Date, date: Date) -> Result<f64, (&'static str, &'static str)> {
         if !date.exists {
             return Err(("is a day that its month does not have", "check day and month"));
         }
-        if !self.format.column(Key::Time).is_standard(Key::Time) {
-            let remedy = "leave out --unit time and --scale time (unit and scale in the map file)";
-            return Err(("is a date, which has no unit or scale", remedy));
-        }
-        let first = *self.first.get_or_insert(date);
+        self.check_unit("is a date, which has no unit or scale")?;
         match (first.is_zoned, date.is_zoned) {
             (true, false) => Err(("has no zone, but the first instant has one", "give every instant its zone, or none")),
             (false, true) => Err(("has a zone, but the first instant has none", "give every instant its zone, or none")),
             _ => Ok(date.seconds - first.seconds),
         }
     }
+}
+
+/// How the first instant is written.
+fn first(text: &str) -> Form {
+    match (timestamp::date(text), time_of_day(text)) {
+        (Some(date), _) => Form::Dates(date),
+        (None, Some(first)) => Form::Times { first, last: first, days: 0.0 },
+        (None, None) => Form::Numbers,
+    }
+}
+
+/// The complaint about date and time of day in two columns that are none.
+fn not_a_date(rows: &Rows, name: &str, text: &str) -> InputError {
+    let error = rows.fault(Some(name), format!("{} is not a date and a time of day", quoted(text)), "");
+    not_an_instant(error, text)
 }
 
 /// The complaint about a field that is no number, where it may be a date.
@@ -85,6 +146,12 @@ fn not_an_instant(error: InputError, text: &str) -> InputError {
     } else {
         error.problem
     };
-    let remedy = format!("write seconds like 20.5, or dates like {FORMS}; with no column of instants, --interval SECONDS");
+    let remedy = if is_day(text) {
+        "if the time of day stands in a column of its own, name it: --time-of-day NAME (time_of_day in the map file)".into()
+    } else if spelled(text, Key::Time).is_some() {
+        "if the line holds the units, let `fogcoil check RECORD --write-map` find it, or write lines_below_names: 1 into a map file".into()
+    } else {
+        format!("write seconds like 20.5, or dates like {FORMS}; with no column of instants, --interval SECONDS")
+    };
     InputError { problem, remedy, ..error }
 }

@@ -11,6 +11,8 @@ pub(super) struct RecordColumns {
     pub(super) names: Vec<String>,
     /// Column of each key; of the temperatures, and of the time where an interval stands for it, `None` if there is none.
     at: [Option<usize>; 4],
+    /// Column of the time of day, where that of the time holds the date alone.
+    pub(super) time_of_day: Option<usize>,
     /// Further columns.
     pub(super) further: Vec<usize>,
 }
@@ -42,8 +44,13 @@ impl RecordColumns {
                 _ => return Err(rows.fault(Some(name), "the column is there more than once", "rename all but one")),
             };
         }
-        let further = format.further.iter().map(|name| further(rows, name, &names)).collect::<Result<_, _>>()?;
-        Ok(Self { names, at, further })
+        let beside = |name: &String, who| named(rows, name, &names, who);
+        let further = format.further.iter().map(|name| beside(name, "a mechanism's file names this one"));
+        let further = further.collect::<Result<_, _>>()?;
+        let time_of_day = format.time_of_day.as_ref();
+        let time_of_day =
+            time_of_day.map(|name| beside(name, "--time-of-day (time_of_day in the map file) names this one")).transpose()?;
+        Ok(Self { names, at, time_of_day, further })
     }
 
     pub(super) fn column(&self, key: Key) -> Option<usize> {
@@ -51,19 +58,22 @@ impl RecordColumns {
     }
 
     pub(super) fn ignored(&self) -> Vec<&str> {
-        let unused = |column: &usize| !self.at.contains(&Some(*column)) && !self.further.contains(column);
+        let unused = |column: &usize| {
+            let some = Some(*column);
+            !self.at.contains(&some) && self.time_of_day != some && !self.further.contains(column)
+        };
         let names = (0..self.names.len()).filter(unused).map(|column| self.names[column].as_str());
         names.filter(|name| !name.is_empty()).collect()
     }
 }
 
-/// The column of this name that a mechanism needs.
-fn further(rows: &Rows, name: &str, names: &[String]) -> Result<usize, InputError> {
+/// The column of this name; `who` asks for it.
+fn named(rows: &Rows, name: &str, names: &[String], who: &str) -> Result<usize, InputError> {
     let found: Vec<usize> = (0..names.len()).filter(|&column| names[column] == name).collect();
     match found[..] {
         [column] => Ok(column),
         [] => {
-            let remedy = format!("the columns here are {}; a mechanism's file names this one", shown(names));
+            let remedy = format!("the columns here are {}; {who}", shown(names));
             Err(rows.fault(Some(name), "the column is missing", remedy))
         }
         _ => Err(rows.fault(Some(name), "the column is there more than once", "rename all but one")),

@@ -30,6 +30,8 @@ pub(super) struct RecordFormat {
     /// Seconds between rows, for a file without instants.
     pub(super) interval: Option<f64>,
     pub(super) columns: [ColumnFormat; 4],
+    /// Column of the time of day, where the instants' column holds the date alone.
+    pub(super) time_of_day: Option<String>,
     /// Names of further columns that are read as they stand.
     pub(super) further: Vec<String>,
 }
@@ -40,6 +42,8 @@ pub(super) struct ColumnFormat {
     pub(super) unit: ColumnUnit,
     /// Units in a count; 1 for a column of values.
     pub(super) count: f64,
+    /// Whether the user, or a map file, says unit or scale.
+    pub(super) is_said: bool,
 }
 
 impl RecordFormat {
@@ -55,8 +59,8 @@ impl RecordFormat {
     }
 
     pub(super) fn standard() -> Self {
-        let columns = Key::ALL.map(|key| ColumnFormat { name: None, unit: key.units()[0], count: 1.0 });
-        Self { dialect: Dialect::STANDARD, interval: None, columns, further: Vec::new() }
+        let columns = Key::ALL.map(|key| ColumnFormat { name: None, unit: key.units()[0], count: 1.0, is_said: false });
+        Self { dialect: Dialect::STANDARD, interval: None, columns, time_of_day: None, further: Vec::new() }
     }
 
     fn from_file(path: &Path) -> Result<Self, InputError> {
@@ -78,12 +82,14 @@ impl RecordFormat {
             format.dialect.encoding = encoding(&file.encoding).map_err(at("encoding".into()))?;
         }
         format.dialect.preamble = file.preamble_lines.into();
+        format.dialect.below = file.lines_below_names;
+        format.time_of_day = Some(file.time_of_day.clone()).filter(|name| !name.is_empty());
         format.interval = interval(file.interval_s).map_err(at("interval_s".into()))?;
         for (key, column) in Key::ALL.into_iter().zip([&file.time, &file.chamber, &file.spool, &file.rate]) {
             let format = &mut format.columns[key as usize];
             format.name = Some(column.column.clone()).filter(|name| !name.is_empty());
             if !column.unit.is_empty() {
-                format.unit = key.unit(&column.unit).map_err(at(format!("{}.unit", key.name())))?;
+                format.set_unit(key.unit(&column.unit).map_err(at(format!("{}.unit", key.name())))?);
             }
             if column.scale != 0.0 {
                 format.set_count(column.scale).map_err(at(format!("{}.scale", key.name())))?;
@@ -102,6 +108,9 @@ impl RecordFormat {
         if let Some(seconds) = options.interval {
             self.interval = interval(seconds).map_err(|problem| format!("--interval: {problem}"))?;
         }
+        if options.time_of_day.is_some() {
+            self.time_of_day.clone_from(&options.time_of_day);
+        }
         once("--column", &options.columns)?;
         once("--unit", &options.units)?;
         once("--scale", &options.scales)?;
@@ -109,13 +118,10 @@ impl RecordFormat {
             self.columns[*key as usize].name = Some(name.clone());
         }
         for (key, unit) in &options.units {
-            self.columns[*key as usize].unit = key.unit(unit).map_err(|problem| format!("--unit: {problem}"))?;
+            self.columns[*key as usize].set_unit(key.unit(unit).map_err(|problem| format!("--unit: {problem}"))?);
         }
         for (key, scale) in &options.scales {
             self.columns[*key as usize].set_count(*scale).map_err(|problem| format!("--scale: {problem}"))?;
-        }
-        if self.dialect.separator == b',' && self.dialect.decimal == ',' {
-            return Err("a comma cannot separate the fields and the decimals; add --separator ';'".into());
         }
         Ok(())
     }
@@ -126,11 +132,15 @@ impl RecordFormat {
 }
 
 impl ColumnFormat {
+    fn set_unit(&mut self, unit: ColumnUnit) {
+        (self.unit, self.is_said) = (unit, true);
+    }
+
     fn set_count(&mut self, scale: f64) -> Result<(), String> {
         if scale == 0.0 || !scale.is_finite() {
             return Err(format!("{scale} is not a factor; give units per count, e.g. 0.01"));
         }
-        self.count = scale;
+        (self.count, self.is_said) = (scale, true);
         Ok(())
     }
 
@@ -145,7 +155,7 @@ impl ColumnFormat {
 
     /// The key's other units, in which the column may be: from what was taken for the standard unit to what then is.
     pub(super) fn mistaken(&self, key: Key) -> Vec<Unit> {
-        let others = key.units().iter().filter(|unit| **unit != self.unit);
+        let others = key.units().iter().filter(|unit| **unit != self.unit && !unit.is_rare);
         let of = |unit: &ColumnUnit| {
             let scale = unit.scale / self.unit.scale;
             Unit { name: unit.names[0].into(), scale, offset: unit.offset - scale * self.unit.offset }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use super::profile_columns::TIME;
+use super::unit_names::{bracketed, spelled};
 use crate::units::{ColumnUnit, RATES, TEMPERATURES, TIMES};
 
 /// The chamber's temperature \[°C\].
@@ -58,10 +59,9 @@ impl Key {
         }
     }
 
-    /// The unit that a column's name ends in, like `T [K]` or `Zeit (min)`, if it is one of the key's.
+    /// The unit that a column's name has in brackets at its end, like `T [K]` or `Zeit (min)`, if it is one of the key's.
     pub(super) fn unit_in(self, name: &str) -> Option<ColumnUnit> {
-        let pair = [('[', ']'), ('(', ')')].into_iter().find_map(|(open, close)| name.strip_suffix(close)?.rsplit_once(open))?;
-        self.unit(pair.1.trim()).ok()
+        spelled(bracketed(name)?.1, self)
     }
 
     pub(super) fn unit(self, name: &str) -> Result<ColumnUnit, String> {
@@ -101,6 +101,8 @@ pub struct RecordOptions {
     pub decimal_comma: bool,
     /// Seconds between rows, for a file without instants.
     pub interval: Option<f64>,
+    /// Column of the time of day, where the instants' column holds the date alone.
+    pub time_of_day: Option<String>,
     /// Further columns that are read as they stand.
     pub further: Vec<String>,
 }

@@ -1,7 +1,7 @@
 //! A CSV table row by row: every complaint knows its line, and no file is held whole.
 //!
-//! Fields are separated by commas and not quoted with line ends inside; double quotes around a field are dropped. Lines above the first row
-//! that begin with # are a logger's remarks and skipped.
+//! Fields may stand in double quotes, with separators and doubled quotes inside (RFC 4180) but no line ends. Lines above the first row that
+//! begin with # are a logger's remarks and skipped.
 
 use std::fs::File;
 use std::io::{self, Chain, Cursor, Read};
@@ -28,11 +28,13 @@ pub(crate) struct Dialect {
     pub(crate) encoding: Encoding,
     /// Lines above the names that are not read.
     pub(crate) preamble: u64,
+    /// Lines below the names that are not read.
+    pub(crate) below: u32,
 }
 
 impl Dialect {
     /// Commas between the fields, a point in numbers.
-    pub(crate) const STANDARD: Self = Self { separator: b',', decimal: '.', encoding: Encoding::Utf8, preamble: 0 };
+    pub(crate) const STANDARD: Self = Self { separator: b',', decimal: '.', encoding: Encoding::Utf8, preamble: 0, below: 0 };
 }
 
 /// What is said of text in another encoding.
@@ -40,7 +42,7 @@ pub(super) const NOT_UTF8: &str = "is not UTF-8 text";
 /// What a field without a value may hold, in lower case.
 const MISSING: [&str; 9] = ["", "nan", "na", "n/a", "null", "none", "-", "--", "#n/a"];
 /// What a meter writes beyond its range, in lower case, perhaps behind a sign.
-const OVERLOAD: [&str; 6] = ["ovld", "overload", "ol", "overrange", "over range", "overflow"];
+const OVERLOAD: [&str; 8] = ["ovld", "overload", "ol", "ovl", "over", "overrange", "over range", "overflow"];
 
 pub(crate) struct Rows {
     path: PathBuf,
@@ -49,6 +51,8 @@ pub(crate) struct Rows {
     record: StringRecord,
     /// Whether a row was met.
     begun: bool,
+    /// Whether a field stood in quotes.
+    quotes: bool,
 }
 
 /// A file, or a text in memory, that is hashed and measured while it is read.
@@ -116,13 +120,19 @@ impl Rows {
             .delimiter(dialect.separator)
             .terminator(Terminator::Any(b'\n'))
             .from_reader(Decoded::new(metered, dialect.encoding).chain(&b"\n"[..]));
-        Self { path: path.to_owned(), dialect, reader, record: StringRecord::new(), begun: false }
+        Self { path: path.to_owned(), dialect, reader, record: StringRecord::new(), begun: false, quotes: false }
     }
 
     /// Moves to the next row that is not blank; `false` at the end.
     pub(crate) fn advance(&mut self) -> Result<bool, InputError> {
         loop {
-            match self.reader.read_record(&mut self.record) {
+            let read = self.reader.read_record(&mut self.record);
+            if self.record.iter().any(is_quoted) {
+                self.quotes = true;
+                let fields: Vec<&str> = self.record.iter().collect();
+                self.record = StringRecord::from(unquoted(&fields, char::from(self.dialect.separator)));
+            }
+            match read {
                 Ok(false) => return Ok(false),
                 Ok(true) if self.count() == 1 && self.field(0).is_empty() => {}
                 Ok(true) if !self.begun && self.line() <= self.dialect.preamble => {}
@@ -157,14 +167,22 @@ impl Rows {
         }
     }
 
+    /// Refuses a comma between the fields and in the numbers, unless there are quotes that tell one from the other.
+    pub(crate) fn check_commas(&self) -> Result<(), InputError> {
+        if self.dialect.separator != b',' || self.dialect.decimal != ',' || self.quotes {
+            return Ok(());
+        }
+        let problem = "a comma cannot separate the fields and the decimals, unless numbers stand in quotes";
+        Err(self.whole_fault(problem, "add --separator ';' (separator in the map file), or leave out --decimal-comma"))
+    }
+
     pub(crate) fn count(&self) -> usize {
         self.record.len()
     }
 
     /// A field of this row without blanks and quotes around it; empty if there is none.
     pub(crate) fn field(&self, column: usize) -> &str {
-        let field = self.record.get(column).unwrap_or("").trim();
-        field.strip_prefix('"').and_then(|inner| inner.strip_suffix('"')).map_or(field, str::trim)
+        self.record.get(column).unwrap_or("").trim()
     }
 
     pub(crate) fn fields(&self) -> impl Iterator<Item = &str> {
@@ -201,7 +219,8 @@ impl Rows {
                 Err(self.fault(Some(name), "is empty", "give a number, or remove the row: between rows the course is linear"))
             }
             Err(_) => {
-                Err(self.fault(Some(name), format!("{} is not a number", quoted(text)), "write it like 20.5, without a unit"))
+                let remedy = "write it like 20.5, decimals with a point, without a unit";
+                Err(self.fault(Some(name), format!("{} is not a number", quoted(text)), remedy))
             }
         }
     }
@@ -252,8 +271,38 @@ impl Rows {
     }
 }
 
-fn is_missing(text: &str) -> bool {
-    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
+fn is_quoted(field: &str) -> bool {
+    field.trim_start().starts_with('"')
+}
+
+/// The fields of a line that was split at every separator: what stands in quotes is one field, without them. A quote that is not closed stays.
+pub(super) fn unquoted(pieces: &[&str], separator: char) -> Vec<String> {
+    let mut fields = Vec::new();
+    let mut rest = pieces;
+    while let Some(first) = rest.first() {
+        let quoted = is_quoted(first).then(|| quoted_field(rest, separator)).flatten();
+        let (field, count) = quoted.unwrap_or_else(|| ((*first).to_owned(), 1));
+        fields.push(field);
+        rest = &rest[count..];
+    }
+    fields
+}
+
+/// The field in quotes that `pieces` begin with, without its quotes, and of how many pieces it is.
+fn quoted_field(pieces: &[&str], separator: char) -> Option<(String, usize)> {
+    let mut quotes = 0;
+    let last = pieces.iter().position(|piece| {
+        quotes += piece.matches('"').count();
+        quotes % 2 == 0
+    })?;
+    let whole = pieces[..=last].join(&separator.to_string());
+    let inner = whole.trim().strip_prefix('"')?.strip_suffix('"')?;
+    Some((inner.replace("\"\"", "\""), last + 1))
+}
+
+/// Whether a field says that its value is missing, or beyond what the meter can tell.
+pub(super) fn is_missing(text: &str) -> bool {
+    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text).trim_end_matches('.');
     MISSING.iter().any(|word| text.eq_ignore_ascii_case(word)) || OVERLOAD.iter().any(|word| unsigned.eq_ignore_ascii_case(word))
 }
 

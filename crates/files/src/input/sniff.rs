@@ -6,7 +6,10 @@ use std::path::Path;
 
 use super::InputError;
 use super::encoding::{Decoded, Encoding};
+use super::record_options::Key;
+use super::rows::unquoted;
 use super::timestamp;
+use super::unit_names::spelled;
 
 /// Bytes that are looked at.
 const SAMPLE: u64 = 1 << 18;
@@ -24,6 +27,8 @@ pub(super) struct Sniffed {
     /// Lines above the names.
     pub(super) preamble: usize,
     pub(super) names: Vec<String>,
+    /// What a line below the names says of their units; empty if there is none.
+    pub(super) units: Vec<String>,
     /// Some rows, with as many fields as there are names.
     pub(super) rows: Vec<Vec<String>>,
 }
@@ -62,43 +67,51 @@ pub(super) fn sniff(path: &Path) -> Result<Sniffed, InputError> {
 
 /// The table that `separator` makes of the lines, if one stands there.
 fn table(lines: &[&str], separator: char, name: &'static str) -> Option<Sniffed> {
-    let decimal_comma = separator != ',';
     (0..lines.len()).find_map(|header| {
-        let names = fields(lines[header], separator);
-        let is_name = |field: &String| !field.is_empty() && !is_value(field, decimal_comma);
-        let remark = names[0].starts_with('#');
-        if names.len() < 2
-            || remark
-            || names.iter().filter(|name| !name.is_empty()).count() < 2
-            || !names.iter().all(|n| n.is_empty() || is_name(n))
-        {
-            return None;
+        let names = names(lines[header], separator)?;
+        let mut below = lines[header + 1..].iter().filter(|line| !line.trim().is_empty()).peekable();
+        let units =
+            below.peek().map(|line| fields(line, separator)).filter(|units| are_units(units) && units.len() == names.len());
+        if units.is_some() {
+            below.next();
         }
-        let below = lines[header + 1..].iter().filter(|line| !line.trim().is_empty()).take(ROWS);
-        let rows: Vec<Vec<String>> = below.map(|line| fields(line, separator)).collect();
-        let alike = |row: &Vec<String>| row.len() == names.len() && row.iter().any(|field| is_value(field, decimal_comma));
+        let rows: Vec<Vec<String>> = below.take(ROWS).map(|line| fields(line, separator)).collect();
+        let alike = |row: &Vec<String>| row.len() == names.len() && row.iter().any(|field| is_value(field));
         if rows.is_empty() || !rows.iter().all(alike) {
             return None;
         }
         let numbers = || rows.iter().flatten().filter(|field| timestamp::date(field).is_none());
-        let comma = numbers().any(|field| field.contains(',') && is_value(field, true));
+        // between commas, only what stood in quotes has one
+        let comma = numbers().any(|field| field.contains(',') && is_value(field));
         let point = numbers().any(|field| field.parse::<f64>().is_ok() && field.contains('.'));
-        let decimal_comma = decimal_comma && comma && !point;
-        Some(Sniffed { encoding: Encoding::Utf8, separator: name, decimal_comma, preamble: header, names, rows })
+        let (units, decimal_comma) = (units.unwrap_or_default(), comma && !point);
+        Some(Sniffed { encoding: Encoding::Utf8, separator: name, decimal_comma, preamble: header, names, units, rows })
     })
+}
+
+/// The fields of a line if they may be names of columns.
+fn names(line: &str, separator: char) -> Option<Vec<String>> {
+    let names = fields(line, separator);
+    let are_names = names.iter().all(|name| name.is_empty() || !is_value(name));
+    let several = names.iter().filter(|name| !name.is_empty()).count() > 1;
+    (several && are_names && !names[0].starts_with('#')).then_some(names)
+}
+
+/// Whether a line below names holds their units.
+fn are_units(fields: &[String]) -> bool {
+    let bare = |field: &str| field.trim_matches(['[', ']', '(', ')']).to_owned();
+    let is_unit = |field: &String| Key::ALL.into_iter().any(|key| spelled(&bare(field), key).is_some());
+    fields.iter().filter(|field| is_unit(field)).count() > 1 && !fields.iter().any(|field| is_value(field))
 }
 
 /// The fields of a line without blanks and quotes around them.
 fn fields(line: &str, separator: char) -> Vec<String> {
-    let bare = |field: &str| {
-        let field = field.trim();
-        field.strip_prefix('"').and_then(|inner| inner.strip_suffix('"')).map_or(field, str::trim).to_owned()
-    };
-    line.split(separator).map(bare).collect()
+    let pieces: Vec<&str> = line.split(separator).collect();
+    unquoted(&pieces, separator).iter().map(|field| field.trim().to_owned()).collect()
 }
 
-/// Whether a field is a number or an instant.
-pub(super) fn is_value(field: &str, decimal_comma: bool) -> bool {
-    let number = if decimal_comma { field.replacen(',', ".", 1).parse::<f64>() } else { field.parse::<f64>() };
-    number.is_ok() || timestamp::date(field).is_some() || timestamp::is_ambiguous(field)
+/// Whether a field is a number, with a decimal point or comma, or an instant.
+pub(super) fn is_value(field: &str) -> bool {
+    let is_instant = || timestamp::date(field).is_some() || timestamp::is_day(field) || timestamp::time_of_day(field).is_some();
+    field.replacen(',', ".", 1).parse::<f64>().is_ok() || is_instant() || timestamp::is_ambiguous(field)
 }

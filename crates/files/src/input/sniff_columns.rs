@@ -2,11 +2,13 @@
 
 use super::record_options::Key;
 use super::sniff::{Sniffed, is_value};
+use super::timestamp::{is_ambiguous, is_day, time_of_day};
+use super::unit_names::{bracketed, ending, foreign, is_temperature, spelled};
 
 /// Words in names of columns, in lower case; those of up to three letters stand alone.
 fn words(key: Key) -> &'static [&'static str] {
     match key {
-        Key::Time => &["time", "zeit", "date", "datum", "elapsed", "stamp", "seconds", "temps"],
+        Key::Time => &["time", "zeit", "date", "datum", "elapsed", "stamp", "seconds", "temps", "uhrzeit"],
         Key::Chamber => &["chamber", "kammer", "oven", "ofen", "ambient", "umgebung", "enceinte", "climat", "klima", "air"],
         Key::Spool => &["spool", "spule", "coil", "hub", "bobbin", "bobine", "wickel"],
         Key::Rate => &["rate", "gyro", "omega", "angular", "fog", "rotation", "winkelgeschw"],
@@ -16,80 +18,14 @@ fn words(key: Key) -> &'static [&'static str] {
 /// Words of what is asked for, not measured, and of what goes with a channel.
 const BESIDE: [&str; 9] = ["set", "setpoint", "soll", "sollwert", "target", "alarm", "status", "limit", "consigne"];
 
-/// Units as loggers write them, in lower case without blanks, and as the program does.
-fn spellings(key: Key) -> &'static [(&'static str, &'static str)] {
-    match key {
-        Key::Time => &[
-            ("s", "s"),
-            ("sec", "s"),
-            ("secs", "s"),
-            ("second", "s"),
-            ("seconds", "s"),
-            ("sek", "s"),
-            ("sekunden", "s"),
-            ("ms", "ms"),
-            ("msec", "ms"),
-            ("us", "us"),
-            ("\u{b5}s", "us"),
-            ("\u{3bc}s", "us"),
-            ("usec", "us"),
-            ("ns", "ns"),
-            ("min", "min"),
-            ("minutes", "min"),
-            ("h", "h"),
-            ("hr", "h"),
-            ("hrs", "h"),
-            ("hours", "h"),
-        ],
-        Key::Chamber | Key::Spool => &[
-            ("degc", "degC"),
-            ("\u{b0}c", "degC"),
-            ("\u{ba}c", "degC"),
-            ("c", "degC"),
-            ("celsius", "degC"),
-            ("deg_c", "degC"),
-            ("k", "K"),
-            ("kelvin", "K"),
-            ("degf", "degF"),
-            ("\u{b0}f", "degF"),
-            ("\u{ba}f", "degF"),
-            ("f", "degF"),
-            ("fahrenheit", "degF"),
-            ("deg_f", "degF"),
-        ],
-        Key::Rate => &[
-            ("deg/h", "deg/h"),
-            ("\u{b0}/h", "deg/h"),
-            ("deg/hr", "deg/h"),
-            ("\u{b0}/hr", "deg/h"),
-            ("deg/hour", "deg/h"),
-            ("dph", "deg/h"),
-            ("deg_per_h", "deg/h"),
-            ("deg_h", "deg/h"),
-            ("grad/h", "deg/h"),
-            ("deg/s", "deg/s"),
-            ("\u{b0}/s", "deg/s"),
-            ("deg/sec", "deg/s"),
-            ("dps", "deg/s"),
-            ("deg_per_s", "deg/s"),
-            ("deg_s", "deg/s"),
-            ("grad/s", "deg/s"),
-            ("mrad/s", "mrad/s"),
-            ("mrad_per_s", "mrad/s"),
-            ("rad/s", "rad/s"),
-            ("rad/sec", "rad/s"),
-            ("rad_per_s", "rad/s"),
-            ("rad_s", "rad/s"),
-        ],
-    }
-}
-
 /// A column that was found.
 pub(super) struct Found {
     /// Its number.
     pub(super) column: usize,
-    /// The unit that its name says.
+    /// The unit that its name, or a line below it, says.
     pub(super) unit: Option<&'static str>,
+    /// What stands in its name where a unit would, and is none.
+    pub(super) foreign: Option<String>,
     /// Others that it may be.
     pub(super) others: Vec<usize>,
 }
@@ -99,14 +35,46 @@ pub(super) fn find(table: &Sniffed, key: Key) -> Option<Found> {
     let fits = |column: &usize| is_of(&table.names[*column], key) && holds_values(table, *column);
     let mut candidates: Vec<usize> = (0..table.names.len()).filter(fits).collect();
     let standard = |column: &usize| table.names[*column] != key.standard();
-    // a unit that is said speaks for a column
-    candidates.sort_by_key(|column| (standard(column), unit(&table.names[*column], key).is_none()));
+    // a unit that is said speaks for a column; a day alone is no instant
+    candidates.sort_by_key(|&column| (standard(&column), holds(table, column, is_day), unit(table, column, key).is_none()));
     let (column, others) = candidates.split_first()?;
-    Some(Found { column: *column, unit: unit(&table.names[*column], key), others: others.to_vec() })
+    let foreign = foreign(&table.names[*column], key).map(str::to_owned);
+    Some(Found { column: *column, unit: unit(table, *column, key), foreign, others: others.to_vec() })
+}
+
+/// Columns that hold date and time of day, if there are such.
+pub(super) fn date_and_time(table: &Sniffed) -> Option<(usize, usize)> {
+    let find = |is: fn(&str) -> bool| (0..table.names.len()).find(|column| holds(table, *column, is));
+    Some((
+        find(|field| is_day(field) || is_ambiguous(field) && !field.contains(':'))?,
+        find(|field| time_of_day(field).is_some())?,
+    ))
+}
+
+/// Temperatures that are measured and are none of those that are `taken`.
+pub(super) fn unused_temperatures(table: &Sniffed, taken: &[usize]) -> Vec<usize> {
+    let measured = |name: &str| !name.to_lowercase().split(|c: char| !c.is_alphanumeric()).any(|word| BESIDE.contains(&word));
+    let is = |column: &usize| {
+        let name = &table.names[*column];
+        let says = is_temperature(name) || table.units.get(*column).is_some_and(|unit| spelled(unit, Key::Chamber).is_some());
+        says && measured(name) && holds_values(table, *column) && !taken.contains(column)
+    };
+    (0..table.names.len()).filter(is).collect()
+}
+
+/// The unit that a column's name says, or a line below the names.
+pub(super) fn unit(table: &Sniffed, column: usize, key: Key) -> Option<&'static str> {
+    let below = || spelled(table.units.get(column)?.trim_matches(['[', ']', '(', ')']), key);
+    ending(&table.names[column], key).or_else(below).map(|unit| unit.names[0])
+}
+
+/// Whether all rows of a column are such.
+pub(super) fn holds(table: &Sniffed, column: usize, is: impl Fn(&str) -> bool) -> bool {
+    table.rows.iter().all(|row| is(&row[column]))
 }
 
 fn holds_values(table: &Sniffed, column: usize) -> bool {
-    table.rows.iter().any(|row| is_value(&row[column], table.decimal_comma))
+    table.rows.iter().any(|row| is_value(&row[column]))
 }
 
 fn is_of(name: &str, key: Key) -> bool {
@@ -117,28 +85,9 @@ fn is_of(name: &str, key: Key) -> bool {
     };
     let tokens: Vec<&str> = bare.split(|c: char| !c.is_alphanumeric()).collect();
     let says = |word: &&str| if word.len() <= 3 { tokens.contains(word) } else { bare.contains(*word) };
-    let other_unit = || Key::ALL.into_iter().any(|other| other.units() != key.units() && unit(name, other).is_some());
+    let other_unit = || Key::ALL.into_iter().any(|other| other.units() != key.units() && ending(name, other).is_some());
     let symbol = key == Key::Time && bare.trim() == "t";
     (symbol || words(key).iter().any(says))
         && !BESIDE.iter().any(|word| tokens.contains(word))
-        && (unit(name, key).is_some() || !other_unit())
-}
-
-/// A name that ends in brackets, and what is in them.
-fn bracketed(name: &str) -> Option<(&str, &str)> {
-    [('[', ']'), ('(', ')')].into_iter().find_map(|(open, close)| name.trim_end().strip_suffix(close)?.rsplit_once(open))
-}
-
-/// The unit that a name ends in: in brackets, or behind a last line or blank.
-fn unit(name: &str, key: Key) -> Option<&'static str> {
-    let lower = name.to_lowercase();
-    let is = |text: &str| {
-        let text: String = text.chars().filter(|c| !c.is_whitespace()).collect();
-        spellings(key).iter().find(|(spelling, _)| *spelling == text).map(|(_, unit)| *unit)
-    };
-    match bracketed(&lower) {
-        Some((_, unit)) => is(unit),
-        // the longest ending: rad/s before s
-        None => lower.match_indices(['_', ' ', ',', '/']).filter_map(|(at, _)| is(&lower[at + 1..])).next(),
-    }
+        && (ending(name, key).is_some() || !other_unit())
 }

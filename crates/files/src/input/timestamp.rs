@@ -3,6 +3,30 @@
 /// How instants are written that are dates, for messages.
 pub(crate) const FORMS: &str = "2024-05-01T12:00:00.5Z, or day first 01.05.2024 12:00:00.5";
 
+/// Hours of a time of day, and of a time since a start.
+const HOURS: [i64; 2] = [24, 10_000];
+
+/// Months by the first three letters of their names, in English and German.
+const MONTHS: [(&str, i64); 17] = [
+    ("jan", 1),
+    ("feb", 2),
+    ("mar", 3),
+    ("m\u{e4}r", 3),
+    ("mrz", 3),
+    ("apr", 4),
+    ("may", 5),
+    ("mai", 5),
+    ("jun", 6),
+    ("jul", 7),
+    ("aug", 8),
+    ("sep", 9),
+    ("oct", 10),
+    ("okt", 10),
+    ("nov", 11),
+    ("dec", 12),
+    ("dez", 12),
+];
+
 /// A date and time of day.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Date {
@@ -14,33 +38,85 @@ pub(crate) struct Date {
     pub(crate) exists: bool,
 }
 
-/// Reads `2024-05-01T12:00:00.5+02:00` or `01.05.2024 12:00:00.5`; a blank may stand for the T, a comma for the point, and the zone, then
-/// UTC, be absent.
+/// Reads `2024-05-01T12:00:00.5+02:00`, `01.05.2024 12:00:00.5` or `01-May-2024 12:00:00 PM`; a blank may stand for the T, a comma for the
+/// point, and the zone, then UTC, be absent.
 pub(crate) fn date(text: &str) -> Option<Date> {
-    let (date, rest) = (text.get(..10)?, text.get(11..)?);
-    if !matches!(text.as_bytes()[10], b'T' | b't' | b' ') {
-        return None;
-    }
-    let (year, month, day) = match date.as_bytes() {
-        [_, _, b'.', _, _, b'.', ..] => (&date[6..], &date[3..5], &date[..2]),
-        [_, _, _, _, b'-', _, _, b'-', ..] => (&date[..4], &date[5..7], &date[8..]),
-        _ => return None,
+    // what ends a date may be a letter of its month
+    text.match_indices(['T', 't', ' ']).find_map(|(at, _)| {
+        let (year, month, day) = day_of(&text[..at])?;
+        let (clock, zone) = clock(&text[at + 1..], HOURS[0])?;
+        let seconds = (days(year, month, day) * 86_400) as f64 + clock - zone.unwrap_or(0.0);
+        Some(Date { seconds, is_zoned: zone.is_some(), exists: day <= length(year, month) })
+    })
+}
+
+/// Whether a text is a date without a time of day.
+pub(super) fn is_day(text: &str) -> bool {
+    day_of(text).is_some()
+}
+
+/// Reads `08:00:00.5` or `8:00 AM`, or hours, minutes and seconds since a start, as `31:00:00` \[s\].
+pub(super) fn time_of_day(text: &str) -> Option<f64> {
+    clock(text, HOURS[1]).filter(|(_, zone)| zone.is_none()).map(|(seconds, _)| seconds)
+}
+
+/// Year, month and day.
+fn day_of(text: &str) -> Option<(i64, i64, i64)> {
+    let three = |separator: char| {
+        let mut parts = text.split(separator).map(str::trim);
+        let three = [parts.next()?, parts.next()?, parts.next()?];
+        parts.next().is_none().then_some(three)
     };
-    let (year, month, day) = (whole(year)?, whole(month)?, whole(day)?);
-    let (clock, zone) = match rest.find(['Z', 'z', '+', '-']) {
-        Some(at) => (&rest[..at], Some(zone(&rest[at..])?)),
-        None => (rest, None),
+    let is = |part: &str, lengths: [usize; 2]| (lengths[0]..=lengths[1]).contains(&part.len()) && whole(part).is_some();
+    let (year, month, day) = ['-', '.', '/', ' '].into_iter().find_map(three).and_then(|[first, second, third]| {
+        let named = month(second);
+        match () {
+            () if is(first, [4, 4]) && is(second, [1, 2]) && is(third, [1, 2]) && !text.contains('.') => {
+                Some((whole(first)?, whole(second)?, whole(third)?))
+            }
+            () if is(first, [1, 2]) && is(second, [1, 2]) && is(third, [4, 4]) && text.contains('.') => {
+                Some((whole(third)?, whole(second)?, whole(first)?))
+            }
+            () if is(first, [1, 2]) && is(third, [4, 4]) => Some((whole(third)?, named?, whole(first)?)),
+            () => None,
+        }
+    })?;
+    ((1..=12).contains(&month) && (1..=31).contains(&day)).then_some((year, month, day))
+}
+
+/// The number of a month by its name.
+fn month(name: &str) -> Option<i64> {
+    let lower = name.trim_end_matches('.').to_lowercase();
+    let letters = lower.chars().all(char::is_alphabetic);
+    MONTHS.iter().find(|(start, _)| letters && lower.starts_with(start)).map(|(_, number)| *number)
+}
+
+/// Seconds since midnight, and those of the zone if it is written; hours are fewer than `hours`.
+fn clock(text: &str, hours: i64) -> Option<(f64, Option<f64>)> {
+    let (text, noon) = half_day(text);
+    let (clock, zone) = match text.find(['Z', 'z', '+', '-']) {
+        Some(at) => (&text[..at], Some(zone(&text[at..])?)),
+        None => (text, None),
     };
     let mut parts = clock.split(':');
     let (hour, minute) = (whole(parts.next()?)?, whole(parts.next()?)?);
     let second: f64 = parts.next().unwrap_or("0").replace(',', ".").parse().ok()?;
-    let valid = (1..=12).contains(&month) && (1..=31).contains(&day) && hour < 24 && minute < 60 && (0.0..61.0).contains(&second);
-    let seconds = |days: i64| (days * 86_400 + hour * 3600 + minute * 60) as f64 + second - zone.unwrap_or(0.0);
-    (valid && parts.next().is_none()).then(|| Date {
-        seconds: seconds(days(year, month, day)),
-        is_zoned: zone.is_some(),
-        exists: day <= length(year, month),
-    })
+    let hour = match noon {
+        Some(noon) => (1..=12).contains(&hour).then_some(hour % 12 + noon)?,
+        None => hour,
+    };
+    let valid = hour < hours && minute < 60 && (0.0..61.0).contains(&second) && parts.next().is_none();
+    valid.then_some(((hour * 3600 + minute * 60) as f64 + second, zone))
+}
+
+/// A time of day without the AM or PM behind it, and the hour at which its half of the day begins.
+fn half_day(text: &str) -> (&str, Option<i64>) {
+    let Some(at) = text.len().checked_sub(2).filter(|at| text.is_char_boundary(*at)) else { return (text, None) };
+    match text[at..].to_ascii_lowercase().as_str() {
+        "am" => (text[..at].trim_end(), Some(0)),
+        "pm" => (text[..at].trim_end(), Some(12)),
+        _ => (text, None),
+    }
 }
 
 /// Whether a text seems to be a date of which it is not said whether the day or the month is first: `02/03/2026 08:00`.
@@ -82,7 +158,7 @@ fn days(year: i64, month: i64, day: i64) -> i64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{date, is_ambiguous};
+    use super::{date, is_ambiguous, is_day, time_of_day};
 
     #[test]
     fn instants() {
@@ -96,10 +172,16 @@ mod tests {
             ("01.05.2024 12:00:00.5+02:00", 1_714_557_600.5),
             ("29.02.2000 12:00", 951_825_600.0),
             ("01.01.1970T00:00:01,25", 1.25),
+            ("1.1.1970 0:00:01", 1.0),
+            ("1970/01/02 00:00", 86_400.0),
+            ("02-Jan-1970 12:00:01 AM", 86_401.0),
+            ("1-Oct-1970 08:00", 273.0 * 86_400.0 + 28_800.0),
+            ("1. Okt. 1970 08:00 pm", 273.0 * 86_400.0 + 72_000.0),
+            ("1/M\u{e4}r/1970 12:30 PM", 59.0 * 86_400.0 + 45_000.0),
         ];
         for (text, expected) in cases {
             let date = date(text).unwrap();
-            let zoned = text[11..].contains(['Z', '+', '-']);
+            let zoned = text[8..].contains(['Z', '+']) || text.ends_with("-0030");
             assert_eq!((date.seconds, date.is_zoned, date.exists), (expected, zoned, true), "{text}");
         }
         #[rustfmt::skip]
@@ -107,6 +189,7 @@ mod tests {
             "", "12:00:00", "20.5", "2024-05-01", "2024-13-01T00:00:00", "2024-05-01T25:00:00", "2024-05-01T10:00:00+2",
             "2024-05-01T1:2:3:4", "2024-05-01_10:00:00", "2024-05-0\u{e9}T10:00:00", "2024-05-01T10:00:00+0\u{e9}",
             "05/01/2024 10:00:00", "2024.05.01 10:00:00", "01-05-2024 10:00:00", "01.13.2024 10:00:00", "01.5.20241 10:00:00",
+            "14-Mar-2026 13:00 AM", "14-Foo-2026 08:00", "14-Mar-26 08:00", "2024/05/01", "m", "\u{e4}", "1-1-1-1 08:00",
         ];
         for text in refused {
             assert_eq!(date(text), None, "{text}");
@@ -116,6 +199,19 @@ mod tests {
         for (day, exists) in days {
             assert_eq!(date(&format!("{day}T00:00:00")).unwrap().exists, exists, "{day}");
         }
+        for (text, seconds) in [
+            ("08:00:00", Some(28_800.0)),
+            ("8:00 PM", Some(72_000.0)),
+            ("23:59:59.5", Some(86_399.5)),
+            ("31:00:01", Some(111_601.0)),
+            ("08:00Z", None),
+            ("8", None),
+            ("08:61", None),
+            ("0:0:nan", None),
+        ] {
+            assert_eq!(time_of_day(text), seconds, "{text}");
+        }
+        assert!(is_day("14-Mar-2026") && is_day("2026-03-14") && is_day("14.3.2026") && !is_day("14/3/2026") && !is_day("3.5"));
         for (text, ambiguous) in
             [("05/01/2024 10:00", true), ("5/1/24", true), ("2024/05/01", false), ("1/2", false), ("20.5", false)]
         {

@@ -18,15 +18,22 @@ const MOST_ALIKE: usize = 8;
 /// What is wrong with a recording, line by line; empty if nothing is.
 pub fn warnings(case: &RecordCase) -> String {
     let mut out: String = case.notes.iter().filter(|note| note.is_warning()).map(|note| format!("{note}\n")).collect();
-    let wrong: Vec<&Finding> = case.report.findings.iter().filter(|finding| finding.severity != Severity::Note).collect();
+    let wrong: Vec<&Finding> = listed(case).into_iter().filter(|finding| finding.severity != Severity::Note).collect();
     findings(&mut out, &wrong);
     out
+}
+
+/// All findings but the first error, which [`RecordCase::require_usable`] says.
+fn listed(case: &RecordCase) -> Vec<&Finding> {
+    let findings = &case.report.findings;
+    let said = findings.iter().position(|finding| finding.severity == Severity::Error);
+    findings.iter().enumerate().filter(|(n, _)| Some(*n) != said).map(|(_, finding)| finding).collect()
 }
 
 /// The result as text with tables.
 pub fn text(analysis: &Analysis) -> String {
     let case = analysis.case;
-    let verdict = if case.report.usable() { "usable" } else { "cannot be used" };
+    let verdict = if case.report.usable() { "usable" } else { "cannot be used (the message at the end says why)" };
     let mut out = format!("{}: {verdict}\n\n", files::shown_path(&case.fingerprint.file));
     out.push_str(&table(&overview(analysis)));
     out.push('\n');
@@ -34,8 +41,8 @@ pub fn text(analysis: &Analysis) -> String {
     for note in &case.notes {
         let _ = writeln!(out, "{}", note.line());
     }
-    let found: Vec<&Finding> = case.report.findings.iter().collect();
-    if found.is_empty() {
+    let found = listed(case);
+    if case.report.findings.is_empty() {
         out.push_str("nothing suspicious found\n");
     }
     findings(&mut out, &found);

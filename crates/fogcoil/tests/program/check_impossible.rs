@@ -124,7 +124,10 @@ fn a_unit_that_was_moved_is_refused() {
 fn another_unit_is_recognised_by_its_scale() {
     let scaled = |factor: f64| record(|_, [c, s, r]| [format!("{c:.2}"), format!("{s:.2}"), format!("{:e}", r * factor)]);
     for (factor, unit) in [(1.0 / 3600.0, "deg/s"), (1.0 / 206_264.8, "rad/s")] {
-        refused(&scaled(factor), &["cannot be used: rate_deg_per_h: noise of", unit, "--unit KEY=UNIT, or unit in the map file"]);
+        refused(
+            &scaled(factor),
+            &["cannot be used: rate_deg_per_h: noise of", unit, "--unit rate=deg/s (or ", "or unit in the map file"],
+        );
     }
     let fahrenheit = |t: f64| 1.8 * t + 32.0;
     let text = record(|_, [c, s, r]| written([fahrenheit(c), fahrenheit(s), r]));
@@ -136,4 +139,62 @@ fn another_unit_is_recognised_by_its_scale() {
         );
     }
     assert!(case.report.usable());
+}
+
+/// The one error is said once, and the map that is proposed has the unit.
+#[test]
+fn a_unit_that_was_not_said_is_proposed() {
+    let text = record(|_, [c, s, r]| [format!("{c:.2}"), format!("{s:.2}"), format!("{:e}", r / 3600.0)]);
+    let folder = Folder::new();
+    folder.write("r.csv", text);
+    for arguments in [&["check", "r.csv"][..], &["check", "r.csv", "--quiet"]] {
+        let output = folder.run(arguments);
+        let said = stdout(&output) + &stderr(&output);
+        assert_eq!((output.status.code(), said.matches("rate_deg_per_h: noise of").count()), (Some(2), 1), "{said}");
+        assert!(said.contains("; if so, say it: --unit rate=deg/s (or rad/s, mrad/s), or unit in the map file"), "{said}");
+    }
+    let output = folder.run(&["check", "r.csv", "--write-map"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let map = std::fs::read_to_string(folder.path("r.map.ron")).unwrap();
+    let says = "    rate: (unit: \"deg/s\"), // the values are not of the size of deg/h: taken as deg/s, or rad/s, or mrad/s\n";
+    assert!(map.contains(says), "{map}");
+    assert_eq!(folder.run(&["check", "r.csv"]).status.code(), Some(0));
+    // what the user says stays
+    std::fs::remove_file(folder.path("r.map.ron")).unwrap();
+    let output = folder.run(&["check", "r.csv", "--write-map", "--unit", "rate=deg/h"]);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+}
+
+#[test]
+fn an_offset_beyond_the_earths_rate_is_noted() {
+    for (offset, says) in [
+        (8.0, "is more than 0.5 deg/h: Earth's rate not removed"),
+        (40.0, "is more than 0.5 deg/h, and more than this explains: Earth's rate not removed"),
+    ] {
+        let case = read(&record(|_, [c, s, r]| written([c, s, r + offset])));
+        let note = case.report.findings.iter().find(|finding| finding.to_string().contains(says));
+        assert_eq!(note.map(|note| note.severity), Some(recording::check::Severity::Note), "{}", findings(&case));
+    }
+}
+
+/// Minutes, milliseconds and days under `time_s` are asked for by name.
+#[test]
+fn instants_in_another_unit_are_suspected() {
+    let table = |time: &dyn Fn(usize) -> String| {
+        (0..1000).fold(HEADER.to_owned(), |text, n| text + &format!("{},{}\n", time(n), written(sound(n)).join(",")))
+    };
+    let seconds = |n: usize| 60.0 * n as f64;
+    for (unit, kind, text) in [
+        ("min", "[too-fast]", table(&|n| format!("{}", seconds(n) / 300.0))),
+        ("ms", "[span]", table(&|n| format!("{}", 1e3 * seconds(n)))),
+        ("d", "[span]", table(&|n| format!("{:.9}", 45_000.0 + seconds(n) / 86_400.0))),
+    ] {
+        let folder = Folder::new();
+        folder.write("r.csv", text);
+        let said = stdout(&folder.run(&["check", "r.csv"]));
+        let line = said.lines().find(|line| line.starts_with("warning: ") && line.ends_with(kind));
+        assert!(line.is_some_and(|line| line.contains(&format!("--unit time={unit}"))), "{unit}: {said}");
+        let said = stdout(&folder.run(&["check", "r.csv", "--unit", &format!("time={unit}")]));
+        assert!(said.contains("usable") && !said.contains(kind), "{unit}: {said}");
+    }
 }

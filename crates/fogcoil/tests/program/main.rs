@@ -17,6 +17,7 @@ mod common;
 mod diagnose;
 mod good_input;
 mod identify;
+mod loggers;
 mod model_out;
 mod mutated_input;
 mod outputs;

@@ -221,10 +221,14 @@ fn notes_go_to_standard_error_unless_silenced() {
         |more: &[&str]| folder.run(&[&["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv", "--json"], more].concat());
     let notes = stderr(&run(&[]));
     assert!(notes.contains("p.csv: the columns spool_c, rate_deg_per_h drive nothing and are ignored"), "{notes}");
-    assert!(
-        notes.contains("if it is in kelvin, subtract 273.15") && notes.lines().all(|line| line.starts_with("note: ")),
-        "{notes}"
-    );
+    let warning = |line: &str| line.starts_with("warning: ") && line.contains("if it is in kelvin, subtract 273.15");
+    assert!(notes.lines().all(|line| line.starts_with("note: ") || warning(line)) && notes.lines().any(warning), "{notes}");
+    // 68 to 140 degF
+    folder.write("p.csv", "time_s,chamber_c\n0,68\n1800,140\n");
+    let notes = stderr(&run(&[]));
+    let says = "warning: p.csv: chamber_c starts at 68 degC; a room has as many degF: if it is in degF, subtract 32 and divide by 1.8 \
+                [fahrenheit]";
+    assert!(notes.contains(says), "{notes}");
     folder.write("p.csv", "time_s,chamber_c\n0,20\n0.01,500\n");
     assert!(stderr(&run(&[])).contains("rows are as close as 0.010000 s"));
     let quiet = run(&["--quiet"]);

@@ -6,7 +6,7 @@ use crate::common::{Folder, stderr, stdout};
 use fogcoil::input::{CHAMBER, RATE, RecordOptions, SPOOL, read_record};
 
 /// Instant, chamber, spool, rate in s, degC, degC, deg/h.
-fn rows() -> Vec<[f64; 4]> {
+pub(crate) fn rows() -> Vec<[f64; 4]> {
     let noise = |n: usize, k: usize| ((n * 7919 + k * 104_729) % 1009) as f64 / 504.5 - 1.0;
     let row = |n: usize| {
         let chamber = 20.0 + 0.1 * n as f64;
@@ -15,7 +15,7 @@ fn rows() -> Vec<[f64; 4]> {
     (0..200).map(row).collect()
 }
 
-fn lines(row: impl Fn(usize, [f64; 4]) -> String) -> String {
+pub(crate) fn lines(row: impl Fn(usize, [f64; 4]) -> String) -> String {
     rows().into_iter().enumerate().map(|(n, values)| row(n, values) + "\r\n").collect()
 }
 
@@ -32,7 +32,7 @@ fn latin(text: &str) -> Vec<u8> {
 }
 
 /// Writes the map beside `r.csv`, expects its content, and that the file is read as the recording of [`rows`].
-fn proposes(content: Vec<u8>, map: &str) {
+pub(crate) fn proposes(content: Vec<u8>, map: &str) {
     let folder = Folder::new();
     folder.write("r.csv", content);
     let output = folder.run(&["check", "r.csv", "--write-map"]);

@@ -4,7 +4,7 @@ use super::expectation::Expectation;
 use super::summary::{COARSE, ChannelSummary, Context};
 use super::units::Course;
 use super::white_noise::white_noise;
-use super::{Finding, FindingKind, Instants, Repair, Severity, codes, outliers, runs, units};
+use super::{Clock, Finding, FindingKind, Instants, Repair, Severity, codes, fast, outliers, runs, units};
 use crate::Channel;
 use crate::statistics::median;
 
@@ -14,7 +14,12 @@ pub(super) struct Judged {
     pub(super) findings: Vec<Finding>,
 }
 
-pub(super) fn judge(time: &[f64], channel: &Channel, expectation: &Expectation, instants: Option<&Instants>) -> Judged {
+pub(super) fn judge(
+    time: &[f64],
+    channel: &Channel,
+    (expectation, clock): (&Expectation, &Clock),
+    instants: Option<&Instants>,
+) -> Judged {
     let mut mask: Vec<bool> = channel.values.iter().map(|value| value.is_finite()).collect();
     let mut findings = Vec::new();
     let useless = if expectation.essential { Severity::Error } else { Severity::Warning };
@@ -46,9 +51,13 @@ pub(super) fn judge(time: &[f64], channel: &Channel, expectation: &Expectation, 
             let context = Context { time, values: &channel.values, summary: &summary, interval, expectation };
             findings.extend(runs::judge(&context, &mut mask));
             findings.extend(outliers::judge(&context, &mut mask));
-            if let Some(course) = Course::new(&used(&mask)) {
-                findings.extend(units::judge(&summary, &course, expectation));
+            let course = Course::new(&used(&mask));
+            let unit = course.map_or_else(Vec::new, |course| units::judge(&summary, &course, expectation));
+            // in another unit it changes at another rate
+            if unit.iter().all(|finding| !matches!(finding.kind, FindingKind::Unit { .. })) {
+                findings.extend(fast::judge(&context, &mask, clock));
             }
+            findings.extend(unit);
             if let (Some(step), Some(noise)) = (summary.step, summary.noise)
                 && step > COARSE * noise
             {

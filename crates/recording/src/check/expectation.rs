@@ -35,8 +35,12 @@ pub struct Expectation {
     pub noise: [f64; 2],
     /// Values below this size whose noise is too small as well are in another unit \[u\].
     pub least_size: f64,
+    /// The fastest that it can change for some rows \[u/s\].
+    pub fastest: f64,
     /// Units in which it may be by mistake.
     pub mistaken: Vec<Unit>,
+    /// What it is called where its unit is said; empty if that is nowhere.
+    pub key: String,
     /// An offset that may have been left in.
     pub offset: Option<Offset>,
     /// Whether the recording is useless if the channel is empty or constant.
@@ -53,10 +57,44 @@ impl Default for Expectation {
             start: any,
             noise: any,
             least_size: 0.0,
+            fastest: f64::INFINITY,
             mistaken: Vec::new(),
+            key: String::new(),
             offset: None,
             essential: false,
         }
+    }
+}
+
+/// What the instants are expected to be.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Clock {
+    /// What a recording may last \[s\]; of a short one only if it has many rows.
+    pub span: [f64; 2],
+    /// What one usually lasts \[s\]: the unit that comes nearest to it is the likeliest.
+    pub usual: f64,
+    /// Units in which the instants may be by mistake.
+    pub mistaken: Vec<Unit>,
+    /// What they are called where their unit is said; empty if that is nowhere.
+    pub key: String,
+}
+
+impl Default for Clock {
+    /// Any.
+    fn default() -> Self {
+        Self { span: [0.0, f64::INFINITY], usual: 1.0, mistaken: Vec::new(), key: String::new() }
+    }
+}
+
+impl Clock {
+    /// Units in which instants that span so much \[s\] are plausible and, of a change that is `too_fast` times as fast as can be, slow enough;
+    /// the likeliest first.
+    pub(super) fn candidates(&self, span: f64, too_fast: f64) -> Vec<String> {
+        let fits = |unit: &&Unit| within(unit.scale * span, self.span) && unit.scale >= too_fast;
+        let distance = |unit: &Unit| (unit.scale * span / self.usual).ln().abs();
+        let mut units: Vec<&Unit> = self.mistaken.iter().filter(fits).collect();
+        units.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+        units.into_iter().map(|unit| unit.name.clone()).collect()
     }
 }
 

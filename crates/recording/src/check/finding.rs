@@ -1,5 +1,6 @@
 //! A finding and its words.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use crate::Seconds;
@@ -77,6 +78,30 @@ pub enum FindingKind {
         range: [f64; 2],
         /// Units in which it would be plausible.
         candidates: Vec<String>,
+        /// What the channel is called where its unit is said.
+        key: String,
+    },
+    /// The channel changes faster than it can.
+    TooFast {
+        /// How fast \[u/s\].
+        rate: f64,
+        /// The fastest that can be \[u/s\].
+        limit: f64,
+        /// Units of the instants in which it would be slow enough, the likeliest first.
+        candidates: Vec<String>,
+        /// What the instants are called where their unit is said.
+        key: String,
+    },
+    /// The recording is too short or too long to be one.
+    Span {
+        /// From the first instant to the last \[s\].
+        found: f64,
+        /// What is plausible \[s\].
+        range: [f64; 2],
+        /// Units of the instants in which it would be plausible, the likeliest first.
+        candidates: Vec<String>,
+        /// What the instants are called where their unit is said.
+        key: String,
     },
     /// Values that no measurement gives; the largest \[u\].
     Impossible(f64),
@@ -93,6 +118,8 @@ pub enum FindingKind {
         found: f64,
         /// That unit.
         candidate: String,
+        /// What the channel is called where its unit is said.
+        key: String,
     },
     /// One value \[u\] throughout.
     Constant(f64),
@@ -108,6 +135,8 @@ pub enum FindingKind {
         largest: f64,
         /// What would explain it.
         of: String,
+        /// Whether it would explain all of it.
+        is_explained: bool,
     },
 }
 
@@ -142,8 +171,15 @@ impl Finding {
     }
 
     /// What to do, if there is something.
-    pub fn advice(&self) -> &'static str {
-        match (&self.kind, self.severity) {
+    pub fn advice(&self) -> Cow<'static, str> {
+        let advice = match (&self.kind, self.severity) {
+            (FindingKind::Start { candidate, key, .. }, _) => return declare(key, std::slice::from_ref(candidate)),
+            (
+                FindingKind::Unit { candidates, key, .. }
+                | FindingKind::TooFast { candidates, key, .. }
+                | FindingKind::Span { candidates, key, .. },
+                _,
+            ) => return declare(key, candidates),
             (FindingKind::Conflict, _) => "keep the row that is right",
             (FindingKind::Backwards { .. }, _) => "sort the rows by time, or split the file where the clock restarts",
             (FindingKind::ClockStep { .. }, _) => "if the clock was set, split the file there or mend the instants",
@@ -151,14 +187,15 @@ impl Finding {
                 "check the sensor's cable and the choice of the column"
             }
             (FindingKind::Stuck { .. } | FindingKind::Saturation { .. }, _) => "check the sensor and its range",
-            (FindingKind::Unit { .. } | FindingKind::Start { .. }, _) => {
-                "if so, say it: --unit KEY=UNIT, or unit in the map file"
-            }
             (FindingKind::Moving { .. }, _) => "cut out the rows in which the unit was moved",
+            (FindingKind::Offset { is_explained: false, .. }, _) => {
+                "check unit and scale of the rate, or accept that the offset is fitted"
+            }
             (FindingKind::Offset { .. }, _) => "remove it, or accept that the offset is fitted",
             (FindingKind::TooShort { .. }, _) => "give a longer recording",
             _ => "",
-        }
+        };
+        advice.into()
     }
 
     fn what(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -181,10 +218,18 @@ impl Finding {
             FindingKind::Quantised { step, noise } => {
                 write!(f, "the resolution, {} {unit}, hides the noise, at most {} {unit}", Short(*step), Short(*noise))
             }
-            FindingKind::Unit { what, found, range: [low, high], candidates } => {
+            FindingKind::Unit { what, found, range: [low, high], candidates, .. } => {
                 let verb = if *what == "noise" { "is" } else { "are" };
                 write!(f, "{what} of {} {unit} {verb} implausible ({} to {} {unit})", Short(*found), Short(*low), Short(*high))?;
                 if candidates.is_empty() { Ok(()) } else { write!(f, "; is it in {}?", candidates.join(" or ")) }
+            }
+            FindingKind::TooFast { rate, limit, candidates, .. } => {
+                write!(f, "changes by {} {unit}/s, which no chamber does (at most {} {unit}/s)", Short(*rate), Short(*limit))?;
+                ask(f, candidates)
+            }
+            FindingKind::Span { found, range: [least, most], candidates, .. } => {
+                write!(f, "it lasts {} s, which is implausible ({} to {} s)", Short(*found), Short(*least), Short(*most))?;
+                ask(f, candidates)
             }
             FindingKind::Impossible(largest) => write!(f, "values that no measurement gives, up to {} {unit}", Short(*largest)),
             FindingKind::Moving { largest, range: [low, high] } => write!(
@@ -194,16 +239,33 @@ impl Finding {
                 Short(*low),
                 Short(*high)
             ),
-            FindingKind::Start { found, candidate } => {
+            FindingKind::Start { found, candidate, .. } => {
                 write!(f, "starts at {} {unit}; a room has as many {candidate}: is it in {candidate}?", Short(*found))
             }
             FindingKind::Constant(value) => write!(f, "is {} {unit} throughout", Short(*value)),
             FindingKind::Empty => write!(f, "has no value at all"),
             FindingKind::TooShort(rows) => write!(f, "too few rows, {rows}"),
-            FindingKind::Offset { median, largest, of } => {
-                write!(f, "the median, {} {unit}, is more than {} {unit}: {of}?", Short(*median), Short(*largest))
+            FindingKind::Offset { median, largest, of, is_explained } => {
+                write!(f, "the median, {} {unit}, is more than {} {unit}", Short(*median), Short(*largest))?;
+                if *is_explained { write!(f, ": {of}?") } else { write!(f, ", and more than this explains: {of}") }
             }
         }
+    }
+}
+
+/// Asks for the unit of the instants.
+fn ask(f: &mut fmt::Formatter<'_>, candidates: &[String]) -> fmt::Result {
+    if candidates.is_empty() { Ok(()) } else { write!(f, "; are the instants in {}?", candidates.join(" or ")) }
+}
+
+/// How to say a unit, the likeliest of several.
+fn declare(key: &str, candidates: &[String]) -> Cow<'static, str> {
+    match candidates {
+        [first, others @ ..] if !key.is_empty() => {
+            let others = if others.is_empty() { String::new() } else { format!(" (or {})", others.join(", ")) };
+            format!("if so, say it: --unit {key}={first}{others}, or unit in the map file").into()
+        }
+        _ => "if so, say it: --unit KEY=UNIT, or unit in the map file".into(),
     }
 }
 

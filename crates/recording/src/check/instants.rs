@@ -1,6 +1,6 @@
 //! The instants of a recording.
 
-use super::{Finding, FindingKind, Repair, Severity};
+use super::{Clock, Finding, FindingKind, Repair, Severity};
 use crate::Recording;
 use crate::series::GAP;
 use crate::statistics::median;
@@ -77,6 +77,16 @@ impl Instants {
                 ));
             }
         }
+    }
+}
+
+impl Instants {
+    /// Whether the recording lasts as long as one does; of a short one only if it has `many` rows.
+    pub(super) fn judge_span(&self, many: bool, clock: &Clock) -> Option<Finding> {
+        let [least, most] = clock.span;
+        let candidates = clock.candidates(self.span, 0.0);
+        let kind = FindingKind::Span { found: self.span, range: clock.span, candidates, key: clock.key.clone() };
+        (self.span > most || many && self.span < least).then(|| Finding::whole(kind, Severity::Warning))
     }
 }
 

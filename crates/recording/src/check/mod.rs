@@ -5,6 +5,7 @@
 mod channel;
 mod codes;
 mod expectation;
+mod fast;
 mod finding;
 mod instants;
 mod outliers;
@@ -13,7 +14,7 @@ mod summary;
 mod units;
 mod white_noise;
 
-pub use expectation::{Expectation, Offset, Unit};
+pub use expectation::{Clock, Expectation, Offset, Unit};
 pub use finding::{Finding, FindingKind, Repair, Severity};
 pub use instants::{Gap, Instants};
 pub use summary::ChannelSummary;
@@ -28,6 +29,8 @@ pub struct Expectations {
     pub channels: Vec<Expectation>,
     /// Rows below which a recording is noted as short.
     pub fewest_rows: usize,
+    /// Of the instants.
+    pub clock: Clock,
 }
 
 /// What was found.
@@ -72,6 +75,7 @@ pub fn check(recording: &Recording, expectations: &Expectations) -> Report {
     let instants = Instants::new(kept.time());
     if let Some(instants) = &instants {
         instants.judge(kept.time(), &mut findings);
+        findings.extend(instants.judge_span(rows.len() >= expectations.fewest_rows, &expectations.clock));
     }
     if rows.len() < FEWEST_ROWS.max(expectations.fewest_rows) {
         let severity = if rows.len() < FEWEST_ROWS { Severity::Error } else { Severity::Warning };
@@ -80,7 +84,7 @@ pub fn check(recording: &Recording, expectations: &Expectations) -> Report {
     let nothing = Expectation::default();
     let judge = |(number, channel)| {
         let expectation = expectations.channels.get(number).unwrap_or(&nothing);
-        channel::judge(kept.time(), channel, expectation, instants.as_ref())
+        channel::judge(kept.time(), channel, (expectation, &expectations.clock), instants.as_ref())
     };
     let (mut masks, mut channels) = (Vec::new(), Vec::new());
     for judged in kept.channels().iter().enumerate().map(judge) {

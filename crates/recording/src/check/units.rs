@@ -36,10 +36,11 @@ pub(super) fn judge(summary: &ChannelSummary, course: &Course, expectation: &Exp
         plain.into_iter().all(|value| within(value, *values)) && measured.is_none_or(|sd| within(unit.scale.abs() * sd, *noise))
     };
     let candidates = || mistaken.iter().filter(fits).map(|unit| unit.name.clone()).collect();
+    let key = || expectation.key.clone();
     let mut findings = Vec::new();
     let mut suspect = |what, found, range, useless: bool| {
         let severity = if expectation.essential && useless { Severity::Error } else { Severity::Warning };
-        findings.push(Finding::whole(FindingKind::Unit { what, found, range, candidates: candidates() }, severity));
+        findings.push(Finding::whole(FindingKind::Unit { what, found, range, candidates: candidates(), key: key() }, severity));
     };
     if let Some(found) = extremes.into_iter().find(|value| !within(*value, *values)) {
         suspect("values", found, *values, true);
@@ -49,13 +50,13 @@ pub(super) fn judge(summary: &ChannelSummary, course: &Course, expectation: &Exp
     } else if let Some(unit) = mistaken.iter().find(|unit| within(unit.scale * start + unit.offset, expectation.start))
         && !within(start, expectation.start)
     {
-        let kind = FindingKind::Start { found: start, candidate: unit.name.clone() };
+        let kind = FindingKind::Start { found: start, candidate: unit.name.clone(), key: key() };
         findings.push(Finding::whole(kind, Severity::Warning));
     } else if let Some(Offset { largest, explained, of }) = offset
         && summary.median.abs() > *largest
-        && summary.median.abs() <= *explained
     {
-        let kind = FindingKind::Offset { median: summary.median, largest: *largest, of: of.clone() };
+        let is_explained = summary.median.abs() <= *explained;
+        let kind = FindingKind::Offset { median: summary.median, largest: *largest, of: of.clone(), is_explained };
         findings.push(Finding::whole(kind, Severity::Note));
     }
     findings

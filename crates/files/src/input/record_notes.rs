@@ -1,0 +1,101 @@
+//! What a user should know about how a recording was read.
+
+use recording::Seconds;
+
+use super::meta::Meta;
+use super::record_columns::RecordColumns;
+use super::record_format::{ColumnFormat, RecordFormat};
+use super::record_options::Key;
+use super::rows::quoted;
+use super::unit_names::{foreign, is_temperature};
+use crate::remark::{Note, Remark};
+
+/// What there is to say of the columns; `dates` is what there is to say of the instants.
+pub(super) fn notes(columns: &RecordColumns, format: &RecordFormat, dates: Option<Note>) -> Vec<Note> {
+    let mut notes = Vec::new();
+    for key in Key::ALL {
+        match columns.column(key) {
+            None => notes.push(absent(key)),
+            Some(column) => {
+                let (name, form) = (&columns.names[column], format.column(key));
+                notes.extend(mapped(key, name, form));
+                // dates have no unit
+                let has_unit = key != Key::Time || dates.is_none();
+                notes.extend(unit(key, name, form).filter(|_| has_unit));
+            }
+        }
+    }
+    notes.extend(dates);
+    let ignored = columns.ignored();
+    notes.extend(unused_temperatures(columns, &ignored));
+    match ignored[..] {
+        [] => {}
+        [name] => notes.push(Remark::IgnoredColumn.note(format!("the column {} is not used", quoted(name)))),
+        ref names => {
+            let message = format!("{} columns are not used: {}", names.len(), listed(names));
+            notes.push(Remark::IgnoredColumn.note(message));
+        }
+    }
+    notes
+}
+
+fn listed(names: &[&str]) -> String {
+    names.iter().map(|name| quoted(name)).collect::<Vec<_>>().join(", ")
+}
+
+fn absent(key: Key) -> Note {
+    if key == Key::Time {
+        return Remark::DeclaredInterval.note("there is no column of instants: the interval that was declared stands for it");
+    }
+    Remark::AbsentColumn.note(format!("there is no column {}; a model can do without it, less surely", key.standard()))
+}
+
+/// What is said of a column that is not the standard one.
+fn mapped(key: Key, name: &str, form: &ColumnFormat) -> Option<Note> {
+    let counts = if form.count == 1.0 { String::new() } else { format!("counts of {} ", form.count) };
+    let unit = form.unit.names[0];
+    let message = || format!("{} is read from the column {}, in {counts}{unit}", key.name(), quoted(name));
+    (name != key.standard() || !form.is_standard(key)).then(|| Remark::MappedColumn.note(message()))
+}
+
+/// What is said of the unit in a column's name if it is not the one that is read.
+fn unit(key: Key, name: &str, form: &ColumnFormat) -> Option<Note> {
+    let (read, shown, key_name) = (form.unit.names[0], quoted(name), key.name());
+    if let Some(named) = key.unit_in(name).filter(|named| *named != form.unit) {
+        let named = named.names[0];
+        let message = format!("the column {shown} is read in {read}; if its name is right, add --unit {key_name}={named}");
+        return Some(Remark::UnitInName.warning(message));
+    }
+    let text = quoted(foreign(name, key).filter(|_| !form.is_said)?);
+    let message = format!(
+        "the column {shown} is read in {read}; {text} is no unit of {key_name} here: say what it holds by --unit {key_name}=UNIT and \
+         --scale {key_name}=FACTOR, or unit and scale in the map file"
+    );
+    Some(Remark::UnknownUnit.warning(message))
+}
+
+/// What is said of temperatures that are not used although one is wanted.
+fn unused_temperatures(columns: &RecordColumns, ignored: &[&str]) -> Option<Note> {
+    let wanted: Vec<Key> = [Key::Chamber, Key::Spool].into_iter().filter(|key| columns.column(*key).is_none()).collect();
+    let unused: Vec<&str> = ignored.iter().copied().filter(|name| is_temperature(name)).collect();
+    if wanted.is_empty() || unused.is_empty() {
+        return None;
+    }
+    let flags: Vec<String> = wanted.iter().map(|key| format!("--column {}=NAME", key.name())).collect();
+    let (verb, whose) = if unused.len() == 1 { ("temperature is", "it is") } else { ("temperatures are", "they are") };
+    let message = format!(
+        "{} {verb} not used: {}; if {whose} wanted, say which is which: {}",
+        unused.len(),
+        listed(&unused),
+        flags.join(", ")
+    );
+    Some(Remark::UnusedTemperature.warning(message))
+}
+
+/// What is said where the rows are not as far apart as the meta file says.
+pub(super) fn interval_note(meta: &Meta, interval: f64) -> Option<Note> {
+    let nominal = meta.sample_interval_s;
+    let differs = nominal > 0.0 && interval > 0.0 && (interval / nominal - 1.0).abs() > 0.02;
+    let message = || format!("the rows are {} s apart, the meta file says {nominal} s", Seconds(interval));
+    differs.then(|| Remark::IntervalDiffers.note(message()))
+}

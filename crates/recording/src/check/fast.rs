@@ -1,0 +1,50 @@
+//! Changes that are faster than what is recorded can be: the instants are in another unit.
+
+use super::summary::Context;
+use super::{Clock, Finding, FindingKind, Repair, Severity};
+
+/// Intervals over which a change is fast: noise and lone jumps are not.
+const ROWS: usize = 5;
+/// Shortest time over which it is \[s\]: a thermometer that comes into other air may jump by some kelvin.
+const SHORTEST: f64 = 20.0;
+/// Largest share of the change that may lie between two rows; more is a jump.
+const JUMP: f64 = 0.5;
+
+/// The fastest change of a channel, if it is faster than expected for [`ROWS`] intervals and [`SHORTEST`] seconds.
+pub(super) fn judge(context: &Context, mask: &[bool], clock: &Clock) -> Option<Finding> {
+    let Context { time, values, expectation, .. } = context;
+    let used: Vec<usize> = (0..time.len()).filter(|&row| mask[row]).collect();
+    let mut fastest: Option<(f64, [usize; 2])> = None;
+    let (mut first, mut last) = (0, ROWS);
+    let mut rows = 0;
+    while last < used.len() {
+        let [from, to] = [used[first], used[last]];
+        if time[to] - time[from] < SHORTEST {
+            last += 1;
+            continue;
+        }
+        let rate = (values[to] - values[from]).abs() / (time[to] - time[from]);
+        if rate > expectation.fastest && !jumps(values, &used[first..=last]) {
+            rows += last - first;
+            if fastest.is_none_or(|(most, _)| rate > most) {
+                fastest = Some((rate, [from, to]));
+            }
+            first = last;
+        } else {
+            first += 1;
+        }
+        last = last.max(first + ROWS);
+    }
+    let (rate, [from, to]) = fastest?;
+    let span = time[*used.last()?] - time[used[0]];
+    let limit = expectation.fastest;
+    let kind = FindingKind::TooFast { rate, limit, candidates: clock.candidates(span, rate / limit), key: clock.key.clone() };
+    Some(Finding::at(kind, Severity::Warning, [time[from], time[to]], rows, Repair::None))
+}
+
+/// Whether most of a change lies between two rows.
+fn jumps(values: &[f64], rows: &[usize]) -> bool {
+    let change = values[rows[rows.len() - 1]] - values[rows[0]];
+    let largest = rows.windows(2).map(|pair| (values[pair[1]] - values[pair[0]]).abs()).fold(0.0, f64::max);
+    largest > JUMP * change.abs()
+}
