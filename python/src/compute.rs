@@ -126,11 +126,11 @@ pub(crate) fn simulate<'py>(
     mechanisms: Vec<PathBuf>,
     code: Option<PathBuf>,
 ) -> PyResult<(Columns<'py>, String)> {
-    let asked = input::read_mechanisms(&mechanisms).map_err(raised)?;
-    let further = asked.further_columns();
+    let own = input::read_simulated(&mechanisms).map_err(raised)?;
+    let further = input::further_columns(&own);
     let (case, profile) = (&coil.case, checked_profile(py, coil, &profile, &further, between)?);
     let run = || {
-        let (own, cache) = (asked.files_alone()?, cache(code));
+        let cache = cache(code);
         let model = runs::model(case, &profile.drives, &cache)?;
         let mut simulation = runs::simulate(case, &profile, &model)?;
         simulation.add(&own, &cache, &|_| ())?;

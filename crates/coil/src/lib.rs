@@ -58,7 +58,7 @@ pub use parametric::{
     Courses, Effort as ModelEffort, MODEL_SAFETY, MODULI, Number, Parameter, ParametricModel, Projected, Range, Slopes,
     Tolerance, Tolerances,
 };
-pub use profile::Profile;
+pub use profile::{Profile, Smooth};
 pub use sensitivity::{
     CHECKS, COARSE, FINE, SAFETY, SHARE, STEADY, SteadySensitivity, sensitivity_in, sensitivity_on, steady_sensitivity,
 };

@@ -57,25 +57,68 @@ impl Profile {
             return self.clone();
         }
         let fraction = |part: usize| part as f64 / parts as f64;
-        let spread = |of: &dyn Fn(usize, f64) -> f64, rows: &[f64]| -> Vec<f64> {
-            let between = (1..rows.len()).flat_map(|n| {
-                // the rows themselves keep their bits
-                (1..=parts).map(move |part| if part == parts { rows[n] } else { of(n, fraction(part)) })
-            });
-            rows.first().copied().into_iter().chain(between).collect()
-        };
         let t = &self.time;
-        let cubic = |course: &Vec<f64>| {
-            let slopes = slopes(t, course);
-            let at = |n: usize, s: f64| {
-                let (h, rise) = (t[n] - t[n - 1], course[n] - course[n - 1]);
-                let (leaving, arriving) = (h * slopes[n - 1] - rise, h * slopes[n] - rise);
-                course[n - 1] + s * rise + s * (1.0 - s) * ((1.0 - s) * leaving - s * arriving)
-            };
-            spread(&at, course)
-        };
-        let time = spread(&|n, s| t[n - 1] + s * (t[n] - t[n - 1]), t);
-        Self { drives: self.drives.iter().map(cubic).collect(), time }
+        // the rows themselves keep their bits
+        let within = |n: usize, part: usize| if part == parts { t[n] } else { t[n - 1] + fraction(part) * (t[n] - t[n - 1]) };
+        let between = (1..t.len()).flat_map(|n| (1..=parts).map(move |part| within(n, part)));
+        let time: Vec<f64> = t.first().copied().into_iter().chain(between).collect();
+        let drives = self.drives.iter().map(|course| {
+            let smooth = Smooth::through(t, course);
+            time.iter().map(|t| smooth.at(*t).0).collect()
+        });
+        Self { drives: drives.collect(), time }
+    }
+}
+
+/// A course between its rows: the piecewise cubic that has its values and rates there; beyond its ends it stays.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Smooth {
+    time: Vec<f64>,
+    course: Vec<f64>,
+    rates: Vec<f64>,
+}
+
+impl Smooth {
+    /// Through rows whose rates nobody told: those of [`Profile::smoothed`]. Instants that do not increase give a course without meaning.
+    pub fn through(time: &[f64], course: &[f64]) -> Self {
+        Self::with_rates(time, course, &slopes(time, course))
+    }
+
+    /// Through rows with these rates \[unit of the course per s\]; of lists that differ in length the shortest counts.
+    pub fn with_rates(time: &[f64], course: &[f64], rates: &[f64]) -> Self {
+        let rows = time.len().min(course.len()).min(rates.len());
+        let first = |of: &[f64]| of[..rows].to_vec();
+        Self { time: first(time), course: first(course), rates: first(rates) }
+    }
+
+    /// Instants \[s\] of the rows.
+    pub fn time(&self) -> &[f64] {
+        &self.time
+    }
+
+    /// Values in the rows.
+    pub fn course(&self) -> &[f64] {
+        &self.course
+    }
+
+    /// Value and rate at an instant; beyond the ends those of the end, NaN where there is no row. A row has its own, bit by bit.
+    pub fn at(&self, t: f64) -> (f64, f64) {
+        let n = self.time.partition_point(|row| *row < t);
+        match (n.checked_sub(1), self.time.get(n)) {
+            (Some(before), Some(after)) if t < *after => self.between(before, t),
+            (Some(last), None) => (self.course[last], self.rates[last]),
+            (None, None) => (f64::NAN, f64::NAN),
+            (_, Some(_)) => (self.course[n], self.rates[n]),
+        }
+    }
+
+    fn between(&self, n: usize, t: f64) -> (f64, f64) {
+        let (h, rise) = (self.time[n + 1] - self.time[n], self.course[n + 1] - self.course[n]);
+        let (s, left) = ((t - self.time[n]) / h, (self.time[n + 1] - t) / h);
+        let (leaving, arriving) = (h * self.rates[n] - rise, h * self.rates[n + 1] - rise);
+        let value = self.course[n] + s * rise + s * left * (left * leaving - s * arriving);
+        let rate = (rise + left * (left - 2.0 * s) * leaving + s * (s - 2.0 * left) * arriving) / h;
+        (value, rate)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::library::Functionals;
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
-use coil::{Output, Profile, Reduced};
+use coil::{Output, Reduced, Smooth};
 use nalgebra::DMatrix;
 
 /// Place of the spool's thermometer among the channels.
@@ -47,25 +47,28 @@ pub(crate) struct Clock {
 pub(crate) const BETWEEN: usize = 4;
 
 impl Clock {
-    /// Between readings the chamber is smooth ([`Profile::smoothed`]), without corners. After a gap one begins `averaging` seconds before.
+    /// Between rows the chamber is smooth ([`Smooth::through`]), without corners, wherever readings begin. After a gap one begins `averaging` seconds
+    /// before its row.
     pub(crate) fn new(time: &[f64], chamber: &[f64], averaging: f64) -> Self {
-        let (mut t, mut c) = (Vec::with_capacity(time.len()), Vec::with_capacity(time.len()));
+        let smooth = Smooth::through(time, chamber);
+        let mut instants = Vec::with_capacity(time.len());
         let (mut rows, mut starts) = (Vec::with_capacity(time.len()), Vec::new());
         for n in 0..time.len() {
-            let dt = if n > 0 { time[n] - time[n - 1] } else { 0.0 };
-            if averaging > 0.0 && dt > GAP * averaging {
-                starts.push(t.len() * BETWEEN);
-                t.push(time[n] - averaging);
-                c.push(chamber[n] - (chamber[n] - chamber[n - 1]) * averaging / dt);
+            if averaging > 0.0 && n > 0 && time[n] - time[n - 1] > GAP * averaging {
+                starts.push(instants.len() * BETWEEN);
+                instants.push(time[n] - averaging);
             }
-            rows.push(t.len() * BETWEEN);
-            t.push(time[n]);
-            c.push(chamber[n]);
+            rows.push(instants.len() * BETWEEN);
+            instants.push(time[n]);
         }
-        let Profile { time, mut drives } = Profile { time: t, drives: vec![c] }.smoothed(BETWEEN);
-        let mut begins = vec![false; time.len()];
+        let within = |from: f64, to: f64, part: usize| {
+            if part == BETWEEN { to } else { from + (to - from) * part as f64 / BETWEEN as f64 }
+        };
+        let between = instants.windows(2).flat_map(|w| (1..=BETWEEN).map(|part| within(w[0], w[1], part)).collect::<Vec<_>>());
+        let fine: Vec<f64> = instants.first().copied().into_iter().chain(between).collect();
+        let mut begins = vec![false; fine.len()];
         starts.into_iter().for_each(|n| begins[n] = true);
-        Self { time, chamber: drives.swap_remove(0), rows, begins }
+        Self { chamber: fine.iter().map(|t| smooth.at(*t).0).collect(), time: fine, rows, begins }
     }
 }
 

@@ -102,7 +102,8 @@ fn plain(candidate: &Candidate) -> bool {
 fn verdicts<M: ForwardModel>(model: &M, candidates: &[Candidate]) -> [f64; 4] {
     let of = |verdict: Verdict| -> f64 { candidates.iter().filter(|c| kind(model, c) == verdict).map(|c| c.probability).sum() };
     let [none, recalibrate, unknown] = [Verdict::None, Verdict::Recalibrate, Verdict::Unknown].map(of);
-    [none, recalibrate, 1.0 - none - unknown - recalibrate, unknown]
+    // no less than nothing by rounding
+    [none, recalibrate, (1.0 - none - unknown - recalibrate).max(0.0), unknown]
 }
 
 /// The verdict that a candidate speaks for.
