@@ -31,8 +31,9 @@ const THINNING: Thinning = Thinning { many_rows: 3_000, interval: 30.0, most_row
 const THINNING_CHAMBER: Thinning = Thinning { many_rows: 9_000, interval: 10.0, most_rows: 30_000 };
 /// Range of the chamber \[K\] below which it is noted that nothing shows; beyond it what a start or a gap hides may be taken for a finding.
 const FEWEST_KELVIN: f64 = 5.0;
-/// Rows from which what is missing counts as a gap.
+/// Rows from which what is missing counts as a gap, and readings on either side from which the chamber's slope there is taken.
 const GAP_ROWS: f64 = 3.0;
+const BESIDE_GAP: usize = 10;
 /// What chamber and spool may differ by at rest, and the chamber move by in the first minutes \[K\]: thermometers' offsets and noise.
 const REST: Rest = Rest { duration: 600.0, tolerance: 0.5 };
 
@@ -121,7 +122,7 @@ fn refuse_dead(case: &RecordCase, chamber: &[f64], spool: &[f64]) -> Result<(), 
     Err(refuse(case, CHAMBER, problem, "check the chamber's sensor and the choice of its column"))
 }
 
-/// A warning of the longest gap within which the chamber moved far: how, no reading tells.
+/// A warning of the gap in which the chamber turned most: how, no reading tells.
 fn moved_in_gap(case: &RecordCase) -> Option<Note> {
     let chamber = case.recording.channel(CHAMBER)?;
     let readings: Vec<(f64, f64)> = case
@@ -133,14 +134,20 @@ fn moved_in_gap(case: &RecordCase) -> Option<Note> {
         .filter(|(_, value)| value.is_finite())
         .collect();
     let interval = median_interval(case.recording.time())?;
-    let gaps = readings.windows(2).map(|pair| (pair[1].0 - pair[0].0, (pair[1].1 - pair[0].1).abs()));
-    let far = gaps.filter(|(gap, moved)| *gap > GAP_ROWS * interval && *moved > FEWEST_KELVIN);
-    let (gap, moved) = far.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let slope = |from: usize, to: usize| (readings[to].1 - readings[from].1) / (readings[to].0 - readings[from].0);
+    let within = |n: usize| -> Option<(f64, f64)> {
+        let gap = readings[n].0 - readings[n - 1].0;
+        let (before, after) = (n.checked_sub(1 + BESIDE_GAP)?, n + BESIDE_GAP);
+        (gap > GAP_ROWS * interval && after < readings.len())
+            // a course that turns evenly is that far from its chord
+            .then(|| (gap, (slope(n, after) - slope(before, n - 1)).abs() * gap / 8.0))
+    };
+    let (gap, off) = (1..readings.len()).filter_map(within).max_by(|a, b| a.1.total_cmp(&b.1))?;
     let text = format!(
-        "the chamber moved by {moved:.1} K within a gap of {}, over which it is taken for a straight line: what the next hours leave may be no finding",
+        "the chamber turned within a gap of {} s, over which it is taken for a straight line: some {off:.1} K off; what the next hours leave may be no finding",
         Seconds(gap)
     );
-    Some(Remark::Gap.warning(text))
+    (off > REST.tolerance).then(|| Remark::Gap.warning(text))
 }
 
 /// A recording's usable values, averaged down where there are very many; what was done is added to `notes`.
