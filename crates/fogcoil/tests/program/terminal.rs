@@ -109,6 +109,10 @@ fn every_id_is_explained_and_a_wrong_one_is_answered_with_the_nearest() {
     let wrong = folder.run(&["explain", "air-pth"]);
     assert_eq!((wrong.status.code(), stdout(&wrong).as_str()), (Some(2), ""));
     assert!(stderr(&wrong).contains("nearest: air-path; "), "{}", stderr(&wrong));
+    let missing = folder.run(&["explain", "coil.ron"]);
+    assert_eq!(missing.status.code(), Some(2));
+    assert!(stderr(&missing).contains("coil.ron: is no file"), "{}", stderr(&missing));
+    folder.write("coil.ron", COIL);
     let coil = folder.run(&["explain", "coil.ron"]);
     assert_eq!(coil.status.code(), Some(2));
     assert!(stderr(&coil).contains("add --sensitivity S"), "{}", stderr(&coil));
