@@ -8,11 +8,12 @@ use coil::{Design, Drive, Profile};
 use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::profile_columns::{Columns, TIME};
-use super::record_expectations::ROOM_C;
 use super::record_options::Key;
 use super::rows::{Dialect, Rows};
 use crate::remark::{Note, Remark};
 
+/// Rooms \[°C\].
+pub(super) const ROOM_C: [f64; 2] = [15.0, 30.0];
 /// Most rows of a profile: two and a half years at 4 s.
 const MOST_ROWS: usize = 20_000_000;
 /// Accepted temperatures \[degC\].

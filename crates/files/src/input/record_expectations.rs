@@ -3,7 +3,7 @@
 use recording::check::{Clock, Expectation, Expectations, Offset};
 use recording::{Channel, Recording};
 
-use super::profile::ABSOLUTE_ZERO_C;
+use super::profile::{ABSOLUTE_ZERO_C, ROOM_C};
 use super::record_format::RecordFormat;
 use super::record_options::Key;
 
@@ -13,8 +13,6 @@ const FEW_ROWS: usize = 100;
 const TEMPERATURE_C: [f64; 2] = [-100.0, 200.0];
 /// Temperatures \[°C\] that a sensor on a coil can tell: from absolute zero to where polyimide, the most resistant polymer on a fibre, decomposes.
 const POSSIBLE_C: [f64; 2] = [ABSOLUTE_ZERO_C, 400.0];
-/// Rooms \[°C\].
-pub(super) const ROOM_C: [f64; 2] = [15.0, 30.0];
 /// The Earth's rate \[deg/h\] with two parts in a thousand (IERS Conventions 2010: 7.292115e-5 rad/s).
 const EARTH_DEG_PER_H: f64 = 15.041 * 1.002;
 /// Where rates may lie at rest \[deg/h\]: a hundred times the Earth's, far beyond an optical gyro's bias.

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use super::profile_columns::TIME;
-use super::unit_names::{bracketed, spelled};
 use crate::units::{ColumnUnit, RATES, TEMPERATURES, TIMES};
 
 /// The chamber's temperature \[°C\].
@@ -57,11 +56,6 @@ impl Key {
             Self::Chamber | Self::Spool => &TEMPERATURES,
             Self::Rate => &RATES,
         }
-    }
-
-    /// The unit that a column's name has in brackets at its end, like `T [K]` or `Zeit (min)`, if it is one of the key's.
-    pub(super) fn unit_in(self, name: &str) -> Option<ColumnUnit> {
-        spelled(bracketed(name)?.1, self)
     }
 
     pub(super) fn unit(self, name: &str) -> Result<ColumnUnit, String> {

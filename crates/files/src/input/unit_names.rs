@@ -137,6 +137,13 @@ pub(super) fn is_temperature(name: &str) -> bool {
     }
 }
 
+impl Key {
+    /// The unit that a column's name has in brackets at its end, like `T [K]` or `Zeit (min)`, if it is one of the key's.
+    pub(super) fn unit_in(self, name: &str) -> Option<ColumnUnit> {
+        spelled(bracketed(name)?.1, self)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Key, foreign, is_temperature, spelled};
