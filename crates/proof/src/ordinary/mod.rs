@@ -3,6 +3,7 @@
 //! Answered from the drawing with its usual tolerances, all of them, and only then held against their truths.
 
 mod change;
+mod changed;
 mod posteriors;
 mod rows;
 mod score;
@@ -17,13 +18,12 @@ use fogcoil::input::{self, CoilCase};
 
 use crate::concealed::{Answer, HeldOut, PROGRAM, Written, answered, each, failures, lines, markdown, publish, write};
 use crate::files::{self, root};
-use crate::statistics::rate;
-use crate::three_records::{self, FITTED, HELD_OUT, HoldOut};
+use crate::three_records::{self, HoldOut};
 use crate::{Failure, program};
-use change::Change;
 use score::{Scored, score, summary};
 use truth::{Kind, Truth};
 
+pub(crate) use changed::run as changed;
 pub(crate) use posteriors::run as posteriors;
 pub(crate) use rows::run as rows;
 
@@ -103,39 +103,6 @@ pub(crate) fn open(only: &[String]) -> Result<bool, Failure> {
     println!("{}", lines(&rows));
     failures(&rows).for_each(|row| eprintln!("FAILS: {}: {}", row.group, row.quantity));
     Ok(failures(&rows).next().is_none())
-}
-
-/// Share of changed records that must be answered alike.
-const ALIKE: f64 = 0.97;
-
-/// Answers open units, or those named, from records that are changed in ways that say nothing of the coil; whether verdict and set stay the same in
-/// 97 of 100.
-pub(crate) fn changed(only: &[String]) -> Result<bool, Failure> {
-    let (cache, into) = (Cache::of_user(), root().join("target/prove/changed"));
-    let paths = named(only)?;
-    let told = |answer: &Answer| {
-        let mut set = answer.set.clone();
-        set.sort();
-        (answer.verdict.clone(), set)
-    };
-    let alike = each(&paths, |unit| {
-        let read = |[json, _]: &Written| -> Result<_, Failure> { Ok(told(&serde_json::from_str(json)?)) };
-        let first = read(&three_records::answer(&drawing(unit)?, &folder().join(unit), &cache)?)?;
-        let mut alike = 0;
-        for change in Change::ALL {
-            let at = into.join(change.folder()).join(name(unit));
-            change.write(&[FITTED[0], FITTED[1], HELD_OUT], &folder().join(unit), &at)?;
-            let other = read(&three_records::answer(&change.drawing(drawing(unit)?), &at, &cache)?)?;
-            let said = if other == first { "the same".to_owned() } else { format!("{other:?} instead of {first:?}") };
-            eprintln!("{unit}, {}: {said}", change.name());
-            alike += usize::from(other == first);
-        }
-        Ok(alike)
-    })?;
-    let (hits, cases) = (alike.iter().sum(), Change::ALL.len() * paths.len());
-    let share = rate(hits, cases).map_or(f64::NAN, |measured| measured.value);
-    println!("{hits} of {cases} answers are the same: {:.0} %, asked {:.0} %", 100.0 * share, 100.0 * ALIKE);
-    Ok(share >= ALIKE)
 }
 
 fn case(unit: &str, answers: &Path) -> Result<Case, Failure> {
