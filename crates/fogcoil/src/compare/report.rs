@@ -41,7 +41,7 @@ fn lead(c: &Comparison) -> Markup {
     html! {
         p {
             "In a steady ramp A has a sensitivity of " (with(a, total.sd[0])) " (°/h)/(°C/min), B one of " (with(b, total.sd[1]))
-            "; B less A is " (with(difference, total.sd[2])) ". What follows ± here is one standard deviation by the designs' tolerances."
+            "; B less A is " (with(difference, total.sd[2])) "; ± is one standard deviation by the designs' tolerances."
         }
     }
 }
