@@ -8,7 +8,9 @@ use fogcoil::homogenize as cells;
 use fogcoil::input::{self, AnyCell, Between, ProfileCase, RecordCase, RecordOptions, at_temperature};
 use fogcoil::simulate::SimulatedRow;
 use fogcoil::units::to_mm;
-use fogcoil::{Error, diagnose as diagnosis, sensitivity as ramp, simulate as runs, summary, wind as turns};
+use fogcoil::{
+    Error, compare as comparison, diagnose as diagnosis, sensitivity as ramp, simulate as runs, summary, wind as turns,
+};
 use progress::Step;
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
@@ -60,6 +62,24 @@ pub(crate) fn sensitivity(py: Python, coil: &Coil) -> PyResult<String> {
     let (mut object, errors) = (ramp::json(&coil.case, &result, &band), result.part_errors);
     object["part_error_estimates"] = json!({"shupe": errors.shupe, "eo_axial": errors.eo_axial, "eo_radial": errors.eo_radial});
     Ok(object.to_string())
+}
+
+/// Two designs compared, under a profile if there is one, as JSON.
+#[pyfunction]
+pub(crate) fn compare(
+    py: Python,
+    a: &Coil,
+    b: &Coil,
+    profile: Option<Vec<Column>>,
+    between: &str,
+    code: Option<PathBuf>,
+) -> PyResult<String> {
+    let read = |columns: Vec<Column>| -> PyResult<[ProfileCase; 2]> {
+        Ok([checked_profile(py, a, &columns, &[], between)?, checked_profile(py, b, &columns, &[], between)?])
+    };
+    let profiles = profile.map(read).transpose()?;
+    let run = || comparison::compare([&a.case, &b.case], profiles.as_ref(), &cache(code), &|_| ()).map(|c| comparison::json(&c));
+    py.detach(run).map(|object| object.to_string()).map_err(raised)
 }
 
 /// The user's cache for models that the library in the file `code` makes; none without it.

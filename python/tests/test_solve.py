@@ -54,6 +54,21 @@ def test_the_sensitivity_is_that_of_table_four_within_its_error(coil: fogcoil.Co
     assert 0 < found["error_estimate"] < 2e-3 and set(found["part_error_estimates"]) == {"shupe", "eo_axial", "eo_radial"}
 
 
+def test_a_comparison_is_of_both_designs_and_their_difference(coil: fogcoil.Coil) -> None:
+    other = coil.replace({"spool.hub_thickness_mm": 4.4})
+    found = fogcoil.compare(coil, other, [0.0, 600.0, 3600.0], [20.0, 30.0, 30.0])
+    assert [(d["key"], d["a"], d["b"], d["unit"]) for d in found["differing"]] == [("spool.hub_thickness_mm", "4.0", "4.4", "mm")]
+    total = found["sensitivity"]["total"]
+    assert total["a"]["value"] == fogcoil.sensitivity(coil)["total"] and total["b"]["value"] == fogcoil.sensitivity(other)["total"]
+    assert total["difference"]["value"] == pytest.approx(total["b"]["value"] - total["a"]["value"], abs=1e-12)
+    assert 0 < total["difference"]["tolerance_sd"] < total["difference"]["tolerance_sd_apart"]
+    alone = fogcoil.simulate(other, [0.0, 600.0, 3600.0], [20.0, 30.0, 30.0])
+    assert found["bias"]["b"]["end_deg_per_h"] == alone["rate_deg_per_h"][-1]
+    assert fogcoil.compare(coil, coil)["bias"] is None
+    with pytest.raises(fogcoil.InputError, match="go together"):
+        fogcoil.compare(coil, other, time_s=[0.0, 600.0])
+
+
 def test_a_simulation_is_that_of_an_independent_code(coil: fogcoil.Coil, fixtures: Path) -> None:
     other = np.genfromtxt(fixtures / "nominal" / "P1.csv", delimiter=",", names=True)
     ours = fogcoil.simulate(coil, other["time_s"], other["chamber_c"], between="cubic")

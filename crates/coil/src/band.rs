@@ -1,6 +1,7 @@
 //! What a design's tolerances make of a number that follows from it: slopes by differences, one standard deviation to either side.
 
 use crate::{Design, Error, MeshFineness, Model, Number, Parameter, Tolerances};
+use bias::Sensitivity;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::SQRT_2;
 
@@ -57,16 +58,29 @@ pub fn propagated(changes: &[f64], correlation: &DMatrix<f64>) -> (f64, Vec<f64>
     (variance.sqrt(), own.iter().zip(with_others.iter()).map(share).collect())
 }
 
-/// What the tolerances of a design make of its steady-ramp sensitivity, (°/h)/(°C/min). Where the design cannot have a number on one side, as a
-/// Poisson's ratio beyond its bound, the other side counts alone.
+/// What one standard deviation of a number changes in the steady-ramp sensitivity, part by part, (°/h)/(°C/min).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SensitivityChange {
+    /// The number.
+    pub number: Number,
+    /// What the parts change by; their sum is what the sensitivity changes by.
+    pub parts: Sensitivity,
+}
+
+fn mapped(a: &Sensitivity, b: &Sensitivity, of: impl Fn(f64, f64) -> f64) -> Sensitivity {
+    Sensitivity { shupe: of(a.shupe, b.shupe), eo_axial: of(a.eo_axial, b.eo_axial), eo_radial: of(a.eo_radial, b.eo_radial) }
+}
+
+/// What the tolerances of a design change in its steady-ramp sensitivity: one standard deviation of each number that acts in a ramp, in the order of
+/// [`Parameter::ALL`], tails last. Where the design cannot have a number on one side, as a Poisson's ratio beyond its bound, the other side counts alone.
 ///
 /// # Errors
 /// [`Error`] names the dimension or property at fault, or the solve that failed, of the design itself or on both sides of it.
-pub fn sensitivity_band(design: &Design, tolerances: &Tolerances) -> Result<Band, Error> {
-    let of = |design: &Design| -> Result<f64, Error> { Ok(Model::new(design, &SLOPES)?.sensitivity()?.total()) };
+pub fn sensitivity_changes(design: &Design, tolerances: &Tolerances) -> Result<Vec<SensitivityChange>, Error> {
+    let of = |design: &Design| -> Result<Sensitivity, Error> { Model::new(design, &SLOPES)?.sensitivity() };
     let here = of(design)?;
     let constants = Parameter::ALL.iter().map(|p| Number::Constant(*p));
-    let mut changes: Vec<(Number, f64)> = Vec::new();
+    let mut changes = Vec::new();
     for number in constants.chain([Number::Tail]).filter(|n| acts_in_a_ramp(*n)) {
         let Some(drawn) = number.of(design) else { continue };
         let sd = tolerances.of(number).of(drawn);
@@ -76,15 +90,27 @@ pub fn sensitivity_band(design: &Design, tolerances: &Tolerances) -> Result<Band
         let up = of(&number.set(design, drawn + sd));
         // a tail is not shortened below nothing
         let down = (number != Number::Tail).then(|| of(&number.set(design, drawn - sd)).ok()).flatten();
-        let change = match (up, down) {
-            (Ok(up), Some(down)) => (up - down) / 2.0,
-            (Ok(up), None) => up - here,
-            (Err(_), Some(down)) => here - down,
+        let difference = |a: &Sensitivity, b: &Sensitivity| mapped(a, b, |a, b| a - b);
+        let parts = match (up, down) {
+            (Ok(up), Some(down)) => mapped(&up, &down, |up, down| (up - down) / 2.0),
+            (Ok(up), None) => difference(&up, &here),
+            (Err(_), Some(down)) => difference(&here, &down),
             (Err(error), None) => return Err(error),
         };
         // both tails vary alike, each by itself
-        changes.push((number, if number == Number::Tail { SQRT_2 * change } else { change }));
+        let parts = if number == Number::Tail { mapped(&parts, &parts, |part, _| SQRT_2 * part) } else { parts };
+        changes.push(SensitivityChange { number, parts });
     }
+    Ok(changes)
+}
+
+/// What the tolerances of a design make of its steady-ramp sensitivity, (°/h)/(°C/min), by [`sensitivity_changes`].
+///
+/// # Errors
+/// As [`sensitivity_changes`].
+pub fn sensitivity_band(design: &Design, tolerances: &Tolerances) -> Result<Band, Error> {
+    let parts = sensitivity_changes(design, tolerances)?;
+    let mut changes: Vec<(Number, f64)> = parts.iter().map(|change| (change.number, change.parts.total())).collect();
     changes.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
     let (numbers, each): (Vec<Number>, Vec<f64>) = changes.iter().copied().unzip();
     let (sd, shares) = propagated(&each, &tolerances.correlation(&numbers));

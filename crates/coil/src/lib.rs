@@ -41,7 +41,7 @@ mod thermal;
 mod trim;
 mod turns;
 
-pub use band::{Band, propagated, sensitivity_band};
+pub use band::{Band, SensitivityChange, propagated, sensitivity_band, sensitivity_changes};
 pub use design::{
     Body, Contact, Dehomogenization, Design, Drifts, FactorsAt, Flange, FlangeContact, HeatPaths, Heater, Mechanics, Mount,
     Opening, Sensor, Side, Solid, Spool, Surroundings,

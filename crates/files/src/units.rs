@@ -59,9 +59,11 @@ pub fn to_ppm(ratio: f64) -> f64 {
 
 /// The unit of a mechanism's parameter, by the end of its name; 1 if it has none.
 pub fn parameter_unit(name: &str) -> Cow<'static, str> {
-    const UNITS: [(&str, &str); 13] = [
+    const UNITS: [(&str, &str); 15] = [
         ("_m2k_per_w", "m² K/W"),
         ("_w_per_m2k", "W/(m² K)"),
+        ("_w_per_mk", "W/(m K)"),
+        ("_j_per_kgk", "J/(kg K)"),
         ("deg_per_h_per_k_per_h", "(deg/h)/(K/h)"),
         ("_deg_per_h_per_k", "(deg/h)/K"),
         ("_deg_per_h", "deg/h"),
@@ -243,6 +245,9 @@ mod tests {
         ] {
             let name = format!("size_{}", suffix(unit));
             assert_eq!((suffix(unit).as_str(), parameter_unit(name.trim_end_matches('_')).as_ref()), (suffix_of, said), "{unit}");
+        }
+        for (key, said) in [("coil.material.k_r_w_per_mk", "W/(m K)"), ("coil.specific_heat_j_per_kgk", "J/(kg K)")] {
+            assert_eq!(parameter_unit(key), said);
         }
     }
 }

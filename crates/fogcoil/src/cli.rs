@@ -8,6 +8,7 @@ use fogcoil::input::Between;
 
 use crate::cli_calibrate::Calibrate;
 use crate::cli_check::{Check, Format};
+use crate::cli_compare::Compare;
 use crate::cli_explain::Explain;
 use crate::cli_homogenize::Homogenize;
 use crate::cli_new::New;
@@ -76,6 +77,8 @@ pub(crate) enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Two designs side by side: what differs, sensitivity by part with tolerances, bias under a profile
+    Compare(Compare),
     /// Thermometer and bias in time under a profile of the chamber's temperature, or from a thermometer's record
     Simulate(Simulate),
     /// What differs between a unit's recording and its design, and what most likely causes it

@@ -4,6 +4,7 @@
 //! - [`simulate`] runs a profile; [`summary`], [`figures`] and [`report`] say what came out.
 //! - [`homogenize`], [`wind`], [`sensitivity`] render what the physics crates compute: as text for people and as JSON, CSV or SVG.
 //! - [`identify`] finds constituents behind measured effective constants.
+//! - [`compare`](mod@compare) holds two designs against each other.
 //! - [`cache`] keeps models that take long to build.
 //! - [`check`] judges a recording and identifies its noise.
 //! - [`diagnose`] compares recordings with a design and names what the design leaves out.
@@ -32,6 +33,7 @@ mod beside;
 pub mod cache;
 pub mod calibrate;
 pub mod check;
+pub mod compare;
 pub mod comparison;
 mod compose;
 pub mod contradictions;

@@ -3,6 +3,7 @@
 mod cli;
 mod cli_calibrate;
 mod cli_check;
+mod cli_compare;
 mod cli_explain;
 mod cli_homogenize;
 mod cli_manual;
@@ -57,6 +58,7 @@ fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
         Command::Homogenize(arguments) => cli_homogenize::run(arguments, progress),
         Command::Calibrate(arguments) => cli_calibrate::run(arguments, progress),
         Command::Check(arguments) => run_check(arguments, progress),
+        Command::Compare(arguments) => cli_compare::run(arguments, progress),
         Command::Completions { shell } => cli_manual::completions(*shell),
         Command::Diagnose(arguments) => run_diagnose(arguments, progress),
         Command::Explain(arguments) => cli_explain::run(arguments, progress),

@@ -19,6 +19,19 @@ pub(crate) struct Share {
     pub(crate) share: f64,
 }
 
+/// One standard deviation of a number of a design in words, a share or in the unit of its key; `None` of one that is exact or that the design has not.
+pub(crate) fn tolerance_in_words(case: &CoilCase, number: Number) -> Option<String> {
+    let (key, value) = keyed(number, &case.design)?;
+    let drawn = number.of(&case.design)?;
+    // in the unit of the key; a length that is 0 is a tail's, in m
+    let in_unit = |si: f64| if drawn == 0.0 { si } else { si * value / drawn };
+    match case.tolerances.of(number) {
+        Tolerance::Relative(share) => Some(format!("{} %", significant(100.0 * share, 2))),
+        Tolerance::Absolute(by) => Some(format!("{} {}", significant(in_unit(by), 2), parameter_unit(key))),
+        Tolerance::Exact => None,
+    }
+}
+
 /// Least share of the variance that is worth a line.
 const WORTH: f64 = 0.005;
 
@@ -26,15 +39,8 @@ impl Share {
     /// Those of a design's band that are worth a line, the largest first.
     pub(crate) fn of(case: &CoilCase, band: &Band) -> Vec<Self> {
         let of = |((number, change), share): (&(Number, f64), &f64)| {
-            let (key, value) = keyed(*number, &case.design)?;
-            let drawn = number.of(&case.design)?;
-            // in the unit of the key; a length that is 0 is a tail's, in m
-            let in_unit = |si: f64| if drawn == 0.0 { si } else { si * value / drawn };
-            let tolerance = match case.tolerances.of(*number) {
-                Tolerance::Relative(share) => format!("{} %", significant(100.0 * share, 2)),
-                Tolerance::Absolute(by) => format!("{} {}", significant(in_unit(by), 2), parameter_unit(key)),
-                Tolerance::Exact => return None,
-            };
+            let (key, _) = keyed(*number, &case.design)?;
+            let tolerance = tolerance_in_words(case, *number)?;
             (share.abs() >= WORTH).then_some(Self { key, tolerance, change: *change, share: *share })
         };
         band.changes.iter().zip(&band.shares).filter_map(of).collect()

@@ -198,13 +198,17 @@ pub fn text(simulation: &Simulation) -> String {
     format!("{} under {}\n\n{}", simulation.case.name, files::shown_path(&simulation.profile.fingerprint.file), table(&rows))
 }
 
+/// Four decimals, zero without a sign.
+pub(crate) fn rounded(value: f64) -> String {
+    format!("{:.4}", (value * 1e4).round() / 1e4 + 0.0)
+}
+
 /// Name, value and unit of each number, for people.
 pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
     let Summary { rows, duration, chamber, spool, peak, rms, slope, errors } = Summary::of(simulation);
     let [shupe, eo_axial, eo_radial, read_out, sum] = errors.parts;
     let entry = |name: &str, value: String, unit: &str| [name.to_owned(), value, unit.to_owned()];
     let range = |[low, high]: [f64; 2]| format!("{:.2} to {:.2}", low + 0.0, high + 0.0);
-    let rounded = |value: f64| format!("{:.4}", (value * 1e4).round() / 1e4 + 0.0);
     let rate = |value: f64, error: f64| format!("{} ± {}", rounded(value), significant(error, 2));
     let unit = DurationUnit::of(duration);
     let after = format!("s, {:.2} {} after the first row", unit.of_seconds(peak.time - simulation.row(0).time), unit.name);

@@ -17,7 +17,7 @@ of the program's own. Other threads run while anything is computed, so that ``co
 
 from fogcoil._diagnose import Diagnosis, Record, diagnose
 from fogcoil._native import Cell, Coil, InputError, __version__
-from fogcoil._solve import DesignBox, Sensitivity, Simulation, homogenize, sensitivity, simulate, wind
+from fogcoil._solve import DesignBox, Sensitivity, Simulation, compare, homogenize, sensitivity, simulate, wind
 
 __all__ = [
     "Cell",
@@ -29,6 +29,7 @@ __all__ = [
     "Sensitivity",
     "Simulation",
     "__version__",
+    "compare",
     "diagnose",
     "homogenize",
     "sensitivity",

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from fogcoil import _native
 from fogcoil._arrays import CODE, Array, arrays, table
-from fogcoil._native import Cell, Coil
+from fogcoil._native import Cell, Coil, InputError
 
 AnyCoil = Union[Coil, str, "os.PathLike[str]"]
 AnyCell = Union[Cell, str, "os.PathLike[str]"]
@@ -70,6 +70,31 @@ class Sensitivity(TypedDict):
 def sensitivity(coil: AnyCoil) -> Sensitivity:
     """Bias per temperature rate in a steady ramp, by part. Half a second."""
     result: Sensitivity = json.loads(_native.sensitivity(coil_of(coil)))
+    return result
+
+
+def compare(
+    a: AnyCoil,
+    b: AnyCoil,
+    time_s: npt.ArrayLike | None = None,
+    chamber_c: npt.ArrayLike | None = None,
+    *,
+    between: str = "linear",
+    cache: bool = True,
+) -> dict[str, Any]:
+    """Two designs side by side: the keys of ``fogcoil compare --json``.
+
+    ``differing`` and ``tolerances`` list what differs. ``sensitivity[part]["a" | "b" | "difference"]`` has ``value``, ``error_estimate``
+    (numerical) and ``tolerance_sd`` (one standard deviation) in (deg/h)/(degC/min), for the parts ``shupe``, ``eo_axial``, ``eo_radial`` and
+    ``total``. The difference is b less a; numbers that both designs share deviate by the same in both, and ``tolerance_sd_apart`` is that of
+    two units without a deviation in common. With a chamber ``chamber_c`` [degC] at the instants ``time_s`` [s], ``bias`` has the peak, the root mean
+    square and the end of each course [deg/h], and of b less a row by row; without it is None.
+    """
+    if (time_s is None) != (chamber_c is None):
+        raise InputError("compare: time_s and chamber_c go together; give both or neither")
+    profile = None if time_s is None else table("profile", {"time_s": time_s, "chamber_c": chamber_c})
+    compared = _native.compare(coil_of(a), coil_of(b), profile, between, CODE if cache else None)
+    result: dict[str, Any] = json.loads(compared)
     return result
 
 

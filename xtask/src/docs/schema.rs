@@ -27,12 +27,14 @@ const FILES: [(&str, &str); 11] = [
 ];
 
 /// Commands whose output must keep a schema. COIL, CELL, PROFILE, FIT and HOLDOUT stand for files.
-const OUTPUTS: [(&str, &str); 14] = [
+const OUTPUTS: [(&str, &str); 16] = [
     ("homogenize", "homogenize CELL --json"),
     ("homogenize", "homogenize fixtures/cells/temperature.ron --temperatures -40,20 --tolerance 1e-3 --load dt=10 --json"),
     ("identify", "identify fixtures/identify/table-one.ron --json"),
     ("wind", "wind COIL --json"),
     ("sensitivity", "sensitivity COIL --json"),
+    ("compare", "compare COIL fixtures/ordinary/B/drawing.ron --json"),
+    ("compare", "compare COIL COIL --profile PROFILE --json"),
     ("trim", "trim COIL --profile PROFILE --json"),
     ("simulate", "simulate COIL --profile PROFILE --out OUT --json"),
     ("check", "check fixtures/recordings/logger.csv --json"),

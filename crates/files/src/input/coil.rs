@@ -181,6 +181,15 @@ impl CoilCase {
     pub fn sensitivity_band(&self) -> Result<coil::Band, Error> {
         coil::sensitivity_band(&self.design, &self.tolerances).map_err(|source| Error::Coil { file: self.file.clone(), source })
     }
+
+    /// What each of its tolerances changes in that, part by part.
+    ///
+    /// # Errors
+    /// As [`Self::steady_sensitivity`].
+    pub fn sensitivity_changes(&self) -> Result<Vec<coil::SensitivityChange>, Error> {
+        coil::sensitivity_changes(&self.design, &self.tolerances)
+            .map_err(|source| Error::Coil { file: self.file.clone(), source })
+    }
 }
 
 /// A complaint about the design as a whole, at the field it names.

@@ -1,5 +1,6 @@
 //! Results on their way out: a design as the case file that reads back as it was, files whole or not at all.
 
+mod entries;
 mod vtu;
 
 use std::fs;
@@ -15,6 +16,7 @@ use crate::Error;
 use crate::input::CoilFile;
 use crate::shown_path;
 
+pub use entries::design_entries;
 pub use vtu::vtu;
 
 /// Groups nested deeper than this stand on one line.

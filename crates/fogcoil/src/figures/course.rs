@@ -17,7 +17,7 @@ pub(super) fn all<'a>(simulation: &'a Simulation) -> [Figure<'a>; 3] {
 }
 
 /// The time since the first row, in the unit of the axis.
-pub(super) fn time_axis(simulation: &Simulation) -> (Axis, impl Fn(f64) -> f64 + Copy + use<>) {
+pub(crate) fn time_axis(simulation: &Simulation) -> (Axis, impl Fn(f64) -> f64 + Copy + use<>) {
     let (unit, start) = (DurationUnit::of(simulation.duration()), simulation.row(0).time);
     let axis = Axis::tight(format!("time since the first row [{}]", unit.name), 1e-6);
     (axis, move |time: f64| unit.of_seconds(time - start))

@@ -20,7 +20,9 @@ use crate::simulate::Simulation;
 
 pub use contributions::contributions_in_ramp;
 pub use convergence::{Convergence, convergence};
+pub(crate) use course::time_axis;
 pub use document::{Document, MOST_TURNS};
+pub(crate) use model::side_by_side;
 pub use signatures::signatures;
 pub use spools::{OnSpool, spools, spools_element};
 

@@ -30,6 +30,25 @@ pub(super) fn figure<'a>(case: &CoilCase) -> Figure<'a> {
     }
 }
 
+/// The solids of two designs A and B, the one beside the other and each to its own scale.
+pub(crate) fn side_by_side<'a>(cases: [&CoilCase; 2]) -> Figure<'a> {
+    let of = |(letter, case): (&str, &CoilCase)| {
+        let layout = Layout::new(&case.design).ok()?;
+        Some(enlarged(case, &layout).headed(format!("{letter}: {}", case.name)))
+    };
+    Figure {
+        id: "coils",
+        title: "Both coils".into(),
+        description: "Half cross-sections of the solids of A and of B with their meshes, side by side.".into(),
+        caption: format!(
+            "Coil, hub and flanges, lengths in mm, each to its own scale. Mesh: elements of order {}, graded towards the edges of the coil.",
+            COARSE.order
+        ),
+        columns: 2,
+        panels: ["A", "B"].into_iter().zip(cases).filter_map(of).collect(),
+    }
+}
+
 fn area(rectangle: &Rectangle, name: String) -> Area {
     let fill = match rectangle.region {
         Region::Coil => Fill::Cool,

@@ -14,6 +14,7 @@ mod cell_general;
 mod check;
 mod check_impossible;
 mod common;
+mod compare;
 mod diagnose;
 mod good_input;
 mod identify;
