@@ -1,0 +1,141 @@
+//! What a channel answers to a temperature's rate of change: the steady-ramp sensitivity, by heating and cooling, beside a bias over temperature.
+//!
+//! A linear system that conducts heat answers a temperature T with Σ cₖ rₖ, where rₖ is the rate of T as a first-order system of time constant τₖ
+//! follows it. In a steady ramp every rₖ settles at the ramp's rate: the **sensitivity** is Σ cₖ \[u per K/s\], and the record need not hold a ramp
+//! long enough to settle for it to be told. The time constants go down by halves from a third of the longest ramp or rest. Rates upwards and
+//! downwards have amounts of their own where the record has both: **heating** and **cooling**, the sensitivity being their mean. Beside them
+//! stand an offset, a parabola in the temperature (**span**: what it changes by over the record's range), and what settles from the state in which the
+//! record begins.
+//!
+//! Noise is identified beside these columns by restricted likelihood, and amounts and errors are those of generalised least squares under every
+//! noise model that the likelihood does not exclude, weighed by it: coloured noise widens the intervals. Offsets, the origin of time and the unit of
+//! the channel change nothing.
+
+mod absent;
+mod branches;
+mod design;
+mod estimate;
+mod hysteresis;
+mod lags;
+mod model;
+
+pub use absent::{Absent, Direction};
+pub use estimate::Estimate;
+
+use crate::noise::NoiseEstimate;
+use branches::Course;
+use design::Design;
+use model::{Model, Observed};
+
+/// A channel and the temperature that drives it.
+#[derive(Debug, Clone, Copy)]
+pub struct Input<'a> {
+    /// Instants, increasing \[s\].
+    pub time: &'a [f64],
+    /// The channel: means over the interval that ends at the instant \[u\].
+    pub values: &'a [f64],
+    /// Rows that are used; of others no value is read.
+    pub mask: &'a [bool],
+    /// The temperature that drives it, at every instant \[K\].
+    pub drive: &'a [f64],
+    /// Standard deviation of a reading of it \[K\], and the step between readings, 0 where they have none.
+    pub reading: [f64; 2],
+    /// The temperature over which a bias is sought at rest, at every instant \[K\].
+    pub seat: &'a [f64],
+    /// Usual interval between the rows \[s\].
+    pub interval: f64,
+    /// Span of a mean \[s\].
+    pub averaging: f64,
+}
+
+/// What a channel answers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Response {
+    /// What a steady ramp settles at, for each K/s: the mean of heating and cooling \[u/(K/s)\].
+    pub sensitivity: Result<Estimate, Absent>,
+    /// The same while the temperature rises.
+    pub heating: Result<Estimate, Absent>,
+    /// The same while it falls.
+    pub cooling: Result<Estimate, Absent>,
+    /// Heating less cooling.
+    pub asymmetry: Result<Estimate, Absent>,
+    /// At rest at one temperature: reached from below, less reached from above \[u\].
+    pub hysteresis: Result<Estimate, Absent>,
+    /// Largest less least at rest over the range of temperatures \[u\].
+    pub span: Result<Estimate, Absent>,
+    /// What the temperature does where it does most, beside the first row \[u\], and the instant \[s\].
+    pub peak: Result<(Estimate, f64), Absent>,
+    /// Time constants \[s\].
+    pub lags: Vec<f64>,
+    /// The noise beside it.
+    pub noise: NoiseEstimate,
+}
+
+/// A course that is known better than this share of its range is not known so.
+const LEAST_NOISE: f64 = 1e-6;
+
+/// What a channel answers to a temperature.
+///
+/// # Errors
+/// [`Absent`] where the temperature stands still, or nothing can be told.
+///
+/// # Panics
+/// If the series are not of one length.
+pub fn respond(input: &Input) -> Result<Response, Absent> {
+    let range = range(input.drive);
+    let step = input.reading[1];
+    let noise = input.reading[0].max(step / 12.0_f64.sqrt()).max(LEAST_NOISE * range);
+    let threshold = branches::threshold(range, noise, step);
+    let course = Course::new(input.time, input.drive, threshold);
+    let [heats, cools] = [Direction::Heating, Direction::Cooling].map(|direction| course.ramps(direction, threshold));
+    let Some(settling) = course.settling().filter(|_| heats || cools) else {
+        return Err(Absent::Still { range, needed: branches::RAMP * threshold });
+    };
+    let rate = root_mean_square(&design::lagging_rate(input.time, input.drive, settling, input.interval));
+    let observed = Observed { time: input.time, values: input.values, mask: input.mask, averaging: input.averaging };
+    let lags = lags::lags(settling, rate, noise, input.interval)?;
+    let model = Model::new(Design::new(input, &course, &lags, heats, cools), observed)?;
+    let told = |weights| model.told(&weights, noise);
+    let [heating, cooling] = [Direction::Heating, Direction::Cooling].map(|to| model.design.towards(to).and_then(told));
+    Ok(Response {
+        sensitivity: told(model.design.sensitivity()),
+        heating,
+        cooling,
+        asymmetry: model.design.asymmetry().and_then(told),
+        hysteresis: hysteresis::hysteresis(&model, &course, observed),
+        span: span(&model),
+        peak: peak(&model, input),
+        lags,
+        noise: model.noise,
+    })
+}
+
+/// Largest less least of the parabola over the temperature: between the ends, or an end and its vertex.
+fn span(model: &Model) -> Result<Estimate, Absent> {
+    let amounts = model.amounts();
+    let (slope, curvature) = (amounts[1], amounts[2]);
+    let vertex = (-slope / (2.0 * curvature)).clamp(-1.0, 1.0);
+    let height = |x: &f64| slope * x + curvature * x * x;
+    let mut places = [-1.0, 1.0, if vertex.is_finite() { vertex } else { 1.0 }];
+    places.sort_by(|a, b| height(a).total_cmp(&height(b)));
+    // the ends are where the parabola has its extremes: they move to second order only
+    model.sum(&Design::at_rest(places[0], places[2]))
+}
+
+/// The row in which the temperature does most.
+fn peak(model: &Model, input: &Input) -> Result<(Estimate, f64), Absent> {
+    let amounts = model.amounts();
+    let bias = |row: usize| model.design.thermal(row).iter().map(|(number, weight)| weight * amounts[*number]).sum::<f64>().abs();
+    let rows = (0..input.time.len()).filter(|&row| input.mask[row]);
+    let (row, _) = rows.map(|row| (row, bias(row))).max_by(|a, b| a.1.total_cmp(&b.1)).ok_or(Absent::Indistinct)?;
+    Ok((model.sum(&model.design.thermal(row))?, input.time[row]))
+}
+
+fn range(values: &[f64]) -> f64 {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    values.iter().copied().fold(f64::NEG_INFINITY, f64::max) - least
+}
+
+fn root_mean_square(values: &[f64]) -> f64 {
+    (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}
