@@ -27,7 +27,7 @@ const FILES: [(&str, &str); 11] = [
 ];
 
 /// Commands whose output must keep a schema. COIL, CELL, PROFILE, FIT and HOLDOUT stand for files.
-const OUTPUTS: [(&str, &str); 14] = [
+const OUTPUTS: [(&str, &str); 16] = [
     ("homogenize", "homogenize CELL --json"),
     ("homogenize", "homogenize fixtures/cells/temperature.ron --temperatures -40,20 --tolerance 1e-3 --load dt=10 --json"),
     ("identify", "identify fixtures/identify/table-one.ron --json"),
@@ -37,6 +37,8 @@ const OUTPUTS: [(&str, &str); 14] = [
     ("simulate", "simulate COIL --profile PROFILE --out OUT --json"),
     ("check", "check fixtures/recordings/logger.csv --json"),
     ("check", "check FIT --json"),
+    ("measure", "measure fixtures/recordings/logger.csv --json"),
+    ("measure", "measure FIT COIL --json"),
     ("explain", "explain COIL --sensitivity 1.39 --json"),
     ("glossary", "explain --json"),
     ("diagnose", "diagnose COIL --fit FIT --holdout HOLDOUT --json"),

@@ -14,13 +14,20 @@ pub(super) const ROWS_OF_RAMP: f64 = SETTLED * INTERVALS;
 /// Largest noise of a lagging rate beside the ramps': what it takes off an amount is the square of it.
 const NOISY: f64 = 0.1;
 
-/// The lags \[s\] where a response is seen to settle for `settling` \[s\] at ramps of about `rate` \[K/s\]; the longest first; `noise` is a reading's \[K\].
-pub(super) fn lags(settling: f64, rate: f64, noise: f64, interval: f64) -> Result<Vec<f64>, Absent> {
+/// Sets of lags \[s\], the longest first, where a response is seen to settle for `settling` \[s\] at ramps of about `rate` \[K/s\]; `noise` is a
+/// reading's \[K\].
+///
+/// The second set lies between the lags of the first: what a response of other time constants makes of one set and of the other tells how far off
+/// a set may be.
+pub(super) fn sets(settling: f64, rate: f64, noise: f64, interval: f64) -> Result<Vec<Vec<f64>>, Absent> {
     let longest = settling / SETTLED;
     if longest < INTERVALS * interval {
         return Err(Absent::Fast { duration: settling });
     }
     let shortest = (INTERVALS * interval).max(noise / (NOISY * rate));
-    let all = (0..MOST as i32).map(|n| longest / RATIO.powi(n));
-    Ok(all.enumerate().filter(|(n, lag)| *n == 0 || *lag >= shortest).map(|(_, lag)| lag).collect())
+    let set = |first: f64| -> Vec<f64> {
+        let all = (0..MOST as i32).map(|n| first / RATIO.powi(n));
+        all.enumerate().filter(|(n, lag)| *n == 0 || *lag >= shortest).map(|(_, lag)| lag).collect()
+    };
+    Ok(vec![set(longest), set(longest / RATIO.sqrt())])
 }

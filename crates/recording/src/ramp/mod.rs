@@ -2,7 +2,8 @@
 //!
 //! A linear system that conducts heat answers a temperature T with Σ cₖ rₖ, where rₖ is the rate of T as a first-order system of time constant τₖ
 //! follows it. In a steady ramp every rₖ settles at the ramp's rate: the **sensitivity** is Σ cₖ \[u per K/s\], and the record need not hold a ramp
-//! long enough to settle for it to be told. The time constants go down by halves from a third of the longest ramp or rest. Rates upwards and
+//! long enough to settle for it to be told. The time constants go down by halves from a third of the longest ramp or rest, and, in a second
+//! set, from that over √2: what the two sets differ by counts as an error. Rates upwards and
 //! downwards have amounts of their own where the record has both: **heating** and **cooling**, the sensitivity being their mean. Beside them
 //! stand an offset, a parabola in the temperature (**span**: what it changes by over the record's range), and what settles from the state in which the
 //! record begins.
@@ -24,7 +25,7 @@ pub use estimate::Estimate;
 
 use crate::noise::NoiseEstimate;
 use branches::Course;
-use design::Design;
+use design::{Design, Weights};
 use model::{Model, Observed};
 
 /// A channel and the temperature that drives it.
@@ -93,42 +94,49 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     };
     let rate = root_mean_square(&design::lagging_rate(input.time, input.drive, settling, input.interval));
     let observed = Observed { time: input.time, values: input.values, mask: input.mask, averaging: input.averaging };
-    let lags = lags::lags(settling, rate, noise, input.interval)?;
-    let model = Model::new(Design::new(input, &course, &lags, heats, cools), observed)?;
-    let told = |weights| model.told(&weights, noise);
-    let [heating, cooling] = [Direction::Heating, Direction::Cooling].map(|to| model.design.towards(to).and_then(told));
+    let model = |lags: &Vec<f64>| Model::new(Design::new(input, &course, lags, heats, cools), observed);
+    let sets = lags::sets(settling, rate, noise, input.interval)?;
+    let models: Vec<Model> = sets.iter().map(model).collect::<Result<_, _>>()?;
+    let told = |of: &dyn Fn(&Design) -> Result<Weights, Absent>| over(&models, |model| model.told(&of(&model.design)?, noise));
     Ok(Response {
-        sensitivity: told(model.design.sensitivity()),
-        heating,
-        cooling,
-        asymmetry: model.design.asymmetry().and_then(told),
-        hysteresis: hysteresis::hysteresis(&model, &course, observed),
-        span: span(&model),
-        peak: peak(&model, input),
-        lags,
-        noise: model.noise,
+        sensitivity: told(&|design| Ok(design.sensitivity())),
+        heating: told(&|design| design.towards(Direction::Heating)),
+        cooling: told(&|design| design.towards(Direction::Cooling)),
+        asymmetry: told(&Design::asymmetry),
+        hysteresis: over(&models, |model| hysteresis::hysteresis(model, &course, observed)),
+        span: span(&models),
+        peak: peak(&models, input),
+        lags: sets.concat(),
+        noise: models[0].noise.clone(),
     })
 }
 
+/// The mean over models that are as probable as each other: what they differ by counts as an error.
+fn over(models: &[Model], of: impl Fn(&Model) -> Result<Estimate, Absent>) -> Result<Estimate, Absent> {
+    let share = 1.0 / models.len() as f64;
+    let each = models.iter().map(|model| of(model).map(|estimate| (share, estimate.value, estimate.sd)));
+    Ok(Estimate::mixed(&each.collect::<Result<Vec<_>, _>>()?))
+}
+
 /// Largest less least of the parabola over the temperature: between the ends, or an end and its vertex.
-fn span(model: &Model) -> Result<Estimate, Absent> {
-    let amounts = model.amounts();
-    let (slope, curvature) = (amounts[1], amounts[2]);
+fn span(models: &[Model]) -> Result<Estimate, Absent> {
+    let amount = |number: usize| over(models, |model| model.sum(&vec![(number, 1.0)])).map_or(0.0, |estimate| estimate.value);
+    let (slope, curvature) = (amount(1), amount(2));
     let vertex = (-slope / (2.0 * curvature)).clamp(-1.0, 1.0);
     let height = |x: &f64| slope * x + curvature * x * x;
     let mut places = [-1.0, 1.0, if vertex.is_finite() { vertex } else { 1.0 }];
     places.sort_by(|a, b| height(a).total_cmp(&height(b)));
     // the ends are where the parabola has its extremes: they move to second order only
-    model.sum(&Design::at_rest(places[0], places[2]))
+    over(models, |model| model.sum(&Design::at_rest(places[0], places[2])))
 }
 
 /// The row in which the temperature does most.
-fn peak(model: &Model, input: &Input) -> Result<(Estimate, f64), Absent> {
-    let amounts = model.amounts();
-    let bias = |row: usize| model.design.thermal(row).iter().map(|(number, weight)| weight * amounts[*number]).sum::<f64>().abs();
+fn peak(models: &[Model], input: &Input) -> Result<(Estimate, f64), Absent> {
+    let (design, amounts) = (&models[0].design, models[0].amounts());
+    let bias = |row: usize| design.thermal(row).iter().map(|(number, weight)| weight * amounts[*number]).sum::<f64>().abs();
     let rows = (0..input.time.len()).filter(|&row| input.mask[row]);
     let (row, _) = rows.map(|row| (row, bias(row))).max_by(|a, b| a.1.total_cmp(&b.1)).ok_or(Absent::Indistinct)?;
-    Ok((model.sum(&model.design.thermal(row))?, input.time[row]))
+    Ok((over(models, |model| model.sum(&model.design.thermal(row)))?, input.time[row]))
 }
 
 fn range(values: &[f64]) -> f64 {
