@@ -161,8 +161,10 @@ mod tests {
         let clean = |t: f64| 20.0 + 0.4 * (t - 50.0).clamp(0.0, 100.0) - 0.4 * (t - 250.0).clamp(0.0, 50.0);
         let noisy: Vec<f64> = time.iter().map(|t| clean(*t) + 0.1 * (t * 12.9898).sin()).collect();
         let course = Course::new(&time, &noisy, 2.0);
-        let of: Vec<(Direction, f64)> = course.branches.iter().map(|b| (b.direction, b.travel.round())).collect();
-        assert_eq!(of, [(Direction::Heating, 40.0), (Direction::Cooling, 20.0)]);
+        let of: Vec<Direction> = course.branches.iter().map(|b| b.direction).collect();
+        assert_eq!(of, [Direction::Heating, Direction::Cooling]);
+        // a turn is found to 0.7 of the threshold
+        assert!((course.branches[0].travel - 40.0).abs() < 1.4 && (course.branches[1].travel - 20.0).abs() < 1.4, "{course:?}");
         assert!((course.branches[0].ramp - 100.0).abs() < 3.0 && (course.branches[0].rest - 105.0).abs() < 10.0, "{course:?}");
         assert!((course.branches[1].ramp - 50.0).abs() < 3.0 && (course.branches[1].rest - 103.0).abs() < 10.0, "{course:?}");
         assert_eq!(course.settling(), Some(course.branches[0].rest));
