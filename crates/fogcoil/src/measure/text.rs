@@ -71,6 +71,6 @@ fn row(name: &str, figure: &Figure, unit: &str) -> Vec<String> {
 
 /// Digits that show an interval's width to two.
 fn digits(value: f64, width: f64) -> usize {
-    let more = (value.abs() / width).log10().floor();
-    if more.is_finite() { (2.0 + more).clamp(2.0, 6.0) as usize } else { 3 }
+    let more = (value.abs() / width).log10().ceil();
+    if more.is_finite() { (1.0 + more).clamp(2.0, 6.0) as usize } else { 3 }
 }

@@ -108,6 +108,32 @@ fn the_steady_sensitivity_of_a_coil_is_measured_again() {
     assert_eq!(both["records"][1]["sensitivity"], found["sensitivity"]);
 }
 
+/// An independent code's responses of the reference coil, with noise: what is told holds its sensitivity, and a programme too fast for it is refused.
+#[test]
+fn the_independent_code_s_coil_is_measured() {
+    let folder = Folder::new();
+    let told = |name: &str| {
+        let path = format!("{}/../../fixtures/nominal/{name}.csv", env!("CARGO_MANIFEST_DIR"));
+        let mut normal = normals();
+        let table = std::fs::read_to_string(path).unwrap();
+        let row = |line: &str| {
+            let fields: Vec<f64> = line.split(',').map(|field| field.parse().unwrap()).collect();
+            format!("{},{},{},{}\n", fields[0], fields[1], fields[2], fields[6] + 0.05 * normal())
+        };
+        let rows: String = table.lines().skip(1).map(row).collect();
+        folder.write("n.csv", "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &rows);
+        json(&folder, &["measure", "n.csv", "--json"])
+    };
+    for name in ["P1", "P2", "P5"] {
+        let found = told(name);
+        let [low, value, high] = interval(&found["sensitivity"]);
+        assert!(low < -2.7335 && -2.7335 < high, "{name}: {low} {value} {high}");
+    }
+    // sines and steps of minutes: the coil takes half an hour to settle
+    let fast = told("P4");
+    assert!(fast["sensitivity"].is_null() && fast["notes"].to_string().contains("sensitivity: slower responses than"), "{fast}");
+}
+
 #[test]
 fn what_a_record_does_not_tell_is_null() {
     let folder = Folder::new();

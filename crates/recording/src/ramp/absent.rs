@@ -30,6 +30,9 @@ pub enum Absent {
         "its effect cannot be told from an offset or a bias over temperature; record a rest before and after the ramp, or ramps of several rates"
     )]
     Indistinct,
+    /// The response settles more slowly than the ramps and rests last.
+    #[error("slower responses than a third of the longest ramp or rest, {} s, change it by more than its errors: the unit may not have settled; record ramps and rests that last longer", Seconds(*.0))]
+    Unsettled(f64),
     /// No temperature is held after heating and after cooling.
     #[error(
         "no temperature is held after heating and after cooling too; record rests at one temperature, reached from either side"

@@ -31,3 +31,8 @@ pub(super) fn sets(settling: f64, rate: f64, noise: f64, interval: f64) -> Resul
     };
     Ok(vec![set(longest), set(longest / RATIO.sqrt())])
 }
+
+/// A set that begins at twice the longest lag of another.
+pub(super) fn slower(set: &[f64]) -> Vec<f64> {
+    set.first().map(|first| RATIO * first).into_iter().chain(set.iter().copied()).collect()
+}

@@ -3,7 +3,8 @@
 //! A linear system that conducts heat answers a temperature T with Σ cₖ rₖ, where rₖ is the rate of T as a first-order system of time constant τₖ
 //! follows it. In a steady ramp every rₖ settles at the ramp's rate: the **sensitivity** is Σ cₖ \[u per K/s\], and the record need not hold a ramp
 //! long enough to settle for it to be told. The time constants go down by halves from a third of the longest ramp or rest, and, in a second
-//! set, from that over √2: what the two sets differ by counts as an error. Rates upwards and
+//! set, from that over √2: what the two sets differ by counts as an error. Where a time constant twice as long as the longest changes the sensitivity by more
+//! than its errors, none is told: the unit settles more slowly than the record lets it. Rates upwards and
 //! downwards have amounts of their own where the record has both: **heating** and **cooling**, the sensitivity being their mean. Beside them
 //! stand an offset, a parabola in the temperature (**span**: what it changes by over the record's range), and what settles from the state in which the
 //! record begins.
@@ -97,7 +98,13 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     let model = |lags: &Vec<f64>| Model::new(Design::new(input, &course, lags, heats, cools), observed);
     let sets = lags::sets(settling, rate, noise, input.interval)?;
     let models: Vec<Model> = sets.iter().map(model).collect::<Result<_, _>>()?;
-    let told = |of: &dyn Fn(&Design) -> Result<Weights, Absent>| over(&models, |model| model.told(&of(&model.design)?, noise));
+    let slower = lags::slower(&sets[0]);
+    let slower = Model::new(Design::new(input, &course, &slower, heats, cools), observed)?;
+    let unsettled = unsettled(&models, &slower);
+    let told = |of: &dyn Fn(&Design) -> Result<Weights, Absent>| {
+        let found = over(&models, |model| model.told(&of(&model.design)?, noise))?;
+        if unsettled { Err(Absent::Unsettled(settling.round())) } else { Ok(found) }
+    };
     Ok(Response {
         sensitivity: told(&|design| Ok(design.sensitivity())),
         heating: told(&|design| design.towards(Direction::Heating)),
@@ -110,6 +117,17 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
         noise: models[0].noise.clone(),
     })
 }
+
+/// Whether lags twice as long change the sensitivity by more than its errors.
+fn unsettled(models: &[Model], slower: &Model) -> bool {
+    let mean = over(models, |model| model.sum(&model.design.sensitivity()));
+    let other = slower.sum(&slower.design.sensitivity());
+    let Ok((mean, other)) = mean.and_then(|mean| Ok((mean, other?))) else { return false };
+    (other.value - mean.value).abs() > SIGNIFICANT * mean.sd.hypot(other.sd)
+}
+
+/// Standard deviations from which a change of the sensitivity counts: noise alone makes it in one record of a hundred.
+const SIGNIFICANT: f64 = 2.576;
 
 /// The mean over models that are as probable as each other: what they differ by counts as an error.
 fn over(models: &[Model], of: impl Fn(&Model) -> Result<Estimate, Absent>) -> Result<Estimate, Absent> {
