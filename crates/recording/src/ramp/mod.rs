@@ -101,17 +101,17 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     let slower = lags::slower(&sets[0]);
     let slower = Model::new(Design::new(input, &course, &slower, heats, cools), observed)?;
     let unsettled = unsettled(&models, &slower);
+    let settled = |found: Estimate| if unsettled { Err(Absent::Unsettled(settling.round())) } else { Ok(found) };
     let told = |of: &dyn Fn(&Design) -> Result<Weights, Absent>| {
-        let found = over(&models, |model| model.told(&of(&model.design)?, noise))?;
-        if unsettled { Err(Absent::Unsettled(settling.round())) } else { Ok(found) }
+        over(&models, |model| model.told(&of(&model.design)?, noise)).and_then(settled)
     };
     Ok(Response {
         sensitivity: told(&|design| Ok(design.sensitivity())),
         heating: told(&|design| design.towards(Direction::Heating)),
         cooling: told(&|design| design.towards(Direction::Cooling)),
         asymmetry: told(&Design::asymmetry),
-        hysteresis: over(&models, |model| hysteresis::hysteresis(model, &course, observed)),
-        span: span(&models),
+        hysteresis: over(&models, |model| hysteresis::hysteresis(model, &course, observed)).and_then(settled),
+        span: span(&models).and_then(settled),
         peak: peak(&models, input),
         lags: sets.concat(),
         noise: models[0].noise.clone(),
