@@ -110,7 +110,7 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
         heating: told(&|design| design.towards(Direction::Heating)),
         cooling: told(&|design| design.towards(Direction::Cooling)),
         asymmetry: told(&Design::asymmetry),
-        hysteresis: over(&models, |model| hysteresis::hysteresis(model, &course, observed)).and_then(settled),
+        hysteresis: over(&models, |model| hysteresis::hysteresis(model, &course, observed)),
         span: span(&models).and_then(settled),
         peak: peak(&models, input),
         lags: sets.concat(),
