@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 use fogcoil::cache::Cache;
 use fogcoil::homogenize as cells;
 use fogcoil::input::{self, AnyCell, Between, ProfileCase, RecordCase, RecordOptions, at_temperature};
+use fogcoil::measure::{self as measuring, Prediction};
 use fogcoil::simulate::SimulatedRow;
 use fogcoil::units::to_mm;
 use fogcoil::{
@@ -173,6 +174,20 @@ fn read((path, columns): &Record, meta: Option<&Path>, further: &[String]) -> Re
             Ok(input::read_record(path, &options)?)
         }
     }
+}
+
+/// The figures of a record as JSON, with a design's prediction where there is one.
+#[pyfunction]
+pub(crate) fn measure(py: Python, record: Record, coil: Option<&Coil>, meta: Option<PathBuf>) -> PyResult<String> {
+    let run = || -> Result<String, Error> {
+        let measured = measuring::measure(&read(&record, meta.as_deref(), &[])?)?;
+        let predict = |coil: &Coil| -> Result<Prediction, Error> {
+            Ok(Prediction::of(&coil.case.name, &coil.case.steady_sensitivity()?, &coil.case.sensitivity_band()?))
+        };
+        let prediction = coil.map(predict).transpose()?;
+        Ok(measuring::json(&measured, prediction.as_ref()).to_string())
+    };
+    py.detach(run).map_err(raised)
 }
 
 /// The outcome as JSON and in words, the prediction of the first record held out, and the extended design, where there is one.

@@ -13,7 +13,7 @@ mod _native {
     #[pymodule_export]
     use crate::case::{Cell, Coil};
     #[pymodule_export]
-    use crate::compute::{DesignBox, compare, diagnose, further_columns, homogenize, sensitivity, simulate, wind};
+    use crate::compute::{DesignBox, compare, diagnose, further_columns, homogenize, measure, sensitivity, simulate, wind};
     #[pymodule_export]
     use crate::error::InputError;
     use pyo3::prelude::*;

@@ -279,6 +279,10 @@ remarks! {
         "A lot is calibrated from fewer than three units.",
         "A fault that one of them has looks like the lot's own: what is common to two cannot be told from what one has.",
         "Give three good units or more.";
+    NotMeasured "not-measured":
+        "A record does not tell one of the numbers that `measure` gives; the message says which, and why.",
+        "The number is null, and no other depends on it.",
+        "Record what the message names: a ramp, a rest before and after it, a temperature held from either side, more rows.";
     OtherDesign "other-design":
         "A meta file says that the unit was built to a design of another name.",
         "The model may be that of another coil.",

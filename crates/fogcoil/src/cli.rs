@@ -11,6 +11,7 @@ use crate::cli_check::{Check, Format};
 use crate::cli_compare::Compare;
 use crate::cli_explain::Explain;
 use crate::cli_homogenize::Homogenize;
+use crate::cli_measure::Measure;
 use crate::cli_new::New;
 use crate::cli_recommend::Recommend;
 
@@ -91,6 +92,8 @@ pub(crate) enum Command {
     Explain(Explain),
     /// Is a recording usable? Gaps, units, outliers, noise, Allan deviation
     Check(Check),
+    /// Bias sensitivity per degC/min, bias over temperature and noise of recordings, as specifications state them
+    Measure(Measure),
     /// A commented file to start from: a coil design, a cell, targets to identify, a mechanism of your own, or a profile
     New(New),
     /// Completions of the command line, for a shell to read

@@ -7,6 +7,7 @@
 //! - [`compare`](mod@compare) holds two designs against each other.
 //! - [`cache`] keeps models that take long to build.
 //! - [`check`] judges a recording and identifies its noise.
+//! - [`measure`] has a recording's figures as specifications state them.
 //! - [`diagnose`] compares recordings with a design and names what the design leaves out.
 //! - [`recommend`] finds the test that tells mechanisms apart; [`explain`] solves for what would give a measured sensitivity.
 //! - [`prepare`] makes what these start from: a design's library of models, and recordings as the engine wants them.
@@ -46,6 +47,7 @@ pub mod glossary;
 pub mod homogenize;
 pub mod identify;
 mod keys;
+pub mod measure;
 pub mod picture;
 pub mod picture_cell;
 pub mod prepare;

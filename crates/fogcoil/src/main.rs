@@ -7,6 +7,7 @@ mod cli_compare;
 mod cli_explain;
 mod cli_homogenize;
 mod cli_manual;
+mod cli_measure;
 mod cli_new;
 mod cli_recommend;
 mod progress;
@@ -63,6 +64,7 @@ fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
         Command::Diagnose(arguments) => run_diagnose(arguments, progress),
         Command::Explain(arguments) => cli_explain::run(arguments, progress),
         Command::Man { dir } => cli_manual::man(dir.as_deref(), progress),
+        Command::Measure(arguments) => cli_measure::run(arguments, progress),
         Command::New(arguments) => cli_new::run(arguments),
         Command::Recommend(arguments) => cli_recommend::run(arguments, progress),
         Command::Simulate(arguments) => run_simulate(arguments, progress),

@@ -7,6 +7,7 @@ mod error;
 pub mod lag;
 pub mod minimise;
 pub mod noise;
+pub mod ramp;
 mod record;
 mod seconds;
 mod series;

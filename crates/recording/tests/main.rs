@@ -6,3 +6,4 @@ mod common;
 mod condition;
 mod exact_whitener;
 mod identify;
+mod ramp;

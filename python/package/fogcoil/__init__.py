@@ -16,6 +16,7 @@ of the program's own. Other threads run while anything is computed, so that ``co
 """
 
 from fogcoil._diagnose import Diagnosis, Record, diagnose
+from fogcoil._measure import Measurement, measure
 from fogcoil._native import Cell, Coil, InputError, __version__
 from fogcoil._solve import DesignBox, Sensitivity, Simulation, compare, homogenize, sensitivity, simulate, wind
 
@@ -25,6 +26,7 @@ __all__ = [
     "DesignBox",
     "Diagnosis",
     "InputError",
+    "Measurement",
     "Record",
     "Sensitivity",
     "Simulation",
@@ -32,6 +34,7 @@ __all__ = [
     "compare",
     "diagnose",
     "homogenize",
+    "measure",
     "sensitivity",
     "simulate",
     "wind",

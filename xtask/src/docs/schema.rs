@@ -39,6 +39,8 @@ const OUTPUTS: [(&str, &str); 16] = [
     ("simulate", "simulate COIL --profile PROFILE --out OUT --json"),
     ("check", "check fixtures/recordings/logger.csv --json"),
     ("check", "check FIT --json"),
+    ("measure", "measure fixtures/recordings/logger.csv --json"),
+    ("measure", "measure FIT COIL --json"),
     ("explain", "explain COIL --sensitivity 1.39 --json"),
     ("glossary", "explain --json"),
     ("diagnose", "diagnose COIL --fit FIT --holdout HOLDOUT --json"),

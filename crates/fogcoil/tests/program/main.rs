@@ -19,6 +19,7 @@ mod diagnose;
 mod good_input;
 mod identify;
 mod loggers;
+mod measure;
 mod model_out;
 mod mutated_input;
 mod outputs;

@@ -56,6 +56,23 @@ pub struct StandardErrors {
     pub quantisation: Option<f64>,
 }
 
+impl StandardErrors {
+    /// From the covariance of the logarithms: white, then as in the terms.
+    fn of(terms: &[Term], covariance: &DMatrix<f64>) -> Self {
+        let variances = covariance.diagonal();
+        let mut sds = variances.iter().map(|variance| variance.sqrt());
+        let mut errors = Self { white: sds.next(), ..Self::default() };
+        for term in terms {
+            match term {
+                Term::Drift => (errors.drift, errors.drift_time) = (sds.next(), sds.next()),
+                Term::Walk => errors.walk = sds.next(),
+                Term::Quantisation => errors.quantisation = sds.next(),
+            }
+        }
+        errors
+    }
+}
+
 /// One combination of terms at its best.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
@@ -86,6 +103,8 @@ pub struct NoiseEstimate {
     pub rows: usize,
     /// Rows averaged into one value; 1 unless the series is very long.
     pub group: usize,
+    /// Covariance of the logarithms of the parameters: white, then as in the terms.
+    pub(super) covariance: Option<DMatrix<f64>>,
 }
 
 /// Sizes of terms relative to the white noise of a value.
@@ -113,9 +132,11 @@ pub fn identify(series: &Series, bounds: &Bounds) -> Result<NoiseEstimate, Error
     }
     candidates.sort_by(|a, b| a.0.bic.total_cmp(&b.0.bic));
     let (best, shape) = candidates[0].clone();
+    let covariance = problem.covariance(&best, &shape)?;
     Ok(NoiseEstimate {
         model: best.model,
-        standard_errors: problem.standard_errors(&best, &shape)?,
+        standard_errors: covariance.as_ref().map_or_else(StandardErrors::default, |known| StandardErrors::of(&best.terms, known)),
+        covariance,
         log_likelihood: best.log_likelihood,
         terms: best.terms,
         candidates: candidates.into_iter().map(|(candidate, _)| candidate).collect(),
@@ -260,24 +281,12 @@ impl Problem<'_> {
         Ok((Candidate { terms: terms.to_vec(), model, log_likelihood, bic }, shape))
     }
 
-    /// From the curvature of the log likelihood in the logarithms of the parameters.
-    fn standard_errors(&self, best: &Candidate, shape: &[f64]) -> Result<StandardErrors, Error> {
-        let mut errors = StandardErrors::default();
+    /// Covariance of the logarithms of the parameters, from the curvature of the log likelihood.
+    fn covariance(&self, best: &Candidate, shape: &[f64]) -> Result<Option<DMatrix<f64>>, Error> {
         let margin = 2.0 * CURVATURE_STEP;
         let inside =
             shape.iter().zip(self.shape_bounds(&best.terms)).all(|(x, [low, high])| *x > low + margin && *x < high - margin);
-        let Some(factor) = Cholesky::new(self.curvature(best)?).filter(|_| inside) else { return Ok(errors) };
-        let variances = factor.inverse().diagonal();
-        let mut sds = variances.iter().map(|variance| variance.sqrt());
-        errors.white = sds.next();
-        for term in &best.terms {
-            match term {
-                Term::Drift => (errors.drift, errors.drift_time) = (sds.next(), sds.next()),
-                Term::Walk => errors.walk = sds.next(),
-                Term::Quantisation => errors.quantisation = sds.next(),
-            }
-        }
-        Ok(errors)
+        Ok(Cholesky::new(self.curvature(best)?).filter(|_| inside).map(|factor| factor.inverse()))
     }
 
     /// Minus the second derivatives, by central differences; order: white, then as in the terms.
@@ -285,8 +294,8 @@ impl Problem<'_> {
         let count = 1 + self.shape_bounds(&best.terms).len();
         let at = |changes: &[(usize, f64)]| -> Result<f64, Error> {
             let mut model = best.model;
-            for &(parameter, change) in changes {
-                *self.parameter(&mut model, &best.terms, parameter) *= change.exp();
+            for &(number, change) in changes {
+                *parameter(&mut model, &best.terms, number) *= change.exp();
             }
             self.log_likelihood(&model)
         };
@@ -304,20 +313,21 @@ impl Problem<'_> {
             .collect::<Result<_, _>>()?;
         Ok(DMatrix::from_vec(count, count, rows))
     }
+}
 
-    fn parameter<'m>(&self, model: &'m mut NoiseModel, terms: &[Term], number: usize) -> &'m mut f64 {
-        let names = terms.iter().flat_map(|term| match term {
-            Term::Drift => vec![1, 2],
-            Term::Walk => vec![3],
-            Term::Quantisation => vec![4],
-        });
-        match std::iter::once(0).chain(names).nth(number) {
-            Some(1) => &mut model.drift,
-            Some(2) => &mut model.drift_time,
-            Some(3) => &mut model.walk,
-            Some(4) => &mut model.quantisation,
-            _ => &mut model.white,
-        }
+/// A parameter of a model with these terms, by its number: white, then as in the terms.
+pub(super) fn parameter<'m>(model: &'m mut NoiseModel, terms: &[Term], number: usize) -> &'m mut f64 {
+    let names = terms.iter().flat_map(|term| match term {
+        Term::Drift => vec![1, 2],
+        Term::Walk => vec![3],
+        Term::Quantisation => vec![4],
+    });
+    match std::iter::once(0).chain(names).nth(number) {
+        Some(1) => &mut model.drift,
+        Some(2) => &mut model.drift_time,
+        Some(3) => &mut model.walk,
+        Some(4) => &mut model.quantisation,
+        _ => &mut model.white,
     }
 }
 

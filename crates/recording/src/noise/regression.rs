@@ -10,6 +10,8 @@ pub(super) struct Regression {
     pub(super) log_det: f64,
     /// How much of every column is in the series.
     pub(super) amounts: DVector<f64>,
+    /// R of the columns' QR factors.
+    upper: DMatrix<f64>,
 }
 
 impl Regression {
@@ -25,7 +27,15 @@ impl Regression {
             squares: rotated.rows_range(count..).norm_squared(),
             log_det: upper.diagonal().iter().map(|d| 2.0 * d.abs().ln()).sum(),
             amounts: amounts.unwrap_or_else(|| DVector::repeat(count, f64::NAN)),
+            upper,
         }
+    }
+
+    /// Covariance (AᵀA)⁻¹ of the amounts.
+    pub(super) fn covariance(&self) -> DMatrix<f64> {
+        let count = self.upper.nrows();
+        let inverse = self.upper.solve_upper_triangular(&DMatrix::identity(count, count));
+        inverse.map_or_else(|| DMatrix::repeat(count, count, f64::NAN), |inverse| &inverse * inverse.transpose())
     }
 }
 
@@ -66,6 +76,8 @@ mod tests {
         assert!((regression.squares - (9.0 - 1.0 / 9.0)).abs() < 1e-12, "{}", regression.squares);
         assert!((regression.log_det - (9.0_f64 * 60.0).ln()).abs() < 1e-12, "{}", regression.log_det);
         assert!((regression.amounts[0] - (2.0 + 1.0 / 9.0)).abs() < 1e-12 && (regression.amounts[1] - 1.0).abs() < 1e-12);
+        // the slope's variance is 1 / Σ (x − x̄)² = 1 / 60
+        assert!((regression.covariance()[(1, 1)] * 60.0 - 1.0).abs() < 1e-12, "{}", regression.covariance());
     }
 
     #[test]

@@ -1,0 +1,42 @@
+//! The figures as one object. See docs/schema/measure.schema.json.
+
+use serde_json::{Value, json};
+
+use super::{Figure, Measurement, Prediction};
+
+fn object(figure: &Figure) -> Value {
+    json!({"value": figure.value, "ci90": figure.ci90})
+}
+
+/// One object, as scripts read it; `null` where a number is not told, with the reason in `notes`.
+pub fn json(measured: &Measurement, prediction: Option<&Prediction>) -> Value {
+    let mut all = json!({
+        "file": measured.fingerprint.file.display().to_string(),
+        "fnv1a": measured.fingerprint.to_string(),
+        "ramp_of": measured.temperatures.map(|[driver, _]| driver),
+        "span_over": measured.temperatures.map(|[_, seat]| seat),
+        "lags_s": measured.lags,
+        "peak_time_s": measured.peak_time,
+        "floor_time_s": measured.floor_time,
+        "prediction": prediction.map(|prediction| json!({
+            "design": prediction.design,
+            "value": prediction.sensitivity.value,
+            "ci90": prediction.sensitivity.ci90,
+            "sigmas": prediction.sigmas(measured),
+        })),
+        "notes": measured.notes,
+        "note_ids": measured.notes.iter().map(|note| note.remark.id()).collect::<Vec<_>>(),
+    });
+    for (key, _, told) in measured.figures() {
+        all[key] = told.as_ref().map_or(Value::Null, object);
+    }
+    all
+}
+
+/// Of one record its own object, of several `{"records": […]}`.
+pub fn all(measured: &[Measurement], prediction: Option<&Prediction>) -> Value {
+    match measured {
+        [one] => json(one, prediction),
+        several => json!({"records": several.iter().map(|one| json(one, prediction)).collect::<Vec<_>>()}),
+    }
+}

@@ -1,0 +1,179 @@
+//! `fogcoil measure`: a recording's figures as specifications of gyroscopes state them, each with a 90 % interval (terms of IEEE Std 952-1997).
+//!
+//! Sensitivity to the temperature's rate, hysteresis, bias over temperature and peak are [`recording::ramp`]'s, driven by the chamber (by the spool where
+//! the chamber was not recorded), the bias over temperature by the spool. Angle random walk and bias instability are those of
+//! [`crate::check`]. Beside them stands the steady sensitivity of a design, with what its tolerances make of it.
+
+mod json;
+mod noise;
+mod prediction;
+mod text;
+
+use bias::units::S_PER_MIN;
+use files::{Note, Remark};
+use recording::Recording;
+use recording::condition::{Thinned, Thinning, bridged, thinned};
+use recording::ramp::{Absent, Estimate, Input, Response, respond};
+
+use crate::check::Analysis;
+use crate::input::{CHAMBER, Fingerprint, InputError, RATE, RecordCase, SPOOL};
+
+pub use json::{all, json};
+pub use prediction::Prediction;
+pub use text::text;
+
+/// Rows beyond which neighbours are averaged: a ramp of an hour in a day's record is then of more than a hundred.
+const MOST_ROWS: usize = 3_000;
+
+/// A number with its 90 % interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Figure {
+    /// The number.
+    pub value: f64,
+    /// The ends of its interval.
+    pub ci90: [f64; 2],
+}
+
+/// A number, or why the record does not tell it.
+pub type Told = Result<Figure, String>;
+
+/// What a recording says.
+#[derive(Debug, Clone)]
+pub struct Measurement {
+    /// The recording.
+    pub fingerprint: Fingerprint,
+    /// The temperature whose rate counts, and the one over which a bias at rest is sought; `None` if there is none.
+    pub temperatures: Option<[&'static str; 2]>,
+    /// Time constants that were tried \[s\].
+    pub lags: Vec<f64>,
+    /// Of the bias to the temperature's rate in a steady ramp: the mean of heating and cooling \[(deg/h)/(degC/min)\].
+    pub sensitivity: Told,
+    /// While it rises.
+    pub heating: Told,
+    /// While it falls.
+    pub cooling: Told,
+    /// Heating less cooling.
+    pub asymmetry: Told,
+    /// At rest at one temperature, reached from below, less reached from above \[deg/h\].
+    pub hysteresis: Told,
+    /// Largest less least bias at rest over the record's range of temperatures \[deg/h\].
+    pub bias_span: Told,
+    /// Bias by temperature where it is largest, beside the first row \[deg/h\].
+    pub peak: Told,
+    /// The instant of the peak \[s\].
+    pub peak_time: Option<f64>,
+    /// Angle random walk \[deg/sqrt(h)\].
+    pub arw: Told,
+    /// Floor of the Allan deviation \[deg/h\].
+    pub bias_instability: Told,
+    /// Averaging time of the floor \[s\].
+    pub floor_time: Option<f64>,
+    /// What a user should know besides, with the reason for each number that is not told.
+    pub notes: Vec<Note>,
+}
+
+/// The figures of a recording.
+///
+/// # Errors
+/// [`InputError`] names what forbids its use.
+pub fn measure(case: &RecordCase) -> Result<Measurement, InputError> {
+    case.require_usable()?;
+    let file = &case.fingerprint.file;
+    let mut notes: Vec<Note> = case.notes.iter().filter(|note| note.is_warning()).map(|note| note.clone().at(file)).collect();
+    let severe = case.report.findings.iter().filter(|finding| finding.severity == recording::check::Severity::Warning);
+    notes.extend(severe.map(|finding| Remark::of_finding(&finding.kind).warning(finding.to_string()).at(file)));
+    let (temperatures, response) = response(case);
+    let analysis = Analysis::new(case);
+    let noise = noise::of(analysis.noise.as_ref());
+    // u/(K/s) to u/(K/min)
+    let per_minute = |of: fn(&Response) -> &Result<Estimate, Absent>| told(&response, of, 1.0 / S_PER_MIN);
+    let plain = |of: fn(&Response) -> &Result<Estimate, Absent>| told(&response, of, 1.0);
+    let peak = response.as_ref().map_err(Clone::clone).and_then(|r| r.peak.as_ref().map_err(ToString::to_string));
+    let peak = peak.map(|(estimate, time)| (figure(*estimate), *time));
+    let mut measured = Measurement {
+        fingerprint: case.fingerprint.clone(),
+        temperatures,
+        lags: response.as_ref().map_or_else(|_| Vec::new(), |response| response.lags.clone()),
+        sensitivity: per_minute(|r| &r.sensitivity),
+        heating: per_minute(|r| &r.heating),
+        cooling: per_minute(|r| &r.cooling),
+        asymmetry: per_minute(|r| &r.asymmetry),
+        hysteresis: plain(|r| &r.hysteresis),
+        bias_span: plain(|r| &r.span).map(|Figure { value, ci90: [low, high] }| Figure { value, ci90: [low.max(0.0), high] }),
+        peak: peak.clone().map(|(figure, _)| figure),
+        peak_time: peak.ok().map(|(_, time)| time),
+        arw: noise.arw,
+        bias_instability: noise.floor.clone().map(|(figure, _)| figure),
+        floor_time: noise.floor.ok().map(|(_, tau)| tau),
+        notes,
+    };
+    let missing =
+        measured.figures().into_iter().filter_map(|(key, _, told)| told.as_ref().err().map(|why| format!("{key}: {why}")));
+    let missing: Vec<Note> = missing.map(|text| Remark::NotMeasured.note(text).at(file)).collect();
+    measured.notes.extend(missing);
+    Ok(measured)
+}
+
+impl Measurement {
+    /// Keys, units and numbers, in the order in which they are shown.
+    pub fn figures(&self) -> [(&'static str, &'static str, &Told); 9] {
+        const RAMP: &str = "(deg/h)/(degC/min)";
+        [
+            ("sensitivity", RAMP, &self.sensitivity),
+            ("heating", RAMP, &self.heating),
+            ("cooling", RAMP, &self.cooling),
+            ("asymmetry", RAMP, &self.asymmetry),
+            ("hysteresis", "deg/h", &self.hysteresis),
+            ("bias_span", "deg/h", &self.bias_span),
+            ("peak", "deg/h", &self.peak),
+            ("arw", "deg/sqrt(h)", &self.arw),
+            ("bias_instability", "deg/h", &self.bias_instability),
+        ]
+    }
+}
+
+fn figure(estimate: Estimate) -> Figure {
+    Figure { value: estimate.value, ci90: estimate.ci90() }
+}
+
+fn told(response: &Result<Response, String>, of: fn(&Response) -> &Result<Estimate, Absent>, factor: f64) -> Told {
+    let response = response.as_ref().map_err(Clone::clone)?;
+    of(response).as_ref().map(|estimate| figure(estimate.times(factor))).map_err(ToString::to_string)
+}
+
+/// What the rate answers to the temperatures, and to which.
+fn response(case: &RecordCase) -> (Option<[&'static str; 2]>, Result<Response, String>) {
+    let used = case.report.used(&case.recording);
+    let interval = case.report.instants.as_ref().map_or(0.0, |instants| instants.interval);
+    let rule = Thinning { many_rows: MOST_ROWS, interval, most_rows: MOST_ROWS };
+    let (used, every) = match thinned(&used, interval, &rule) {
+        Some(Thinned { recording, every, .. }) => (recording, every as f64),
+        None => (used, 1.0),
+    };
+    let temperature = |used: &Recording, name: &str| {
+        let values = &used.channel(name)?.values;
+        let known = values.iter().filter(|value| value.is_finite()).count();
+        if 2 * known > values.len() { bridged(used.time(), values) } else { None }
+    };
+    let [chamber, spool] = [CHAMBER, SPOOL].map(|name| temperature(&used, name).map(|values| (name, values)));
+    let Some((driver, drive)) = chamber.clone().or_else(|| spool.clone()) else {
+        return (None, Err("there is no temperature; record chamber_c or spool_c".into()));
+    };
+    let (seated, seat) = spool.unwrap_or_else(|| (driver, drive.clone()));
+    let summary = case.number(driver).map(|number| &case.report.channels[number]);
+    let of = |value: Option<f64>| value.unwrap_or(0.0) / every.sqrt();
+    let reading = [of(summary.and_then(|s| s.noise)), of(summary.and_then(|s| s.step))];
+    let values = used.channel(RATE).map_or_else(|| vec![f64::NAN; used.time().len()], |channel| channel.values.clone());
+    let mask: Vec<bool> = values.iter().map(|value| value.is_finite()).collect();
+    let answered = respond(&Input {
+        time: used.time(),
+        values: &values,
+        mask: &mask,
+        drive: &drive,
+        reading,
+        seat: &seat,
+        interval: interval * every,
+        averaging: case.averaging * every,
+    });
+    (Some([driver, seated]), answered.map_err(|absent| absent.to_string()))
+}

@@ -1,0 +1,76 @@
+//! The figures for people.
+
+use std::fmt::Write;
+
+use recording::Seconds;
+
+use super::{Figure, Measurement, Prediction};
+use crate::table::{significant, table};
+
+/// A table of the figures, the design's prediction among them, and how they are meant.
+pub fn text(measured: &Measurement, prediction: Option<&Prediction>) -> String {
+    let mut out = format!("{}\n\n", files::shown_path(&measured.fingerprint.file));
+    let mut rows = vec![["", "value", "90 % interval", "unit"].map(str::to_owned).to_vec()];
+    for (key, unit, told) in measured.figures() {
+        rows.push(match told {
+            Ok(figure) => row(name(key), figure, unit),
+            Err(_) => vec![name(key).into(), "-".into(), String::new(), String::new()],
+        });
+        if let (Some(prediction), "asymmetry") = (prediction, key) {
+            rows.push(row("  the design's sensitivity", &prediction.sensitivity, unit));
+        }
+    }
+    out.push_str(&table(&rows));
+    if let Some([driver, seat]) = measured.temperatures {
+        let _ = writeln!(out, "\nFitted. Rates are those of {driver}; the bias over temperature is over {seat}, at rest.");
+    }
+    if let Some(time) = measured.peak_time {
+        let _ = writeln!(out, "The peak is at {} s, beside the first row.", Seconds(time));
+    }
+    if let Some(tau) = measured.floor_time {
+        let _ = writeln!(
+            out,
+            "The Allan deviation's floor is at {} s; B of IEEE Std 952 is the floor over 0.664.",
+            Seconds(tau.round())
+        );
+    }
+    if let Some((prediction, sigmas)) = prediction.and_then(|p| Some((p, p.sigmas(measured)?))) {
+        let _ = writeln!(
+            out,
+            "Measured less predicted by {}: {} standard deviations of both together.",
+            prediction.design,
+            significant(sigmas, 2)
+        );
+    }
+    for note in &measured.notes {
+        let _ = writeln!(out, "{}", note.line());
+    }
+    out
+}
+
+fn name(key: &str) -> &str {
+    match key {
+        "sensitivity" => "sensitivity to the rate of temperature",
+        "heating" => "  heating",
+        "cooling" => "  cooling",
+        "asymmetry" => "  heating less cooling",
+        "hysteresis" => "hysteresis at rest",
+        "bias_span" => "bias over temperature",
+        "peak" => "largest bias by temperature",
+        "arw" => "angle random walk",
+        _ => "bias instability",
+    }
+}
+
+fn row(name: &str, figure: &Figure, unit: &str) -> Vec<String> {
+    let Figure { value, ci90: [low, high] } = *figure;
+    let digits = digits(value, high - low);
+    let number = |value: f64| significant(value, digits);
+    vec![name.to_owned(), number(value), format!("{} to {}", number(low), number(high)), unit.to_owned()]
+}
+
+/// Digits that show an interval's width to two.
+fn digits(value: f64, width: f64) -> usize {
+    let more = (value.abs() / width).log10().ceil();
+    if more.is_finite() { (1.0 + more).clamp(2.0, 6.0) as usize } else { 3 }
+}

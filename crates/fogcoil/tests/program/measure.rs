@@ -1,0 +1,192 @@
+//! `fogcoil measure` as a user runs it: figures with intervals, the design's beside them, and what a record does not tell.
+
+use serde_json::Value;
+
+use crate::common::{CLEAN_COIL, Folder, schema, stderr, stdout};
+
+/// Rest, up at 1 K/min, rest, down, rest: instants \[s\] and temperatures \[degC\].
+const PROGRAMME: [(f64, f64); 6] =
+    [(0.0, -40.0), (3600.0, -40.0), (9600.0, 60.0), (16_800.0, 60.0), (22_800.0, -40.0), (30_000.0, -40.0)];
+
+fn chamber(t: f64) -> f64 {
+    let on = PROGRAMME.windows(2).find(|w| (w[0].0..=w[1].0).contains(&t)).unwrap();
+    on[0].1 + (on[1].1 - on[0].1) * (t - on[0].0) / (on[1].0 - on[0].0)
+}
+
+/// Nearly normal numbers: sums of twelve uniform ones, less six.
+fn normals() -> impl FnMut() -> f64 {
+    let mut state = 1_u64;
+    move || {
+        let mut uniform = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        (0..12).map(|_| uniform()).sum::<f64>() - 6.0
+    }
+}
+
+/// What the reference coil does in it, by `simulate`, with noise of the rate \[deg/h\] and of the thermometers \[K\].
+fn record(folder: &Folder, offset: f64) {
+    let rows =
+        |of: &dyn Fn(f64) -> f64| (0..=500).map(|n| 60.0 * f64::from(n)).map(|t| format!("{t},{}\n", of(t))).collect::<String>();
+    folder.write("coil.ron", CLEAN_COIL);
+    folder.write("p.csv", "time_s,chamber_c\n".to_owned() + &rows(&chamber));
+    let output = folder.run(&["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv", "--quiet"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let table = std::fs::read_to_string(folder.path("b.csv")).unwrap();
+    let mut lines = table.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+    let names = lines.next().unwrap();
+    let at = ["time_s", "chamber_c", "spool_c", "rate_deg_per_h"].map(|name| names.iter().position(|n| n == name).unwrap());
+    let mut normal = normals();
+    let mut text = "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned();
+    for line in lines {
+        let [time, chamber, spool, rate] = at.map(|column| line[column].parse::<f64>().unwrap());
+        let [a, b, c] = [0.01 * normal(), 0.01 * normal(), 0.02 * normal() + offset];
+        text += &format!("{time},{},{},{}\n", chamber + a, spool + b, rate + c);
+    }
+    folder.write("r.csv", text);
+}
+
+fn json(folder: &Folder, arguments: &[&str]) -> Value {
+    let output = folder.run(arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    serde_json::from_str(&stdout(&output)).unwrap()
+}
+
+fn interval(of: &Value) -> [f64; 3] {
+    let number = |value: &Value| value.as_f64().unwrap();
+    [number(&of["ci90"][0]), number(&of["value"]), number(&of["ci90"][1])]
+}
+
+#[test]
+fn the_steady_sensitivity_of_a_coil_is_measured_again() {
+    let folder = Folder::new();
+    record(&folder, 7.0);
+    let steady = json(&folder, &["sensitivity", "coil.ron", "--json"])["total"].as_f64().unwrap();
+    let found = json(&folder, &["measure", "r.csv", "coil.ron", "--json"]);
+    assert_eq!(fogcoil::schema::misfit(&found, &schema("measure")), None);
+    for key in ["sensitivity", "heating", "cooling"] {
+        let [low, value, high] = interval(&found[key]);
+        assert!(low < value && value < high && high - low < 0.12 * steady.abs(), "{key}: {low} {value} {high}");
+        assert!(low < steady && steady < high, "{key}: {low} {high} {steady}");
+    }
+    // the design predicts itself
+    let [low, predicted, high] = interval(&found["prediction"]);
+    assert!((predicted - steady).abs() < 1e-9 && low < predicted && predicted < high);
+    assert!(found["prediction"]["sigmas"].as_f64().unwrap().abs() < 2.0, "{found}");
+    // white noise of 0.02 deg/h over a minute
+    let [low, _, high] = interval(&found["arw"]);
+    assert!((low..high).contains(&(0.02 / 60.0_f64.sqrt())), "{found}");
+    assert_eq!((&found["ramp_of"], &found["span_over"]), (&"chamber_c".into(), &"spool_c".into()));
+    // no temperature is held from both sides
+    let notes = found["notes"].to_string();
+    assert!(found["hysteresis"].is_null() && notes.contains("hysteresis: no temperature is held"), "{notes}");
+    // for people
+    let output = folder.run(&["measure", "r.csv", "coil.ron"]);
+    let text = stdout(&output);
+    assert!(
+        text.contains("the design's sensitivity") && text.contains("angle random walk") && text.contains("[not-measured]"),
+        "{text}"
+    );
+    // another offset, another unit, another origin and fewer columns: the same
+    let rows = std::fs::read_to_string(folder.path("r.csv")).unwrap();
+    let moved = rows.lines().skip(1).map(|line| {
+        let fields: Vec<f64> = line.split(',').map(|field| field.parse().unwrap()).collect();
+        format!("{},{},{},{:e}\n", fields[0] + 86_400.0, fields[1], fields[2], (fields[3] - 7.0) / 3600.0)
+    });
+    folder.write("moved.csv", "time_s,chamber_c,spool_c,rate\n".to_owned() + &moved.collect::<String>());
+    let other = json(&folder, &["measure", "moved.csv", "--column", "rate=rate", "--unit", "rate=deg/s", "--json"]);
+    for key in ["sensitivity", "heating", "cooling", "bias_span", "peak", "arw"] {
+        let [a, b] = [interval(&found[key]), interval(&other[key])];
+        let width = a[2] - a[0];
+        assert!((0..3).all(|n| (a[n] - b[n]).abs() < 0.02 * width), "{key}: {a:?} {b:?}");
+    }
+    assert!(other["prediction"].is_null());
+    // several records are several objects
+    let both = json(&folder, &["measure", "r.csv", "r.csv", "--json"]);
+    assert_eq!(both["records"].as_array().unwrap().len(), 2);
+    assert_eq!(both["records"][1]["sensitivity"], found["sensitivity"]);
+}
+
+/// Steady sensitivity of the reference coil \[(deg/h)/(degC/min)\].
+const STEADY: f64 = -2.7335;
+
+/// An independent code's responses of the reference coil, with noise: its sensitivity is told, and a programme too fast for it is refused.
+#[test]
+fn the_independent_code_s_coil_is_measured() {
+    let folder = Folder::new();
+    let told = |name: &str| {
+        let path = format!("{}/../../fixtures/nominal/{name}.csv", env!("CARGO_MANIFEST_DIR"));
+        let mut normal = normals();
+        let table = std::fs::read_to_string(path).unwrap();
+        let row = |line: &str| {
+            let fields: Vec<f64> = line.split(',').map(|field| field.parse().unwrap()).collect();
+            format!("{},{},{},{}\n", fields[0], fields[1], fields[2], fields[6] + 0.05 * normal())
+        };
+        let rows: String = table.lines().skip(1).map(row).collect();
+        folder.write("n.csv", "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &rows);
+        json(&folder, &["measure", "n.csv", "--json"])
+    };
+    for name in ["P1", "P2", "P5"] {
+        let found = told(name);
+        let [low, value, high] = interval(&found["sensitivity"]);
+        // the intervals hold what noise does; what the time constants cannot follow of a real coil is up to as much again
+        let error = (value - STEADY).abs();
+        println!("{name}: {value} from {low} to {high}");
+        assert!(error < high - low && error < 0.1 * STEADY.abs() + (high - low) / 2.0, "{name}: {low} {value} {high}");
+    }
+    // sines and steps of minutes: the coil takes half an hour to settle
+    let fast = told("P4");
+    assert!(
+        fast["bias_span"].is_null()
+            && fast["sensitivity"].is_null()
+            && fast["notes"].to_string().contains("sensitivity: slower responses than"),
+        "{fast}"
+    );
+}
+
+#[test]
+fn what_a_record_does_not_tell_is_null() {
+    let folder = Folder::new();
+    let mut normal = normals();
+    let mut rows = |count: i32, of: &dyn Fn(i32) -> String| {
+        (0..count).map(|n| format!("{},{}{}\n", 60 * n, of(n), 0.01 * normal())).collect::<String>()
+    };
+    // a temperature that stands still, none, and few rows
+    folder.write("still.csv", "time_s,chamber_c,rate_deg_per_h\n".to_owned() + &rows(400, &|_| "20,".into()));
+    folder.write("none.csv", "time_s,rate_deg_per_h\n".to_owned() + &rows(400, &|_| String::new()));
+    folder.write("short.csv", "time_s,chamber_c,rate_deg_per_h\n".to_owned() + &rows(12, &|n| format!("{},", 20 + n * n)));
+    for (file, says) in
+        [("still.csv", "there is no ramp"), ("none.csv", "there is no temperature"), ("short.csv", "12 usable rows are too few")]
+    {
+        let found = json(&folder, &["measure", file, "--json"]);
+        assert_eq!(fogcoil::schema::misfit(&found, &schema("measure")), None);
+        for key in ["sensitivity", "heating", "cooling", "bias_span", "peak", "hysteresis"] {
+            assert!(found[key].is_null(), "{file} {key}: {found}");
+            let notes = found["notes"].as_array().unwrap();
+            let said = notes.iter().any(|note| note.as_str().unwrap().contains(&format!("{key}: {says}")));
+            assert!(said, "{file} {key}: {notes:?}");
+        }
+        assert_eq!(found["arw"].is_null(), file == "short.csv", "{found}");
+        // white noise has no floor
+        let falls = found["notes"].to_string().contains("bias_instability: the Allan deviation still falls at");
+        assert!(found["bias_instability"].is_null() && falls == (file != "short.csv"), "{found}");
+    }
+}
+
+#[test]
+fn what_cannot_be_measured_is_said() {
+    let folder = Folder::new();
+    folder.write("coil.ron", CLEAN_COIL);
+    folder.write("nan.csv", "time_s,chamber_c,rate_deg_per_h\n0,20,nan\n60,20,nan\n120,21,nan\n");
+    let refused = |arguments: &[&str], says: &str| {
+        let output = folder.run(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(says) && stdout(&output).is_empty(), "{says}: {}", stderr(&output));
+    };
+    refused(&["measure"], "RECORD.csv|COIL.ron");
+    refused(&["measure", "coil.ron"], "no recording is given");
+    refused(&["measure", "coil.ron", "coil.ron", "nan.csv"], "more than one coil file");
+    refused(&["measure", "none.csv"], "none.csv");
+    refused(&["measure", "nan.csv"], "nan.csv: cannot be used");
+}

@@ -1,0 +1,62 @@
+//! Numbers that follow from an identified noise, with their errors.
+
+use super::NoiseModel;
+use super::identify::{NoiseEstimate, parameter};
+
+/// Step of the derivatives in the logarithms of the parameters.
+const STEP: f64 = 1e-4;
+
+impl NoiseEstimate {
+    /// Standard error of the natural logarithm of a positive number that follows from the model, to first order, with the correlation of the
+    /// parameters; `None` where the likelihood has no maximum inside its bounds.
+    pub fn relative_error(&self, of: impl Fn(&NoiseModel) -> f64) -> Option<f64> {
+        let covariance = self.covariance.as_ref()?;
+        let scaled = |number: usize, by: f64| {
+            let mut model = self.model;
+            *parameter(&mut model, &self.terms, number) *= by.exp();
+            of(&model).ln()
+        };
+        let slope = |number: usize| (scaled(number, STEP) - scaled(number, -STEP)) / (2.0 * STEP);
+        let slopes = nalgebra::DVector::from_iterator(covariance.nrows(), (0..covariance.nrows()).map(slope));
+        let error = slopes.dot(&(covariance * &slopes)).sqrt();
+        error.is_finite().then_some(error)
+    }
+
+    /// Models about this one that stand for what it may be, each with its weight: mean and variance of a smooth number over them are those over
+    /// the errors of the slow terms (unscented transform; Julier and Uhlmann 1997). Without known errors it is this model alone.
+    pub fn about(&self) -> Vec<(f64, NoiseModel)> {
+        let errors = &self.standard_errors;
+        let slow = [
+            (errors.drift, (|model| &mut model.drift) as fn(&mut NoiseModel) -> &mut f64),
+            (errors.drift_time, |model| &mut model.drift_time),
+            (errors.walk, |model| &mut model.walk),
+        ];
+        let known: Vec<_> = slow.into_iter().filter_map(|(error, of)| error.map(|error| (error.min(MOST_ERROR), of))).collect();
+        // n numbers: weight 1/6 at ±√3 standard deviations of each, the rest in the middle
+        let shifted = |error: f64, of: fn(&mut NoiseModel) -> &mut f64| {
+            let mut model = self.model;
+            *of(&mut model) *= (3.0_f64.sqrt() * error).exp();
+            (1.0 / 6.0, model)
+        };
+        let around = known.iter().flat_map(|&(error, of)| [shifted(error, of), shifted(-error, of)]);
+        let middle = 1.0 - known.len() as f64 / 3.0;
+        std::iter::once((middle, self.model)).chain(around).filter(|(weight, _)| *weight > 1e-9).collect()
+    }
+}
+
+impl NoiseModel {
+    /// Averaging time \[s\] between the ends given at which the Allan deviation is least, and that deviation \[u\]; `None` where the deviation still
+    /// falls at the longer end: it has no floor there. `interval` is that of the rows \[s\].
+    pub fn floor(&self, [shortest, longest]: [f64; 2], interval: f64) -> Option<(f64, f64)> {
+        let steps = (PER_OCTAVE * (longest / shortest).log2()).ceil().max(1.0);
+        let tau = |n: usize| shortest * (longest / shortest).powf(n as f64 / steps);
+        let deviation = |n: usize| self.allan_deviation(tau(n), interval);
+        let least = (0..=steps as usize).min_by(|a, b| deviation(*a).total_cmp(&deviation(*b)))?;
+        (least < steps as usize).then(|| (tau(least), deviation(least)))
+    }
+}
+
+/// Largest error of a logarithm that is taken as it is: beyond, the likelihood is no parabola.
+const MOST_ERROR: f64 = 1.0;
+/// Averaging times in an octave at which the floor is sought: the deviation is flat there, and known to 1e-3 of itself.
+const PER_OCTAVE: f64 = 16.0;

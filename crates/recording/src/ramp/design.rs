@@ -1,0 +1,128 @@
+//! The columns that a channel may hold in response to a temperature.
+
+use super::branches::Course;
+use super::{Absent, Direction, Input};
+use crate::lag::lagging;
+use crate::series::GAP;
+
+/// Columns and where which of them stand.
+pub(super) struct Design {
+    pub(super) columns: Vec<Vec<f64>>,
+    /// Time constants \[s\], the longest first.
+    pub(super) lags: Vec<f64>,
+    /// Whether heating and cooling have amounts of their own.
+    split: bool,
+    /// Temperature at a row, from −1 at the coldest to 1 at the warmest.
+    pub(super) warmth: Vec<f64>,
+    only: Option<Direction>,
+}
+
+/// An offset, and a parabola over temperature.
+const STATIC: usize = 3;
+
+/// Numbers of columns, and what of each is taken.
+pub(super) type Weights = Vec<(usize, f64)>;
+
+impl Design {
+    pub(super) fn new(input: &Input, course: &Course, lags: &[f64], heats: bool, cools: bool) -> Self {
+        let warmth = warmth(input.seat);
+        let mut columns = vec![vec![1.0; warmth.len()], warmth.clone(), warmth.iter().map(|x| x * x).collect()];
+        let start = input.time[0];
+        // the state in which the record begins is not known
+        columns.extend(lags.iter().map(|lag| input.time.iter().map(|t| (-(t - start) / lag).exp()).collect()));
+        let rates = |moved: &dyn Fn(usize) -> f64| -> Vec<Vec<f64>> {
+            let moved: Vec<f64> = (0..input.time.len()).map(moved).collect();
+            lags.iter().map(|lag| lagging_rate(input.time, &moved, *lag, input.interval)).collect()
+        };
+        let [up, down] = &course.movement;
+        columns.extend(rates(&|row| up[row] + down[row]));
+        let split = heats && cools;
+        if split {
+            columns.extend(rates(&|row| (up[row] - down[row]) / 2.0));
+        }
+        let only = match (heats, cools) {
+            (true, false) => Some(Direction::Heating),
+            (false, true) => Some(Direction::Cooling),
+            _ => None,
+        };
+        Self { columns, lags: lags.to_vec(), split, warmth, only }
+    }
+
+    /// With a further column at the end.
+    pub(super) fn with(&self, column: Vec<f64>) -> Self {
+        let columns = self.columns.iter().cloned().chain([column]).collect();
+        Self { columns, lags: self.lags.clone(), split: self.split, warmth: self.warmth.clone(), only: self.only }
+    }
+
+    fn common(&self) -> std::ops::Range<usize> {
+        STATIC + self.lags.len()..STATIC + 2 * self.lags.len()
+    }
+
+    fn difference(&self) -> std::ops::Range<usize> {
+        let end = self.common().end;
+        if self.split { end..end + self.lags.len() } else { end..end }
+    }
+
+    /// What a steady ramp of rate 1 settles at: in both directions' mean, or the only one's.
+    pub(super) fn sensitivity(&self) -> Weights {
+        self.common().map(|number| (number, 1.0)).collect()
+    }
+
+    /// The same in one direction.
+    pub(super) fn towards(&self, direction: Direction) -> Result<Weights, Absent> {
+        if self.only.is_some_and(|only| only != direction) {
+            return Err(Absent::OneWay(direction));
+        }
+        let half = 0.5 - direction as usize as f64;
+        Ok(self.common().map(|number| (number, 1.0)).chain(self.difference().map(|number| (number, half))).collect())
+    }
+
+    /// Heating less cooling.
+    pub(super) fn asymmetry(&self) -> Result<Weights, Absent> {
+        let other = match self.only {
+            None => return Ok(self.difference().map(|number| (number, 1.0)).collect()),
+            Some(Direction::Heating) => Direction::Cooling,
+            Some(Direction::Cooling) => Direction::Heating,
+        };
+        Err(Absent::OneWay(other))
+    }
+
+    /// What changes at rest from one warmth to another.
+    pub(super) fn at_rest(from: f64, to: f64) -> Weights {
+        vec![(1, to - from), (2, to * to - from * from)]
+    }
+
+    /// What the temperature does in a row beside what it did in the first.
+    pub(super) fn thermal(&self, row: usize) -> Weights {
+        let ramps = self.common().start..self.difference().end;
+        let ramps = ramps.map(|number| (number, self.columns[number][row]));
+        Self::at_rest(self.warmth[0], self.warmth[row]).into_iter().chain(ramps).collect()
+    }
+
+    /// The rate of the temperature as the slowest lag has it \[K/s\].
+    pub(super) fn slowest_rate(&self) -> &[f64] {
+        &self.columns[self.common().start]
+    }
+}
+
+/// A temperature \[K\] as −1 at its least to 1 at its largest.
+fn warmth(temperature: &[f64]) -> Vec<f64> {
+    let least = temperature.iter().copied().fold(f64::INFINITY, f64::min);
+    let largest = temperature.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let half = if largest > least { (largest - least) / 2.0 } else { 1.0 };
+    temperature.iter().map(|value| (value - least) / half - 1.0).collect()
+}
+
+/// The rate of a movement as a first-order system of time constant `lag` follows it, its mean since the row before; after a gap the value there.
+pub(super) fn lagging_rate(time: &[f64], moved: &[f64], lag: f64, interval: f64) -> Vec<f64> {
+    let behind = lagging(time, moved, lag);
+    let mean = |row: usize| {
+        let span = time[row] - time[row - 1];
+        if span > GAP * interval {
+            return behind[row] / lag;
+        }
+        // the system's own state is the movement less what it is behind by
+        (moved[row] - behind[row] - moved[row - 1] + behind[row - 1]) / span
+    };
+    (0..time.len()).map(|row| if row == 0 { 0.0 } else { mean(row) }).collect()
+}

@@ -1,0 +1,40 @@
+//! What a channel reads at rest at one temperature, reached from below and from above.
+
+use super::branches::Course;
+use super::model::{Model, Observed};
+use super::{Absent, Estimate};
+
+/// A rest is where the temperature's rate, as the slowest lag has it, is below this share of its largest.
+const RESTING: f64 = 0.1;
+/// Rests are at one temperature within this share of half the range.
+const SAME: f64 = 0.1;
+/// Rests count where the way there has been gone but for this.
+const CAME: f64 = 0.1;
+/// Fewest rows of a rest.
+const FEWEST: usize = 10;
+
+/// Reached from below, less reached from above, beside all that a model holds.
+pub(super) fn hysteresis(model: &Model, course: &Course, observed: Observed) -> Result<Estimate, Absent> {
+    let design = &model.design;
+    let rates = design.slowest_rate();
+    let largest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+    let rests = |side: f64| -> Vec<f64> {
+        let rest =
+            |row: &usize| observed.mask[*row] && (course.side[*row] - side).abs() < CAME && rates[*row].abs() < RESTING * largest;
+        let mut found: Vec<f64> = (0..observed.time.len()).filter(rest).map(|row| design.warmth[row]).collect();
+        found.sort_by(f64::total_cmp);
+        found
+    };
+    let [below, above] = [rests(0.5), rests(-0.5)];
+    if shared(&below, &above) < FEWEST || shared(&above, &below) < FEWEST {
+        return Err(Absent::NoRest);
+    }
+    let with = Model::new(design.with(course.side.clone()), observed)?;
+    with.sum(&vec![(design.columns.len(), 1.0)])
+}
+
+/// How many of some have one of the others beside them; both are sorted.
+fn shared(of: &[f64], others: &[f64]) -> usize {
+    let beside = |x: &&f64| others.get(others.partition_point(|y| *y < **x - SAME)).is_some_and(|y| *y <= **x + SAME);
+    of.iter().filter(beside).count()
+}

@@ -1,0 +1,38 @@
+//! Time constants with which a response may follow a ramp.
+
+use super::Absent;
+
+/// A response three time constants into a ramp is 95 % of what it settles at: the longest is a third of that.
+const SETTLED: f64 = 3.0;
+/// A time constant is half of the one before: less far apart they can hardly be told from each other, farther apart they miss what lies between.
+const RATIO: f64 = 2.0;
+const MOST: usize = 8;
+/// Shortest, in intervals.
+const INTERVALS: f64 = 2.0;
+/// Fewest rows of a ramp: its longest lag is the shortest there is.
+pub(super) const ROWS_OF_RAMP: f64 = SETTLED * INTERVALS;
+/// Largest noise of a lagging rate beside the ramps': what it takes off an amount is the square of it.
+const NOISY: f64 = 0.1;
+
+/// Sets of lags \[s\], the longest first, where a response is seen to settle for `settling` \[s\] at ramps of about `rate` \[K/s\]; `noise` is a
+/// reading's \[K\].
+///
+/// The second set lies between the lags of the first: what a response of other time constants makes of one set and of the other tells how far off
+/// a set may be.
+pub(super) fn sets(settling: f64, rate: f64, noise: f64, interval: f64) -> Result<Vec<Vec<f64>>, Absent> {
+    let longest = settling / SETTLED;
+    if longest < INTERVALS * interval {
+        return Err(Absent::Fast { duration: settling });
+    }
+    let shortest = (INTERVALS * interval).max(noise / (NOISY * rate));
+    let set = |first: f64| -> Vec<f64> {
+        let all = (0..MOST as i32).map(|n| first / RATIO.powi(n));
+        all.enumerate().filter(|(n, lag)| *n == 0 || *lag >= shortest).map(|(_, lag)| lag).collect()
+    };
+    Ok(vec![set(longest), set(longest / RATIO.sqrt())])
+}
+
+/// A set that begins at twice the longest lag of another.
+pub(super) fn slower(set: &[f64]) -> Vec<f64> {
+    set.first().map(|first| RATIO * first).into_iter().chain(set.iter().copied()).collect()
+}

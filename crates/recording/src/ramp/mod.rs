@@ -1,0 +1,167 @@
+//! What a channel answers to a temperature's rate of change: the steady-ramp sensitivity, by heating and cooling, beside a bias over temperature.
+//!
+//! A linear system that conducts heat answers a temperature T with Σ cₖ rₖ, where rₖ is the rate of T as a first-order system of time constant τₖ
+//! follows it. In a steady ramp every rₖ settles at the ramp's rate: the **sensitivity** is Σ cₖ \[u per K/s\], and the record need not hold a ramp
+//! long enough to settle for it to be told. The time constants go down by halves from a third of the longest ramp or rest, and, in a second
+//! set, from that over √2: what the two sets differ by counts as an error. Where a time constant twice as long as the longest changes the sensitivity by more
+//! than its errors, none is told: the unit settles more slowly than the record lets it. Rates upwards and
+//! downwards have amounts of their own where the record has both: **heating** and **cooling**, the sensitivity being their mean. Beside them
+//! stand an offset, a parabola in the temperature (**span**: what it changes by over the record's range), and what settles from the state in which the
+//! record begins.
+//!
+//! Noise is identified beside these columns by restricted likelihood, and amounts and errors are those of generalised least squares under every
+//! noise model that the likelihood does not exclude, weighed by it: coloured noise widens the intervals. Offsets, the origin of time and the unit of
+//! the channel change nothing.
+
+mod absent;
+mod branches;
+mod design;
+mod estimate;
+mod hysteresis;
+mod lags;
+mod model;
+
+pub use absent::{Absent, Direction};
+pub use estimate::Estimate;
+
+use crate::noise::NoiseEstimate;
+use branches::Course;
+use design::{Design, Weights};
+use model::{Model, Observed};
+
+/// A channel and the temperature that drives it.
+#[derive(Debug, Clone, Copy)]
+pub struct Input<'a> {
+    /// Instants, increasing \[s\].
+    pub time: &'a [f64],
+    /// The channel: means over the interval that ends at the instant \[u\].
+    pub values: &'a [f64],
+    /// Rows that are used; of others no value is read.
+    pub mask: &'a [bool],
+    /// The temperature that drives it, at every instant \[K\].
+    pub drive: &'a [f64],
+    /// Standard deviation of a reading of it \[K\], and the step between readings, 0 where they have none.
+    pub reading: [f64; 2],
+    /// The temperature over which a bias is sought at rest, at every instant \[K\].
+    pub seat: &'a [f64],
+    /// Usual interval between the rows \[s\].
+    pub interval: f64,
+    /// Span of a mean \[s\].
+    pub averaging: f64,
+}
+
+/// What a channel answers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Response {
+    /// What a steady ramp settles at, for each K/s: the mean of heating and cooling \[u/(K/s)\].
+    pub sensitivity: Result<Estimate, Absent>,
+    /// The same while the temperature rises.
+    pub heating: Result<Estimate, Absent>,
+    /// The same while it falls.
+    pub cooling: Result<Estimate, Absent>,
+    /// Heating less cooling.
+    pub asymmetry: Result<Estimate, Absent>,
+    /// At rest at one temperature: reached from below, less reached from above \[u\].
+    pub hysteresis: Result<Estimate, Absent>,
+    /// Largest less least at rest over the range of temperatures \[u\].
+    pub span: Result<Estimate, Absent>,
+    /// What the temperature does where it does most, beside the first row \[u\], and the instant \[s\].
+    pub peak: Result<(Estimate, f64), Absent>,
+    /// Time constants \[s\].
+    pub lags: Vec<f64>,
+    /// The noise beside it.
+    pub noise: NoiseEstimate,
+}
+
+/// A course that is known better than this share of its range is not known so.
+const LEAST_NOISE: f64 = 1e-6;
+
+/// What a channel answers to a temperature.
+///
+/// # Errors
+/// [`Absent`] where the temperature stands still, or nothing can be told.
+///
+/// # Panics
+/// If the series are not of one length.
+pub fn respond(input: &Input) -> Result<Response, Absent> {
+    let range = range(input.drive);
+    let step = input.reading[1];
+    let noise = input.reading[0].max(step / 12.0_f64.sqrt()).max(LEAST_NOISE * range);
+    let threshold = branches::threshold(range, noise, step);
+    let course = Course::new(input.time, input.drive, threshold);
+    let [heats, cools] = [Direction::Heating, Direction::Cooling].map(|direction| course.ramps(direction, threshold));
+    let Some(settling) = course.settling().filter(|_| heats || cools) else {
+        return Err(Absent::Still { range, needed: branches::RAMP * threshold });
+    };
+    let rate = root_mean_square(&design::lagging_rate(input.time, input.drive, settling, input.interval));
+    let observed = Observed { time: input.time, values: input.values, mask: input.mask, averaging: input.averaging };
+    let model = |lags: &Vec<f64>| Model::new(Design::new(input, &course, lags, heats, cools), observed);
+    let sets = lags::sets(settling, rate, noise, input.interval)?;
+    let models: Vec<Model> = sets.iter().map(model).collect::<Result<_, _>>()?;
+    let slower = lags::slower(&sets[0]);
+    let slower = Model::new(Design::new(input, &course, &slower, heats, cools), observed)?;
+    let unsettled = unsettled(&models, &slower);
+    let settled = |found: Estimate| if unsettled { Err(Absent::Unsettled(settling.round())) } else { Ok(found) };
+    let told = |of: &dyn Fn(&Design) -> Result<Weights, Absent>| {
+        over(&models, |model| model.told(&of(&model.design)?, noise)).and_then(settled)
+    };
+    Ok(Response {
+        sensitivity: told(&|design| Ok(design.sensitivity())),
+        heating: told(&|design| design.towards(Direction::Heating)),
+        cooling: told(&|design| design.towards(Direction::Cooling)),
+        asymmetry: told(&Design::asymmetry),
+        hysteresis: over(&models, |model| hysteresis::hysteresis(model, &course, observed)),
+        span: span(&models).and_then(settled),
+        peak: peak(&models, input),
+        lags: sets.concat(),
+        noise: models[0].noise.clone(),
+    })
+}
+
+/// Whether lags twice as long change the sensitivity by more than its errors.
+fn unsettled(models: &[Model], slower: &Model) -> bool {
+    let mean = over(models, |model| model.sum(&model.design.sensitivity()));
+    let other = slower.sum(&slower.design.sensitivity());
+    let Ok((mean, other)) = mean.and_then(|mean| Ok((mean, other?))) else { return false };
+    (other.value - mean.value).abs() > SIGNIFICANT * mean.sd.hypot(other.sd)
+}
+
+/// Standard deviations from which a change of the sensitivity counts: noise alone makes it in one record of a hundred.
+const SIGNIFICANT: f64 = 2.576;
+
+/// The mean over models that are as probable as each other: what they differ by counts as an error.
+fn over(models: &[Model], of: impl Fn(&Model) -> Result<Estimate, Absent>) -> Result<Estimate, Absent> {
+    let share = 1.0 / models.len() as f64;
+    let each = models.iter().map(|model| of(model).map(|estimate| (share, estimate.value, estimate.sd)));
+    Ok(Estimate::mixed(&each.collect::<Result<Vec<_>, _>>()?))
+}
+
+/// Largest less least of the parabola over the temperature: between the ends, or an end and its vertex.
+fn span(models: &[Model]) -> Result<Estimate, Absent> {
+    let amount = |number: usize| over(models, |model| model.sum(&vec![(number, 1.0)])).map_or(0.0, |estimate| estimate.value);
+    let (slope, curvature) = (amount(1), amount(2));
+    let vertex = (-slope / (2.0 * curvature)).clamp(-1.0, 1.0);
+    let height = |x: &f64| slope * x + curvature * x * x;
+    let mut places = [-1.0, 1.0, if vertex.is_finite() { vertex } else { 1.0 }];
+    places.sort_by(|a, b| height(a).total_cmp(&height(b)));
+    // the ends are where the parabola has its extremes: they move to second order only
+    over(models, |model| model.sum(&Design::at_rest(places[0], places[2])))
+}
+
+/// The row in which the temperature does most.
+fn peak(models: &[Model], input: &Input) -> Result<(Estimate, f64), Absent> {
+    let (design, amounts) = (&models[0].design, models[0].amounts());
+    let bias = |row: usize| design.thermal(row).iter().map(|(number, weight)| weight * amounts[*number]).sum::<f64>().abs();
+    let rows = (0..input.time.len()).filter(|&row| input.mask[row]);
+    let (row, _) = rows.map(|row| (row, bias(row))).max_by(|a, b| a.1.total_cmp(&b.1)).ok_or(Absent::Indistinct)?;
+    Ok((over(models, |model| model.sum(&model.design.thermal(row)))?, input.time[row]))
+}
+
+fn range(values: &[f64]) -> f64 {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    values.iter().copied().fold(f64::NEG_INFINITY, f64::max) - least
+}
+
+fn root_mean_square(values: &[f64]) -> f64 {
+    (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}

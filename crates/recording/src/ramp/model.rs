@@ -1,0 +1,79 @@
+//! Amounts of a design's columns, over the noises that may stand beside it.
+
+use super::design::{Design, Weights};
+use super::{Absent, Estimate};
+use crate::noise::{Bounds, Fitted, NoiseEstimate, NoiseModel, Series, fitted, identify};
+
+/// A design that was fitted.
+pub(super) struct Model {
+    pub(super) design: Design,
+    pub(super) noise: NoiseEstimate,
+    /// Amounts under each noise, with its probability.
+    fits: Vec<(f64, Fitted)>,
+    /// Under white noise of size 1: how well the columns alone tell their amounts.
+    plain: Fitted,
+}
+
+/// A series without its columns, and the span of its means \[s\].
+#[derive(Clone, Copy)]
+pub(super) struct Observed<'a> {
+    pub(super) time: &'a [f64],
+    pub(super) values: &'a [f64],
+    pub(super) mask: &'a [bool],
+    pub(super) averaging: f64,
+}
+
+impl<'a> Observed<'a> {
+    fn beside(self, columns: &'a [&'a [f64]]) -> Series<'a> {
+        Series { time: self.time, values: self.values, mask: self.mask, columns }
+    }
+}
+
+/// Noises less probable than this beside the best are left out.
+const IMPROBABLE: f64 = 1e-3;
+/// Largest share of what tells an amount that may be the thermometer's noise: it takes the square of it off.
+const MOST_NOISE: f64 = 0.1;
+
+impl Model {
+    /// Identifies the noise beside the columns of a design, and fits these.
+    pub(super) fn new(design: Design, observed: Observed) -> Result<Self, Absent> {
+        let columns: Vec<&[f64]> = design.columns.iter().map(Vec::as_slice).collect();
+        let series = observed.beside(&columns);
+        let noise = identify(&series, &Bounds::new(observed.averaging, observed.time))?;
+        let fit = |(probability, model): (f64, NoiseModel)| Ok((probability, fitted(&series, &model)?));
+        let fits = noises(&noise).into_iter().map(fit).collect::<Result<_, Absent>>()?;
+        let plain = fitted(&series, &NoiseModel::white(1.0, observed.averaging))?;
+        Ok(Self { design, noise, fits, plain })
+    }
+
+    /// A weighted sum of amounts over all noises; an error where the series does not tell it.
+    pub(super) fn sum(&self, weights: &Weights) -> Result<Estimate, Absent> {
+        let each = self.fits.iter().map(|(p, fit)| fit.sum(weights).map(|(value, sd)| (*p, value, sd)));
+        each.collect::<Option<Vec<_>>>().map(|each| Estimate::mixed(&each)).ok_or(Absent::Indistinct)
+    }
+
+    /// The same, unless noise of a thermometer's reading \[K\] would tell it nearly as well as the course of the temperature.
+    pub(super) fn told(&self, weights: &Weights, reading: f64) -> Result<Estimate, Absent> {
+        let (_, sd) = self.plain.sum(weights).ok_or(Absent::Indistinct)?;
+        // as a rate in the slowest lag's column, all rows together
+        let noise = reading / self.design.lags[0] * (self.noise.rows as f64).sqrt();
+        if noise * sd > MOST_NOISE { Err(Absent::Indistinct) } else { self.sum(weights) }
+    }
+
+    /// All amounts; 0 where one is not told.
+    pub(super) fn amounts(&self) -> Vec<f64> {
+        (0..self.design.columns.len()).map(|n| self.sum(&vec![(n, 1.0)]).map_or(0.0, |estimate| estimate.value)).collect()
+    }
+}
+
+/// The candidates of an identified noise with their probabilities e^(−BIC/2) (Schwarz 1978; Hoeting et al. 1999), the best one spread over the errors of
+/// its parameters.
+fn noises(noise: &NoiseEstimate) -> Vec<(f64, NoiseModel)> {
+    let Some(best) = noise.candidates.first() else { return vec![(1.0, noise.model)] };
+    let others = noise.candidates[1..].iter().map(|other| (((best.bic - other.bic) / 2.0).exp(), other.model));
+    let mut all: Vec<(f64, NoiseModel)> = noise.about();
+    all.extend(others.filter(|(probability, _)| *probability > IMPROBABLE));
+    let total: f64 = all.iter().map(|(probability, _)| probability).sum();
+    all.iter_mut().for_each(|(probability, _)| *probability /= total);
+    all
+}

@@ -1,0 +1,277 @@
+//! A known sensitivity is found again beside coloured noise, with intervals that cover it; what must not change it does not.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "helpers of tests")]
+
+use crate::common::{Random, even, simulate};
+use recording::noise::NoiseModel;
+use recording::ramp::{Absent, Direction, Estimate, Input, Response, respond};
+
+/// Instants of a programme's corners \[s\] and its temperatures \[degC\].
+type Programme = [(f64, f64)];
+
+/// An hour at rest, 100 K up at 1 K/min, an hour at rest, down again, an hour at rest.
+const UP_AND_DOWN: &Programme =
+    &[(0.0, -40.0), (3600.0, -40.0), (9600.0, 60.0), (13_200.0, 60.0), (19_200.0, -40.0), (22_800.0, -40.0)];
+
+fn temperature(programme: &Programme, t: f64) -> f64 {
+    let (last, first) = (programme[programme.len() - 1], programme[0]);
+    let within =
+        |w: &[(f64, f64)]| (w[0].0..w[1].0).contains(&t).then(|| w[0].1 + (w[1].1 - w[0].1) * (t - w[0].0) / (w[1].0 - w[0].0));
+    programme.windows(2).find_map(within).unwrap_or(if t < first.0 { first.1 } else { last.1 })
+}
+
+/// What a unit answers: two time constants \[s\], of no part in the estimator's, with their sensitivities \[u/(K/s)\], heating and cooling.
+#[derive(Clone, Copy)]
+struct Unit {
+    lags: [f64; 2],
+    heating: [f64; 2],
+    cooling: [f64; 2],
+    /// bias at rest over warmth x from −1 to 1: a x + b x² \[u\]
+    rest: [f64; 2],
+    /// reached from below, less from above, once the way there is longer than 16 K \[u\]
+    hysteresis: f64,
+}
+
+/// Sensitivity −2.7 u/(K/min).
+const UNIT: Unit =
+    Unit { lags: [370.0, 1530.0], heating: [-240.0, 78.0], cooling: [-240.0, 78.0], rest: [0.0; 2], hysteresis: 0.0 };
+
+impl Unit {
+    /// By steps of a second, each row the mean of its own.
+    fn bias(&self, programme: &Programme, time: &[f64]) -> Vec<f64> {
+        let (mut states, mut side, mut second) = ([[0.0_f64; 2]; 2], 0.0, time[0] - (time[1] - time[0]));
+        let middle = programme.iter().map(|(_, t)| *t).fold(f64::NEG_INFINITY, f64::max);
+        let least = programme.iter().map(|(_, t)| *t).fold(f64::INFINITY, f64::min);
+        let row = |end: &f64| {
+            let (mut sum, mut count) = (0.0, 0.0);
+            while second < end - 0.5 {
+                let rate = temperature(programme, second + 1.0) - temperature(programme, second);
+                second += 1.0;
+                for (k, lag) in self.lags.iter().enumerate() {
+                    states[0][k] += (rate.max(0.0) - states[0][k]) / lag;
+                    states[1][k] += (rate.min(0.0) - states[1][k]) / lag;
+                }
+                side = (side + rate / 16.0_f64).clamp(-0.5, 0.5);
+                let x = 2.0 * (temperature(programme, second) - least) / (middle - least) - 1.0;
+                sum += (0..2).map(|k| self.heating[k] * states[0][k] + self.cooling[k] * states[1][k]).sum::<f64>();
+                sum += self.rest[0] * x + self.rest[1] * x * x + self.hysteresis * side;
+                count += 1.0;
+            }
+            sum / count
+        };
+        time.iter().map(row).collect()
+    }
+}
+
+impl Unit {
+    /// Of time constants of 100 to 400 s and 500 to 2000 s, heating and cooling to −3.5 to −0.5 u/(K/min), and a bias at rest.
+    fn drawn(seed: u64) -> Self {
+        let mut random = Random::new(seed + 77_000);
+        let lags = [100.0, 500.0].map(|least| least * 4.0_f64.powf(random.uniform()));
+        let fast = [-240.0 + 60.0 * random.uniform(), -240.0 + 60.0 * random.uniform()];
+        let slow = [30.0 + 90.0 * random.uniform(), 30.0 + 90.0 * random.uniform()];
+        let rest = [0.2 + 0.3 * random.uniform(), 0.1];
+        Self { lags, heating: [fast[0], slow[0]], cooling: [fast[1], slow[1]], rest, hysteresis: 0.0 }
+    }
+
+    /// Heating, cooling and their mean \[u/(K/s)\].
+    fn sensitivities(&self) -> [f64; 3] {
+        let [heating, cooling] = [self.heating, self.cooling].map(|parts| parts[0] + parts[1]);
+        [heating, cooling, (heating + cooling) / 2.0]
+    }
+}
+
+struct Record {
+    time: Vec<f64>,
+    values: Vec<f64>,
+    temperature: Vec<f64>,
+    interval: f64,
+    reading: f64,
+}
+
+impl Record {
+    fn of(unit: &Unit, programme: &Programme, noise: &NoiseModel, reading: f64, seed: u64) -> Self {
+        let interval = noise.averaging;
+        let mut random = Random::new(seed);
+        let time = even((programme[programme.len() - 1].0 / interval) as usize, interval);
+        let noise = simulate(noise, time.len(), &mut random);
+        let values = unit.bias(programme, &time).iter().zip(noise).map(|(bias, noise)| 5.0 + bias + noise).collect();
+        let temperature = time.iter().map(|t| temperature(programme, *t) + reading * random.normal()).collect();
+        Self { time, values, temperature, interval, reading }
+    }
+
+    fn respond(&self) -> Result<Response, Absent> {
+        respond(&Input {
+            time: &self.time,
+            values: &self.values,
+            mask: &vec![true; self.time.len()],
+            drive: &self.temperature,
+            reading: [self.reading, 0.0],
+            seat: &self.temperature,
+            interval: self.interval,
+            averaging: self.interval,
+        })
+    }
+}
+
+/// White noise of a minute, and a walk of 0.1 over the record.
+fn noise() -> NoiseModel {
+    NoiseModel { walk: 7e-4, ..NoiseModel::white(0.05, 60.0) }
+}
+
+const TO_MIN: f64 = 1.0 / 60.0;
+
+/// Intervals that hold the truth, intervals, and the squares of the errors in standard deviations.
+#[derive(Default)]
+struct Coverage(usize, usize, f64);
+
+impl Coverage {
+    fn add(&mut self, estimate: Estimate, truth: f64) {
+        let [low, high] = estimate.ci90();
+        self.0 += usize::from(low <= truth && truth <= high);
+        self.1 += 1;
+        self.2 += ((estimate.value - truth) / estimate.sd).powi(2);
+    }
+
+    /// Nine tenths hold it, give or take three standard deviations of a hundred draws, and they are no wider than twice what the errors ask for.
+    fn holds(&self, what: &str) {
+        let count = self.1 as f64;
+        let (share, rms) = (self.0 as f64 / count, (self.2 / count).sqrt());
+        println!("{what}: {} of {} intervals hold the truth; errors are {rms:.2} standard deviations rms", self.0, self.1);
+        assert!(share >= 0.80 && rms > 0.5, "{what}: {share}, {rms}");
+    }
+}
+
+/// Units of which each has its own time constants: what the estimator's lack of them is an error as random as the noise.
+fn coverage(noise: &NoiseModel) {
+    let [mut mean, mut heating, mut cooling, mut span] = <[Coverage; 4]>::default();
+    let mut refused = 0;
+    for seed in 0..100 {
+        let unit = Unit::drawn(seed);
+        let found = Record::of(&unit, UP_AND_DOWN, noise, 0.01, seed).respond().unwrap();
+        let truth = unit.sensitivities();
+        if matches!(found.sensitivity, Err(Absent::Unsettled(_))) {
+            refused += 1;
+            continue;
+        }
+        heating.add(found.heating.unwrap(), truth[0]);
+        cooling.add(found.cooling.unwrap(), truth[1]);
+        mean.add(found.sensitivity.unwrap(), truth[2]);
+        // from a + b at the warm end to b − a at the cold end
+        span.add(found.span.unwrap(), 2.0 * unit.rest[0]);
+    }
+    println!("{refused} of 100 records are not told");
+    assert!(refused <= 10, "{refused}");
+    for (coverage, what) in [(mean, "sensitivity"), (heating, "heating"), (cooling, "cooling"), (span, "span")] {
+        coverage.holds(what);
+    }
+}
+
+#[test]
+fn intervals_hold_the_truth_beside_white_noise_and_walk() {
+    coverage(&noise());
+}
+
+#[test]
+fn intervals_hold_the_truth_beside_white_noise_alone() {
+    coverage(&NoiseModel::white(0.05, 60.0));
+}
+
+#[test]
+fn hysteresis_needs_rests_at_one_temperature() {
+    // 20 degC from below, 60 degC, 20 degC from above, −20 degC, 20 degC from below
+    let corners = [-20.0, 20.0, 60.0, 20.0, -20.0, 20.0];
+    let at = |(n, t): (usize, &f64)| [(7200.0 * n as f64, *t), (7200.0 * n as f64 + 4800.0, *t)];
+    let programme: Vec<(f64, f64)> = corners.iter().enumerate().flat_map(at).collect();
+    let unit = Unit { hysteresis: 0.4, ..UNIT };
+    let mut coverage = Coverage::default();
+    for seed in 0..100 {
+        let found = Record::of(&unit, &programme, &noise(), 0.01, seed).respond().unwrap();
+        coverage.add(found.hysteresis.clone().unwrap_or_else(|e| panic!("{e} {found:?}")), 0.4);
+    }
+    coverage.holds("hysteresis");
+    let once = Record::of(&unit, UP_AND_DOWN, &noise(), 0.01, 7).respond().unwrap();
+    assert_eq!(once.hysteresis, Err(Absent::NoRest));
+}
+
+/// Value and standard deviation are the same but for a factor.
+fn same(a: &Result<Estimate, Absent>, b: &Result<Estimate, Absent>, factor: f64) {
+    let (a, b) = (a.clone().unwrap().times(factor), b.clone().unwrap());
+    assert!((a.value - b.value).abs() < 0.02 * b.sd && (a.sd / b.sd - 1.0).abs() < 0.02, "{a:?} {b:?}");
+}
+
+#[test]
+fn offset_origin_and_unit_change_nothing() {
+    let record = Record::of(&UNIT, UP_AND_DOWN, &noise(), 0.01, 3);
+    let before = record.respond().unwrap();
+    for (offset, origin, unit, kelvin) in
+        [(100.0, 0.0, 1.0, 0.0), (0.0, -1e6, 1.0, 0.0), (0.0, 0.0, 1.0 / 3600.0, 273.15), (0.0, 4e5, -1e3, 0.0)]
+    {
+        let moved = Record {
+            time: record.time.iter().map(|t| t + origin).collect(),
+            values: record.values.iter().map(|v| unit * (v + offset)).collect(),
+            temperature: record.temperature.iter().map(|t| t + kelvin).collect(),
+            ..record
+        };
+        let after = moved.respond().unwrap();
+        for (a, b) in
+            [(&before.sensitivity, &after.sensitivity), (&before.heating, &after.heating), (&before.cooling, &after.cooling)]
+        {
+            same(a, b, unit);
+        }
+        let [a, b] = [&before, &after].map(|response| response.peak.clone().unwrap());
+        assert!((a.0.value * unit - b.0.value).abs() < 0.02 * b.0.sd && (a.1 + origin - b.1).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn a_record_at_half_the_rows_says_the_same() {
+    let fine = Record::of(&UNIT, UP_AND_DOWN, &NoiseModel { averaging: 30.0, white: 0.07, ..noise() }, 0.01, 5);
+    let pairs = |series: &[f64]| series.chunks_exact(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect();
+    let ends = |series: &[f64]| series.chunks_exact(2).map(|pair| pair[1]).collect();
+    let coarse = Record {
+        time: ends(&fine.time),
+        values: pairs(&fine.values),
+        temperature: ends(&fine.temperature),
+        interval: 60.0,
+        ..fine
+    };
+    let [a, b] = [fine.respond(), coarse.respond()].map(|r| r.unwrap().sensitivity.unwrap());
+    assert!((a.value - b.value).abs() < 0.5 * a.sd && (a.sd / b.sd - 1.0).abs() < 0.3, "{a:?} {b:?}");
+}
+
+#[test]
+fn what_a_record_does_not_hold_is_not_told() {
+    // at rest, beside a thermometer's noise
+    let still = Record::of(&UNIT, &[(0.0, 20.0), (20_000.0, 20.0)], &noise(), 0.05, 1).respond();
+    assert!(matches!(still, Err(Absent::Still { .. })), "{still:?}");
+    // a ramp from the first row to the last is an offset
+    for reading in [0.0, 0.02] {
+        let ramp = Record::of(&UNIT, &[(0.0, -40.0), (12_000.0, 60.0)], &noise(), reading, 1).respond().unwrap();
+        assert_eq!(ramp.sensitivity, Err(Absent::Indistinct), "{reading}");
+        assert_eq!(ramp.cooling, Err(Absent::OneWay(Direction::Cooling)));
+    }
+    // between rests it is told, one way only
+    let one_way = Record::of(&UNIT, &UP_AND_DOWN[..4], &noise(), 0.01, 1).respond().unwrap();
+    let heating = one_way.heating.unwrap();
+    assert_eq!(one_way.sensitivity, Ok(heating));
+    assert!((heating.times(TO_MIN).value + 2.7).abs() < 4.0 * heating.times(TO_MIN).sd, "{heating:?}");
+    assert_eq!(one_way.cooling, Err(Absent::OneWay(Direction::Cooling)));
+    // ramps and rests of ten minutes tell nothing of a unit that takes an hour to settle
+    let corners: Vec<(f64, f64)> = (0..60).map(|n| (600.0 * f64::from(n), if n % 4 < 2 { 20.0 } else { 60.0 })).collect();
+    let slow = Unit { lags: [370.0, 1200.0], ..UNIT };
+    let fast = Record::of(&slow, &corners, &noise(), 0.01, 1).respond().unwrap();
+    assert!(matches!(fast.sensitivity, Err(Absent::Unsettled(_))), "{:?}", fast.sensitivity);
+    // a jump between two rows tells nothing of rates
+    let jump = Record::of(&UNIT, &[(0.0, 20.0), (9000.0, 20.0), (9060.0, 50.0), (20_000.0, 50.0)], &noise(), 0.01, 1).respond();
+    assert!(matches!(jump, Err(Absent::Fast { .. })), "{jump:?}");
+    // a dozen rows are too few
+    let short = Record {
+        time: even(12, 60.0),
+        values: vec![1.0; 12],
+        temperature: (0..12).map(|n| f64::from(n * n)).collect(),
+        interval: 60.0,
+        reading: 0.0,
+    };
+    assert!(matches!(short.respond(), Err(Absent::Noise(recording::Error::TooFew { .. }))), "{:?}", short.respond());
+}

@@ -1,0 +1,57 @@
+"""A recording's figures as specifications of gyroscopes state them."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, TypedDict, cast
+
+from fogcoil import _native
+from fogcoil._diagnose import Record, record as checked
+from fogcoil._solve import AnyCoil, coil_of
+
+
+class Figure(TypedDict):
+    """A number with the ends of its 90 % interval."""
+
+    value: float
+    ci90: list[float]
+
+
+class Measurement(TypedDict):
+    """Figures of a recording; None where it does not tell one, with the reason in ``notes``."""
+
+    sensitivity: Figure | None
+    """Bias of a steady ramp [(deg/h)/(degC/min)], the mean of heating and cooling."""
+    heating: Figure | None
+    """While the temperature rises."""
+    cooling: Figure | None
+    """While it falls."""
+    asymmetry: Figure | None
+    """Heating less cooling."""
+    hysteresis: Figure | None
+    """Bias at rest at one temperature, reached from below less reached from above [deg/h]."""
+    bias_span: Figure | None
+    """Largest less least bias at rest over the record's range of temperatures [deg/h]."""
+    peak: Figure | None
+    """Bias by temperature where it is largest, beside the first row [deg/h]."""
+    peak_time_s: float | None
+    arw: Figure | None
+    """Angle random walk [deg/sqrt(h)]."""
+    bias_instability: Figure | None
+    """Floor of the Allan deviation [deg/h]; B of IEEE Std 952 is the floor over 0.664."""
+    floor_time_s: float | None
+    prediction: dict[str, Any] | None
+    """Of the design that was given: ``value``, ``ci90`` and ``sigmas``, measured less predicted in standard deviations of both together."""
+    notes: list[str]
+    """What a user should know besides."""
+
+
+def measure(record: Record, coil: AnyCoil | None = None, *, meta: str | os.PathLike[str] | None = None) -> Measurement:
+    """Bias sensitivity per degC/min, bias over temperature, hysteresis and noise of ``record``, each with a 90 % interval.
+
+    ``record`` is a path or columns by name, as :func:`fogcoil.diagnose` takes them. With ``coil`` the sensitivity that the design predicts stands beside
+    the measured one. ``meta`` is the path of a meta file; without it, ``meta.ron`` beside a CSV is read.
+    """
+    design = None if coil is None else coil_of(coil)
+    return cast(Measurement, json.loads(_native.measure(checked("record", record), design, meta)))
