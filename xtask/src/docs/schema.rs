@@ -27,7 +27,7 @@ const FILES: [(&str, &str); 11] = [
 ];
 
 /// Commands whose output must keep a schema. COIL, CELL, PROFILE, FIT and HOLDOUT stand for files.
-const OUTPUTS: [(&str, &str); 16] = [
+const OUTPUTS: [(&str, &str); 18] = [
     ("homogenize", "homogenize CELL --json"),
     ("homogenize", "homogenize fixtures/cells/temperature.ron --temperatures -40,20 --tolerance 1e-3 --load dt=10 --json"),
     ("identify", "identify fixtures/identify/table-one.ron --json"),
