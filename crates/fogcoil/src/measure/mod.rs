@@ -4,6 +4,7 @@
 //! the chamber was not recorded), the bias over temperature by the spool. Angle random walk and bias instability are those of
 //! [`crate::check`]. Beside them stands the steady sensitivity of a design, with what its tolerances make of it.
 
+mod figure;
 mod json;
 mod noise;
 mod prediction;
@@ -18,24 +19,13 @@ use recording::ramp::{Absent, Estimate, Input, Response, respond};
 use crate::check::Analysis;
 use crate::input::{CHAMBER, Fingerprint, InputError, RATE, RecordCase, SPOOL};
 
+pub use figure::{Figure, Told};
 pub use json::{all, json};
 pub use prediction::Prediction;
 pub use text::text;
 
 /// Rows beyond which neighbours are averaged: a ramp of an hour in a day's record is then of more than a hundred.
 const MOST_ROWS: usize = 3_000;
-
-/// A number with its 90 % interval.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Figure {
-    /// The number.
-    pub value: f64,
-    /// The ends of its interval.
-    pub ci90: [f64; 2],
-}
-
-/// A number, or why the record does not tell it.
-pub type Told = Result<Figure, String>;
 
 /// What a recording says.
 #[derive(Debug, Clone)]

@@ -4,7 +4,7 @@ use bias::units::S_PER_H;
 use recording::Seconds;
 use recording::statistics::normal_quantile;
 
-use super::{Figure, Told};
+use super::figure::{Figure, Told};
 use crate::check::GyroNoise;
 use crate::table::significant;
 
