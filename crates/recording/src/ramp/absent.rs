@@ -20,10 +20,12 @@ pub enum Absent {
     #[error("no ramp of the record {0}s")]
     OneWay(Direction),
     /// The longest ramp is shorter than a few rows.
-    #[error("the longest ramp takes {} s, fewer than {} rows; record at shorter intervals, or slower ramps", Seconds(*duration), super::lags::ROWS_OF_RAMP)]
+    #[error("the longest ramp takes {} s, fewer than {rows} rows; record at shorter intervals, or slower ramps", Seconds(*duration))]
     Fast {
         /// How long it takes \[s\].
         duration: f64,
+        /// Rows that it needs.
+        rows: f64,
     },
     /// What it does looks like an offset, a bias over temperature or a settling in this record.
     #[error(

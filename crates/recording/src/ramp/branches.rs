@@ -1,6 +1,6 @@
 //! A temperature's course as heating and cooling.
 
-use super::Direction;
+use super::absent::Direction;
 use crate::statistics::median;
 
 /// Range, of noise, from which a movement is none of it: white noise has turns of seven standard deviations among thousands of rows.

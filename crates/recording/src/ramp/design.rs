@@ -1,7 +1,8 @@
 //! The columns that a channel may hold in response to a temperature.
 
+use super::absent::{Absent, Direction};
 use super::branches::Course;
-use super::{Absent, Direction, Input};
+use super::input::Input;
 use crate::lag::lagging;
 use crate::series::GAP;
 

@@ -1,8 +1,9 @@
 //! What a channel reads at rest at one temperature, reached from below and from above.
 
+use super::absent::Absent;
 use super::branches::Course;
+use super::estimate::Estimate;
 use super::model::{Model, Observed};
-use super::{Absent, Estimate};
 
 /// A rest is where the temperature's rate, as the slowest lag has it, is below this share of its largest.
 const RESTING: f64 = 0.1;

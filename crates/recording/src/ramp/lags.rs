@@ -1,6 +1,6 @@
 //! Time constants with which a response may follow a ramp.
 
-use super::Absent;
+use super::absent::Absent;
 
 /// A response three time constants into a ramp is 95 % of what it settles at: the longest is a third of that.
 const SETTLED: f64 = 3.0;
@@ -10,7 +10,7 @@ const MOST: usize = 8;
 /// Shortest, in intervals.
 const INTERVALS: f64 = 2.0;
 /// Fewest rows of a ramp: its longest lag is the shortest there is.
-pub(super) const ROWS_OF_RAMP: f64 = SETTLED * INTERVALS;
+const ROWS_OF_RAMP: f64 = SETTLED * INTERVALS;
 /// Largest noise of a lagging rate beside the ramps': what it takes off an amount is the square of it.
 const NOISY: f64 = 0.1;
 
@@ -22,7 +22,7 @@ const NOISY: f64 = 0.1;
 pub(super) fn sets(settling: f64, rate: f64, noise: f64, interval: f64) -> Result<Vec<Vec<f64>>, Absent> {
     let longest = settling / SETTLED;
     if longest < INTERVALS * interval {
-        return Err(Absent::Fast { duration: settling });
+        return Err(Absent::Fast { duration: settling, rows: ROWS_OF_RAMP });
     }
     let shortest = (INTERVALS * interval).max(noise / (NOISY * rate));
     let set = |first: f64| -> Vec<f64> {

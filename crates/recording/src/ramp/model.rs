@@ -1,7 +1,8 @@
 //! Amounts of a design's columns, over the noises that may stand beside it.
 
+use super::absent::Absent;
 use super::design::{Design, Weights};
-use super::{Absent, Estimate};
+use super::estimate::Estimate;
 use crate::noise::{Bounds, Fitted, NoiseEstimate, NoiseModel, Series, fitted, identify};
 
 /// A design that was fitted.
