@@ -7,10 +7,10 @@ const SETTLED: f64 = 3.0;
 /// A time constant is half of the one before: less far apart they can hardly be told from each other, farther apart they miss what lies between.
 const RATIO: f64 = 2.0;
 const MOST: usize = 8;
-/// Shortest, in intervals.
-const INTERVALS: f64 = 2.0;
-/// Fewest rows of a ramp: its longest lag is the shortest there is.
-const ROWS_OF_RAMP: f64 = SETTLED * INTERVALS;
+/// Shortest, in intervals: of it a row sees 98 %, so that what follows at once is followed.
+const SHORTEST: f64 = 0.25;
+/// Fewest rows of a ramp.
+const ROWS_OF_RAMP: f64 = 6.0;
 /// Largest noise of a lagging rate beside the ramps': what it takes off an amount is the square of it.
 const NOISY: f64 = 0.1;
 
@@ -21,10 +21,10 @@ const NOISY: f64 = 0.1;
 /// a set may be.
 pub(super) fn sets(settling: f64, rate: f64, noise: f64, interval: f64) -> Result<Vec<Vec<f64>>, Absent> {
     let longest = settling / SETTLED;
-    if longest < INTERVALS * interval {
+    if settling < ROWS_OF_RAMP * interval {
         return Err(Absent::Fast { duration: settling, rows: ROWS_OF_RAMP });
     }
-    let shortest = (INTERVALS * interval).max(noise / (NOISY * rate));
+    let shortest = (SHORTEST * interval).max(noise / (NOISY * rate));
     let set = |first: f64| -> Vec<f64> {
         let all = (0..MOST as i32).map(|n| first / RATIO.powi(n));
         all.enumerate().filter(|(n, lag)| *n == 0 || *lag >= shortest).map(|(_, lag)| lag).collect()
