@@ -55,18 +55,18 @@ impl System {
         let mut laws = vec![Vec::with_capacity(time.len()); self.laws.len()];
         let mut values: Vec<f64> = parameters.to_vec();
         values.resize(self.parameters + self.inputs + self.states.len(), 0.0);
+        let mut next = vec![0.0; self.inputs];
         for row in 0..time.len() {
-            let here = |of: &Vec<f64>| of[row];
-            if row == 0 {
-                self.place(&mut values, inputs.iter().map(here));
+            if row == 0 || self.states.is_empty() {
+                self.place(&mut values, inputs.iter().map(|of| of[row]));
                 self.begin(&mut values);
             } else {
                 let dt = (time[row] - time[row - 1]) / STEPS as f64;
                 for step in 1..=STEPS {
                     let share = step as f64 / STEPS as f64;
                     let between = |of: &Vec<f64>| of[row - 1] + share * (of[row] - of[row - 1]);
-                    let next: Vec<f64> =
-                        if step == STEPS { inputs.iter().map(here).collect() } else { inputs.iter().map(between).collect() };
+                    let at = |of: &Vec<f64>| if step == STEPS { of[row] } else { between(of) };
+                    next.iter_mut().zip(inputs).for_each(|(next, of)| *next = at(of));
                     self.step(&mut values, &next, dt);
                 }
             }
@@ -101,7 +101,11 @@ impl System {
                 _ => None,
             })
             .collect();
-        let moved = (!rated.is_empty()).then(|| self.moved(values, next, dt, &rated));
+        let moved = match rated[..] {
+            [] => Vec::new(),
+            [one] => vec![self.moved_alone(values, next, dt, one)],
+            _ => self.moved(values, next, dt, &rated),
+        };
         self.place(values, next.iter().copied());
         for (k, state) in self.states.iter().enumerate() {
             let before = values[first + k];
@@ -122,9 +126,24 @@ impl System {
                 State::Lowest(of) => Operator::Least.of(of.at(values), before),
             };
         }
-        for (n, (place, _)) in rated.iter().enumerate() {
-            values[*place] = moved.as_ref().map_or(f64::NAN, |moved| moved[n]);
-        }
+        rated.iter().zip(moved).for_each(|((place, _), moved)| values[*place] = moved);
+    }
+
+    /// [`Self::moved`] of one state, the only one that has a rate.
+    fn moved_alone(&self, values: &mut [f64], next: &[f64], dt: f64, (place, rate): (usize, &Expression)) -> f64 {
+        let before = values[place];
+        let (now, slope) = rate.slope(values, place);
+        let pivot = 1.0 - slope * (GAMMA * dt);
+        let inputs = self.parameters..self.parameters + self.inputs;
+        let said: Vec<f64> = values[inputs.clone()].to_vec();
+        self.place(values, next.iter().copied());
+        let driven = (rate.at(values) - now) * GAMMA;
+        let k1 = (now + driven) / pivot;
+        values[place] = before + dt * k1;
+        let k2 = (rate.at(values) - 2.0 * k1 - driven) / pivot;
+        values[place] = before;
+        values[inputs].copy_from_slice(&said);
+        before + dt * (1.5 * k1 + 0.5 * k2)
     }
 
     /// Rated states at the end of a step: Rosenbrock's method of two stages (J. G. Verwer and others, *SIAM J. Sci. Comput.* 20, 1456 (1999)).

@@ -162,6 +162,25 @@ impl Series {
         self.parts.iter_mut().zip(&by.parts).for_each(|(part, change)| add(part, change, factor));
         add(&mut self.sensor, &by.sensor, factor);
     }
+
+    /// Adds multiples of many changes, one after another.
+    pub(crate) fn change_by_all(&mut self, by: &[(&Self, f64)]) {
+        for (p, part) in self.parts.iter_mut().enumerate() {
+            add_all(part, by, |series| &series.parts[p]);
+        }
+        add_all(&mut self.sensor, by, |series| &series.sensor);
+    }
+}
+
+/// Rows that stay near the processor while many series are added to them.
+const NEAR: usize = 1024;
+
+fn add_all(to: &mut [f64], what: &[(&Series, f64)], of: impl Fn(&Series) -> &[f64]) {
+    for (n, rows) in to.chunks_mut(NEAR).enumerate() {
+        for (series, factor) in what {
+            add(rows, &of(series)[n * NEAR..], *factor);
+        }
+    }
 }
 
 pub(crate) fn minus(a: &Series, b: &Series) -> Series {
@@ -174,6 +193,10 @@ fn difference(a: &Parts, b: &Parts) -> Parts {
 
 fn less(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+pub(crate) fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 pub(crate) fn add(to: &mut [f64], what: &[f64], factor: f64) {

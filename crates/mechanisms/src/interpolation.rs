@@ -13,8 +13,43 @@ pub(crate) fn weights(nodes: &[f64], x: f64) -> Vec<f64> {
 
 /// Lagrange's polynomials at x.
 fn lagrange(nodes: &[f64], x: f64) -> Vec<f64> {
-    let others = |k: usize| nodes.iter().enumerate().filter(move |(j, _)| *j != k).map(|(_, node)| node);
-    (0..nodes.len()).map(|k| others(k).map(|node| (x - node) / (nodes[k] - node)).product()).collect()
+    let mut at = vec![0.0; nodes.len()];
+    Lagrange::new(nodes).at(x, &mut at);
+    at
+}
+
+/// Lagrange's polynomials of some nodes, for many places.
+pub(crate) struct Lagrange<'a> {
+    nodes: &'a [f64],
+    /// 1/∏(own node − others), of each
+    scales: Vec<f64>,
+}
+
+impl<'a> Lagrange<'a> {
+    pub(crate) fn new(nodes: &'a [f64]) -> Self {
+        let others = |k: usize| nodes.iter().enumerate().filter(move |(j, _)| *j != k).map(|(_, node)| node);
+        let scale = |k: usize| others(k).map(|node| nodes[k] - node).product::<f64>().recip();
+        Self { nodes, scales: (0..nodes.len()).map(scale).collect() }
+    }
+
+    /// The value of each at x, by the products of what stands before it and behind it.
+    fn at(&self, x: f64, values: &mut [f64]) {
+        let mut before = 1.0;
+        for (k, node) in self.nodes.iter().enumerate() {
+            values[k] = before * self.scales[k];
+            before *= x - node;
+        }
+        let mut behind = 1.0;
+        for (k, node) in self.nodes.iter().enumerate().rev() {
+            values[k] *= behind;
+            behind *= x - node;
+        }
+    }
+
+    /// Weight of each node's value at x, which is taken into the nodes' range.
+    pub(crate) fn weights(&self, x: f64, values: &mut [f64]) {
+        self.at(x.clamp(self.nodes[0], self.nodes[self.nodes.len() - 1]), values);
+    }
 }
 
 /// Weights of the up to four nodes about x, others 0: Lagrange's cubic.

@@ -2,7 +2,7 @@
 
 use crate::change::Change;
 use crate::course::{Parts, Series, add};
-use crate::interpolation::weights;
+use crate::interpolation::{Lagrange, weights};
 use crate::library::{Functionals, Library};
 use crate::record_to_bias::Prepared;
 use crate::series::rates_per_hour;
@@ -111,21 +111,28 @@ impl Chain {
     /// Parts of a coil whose transverse moduli and α_r have factors that vary from row to row, less the nominal ones \[deg/h\].
     pub fn softened(&self, record: &Prepared, factors: impl Fn(usize) -> (f64, f64)) -> Parts {
         let nodes: Vec<f64> = record.modulus.iter().map(|(x, ..)| *x).collect();
-        let nominal = weights(&nodes, 0.0);
-        let mut change: Parts = [0, 1, 2].map(|_| vec![0.0; record.time.len()]);
-        let mut known: (f64, Vec<f64>) = (f64::NAN, Vec::new());
-        for n in 0..record.time.len() {
+        let (polynomials, rows) = (Lagrange::new(&nodes), record.time.len());
+        let mut nominal = vec![0.0; nodes.len()];
+        polynomials.weights(0.0, &mut nominal);
+        let (mut known, mut here) = (1.0, nominal.clone());
+        // of each node in every row
+        let mut own = vec![vec![0.0; rows]; nodes.len()];
+        let mut wider = vec![0.0; rows];
+        for n in 0..rows {
             let (modulus, expansion) = factors(n);
-            if modulus == 1.0 && expansion == 1.0 {
-                continue;
+            if modulus != known {
+                polynomials.weights(modulus.ln(), &mut here);
+                known = modulus;
             }
-            if modulus != known.0 {
-                known = (modulus, weights(&nodes, modulus.ln()));
-            }
-            for (k, (_, at_nominal, per_factor)) in record.modulus.iter().enumerate() {
-                let (w, w0) = (known.1[k], nominal[k]);
-                for p in 0..3 {
-                    change[p][n] += (w - w0) * at_nominal[p][n] + w * (expansion - 1.0) * per_factor[p][n];
+            own.iter_mut().zip(&here).for_each(|(own, here)| own[n] = *here);
+            wider[n] = expansion - 1.0;
+        }
+        let mut change: Parts = [0, 1, 2].map(|_| vec![0.0; rows]);
+        for ((own, nominal), (_, as_designed, per_factor)) in own.iter().zip(nominal).zip(&record.modulus) {
+            for (p, change) in change.iter_mut().enumerate() {
+                let (as_designed, per_factor) = (&as_designed[p][..rows], &per_factor[p][..rows]);
+                for n in 0..rows {
+                    change[n] += (own[n] - nominal) * as_designed[n] + own[n] * wider[n] * per_factor[n];
                 }
             }
         }

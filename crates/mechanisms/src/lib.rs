@@ -37,7 +37,7 @@ pub use instruments::{Instrument, Instruments, USUAL_NOISE, reading_of};
 pub use law_tools::Chain;
 pub use library::{Library, Models};
 pub use mechanism::{Digits, Effect, Extent, Facts, Mechanism, Naming, Offer, Readings, Scene, Sight, Stage, Steady};
-pub use record_to_bias::Prepared;
+pub use record_to_bias::{Prepared, thermometer_under};
 pub use series::{lagged, middles, rates_per_hour};
 pub use written::{Body, INPUTS, Input, Target, Written};
 

@@ -1,7 +1,7 @@
 //! A library's responses to the chamber of one recording.
 
 use crate::chamber::Chamber;
-use crate::course::{BETWEEN, Clock, Course, Delay, Parts, Series, minus, undelayed};
+use crate::course::{BETWEEN, Clock, Course, Delay, Parts, Series, minus, product, undelayed};
 use crate::curvature::Curvature;
 use crate::library::{Functionals, Library};
 use crate::passed::{Passed, passed};
@@ -26,6 +26,8 @@ pub struct Prepared {
     pub(crate) passed: Passed,
     pub(crate) course: Course,
     pub(crate) nominal: Series,
+    /// sums of its parts' squares
+    pub(crate) squares: [f64; 3],
     /// mean temperature of the coil \[°C\]
     pub(crate) coil: Vec<f64>,
     pub(crate) state: State,
@@ -248,6 +250,7 @@ impl Prepared {
             columns: BTreeMap::new(),
             earth: None,
             course,
+            squares: nominal.parts.each_ref().map(|part| product(part, part)),
             nominal,
             later,
             slower,
@@ -257,6 +260,19 @@ impl Prepared {
             state: State { level, rate },
         })
     }
+}
+
+/// The spool's thermometer as designed under a chamber's readings, over gaps of which it goes on straight lines \[°C\].
+///
+/// # Errors
+/// As [`Prepared::new`].
+pub fn thermometer_under(library: &Library, time: &[f64], chamber: &[f64]) -> Result<Vec<f64>, Error> {
+    let bridged = recording::condition::bridged(time, chamber);
+    let chamber = bridged.as_deref().unwrap_or(chamber);
+    Profile { time: time.to_vec(), drives: vec![chamber.to_vec()] }.check(1)?;
+    let clock = Clock::new(time, chamber, 0.0);
+    let course = Course::new(&library.base, &clock, std::slice::from_ref(&clock.chamber), &[clock.chamber[0]]);
+    Ok(course.output(library.base.thermometer()))
 }
 
 impl Clock {

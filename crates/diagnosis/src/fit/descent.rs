@@ -9,6 +9,8 @@ use nalgebra::{Cholesky, DVector, Dyn};
 const MOST_STEPS: usize = 16;
 /// Change of ln p at which a fit has settled: far below what odds can tell.
 const SETTLED: f64 = 5e-3;
+/// Share of that below which the gain that a step promises is not worth a look.
+const NOTHING: f64 = 0.01;
 /// Largest step of a mechanism's unknown, and of any beside a kink [u]: half of a prior's reach.
 const STRIDE: f64 = 2.0;
 /// Damping at first, at least, and where no step is left; relative to the diagonal.
@@ -68,7 +70,7 @@ impl<M: ForwardModel> Objective<'_, M> {
         derivatives.jacobian.tr_mul(&at.whitened) - self.beforehand.slope(&at.u)
     }
 
-    /// One step down, damped as little as leads down; the same point if none does.
+    /// One step down, damped as little as leads down; the same point if none does, or none that could promises anything.
     fn step(&self, at: Point, derivatives: &Derivatives, damping: &mut f64) -> Result<Point, Error<M::Error>> {
         let normal = self.beforehand.curvature(derivatives.products.clone());
         let gradient = self.gradient(&at, derivatives);
@@ -81,6 +83,9 @@ impl<M: ForwardModel> Objective<'_, M> {
             let factor: Cholesky<f64, Dyn> = Cholesky::new(damped).ok_or(Error::NotFinite)?;
             let mut step = factor.solve(&gradient);
             self.shorten(&mut step, |i| self.layout[i].is_mechanism());
+            if gradient.dot(&step) - (&normal * &step).dot(&step) / 2.0 < NOTHING * SETTLED {
+                break;
+            }
             let tried = self.point(&at.u + step)?;
             if tried.value < at.value {
                 *damping = (*damping / 10.0).max(least);

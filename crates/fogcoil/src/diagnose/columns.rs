@@ -2,8 +2,7 @@
 
 use diagnosis::{ForwardModel, Observation, expected};
 use files::{Note, Remark};
-use mechanisms::{CATALOGUE, Gyro, Library, Prepared, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
-use recording::condition::bridged;
+use mechanisms::{Gyro, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL, thermometer_under};
 
 use crate::input::{CHAMBER, RATE, SPOOL};
 use crate::prepare::Record;
@@ -56,13 +55,6 @@ pub(super) fn warning(
         );
         Remark::ReversedRate.warning(text).at(&record.fingerprint.file)
     }))
-}
-
-/// The thermometer under another chamber temperature, over its gaps on straight lines.
-fn thermometer_under(library: &Library, time: &[f64], chamber: &[f64]) -> Result<Vec<f64>, coil::Error> {
-    let bridged = bridged(time, chamber);
-    let prepared = Prepared::new(library, time, bridged.as_deref().unwrap_or(chamber), 0.0)?;
-    Ok(Gyro::new(library.clone(), CATALOGUE, vec![prepared])?.state(0).level.clone())
 }
 
 /// Standard deviation of what is recorded less `sign` times what is predicted; 0 where nothing is recorded.

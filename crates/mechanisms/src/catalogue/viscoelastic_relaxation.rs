@@ -1,7 +1,7 @@
 //! Transverse stiffness that relaxes with a time constant.
 
 use crate::Prepared;
-use crate::course::Parts;
+use crate::course::{Parts, add};
 use crate::interpolation::weights;
 use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, grid};
 use coil::{Design, MechanicalState, Mechanics, Relaxation};
@@ -63,15 +63,20 @@ pub(super) fn relaxed(record: &Prepared, fraction: f64, time: f64, sudden: Optio
         }
         relaxation.rates(&states, SUDDEN_S);
     }
-    #[expect(clippy::needless_range_loop, reason = "rows of many series")]
-    for n in 1..record.time.len() {
-        let of = |w: &[f64], p: usize| w.iter().zip(&record.modulus).map(|(w, m)| w * m.1[p][n]).sum::<f64>();
-        for (state, w) in states.iter_mut().zip(&at) {
-            *state = [0, 1, 2].map(|p: usize| of(w, p));
+    // of each relaxing state, and as designed, in every row
+    let of = |w: &Vec<f64>| {
+        let mut sum: Parts = [0, 1, 2].map(|_| vec![0.0; record.time.len()]);
+        for (w, (_, as_designed, _)) in w.iter().zip(&record.modulus) {
+            sum.iter_mut().zip(as_designed).for_each(|(sum, part)| add(sum, part, *w));
         }
+        sum
+    };
+    let (driving, nominal): (Vec<Parts>, Parts) = (at.iter().map(of).collect(), of(&nominal));
+    for n in 1..record.time.len() {
+        states.iter_mut().zip(&driving).for_each(|(state, driving)| *state = [0, 1, 2].map(|p: usize| driving[p][n]));
         let relaxed = relaxation.rates(&states, record.time[n] - record.time[n - 1]);
         for p in 0..3 {
-            change[p][n] = relaxed[p] - of(&nominal, p);
+            change[p][n] = relaxed[p] - nominal[p][n];
         }
     }
     change

@@ -13,18 +13,28 @@ use std::sync::Arc;
 const FEW: usize = 2;
 
 impl Gyro<'_> {
-    /// Adds what a constant of the design changes on its way from one value to another, as told.
-    fn move_constant(&self, record: &Prepared, k: usize, [from, to]: [f64; 2], series: &mut Series) {
-        let constant = &self.library().constants[k];
-        let [from, to] = [from, to].map(|told| constant.value(told));
+    /// The derivative by a constant in which the model is linear, and by how much it goes from one value to another, as told; `None` if a path of heat
+    /// follows it.
+    fn slope<'a>(&self, record: &'a Prepared, k: usize, way: [f64; 2]) -> Option<(&'a Series, f64)> {
+        if self.factored.iter().any(|(place, _)| *place == k) {
+            return None;
+        }
+        let [from, to] = self.values(k, way);
+        Some((&record.slopes[k], to - from))
+    }
+
+    fn values(&self, k: usize, way: [f64; 2]) -> [f64; 2] {
+        way.map(|told| self.library().constants[k].value(told))
+    }
+
+    /// Adds what a constant changes that a path of heat follows, on its way from one value to another, as told.
+    fn move_along_path(&self, record: &Prepared, k: usize, way: [f64; 2], series: &mut Series) {
+        let [from, to] = self.values(k, way);
+        let Some((_, id)) = self.factored.iter().find(|(place, _)| *place == k) else { return };
         // rounding is no change
-        if (to - from).abs() <= 1e-9 * constant.tolerance {
+        if (to - from).abs() <= 1e-9 * self.library().constants[k].tolerance {
             return;
         }
-        let Some((_, id)) = self.factored.iter().find(|(place, _)| *place == k) else {
-            series.change(&record.slopes[k], to - from);
-            return;
-        };
         let here = self.library().values()[k];
         for (value, sign) in [(to, 1.0), (from, -1.0)] {
             let Change { parts, thermometer, .. } = self.chain.along(record, id, 0, (value / here).ln());
@@ -40,13 +50,25 @@ impl Gyro<'_> {
         let differs = |known: &[f64]| (0..told.len()).filter(|k| known[*k] != told[*k]).collect::<Vec<_>>();
         if let Some((_, known, series)) = moved.iter().find(|(own, known, _)| *own == record && differs(known).len() <= FEW) {
             let mut series = series.clone();
-            differs(known).into_iter().for_each(|k| self.move_constant(prepared, k, [known[k], told[k]], &mut series));
+            for k in differs(known) {
+                let way = [known[k], told[k]];
+                match self.slope(prepared, k, way) {
+                    Some((slope, by)) => series.change(slope, by),
+                    None => self.move_along_path(prepared, k, way, &mut series),
+                }
+            }
             return series;
         }
         let mut series = prepared.nominal.clone();
+        let mut linear = Vec::new();
         for (k, (constant, value)) in self.library().constants.iter().zip(self.library().values()).enumerate() {
-            self.move_constant(prepared, k, [constant.told(value), told[k]], &mut series);
+            let way = [constant.told(value), told[k]];
+            match self.slope(prepared, k, way) {
+                Some(slope) => linear.push(slope),
+                None => self.move_along_path(prepared, k, way, &mut series),
+            }
         }
+        series.change_by_all(&linear);
         moved.retain(|(own, ..)| *own != record);
         moved.push((record, told.to_vec(), series.clone()));
         series
@@ -59,9 +81,9 @@ impl Gyro<'_> {
             return Arc::clone(same);
         }
         let (parts, thermometer) = self.with_nuisances(number, u);
-        let nominal = &self.records[number].nominal.parts;
+        let Prepared { nominal, squares, .. } = &self.records[number];
         // of a part that is nothing throughout, as at rest, nobody can say what share is left: all
-        let of = |p: usize| if nominal[p].iter().all(|x| *x == 0.0) { 1.0 } else { share(&parts[p], &nominal[p]) };
+        let of = |p: usize| if squares[p] == 0.0 { 1.0 } else { share(&parts[p], &nominal.parts[p], squares[p]) };
         let gain = [0, 1, 2].map(of);
         let here = Arc::new(Recalibrated { record: number, at: u.to_vec(), parts, thermometer, gain });
         known.retain(|known| known.record != number);

@@ -1,6 +1,6 @@
 //! What is kept of the nominal model somewhere.
 
-use crate::course::Parts;
+use crate::course::{Parts, product};
 
 /// The nominal model with its uncertain numbers somewhere.
 pub(super) struct Recalibrated {
@@ -13,9 +13,7 @@ pub(super) struct Recalibrated {
     pub(super) gain: [f64; 3],
 }
 
-/// How much of a series another one is: ⟨a, b⟩/⟨b, b⟩.
-pub(super) fn share(a: &[f64], b: &[f64]) -> f64 {
-    let of = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let size = of(b, b);
-    if size > 0.0 { of(a, b) / size } else { 0.0 }
+/// How much of a series another one is, the sum of whose squares is known: ⟨a, b⟩/⟨b, b⟩.
+pub(super) fn share(a: &[f64], b: &[f64], squares: f64) -> f64 {
+    if squares > 0.0 { product(a, b) / squares } else { 0.0 }
 }
