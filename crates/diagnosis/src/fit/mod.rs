@@ -32,7 +32,7 @@ pub(crate) use unknowns::{Unknown, parameter};
 pub(crate) use unseen::{Unseen, designed};
 
 use crate::noise::Noise;
-use crate::{Error, ForwardModel};
+use crate::{Active, Error, ForwardModel};
 
 /// Starts that are followed to the end.
 const STARTS: usize = 4;
@@ -44,20 +44,33 @@ const NOISE_SETTLED: f64 = 0.1;
 impl<M: ForwardModel> Fitter<'_, M> {
     /// Fits a hypothesis under a known noise; `known` gives a place to start from.
     pub(crate) fn fit(&self, hypothesis: &Hypothesis, noise: &Noise, known: Option<&Fit>) -> Result<Fit, Error<M::Error>> {
-        self.best(&Objective::new(self, hypothesis, noise)?, known)
+        self.best(&Objective::new(self, hypothesis, noise)?, known, &[])
     }
 
     /// The same beside a fit under the same noise, whose derivatives by nuisances are taken for this one's: several times as fast. Mechanisms change
     /// what nuisances do, but by little of it; where the records know a nuisance far better than its prior, the fit may stay behind the best.
     pub(crate) fn screened(&self, hypothesis: &Hypothesis, beside: &Fit) -> Result<Fit, Error<M::Error>> {
-        self.best(&Objective::new(self, hypothesis, &beside.noise)?.with_derivatives_of(beside), Some(beside))
+        self.screened_from(hypothesis, beside, &[])
     }
 
-    fn best(&self, objective: &Objective<M>, known: Option<&Fit>) -> Result<Fit, Error<M::Error>> {
-        let mut tried = objective.starts(known).into_iter().map(|u| objective.point(u)).collect::<Result<Vec<_>, _>>()?;
+    /// The same from where other fits have `found` some of its mechanisms, and from the likeliest of the usual starts.
+    pub(crate) fn screened_from(&self, hypothesis: &Hypothesis, beside: &Fit, found: &[Active]) -> Result<Fit, Error<M::Error>> {
+        self.best(&Objective::new(self, hypothesis, &beside.noise)?.with_derivatives_of(beside), Some(beside), found)
+    }
+
+    fn best(&self, objective: &Objective<M>, known: Option<&Fit>, found: &[Active]) -> Result<Fit, Error<M::Error>> {
+        let likeliest = |found: &[Active], count: usize| -> Result<Vec<_>, Error<M::Error>> {
+            let starts = objective.starts(known, found).into_iter();
+            let mut tried = starts.map(|u| objective.point(u)).collect::<Result<Vec<_>, _>>()?;
+            tried.sort_by(|a, b| a.value.total_cmp(&b.value));
+            tried.truncate(count);
+            Ok(tried)
+        };
         // the likeliest starts are followed
-        tried.sort_by(|a, b| a.value.total_cmp(&b.value));
-        tried.truncate(STARTS);
+        let mut tried = likeliest(&[], if found.is_empty() { STARTS } else { 1 })?;
+        if !found.is_empty() {
+            tried.extend(likeliest(found, 1)?);
+        }
         let mut best: Option<Fit> = None;
         for start in tried {
             let fit = objective.concluded(objective.descend(start)?)?;

@@ -170,7 +170,7 @@ impl<M: ForwardModel> Objective<'_, M> {
     /// Minima to which the mechanisms' own starts and `fit` lead, the likeliest first.
     fn modes(&self, fit: &Fit) -> Result<Vec<Mode>, Error<M::Error>> {
         let anew = Fit { active: Vec::new(), ..fit.clone() };
-        let mut starts = self.starts(Some(&anew)).into_iter().map(|u| self.point(u)).collect::<Result<Vec<_>, _>>()?;
+        let mut starts = self.starts(Some(&anew), &[]).into_iter().map(|u| self.point(u)).collect::<Result<Vec<_>, _>>()?;
         starts.sort_by(|a, b| a.value.total_cmp(&b.value));
         starts.truncate(super::STARTS);
         starts.insert(0, self.point(fit.u.clone())?);

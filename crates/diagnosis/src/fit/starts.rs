@@ -10,8 +10,9 @@ use nalgebra::DVector;
 const STRAYED: f64 = 3.0;
 
 impl<M: ForwardModel> Objective<'_, M> {
-    /// Unknowns of all combinations of the mechanisms' starts; `known` gives the others, and the mechanisms that it has fitted.
-    pub(super) fn starts(&self, known: Option<&Fit>) -> Vec<DVector<f64>> {
+    /// Unknowns of all combinations of the mechanisms' starts; `known` gives the others, and the mechanisms that it has fitted, beside those that other
+    /// fits have `found`.
+    pub(super) fn starts(&self, known: Option<&Fit>, found: &[Active]) -> Vec<DVector<f64>> {
         let mut base = DVector::zeros(self.layout.len());
         for (i, unknown) in self.layout.iter().enumerate().filter(|(_, u)| !u.is_mechanism()) {
             let of = |fit: &Fit| fit.layout.iter().position(|other| other == unknown).map(|at| fit.u[at]);
@@ -26,7 +27,7 @@ impl<M: ForwardModel> Objective<'_, M> {
         for (place, &(mechanism, choice)) in self.hypothesis.mechanisms.iter().enumerate() {
             // a mechanism that is already fitted goes on from there
             let same = |a: &&Active| a.mechanism == mechanism && a.choice == choice;
-            let fitted = known.and_then(|fit| fit.active.iter().find(same)).map(|a| vec![a.values.clone()]);
+            let fitted = known.iter().flat_map(|fit| &fit.active).chain(found).find(same).map(|a| vec![a.values.clone()]);
             let values = fitted.unwrap_or_else(|| {
                 let mut values = self.fitter.model.mechanisms()[mechanism].starts.clone();
                 // what stands for a constant goes on from where that was

@@ -88,7 +88,7 @@ fn compared<M: ForwardModel>(
     progress(Step::begins(LIKELIEST));
     let likeliest = pool.likeliest(fits)?;
     progress(Step::begins(PAIRS));
-    pool.pairs(&nominal, &likeliest)?;
+    pool.pairs(&likeliest)?;
     progress(Step::begins("what no mechanism explains"));
     pool.rivals()?;
     Diagnosis::conclude(&pool.fitter, settings, pool.candidates, nominal)

@@ -12,10 +12,12 @@ const CHOICES: usize = 6;
 const PAIRED: f64 = 1.0;
 
 impl<M: ForwardModel> Pool<'_, M> {
-    /// Takes in pairs of each of the `likeliest` mechanisms that has a name and gains on the nominal model.
-    pub(super) fn pairs(&mut self, nominal: &Fit, likeliest: &[Fit]) -> Result<(), Error<M::Error>> {
+    /// Takes in pairs of each of the `likeliest` mechanisms that has a name and gains on the design, its constants as they are or re-estimated.
+    pub(super) fn pairs(&mut self, likeliest: &[Fit]) -> Result<(), Error<M::Error>> {
         let mut followed: Vec<usize> = Vec::new();
-        for fit in likeliest.iter().filter(|f| f.log_evidence - nominal.log_evidence > PAIRED) {
+        let without = self.candidates.iter().filter(|c| c.fit.hypothesis.mechanisms.is_empty());
+        let design = without.map(|c| c.fit.log_evidence).fold(f64::NEG_INFINITY, f64::max);
+        for fit in likeliest.iter().filter(|f| f.log_evidence - design > PAIRED) {
             let first = fit.hypothesis.mechanisms[0].0;
             if self.named(first) && !followed.contains(&first) && followed.len() < LEADERS {
                 (self.progress)(Step::counted(PAIRS, followed.len(), LEADERS));
@@ -31,7 +33,9 @@ impl<M: ForwardModel> Pool<'_, M> {
         let kin_of_first = self.kin(fit);
         let mut fits = Vec::new();
         for (pair, kin) in self.beside(fit.hypothesis.mechanisms[0]) {
-            fits.push((self.fitter.screened(&pair, fit)?, kin));
+            let alone = |c: &&Candidate| c.rival.is_none() && c.fit.hypothesis.mechanisms == pair.mechanisms[1..];
+            let found = self.candidates.iter().find(alone).map_or(&[][..], |c| &c.fit.active);
+            fits.push((self.fitter.screened_from(&pair, fit, found)?, kin));
         }
         fits.sort_by(|a, b| b.0.log_evidence.total_cmp(&a.0.log_evidence));
         let lead = fits.first().map_or(0.0, |f| f.0.log_evidence);

@@ -21,9 +21,9 @@ impl<M: ForwardModel> Pool<'_, M> {
         // noise fitted to a residual has swallowed part of the effect: what is sought first is sought in calmer noise
         let calm = nominal.noise.calmed(model.channels(), observations)?;
         let mut leader = self.fitter.fit(&nominal.hypothesis, &calm, Some(nominal))?;
-        let mut round = 0;
+        let (mut round, mut before) = (0, Vec::new());
         loop {
-            let fits = self.round(round, &leader)?;
+            let fits = self.round(round, &leader, &before)?;
             let best = self.fitter.fit_with_noise(&fits[0].hypothesis, &fits[0], 2)?;
             let gained = best.log_evidence - if round == 0 { nominal.log_evidence } else { leader.log_evidence };
             if round == 0 || gained > LEADS {
@@ -33,17 +33,19 @@ impl<M: ForwardModel> Pool<'_, M> {
             if gained < ONCE_MORE || round == ROUNDS {
                 return Ok((leader, fits));
             }
+            before = fits;
         }
     }
 
-    /// Every mechanism, with every choice, and the constants re-estimated, under the leader's noise; best first.
-    fn round(&self, round: usize, leader: &Fit) -> Result<Vec<Fit>, Error<M::Error>> {
+    /// Every mechanism, with every choice, and the constants re-estimated, under the leader's noise, from where they were `before`; best first.
+    fn round(&self, round: usize, leader: &Fit, before: &[Fit]) -> Result<Vec<Fit>, Error<M::Error>> {
         let count = self.singles.len();
         let mut fits: Vec<Fit> = Vec::new();
         for (k, hypotheses) in self.singles.iter().enumerate() {
             (self.progress)(Step::counted(SINGLES, round * count + k, ROUNDS * count));
             for hypothesis in hypotheses {
-                fits.push(self.fitter.screened(hypothesis, leader)?);
+                let found = before.iter().find(|fit| fit.hypothesis == *hypothesis).map_or(&[][..], |fit| &fit.active);
+                fits.push(self.fitter.screened_from(hypothesis, leader, found)?);
             }
         }
         fits.push(self.fitter.fit(&Hypothesis::RECALIBRATED, &leader.noise, Some(leader))?);
