@@ -55,8 +55,8 @@ impl Whitener {
             let interval = last.map(|last| time[row] - time[last]);
             // a masked row still ends where this one starts
             let span = if row == 0 { f64::INFINITY } else { time[row] - time[row - 1] };
-            let step = filter.step(interval, span);
-            log_det -= 2.0 * step.precision.ln();
+            let (step, of_row) = filter.step(interval, span);
+            log_det += of_row;
             steps.push(step);
         }
         Ok(Self { rows, steps, length: time.len(), log_det })
@@ -111,6 +111,8 @@ struct Last {
     span: f64,
     passage: Passage,
     step: Step,
+    /// ln of the innovation's variance
+    log_variance: f64,
     /// whether the covariance has settled
     settled: bool,
 }
@@ -127,12 +129,14 @@ impl<'a> Filter<'a> {
         Self { model, covariance, last: None }
     }
 
-    /// `interval` \[s\] since the last row used, `None` for the first; `span` \[s\] since the last row, used or not.
-    fn step(&mut self, interval: Option<f64>, span: f64) -> Step {
+    /// A row's step, and ln of its innovation's variance. `interval` \[s\] since the last row used, `None` for the first; `span` \[s\] since the last row,
+    /// used or not.
+    fn step(&mut self, interval: Option<f64>, span: f64) -> (Step, f64) {
         let passage = match self.last.take() {
             Some(last) if (last.interval, last.span) == (interval, span) => {
                 if last.settled {
-                    return self.last.insert(last).step;
+                    let Last { step, log_variance, .. } = *self.last.insert(last);
+                    return (step, log_variance);
                 }
                 last.passage
             }
@@ -142,9 +146,11 @@ impl<'a> Filter<'a> {
         let close = |i: usize, j: usize| {
             (after[i][j] - self.covariance[i][j]).abs() <= SETTLED * (after[i][i].abs() * after[j][j].abs()).sqrt()
         };
-        let settled = (0..STATES).all(|i| (0..STATES).all(|j| close(i, j)));
+        let settled = (0..STATES).all(|i| (0..=i).all(|j| close(i, j)));
         self.covariance = after;
-        self.last.insert(Last { interval, span, passage, step, settled }).step
+        let log_variance = -2.0 * step.precision.ln();
+        self.last = Some(Last { interval, span, passage, step, log_variance, settled });
+        (step, log_variance)
     }
 }
 
@@ -208,16 +214,15 @@ impl Passage {
         }
         let precision = variance.sqrt().recip();
         let gain = covariance.map(|c| c * precision);
-        let after = std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
-                let own = if i == j {
-                    self.state_noise[i] + self.pause[i] * self.pause_advance[i] * self.pause_advance[i]
-                } else {
-                    0.0
-                };
-                self.advance[i] * before[i][j] * self.advance[j] + own - gain[i] * gain[j]
-            })
-        });
+        let mut after = [[0.0; STATES]; STATES];
+        for i in 0..STATES {
+            for j in 0..i {
+                after[i][j] = self.advance[i] * before[i][j] * self.advance[j] - gain[i] * gain[j];
+                after[j][i] = after[i][j];
+            }
+            let own = self.state_noise[i] + self.pause[i] * self.pause_advance[i] * self.pause_advance[i];
+            after[i][i] = self.advance[i] * before[i][i] * self.advance[i] + own - gain[i] * gain[i];
+        }
         (Step { measure: self.measure, advance: self.advance, gain, precision }, after)
     }
 }
