@@ -10,7 +10,7 @@ const MOST_STEPS: usize = 16;
 /// Change of ln p at which a fit has settled: far below what odds can tell.
 const SETTLED: f64 = 5e-3;
 /// Share of that below which the gain that a step promises is not worth a look.
-const NOTHING: f64 = 0.01;
+const NOTHING: f64 = 1e-5;
 /// Largest step of a mechanism's unknown, and of any beside a kink [u]: half of a prior's reach.
 const STRIDE: f64 = 2.0;
 /// Damping at first, at least, and where no step is left; relative to the diagonal.
@@ -75,6 +75,8 @@ impl<M: ForwardModel> Objective<'_, M> {
         let normal = self.beforehand.curvature(derivatives.products.clone());
         let gradient = self.gradient(&at, derivatives);
         let [_, least, most] = DAMPING;
+        // many orders may lie between what leads down beside one kink and beside the next: each failure takes more than the one before
+        let mut growth = 10.0;
         while *damping < most {
             let mut damped = normal.clone();
             for i in 0..self.layout.len() {
@@ -88,10 +90,14 @@ impl<M: ForwardModel> Objective<'_, M> {
             }
             let tried = self.point(&at.u + step)?;
             if tried.value < at.value {
-                *damping = (*damping / 10.0).max(least);
+                // what has just failed would fail again
+                if growth == 10.0 {
+                    *damping = (*damping / 10.0).max(least);
+                }
                 return Ok(tried);
             }
-            *damping *= 10.0;
+            *damping *= growth;
+            growth *= 10.0;
         }
         Ok(at)
     }
