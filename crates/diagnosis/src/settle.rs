@@ -2,7 +2,7 @@
 
 use crate::fit::{Fit, Fitter, Hypothesis, alternatives};
 use crate::noise::Noise;
-use crate::{Active, Error, ForwardModel, Nuisance, Observation, Role};
+use crate::{Error, ForwardModel, Nuisance, Observation, Role};
 use progress::Step;
 
 const TASK: &str = "finding the constants about which to compare";
@@ -68,14 +68,14 @@ pub fn settled<M: ForwardModel>(
     };
     let way = |start: Option<&Vec<f64>>| -> Result<Way<M>, Error<M::Error>> {
         let about = start.map(|start| model.about(start, &[])).transpose().map_err(Error::Model)?.flatten();
-        Ok(Way { model, records, observations, about, candidates: Vec::new(), known: None, rounds: 0, arrived: false })
+        Ok(Way { model, records, observations, about, known: None, rounds: 0, arrived: false })
     };
     // how likely the constants are from where a way starts is seen when they have been found about it
     let mut likeliest = None;
     for start in std::iter::once(None).chain(starts.iter().map(Some)) {
         told();
         let mut tried = way(start)?;
-        (0..TRIED).try_for_each(|_| tried.go_on())?;
+        (0..TRIED).try_for_each(|_| tried.go_on(false))?;
         let evidence = tried.settled()?.log_evidence;
         if likeliest.as_ref().is_none_or(|(_, _, most)| evidence > *most) {
             likeliest = Some((tried, start, evidence));
@@ -84,20 +84,19 @@ pub fn settled<M: ForwardModel>(
     let (mut alone, first, _) = likeliest.ok_or(Error::NoStart)?;
     while !alone.arrived {
         told();
-        alone.go_on()?;
+        alone.go_on(false)?;
     }
     let recalibrated = alone.settled()?;
-    let mut found = candidates(model);
-    let (leading, gain) = leader(alone.here(), records, observations, Some(&recalibrated), &mut found)?;
+    let (leading, gain) = leader(alone.here(), records, observations, Some(&recalibrated), &candidates(model, true))?;
     // constants that had to go far may stand for a mechanism that is near the drawing: about them it does not show
     let suspect = leading.hypothesis.mechanisms.first().map(|(mechanism, _)| (*mechanism, gain));
     if gain <= MATTERS && strain(model, &recalibrated) <= STRAINED {
         return Ok(Settled { model: alone.about, alone: Alone::Settled, recalibrated, suspect });
     }
-    let mut beside = Way { candidates: found, ..way(first)? };
+    let mut beside = way(first)?;
     while !beside.arrived {
         told();
-        beside.go_on()?;
+        beside.go_on(true)?;
     }
     let leader = beside.settled()?;
     // each at its best, about its own constants
@@ -116,8 +115,6 @@ struct Way<'a, M> {
     records: &'a [usize],
     observations: &'a [Observation],
     about: Option<M>,
-    /// compared with the constants alone
-    candidates: Vec<Tried>,
     known: Option<Fit>,
     rounds: usize,
     arrived: bool,
@@ -128,18 +125,17 @@ impl<M: ForwardModel> Way<'_, M> {
         self.about.as_ref().unwrap_or(self.model)
     }
 
-    /// One round: fits constants alone, and with each of the candidates beside them, and makes the model anew about the likeliest.
-    fn go_on(&mut self) -> Result<(), Error<M::Error>> {
+    /// One round: fits constants alone, or with each of the mechanisms beside them, and makes the model anew about the likeliest.
+    fn go_on(&mut self, mechanisms: bool) -> Result<(), Error<M::Error>> {
         if self.arrived {
             return Ok(());
         }
         // who leads is settled after two rounds
-        if let Some(known) = self.known.as_ref().filter(|_| self.rounds > 1) {
-            self.candidates = vec![Tried::of(known)];
-        }
-        let mut candidates = std::mem::take(&mut self.candidates);
-        let (leader, _) = leader(self.here(), self.records, self.observations, self.known.as_ref(), &mut candidates)?;
-        self.candidates = candidates;
+        let among = match &self.known {
+            Some(known) if self.rounds > 1 => vec![known.hypothesis.clone()],
+            _ => candidates(self.model, mechanisms),
+        };
+        let (leader, _) = leader(self.here(), self.records, self.observations, self.known.as_ref(), &among)?;
         let next = self.here().about(&leader.nuisances[0], &leader.active).map_err(Error::Model)?;
         self.known = Some(leader);
         self.rounds += 1;
@@ -150,8 +146,8 @@ impl<M: ForwardModel> Way<'_, M> {
 
     /// The likeliest under the model as it is here, with its own noise.
     fn settled(&self) -> Result<Fit, Error<M::Error>> {
-        let mut among = self.known.iter().map(Tried::of).collect::<Vec<_>>();
-        let (last, _) = leader(self.here(), self.records, self.observations, self.known.as_ref(), &mut among)?;
+        let among = self.known.as_ref().map_or_else(Vec::new, |known| vec![known.hypothesis.clone()]);
+        let (last, _) = leader(self.here(), self.records, self.observations, self.known.as_ref(), &among)?;
         let fitter = Fitter::new(self.here(), self.records, self.observations).map_err(Error::Model)?;
         fitter.fit_with_noise(&last.hypothesis, &last, 2)
     }
@@ -166,39 +162,26 @@ fn strain<M: ForwardModel>(model: &M, fit: &Fit) -> f64 {
     model.nuisances().iter().zip(&fit.nuisances[0]).map(of).fold(0.0, f64::max)
 }
 
-/// A hypothesis, and where its mechanisms were found.
-struct Tried {
-    hypothesis: Hypothesis,
-    found: Vec<Active>,
-}
-
-impl Tried {
-    fn of(fit: &Fit) -> Self {
-        Self { hypothesis: fit.hypothesis.clone(), found: fit.active.clone() }
-    }
-}
-
-/// The mechanisms that have a name, each alone, of many choices a few.
-fn candidates<M: ForwardModel>(model: &M) -> Vec<Tried> {
-    let named = (0..model.mechanisms().len()).filter(|m| model.mechanisms()[*m].named);
+/// The mechanisms that have a name, each alone, of many choices a few; none at all where they are not asked for.
+fn candidates<M: ForwardModel>(model: &M, mechanisms: bool) -> Vec<Hypothesis> {
+    let all = if mechanisms { model.mechanisms().len() } else { 0 };
+    let named = (0..all).filter(|m| model.mechanisms()[*m].named);
     named
         .flat_map(|mechanism| {
             let hypotheses = alternatives(model, mechanism);
             let every = hypotheses.len().div_ceil(CHOICES);
-            let some = hypotheses.into_iter().skip(every / 2).step_by(every);
-            some.map(|hypothesis| Tried { hypothesis, found: Vec::new() }).collect::<Vec<_>>()
+            hypotheses.into_iter().skip(every / 2).step_by(every).collect::<Vec<_>>()
         })
         .collect()
 }
 
-/// The best of some hypotheses, from where they were found, and the constants alone, with the noise that it leaves, and by how much of ln evidence it
-/// leads on the latter; tells where they are found.
+/// The best of some hypotheses and the constants alone, with the noise that it leaves, and by how much of ln evidence it leads on the latter.
 fn leader<M: ForwardModel>(
     model: &M,
     records: &[usize],
     observations: &[Observation],
     known: Option<&Fit>,
-    among: &mut [Tried],
+    among: &[Hypothesis],
 ) -> Result<(Fit, f64), Error<M::Error>> {
     let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
     let noise = match known {
@@ -207,10 +190,8 @@ fn leader<M: ForwardModel>(
     };
     let recalibrated = fitter.fit(&Hypothesis::RECALIBRATED, &noise, known)?;
     let mut best = recalibrated.clone();
-    for tried in among {
-        let fit = fitter.screened_from(&tried.hypothesis, &recalibrated, &tried.found)?;
-        tried.found.clone_from(&fit.active);
-        best = Fit::better(Some(best), fit);
+    for hypothesis in among {
+        best = Fit::better(Some(best), fitter.screened(hypothesis, &recalibrated)?);
     }
     let gain = best.log_evidence - recalibrated.log_evidence;
     // what the leader leaves is noise: the next round compares under that

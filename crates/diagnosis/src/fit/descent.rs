@@ -75,8 +75,6 @@ impl<M: ForwardModel> Objective<'_, M> {
         let normal = self.beforehand.curvature(derivatives.products.clone());
         let gradient = self.gradient(&at, derivatives);
         let [_, least, most] = DAMPING;
-        // many orders may lie between what leads down beside one kink and beside the next: each failure takes more than the one before
-        let mut growth = 10.0;
         while *damping < most {
             let mut damped = normal.clone();
             for i in 0..self.layout.len() {
@@ -90,14 +88,10 @@ impl<M: ForwardModel> Objective<'_, M> {
             }
             let tried = self.point(&at.u + step)?;
             if tried.value < at.value {
-                // what has just failed would fail again
-                if growth == 10.0 {
-                    *damping = (*damping / 10.0).max(least);
-                }
+                *damping = (*damping / 10.0).max(least);
                 return Ok(tried);
             }
-            *damping *= growth;
-            growth *= 10.0;
+            *damping *= 10.0;
         }
         Ok(at)
     }
