@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use proof::Failure;
-use proof::files::{failed, names, renew, root};
+use proof::files::{failed, names, read, renew, root};
 
 use crate::tools::tool;
 
@@ -31,7 +31,7 @@ const READERS: [(&str, &[&str]); 8] = [
 
 /// Feed every reader of files with inputs that are guided by the code that they reach
 ///
-/// The runner is installed into target/tools. Writes docs/trust.md and the corpus that `cargo test` replays, fuzz/src/__fuzz__. Exit status 1 if an input
+/// The runner is installed into target/tools. Writes docs/trust.md, where times and inputs of all runs add up, and the corpus that `cargo test` replays, fuzz/src/__fuzz__. Exit status 1 if an input
 /// crashes a reader: it is kept there, too.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Fuzz {
@@ -63,21 +63,28 @@ impl Fuzz {
         let fed =
             READERS.iter().filter(|(reader, _)| chosen(reader)).map(|(reader, seeds)| fed(reader, seeds, 60 * self.minutes));
         let fed = fed.collect::<Result<Vec<_>, _>>()?;
-        let table = table(&fed);
+        let page = root().join(PAGE);
+        let table = table(&fed, &read(&page)?);
         print!("{table}");
-        if self.readers.is_empty() {
-            renew(&root().join(PAGE), MARKS, &table)?;
-        }
+        renew(&page, MARKS, &table)?;
         Ok(fed.iter().all(|fed| fed.crashes == 0))
     }
 }
 
-fn table(all: &[Fed]) -> String {
+/// All readers: minutes and inputs of those that were fed are added to what the page tells of them, as each run goes on from the inputs that were kept.
+fn table(fed: &[Fed], page: &str) -> String {
     let mut table = String::from(
-        "\n| reader | minutes of one core | inputs | edges of code reached | kept inputs | crashes |\n|---|---|---|---|---|---|\n",
+        "\n| reader | minutes of one core, in all | inputs, in all | edges of code reached | kept inputs | crashes |\n|---|---|---|---|---|---|\n",
     );
-    for Fed { reader, inputs, seconds, edges, kept, crashes } in all {
-        table += &format!("| {reader} | {} | {inputs} | {edges} | {kept} | {crashes} |\n", seconds / 60);
+    for (name, _) in READERS {
+        let known = page.lines().find(|line| line.starts_with(&format!("| {name} |")));
+        let cell = |at: usize| known.and_then(|line| line.split('|').nth(at)?.trim().parse::<u64>().ok()).unwrap_or(0);
+        table += &match fed.iter().find(|fed| fed.reader == name) {
+            Some(Fed { inputs, seconds, edges, kept, crashes, .. }) => {
+                format!("| {name} | {} | {} | {edges} | {kept} | {crashes} |\n", cell(2) + seconds / 60, cell(3) + inputs)
+            }
+            None => known.map_or_else(|| format!("| {name} | 0 | 0 | | | |\n"), |line| format!("{line}\n")),
+        };
     }
     table
 }
@@ -140,4 +147,24 @@ fn fed(reader: &'static str, seeds: &[&str], seconds: u64) -> Result<Fed, Failur
         fs::copy(corpus.join(name), kept.join(name)).map_err(failed(&kept))?;
     }
     Ok(Fed { reader, inputs, seconds: lasted, edges, kept: reduced.len(), crashes: crashed })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_of_a_reader_add_up_and_leave_the_others_as_they_were() {
+        let fed = |inputs| Fed { reader: "coils", inputs, seconds: 180, edges: 70, kept: 5, crashes: 0 };
+        let first = table(&[fed(1000)], "no table yet");
+        assert!(first.contains("| coils | 3 | 1000 | 70 | 5 | 0 |\n") && first.contains("| cells | 0 | 0 | | | |\n"), "{first}");
+        let second = table(&[fed(500)], &first);
+        assert!(second.contains("| coils | 6 | 1500 | 70 | 5 | 0 |\n"), "{second}");
+        let other = table(&[Fed { reader: "cells", ..fed(7) }], &second);
+        assert!(
+            other.contains("| coils | 6 | 1500 | 70 | 5 | 0 |\n") && other.contains("| cells | 3 | 7 | 70 | 5 | 0 |\n"),
+            "{other}"
+        );
+        assert_eq!(other.lines().count(), READERS.len() + 3);
+    }
 }

@@ -7,6 +7,7 @@ mod faults;
 mod figures;
 mod fuzz;
 mod mechanisms;
+mod mutants;
 mod pages;
 mod sabotage;
 mod supply;
@@ -63,6 +64,7 @@ enum Chore {
     Supply(supply::Supply),
     Faults(faults::Faults),
     Fuzz(fuzz::Fuzz),
+    Mutants(mutants::Mutants),
     /// Times beside errors, into docs/benchmarks.md
     #[command(subcommand)]
     Bench(bench::Bench),
@@ -84,6 +86,7 @@ fn main() -> ExitCode {
         Chore::Supply(supply) => supply.run(),
         Chore::Faults(faults) => faults.run(),
         Chore::Fuzz(fuzz) => fuzz.run(),
+        Chore::Mutants(mutants) => mutants.run(),
         Chore::Bench(bench) => bench.run(),
     };
     match outcome {

@@ -1,0 +1,170 @@
+//! `cargo xtask mutants`: every function of the crates that compute, answered wrongly or with an operator exchanged; which mutants the crate's own tests catch.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use proof::Failure;
+use proof::files::{read, renew, root, write};
+use proof::statistics::rate;
+use serde_json::Value;
+
+use crate::tools::{run, tool};
+
+const RUNNER: [&str; 2] = ["cargo-mutants", "27.1.0"];
+const PAGE: &str = "docs/trust.md";
+const MARKS: [&str; 2] = ["<!-- mutants: written by `cargo xtask mutants` -->", "<!-- mutants end -->"];
+/// Outcomes by crate and mutant, kept from run to run.
+const KEPT: &str = "xtask/mutants/outcomes.json";
+/// Mutants that nothing can tell from the program, each with the reason: `name: reason` by line.
+const ARGUED: &str = "xtask/mutants/argued.txt";
+/// Share of the mutants that must be caught.
+const CAUGHT: f64 = 0.9;
+/// Crates whose mutants are tried, each in so many parts of which one is tried.
+const CRATES: [(&str, usize); 7] = [
+    ("bias", 1),
+    ("winding", 1),
+    ("recording", 1),
+    ("mechanisms", 1),
+    ("diagnosis", 1),
+    ("fem-core", 10),
+    ("homogenization", 10),
+];
+
+/// Change the crates that compute, one operator or answer at a time, and count the changes that their tests catch
+///
+/// Writes docs/trust.md and what came of each mutant, to which further runs add. Exit status 1 if less than 90 % are caught in a crate that was tried.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Mutants {
+    /// Crates [default: all]
+    crates: Vec<String>,
+    /// Try one of so many parts of each crate's mutants: another one with --part
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    parts: usize,
+    /// The part, from 0
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    part: usize,
+}
+
+/// Caught or not, by mutant, by crate.
+type Outcomes = BTreeMap<String, BTreeMap<String, bool>>;
+
+impl Mutants {
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
+        if let Some(name) = self.crates.iter().find(|name| CRATES.iter().all(|(known, _)| known != name)) {
+            return Err(Failure(format!("{name}: no such crate; choose {}", CRATES.map(|(name, _)| name).join(", "))));
+        }
+        if self.part >= self.parts {
+            return Err(Failure(format!("--part {} of {}: the last is {}", self.part, self.parts, self.parts.max(1) - 1)));
+        }
+        let kept = root().join(KEPT);
+        let mut outcomes: Outcomes = if kept.exists() { serde_json::from_str(&read(&kept)?)? } else { Outcomes::new() };
+        for (name, share) in CRATES.iter().filter(|(name, _)| self.crates.is_empty() || self.crates.iter().any(|c| c == name)) {
+            let tried = tried(name, self.part * share, self.parts * share)?;
+            let known = outcomes.entry((*name).into()).or_default();
+            // lines move: a run of all leaves nothing of the runs before it
+            if self.parts == 1 {
+                known.clear();
+            }
+            known.extend(tried);
+            write(&kept, &(serde_json::to_string_pretty(&outcomes)? + "\n"))?;
+        }
+        let argued = argued(&read(&root().join(ARGUED))?);
+        let (text, sound) = table(&outcomes, &argued);
+        print!("{text}");
+        renew(&root().join(PAGE), MARKS, &text)?;
+        Ok(sound)
+    }
+}
+
+/// What came of the mutants of one part of a crate, those aside that do not compile.
+fn tried(name: &str, part: usize, parts: usize) -> Result<BTreeMap<String, bool>, Failure> {
+    let into: PathBuf = root().join("target/mutants").join(name);
+    std::fs::create_dir_all(&into)?;
+    let mut runner = tool(RUNNER)?;
+    runner
+        .args(["mutants", "--no-times", "--colors", "never", "--sharding", "round-robin", "--package", name, "--output"])
+        .arg(&into);
+    runner.arg("--shard").arg(format!("{part}/{parts}")).args(["--", "--lib", "--tests"]);
+    // a status other than 0 tells of mutants that were missed
+    run(&mut runner)?;
+    of_report(&into.join("mutants.out/outcomes.json"))
+}
+
+/// Mutants of the runner's report that were caught (a test failed, or took for ever) or missed.
+fn of_report(path: &Path) -> Result<BTreeMap<String, bool>, Failure> {
+    let report: Value = serde_json::from_str(&read(path)?)?;
+    let of = |outcome: &Value| {
+        let name = outcome["scenario"]["Mutant"]["name"].as_str()?.to_owned();
+        match outcome["summary"].as_str()? {
+            "CaughtMutant" | "Timeout" => Some((name, true)),
+            "MissedMutant" => Some((name, false)),
+            _ => None,
+        }
+    };
+    let outcomes = report["outcomes"].as_array().ok_or_else(|| Failure(format!("{}: no outcomes", path.display())))?;
+    Ok(outcomes.iter().filter_map(of).collect())
+}
+
+/// Reasons by mutant.
+fn argued(text: &str) -> BTreeMap<&str, &str> {
+    text.lines().filter_map(|line| line.split_once(" :: ")).map(|(name, reason)| (name.trim(), reason.trim())).collect()
+}
+
+/// The table and the survivors; whether enough are caught everywhere.
+fn table(outcomes: &Outcomes, argued: &BTreeMap<&str, &str>) -> (String, bool) {
+    let mut text = String::from(
+        "\n| crate | mutants tried | caught | argued away | left | caught of all that could be [90 % interval] |\n|---|---|---|---|---|---|\n",
+    );
+    let (mut sound, mut left) = (true, BTreeSet::new());
+    for (name, _) in CRATES {
+        let Some(tried) = outcomes.get(name) else { continue };
+        let missed: Vec<&str> = tried.iter().filter(|(_, caught)| !**caught).map(|(mutant, _)| mutant.as_str()).collect();
+        let survivors: Vec<&str> = missed.iter().copied().filter(|mutant| !argued.contains_key(mutant)).collect();
+        let caught = tried.len() - missed.len();
+        let Some(share) = rate(caught, caught + survivors.len()) else { continue };
+        sound &= share.value >= CAUGHT;
+        let [low, high] = share.interval.map(|end| 100.0 * end);
+        let _ = writeln!(
+            text,
+            "| `{name}` | {} | {caught} | {} | {} | {:.1} % [{low:.1} to {high:.1} %] |",
+            tried.len(),
+            missed.len() - survivors.len(),
+            survivors.len(),
+            100.0 * share.value
+        );
+        left.extend(survivors);
+    }
+    if !left.is_empty() {
+        text += "\n<details><summary>Mutants that no test catches</summary>\n\n";
+        left.iter().for_each(|mutant| text += &format!("- `{mutant}`\n"));
+        text += "\n</details>\n";
+    }
+    (text, sound)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn caught_missed_and_argued_mutants_are_counted() {
+        let folder = tempfile::tempdir().unwrap();
+        let report = folder.path().join("outcomes.json");
+        let mutant =
+            |name: &str, summary: &str| format!(r#"{{"scenario": {{"Mutant": {{"name": "{name}"}}}}, "summary": "{summary}"}}"#);
+        let all = [("a", "CaughtMutant"), ("b", "MissedMutant"), ("c", "Timeout"), ("d", "Unviable"), ("e", "MissedMutant")];
+        let all = all.map(|(name, summary)| mutant(name, summary)).join(", ");
+        write(&report, &format!(r#"{{"outcomes": [{{"scenario": "Baseline", "summary": "Success"}}, {all}]}}"#)).unwrap();
+        let tried = of_report(&report).unwrap();
+        assert_eq!(tried.len(), 4);
+        let outcomes = BTreeMap::from([("bias".to_owned(), tried)]);
+        let (text, sound) = table(&outcomes, &argued("b :: no result depends on it\nno line of this kind"));
+        assert!(
+            text.contains("| `bias` | 4 | 2 | 1 | 1 | 66.7 % [") && text.contains("- `e`") && !text.contains("- `b`"),
+            "{text}"
+        );
+        assert!(!sound);
+        assert!(table(&outcomes, &argued("b :: x\ne :: y")).1);
+    }
+}
