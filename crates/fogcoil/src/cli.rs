@@ -14,6 +14,7 @@ use crate::cli_homogenize::Homogenize;
 use crate::cli_measure::Measure;
 use crate::cli_new::New;
 use crate::cli_recommend::Recommend;
+use crate::cli_sweep::Sweep;
 
 /// Thermal bias of fibre-optic-gyroscope coils.
 #[derive(Parser)]
@@ -80,6 +81,8 @@ pub(crate) enum Command {
     },
     /// Two designs side by side: what differs, sensitivity by part with tolerances, bias under a profile
     Compare(Compare),
+    /// Designs around a drawing by the thousand, as a table: grids, samples, tolerances, and which part of the design the spread comes from
+    Sweep(Sweep),
     /// Thermometer and bias in time under a profile of the chamber's temperature, or from a thermometer's record
     Simulate(Simulate),
     /// What differs between a unit's recording and its design, and what most likely causes it

@@ -56,8 +56,11 @@ pub mod report;
 pub mod sensitivity;
 pub mod simulate;
 pub mod summary;
+pub mod sweep;
 mod table;
+pub mod tabular;
 pub mod trim;
+pub mod variants;
 pub mod wind;
 
 pub use error::Error;

@@ -10,6 +10,7 @@ mod cli_manual;
 mod cli_measure;
 mod cli_new;
 mod cli_recommend;
+mod cli_sweep;
 mod progress;
 mod signals;
 
@@ -68,6 +69,7 @@ fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
         Command::New(arguments) => cli_new::run(arguments),
         Command::Recommend(arguments) => cli_recommend::run(arguments, progress),
         Command::Simulate(arguments) => run_simulate(arguments, progress),
+        Command::Sweep(arguments) => cli_sweep::run(arguments, progress),
         Command::Trim { coil, profile, json } => run_trim(coil, profile.as_deref(), *json, progress),
         Command::Wind { coil, csv, svg, json } => run_wind(coil, csv.as_deref(), svg.as_deref(), *json, progress),
         Command::Identify { targets, json } => {

@@ -28,5 +28,6 @@ mod recommend;
 mod report;
 mod simulate;
 mod spool;
+mod sweep;
 mod terminal;
 mod write_map;
