@@ -6,6 +6,7 @@ use clap::{ArgGroup, Args, Parser, Subcommand};
 use clap_complete::Shell;
 use fogcoil::input::Between;
 
+use crate::cli_batch::BatchOf;
 use crate::cli_calibrate::Calibrate;
 use crate::cli_check::{Check, Format};
 use crate::cli_compare::Compare;
@@ -89,6 +90,8 @@ pub(crate) enum Command {
     Diagnose(Diagnose),
     /// Constants of a lot from records of its good units, as a design for its further units
     Calibrate(Calibrate),
+    /// Many units of one design: each measured, diagnosed and judged by limits; tables, and a page with trends
+    Batch(BatchOf),
     /// Which chamber programme, or which further sensor, tells mechanisms apart
     Recommend(Recommend),
     /// What an id means, of a mechanism or of a warning; which change of a coil would give a measured sensitivity

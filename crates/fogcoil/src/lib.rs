@@ -4,6 +4,8 @@
 //! - [`simulate`] runs a profile; [`summary`], [`figures`] and [`report`] say what came out.
 //! - [`homogenize`], [`wind`], [`sensitivity`] render what the physics crates compute: as text for people and as JSON, CSV or SVG.
 //! - [`identify`] finds constituents behind measured effective constants.
+//! - [`sweep`](mod@sweep) computes designs around a drawing by the thousand; [`variants`](mod@variants) are what differs; [`tabular`] writes tables.
+//! - [`batch`] measures, diagnoses and judges many units of one design.
 //! - [`compare`](mod@compare) holds two designs against each other.
 //! - [`cache`] keeps models that take long to build.
 //! - [`check`] judges a recording and identifies its noise.
@@ -30,6 +32,7 @@
 //! ```
 
 pub mod band;
+pub mod batch;
 mod beside;
 pub mod cache;
 pub mod calibrate;

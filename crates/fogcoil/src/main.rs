@@ -1,6 +1,7 @@
 //! The command line: arguments in, exit status out. Everything else is in the library.
 
 mod cli;
+mod cli_batch;
 mod cli_calibrate;
 mod cli_check;
 mod cli_compare;
@@ -58,6 +59,7 @@ fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
     let progress = &Progress::new(*quiet);
     match command {
         Command::Homogenize(arguments) => cli_homogenize::run(arguments, progress),
+        Command::Batch(arguments) => cli_batch::run(arguments, progress),
         Command::Calibrate(arguments) => cli_calibrate::run(arguments, progress),
         Command::Check(arguments) => run_check(arguments, progress),
         Command::Compare(arguments) => cli_compare::run(arguments, progress),
