@@ -22,7 +22,7 @@ fn lot() -> Folder {
     fs::create_dir_all(folder.path("lot/U7986")).unwrap();
     folder.write("lot/U7986/run1.csv", part("U7986", "run1"));
     folder.write("lot/U7986/holdout.csv", part("U7986", "holdout"));
-    folder.write("lot/U7986/meta.ron", "(date: \"2026-03-02\", serial: 17)");
+    folder.write("lot/U7986/meta.ron", "(date: \"2026-03-02\", serial: Some(17))");
     folder.write("U8378.csv", part("U8378", "run1"));
     folder.write("U4907.csv", part("U4907", "run1"));
     folder.write("limits.ron", "(limits: {\"arw\": Magnitude(1e-9)}, verdicts: [\"none\", \"recalibrate\", \"explained\"])");
