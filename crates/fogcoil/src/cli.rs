@@ -14,6 +14,7 @@ use crate::cli_explain::Explain;
 use crate::cli_homogenize::Homogenize;
 use crate::cli_measure::Measure;
 use crate::cli_new::New;
+use crate::cli_optimise::Optimise;
 use crate::cli_recommend::Recommend;
 use crate::cli_sweep::Sweep;
 
@@ -84,6 +85,8 @@ pub(crate) enum Command {
     Compare(Compare),
     /// Designs around a drawing by the thousand, as a table: grids, samples, tolerances, and which part of the design the spread comes from
     Sweep(Sweep),
+    /// The design with the least sensitivity, spread, mass or length within limits, over numbers and choices; the front where several are weighed
+    Optimise(Optimise),
     /// Thermometer and bias in time under a profile of the chamber's temperature, or from a thermometer's record
     Simulate(Simulate),
     /// What differs between a unit's recording and its design, and what most likely causes it

@@ -5,6 +5,7 @@
 //! - [`homogenize`], [`wind`], [`sensitivity`] render what the physics crates compute: as text for people and as JSON, CSV or SVG.
 //! - [`identify`] finds constituents behind measured effective constants.
 //! - [`sweep`](mod@sweep) computes designs around a drawing by the thousand; [`variants`](mod@variants) are what differs; [`tabular`] writes tables.
+//! - [`optimise`] seeks the design with the least of what a plan names.
 //! - [`batch`] measures, diagnoses and judges many units of one design.
 //! - [`compare`](mod@compare) holds two designs against each other.
 //! - [`cache`] keeps models that take long to build.
@@ -51,6 +52,7 @@ pub mod homogenize;
 pub mod identify;
 mod keys;
 pub mod measure;
+pub mod optimise;
 pub mod picture;
 pub mod picture_cell;
 pub mod prepare;

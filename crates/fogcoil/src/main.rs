@@ -10,6 +10,7 @@ mod cli_homogenize;
 mod cli_manual;
 mod cli_measure;
 mod cli_new;
+mod cli_optimise;
 mod cli_recommend;
 mod cli_sweep;
 mod progress;
@@ -69,6 +70,7 @@ fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
         Command::Man { dir } => cli_manual::man(dir.as_deref(), progress),
         Command::Measure(arguments) => cli_measure::run(arguments, progress),
         Command::New(arguments) => cli_new::run(arguments),
+        Command::Optimise(arguments) => cli_optimise::run(arguments, progress),
         Command::Recommend(arguments) => cli_recommend::run(arguments, progress),
         Command::Simulate(arguments) => run_simulate(arguments, progress),
         Command::Sweep(arguments) => cli_sweep::run(arguments, progress),

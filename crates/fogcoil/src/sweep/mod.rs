@@ -23,6 +23,7 @@ pub use columns::table;
 pub use indices::{Index, Indices};
 pub use json::json;
 pub use outputs::Output;
+pub(crate) use outputs::mass;
 pub use parts::Parts;
 pub use picture::svg;
 pub use plan::{MOST_POINTS, Plan, read_plan};

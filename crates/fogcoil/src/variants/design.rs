@@ -44,7 +44,7 @@ impl Variants {
     /// In words, why there is no such design.
     pub fn at(&self, point: &[f64]) -> Result<Variant, String> {
         let written: Vec<(usize, Value)> = self.keys().map(|(n, varied)| (n, varied.at(point[n]))).collect();
-        let mut design = self.written(&written)?;
+        let mut design = self.with(&written)?;
         let deviations = self.deviations(point);
         for (factor, deviation) in self.numbers().zip(deviations.iter()) {
             factor.deviate(&mut design, &self.case.tolerances, *deviation);
@@ -68,11 +68,14 @@ impl Variants {
     /// In words, why there is no such design.
     pub(super) fn alone(&self, factor: &Factor) -> Result<Design, String> {
         let own = self.keys().find(|(n, _)| self.factors[*n] == *factor);
-        self.written(&own.map(|(n, varied)| (n, varied.at(0.5))).into_iter().collect::<Vec<_>>())
+        self.with(&own.map(|(n, varied)| (n, varied.at(0.5))).into_iter().collect::<Vec<_>>())
     }
 
-    /// The drawing with keys written anew.
-    fn written(&self, written: &[(usize, Value)]) -> Result<Design, String> {
+    /// The drawing with some of its keys written anew: places of factors, and their values.
+    ///
+    /// # Errors
+    /// In words, why there is no such design.
+    pub fn with(&self, written: &[(usize, Value)]) -> Result<Design, String> {
         if written.is_empty() {
             return Ok(self.case.design.clone());
         }

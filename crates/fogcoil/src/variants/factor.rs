@@ -69,6 +69,11 @@ impl Factor {
         }
     }
 
+    /// Whether it is one of several that have no order.
+    pub fn is_choice(&self) -> bool {
+        matches!(&self.kind, Kind::Key(Varied::OneOf(_) | Varied::Named(_)))
+    }
+
     /// The number that deviates within its tolerance.
     pub(super) fn number(&self) -> Option<Number> {
         match self.kind {
