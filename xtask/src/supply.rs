@@ -97,7 +97,11 @@ fn built(folder: &Path) -> Result<String, Failure> {
         [(&sources, "fogcoil"), (&home, "cargo")].map(|(from, to)| format!("--remap-path-prefix={}=/{to}", from.display()));
     let mut build = cargo();
     build.args(["build", "--quiet", "--release", "--locked", "--package", "fogcoil", "--bin", "fogcoil"]);
-    build.env("CARGO_TARGET_DIR", &target).env("CARGO_ENCODED_RUSTFLAGS", remapped.join("\u{1f}")).current_dir(&sources);
+    build
+        .env("CONST_RANDOM_SEED", "fogcoil")
+        .env("CARGO_TARGET_DIR", &target)
+        .env("CARGO_ENCODED_RUSTFLAGS", remapped.join("\u{1f}"))
+        .current_dir(&sources);
     if !build.status()?.success() {
         return Err(Failure(format!("the program cannot be built in {}", sources.display())));
     }

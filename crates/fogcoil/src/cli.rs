@@ -6,6 +6,7 @@ use clap::{ArgGroup, Args, Parser, Subcommand};
 use clap_complete::Shell;
 use fogcoil::input::Between;
 
+use crate::cli_batch::BatchOf;
 use crate::cli_calibrate::Calibrate;
 use crate::cli_check::{Check, Format};
 use crate::cli_compare::Compare;
@@ -13,7 +14,9 @@ use crate::cli_explain::Explain;
 use crate::cli_homogenize::Homogenize;
 use crate::cli_measure::Measure;
 use crate::cli_new::New;
+use crate::cli_optimise::Optimise;
 use crate::cli_recommend::Recommend;
+use crate::cli_sweep::Sweep;
 
 /// Thermal bias of fibre-optic-gyroscope coils.
 #[derive(Parser)]
@@ -80,12 +83,18 @@ pub(crate) enum Command {
     },
     /// Two designs side by side: what differs, sensitivity by part with tolerances, bias under a profile
     Compare(Compare),
+    /// Designs around a drawing by the thousand, as a table: grids, samples, tolerances, and which part of the design the spread comes from
+    Sweep(Sweep),
+    /// The design with the least sensitivity, spread, mass or length within limits, over numbers and choices; the front where several are weighed
+    Optimise(Optimise),
     /// Thermometer and bias in time under a profile of the chamber's temperature, or from a thermometer's record
     Simulate(Simulate),
     /// What differs between a unit's recording and its design, and what most likely causes it
     Diagnose(Diagnose),
     /// Constants of a lot from records of its good units, as a design for its further units
     Calibrate(Calibrate),
+    /// Many units of one design: each measured, diagnosed and judged by limits; tables, and a page with trends
+    Batch(BatchOf),
     /// Which chamber programme, or which further sensor, tells mechanisms apart
     Recommend(Recommend),
     /// What an id means, of a mechanism or of a warning; which change of a coil would give a measured sensitivity

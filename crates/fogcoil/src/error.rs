@@ -22,6 +22,17 @@ pub enum Error {
         /// The file of targets.
         file: PathBuf,
     },
+    /// A table cannot be written in the format that was asked for.
+    #[error("the table cannot be written: {0}")]
+    Table(String),
+    /// Units of a batch do not keep their limits.
+    #[error("{failing} of {units} units do not keep the limits")]
+    Limits {
+        /// How many do not.
+        failing: usize,
+        /// How many there are.
+        units: usize,
+    },
     /// A diagnosis failed.
     #[error("the diagnosis failed: {0}")]
     Diagnosis(String),
@@ -148,7 +159,7 @@ impl Error {
             Self::File(Coil { source: Design { .. } | Profile { .. } | Record(_) | Winding(_) | Bias(_), .. }) => 2,
             Self::File(Homogenization { .. } | Coil { .. }) => 1,
             Self::File(_) | Self::Identification { .. } => 2,
-            Self::Stdout(_) | Self::Diagnosis(_) | Self::NotFinite { .. } => 1,
+            Self::Stdout(_) | Self::Limits { .. } | Self::Table(_) | Self::Diagnosis(_) | Self::NotFinite { .. } => 1,
         }
     }
 }

@@ -4,6 +4,9 @@
 //! - [`simulate`] runs a profile; [`summary`], [`figures`] and [`report`] say what came out.
 //! - [`homogenize`], [`wind`], [`sensitivity`] render what the physics crates compute: as text for people and as JSON, CSV or SVG.
 //! - [`identify`] finds constituents behind measured effective constants.
+//! - [`sweep`](mod@sweep) computes designs around a drawing by the thousand; [`variants`](mod@variants) are what differs; [`tabular`] writes tables.
+//! - [`optimise`] seeks the design with the least of what a plan names.
+//! - [`batch`] measures, diagnoses and judges many units of one design.
 //! - [`compare`](mod@compare) holds two designs against each other.
 //! - [`cache`] keeps models that take long to build.
 //! - [`check`] judges a recording and identifies its noise.
@@ -30,6 +33,7 @@
 //! ```
 
 pub mod band;
+pub mod batch;
 mod beside;
 pub mod cache;
 pub mod calibrate;
@@ -48,6 +52,7 @@ pub mod homogenize;
 pub mod identify;
 mod keys;
 pub mod measure;
+pub mod optimise;
 pub mod picture;
 pub mod picture_cell;
 pub mod prepare;
@@ -56,8 +61,11 @@ pub mod report;
 pub mod sensitivity;
 pub mod simulate;
 pub mod summary;
+pub mod sweep;
 mod table;
+pub mod tabular;
 pub mod trim;
+pub mod variants;
 pub mod wind;
 
 pub use error::Error;

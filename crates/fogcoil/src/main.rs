@@ -1,6 +1,7 @@
 //! The command line: arguments in, exit status out. Everything else is in the library.
 
 mod cli;
+mod cli_batch;
 mod cli_calibrate;
 mod cli_check;
 mod cli_compare;
@@ -9,7 +10,9 @@ mod cli_homogenize;
 mod cli_manual;
 mod cli_measure;
 mod cli_new;
+mod cli_optimise;
 mod cli_recommend;
+mod cli_sweep;
 mod progress;
 mod signals;
 
@@ -57,6 +60,7 @@ fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
     let progress = &Progress::new(*quiet);
     match command {
         Command::Homogenize(arguments) => cli_homogenize::run(arguments, progress),
+        Command::Batch(arguments) => cli_batch::run(arguments, progress),
         Command::Calibrate(arguments) => cli_calibrate::run(arguments, progress),
         Command::Check(arguments) => run_check(arguments, progress),
         Command::Compare(arguments) => cli_compare::run(arguments, progress),
@@ -66,8 +70,10 @@ fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
         Command::Man { dir } => cli_manual::man(dir.as_deref(), progress),
         Command::Measure(arguments) => cli_measure::run(arguments, progress),
         Command::New(arguments) => cli_new::run(arguments),
+        Command::Optimise(arguments) => cli_optimise::run(arguments, progress),
         Command::Recommend(arguments) => cli_recommend::run(arguments, progress),
         Command::Simulate(arguments) => run_simulate(arguments, progress),
+        Command::Sweep(arguments) => cli_sweep::run(arguments, progress),
         Command::Trim { coil, profile, json } => run_trim(coil, profile.as_deref(), *json, progress),
         Command::Wind { coil, csv, svg, json } => run_wind(coil, csv.as_deref(), svg.as_deref(), *json, progress),
         Command::Identify { targets, json } => {

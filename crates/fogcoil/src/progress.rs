@@ -22,7 +22,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// Interval between two pictures of a bar that turns.
 const TICK: Duration = Duration::from_millis(120);
 /// A bar, and what stands for it where nothing can be counted.
-const COUNTED: &str = "{spinner} {msg} [{bar:32}] {percent} % {elapsed}";
+const COUNTED: &str = "{spinner} {msg} [{bar:32}] {percent} % {elapsed}, {eta} left";
 const UNCOUNTED: &str = "{spinner} {msg} {elapsed}";
 /// Longest that an interrupt waits for files which are being written; then it waits as long for them to be given up.
 const LEAVE: Duration = Duration::from_secs(5);

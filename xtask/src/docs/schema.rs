@@ -27,7 +27,7 @@ const FILES: [(&str, &str); 11] = [
 ];
 
 /// Commands whose output must keep a schema. COIL, CELL, PROFILE, FIT and HOLDOUT stand for files.
-const OUTPUTS: [(&str, &str); 18] = [
+const OUTPUTS: [(&str, &str); 19] = [
     ("homogenize", "homogenize CELL --json"),
     ("homogenize", "homogenize fixtures/cells/temperature.ron --temperatures -40,20 --tolerance 1e-3 --load dt=10 --json"),
     ("identify", "identify fixtures/identify/table-one.ron --json"),
@@ -35,6 +35,7 @@ const OUTPUTS: [(&str, &str); 18] = [
     ("sensitivity", "sensitivity COIL --json"),
     ("compare", "compare COIL fixtures/ordinary/B/drawing.ron --json"),
     ("compare", "compare COIL COIL --profile PROFILE --json"),
+    ("sweep", "sweep fixtures/plans/spools.ron --out OUT.csv --json"),
     ("trim", "trim COIL --profile PROFILE --json"),
     ("simulate", "simulate COIL --profile PROFILE --out OUT --json"),
     ("check", "check fixtures/recordings/logger.csv --json"),
@@ -77,6 +78,7 @@ pub(super) fn files(root: &Path) -> Result<Vec<String>, Failure> {
 /// Whether what the program at `program` prints keeps its schemas.
 pub(super) fn outputs(root: &Path, program: &Path, cache: &Path) -> Result<Vec<String>, Failure> {
     let out = tempfile::NamedTempFile::new()?;
+    let table = tempfile::Builder::new().suffix(".csv").tempfile()?;
     let case = |name: &str| format!("fixtures/concealed/open/case_13/{name}.csv");
     let meant = |word: &str| match word {
         "COIL" => "fixtures/coil-reference.ron".into(),
@@ -85,6 +87,7 @@ pub(super) fn outputs(root: &Path, program: &Path, cache: &Path) -> Result<Vec<S
         "FIT" => case("fit"),
         "HOLDOUT" => case("holdout"),
         "OUT" => out.path().display().to_string(),
+        "OUT.csv" => table.path().display().to_string(),
         other => other.to_owned(),
     };
     let mut faults = Vec::new();

@@ -15,6 +15,10 @@ use super::source::Source;
 pub struct Meta {
     /// Name of the design that the unit was built to.
     pub design: String,
+    /// Serial number of the unit.
+    pub serial: Option<i64>,
+    /// When it was recorded, e.g. "2026-03-02".
+    pub date: String,
     /// Nominal interval between rows \[s\]; 0 if it is not given.
     #[schemars(with = "NotNegative")]
     pub sample_interval_s: f64,

@@ -5,6 +5,7 @@ mod columns;
 mod constants;
 mod extended;
 mod json;
+mod left;
 mod report;
 mod structure;
 mod text;

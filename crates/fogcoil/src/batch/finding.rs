@@ -1,0 +1,102 @@
+//! What the records of a unit say: figures and diagnosis, as one object.
+
+use std::path::PathBuf;
+
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
+
+use super::units::Unit;
+use crate::Error;
+use crate::cache::Cache;
+use crate::diagnose::diagnose;
+use crate::input::{Asked, CoilCase, RecordCase, RecordOptions, read_record};
+use crate::measure::{self, Prediction, measure};
+
+/// What all units have in common.
+pub struct Inputs<'a> {
+    /// The design.
+    pub case: &'a CoilCase,
+    /// What is weighed.
+    pub asked: &'a Asked,
+    /// How records are read.
+    pub options: &'a RecordOptions,
+    /// Where the design's models are.
+    pub cache: &'a Cache,
+    /// What the design predicts.
+    pub prediction: &'a Prediction,
+}
+
+/// A unit whose records have been read.
+pub(super) struct Read {
+    pub(super) name: String,
+    fits: Vec<RecordCase>,
+    holdouts: Vec<RecordCase>,
+    /// SHA-256 of all that its finding follows from.
+    pub(super) key: String,
+}
+
+impl Inputs<'_> {
+    /// Reads the records of a unit.
+    ///
+    /// # Errors
+    /// [`files::Error::Input`] of a record that cannot be used.
+    pub(super) fn read(&self, unit: &Unit) -> Result<Read, Error> {
+        let read = |paths: &[PathBuf]| -> Result<Vec<RecordCase>, Error> {
+            let of = |path: &PathBuf| {
+                let record = read_record(path, self.options)?;
+                record.require_usable()?;
+                Ok(record)
+            };
+            paths.iter().map(of).collect()
+        };
+        let (fits, holdouts) = (read(&unit.fits)?, read(&unit.holdouts)?);
+        let mut hash = Sha256::new().chain_update(format!("fogcoil {}\n{}\n", env!("CARGO_PKG_VERSION"), unit.name));
+        self.case.fingerprints.iter().for_each(|file| hash.update(&file.sha256));
+        self.asked.own.iter().for_each(|own| hash.update(std::fs::read(&own.file).unwrap_or_default()));
+        hash.update(format!("{:?}\n", self.asked.with_catalogue().iter().map(|m| m.facts().id).collect::<Vec<_>>()));
+        for (record, role) in fits.iter().map(|r| (r, "fit")).chain(holdouts.iter().map(|r| (r, "holdout"))) {
+            // how it is read is in what is read: instants, values, what is known of it
+            hash.update(format!("{role} {} {:?} {}\n", record.fingerprint.sha256, record.meta, record.averaging));
+            let channels = record.recording.channels().iter().map(|channel| channel.values.as_slice());
+            for number in std::iter::once(record.recording.time()).chain(channels).flatten() {
+                hash.update(number.to_bits().to_le_bytes());
+            }
+        }
+        let key = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+        Ok(Read { name: unit.name.clone(), fits, holdouts, key })
+    }
+
+    /// What its records say, and the page of its diagnosis, if there is one.
+    pub(super) fn find(&self, unit: &Read) -> (Value, Option<String>) {
+        let records = || unit.fits.iter().chain(&unit.holdouts);
+        let measured = self.measured(unit);
+        let diagnosis = diagnose(self.case, &self.asked.with_catalogue(), &unit.fits, &unit.holdouts, self.cache, &|_| {});
+        let (told, left, page, problem) = match &diagnosis {
+            Ok(outcome) => (outcome.json(), json!(outcome.left_of_rate()), Some(outcome.report()), None),
+            Err(error) => (Value::Null, Value::Null, None, Some(error.to_string())),
+        };
+        let meta = |of: &dyn Fn(&crate::input::Meta) -> Option<Value>| records().find_map(|r| of(r.meta.as_ref()?));
+        let finding = json!({
+            "key": unit.key,
+            "program": format!("fogcoil {}", env!("CARGO_PKG_VERSION")),
+            "unit": unit.name,
+            "serial": meta(&|meta| meta.serial.map(Value::from)),
+            "date": meta(&|meta| Some(meta.date.clone()).filter(|date| !date.is_empty()).map(Value::from)),
+            "files": records().map(|r| r.fingerprint.file.display().to_string()).collect::<Vec<_>>(),
+            "sha256": records().map(|r| r.fingerprint.sha256.clone()).collect::<Vec<_>>(),
+            "measured": measured,
+            "diagnosis": told,
+            "left": left,
+            "problem": problem,
+        });
+        (finding, page)
+    }
+
+    /// The figures of the record that tells the sensitivity best; of the first where none tells it.
+    fn measured(&self, unit: &Read) -> Value {
+        let all: Vec<measure::Measurement> = unit.fits.iter().filter_map(|record| measure(record).ok()).collect();
+        let width = |m: &measure::Measurement| m.sensitivity.as_ref().map_or(f64::INFINITY, |f| f.ci90[1] - f.ci90[0]);
+        let best = all.iter().min_by(|a, b| width(a).total_cmp(&width(b)));
+        best.map_or(Value::Null, |best| measure::json(best, Some(self.prediction)))
+    }
+}

@@ -1,0 +1,62 @@
+//! Findings that are kept, unit by unit: `units/NAME.json` and its page `units/NAME.html` in the folder of a batch.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::output::{Content, write_files};
+use crate::{Error, FileError};
+
+/// Where the findings of a batch are.
+pub(super) struct Kept {
+    folder: PathBuf,
+}
+
+/// Of a batch's folder.
+const UNITS: &str = "units";
+
+/// The page of a unit, from the batch's folder.
+pub(super) fn page(unit: &str) -> String {
+    format!("{UNITS}/{unit}.html")
+}
+
+impl Kept {
+    /// In the folder of a batch, which is made.
+    ///
+    /// # Errors
+    /// [`files::Error::Output`] where it cannot be made.
+    pub(super) fn within(batch: &Path) -> Result<Self, Error> {
+        let folder = batch.join(UNITS);
+        let failed = |source| Error::File(FileError::Output { file: folder.clone(), source });
+        fs::create_dir_all(&folder).map_err(failed)?;
+        Ok(Self { folder })
+    }
+
+    fn file(&self, unit: &str, end: &str) -> PathBuf {
+        self.folder.join(format!("{unit}.{end}"))
+    }
+
+    /// The finding of a unit from what has this key; with its page where it was diagnosed.
+    pub(super) fn load(&self, unit: &str, key: &str) -> Option<Value> {
+        let text = fs::read_to_string(self.file(unit, "json")).ok()?;
+        let finding: Value = serde_json::from_str(&text).ok()?;
+        let whole = finding["key"] == key && (finding["diagnosis"].is_null() || self.file(unit, "html").is_file());
+        whole.then_some(finding)
+    }
+
+    /// Keeps the finding of a unit, its page first, and gives it back as it will be read.
+    ///
+    /// # Errors
+    /// [`files::Error::Output`] names the file that cannot be written.
+    pub(super) fn keep(&self, unit: &str, finding: &Value, page: Option<String>) -> Result<Value, Error> {
+        let (json, html) = (self.file(unit, "json"), self.file(unit, "html"));
+        let text = finding.to_string();
+        if let Some(page) = page {
+            write_files(&[(&html, Content::Text(page))])?;
+        }
+        let read = serde_json::from_str(&text).map_err(|error| Error::Diagnosis(error.to_string()))?;
+        write_files(&[(&json, Content::Text(text + "\n"))])?;
+        Ok(read)
+    }
+}

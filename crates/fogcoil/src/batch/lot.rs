@@ -1,0 +1,113 @@
+//! What the units of a batch have in common, and which stand out.
+
+use super::row::{NUMBERS, Row};
+use super::run::Batch;
+
+/// A constant of the design over all units whose difference from it is explained by constants.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Common {
+    /// Its name.
+    pub(super) name: String,
+    /// Mean distance from the design, in standard deviations of its tolerance.
+    pub(super) mean: f64,
+    /// What units differ by from that mean.
+    pub(super) sd: f64,
+    /// How many units.
+    pub(super) units: usize,
+}
+
+/// A number of a unit that is far from those of the others.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Outlier<'a> {
+    pub(super) unit: &'a str,
+    pub(super) number: &'static str,
+    pub(super) value: f64,
+    pub(super) median: f64,
+    /// Distance from the median in 1.4826 median absolute deviations, a standard deviation where all is normal.
+    pub(super) distance: f64,
+}
+
+/// Distance from which a number stands out (B. Iglewicz and D. C. Hoaglin, *How to Detect and Handle Outliers*, 1993).
+const FAR: f64 = 3.5;
+/// A median absolute deviation of normal numbers in standard deviations of theirs.
+const NORMAL: f64 = 1.4826;
+/// Fewest units that tell what is common, and what is usual.
+const FEWEST: usize = 5;
+
+/// Constants that are farther from the design on average than their mean is uncertain by twice, the farthest first.
+pub(super) fn common(batch: &Batch) -> Vec<Common> {
+    let ordinary: Vec<&Row> = batch
+        .rows
+        .iter()
+        .map(|(row, _)| row)
+        .filter(|row| matches!(row.verdict.as_deref(), Some("none" | "recalibrate")))
+        .collect();
+    let Some(first) = ordinary.first().filter(|_| ordinary.len() >= FEWEST) else { return Vec::new() };
+    let of = |name: &str| {
+        let all: Vec<f64> =
+            ordinary.iter().filter_map(|row| row.constants.iter().find(|c| c.name == name).map(|c| c.sigmas)).collect();
+        let count = all.len() as f64;
+        let mean = all.iter().sum::<f64>() / count;
+        let sd = (all.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
+        (mean.abs() > 2.0 * sd / count.sqrt()).then(|| Common { name: name.to_owned(), mean, sd, units: all.len() })
+    };
+    let mut all: Vec<Common> = first.constants.iter().filter_map(|constant| of(&constant.name)).collect();
+    all.sort_by(|a, b| b.mean.abs().total_cmp(&a.mean.abs()));
+    all
+}
+
+fn median(mut all: Vec<f64>) -> f64 {
+    all.sort_by(f64::total_cmp);
+    let middle = all.len() / 2;
+    if all.len() % 2 == 1 { all[middle] } else { (all[middle - 1] + all[middle]) / 2.0 }
+}
+
+/// Numbers that stand out, the farthest first.
+pub(super) fn outliers(batch: &Batch) -> Vec<Outlier<'_>> {
+    let mut all = Vec::new();
+    for number in NUMBERS.iter().filter(|number| **number != "probability") {
+        let known: Vec<(&str, f64)> =
+            batch.rows.iter().filter_map(|(row, _)| Some((row.unit.as_str(), row.number(number)?))).collect();
+        if known.len() < FEWEST {
+            continue;
+        }
+        let middle = median(known.iter().map(|(_, value)| *value).collect());
+        let scale = NORMAL * median(known.iter().map(|(_, value)| (value - middle).abs()).collect());
+        let distance = |value: f64| (value - middle) / scale;
+        let far = known.into_iter().filter(|(_, value)| scale > 0.0 && distance(*value).abs() > FAR);
+        all.extend(far.map(|(unit, value)| Outlier { unit, number, value, median: middle, distance: distance(value) }));
+    }
+    all.sort_by(|a, b| b.distance.abs().total_cmp(&a.distance.abs()));
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::batch::limits::Judged;
+    use serde_json::json;
+
+    fn batch(values: &[f64]) -> Batch {
+        let row = |(n, value): (usize, &f64)| {
+            Row::of(&json!({
+                "unit": format!("U{n}"),
+                "measured": {"sensitivity": {"value": value, "ci90": [value, value]}},
+                "diagnosis": {"verdict": "recalibrate", "unknowns": [
+                    {"name": "shared", "kind": "design", "sigmas": 1.0 + 0.1 * (n % 3) as f64},
+                    {"name": "own", "kind": "design", "sigmas": if n % 2 == 0 { 1.0 } else { -1.0 }},
+                ]},
+            }))
+        };
+        Batch { rows: values.iter().enumerate().map(|n| (row(n), Judged::Unjudged)).collect() }
+    }
+
+    #[test]
+    fn what_is_shared_is_told_and_what_is_far_stands_out() {
+        let batch = batch(&[-2.70, -2.72, -2.71, -2.69, -1.0, -2.70]);
+        let found = common(&batch);
+        assert!(found.len() == 1 && found[0].name == "shared" && (found[0].mean - 1.1).abs() < 1e-12, "{found:?}");
+        let far = outliers(&batch);
+        assert_eq!((far.len(), far[0].unit, far[0].number, far[0].median), (1, "U4", "sensitivity", -2.70));
+        assert!((outliers(&super::tests::batch(&[1.0; 6])).len(), common(&super::tests::batch(&[1.0; 2])).len()) == (0, 0));
+    }
+}

@@ -1,0 +1,24 @@
+//! `fogcoil batch`: many units of one design: measured and diagnosed each, judged by limits, and what they have in common.
+//!
+//! What a unit's records say is kept in a file of its own as soon as it is known, under the hash of design, records and program; an interrupted run goes on
+//! from there. Every table and page is made of these files alone, so that it does not matter which run computed them.
+
+mod columns;
+mod finding;
+mod kept;
+mod limits;
+mod lot;
+mod report;
+mod row;
+mod run;
+mod text;
+mod units;
+
+pub use columns::table;
+pub use finding::Inputs;
+pub use limits::{Judged, Limits, read_limits};
+pub use report::report;
+pub use row::Row;
+pub use run::{Batch, run};
+pub use text::text;
+pub use units::{Unit, units};

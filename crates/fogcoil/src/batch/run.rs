@@ -1,0 +1,73 @@
+//! All units of a batch.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use progress::Step;
+use rayon::prelude::*;
+use serde_json::Value;
+
+use super::finding::{Inputs, Read};
+use super::kept::Kept;
+use super::limits::{Judged, Limits};
+use super::row::Row;
+use super::units::Unit;
+use crate::Error;
+use crate::prepare::models;
+
+/// A batch.
+pub struct Batch {
+    /// The units by their names, and whether each keeps its limits.
+    pub rows: Vec<(Row, Judged)>,
+}
+
+/// Measures, diagnoses and judges all units, those aside whose findings are in `folder` already; every other finding is kept there as soon as it is known.
+///
+/// # Errors
+/// [`files::Error::Input`] of the first record that cannot be used; [`files::Error::Coil`] if the design cannot be modelled; [`files::Error::Output`] where
+/// a finding cannot be kept.
+pub fn run(
+    inputs: &Inputs,
+    units: &[Unit],
+    limits: Option<&Limits>,
+    folder: &Path,
+    progress: &(dyn Fn(Step) + Sync),
+) -> Result<Batch, Error> {
+    const NAME: &str = "diagnosing units";
+    progress(Step::begins("reading the records"));
+    let read: Vec<Read> = units.par_iter().map(|unit| inputs.read(unit)).collect::<Result<_, _>>()?;
+    let kept = Kept::within(folder)?;
+    let found: Vec<Option<Value>> = read.iter().map(|unit| kept.load(&unit.name, &unit.key)).collect();
+    if found.iter().any(Option::is_none) {
+        models(inputs.case, inputs.cache, progress)?;
+    }
+    let done = AtomicUsize::new(found.iter().flatten().count());
+    progress(Step::counted(NAME, done.load(Ordering::Relaxed), read.len()));
+    let row = |(unit, found): (&Read, Option<Value>)| {
+        let finding = match found {
+            Some(finding) => finding,
+            None => {
+                let (finding, page) = inputs.find(unit);
+                let finding = kept.keep(&unit.name, &finding, page)?;
+                progress(Step::counted(NAME, done.fetch_add(1, Ordering::Relaxed) + 1, read.len()));
+                finding
+            }
+        };
+        let row = Row::of(&finding);
+        let judged = limits.map_or(Judged::Unjudged, |limits| limits.judge(&row));
+        Ok((row, judged))
+    };
+    Ok(Batch { rows: read.par_iter().zip(found).map(row).collect::<Result<_, Error>>()? })
+}
+
+impl Batch {
+    /// How many units fail.
+    pub fn failing(&self) -> usize {
+        self.rows.iter().filter(|(_, judged)| matches!(judged, Judged::Fails(_))).count()
+    }
+
+    /// Units that could not be diagnosed, and why.
+    pub fn problems(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.rows.iter().filter_map(|(row, _)| Some((row.unit.as_str(), row.problem.as_deref()?)))
+    }
+}

@@ -1,0 +1,110 @@
+//! The units: a file each, or a folder with all records of one.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use crate::Error;
+use crate::input::InputError;
+
+/// A unit and its records.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unit {
+    /// Its name: that of its folder, or of its file without the end.
+    pub name: String,
+    /// Records that are fitted; at least one.
+    pub fits: Vec<PathBuf>,
+    /// Records that are held out: of a folder those whose names begin with `holdout`, if there are others.
+    pub holdouts: Vec<PathBuf>,
+}
+
+/// Begins the name of a record that judges.
+const HELD_OUT: &str = "holdout";
+
+/// The units that paths name, by their names: a recording; a folder with the recordings (`*.csv`) of one unit; a folder of such folders.
+///
+/// # Errors
+/// [`files::Error::Input`] of a path without recordings, or of two units of one name.
+pub fn units(paths: &[PathBuf]) -> Result<Vec<Unit>, Error> {
+    let mut all: BTreeMap<String, Unit> = BTreeMap::new();
+    let mut add = |at: &Path, unit: Unit| match all.insert(unit.name.clone(), unit) {
+        None => Ok(()),
+        Some(other) => {
+            let problem = format!("is the second unit of the name {}", other.name);
+            Err(InputError::whole(at, problem, "give every unit once, and each a name of its own"))
+        }
+    };
+    for path in paths {
+        if !path.is_dir() {
+            let name = named(path.file_stem());
+            add(path, Unit { name, fits: vec![path.clone()], holdouts: Vec::new() })?;
+            continue;
+        }
+        let below = |folder: &Path| -> Result<Vec<PathBuf>, Error> {
+            let unreadable = |error: std::io::Error| InputError::whole(folder, format!("cannot be read: {error}"), "check it");
+            let entries = std::fs::read_dir(folder).map_err(unreadable)?;
+            let mut below: Vec<PathBuf> =
+                entries.map(|entry| entry.map(|e| e.path())).collect::<Result<_, _>>().map_err(unreadable)?;
+            below.sort();
+            Ok(below)
+        };
+        let mut found = 0;
+        let folders: Vec<PathBuf> = below(path)?.into_iter().filter(|inside| inside.is_dir()).collect();
+        for folder in std::iter::once(path).chain(&folders) {
+            let records: Vec<PathBuf> = below(folder)?.into_iter().filter(|file| is_record(file)).collect();
+            if !records.is_empty() {
+                add(folder, of_folder(folder, records))?;
+                found += 1;
+            }
+        }
+        if found == 0 {
+            let remedy = "give a recording, a folder with the recordings of one unit, or a folder of such folders";
+            return Err(InputError::whole(path, "has no recording (*.csv)", remedy).into());
+        }
+    }
+    Ok(all.into_values().collect())
+}
+
+fn is_record(file: &Path) -> bool {
+    file.is_file() && file.extension().is_some_and(|end| end.eq_ignore_ascii_case("csv"))
+}
+
+fn of_folder(folder: &Path, records: Vec<PathBuf>) -> Unit {
+    // a folder that is named from inside has its name elsewhere
+    let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    let judges = |record: &PathBuf| named(record.file_stem()).to_ascii_lowercase().starts_with(HELD_OUT);
+    let (holdouts, fits): (Vec<PathBuf>, Vec<PathBuf>) = records.into_iter().partition(judges);
+    let name = named(whole.file_name());
+    if fits.is_empty() { Unit { name, fits: holdouts, holdouts: fits } } else { Unit { name, fits, holdouts } }
+}
+
+/// A name that is one of a file anywhere.
+fn named(name: Option<&std::ffi::OsStr>) -> String {
+    let plain = |c: char| if c.is_alphanumeric() || "-_.+".contains(c) { c } else { '_' };
+    let name: String = name.unwrap_or_default().to_string_lossy().chars().map(plain).collect();
+    if name.trim_matches('.').is_empty() { "unit".into() } else { name }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_folders_and_folders_of_folders() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        for name in ["lot/U1", "lot/U2", "lone", "empty"] {
+            std::fs::create_dir_all(at(name)).unwrap();
+        }
+        for name in ["lot/U1/run1.csv", "lot/U1/holdout.csv", "lot/U1/meta.ron", "lot/U2/holdout.csv", "lone/a.csv", "one b.csv"]
+        {
+            std::fs::write(at(name), "").unwrap();
+        }
+        let found = units(&[at("lot"), at("lone"), at("one b.csv")]).unwrap();
+        let told: Vec<String> =
+            found.iter().map(|unit| format!("{} {} {}", unit.name, unit.fits.len(), unit.holdouts.len())).collect();
+        assert_eq!(told, ["U1 1 1", "U2 1 0", "lone 1 0", "one_b 1 0"]);
+        let says = |paths: &[PathBuf]| units(paths).unwrap_err().to_string();
+        assert!(says(&[at("empty")]).contains("has no recording"));
+        assert!(says(&[at("lot"), at("lot/U1")]).contains("is the second unit of the name U1"));
+    }
+}

@@ -1,0 +1,90 @@
+//! `batch`: its arguments, and what it does with them.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use fogcoil::batch::{self, Batch, Inputs, Limits, read_limits, report, table, text, units};
+use fogcoil::cache::Cache;
+use fogcoil::input::{self, RecordOptions};
+use fogcoil::measure::Prediction;
+use fogcoil::output::Content;
+use fogcoil::tabular::{Format, bytes};
+use fogcoil::{Error, diagnose};
+
+use crate::print;
+use crate::progress::Progress;
+
+#[derive(Args)]
+pub(crate) struct BatchOf {
+    /// Case file of the coil: the drawing, or a lot's design (`fogcoil calibrate`)
+    #[arg(value_name = "COIL.ron")]
+    coil: PathBuf,
+    /// A recording, or a folder with the recordings (*.csv) of one unit, of which holdout*.csv judge; or a folder of such folders
+    #[arg(value_name = "RECORD.csv|FOLDER", required = true)]
+    records: Vec<PathBuf>,
+    /// What a unit must keep; exit status 1 if one does not
+    #[arg(long, value_name = "LIMITS.ron")]
+    limits: Option<PathBuf>,
+    /// Write table.csv, table.parquet, table.xlsx, report.html and units/ here; an interrupted run goes on from what is there
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// A mechanism of your own beside the program's, or the id of one that is weighed on request; may be given more than once
+    #[arg(long = "mechanism", value_name = "MECHANISM.ron|ID")]
+    mechanisms: Vec<PathBuf>,
+    /// What is known of the records besides their columns [default: meta.ron beside each, if it is there]
+    #[arg(long, value_name = "FILE")]
+    meta: Option<PathBuf>,
+    /// A file that says how the records are read [default: RECORD.map.ron beside each RECORD.csv, if it is there]
+    #[arg(long, value_name = "FILE.ron")]
+    map: Option<PathBuf>,
+}
+
+const NAMES: [(&str, Format); 3] = [("table.csv", Format::Csv), ("table.parquet", Format::Parquet), ("table.xlsx", Format::Xlsx)];
+
+pub(crate) fn run(arguments: &BatchOf, progress: &Progress) -> Result<(), Error> {
+    let BatchOf { coil, records, limits, out, mechanisms, meta, map } = arguments;
+    let asked = input::read_mechanisms(mechanisms)?;
+    let further = asked.further_columns();
+    let options = RecordOptions { map: map.clone(), meta: meta.clone(), further, ..RecordOptions::default() };
+    let units = units(records)?;
+    let limits = limits.as_deref().map(read_limits).transpose()?;
+    let all = units.iter().flat_map(|unit| unit.fits.iter().chain(&unit.holdouts)).flat_map(|record| options.files(record));
+    let mut inputs: Vec<PathBuf> = all.chain(asked.own.iter().map(|own| own.file.clone())).collect();
+    inputs.extend(limits.iter().map(|limits| limits.fingerprint.file.clone()));
+    let case = progress.read_coil_for(coil, &inputs, &[])?;
+    diagnose::check_design(&case, coil)?;
+    let prediction = progress.during("modelling the coil", || {
+        let (steady, band) = (case.steady_sensitivity()?, case.sensitivity_band()?);
+        Ok::<_, Error>(Prediction::of(&case.name, &steady, &band))
+    })?;
+    let inputs = Inputs { case: &case, asked: &asked, options: &options, cache: &Cache::of_user(), prediction: &prediction };
+    let batch = progress.tasks(|tell| batch::run(&inputs, &units, limits.as_ref(), out, tell))?;
+    save(&inputs, limits.as_ref(), &batch, out, progress)?;
+    print(&text(&batch))?;
+    judged(&batch)
+}
+
+fn save(inputs: &Inputs, limits: Option<&Limits>, batch: &Batch, out: &Path, progress: &Progress) -> Result<(), Error> {
+    let table = table(batch);
+    let written = NAMES.iter().map(|(name, format)| Ok((out.join(name), bytes(&table, *format)?)));
+    let written: Vec<(PathBuf, Vec<u8>)> = written.collect::<Result<_, Error>>()?;
+    let writers: Vec<_> =
+        written.iter().map(|(path, bytes)| (path, move |to: &mut dyn std::io::Write| to.write_all(bytes))).collect();
+    let mut files: Vec<(&Path, Content)> =
+        writers.iter().map(|(path, write)| (path.as_path(), Content::Written(write))).collect();
+    let page = out.join("report.html");
+    files.push((&page, Content::Text(report(inputs, limits, batch))));
+    progress.save(&files)
+}
+
+/// Bad input comes before failing units.
+fn judged(batch: &Batch) -> Result<(), Error> {
+    if let Some((unit, problem)) = batch.problems().next() {
+        let count = batch.problems().count();
+        return Err(Error::usage(format!("{count} of {} units are not diagnosed; {unit}: {problem}", batch.rows.len())));
+    }
+    match batch.failing() {
+        0 => Ok(()),
+        failing => Err(Error::Limits { failing, units: batch.rows.len() }),
+    }
+}

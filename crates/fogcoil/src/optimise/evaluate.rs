@@ -1,0 +1,54 @@
+//! One design: its numbers, and by how much it leaves the limits.
+
+use coil::{Design, STEADY, sensitivity_band, sensitivity_on};
+use winding::wind;
+
+use super::measure::{Measure, Measures};
+use super::plan::Plan;
+use crate::sweep::mass;
+use crate::variants::Value;
+
+/// A design that was tried.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tried {
+    /// Coordinates from 0 to 1.
+    pub point: Vec<f64>,
+    /// What varies, in the units of the keys.
+    pub values: Vec<Option<Value>>,
+    /// Its numbers.
+    pub measures: Measures,
+    /// By how much it leaves the limits, relative, summed up; 0 where it keeps them.
+    pub violation: f64,
+}
+
+impl Plan {
+    /// The design at a point of the unit cube; `None` where there is none, or it cannot be computed.
+    pub(super) fn tried(&self, point: &[f64]) -> Option<Tried> {
+        let variant = self.variants.at(point).ok()?;
+        let measures = self.measures(&variant.design).ok()?;
+        Some(Tried { point: point.to_vec(), values: variant.values, measures, violation: self.violation(&measures) })
+    }
+
+    /// The numbers of a design.
+    ///
+    /// # Errors
+    /// [`coil::Error`] names what keeps it from being computed.
+    pub(super) fn measures(&self, design: &Design) -> Result<Measures, coil::Error> {
+        let spread = if self.asks(Measure::needs_tolerances) {
+            sensitivity_band(design, &self.variants.case.tolerances)?.sd
+        } else {
+            0.0
+        };
+        let sensitivity = sensitivity_on(design, &STEADY)?.total();
+        Ok(Measures { sensitivity, spread, mass: mass(design)?, length: wind(&design.winding)?.length() })
+    }
+
+    fn violation(&self, measures: &Measures) -> f64 {
+        let beyond = |(measure, [low, high]): &(Measure, [f64; 2])| {
+            let value = measure.of(measures);
+            let scale = if low.is_finite() && high.is_finite() { high - low } else { 0.0 }.max(value.abs()).max(f64::MIN_POSITIVE);
+            (low - value).max(value - high).max(0.0) / scale
+        };
+        self.limits.iter().map(beyond).sum()
+    }
+}

@@ -1,0 +1,173 @@
+//! The search: all combinations of choices, points of a Sobol' sequence, then descents from the best.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use argmin::core::{CostFunction, Executor};
+use argmin::solver::neldermead::NelderMead;
+use progress::Step;
+use rayon::prelude::*;
+
+use super::evaluate::Tried;
+use super::measure::Measure;
+use super::plan::Plan;
+use super::weigh::{NONE, weighed, weighings};
+use crate::Error;
+use crate::sweep::{Points, Sampling};
+
+/// What was found.
+pub struct Found {
+    /// The drawing's numbers.
+    pub drawn: super::measure::Measures,
+    /// Every design that was tried.
+    pub all: Vec<Tried>,
+}
+
+/// Descents for each weighing.
+const DESCENTS: usize = 2;
+/// First steps of a descent, in shares of a range.
+const STEP: f64 = 0.15;
+/// Trials of an iteration of the method, about.
+const TRIALS_OF_ITERATION: f64 = 1.7;
+/// Spread of what is weighed among a simplex at which a descent ends: what no drawing is made to.
+const SETTLED: f64 = 1e-5;
+/// Longest sequence of points.
+const MOST_POINTS: usize = 1 << 16;
+
+/// Searches a plan's designs.
+///
+/// # Errors
+/// [`files::Error::Coil`] if the drawing cannot be modelled; [`files::Error::Usage`] if no design that was tried can be computed.
+pub fn search(plan: &Plan, progress: &(dyn Fn(Step) + Sync)) -> Result<Found, Error> {
+    let case = &plan.variants.case;
+    let drawn = plan.measures(&case.design).map_err(Error::of_coil(&case.file))?;
+    let done = AtomicUsize::new(0);
+    let tell = || progress(Step::counted("trying designs", done.fetch_add(1, Ordering::Relaxed).min(plan.trials), plan.trials));
+    let screened: Vec<Tried> = screening(plan)
+        .par_iter()
+        .filter_map(|point| {
+            tell();
+            plan.tried(point)
+        })
+        .collect();
+    if screened.is_empty() {
+        return Err(Error::usage("no design of the plan can be computed; vary less, or give dimensions: FollowWinding"));
+    }
+    let scales: Vec<f64> = plan.minimise.iter().map(|measure| scale(measure.of(&drawn))).collect();
+    let descents = starts(plan, &screened, &scales);
+    let left = plan.trials.saturating_sub(screened.len());
+    let iterations = (left as f64 / TRIALS_OF_ITERATION / descents.len().max(1) as f64) as u64;
+    let descend = |(start, weights): &(usize, Vec<f64>)| {
+        Descent { plan, start: &screened[*start], weights, scales: &scales, tell: &tell, trail: Mutex::default() }.run(iterations)
+    };
+    let followed: Vec<Vec<Tried>> = descents.par_iter().map(descend).collect();
+    Ok(Found { drawn, all: [vec![screened], followed].concat().concat() })
+}
+
+/// A number of the drawing that others are measured by; 1 where it is nothing.
+fn scale(drawn: f64) -> f64 {
+    if drawn > 0.0 { drawn } else { 1.0 }
+}
+
+/// Places of the factors that are numbers.
+fn numbers(plan: &Plan) -> Vec<usize> {
+    plan.variants.factors.iter().enumerate().filter(|(_, factor)| !factor.is_choice()).map(|(n, _)| n).collect()
+}
+
+/// Every combination of choices in turn, each time with the next point of a sequence; half of the trials, or each combination once where nothing else varies.
+fn screening(plan: &Plan) -> Vec<Vec<f64>> {
+    let factors = &plan.variants.factors;
+    let numbers = numbers(plan);
+    let levels: Vec<usize> = factors.iter().filter(|f| f.is_choice()).map(|f| f.levels().unwrap_or(1)).collect();
+    let grid = Points::new(Sampling::Grid, plan.seed, levels.clone(), vec![0; levels.len()]);
+    let combinations = grid.count().unwrap_or(1).max(1);
+    let count = if numbers.is_empty() { combinations } else { combinations.max(plan.trials / 2).min(MOST_POINTS) };
+    let sequence = Points::new(Sampling::Sobol(count), plan.seed, Vec::new(), vec![0; numbers.len()]);
+    let point = |n: usize| {
+        let (mut chosen, mut free) = (grid.point(n % combinations).into_iter(), sequence.point(n).into_iter());
+        factors.iter().map(|f| if f.is_choice() { chosen.next() } else { free.next() }.unwrap_or(0.5)).collect()
+    };
+    (0..count).map(point).collect()
+}
+
+/// Places of the designs from which descents start, with the weights of each: the best of each weighing, of other choices each.
+fn starts(plan: &Plan, screened: &[Tried], scales: &[f64]) -> Vec<(usize, Vec<f64>)> {
+    let numbers = numbers(plan);
+    if numbers.is_empty() {
+        return Vec::new();
+    }
+    let choices = |tried: &Tried| {
+        (0..tried.point.len()).filter(|n| !numbers.contains(n)).map(|n| tried.point[n].to_bits()).collect::<Vec<_>>()
+    };
+    let mut all = Vec::new();
+    for weights in weighings(plan.minimise.len()) {
+        let mut order: Vec<usize> = (0..screened.len()).collect();
+        let cost = |n: &usize| weighed(&screened[*n], &plan.minimise, scales, &weights);
+        order.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
+        let mut known: Vec<Vec<u64>> = Vec::new();
+        for n in order {
+            let own = choices(&screened[n]);
+            if known.len() < DESCENTS && !known.contains(&own) {
+                known.push(own);
+                all.push((n, weights.clone()));
+            }
+        }
+    }
+    all
+}
+
+/// A descent by the Nelder–Mead method over the numbers, the choices as they are.
+struct Descent<'a> {
+    plan: &'a Plan,
+    start: &'a Tried,
+    weights: &'a [f64],
+    scales: &'a [f64],
+    tell: &'a (dyn Fn() + Sync),
+    /// Designs on the way.
+    trail: Mutex<Vec<Tried>>,
+}
+
+impl Descent<'_> {
+    /// The designs on its way.
+    fn run(self, iterations: u64) -> Vec<Tried> {
+        let origin: Vec<f64> = numbers(self.plan).iter().map(|n| self.start.point[*n]).collect();
+        let corner = |n: usize| {
+            let mut corner = origin.clone();
+            corner[n] += if corner[n] + STEP <= 1.0 { STEP } else { -STEP };
+            corner
+        };
+        let simplex = std::iter::once(origin.clone()).chain((0..origin.len()).map(corner)).collect();
+        let solver = NelderMead::new(simplex).with_sd_tolerance(SETTLED);
+        if let (Ok(solver), true) = (solver, iterations > 0) {
+            let executor = Executor::new(&self, solver).configure(|state| state.max_iters(iterations));
+            // what it met on its way is kept, however it ends
+            let _ = executor.run();
+        }
+        self.trail.into_inner().unwrap_or_default()
+    }
+
+    fn cost_at(&self, free: &[f64]) -> f64 {
+        (self.tell)();
+        let mut point = self.start.point.clone();
+        for (n, u) in numbers(self.plan).into_iter().zip(free) {
+            point[n] = u.clamp(0.0, 1.0);
+        }
+        let beyond: f64 = free.iter().map(|u| (u - u.clamp(0.0, 1.0)).abs()).sum();
+        let Some(tried) = self.plan.tried(&point) else { return NONE * (1.0 + beyond) };
+        let minimise: &[Measure] = &self.plan.minimise;
+        let cost = weighed(&tried, minimise, self.scales, self.weights);
+        if let Ok(mut trail) = self.trail.lock() {
+            trail.push(tried);
+        }
+        cost + beyond
+    }
+}
+
+impl CostFunction for &Descent<'_> {
+    type Param = Vec<f64>;
+    type Output = f64;
+
+    fn cost(&self, free: &Self::Param) -> Result<f64, argmin::core::Error> {
+        Ok(self.cost_at(free))
+    }
+}

@@ -1,0 +1,37 @@
+//! A sweep for scripts. See docs/schema/sweep.schema.json.
+
+use serde_json::{Value, json};
+
+use super::indices::Indices;
+use super::plan::Plan;
+use super::statistics::{Spread, Summary};
+
+/// One object; sensitivities in (deg/h)/(degC/min), the rest in the unit of its name.
+pub fn json(plan: &Plan, summary: &Summary) -> Value {
+    let spread = |s: &Spread| {
+        let [least, low, median, high, largest] = s.quantiles;
+        json!({
+            "name": s.name, "mean": s.mean, "sd": s.sd, "least": least, "p05": low, "median": median, "p95": high, "largest": largest,
+        })
+    };
+    json!({
+        "points": plan.count(),
+        "designs": summary.designs,
+        "failed": summary.failed.as_ref().map_or(0, |(count, _)| *count),
+        "first_problem": summary.failed.as_ref().map(|(_, problem)| problem),
+        "seed": plan.seed,
+        "inputs_sha256": plan.hash(),
+        "outputs": summary.spreads.iter().map(spread).collect::<Vec<_>>(),
+        "linear_sd": summary.linear_sd,
+        "indices": summary.indices.as_ref().map(indices),
+    })
+}
+
+fn indices(indices: &Indices) -> Value {
+    let with = |(value, ci90): (f64, [f64; 2])| json!({"value": value, "ci90": ci90});
+    let groups = indices
+        .all
+        .iter()
+        .map(|index| json!({"group": index.group.name(), "first": with(index.first), "total": with(index.total)}));
+    json!({"of": "|total|", "pairs": indices.pairs, "left_out": indices.left_out, "groups": groups.collect::<Vec<_>>()})
+}

@@ -1,0 +1,34 @@
+//! `fogcoil sweep`: designs around a drawing, computed by the thousand: a table of what varies and what comes out, its statistics, and which part of a
+//! design the spread of the sensitivity comes from.
+//!
+//! The points follow from plan and seed alone, whatever computes them and in which order: a task is a range of points, its rows are kept in a file of
+//! their own until all are there ([`Parts`]), and the table that is made of them has the same bytes on one thread, on many, after an interruption, and
+//! from many machines.
+
+mod columns;
+mod indices;
+mod json;
+mod outputs;
+mod parts;
+mod picture;
+mod plan;
+mod points;
+mod random;
+mod row;
+mod run;
+mod statistics;
+mod text;
+
+pub use columns::table;
+pub use indices::{Index, Indices};
+pub use json::json;
+pub use outputs::Output;
+pub(crate) use outputs::mass;
+pub use parts::Parts;
+pub use picture::svg;
+pub use plan::{MOST_POINTS, Plan, read_plan};
+pub use points::{Points, Sampling};
+pub use row::Row;
+pub use run::{Share, clear, run};
+pub use statistics::{Spread, Summary};
+pub use text::text;

@@ -1,0 +1,100 @@
+//! What the rows of a sweep come down to.
+
+use super::indices::Indices;
+use super::plan::Plan;
+use super::points::Sampling;
+use super::row::Row;
+use crate::Error;
+
+/// How a number that is computed spreads over the designs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spread {
+    /// Its name.
+    pub name: &'static str,
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation.
+    pub sd: f64,
+    /// Least, what 5, 50 and 95 % of the designs stay below, largest.
+    pub quantiles: [f64; 5],
+}
+
+/// What a sweep comes down to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Summary {
+    /// Designs that were computed.
+    pub designs: usize,
+    /// Points of which there is no design, and the first reason.
+    pub failed: Option<(usize, String)>,
+    /// Every number that is computed.
+    pub spreads: Vec<Spread>,
+    /// Standard deviation of the sensitivity by its tolerances to first order, where the tolerances are all that varies.
+    pub linear_sd: Option<f64>,
+    /// Which groups the spread of |S| comes from.
+    pub indices: Option<Indices>,
+}
+
+/// The name of the sensitivity among the outputs.
+pub(super) const TOTAL: &str = "total";
+
+impl Summary {
+    /// Of the rows of a plan, all of them and in order.
+    ///
+    /// # Errors
+    /// [`files::Error::Coil`] if the drawing cannot be modelled.
+    pub fn of(plan: &Plan, rows: &[Row]) -> Result<Self, Error> {
+        let names = plan.names();
+        let spread = |(n, name): (usize, &&'static str)| Spread::of(name, rows.iter().filter_map(|row| row.outputs[n]).collect());
+        let spreads: Vec<Spread> = names.iter().enumerate().filter_map(spread).collect();
+        let failed = rows.iter().filter_map(|row| row.problem.as_ref());
+        let failed = failed.clone().next().map(|first| (failed.count(), first.clone()));
+        let total = names.iter().position(|name| *name == TOTAL);
+        let case = &plan.variants.case;
+        let linear_sd = match total.filter(|_| plan.is_band) {
+            Some(_) => Some(case.sensitivity_band()?.sd),
+            None => None,
+        };
+        let indices = total.filter(|_| matches!(plan.sampling, Sampling::Indices(_))).and_then(|n| {
+            let magnitudes: Vec<Option<f64>> = rows.iter().map(|row| row.outputs[n].map(f64::abs)).collect();
+            Indices::of(&plan.groups, &magnitudes, plan.seed)
+        });
+        let designs = rows.iter().filter(|row| row.problem.is_none()).count();
+        Ok(Self { designs, failed, spreads, linear_sd, indices })
+    }
+
+    /// How the sensitivity spreads.
+    pub fn total(&self) -> Option<&Spread> {
+        self.spreads.iter().find(|spread| spread.name == TOTAL)
+    }
+}
+
+impl Spread {
+    fn of(name: &'static str, mut values: Vec<f64>) -> Option<Self> {
+        values.sort_by(f64::total_cmp);
+        let (count, last) = (values.len() as f64, values.len().checked_sub(1)?);
+        let mean = values.iter().sum::<f64>() / count;
+        let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+        let sd = (squares / (count - 1.0).max(1.0)).sqrt();
+        // between neighbours linearly, as numpy does
+        let at = |share: f64| {
+            let place = share * last as f64;
+            let (low, high) = (values[place.floor() as usize], values[place.ceil() as usize]);
+            low + (place - place.floor()) * (high - low)
+        };
+        Some(Self { name, mean, sd, quantiles: [0.0, 0.05, 0.5, 0.95, 1.0].map(at) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spread_of_five_numbers() {
+        let spread = Spread::of("x", vec![5.0, 1.0, 2.0, 4.0, 3.0]).unwrap();
+        assert_eq!((spread.mean, spread.sd), (3.0, 2.5_f64.sqrt()));
+        assert_eq!(spread.quantiles, [1.0, 1.2, 3.0, 4.8, 5.0]);
+        assert_eq!(Spread::of("x", Vec::new()), None);
+        assert_eq!(Spread::of("x", vec![2.0]).map(|one| one.sd), Some(0.0));
+    }
+}

@@ -1,0 +1,128 @@
+//! The design at a point of the unit cube.
+
+use coil::{Design, Number, Tolerances};
+use nalgebra::{DMatrix, DVector};
+
+use super::factor::{Factor, Kind, without_negative_tails};
+use super::follow::Dimensions;
+use super::value::Value;
+use super::varied::{Varied, normal};
+use crate::input::{CoilCase, check_coil, field_text, with_fields};
+
+/// What is varied of a drawing.
+pub struct Variants {
+    /// The drawing.
+    pub case: CoilCase,
+    /// What is varied, each with a coordinate.
+    pub factors: Vec<Factor>,
+    /// Whether the body follows the winding.
+    pub dimensions: Dimensions,
+    text: String,
+    /// Lower triangle that gives the numbers within their tolerances their correlations.
+    mixing: DMatrix<f64>,
+}
+
+/// One design.
+#[derive(Debug, Clone)]
+pub struct Variant {
+    /// The design.
+    pub design: Design,
+    /// What each factor is in it, in the unit of its key; `None` where the design has no such number.
+    pub values: Vec<Option<Value>>,
+}
+
+impl Variants {
+    /// Of the drawing `case`, read from `text`.
+    pub fn new(case: CoilCase, text: String, factors: Vec<Factor>, dimensions: Dimensions) -> Self {
+        let mixing = mixing(&factors, &case.tolerances);
+        Self { case, factors, dimensions, text, mixing }
+    }
+
+    /// The design at a point of the unit cube.
+    ///
+    /// # Errors
+    /// In words, why there is no such design.
+    pub fn at(&self, point: &[f64]) -> Result<Variant, String> {
+        let written: Vec<(usize, Value)> = self.keys().map(|(n, varied)| (n, varied.at(point[n]))).collect();
+        let mut design = self.with(&written)?;
+        let deviations = self.deviations(point);
+        for (factor, deviation) in self.numbers().zip(deviations.iter()) {
+            factor.deviate(&mut design, &self.case.tolerances, *deviation);
+        }
+        without_negative_tails(&mut design);
+        let mut values: Vec<Option<Value>> = self.factors.iter().map(|factor| factor.value(&design)).collect();
+        written.into_iter().for_each(|(n, value)| values[n] = Some(value));
+        Ok(Variant { design, values })
+    }
+
+    /// What a plan itself gives at a point, of a design that cannot be as of others.
+    pub fn values(&self, point: &[f64]) -> Vec<Option<Value>> {
+        let mut values = vec![None; self.factors.len()];
+        self.keys().for_each(|(n, varied)| values[n] = Some(varied.at(point[n])));
+        values
+    }
+
+    /// The drawing with one of the factors at its middle; any value of a factor that is none.
+    ///
+    /// # Errors
+    /// In words, why there is no such design.
+    pub(super) fn alone(&self, factor: &Factor) -> Result<Design, String> {
+        let own = self.keys().find(|(n, _)| self.factors[*n] == *factor);
+        self.with(&own.map(|(n, varied)| (n, varied.at(0.5))).into_iter().collect::<Vec<_>>())
+    }
+
+    /// The drawing with some of its keys written anew: places of factors, and their values.
+    ///
+    /// # Errors
+    /// In words, why there is no such design.
+    pub fn with(&self, written: &[(usize, Value)]) -> Result<Design, String> {
+        if written.is_empty() {
+            return Ok(self.case.design.clone());
+        }
+        let of = |(n, value): &(usize, Value)| {
+            let key = self.factors[*n].key.as_str();
+            let optional = field_text(&self.case.file, &self.text, key).is_ok_and(|text| text.starts_with("Some("));
+            let text = value.ron();
+            (key.to_owned(), if optional && !text.starts_with("None") { format!("Some({text})") } else { text })
+        };
+        let edits: Vec<(String, String)> = written.iter().map(of).collect();
+        let room = self.dimensions.room(&self.case, &edits);
+        let file = &self.case.file;
+        let text = with_fields(file, &self.text, &[&edits[..], &room].concat()).map_err(|error| error.to_string())?;
+        let mut case = check_coil(file, &text).map_err(|error| error.to_string())?;
+        self.dimensions.follow(&self.case, &edits, &mut case);
+        Ok(case.design)
+    }
+
+    fn keys(&self) -> impl Iterator<Item = (usize, &Varied)> {
+        self.factors.iter().enumerate().filter_map(|(n, factor)| match &factor.kind {
+            Kind::Key(varied) => Some((n, varied)),
+            Kind::Tolerance(_) => None,
+        })
+    }
+
+    fn numbers(&self) -> impl Iterator<Item = &Factor> {
+        self.factors.iter().filter(|factor| matches!(factor.kind, Kind::Tolerance(_)))
+    }
+
+    /// Deviations of the numbers within their tolerances, in standard deviations.
+    fn deviations(&self, point: &[f64]) -> DVector<f64> {
+        let of = |(factor, u): (&Factor, &f64)| matches!(factor.kind, Kind::Tolerance(_)).then(|| normal(*u));
+        let independent: Vec<f64> = self.factors.iter().zip(point).filter_map(of).collect();
+        &self.mixing * DVector::from_vec(independent)
+    }
+}
+
+/// The Cholesky factor of the correlations of those factors that are numbers within their tolerances.
+fn mixing(factors: &[Factor], tolerances: &Tolerances) -> DMatrix<f64> {
+    let numbers: Vec<Number> = factors.iter().filter_map(Factor::number).collect();
+    let mut correlation = tolerances.correlation(&numbers);
+    // both tails are one number of a file, and deviate each by itself
+    for (i, j) in (0..numbers.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
+        if numbers[i] == numbers[j] {
+            (correlation[(i, j)], correlation[(j, i)]) = (0.0, 0.0);
+        }
+    }
+    // a file's correlations are positive definite, and so is any part of them
+    correlation.cholesky().map_or_else(|| DMatrix::identity(numbers.len(), numbers.len()), |factor| factor.l())
+}

@@ -1,0 +1,117 @@
+//! What is varied of a drawing: a key of its file, or a number within its tolerance.
+
+use coil::{Design, Number, Parameter, Tolerances};
+
+use super::group::Group;
+use super::value::Value;
+use super::varied::Varied;
+use crate::input::keyed;
+
+/// Something that is varied.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Factor {
+    /// Key of a coil file.
+    pub key: String,
+    /// What it belongs to.
+    pub group: Group,
+    /// How it varies.
+    pub kind: Kind,
+}
+
+/// How something varies.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Kind {
+    /// As a plan says.
+    Key(Varied),
+    /// Normally, by its tolerance.
+    Tolerance(Toleranced),
+}
+
+/// A number that has a tolerance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Toleranced {
+    /// One that a design has once.
+    Number(Number),
+    /// The tail of the CW half.
+    CwTail,
+    /// That of the other.
+    CcwTail,
+}
+
+/// Every number that may have a tolerance.
+fn every_number() -> impl Iterator<Item = Number> {
+    Parameter::ALL.iter().map(|p| Number::Constant(*p)).chain([Number::ThermoOptic, Number::Tail, Number::SensorLag])
+}
+
+impl Factor {
+    /// Those numbers of a design that deviate within its tolerances.
+    pub fn within_tolerances(design: &Design, tolerances: &Tolerances) -> Vec<Self> {
+        let of = |number: Number| {
+            let key =
+                number.of(design).filter(|drawn| tolerances.of(number).of(*drawn) > 0.0).and_then(|_| keyed(number, design));
+            let Some((key, _)) = key else { return Vec::new() };
+            let one = |key: String, of| Self { group: Group::of(&key), key, kind: Kind::Tolerance(of) };
+            match number {
+                Number::Tail => {
+                    vec![one(format!("{key}.cw"), Toleranced::CwTail), one(format!("{key}.ccw"), Toleranced::CcwTail)]
+                }
+                _ => vec![one(key.to_owned(), Toleranced::Number(number))],
+            }
+        };
+        every_number().flat_map(of).collect()
+    }
+
+    /// How many values it has; `None` of a number between two ends.
+    pub fn levels(&self) -> Option<usize> {
+        match &self.kind {
+            Kind::Key(varied) => varied.count(),
+            Kind::Tolerance(_) => None,
+        }
+    }
+
+    /// Whether it is one of several that have no order.
+    pub fn is_choice(&self) -> bool {
+        matches!(&self.kind, Kind::Key(Varied::OneOf(_) | Varied::Named(_)))
+    }
+
+    /// The number that deviates within its tolerance.
+    pub(super) fn number(&self) -> Option<Number> {
+        match self.kind {
+            Kind::Key(_) => None,
+            Kind::Tolerance(Toleranced::Number(number)) => Some(number),
+            Kind::Tolerance(Toleranced::CwTail | Toleranced::CcwTail) => Some(Number::Tail),
+        }
+    }
+
+    /// Lets the number deviate by so many standard deviations of what the design now says.
+    pub(super) fn deviate(&self, design: &mut Design, tolerances: &Tolerances, deviations: f64) {
+        let Kind::Tolerance(of) = self.kind else { return };
+        match of {
+            Toleranced::Number(number) => {
+                if let Some(drawn) = number.of(design) {
+                    *design = number.set(design, drawn + deviations * tolerances.of(number).of(drawn));
+                }
+            }
+            Toleranced::CwTail => design.winding.tails.cw += deviations * tolerances.of(Number::Tail).of(0.0),
+            Toleranced::CcwTail => design.winding.tails.ccw += deviations * tolerances.of(Number::Tail).of(0.0),
+        }
+    }
+
+    /// What it is in a design, in the unit of its key, if it is a number within its tolerance.
+    pub(super) fn value(&self, design: &Design) -> Option<Value> {
+        let Kind::Tolerance(of) = self.kind else { return None };
+        let value = match of {
+            Toleranced::Number(number) => keyed(number, design)?.1,
+            Toleranced::CwTail => design.winding.tails.cw,
+            Toleranced::CcwTail => design.winding.tails.ccw,
+        };
+        Some(Value::Number(value))
+    }
+}
+
+/// Both tails longer by as much, so that none is shorter than nothing: what counts is their difference.
+pub(super) fn without_negative_tails(design: &mut Design) {
+    let tails = &mut design.winding.tails;
+    let missing = -tails.cw.min(tails.ccw).min(0.0);
+    (tails.cw, tails.ccw) = (tails.cw + missing, tails.ccw + missing);
+}

@@ -1,0 +1,79 @@
+//! A body that follows its winding: what a designer draws anew when the number of turns changes.
+
+use serde::Deserialize;
+
+use crate::input::CoilCase;
+use crate::units::to_mm;
+
+/// Whether the dimensions that the winding decides follow it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+pub enum Dimensions {
+    /// All dimensions are those of the drawing.
+    #[default]
+    AsDrawn,
+    /// The coil's outer radius and height keep their distance from what the winding reaches, the thermometer its from the bore and from mid height, D its
+    /// from the mean diameter; odd and even layers differ by as many turns. What a plan varies itself does not follow.
+    FollowWinding,
+}
+
+const OUTER_RADIUS: &str = "coil.outer_radius_mm";
+const HEIGHT: &str = "coil.height_mm";
+const ODD: &str = "winding.turns_odd_layers";
+const EVEN: &str = "winding.turns_even_layers";
+const SAGNAC: &str = "optics.sagnac_diameter_mm";
+
+fn is_varied(edits: &[(String, String)], key: &str) -> bool {
+    edits.iter().any(|(edited, _)| edited == key)
+}
+
+impl Dimensions {
+    /// What makes room for whatever winding the edits give.
+    pub(super) fn room(self, case: &CoilCase, edits: &[(String, String)]) -> Vec<(String, String)> {
+        if self == Self::AsDrawn {
+            return Vec::new();
+        }
+        let spec = case.winding.spec();
+        let number = |key: &str, drawn: f64| {
+            edits.iter().find(|(edited, _)| edited == key).and_then(|(_, text)| text.parse().ok()).unwrap_or(drawn)
+        };
+        let pitch = number("winding.pitch_mm", to_mm(spec.pitch));
+        let odd = number(ODD, spec.turns_odd_layers as f64);
+        let inner = number("winding.inner_radius_mm", to_mm(spec.inner_radius));
+        let layers = number("winding.layers", spec.layers as f64);
+        let mut room = Vec::new();
+        if is_varied(edits, ODD) && !is_varied(edits, EVEN) {
+            room.push((EVEN.to_owned(), format!("{}", odd - (spec.turns_odd_layers as f64 - spec.turns_even_layers as f64))));
+        }
+        // a layer is no higher than a pitch, a row of turns no longer than one turn more
+        let bounds = [(OUTER_RADIUS, inner + (layers + 1.0) * pitch), (HEIGHT, (odd + 2.0) * pitch)];
+        let free = bounds.into_iter().filter(|(key, _)| !is_varied(edits, key));
+        room.extend(free.map(|(key, bound)| (key.to_owned(), format!("{bound}"))));
+        room
+    }
+
+    /// Lets the dimensions of `case` follow its winding as `drawn` has them, but for those that the `edits` give.
+    pub(super) fn follow(self, drawn: &CoilCase, edits: &[(String, String)], case: &mut CoilCase) {
+        if self == Self::AsDrawn {
+            return;
+        }
+        let (design, before) = (&mut case.design, &drawn.design);
+        let varied = |key: &str| is_varied(edits, key);
+        let reach = [case.winding.outer_radius() - drawn.winding.outer_radius(), case.winding.height() - drawn.winding.height()];
+        if !varied(OUTER_RADIUS) {
+            design.body.outer_radius = before.body.outer_radius + reach[0];
+        }
+        if !varied(HEIGHT) {
+            design.body.height = before.body.height + reach[1];
+        }
+        if !varied("sensor.radius_mm") && !varied("sensor.y_mm") {
+            let hub =
+                |design: &coil::Design| design.winding.inner_radius - design.spool.as_ref().map_or(0.0, |s| s.hub_thickness);
+            design.sensor.radius = before.sensor.radius + hub(design) - hub(before);
+            design.sensor.y = before.sensor.y + (design.body.height - before.body.height) / 2.0;
+        }
+        if !varied(SAGNAC) {
+            let across = |design: &coil::Design| design.winding.inner_radius + design.body.outer_radius;
+            design.optics.sagnac_diameter = before.optics.sagnac_diameter + across(design) - across(before);
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! A value of a key, as a plan draws it.
+
+/// A value of a key.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub enum Value {
+    /// In the unit of the key.
+    Number(f64),
+    /// A choice.
+    Choice(String),
+    /// A choice with a name, and what it stands for in a coil file.
+    Named(String, String),
+}
+
+impl Value {
+    /// As a coil file has it.
+    pub fn ron(&self) -> String {
+        match self {
+            Self::Number(value) => format!("{value}"),
+            Self::Choice(text) | Self::Named(_, text) => text.clone(),
+        }
+    }
+
+    /// For people.
+    pub fn shown(&self) -> String {
+        match self {
+            Self::Number(value) => format!("{value:?}"),
+            Self::Choice(text) | Self::Named(text, _) => text.clone(),
+        }
+    }
+}

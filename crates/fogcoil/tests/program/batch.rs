@@ -1,0 +1,128 @@
+//! `fogcoil batch` as a user runs it: tables and a page of many units, limits, going on after a kill, what is refused.
+
+use std::fs;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use charts::faults;
+
+use crate::common::{Folder, change, stderr, stdout};
+
+const ORDINARY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/ordinary/B");
+const CACHE: &str = concat!(env!("CARGO_TARGET_TMPDIR"), "/cache");
+
+/// Three units of the small coil: a folder with two records, two files of one; a part of each record, quick to fit.
+fn lot() -> Folder {
+    let folder = Folder::new();
+    folder.write("drawing.ron", fs::read_to_string(format!("{ORDINARY}/drawing.ron")).unwrap());
+    let part = |unit: &str, run: &str| {
+        let text = fs::read_to_string(format!("{ORDINARY}/open/{unit}/{run}.csv")).unwrap();
+        text.lines().take(700).map(|line| line.to_owned() + "\n").collect::<String>()
+    };
+    fs::create_dir_all(folder.path("lot/U7986")).unwrap();
+    folder.write("lot/U7986/run1.csv", part("U7986", "run1"));
+    folder.write("lot/U7986/holdout.csv", part("U7986", "holdout"));
+    folder.write("lot/U7986/meta.ron", "(date: \"2026-03-02\", serial: Some(17))");
+    folder.write("U8378.csv", part("U8378", "run1"));
+    folder.write("U4907.csv", part("U4907", "run1"));
+    folder.write("limits.ron", "(limits: {\"arw\": Magnitude(1e-9)}, verdicts: [\"none\", \"recalibrate\", \"explained\"])");
+    folder
+}
+
+const RUN: [&str; 7] = ["batch", "drawing.ron", "lot", "U8378.csv", "U4907.csv", "--limits", "limits.ron"];
+
+fn tables(folder: &Folder, out: &str) -> Vec<Vec<u8>> {
+    let read = |name: &str| fs::read(folder.path(&format!("{out}/{name}"))).unwrap();
+    ["table.csv", "table.parquet", "table.xlsx", "report.html"].map(read).to_vec()
+}
+
+#[test]
+fn units_become_a_table_and_a_page_whatever_interrupts_them() {
+    let folder = lot();
+    let output = folder.run(&[&RUN[..], &["--out", "whole"]].concat());
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("3 of 3 units do not keep the limits"), "{}", stderr(&output));
+    assert!(stdout(&output).contains("more than 0.000000001 in magnitude"), "{}", stdout(&output));
+    let whole = tables(&folder, "whole");
+    let table = String::from_utf8(whole[0].clone()).unwrap();
+    let lines: Vec<&str> = table.lines().collect();
+    assert!(lines[0].starts_with("unit,serial,date,judged,reason,verdict,set,sensitivity,sensitivity_low,sensitivity_high,"));
+    assert!(lines[1].starts_with("U4907,4907.0,,fail,") && lines[2].starts_with("U7986,17.0,2026-03-02,fail,"), "{table}");
+    assert!(lines.len() == 4 && lines[2].contains("run1.csv; ") && lines[2].contains("holdout.csv"), "{table}");
+    let page = String::from_utf8(whole[3].clone()).unwrap();
+    assert!(faults(&page).is_empty(), "{:?}", faults(&page));
+    for unit in ["U4907", "U7986", "U8378"] {
+        assert!(page.contains(&format!("<a href=\"units/{unit}.html\">{unit}</a>")));
+        let own = fs::read_to_string(folder.path(&format!("whole/units/{unit}.html"))).unwrap();
+        assert!(faults(&own).is_empty(), "{unit}: {:?}", faults(&own));
+    }
+    killed_and_gone_on(&folder, &whole);
+    // a record that is another counts anew, and limits that are kept pass
+    folder.write("limits.ron", "(limits: {\"arw\": Within(0.0, 1e3)})");
+    let before = fs::metadata(folder.path("whole/units/U8378.json")).unwrap().modified().unwrap();
+    let record = fs::read_to_string(folder.path("U4907.csv")).unwrap();
+    folder.write("U4907.csv", record.lines().take(600).map(|line| line.to_owned() + "\n").collect::<String>());
+    let hash = |name: &str| fs::read_to_string(folder.path(&format!("whole/units/{name}.json"))).unwrap();
+    let old = hash("U4907");
+    let output = folder.run(&[&RUN[..], &["--out", "whole"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(hash("U4907") != old && fs::metadata(folder.path("whole/units/U8378.json")).unwrap().modified().unwrap() == before);
+}
+
+/// A run that is killed once the first unit is kept, and the next, give what one run gives.
+fn killed_and_gone_on(folder: &Folder, whole: &[Vec<u8>]) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_fogcoil"));
+    let arguments = [&RUN[..], &["--out", "killed", "--quiet"]].concat();
+    command.args(&arguments).env("FOGCOIL_CACHE", CACHE).env("RAYON_NUM_THREADS", "1").current_dir(folder.path(""));
+    let mut run = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let kept = || {
+        let files = fs::read_dir(folder.path("killed/units")).into_iter().flatten().flatten();
+        files.filter(|file| file.path().extension().is_some_and(|end| end == "json")).count()
+    };
+    let begun = Instant::now();
+    while kept() == 0 && begun.elapsed() < Duration::from_secs(120) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    run.kill().unwrap();
+    run.wait().unwrap();
+    assert!((1..3).contains(&kept()) && !folder.path("killed/table.csv").exists(), "{}", kept());
+    assert_eq!(folder.run(&arguments).status.code(), Some(1));
+    assert!(tables(folder, "killed") == whole);
+}
+
+#[test]
+fn bad_batches_are_refused_and_nothing_is_written() {
+    let folder = lot();
+    folder.write("none.csv", "time_s,rate_deg_per_h\n0,nan\n");
+    fs::create_dir_all(folder.path("empty")).unwrap();
+    let cases: [(&[&str], &str); 6] = [
+        (&["drawing.ron", "empty"], "has no recording"),
+        (&["drawing.ron", "missing.csv"], "missing.csv"),
+        (&["drawing.ron", "none.csv"], "none.csv"),
+        (&["drawing.ron", "lot", "lot/U7986"], "is the second unit of the name U7986"),
+        (&["missing.ron", "lot"], "missing.ron"),
+        (&["drawing.ron", "U8378.csv", "--limits", "missing.ron"], "missing.ron"),
+    ];
+    for (arguments, said) in cases {
+        let output = folder.run(&[&["batch"], arguments, &["--out", "out"]].concat());
+        assert!(output.status.code() == Some(2) && stderr(&output).contains(said), "{arguments:?}: {}", stderr(&output));
+    }
+    let good = "(limits: {\"sensitivity\": Magnitude(3.0)}, verdicts: [\"none\"])";
+    let cases = [
+        (change(good, "sensitivity", "sensitivty"), "did you mean `sensitivity`?"),
+        (change(good, "3.0", "-3.0"), "is no limit"),
+        (change(good, "Magnitude(3.0)", "Within(3.0, 2.0)"), "is no limit"),
+        (change(good, "Magnitude(3.0)", "Within(NaN, 2.0)"), "is no limit"),
+        (change(good, "\"none\"", "\"good\""), "\"good\" is no verdict"),
+        ("()".to_owned(), "nothing is limited"),
+        (change(good, "verdicts", "verdict"), "verdict"),
+    ];
+    for (limits, said) in cases {
+        folder.write("limits.ron", &limits);
+        let output = folder.run(&["batch", "drawing.ron", "U8378.csv", "--limits", "limits.ron", "--out", "out"]);
+        assert!(output.status.code() == Some(2) && stderr(&output).contains(said), "{limits}: {}", stderr(&output));
+    }
+    let output = folder.run(&["batch", "drawing.ron", "U8378.csv", "--out", "drawing.ron"]);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(!folder.path("out").exists());
+}
