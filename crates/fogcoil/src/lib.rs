@@ -53,11 +53,13 @@ pub mod picture_cell;
 pub mod prepare;
 pub mod recommend;
 pub mod report;
+pub mod section_files;
 pub mod sensitivity;
 pub mod simulate;
 pub mod summary;
 mod table;
 pub mod trim;
+mod turn_bias;
 pub mod wind;
 
 pub use error::Error;
