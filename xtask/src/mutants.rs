@@ -69,8 +69,8 @@ impl Mutants {
             known.extend(tried);
             write(&kept, &(serde_json::to_string_pretty(&outcomes)? + "\n"))?;
         }
-        let argued = argued(&read(&root().join(ARGUED))?);
-        let (text, sound) = table(&outcomes, &argued);
+        let reasons = read(&root().join(ARGUED))?;
+        let (text, sound) = table(&outcomes, &argued(&reasons));
         print!("{text}");
         renew(&root().join(PAGE), MARKS, &text)?;
         Ok(sound)

@@ -74,7 +74,7 @@ fn width_of(content: &str, m: &Measures) -> f64 {
 fn colour_bar(svg: &mut Svg, colours: &Colours, m: &Measures, left: f64, across: f64) {
     let inset = 2.0 * m.font;
     let width = BAR.min(across - inset);
-    let scale = Scale::new(&Axis::tight("", 0.0), colours.range, [0.0, width], m.apart[0]);
+    let scale = Scale::new(&Axis::tight("", 0.0), colours.range, [0.0, width], m.apart[0].min(width / 4.0));
     svg.group(attributes! { "transform": "translate({:.1} 0)"(left.max(inset)) }, |svg| {
         svg.text([0.0, 1.1 * m.font], "start", &colours.label);
         let (top, high) = (1.6 * m.font, 0.8 * m.font);

@@ -15,7 +15,7 @@ pub(crate) struct Measures {
 
 /// Screens and paper.
 pub(crate) const WIDE: Measures =
-    Measures { class: "wide", width: 900.0, font: 14.0, apart: [75.0, 42.0], columns: 2, first: true };
+    Measures { class: "wide", width: 900.0, font: 14.0, apart: [75.0, 42.0], columns: 3, first: true };
 /// Phones.
 pub(crate) const NARROW: Measures =
     Measures { class: "narrow", width: 360.0, font: 12.0, apart: [55.0, 30.0], columns: 1, first: false };

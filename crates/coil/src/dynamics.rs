@@ -3,7 +3,7 @@
 use crate::mechanics::Blend;
 use crate::{
     BiasOperator, Design, Drifts, Drive, Error, MODEL_SAFETY, MechanicalState, MeshFineness, Model, Output, Outputs,
-    ParametricModel, Profile, Reduced, Reduction, Steps, ThermalModel, ThermalState, TurnFields,
+    ParametricModel, Profile, Reduced, Reduction, SectionFields, Steps, ThermalModel, ThermalState, TurnFields,
 };
 use bias::Bias;
 use nalgebra::{DMatrix, DVector};
@@ -178,10 +178,22 @@ impl Dynamics {
     /// # Errors
     /// As [`Self::new`].
     pub fn with_fields(design: &Design, drives: &[Drive], fidelity: &Fidelity) -> Result<(Self, TurnFields), Error> {
+        Self::with_section(design, drives, fidelity).map(|(dynamics, fields, _)| (dynamics, fields))
+    }
+
+    /// As [`Self::with_fields`], and with the fields everywhere in coil and spool, for a [`crate::Section`].
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_section(
+        design: &Design,
+        drives: &[Drive],
+        fidelity: &Fidelity,
+    ) -> Result<(Self, TurnFields, SectionFields), Error> {
         let (dynamics, thermal, modes, nominal) = Self::reduce(design, drives, fidelity)?;
         let nominal = nominal.map_or_else(|| Model::new(design, &fidelity.resolution), Ok)?;
-        let fields = TurnFields::new(&nominal, &thermal, &modes)?;
-        Ok((dynamics, fields))
+        let (fields, section) = TurnFields::with_section(&nominal, &thermal, &modes)?;
+        Ok((dynamics, fields, section))
     }
 
     /// Of a design in a parametric model's box, in milliseconds: driven by the chamber, and by its heaters if it has any. The others stand

@@ -1,6 +1,6 @@
 //! Temperature and strain of the glass at every turn, for any state of a reduced model.
 
-use crate::{Error, Model, ThermalModel, ThermalState, TurnValues};
+use crate::{Error, Model, SectionFields, ThermalModel, ThermalState, TurnValues};
 use bias::Optics;
 use nalgebra::{DMatrix, DVector};
 use winding::Winding;
@@ -30,19 +30,33 @@ impl TurnFields {
     /// [`Error::Solve`] if a solve leaves a residual; [`Error::Resolution`] if the two models differ in their
     /// [`crate::MeshFineness`].
     pub fn new(model: &Model, thermal: &ThermalModel, modes: &[Vec<f64>]) -> Result<Self, Error> {
+        Ok(Self::with_section(model, thermal, modes)?.0)
+    }
+
+    /// As [`Self::new`], with the fields everywhere in coil and spool.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_section(model: &Model, thermal: &ThermalModel, modes: &[Vec<f64>]) -> Result<(Self, SectionFields), Error> {
         let shared = model.grid().shared_nodes(thermal.grid())?;
         let onto = |field: &Vec<f64>| shared.iter().map(|&node| field[node]).collect::<Vec<f64>>();
         let columns: Vec<Vec<f64>> = thermal.shapes().iter().chain(modes).map(onto).collect();
-        let values = model.at_turns(&columns)?;
+        let displacements = model.displacements(&columns)?;
+        let turns = Self::of(model, &model.at_turns_of(&columns, &displacements));
+        Ok((turns, SectionFields::new(&columns, &displacements)))
+    }
+
+    /// Of the values of each column.
+    fn of(model: &Model, values: &[TurnValues]) -> Self {
         let of = |value: fn(&TurnValues) -> &Vec<f64>| {
             DMatrix::from_iterator(model.winding().turns().len(), values.len(), values.iter().flat_map(value).copied())
         };
-        Ok(Self {
+        Self {
             temperature: of(|v| &v.temperature),
             axial: of(|v| &v.axial),
             radial: of(|v| &v.radial),
             bore: values.iter().map(|v| v.bore).collect(),
-        })
+        }
     }
 
     /// The parts of the bias as functionals of drives and modes, for these turns in a fibre wound as `winding`: phases \[rad\] whose

@@ -300,6 +300,11 @@ impl Grid {
         intervals(lines, x).into_iter().map(functions).collect()
     }
 
+    /// Slope of each shape function along a side of −1 … 1, at each node of the side.
+    pub(crate) fn slopes(&self) -> Vec<Vec<f64>> {
+        gauss_lobatto(self.mesh.order()).into_iter().map(|xi| self.basis.evaluate(xi).1).collect()
+    }
+
     /// Element beside each meshed cell in a direction.
     fn neighbour(&self, cell: usize, edge: Edge) -> Option<usize> {
         let columns = self.r_lines.len() - 1;

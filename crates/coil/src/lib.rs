@@ -11,7 +11,7 @@
 //! the temperature rate at every node ([`BiasOperator`]). In a steady ramp that rate is uniform and its sum is the sensitivity:
 //! [`steady_sensitivity`], with an error measured on a finer mesh. [`ThermalModel`] is the heat flow, stepped in full or reduced to
 //! a few exponentials ([`Reduced`], stepped by [`Steps`]); [`Dynamics`] runs a chamber profile through both, and [`TurnFields`] gives temperature and strain
-//! of every turn back. [`ParametricModel`] does the same for all designs within ranges of their constants and dimensions, in milliseconds, with
+//! of every turn back, [`Section`] those everywhere in coil and spool. [`ParametricModel`] does the same for all designs within ranges of their constants and dimensions, in milliseconds, with
 //! derivatives.
 //!
 //! Conventions: SI units; y = 0 is the coil's left face, +y its right; the strain-free state is ΔT = 0; surfaces are free of
@@ -36,6 +36,7 @@ mod model;
 mod parametric;
 mod probe;
 mod profile;
+mod section;
 mod sensitivity;
 mod thermal;
 mod trim;
@@ -59,6 +60,7 @@ pub use parametric::{
     Tolerance, Tolerances,
 };
 pub use profile::{Profile, Smooth};
+pub use section::{Places, PointValues, Section, SectionElement, SectionFields, SectionState};
 pub use sensitivity::{
     CHECKS, COARSE, FINE, SAFETY, SHARE, STEADY, SteadySensitivity, sensitivity_in, sensitivity_on, steady_sensitivity,
 };

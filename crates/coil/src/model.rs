@@ -134,19 +134,22 @@ impl Model {
     /// # Errors
     /// [`Error::Solve`] if a solve leaves a residual.
     pub fn at_turns(&self, temperatures: &[Vec<f64>]) -> Result<Vec<TurnValues>, Error> {
-        let coupling = self.coupling()?;
-        let loads: Vec<_> = temperatures.iter().map(|t| self.map.restrict(&coupling.multiply(t))).collect();
+        Ok(self.at_turns_of(temperatures, &self.displacements(temperatures)?))
+    }
+
+    /// As [`Self::at_turns`], from the [displacements](Self::displacements) that the temperatures cause.
+    pub(crate) fn at_turns_of(&self, temperatures: &[Vec<f64>], displacements: &[Vec<f64>]) -> Vec<TurnValues> {
         let m = self.dehomogenization;
         let values = |(u, nodal): (&Vec<f64>, &Vec<f64>)| {
-            let (u, temperature) = (self.map.expand(u), self.temperature_at_turns(nodal));
+            let temperature = self.temperature_at_turns(nodal);
             let strain = |(p, t): (&Probe, &f64)| {
-                let [rr, yy, hoop] = p.strain_of(&u);
+                let [rr, yy, hoop] = p.strain_of(u);
                 (hoop, m.m_rx * rr + m.m_ry * yy + m.m_rz * hoop + m.m_rt * t)
             };
             let (axial, radial) = self.probes.iter().zip(&temperature).map(strain).unzip();
             TurnValues { temperature, axial, radial, bore: self.temperature_at_bore(nodal) }
         };
-        Ok(at("structure", self.factor.solve(&loads))?.iter().zip(temperatures).map(values).collect())
+        displacements.iter().zip(temperatures).map(values).collect()
     }
 
     /// Nodal displacements caused by fields of nodal temperature \[m\], component fastest.

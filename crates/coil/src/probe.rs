@@ -109,6 +109,18 @@ impl Probe {
         ]
     }
 
+    /// Engineering shear ry of the displacement (u_r, u_y), component fastest.
+    pub(crate) fn shear_of(&self, u: &[f64]) -> f64 {
+        self.mean(|hit| {
+            hit.sum(&hit.r.value, &hit.y.slope, |node| u[2 * node]) + hit.sum(&hit.r.slope, &hit.y.value, |node| u[2 * node + 1])
+        })
+    }
+
+    /// A component of the displacement (u_r, u_y), component fastest.
+    pub(crate) fn component_of(&self, u: &[f64], component: usize) -> f64 {
+        self.mean(|hit| hit.sum(&hit.r.value, &hit.y.value, |node| u[2 * node + component]))
+    }
+
     /// Adds `factor` times the value to a functional of a nodal field.
     pub(crate) fn add_value(&self, functional: &mut [f64], factor: f64) {
         let share = factor / self.hits.len() as f64;

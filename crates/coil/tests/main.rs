@@ -8,5 +8,6 @@ mod exact;
 mod fields;
 mod inverse;
 mod parametric;
+mod section;
 mod sensitivity;
 mod trim;

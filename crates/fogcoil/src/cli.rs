@@ -2,9 +2,8 @@
 
 use std::path::PathBuf;
 
-use clap::{ArgGroup, Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use fogcoil::input::Between;
 
 use crate::cli_batch::BatchOf;
 use crate::cli_calibrate::Calibrate;
@@ -16,6 +15,7 @@ use crate::cli_measure::Measure;
 use crate::cli_new::New;
 use crate::cli_optimise::Optimise;
 use crate::cli_recommend::Recommend;
+use crate::cli_simulate::Simulate;
 use crate::cli_sweep::Sweep;
 
 /// Thermal bias of fibre-optic-gyroscope coils.
@@ -153,62 +153,4 @@ pub(crate) struct Diagnose {
     /// Build the models anew and do not keep them
     #[arg(long)]
     pub(crate) no_cache: bool,
-}
-
-#[derive(Args)]
-#[command(group(ArgGroup::new("drive").required(true).args(["profile", "spool"])))]
-pub(crate) struct Simulate {
-    /// Case file of the coil
-    #[arg(value_name = "COIL.ron")]
-    pub(crate) coil: PathBuf,
-    /// Profile: time_s,chamber_c and, where wanted, left_c, right_c, mount_left_c, mount_right_c
-    #[arg(long, value_name = "P.csv")]
-    pub(crate) profile: Option<PathBuf>,
-    /// How the temperatures run between the profile's rows
-    #[arg(long, value_enum, default_value_t = Between::Linear, conflicts_with = "spool")]
-    pub(crate) between: Between,
-    /// Add rows on the straight lines between the profile's, so that none lasts longer than this many seconds
-    #[arg(long, value_name = "S", value_parser = step, conflicts_with = "spool")]
-    pub(crate) step: Option<f64>,
-    /// In place of a profile: a record time_s,spool_c of the spool's thermometer, from rest, to infer the chamber from
-    #[arg(long, value_name = "RECORD.csv")]
-    pub(crate) spool: Option<PathBuf>,
-    /// Standard deviation of the record's readings in K, rounding included
-    #[arg(long, value_name = "K", conflicts_with = "profile", value_parser = noise, default_value = "0.01")]
-    pub(crate) spool_noise: f64,
-    /// A mechanism of your own that is at work, its parameters with values; may be given more than once
-    #[arg(long = "mechanism", value_name = "MECHANISM.ron")]
-    pub(crate) mechanisms: Vec<PathBuf>,
-    /// Write the result here, a row for each of the profile's (and of --step)
-    #[arg(long, value_name = "B.csv")]
-    pub(crate) out: PathBuf,
-    /// Write a page with plots here
-    #[arg(long, value_name = "R.html")]
-    pub(crate) report: Option<PathBuf>,
-    /// Write rate and thermometer with one standard deviation by the design's tolerances here, and tell which tolerance matters
-    #[arg(long, value_name = "BAND.csv")]
-    pub(crate) band: Option<PathBuf>,
-    /// Print the summary as one JSON object
-    #[arg(long)]
-    pub(crate) json: bool,
-    /// Build the model anew and do not keep it ($FOGCOIL_CACHE, else $XDG_CACHE_HOME/fogcoil, else ~/.cache/fogcoil)
-    #[arg(long)]
-    pub(crate) no_cache: bool,
-}
-
-/// Largest noise \[K\] of a thermometer that says anything.
-const MOST_NOISE: f64 = 10.0;
-
-fn noise(text: &str) -> Result<f64, String> {
-    let least = coil::LEAST_NOISE;
-    let number = text.parse().ok().filter(|noise| (least..=MOST_NOISE).contains(noise));
-    number.ok_or_else(|| format!("give kelvins from {least} to {MOST_NOISE}"))
-}
-
-/// Steps \[s\] that a profile can be divided into.
-const STEPS_S: std::ops::RangeInclusive<f64> = 1.0..=1e6;
-
-fn step(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|step| STEPS_S.contains(step));
-    number.ok_or_else(|| format!("give seconds from {} to {}", STEPS_S.start(), STEPS_S.end()))
 }

@@ -6,7 +6,7 @@ use clap::{Command, CommandFactory};
 use clap_complete::Shell;
 use clap_mangen::Man;
 use fogcoil::Error;
-use fogcoil::output::Content;
+use fogcoil::output::{self, Content};
 
 use crate::cli::Cli;
 use crate::print;
@@ -31,8 +31,7 @@ pub(crate) fn man(dir: Option<&Path>, progress: &Progress) -> Result<(), Error> 
     let pages: Vec<Command> = std::iter::once(program.clone()).chain(named).collect();
     let pages: Vec<(PathBuf, String)> =
         pages.into_iter().map(|c| Ok((dir.join(format!("{}.1", c.get_name())), page(c)?))).collect::<Result<_, Error>>()?;
-    let made = std::fs::create_dir_all(dir);
-    made.map_err(|source| files::Error::Output { file: dir.to_owned(), source })?;
+    output::make_folder(dir)?;
     let files: Vec<(&Path, Content)> = pages.iter().map(|(path, text)| (path.as_path(), Content::Text(text.clone()))).collect();
     progress.save(&files)
 }

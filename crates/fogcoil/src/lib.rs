@@ -58,6 +58,7 @@ pub mod picture_cell;
 pub mod prepare;
 pub mod recommend;
 pub mod report;
+pub mod section_files;
 pub mod sensitivity;
 pub mod simulate;
 pub mod summary;
@@ -65,6 +66,7 @@ pub mod sweep;
 mod table;
 pub mod tabular;
 pub mod trim;
+mod turn_bias;
 pub mod variants;
 pub mod wind;
 

@@ -12,6 +12,7 @@ mod cli_measure;
 mod cli_new;
 mod cli_optimise;
 mod cli_recommend;
+mod cli_simulate;
 mod cli_sweep;
 mod progress;
 mod signals;
@@ -22,16 +23,13 @@ use std::process::ExitCode;
 
 use crate::progress::Progress;
 use clap::Parser;
-use cli::{Cli, Command, Diagnose, Simulate};
+use cli::{Cli, Command, Diagnose};
 use cli_check::Check;
-use coil::Drive;
 use fogcoil::cache::Cache;
 use fogcoil::glossary::{Note, Remark};
-use fogcoil::input::{Between, RecordOptions};
+use fogcoil::input::RecordOptions;
 use fogcoil::output::Content;
-use fogcoil::{
-    Error, band, check, diagnose, figures, identify, input, output, picture, report, sensitivity, simulate, summary, trim, wind,
-};
+use fogcoil::{Error, check, diagnose, identify, input, output, picture, sensitivity, trim, wind};
 
 fn main() -> ExitCode {
     let cli = Cli::try_parse().unwrap_or_else(|error| refuse(&error));
@@ -72,7 +70,7 @@ fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
         Command::New(arguments) => cli_new::run(arguments),
         Command::Optimise(arguments) => cli_optimise::run(arguments, progress),
         Command::Recommend(arguments) => cli_recommend::run(arguments, progress),
-        Command::Simulate(arguments) => run_simulate(arguments, progress),
+        Command::Simulate(arguments) => cli_simulate::run(arguments, progress),
         Command::Sweep(arguments) => cli_sweep::run(arguments, progress),
         Command::Trim { coil, profile, json } => run_trim(coil, profile.as_deref(), *json, progress),
         Command::Wind { coil, csv, svg, json } => run_wind(coil, csv.as_deref(), svg.as_deref(), *json, progress),
@@ -188,7 +186,7 @@ fn run_check(arguments: &Check, progress: &Progress) -> Result<(), Error> {
 }
 
 /// The remedy for rows that last long where --step is none.
-const CLOSER: &str = "give the profile closer rows";
+pub(crate) const CLOSER: &str = "give the profile closer rows";
 
 fn run_trim(coil: &Path, profile: Option<&Path>, json: bool, progress: &Progress) -> Result<(), Error> {
     let case = progress.read_coil(coil)?;
@@ -199,66 +197,6 @@ fn run_trim(coil: &Path, profile: Option<&Path>, json: bool, progress: &Progress
     }
     let result = progress.during("trimming", || trim::trim(&case, profile.as_ref()))?;
     print(&if json { line(&trim::json(&result)) } else { trim::text(&case, &result) })
-}
-
-fn run_simulate(arguments: &Simulate, progress: &Progress) -> Result<(), Error> {
-    let Simulate { coil, profile, between, step, spool, spool_noise, mechanisms, out, report, band, json, no_cache } = arguments;
-    let own = input::read_simulated(mechanisms)?;
-    let further = input::further_columns(&own);
-    let inputs: Vec<PathBuf> = [profile, spool].into_iter().flatten().chain(mechanisms).cloned().collect();
-    let case = progress.read_coil_for(coil, &inputs, &[Some(out), report.as_deref(), band.as_deref()])?;
-    let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
-    let drawn = report.is_some() && case.winding.turns().len() <= figures::MOST_TURNS;
-    let model = |drives: &[Drive]| {
-        progress.during("modelling the coil", || match drawn {
-            true => simulate::model_with_fields(&case, drives, &cache).map(|(model, fields)| (model, Some(fields))),
-            false => simulate::model(&case, drives, &cache).map(|model| (model, None)),
-        })
-    };
-    let ((model, fields), profile) = match (profile, spool) {
-        (_, Some(spool)) => {
-            let record =
-                progress.during(&format!("reading {}", files::shown_path(spool)), || input::read_spool(spool, &case.design))?;
-            let model = model(&record.drives)?;
-            let profile = progress.during("inferring the chamber", || simulate::infer(record, *spool_noise, &model.0))?;
-            (model, profile)
-        }
-        (Some(profile), None) => {
-            let mut profile = progress.during(&format!("reading {}", files::shown_path(profile)), || {
-                input::read_profile(profile, &case.design, &further)
-            })?;
-            profile.between = *between;
-            match (step, between) {
-                (Some(step), Between::Linear) => profile.divide(*step)?,
-                (Some(_), Between::Cubic) => {
-                    return Err(Error::usage("--step adds rows on straight lines: it does not go with --between cubic"));
-                }
-                (None, _) => {}
-            }
-            profile.note_long_rows(if *between == Between::Linear { "give --step 30" } else { CLOSER });
-            (model(&profile.drives)?, profile)
-        }
-        (None, None) => return Err(Error::usage("give a profile (--profile) or a thermometer's record (--spool)")),
-    };
-    progress.tell(&profile.notes);
-    let task = format!("simulating {} rows", profile.profile.time.len());
-    let mut simulation = progress.during(&task, || simulate::simulate(&case, &profile, &model))?;
-    progress.tasks(|tell| simulation.add(&own, &cache, tell))?;
-    progress.tell(simulation.warning().as_slice());
-    let within = band.as_ref().map(|_| progress.tasks(|tell| band::band(&simulation, &cache, tell))).transpose()?;
-    let rows = |out: &mut dyn Write| simulation.write_csv(out);
-    let bands = |out: &mut dyn Write| within.iter().try_for_each(|within| within.write_csv(out));
-    let mut files = vec![(out.as_path(), Content::Written(&rows))];
-    files.extend(band.as_deref().map(|path| (path, Content::Written(&bands))));
-    if let Some(path) = report {
-        let measured = progress.during("solving on finer meshes", || figures::Convergence::measure(&case, &cache))?;
-        files.push((path, Content::Text(report::html(&simulation, fields.as_ref(), Some(&measured)))));
-    }
-    progress.during(&format!("writing {}", files::shown_path(out)), || progress.save(&files))?;
-    let mut object = summary::json(&simulation);
-    object["tolerances"] = within.as_ref().map_or(serde_json::Value::Null, band::CourseBand::json);
-    let told = within.as_ref().map_or(String::new(), band::CourseBand::text);
-    print(&if *json { line(&object) } else { summary::text(&simulation) + &told })
 }
 
 fn line(json: &serde_json::Value) -> String {

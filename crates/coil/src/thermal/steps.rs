@@ -88,6 +88,15 @@ impl Reduced {
         state.drives.iter_mut().zip(&step.slope).for_each(|(u, slope)| *u += slope * since);
         state
     }
+
+    /// How fast a state changes while the drives change at `slope`: all of it per second.
+    pub fn change(&self, state: &ThermalState, slope: &[f64]) -> ThermalState {
+        let mode = |((rate, drive), q): ((&f64, &Vec<f64>), &f64)| {
+            -rate * q - drive.iter().zip(slope).map(|(drive, slope)| drive * slope).sum::<f64>()
+        };
+        let amplitudes = self.rates.iter().zip(&self.drive).zip(&state.amplitudes).map(mode).collect();
+        ThermalState { drives: slope.to_vec(), amplitudes }
+    }
 }
 
 impl Steps<'_> {

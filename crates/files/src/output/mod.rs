@@ -122,6 +122,14 @@ pub fn write_new(path: &Path, text: &str) -> Result<(), Error> {
     })
 }
 
+/// Makes a folder and those above it, if they are not there.
+///
+/// # Errors
+/// [`Error::Output`] if it cannot be made.
+pub fn make_folder(folder: &Path) -> Result<(), Error> {
+    fs::create_dir_all(folder).map_err(|source| Error::Output { file: folder.to_owned(), source })
+}
+
 /// Where the file at `path` is or will be: in a folder that exists, links resolved.
 fn place(path: &Path) -> Result<PathBuf, Error> {
     const STREAM: &str = "is a device or a pipe; name a file (only a summary, with --json, goes to standard output)";

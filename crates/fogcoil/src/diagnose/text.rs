@@ -27,7 +27,7 @@ impl Outcome<'_> {
             for ((id, stage, extent), active) in self.places().zip(&d.best().fit.active) {
                 let _ = writeln!(out, "{id}: {}.", place(stage, &extent));
                 if let Naming::Named { meaning, inspection } = self.gyro.mechanism(active.mechanism).facts().naming {
-                    let _ = writeln!(out, "  What it is: {meaning}.\n  What would show it: {inspection}.");
+                    let _ = writeln!(out, "  Meaning: {meaning}.\n  Inspection: {inspection}.");
                 }
             }
             if let Some(structure) = self.structure() {
@@ -35,21 +35,23 @@ impl Outcome<'_> {
             }
         }
         if self.holdouts.is_empty() && d.verdict != Verdict::None {
-            out.push_str("No record was held out: what was fitted is not proven on data that it has not seen (--holdout).\n");
+            out.push_str("No record was held out, so the result is not proven on data outside the fit (--holdout).\n");
         }
         let composed = self.composed.as_ref().map(|composed| composed.text());
         if let Some((law, _)) = &composed {
             out.push_str(law);
         }
         if d.verdict == Verdict::Unknown {
-            out.push_str("What to do: check signs, columns, units and times (fogcoil check), then repeat the test under another profile.\n");
+            out.push_str(
+                "Next: check signs, columns, units and times (fogcoil check), then repeat the test under another profile.\n",
+            );
         }
         if let (Verdict::Unknown, Some(best)) = (d.verdict, self.best_named()) {
             let ids: Vec<&str> = best.fit.active.iter().map(|a| self.id(a.mechanism)).collect();
             let values = (0..ids.len()).flat_map(|place| best.fit.estimates(&self.gyro, place));
             let values: Vec<String> = values.map(|e| format!("{} = {}", e.name, significant(e.value, 4))).collect();
             let [ids, values] = [ids.join(" and "), values.join(", ")];
-            let _ = writeln!(out, "The nearest that has a name: {ids} ({values}).");
+            let _ = writeln!(out, "Nearest named mechanism: {ids} ({values}).");
         }
         if let Some(alternatives) = self.alternatives() {
             let _ = writeln!(out, "{alternatives}");
@@ -90,14 +92,14 @@ impl Outcome<'_> {
                 rows.push(line(&format!("  thermometer, {name}"), significant(model, 3), "K"));
             }
             if !held.accepted && d.verdict != Verdict::None {
-                rows.push(line("  what was fitted is worse here: not accepted", String::new(), ""));
+                rows.push(line("  the fitted model is worse here: not accepted", String::new(), ""));
             }
         }
         out.push_str(&table(&rows));
         if self.likely().next().is_some() {
             out.push_str(
-                "(probability of a mechanism: that it takes part, alone or with others of the library, so that they may add up to more than 1; \
-                 what has no name may stand alone or beside one that has)\n",
+                "(The probability of a mechanism is the probability that it takes part, alone or with others, so the numbers may add up to more \
+                 than 1. Something without a name may act alone or together with a named mechanism.)\n",
             );
         }
         out
@@ -106,7 +108,7 @@ impl Outcome<'_> {
     pub(super) fn verdict(&self) -> String {
         match self.diagnosis.verdict {
             Verdict::None if !self.withdrawn.is_empty() => {
-                "What explained the fitted records is taken back: the nominal model predicts the record that was held out.".to_owned()
+                "The explanation of the fitted records is taken back: the nominal model predicts the record that was held out.".to_owned()
             }
             Verdict::None => format!("The nominal model suffices{}.", self.how_surely("no difference beyond noise")),
             Verdict::Recalibrate if self.drawing_stands() => format!(
@@ -128,7 +130,7 @@ impl Outcome<'_> {
                 }
             }
             Verdict::Unknown if !self.withdrawn.is_empty() && self.law().is_none() => {
-                "What explained the fitted records is taken back: a record that was held out contradicts it. What is at work is unknown."
+                "The explanation of the fitted records is taken back: a record that was held out contradicts it. The cause is unknown."
                     .to_owned()
             }
             Verdict::Unknown => {
@@ -154,7 +156,7 @@ impl Outcome<'_> {
     pub(super) fn alternatives(&self) -> Option<String> {
         let ids = self.apart();
         let command = (!ids.is_empty()).then(|| self.recommend(&ids))?;
-        Some(format!("These records do not exclude: {}. What would tell: {command}", self.others().join(", ")))
+        Some(format!("These records do not exclude: {}. This test would tell them apart: {command}", self.others().join(", ")))
     }
 }
 

@@ -1,13 +1,14 @@
 //! Temperature and strain along the fibre, in time and at chosen instants (Figs. 4 to 6).
 
-use charts::{Axis, Colours, Figure, HeatMap, Height, Panel, Series, Style, signed};
+use charts::{Axis, Colours, Figure, HeatMap, Height, Panel, Series, Style};
 use coil::{Mechanics, ThermalState, TurnFields, TurnValues};
 use winding::Winding;
 
 use super::course::time_axis;
 use super::document::MOST_TURNS;
+use super::instants::{Chosen, Instants};
 use crate::simulate::{Sample, Simulation};
-use crate::units::{DurationUnit, to_ppm};
+use crate::units::to_ppm;
 
 /// Stretches of fibre in a map: a few for each layer, but no more than the paper shows.
 const STRETCHES: usize = 180;
@@ -20,8 +21,6 @@ type Field = fn(&At) -> Vec<f64>;
 
 /// Values at every turn at one instant.
 struct At {
-    /// Instant \[s\].
-    time: f64,
     /// Strains are counted from the first row.
     values: TurnValues,
     /// Mean temperature of the fibre \[°C\].
@@ -98,32 +97,29 @@ struct Course<'a> {
     samples: &'a [Sample],
     /// Drives at rest: what strains count from.
     rest: Vec<f64>,
-    /// Mean temperature at each sample.
-    means: Vec<f64>,
-    /// Samples of which curves are drawn, in order of time.
-    chosen: Vec<Chosen>,
+    instants: Instants,
 }
 
 impl<'a> Course<'a> {
     fn of(simulation: &'a Simulation, fields: &'a TurnFields) -> Self {
         let winding = &simulation.case.winding;
         let samples = &simulation.samples;
-        let shares: Vec<f64> = winding.turns().iter().map(|t| (t.z_end - t.z_start) / winding.wound_length()).collect();
-        let mean_of_column = |j: usize| fields.temperature.column(j).iter().zip(&shares).map(|(t, share)| t * share).sum::<f64>();
-        let mean_of: Vec<f64> = (0..fields.temperature.ncols()).map(mean_of_column).collect();
-        let mean = |sample: &Sample| sample.state.vector().iter().zip(&mean_of).map(|(a, b)| a * b).sum::<f64>();
-        let means: Vec<f64> = samples.iter().map(mean).collect();
-        let chosen = chosen(samples, &means);
-        Self { winding, fields, samples, rest: simulation.profile.profile.rest(&simulation.profile.drives), means, chosen }
+        Self {
+            winding,
+            fields,
+            samples,
+            rest: simulation.profile.profile.rest(&simulation.profile.drives),
+            instants: Instants::of(simulation, fields),
+        }
     }
 
     fn at(&self, sample: usize) -> At {
-        let Sample { time, state } = &self.samples[sample];
+        let Sample { state, .. } = &self.samples[sample];
         let since = state.drives.iter().zip(&self.rest).map(|(u, rest)| u - rest).collect();
         let mut values = self.fields.at(&ThermalState { drives: since, ..state.clone() });
         // temperatures count from 0 °C
         values.temperature = self.fields.at(state).temperature;
-        At { time: *time, values, mean: self.means[sample] }
+        At { values, mean: self.instants.means[sample] }
     }
 
     /// Means over stretches of fibre, a column for each sample.
@@ -158,7 +154,7 @@ impl<'a> Course<'a> {
             values.iter().filter(|v| v.is_finite()).fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(*v), b.max(*v)]);
         let mut panels = Vec::new();
         if let Some(label) = words.absolute {
-            let points = self.samples.iter().zip(&self.means).map(|(s, mean)| (time(s.time), *mean)).collect();
+            let points = self.samples.iter().zip(&self.instants.means).map(|(s, mean)| (time(s.time), *mean)).collect();
             let unlabelled = Axis::tight("", x.least_span).covering(ends);
             panels.push(Panel::lines(unlabelled, Axis::round(label, 0.1), 7.0, vec![Series::new("", Style::First, points)]));
         }
@@ -173,7 +169,7 @@ impl<'a> Course<'a> {
         };
         let along = Axis::tight("place along the fibre z [m]", 1e-6);
         panels.push(Panel::map(x, along.clone(), Height::Lines(18.0), map));
-        let curves = self.chosen.iter().map(|chosen| self.curve(simulation, *chosen, words.field)).collect();
+        let curves = self.instants.chosen.iter().map(|chosen| self.curve(simulation, *chosen, words.field)).collect();
         panels.push(Panel::lines(along.covering([0.0, length]), Axis::round(words.quantity, words.least), 18.0, curves));
         Figure {
             id: words.id,
@@ -188,39 +184,12 @@ impl<'a> Course<'a> {
         }
     }
 
-    fn curve<'b>(&self, simulation: &Simulation, Chosen { sample, kind, what }: Chosen, field: Field) -> Series<'b> {
-        let at = self.at(sample);
+    fn curve<'b>(&self, simulation: &Simulation, chosen: Chosen, field: Field) -> Series<'b> {
+        let at = self.at(chosen.sample);
         let values = field(&at);
         let places = self.winding.turns().iter().map(|t| (t.z_start + t.z_end) / 2.0);
-        let unit = DurationUnit::of(simulation.duration());
-        let since = unit.of_seconds(at.time - simulation.row(0).time);
-        let name = format!("{what}, after {since:.2} {}, mean {} °C", unit.name, signed(at.mean, 1));
-        Series::new(name, Style::Fine(kind), places.zip(values).collect())
+        let [since, mean] = self.instants.when(simulation, chosen);
+        let name = format!("{}, after {since}, mean {mean}", chosen.what);
+        Series::new(name, Style::Fine(chosen.kind), places.zip(values).collect())
     }
-}
-
-/// A sample of which a curve is drawn.
-#[derive(Clone, Copy)]
-struct Chosen {
-    sample: usize,
-    /// Its colour: 0 warming, 1 warmest, 2 cooling.
-    kind: u8,
-    what: &'static str,
-}
-
-/// The samples of fastest warming, highest temperature and fastest cooling, each once.
-fn chosen(samples: &[Sample], means: &[f64]) -> Vec<Chosen> {
-    let rate = |i: &usize| {
-        let (a, b) = (i.saturating_sub(1), (i + 1).min(samples.len() - 1));
-        let dt = samples[b].time - samples[a].time;
-        if dt > 0.0 { (means[b] - means[a]) / dt } else { 0.0 }
-    };
-    let best = |value: &dyn Fn(&usize) -> f64| (0..samples.len()).max_by(|a, b| value(a).total_cmp(&value(b)));
-    let all =
-        [(1, best(&|i| means[*i]), "warmest"), (0, best(&rate), "fastest warming"), (2, best(&|i| -rate(i)), "fastest cooling")];
-    let mut chosen: Vec<Chosen> =
-        all.into_iter().filter_map(|(kind, sample, what)| Some(Chosen { sample: sample?, kind, what })).collect();
-    chosen.sort_by_key(|c| c.sample);
-    chosen.dedup_by_key(|c| c.sample);
-    chosen
 }

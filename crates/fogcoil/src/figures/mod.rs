@@ -3,20 +3,23 @@
 //!
 //! Each figure is drawn once and stands either in a page ([`crate::report`]) or alone as an SVG document ([`documents`]).
 
+mod blocks;
 mod contributions;
 mod convergence;
 mod course;
 mod document;
 mod fields;
+mod instants;
 mod model;
+mod section;
+mod section_maps;
 mod signatures;
 mod spools;
 
 use charts::Figure;
-use coil::TurnFields;
 use maud::{Markup, html};
 
-use crate::simulate::Simulation;
+use crate::simulate::{Fields, Simulation};
 
 pub use contributions::contributions_in_ramp;
 pub use convergence::{Convergence, convergence};
@@ -27,24 +30,25 @@ pub use signatures::signatures;
 pub use spools::{OnSpool, spools, spools_element};
 
 /// All figures; those of the fields only with `fields`.
-fn all<'a>(simulation: &'a Simulation, fields: Option<&TurnFields>) -> Vec<Figure<'a>> {
-    let mut figures = vec![model::figure(simulation.case)];
+fn all<'a>(simulation: &'a Simulation, fields: Option<&Fields>) -> Vec<Figure<'a>> {
+    let mut figures: Vec<Figure> = fields.into_iter().flat_map(|fields| section::all(simulation, fields)).collect();
+    figures.push(model::figure(simulation.case));
     figures.extend(course::all(simulation));
     if let Some(fields) = fields {
-        figures.extend(fields::all(simulation, fields));
-        figures.extend(contributions::figure(simulation, fields));
+        figures.extend(fields::all(simulation, &fields.turns));
+        figures.extend(contributions::figure(simulation, &fields.turns));
     }
     figures
 }
 
 /// All figures of a simulation as files of their own; those of temperature and strain along the fibre and of the turns' contributions
 /// only with `fields`.
-pub fn documents(simulation: &Simulation, fields: Option<&TurnFields>) -> Vec<Document> {
+pub fn documents(simulation: &Simulation, fields: Option<&Fields>) -> Vec<Document> {
     all(simulation, fields).iter().map(|figure| (figure.id, figure.document())).collect()
 }
 
 /// All figures as elements of a page, in wide and narrow, each with its data.
-pub(crate) fn elements(simulation: &Simulation, fields: Option<&TurnFields>, convergence: Option<&Convergence>) -> Markup {
+pub(crate) fn elements(simulation: &Simulation, fields: Option<&Fields>, convergence: Option<&Convergence>) -> Markup {
     let last = convergence.map(|measured| convergence::figure(simulation.case, measured));
     html! { @for figure in all(simulation, fields).iter().chain(&last) { (figure.element()) } }
 }

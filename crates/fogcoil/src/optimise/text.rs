@@ -79,7 +79,8 @@ fn of_optimum(plan: &Plan, found: &Found, checked: &Checked) -> String {
         vec![key.clone(), value, total.map_or("no design".into(), |total| significant(total, 4))]
     };
     let rows: Vec<Vec<String>> = [head, start].into_iter().chain(checked.path.iter().map(step)).collect();
-    let shares = Share::of(&checked.case, &checked.band).into_iter().take(4).map(|s| format!("{} ({:.0} %)", s.key, 100.0 * s.share));
+    let shares =
+        Share::of(&checked.case, &checked.band).into_iter().take(4).map(|s| format!("{} ({:.0} %)", s.key, 100.0 * s.share));
     let _ = write!(out, "{}\nwhat is left of its spread comes from {}\n", table(&rows), shares.collect::<Vec<_>>().join(", "));
     out
 }

@@ -6,19 +6,18 @@ mod provenance;
 pub use provenance::provenance;
 
 use charts::{nice, row, signed, significant};
-use coil::TurnFields;
 use maud::{Markup, html};
 use recording::Seconds;
 
 use crate::figures;
-use crate::simulate::Simulation;
+use crate::simulate::{Fields, Simulation};
 use crate::summary::{Summary, entries};
 
 const PARTS: [(&str, &str); 3] =
     [("shupe", "Shupe"), ("eo_axial", "elasto-optic, axial strain"), ("eo_radial", "elasto-optic, radial strain")];
 
 /// The page; temperature, strain and contributions of the turns only with `fields`.
-pub fn html(simulation: &Simulation, fields: Option<&TurnFields>, convergence: Option<&figures::Convergence>) -> String {
+pub fn html(simulation: &Simulation, fields: Option<&Fields>, convergence: Option<&figures::Convergence>) -> String {
     let profile = simulation.profile.fingerprint.file.file_name().unwrap_or_default().to_string_lossy();
     let title = format!("{} under {profile}", simulation.case.name);
     let body = html! {

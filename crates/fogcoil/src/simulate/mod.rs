@@ -5,18 +5,20 @@ mod infer;
 mod model;
 mod rows;
 mod run;
+mod samples;
 
 use std::io::{self, Write};
 
-use coil::{Dynamics, Profile, ReductionError, Response, SteadySensitivity, ThermalState};
+use coil::{ReductionError, Response, SteadySensitivity};
 use files::{Note, Remark};
 
 pub use design_box::{DesignBox, Varied};
 pub use infer::infer;
-pub use model::{Model, model, model_with_fields};
+pub use model::{Fields, Model, model, model_with_fields};
 pub use rows::{COLUMNS, Column, SimulatedRow, WINDOW_S, Window};
 pub(crate) use rows::{number, windowed};
 use run::{ABSOLUTE_ZERO_C, HOTTEST_C, course, is_possible, run};
+pub(crate) use samples::{MOST_FRAMES, Sample};
 
 use crate::Error;
 use crate::cache::Source;
@@ -42,19 +44,10 @@ pub struct Simulation<'a> {
     coarser: Vec<Response>,
     /// States at instants evenly spaced over the course; none if it has no duration.
     pub(crate) samples: Vec<Sample>,
+    /// Fewer of them, with both ends; one if it has no duration.
+    pub(crate) frames: Vec<Sample>,
     /// what mechanisms add to thermometer \[K\] and rate \[deg/h\] in every row; none without mechanisms
     pub(crate) added: Vec<[f64; 2]>,
-}
-
-/// Instants between the first and the last at which fields can be drawn: the middles of as many equal intervals.
-const SAMPLES: usize = 150;
-
-/// The model's state at an instant.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Sample {
-    /// Instant \[s\].
-    pub(crate) time: f64,
-    pub(crate) state: ThermalState,
 }
 
 /// Runs a profile from rest at its first instant.
@@ -63,7 +56,11 @@ pub(crate) struct Sample {
 /// [`files::Error::Coil`] if the profile cannot be run; [`Error::NotFinite`] if the model gives no number.
 pub fn simulate<'a>(case: &'a CoilCase, profile: &'a ProfileCase, model: &Model) -> Result<Simulation<'a>, Error> {
     let (responses, coarser) = (run(&model.dynamics, profile)?, run(&model.coarser, profile)?);
-    let samples = samples(&model.dynamics, &course(profile)).map_err(Error::of_coil(&profile.fingerprint.file))?;
+    let course = course(profile);
+    let at = |instants: &[f64]| {
+        samples::samples(&model.dynamics, &course, instants).map_err(Error::of_coil(&profile.fingerprint.file))
+    };
+    let (samples, frames) = (at(&samples::middles(&course.time))?, at(&samples::frames(&course.time))?);
     let (reduction, modes) = (model.dynamics.reduction_error(), model.dynamics.reduced().rates().len());
     Ok(Simulation {
         case,
@@ -75,22 +72,9 @@ pub fn simulate<'a>(case: &'a CoilCase, profile: &'a ProfileCase, model: &Model)
         responses,
         coarser,
         samples,
+        frames,
         added: Vec::new(),
     })
-}
-
-/// The states at the middles of [`SAMPLES`] equal intervals.
-fn samples(dynamics: &Dynamics, course: &Profile) -> Result<Vec<Sample>, coil::Error> {
-    let (time, mut samples) = (&course.time, Vec::with_capacity(SAMPLES));
-    let instant = |k: usize| time[0] + (time[time.len() - 1] - time[0]) * (k as f64 + 0.5) / SAMPLES as f64;
-    for (step, ends) in dynamics.steps(course)?.zip(time.windows(2)) {
-        while samples.len() < SAMPLES && instant(samples.len()) < ends[1] {
-            let time = instant(samples.len());
-            // a sample that rounding puts before its row is taken at the row
-            samples.push(Sample { time, state: dynamics.reduced().within(&step, (time - ends[0]).max(0.0)) });
-        }
-    }
-    Ok(samples)
 }
 
 impl Simulation<'_> {

@@ -1,6 +1,6 @@
 //! Models of a coil for the drives of a profile, built once.
 
-use coil::{CHECKS, COARSER, Drive, Dynamics, STANDARD, STEADY, SteadySensitivity, TurnFields};
+use coil::{CHECKS, COARSER, Drive, Dynamics, STANDARD, STEADY, SectionFields, SteadySensitivity, TurnFields};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -18,6 +18,15 @@ pub struct Model {
     pub(super) source: Source,
 }
 
+/// Fields of a modelled coil, for any of its states.
+#[derive(Debug, Clone)]
+pub struct Fields {
+    /// Temperature and strain of the glass at every turn.
+    pub turns: TurnFields,
+    /// Temperature and displacement everywhere in coil and spool.
+    pub section: SectionFields,
+}
+
 /// Models a coil for the drives of a profile, or finds its model in `cache`.
 ///
 /// # Errors
@@ -27,14 +36,14 @@ pub fn model(case: &CoilCase, drives: &[Drive], cache: &Cache) -> Result<Model, 
     assembled(case, drives, cache, dynamics, source)
 }
 
-/// As [`model`], with temperature and strain of every turn for [`crate::figures`]; those take 1 kB a turn and drive.
+/// As [`model`], with the fields of turns and section for [`crate::figures`] and [`crate::section`]; those take 1 kB a turn and drive.
 ///
 /// # Errors
 /// As [`model`].
-pub fn model_with_fields(case: &CoilCase, drives: &[Drive], cache: &Cache) -> Result<(Model, TurnFields), Error> {
-    let build = || Dynamics::with_fields(&case.design, drives, &STANDARD);
-    let ((dynamics, fields), source) = load_or_build(case, drives, cache, "dynamics and fields", build)?;
-    Ok((assembled(case, drives, cache, dynamics, source)?, fields))
+pub fn model_with_fields(case: &CoilCase, drives: &[Drive], cache: &Cache) -> Result<(Model, Fields), Error> {
+    let build = || Dynamics::with_section(&case.design, drives, &STANDARD);
+    let ((dynamics, turns, section), source) = load_or_build(case, drives, cache, "dynamics, turns and section", build)?;
+    Ok((assembled(case, drives, cache, dynamics, source)?, Fields { turns, section }))
 }
 
 fn load_or_build<T: Serialize + DeserializeOwned>(

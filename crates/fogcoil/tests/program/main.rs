@@ -27,6 +27,7 @@ mod outputs;
 mod own_mechanism;
 mod recommend;
 mod report;
+mod section;
 mod simulate;
 mod spool;
 mod sweep;

@@ -21,6 +21,8 @@ fn the_report_is_well_formed_and_needs_nothing_else() {
     assert_eq!(faults(&page), [""; 0]);
     assert!(page.contains("a &lt;b&gt; &amp; &quot;c&quot; under p &amp; &lt;q&gt;.csv"));
     let figures = [
+        "section",
+        "section-in-time",
         "model",
         "temperatures",
         "bias",
@@ -78,7 +80,7 @@ fn every_design_has_its_figures() {
         assert_eq!(faults(&page), [""; 0]);
         let numberless = ["inf<", "infL", "infV", "infH"].into_iter().find(|word| page.contains(word));
         assert_eq!(numberless, None, "{coil}");
-        assert_eq!(page.matches("<figure>").count(), 9);
+        assert_eq!(page.matches("<figure>").count(), 11);
     }
 }
 
@@ -93,7 +95,7 @@ fn figures_alone_are_documents_and_the_contributions_add_up() {
     let (model, fields) = fogcoil::simulate::model_with_fields(&case, &profile.drives, &cache).unwrap();
     let simulation = fogcoil::simulate::simulate(&case, &profile, &model).unwrap();
     let documents = fogcoil::figures::documents(&simulation, Some(&fields));
-    assert_eq!(documents.len(), 8);
+    assert_eq!(documents.len(), 10);
     let winding = ("winding", fogcoil::picture::svg(&case.name, &case.winding));
     for (name, svg) in documents.iter().chain([&winding]) {
         let said = |tag: &str| {
@@ -105,7 +107,7 @@ fn figures_alone_are_documents_and_the_contributions_add_up() {
         assert!(svg.starts_with("<svg xmlns=") && svg.len() < 400_000, "{name}: {} bytes", svg.len());
         assert!(!svg.contains("NaN") && !svg.contains("var(") && !svg.contains(">inf"), "{name}");
     }
-    let turns = fogcoil::figures::contributions_in_ramp(&simulation, &fields).unwrap();
+    let turns = fogcoil::figures::contributions_in_ramp(&simulation, &fields.turns).unwrap();
     let sum = turns.iter().fold(bias::Bias::ZERO, |sum, turn| sum + *turn);
     // on the mesh of the fields
     let steady = coil::Model::new(&case.design, &coil::COARSE).unwrap().sensitivity().unwrap();

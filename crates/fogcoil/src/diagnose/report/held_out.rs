@@ -30,7 +30,7 @@ impl Outcome<'_> {
         } else if self.holdouts.iter().any(|held| !held.accepted) {
             "What was fitted predicts a held-out record worse than the nominal model: it is not accepted."
         } else {
-            "Nothing was adjusted to a held-out record, its offset neither: it is that of the first record that was fitted."
+            "No parameter was adjusted to a held-out record. Even its rate offset is taken from the first fitted record."
         };
         html! {
             h2 { "Proof on a record that was held out" } "\n"
