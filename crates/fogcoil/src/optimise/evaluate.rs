@@ -34,11 +34,8 @@ impl Plan {
     /// # Errors
     /// [`coil::Error`] names what keeps it from being computed.
     pub(super) fn measures(&self, design: &Design) -> Result<Measures, coil::Error> {
-        let spread = if self.asks(Measure::needs_tolerances) {
-            sensitivity_band(design, &self.variants.case.tolerances)?.sd
-        } else {
-            0.0
-        };
+        let spread =
+            if self.asks(Measure::needs_tolerances) { sensitivity_band(design, &self.variants.case.tolerances)?.sd } else { 0.0 };
         let sensitivity = sensitivity_on(design, &STEADY)?.total();
         Ok(Measures { sensitivity, spread, mass: mass(design)?, length: wind(&design.winding)?.length() })
     }
@@ -46,7 +43,8 @@ impl Plan {
     fn violation(&self, measures: &Measures) -> f64 {
         let beyond = |(measure, [low, high]): &(Measure, [f64; 2])| {
             let value = measure.of(measures);
-            let scale = if low.is_finite() && high.is_finite() { high - low } else { 0.0 }.max(value.abs()).max(f64::MIN_POSITIVE);
+            let scale =
+                if low.is_finite() && high.is_finite() { high - low } else { 0.0 }.max(value.abs()).max(f64::MIN_POSITIVE);
             (low - value).max(value - high).max(0.0) / scale
         };
         self.limits.iter().map(beyond).sum()

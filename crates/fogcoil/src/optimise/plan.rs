@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::measure::Measure;
 use crate::Error;
 use crate::input::{Fingerprint, InputError, fault_in, meant, read_coil, read_ron, read_text};
-use crate::variants::{Dimensions, Others, Varied, Variants, each_once, variants};
+use crate::variants::{Dimensions, Others, Variants, Varied, each_once, variants};
 
 /// Paths inside are relative to the plan's own.
 #[derive(Deserialize)]

@@ -59,6 +59,10 @@ mod tests {
         };
         let of = |tried: &Tried| weighed(tried, &[Measure::Sensitivity, Measure::Spread], &[2.0, 0.2], &[0.5, 0.5]);
         assert!((of(&tried(-1.0, 0.0)) - (0.25 + 0.05 * 0.5)).abs() < 1e-12);
-        assert!(of(&tried(50.0, 0.0)) < of(&tried(0.0, 1e-9)) && of(&tried(0.0, 0.5)) < of(&tried(0.0, 0.6)) && of(&tried(0.0, 5.0)) < NONE);
+        assert!(
+            of(&tried(50.0, 0.0)) < of(&tried(0.0, 1e-9))
+                && of(&tried(0.0, 0.5)) < of(&tried(0.0, 0.6))
+                && of(&tried(0.0, 5.0)) < NONE
+        );
     }
 }
