@@ -23,7 +23,7 @@ pub(super) struct Outlier<'a> {
     pub(super) number: &'static str,
     pub(super) value: f64,
     pub(super) median: f64,
-    /// Distance from the median in 1.4826 median absolute deviations, a standard deviation where all is normal.
+    /// Distance from the median in 1.4826 median absolute deviations, a standard deviation where all is normal, with the number's own uncertainty.
     pub(super) distance: f64,
 }
 
@@ -31,10 +31,14 @@ pub(super) struct Outlier<'a> {
 const FAR: f64 = 3.5;
 /// A median absolute deviation of normal numbers in standard deviations of theirs.
 const NORMAL: f64 = 1.4826;
+/// Distance from the design, in standard deviations of its tolerance, from which a constant is worth a line.
+const WORTH: f64 = 0.5;
+/// Half of a 90 % interval of a normal number in standard deviations.
+const HALF: f64 = 1.645;
 /// Fewest units that tell what is common, and what is usual.
 const FEWEST: usize = 5;
 
-/// Constants that are farther from the design on average than their mean is uncertain by twice, the farthest first.
+/// Constants that are farther from the design on average than is worth a line, and than twice what their mean is uncertain by, the farthest first.
 pub(super) fn common(batch: &Batch) -> Vec<Common> {
     let ordinary: Vec<&Row> = batch
         .rows
@@ -49,7 +53,7 @@ pub(super) fn common(batch: &Batch) -> Vec<Common> {
         let count = all.len() as f64;
         let mean = all.iter().sum::<f64>() / count;
         let sd = (all.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
-        (mean.abs() > 2.0 * sd / count.sqrt()).then(|| Common { name: name.to_owned(), mean, sd, units: all.len() })
+        (mean.abs() > WORTH.max(2.0 * sd / count.sqrt())).then(|| Common { name: name.to_owned(), mean, sd, units: all.len() })
     };
     let mut all: Vec<Common> = first.constants.iter().filter_map(|constant| of(&constant.name)).collect();
     all.sort_by(|a, b| b.mean.abs().total_cmp(&a.mean.abs()));
@@ -66,16 +70,20 @@ fn median(mut all: Vec<f64>) -> f64 {
 pub(super) fn outliers(batch: &Batch) -> Vec<Outlier<'_>> {
     let mut all = Vec::new();
     for number in NUMBERS.iter().filter(|number| **number != "probability") {
-        let known: Vec<(&str, f64)> =
-            batch.rows.iter().filter_map(|(row, _)| Some((row.unit.as_str(), row.number(number)?))).collect();
+        let known: Vec<(&Row, f64)> = batch.rows.iter().filter_map(|(row, _)| Some((row, row.number(number)?))).collect();
         if known.len() < FEWEST {
             continue;
         }
         let middle = median(known.iter().map(|(_, value)| *value).collect());
         let scale = NORMAL * median(known.iter().map(|(_, value)| (value - middle).abs()).collect());
-        let distance = |value: f64| (value - middle) / scale;
-        let far = known.into_iter().filter(|(_, value)| scale > 0.0 && distance(*value).abs() > FAR);
-        all.extend(far.map(|(unit, value)| Outlier { unit, number, value, median: middle, distance: distance(value) }));
+        for (row, value) in known {
+            // what is poorly known is not far because of that
+            let own = row.interval(number).map_or(0.0, |[low, high]| (high - low) / (2.0 * HALF));
+            let distance = (value - middle) / scale.hypot(own);
+            if scale > 0.0 && distance.abs() > FAR {
+                all.push(Outlier { unit: &row.unit, number, value, median: middle, distance });
+            }
+        }
     }
     all.sort_by(|a, b| b.distance.abs().total_cmp(&a.distance.abs()));
     all

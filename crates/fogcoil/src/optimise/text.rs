@@ -72,11 +72,11 @@ fn of_optimum(plan: &Plan, found: &Found, checked: &Checked) -> String {
         significant(largest, 3),
         100.0 * checked.share_below(0.5),
     );
-    let head = ["what leads there, change by change", "", "S then"].map(str::to_owned).to_vec();
-    let start = vec!["the drawing".to_owned(), String::new(), significant(found.drawn.sensitivity, 4)];
+    let head = ["what leads there, change by change", "", "S then", ""].map(str::to_owned).to_vec();
+    let start = vec!["the drawing".to_owned(), String::new(), significant(found.drawn.sensitivity, 4), String::new()];
     let step = |(key, value, total): &(String, String, Option<f64>)| {
         let value = value.parse().map_or_else(|_| value.clone(), |number: f64| significant(number, 5));
-        vec![key.clone(), value, total.map_or("no design".into(), |total| significant(total, 4))]
+        vec![key.clone(), value, total.map_or("no design".into(), |total| significant(total, 4)), String::new()]
     };
     let rows: Vec<Vec<String>> = [head, start].into_iter().chain(checked.path.iter().map(step)).collect();
     let shares =

@@ -23,6 +23,7 @@ mod loggers;
 mod measure;
 mod model_out;
 mod mutated_input;
+mod optimise;
 mod outputs;
 mod own_mechanism;
 mod recommend;
