@@ -42,7 +42,9 @@ impl Outcome<'_> {
             out.push_str(law);
         }
         if d.verdict == Verdict::Unknown {
-            out.push_str("Next: check signs, columns, units and times (fogcoil check), then repeat the test under another profile.\n");
+            out.push_str(
+                "Next: check signs, columns, units and times (fogcoil check), then repeat the test under another profile.\n",
+            );
         }
         if let (Verdict::Unknown, Some(best)) = (d.verdict, self.best_named()) {
             let ids: Vec<&str> = best.fit.active.iter().map(|a| self.id(a.mechanism)).collect();
