@@ -15,6 +15,8 @@ use proof::validation::{over_spools, printed};
 const COIL: &str = "fixtures/coil-reference.ron";
 const PROFILE: &str = "fixtures/profiles/paper.csv";
 const CELL: &str = "fixtures/cell-reference.ron";
+/// Table IV: three coils of one design, with the design's sign.
+const MEASURED: [figures::Measured; 3] = [("coil 1, measured", -3.01), ("coil 2, measured", -1.39), ("coil 3, measured", -1.98)];
 /// Divisions of an element's side in the picture of the cell.
 const DIVISIONS: usize = 12;
 
@@ -24,7 +26,7 @@ pub(crate) fn run(folder: &Path) -> Result<bool, Failure> {
     let profile = input::read_profile(PROFILE.as_ref(), &case.design, &[])?;
     let (model, fields) = simulate::model_with_fields(&case, &profile.drives, &Cache::NONE)?;
     let simulation = simulate::simulate(&case, &profile, &model)?;
-    let mut documents = figures::documents(&simulation, Some(&fields));
+    let mut documents = figures::documents(&simulation, Some(&fields), &MEASURED);
     documents.push(figures::convergence(&case)?);
     documents.push(("winding", picture::svg(&case.name, &case.winding)));
     documents.push(("cell", cell()?));

@@ -1,4 +1,4 @@
-//! What can be wrong with the optics, the fibre or the ramp.
+//! The faults of the optics, the fibre or the ramp.
 
 /// Errors of this crate. Every message names the field, its value and the valid range.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

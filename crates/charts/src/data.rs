@@ -1,4 +1,4 @@
-//! What a figure shows, as tables that are folded away: for those who do not see it, and for those who want a number.
+//! The data of a figure as tables that are folded away: for those who do not see it, and for those who want a number.
 
 use maud::{Markup, html};
 
@@ -107,7 +107,7 @@ fn cells(name: &str, y: &str, x: &str, map: &HeatMap) -> Markup {
     grid(&caption, Cells::Numbers, &head, &rows)
 }
 
-/// What a drawing consists of.
+/// The parts of a drawing.
 fn areas(name: &str, [x, y]: [&str; 2], drawing: &Drawing) -> Markup {
     let ends = |[low, high]: [f64; 2]| format!("{low:.3} to {high:.3}");
     let named = drawing.areas.iter().filter(|area| !area.name.is_empty());

@@ -54,11 +54,11 @@ pub struct Arrow {
     pub from: [f64; 2],
     /// The other.
     pub to: [f64; 2],
-    /// What it measures.
+    /// The quantity that it measures.
     pub label: String,
 }
 
-/// What a drawing shows, from the back to the front.
+/// Content of a drawing, from the back to the front.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Drawing {
     /// Filled areas; the first spans the drawing.

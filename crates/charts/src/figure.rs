@@ -13,11 +13,11 @@ use crate::svg::{Frame, Svg};
 pub struct Figure<'a> {
     /// Unique on its page and among files; the names of its parts start with it.
     pub id: &'static str,
-    /// What it shows.
+    /// The subject of the picture.
     pub title: String,
-    /// What there is to see in it, for those who do not see it.
+    /// Description of the picture, for those who do not see it.
     pub description: String,
-    /// What one must know to read it.
+    /// Explanations that a reader needs.
     pub caption: String,
     /// Panels side by side, where the paper is wide enough.
     pub columns: usize,

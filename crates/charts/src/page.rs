@@ -6,7 +6,7 @@ use crate::style::page_style;
 
 const STYLE: &str = include_str!("page.css");
 
-/// What a browser lets a page do: nothing but be drawn, with the styles in it. No page has a script, a picture or a font of its own.
+/// Permissions of a page in a browser: nothing but be drawn, with the styles in it. No page has a script, a picture or a font of its own.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";
 
 /// A page that needs nothing but itself, on paper, phone and screen, in light and dark: `lead` in its header, `body` below. Control

@@ -17,7 +17,7 @@ pub struct Panel<'a> {
     pub y: Axis,
     /// How high it is.
     pub height: Height,
-    /// What is in it.
+    /// Its content.
     pub content: Content<'a>,
 }
 
@@ -30,7 +30,7 @@ pub enum Height {
     ToScale(f64),
 }
 
-/// What a panel shows.
+/// Content of a panel.
 pub enum Content<'a> {
     /// Lines, the first at the back.
     Lines(Vec<Series<'a>>),
@@ -89,7 +89,7 @@ fn colour_bar(svg: &mut Svg, colours: &Colours, m: &Measures, left: f64, across:
     });
 }
 
-/// What a legend names: its sample in a box of [`SAMPLE`] × 12, and its name.
+/// An entry of a legend: its sample in a box of [`SAMPLE`] × 12, and its name.
 struct Entry<'a>(Svg, &'a str);
 
 impl<'a> Panel<'a> {
@@ -226,7 +226,7 @@ impl<'a> Panel<'a> {
         svg.moved([place.left, place.above], |svg| self.plot(svg, m, place, id));
     }
 
-    /// What lies between the axes, and the axes; the origin is the upper left corner.
+    /// The content between the axes, and the axes; the origin is the upper left corner.
     fn plot(&self, svg: &mut Svg, m: &Measures, place: &Place, id: &str) {
         let ([x_range, y_range], [width, height]) = (self.ranges(), place.plot);
         let x = Scale::new(&self.x, x_range, [0.0, width], m.apart[0]);

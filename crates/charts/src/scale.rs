@@ -9,7 +9,7 @@ pub struct Axis {
     pub least_span: f64,
     /// Where the drawn range ends.
     pub ends: Ends,
-    /// What is drawn in any case: both ends, in the axis' unit.
+    /// Range that is drawn in any case: both ends, in the axis' unit.
     pub covers: Option<[f64; 2]>,
     /// Names of 0, 1, … in place of numbers, written above the line of each; upwards only.
     pub names: Option<Vec<String>>,
@@ -137,7 +137,7 @@ impl Scale {
     }
 }
 
-/// What a logarithmic axis shows beyond its data, in decades.
+/// Margin of a logarithmic axis beyond its data, in decades.
 const MARGIN: f64 = 0.15;
 
 /// A multiple of a power of ten, and its label, without an exponent if `short`.

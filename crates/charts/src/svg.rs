@@ -76,7 +76,7 @@ impl Svg {
         self.group(attributes! { "transform": "translate({x:.1} {y:.1})" }, inside);
     }
 
-    /// What was drawn elsewhere.
+    /// Elements that were drawn elsewhere.
     pub fn append(&mut self, other: &Self) -> &mut Self {
         self.0 += &other.0;
         self
@@ -86,7 +86,7 @@ impl Svg {
         self.0.push('\n');
     }
 
-    /// What comes next stands on the line of what came last.
+    /// The next element stands on the line of the last one.
     pub fn joined(&mut self) -> &mut Self {
         self.0.truncate(self.0.trim_end_matches('\n').len());
         self
@@ -125,9 +125,9 @@ pub struct Frame<'a> {
     pub size: [f64; 2],
     /// Size of the font \[px\].
     pub font: f64,
-    /// What the picture shows, in a line.
+    /// The subject of the picture, in a line.
     pub title: &'a str,
-    /// What there is to see in it.
+    /// Description of the picture.
     pub description: &'a str,
     /// Attributes of the whole.
     pub attributes: Attributes<'a>,

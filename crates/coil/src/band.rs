@@ -1,4 +1,4 @@
-//! What a design's tolerances make of a number that follows from it: slopes by differences, one standard deviation to either side.
+//! Effect of a design's tolerances on a number that follows from it: slopes by differences, one standard deviation to either side.
 
 use crate::{Design, Error, MeshFineness, Model, Number, Parameter, Tolerances};
 use bias::Sensitivity;
@@ -58,12 +58,12 @@ pub fn propagated(changes: &[f64], correlation: &DMatrix<f64>) -> (f64, Vec<f64>
     (variance.sqrt(), own.iter().zip(with_others.iter()).map(share).collect())
 }
 
-/// What one standard deviation of a number changes in the steady-ramp sensitivity, part by part, (°/h)/(°C/min).
+/// Effect of one standard deviation of a number on the steady-ramp sensitivity, part by part, (°/h)/(°C/min).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensitivityChange {
     /// The number.
     pub number: Number,
-    /// What the parts change by; their sum is what the sensitivity changes by.
+    /// Change of each part; their sum is what the sensitivity changes by.
     pub parts: Sensitivity,
 }
 
@@ -104,7 +104,7 @@ pub fn sensitivity_changes(design: &Design, tolerances: &Tolerances) -> Result<V
     Ok(changes)
 }
 
-/// What the tolerances of a design make of its steady-ramp sensitivity, (°/h)/(°C/min), by [`sensitivity_changes`].
+/// Effect of the tolerances of a design on its steady-ramp sensitivity, (°/h)/(°C/min), by [`sensitivity_changes`].
 ///
 /// # Errors
 /// As [`sensitivity_changes`].

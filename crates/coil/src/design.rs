@@ -1,4 +1,4 @@
-//! What is built: winding, coil body, spool, surroundings, thermometer, optics. All SI.
+//! The design: winding, coil body, spool, surroundings, thermometer, optics. All SI.
 
 use bias::Optics;
 use fem_core::material::{Isotropic, TransverselyIsotropic};
@@ -16,7 +16,7 @@ pub struct Design {
     pub body: Body,
     /// The spool, or `None` for a coil that stands free.
     pub spool: Option<Spool>,
-    /// What fills the rest of the chamber.
+    /// Medium in the rest of the chamber.
     pub surroundings: Surroundings,
     /// How stiffness and bonds depend on temperature and time.
     pub mechanics: Mechanics,

@@ -117,7 +117,7 @@ impl ReductionError {
     }
 }
 
-/// What a coil does at one instant of a profile.
+/// Response of a coil at one instant of a profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {
     /// Thermometer \[K or °C, as the profile\].
@@ -275,7 +275,7 @@ impl Dynamics {
         Ok((dynamics, thermal, modes, nominal))
     }
 
-    /// What the reduction may leave out.
+    /// Estimate of the error of the reduction.
     pub fn reduction_error(&self) -> ReductionError {
         self.error
     }

@@ -1,4 +1,4 @@
-//! What can go wrong with a coil.
+//! The errors of a coil.
 
 /// Errors of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -9,7 +9,7 @@ pub enum Error {
     Design {
         /// Path of the field within [`crate::Design`], e.g. `spool.hub_thickness`.
         field: String,
-        /// What is wrong and how to mend it.
+        /// The fault and its remedy.
         problem: String,
     },
     /// A profile cannot be run.
@@ -17,7 +17,7 @@ pub enum Error {
     Profile {
         /// Number of the instant, from 0.
         row: usize,
-        /// What is wrong and how to mend it.
+        /// The fault and its remedy.
         problem: String,
     },
     /// A thermometer's record cannot be inverted.
@@ -37,7 +37,7 @@ pub enum Error {
     Solve {
         /// `coil`, `spool` or `structure`.
         part: &'static str,
-        /// What is wrong.
+        /// The fault.
         source: fem_core::Error,
     },
 }

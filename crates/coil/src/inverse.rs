@@ -23,7 +23,7 @@ const DECADES: std::ops::RangeInclusive<i32> = -8..=0;
 /// Refinements of the best decade, each halving the step.
 const HALVINGS: i32 = 2;
 
-/// What a thermometer says of the chamber, see [`chamber_from_sensor`].
+/// The chamber as a thermometer tells it, see [`chamber_from_sensor`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inferred {
     /// The chamber at each instant, smoothed \[K or °C, as the record\].

@@ -9,7 +9,7 @@ pub(crate) const CONTACT_SKIN: f64 = 1e-6;
 /// Largest relaxing share that the polynomial of [`crate::Relaxation`] resolves.
 const MOST_RELAXING: f64 = 0.8;
 
-/// What fills a part of the half-plane.
+/// Filling of a part of the half-plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Region {
@@ -34,7 +34,7 @@ pub enum Region {
 /// A solid rectangle of the half-plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rectangle {
-    /// What it holds.
+    /// Its content.
     pub region: Region,
     /// Inner and outer radius \[m\].
     pub r: [f64; 2],
@@ -150,7 +150,7 @@ impl Layout {
         Ok(Self { solids, chamber, bore, lasting_bond })
     }
 
-    /// What fills the point (r, y).
+    /// Filling of the point (r, y).
     pub fn region(&self, r: f64, y: f64) -> Region {
         let inside = |s: &&Rectangle| s.r[0] <= r && r <= s.r[1] && s.y[0] <= y && y <= s.y[1];
         self.solids.iter().find(inside).map_or(Region::Medium, |s| s.region)

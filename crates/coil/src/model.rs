@@ -128,7 +128,7 @@ impl Model {
         self.probes.iter().map(|p| p.value_of(temperature)).collect()
     }
 
-    /// What the glass at the centre of every turn has for each of some fields of nodal temperature differences from the stress-free state
+    /// Temperature and strain of the glass at the centre of every turn for each of some fields of nodal temperature differences from the stress-free state
     /// \[K\]: temperature and total strain.
     ///
     /// # Errors

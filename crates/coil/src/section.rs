@@ -32,7 +32,7 @@ pub struct Section<'a> {
     dehomogenization: Dehomogenization,
 }
 
-/// What a section holds at one instant.
+/// Fields of a section at one instant.
 #[derive(Debug)]
 pub struct SectionState<'a> {
     section: &'a Section<'a>,
@@ -63,7 +63,7 @@ pub struct Places(Vec<Option<(Probe, bool)>>);
 /// An element of a section: its (p + 1)² nodes, p being the order, those along r first.
 #[derive(Debug, Clone)]
 pub struct SectionElement {
-    /// What it is a part of.
+    /// The solid to which it belongs.
     pub region: Region,
     /// Positions (r, y) \[m\].
     pub points: Vec<[f64; 2]>,

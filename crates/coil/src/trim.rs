@@ -19,7 +19,7 @@ pub struct TailTrim {
     pub before: f64,
 }
 
-/// What removing turns from one end does.
+/// Effect of removing turns from one end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TurnTrim {
     /// The half whose outer end is unwound.

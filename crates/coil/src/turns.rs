@@ -1,4 +1,4 @@
-//! What the glass is exposed to, turn by turn.
+//! Temperature and strain of the glass, turn by turn.
 
 use bias::Slice;
 use winding::Winding;

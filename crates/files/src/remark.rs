@@ -8,7 +8,7 @@ use serde::{Serialize, Serializer};
 
 use crate::shown_path;
 
-/// What a remark is about and what to do: the columns of the table below.
+/// Cause, consequence and remedy of a remark: the columns of the table below.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Explanation {
     /// When the program says it.
@@ -53,6 +53,10 @@ remarks! {
         "`optics.sagnac_diameter_mm` lies outside the coil, from its inner to its outer diameter.",
         "Every rate is inversely proportional to it.",
         "Give the mean diameter of the turns in mm (not the radius, and not in metres).";
+    SagnacDiffers "sagnac-differs":
+        "`optics.sagnac_diameter_mm` is more than 2 % off the coil's mean diameter.",
+        "Every rate is inversely proportional to it.",
+        "Leave it out: then it is the mean diameter. Give another only if it was measured.";
     LongTail "long-tail":
         "A tail in `winding.tails_m` is longer than half the winding.",
         "The middle of the fibre moves into one half of the coil: the sensitivity is that of a coil that is not symmetric at all.",

@@ -1,4 +1,4 @@
-//! What the tolerances of a design make of a simulation: the response to each number a standard deviation away, to first order.
+//! Effect of the tolerances of a design on a simulation: the response to each number a standard deviation away, to first order.
 
 use std::io::{self, Write};
 
@@ -35,7 +35,7 @@ pub struct CourseBand {
 /// How many shares are told.
 const TOLD: usize = 6;
 
-/// What one standard deviation of a number changes in every row: thermometer and rate.
+/// Effect of one standard deviation of a number on every row: thermometer and rate.
 struct Change {
     number: Number,
     rows: [Vec<f64>; 2],
@@ -148,7 +148,7 @@ impl CourseBand {
     /// Writes `time_s,rate_deg_per_h,rate_sd_deg_per_h,spool_c,spool_sd_c`.
     ///
     /// # Errors
-    /// What `out` says.
+    /// The error of `out`.
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "time_s,rate_deg_per_h,rate_sd_deg_per_h,spool_c,spool_sd_c")?;
         self.rows.iter().try_for_each(|row| writeln!(out, "{}", row.map(number).join(",")))

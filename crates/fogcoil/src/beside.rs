@@ -1,4 +1,4 @@
-//! What mechanisms of a user's own add to a simulation.
+//! Contribution of a user's own mechanisms to a simulation.
 
 use diagnosis::{Active, ForwardModel, expected};
 use files::shown_path;

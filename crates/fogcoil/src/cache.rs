@@ -80,7 +80,7 @@ impl Cache {
     /// `key` must hold all that `build` depends on; models of different types need different purposes.
     ///
     /// # Errors
-    /// What `build` says.
+    /// The error of `build`.
     pub fn load_or_build<T: Serialize + DeserializeOwned, E>(
         &self,
         purpose: &str,

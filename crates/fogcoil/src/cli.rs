@@ -89,7 +89,7 @@ pub(crate) enum Command {
     Optimise(Optimise),
     /// Thermometer and bias in time under a profile of the chamber's temperature, or from a thermometer's record
     Simulate(Simulate),
-    /// What differs between a unit's recording and its design, and what most likely causes it
+    /// The difference between a unit's recording and its design, and its most likely cause
     Diagnose(Diagnose),
     /// Constants of a lot from records of its good units, as a design for its further units
     Calibrate(Calibrate),
@@ -97,7 +97,7 @@ pub(crate) enum Command {
     Batch(BatchOf),
     /// Which chamber programme, or which further sensor, tells mechanisms apart
     Recommend(Recommend),
-    /// What an id means, of a mechanism or of a warning; which change of a coil would give a measured sensitivity
+    /// The meaning of an id of a mechanism or a warning; or the change of a coil that would give a measured sensitivity
     Explain(Explain),
     /// Is a recording usable? Gaps, units, outliers, noise, Allan deviation
     Check(Check),
@@ -145,7 +145,7 @@ pub(crate) struct Diagnose {
     /// Write a page with plots here
     #[arg(long, value_name = "R.html")]
     pub(crate) report: Option<PathBuf>,
-    /// What is known of the records besides their columns [default: meta.ron beside each, if it is there]
+    /// Facts about the records besides their columns [default: meta.ron beside each, if it is there]
     #[arg(long, value_name = "FILE")]
     pub(crate) meta: Option<PathBuf>,
     #[command(flatten)]

@@ -25,7 +25,7 @@ pub(crate) struct Calibrate {
     /// Print one JSON object
     #[arg(long)]
     json: bool,
-    /// What is known of the records besides their columns [default: meta.ron beside each, if it is there]
+    /// Facts about the records besides their columns [default: meta.ron beside each, if it is there]
     #[arg(long, value_name = "FILE")]
     meta: Option<PathBuf>,
     /// A file that says how the records are read [default: RECORD.map.ron beside each RECORD.csv, if it is there]

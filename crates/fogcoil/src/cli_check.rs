@@ -13,7 +13,7 @@ pub(crate) struct Check {
     pub(crate) record: PathBuf,
     #[command(flatten)]
     pub(crate) format: Format,
-    /// What is known of the record besides its columns [default: meta.ron beside it, if it is there]
+    /// Facts about the record besides its columns [default: meta.ron beside it, if it is there]
     #[arg(long, value_name = "FILE")]
     pub(crate) meta: Option<PathBuf>,
     /// Write a map file that says how the recording seems to be read, and check it so read [default: RECORD.map.ron beside it]
@@ -42,7 +42,7 @@ pub(crate) struct Format {
     /// Units in a count, for a column of counts
     #[arg(long = "scale", value_name = "KEY=FACTOR", value_parser = pair::<f64>)]
     scales: Vec<(Key, f64)>,
-    /// What separates the fields: a character such as ';', or tab
+    /// Separator of the fields: a character such as ';', or tab
     #[arg(long, value_name = "CHAR")]
     separator: Option<String>,
     /// Numbers are written like 20,5

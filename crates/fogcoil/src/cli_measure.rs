@@ -17,7 +17,7 @@ pub(crate) struct Measure {
     files: Vec<PathBuf>,
     #[command(flatten)]
     format: Format,
-    /// What is known of the records besides their columns [default: meta.ron beside each, if it is there]
+    /// Facts about the records besides their columns [default: meta.ron beside each, if it is there]
     #[arg(long, value_name = "FILE")]
     meta: Option<PathBuf>,
     /// Print one JSON object

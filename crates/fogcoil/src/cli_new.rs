@@ -12,7 +12,7 @@ pub(crate) struct New {
     /// The file to write; an existing one is left as it is
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// What it is to hold
+    /// Kind of the file
     #[arg(long, value_enum, default_value_t = Kind::Coil)]
     kind: Kind,
 }

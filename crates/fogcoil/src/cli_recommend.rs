@@ -45,7 +45,7 @@ pub(crate) struct Recommend {
     /// Print one JSON object
     #[arg(long)]
     json: bool,
-    /// What is known of the records besides their columns [default: meta.ron beside each, if it is there]
+    /// Facts about the records besides their columns [default: meta.ron beside each, if it is there]
     #[arg(long, value_name = "FILE")]
     meta: Option<PathBuf>,
     #[command(flatten)]

@@ -27,7 +27,7 @@ pub(crate) struct Simulate {
     /// How the temperatures run between the profile's rows
     #[arg(long, value_enum, default_value_t = Between::Linear, conflicts_with = "spool")]
     between: Between,
-    /// Add rows on the straight lines between the profile's, so that none lasts longer than this many seconds
+    /// Add a row every S seconds from the first row, on the straight lines between the profile's own
     #[arg(long, value_name = "S", value_parser = step, conflicts_with = "spool")]
     step: Option<f64>,
     /// In place of a profile: a record time_s,spool_c of the spool's thermometer, from rest, to infer the chamber from

@@ -115,7 +115,7 @@ impl From<InputError> for Error {
 }
 
 impl Error {
-    /// What was asked for contradicts itself.
+    /// A contradictory request.
     pub fn usage(problem: impl Into<String>) -> Self {
         Self::File(files::Error::Usage(problem.into()))
     }

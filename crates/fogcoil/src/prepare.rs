@@ -67,7 +67,7 @@ impl Record {
         &self.instants.0
     }
 
-    /// What is told of its rows as averaged, at the instants before: on straight lines between the middles of the means.
+    /// The statement about its rows as averaged, at the instants before: on straight lines between the middles of the means.
     pub(crate) fn at_instants(&self, values: &[f64]) -> Vec<f64> {
         let (instants, earlier) = (&self.instants.0, self.instants.1);
         let time = &self.observed.time;

@@ -80,7 +80,7 @@ impl<'a> SectionFiles<'a> {
     /// Writes one of the [`files`](Self::files).
     ///
     /// # Errors
-    /// What the writer says.
+    /// The error of the writer.
     pub fn write(&self, file: &File, out: &mut dyn io::Write) -> io::Result<()> {
         match file.frame {
             None => self.series().write(out),

@@ -7,13 +7,13 @@ use crate::input::{CoilCase, Origin, keyed};
 use crate::table::{plus_minus, significant, table};
 use crate::units::parameter_unit;
 
-/// What a number of the design contributes to a band.
+/// Contribution of a number of the design to a band.
 pub(crate) struct Share {
     /// Its key.
     pub(crate) key: &'static str,
     /// One standard deviation of it, in words.
     pub(crate) tolerance: String,
-    /// What that changes.
+    /// The change that it causes.
     pub(crate) change: f64,
     /// Of the variance.
     pub(crate) share: f64,

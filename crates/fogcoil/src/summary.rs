@@ -1,4 +1,4 @@
-//! What a simulation comes down to: peak, root mean square, and the slope on the thermometer's rate beside the steady sensitivity.
+//! Summary of a simulation: peak, root mean square, and the slope on the thermometer's rate beside the steady sensitivity.
 
 use coil::Mechanics;
 use recording::Seconds;

@@ -16,7 +16,7 @@ use crate::wind::name;
 /// Turns cut off from either end, at most, in the table.
 const MOST_TURNS: usize = 12;
 
-/// What trimming does to a coil.
+/// Effect of trimming on a coil.
 #[derive(Debug, Clone)]
 pub struct Trim {
     /// By tails.
@@ -75,21 +75,22 @@ pub fn text(case: &CoilCase, trim: &Trim) -> String {
          tails: the {longer} tail longer by {difference:.3} ± {uncertainty:.3} m (standard uncertainty); each metre adds {slope:.3} (deg/h)/(degC/min)\n\n",
         case.name
     );
+    let head = ["of the uncertainty, by the tolerance of", "1 sd", "length", ""].map(str::to_owned);
     let rows = Share::of(case, band).into_iter().map(|share| {
         let by = (share.change / slope).abs();
-        [format!("  {}", share.key), share.tolerance, format!("{by:.3}"), "m of it".into()]
+        [format!("  {}", share.key), share.tolerance, format!("{by:.3}"), "m".into()]
     });
-    let _ = writeln!(text, "{}", table(&rows.collect::<Vec<_>>()));
+    let _ = writeln!(text, "{}", table(&std::iter::once(head).chain(rows).collect::<Vec<_>>()));
     let best = trim.turns.iter().min_by(|a, b| a.sensitivity.abs().total_cmp(&b.sensitivity.abs()));
     if let Some(best) = best.filter(|best| best.sensitivity.abs() < before.abs()) {
         let TurnTrim { half, turns, length, sensitivity } = best;
-        let _ =
-            writeln!(text, "or turns: cut {turns} off the {} end ({length:.2} m), which leaves {sensitivity:.4}", name(*half));
+        let _ = writeln!(
+            text,
+            "or turns: cut {turns} off the {} end ({length:.2} m), which leaves {sensitivity:.4} (deg/h)/(degC/min)",
+            name(*half)
+        );
     }
-    for half in [Half::Ccw, Half::Cw] {
-        let left = trim.turns.iter().filter(|t| t.half == half).map(|t| significant(t.sensitivity, 4)).collect::<Vec<_>>();
-        let _ = writeln!(text, "  {:>3} end, 1 to {} turns off: {}", name(half), left.len(), left.join(" "));
-    }
+    let _ = write!(text, "\n{}", table(&cut_off(trim)));
     if let Some([[rms, peak], [rms_after, peak_after]]) = trim.transients {
         let _ = writeln!(
             text,
@@ -98,4 +99,14 @@ pub fn text(case: &CoilCase, trim: &Trim) -> String {
         );
     }
     text
+}
+
+/// The sensitivity that is left, a row for each number of turns cut off.
+fn cut_off(trim: &Trim) -> Vec<Vec<String>> {
+    let of = |half: Half| trim.turns.iter().filter(move |t| t.half == half);
+    let mut rows = vec![["turns cut off", "CCW end", "CW end", "(deg/h)/(degC/min)"].map(str::to_owned).to_vec()];
+    rows.extend(of(Half::Ccw).zip(of(Half::Cw)).map(|(ccw, cw)| {
+        vec![format!("  {}", ccw.turns), significant(ccw.sensitivity, 4), significant(cw.sensitivity, 4), String::new()]
+    }));
+    rows
 }

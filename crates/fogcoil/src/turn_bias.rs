@@ -1,4 +1,4 @@
-//! What every turn adds to the bias.
+//! Contribution of every turn to the bias.
 
 use bias::Bias;
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
@@ -6,7 +6,7 @@ use coil::{ThermalState, TurnFields};
 
 use crate::input::CoilCase;
 
-/// What each turn adds to the bias while the state changes by `change` per second, in the winding's order \[°/h\]; tails left out, the
+/// Contribution of each turn to the bias while the state changes by `change` per second, in the winding's order \[°/h\]; tails left out, the
 /// mechanics in their nominal state.
 ///
 /// # Errors

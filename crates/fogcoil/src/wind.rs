@@ -27,7 +27,7 @@ pub fn name(half: Half) -> &'static str {
     }
 }
 
-/// What was wound; `fibre_m` holds the tails too, moments as in [`text`].
+/// The winding; `fibre_m` holds the tails too, moments as in [`text`].
 pub fn json(case: &CoilCase) -> Value {
     let (winding, spec) = (&case.winding, case.winding.spec());
     json!({
@@ -47,7 +47,7 @@ pub fn json(case: &CoilCase) -> Value {
     })
 }
 
-/// What was wound, in a few lines.
+/// The winding, in a few lines.
 pub fn text(case: &CoilCase) -> String {
     let (winding, spec) = (&case.winding, case.winding.spec());
     let row = |name: &str, value: String, unit: &str| vec![name.to_owned(), value, unit.to_owned()];

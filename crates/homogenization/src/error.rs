@@ -15,7 +15,7 @@ pub enum Error {
     Constituent {
         /// "ring 0", "ring 1", … from the inside, or "adhesive".
         constituent: String,
-        /// What is wrong.
+        /// The fault.
         source: fem_core::Error,
     },
     /// A constituent's conductivity, density or specific heat is out of range.

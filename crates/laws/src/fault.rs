@@ -1,4 +1,4 @@
-//! What can be wrong with an expression or a unit.
+//! The faults of an expression or a unit.
 
 use std::fmt;
 use std::ops::Range;
@@ -8,7 +8,7 @@ use std::ops::Range;
 pub struct Fault {
     /// Bytes of the text that it concerns.
     pub at: Range<usize>,
-    /// What is wrong.
+    /// The fault.
     pub problem: String,
     /// How to mend it.
     pub remedy: String,

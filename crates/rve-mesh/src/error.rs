@@ -1,4 +1,4 @@
-//! What can be wrong with a cell.
+//! The faults of a cell.
 
 /// Errors of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

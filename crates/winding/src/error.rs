@@ -1,4 +1,4 @@
-//! What can be wrong with a winding's specification.
+//! The faults of a winding's specification.
 
 /// Errors of this crate. Every message names the field of [`Spec`](crate::Spec), its value and the remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

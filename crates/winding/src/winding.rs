@@ -50,7 +50,7 @@ fn divide_at_the_middle(turns: &mut [Turn], length: f64) {
 }
 
 impl Winding {
-    /// What was wound.
+    /// The winding.
     pub fn spec(&self) -> &Spec {
         &self.spec
     }

@@ -1,4 +1,4 @@
-//! What drives the temperature.
+//! Drives of the temperature.
 
 use crate::Side;
 

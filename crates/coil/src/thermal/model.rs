@@ -198,7 +198,7 @@ impl ThermalModel {
         &self.map
     }
 
-    /// What drives it, in the order of shapes and stored heats.
+    /// Its drives, in the order of shapes and stored heats.
     pub fn drives(&self) -> &[Drive] {
         &self.drives
     }

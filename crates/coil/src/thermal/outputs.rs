@@ -1,4 +1,4 @@
-//! What is read off a coil: two temperatures, and the phases whose increase is the bias.
+//! Outputs of a coil: two temperatures, and the phases whose increase is the bias.
 
 use super::state::{ThermalState, dot};
 use nalgebra::DVector;

@@ -44,7 +44,7 @@ pub enum AnyCell {
 /// Reads and checks the file of a regular cell: one fibre of round rings, isotropic constituents.
 ///
 /// # Errors
-/// What is wrong, in which file, line and field, and how to mend it.
+/// The fault, in which file, line and field, and how to mend it.
 pub fn read_cell(path: &Path) -> Result<CellCase, InputError> {
     let source = Source::read(path)?;
     let file: CellFile = source.parse(Some(&CELL))?;
@@ -57,7 +57,7 @@ pub fn read_cell(path: &Path) -> Result<CellCase, InputError> {
 /// Reads and checks a cell file of any arrangement.
 ///
 /// # Errors
-/// What is wrong, in which file, line and field, and how to mend it.
+/// The fault, in which file, line and field, and how to mend it.
 pub fn read_any_cell(path: &Path) -> Result<AnyCell, InputError> {
     any(path, &Source::read(path)?)
 }

@@ -159,7 +159,7 @@ fn given(top: &Group, file: &CellFile) -> Result<Arrangement, InputError> {
     Ok(Arrangement { lattice: [a.model(), b.model()], centres: file.centres_um.model() })
 }
 
-/// What is wrong with an arrangement, at the field that is to blame.
+/// The faults of an arrangement, at the field that is to blame.
 fn misplaced(top: &Group, file: &CellFile, fibres: usize, error: &LayoutError) -> InputError {
     let name = |i: usize| if i < fibres { format!("fibre {i}") } else { format!("voids[{}]", i - fibres) };
     let last = file.rings.len() - 1;

@@ -147,7 +147,7 @@ fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
         heat: heat::paths(&top.group("heat"), &file.heat, spool.as_ref())?,
         spool,
         sensor,
-        optics: file.optics.model(),
+        optics: optics(&file.optics, inner_radius + body.outer_radius),
         drifts: file.drifts.model(),
         dehomogenization,
     };
@@ -174,7 +174,7 @@ impl CoilCase {
         coil::steady_sensitivity(&self.design).map_err(|source| Error::Coil { file: self.file.clone(), source })
     }
 
-    /// What its tolerances make of that.
+    /// Effect of its tolerances on that.
     ///
     /// # Errors
     /// As [`Self::steady_sensitivity`].
@@ -182,7 +182,7 @@ impl CoilCase {
         coil::sensitivity_band(&self.design, &self.tolerances).map_err(|source| Error::Coil { file: self.file.clone(), source })
     }
 
-    /// What each of its tolerances changes in that, part by part.
+    /// Effect of each of its tolerances on that, part by part.
     ///
     /// # Errors
     /// As [`Self::steady_sensitivity`].
@@ -190,6 +190,13 @@ impl CoilCase {
         coil::sensitivity_changes(&self.design, &self.tolerances)
             .map_err(|source| Error::Coil { file: self.file.clone(), source })
     }
+}
+
+/// The fibre's optics; an effective diameter that is not given is the coil's mean diameter.
+fn optics(file: &coil_file::OpticsFile, mean_diameter: f64) -> bias::Optics {
+    let optics = file.model();
+    let sagnac_diameter = if optics.sagnac_diameter.is_nan() { mean_diameter } else { optics.sagnac_diameter };
+    bias::Optics { sagnac_diameter, ..optics }
 }
 
 /// A complaint about the design as a whole, at the field it names.

@@ -42,7 +42,7 @@ pub(crate) struct CoilFile {
     pub(crate) sensor: SensorFile,
     /// The fibre's optics.
     pub(crate) optics: OpticsFile,
-    /// What vanishes at a reference temperature.
+    /// Terms that vanish at a reference temperature.
     #[serde(default, skip_serializing_if = "says_default::<Drifts, _>")]
     pub(crate) drifts: DriftsFile,
     /// From the coil's strains to those of the glass.
@@ -93,6 +93,11 @@ pub(crate) enum DehomogenizationFile {
     Printed,
 }
 
+/// A length that the file leaves out.
+fn not_given() -> LengthMm {
+    LengthMm(f64::NAN)
+}
+
 mirrored! {
     /// Effective constants, transversely isotropic; z is the fibre (hoop), r across it.
     ConstantsFile is Constants {
@@ -118,7 +123,7 @@ mirrored! {
         k_r_w_per_mk: Conductivity = conductivity_r,
     }
 
-    /// What vanishes at a reference temperature.
+    /// Terms that vanish at a reference temperature.
     #[serde(default)]
     DriftsFile is Drifts {
         /// The temperature; 20 unless given.
@@ -141,7 +146,9 @@ mirrored! {
         p11: Photoelastic = p11,
         /// Photoelastic constant.
         p12: Photoelastic = p12,
-        /// Effective diameter D.
+        /// Effective diameter D; the coil's mean diameter unless given.
+        #[serde(default = "not_given")]
+        #[schemars(extend("default" = "mean diameter"))]
         sagnac_diameter_mm: LengthMm = sagnac_diameter,
         /// The strain in eq. (2).
         strain: StrainFile = strain,

@@ -1,4 +1,4 @@
-//! What can be wrong with an input file.
+//! The faults of an input file.
 
 use std::fmt;
 use std::path::PathBuf;

@@ -70,7 +70,7 @@ impl MechanismCase {
 /// Reads and checks a mechanism's file.
 ///
 /// # Errors
-/// What is wrong, in which file, line and field, and how to mend it.
+/// The fault, in which file, line and field, and how to mend it.
 pub fn read_mechanism(path: &Path) -> Result<MechanismCase, InputError> {
     checked(Source::read(path)?)
 }

@@ -1,4 +1,4 @@
-//! What is known of a record besides its columns: `meta.ron` beside it.
+//! Facts about a record besides its columns: `meta.ron` beside it.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use super::InputError;
 use super::quantity::NotNegative;
 use super::source::Source;
 
-/// What a meta file may say; everything may be left out.
+/// Content of a meta file; everything may be left out.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Meta {
@@ -41,16 +41,16 @@ pub struct Meta {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Thermometer {
-    /// What its offset may be \[°C\]; it counts where it is given of both thermometers.
+    /// Uncertainty of its offset \[°C\]; it counts where it is given of both thermometers.
     #[schemars(with = "Option<NotNegative>")]
     pub offset_sd: Option<f64>,
-    /// What its gain may be off, relative.
+    /// Uncertainty of its gain, relative.
     #[schemars(with = "Option<NotNegative>")]
     pub gain_sd: Option<f64>,
     /// Its time constant \[s\], known to a fifth; of the spool's it counts where the design's is above 0.
     #[schemars(with = "Option<NotNegative>")]
     pub lag_s: Option<f64>,
-    /// What its clock may be off \[s\].
+    /// Uncertainty of its clock \[s\].
     #[schemars(with = "Option<NotNegative>")]
     pub clock_offset_sd_s: Option<f64>,
     /// Its last digit \[°C\].
@@ -65,13 +65,13 @@ pub struct Thermometer {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Rate {
-    /// What its bias may be \[deg/h\], a standard deviation; it counts where Earth's rate is known.
+    /// Uncertainty of its bias \[deg/h\], a standard deviation; it counts where Earth's rate is known.
     #[schemars(with = "Option<NotNegative>")]
     pub offset_sd: Option<f64>,
-    /// What its scale factor may be off, relative, a standard deviation.
+    /// Uncertainty of its scale factor, relative, a standard deviation.
     #[schemars(with = "Option<NotNegative>")]
     pub scale_factor_sd: Option<f64>,
-    /// What its clock may be off \[s\], a standard deviation.
+    /// Uncertainty of its clock \[s\], a standard deviation.
     #[schemars(with = "Option<NotNegative>")]
     pub clock_offset_sd_s: Option<f64>,
     /// Earth's rate along its axis \[deg/h\], as the record has it.

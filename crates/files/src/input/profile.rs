@@ -106,41 +106,51 @@ impl ProfileCase {
         }
     }
 
-    /// Divides the intervals between rows into equal parts of `step` seconds at most, on the straight lines between them.
+    /// Adds rows at whole numbers of `step` seconds from the first row, on the straight lines between the profile's own, which stay.
     ///
     /// # Errors
     /// If these are too many rows.
     pub fn divide(&mut self, step: f64) -> Result<(), InputError> {
         let time = &self.profile.time;
-        let parts = |pair: &[f64]| ((pair[1] - pair[0]) / step - 1e-9).ceil().max(1.0);
-        let rows = 1.0 + time.windows(2).map(parts).sum::<f64>();
+        let rows = (time[time.len() - 1] - time[0]) / step + time.len() as f64;
         if rows > MOST_ROWS as f64 {
             let problem = format!("has {rows:.0} rows with this --step, more than {MOST_ROWS}");
             return Err(InputError::whole(&self.fingerprint.file, problem, "give a longer step"));
         }
-        let parts: Vec<usize> = time.windows(2).map(|pair| parts(pair) as usize).collect();
-        let divided = |values: &[f64]| -> Vec<f64> {
-            let between = parts.iter().zip(values.windows(2)).flat_map(|(&parts, pair)| {
-                // the rows themselves keep their bits
-                let at = move |part: usize| pair[0] + (pair[1] - pair[0]) * (part as f64 / parts as f64);
-                (1..=parts).map(move |part| if part == parts { pair[1] } else { at(part) })
-            });
-            values.first().copied().into_iter().chain(between).collect()
+        let start = time[0];
+        // in each interval the numbers of the rows that are added; what is next to a row of the profile's own is that row
+        let between = |pair: &[f64]| -> Vec<f64> {
+            let [from, to] = [pair[0], pair[1]].map(|t| (t - start) / step);
+            ((from + BESIDE).floor() as u64 + 1..).map(|k| k as f64).take_while(|k| *k < to - BESIDE).collect()
         };
-        self.further.values_mut().for_each(|values| *values = divided(values));
-        self.profile = Profile {
-            drives: self.profile.drives.iter().map(|course| divided(course)).collect(),
-            time: divided(&self.profile.time),
+        let added: Vec<Vec<f64>> = time.windows(2).map(between).collect();
+        // the rows themselves keep their bits
+        let divided = |values: &[f64], at: &dyn Fn(usize, f64) -> f64| -> Vec<f64> {
+            let rows =
+                added.iter().enumerate().flat_map(|(n, added)| added.iter().map(move |k| at(n, *k)).chain([values[n + 1]]));
+            values.first().copied().into_iter().chain(rows).collect()
         };
+        let on_lines = |values: &[f64]| {
+            divided(values, &|n, k| {
+                let share = (start + k * step - time[n]) / (time[n + 1] - time[n]);
+                values[n] + (values[n + 1] - values[n]) * share
+            })
+        };
+        self.further.values_mut().for_each(|values| *values = on_lines(values));
+        let drives = self.profile.drives.iter().map(|course| on_lines(course)).collect();
+        self.profile = Profile { drives, time: divided(time, &|_, k| start + k * step) };
         self.step = Some(step);
         Ok(())
     }
 }
 
+/// A row this close to another, in steps, is the same.
+const BESIDE: f64 = 1e-3;
+
 /// Reads and checks the profile of a design, with further columns that mechanisms' files name. The design's heaters, if it has any, are on throughout.
 ///
 /// # Errors
-/// What is wrong, in which file, line and column, and how to mend it.
+/// The fault, in which file, line and column, and how to mend it.
 pub fn read_profile(path: &Path, design: &Design, further: &[String]) -> Result<ProfileCase, InputError> {
     read(Rows::open(path, "a profile (*.csv)", Dialect::STANDARD)?, path, design, further)
 }

@@ -103,7 +103,7 @@ quantities! {
 }
 
 impl Quantity {
-    /// What is wrong with a value in the file's unit, and how to mend it.
+    /// The faults of a value in the file's unit, and how to mend it.
     pub(crate) fn fault(&self, value: f64) -> Option<(String, String)> {
         let Self { least, most, unit, example, .. } = *self;
         let with_unit = |number: f64| format!("{number} {unit}").trim_end().to_owned();

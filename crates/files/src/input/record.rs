@@ -26,7 +26,7 @@ const MOST_ROWS: usize = 10_000_000;
 pub struct RecordCase {
     /// All rows; channels [`super::CHAMBER`], [`super::SPOOL`] (where the file has them) and [`super::RATE`], in degC and deg/h.
     pub recording: Recording,
-    /// What was found: rows to keep, values to use.
+    /// The result: rows to keep, values to use.
     pub report: Report,
     /// Seconds over which a rate is a mean.
     pub averaging: f64,

@@ -26,7 +26,7 @@ pub fn read_text(path: &Path) -> Result<String, InputError> {
 /// Reads a RON file of any type: the reader of case files for a program's own.
 ///
 /// # Errors
-/// What is wrong, in which file, line and field, and how to mend it.
+/// The fault, in which file, line and field, and how to mend it.
 pub fn read_ron<T: DeserializeOwned>(path: &Path) -> Result<T, InputError> {
     Source::read(path)?.parse(None)
 }

@@ -36,7 +36,7 @@ pub struct SpoolCase {
 /// Reads and checks a record. Other columns that profiles and recordings have may stand in it and are not read.
 ///
 /// # Errors
-/// What is wrong, in which file, line and column, and how to mend it.
+/// The fault, in which file, line and column, and how to mend it.
 pub fn read_spool(path: &Path, design: &Design) -> Result<SpoolCase, InputError> {
     let mut rows = Rows::open(path, "a record (*.csv)", Dialect::STANDARD)?;
     rows.header("time_s,spool_c")?;

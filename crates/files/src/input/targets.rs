@@ -32,7 +32,7 @@ pub struct TargetsCase {
 /// Reads and checks a file of targets.
 ///
 /// # Errors
-/// What is wrong, in which file, line and field, and how to mend it.
+/// The fault, in which file, line and field, and how to mend it.
 pub fn read_targets(path: &Path) -> Result<TargetsCase, InputError> {
     let source = Source::read(path)?;
     let file: TargetsFile = source.parse(Some(&TARGETS))?;

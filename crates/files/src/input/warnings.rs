@@ -1,4 +1,4 @@
-//! What a coil file may say but rarely means.
+//! Entries of a coil file that are allowed but rarely meant.
 
 use coil::{Design, Layout, Region, Sensor};
 use winding::{Half, Pattern, Winding};
@@ -8,6 +8,9 @@ use crate::units::to_mm;
 
 /// Room between winding and rectangle that a drawing leaves, in pitches.
 const ROOM: f64 = 1.0;
+
+/// Largest relative distance of the effective diameter from the coil's mean diameter that passes without a word.
+const SAME_DIAMETER: f64 = 0.02;
 
 /// How far from a solid a thermometer may be and still be on it \[m\]: what a drawing's decimals leave.
 const ON: f64 = 1e-6;
@@ -38,6 +41,11 @@ pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> V
         let message =
             format!("optics.sagnac_diameter_mm: {sagnac} mm lies outside the coil, {inner:.3} to {outer:.3} mm; is this meant?");
         found.push(Remark::SagnacOutside.warning(message));
+    } else if (sagnac / ((inner + outer) / 2.0) - 1.0).abs() > SAME_DIAMETER {
+        let (sagnac, mean) = (to_mm(sagnac), to_mm((inner + outer) / 2.0));
+        let message =
+            format!("optics.sagnac_diameter_mm: {sagnac} mm is not the coil's mean diameter, {mean:.3} mm; is this meant?");
+        found.push(Remark::SagnacDiffers.warning(message));
     }
     let (pattern, layers) = (design.winding.pattern, design.winding.layers);
     // layers after which it begins anew

@@ -33,7 +33,7 @@ pub fn coil_file(name: &str, design: &Design, known: &Tolerances, comments: &[St
     comments.chain([text, "\n".to_owned()]).collect()
 }
 
-/// What a file is to hold.
+/// Content of a file.
 pub enum Content<'a> {
     /// A text.
     Text(String),

@@ -14,7 +14,7 @@ const TENSOR: [(usize, &str, bool); 6] =
 /// Strains are tensors (shear components are half the engineering shears); radial and hoop strains are NaN in the matrix.
 ///
 /// # Errors
-/// What the writer says.
+/// The error of the writer.
 pub fn vtu(out: &mut dyn Write, sample: &Sample, inclusions: &[Option<usize>]) -> io::Result<()> {
     let of_element = sample.divisions * sample.divisions;
     let inclusion = |k: usize| inclusions.get(k / of_element).copied().flatten().map_or(-1, |i| i as i32);

@@ -54,7 +54,7 @@ struct Unit {
     left: LeftOfUnit,
 }
 
-/// What is told of a unit beside its constants.
+/// The statement about a unit beside its constants.
 struct Told {
     files: Vec<Fingerprint>,
     left: LeftOfUnit,
@@ -170,7 +170,7 @@ fn effects(unit: &Unit, numbers: &[usize], further: &Believed) -> Result<Vec<(St
 }
 
 impl Outcome {
-    /// What a user should know besides.
+    /// Further remarks for the user.
     pub fn notes(&self) -> &[Note] {
         &self.notes
     }

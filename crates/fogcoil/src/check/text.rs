@@ -15,7 +15,7 @@ use crate::units::DurationUnit;
 /// Most findings of one kind in one channel that are written out.
 const MOST_ALIKE: usize = 8;
 
-/// What is wrong with a recording, line by line; empty if nothing is.
+/// The faults of a recording, line by line; empty if nothing is.
 pub fn warnings(case: &RecordCase) -> String {
     let mut out: String = case.notes.iter().filter(|note| note.is_warning()).map(|note| format!("{note}\n")).collect();
     let wrong: Vec<&Finding> = listed(case).into_iter().filter(|finding| finding.severity != Severity::Note).collect();

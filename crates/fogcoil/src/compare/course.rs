@@ -4,7 +4,7 @@ use super::Comparison;
 use crate::simulate::Simulation;
 use crate::summary::Summary;
 
-/// What a course of the bias comes down to \[deg/h\].
+/// Summary of a course of the bias \[deg/h\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CourseNumbers {
     /// Largest magnitude, and its instant \[s\].

@@ -1,4 +1,4 @@
-//! What the tolerances of two designs make of a difference.
+//! Effect of the tolerances of two designs on a difference.
 //!
 //! To first order a design's sensitivity moves by cᵀu: u the deviations of its numbers in standard deviations, with correlations R, c what one changes.
 //! Of B less A the variance is

@@ -37,7 +37,7 @@ pub struct Part {
     pub sd_apart: f64,
 }
 
-/// What one standard deviation of a number changes in the sensitivity, (deg/h)/(degC/min).
+/// Effect of one standard deviation of a number on the sensitivity, (deg/h)/(degC/min).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Changed {
     /// Its key.
@@ -58,7 +58,7 @@ pub struct Comparison<'a> {
     pub tolerances: Vec<Differing>,
     /// In the order of [`PARTS`].
     pub parts: [Part; 4],
-    /// What the parts change by, the largest change of the total first.
+    /// Change of each part, the largest change of the total first.
     pub changes: Vec<Changed>,
     /// Length of the fibre with tails \[m\].
     pub length: [f64; 2],

@@ -34,7 +34,7 @@ pub struct Told {
 pub struct TypicalParameter {
     /// Name with its unit.
     pub name: String,
-    /// What is known of it; `None` of a choice, of which every value is as likely.
+    /// Prior knowledge of it; `None` of a choice, of which every value is as likely.
     pub prior: Option<Prior>,
     /// A size that is neither small nor large.
     pub typical: f64,

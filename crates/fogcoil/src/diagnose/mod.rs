@@ -335,7 +335,7 @@ impl Outcome<'_> {
         self.mechanisms.iter().find(|mechanism| mechanism.facts().id == id).and_then(|mechanism| mechanism.facts().inspection())
     }
 
-    /// What a user should know besides.
+    /// Further remarks for the user.
     pub fn notes(&self) -> &[Note] {
         &self.notes
     }

@@ -1,4 +1,4 @@
-//! What each turn adds to the bias of a steady ramp, over the cross-section.
+//! Contribution of each turn to the bias of a steady ramp, over the cross-section.
 
 use bias::Bias;
 use bias::units::K_PER_MIN_PER_K_PER_S;
@@ -16,7 +16,7 @@ const LEAST: f64 = 1e-9;
 
 type Part = fn(&Bias) -> f64;
 
-/// What each turn adds to the steady sensitivity, in the winding's order \[(°/h)/(°C/min)\]; tails left out.
+/// Contribution of each turn to the steady sensitivity, in the winding's order \[(°/h)/(°C/min)\]; tails left out.
 ///
 /// # Errors
 /// [`bias::Error`] if an optical constant is out of range, with which no coil could have been simulated.

@@ -17,7 +17,7 @@ fn mesh(order: usize) -> MeshFineness {
     MeshFineness { order, layers: order / 2, ratio: COARSE.ratio }
 }
 
-/// What is taken for exact: two orders and a layer beyond the finest mesh behind an estimate.
+/// The reference that is taken for exact: two orders and a layer beyond the finest mesh behind an estimate.
 const REFERENCE: usize = 12;
 
 /// How a coil's steady sensitivity converges.

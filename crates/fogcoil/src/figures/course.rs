@@ -11,10 +11,14 @@ const LEAST_C: f64 = 0.1;
 const LEAST_DEG_PER_H: f64 = 1e-4;
 const LEAST_C_PER_MIN: f64 = 1e-4;
 
-pub(super) fn all<'a>(simulation: &'a Simulation) -> [Figure<'a>; 3] {
+/// Temperatures, bias, and bias against rate, the last beside `measured` sensitivities of coils of this design.
+pub(super) fn all<'a>(simulation: &'a Simulation, measured: &[Measured]) -> [Figure<'a>; 3] {
     let windows: Vec<Window> = simulation.windows().collect();
-    [temperatures(simulation), parts(simulation, windows.clone()), against_rate(simulation, windows)]
+    [temperatures(simulation), parts(simulation, windows.clone()), against_rate(simulation, windows, measured)]
 }
+
+/// A measured sensitivity: its name, and its value \[(°/h)/(°C/min)\].
+pub type Measured<'a> = (&'a str, f64);
 
 /// The time since the first row, in the unit of the axis.
 pub(crate) fn time_axis(simulation: &Simulation) -> (Axis, impl Fn(f64) -> f64 + Copy + use<>) {
@@ -96,7 +100,7 @@ fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<'a> {
     }
 }
 
-fn against_rate<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<'a> {
+fn against_rate<'a>(simulation: &'a Simulation, windows: Vec<Window>, measured: &[Measured]) -> Figure<'a> {
     let ends = windows.iter().fold([0.0_f64, 0.0_f64], |[low, high], w| [low.min(w.spool_rate), high.max(w.spool_rate)]);
     let steady = simulation.steady.sensitivity.total();
     let count = windows.len();
@@ -115,6 +119,10 @@ fn against_rate<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<
     }
     // where the two agree its dashes lie on the regression
     series.push(line(steady_name, Style::Second, &|x| steady * x));
+    for (n, (name, slope)) in measured.iter().enumerate() {
+        series.push(line(format!("{name}: slope {} {unit}", signed(*slope, 2)), Style::Fine(n as u8), &|x| slope * x));
+    }
+    let thin = if measured.is_empty() { "" } else { " Thin lines: measured sensitivities, taken with the sign of the design's." };
     Figure {
         id: "bias-against-rate",
         title: "Bias against the spool's temperature rate".into(),
@@ -124,7 +132,7 @@ fn against_rate<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<
         caption: format!(
             "Each point of the course is a mean over {WINDOW_S} s, or over one row where rows are further apart. Steady ramp: what a ramp \
              that lasts would give, with its numerical error; loops away from it are transients. Regression: least squares with \
-             intercept through all points."
+             intercept through all points.{thin}"
         ),
         columns: 1,
         panels: vec![Panel::lines(

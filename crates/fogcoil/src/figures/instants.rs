@@ -20,7 +20,7 @@ pub(super) struct Chosen {
     pub(super) sample: usize,
     /// Its colour: 0 warming, 1 warmest, 2 cooling.
     pub(super) kind: u8,
-    /// What happens there.
+    /// The event.
     pub(super) what: &'static str,
 }
 

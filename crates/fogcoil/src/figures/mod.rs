@@ -23,6 +23,7 @@ use crate::simulate::{Fields, Simulation};
 
 pub use contributions::contributions_in_ramp;
 pub use convergence::{Convergence, convergence};
+pub use course::Measured;
 pub(crate) use course::time_axis;
 pub use document::{Document, MOST_TURNS};
 pub(crate) use model::side_by_side;
@@ -30,10 +31,10 @@ pub use signatures::signatures;
 pub use spools::{OnSpool, spools, spools_element};
 
 /// All figures; those of the fields only with `fields`.
-fn all<'a>(simulation: &'a Simulation, fields: Option<&Fields>) -> Vec<Figure<'a>> {
+fn all<'a>(simulation: &'a Simulation, fields: Option<&Fields>, measured: &[Measured]) -> Vec<Figure<'a>> {
     let mut figures: Vec<Figure> = fields.into_iter().flat_map(|fields| section::all(simulation, fields)).collect();
     figures.push(model::figure(simulation.case));
-    figures.extend(course::all(simulation));
+    figures.extend(course::all(simulation, measured));
     if let Some(fields) = fields {
         figures.extend(fields::all(simulation, &fields.turns));
         figures.extend(contributions::figure(simulation, &fields.turns));
@@ -42,13 +43,13 @@ fn all<'a>(simulation: &'a Simulation, fields: Option<&Fields>) -> Vec<Figure<'a
 }
 
 /// All figures of a simulation as files of their own; those of temperature and strain along the fibre and of the turns' contributions
-/// only with `fields`.
-pub fn documents(simulation: &Simulation, fields: Option<&Fields>) -> Vec<Document> {
-    all(simulation, fields).iter().map(|figure| (figure.id, figure.document())).collect()
+/// only with `fields`. Sensitivities that were `measured` stand beside the computed one.
+pub fn documents(simulation: &Simulation, fields: Option<&Fields>, measured: &[Measured]) -> Vec<Document> {
+    all(simulation, fields, measured).iter().map(|figure| (figure.id, figure.document())).collect()
 }
 
 /// All figures as elements of a page, in wide and narrow, each with its data.
 pub(crate) fn elements(simulation: &Simulation, fields: Option<&Fields>, convergence: Option<&Convergence>) -> Markup {
     let last = convergence.map(|measured| convergence::figure(simulation.case, measured));
-    html! { @for figure in all(simulation, fields).iter().chain(&last) { (figure.element()) } }
+    html! { @for figure in all(simulation, fields, &[]).iter().chain(&last) { (figure.element()) } }
 }

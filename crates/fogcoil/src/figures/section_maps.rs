@@ -79,7 +79,7 @@ pub(super) struct Maps {
     pub(super) values: Vec<Vec<f64>>,
     /// Blocks of turns with what each adds to the bias.
     pub(super) blocks: Cells,
-    /// What all turns add \[°/h\].
+    /// Sum over all turns \[°/h\].
     pub(super) bias: f64,
 }
 

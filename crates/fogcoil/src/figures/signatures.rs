@@ -1,4 +1,4 @@
-//! What each mechanism of the library adds to the nominal response: the signatures among which a diagnosis chooses.
+//! Contribution of each mechanism of the library to the nominal response: the signatures among which a diagnosis chooses.
 
 use charts::{Axis, Figure, Panel};
 

@@ -8,7 +8,7 @@ use super::document::Document;
 /// A coil on a spool.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OnSpool {
-    /// What the spool is made of.
+    /// Material of the spool.
     pub material: String,
     /// Its flanges and bonds.
     pub mounting: String,

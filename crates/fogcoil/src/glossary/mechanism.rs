@@ -18,7 +18,7 @@ const RIVALS: &str = "fitted in its place";
 pub struct Subject {
     /// Its id.
     pub id: &'static str,
-    /// What it is called.
+    /// Its name.
     pub title: &'static str,
     stage: Option<&'static str>,
     equation: &'static str,

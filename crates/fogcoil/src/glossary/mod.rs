@@ -28,7 +28,7 @@ const OFFERED: usize = 3;
 /// All but the nearest differ from it in one of so many characters at most.
 const ALIKE: usize = 3;
 
-/// What an id stands for.
+/// Meaning of an id.
 ///
 /// # Errors
 /// The nearest ids, best first, where none is this one.

@@ -1,4 +1,4 @@
-//! What acts on the cell, as it is written on the command line: `exx=1e-4,dt=10`.
+//! The load on the cell, as it is written on the command line: `exx=1e-4,dt=10`.
 
 use homogenization::fields::Load;
 
@@ -11,7 +11,7 @@ const MOST_KELVIN: f64 = 1000.0;
 /// Total macroscopic strains (`exx`, `eyy`, `ezz`, engineering shears `gyz`, `gxz`, `gxy`) and a temperature change `dt` \[K\], 0 if left out.
 ///
 /// # Errors
-/// What is wrong, in words.
+/// The fault, in words.
 pub fn parse_load(text: &str) -> Result<Load, String> {
     let mut load = Load::default();
     let mut given = [false; 7];

@@ -44,7 +44,7 @@ impl Quantity {
         }
     }
 
-    /// What it is, with its unit.
+    /// Its meaning, with its unit.
     pub fn label(self) -> String {
         match self {
             Self::Strain(component, Convention::Total) => format!("total strain {} [10⁻⁶]", spaced(component)),

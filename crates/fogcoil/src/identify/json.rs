@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json as object};
 use super::presentation;
 use crate::input::TargetsCase;
 
-/// What was found, in SI.
+/// The result, in SI.
 pub fn json(case: &TargetsCase, result: &Identification) -> Value {
     let families = case.families.iter().zip(&result.outcomes).map(|(family, outcome)| {
         object!({

@@ -1,4 +1,4 @@
-//! What was found, for people.
+//! The result, for people.
 
 use std::fmt::Write;
 

@@ -27,7 +27,7 @@ pub use text::text;
 /// Rows beyond which neighbours are averaged: a ramp of an hour in a day's record is then of more than a hundred.
 const MOST_ROWS: usize = 3_000;
 
-/// What a recording says.
+/// The numbers that a recording gives.
 #[derive(Debug, Clone)]
 pub struct Measurement {
     /// The recording.
@@ -58,7 +58,7 @@ pub struct Measurement {
     pub bias_instability: Told,
     /// Averaging time of the floor \[s\].
     pub floor_time: Option<f64>,
-    /// What a user should know besides, with the reason for each number that is not told.
+    /// Further remarks for the user, with the reason for each number that is not told.
     pub notes: Vec<Note>,
 }
 

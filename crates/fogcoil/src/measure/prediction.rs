@@ -5,7 +5,7 @@ use recording::statistics::normal_quantile;
 
 use super::{Figure, Measurement};
 
-/// What a design predicts.
+/// Prediction of a design.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prediction {
     /// Name of the design.

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use crate::Error;
 use crate::table::significant;
 
-/// What the chamber can do.
+/// Abilities of the chamber.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Lowest temperature \[°C\].
@@ -59,7 +59,7 @@ impl Limits {
 pub struct Programme {
     /// Short name of its family.
     pub family: &'static str,
-    /// What it does.
+    /// Its effect.
     pub name: String,
     /// Instants and temperatures of its corners.
     pub corners: Vec<(f64, f64)>,

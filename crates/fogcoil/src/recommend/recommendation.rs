@@ -1,4 +1,4 @@
-//! What is recommended.
+//! Recommendations.
 
 use super::bench::Odds;
 use super::course::Course;
@@ -9,7 +9,7 @@ use super::programme::{Limits, Programme};
 pub struct Ranked {
     /// The programme.
     pub programme: Programme,
-    /// What it tells.
+    /// The information that it gives.
     pub odds: Odds,
 }
 
@@ -20,7 +20,7 @@ pub struct WithSensor {
     pub sensor: String,
     /// The test.
     pub programme: String,
-    /// What both tell.
+    /// The information that both give.
     pub odds: Odds,
 }
 
@@ -33,7 +33,7 @@ pub struct Size {
     pub values: Vec<(String, f64)>,
 }
 
-/// What to do next.
+/// The next steps.
 #[derive(Debug, Clone)]
 pub struct Recommendation {
     /// Ids to be told apart.

@@ -1,4 +1,4 @@
-//! What was simulated and how: the coil, the inputs, the options, the mesh.
+//! Provenance of a simulation: the coil, the inputs, the options, the mesh.
 
 use charts::{facts, nice, row};
 use coil::{CHECKS, Drive, ReductionError, STEADY, Side};
@@ -108,7 +108,7 @@ pub(super) fn sources(simulation: &Simulation) -> Markup {
         Between::Cubic => "cubic",
     };
     let mut options = vec![row("between rows", between)];
-    options.extend(simulation.profile.step.map(|step| row("rows divided", format!("into parts of {step} s at most"))));
+    options.extend(simulation.profile.step.map(|step| row("rows added", format!("every {step} s from the first row"))));
     options.extend(inferred.map(|found| row("noise of the thermometer", format!("{} K", found.noise))));
     provenance("simulate", &files, &options)
 }

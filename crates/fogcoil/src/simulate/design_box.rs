@@ -16,7 +16,7 @@ pub struct DesignBox {
     model: ParametricModel,
 }
 
-/// What a design of a [`DesignBox`] does under a profile.
+/// Response of a design of a [`DesignBox`] to a profile.
 #[derive(Debug, Clone)]
 pub struct Varied {
     /// Rows of the result.

@@ -24,7 +24,7 @@ use crate::Error;
 use crate::cache::Source;
 use crate::input::{CoilCase, ProfileCase};
 
-/// What a coil does under a profile.
+/// Response of a coil to a profile.
 #[derive(Debug, Clone)]
 pub struct Simulation<'a> {
     /// The coil.
@@ -33,7 +33,7 @@ pub struct Simulation<'a> {
     pub profile: &'a ProfileCase,
     /// Its steady-ramp sensitivity.
     pub steady: SteadySensitivity,
-    /// What the model leaves out.
+    /// Errors of the reduction.
     pub reduction: ReductionError,
     /// Modes of the model.
     pub modes: usize,
@@ -150,7 +150,7 @@ impl Simulation<'_> {
     /// Writes the result; every number reads back to the same double.
     ///
     /// # Errors
-    /// What `out` says.
+    /// The error of `out`.
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         const OWN: Column = ("mechanisms_deg_per_h", |row| row.mechanisms);
         let columns: Vec<Column> = COLUMNS.into_iter().chain((!self.added.is_empty()).then_some(OWN)).collect();

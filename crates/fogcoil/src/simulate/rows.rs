@@ -41,7 +41,7 @@ pub struct SimulatedRow {
     pub eo_radial: f64,
     /// The read-out's own drift with temperature \[deg/h\]; not a column of the result.
     pub read_out: f64,
-    /// What mechanisms of a user's own add \[deg/h\]; a column of the result where there are any.
+    /// Contribution of a user's own mechanisms \[deg/h\]; a column of the result where there are any.
     pub mechanisms: f64,
     /// The sum of the five \[deg/h\].
     pub rate: f64,

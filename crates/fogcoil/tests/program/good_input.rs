@@ -101,7 +101,7 @@ fn a_result_replaces_an_older_one_through_a_link() {
 fn a_large_coil_makes_a_small_picture() {
     let folder = Folder::new();
     let large = change(&change(COIL, "layers: 36", "layers: 400"), "outer_radius_mm: 48.825", "outer_radius_mm: 102.5");
-    folder.write("coil.ron", large);
+    folder.write("coil.ron", change(&large, "        sagnac_diameter_mm: 92.325,\n", ""));
     run(&folder, &["wind", "coil.ron", "--svg", "section.svg"]);
     assert!(std::fs::metadata(folder.path("section.svg")).unwrap().len() < 500_000);
 }
@@ -208,6 +208,22 @@ fn mechanics_are_read_and_change_the_bias_in_time() {
     }
     assert!(stdout(&folder.run(&["sensitivity", "table.ron"])).contains("nominal state"));
     assert!(!stdout(&folder.run(&["sensitivity", "elastic.ron"])).contains("nominal state"));
+}
+
+#[test]
+fn the_effective_diameter_is_the_mean_one_unless_given_and_another_is_noted() {
+    let folder = Folder::new();
+    let given = "        sagnac_diameter_mm: 92.325,\n";
+    let read = |text: String| fogcoil::input::read_coil(&folder.write("coil.ron", text)).unwrap();
+    let left_out = read(change(COIL, given, ""));
+    assert!((left_out.design.optics.sagnac_diameter - 92.325e-3).abs() < 1e-15 && left_out.warnings.is_empty());
+    let noted = |diameter: &str| {
+        let case = read(change(COIL, "sagnac_diameter_mm: 92.325", &format!("sagnac_diameter_mm: {diameter}")));
+        case.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+    };
+    assert_eq!([noted("93.5"), noted("91.0")].concat(), "");
+    assert!(noted("95.0").contains("95 mm is not the coil's mean diameter, 92.325 mm"), "{}", noted("95.0"));
+    assert!(noted("80.0").contains("lies outside the coil"), "{}", noted("80.0"));
 }
 
 #[test]

@@ -94,7 +94,8 @@ fn figures_alone_are_documents_and_the_contributions_add_up() {
     let cache = fogcoil::cache::Cache::NONE;
     let (model, fields) = fogcoil::simulate::model_with_fields(&case, &profile.drives, &cache).unwrap();
     let simulation = fogcoil::simulate::simulate(&case, &profile, &model).unwrap();
-    let documents = fogcoil::figures::documents(&simulation, Some(&fields));
+    let documents = fogcoil::figures::documents(&simulation, Some(&fields), &[("a unit", -1.98)]);
+    assert!(documents.iter().any(|(name, svg)| *name == "bias-against-rate" && svg.contains("a unit: slope \u{2212}1.98")));
     assert_eq!(documents.len(), 10);
     let winding = ("winding", fogcoil::picture::svg(&case.name, &case.winding));
     for (name, svg) in documents.iter().chain([&winding]) {

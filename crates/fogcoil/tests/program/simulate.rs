@@ -75,6 +75,13 @@ fn long_rows_are_noted_and_can_be_divided() {
     assert!(divided.len() == short.len() && divided.iter().zip(&short).map(far).fold(0.0, f64::max) < 1e-9);
     assert_eq!(rows(&long).len(), 2);
     assert!(noted.contains("[long-rows]") && !(silent + &also_silent).contains("long-rows"), "{noted}");
+    // rows every 1000 s from the first row, and the profile's own
+    let (uneven, _) = run(&["--profile", "long.csv", "--step", "1000"]);
+    assert_eq!(rows(&uneven).iter().map(|row| row[0]).collect::<Vec<f64>>(), [0.0, 1000.0, 2000.0, 3000.0, 3600.0]);
+    assert_eq!(rows(&uneven)[3][1], 70.0);
+    folder.write("corners.csv", "time_s,chamber_c\n100,20\n170,20\n250,30\n");
+    let (corners, _) = run(&["--profile", "corners.csv", "--step", "30"]);
+    assert_eq!(rows(&corners).iter().map(|row| row[0]).collect::<Vec<f64>>(), [100.0, 130.0, 160.0, 170.0, 190.0, 220.0, 250.0]);
     let refused = |more: &[&str]| {
         let output = folder.run(&[&["simulate", "coil.ron", "--profile", "long.csv", "--out", "c.csv"], more].concat());
         assert_eq!(output.status.code(), Some(2));

@@ -1,4 +1,4 @@
-//! What acts on the cell, and the local state at a point of an element.
+//! The load on the cell, and the local state at a point of an element.
 
 use super::Convention;
 use crate::irregular::{LOADS, Solid, Solution, TEMPERATURE};

@@ -74,7 +74,7 @@ pub enum Quantity {
 pub struct Parameter {
     /// Name of the ring, or "adhesive".
     pub phase: String,
-    /// What it is.
+    /// Its meaning.
     pub quantity: Quantity,
     /// Where it lies before the measurement.
     pub prior: Prior,

@@ -27,7 +27,7 @@ pub enum Repair {
     Masked,
 }
 
-/// What was found.
+/// The result.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum FindingKind {
@@ -72,7 +72,7 @@ pub enum FindingKind {
     Unit {
         /// Which size was judged, e.g. "values".
         what: &'static str,
-        /// What was found \[u\].
+        /// The result \[u\].
         found: f64,
         /// What is plausible \[u\].
         range: [f64; 2],

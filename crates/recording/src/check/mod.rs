@@ -1,4 +1,4 @@
-//! What is wrong with a recording.
+//! The faults of a recording.
 //!
 //! Nothing is altered: [`check`] says which rows to keep and, channel by channel, which values to trust, and lists why.
 
@@ -33,7 +33,7 @@ pub struct Expectations {
     pub clock: Clock,
 }
 
-/// What was found.
+/// The result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
     /// Everything found, the worst first.

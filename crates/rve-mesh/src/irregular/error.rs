@@ -1,4 +1,4 @@
-//! What can be wrong with a layout.
+//! The faults of a layout.
 
 /// Errors of the periodic cell with any inclusions.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
