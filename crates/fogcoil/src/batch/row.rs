@@ -89,7 +89,7 @@ impl Row {
         }
     }
 
-    /// One of [`NUMBERS`].
+    /// A column by its name; none if it was not found, or there is no such column.
     pub fn number(&self, name: &str) -> Option<f64> {
         NUMBERS.iter().position(|known| *known == name).and_then(|n| self.numbers[n])
     }

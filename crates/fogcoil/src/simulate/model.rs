@@ -36,7 +36,7 @@ pub fn model(case: &CoilCase, drives: &[Drive], cache: &Cache) -> Result<Model, 
     assembled(case, drives, cache, dynamics, source)
 }
 
-/// As [`model`], with the fields of turns and section for [`crate::figures`] and [`crate::section`]; those take 1 kB a turn and drive.
+/// As [`model`], with the fields of turns and section for [`crate::figures`] and [`crate::section_files`]; those take 1 kB a turn and drive.
 ///
 /// # Errors
 /// As [`model`].
