@@ -14,7 +14,7 @@ const DENY: [&str; 2] = ["cargo-deny", "0.20.2"];
 const BILL: [&str; 2] = ["cargo-cyclonedx", "0.5.9"];
 /// What a build of the program needs of the repository.
 const SOURCES: [&str; 4] = ["crates", "xtask", "tests", "python"];
-const FILES: [&str; 2] = ["Cargo.toml", "Cargo.lock"];
+const FILES: [&str; 3] = ["Cargo.toml", "Cargo.lock", ".cargo/config.toml"];
 /// Second of the clock that a bill is dated with, so that it does not change from day to day: 1 January 2026.
 const DATE: &str = "1767225600";
 
@@ -97,11 +97,7 @@ fn built(folder: &Path) -> Result<String, Failure> {
         [(&sources, "fogcoil"), (&home, "cargo")].map(|(from, to)| format!("--remap-path-prefix={}=/{to}", from.display()));
     let mut build = cargo();
     build.args(["build", "--quiet", "--release", "--locked", "--package", "fogcoil", "--bin", "fogcoil"]);
-    build
-        .env("CONST_RANDOM_SEED", "fogcoil")
-        .env("CARGO_TARGET_DIR", &target)
-        .env("CARGO_ENCODED_RUSTFLAGS", remapped.join("\u{1f}"))
-        .current_dir(&sources);
+    build.env("CARGO_TARGET_DIR", &target).env("CARGO_ENCODED_RUSTFLAGS", remapped.join("\u{1f}")).current_dir(&sources);
     if !build.status()?.success() {
         return Err(Failure(format!("the program cannot be built in {}", sources.display())));
     }

@@ -79,9 +79,8 @@ fn mapped(a: &Sensitivity, b: &Sensitivity, of: impl Fn(f64, f64) -> f64) -> Sen
 pub fn sensitivity_changes(design: &Design, tolerances: &Tolerances) -> Result<Vec<SensitivityChange>, Error> {
     let of = |design: &Design| -> Result<Sensitivity, Error> { Model::new(design, &SLOPES)?.sensitivity() };
     let here = of(design)?;
-    let constants = Parameter::ALL.iter().map(|p| Number::Constant(*p));
     let mut changes = Vec::new();
-    for number in constants.chain([Number::Tail]).filter(|n| acts_in_a_ramp(*n)) {
+    for number in Number::every().filter(|n| acts_in_a_ramp(*n)) {
         let Some(drawn) = number.of(design) else { continue };
         let sd = tolerances.of(number).of(drawn);
         if sd <= 0.0 {

@@ -18,6 +18,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use sha2::{Digest, Sha256};
 
+use crate::input::hexadecimal;
+
 /// First bytes of a file.
 const MAGIC: [u8; 8] = *b"fogcoil\0";
 /// Changes when the layout of files or names does.
@@ -130,10 +132,6 @@ fn is_ours(_: &fs::Metadata) -> bool {
 fn name(code: Option<&Path>, purpose: &str, key: &impl Serialize) -> Option<Name> {
     let all = postcard::to_stdvec(&(FORMAT, env!("CARGO_PKG_VERSION"), this_build(code)?, purpose, key)).ok()?;
     Some(Sha256::digest(all).into())
-}
-
-fn hexadecimal(name: &Name) -> String {
-    name.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Over the name too: a sound file under another's name is not taken for it.

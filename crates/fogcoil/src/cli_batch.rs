@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use fogcoil::batch::{self, Batch, Inputs, Limits, read_limits, report, table, text, units};
+use fogcoil::batch::{self, Batch, Inputs, Limits, Unit, kept_files, read_limits, report, table, text, units};
 use fogcoil::cache::Cache;
 use fogcoil::input::{self, RecordOptions};
 use fogcoil::measure::Prediction;
@@ -41,17 +41,20 @@ pub(crate) struct BatchOf {
 
 const NAMES: [(&str, Format); 3] = [("table.csv", Format::Csv), ("table.parquet", Format::Parquet), ("table.xlsx", Format::Xlsx)];
 
+const PAGE: &str = "report.html";
+
 pub(crate) fn run(arguments: &BatchOf, progress: &Progress) -> Result<(), Error> {
     let BatchOf { coil, records, limits, out, mechanisms, meta, map } = arguments;
     let asked = input::read_mechanisms(mechanisms)?;
     let further = asked.further_columns();
     let options = RecordOptions { map: map.clone(), meta: meta.clone(), further, ..RecordOptions::default() };
-    let units = units(records)?;
+    let units = units(records, out)?;
     let limits = limits.as_deref().map(read_limits).transpose()?;
     let all = units.iter().flat_map(|unit| unit.fits.iter().chain(&unit.holdouts)).flat_map(|record| options.files(record));
     let mut inputs: Vec<PathBuf> = all.chain(asked.own.iter().map(|own| own.file.clone())).collect();
     inputs.extend(limits.iter().map(|limits| limits.fingerprint.file.clone()));
-    let case = progress.read_coil_for(coil, &inputs, &[])?;
+    let outputs = places(out, &units);
+    let case = progress.read_coil_for(coil, &inputs, &outputs.iter().map(|path| Some(path.as_path())).collect::<Vec<_>>())?;
     diagnose::check_design(&case, coil)?;
     let prediction = progress.during("modelling the coil", || {
         let (steady, band) = (case.steady_sensitivity()?, case.sensitivity_band()?);
@@ -64,6 +67,16 @@ pub(crate) fn run(arguments: &BatchOf, progress: &Progress) -> Result<(), Error>
     judged(&batch)
 }
 
+/// All files that may be written into a folder that is there, those of units where they are kept from a run before; the path itself where it is no folder.
+fn places(out: &Path, units: &[Unit]) -> Vec<PathBuf> {
+    if !out.is_dir() {
+        return out.exists().then(|| out.to_owned()).into_iter().collect();
+    }
+    let tables = NAMES.iter().map(|(name, _)| *name).chain([PAGE]).map(|name| out.join(name));
+    let kept = kept_files(out, units).into_iter().filter(|file| file.exists());
+    tables.chain(kept).collect()
+}
+
 fn save(inputs: &Inputs, limits: Option<&Limits>, batch: &Batch, out: &Path, progress: &Progress) -> Result<(), Error> {
     let table = table(batch);
     let written = NAMES.iter().map(|(name, format)| Ok((out.join(name), bytes(&table, *format)?)));
@@ -72,7 +85,7 @@ fn save(inputs: &Inputs, limits: Option<&Limits>, batch: &Batch, out: &Path, pro
         written.iter().map(|(path, bytes)| (path, move |to: &mut dyn std::io::Write| to.write_all(bytes))).collect();
     let mut files: Vec<(&Path, Content)> =
         writers.iter().map(|(path, write)| (path.as_path(), Content::Written(write))).collect();
-    let page = out.join("report.html");
+    let page = out.join(PAGE);
     files.push((&page, Content::Text(report(inputs, limits, batch))));
     progress.save(&files)
 }

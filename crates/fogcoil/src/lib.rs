@@ -56,6 +56,7 @@ pub mod optimise;
 pub mod picture;
 pub mod picture_cell;
 pub mod prepare;
+mod program;
 pub mod recommend;
 pub mod report;
 pub mod section_files;

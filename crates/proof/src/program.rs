@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use fogcoil::input::hexadecimal;
 use sha2::{Digest, Sha256};
 
 use crate::{Failure, files};
@@ -34,7 +35,7 @@ pub fn hash(root: &Path) -> Result<String, Failure> {
 
 /// A digest in hexadecimal digits.
 pub fn hex(hash: Sha256) -> String {
-    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    hexadecimal(&hash.finalize())
 }
 
 #[cfg(test)]

@@ -19,6 +19,11 @@ pub enum Number {
 }
 
 impl Number {
+    /// Every number that may have a tolerance.
+    pub fn every() -> impl Iterator<Item = Self> {
+        Parameter::ALL.iter().map(|parameter| Self::Constant(*parameter)).chain([Self::ThermoOptic, Self::Tail, Self::SensorLag])
+    }
+
     /// Its value in a design, SI, of a tail the CW one's; `None` if the design has no such number.
     pub fn of(self, design: &Design) -> Option<f64> {
         match self {

@@ -27,6 +27,11 @@ impl Fingerprint {
     }
 }
 
+/// Bytes of a hash in hexadecimal digits, as `sha256sum` prints them.
+pub fn hexadecimal(hash: &[u8]) -> String {
+    hash.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
 impl fmt::Display for Fingerprint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:016x}", self.fnv1a)
@@ -56,7 +61,7 @@ impl Hash {
 
     /// Of what has come so far.
     pub(crate) fn fingerprint(&self, file: PathBuf) -> Fingerprint {
-        let sha256 = self.sha256.clone().finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+        let sha256 = hexadecimal(&self.sha256.clone().finalize());
         Fingerprint { file, bytes: self.bytes, fnv1a: self.fnv1a, sha256 }
     }
 }

@@ -36,6 +36,11 @@ pub struct MechanismCase {
 }
 
 impl MechanismCase {
+    /// Which content its file had.
+    pub fn fingerprint(&self) -> super::Fingerprint {
+        self.source.fingerprint()
+    }
+
     /// Values of all parameters.
     ///
     /// # Errors

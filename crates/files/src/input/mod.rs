@@ -61,7 +61,7 @@ pub use coil::{CoilCase, Origin, PRINTED, Provenance, check_coil, read_coil};
 pub(crate) use coil_file::CoilFile;
 pub use edit::{field_text, with_fields};
 pub use error::InputError;
-pub use fingerprint::Fingerprint;
+pub use fingerprint::{Fingerprint, hexadecimal};
 pub use mechanism::{MechanismCase, check_mechanism, read_mechanism};
 pub use meta::{Meta, Rate, TemperatureSensor, Thermometer};
 pub use name::meant;

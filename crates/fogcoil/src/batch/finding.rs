@@ -9,7 +9,7 @@ use super::units::Unit;
 use crate::Error;
 use crate::cache::Cache;
 use crate::diagnose::diagnose;
-use crate::input::{Asked, CoilCase, RecordCase, RecordOptions, read_record};
+use crate::input::{Asked, CoilCase, RecordCase, RecordOptions, hexadecimal, read_record};
 use crate::measure::{self, Prediction, measure};
 
 /// What all units have in common.
@@ -36,11 +36,11 @@ pub(super) struct Read {
 }
 
 impl Inputs<'_> {
-    /// Reads the records of a unit.
+    /// Reads the records of a unit, for the program of this hash.
     ///
     /// # Errors
     /// [`files::Error::Input`] of a record that cannot be used.
-    pub(super) fn read(&self, unit: &Unit) -> Result<Read, Error> {
+    pub(super) fn read(&self, unit: &Unit, program: &str) -> Result<Read, Error> {
         let read = |paths: &[PathBuf]| -> Result<Vec<RecordCase>, Error> {
             let of = |path: &PathBuf| {
                 let record = read_record(path, self.options)?;
@@ -50,9 +50,9 @@ impl Inputs<'_> {
             paths.iter().map(of).collect()
         };
         let (fits, holdouts) = (read(&unit.fits)?, read(&unit.holdouts)?);
-        let mut hash = Sha256::new().chain_update(format!("fogcoil {}\n{}\n", env!("CARGO_PKG_VERSION"), unit.name));
+        let mut hash = Sha256::new().chain_update(format!("{program}\n{}\n", unit.name));
         self.case.fingerprints.iter().for_each(|file| hash.update(&file.sha256));
-        self.asked.own.iter().for_each(|own| hash.update(std::fs::read(&own.file).unwrap_or_default()));
+        self.asked.own.iter().for_each(|own| hash.update(own.fingerprint().sha256));
         hash.update(format!("{:?}\n", self.asked.with_catalogue().iter().map(|m| m.facts().id).collect::<Vec<_>>()));
         for (record, role) in fits.iter().map(|r| (r, "fit")).chain(holdouts.iter().map(|r| (r, "holdout"))) {
             // how it is read is in what is read: instants, values, what is known of it
@@ -62,7 +62,7 @@ impl Inputs<'_> {
                 hash.update(number.to_bits().to_le_bytes());
             }
         }
-        let key = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+        let key = hexadecimal(&hash.finalize());
         Ok(Read { name: unit.name.clone(), fits, holdouts, key })
     }
 

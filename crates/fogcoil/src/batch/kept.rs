@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
+use super::units::Unit;
 use crate::output::{Content, write_files};
 use crate::{Error, FileError};
 
@@ -19,6 +20,12 @@ const UNITS: &str = "units";
 /// The page of a unit, from the batch's folder.
 pub(super) fn page(unit: &str) -> String {
     format!("{UNITS}/{unit}.html")
+}
+
+/// Files that the findings of some units are kept in, in the folder of a batch.
+pub fn kept_files(batch: &Path, units: &[Unit]) -> Vec<PathBuf> {
+    let file = |unit: &Unit, end: &str| batch.join(UNITS).join(format!("{}.{end}", unit.name));
+    units.iter().flat_map(|unit| ["json", "html"].map(|end| file(unit, end))).collect()
 }
 
 impl Kept {

@@ -1,5 +1,7 @@
 //! What the units of a batch have in common, and which stand out.
 
+use recording::statistics::{median, normal_quantile, robust_sd};
+
 use super::row::{NUMBERS, Row};
 use super::run::Batch;
 
@@ -29,12 +31,8 @@ pub(super) struct Outlier<'a> {
 
 /// Distance from which a number stands out (B. Iglewicz and D. C. Hoaglin, *How to Detect and Handle Outliers*, 1993).
 const FAR: f64 = 3.5;
-/// A median absolute deviation of normal numbers in standard deviations of theirs.
-const NORMAL: f64 = 1.4826;
 /// Distance from the design, in standard deviations of its tolerance, from which a constant is worth a line.
 const WORTH: f64 = 0.5;
-/// Half of a 90 % interval of a normal number in standard deviations.
-const HALF: f64 = 1.645;
 /// Fewest units that tell what is common, and what is usual.
 const FEWEST: usize = 5;
 
@@ -60,25 +58,21 @@ pub(super) fn common(batch: &Batch) -> Vec<Common> {
     all
 }
 
-fn median(mut all: Vec<f64>) -> f64 {
-    all.sort_by(f64::total_cmp);
-    let middle = all.len() / 2;
-    if all.len() % 2 == 1 { all[middle] } else { (all[middle - 1] + all[middle]) / 2.0 }
-}
-
 /// Numbers that stand out, the farthest first.
 pub(super) fn outliers(batch: &Batch) -> Vec<Outlier<'_>> {
     let mut all = Vec::new();
+    // half of a 90 % interval of a normal number in its standard deviations
+    let half = normal_quantile(0.95);
     for number in NUMBERS.iter().filter(|number| **number != "probability") {
         let known: Vec<(&Row, f64)> = batch.rows.iter().filter_map(|(row, _)| Some((row, row.number(number)?))).collect();
         if known.len() < FEWEST {
             continue;
         }
-        let middle = median(known.iter().map(|(_, value)| *value).collect());
-        let scale = NORMAL * median(known.iter().map(|(_, value)| (value - middle).abs()).collect());
+        let Some(middle) = median(known.iter().map(|(_, value)| *value).collect()) else { continue };
+        let Some(scale) = robust_sd(known.iter().map(|(_, value)| *value), middle) else { continue };
         for (row, value) in known {
             // what is poorly known is not far because of that
-            let own = row.interval(number).map_or(0.0, |[low, high]| (high - low) / (2.0 * HALF));
+            let own = row.interval(number).map_or(0.0, |[low, high]| (high - low) / (2.0 * half));
             let distance = (value - middle) / scale.hypot(own);
             if scale > 0.0 && distance.abs() > FAR {
                 all.push(Outlier { unit: &row.unit, number, value, median: middle, distance });

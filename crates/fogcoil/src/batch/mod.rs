@@ -16,6 +16,7 @@ mod units;
 
 pub use columns::table;
 pub use finding::Inputs;
+pub use kept::kept_files;
 pub use limits::{Judged, Limits, read_limits};
 pub use report::report;
 pub use row::Row;

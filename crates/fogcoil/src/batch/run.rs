@@ -12,8 +12,8 @@ use super::kept::Kept;
 use super::limits::{Judged, Limits};
 use super::row::Row;
 use super::units::Unit;
-use crate::Error;
 use crate::prepare::models;
+use crate::{Error, program};
 
 /// A batch.
 pub struct Batch {
@@ -35,7 +35,8 @@ pub fn run(
 ) -> Result<Batch, Error> {
     const NAME: &str = "diagnosing units";
     progress(Step::begins("reading the records"));
-    let read: Vec<Read> = units.par_iter().map(|unit| inputs.read(unit)).collect::<Result<_, _>>()?;
+    let program = program::hash();
+    let read: Vec<Read> = units.par_iter().map(|unit| inputs.read(unit, &program)).collect::<Result<_, _>>()?;
     let kept = Kept::within(folder)?;
     let found: Vec<Option<Value>> = read.iter().map(|unit| kept.load(&unit.name, &unit.key)).collect();
     if found.iter().any(Option::is_none) {

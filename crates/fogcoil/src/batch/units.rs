@@ -20,11 +20,13 @@ pub struct Unit {
 /// Begins the name of a record that judges.
 const HELD_OUT: &str = "holdout";
 
-/// The units that paths name, by their names: a recording; a folder with the recordings (`*.csv`) of one unit; a folder of such folders.
+/// The units that paths name, by their names: a recording; a folder with the recordings (`*.csv`) of one unit; a folder of such folders. The batch's own
+/// folder `out` is none of them.
 ///
 /// # Errors
-/// [`files::Error::Input`] of a path without recordings, or of two units of one name.
-pub fn units(paths: &[PathBuf]) -> Result<Vec<Unit>, Error> {
+/// [`files::Error::Input`] of a path without recordings, of two units of one name, or where results would lie among recordings.
+pub fn units(paths: &[PathBuf], out: &Path) -> Result<Vec<Unit>, Error> {
+    let is_out = |folder: &Path| folder.canonicalize().ok().zip(out.canonicalize().ok()).is_some_and(|(a, b)| a == b);
     let mut all: BTreeMap<String, Unit> = BTreeMap::new();
     let mut add = |at: &Path, unit: Unit| match all.insert(unit.name.clone(), unit) {
         None => Ok(()),
@@ -48,7 +50,10 @@ pub fn units(paths: &[PathBuf]) -> Result<Vec<Unit>, Error> {
             Ok(below)
         };
         let mut found = 0;
-        let folders: Vec<PathBuf> = below(path)?.into_iter().filter(|inside| inside.is_dir()).collect();
+        if is_out(path) {
+            return Err(InputError::whole(path, "has recordings, and would have the results", "give another --out").into());
+        }
+        let folders: Vec<PathBuf> = below(path)?.into_iter().filter(|inside| inside.is_dir() && !is_out(inside)).collect();
         for folder in std::iter::once(path).chain(&folders) {
             let records: Vec<PathBuf> = below(folder)?.into_iter().filter(|file| is_record(file)).collect();
             if !records.is_empty() {
@@ -99,12 +104,15 @@ mod tests {
         {
             std::fs::write(at(name), "").unwrap();
         }
-        let found = units(&[at("lot"), at("lone"), at("one b.csv")]).unwrap();
+        let found = units(&[at("lot"), at("lone"), at("one b.csv")], &at("out")).unwrap();
         let told: Vec<String> =
             found.iter().map(|unit| format!("{} {} {}", unit.name, unit.fits.len(), unit.holdouts.len())).collect();
         assert_eq!(told, ["U1 1 1", "U2 1 0", "lone 1 0", "one_b 1 0"]);
-        let says = |paths: &[PathBuf]| units(paths).unwrap_err().to_string();
+        let says = |paths: &[PathBuf]| units(paths, &at("out")).unwrap_err().to_string();
         assert!(says(&[at("empty")]).contains("has no recording"));
         assert!(says(&[at("lot"), at("lot/U1")]).contains("is the second unit of the name U1"));
+        // tables of an earlier run are no recordings
+        assert_eq!(units(&[at("lot")], &at("lot/U2")).unwrap().len(), 1);
+        assert!(units(&[at("lone")], &at("lone")).unwrap_err().to_string().contains("give another --out"));
     }
 }

@@ -1,6 +1,6 @@
 //! Which keys of two designs differ.
 
-use coil::{Number, Parameter};
+use coil::Number;
 
 use crate::input::{CoilCase, keyed};
 use crate::output::design_entries;
@@ -65,7 +65,6 @@ pub(super) fn differing(cases: [&CoilCase; 2]) -> Vec<Differing> {
 
 /// Keys whose tolerances differ, those that a file leaves out included, in words.
 pub(super) fn tolerances(cases: [&CoilCase; 2]) -> Vec<Differing> {
-    let constants = Parameter::ALL.iter().map(|parameter| Number::Constant(*parameter));
     let of = |number: Number| {
         let (key, _) = cases.iter().find_map(|case| keyed(number, &case.design))?;
         if cases[0].tolerances.of(number) == cases[1].tolerances.of(number) {
@@ -73,5 +72,5 @@ pub(super) fn tolerances(cases: [&CoilCase; 2]) -> Vec<Differing> {
         }
         Some(Differing { key: key.to_owned(), unit: None, values: cases.map(|case| tolerance_in_words(case, number)) })
     };
-    constants.chain([Number::ThermoOptic, Number::Tail, Number::SensorLag]).filter_map(of).collect()
+    Number::every().filter_map(of).collect()
 }

@@ -7,9 +7,9 @@ use sha2::{Digest, Sha256};
 
 use super::outputs::Output;
 use super::points::{LONGEST_SEQUENCE, Points, Sampling};
-use crate::Error;
-use crate::input::{CoilCase, Fingerprint, InputError, fault_in, read_coil, read_profile, read_ron, read_text};
+use crate::input::{CoilCase, Fingerprint, InputError, fault_in, hexadecimal, read_coil, read_profile, read_ron, read_text};
 use crate::variants::{Dimensions, Factor, Group, MOST_FACTORS, Others, Variants, Varied, each_once, variants};
+use crate::{Error, program};
 
 /// Most points of a plan.
 pub const MOST_POINTS: usize = 10_000_000;
@@ -174,10 +174,10 @@ impl Plan {
         self.outputs.iter().flat_map(|output| output.names().iter().copied()).collect()
     }
 
-    /// SHA-256 of all that the rows follow from: the program's version, the plan, the files that it names.
+    /// SHA-256 of all that the rows follow from: the program, the plan, the files that it names.
     pub fn hash(&self) -> String {
-        let mut hash = Sha256::new().chain_update(format!("fogcoil {}\n", env!("CARGO_PKG_VERSION")));
+        let mut hash = Sha256::new().chain_update(format!("{}\n", program::hash()));
         self.files.iter().for_each(|file| hash.update(format!("{}\n", file.sha256)));
-        hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+        hexadecimal(&hash.finalize())
     }
 }

@@ -1,6 +1,6 @@
 //! What is varied of a drawing: a key of its file, or a number within its tolerance.
 
-use coil::{Design, Number, Parameter, Tolerances};
+use coil::{Design, Number, Tolerances};
 
 use super::group::Group;
 use super::value::Value;
@@ -38,11 +38,6 @@ pub enum Toleranced {
     CcwTail,
 }
 
-/// Every number that may have a tolerance.
-fn every_number() -> impl Iterator<Item = Number> {
-    Parameter::ALL.iter().map(|p| Number::Constant(*p)).chain([Number::ThermoOptic, Number::Tail, Number::SensorLag])
-}
-
 impl Factor {
     /// Those numbers of a design that deviate within its tolerances.
     pub fn within_tolerances(design: &Design, tolerances: &Tolerances) -> Vec<Self> {
@@ -58,7 +53,7 @@ impl Factor {
                 _ => vec![one(key.to_owned(), Toleranced::Number(number))],
             }
         };
-        every_number().flat_map(of).collect()
+        Number::every().flat_map(of).collect()
     }
 
     /// How many values it has; `None` of a number between two ends.

@@ -125,4 +125,24 @@ fn bad_batches_are_refused_and_nothing_is_written() {
     let output = folder.run(&["batch", "drawing.ron", "U8378.csv", "--out", "drawing.ron"]);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     assert!(!folder.path("out").exists());
+    results_never_lie_on_inputs(&folder);
+}
+
+/// What is read is no result's place, which is said before anything is computed or written.
+fn results_never_lie_on_inputs(folder: &Folder) {
+    let record = fs::read_to_string(folder.path("U8378.csv")).unwrap();
+    fs::create_dir_all(folder.path("mine/units")).unwrap();
+    folder.write("mine/table.csv", &record);
+    folder.write("mine/units/table.json", "(verdicts: [\"none\"])");
+    for (arguments, said) in [
+        (vec!["lot/U7986", "--out", "lot/U7986"], "give another --out"),
+        (vec!["mine/table.csv", "--out", "mine"], "is an input"),
+        (vec!["mine/table.csv", "--limits", "mine/units/table.json", "--out", "mine"], "is an input"),
+    ] {
+        let output = folder.run(&[&["batch", "drawing.ron"], &arguments[..]].concat());
+        assert!(output.status.code() == Some(2) && stderr(&output).contains(said), "{arguments:?}: {}", stderr(&output));
+        assert!(!stderr(&output).contains("diagnosing"), "{}", stderr(&output));
+    }
+    assert_eq!(fs::read_to_string(folder.path("mine/table.csv")).unwrap(), record);
+    assert!(!folder.path("mine/units/table.html").exists() && !folder.path("lot/U7986/units").exists());
 }

@@ -1,0 +1,45 @@
+//! Which program computed what is kept: results of another build do not count as this one's, though its version be the same.
+
+use std::env;
+use std::fs::File;
+use std::io;
+
+use sha2::{Digest, Sha256};
+
+use crate::input::hexadecimal;
+
+/// SHA-256 of the executable, the same on every machine that runs it; the version alone where it cannot be read.
+pub(crate) fn hash() -> String {
+    let mut hash = Sha256::new().chain_update(concat!("fogcoil ", env!("CARGO_PKG_VERSION")));
+    if let Ok(mut file) = env::current_exe().and_then(File::open) {
+        // what cannot be read to its end is a program of its own
+        let _ = io::copy(&mut file, &mut Update(&mut hash));
+    }
+    hexadecimal(&hash.finalize())
+}
+
+/// Takes in what is written.
+struct Update<'a>(&'a mut Sha256);
+
+impl io::Write for Update<'_> {
+    fn write(&mut self, piece: &[u8]) -> io::Result<usize> {
+        self.0.update(piece);
+        Ok(piece.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_executable_is_in_it() {
+        let version = Sha256::digest(concat!("fogcoil ", env!("CARGO_PKG_VERSION")));
+        assert_eq!(hash(), hash());
+        assert_ne!(hash(), hexadecimal(&version));
+    }
+}
