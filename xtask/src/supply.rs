@@ -13,8 +13,8 @@ use sha2::{Digest, Sha256};
 const DENY: [&str; 2] = ["cargo-deny", "0.20.2"];
 const BILL: [&str; 2] = ["cargo-cyclonedx", "0.5.9"];
 /// What a build of the program needs of the repository.
-const SOURCES: [&str; 4] = ["crates", "xtask", "tests", "python"];
-const FILES: [&str; 3] = ["Cargo.toml", "Cargo.lock", ".cargo/config.toml"];
+const SOURCES: [&str; 5] = ["crates", "xtask", "tests", "python", "fuzz"];
+const FILES: [&str; 2] = ["Cargo.toml", "Cargo.lock"];
 /// Second of the clock that a bill is dated with, so that it does not change from day to day: 1 January 2026.
 const DATE: &str = "1767225600";
 
