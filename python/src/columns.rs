@@ -1,11 +1,9 @@
-//! Columns of numbers: from Python as a table that the readers of files check, to Python as the bytes of their doubles.
+//! Columns of numbers from Python, as a table that the readers of files check.
 
 use std::fmt::Write;
 
 use fogcoil::input::InputError;
 use fogcoil::{Error, FileError};
-use pyo3::prelude::*;
-use pyo3::types::PyByteArray;
 
 /// A column: its name and its values.
 pub(crate) type Column = (String, Vec<f64>);
@@ -32,9 +30,4 @@ pub(crate) fn at_element(error: Error) -> Error {
         }
         other => other,
     }
-}
-
-/// The doubles' bytes in the machine's order.
-pub(crate) fn bytes<'py>(py: Python<'py>, values: impl IntoIterator<Item = f64>) -> Bound<'py, PyByteArray> {
-    PyByteArray::new(py, &values.into_iter().flat_map(f64::to_ne_bytes).collect::<Vec<u8>>())
 }

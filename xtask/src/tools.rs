@@ -30,10 +30,12 @@ pub(crate) fn tool([name, version]: [&str; 2]) -> Result<Command, Failure> {
     Ok(Command::new(program))
 }
 
-/// Our program, built beside this one.
+/// Our program, built beside this one in its profile.
 pub(crate) fn program() -> Result<PathBuf, Failure> {
-    if !run(cargo().args(["build", "--quiet", "--release", "--package", "fogcoil"]))? {
+    let this = std::env::current_exe()?;
+    let profile = this.parent().is_some_and(|folder| folder.ends_with("release")).then_some("--release");
+    if !run(cargo().args(["build", "--quiet", "--package", "fogcoil"]).args(profile))? {
         return Err(Failure("the program does not build".into()));
     }
-    Ok(std::env::current_exe()?.with_file_name(format!("fogcoil{}", std::env::consts::EXE_SUFFIX)))
+    Ok(this.with_file_name(format!("fogcoil{}", std::env::consts::EXE_SUFFIX)))
 }

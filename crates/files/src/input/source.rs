@@ -31,6 +31,15 @@ pub fn read_ron<T: DeserializeOwned>(path: &Path) -> Result<T, InputError> {
     Source::read(path)?.parse(None)
 }
 
+/// A RON text of any type, with its fingerprint; messages call it `path`.
+///
+/// # Errors
+/// The fault, in which file, line and field, and how to mend it.
+pub fn check_ron<T: DeserializeOwned>(path: &Path, text: &str) -> Result<(T, Fingerprint), InputError> {
+    let source = Source::of(path, text.to_owned());
+    Ok((source.parse(None)?, source.fingerprint()))
+}
+
 /// A complaint about a field of a case file that was read before, with its line if the file is still there.
 pub fn fault_in(path: &Path, field: &str, problem: String, remedy: String) -> InputError {
     match Source::read(path) {

@@ -34,7 +34,18 @@ pub struct TargetsCase {
 /// # Errors
 /// The fault, in which file, line and field, and how to mend it.
 pub fn read_targets(path: &Path) -> Result<TargetsCase, InputError> {
-    let source = Source::read(path)?;
+    checked(Source::read(path)?)
+}
+
+/// Checks targets that are not in a file, with the content of one; messages call them `path`.
+///
+/// # Errors
+/// The fault, in which line and field, and how to mend it.
+pub fn check_targets(path: &Path, text: &str) -> Result<TargetsCase, InputError> {
+    checked(Source::of(path, text.to_owned()))
+}
+
+fn checked(source: Source) -> Result<TargetsCase, InputError> {
     let file: TargetsFile = source.parse(Some(&TARGETS))?;
     let top = Group::whole(&source);
     let pitch = file.pitch_um.model();
@@ -48,7 +59,7 @@ pub fn read_targets(path: &Path) -> Result<TargetsCase, InputError> {
     }
     let cells = file.cells.iter().enumerate().map(|(i, cell)| family(&top.group(&format!("cells[{i}]")), cell, pitch));
     let families = cells.collect::<Result<_, _>>()?;
-    Ok(TargetsCase { file: path.to_owned(), name: file.name, targets, families })
+    Ok(TargetsCase { file: source.path().to_owned(), name: file.name, targets, families })
 }
 
 fn entries(at: &Group, file: &Entries) -> Result<Vec<Target>, InputError> {

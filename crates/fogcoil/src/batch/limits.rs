@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::row::{NUMBERS, Row};
 use crate::Error;
-use crate::input::{Fingerprint, fault_in, meant, read_ron, read_text};
+use crate::input::{Fingerprint, check_ron, fault_in, meant, read_text};
 use crate::table::significant;
 use crate::variants::each_once;
 
@@ -68,9 +68,17 @@ const VERDICTS: [&str; 4] = ["none", "recalibrate", "explained", "unknown"];
 /// Reads and checks a file of limits.
 ///
 /// # Errors
-/// [`files::Error::Input`] says what is wrong, where, and how to mend it.
+/// As [`check_limits`].
 pub fn read_limits(path: &Path) -> Result<Limits, Error> {
-    let file: LimitsFile = read_ron(path)?;
+    check_limits(path, &read_text(path)?)
+}
+
+/// Checks limits that messages call `path`.
+///
+/// # Errors
+/// [`files::Error::Input`] says what is wrong, where, and how to mend it.
+pub fn check_limits(path: &Path, text: &str) -> Result<Limits, Error> {
+    let (file, fingerprint): (LimitsFile, _) = check_ron(path, text)?;
     let fault = |field: &str, problem: String, remedy: String| Err(fault_in(path, field, problem, remedy).into());
     let mut limits = Vec::new();
     for (name, limit) in file.limits {
@@ -101,7 +109,6 @@ pub fn read_limits(path: &Path) -> Result<Limits, Error> {
             "give a limit, e.g. limits: {\"sensitivity\": Magnitude(3.0)}".into(),
         );
     }
-    let fingerprint = Fingerprint::of(path.to_owned(), read_text(path)?.as_bytes());
     Ok(Limits { limits, judged_by: file.judged_by, verdicts: file.verdicts, fingerprint })
 }
 
