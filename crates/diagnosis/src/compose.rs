@@ -159,6 +159,30 @@ struct Path {
     steps: Vec<Fit>,
 }
 
+/// The likeliest of the `laws` in the place of one mechanism of a fit, all others kept; `None` if none is defined on these records.
+///
+/// A mechanism that such a law explains as well is named by what was thought of it beforehand, not by what was recorded.
+///
+/// # Errors
+/// As [`compose`].
+pub fn in_place_of<M: ForwardModel>(
+    model: &M,
+    laws: &Range<usize>,
+    records: &[usize],
+    observations: &[Observation],
+    fit: &Fit,
+    mechanism: usize,
+) -> Result<Option<Fit>, Error<M::Error>> {
+    let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
+    let mut without = fit.hypothesis.clone();
+    without.mechanisms.retain(|(other, _)| *other != mechanism);
+    // with the noise that the mechanism leaves, which has swallowed nothing of it
+    let Some(base) = defined(fitter.fit(&without, &fit.noise, Some(fit)))? else { return Ok(None) };
+    // one law stands for all others: the choice among them is no matter
+    let mut likeliest = fitter.with_one_more(&base, laws, Breadth::default(), &|_| 0.0)?.into_iter();
+    Ok(likeliest.next())
+}
+
 /// ln of evidence that a fit gains where its noise is fitted anew from that of another: of two fits, one may have found a likelier noise. At least 0.
 ///
 /// # Errors
@@ -192,6 +216,11 @@ fn defined<E>(fit: Result<Fit, Error<E>>) -> Result<Option<Fit>, Error<E>> {
     }
 }
 
+/// The law that was added last.
+fn last(fit: &Fit) -> usize {
+    fit.hypothesis.mechanisms.last().map_or(0, |(law, _)| *law)
+}
+
 impl<M: ForwardModel> Fitter<'_, M> {
     /// A path with one law more, for every law of the likeliest that gains enough; and ln evidence without it, the noise as well fitted as with it.
     fn lengthened(
@@ -203,30 +232,13 @@ impl<M: ForwardModel> Fitter<'_, M> {
         first: usize,
     ) -> Result<(f64, Vec<Path>), Error<M::Error>> {
         let known = &path.fit;
-        let last = |fit: &Fit| fit.hypothesis.mechanisms.last().map_or(0, |(law, _)| *law);
         let net = |fit: &Fit| fit.log_evidence - cost(last(fit));
         // noise that has not swallowed what is sought
         let noise = known.noise.calmed(self.model.channels(), self.observations)?;
         let Some(base) = defined(self.fit(&known.hypothesis, &noise, Some(known)))? else {
             return Ok((known.log_evidence, Vec::new()));
         };
-        let taken = known.hypothesis.numbers();
-        let mut fits = Vec::new();
-        let mut ranked = self.ranked(laws.clone().filter(|law| !taken.contains(law)), &base)?;
-        ranked.sort_by(|a, b| (b.0 - cost(b.1.mechanism)).total_cmp(&(a.0 - cost(a.1.mechanism))));
-        for (_, law) in ranked.into_iter().take(breadth.followed) {
-            let mut hypothesis: Hypothesis = base.hypothesis.clone();
-            hypothesis.mechanisms.push((law.mechanism, None));
-            let mut from = base.clone();
-            from.active.push(law);
-            fits.extend(defined(self.screened(&hypothesis, &from))?);
-        }
-        fits.sort_by(|a, b| net(b).total_cmp(&net(a)));
-        let mut own = Vec::new();
-        for fit in fits.iter().take(breadth.likeliest) {
-            own.extend(defined(self.fit_with_noise(&fit.hypothesis, fit, 2))?);
-        }
-        own.sort_by(|a, b| net(b).total_cmp(&net(a)));
+        let own = self.with_one_more(&base, laws, breadth, cost)?;
         // the noise that a law leaves may be likelier without the law, too, than the noise that was found without it
         let mut without = known.log_evidence;
         for other in own.first().map(|best| &best.noise).into_iter().chain([&noise]) {
@@ -249,6 +261,35 @@ impl<M: ForwardModel> Fitter<'_, M> {
             longer.push(Path { fit, others, steps });
         }
         Ok((without, longer))
+    }
+
+    /// A fit with one law more, for the likeliest of the laws, each with its own noise; the best first, the choice paid for.
+    fn with_one_more(
+        &self,
+        base: &Fit,
+        laws: &Range<usize>,
+        breadth: Breadth,
+        cost: &impl Fn(usize) -> f64,
+    ) -> Result<Vec<Fit>, Error<M::Error>> {
+        let net = |fit: &Fit| fit.log_evidence - cost(last(fit));
+        let taken = base.hypothesis.numbers();
+        let mut fits = Vec::new();
+        let mut ranked = self.ranked(laws.clone().filter(|law| !taken.contains(law)), base)?;
+        ranked.sort_by(|a, b| (b.0 - cost(b.1.mechanism)).total_cmp(&(a.0 - cost(a.1.mechanism))));
+        for (_, law) in ranked.into_iter().take(breadth.followed) {
+            let mut hypothesis: Hypothesis = base.hypothesis.clone();
+            hypothesis.mechanisms.push((law.mechanism, None));
+            let mut from = base.clone();
+            from.active.push(law);
+            fits.extend(defined(self.screened(&hypothesis, &from))?);
+        }
+        fits.sort_by(|a, b| net(b).total_cmp(&net(a)));
+        let mut own = Vec::new();
+        for fit in fits.iter().take(breadth.likeliest) {
+            own.extend(defined(self.fit_with_noise(&fit.hypothesis, fit, 2))?);
+        }
+        own.sort_by(|a, b| net(b).total_cmp(&net(a)));
+        Ok(own)
     }
 
     /// A fit without those of its laws, from number `first` on and before the last, that gain less than they cost.

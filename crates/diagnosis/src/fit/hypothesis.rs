@@ -26,7 +26,7 @@ impl Hypothesis {
     }
 
     /// Whether a mechanism is at work, whatever its choice.
-    pub(crate) fn has(&self, mechanism: usize) -> bool {
+    pub fn has(&self, mechanism: usize) -> bool {
         self.mechanisms.iter().any(|(number, _)| *number == mechanism)
     }
 }

@@ -38,7 +38,7 @@ impl Candidate {
     }
 
     /// ln of the evidence, with that of its structure.
-    pub(crate) fn log_evidence(&self) -> f64 {
+    pub fn log_evidence(&self) -> f64 {
         self.fit.log_evidence + self.rival.as_ref().map_or(0.0, |r| r.gain)
     }
 }

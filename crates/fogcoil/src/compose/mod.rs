@@ -2,7 +2,7 @@
 
 mod laws;
 
-use diagnosis::{Diagnosis, Estimate, Fit, ForwardModel, HeldOut, Judged, Observation, Settings, Verdict};
+use diagnosis::{Active, Candidate, Diagnosis, Estimate, Fit, ForwardModel, HeldOut, Judged, Observation, Settings, Verdict};
 use mechanisms::{Gyro, Mechanism, RATE};
 use progress::Step;
 use serde_json::{Value, json};
@@ -23,6 +23,27 @@ pub(crate) struct Composed {
     pub(crate) held: Vec<HeldOut>,
     /// Whether every record that was held out, and there is one, is predicted better by it.
     pub(crate) accepted: bool,
+}
+
+/// What was composed for a diagnosis.
+pub(crate) struct Sought {
+    /// For what it leaves unknown; `None` where it leaves nothing, no law gains enough, or a name is likelier.
+    pub(crate) composed: Option<Composed>,
+    /// In the place of each name that is likelier than not.
+    pub(crate) stand_ins: Vec<StandIn>,
+}
+
+/// The likeliest law in the place of a mechanism that has a name.
+pub(crate) struct StandIn {
+    /// The mechanism's id.
+    pub(crate) of: String,
+    id: String,
+    title: String,
+    known: &'static str,
+    /// ln evidence of all records by which the law is behind
+    behind: f64,
+    /// probability of the mechanism against the law, both as likely beforehand
+    share: f64,
 }
 
 /// A term of a law.
@@ -59,8 +80,11 @@ impl Found {
 /// ln evidence by which another law is behind and still not excluded, as odds of 1 to 20.
 const NEAR: f64 = 3.0;
 
-/// Composes a law for what a diagnosis leaves unknown, or names; `None` where it leaves nothing, no law gains enough, or a name is likelier. `held` are
-/// the records held out, by their numbers, and `judged` what is predicted of them without a law.
+/// Probability from which a name is put to the test by a law in its place: one that is less likely than not claims nothing.
+const LIKELIER_THAN_NOT: f64 = 0.5;
+
+/// Composes a law for what a diagnosis leaves unknown, or names, and in the place of what it names. `held` are the records held out, by their numbers,
+/// and `judged` what is predicted of them without a law.
 pub(crate) fn compose(
     gyro: &Gyro,
     diagnosis: &mut Diagnosis,
@@ -69,9 +93,9 @@ pub(crate) fn compose(
     held: &[(usize, &Observation)],
     judged: &[Judged],
     progress: &dyn Fn(Step),
-) -> Result<Option<Composed>, diagnosis::Error<coil::Error>> {
+) -> Result<Sought, diagnosis::Error<coil::Error>> {
     if !matches!(diagnosis.verdict, Verdict::Unknown | Verdict::Explained) {
-        return Ok(None);
+        return Ok(Sought { composed: None, stand_ins: Vec::new() });
     }
     // beside the constants, and beside a mechanism that has a name if it leaves something
     let constants = diagnosis.candidates.iter().find(|c| c.is_constants_alone());
@@ -86,55 +110,97 @@ pub(crate) fn compose(
     let with = gyro.beside(&kinds);
     let all = first..with.mechanisms().len();
     let numbers: Vec<usize> = (0..fitted.len()).collect();
+    // in the noise in which the others are judged
+    let judge = diagnosis.best().fit.clone();
+    let predicted = |fit: &Fit| -> Result<Vec<HeldOut>, diagnosis::Error<coil::Error>> {
+        held.iter().map(|(record, observed)| fit.hold_out(&with, *record, observed, &judge)).collect()
+    };
     let mut all_found: Vec<Found> = Vec::new();
     for beside in constants.into_iter().chain(named) {
         if let Some(law) = diagnosis::compose(&with, all.clone(), &numbers, fitted, &beside.fit, progress)? {
-            // in the noise in which the others are judged
-            let predicted =
-                |&(record, observed): &(usize, &Observation)| law.fit.hold_out(&with, record, observed, &diagnosis.best().fit);
-            let held = held.iter().map(predicted).collect::<Result<Vec<_>, _>>()?;
+            let held = predicted(&law.fit)?;
             all_found.push(Found { log_prior: settings.log_unlisted(gyro, &beside.fit.hypothesis), law, held });
         }
     }
-    all_found.sort_by(|a, b| b.log_weight().total_cmp(&a.log_weight()));
-    let mut all_found = all_found.into_iter();
-    let Some(likeliest) = all_found.next() else { return Ok(None) };
-    let (log_weight, mut names) = (likeliest.log_weight(), likeliest.law.names());
-    // a name beside a law has to be borne out, as the law has
-    let chosen = match all_found.next() {
-        Some(alone) if !names.is_empty() && !likeliest.bears_out_names_over(&alone) => {
-            names.clear();
-            alone
+    let chosen = chosen(all_found).map(|(found, log_weight, names)| {
+        let accepted =
+            !held.is_empty() && judged.iter().zip(&found.held).all(|(without, by_law)| without.is_beaten_by(by_law, RATE));
+        (found, log_weight, names, accepted)
+    });
+    let mut answers = vec![(diagnosis.best().clone(), judged.iter().map(|judged| judged.model.log_score).sum())];
+    if let Some((found, log_weight, names, accepted)) = &chosen {
+        let by_law = log_score(&found.held);
+        let by_held_out = answers[0].1 - by_law;
+        // what has a name gives way to a law that is likelier by all records; what has none, unless a record that was held out says otherwise
+        let is_named = diagnosis.verdict == Verdict::Explained;
+        if is_named || *accepted || held.is_empty() {
+            let by_noise = diagnosis::gained_by_noise_of(gyro, &numbers, fitted, diagnosis.best(), &found.law.fit)?;
+            diagnosis.weigh_unlisted(*log_weight, names, by_noise, if is_named { by_held_out } else { 0.0 });
         }
-        _ => likeliest,
-    };
-    let Found { law: found, held: predictions, .. } = chosen;
-    let own = found.fit.active.iter().enumerate().skip(found.fit.active.len() - found.laws);
-    let mut terms = Vec::new();
-    for (place, active) in own {
-        let id = &with.mechanisms()[active.mechanism].id;
-        let Some((case, known)) = cases.iter().find(|(case, _)| case.mechanism.id == *id) else { continue };
-        let estimates = found.fit.estimates(&with, place);
-        terms.push(Term { case: case.clone(), known, values: active.values.clone(), estimates });
+        let beside_law = Candidate { fit: found.law.fit.clone(), rival: None, ..answers[0].0.clone() };
+        answers.push((beside_law, by_law));
     }
-    let other = |(law, behind): &(usize, f64)| {
-        let facts = with.mechanism(*law).facts();
-        (*behind < NEAR).then(|| (facts.title.to_owned(), facts.id.to_owned(), *behind))
-    };
-    let others = found.others.iter().filter_map(other).collect();
-    let accepted =
-        !held.is_empty() && judged.iter().zip(&predictions).all(|(without, by_law)| without.is_beaten_by(by_law, RATE));
-    let by_held_out = judged.iter().zip(&predictions).map(|(without, by_law)| without.model.log_score - by_law.log_score).sum();
-    // what has a name gives way to a law that is likelier by all records; what has none, unless a record that was held out says otherwise
-    let is_named = diagnosis.verdict == Verdict::Explained;
-    if is_named || accepted || held.is_empty() {
-        let by_noise = diagnosis::gained_by_noise_of(gyro, &numbers, fitted, diagnosis.best(), &found.fit)?;
-        diagnosis.weigh_unlisted(log_weight, &names, by_noise, if is_named { by_held_out } else { 0.0 });
+    // names that are likelier than not, in the answer that holds them
+    let mut stand_ins = Vec::new();
+    for mechanism in likely_names(gyro, diagnosis) {
+        let Some((answer, score)) = answers.iter().rev().find(|(answer, _)| answer.fit.hypothesis.has(mechanism)) else {
+            continue;
+        };
+        let Some(law) = diagnosis::in_place_of(&with, &all, &numbers, fitted, &answer.fit, mechanism)? else { continue };
+        let by_noise = diagnosis::gained_by_noise_of(&with, &numbers, fitted, answer, &law)?;
+        let by_held_out = score - log_score(&predicted(&law)?);
+        let behind = answer.log_evidence() + by_noise + by_held_out - law.log_evidence;
+        let Some(facts) = law.hypothesis.mechanisms.last().map(|(law, _)| with.mechanism(*law).facts()) else { continue };
+        stand_ins.push(StandIn {
+            of: gyro.mechanisms()[mechanism].id.clone(),
+            id: facts.id.to_owned(),
+            title: facts.title.to_owned(),
+            known: cases.iter().find(|(case, _)| case.mechanism.id == facts.id).map_or("", |(_, known)| known),
+            behind,
+            share: diagnosis.doubt(mechanism, behind),
+        });
     }
-    if diagnosis.verdict == Verdict::Explained {
-        return Ok(None);
+    let composed = chosen.filter(|_| diagnosis.verdict != Verdict::Explained).map(|(found, _, _, accepted)| {
+        let Found { law: diagnosis::Composed { fit, laws, gain, others, .. }, held, .. } = found;
+        let own = fit.active.iter().enumerate().skip(fit.active.len() - laws);
+        let term = |(place, active): (usize, &Active)| {
+            let id = &with.mechanisms()[active.mechanism].id;
+            let (case, known) = cases.iter().find(|(case, _)| case.mechanism.id == *id)?;
+            let estimates = fit.estimates(&with, place);
+            Some(Term { case: case.clone(), known, values: active.values.clone(), estimates })
+        };
+        let other = |(law, behind): &(usize, f64)| {
+            let facts = with.mechanism(*law).facts();
+            (*behind < NEAR).then(|| (facts.title.to_owned(), facts.id.to_owned(), *behind))
+        };
+        let (terms, others) = (own.filter_map(term).collect(), others.iter().filter_map(other).collect());
+        Composed { terms, fit, gain, others, held, accepted }
+    });
+    Ok(Sought { composed, stand_ins })
+}
+
+/// Of laws that were found, beside names or alone, those to be told, their weight, and the names beside them.
+fn chosen(mut found: Vec<Found>) -> Option<(Found, f64, Vec<usize>)> {
+    found.sort_by(|a, b| b.log_weight().total_cmp(&a.log_weight()));
+    let mut found = found.into_iter();
+    let likeliest = found.next()?;
+    let (log_weight, names) = (likeliest.log_weight(), likeliest.law.names());
+    // a name beside a law has to be borne out, as the law has
+    match found.next() {
+        Some(alone) if !names.is_empty() && !likeliest.bears_out_names_over(&alone) => Some((alone, log_weight, Vec::new())),
+        _ => Some((likeliest, log_weight, names)),
     }
-    Ok(Some(Composed { terms, fit: found.fit, gain: found.gain, others, held: predictions, accepted }))
+}
+
+/// ln of the probability density of records that were held out.
+fn log_score(held: &[HeldOut]) -> f64 {
+    held.iter().map(|held| held.log_score).sum()
+}
+
+/// Mechanisms with a name that are likelier than not.
+fn likely_names(gyro: &Gyro, diagnosis: &Diagnosis) -> Vec<usize> {
+    let likely = diagnosis.mechanisms.iter().filter(|(m, p)| *p >= LIKELIER_THAN_NOT && gyro.mechanisms()[*m].named);
+    likely.map(|(m, _)| *m).collect()
 }
 
 fn ranges(gyro: &Gyro, fitted: &[Observation]) -> Ranges {
@@ -143,6 +209,25 @@ fn ranges(gyro: &Gyro, fitted: &[Observation]) -> Ranges {
     let span = |o: &Observation| o.time.last().zip(o.time.first()).map_or(0.0, |(last, first)| last - first);
     let duration = fitted.iter().map(span).fold(0.0, f64::max);
     Ranges::new(gyro.scene(), rate, duration, gyro.largest_parts(fitted.len()))
+}
+
+impl StandIn {
+    /// One object, as scripts read it.
+    pub(crate) fn json(&self) -> Value {
+        let Self { of, id, title, known, behind, share } = self;
+        json!({"in_place_of": of, "id": id, "title": title, "known_physics": known, "behind": behind, "share": share})
+    }
+
+    /// For people; `None` where the records tell the name from the law.
+    pub(crate) fn text(&self) -> Option<String> {
+        let Self { of, title, known, behind, share, .. } = self;
+        (*behind < NEAR).then(|| {
+            format!(
+                "These records hardly tell {of} from a law that nobody listed: {title} (known physics of this form: {known}; {behind:.1} of ln evidence \
+                 behind). The probability of {of} counts both as equally likely beforehand, which leaves it {share:.2} of what it had."
+            )
+        })
+    }
 }
 
 impl Composed {

@@ -7,6 +7,7 @@ use diagnosis::{Estimate, Verdict};
 use mechanisms::{Extent, Naming, RATE as RATE_CHANNEL};
 
 use super::{NOMINAL, Outcome};
+use crate::compose::StandIn;
 use crate::table::{significant, table};
 use crate::units::parameter_unit;
 
@@ -55,6 +56,9 @@ impl Outcome<'_> {
         }
         if let Some(alternatives) = self.alternatives() {
             let _ = writeln!(out, "{alternatives}");
+        }
+        for text in self.stand_ins.iter().filter_map(StandIn::text) {
+            let _ = writeln!(out, "{text}");
         }
         // of the third column, the units, the heading says nothing
         let line = |name: &str, value: String, unit: &str| vec![name.to_owned(), value, unit.to_owned(), String::new()];

@@ -66,6 +66,11 @@ impl Ranges {
         (0..=STEPS).map(|k| self.span() / (2.0 + step * f64::from(k))).collect()
     }
 
+    /// Temperatures over the range, not farther apart than these kelvin, or a fiftieth of it: each sees what lies half-way to the next.
+    pub(super) fn every(&self, step: f64) -> Vec<f64> {
+        self.across((self.span() / step).ceil().clamp(1.0, 50.0) as u32)
+    }
+
     /// So many temperatures evenly over the range.
     pub(super) fn across(&self, count: u32) -> Vec<f64> {
         let [low, high] = self.temperatures;

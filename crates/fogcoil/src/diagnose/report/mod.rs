@@ -17,6 +17,7 @@ use maud::{Markup, html};
 use mechanisms::{RATE, SPOOL};
 
 use super::{NOMINAL, Outcome, Record};
+use crate::compose::StandIn;
 use crate::report::provenance;
 use crate::units::DurationUnit;
 
@@ -151,6 +152,7 @@ impl Outcome<'_> {
         if let Some(composed) = &self.composed {
             rows.push(row("composed law", nice(&composed.text().0)));
         }
+        rows.extend(self.stand_ins.iter().filter_map(StandIn::text).map(|text| row("a law in its place", nice(&text))));
         rows.extend(self.fits.iter().map(|record| row("fitted", format!("{}, {}", record.name(), record.span()))));
         for held in &self.holdouts {
             rows.push(row("held out", format!("{}, {}", held.record.name(), held.record.span())));
