@@ -15,13 +15,13 @@ pub struct HeldOut {
     /// Standard deviation of the noise in a sample as identified in the fit, of every channel, with no more drift and walk than are usual: where a fit
     /// leaves something unexplained, its noise has swallowed that.
     pub noise_floor: Vec<f64>,
-    /// Root mean square of means over a minute, or over a row that is longer, so that the length of a record's rows does not matter. A record of less than an
-    /// hour has sixty means.
+    /// Root mean square of means over a minute, or over a row that is longer, so that the length of a record's rows does not matter. A record of
+    /// less than an hour has sixty means.
     pub of_minutes: Vec<f64>,
     /// The same noise in those means.
     pub quiet: Vec<f64>,
-    /// ln of the probability density of the record, but for a constant that fits with the same noise share: offsets, the numbers that every record has of its
-    /// own, and the unknowns that the fit leaves open are marginalised.
+    /// ln of the probability density of the record, but for a constant that fits with the same noise share: offsets, the numbers that every record
+    /// has of its own, and the unknowns that the fit leaves open are marginalised.
     pub log_score: f64,
 }
 

@@ -22,17 +22,17 @@ use crate::table::{significant, table};
 pub struct CourseBand {
     /// Instant \[s\], rate \[deg/h\] and its standard deviation, thermometer \[°C\] and its own, of every row.
     rows: Vec<[f64; 5]>,
-    /// Of the rate in the row with the largest |rate| \[deg/h\].
+    /// Standard deviation of the rate in the row with the largest |rate| \[deg/h\].
     pub peak: f64,
-    /// Of the root of the mean square \[deg/h\].
+    /// Standard deviation of the root mean square \[deg/h\].
     pub rms: f64,
-    /// Of the slope on the thermometer's rate \[(deg/h)/(degC/min)\]; `None` if there is none.
+    /// Standard deviation of the slope on the thermometer's rate \[(deg/h)/(degC/min)\]; `None` if there is none.
     pub slope: Option<f64>,
     /// Shares of the variance at the peak by the keys of the numbers, the largest first.
     pub shares: Vec<(&'static str, f64)>,
 }
 
-/// How many shares are told.
+/// Number of shares that are printed.
 const TOLD: usize = 6;
 
 /// Effect of one standard deviation of a number on every row: thermometer and rate.

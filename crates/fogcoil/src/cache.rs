@@ -30,12 +30,12 @@ const HEADER: usize = MAGIC.len() + size_of::<u32>() + size_of::<Name>();
 const SUFFIX: &str = ".fogcoil-model";
 /// Largest file \[bytes\]; a larger model is not kept.
 const LARGEST: u64 = 256 << 20;
-/// All files together \[bytes\]; beyond, the longest unused go.
+/// Limit of all files together \[bytes\]; beyond it, the longest unused are removed.
 const MOST: u64 = 1 << 30;
 
 type Name = [u8; 32];
 
-/// Where a model came from.
+/// Origin of a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Source {
     /// It was built now.
@@ -104,8 +104,8 @@ impl Cache {
     }
 }
 
-/// What the file of the code is, so that no model outlives the code that made it: its length \[bytes\], when it was written, and on Unix its
-/// place on the disk and when it was put there, as archives and packages may give every build the same instant of writing.
+/// Identity of the code's file, so that no model outlives the code that made it: its length \[bytes\], its instant of writing, and on Unix its
+/// place on the disk and the instant when it was put there, as archives and packages may give every build the same instant of writing.
 fn this_build(code: Option<&Path>) -> Option<impl Serialize + use<>> {
     let about = fs::metadata(code.map_or_else(env::current_exe, |file| Ok(file.to_owned())).ok()?).ok()?;
     #[cfg(unix)]

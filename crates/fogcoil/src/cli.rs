@@ -95,7 +95,7 @@ pub(crate) enum Command {
     Calibrate(Calibrate),
     /// Many units of one design: each measured, diagnosed and judged by limits; tables, and a page with trends
     Batch(BatchOf),
-    /// Which chamber programme, or which further sensor, tells mechanisms apart
+    /// The chamber programme, or the further sensor, that tells mechanisms apart
     Recommend(Recommend),
     /// The meaning of an id of a mechanism or a warning; or the change of a coil that would give a measured sensitivity
     Explain(Explain),

@@ -27,7 +27,7 @@ pub(crate) struct Check {
     pub(crate) svg: Option<PathBuf>,
 }
 
-/// How a logger's file is read.
+/// Options for reading a logger's file.
 #[derive(Args, Clone)]
 pub(crate) struct Format {
     /// A file with what the flags below say [default: RECORD.map.ron beside RECORD.csv, if it is there]

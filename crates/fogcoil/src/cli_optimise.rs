@@ -13,7 +13,7 @@ use crate::{line, print};
 
 #[derive(Args)]
 pub(crate) struct Optimise {
-    /// What varies, what is minimised, within which limits
+    /// The varied keys, the numbers to minimise and the limits
     #[arg(value_name = "PLAN.ron")]
     plan: PathBuf,
     /// Write every design that was tried here

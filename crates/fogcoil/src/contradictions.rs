@@ -1,4 +1,4 @@
-//! What a meta file says of a record against what the record itself shows.
+//! Contradictions between a record and its meta file.
 
 use files::{Note, Remark};
 use recording::Recording;

@@ -97,7 +97,7 @@ fn colours(quantity: Quantity, sample: &Sample) -> Colours {
     Colours::of(quantity.label(), range, 1e-9)
 }
 
-/// All of one colour as one path; edges of their own colour hide the seams. Without a field an element is filled as a whole.
+/// Elements of one colour as one path; edges of their own colour hide the seams. Without a field an element is filled as a whole.
 fn fill(svg: &mut Svg, view: &View, sample: &Sample, colours: Option<&(Quantity, Colours)>) {
     let mut paths: BTreeMap<String, String> = BTreeMap::new();
     let Some((quantity, colours)) = colours else {

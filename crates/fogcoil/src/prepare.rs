@@ -1,4 +1,4 @@
-//! What a diagnosis or a recommendation starts from: a design's library of models, and recordings as the engine wants them.
+//! Inputs of a diagnosis or a recommendation: a design's library of models, and recordings in the engine's form.
 
 use std::collections::BTreeMap;
 
@@ -34,10 +34,10 @@ const FEWEST_KELVIN: f64 = 5.0;
 /// Rows from which what is missing counts as a gap, and readings on either side from which the chamber's slope there is taken.
 const GAP_ROWS: f64 = 3.0;
 const BESIDE_GAP: usize = 10;
-/// What chamber and spool may differ by at rest, and the chamber move by in the first minutes \[K\]: thermometers' offsets and noise.
+/// Largest difference of chamber and spool at rest, and largest movement of the chamber in the first minutes \[K\]: thermometers' offsets and noise.
 const REST: Rest = Rest { duration: 600.0, tolerance: 0.5 };
 
-/// A record as the engine wants it.
+/// A record in the engine's form.
 #[derive(Clone)]
 pub(crate) struct Record {
     pub(crate) fingerprint: Fingerprint,
@@ -56,7 +56,7 @@ pub(crate) struct Record {
 }
 
 impl Record {
-    /// What every model of a library does under it.
+    /// Responses of every model of a library to it.
     pub(crate) fn prepared(&self, library: &Library) -> Result<Prepared, coil::Error> {
         let prepared = Prepared::under(library, &self.observed.time, &self.drive, self.averaging)?;
         Ok(prepared.with_columns(self.columns.clone()))
@@ -228,7 +228,7 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     Ok(Record { fingerprint, observed, chamber, drive, averaging, columns, meta: case.meta.clone(), instants: (before, earlier) })
 }
 
-/// What is to be said of a record whose unit was built to a design of another name; what the program writes has the drawing's name before a comma.
+/// Note on a record whose unit was built to a design of another name; files that the program writes have the drawing's name before a comma.
 pub(crate) fn other_design(case: &CoilCase, record: &RecordCase) -> Option<Note> {
     let told = record.meta.as_ref().map(|meta| meta.design.trim()).filter(|told| !told.is_empty())?;
     let name = case.name.split(',').next().unwrap_or_default().trim();
@@ -236,7 +236,7 @@ pub(crate) fn other_design(case: &CoilCase, record: &RecordCase) -> Option<Note>
     (!told.eq_ignore_ascii_case(name)).then(|| Remark::OtherDesign.warning(message()).at(&record.fingerprint.file))
 }
 
-/// What the chamber's readings say; `None` where there are none.
+/// The chamber by its readings; `None` where there are none.
 fn drive(recording: &Recording, digit: Option<f64>) -> Option<Chamber> {
     let readings = recording.time().iter().zip(&recording.channel(CHAMBER)?.values).filter(|(_, value)| value.is_finite());
     let (time, readings): (Vec<f64>, Vec<f64>) = readings.unzip();
@@ -263,7 +263,7 @@ pub(crate) fn gyro<'m>(
     )
 }
 
-/// What some records say of their instruments: of each number, the first that says it.
+/// Instruments by the meta files of some records; each number comes from the first record that states it.
 fn instruments_of(records: &[Record]) -> Instruments {
     let metas = || records.iter().filter_map(|record| record.meta.as_ref());
     let first = |of: &dyn Fn(&Meta) -> Option<f64>| metas().find_map(of);

@@ -1,4 +1,4 @@
-//! What is going on, on standard error: notes, and a bar for what takes longer than a second; a line in its place where nobody watches.
+//! Progress on standard error: notes, and a bar for tasks that take longer than a second; a line in its place where nobody watches.
 
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::signals;
 
-/// What takes this long is named.
+/// Duration from which a task is named.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// Interval between two pictures of a bar that turns.
 const TICK: Duration = Duration::from_millis(120);

@@ -15,7 +15,7 @@ pub(crate) struct Share {
     pub(crate) tolerance: String,
     /// The change that it causes.
     pub(crate) change: f64,
-    /// Of the variance.
+    /// Share of the variance.
     pub(crate) share: f64,
 }
 
@@ -36,7 +36,7 @@ pub(crate) fn tolerance_in_words(case: &CoilCase, number: Number) -> Option<Stri
 const WORTH: f64 = 0.005;
 
 impl Share {
-    /// Those of a design's band that are worth a line, the largest first.
+    /// Shares of a design's band that are worth a line, the largest first.
     pub(crate) fn of(case: &CoilCase, band: &Band) -> Vec<Self> {
         let of = |((number, change), share): (&(Number, f64), &f64)| {
             let (key, _) = keyed(*number, &case.design)?;

@@ -48,7 +48,7 @@ impl<M: ForwardModel> Fitter<'_, M> {
     }
 
     /// The same beside a fit under the same noise, whose derivatives by nuisances are taken for this one's: several times as fast. Mechanisms change
-    /// what nuisances do, but by little of it; where the records know a nuisance far better than its prior, the fit may stay behind the best.
+    /// the effect of nuisances a little; where the records know a nuisance far better than its prior, the fit may stay behind the best.
     pub(crate) fn screened(&self, hypothesis: &Hypothesis, beside: &Fit) -> Result<Fit, Error<M::Error>> {
         self.screened_from(hypothesis, beside, &[])
     }

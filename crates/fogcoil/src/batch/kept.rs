@@ -9,12 +9,12 @@ use super::units::Unit;
 use crate::output::{Content, write_files};
 use crate::{Error, FileError};
 
-/// Where the findings of a batch are.
+/// Folder of a batch's findings.
 pub(super) struct Kept {
     folder: PathBuf,
 }
 
-/// Of a batch's folder.
+/// Folder of the units in the folder of a batch.
 const UNITS: &str = "units";
 
 /// The page of a unit, from the batch's folder.
@@ -29,7 +29,7 @@ pub fn kept_files(batch: &Path, units: &[Unit]) -> Vec<PathBuf> {
 }
 
 impl Kept {
-    /// In the folder of a batch, which is made.
+    /// Findings in the folder of a batch, which is created.
     ///
     /// # Errors
     /// [`files::Error::Output`] where it cannot be made.

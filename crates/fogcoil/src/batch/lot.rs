@@ -1,4 +1,4 @@
-//! What the units of a batch have in common, and which stand out.
+//! Mean and spread of the units of a batch, and the units that stand out.
 
 use recording::statistics::{median, normal_quantile, robust_sd};
 
@@ -12,9 +12,9 @@ pub(super) struct Common {
     pub(super) name: String,
     /// Mean distance from the design, in standard deviations of its tolerance.
     pub(super) mean: f64,
-    /// What units differ by from that mean.
+    /// Standard deviation of units about that mean.
     pub(super) sd: f64,
-    /// How many units.
+    /// Number of units.
     pub(super) units: usize,
 }
 

@@ -20,7 +20,7 @@ pub(super) const NUMBERS: [&str; 14] = [
     "probability",
 ];
 
-/// How many of [`NUMBERS`] have intervals.
+/// Number of the [`NUMBERS`] that have intervals.
 pub(super) const MEASURED: usize = 8;
 
 /// A constant of the design as a unit has it.
@@ -53,14 +53,14 @@ pub struct Row {
     pub parameters: Vec<(String, [f64; 3])>,
     /// Constants of the design as the records leave them.
     pub constants: Vec<Constant>,
-    /// Why there is no diagnosis.
+    /// Reason why there is no diagnosis.
     pub problem: Option<String>,
     numbers: Vec<Option<f64>>,
     intervals: Vec<Option<[f64; 2]>>,
 }
 
 impl Row {
-    /// Of what is kept of a unit.
+    /// Row of a unit's kept finding.
     pub(super) fn of(finding: &Value) -> Self {
         let text = |value: &Value| value.as_str().map(str::to_owned);
         let texts = |value: &Value| value.as_array().into_iter().flatten().filter_map(text).collect::<Vec<_>>();

@@ -139,7 +139,7 @@ fn fit(
     Ok((Unit { gyro, fit: recalibrated, records: read.len(), left }, doubts))
 }
 
-/// Those constants of a model that a lot has partly in common.
+/// Constants of a model that a lot has partly in common.
 fn constants(gyro: &Gyro) -> Vec<Constant> {
     let of = |(at, nuisance): (usize, &diagnosis::Nuisance)| {
         let name = nuisance.parameter.name.clone();
@@ -149,7 +149,8 @@ fn constants(gyro: &Gyro) -> Vec<Constant> {
     gyro.nuisances().iter().enumerate().filter_map(of).collect()
 }
 
-/// By how much each named mechanism, at the size from which its fit starts, stands out of a unit's records: known from the drawing, and from the lot.
+/// Standard deviations by which each named mechanism, at the size from which its fit starts, stands out of a unit's records: with the constants known
+/// from the drawing, and from the lot.
 fn effects(unit: &Unit, numbers: &[usize], further: &Believed) -> Result<Vec<(String, [f64; 2])>, diagnosis::Error<coil::Error>> {
     let records: Vec<usize> = (0..unit.records).collect();
     let mut all = Vec::new();

@@ -16,7 +16,7 @@ impl Outcome {
     /// The coil file of the lot.
     ///
     /// # Errors
-    /// Why a coil file cannot hold it.
+    /// Reason why a coil file cannot hold it.
     pub fn file(&self) -> Result<String, Error> {
         let (design, tolerances) = self.design();
         let name = format!("{}, calibrated", self.case.name);
@@ -34,7 +34,7 @@ impl Outcome {
         Ok(text)
     }
 
-    /// Which units the lot is of: those are called good that fit, and that nothing else speaks against.
+    /// The lot's units in words: those are called good that fit and that nothing else speaks against.
     fn of_units(&self) -> String {
         let (all, good) = (self.units.len(), self.units.iter().filter(|unit| unit.good).count());
         let units = if all == 1 { "unit" } else { "units" };
@@ -86,7 +86,7 @@ impl Outcome {
         })
     }
 
-    /// What is left of every unit's records beside their noise.
+    /// Residuals of every unit's records beside their noise.
     fn left(&self) -> String {
         let mut rows = vec![["unit", "of the", "rms left", "noise of a row", "with usual drift", ""].map(str::to_owned).to_vec()];
         for (n, unit) in self.units.iter().enumerate() {

@@ -11,7 +11,7 @@ use super::{Comparison, CourseNumbers, Differing, PARTS, Part};
 use crate::summary::rounded;
 use crate::table::{plus_minus, significant, table};
 
-/// How the band of the difference comes about.
+/// Origin of the band of the difference.
 pub(super) const HOW: [&str; 4] = [
     "Standard deviations by tolerances are to first order. In the difference a number that both designs share, with its value, its tolerance and its",
     "correlations, is one and the same: its deviation counts by the difference of what it changes in either. All others deviate independently.",

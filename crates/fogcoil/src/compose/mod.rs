@@ -19,7 +19,7 @@ pub(crate) struct Composed {
     gain: f64,
     /// titles and ids of laws that the records hardly tell from the last, and by how much ln evidence they are behind
     others: Vec<(String, String, f64)>,
-    /// What it predicts of each record that was held out.
+    /// Its prediction of each held-out record.
     pub(crate) held: Vec<HeldOut>,
     /// Whether every record that was held out, and there is one, is predicted better by it.
     pub(crate) accepted: bool,

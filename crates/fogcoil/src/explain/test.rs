@@ -1,4 +1,4 @@
-//! Which test tells a longer tail from the other explanations.
+//! Test that tells a longer tail from the other explanations.
 
 use diagnosis::Plan;
 use mechanisms::Gyro;
@@ -7,7 +7,7 @@ use progress::Step;
 use super::explanation::{Explanation, STRAINED, active};
 use crate::recommend::{Contender, Odds, Programme, everything, odds, usual};
 
-/// What tells two explanations apart.
+/// A test that tells two explanations apart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Test {
     /// Their ids.

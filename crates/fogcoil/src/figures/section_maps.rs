@@ -23,7 +23,7 @@ pub(super) struct Quantity {
     pub(super) kind: Kind,
 }
 
-/// Where a field comes from.
+/// Source of a field.
 pub(super) enum Kind {
     /// The section; the second argument is the fibre's mean temperature.
     Point(fn(&PointValues, f64) -> f64),

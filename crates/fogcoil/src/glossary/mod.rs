@@ -25,7 +25,7 @@ pub enum Entry {
 
 /// Ids offered for one that is not known, at most.
 const OFFERED: usize = 3;
-/// All but the nearest differ from it in one of so many characters at most.
+/// Inverse of the share of characters in which ids other than the nearest may differ.
 const ALIKE: usize = 3;
 
 /// Meaning of an id.

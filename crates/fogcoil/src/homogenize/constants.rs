@@ -1,4 +1,4 @@
-//! How effective constants are shown.
+//! Display of effective constants.
 
 use serde_json::{Map, Value};
 

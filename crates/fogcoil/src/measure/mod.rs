@@ -36,9 +36,9 @@ pub struct Measurement {
     pub temperatures: Option<[&'static str; 2]>,
     /// Time constants that were tried \[s\].
     pub lags: Vec<f64>,
-    /// Of the bias to the temperature's rate in a steady ramp: the mean of heating and cooling \[(deg/h)/(degC/min)\].
+    /// Sensitivity of the bias to the temperature's rate in a steady ramp: the mean of heating and cooling \[(deg/h)/(degC/min)\].
     pub sensitivity: Told,
-    /// While it rises.
+    /// Sensitivity while the temperature rises.
     pub heating: Told,
     /// While it falls.
     pub cooling: Told,
@@ -131,7 +131,7 @@ fn told(response: &Result<Response, String>, of: fn(&Response) -> &Result<Estima
     of(response).as_ref().map(|estimate| figure(estimate.times(factor))).map_err(ToString::to_string)
 }
 
-/// What the rate answers to the temperatures, and to which.
+/// Response of the rate to the temperatures, with the names of these.
 fn response(case: &RecordCase) -> (Option<[&'static str; 2]>, Result<Response, String>) {
     let used = case.report.used(&case.recording);
     let interval = case.report.instants.as_ref().map_or(0.0, |instants| instants.interval);

@@ -27,7 +27,7 @@ pub use recommendation::{Ranked, Recommendation, Size, WithSensor};
 pub use say::{json, text};
 pub(crate) use say::{number, sentence, with};
 
-/// What speaks against taking sizes and noise from some records: units of another design, meta files that their records contradict.
+/// Notes against the use of sizes and noise from some records: units of another design, meta files that their records contradict.
 pub fn notes(case: &CoilCase, records: &[RecordCase]) -> Vec<Note> {
     records.iter().flat_map(|record| other_design(case, record).into_iter().chain(contradictions(record))).collect()
 }

@@ -122,7 +122,7 @@ impl Simulation<'_> {
         (0..self.count()).map(|n| self.row(n))
     }
 
-    /// From the first to the last instant \[s\].
+    /// Duration from the first to the last instant \[s\].
     pub fn duration(&self) -> f64 {
         self.row(self.count() - 1).time - self.row(0).time
     }

@@ -21,7 +21,7 @@ pub fn table(plan: &Plan, rows: &[Row]) -> Table {
     Table { columns, about: about.map(|(key, value)| (key.to_owned(), value)).to_vec() }
 }
 
-/// Of which matrix a point is: A, B, or A with a group of B.
+/// Matrix to which a point belongs: A, B, or A with a group of B.
 fn matrix(plan: &Plan, number: usize) -> String {
     match number % plan.points.block() {
         0 => "A".into(),

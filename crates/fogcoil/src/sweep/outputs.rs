@@ -1,4 +1,4 @@
-//! What is computed of a design.
+//! Outputs computed for a design.
 
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::{Design, Dynamics, Layout, Region, STANDARD, STEADY, Tolerances, sensitivity_band, sensitivity_on};

@@ -26,14 +26,14 @@ pub struct Parts {
 }
 
 impl Parts {
-    /// Beside `table`: `TABLE.parts`, of rows that follow from what has this `hash`.
+    /// Parts beside `table`: `TABLE.parts`, of rows that follow from the inputs with this `hash`.
     pub fn beside(table: &Path, hash: String) -> Self {
         let mut name = table.file_name().unwrap_or_default().to_owned();
         name.push(".parts");
         Self { folder: table.with_file_name(name), hash }
     }
 
-    /// Where they are.
+    /// Folder of the parts.
     pub fn folder(&self) -> &Path {
         &self.folder
     }

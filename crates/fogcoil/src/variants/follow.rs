@@ -27,7 +27,7 @@ fn is_varied(edits: &[(String, String)], key: &str) -> bool {
 }
 
 impl Dimensions {
-    /// What makes room for whatever winding the edits give.
+    /// Further edits that make room for the winding of the given edits.
     pub(super) fn room(self, case: &CoilCase, edits: &[(String, String)]) -> Vec<(String, String)> {
         if self == Self::AsDrawn {
             return Vec::new();

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use mechanisms::Scene;
 
-/// How far what laws depend on goes in the records that are fitted.
+/// Ranges of the quantities that laws depend on, in the fitted records.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Ranges {
     /// Coldest and hottest \[°C\].
@@ -23,7 +23,7 @@ pub(crate) struct Ranges {
 
 /// Size that is expected of an effect, in noises of a reading of a minute: what is larger is seen by eye, and what is smaller hardly at all.
 const EXPECTED: f64 = 30.0;
-/// What a rate is told over \[s\]: no law is seen in less.
+/// Span over which a rate is stated \[s\]: no law shows in less.
 const MINUTE_S: f64 = 60.0;
 /// Most cycles of a ripple over the range of temperatures of which fits start.
 const MOST_CYCLES: f64 = 25.0;
@@ -53,7 +53,7 @@ impl Ranges {
         between(MINUTE_S, (MINUTE_S * self.duration).sqrt())
     }
 
-    /// From the coldest to the hottest \[K\], a kelvin at least.
+    /// Range from the coldest to the hottest \[K\], a kelvin at least.
     pub(super) fn span(&self) -> f64 {
         let [low, high] = self.temperatures;
         (high - low).max(1.0)
@@ -94,7 +94,7 @@ pub(super) struct Form<'a> {
     pub(super) title: String,
     pub(super) known: &'static str,
     pub(super) stage: &'static str,
-    /// What the law is where the size is 1 in its unit, at most
+    /// largest value of the law at size 1 in its unit
     pub(super) per_size: f64,
     pub(super) unit: &'a str,
     pub(super) beside: Vec<Beside>,
