@@ -18,7 +18,7 @@ use crate::simulate::{SimulatedRow, Simulation, number, windowed};
 use crate::summary::{Regression, Summary};
 use crate::table::{significant, table};
 
-/// A simulation's band: one standard deviation of everything that follows from it.
+/// A simulation's band: one standard deviation of each of its results.
 pub struct CourseBand {
     /// Instant \[s\], rate \[deg/h\] and its standard deviation, thermometer \[°C\] and its own, of every row.
     rows: Vec<[f64; 5]>,
@@ -118,7 +118,7 @@ impl CourseBand {
         }
     }
 
-    /// One object, as scripts read it: one standard deviation each.
+    /// The band as one JSON object: one standard deviation each.
     pub fn json(&self) -> Value {
         let shares = self.shares.iter().map(|(key, share)| json!({"key": key, "share": share}));
         json!({
@@ -129,7 +129,7 @@ impl CourseBand {
         })
     }
 
-    /// For people.
+    /// The band as text.
     pub fn text(&self) -> String {
         let line = |name: &str, value: String, unit: &str| vec![name.to_owned(), value, unit.to_owned()];
         let mut rows = vec![

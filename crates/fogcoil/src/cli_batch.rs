@@ -1,4 +1,4 @@
-//! `batch`: its arguments, and what it does with them.
+//! `batch`: its arguments and its work.
 
 use std::path::{Path, PathBuf};
 

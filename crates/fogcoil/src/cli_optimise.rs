@@ -1,4 +1,4 @@
-//! `optimise`: its arguments, and what it does with them.
+//! `optimise`: its arguments and its work.
 
 use std::path::PathBuf;
 

@@ -59,7 +59,7 @@ pub(crate) struct Simulate {
     no_cache: bool,
 }
 
-/// Largest noise \[K\] of a thermometer that says anything.
+/// Largest noise \[K\] of a thermometer that is of use.
 const MOST_NOISE: f64 = 10.0;
 
 fn noise(text: &str) -> Result<f64, String> {

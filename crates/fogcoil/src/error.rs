@@ -10,7 +10,7 @@ use crate::input::{self, InputError};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A file cannot be used, solved or written, or what was asked for contradicts itself or a file.
+    /// A file cannot be used, solved or written, or the request contradicts itself or a file.
     #[error(transparent)]
     File(files::Error),
     /// Standard output cannot be written.
@@ -133,7 +133,7 @@ impl Error {
         }
     }
 
-    /// The same of a diagnosis with mechanisms of a user's own: a law of theirs may be no number somewhere.
+    /// The same for a diagnosis with mechanisms of a user's own, whose laws may give no number somewhere.
     pub(crate) fn of_diagnosis_with(
         file: &Path,
         mechanisms: &[&dyn Mechanism],

@@ -16,7 +16,7 @@ const LEFT: f64 = 40.0;
 const TOP: f64 = 84.0;
 /// Room at the right for the legend [px].
 const LEGEND: f64 = 350.0;
-/// Width of what is shown around the cell, in widths of the cell.
+/// Width of the surroundings that are shown, in widths of the cell.
 const AROUND: f64 = 0.12;
 
 /// Positions [m] to pixels; y upwards.

@@ -44,12 +44,12 @@ pub(crate) struct Record {
     pub(crate) observed: Observation,
     /// as read, averaged as the others are
     pub(crate) chamber: Vec<f64>,
-    /// what drives the model
+    /// drive of the model
     pub(crate) drive: Chamber,
     pub(crate) averaging: f64,
     /// further columns, which laws name, without gaps
     columns: BTreeMap<String, Vec<f64>>,
-    /// what is known of its instruments
+    /// facts about its instruments
     meta: Option<Meta>,
     /// instants of the rows before they were averaged \[s\], and how much earlier than its instant the middle of an averaged one lies
     instants: (Vec<f64>, f64),
@@ -67,7 +67,7 @@ impl Record {
         &self.instants.0
     }
 
-    /// The statement about its rows as averaged, at the instants before: on straight lines between the middles of the means.
+    /// Values of its averaged rows at the instants before the averaging: on straight lines between the middles of the means.
     pub(crate) fn at_instants(&self, values: &[f64]) -> Vec<f64> {
         let (instants, earlier) = (&self.instants.0, self.instants.1);
         let time = &self.observed.time;
@@ -296,7 +296,7 @@ fn earth_of(records: &[Record]) -> Option<f64> {
     records.iter().all(|record| told(record) == Some(first)).then_some(first)
 }
 
-/// White noise of thermometer and rate in a sample as the first record has them, of the quietest of some records; `usual` where none tells. That of the
+/// White noise of thermometer and rate in a sample of the first record, by the quietest of some records; `usual` where none shows it. The noise of the
 /// rate, a mean, falls with the length of rows.
 fn noise_of(records: &[Record], usual: [f64; 2]) -> [f64; 2] {
     let first = records.first().and_then(|r| median_interval(&r.observed.time));
@@ -316,7 +316,7 @@ fn noise_of(records: &[Record], usual: [f64; 2]) -> [f64; 2] {
     [of(SPOOL_NUMBER), of(RATE_NUMBER)]
 }
 
-/// Standard deviation of what a display rounds away, evenly within its last digit.
+/// Standard deviation of a display's rounding, evenly within its last digit.
 fn of_rounding(digit: f64) -> f64 {
     digit / 12.0_f64.sqrt()
 }

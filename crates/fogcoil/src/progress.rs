@@ -21,7 +21,7 @@ use crate::signals;
 const PATIENCE: Duration = Duration::from_secs(1);
 /// Interval between two pictures of a bar that turns.
 const TICK: Duration = Duration::from_millis(120);
-/// A bar, and what stands for it where nothing can be counted.
+/// A bar, and its form where nothing can be counted.
 const COUNTED: &str = "{spinner} {msg} [{bar:32}] {percent} % {elapsed}, {eta} left";
 const UNCOUNTED: &str = "{spinner} {msg} {elapsed}";
 /// Longest that an interrupt waits for files which are being written; then it waits as long for them to be given up.

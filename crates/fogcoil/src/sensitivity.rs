@@ -47,8 +47,8 @@ impl Share {
     }
 }
 
-/// The parts and their total in (deg/h)/(degC/min), the error estimate of the total in the same unit, the fibre's length in m, and what tolerances make
-/// of the total.
+/// The parts and their total in (deg/h)/(degC/min), the error estimate of the total in the same unit, the fibre's length in m, and the spread of the total
+/// by tolerances.
 pub fn json(case: &CoilCase, result: &SteadySensitivity, band: &Band) -> Value {
     let parts = result.sensitivity;
     let shares = Share::of(case, band);
@@ -65,7 +65,7 @@ pub fn json(case: &CoilCase, result: &SteadySensitivity, band: &Band) -> Value {
     })
 }
 
-/// The parts as a table, and where the numbers behind them come from.
+/// The parts as a table, and the origin of the numbers behind them.
 pub fn text(case: &CoilCase, result: &SteadySensitivity, band: &Band) -> String {
     let (parts, errors) = (result.sensitivity, result.part_errors);
     let row = |name: &str, value: f64, error: f64, meaning: &str| {

@@ -32,8 +32,8 @@ pub struct Summary {
     pub errors: Errors,
 }
 
-/// Estimated numerical errors of a simulation at the chamber it is driven by: the distance to the same run on a coarser mesh and, of the bias,
-/// what the reduced model leaves out; nothing of what the model itself leaves out.
+/// Estimated numerical errors of a simulation at its given chamber: the distance to the same run on a coarser mesh and, of the bias, the error of the
+/// reduced model. They do not include errors of the model itself.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Errors {
     /// Error of the thermometer in any row \[K\].
@@ -203,7 +203,7 @@ pub(crate) fn rounded(value: f64) -> String {
     format!("{:.4}", (value * 1e4).round() / 1e4 + 0.0)
 }
 
-/// Name, value and unit of each number, for people.
+/// Name, value and unit of each number as text.
 pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
     let Summary { rows, duration, chamber, spool, peak, rms, slope, errors } = Summary::of(simulation);
     let [shupe, eo_axial, eo_radial, read_out, sum] = errors.parts;

@@ -1,4 +1,4 @@
-//! `fogcoil trim`: which tails, or which turns cut off, null the steady sensitivity, and what remains in transients.
+//! `fogcoil trim`: tails, or turns to cut off, that null the steady sensitivity, and the bias that remains in transients.
 
 use std::fmt::Write;
 

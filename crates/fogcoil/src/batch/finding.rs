@@ -31,7 +31,7 @@ pub(super) struct Read {
     pub(super) name: String,
     fits: Vec<RecordCase>,
     holdouts: Vec<RecordCase>,
-    /// SHA-256 of all that its finding follows from.
+    /// SHA-256 of all inputs of its finding.
     pub(super) key: String,
 }
 

@@ -44,7 +44,7 @@ impl Kept {
         self.folder.join(format!("{unit}.{end}"))
     }
 
-    /// The finding of a unit from what has this key; with its page where it was diagnosed.
+    /// The finding of a unit with this key; with its page where it was diagnosed.
     pub(super) fn load(&self, unit: &str, key: &str) -> Option<Value> {
         let text = fs::read_to_string(self.file(unit, "json")).ok()?;
         let finding: Value = serde_json::from_str(&text).ok()?;

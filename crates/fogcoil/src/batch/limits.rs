@@ -56,9 +56,9 @@ pub struct Limits {
 pub enum Judged {
     /// There are no limits.
     Unjudged,
-    /// It does.
+    /// It keeps its limits.
     Passes,
-    /// It does not.
+    /// It does not keep its limits.
     Fails(Vec<String>),
 }
 
@@ -106,7 +106,7 @@ pub fn read_limits(path: &Path) -> Result<Limits, Error> {
 }
 
 impl Limits {
-    /// Judges a unit: what was not measured does not keep a limit.
+    /// Judges a unit: a number that was not measured does not keep a limit.
     pub fn judge(&self, row: &Row) -> Judged {
         let mut reasons: Vec<String> = self.limits.iter().filter_map(|(name, limit)| self.reason(name, *limit, row)).collect();
         if !self.verdicts.is_empty() {

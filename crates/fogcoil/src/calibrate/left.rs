@@ -6,8 +6,8 @@ use recording::check::white_noise;
 
 use crate::table::significant;
 
-/// Drift that is usual, over the median of what is known of it: about a standard deviation of its logarithm above. The median is a share of the white
-/// noise over a minute, so that neither the size of the noise nor the length of rows matters.
+/// Usual drift over the median of its prior: about a standard deviation of its logarithm above. The median is a share of the white noise over a minute,
+/// so that neither the size of the noise nor the length of rows matters.
 const USUAL: f64 = 2.0;
 /// Ratio of a residual to noise with usual drift from which it is more than noise. A record of a dozen correlation times of the drift holds some six
 /// stretches of it, from which its size is known to 1/√(2·6) = 0.29: three times that above one, 1 + 3·0.29, rounded.
@@ -18,9 +18,9 @@ const MISFIT: f64 = 2.0;
 pub(super) struct Left {
     /// Root mean square of recorded less fitted.
     pub(super) rms: f64,
-    /// Noise of a row: what a row differs by from its neighbours, without what is slow.
+    /// Noise of a row: its difference from its neighbours, without slow changes.
     pub(super) noise: f64,
-    /// The same with as much drift as is usual beside it, and what the noise of the chamber's thermometer does through the model.
+    /// The same with the usual drift beside it, and the noise of the chamber's thermometer, passed through the model.
     pub(super) with_drift: f64,
 }
 

@@ -45,7 +45,7 @@ impl Outcome {
         }
     }
 
-    /// Some constants as scripts read them.
+    /// Some constants as JSON.
     fn told_json(&self, believed: &Believed) -> Value {
         let (half, sd) = (half_of_90(), believed.sd());
         let of = |(k, constant): (usize, &Constant)| {
@@ -57,7 +57,7 @@ impl Outcome {
         self.constants.iter().enumerate().filter_map(of).collect()
     }
 
-    /// One object, as scripts read it.
+    /// The lot as one JSON object.
     pub fn json(&self) -> Value {
         let files = |unit: &Told| unit.files.iter().map(|f| f.file.display().to_string()).collect::<Vec<_>>();
         let left = |left: Option<Left>| {
@@ -100,7 +100,7 @@ impl Outcome {
         table(&rows)
     }
 
-    /// For people: what is left of each unit, the lot's constants, each unit's, and what a further unit shows the sooner.
+    /// The lot as text: residuals of each unit, the lot's constants, each unit's, and the effects that a further unit shows the sooner.
     pub fn text(&self) -> String {
         let Lot { common, units, further } = &self.lot;
         let (half, sd) = (half_of_90(), common.sd());

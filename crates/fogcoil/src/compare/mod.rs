@@ -1,4 +1,4 @@
-//! `fogcoil compare`: two designs A and B side by side: which keys differ, their sensitivities by part with errors and tolerances, their bias under a
+//! `fogcoil compare`: two designs A and B side by side: their differing keys, their sensitivities by part with errors and tolerances, their bias under a
 //! profile; and B less A of each.
 
 mod course;
@@ -62,7 +62,7 @@ pub struct Comparison<'a> {
     pub changes: Vec<Changed>,
     /// Length of the fibre with tails \[m\].
     pub length: [f64; 2],
-    /// Under a profile.
+    /// Comparison under a profile.
     pub simulations: Option<[Simulation<'a>; 2]>,
 }
 

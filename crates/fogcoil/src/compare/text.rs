@@ -60,7 +60,7 @@ pub fn json(c: &Comparison) -> Value {
     })
 }
 
-/// Key, A, B and unit of what differs.
+/// Key, A, B and unit of each differing number.
 pub(super) fn differing_rows(all: &[Differing]) -> Vec<Vec<String>> {
     let value = |value: &Option<String>| value.clone().unwrap_or_else(|| "-".into());
     all.iter()
@@ -103,7 +103,7 @@ fn aligned(head: &[&str], rows: Vec<Vec<String>>) -> String {
     table(&all)
 }
 
-/// For people.
+/// The comparison as text.
 pub fn text(c: &Comparison) -> String {
     let mut text = String::new();
     for (letter, (case, length)) in ["A", "B"].iter().zip(c.cases.iter().zip(c.length)) {

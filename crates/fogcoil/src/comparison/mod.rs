@@ -1,4 +1,4 @@
-//! The library's mechanisms as pictures and tables: what each changes, and what it is mistaken for.
+//! The library's mechanisms as pictures and tables: the changes by each, and the rivals that it is mistaken for.
 
 mod confusion;
 mod signature;
@@ -86,7 +86,7 @@ impl Comparison {
         Self::among(case, Responses::of(case, cache)?, progress)
     }
 
-    /// The same of those that are weighed on request, against all.
+    /// The same for mechanisms that are weighed on request, against all.
     ///
     /// # Errors
     /// As [`Self::measure`].

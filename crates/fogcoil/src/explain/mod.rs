@@ -1,4 +1,4 @@
-//! `fogcoil explain`: which change of a coil would give a measured sensitivity, and how far it is from what is expected.
+//! `fogcoil explain`: changes of a coil that would give a measured sensitivity, and their distance from the expected coil.
 
 mod explanation;
 mod say;

@@ -12,9 +12,9 @@ use crate::recommend::{Contender, Odds, Programme, everything, odds, usual};
 pub struct Test {
     /// Their ids.
     pub between: [String; 2],
-    /// The slow ramp, and what it tells.
+    /// The slow ramp and its separation.
     pub slow: (String, Odds),
-    /// The best programme, and what it tells.
+    /// The best programme and its separation.
     pub best: (String, Odds),
 }
 

@@ -1,4 +1,4 @@
-//! The library's mechanisms: what they say of themselves, with the numbers that `cargo xtask mechanisms` measured.
+//! The library's mechanisms: their descriptions, with the numbers that `cargo xtask mechanisms` measured.
 
 use std::fmt::Write;
 
@@ -13,7 +13,7 @@ const MEASURED: &str = include_str!("measured.md");
 /// Words before the measured table of rivals.
 const RIVALS: &str = "fitted in its place";
 
-/// A mechanism, or what stands among the mechanisms in tables, in words; Markdown.
+/// A mechanism, or another entry among the mechanisms in tables, in words; Markdown.
 #[derive(Debug, Clone, Copy)]
 pub struct Subject {
     /// Its id.

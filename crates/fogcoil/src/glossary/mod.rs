@@ -1,4 +1,4 @@
-//! `fogcoil explain ID`: what the ids mean that the program prints, of mechanisms and of its own remarks.
+//! `fogcoil explain ID`: meaning of the ids that the program prints, of mechanisms and of its own remarks.
 
 mod mechanism;
 mod own;
@@ -56,7 +56,7 @@ impl Entry {
         }
     }
 
-    /// The explanation for people.
+    /// The explanation as text.
     pub fn text(&self) -> String {
         match self {
             Self::Mechanism(mechanism) => mechanism.text(),

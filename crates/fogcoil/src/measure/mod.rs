@@ -40,11 +40,11 @@ pub struct Measurement {
     pub sensitivity: Told,
     /// Sensitivity while the temperature rises.
     pub heating: Told,
-    /// While it falls.
+    /// Sensitivity while the temperature falls.
     pub cooling: Told,
     /// Heating less cooling.
     pub asymmetry: Told,
-    /// At rest at one temperature, reached from below, less reached from above \[deg/h\].
+    /// Bias at rest at one temperature, reached from below, less that reached from above \[deg/h\].
     pub hysteresis: Told,
     /// Largest less least bias at rest over the record's range of temperatures \[deg/h\].
     pub bias_span: Told,

@@ -1,4 +1,4 @@
-//! Contenders, and how well a test tells them apart.
+//! Contenders, and their separation by a test.
 
 use diagnosis::{Active, ForwardModel, Hypothesis, Observation, Plan, Settings, alternatives, expected, separation};
 use mechanisms::{Chamber, Gyro, Library, Prepared, RATE, SPOOL};
@@ -21,7 +21,7 @@ pub(super) type Failure = diagnosis::Error<coil::Error>;
 pub(crate) struct Contender {
     pub(crate) id: String,
     pub(crate) hypotheses: Vec<Hypothesis>,
-    /// what is at work when it is the truth; the nominal and the recalibrated design are never taken for the truth
+    /// the mechanism at work when it is the truth; the nominal and the recalibrated design are never taken for the truth
     pub(crate) truth: Option<Active>,
 }
 
@@ -73,7 +73,7 @@ fn typical(gyro: &Gyro, mechanism: usize) -> Result<Active, Failure> {
 /// Separation of contenders: of the pair that is told apart worst.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Odds {
-    /// The truth, and what is taken for it.
+    /// The truth, and the rival that is taken for it.
     pub pair: [String; 2],
     /// Distance in standard deviations of the noise.
     pub sigma: f64,

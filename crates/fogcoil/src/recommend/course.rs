@@ -9,7 +9,7 @@ use super::bench::{Contender, Failure, INTERVAL, Odds, everything};
 /// The expected course of a test.
 #[derive(Debug, Clone)]
 pub struct Course {
-    /// The truth, and what is taken for it.
+    /// The truth, and the rival that is taken for it.
     pub pair: [String; 2],
     /// Instants \[s\].
     pub time: Vec<f64>,

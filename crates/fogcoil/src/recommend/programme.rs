@@ -1,4 +1,4 @@
-//! Chamber programmes within what the chamber can do: the five families, several members of each.
+//! Chamber programmes within the chamber's limits: five families, several members of each.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;

@@ -4,7 +4,7 @@ use super::bench::Odds;
 use super::course::Course;
 use super::programme::{Limits, Programme};
 
-/// A programme and what it tells.
+/// A programme and its separation.
 #[derive(Debug, Clone)]
 pub struct Ranked {
     /// The programme.

@@ -5,7 +5,7 @@ use coil::Response;
 
 use crate::input::ProfileCase;
 
-/// A column's name, and what it holds of a row.
+/// A column's name, and its value in a row.
 pub type Column = (&'static str, fn(&SimulatedRow) -> f64);
 
 /// Columns of the result.

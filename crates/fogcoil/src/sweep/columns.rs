@@ -6,7 +6,7 @@ use super::row::Row;
 use crate::tabular::{Column, Table};
 use crate::variants::Value;
 
-/// The table of a plan's rows, all of them and in order: the point's number, what varies in the unit of its key, what comes out, and why there is none.
+/// The table of a plan's rows, all of them and in order: the point's number, the factors in the units of their keys, the outputs, and the reason of a lack.
 pub fn table(plan: &Plan, rows: &[Row]) -> Table {
     let mut columns = vec![Column::whole("point", (0..rows.len() as i64).collect())];
     if let Sampling::Indices(_) = plan.sampling {

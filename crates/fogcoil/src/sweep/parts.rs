@@ -1,7 +1,7 @@
 //! Rows that are computed, kept range by range until the table is whole.
 //!
-//! A file of a range is named by the hash of what its rows follow from; it holds a SHA-256 over that hash, the range and the rows, and the rows (postcard,
-//! doubles bit for bit). What is cut short, spoilt or of another plan does not count, and is computed again.
+//! A file of a range is named by the hash of the inputs of its rows; it holds a SHA-256 over that hash, the range and the rows, and the rows (postcard,
+//! doubles bit for bit). A file that is cut short, spoilt or of another plan does not count, and its rows are computed again.
 
 use std::fs;
 use std::io::Write;

@@ -169,12 +169,12 @@ impl Plan {
         self.count
     }
 
-    /// Names of all that is computed.
+    /// Names of all outputs.
     pub fn names(&self) -> Vec<&'static str> {
         self.outputs.iter().flat_map(|output| output.names().iter().copied()).collect()
     }
 
-    /// SHA-256 of all that the rows follow from: the program, the plan, the files that it names.
+    /// SHA-256 of all inputs of the rows: the program, the plan, the files that it names.
     pub fn hash(&self) -> String {
         let mut hash = Sha256::new().chain_update(format!("{}\n", program::hash()));
         self.files.iter().for_each(|file| hash.update(format!("{}\n", file.sha256)));

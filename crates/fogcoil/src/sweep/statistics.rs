@@ -15,7 +15,7 @@ pub struct Spread {
     pub mean: f64,
     /// Standard deviation.
     pub sd: f64,
-    /// Least, what 5, 50 and 95 % of the designs stay below, largest.
+    /// Least value, 5, 50 and 95 % quantiles, largest value.
     pub quantiles: [f64; 5],
 }
 

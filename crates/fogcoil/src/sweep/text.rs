@@ -1,4 +1,4 @@
-//! A sweep for people.
+//! A sweep as text.
 
 use std::fmt::Write;
 

@@ -23,14 +23,14 @@ pub struct Factor {
 pub enum Kind {
     /// Variation that a plan states.
     Key(Varied),
-    /// Normally, by its tolerance.
+    /// Normal variation, by its tolerance.
     Tolerance(Toleranced),
 }
 
 /// A number that has a tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Toleranced {
-    /// One that a design has once.
+    /// A number that a design has once.
     Number(Number),
     /// The tail of the CW half.
     CwTail,
@@ -78,7 +78,7 @@ impl Factor {
         }
     }
 
-    /// Lets the number deviate by so many standard deviations of what the design now says.
+    /// Lets the number deviate by so many standard deviations from the design's present value.
     pub(super) fn deviate(&self, design: &mut Design, tolerances: &Tolerances, deviations: f64) {
         let Kind::Tolerance(of) = self.kind else { return };
         match of {
@@ -104,7 +104,7 @@ impl Factor {
     }
 }
 
-/// Both tails longer by as much, so that none is shorter than nothing: what counts is their difference.
+/// Makes both tails longer by as much, so that neither has a negative length: only their difference counts.
 pub(super) fn without_negative_tails(design: &mut Design) {
     let tails = &mut design.winding.tails;
     let missing = -tails.cw.min(tails.ccw).min(0.0);

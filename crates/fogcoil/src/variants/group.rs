@@ -13,7 +13,7 @@ pub enum Group {
     Winding,
     /// The fibre's optics.
     Optics,
-    /// Medium, heat paths, thermometer, and what else there is.
+    /// Medium, heat paths, thermometer, and all else.
     Surroundings,
 }
 

@@ -69,7 +69,7 @@ pub fn variants(
     Ok(variants)
 }
 
-/// Whether a key of a plan is that of a factor, or what both tails have in common.
+/// Whether a key of a plan is that of a factor, or the common length of both tails.
 fn is_of(key: &str, factor: &str) -> bool {
     let numbered = |key: &str| key.replace("[0]", "").replace("[1]", "");
     numbered(key) == factor || factor.strip_prefix(key).is_some_and(|rest| matches!(rest, ".cw" | ".ccw"))

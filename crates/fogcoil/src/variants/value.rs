@@ -20,7 +20,7 @@ impl Value {
         }
     }
 
-    /// For people.
+    /// The value as text.
     pub fn shown(&self) -> String {
         match self {
             Self::Number(value) => format!("{value:?}"),

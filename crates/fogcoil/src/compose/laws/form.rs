@@ -1,4 +1,4 @@
-//! A small law as a mechanism's file, and how far records go on which its parameters depend.
+//! A small law as a mechanism's file, and the ranges of records on which its parameters depend.
 
 use std::fmt::Write as _;
 
@@ -9,9 +9,9 @@ use mechanisms::Scene;
 pub(crate) struct Ranges {
     /// Coldest and hottest \[°C\].
     pub(super) temperatures: [f64; 2],
-    /// Farthest from 20 °C \[K\].
+    /// Largest distance from 20 °C \[K\].
     pub(super) far: f64,
-    /// Fastest of the spool \[K/s\].
+    /// Largest rate of the spool \[K/s\].
     pub(super) rate: f64,
     /// Longest record \[s\].
     pub(super) duration: f64,
@@ -21,7 +21,7 @@ pub(crate) struct Ranges {
     pub(super) size: f64,
 }
 
-/// Size that is expected of an effect, in noises of a reading of a minute: what is larger is seen by eye, and what is smaller hardly at all.
+/// Size that is expected of an effect, in noises of a reading of a minute: a larger effect is seen by eye, a smaller one hardly at all.
 const EXPECTED: f64 = 30.0;
 /// Span over which a rate is stated \[s\]: no law shows in less.
 const MINUTE_S: f64 = 60.0;
@@ -42,13 +42,13 @@ impl Ranges {
         }
     }
 
-    /// A time constant \[s\] of which nothing is known: as likely any between a minute and the longest record, the middle of their logarithms, and a quarter of
-    /// the way between as its standard deviation. Beside it where fits start.
+    /// An unknown time constant \[s\]: its prior has the middle between a minute and the longest record, in logarithms, and a quarter of the way between as its
+    /// standard deviation. Beside it stand the starts of fits.
     pub(super) fn memory(&self) -> Beside {
         between(MINUTE_S, self.duration)
     }
 
-    /// The same of what follows within a filter: between a minute and the middle of the former.
+    /// The same for a filter: between a minute and the middle of the former.
     pub(super) fn filter(&self) -> Beside {
         between(MINUTE_S, (MINUTE_S * self.duration).sqrt())
     }
@@ -59,7 +59,7 @@ impl Ranges {
         (high - low).max(1.0)
     }
 
-    /// Periods \[K\] that differ by a third of a cycle over the range, or somewhat more, from two cycles in it on: what lies between them a fit finds.
+    /// Periods \[K\] that differ by a third of a cycle over the range, or somewhat more, from two cycles in it on: a fit finds the periods between them.
     pub(super) fn periods(&self) -> Vec<f64> {
         const STEPS: u32 = 49;
         let step = (MOST_CYCLES - 2.0) / f64::from(STEPS);
