@@ -150,7 +150,7 @@ impl Library {
         self.heat_paths.iter().filter_map(|(id, _, path)| Some((place(path.factor_on?)?, id.clone()))).collect()
     }
 
-    /// What each opening of each flange changes of the parts, by its open share.
+    /// Changes of the parts by each opening of each flange, by its open share.
     pub(crate) fn of_openings(&self) -> Vec<Vec<(f64, Functionals)>> {
         let mut states = 1 + 2 * self.moduli.len()..;
         let mut of = |(share, _): &(f64, Projected)| Some((*share, self.functionals(states.next()?)));
@@ -180,7 +180,7 @@ fn is_nominal(x: f64) -> bool {
     x.abs() <= 1e-12
 }
 
-/// What the turns of a sound winding stand for in one with a defect in a layer: fields are cubic along that layer, elsewhere as they are \[m²\].
+/// Weights of the turns of a sound winding in one with a defect in a layer: fields are cubic along that layer, elsewhere unchanged \[m²\].
 fn moved(sound: &Winding, wound: &Winding, layer: usize) -> Vec<f64> {
     let mut along: Vec<(f64, usize)> =
         sound.turns().iter().enumerate().filter(|(_, t)| t.layer == layer).map(|(i, t)| (t.y, i)).collect();

@@ -51,9 +51,9 @@ pub struct Facts<'a> {
     pub stage: Stage,
     /// Its law.
     pub equation: &'a str,
-    /// What of the model it changes, and which key of a coil file holds it.
+    /// Its change of the model, and the key of a coil file that holds it.
     pub place: &'a str,
-    /// What a record shows of it.
+    /// Its signature in a record.
     pub signature: &'a str,
     /// Literature.
     pub source: &'a str,
@@ -61,11 +61,11 @@ pub struct Facts<'a> {
     pub naming: Naming<'a>,
     /// The path of heat that it is, if it is one.
     pub heat_path: Option<HeatPath>,
-    /// What it does in a steady ramp: a law for each parameter that matters. Empty for one that only describes.
+    /// Its effect in a steady ramp: a law for each parameter that matters. Empty for one that only describes.
     pub steady: Vec<Steady>,
-    /// Where in a record it acts.
+    /// Part of a record in which it acts.
     pub extent: fn(&Active, &Sight) -> Extent,
-    /// What the extended design says less exactly than the fit.
+    /// Approximation of the extended design in place of the fit.
     pub caveat: fn(&Design) -> Option<&'static str>,
 }
 
@@ -99,14 +99,14 @@ pub enum Naming<'a> {
     },
 }
 
-/// What the sizes of effects are measured by: where the coil was, and how quiet the gyroscope is.
+/// Scales of the sizes of effects: the range of the coil, and the noise of the gyroscope.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scene {
     /// The coldest and the hottest that the coil was \[°C\].
     pub temperatures: [f64; 2],
     /// White noise of the rate in a reading of a minute \[deg/h\]: electronics and optics of a noisier gyroscope may be off by more.
     pub noise: f64,
-    /// What of Earth's rate the gyroscope turns with \[deg/h\], if it was told.
+    /// Earth's rate along the gyroscope's axis \[deg/h\], if it was given.
     pub earth: Option<f64>,
 }
 
@@ -129,7 +129,7 @@ impl Offer {
     }
 }
 
-/// What a mechanism does in a record.
+/// Effect of a mechanism in a record.
 pub enum Effect {
     /// It changes the coil's response.
     Coil(Change),
@@ -137,7 +137,7 @@ pub enum Effect {
     Readings(Box<dyn Fn(&mut Readings) + Send + Sync>),
 }
 
-/// What thermometer and gyroscope say, a value for each row of a record.
+/// Readings of thermometer and gyroscope, a value for each row of a record.
 pub struct Readings<'a> {
     /// Instants \[s\].
     pub time: &'a [f64],
@@ -190,7 +190,7 @@ impl Extent {
     }
 }
 
-/// What is known when a mechanism is asked for its [`Extent`].
+/// Facts from which a mechanism states its [`Extent`].
 pub struct Sight<'a> {
     /// The design.
     pub design: &'a Design,
@@ -279,7 +279,7 @@ pub(crate) struct Described {
     pub(crate) signature: &'static str,
     pub(crate) source: &'static str,
     pub(crate) offer: fn(&Scene) -> Offer,
-    /// What it changes in a record, by the values of its parameters.
+    /// Its change of a record, by the values of its parameters.
     pub(crate) law: fn(&Prepared, &[f64]) -> Change,
     /// As in [`Naming::Described`].
     pub(crate) likeness: fn(&[f64], Digits) -> String,

@@ -1,4 +1,4 @@
-//! What to measure next.
+//! The next measurement.
 
 use super::emulator::Emulator;
 use super::response::{KNOWN, Known, known};
@@ -13,9 +13,9 @@ const DRAWS: usize = 300;
 /// A further measurement and what is predicted for it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurement {
-    /// What is measured, and on what.
+    /// The quantity to measure, and its specimen.
     pub what: String,
-    /// What each of the two sets predicts, SI.
+    /// Prediction of each of the two sets, SI.
     pub values: [f64; 2],
     /// Standard deviation of the posterior's predictions, SI.
     pub spread: f64,

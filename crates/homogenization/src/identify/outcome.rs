@@ -1,4 +1,4 @@
-//! What a family of cells can do about the entries.
+//! Agreement that a family of cells can reach with the entries.
 
 use super::response::{Known, Response, known};
 use super::{Family, Target};
@@ -49,7 +49,7 @@ impl Fit {
     }
 }
 
-/// What a family can do.
+/// Best fits of a family.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FamilyFit {
     /// The cell that meets the entries best, however far from the priors.

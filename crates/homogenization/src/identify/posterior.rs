@@ -1,4 +1,4 @@
-//! What is known after the measurement.
+//! Posterior distribution, after the measurement.
 
 use super::emulator::Emulator;
 use super::fit::jacobian;

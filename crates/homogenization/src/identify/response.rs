@@ -1,4 +1,4 @@
-//! What a cell answers: nine independent numbers, from which the constants follow.
+//! Response of a cell: nine independent numbers, from which the constants follow.
 
 use crate::bounds::cylinders;
 use crate::{Constants, FibreCell, homogenize};

@@ -81,7 +81,7 @@ pub(crate) fn distances(targets: &[Target], response: &Response) -> Vec<f64> {
     targets.iter().map(|t| t.distance(t.of(&known))).collect()
 }
 
-/// What of `x` exceeds `limit` either way, with sign.
+/// Excess of `x` over `limit` either way, with sign.
 pub(crate) fn beyond(x: f64, limit: f64) -> f64 {
     (x.abs() - limit).max(0.0).copysign(x)
 }

@@ -203,7 +203,7 @@ impl<'m> Gyro<'m> {
         (moved, others)
     }
 
-    /// What a mechanism does in a record; kept for as long as other unknowns are varied.
+    /// Effect of a mechanism in a record; kept for as long as other unknowns are varied.
     fn effect(&self, record: usize, active: &Active) -> Result<Arc<Known>, Error> {
         let mut known = self.known.borrow_mut();
         if let Some((.., effect)) = known.iter().find(|(r, a, _)| *r == record && a == active) {

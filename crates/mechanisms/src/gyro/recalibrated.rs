@@ -1,4 +1,4 @@
-//! What is kept of the nominal model somewhere.
+//! Parts of the nominal model that are kept at a point.
 
 use crate::course::{Parts, product};
 
