@@ -56,7 +56,7 @@ pub enum Role {
 /// A fibre's rings from the inside out, in adhesive, at the lattice pitch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FibreCell {
-    /// How the fibres are packed.
+    /// Packing of the fibres.
     pub packing: Packing,
     /// Distance between neighbouring fibre axes \[m\].
     pub pitch: f64,

@@ -23,7 +23,7 @@ pub enum Error {
     Property {
         /// "ring 0", "ring 1", … from the inside, or "adhesive".
         constituent: String,
-        /// Which property.
+        /// The property.
         what: &'static str,
         /// Its unit.
         unit: &'static str,

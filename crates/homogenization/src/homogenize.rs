@@ -1,4 +1,4 @@
-//! From a cell to its effective constants with an error beside each.
+//! Effective constants of a cell with an error beside each.
 
 use crate::cell::Phases;
 use crate::multipole::{self, HIGHEST_ORDER, Multipoles};
@@ -11,7 +11,7 @@ use rve_mesh::{Extent, Resolution};
 /// effective expansion for expansions and strains of the glass per K) is as good as zero, and so is its relative error.
 pub const NEGLIGIBLE: f64 = 1e-6;
 
-/// By how much the multipoles fall from one order that is tried to the next.
+/// Least decrease of the multipoles from one order that is tried to the next.
 const STEP: f64 = 0.03;
 
 /// A constant's estimate is at least this share of the worst one's: two orders may agree in one of them by chance.

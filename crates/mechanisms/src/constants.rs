@@ -45,7 +45,7 @@ impl Constant {
         }
     }
 
-    /// How a value, SI, is told.
+    /// Text of a value in SI.
     pub(crate) fn told(&self, value: f64) -> f64 {
         value / self.unit()
     }

@@ -21,7 +21,7 @@ pub(crate) const GAP: f64 = 1.5;
 pub struct Delay {
     /// Time constant of its thermometer.
     pub lag: f64,
-    /// How late its log's clock is.
+    /// Delay of its log's clock.
     pub clock: f64,
 }
 

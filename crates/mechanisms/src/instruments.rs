@@ -41,11 +41,11 @@ const PASSED_SPREAD: f64 = 0.5;
 pub struct Instrument {
     /// Standard deviation of its offset \[unit of the channel\].
     pub offset_sd: Option<f64>,
-    /// Of its gain, relative.
+    /// Standard deviation of its gain, relative.
     pub gain_sd: Option<f64>,
     /// Its time constant \[s\].
     pub lag: Option<f64>,
-    /// Of its clock \[s\].
+    /// Standard deviation of its clock \[s\].
     pub clock_sd: Option<f64>,
 }
 
@@ -130,7 +130,7 @@ const REST_ERROR_K: f64 = 0.005;
 
 /// Gain of a thermometer about its span's middle: class B of IEC 60751 is 0.3 K + 0.5 % of the temperature.
 const THERMOMETER_GAIN: f64 = 0.004;
-/// How late the chamber's readings may be against the gyroscope's \[s\]: a thermometer's time constant in moving air (sheathed resistors of 3 to 6 mm
+/// Possible delay of the chamber's readings behind the gyroscope's \[s\]: a thermometer's time constant in moving air (sheathed resistors of 3 to 6 mm
 /// have 20 to 90 s in an air of 1 to 3 m/s), and a clock that is read by the minute.
 const LAG_S: f64 = 60.0;
 const CLOCK_S: f64 = 30.0;
@@ -142,7 +142,7 @@ const LAG_SQUARED_S2: f64 = 3600.0;
 
 /// Square of the time constant of the gyroscope's output filter beyond its averaging \[s²\], some twenty seconds', either way.
 const FILTER_SQUARED_S2: f64 = 500.0;
-/// How late the rate's readings may be against the spool's thermometer \[s\]: another logger, and the filter.
+/// Possible delay of the rate's readings behind the spool's thermometer \[s\]: another logger, and the filter.
 const RATE_DELAY_S: f64 = 5.0;
 
 /// Numbers of the instruments: name, and the column that it is of with what it is there.

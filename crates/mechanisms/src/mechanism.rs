@@ -41,13 +41,13 @@ impl Stage {
     }
 }
 
-/// All of a mechanism but its unknowns and its law; the words are Markdown where they are longer than a sentence.
+/// The facts of a mechanism, without its unknowns and its law; texts longer than a sentence are Markdown.
 pub struct Facts<'a> {
     /// Short name in every file and output, in kebab case; `unknown:` stands before the id of one that only describes.
     pub id: &'a str,
     /// Heading of its page.
     pub title: &'a str,
-    /// Where it acts.
+    /// Stage at which it acts.
     pub stage: Stage,
     /// Its law.
     pub equation: &'a str,
@@ -141,13 +141,13 @@ pub enum Effect {
 pub struct Readings<'a> {
     /// Instants \[s\].
     pub time: &'a [f64],
-    /// Of the spool's thermometer \[°C\].
+    /// Readings of the spool's thermometer \[°C\].
     pub thermometer: Vec<f64>,
-    /// Of the gyroscope \[deg/h\].
+    /// Readings of the gyroscope \[deg/h\].
     pub rate: Vec<f64>,
 }
 
-/// How a mechanism enters the sensitivity in a steady ramp.
+/// Effect of a mechanism on the sensitivity in a steady ramp.
 #[derive(Clone, Copy)]
 pub enum Steady {
     /// The first parameter changes the design.
@@ -158,7 +158,7 @@ pub enum Steady {
         parameter: usize,
         /// The changed design.
         changed: fn(&Design, f64) -> (Design, MechanicalState),
-        /// Under which condition; empty if under any.
+        /// Condition under which it holds; empty if there is none.
         when: &'static str,
     },
     /// A number of turns changes one layer.
@@ -168,11 +168,11 @@ pub enum Steady {
         /// The design with that layer so rewound.
         changed: fn(&Design, usize, i32) -> Design,
     },
-    /// Not at all, for this reason.
+    /// No effect, for this reason.
     Nothing(&'static str),
 }
 
-/// Where in a record a mechanism acts; `None` where the question makes no sense.
+/// Extent of a mechanism in a record; `None` where the question makes no sense.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Extent {
     /// Temperatures of the coil \[°C\].
@@ -204,7 +204,7 @@ pub struct Sight<'a> {
 ///
 /// No method has a default and no field of [`Facts`] either, so that a forgotten part is an error of the compiler.
 pub trait Mechanism: Send + Sync {
-    /// All but its unknowns and its law.
+    /// The facts, without its unknowns and its law.
     fn facts(&self) -> Facts<'_>;
 
     /// Its unknowns with their priors. `None` if the design leaves it no place.

@@ -47,7 +47,7 @@ pub(crate) fn passed(model: &Reduced, (sd, width): (f64, f64), averaging: f64) -
 impl Passed {
     pub(crate) const NONE: Self = Self { sd: [0.0; 2], time: [1.0; 2] };
 
-    /// With what the model itself is off, which no gain makes up for.
+    /// The same with the model's own error, for which no gain makes up.
     pub(crate) fn with_model_error(self, base: &Series) -> Self {
         let rate = total(&base.parts);
         let with = |channel: usize, by: f64| {

@@ -18,7 +18,7 @@ pub struct Written {
     pub id: String,
     /// A heading.
     pub title: String,
-    /// Where it acts.
+    /// Stage at which it acts.
     pub stage: Stage,
     /// Its law, as it is written.
     pub equation: String,
@@ -57,7 +57,7 @@ pub enum Input {
     Column(String),
 }
 
-/// Of what a temperature is.
+/// Body of a temperature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Body {
     /// The chamber.

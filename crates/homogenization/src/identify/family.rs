@@ -76,7 +76,7 @@ pub struct Parameter {
     pub phase: String,
     /// Its meaning.
     pub quantity: Quantity,
-    /// Where it lies before the measurement.
+    /// Its prior distribution, before the measurement.
     pub prior: Prior,
 }
 

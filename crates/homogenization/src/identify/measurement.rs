@@ -68,7 +68,7 @@ pub(crate) fn measurements(emulator: &Emulator, targets: &[Target], sets: [&Fit;
     all
 }
 
-/// All that can be measured on a cell beside its targets; NaN what it has not.
+/// All further quantities that can be measured on a cell; NaN for those that it does not have.
 fn quantities(family: &Family, targets: &[Target], cell: &FibreCell, values: &[f64], known: &Known) -> Vec<Quantified> {
     let mut all = Vec::new();
     let mut add = |what: String, value: f64, relative: f64, absolute: f64| {

@@ -51,7 +51,7 @@ pub struct Alternatives {
 /// Result of an identification.
 #[derive(Debug, Clone)]
 pub struct Identification {
-    /// Of each family in the order given.
+    /// Fit of each family in the order given.
     pub outcomes: Vec<FamilyFit>,
     /// The family that the rest is about: of those that explain the entries the one closest to its priors, else that with the least misfit.
     pub chosen: usize,

@@ -54,7 +54,7 @@ impl Fit {
 pub struct FamilyFit {
     /// The cell that meets the entries best, however far from the priors.
     pub best: Fit,
-    /// Where that is not ordinary or does not meet all: the ordinary cell that misses least.
+    /// The ordinary cell that misses least, where the best one is not ordinary or does not meet all entries.
     pub ordinary: Option<Fit>,
 }
 

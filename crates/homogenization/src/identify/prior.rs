@@ -14,7 +14,7 @@ pub struct Prior {
     pub high: f64,
 }
 
-/// On which scale a prior is normal.
+/// Scale on which a prior is normal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     /// Log-normal.

@@ -2,7 +2,7 @@
 
 use super::response::{KNOWN, Known, Response, known};
 
-/// How well a constant is known.
+/// Accuracy to which a constant is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Uncertainty {
     /// Anything within this half width is the same printed number.
@@ -18,7 +18,7 @@ pub struct Target {
     index: usize,
     /// Its value.
     pub value: f64,
-    /// How well it is known.
+    /// Accuracy to which it is known.
     pub uncertainty: Uncertainty,
 }
 

@@ -27,7 +27,7 @@ pub struct Response {
     pub glass_strain: SMatrix<f64, 6, LOADS>,
     /// Share of each phase in the cell's area; what is missing to 1 is void.
     pub fractions: Vec<f64>,
-    /// How far the stiffness is from transversely isotropic about z: the largest relative difference of strain energy, over all strains,
+    /// Distance of the stiffness from transverse isotropy about z: the largest relative difference of strain energy, over all strains,
     /// from the mean of the stiffness over all turns about z. The same in any units and for any choice of x.
     pub anisotropy: f64,
     /// Largest relative difference of a phase's meshed and exact area.
