@@ -31,7 +31,7 @@ fn file(path: &str) -> Result<PathBuf, String> {
     Some(PathBuf::from(path)).filter(|path| path.is_file()).ok_or_else(|| "no such file".into())
 }
 
-/// What is timed.
+/// The benchmarks.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Bench {
     /// The reference cell, ours and the other programs'

@@ -1,14 +1,14 @@
-//! A law that was composed, weighed with the mechanisms that have a name.
+//! A composed law, weighed with the mechanisms that have a name.
 
 use super::{Diagnosis, Verdict};
 use crate::Candidate;
 
 impl Diagnosis {
-    /// Weighs a law that was composed, beside the design's constants or mechanisms that have a name, with all that was compared: `log_weight` is ln of its
-    /// evidence and prior probability ([`Composed::log_weight`](crate::Composed::log_weight)). What is probable of it is taken from all others, and given to
-    /// the mechanisms `names` that stand beside it. What was compared gains `by_noise` of ln evidence in the noise that the law leaves
-    /// ([`gained_by_noise_of`](crate::gained_by_noise_of)), and what the leader gains over the law by records that were held out, `by_held_out`. Where the law
-    /// is likelier than what explained the records, they are unknown, and the law describes them.
+    /// Weighs a composed law, beside the design's constants or mechanisms that have a name, with all candidates: `log_weight` is ln of its evidence and
+    /// prior probability ([`Composed::log_weight`](crate::Composed::log_weight)). Its probability is taken from all others and given to the mechanisms
+    /// `names` that stand beside it. The candidates gain `by_noise` of ln evidence in the noise that the law leaves
+    /// ([`gained_by_noise_of`](crate::gained_by_noise_of)), and the leader's gain over the law on held-out records, `by_held_out`. Where the law is
+    /// likelier than the explanation, the verdict is unknown, and the law describes the records.
     pub fn weigh_unlisted(&mut self, log_weight: f64, names: &[usize], by_noise: f64, by_held_out: f64) {
         let ratio = |c: &Candidate| (c.log_weight + by_noise + by_held_out - log_weight).exp();
         let others: f64 = self.candidates.iter().map(ratio).sum();

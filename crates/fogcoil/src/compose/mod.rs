@@ -1,4 +1,4 @@
-//! Laws composed where nothing that is listed explains a record.
+//! Laws composed where no mechanism of the library explains a record.
 
 mod laws;
 
@@ -11,7 +11,7 @@ use crate::Error;
 use crate::input::{MechanismCase, check_mechanism};
 use laws::{Law, Ranges};
 
-/// A law that was composed, one or two terms, with its sizes.
+/// A composed law of one or two terms, with its sizes.
 pub(crate) struct Composed {
     terms: Vec<Term>,
     /// Its fit, constants and sensors free.
@@ -19,9 +19,9 @@ pub(crate) struct Composed {
     gain: f64,
     /// titles and ids of laws that the records hardly tell from the last, and by how much ln evidence they are behind
     others: Vec<(String, String, f64)>,
-    /// What it predicts of each record that was held out.
+    /// Its prediction of each held-out record.
     pub(crate) held: Vec<HeldOut>,
-    /// Whether every record that was held out, and there is one, is predicted better by it.
+    /// Whether it predicts every held-out record better, and there is one.
     pub(crate) accepted: bool,
 }
 
@@ -54,10 +54,10 @@ struct Term {
     estimates: Vec<Estimate>,
 }
 
-/// Laws that were found beside a hypothesis, and what they foretell of the records held out.
+/// Laws that were found beside a hypothesis, with their predictions of the held-out records.
 struct Found {
     law: diagnosis::Composed,
-    /// ln of the probability of any laws beside it, before anything is seen
+    /// ln of the prior probability of any laws beside it
     log_prior: f64,
     held: Vec<HeldOut>,
 }
@@ -83,8 +83,8 @@ const NEAR: f64 = 3.0;
 /// Probability from which a name is put to the test by a law in its place: one that is less likely than not claims nothing.
 const LIKELIER_THAN_NOT: f64 = 0.5;
 
-/// Composes a law for what a diagnosis leaves unknown, or names, and in the place of what it names. `held` are the records held out, by their numbers,
-/// and `judged` what is predicted of them without a law.
+/// Composes a law for the residual of a diagnosis, unknown or named, and one in the place of each name. `held` are the held-out records, by their numbers,
+/// and `judged` their predictions without a law.
 pub(crate) fn compose(
     gyro: &Gyro,
     diagnosis: &mut Diagnosis,
@@ -237,7 +237,7 @@ impl Composed {
         self.terms.iter().map(of).collect()
     }
 
-    /// One object, as scripts read it.
+    /// The law as one JSON object.
     pub(crate) fn json(&self) -> Value {
         let term = |term: &Term| {
             let parameters: serde_json::Map<String, Value> =
@@ -259,7 +259,7 @@ impl Composed {
         })
     }
 
-    /// For people: what it is, its form, its numbers.
+    /// The law as text: its meaning, its form, its numbers.
     pub(crate) fn text(&self) -> (String, Vec<Estimate>) {
         let mut out = String::new();
         for (k, term) in self.terms.iter().enumerate() {

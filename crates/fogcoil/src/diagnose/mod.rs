@@ -195,7 +195,7 @@ fn rms(series: &[f64]) -> f64 {
     (sum / count.max(1.0)).sqrt()
 }
 
-/// What is to be said of a held-out record in which the answer leaves more than noise.
+/// Note on a held-out record in which the answer leaves more than noise.
 fn left_over(held: &Held) -> Option<Note> {
     let answer = if held.accepted { &held.model } else { &held.nominal };
     let of = |channel: usize, name: &str| {
@@ -233,11 +233,11 @@ fn name(verdict: Verdict) -> &'static str {
     }
 }
 
-/// What the design as it is is called.
+/// Name of the unchanged design.
 const NOMINAL: &str = "nominal model";
 
 impl Outcome<'_> {
-    /// What the model that the verdict rests on is called, where it is not the nominal one.
+    /// Name of the model that the verdict rests on, where it is not the nominal one.
     fn found(&self) -> Option<&'static str> {
         match self.diagnosis.verdict {
             Verdict::None => None,

@@ -144,7 +144,7 @@ impl Outcome<'_> {
         }
     }
 
-    /// How far it may be said that the design suffices: `surely` where it is likely, and no record that was held out is far from its noise.
+    /// Strength of the statement that the design suffices: `surely` where it is likely, and no held-out record is far from its noise.
     fn how_surely(&self, surely: &str) -> String {
         let [none, recalibrate, ..] = self.diagnosis.verdicts();
         if self.is_left_over() {
@@ -156,7 +156,7 @@ impl Outcome<'_> {
         }
     }
 
-    /// What the records do not exclude beside what is most likely, and what would tell.
+    /// Mechanisms that the records do not exclude beside the likeliest, and the test that would decide.
     pub(super) fn alternatives(&self) -> Option<String> {
         let ids = self.apart();
         let command = (!ids.is_empty()).then(|| self.recommend(&ids))?;
@@ -164,7 +164,7 @@ impl Outcome<'_> {
     }
 }
 
-/// Where in the chain, at which temperatures, in which layers, when.
+/// Place of the difference: stage of the chain, temperatures, layers, time.
 pub(super) fn place(stage: &str, extent: &Extent) -> String {
     let mut place = format!("part of the chain: {stage}");
     if let Some([low, high]) = extent.temperature {

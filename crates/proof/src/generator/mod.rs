@@ -37,7 +37,7 @@ pub use unit::{Generator, Unit, Which};
 
 use sha2::{Digest, Sha256};
 
-/// What the units are made by, by file.
+/// Sources that make the units, by file.
 const SOURCES: [(&str, &str); 17] = [
     ("build.rs", include_str!("build.rs")),
     ("chamber.rs", include_str!("chamber.rs")),
@@ -58,7 +58,7 @@ const SOURCES: [(&str, &str); 17] = [
     ("coil-reference.ron", include_str!("../../../../fixtures/coil-reference.ron")),
 ];
 
-/// SHA-256 of the generator's sources, to know its units from those of another.
+/// SHA-256 of the generator's sources, to tell its units from those of another.
 pub(crate) fn fingerprint() -> String {
     crate::program::hex(SOURCES.iter().fold(Sha256::new(), |hash, (_, source)| hash.chain_update(source)))
 }

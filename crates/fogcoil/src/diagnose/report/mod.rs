@@ -45,11 +45,11 @@ impl Shown<'_> {
     }
 }
 
-/// What is shown for a channel.
+/// Quantity shown for a channel.
 #[derive(Clone, Copy)]
 struct Quantity {
     channel: usize,
-    /// With its unit.
+    /// Name with its unit.
     label: &'static str,
     name: &'static str,
     unit: &'static str,
@@ -204,7 +204,7 @@ fn sized(nuisance: &Nuisance) -> String {
 }
 
 impl Record {
-    /// How long and how many rows.
+    /// Duration and number of rows.
     fn span(&self) -> String {
         let time = &self.observed.time;
         let seconds = time.first().zip(time.last()).map_or(0.0, |(a, b)| b - a);
