@@ -190,3 +190,67 @@ fn a_defect_that_cannot_be_wound_is_refused() {
         assert!(error.contains(says), "{error}");
     }
 }
+
+#[test]
+fn a_defect_leaves_its_owner_one_turn_at_least_and_twice_as_many_at_most() {
+    for cw_climbs in [ClimbSide::Right, ClimbSide::Left] {
+        for pattern in ALL {
+            let sound = Spec { pattern: *pattern, cw_climbs, layers: 8, turns_odd_layers: 12, turns_even_layers: 11, ..REFERENCE };
+            let coil = wind(&sound).unwrap();
+            for layer in 1..=sound.layers {
+                // in a cylinder one winder lays the whole layer, whichever half its turns belong to
+                let of_half = |half| coil.turns().iter().filter(|t| t.layer == layer && t.half == half).count();
+                let all = of_half(Half::Cw) + of_half(Half::Ccw);
+                let owned = if *pattern == Pattern::Cylindrical { all } else { of_half(Half::Cw).max(of_half(Half::Ccw)) };
+                let owned = i32::try_from(owned).unwrap();
+                let wound = |turns| wind(&Spec { defect: Some(LayerDefect { layer, turns }), ..sound }).is_ok();
+                let least_and_most = [-owned, 1 - owned, owned, owned + 1].map(wound);
+                assert_eq!(least_and_most, [false, true, true, false], "{pattern:?} {cw_climbs:?} layer {layer}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_coil_of_no_radius_or_pitch_is_refused() {
+    for (spec, field) in
+        [(Spec { inner_radius: 0.0, ..REFERENCE }, "inner_radius"), (Spec { pitch: 0.0, ..REFERENCE }, "pitch")]
+    {
+        let error = wind(&spec).unwrap_err().to_string();
+        assert!(error.contains(field), "{error}");
+    }
+}
+
+/// Whatever lies beyond the middle is of the CW half, and so is what has it within.
+#[test]
+fn exact_a_turn_about_the_middle_of_a_bobbin_is_of_the_cw_half() {
+    let one = Spec { pattern: Pattern::Cylindrical, layers: 1, turns_odd_layers: 1, turns_even_layers: 1, ..REFERENCE };
+    let coil = wind(&one).unwrap();
+    assert_eq!((coil.turns().len(), coil.turns()[0].half), (1, Half::Cw));
+}
+
+/// Two turns side by side, each a length ℓ: weights ±ℓ², a pitch apart, wherever the coil's middle lies.
+#[test]
+fn exact_axial_moment_of_two_turns_is_about_their_mean() {
+    let two = Spec {
+        pattern: Pattern::Cylindrical,
+        layers: 1,
+        turns_odd_layers: 2,
+        turns_even_layers: 2,
+        turn_length: TurnLength::Equal,
+        ..REFERENCE
+    };
+    let moment = |coil: &winding::Winding| coil.moment(0, 1);
+    let coil = wind(&two).unwrap();
+    let length = coil.turns()[0].length();
+    assert_relative_eq!(moment(&coil).abs(), length * length * two.pitch, max_relative = 1e-9);
+    // a turn less in a layer of three: the two that are left lie in the cells of three
+    let three = Spec { turns_odd_layers: 3, turns_even_layers: 3, defect: Some(LayerDefect { layer: 1, turns: -1 }), ..two };
+    assert_relative_eq!(moment(&wind(&three).unwrap()).abs(), length * length * 1.5 * two.pitch, max_relative = 1e-9);
+    // an outer layer of one turn beside one of two: the mean is off the middle
+    let pyramid = Spec { layers: 2, turns_even_layers: 1, ..two };
+    let coil = wind(&pyramid).unwrap();
+    let mean = coil.turns().iter().map(|turn| turn.y).sum::<f64>() / 3.0;
+    let by_hand: f64 = coil.turns().iter().map(|turn| turn.weight(coil.length()) * (turn.y - mean)).sum();
+    assert_relative_eq!(moment(&coil), by_hand, max_relative = 1e-12);
+}

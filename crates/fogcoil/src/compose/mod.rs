@@ -2,6 +2,8 @@
 
 mod laws;
 
+use std::ops::Range;
+
 use diagnosis::{Active, Candidate, Diagnosis, Estimate, Fit, ForwardModel, HeldOut, Judged, Observation, Settings, Verdict};
 use mechanisms::{Gyro, Mechanism, RATE};
 use progress::Step;
@@ -77,6 +79,8 @@ impl Found {
     }
 }
 
+type Failure = diagnosis::Error<coil::Error>;
+
 /// ln evidence by which another law is behind and still not excluded, as odds of 1 to 20.
 const NEAR: f64 = 3.0;
 
@@ -93,7 +97,7 @@ pub(crate) fn compose(
     held: &[(usize, &Observation)],
     judged: &[Judged],
     progress: &dyn Fn(Step),
-) -> Result<Sought, diagnosis::Error<coil::Error>> {
+) -> Result<Sought, Failure> {
     if !matches!(diagnosis.verdict, Verdict::Unknown | Verdict::Explained) {
         return Ok(Sought { composed: None, stand_ins: Vec::new() });
     }
@@ -108,87 +112,128 @@ pub(crate) fn compose(
     let kinds: Vec<&dyn Mechanism> = cases.iter().map(|(case, _)| &case.mechanism as &dyn Mechanism).collect();
     let first = gyro.mechanisms().len();
     let with = gyro.beside(&kinds);
-    let all = first..with.mechanisms().len();
     let numbers: Vec<usize> = (0..fitted.len()).collect();
-    // in the noise in which the others are judged
     let judge = diagnosis.best().fit.clone();
-    let predicted = |fit: &Fit| -> Result<Vec<HeldOut>, diagnosis::Error<coil::Error>> {
-        held.iter().map(|(record, observed)| fit.hold_out(&with, *record, observed, &judge)).collect()
-    };
+    let laws = first..with.mechanisms().len();
+    let search = Search { with, cases: &cases, laws, numbers: &numbers, fitted, held, judge };
     let mut all_found: Vec<Found> = Vec::new();
     for beside in constants.into_iter().chain(named) {
-        if let Some(law) = diagnosis::compose(&with, all.clone(), &numbers, fitted, &beside.fit, progress)? {
-            let held = predicted(&law.fit)?;
-            all_found.push(Found { log_prior: settings.log_unlisted(gyro, &beside.fit.hypothesis), law, held });
-        }
+        let log_prior = settings.log_unlisted(gyro, &beside.fit.hypothesis);
+        all_found.extend(search.found(&beside.fit, log_prior, progress)?);
     }
-    let chosen = chosen(all_found).map(|(found, log_weight, names)| {
-        let accepted =
-            !held.is_empty() && judged.iter().zip(&found.held).all(|(without, by_law)| without.is_beaten_by(by_law, RATE));
-        (found, log_weight, names, accepted)
+    let chosen = chosen(all_found);
+    let accepted = chosen.as_ref().is_some_and(|Chosen { found, .. }| {
+        !held.is_empty() && judged.iter().zip(&found.held).all(|(without, by_law)| without.is_beaten_by(by_law, RATE))
     });
-    let mut answers = vec![(diagnosis.best().clone(), judged.iter().map(|judged| judged.model.log_score).sum())];
-    if let Some((found, log_weight, names, accepted)) = &chosen {
+    let by_best = judged.iter().map(|judged| judged.model.log_score).sum();
+    let mut answers = vec![(diagnosis.best().clone(), by_best)];
+    if let Some(Chosen { found, log_weight, names }) = &chosen {
         let by_law = log_score(&found.held);
-        let by_held_out = answers[0].1 - by_law;
         // what has a name gives way to a law that is likelier by all records; what has none, unless a record that was held out says otherwise
         let is_named = diagnosis.verdict == Verdict::Explained;
-        if is_named || *accepted || held.is_empty() {
+        if is_named || accepted || held.is_empty() {
             let by_noise = diagnosis::gained_by_noise_of(gyro, &numbers, fitted, diagnosis.best(), &found.law.fit)?;
-            diagnosis.weigh_unlisted(*log_weight, names, by_noise, if is_named { by_held_out } else { 0.0 });
+            diagnosis.weigh_unlisted(*log_weight, names, by_noise, if is_named { by_best - by_law } else { 0.0 });
         }
-        let beside_law = Candidate { fit: found.law.fit.clone(), rival: None, ..answers[0].0.clone() };
+        let beside_law = Candidate { fit: found.law.fit.clone(), rival: None, ..diagnosis.best().clone() };
         answers.push((beside_law, by_law));
     }
-    // names that are likelier than not, in the answer that holds them
     let mut stand_ins = Vec::new();
     for mechanism in likely_names(gyro, diagnosis) {
-        let Some((answer, score)) = answers.iter().rev().find(|(answer, _)| answer.fit.hypothesis.has(mechanism)) else {
-            continue;
-        };
-        let Some(law) = diagnosis::in_place_of(&with, &all, &numbers, fitted, &answer.fit, mechanism)? else { continue };
-        let by_noise = diagnosis::gained_by_noise_of(&with, &numbers, fitted, answer, &law)?;
-        let by_held_out = score - log_score(&predicted(&law)?);
-        let behind = answer.log_evidence() + by_noise + by_held_out - law.log_evidence;
-        let Some(facts) = law.hypothesis.mechanisms.last().map(|(law, _)| with.mechanism(*law).facts()) else { continue };
-        stand_ins.push(StandIn {
-            of: gyro.mechanisms()[mechanism].id.clone(),
-            id: facts.id.to_owned(),
-            title: facts.title.to_owned(),
-            known: cases.iter().find(|(case, _)| case.mechanism.id == facts.id).map_or("", |(_, known)| known),
-            behind,
-            share: diagnosis.doubt(mechanism, behind),
-        });
+        // in the answer that holds it, of several the last
+        let holds = |(answer, _): &&(Candidate, f64)| answer.fit.hypothesis.has(mechanism);
+        let Some((answer, score)) = answers.iter().rev().find(holds) else { continue };
+        if let Some(mut stand_in) = search.stand_in(mechanism, answer, *score)? {
+            stand_in.share = diagnosis.doubt(mechanism, stand_in.behind);
+            stand_ins.push(stand_in);
+        }
     }
-    let composed = chosen.filter(|_| diagnosis.verdict != Verdict::Explained).map(|(found, _, _, accepted)| {
+    let unknown = chosen.filter(|_| diagnosis.verdict != Verdict::Explained);
+    Ok(Sought { composed: unknown.map(|chosen| search.told(chosen.found, accepted)), stand_ins })
+}
+
+/// The search among laws: the model with all of them beside the library, and the records.
+struct Search<'a> {
+    with: Gyro<'a>,
+    /// each law, and the known physics of its form
+    cases: &'a [(MechanismCase, &'static str)],
+    /// their numbers in the model
+    laws: Range<usize>,
+    numbers: &'a [usize],
+    fitted: &'a [Observation],
+    held: &'a [(usize, &'a Observation)],
+    /// in whose noise records held out are judged
+    judge: Fit,
+}
+
+impl Search<'_> {
+    fn predicted(&self, fit: &Fit) -> Result<Vec<HeldOut>, Failure> {
+        self.held.iter().map(|(record, observed)| fit.hold_out(&self.with, *record, observed, &self.judge)).collect()
+    }
+
+    /// Laws beside a fit.
+    fn found(&self, beside: &Fit, log_prior: f64, progress: &dyn Fn(Step)) -> Result<Option<Found>, Failure> {
+        let Self { with, laws, numbers, fitted, .. } = self;
+        let law = diagnosis::compose(with, laws.clone(), numbers, fitted, beside, progress)?;
+        law.map(|law| Ok(Found { log_prior, held: self.predicted(&law.fit)?, law })).transpose()
+    }
+
+    /// The likeliest law in the place of a mechanism of an answer, which predicts the records held out with this ln of their density.
+    fn stand_in(&self, mechanism: usize, answer: &Candidate, log_score: f64) -> Result<Option<StandIn>, Failure> {
+        let Self { with, laws, numbers, fitted, .. } = self;
+        let Some(law) = diagnosis::in_place_of(with, laws, numbers, fitted, &answer.fit, mechanism)? else { return Ok(None) };
+        let by_noise = diagnosis::gained_by_noise_of(with, numbers, fitted, answer, &law)?;
+        let by_held_out = log_score - self::log_score(&self.predicted(&law)?);
+        let behind = answer.log_evidence() + by_noise + by_held_out - law.log_evidence;
+        let of = with.mechanisms()[mechanism].id.clone();
+        Ok(law.hypothesis.mechanisms.last().map(|(law, _)| {
+            let facts = with.mechanism(*law).facts();
+            let known = self.case(facts.id).map_or("", |(_, known)| known);
+            StandIn { of, id: facts.id.to_owned(), title: facts.title.to_owned(), known, behind, share: 1.0 }
+        }))
+    }
+
+    fn case(&self, id: &str) -> Option<&(MechanismCase, &'static str)> {
+        self.cases.iter().find(|(case, _)| case.mechanism.id == id)
+    }
+
+    /// Laws as they are told.
+    fn told(&self, found: Found, accepted: bool) -> Composed {
         let Found { law: diagnosis::Composed { fit, laws, gain, others, .. }, held, .. } = found;
         let own = fit.active.iter().enumerate().skip(fit.active.len() - laws);
         let term = |(place, active): (usize, &Active)| {
-            let id = &with.mechanisms()[active.mechanism].id;
-            let (case, known) = cases.iter().find(|(case, _)| case.mechanism.id == *id)?;
-            let estimates = fit.estimates(&with, place);
+            let (case, known) = self.case(&self.with.mechanisms()[active.mechanism].id)?;
+            let estimates = fit.estimates(&self.with, place);
             Some(Term { case: case.clone(), known, values: active.values.clone(), estimates })
         };
         let other = |(law, behind): &(usize, f64)| {
-            let facts = with.mechanism(*law).facts();
+            let facts = self.with.mechanism(*law).facts();
             (*behind < NEAR).then(|| (facts.title.to_owned(), facts.id.to_owned(), *behind))
         };
         let (terms, others) = (own.filter_map(term).collect(), others.iter().filter_map(other).collect());
         Composed { terms, fit, gain, others, held, accepted }
-    });
-    Ok(Sought { composed, stand_ins })
+    }
 }
 
-/// Of laws that were found, beside names or alone, those to be told, their weight, and the names beside them.
-fn chosen(mut found: Vec<Found>) -> Option<(Found, f64, Vec<usize>)> {
+/// Laws to be told, their weight, and the names beside them.
+struct Chosen {
+    found: Found,
+    log_weight: f64,
+    names: Vec<usize>,
+}
+
+/// Of laws that were found, beside names or alone, those to be told.
+fn chosen(mut found: Vec<Found>) -> Option<Chosen> {
     found.sort_by(|a, b| b.log_weight().total_cmp(&a.log_weight()));
     let mut found = found.into_iter();
     let likeliest = found.next()?;
     let (log_weight, names) = (likeliest.log_weight(), likeliest.law.names());
     // a name beside a law has to be borne out, as the law has
     match found.next() {
-        Some(alone) if !names.is_empty() && !likeliest.bears_out_names_over(&alone) => Some((alone, log_weight, Vec::new())),
-        _ => Some((likeliest, log_weight, names)),
+        Some(alone) if !names.is_empty() && !likeliest.bears_out_names_over(&alone) => {
+            Some(Chosen { found: alone, log_weight, names: Vec::new() })
+        }
+        _ => Some(Chosen { found: likeliest, log_weight, names }),
     }
 }
 

@@ -20,6 +20,7 @@ mod noise;
 mod ordinary;
 mod outside;
 mod plant;
+mod production;
 mod random;
 mod record;
 mod scene;
@@ -31,6 +32,7 @@ mod tests;
 pub(crate) use drawn::{DrawnUnit, DrawnUnits};
 pub(crate) use noise::SPAN;
 pub(crate) use ordinary::{NOTHING, Ordinary};
+pub use production::{Produced, production};
 pub use random::Random;
 pub(crate) use record::THERMOMETER;
 pub use unit::{Generator, Unit, Which};
@@ -38,7 +40,7 @@ pub use unit::{Generator, Unit, Which};
 use sha2::{Digest, Sha256};
 
 /// Sources that make the units, by file.
-const SOURCES: [(&str, &str); 17] = [
+const SOURCES: [(&str, &str); 18] = [
     ("build.rs", include_str!("build.rs")),
     ("chamber.rs", include_str!("chamber.rs")),
     ("drawn.rs", include_str!("drawn.rs")),
@@ -51,6 +53,7 @@ const SOURCES: [(&str, &str); 17] = [
     ("ordinary.rs", include_str!("ordinary.rs")),
     ("outside.rs", include_str!("outside.rs")),
     ("plant.rs", include_str!("plant.rs")),
+    ("production.rs", include_str!("production.rs")),
     ("random.rs", include_str!("random.rs")),
     ("record.rs", include_str!("record.rs")),
     ("scene.rs", include_str!("scene.rs")),
