@@ -195,7 +195,8 @@ fn a_defect_that_cannot_be_wound_is_refused() {
 fn a_defect_leaves_its_owner_one_turn_at_least_and_twice_as_many_at_most() {
     for cw_climbs in [ClimbSide::Right, ClimbSide::Left] {
         for pattern in ALL {
-            let sound = Spec { pattern: *pattern, cw_climbs, layers: 8, turns_odd_layers: 12, turns_even_layers: 11, ..REFERENCE };
+            let sound =
+                Spec { pattern: *pattern, cw_climbs, layers: 8, turns_odd_layers: 12, turns_even_layers: 11, ..REFERENCE };
             let coil = wind(&sound).unwrap();
             for layer in 1..=sound.layers {
                 // in a cylinder one winder lays the whole layer, whichever half its turns belong to
@@ -213,8 +214,7 @@ fn a_defect_leaves_its_owner_one_turn_at_least_and_twice_as_many_at_most() {
 
 #[test]
 fn a_coil_of_no_radius_or_pitch_is_refused() {
-    for (spec, field) in
-        [(Spec { inner_radius: 0.0, ..REFERENCE }, "inner_radius"), (Spec { pitch: 0.0, ..REFERENCE }, "pitch")]
+    for (spec, field) in [(Spec { inner_radius: 0.0, ..REFERENCE }, "inner_radius"), (Spec { pitch: 0.0, ..REFERENCE }, "pitch")]
     {
         let error = wind(&spec).unwrap_err().to_string();
         assert!(error.contains(field), "{error}");

@@ -67,7 +67,8 @@ pub fn production(design: &Design, seed: u64) -> Result<Vec<Produced>, Failure> 
                     (record, meta, None)
                 }
             };
-            let known = format!("(\n    serial: Some({}),\n    date: \"2026-0{}-{:02}\",\n", 4001 + number, lot + 3, 2 * unit + 1);
+            let known =
+                format!("(\n    serial: Some({}),\n    date: \"2026-0{}-{:02}\",\n", 4001 + number, lot + 3, 2 * unit + 1);
             let name = format!("L{}-{:02}", lot + 1, unit + 1);
             all.push(Produced { name, record, meta: meta.replacen("(\n", &known, 1), fault });
         }
