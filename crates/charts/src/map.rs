@@ -8,7 +8,7 @@ use crate::svg::Svg;
 /// Steps of colour; odd, so that a diverging map has a middle.
 const STEPS: usize = 41;
 
-/// How far rows of a map reach over each other [px]: without, rounding to pixels leaves gaps.
+/// Overlap of the rows of a map [px]: without it, rounding to pixels leaves gaps.
 const OVERLAP: f64 = 0.6;
 
 /// Cividis (Nuñez, Anderton and Renslow 2018): even in lightness, the same to colour-blind readers.
@@ -31,13 +31,13 @@ pub struct Colours {
 }
 
 impl Colours {
-    /// From blue to red, white at 0, for values of at most `most` either side; never less than `least`.
+    /// Colours from blue to red, white at 0, for values of at most `most` either side; never less than `least`.
     pub fn diverging(label: impl Into<String>, most: f64, least: f64) -> Self {
         let most = most.max(least);
         Self { label: label.into(), range: [-most, most], stops: &DIVERGING, reversed: false }
     }
 
-    /// From dark near 0 to bright for a range of one sign, diverging about 0 if the values lie on both sides of it; at least `least` wide.
+    /// Colours from dark near 0 to bright for a range of one sign, diverging about 0 if the values lie on both sides of it; at least `least` wide.
     pub fn of(label: impl Into<String>, [low, high]: [f64; 2], least: f64) -> Self {
         // a hundredth on the other side is no reason to give half the colours to it
         if low.min(-high) < 0.0 && (-low).min(high) > 0.01 * (-low).max(high) {

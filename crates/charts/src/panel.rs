@@ -9,13 +9,13 @@ use crate::{Axis, Colours, Drawing, Fill, HeatMap, Series, attributes};
 
 /// A plot within a figure.
 pub struct Panel<'a> {
-    /// Above it; none if empty.
+    /// Heading above it; none if empty.
     pub heading: String,
-    /// To the right.
+    /// Axis to the right.
     pub x: Axis,
-    /// Upwards.
+    /// Axis upwards.
     pub y: Axis,
-    /// How high it is.
+    /// Height of the panel.
     pub height: Height,
     /// Its content.
     pub content: Content<'a>,
@@ -24,7 +24,7 @@ pub struct Panel<'a> {
 /// Height of a panel between its axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Height {
-    /// In font sizes.
+    /// Height in font sizes.
     Lines(f64),
     /// A unit of y is as long as a unit of x; at most this many font sizes high.
     ToScale(f64),
@@ -49,13 +49,13 @@ const SAMPLE: f64 = 34.0;
 /// Widest colour bar \[px\].
 const BAR: f64 = 420.0;
 
-/// Where the parts of a panel lie \[px\].
+/// Places of the parts of a panel \[px\].
 pub(crate) struct Place {
-    /// From the panel's left to its axes.
+    /// Distance from the panel's left to its axes.
     left: f64,
     /// Width and height between the axes.
     plot: [f64; 2],
-    /// Height of what stands above the axes.
+    /// Height of heading and legend above the axes.
     above: f64,
     below: f64,
 }
@@ -152,7 +152,7 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// Where each entry of the legend begins, in rows.
+    /// Beginning of each entry of the legend, in rows.
     fn legend_places(entries: &[Entry], m: &Measures, width: f64) -> Vec<(usize, f64)> {
         let (mut row, mut x) = (0, 0.0);
         let mut places = Vec::new();

@@ -16,7 +16,7 @@ const LEFT: f64 = 40.0;
 const TOP: f64 = 84.0;
 /// Room at the right for the legend [px].
 const LEGEND: f64 = 350.0;
-/// Width of what is shown around the cell, in widths of the cell.
+/// Width of the surroundings that are shown, in widths of the cell.
 const AROUND: f64 = 0.12;
 
 /// Positions [m] to pixels; y upwards.
@@ -97,7 +97,7 @@ fn colours(quantity: Quantity, sample: &Sample) -> Colours {
     Colours::of(quantity.label(), range, 1e-9)
 }
 
-/// All of one colour as one path; edges of their own colour hide the seams. Without a field an element is filled as a whole.
+/// Elements of one colour as one path; edges of their own colour hide the seams. Without a field an element is filled as a whole.
 fn fill(svg: &mut Svg, view: &View, sample: &Sample, colours: Option<&(Quantity, Colours)>) {
     let mut paths: BTreeMap<String, String> = BTreeMap::new();
     let Some((quantity, colours)) = colours else {

@@ -26,7 +26,7 @@ pub struct CellCase {
     pub name: String,
     /// Names of the rings from the inside out.
     pub ring_names: Vec<String>,
-    /// What it describes, in SI.
+    /// The cell that it describes, in SI.
     pub cell: FibreCell,
     /// Its content.
     pub fingerprint: Fingerprint,
@@ -83,13 +83,13 @@ fn irregular(top: &Group, key: &str) -> InputError {
     top.fault(key, "the cell must be regular here", "leave the key out, or take `fogcoil homogenize`")
 }
 
-/// What every cell has: a fibre of rings, and constituents.
+/// Common part of every cell: a fibre of rings, and constituents.
 struct Fibre<'a> {
     source: &'a Source,
     file: CellFile,
-    /// Of the rings from the inside out.
+    /// Outlines of the rings from the inside out.
     outlines: Vec<Outline>,
-    /// Of the rings, last of the adhesive.
+    /// Names, roles and materials of the rings, last of the adhesive.
     phases: Vec<(String, Role, Material)>,
 }
 

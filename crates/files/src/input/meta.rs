@@ -17,12 +17,12 @@ pub struct Meta {
     pub design: String,
     /// Serial number of the unit.
     pub serial: Option<i64>,
-    /// When it was recorded, e.g. "2026-03-02".
+    /// Date of the recording, e.g. "2026-03-02".
     pub date: String,
     /// Nominal interval between rows \[s\]; 0 if it is not given.
     #[schemars(with = "NotNegative")]
     pub sample_interval_s: f64,
-    /// In words, what a row's rate is.
+    /// Meaning of a row's rate, in words.
     pub rate_is: String,
     /// The thermometers.
     pub temperature_sensor: TemperatureSensor,

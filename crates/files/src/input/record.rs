@@ -32,7 +32,7 @@ pub struct RecordCase {
     pub averaging: f64,
     /// The meta file, if there is one.
     pub meta: Option<Meta>,
-    /// What a user should know about how the file was read.
+    /// Notes for the user on the reading of the file.
     pub notes: Vec<Note>,
     /// The file.
     pub fingerprint: Fingerprint,
@@ -126,7 +126,7 @@ fn fits(path: &Path, meta: Meta, span: f64) -> Result<Meta, InputError> {
     Err(InputError::whole(path, problem, "give the seconds over which a rate is a mean, or leave the field out"))
 }
 
-/// The recording, and what is to be said of its instants.
+/// The recording, and the note on its instants.
 fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) -> Result<(Recording, Option<Note>), InputError> {
     let channels: Vec<(Key, usize)> =
         [Key::Chamber, Key::Spool, Key::Rate].into_iter().filter_map(|key| Some((key, columns.column(key)?))).collect();

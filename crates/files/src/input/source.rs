@@ -18,7 +18,7 @@ const LARGEST: u64 = 1 << 20;
 /// The text of a case file, for [`check_coil`](super::check_coil) and the like.
 ///
 /// # Errors
-/// Why it cannot be read.
+/// The reason why it cannot be read.
 pub fn read_text(path: &Path) -> Result<String, InputError> {
     Source::read(path).map(|source| source.text)
 }
@@ -144,7 +144,7 @@ pub(super) struct Kind {
     name: &'static str,
     /// A field that each has at its top, and no other kind.
     mark: &'static str,
-    /// What writes one.
+    /// Command that writes one.
     command: &'static str,
 }
 

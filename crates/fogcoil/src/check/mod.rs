@@ -60,7 +60,7 @@ const MOST_VALUES: usize = 20_000_000;
 const ROWS_A_LAG: usize = 20;
 
 impl GyroNoise {
-    /// What is fitted beside it, in words.
+    /// The terms fitted beside it, in words.
     fn taken_off(&self) -> String {
         match self.driver {
             Some(name) => format!("an offset and what {} linear lags of {name} explain", self.lags.len()),

@@ -75,7 +75,7 @@ impl Comparison {
         out
     }
 
-    /// The mechanisms with what each is hardest to tell from under the slow ramp and under the best of the programmes, in Markdown.
+    /// The mechanisms with the nearest rival of each under the slow ramp and under the best of the programmes, in Markdown.
     pub fn overview(&self) -> String {
         let mut out =
             "| truth | stage | hardest rival, slow ramp | ln odds | hardest rival, best programme against it | ln odds |\n"

@@ -1,4 +1,4 @@
-//! A mechanism of a user's own: what its file says.
+//! A mechanism of a user's own, as its file describes it.
 
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ use crate::input::MechanismCase;
 use crate::table::{significant, table};
 use crate::units::parameter_unit;
 
-/// For people.
+/// The mechanism as text.
 pub fn own_text(case: &MechanismCase) -> String {
     let facts = case.mechanism.facts();
     let mut out = format!("{}: {}\n", facts.id, facts.title);

@@ -228,7 +228,7 @@ fn mislabelled_units_are_suspected() {
     assert_eq!(declared, "");
 }
 
-/// What is read in another unit than a column's name says is a warning, also for `--quiet`.
+/// A column read in another unit than its name says is a warning, also for `--quiet`.
 #[test]
 fn a_unit_in_a_columns_name_is_heard() {
     let folder = Folder::new();

@@ -37,7 +37,7 @@ pub(super) const RATE_TEMPERATURE_COEFFICIENT: Named = Named {
     },
 };
 
-/// What a rate may follow the temperature by \[deg/h/K\], of all that does so (1σ).
+/// Usual temperature coefficient of the rate, of all causes together (1σ) \[deg/h/K\].
 pub(super) fn usual(scene: &Scene) -> f64 {
     2.0 * scene.noise
 }

@@ -48,7 +48,7 @@ pub(super) const MAGNETO_OPTIC: Named = Named {
 const FIELD: &str = "field_ut";
 /// Relative change of silica's Verdet constant \[1/K\].
 const VERDET_PER_K: f64 = 0.69e-4;
-/// Where the stress that makes a fibre birefringent is gone \[°C\].
+/// Temperature at which the stress that makes a fibre birefringent is gone \[°C\].
 const SOFTENS_C: f64 = 900.0;
 
 /// Bias by a field at a temperature \[°C\], as a share of that at 20 °C.

@@ -63,7 +63,7 @@ pub(super) fn offered(design: &Design) -> bool {
     design.mechanics == Mechanics::Elastic
 }
 
-/// What a coil does whose outer face swells as `surface` says, a strain for each row, from an even strain at the first.
+/// Response of a coil whose outer face swells by `surface`, a strain for each row, from an even strain at the first.
 pub(super) fn swollen(chain: &Chain, record: &Prepared, diffusivity: f64, surface: &[f64], first: f64) -> Change {
     let design = chain.library().design();
     let sheet = Sheet {

@@ -75,7 +75,7 @@ fn wave([a, b]: [f64; 2], fringes: f64) -> f64 {
     a * sine + b * cosine
 }
 
-/// How far paths interfere that are so many fringes apart.
+/// Degree of interference of paths that are so many fringes apart.
 fn visibility(fringes: f64, coherence: f64) -> f64 {
     (-(PI * fringes / coherence).powi(2) / (4.0 * LN_2)).exp()
 }
