@@ -16,6 +16,7 @@ mod fingerprint;
 mod given;
 mod group;
 mod heat;
+mod json;
 mod map_file;
 mod mechanics;
 mod mechanism;

@@ -9,6 +9,7 @@ use serde::de::DeserializeOwned;
 use super::InputError;
 use super::fields::{FieldMap, join};
 use super::fingerprint::Fingerprint;
+use super::json;
 use super::scanner::{Scanner, Token};
 use super::syntax::explain;
 
@@ -23,7 +24,7 @@ pub fn read_text(path: &Path) -> Result<String, InputError> {
     Source::read(path).map(|source| source.text)
 }
 
-/// Reads a RON file of any type: the reader of case files for a program's own.
+/// Reads a RON file of a program's own type.
 ///
 /// # Errors
 /// The fault, in which file, line and field, and how to mend it.
@@ -42,7 +43,10 @@ pub fn fault_in(path: &Path, field: &str, problem: String, remedy: String) -> In
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Source {
     path: PathBuf,
+    /// RON.
     text: String,
+    /// The file's own text, if that is JSON.
+    json: Option<String>,
 }
 
 impl Source {
@@ -64,12 +68,20 @@ impl Source {
             InputError { line: Some(line), ..fault("is not UTF-8 text".into(), "save the file as UTF-8") }
         })?;
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
-        Ok(Self { path: path.to_owned(), text })
+        if path.extension().is_none_or(|end| !end.eq_ignore_ascii_case("json")) {
+            return Ok(Self::of(path, text));
+        }
+        let translated = json::ron(&text);
+        let translated = translated.map_err(|(line, problem)| InputError {
+            line: Some(line),
+            ..fault(problem, "mend it, or write RON into a file whose name does not end in .json")
+        })?;
+        Ok(Self { json: Some(text), ..Self::of(path, translated) })
     }
 
     /// A text that is not in a file yet.
     pub(crate) fn of(path: &Path, text: String) -> Self {
-        Self { path: path.to_owned(), text }
+        Self { path: path.to_owned(), text, json: None }
     }
 
     /// A file named inside this one: relative to it, or absolute.
@@ -82,7 +94,7 @@ impl Source {
     }
 
     pub(crate) fn fingerprint(&self) -> Fingerprint {
-        Fingerprint::of(self.path.clone(), self.text.as_bytes())
+        Fingerprint::of(self.path.clone(), self.json.as_ref().unwrap_or(&self.text).as_bytes())
     }
 
     /// The file's content, of a kind if `fogcoil new` writes such files.
