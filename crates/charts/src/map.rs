@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::attributes;
+use crate::scale::Scale;
 use crate::svg::Svg;
+use crate::{Axis, attributes};
 
 /// Steps of colour; odd, so that a diverging map has a middle.
 const STEPS: usize = 41;
@@ -69,8 +70,24 @@ impl Colours {
         format!("#{:02x}{:02x}{:02x}", channel(16), channel(8), channel(0))
     }
 
-    /// All colours as a bar in a box of 1 × 1, from left to right.
-    pub fn bar(&self, svg: &mut Svg) {
+    /// The label, below it all colours as a bar of this `width` \[px\], and below that round numbers at least `apart` \[px\] from each other, in a font of
+    /// this size \[px\]; all of it 3.7 font sizes high.
+    pub fn scale(&self, svg: &mut Svg, font: f64, width: f64, apart: f64) {
+        let scale = Scale::new(&Axis::tight("", 0.0), self.range, [0.0, width], apart.min(width / 4.0));
+        svg.text([0.0, 1.1 * font], "start", &self.label);
+        let (top, high) = (1.6 * font, 0.8 * font);
+        svg.group(attributes! { "transform": "translate(0 {top:.1}) scale({width:.1} {high:.1})" }, |svg| self.bar(svg));
+        let mut marks = format!("M0 {top:.1}h{width:.1}v{high:.1}h-{width:.1}z");
+        for (tick, label) in scale.ticks() {
+            let at = scale.pixel(tick);
+            let _ = write!(marks, "M{at:.1} {:.1}v4", top + high);
+            svg.text([at, top + high + 1.25 * font], "middle", &label);
+        }
+        svg.leaf("path", attributes! { "class": "axis", "fill": "none", "stroke": "currentColor", "d": "{marks}" });
+    }
+
+    /// All colours in a box of 1 × 1, from left to right.
+    fn bar(&self, svg: &mut Svg) {
         let each = 1.0 / STEPS as f64;
         svg.group(attributes! { "transform": "scale({each:.6} 1)", "shape-rendering": "crispEdges" }, |svg| {
             for step in 0..STEPS {

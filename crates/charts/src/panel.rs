@@ -74,18 +74,8 @@ fn width_of(content: &str, m: &Measures) -> f64 {
 fn colour_bar(svg: &mut Svg, colours: &Colours, m: &Measures, left: f64, across: f64) {
     let inset = 2.0 * m.font;
     let width = BAR.min(across - inset);
-    let scale = Scale::new(&Axis::tight("", 0.0), colours.range, [0.0, width], m.apart[0].min(width / 4.0));
     svg.group(attributes! { "transform": "translate({:.1} 0)"(left.max(inset)) }, |svg| {
-        svg.text([0.0, 1.1 * m.font], "start", &colours.label);
-        let (top, high) = (1.6 * m.font, 0.8 * m.font);
-        svg.group(attributes! { "transform": "translate(0 {top:.1}) scale({width:.1} {high:.1})" }, |svg| colours.bar(svg));
-        let mut marks = format!("M0 {top:.1}h{width:.1}v{high:.1}h-{width:.1}z");
-        for (tick, label) in scale.ticks() {
-            let at = scale.pixel(tick);
-            let _ = write!(marks, "M{at:.1} {:.1}v4", top + high);
-            svg.text([at, top + high + 1.25 * m.font], "middle", &label);
-        }
-        svg.leaf("path", attributes! { "class": "axis", "d": "{marks}" });
+        colours.scale(svg, m.font, width, m.apart[0]);
     });
 }
 

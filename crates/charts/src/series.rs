@@ -39,6 +39,8 @@ pub enum Style {
     Marked(u8),
     /// Marks alone, each of its own shape and colour: blue ring, vermilion square, green triangle, black diamond, blue cross.
     Points(u8),
+    /// Thin, grey and dashed: a line to compare others with, which is left out of the tables.
+    Guide,
 }
 
 impl Style {
@@ -53,6 +55,7 @@ impl Style {
             Self::Fine(1) => "line fine total",
             Self::Fine(2) => "line fine first",
             Self::Fine(_) => "line fine third",
+            Self::Guide => "line guide",
         }
     }
 

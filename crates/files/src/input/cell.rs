@@ -12,6 +12,7 @@ use super::cell_material::{Material, material};
 use super::fingerprint::Fingerprint;
 use super::group::Group;
 use super::mirror::Mirror;
+use super::opened::open;
 use super::source::{CELL, Source};
 use crate::Error;
 
@@ -46,7 +47,7 @@ pub enum AnyCell {
 /// # Errors
 /// The fault, in which file, line and field, and how to mend it.
 pub fn read_cell(path: &Path) -> Result<CellCase, InputError> {
-    let source = Source::read(path)?;
+    let source = open(path)?;
     let file: CellFile = source.parse(Some(&CELL))?;
     if let Some(key) = file.general_key() {
         return Err(irregular(&Group::whole(&source), &key));
@@ -59,7 +60,7 @@ pub fn read_cell(path: &Path) -> Result<CellCase, InputError> {
 /// # Errors
 /// The fault, in which file, line and field, and how to mend it.
 pub fn read_any_cell(path: &Path) -> Result<AnyCell, InputError> {
-    any(path, &Source::read(path)?)
+    any(path, &open(path)?)
 }
 
 /// Checks a cell file that is not written yet: the case that [`read_any_cell`] would read.

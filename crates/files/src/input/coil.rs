@@ -14,6 +14,7 @@ use super::fingerprint::Fingerprint;
 use super::group::Group;
 use super::mechanics::mechanics;
 use super::mirror::Mirror;
+use super::opened::open;
 use super::source::{COIL, Source};
 use super::spool_file::spool;
 use super::tolerances::tolerances;
@@ -97,7 +98,7 @@ const MOST_ANISOTROPY: f64 = 0.01;
 /// [`Error::Input`] says what is wrong, in which file, line and field, and how to mend it; [`Error::Homogenization`] if a sound
 /// cell cannot be solved.
 pub fn read_coil(path: &Path) -> Result<CoilCase, Error> {
-    checked(path, Source::read(path)?)
+    checked(path, open(path)?)
 }
 
 /// Checks a coil file that is yet to be written: the case that [`read_coil`] would read.

@@ -8,6 +8,7 @@ use recording::{Channel, Recording, Sampling, Seconds};
 use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::meta::{self, Meta};
+use super::opened::open;
 use super::record_clock::Clock;
 use super::record_columns::RecordColumns;
 use super::record_expectations::{expectations, possible};
@@ -97,7 +98,7 @@ pub fn check_record(path: &Path, text: String, meta: Option<&Path>, further: &[S
 
 /// A meta file with its path.
 fn known(meta: Option<PathBuf>) -> Result<Option<(PathBuf, Meta)>, InputError> {
-    meta.map(|path| meta::read(&path).map(|meta| (path, meta))).transpose()
+    meta.map(|path| open(&path).and_then(|source| meta::checked(&source)).map(|meta| (path, meta))).transpose()
 }
 
 fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<(PathBuf, Meta)>) -> Result<RecordCase, Error> {

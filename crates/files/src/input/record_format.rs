@@ -8,9 +8,9 @@ use super::InputError;
 use super::encoding::Encoding;
 use super::map_file::MapFile;
 use super::meta::MOST_INTERVAL_S;
+use super::opened::open;
 use super::record_options::{Key, RecordOptions};
 use super::rows::Dialect;
-use super::source::Source;
 use crate::Error;
 use crate::units::ColumnUnit;
 
@@ -64,7 +64,7 @@ impl RecordFormat {
     }
 
     fn from_file(path: &Path) -> Result<Self, InputError> {
-        let source = Source::read(path)?;
+        let source = open(path)?;
         Self::of(&source.parse(None)?).map_err(|(field, problem)| source.fault(&field, problem, ""))
     }
 

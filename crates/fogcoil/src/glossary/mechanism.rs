@@ -79,7 +79,7 @@ fn request(id: &str) -> String {
     let columns = mechanism.columns();
     let needs =
         if columns.is_empty() { String::new() } else { format!(", with the column {} in every record", columns.join(", ")) };
-    format!("It is weighed where it is asked for: `fogcoil diagnose ... --mechanism {id}`{needs}.")
+    format!("It is weighed on request: `fogcoil diagnose ... --mechanism {id}`{needs}.")
 }
 
 /// A check of the unit itself that decides about a mechanism.
@@ -100,7 +100,7 @@ impl Subject {
         let request = request(id);
         let asked = if request.is_empty() { request } else { format!("{request}\n\n") };
         format!(
-            "# {title}\n\n`{id}`\n\n{asked}## Equation\n\n{equation}\n\n## Place in the chain\n\n{place}\n\n## What it looks like\n\n{signature}\n\n\
+            "# {title}\n\n`{id}`\n\n{asked}## Equation\n\n{equation}\n\n## Place in the chain\n\n{place}\n\n## Signature\n\n{signature}\n\n\
              ## Source\n\n{source}\n\n## Measured\n\n<!-- measured: written by `cargo xtask mechanisms` -->\n\n{}\n<!-- measured end -->\n",
             measured.trim()
         )
@@ -116,11 +116,11 @@ impl Subject {
         let measured = self.measured();
         say("Equation", self.equation);
         say("Place in the chain", self.place);
-        say("How it is asked for", &request(self.id));
+        say("Request", &request(self.id));
         say("Parameters (prior and typical size as for the reference coil)", &table(&rows(measured, "parameter")));
-        say("What it looks like", self.signature);
+        say("Signature", self.signature);
         say(
-            "What it is confused with: expected ln odds for it over what is fitted in its place, by test; above 3.5 they are told apart",
+            "Rivals: expected ln odds for it over each rival that is fitted in its place, by test; above 3.5 the two are told apart",
             &table(&rows(measured, RIVALS)),
         );
         if let Some(inspection) = inspection(self.id) {

@@ -28,7 +28,7 @@ pub fn own_text(case: &MechanismCase) -> String {
     };
     let rows = case.mechanism.parameters.iter().zip(&case.values).map(row);
     say("Parameters", &table(&std::iter::once(header).chain(rows).collect::<Vec<_>>()));
-    say("What it looks like", facts.signature);
+    say("Signature", facts.signature);
     say("How to test it", &facts.inspection().map_or(String::new(), |inspection| format!("On the unit: {inspection}.")));
     say("Source", facts.source);
     out

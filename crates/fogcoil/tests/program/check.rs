@@ -100,7 +100,11 @@ fn text_json_and_picture() {
         assert!(text.contains(part), "{part}: {text}");
     }
     let picture = std::fs::read_to_string(folder.path("a.svg")).unwrap();
-    assert!(picture.starts_with("<svg") && picture.contains("Allan deviation") && picture.contains("fitted model"));
+    for part in
+        ["Allan deviation", "fitted model", "slopes −1/2, 0 and +1/2", "angle random walk 0.00", " °/√h, at 1 h", "line guide"]
+    {
+        assert!(picture.starts_with("<svg") && picture.contains(part), "{part}");
+    }
 
     // notes are neither warnings nor errors
     let output = folder.run(&["check", "r.csv", "--quiet"]);
