@@ -16,7 +16,7 @@ pub(crate) struct Text {
     pub(crate) text: String,
 }
 
-/// What is behind the name of a file whose values were replaced.
+/// Suffix of the name of a file whose values were replaced.
 const ALTERED: &str = " (altered)";
 
 impl Text {

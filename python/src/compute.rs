@@ -1,4 +1,4 @@
-//! What follows from a design: cells, windings, ramps, profiles.
+//! Computations about a design: cells, windings, ramps, profiles. Every function frees the interpreter while it works.
 
 use std::path::PathBuf;
 

@@ -8,6 +8,7 @@ use homogenization::identify::{Family, MaterialPrior, Prior, RingPrior, Target, 
 use super::InputError;
 use super::group::Group;
 use super::mirror::Mirror;
+use super::opened::open;
 use super::quantity::{Conductivity, ExpansionPerK, FibreUm, ModulusGpa, ModulusMpa, Quantity, Ratio};
 use super::source::{Source, TARGETS};
 use super::targets_file::{CellPrior, Entries, Entry, MaterialFile, RangeFile, TargetsFile};
@@ -34,7 +35,7 @@ pub struct TargetsCase {
 /// # Errors
 /// The fault, in which file, line and field, and how to mend it.
 pub fn read_targets(path: &Path) -> Result<TargetsCase, InputError> {
-    checked(Source::read(path)?)
+    checked(open(path)?)
 }
 
 /// Checks targets that are not in a file, with the content of one; messages call them `path`.

@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::measure::Measure;
 use crate::Error;
-use crate::input::{Fingerprint, InputError, check_ron, fault_in, meant, read_text};
+use crate::input::{Fingerprint, InputError, check_ron, fault_in, meant, read_ron};
 use crate::variants::{Dimensions, Drawing, Others, Variants, Varied, each_once, variants};
 
 /// Paths inside are relative to the plan's own.
@@ -36,15 +36,15 @@ const TRIALS: std::ops::RangeInclusive<usize> = 10..=1_000_000;
 /// Most combinations of choices.
 const MOST_COMBINATIONS: usize = 10_000;
 
-/// What to minimise over what.
+/// A plan: numbers to minimise, varied keys and limits.
 pub struct Plan {
     /// The plan's file and all that it names.
     pub files: Vec<Fingerprint>,
-    /// What varies.
+    /// The varied keys.
     pub variants: Variants,
-    /// What is minimised; the first decides which design is the optimum.
+    /// Numbers to minimise; the first decides which design is the optimum.
     pub minimise: Vec<Measure>,
-    /// What must lie within two ends.
+    /// Numbers that must lie within two ends.
     pub limits: Vec<(Measure, [f64; 2])>,
     /// About how many designs are tried.
     pub trials: usize,
@@ -57,15 +57,18 @@ pub struct Plan {
 /// # Errors
 /// As [`check_plan`].
 pub fn read_plan(path: &Path) -> Result<Plan, Error> {
-    check_plan(path, &read_text(path)?)
+    checked(path, read_ron(path)?)
 }
 
-/// Checks a plan that messages call `path`, and that names files from there, and reads them.
+/// Checks a plan that is not in a file, with the content of one, and reads the files that it names; messages call it `path`, and its paths start there.
 ///
 /// # Errors
 /// [`files::Error::Input`] says what is wrong, in which file, line and field, and how to mend it.
 pub fn check_plan(path: &Path, text: &str) -> Result<Plan, Error> {
-    let (file, own): (PlanFile, _) = check_ron(path, text)?;
+    checked(path, check_ron(path, text)?)
+}
+
+fn checked(path: &Path, (file, own): (PlanFile, Fingerprint)) -> Result<Plan, Error> {
     check_measures(path, &file)?;
     let drawing = Drawing::read(&path.parent().unwrap_or(Path::new("")).join(&file.design))?;
     let files = [vec![own], drawing.case.fingerprints.clone()].concat();

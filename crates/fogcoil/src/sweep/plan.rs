@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 
 use super::outputs::Output;
 use super::points::{LONGEST_SEQUENCE, Points, Sampling};
-use crate::input::{CoilCase, Fingerprint, InputError, check_ron, fault_in, hexadecimal, read_profile, read_text};
+use crate::input::{CoilCase, Fingerprint, InputError, check_ron, fault_in, hexadecimal, read_profile, read_ron};
 use crate::variants::{Dimensions, Drawing, Factor, Group, MOST_FACTORS, Others, Variants, Varied, each_once, variants};
 use crate::{Error, program};
 
@@ -46,21 +46,21 @@ fn usual_outputs() -> Vec<OutputFile> {
     vec![OutputFile::Sensitivity]
 }
 
-/// What to compute.
+/// A plan: factors, points and outputs.
 pub struct Plan {
     /// The plan's file and all that it names.
     pub files: Vec<Fingerprint>,
-    /// How points are chosen.
+    /// Choice of points.
     pub sampling: Sampling,
     /// Seed of the points.
     pub seed: u64,
-    /// What varies.
+    /// The varied factors.
     pub variants: Variants,
     /// The points.
     pub points: Points,
     /// The groups of factors that are there.
     pub groups: Vec<Group>,
-    /// What is computed.
+    /// The computed outputs.
     pub outputs: Vec<Output>,
     /// Whether the factors are the numbers with a tolerance and nothing else.
     pub is_band: bool,
@@ -74,15 +74,18 @@ pub struct Plan {
 /// # Errors
 /// As [`check_plan`].
 pub fn read_plan(path: &Path) -> Result<Plan, Error> {
-    check_plan(path, &read_text(path)?)
+    checked(path, read_ron(path)?)
 }
 
-/// Checks a plan that messages call `path`, and that names files from there, and reads them.
+/// Checks a plan that is not in a file, with the content of one, and reads the files that it names; messages call it `path`, and its paths start there.
 ///
 /// # Errors
 /// [`files::Error::Input`] says what is wrong, in which file, line and field, and how to mend it.
 pub fn check_plan(path: &Path, text: &str) -> Result<Plan, Error> {
-    let (file, own): (PlanFile, _) = check_ron(path, text)?;
+    checked(path, check_ron(path, text)?)
+}
+
+fn checked(path: &Path, (file, own): (PlanFile, Fingerprint)) -> Result<Plan, Error> {
     let drawing = Drawing::read(&beside(path, &file.design))?;
     let case = &drawing.case;
     check_tolerances(path, &file, case)?;
@@ -174,23 +177,23 @@ fn points(path: &Path, file: &PlanFile, variants: &Variants, groups: &[Group]) -
 }
 
 impl Plan {
-    /// The same for code that is not in the executable but in a library that it loads, `file`.
+    /// The same plan for code that is not in the executable but in a library that it loads, `file`.
     #[must_use]
     pub fn of_code_in(self, file: impl Into<PathBuf>) -> Self {
         Self { code: Some(file.into()), ..self }
     }
 
-    /// How many points it has.
+    /// Number of points.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Names of all that is computed.
+    /// Names of all outputs.
     pub fn names(&self) -> Vec<&'static str> {
         self.outputs.iter().flat_map(|output| output.names().iter().copied()).collect()
     }
 
-    /// SHA-256 of all that the rows follow from: the program, the plan, the files that it names.
+    /// SHA-256 of all inputs of the rows: the program, the plan, the files that it names.
     pub fn hash(&self) -> String {
         let mut hash = Sha256::new().chain_update(format!("{}\n", program::hash(self.code.as_deref())));
         self.files.iter().for_each(|file| hash.update(format!("{}\n", file.sha256)));

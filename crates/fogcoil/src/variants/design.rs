@@ -10,9 +10,9 @@ use super::follow::Dimensions;
 use super::value::Value;
 use super::varied::{Varied, normal};
 use crate::FileError;
-use crate::input::{CoilCase, check_coil, field_text, read_text, with_fields};
+use crate::input::{CoilCase, check_coil, field_text, read_coil_with_text, with_fields};
 
-/// A drawing as it was read, with its text.
+/// A drawing, with the text of its file.
 pub struct Drawing {
     /// The drawing.
     pub case: CoilCase,
@@ -20,21 +20,21 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    /// Reads and checks a coil file, once.
+    /// Reads and checks a coil file.
     ///
     /// # Errors
-    /// [`files::Error::Input`] says what is wrong, in which file, line and field, and how to mend it; [`files::Error::Homogenization`] if its cell cannot be solved.
+    /// As [`read_coil`](crate::input::read_coil).
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        let text = read_text(path)?;
-        Ok(Self { case: check_coil(path, &text)?, text })
+        let (case, text) = read_coil_with_text(path)?;
+        Ok(Self { case, text })
     }
 }
 
-/// What is varied of a drawing.
+/// Variations of a drawing.
 pub struct Variants {
     /// The drawing.
     pub case: CoilCase,
-    /// What is varied, each with a coordinate.
+    /// The varied factors, each with a coordinate.
     pub factors: Vec<Factor>,
     /// Whether the body follows the winding.
     pub dimensions: Dimensions,
@@ -48,12 +48,12 @@ pub struct Variants {
 pub struct Variant {
     /// The design.
     pub design: Design,
-    /// What each factor is in it, in the unit of its key; `None` where the design has no such number.
+    /// Value of each factor in it, in the unit of its key; `None` where the design has no such number.
     pub values: Vec<Option<Value>>,
 }
 
 impl Variants {
-    /// Of a drawing.
+    /// Variations of a drawing.
     pub fn new(Drawing { case, text }: Drawing, factors: Vec<Factor>, dimensions: Dimensions) -> Self {
         let mixing = mixing(&factors, &case.tolerances);
         Self { case, factors, dimensions, text, mixing }
@@ -67,7 +67,7 @@ impl Variants {
     /// The design at a point of the unit cube.
     ///
     /// # Errors
-    /// In words, why there is no such design.
+    /// Message that says why there is no such design.
     pub fn at(&self, point: &[f64]) -> Result<Variant, String> {
         let written: Vec<(usize, Value)> = self.keys().map(|(n, varied)| (n, varied.at(point[n]))).collect();
         let mut design = self.with(&written)?;
@@ -81,7 +81,7 @@ impl Variants {
         Ok(Variant { design, values })
     }
 
-    /// What a plan itself gives at a point, of a design that cannot be as of others.
+    /// Values that the plan itself gives at a point, also for a design that cannot be.
     pub fn values(&self, point: &[f64]) -> Vec<Option<Value>> {
         let mut values = vec![None; self.factors.len()];
         self.keys().for_each(|(n, varied)| values[n] = Some(varied.at(point[n])));
@@ -91,7 +91,7 @@ impl Variants {
     /// The drawing with one of the factors at its middle; any value of a factor that is none.
     ///
     /// # Errors
-    /// In words, why there is no such design.
+    /// Message that says why there is no such design.
     pub(super) fn alone(&self, factor: &Factor) -> Result<Design, String> {
         let own = self.keys().find(|(n, _)| self.factors[*n] == *factor);
         self.with(&own.map(|(n, varied)| (n, varied.at(0.5))).into_iter().collect::<Vec<_>>())
@@ -100,7 +100,7 @@ impl Variants {
     /// The drawing with some of its keys written anew: places of factors, and their values.
     ///
     /// # Errors
-    /// In words, why there is no such design.
+    /// Message that says why there is no such design.
     pub fn with(&self, written: &[(usize, Value)]) -> Result<Design, String> {
         if written.is_empty() {
             return Ok(self.case.design.clone());
