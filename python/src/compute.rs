@@ -13,11 +13,13 @@ use pyo3::prelude::*;
 use serde_json::json;
 
 use crate::case::{Cell, Coil, Text};
-use crate::columns::{Column, at_element, table};
 use crate::error::{InputError, raised, warn};
 use crate::found::Found;
 use crate::table::Table;
 use crate::watched::watched;
+
+/// Names and numbers of columns.
+pub(crate) type Columns = Vec<(String, Vec<f64>)>;
 
 /// The figure of a simulation that shows it in a notebook.
 const COURSE: &str = "bias";
@@ -41,7 +43,7 @@ pub(crate) fn homogenize(py: Python, cell: &Cell, tolerance: f64, temperature_c:
     })
 }
 
-/// With the turn table.
+/// The winding, with its turn table.
 #[pyfunction]
 pub(crate) fn wind(coil: &Coil) -> Found {
     let case = &coil.case;
@@ -49,7 +51,7 @@ pub(crate) fn wind(coil: &Coil) -> Found {
     Found::new(&turns::json(case), turns::text(case)).with_table(turns::turns(&case.winding)).with_picture(drawn)
 }
 
-/// With the errors of the parts.
+/// The steady sensitivity, with the errors of its parts.
 #[pyfunction]
 pub(crate) fn sensitivity(py: Python, coil: &Coil) -> PyResult<Found> {
     watched(py, None, |_| {
@@ -62,10 +64,10 @@ pub(crate) fn sensitivity(py: Python, coil: &Coil) -> PyResult<Found> {
     })
 }
 
-/// With what is left for each number of turns cut off.
+/// Trimming, with the remaining sensitivity for each number of turns cut off.
 #[pyfunction]
-pub(crate) fn trim(py: Python, coil: &Coil, profile: Option<Vec<Column>>, between: &str) -> PyResult<Found> {
-    let profile = profile.map(|columns| checked_profile(py, coil, &columns, &[], between)).transpose()?;
+pub(crate) fn trim(py: Python, coil: &Coil, profile: Option<Columns>, between: &str) -> PyResult<Found> {
+    let profile = profile.map(|columns| checked_profile(py, coil, columns, &[], between)).transpose()?;
     watched(py, None, |_| {
         let found = trimming::trim(&coil.case, profile.as_ref())?;
         let table = trimming::turns_cut_off(&found);
@@ -73,18 +75,18 @@ pub(crate) fn trim(py: Python, coil: &Coil, profile: Option<Vec<Column>>, betwee
     })
 }
 
-/// Under a profile, if there is one.
+/// Two designs compared, under a profile if there is one.
 #[pyfunction]
 pub(crate) fn compare(
     py: Python,
     a: &Coil,
     b: &Coil,
-    profile: Option<Vec<Column>>,
+    profile: Option<Columns>,
     between: &str,
     code: Option<PathBuf>,
 ) -> PyResult<Found> {
-    let read = |columns: Vec<Column>| -> PyResult<[ProfileCase; 2]> {
-        Ok([checked_profile(py, a, &columns, &[], between)?, checked_profile(py, b, &columns, &[], between)?])
+    let read = |columns: Columns| -> PyResult<[ProfileCase; 2]> {
+        Ok([checked_profile(py, a, columns.clone(), &[], between)?, checked_profile(py, b, columns, &[], between)?])
     };
     let profiles = profile.map(read).transpose()?;
     watched(py, None, |tell| {
@@ -93,19 +95,19 @@ pub(crate) fn compare(
     })
 }
 
-/// With the columns of the result.
+/// The response to a profile, with its columns.
 #[pyfunction]
 pub(crate) fn simulate(
     py: Python,
     coil: &Coil,
-    profile: Vec<Column>,
+    profile: Columns,
     between: &str,
     mechanisms: Vec<PathBuf>,
     code: Option<PathBuf>,
 ) -> PyResult<Found> {
     let own = input::read_simulated(&mechanisms).map_err(raised)?;
     let further = input::further_columns(&own);
-    let (case, profile) = (&coil.case, checked_profile(py, coil, &profile, &further, between)?);
+    let (case, profile) = (&coil.case, checked_profile(py, coil, profile, &further, between)?);
     watched(py, None, |tell| {
         let cache = cache(code);
         let model = runs::model(case, &profile.drives, &cache)?;
@@ -133,8 +135,8 @@ impl DesignBox {
     }
 
     /// The columns of the result, and the estimated errors of thermometer and rate.
-    fn simulate(&self, py: Python, coil: &Coil, profile: Vec<Column>, between: &str) -> PyResult<(Table, [f64; 2])> {
-        let profile = checked_profile(py, coil, &profile, &[], between)?;
+    fn simulate(&self, py: Python, coil: &Coil, profile: Columns, between: &str) -> PyResult<(Table, [f64; 2])> {
+        let profile = checked_profile(py, coil, profile, &[], between)?;
         let varied = py.detach(|| self.0.simulate(&coil.case, &profile)).map_err(raised)?;
         Ok((runs::table(&varied.rows).into(), varied.errors))
     }
@@ -190,16 +192,13 @@ pub(crate) fn cache(code: Option<PathBuf>) -> Cache {
     code.map_or(Cache::NONE, |file| Cache::of_user().of_code_in(file))
 }
 
-fn checked_profile(py: Python, coil: &Coil, columns: &[Column], further: &[String], between: &str) -> PyResult<ProfileCase> {
+fn checked_profile(py: Python, coil: &Coil, columns: Columns, further: &[String], between: &str) -> PyResult<ProfileCase> {
     let between = match between {
         "linear" => Between::Linear,
         "cubic" => Between::Cubic,
         other => return Err(InputError::new_err(format!("between: {other:?} is not known; give \"linear\" or \"cubic\""))),
     };
-    let read = || -> Result<ProfileCase, Error> {
-        input::check_profile("profile".as_ref(), table(columns), &coil.case.design, further)
-            .map_err(|error| at_element(error.into()))
-    };
+    let read = || input::check_profile("profile".as_ref(), input::Table::Columns(columns), &coil.case.design, further);
     let mut profile = py.detach(read).map_err(raised)?;
     profile.between = between;
     warn(py, profile.notes.clone())?;

@@ -1,4 +1,4 @@
-//! A result for the typed layer: its object as JSON, its words, its table, and what shows it in a notebook.
+//! A result for the typed layer: its object as JSON, its words, its table, and its picture or page for a notebook.
 
 use fogcoil::tabular;
 use pyo3::prelude::*;
@@ -11,7 +11,7 @@ use crate::table::Table;
 pub(crate) struct Found {
     /// One object.
     json: String,
-    /// For people.
+    /// The words of the command line.
     text: String,
     table: Option<Table>,
     /// An SVG document.

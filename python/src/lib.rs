@@ -4,7 +4,6 @@
 //! its next step.
 
 mod case;
-mod columns;
 mod compute;
 mod error;
 mod found;

@@ -26,7 +26,7 @@ pub(crate) fn identify(
     })
 }
 
-/// With a row for each design.
+/// A sweep, with a row for each design.
 #[pyfunction]
 pub(crate) fn sweep(
     py: Python,
@@ -46,7 +46,7 @@ pub(crate) fn sweep(
     })
 }
 
-/// With a row for each design that was tried; and the optimum, where there is one.
+/// An optimisation, with a row for each design that was tried; and the optimum, where there is one.
 #[pyfunction]
 pub(crate) fn optimise(
     py: Python,

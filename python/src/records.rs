@@ -1,4 +1,4 @@
-//! What recordings say.
+//! Recordings: checked, measured, diagnosed.
 
 use std::path::{Path, PathBuf};
 
@@ -10,18 +10,17 @@ use fogcoil::{Error, batch as batches, calibrate as lots, check as checking, dia
 use pyo3::prelude::*;
 
 use crate::case::{Coil, Text};
-use crate::columns::{Column, at_element, table};
-use crate::compute::cache;
+use crate::compute::{Columns, cache};
 use crate::error::{raised, warn};
 use crate::found::Found;
 use crate::watched::watched;
 
 /// A record: the file, or what messages call it, and its columns if it is no file.
-type Record = (PathBuf, Option<Vec<Column>>);
+type Record = (PathBuf, Option<Columns>);
 
 fn read((path, columns): &Record, meta: Option<&Path>, further: &[String]) -> Result<RecordCase, Error> {
     match columns {
-        Some(columns) => input::check_record(path, table(columns), meta, further).map_err(|error| at_element(error.into())),
+        Some(columns) => Ok(input::check_record(path, input::Table::Columns(columns.clone()), meta, further)?),
         None => {
             let meta = meta.map(Path::to_owned);
             let options = RecordOptions { meta, further: further.to_vec(), ..RecordOptions::default() };
@@ -69,7 +68,7 @@ pub(crate) fn further_columns(mechanisms: Vec<PathBuf>) -> PyResult<Vec<String>>
     read().map_err(raised)
 }
 
-/// The outcome with the prediction of the first record held out, and the extended design, where there are.
+/// A diagnosis with the prediction of the first record held out, and the extended design, where there are.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "as many as Python gives")]
 pub(crate) fn diagnose(
@@ -103,7 +102,7 @@ pub(crate) fn diagnose(
     Ok((found, model.map(|text| Coil::beside(py, &coil.case.file, text)).transpose()?))
 }
 
-/// With the recommended profile.
+/// The recommended test, with its profile.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "as many as Python gives")]
 pub(crate) fn recommend(
@@ -131,7 +130,7 @@ pub(crate) fn recommend(
     Ok(found)
 }
 
-/// With the lot's design.
+/// Common constants of a lot, with the lot's design.
 #[pyfunction]
 pub(crate) fn calibrate(
     py: Python,
@@ -151,7 +150,7 @@ pub(crate) fn calibrate(
     Ok((found, Coil::beside(py, &coil.case.file, model)?))
 }
 
-/// With a row for each unit; how many units fail, and those that could not be diagnosed.
+/// A batch, with a row for each unit: the number of failing units, and the units that could not be diagnosed.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "as many as Python gives")]
 pub(crate) fn batch(

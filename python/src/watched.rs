@@ -18,7 +18,7 @@ const LOOK: Duration = Duration::from_millis(50);
 /// Bytes of the stack on which work is done: those of a main thread.
 const STACK: usize = 8 << 20;
 
-/// What work unwinds with that is stopped at one of its steps.
+/// The payload with which stopped work unwinds at one of its steps.
 struct Stopped;
 
 /// Does `work`, whose steps `progress` is told, with the interpreter free. An interrupt, or an exception of `progress`, ends the work at its next step.

@@ -1,4 +1,4 @@
-//! Where a table goes: into a file, or into a folder in several formats with a page.
+//! Files of a table: one, or a folder with several formats and a page.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -20,7 +20,7 @@ const TABLE: &str = "table";
 const PAGE: &str = "report.html";
 
 impl Tables {
-    /// One file, by the end of its name; a folder, if it is one or its name has no end.
+    /// The table as one file, its format by the end of its name; as a folder, if it is one or its name has no end.
     pub(crate) fn at(out: &Path) -> Result<Self, Error> {
         if out.is_dir() || (out.extension().is_none() && out != Path::new("-")) {
             return Ok(Self::within(out, &[Format::Csv, Format::Parquet]));
@@ -28,13 +28,13 @@ impl Tables {
         Ok(Self { folder: None, tables: vec![(out.to_owned(), Format::of(out, &[Format::Parquet, Format::Csv])?)], page: None })
     }
 
-    /// In a folder, in these formats, with a page.
+    /// The table in a folder, in these formats, with a page.
     pub(crate) fn within(folder: &Path, formats: &[Format]) -> Self {
         let table = |format: &Format| (folder.join(TABLE).with_extension(format.end()), *format);
         Self { folder: Some(folder.to_owned()), tables: formats.iter().map(table).collect(), page: Some(folder.join(PAGE)) }
     }
 
-    /// What rows are kept beside until the table is written.
+    /// Path beside which rows are kept until the table is written.
     pub(crate) fn stem(&self) -> PathBuf {
         match &self.folder {
             Some(folder) => folder.join(TABLE),
@@ -42,7 +42,7 @@ impl Tables {
         }
     }
 
-    /// All files.
+    /// Every file that is written.
     pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {
         self.tables.iter().map(|(path, _)| path).chain(&self.page).map(PathBuf::as_path)
     }

@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 
 use crate::input::hexadecimal;
 
-/// SHA-256 of the file that holds this code (`None`: the executable), the same on every machine that runs it; the version alone where it cannot be read.
+/// SHA-256 of the file that holds this code (`None`: the executable), the same on every machine that runs it; of the version alone where it cannot be read.
 pub(crate) fn hash(code: Option<&Path>) -> String {
     let mut hash = Sha256::new().chain_update(concat!("fogcoil ", env!("CARGO_PKG_VERSION")));
     if let Ok(mut file) = code.map_or_else(env::current_exe, |file| Ok(file.to_owned())).and_then(File::open) {

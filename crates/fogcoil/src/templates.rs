@@ -11,6 +11,6 @@ pub const MECHANISM: &str = include_str!("../templates/mechanism.ron");
 /// A profile of the chamber's temperature.
 pub const PROFILE: &str = include_str!("../templates/profile.csv");
 
-/// All by the names of their kinds.
+/// Every template by the name of its kind.
 pub const ALL: [(&str, &str); 5] =
     [("coil", COIL), ("cell", CELL), ("targets", TARGETS), ("mechanism", MECHANISM), ("profile", PROFILE)];

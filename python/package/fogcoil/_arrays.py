@@ -22,7 +22,7 @@ CODE: str = _native.__file__
 
 
 def arrays(table: _native.Table) -> dict[str, Array]:
-    """Columns as arrays of their own memory; texts that are missing are None."""
+    """Columns as arrays of their own memory; a missing text is None."""
 
     def array(values: bytearray | tuple[bytearray] | list[str | None]) -> Array:
         if isinstance(values, bytearray):
@@ -54,13 +54,13 @@ def frame(table: _native.Table) -> Any:
 
 
 class Shown:
-    """What a notebook shows of a result: the words of the command line, and its picture."""
+    """A result that a notebook shows: the words of the command line, and its picture."""
 
     _found: _native.Found
 
     @property
     def text(self) -> str:
-        """What the command line prints."""
+        """The words of the command line."""
         return self._found.text
 
     @property
@@ -103,7 +103,7 @@ class Result(Shown, dict[str, Any]):
 
 
 class Columns(Shown, dict[str, Array]):
-    """Columns by name as numpy arrays; ``table`` is the same as a DataFrame, ``summary`` what it comes down to. A notebook shows it."""
+    """Columns by name as numpy arrays; ``table`` is the same as a DataFrame, ``summary`` its figures. A notebook shows it."""
 
     summary: dict[str, Any]
     """The keys of the command's ``--json``."""
@@ -133,9 +133,9 @@ def table(about: str, columns: dict[str, Any]) -> _native.Columns:
 
 
 def profile_of(
-    what: str, time_s: npt.ArrayLike | None, chamber_c: npt.ArrayLike | None
+    name: str, time_s: npt.ArrayLike | None, chamber_c: npt.ArrayLike | None
 ) -> _native.Columns | None:
-    """A profile that may be left out; ``what`` asks for it."""
+    """A profile that may be left out; ``name`` is that of the function."""
     if (time_s is None) != (chamber_c is None):
-        raise InputError(f"{what}: time_s and chamber_c go together; give both or neither")
+        raise InputError(f"{name}: time_s and chamber_c go together; give both or neither")
     return None if time_s is None else table("profile", {"time_s": time_s, "chamber_c": chamber_c})

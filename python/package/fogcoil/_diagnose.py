@@ -145,7 +145,7 @@ def recommend(
 
 
 class Calibration(Result):
-    """What units of a lot have in common: the keys of ``fogcoil calibrate --json``."""
+    """Common deviations of the units of a lot: the keys of ``fogcoil calibrate --json``."""
 
     model: Coil
     """The lot's design, for its further units."""

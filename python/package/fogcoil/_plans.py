@@ -1,4 +1,4 @@
-"""Many designs, and constituents, from files of plans and targets; the meaning of what the program says; files to start from."""
+"""Many designs, and constituents, from files of plans and targets; the meaning of ids; files to start from."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ def sweep(
 ) -> Result:
     """Designs around a drawing, computed by the thousand: the keys of ``fogcoil sweep --json``; ``table`` has a row for each.
 
-    ``plan`` is the path of a plan, or its RON text, whose paths are relative to ``folder``. ``progress`` (e.g. ``print``) is called with what is being
-    done, and at each tenth of it.
+    ``plan`` is the path of a plan, or its RON text, whose paths are relative to ``folder``. ``progress`` (e.g. ``print``) is called with each task as it
+    begins, and at each tenth of it.
     """
     return Result(_native.sweep(plan, folder, CODE, by_tenths(progress)))
 
@@ -35,7 +35,7 @@ class Optimum(Result):
 def optimise(
     plan: _native.Source, *, folder: str | os.PathLike[str] | None = None, progress: Progress | None = None
 ) -> Optimum:
-    """The design with the least of what a plan names, within limits. ``plan``, ``folder`` and ``progress`` as for :func:`sweep`."""
+    """The design with the least sensitivity, spread, mass or length, as a plan asks, within limits. ``plan``, ``folder`` and ``progress`` as for :func:`sweep`."""
     found, model = _native.optimise(plan, folder, by_tenths(progress))
     result = Optimum(found)
     result.model = model

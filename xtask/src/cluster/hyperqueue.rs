@@ -7,14 +7,16 @@ use std::process::{Command, Stdio};
 use proof::Failure;
 use proof::files::{failed, root};
 
-use super::place::{FILES, Place, Running, SHARES, done};
+use super::Trial;
+use super::place::{FILES, Place, SHARES};
+use super::processes::{Running, done};
 
 const VERSION: &str = "0.27.0";
 const LOOPBACK: &str = include_str!("loopback.py");
 const TABLE: &str = "hyperqueue.parquet";
 
-/// Sweeps the plan with one of two workers killed; how it went.
-pub(super) fn sweep(place: &Place) -> Result<String, Failure> {
+/// Sweeps the plan with one of two workers killed.
+pub(super) fn sweep(place: &Place) -> Result<Trial, Failure> {
     let python = python()?;
     let script = place.path("loopback.py");
     fs::write(&script, LOOPBACK).map_err(failed(&script))?;
@@ -41,7 +43,8 @@ pub(super) fn sweep(place: &Place) -> Result<String, Failure> {
     if tasks == 0 || !job.wait()? {
         return Err(Failure(format!("HyperQueue: {tasks} processes ended with the worker, or the job did not end well")));
     }
-    Ok(format!("HyperQueue {VERSION}, a worker killed at its task when {there} of {FILES} files of rows were there"))
+    let course = format!("a worker killed at its task when {there} of {FILES} files of rows were there");
+    Ok(Trial { scheduler: format!("HyperQueue {VERSION}"), course, table: TABLE })
 }
 
 /// A Python that has HyperQueue.

@@ -1,4 +1,4 @@
-//! A controller of Slurm and two nodes; without Slurm its array by hand.
+//! A controller of Slurm and two nodes.
 
 use std::fs;
 use std::net::TcpListener;
@@ -10,35 +10,24 @@ use proof::files::failed;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-use super::place::{FILES, Place, Running, SHARES, done, until};
+use super::Trial;
+use super::place::{FILES, Place, SHARES};
+use super::processes::{Running, done, until};
 
 const TABLE: &str = "slurm.parquet";
-/// What a cluster of its own needs.
+/// Programs of a cluster of its own.
 const PROGRAMS: [&str; 4] = ["munged", "slurmctld", "slurmd", "sbatch"];
 /// Bytes of munge's key.
 const KEY: usize = 128;
 
-/// Sweeps the plan with one of two nodes killed; how it went.
-pub(super) fn sweep(place: &Place) -> Result<String, Failure> {
+/// Sweeps the plan with one of two nodes killed.
+pub(super) fn sweep(place: &Place) -> Result<Trial, Failure> {
     let there = |program: &&str| Command::new(program).arg("--version").output().is_ok();
-    let how = match PROGRAMS.iter().find(|program| !there(program)) {
-        Some(missing) => by_hand(place, missing)?,
-        None => on_two_nodes(place)?,
-    };
-    place.merge(TABLE)?;
-    Ok(how)
-}
-
-fn by_hand(place: &Place, missing: &str) -> Result<String, Failure> {
-    for number in 1..=SHARES {
-        let mut task = place.command(place.script("share.sh"));
-        task.arg(place.plan()).args([TABLE, &SHARES.to_string()]).env("SLURM_ARRAY_TASK_ID", number.to_string());
-        done(&mut task)?;
+    if let Some(missing) = PROGRAMS.iter().find(|program| !there(program)) {
+        return Err(Failure(format!(
+            "there is no {missing}; install slurmctld, slurmd, slurm-client and munge, or give --no-slurm"
+        )));
     }
-    Ok(format!("the tasks of Slurm's array by hand, as there is no {missing}"))
-}
-
-fn on_two_nodes(place: &Place) -> Result<String, Failure> {
     let configuration = place.path("slurm.conf");
     let socket = place.path("munge.socket");
     let key = place.path("munge.key");
@@ -81,7 +70,9 @@ fn on_two_nodes(place: &Place) -> Result<String, Failure> {
     }
     until("the array", || Ok(asked("squeue", &["--noheader"])?.trim().is_empty()))?;
     let version = asked("sbatch", &["--version"])?;
-    Ok(format!("{} array, a node killed at its task when {there} of {FILES} files of rows were there", version.trim()))
+    place.merge(TABLE)?;
+    let course = format!("a node killed at its task when {there} of {FILES} files of rows were there");
+    Ok(Trial { scheduler: version.trim().replace("slurm-wlm", "Slurm"), course, table: TABLE })
 }
 
 /// A cluster of two nodes of one core each, which are this machine.

@@ -72,6 +72,7 @@ pub use profile::{Between, Inference, ProfileCase, check_profile, read_profile};
 pub use propose::propose_map;
 pub use record::{RecordCase, check_record, read_record};
 pub use record_options::{CHAMBER, Key, RATE, RecordOptions, SPOOL};
+pub use rows::Table;
 pub use schema::schemas;
 pub use spool::{SpoolCase, read_spool};
 pub use targets::{TargetsCase, check_targets, read_targets};

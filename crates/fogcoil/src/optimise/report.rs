@@ -11,7 +11,7 @@ use super::search::Found;
 use super::text::{NOTHING, designs, of_optimum, of_spread, steps};
 use crate::report::provenance;
 
-/// The front, the optimum with its check, and what leads there.
+/// The front, the optimum with its check, and the changes that lead to it.
 pub fn report(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
     let best = front(&found.all, &plan.minimise);
     let sound = found.all.iter().filter(|tried| tried.violation == 0.0).count();
@@ -42,7 +42,7 @@ fn headed(caption: &str, rows: &[Vec<String>]) -> Markup {
     html! { @if let Some((head, rows)) = rows.split_first() { (grid(caption, Cells::Words, head, rows)) } }
 }
 
-/// With a capital and a full stop.
+/// The text with a capital and a full stop.
 fn sentence(text: &str) -> String {
     let mut rest = text.chars();
     let first: String = rest.next().into_iter().flat_map(char::to_uppercase).collect();

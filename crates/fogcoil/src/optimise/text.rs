@@ -37,10 +37,10 @@ pub fn text(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
     out
 }
 
-/// Said where nothing keeps the limits.
+/// Message where no design keeps the limits.
 pub(super) const NOTHING: &str = "no design that was tried keeps the limits; widen them, vary more, or give more trials";
 
-/// Rows as text, none of their cells to the left.
+/// The rows as text; an empty last cell keeps every number to the right.
 fn with_end(rows: Vec<Vec<String>>) -> String {
     table(&rows.into_iter().map(|row| [row, vec![String::new()]].concat()).collect::<Vec<_>>())
 }
@@ -72,7 +72,7 @@ fn short(value: &crate::variants::Value) -> String {
     }
 }
 
-/// The optimum by the full model, and what tolerances make of it.
+/// The optimum by the full model, and its spread by tolerances.
 pub(super) fn of_optimum(plan: &Plan, found: &Found, checked: &Checked) -> [String; 2] {
     let total = checked.steady.sensitivity.total();
     let [most, largest] = checked.quantiles();

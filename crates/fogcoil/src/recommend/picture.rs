@@ -9,12 +9,12 @@ use crate::units::DurationUnit;
 /// Share of the squared distance from which a thermometer's course is drawn.
 const WORTH_DRAWING: f64 = 0.05;
 
-/// The recommended profile and what it is expected to show, an SVG document.
+/// The recommended profile and its expected course, an SVG document.
 pub fn svg(found: &Recommendation) -> String {
     figure(found).document()
 }
 
-/// The profile, what the pair that it tells apart worst adds, and what is left.
+/// The profile, the contributions of the pair that it tells apart worst, and the remainder that tells them apart.
 pub(crate) fn figure(found: &Recommendation) -> Figure<'static> {
     let best = &found.profiles[0];
     let what = if best.odds.decides() { "The recommended test" } else { "The best within these limits, which does not decide" };

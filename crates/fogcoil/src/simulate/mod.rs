@@ -78,7 +78,7 @@ pub fn simulate<'a>(case: &'a CoilCase, profile: &'a ProfileCase, model: &Model)
     })
 }
 
-/// Rows as a table of the [`COLUMNS`].
+/// A table of rows, with the [`COLUMNS`].
 pub fn table(rows: &[SimulatedRow]) -> Table {
     tabled(COLUMNS.into_iter(), rows)
 }
@@ -158,7 +158,7 @@ impl Simulation<'_> {
         windowed(self.row(0), self.coarser_rows().skip(1))
     }
 
-    /// Names of the result's columns, and what each holds of a row.
+    /// Names of the result's columns, and the value of each in a row.
     fn columns(&self) -> impl Iterator<Item = Column> {
         const OWN: Column = ("mechanisms_deg_per_h", |row| row.mechanisms);
         COLUMNS.into_iter().chain((!self.added.is_empty()).then_some(OWN))

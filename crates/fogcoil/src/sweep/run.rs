@@ -67,7 +67,7 @@ pub fn run(plan: &Plan, share: Share, parts: Option<&Parts>, progress: &(dyn Fn(
     Ok(rows.concat())
 }
 
-/// All rows of a plan in order, as shares left them in `parts`: nothing is computed.
+/// The rows of a plan in order, as shares left them in `parts`: nothing is computed.
 ///
 /// # Errors
 /// [`files::Error::Usage`] if some are missing.
