@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import tempfile
 from collections.abc import Callable, Sequence
-from typing import Any, TypedDict, Union, cast
+from typing import Any, TypedDict, TypeVar, Union, cast
 
 from fogcoil import _native
 from fogcoil._arrays import CODE, Columns, Result, table
@@ -13,6 +13,7 @@ from fogcoil._native import Coil, InputError
 from fogcoil._solve import AnyCoil, coil_of
 
 Record = Union[str, "os.PathLike[str]", Any]
+T = TypeVar("T")
 """A recording: the path of a CSV, or columns by name (a mapping, a DataFrame, a structured array): ``time_s``, ``rate_deg_per_h`` and, where
 there are thermometers, ``chamber_c``, ``spool_c``; NaN where a value is missing."""
 
@@ -95,7 +96,7 @@ def by_tenths(progress: Callable[[str], object] | None) -> _native.Progress | No
     return told
 
 
-def sequence(name: str, records: Sequence[Record]) -> list[Record]:
+def sequence(name: str, records: Sequence[T]) -> list[T]:
     """The records; a single one is no sequence of them."""
     if not isinstance(records, (list, tuple)):
         raise InputError(f"{name}: is a {type(records).__name__}; give a list of records, e.g. {name}=[record]")

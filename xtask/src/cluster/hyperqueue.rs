@@ -35,13 +35,9 @@ pub(super) fn sweep(place: &Place) -> Result<Trial, Failure> {
             .stdout(Stdio::null())
             .stderr(Stdio::null()),
     )?;
-    let mut tasks = 0;
-    let there = place.kill_half_way(TABLE, || {
-        tasks = second.kill()?;
-        Ok(())
-    })?;
-    if tasks == 0 || !job.wait()? {
-        return Err(Failure(format!("HyperQueue: {tasks} processes ended with the worker, or the job did not end well")));
+    let there = place.kill_half_way(TABLE, second, Running::below)?;
+    if !job.wait()? {
+        return Err(Failure("HyperQueue: the job did not end well".into()));
     }
     let course = format!("a worker killed at its task when {there} of {FILES} files of rows were there");
     Ok(Trial { scheduler: format!("HyperQueue {VERSION}"), course, table: TABLE })

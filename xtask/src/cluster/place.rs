@@ -10,7 +10,7 @@ use proof::program::hex;
 use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
-use super::processes::{done, peak, timed, until};
+use super::processes::{Running, done, peak, timed, until};
 use crate::tools::program;
 
 /// Designs of the plan.
@@ -43,6 +43,10 @@ impl Place {
         let plan =
             format!("(design: {drawing:?}, sampling: MonteCarlo({designs}), others: WithinTolerances, outputs: [{output}])\n");
         write(file, &plan)
+    }
+
+    pub(super) fn folder(&self) -> &Path {
+        self.folder.path()
     }
 
     /// A file in the folder.
@@ -113,10 +117,19 @@ impl Place {
         Ok(hex(hash))
     }
 
-    /// Waits until a part of a table's rows is kept, and kills the worker with `kill`; the number of files of rows at that moment.
-    pub(super) fn kill_half_way(&self, table: &str, kill: impl FnOnce() -> Result<(), Failure>) -> Result<usize, Failure> {
-        until("the first rows", || Ok(self.kept(table).len() >= HALF))?;
-        kill()?;
+    /// Kills a worker with its `tasks` once it has some and a part of the table's rows is kept; the number of files of rows at that moment.
+    pub(super) fn kill_half_way(
+        &self,
+        table: &str,
+        worker: Running,
+        tasks: impl Fn(&Running) -> Result<Vec<u32>, Failure>,
+    ) -> Result<usize, Failure> {
+        let mut found = Vec::new();
+        until("a task of the second worker", || {
+            found = tasks(&worker)?;
+            Ok(self.kept(table).len() >= HALF && !found.is_empty())
+        })?;
+        worker.kill(&found)?;
         let there = self.kept(table).len();
         if there >= FILES { Err(Failure("all was computed before the worker was killed".into())) } else { Ok(there) }
     }

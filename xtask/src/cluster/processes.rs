@@ -80,15 +80,26 @@ impl Running {
         Ok(self.0.wait()?.success())
     }
 
-    /// Ends it at once, with all processes that it started; how many those were.
-    pub(super) fn kill(self) -> Result<usize, Failure> {
-        let below = descendants(self.0.id())?;
+    /// Processes below it.
+    pub(super) fn below(&self) -> Result<Vec<u32>, Failure> {
+        let parents: Vec<(u32, u32)> = all()?.into_iter().filter_map(|process| Some((process, parent(process)?))).collect();
+        let mut found = vec![self.0.id()];
+        let mut next = 0;
+        while let Some(at) = found.get(next).copied() {
+            found.extend(parents.iter().filter(|(_, parent)| *parent == at).map(|(process, _)| *process));
+            next += 1;
+        }
+        Ok(found.split_off(1))
+    }
+
+    /// Ends it at once, and then `others`.
+    pub(super) fn kill(self, others: &[u32]) -> Result<(), Failure> {
         drop(self);
-        for process in &below {
+        for process in others {
             // a process that has ended cannot be killed any more
             let _ = Command::new("kill").args(["-KILL", &process.to_string()]).stderr(Stdio::null()).status()?;
         }
-        Ok(below.len())
+        Ok(())
     }
 }
 
@@ -116,16 +127,20 @@ fn time_of_children() -> Result<f64, Failure> {
     Ok(ticks / per_second)
 }
 
-/// Processes below one.
-fn descendants(of: u32) -> Result<Vec<u32>, Failure> {
-    let parent = |process: u32| -> Option<u32> { fields(&process.to_string())?.get(1)?.parse().ok() };
-    let all = fs::read_dir("/proc")?.flatten().filter_map(|entry| entry.file_name().to_str()?.parse().ok());
-    let parents: Vec<(u32, u32)> = all.filter_map(|process| Some((process, parent(process)?))).collect();
-    let mut found = vec![of];
-    let mut next = 0;
-    while let Some(at) = found.get(next).copied() {
-        found.extend(parents.iter().filter(|(_, parent)| *parent == at).map(|(process, _)| *process));
-        next += 1;
-    }
-    Ok(found.split_off(1))
+fn parent(process: u32) -> Option<u32> {
+    fields(&process.to_string())?.get(1)?.parse().ok()
+}
+
+fn all() -> Result<Vec<u32>, Failure> {
+    Ok(fs::read_dir("/proc")?.flatten().filter_map(|entry| entry.file_name().to_str()?.parse().ok()).collect())
+}
+
+/// Processes that have all `variables`, NAME=VALUE, in their environment, each behind the process that started it.
+pub(super) fn with_variables(variables: &[String]) -> Result<Vec<u32>, Failure> {
+    let has = |process: &u32| {
+        let environment = fs::read(format!("/proc/{process}/environ")).unwrap_or_default();
+        variables.iter().all(|variable| environment.split(|byte| *byte == 0).any(|one| one == variable.as_bytes()))
+    };
+    let parents = |process: u32| parent(process).filter(|parent| *parent > 1).into_iter().chain([process]);
+    Ok(all()?.into_iter().filter(has).flat_map(parents).collect())
 }

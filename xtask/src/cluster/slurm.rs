@@ -12,7 +12,7 @@ use rand::{Rng, SeedableRng};
 
 use super::Trial;
 use super::place::{FILES, Place, SHARES};
-use super::processes::{Running, done, until};
+use super::processes::{Running, done, until, with_variables};
 
 const TABLE: &str = "slurm.parquet";
 /// Programs of a cluster of its own.
@@ -60,14 +60,9 @@ pub(super) fn sweep(place: &Place) -> Result<Trial, Failure> {
         .arg(&plan)
         .args([TABLE, &SHARES.to_string()]);
     done(submit.env("SLURM_CONF", &configuration).stdout(Stdio::null()))?;
-    let mut tasks = 0;
-    let there = place.kill_half_way(TABLE, || {
-        tasks = second.kill()?;
-        Ok(())
-    })?;
-    if tasks == 0 {
-        return Err(Failure("Slurm: no process ended with the node".into()));
-    }
+    let submitted = format!("SLURM_SUBMIT_DIR={}", place.folder().display());
+    // a node's tasks are no processes below its daemon
+    let there = place.kill_half_way(TABLE, second, |_| with_variables(&["SLURMD_NODENAME=second".into(), submitted.clone()]))?;
     until("the array", || Ok(asked("squeue", &["--noheader"])?.trim().is_empty()))?;
     let version = asked("sbatch", &["--version"])?;
     place.merge(TABLE)?;
