@@ -133,7 +133,7 @@ fn results_never_lie_on_inputs(folder: &Folder) {
     let record = fs::read_to_string(folder.path("U8378.csv")).unwrap();
     fs::create_dir_all(folder.path("mine/units")).unwrap();
     folder.write("mine/table.csv", &record);
-    folder.write("mine/units/table.json", "(verdicts: [\"none\"])");
+    folder.write("mine/units/table.json", "{\"verdicts\": [\"none\"]}");
     for (arguments, said) in [
         (vec!["lot/U7986", "--out", "lot/U7986"], "give another --out"),
         (vec!["mine/table.csv", "--out", "mine"], "is an input"),
