@@ -13,9 +13,10 @@ from fogcoil._native import Coil, InputError
 from fogcoil._solve import AnyCoil, coil_of
 
 Record = Union[str, "os.PathLike[str]", Any]
-T = TypeVar("T")
 """A recording: the path of a CSV, or columns by name (a mapping, a DataFrame, a structured array): ``time_s``, ``rate_deg_per_h`` and, where
 there are thermometers, ``chamber_c``, ``spool_c``; NaN where a value is missing."""
+
+T = TypeVar("T")
 
 ESSENTIAL = ("time_s", "rate_deg_per_h")
 TEMPERATURES = ("chamber_c", "spool_c")
