@@ -69,15 +69,16 @@ def test_an_optimum_is_a_design(fixtures: Path) -> None:
 @pytest.mark.skipif(threading.current_thread() is not threading.main_thread(), reason="signals go to the main thread")
 def test_an_interrupt_ends_a_sweep_and_the_next_call_computes(coil: fogcoil.Coil, fixtures: Path) -> None:
     begun = threading.Event()
+
     def interrupt() -> None:
         begun.wait()
         signal.raise_signal(signal.SIGINT)
 
     threading.Thread(target=interrupt).start()
-    asked = time.monotonic()
+    asked = time.process_time()
     with pytest.raises(KeyboardInterrupt):
         fogcoil.sweep(ENDLESS, folder=fixtures, progress=lambda _: begun.set())
-    assert time.monotonic() - asked < 60.0, "a million designs take hours"
+    assert time.process_time() - asked < 60.0, "a million designs take hours"
 
     def refuse(task: str) -> None:
         raise LookupError(task)

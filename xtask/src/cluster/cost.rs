@@ -7,7 +7,7 @@ use super::place::{DESIGNS, PART, Place};
 /// Designs of the plan that is priced, the most that a plan may have.
 const MANY: f64 = 1e7;
 /// Sizes of the plans whose merges are compared.
-const MERGED: [usize; 2] = [2048, 10_240];
+const MERGED: [usize; 2] = [512, 4096];
 
 pub(super) struct Cost {
     /// Processor time of a design \[s\].
