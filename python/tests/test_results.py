@@ -28,9 +28,9 @@ BEST = """(
 
 def test_a_table_is_a_frame_of_either_library_with_the_same_doubles(coil: fogcoil.Coil) -> None:
     turns = fogcoil.wind(coil)
-    native = turns._found.table
+    native = turns.arrow
     assert native is not None
-    by_pandas, by_polars = turns.table, polars.DataFrame(turns)
+    by_pandas, by_polars = turns.table, polars.DataFrame(native)
     assert isinstance(by_pandas, pandas.DataFrame) and isinstance(frame(native), pandas.DataFrame)
     assert list(by_pandas.columns) == list(turns) == by_polars.columns
     assert by_polars.schema["layer"] == polars.Int64 and by_polars.schema["half"] == polars.String
@@ -97,8 +97,7 @@ def test_what_trimming_leaves(coil: fogcoil.Coil) -> None:
 def test_a_record_is_checked_and_its_allan_deviation_is_drawn(fixtures: Path) -> None:
     found = fogcoil.check(fixtures / "recordings" / "logger.csv")
     assert found["usable"] is True and found.picture is not None and "Allan" in found.picture
-    with pytest.raises(TypeError, match="no table"):
-        polars.DataFrame(found)
+    assert found.table is None and found.arrow is None
 
 
 def test_ids_and_files_are_explained() -> None:

@@ -45,8 +45,8 @@ def test_a_table_of_a_sweep_opens_everywhere_with_the_same_doubles(fixtures: Pat
     (tmp_path / "plan.ron").write_text(plan)
     run(tmp_path, "sweep", "plan.ron", "--out", "swept")
     swept = fogcoil.sweep(plan)
-    table = swept._found.table
-    assert table is not None
+    rows = swept.arrow
+    assert rows is not None
     expected = fogcoil.Columns(swept._found)
     # a problem that no design has is empty in a CSV, and null in Parquet
     assert all(problem is None for problem in expected.pop("problem"))
@@ -60,9 +60,9 @@ def test_a_table_of_a_sweep_opens_everywhere_with_the_same_doubles(fixtures: Pat
         duckdb.sql(f"select * from '{csv}'").df(),
         # without a file
         swept.table,
-        polars.DataFrame(swept),
-        pyarrow.table(swept).to_pandas(),
-        duckdb.sql("select * from swept").df(),
+        polars.DataFrame(rows),
+        pyarrow.table(rows).to_pandas(),
+        duckdb.sql("select * from rows").df(),
     ]
     for frame in opened:
         columns = {name: frame[name].to_numpy() for name in frame.columns}

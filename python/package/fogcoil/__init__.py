@@ -12,7 +12,7 @@ in (deg/h)/(degC/min). Signs: y = 0 is the coil's left face, z = 0 the outer end
 A :class:`DesignBox` simulates one changed design after another in milliseconds.
 
 A result shows itself in a notebook, with its picture; ``result.table`` is a DataFrame of pandas or polars, and any library that reads Arrow's C data
-interface takes the result itself: ``duckdb.sql("select * from result")``. Ctrl-C ends what is computed at its next step.
+interface takes ``result.arrow``. Ctrl-C ends what is computed at its next step.
 
 Bad input is an :class:`InputError`, a :class:`ValueError` whose message says what, where and how to mend it; ``RuntimeError`` is a failure
 of the program's own. Other threads run while anything is computed, so that ``concurrent.futures.ThreadPoolExecutor`` makes sweeps parallel.

@@ -78,11 +78,10 @@ class Shown:
         """The table as a DataFrame of pandas or polars, whichever is imported, else installed; None where there is no table."""
         return None if self._found.table is None else frame(self._found.table)
 
-    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
-        """The table by Arrow's C data interface: pyarrow, polars, pandas and DuckDB take the result itself."""
-        if self._found.table is None:
-            raise TypeError("this result has no table")
-        return self._found.table.__arrow_c_stream__(requested_schema)
+    @property
+    def arrow(self) -> _native.Table | None:
+        """The table by Arrow's C data interface, as polars, pyarrow and DuckDB take it; None where there is no table."""
+        return self._found.table
 
     def _repr_html_(self) -> str:
         shown = f"<pre>{html.escape(self.text)}</pre>"
