@@ -68,8 +68,8 @@ def test_a_table_of_a_sweep_opens_everywhere_with_the_same_doubles(fixtures: Pat
         columns = {name: frame[name].to_numpy() for name in frame.columns}
         assert pandas.isna(columns.pop("problem")).all()
         same(columns, expected)
-    spread = duckdb.sql(f"""select stddev("total") from '{parquet}' where "winding.cw_climbs" = 'Left'""").fetchone()
-    assert spread is not None and spread[0] == pytest.approx(np.std(expected["total"][1::2], ddof=1))
+    spread = duckdb.sql(f"""select stddev("total") from '{parquet}' where "winding.cw_climbs" = 'Left'""").fetchall()
+    assert spread[0][0] == pytest.approx(np.std(expected["total"][1::2], ddof=1))
 
 
 @needs_program
