@@ -7,7 +7,10 @@ use super::place::{DESIGNS, PART, Place};
 /// Designs of the plan that is priced, the most that a plan may have.
 const MANY: f64 = 1e7;
 /// Sizes of the plans whose merges are compared.
-const MERGED: [usize; 2] = [512, 4096];
+const MERGED: [usize; 2] = [2048, 10_240];
+
+/// Profile of this program and of the one that is measured.
+const BUILD: &str = if cfg!(debug_assertions) { "dev" } else { "release" };
 
 pub(super) struct Cost {
     /// Processor time of a design \[s\].
@@ -34,7 +37,7 @@ impl Cost {
         format!(
             "The cost of 10⁷ designs with the output `Sensitivity`, on paper, from these designs:\n\n\
              | | a design | 10⁷ designs |\n|---|---|---|\n\
-             | processor time on a core of this machine | {:.0} ms | {hours:.0} core-hours: {:.0} min on 100 cores |\n\
+             | processor time on a core of this machine, {BUILD} build | {:.0} ms | {hours:.0} core-hours: {:.0} min on 100 cores |\n\
              | rows kept until the merge | {:.2} kB | {:.1} GB in {:.0} files |\n\
              | memory of the merge | {:.1} kB | {:.0} GB |\n",
             1e3 * seconds,

@@ -74,7 +74,7 @@ pub(crate) struct Rows {
 }
 
 enum Source {
-    Text(csv::Reader<Chain<Decoded<Metered>, &'static [u8]>>),
+    Text(Box<csv::Reader<Chain<Decoded<Metered>, &'static [u8]>>>),
     Columns {
         columns: Vec<Vec<f64>>,
         /// From 1; 0 is the row of the names.
@@ -165,7 +165,7 @@ impl Rows {
             .delimiter(dialect.separator)
             .terminator(Terminator::Any(b'\n'))
             .from_reader(Decoded::new(metered, dialect.encoding).chain(&b"\n"[..]));
-        Self::from(path, Source::Text(reader), dialect, StringRecord::new())
+        Self::from(path, Source::Text(Box::new(reader)), dialect, StringRecord::new())
     }
 
     /// Moves to the next row that is not blank; `false` at the end.
