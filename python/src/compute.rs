@@ -6,8 +6,8 @@ use fogcoil::cache::Cache;
 use fogcoil::homogenize as cells;
 use fogcoil::input::{self, AnyCell, Between, ProfileCase, at_temperature};
 use fogcoil::{
-    Error, compare as comparison, explain as explaining, figures, glossary, picture, sensitivity as ramp, simulate as runs,
-    summary, templates, trim as trimming, wind as turns,
+    compare as comparison, explain as explaining, figures, glossary, picture, sensitivity as ramp, simulate as runs, summary,
+    templates, trim as trimming, wind as turns,
 };
 use pyo3::prelude::*;
 use serde_json::json;
