@@ -1,6 +1,7 @@
 //! Project chores.
 
 mod bench;
+mod cluster;
 mod crates;
 mod docs;
 mod faults;
@@ -61,6 +62,7 @@ enum Chore {
     Sabotage,
     /// Each library by itself: what it promises, its own features, its tests, its package
     Crates,
+    Cluster(cluster::Cluster),
     Supply(supply::Supply),
     Faults(faults::Faults),
     Fuzz(fuzz::Fuzz),
@@ -83,6 +85,7 @@ fn main() -> ExitCode {
         Chore::Survey(survey) => survey.run(),
         Chore::Sabotage => sabotage::run(),
         Chore::Crates => crates::run(),
+        Chore::Cluster(cluster) => cluster.run(),
         Chore::Supply(supply) => supply.run(),
         Chore::Faults(faults) => faults.run(),
         Chore::Fuzz(fuzz) => fuzz.run(),

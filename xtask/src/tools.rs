@@ -30,10 +30,20 @@ pub(crate) fn tool([name, version]: [&str; 2]) -> Result<Command, Failure> {
     Ok(Command::new(program))
 }
 
-/// Our program, built beside this one.
+/// Our program, built beside this one in its profile.
 pub(crate) fn program() -> Result<PathBuf, Failure> {
-    if !run(cargo().args(["build", "--quiet", "--release", "--package", "fogcoil"]))? {
-        return Err(Failure("the program does not build".into()));
+    let this = std::env::current_exe()?;
+    let folder = this.parent().ok_or_else(|| Failure("this program has no folder".into()))?;
+    let mut build = cargo();
+    build.args(["build", "--quiet"]);
+    if folder.ends_with("release") {
+        build.args(["--release", "--package", "fogcoil"]);
+    } else {
+        // so cargo takes what `cargo test --workspace` has built: for one package it would resolve the features anew
+        build.args(["--workspace", "--bins", "--tests"]);
     }
-    Ok(std::env::current_exe()?.with_file_name(format!("fogcoil{}", std::env::consts::EXE_SUFFIX)))
+    if !run(build.env("CARGO_TARGET_DIR", folder.parent().unwrap_or(folder)))? {
+        return Err(Failure("fogcoil cannot be built".into()));
+    }
+    Ok(folder.join(format!("fogcoil{}", std::env::consts::EXE_SUFFIX)))
 }

@@ -66,6 +66,7 @@ pub mod summary;
 pub mod sweep;
 mod table;
 pub mod tabular;
+pub mod templates;
 pub mod trim;
 mod turn_bias;
 pub mod variants;

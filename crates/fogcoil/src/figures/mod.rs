@@ -19,6 +19,7 @@ mod spools;
 use charts::Figure;
 use maud::{Markup, html};
 
+use crate::input::CoilCase;
 use crate::simulate::{Fields, Simulation};
 
 pub use contributions::contributions_in_ramp;
@@ -40,6 +41,11 @@ fn all<'a>(simulation: &'a Simulation, fields: Option<&Fields>, measured: &[Meas
         figures.extend(contributions::figure(simulation, &fields.turns));
     }
     figures
+}
+
+/// A coil on its spool in section, an SVG document.
+pub fn section(case: &CoilCase) -> String {
+    model::figure(case).document()
 }
 
 /// All figures of a simulation as files of their own; those of temperature and strain along the fibre and of the turns' contributions
