@@ -61,7 +61,8 @@ impl Figure<'_> {
 
     /// As a document of its own, with its title.
     pub fn document(&self) -> String {
-        let (m, (body, height)) = (WIDE, self.body(&WIDE));
+        let m = Measures { live: false, ..WIDE };
+        let (body, height) = self.body(&m);
         let ids = ["title", "desc"].map(|part| format!("{}-{part}", self.id));
         let frame = Frame {
             ids: [&ids[0], &ids[1]],

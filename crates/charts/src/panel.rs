@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::scale::Scale;
 use crate::size::Measures;
-use crate::svg::Svg;
+use crate::svg::{Attributes, Svg};
 use crate::{Axis, Colours, Drawing, Fill, HeatMap, Series, attributes};
 
 /// A plot within a figure.
@@ -223,14 +223,24 @@ impl<'a> Panel<'a> {
             });
         }
         svg.text([0.2 * m.font, place.above - 0.9 * m.font], "start", &self.y.label);
-        svg.moved([place.left, place.above], |svg| self.plot(svg, m, place, id));
+        let [x, y] = self.scales(m, place);
+        let [width, height] = place.plot;
+        let (ends, size) = ([x.ends(), y.ends()], format!("{width:.1} {height:.1}"));
+        let read = matches!(self.content, Content::Lines(_)) && m.live && self.y.names.is_none();
+        let at: Attributes = attributes! { "transform": "translate({:.1} {:.1})"(place.left, place.above) };
+        let known: Attributes = attributes! { "data-x": "{}"(ends[0]), "data-y": "{}"(ends[1]), "data-plot": "{size}" };
+        svg.group(&[at, if read { known } else { &[] }].concat(), |svg| self.plot(svg, [&x, &y], m, place, id));
+    }
+
+    /// The axes over the pixels between them.
+    fn scales(&self, m: &Measures, place: &Place) -> [Scale; 2] {
+        let ([x, y], [width, height]) = (self.ranges(), place.plot);
+        [Scale::new(&self.x, x, [0.0, width], m.apart[0]), Scale::new(&self.y, y, [height, 0.0], m.apart[1])]
     }
 
     /// The content between the axes, and the axes; the origin is the upper left corner.
-    fn plot(&self, svg: &mut Svg, m: &Measures, place: &Place, id: &str) {
-        let ([x_range, y_range], [width, height]) = (self.ranges(), place.plot);
-        let x = Scale::new(&self.x, x_range, [0.0, width], m.apart[0]);
-        let y = Scale::new(&self.y, y_range, [height, 0.0], m.apart[1]);
+    fn plot(&self, svg: &mut Svg, [x, y]: [&Scale; 2], m: &Measures, place: &Place, id: &str) {
+        let [width, height] = place.plot;
         let (mut grid, mut labels) = (String::new(), Svg::default());
         for (tick, label) in x.ticks() {
             let at = x.pixel(tick);
@@ -254,16 +264,22 @@ impl<'a> Panel<'a> {
                 svg.leaf("path", attributes! { "class": "grid", "d": "{grid}" });
                 let zero = y.holds(0.0) && self.y.names.is_none();
                 axes(svg, &if zero { format!("M0 {:.1}H{width:.1}", y.pixel(0.0)) } else { String::new() });
-                series.iter().for_each(|series| series.draw(svg, |(a, b)| (x.pixel(a), y.pixel(b))));
+                for (n, one) in series.iter().enumerate() {
+                    let draw = |svg: &mut Svg| one.draw(svg, |(a, b)| (x.pixel(a), y.pixel(b)));
+                    match m.live {
+                        true => svg.group(attributes! { "data-name": "{}"(Series::called(series, n)) }, draw),
+                        false => draw(svg),
+                    }
+                }
             }
             Content::Map(map) => {
                 map.cells(svg, place.plot, id, m.first);
                 map.dots(svg, place.plot);
-                axes(svg, &outward_ticks(&x, &y, height));
+                axes(svg, &outward_ticks(x, y, height));
             }
             Content::Drawing(drawing) => {
-                drawing.draw(svg, (&x, &y), m.font);
-                axes(svg, &outward_ticks(&x, &y, height));
+                drawing.draw(svg, (x, y), m.font);
+                axes(svg, &outward_ticks(x, y, height));
             }
         }
         svg.append(&labels);

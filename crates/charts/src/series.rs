@@ -98,6 +98,12 @@ impl<'a> Series<'a> {
         points.iter().for_each(|point| self.mark(svg, *point));
     }
 
+    /// The name of one of several: what has none is another part of the one before it that looks like it.
+    pub(crate) fn called<'s>(all: &'s [Series], n: usize) -> &'s str {
+        let alike = all[..=n].iter().rev().filter(|other| other.style == all[n].style);
+        alike.map(|other| other.name.as_str()).find(|name| !name.is_empty()).unwrap_or_default()
+    }
+
     /// A piece of it for a legend, 34 × 12 px.
     pub(crate) fn sample(&self, svg: &mut Svg) {
         if !self.style.is_points() {

@@ -51,6 +51,7 @@ mod tolerances;
 mod unit_names;
 mod warnings;
 mod winding_file;
+mod written_constants;
 
 pub use asked::{Asked, further_columns, read_mechanisms, read_simulated};
 pub use cell::{AnyCell, CellCase, check_any_cell, read_any_cell, read_cell};
@@ -74,3 +75,4 @@ pub use source::{fault_in, is_coil, read_ron, read_text};
 pub use spool::{SpoolCase, read_spool};
 pub use targets::{TargetsCase, read_targets};
 pub use tolerances::keyed;
+pub use written_constants::with_constants;
