@@ -1,4 +1,4 @@
-//! From the design files through every crate to the sensitivity.
+//! The chain from the design files through every crate to the sensitivity.
 
 use fogcoil::input::{Origin, read_cell, read_coil};
 use std::path::PathBuf;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// A module's or an item's names from the crate's root.
 type Names = Vec<String>;
 
-/// What a file says of other modules.
+/// References of a file to other modules.
 #[derive(Default)]
 struct Said {
     /// every path it uses, as far as it lies in the crate

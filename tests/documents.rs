@@ -1,4 +1,4 @@
-//! What no compiler checks: documents that quote code which tests compile and run, and tests that no program holds.
+//! Checks that no compiler makes: documents that quote code which tests compile and run, and tests that no program holds.
 
 use std::path::{Path, PathBuf};
 

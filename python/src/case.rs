@@ -16,7 +16,7 @@ struct Text {
     text: String,
 }
 
-/// What is behind the name of a file whose values were replaced.
+/// Suffix of the name of a file whose values were replaced.
 const ALTERED: &str = " (altered)";
 
 impl Text {

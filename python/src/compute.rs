@@ -1,4 +1,4 @@
-//! What is computed. Every function frees the interpreter while it works.
+//! The computations. Every function frees the interpreter while it works.
 
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -200,7 +200,7 @@ pub(crate) fn further_columns(mechanisms: Vec<PathBuf>) -> PyResult<Vec<String>>
     read().map_err(raised)
 }
 
-/// What records of a unit say about its design.
+/// Diagnosis of a unit's records against its design.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "as many as Python gives")]
 pub(crate) fn diagnose<'py>(

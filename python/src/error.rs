@@ -15,10 +15,10 @@ create_exception!(
     "An input that cannot be used: what is wrong, where (file:line: field), and how to mend it."
 );
 
-/// What a text is called that is not the content of a file, in the folder that its own paths are relative to.
+/// Name of a text that is not the content of a file, in the folder to which its own paths are relative.
 pub(crate) const UNSAVED: &str = "the text";
 
-/// What messages call a path: a text is in no folder.
+/// Name of a path in messages: a text is in no folder.
 pub(crate) fn called(path: &Path) -> &Path {
     if path.file_name().is_some_and(|name| name == UNSAVED) { Path::new(UNSAVED) } else { path }
 }

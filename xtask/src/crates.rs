@@ -32,7 +32,7 @@ fn has(package: &Value, kind: &str) -> bool {
     package["targets"].as_array().is_some_and(|all| all.iter().any(|target| target["kind"][0] == kind))
 }
 
-/// What another project expects to find in the package at `folder`, and does not.
+/// Parts that another project expects in the package at `folder`, and that are missing.
 fn missing(package: &Value, folder: &Path) -> Vec<String> {
     let readme = std::fs::read_to_string(folder.join("README.md")).unwrap_or_default();
     let by_path = |d: &&Value| d["path"].is_string() && d["req"] == "*";

@@ -37,12 +37,12 @@ const READERS: [(&str, &[&str]); 8] = [
 pub(crate) struct Fuzz {
     /// Readers, by the names of their tests in fuzz/src/readers.rs [default: all]
     readers: Vec<String>,
-    /// How long each of them is fed
+    /// Time for which each of them is fed
     #[arg(long, value_name = "MINUTES", default_value_t = 60)]
     minutes: u64,
 }
 
-/// What came of one reader.
+/// Outcome of one reader.
 struct Fed {
     reader: &'static str,
     inputs: u64,

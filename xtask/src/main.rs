@@ -110,7 +110,7 @@ fn main() -> ExitCode {
 mod tests {
     use super::*;
 
-    /// What `words` behind `cargo xtask` are taken for, or the exit status they are refused with.
+    /// The chore that `words` behind `cargo xtask` name, or the exit status with which they are refused.
     fn parsed(words: &str) -> Result<Chore, i32> {
         Chore::try_parse_from(std::iter::once("xtask").chain(words.split(' '))).map_err(|e| e.exit_code())
     }

@@ -79,7 +79,7 @@ impl Mutants {
     }
 }
 
-/// What came of the mutants of one part of a crate, those aside that do not compile.
+/// Outcomes of the mutants of one part of a crate, those aside that do not compile.
 fn tried(name: &str, part: usize, parts: usize) -> Result<BTreeMap<String, bool>, Failure> {
     let into: PathBuf = root().join("target/mutants").join(name);
     std::fs::create_dir_all(&into)?;

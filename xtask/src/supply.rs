@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 /// Tools from the registry, each with its version: an answer must not change because a tool did.
 const DENY: [&str; 2] = ["cargo-deny", "0.20.2"];
 const BILL: [&str; 2] = ["cargo-cyclonedx", "0.5.9"];
-/// What a build of the program needs of the repository.
+/// Parts of the repository that a build of the program needs.
 const SOURCES: [&str; 5] = ["crates", "xtask", "tests", "python", "fuzz"];
 const FILES: [&str; 2] = ["Cargo.toml", "Cargo.lock"];
 

@@ -2,7 +2,7 @@
 
 use crate::Bias;
 
-/// What multiplies weight W = ∫ (L − 2z) dz \[m²\] times rate, for one gyroscope and one fibre length.
+/// Factors on the weight W = ∫ (L − 2z) dz \[m²\] times a rate, for one gyroscope and one fibre length.
 ///
 /// Made by [`Optics::coefficients`](crate::Optics::coefficients). Rates are of total strain in either convention.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -22,9 +22,9 @@ pub enum Error {
     Span {
         /// Index of the slice, from 0.
         index: usize,
-        /// Where it starts \[m\].
+        /// Its start \[m\].
         z_start: f64,
-        /// Where it ends \[m\].
+        /// Its end \[m\].
         z_end: f64,
         /// Length of the fibre \[m\].
         length: f64,

@@ -2,7 +2,7 @@
 
 use crate::{Coefficients, Error};
 
-/// Which strain eq. (2) is fed with.
+/// Strain in eq. (2).
 ///
 /// Eq. (1) already holds the phase n α of a fibre that expands freely. Total strain contains that expansion too, so it is
 /// counted twice; in a steady ramp, where Ṫ is uniform, the difference integrates to zero.
@@ -31,7 +31,7 @@ pub struct Optics {
     pub p12: f64,
     /// Mean diameter D of the coil \[m\], > 0.
     pub sagnac_diameter: f64,
-    /// Which strain eq. (2) is fed with.
+    /// Strain in eq. (2).
     pub strain: StrainConvention,
 }
 

@@ -3,7 +3,7 @@
 use crate::sum::CompensatedSum;
 use crate::{Bias, Error, Optics};
 
-/// How far beyond the fibre's length a slice may end, relative to that length.
+/// Largest overhang of a slice beyond the fibre's length, relative to that length.
 ///
 /// A position summed from a million turn lengths is off by at most 10⁶ · 2⁻⁵³ ≈ 1.1e-10 of the length; ten times that is let pass.
 pub const LENGTH_SLACK: f64 = 1e-9;
@@ -11,9 +11,9 @@ pub const LENGTH_SLACK: f64 = 1e-9;
 /// A stretch of fibre over which temperature and strain change at one rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slice {
-    /// Where it starts \[m\], 0 = outer end of the CCW half, tail included.
+    /// Its start \[m\], 0 = outer end of the CCW half, tail included.
     pub z_start: f64,
-    /// Where it ends \[m\], ≥ `z_start`.
+    /// Its end \[m\], ≥ `z_start`.
     pub z_end: f64,
     /// Ṫ [K/s].
     pub temperature_rate: f64,

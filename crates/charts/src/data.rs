@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::number::significant;
 use crate::tables::{Cells, grid};
-use crate::{Content, Drawing, HeatMap, Panel, Series};
+use crate::{Content, Drawing, HeatMap, Panel, Series, Style};
 
 /// Most rows of a table, extremes not counted.
 const MOST_ROWS: usize = 40;
@@ -38,8 +38,8 @@ fn table(title: &str, panel: &Panel, shared: &str) -> Markup {
 /// Series that share their x in one table.
 fn lines(name: &str, y: &str, x: &str, series: &[Series]) -> Markup {
     let mut groups = Vec::new();
-    // a single point marks one of another series
-    let mut rest: Vec<&Series> = series.iter().filter(|s| s.count > 1).collect();
+    // a single point marks one of another series, a guide has no data
+    let mut rest: Vec<&Series> = series.iter().filter(|s| s.count > 1 && s.style != Style::Guide).collect();
     while let Some(first) = rest.first() {
         let alike = |s: &&Series| s.count == first.count && (0..s.count).all(|n| (s.at)(n).0 == (first.at)(n).0);
         let (group, others): (Vec<&Series>, Vec<&Series>) = rest.iter().partition(|s| alike(s));

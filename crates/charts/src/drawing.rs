@@ -4,7 +4,7 @@ use crate::attributes;
 use crate::scale::Scale;
 use crate::svg::Svg;
 
-/// How an area looks.
+/// Style of an area.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fill {
     /// Pale blue.
@@ -13,7 +13,7 @@ pub enum Fill {
     Sand,
     /// Brown.
     Clay,
-    /// As the paper, without an outline.
+    /// The paper's colour, without an outline.
     Blank,
     /// A heavy outline alone.
     Heavy,
@@ -37,7 +37,7 @@ impl Fill {
 /// A rectangle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Area {
-    /// How it looks.
+    /// Style of the area.
     pub fill: Fill,
     /// Its name in the legend; none if empty.
     pub name: String,

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-/// What would make a page ask for something besides itself, act by itself, or show no number.
+/// Texts that would make a page load something else, act by itself, or show no number.
 #[rustfmt::skip]
 const BANNED: [&str; 13] = [
     "http://", "https://", "<script ", "<link", "<img", "url(", "@import", "javascript:", "onclick", "NaN", ">inf", "inf ", "\"inf",

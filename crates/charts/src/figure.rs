@@ -21,7 +21,7 @@ pub struct Figure<'a> {
     pub caption: String,
     /// Panels side by side, where the paper is wide enough.
     pub columns: usize,
-    /// In reading order.
+    /// Panels in reading order.
     pub panels: Vec<Panel<'a>>,
 }
 
@@ -59,7 +59,7 @@ impl Figure<'_> {
         svg
     }
 
-    /// As a document of its own, with its title.
+    /// The figure as a document of its own, with its title.
     pub fn document(&self) -> String {
         let m = Measures { live: false, ..WIDE };
         let (body, height) = self.body(&m);

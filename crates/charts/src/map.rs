@@ -2,13 +2,14 @@
 
 use std::fmt::Write;
 
-use crate::attributes;
+use crate::scale::Scale;
 use crate::svg::Svg;
+use crate::{Axis, attributes};
 
 /// Steps of colour; odd, so that a diverging map has a middle.
 const STEPS: usize = 41;
 
-/// How far rows of a map reach over each other [px]: without, rounding to pixels leaves gaps.
+/// Overlap of the rows of a map [px]: without it, rounding to pixels leaves gaps.
 const OVERLAP: f64 = 0.6;
 
 /// Cividis (Nuñez, Anderton and Renslow 2018): even in lightness, the same to colour-blind readers.
@@ -31,13 +32,13 @@ pub struct Colours {
 }
 
 impl Colours {
-    /// From blue to red, white at 0, for values of at most `most` either side; never less than `least`.
+    /// Colours from blue to red, white at 0, for values of at most `most` either side; never less than `least`.
     pub fn diverging(label: impl Into<String>, most: f64, least: f64) -> Self {
         let most = most.max(least);
         Self { label: label.into(), range: [-most, most], stops: &DIVERGING, reversed: false }
     }
 
-    /// From dark near 0 to bright for a range of one sign, diverging about 0 if the values lie on both sides of it; at least `least` wide.
+    /// Colours from dark near 0 to bright for a range of one sign, diverging about 0 if the values lie on both sides of it; at least `least` wide.
     pub fn of(label: impl Into<String>, [low, high]: [f64; 2], least: f64) -> Self {
         // a hundredth on the other side is no reason to give half the colours to it
         if low.min(-high) < 0.0 && (-low).min(high) > 0.01 * (-low).max(high) {
@@ -69,8 +70,24 @@ impl Colours {
         format!("#{:02x}{:02x}{:02x}", channel(16), channel(8), channel(0))
     }
 
-    /// All colours as a bar in a box of 1 × 1, from left to right.
-    pub fn bar(&self, svg: &mut Svg) {
+    /// The label, below it all colours as a bar of this `width` \[px\], and below that round numbers at least `apart` \[px\] from each other, in a font of
+    /// this size \[px\]; all of it 3.7 font sizes high.
+    pub fn scale(&self, svg: &mut Svg, font: f64, width: f64, apart: f64) {
+        let scale = Scale::new(&Axis::tight("", 0.0), self.range, [0.0, width], apart.min(width / 4.0));
+        svg.text([0.0, 1.1 * font], "start", &self.label);
+        let (top, high) = (1.6 * font, 0.8 * font);
+        svg.group(attributes! { "transform": "translate(0 {top:.1}) scale({width:.1} {high:.1})" }, |svg| self.bar(svg));
+        let mut marks = format!("M0 {top:.1}h{width:.1}v{high:.1}h-{width:.1}z");
+        for (tick, label) in scale.ticks() {
+            let at = scale.pixel(tick);
+            let _ = write!(marks, "M{at:.1} {:.1}v4", top + high);
+            svg.text([at, top + high + 1.25 * font], "middle", &label);
+        }
+        svg.leaf("path", attributes! { "class": "axis", "fill": "none", "stroke": "currentColor", "d": "{marks}" });
+    }
+
+    /// All colours in a box of 1 × 1, from left to right.
+    fn bar(&self, svg: &mut Svg) {
         let each = 1.0 / STEPS as f64;
         svg.group(attributes! { "transform": "scale({each:.6} 1)", "shape-rendering": "crispEdges" }, |svg| {
             for step in 0..STEPS {

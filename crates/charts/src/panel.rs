@@ -9,13 +9,13 @@ use crate::{Axis, Colours, Drawing, Fill, HeatMap, Series, attributes};
 
 /// A plot within a figure.
 pub struct Panel<'a> {
-    /// Above it; none if empty.
+    /// Heading above it; none if empty.
     pub heading: String,
-    /// To the right.
+    /// Axis to the right.
     pub x: Axis,
-    /// Upwards.
+    /// Axis upwards.
     pub y: Axis,
-    /// How high it is.
+    /// Height of the panel.
     pub height: Height,
     /// Its content.
     pub content: Content<'a>,
@@ -24,7 +24,7 @@ pub struct Panel<'a> {
 /// Height of a panel between its axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Height {
-    /// In font sizes.
+    /// Height in font sizes.
     Lines(f64),
     /// A unit of y is as long as a unit of x; at most this many font sizes high.
     ToScale(f64),
@@ -49,13 +49,13 @@ const SAMPLE: f64 = 34.0;
 /// Widest colour bar \[px\].
 const BAR: f64 = 420.0;
 
-/// Where the parts of a panel lie \[px\].
+/// Places of the parts of a panel \[px\].
 pub(crate) struct Place {
-    /// From the panel's left to its axes.
+    /// Distance from the panel's left to its axes.
     left: f64,
     /// Width and height between the axes.
     plot: [f64; 2],
-    /// Height of what stands above the axes.
+    /// Height of heading and legend above the axes.
     above: f64,
     below: f64,
 }
@@ -74,18 +74,8 @@ fn width_of(content: &str, m: &Measures) -> f64 {
 fn colour_bar(svg: &mut Svg, colours: &Colours, m: &Measures, left: f64, across: f64) {
     let inset = 2.0 * m.font;
     let width = BAR.min(across - inset);
-    let scale = Scale::new(&Axis::tight("", 0.0), colours.range, [0.0, width], m.apart[0].min(width / 4.0));
     svg.group(attributes! { "transform": "translate({:.1} 0)"(left.max(inset)) }, |svg| {
-        svg.text([0.0, 1.1 * m.font], "start", &colours.label);
-        let (top, high) = (1.6 * m.font, 0.8 * m.font);
-        svg.group(attributes! { "transform": "translate(0 {top:.1}) scale({width:.1} {high:.1})" }, |svg| colours.bar(svg));
-        let mut marks = format!("M0 {top:.1}h{width:.1}v{high:.1}h-{width:.1}z");
-        for (tick, label) in scale.ticks() {
-            let at = scale.pixel(tick);
-            let _ = write!(marks, "M{at:.1} {:.1}v4", top + high);
-            svg.text([at, top + high + 1.25 * m.font], "middle", &label);
-        }
-        svg.leaf("path", attributes! { "class": "axis", "d": "{marks}" });
+        colours.scale(svg, m.font, width, m.apart[0]);
     });
 }
 
@@ -152,7 +142,7 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// Where each entry of the legend begins, in rows.
+    /// Beginning of each entry of the legend, in rows.
     fn legend_places(entries: &[Entry], m: &Measures, width: f64) -> Vec<(usize, f64)> {
         let (mut row, mut x) = (0, 0.0);
         let mut places = Vec::new();

@@ -1,4 +1,4 @@
-//! From values to pixels, and round numbers along an axis.
+//! Map from values to pixels, and round numbers along an axis.
 
 /// One of the two axes of a figure.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,12 +15,12 @@ pub struct Axis {
     pub names: Option<Vec<String>>,
 }
 
-/// Where the drawn range of an axis ends.
+/// Ends of the drawn range of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ends {
-    /// At the data's own.
+    /// Ends of the data.
     Data,
-    /// At the round numbers around them.
+    /// Round numbers around the ends of the data.
     Ticks,
     /// As [`Ends::Data`], the axis being logarithmic.
     Logarithmic,
@@ -66,7 +66,7 @@ pub(crate) struct Scale {
 }
 
 impl Scale {
-    /// For data between `low` and `high`, ticks at least `apart` pixels from each other.
+    /// Scale for data between `low` and `high`, with ticks at least `apart` pixels from each other.
     pub(crate) fn new(axis: &Axis, range: [f64; 2], pixels: [f64; 2], apart: f64) -> Self {
         let range = axis.covers.map_or(range, |[a, b]| [range[0].min(a), range[1].max(b)]);
         if axis.ends == Ends::Logarithmic {

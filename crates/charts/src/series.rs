@@ -12,17 +12,17 @@ pub const MOST_POINTS: usize = 2000;
 pub struct Series<'a> {
     /// Its name in the legend, with what it stands for; none if empty.
     pub name: String,
-    /// How it looks.
+    /// Style of the line.
     pub style: Style,
     /// Number of its points.
     pub count: usize,
     /// The point of a number below `count`.
     pub at: Box<dyn Fn(usize) -> (f64, f64) + 'a>,
-    /// How it is thinned.
+    /// Thinning of the line.
     pub thinning: Thinning,
 }
 
-/// How a line looks; each differs from the others in colour and in dash.
+/// Style of a line; each differs from the others in colour and in dash.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Style {
     /// Black or white, heavy.
@@ -39,6 +39,8 @@ pub enum Style {
     Marked(u8),
     /// Marks alone, each of its own shape and colour: blue ring, vermilion square, green triangle, black diamond, blue cross.
     Points(u8),
+    /// Thin, grey and dashed: a line to compare others with, which is left out of the tables.
+    Guide,
 }
 
 impl Style {
@@ -53,6 +55,7 @@ impl Style {
             Self::Fine(1) => "line fine total",
             Self::Fine(2) => "line fine first",
             Self::Fine(_) => "line fine third",
+            Self::Guide => "line guide",
         }
     }
 
@@ -64,7 +67,7 @@ impl Style {
 
 const MARKS: [&str; 5] = ["mark first", "mark second", "mark third", "mark total", "mark first"];
 
-/// How a line is thinned.
+/// Thinning of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Thinning {
     /// The line runs from left to right: its lowest and highest point in every column of pixels.

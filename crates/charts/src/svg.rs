@@ -104,7 +104,7 @@ impl Svg {
         self
     }
 
-    /// As it stands in a document.
+    /// The text of the element, as it stands in a document.
     pub fn into_string(self) -> String {
         self.0
     }

@@ -23,7 +23,7 @@ pub fn row(name: &str, value: impl Into<String>) -> (String, String) {
     (name.to_owned(), value.into())
 }
 
-/// How the cells of a table are read.
+/// Kind of the cells of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cells {
     /// Short, never broken, to the right.

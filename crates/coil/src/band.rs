@@ -5,14 +5,14 @@ use bias::Sensitivity;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::SQRT_2;
 
-/// One standard deviation of a number that follows from a design, and where it comes from.
+/// One standard deviation of a number that follows from a design, and its origins.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Band {
     /// One standard deviation, to first order in the tolerances.
     pub sd: f64,
     /// Change by one standard deviation of each number of the design, the largest first.
     pub changes: Vec<(Number, f64)>,
-    /// Share of the variance that each has, in their order; with its part of what it shares with correlated ones, so that all add up to 1.
+    /// Share of the variance that each has, in their order, with its part of the correlated share, so that all add up to 1.
     pub shares: Vec<f64>,
 }
 
@@ -49,7 +49,7 @@ fn acts_in_a_ramp(number: Number) -> bool {
 }
 
 /// One standard deviation of a number that changes by `changes` when each of some numbers goes one standard deviation, these going together as
-/// their `correlation` says; and the share of its variance that each has, with its part of what correlated ones share: all add up to 1.
+/// their `correlation` says; and the share of its variance that each has, with its part of the correlated share: all add up to 1.
 pub fn propagated(changes: &[f64], correlation: &DMatrix<f64>) -> (f64, Vec<f64>) {
     let own = DVector::from_column_slice(changes);
     let with_others = correlation * &own;
@@ -63,7 +63,7 @@ pub fn propagated(changes: &[f64], correlation: &DMatrix<f64>) -> (f64, Vec<f64>
 pub struct SensitivityChange {
     /// The number.
     pub number: Number,
-    /// Change of each part; their sum is what the sensitivity changes by.
+    /// Change of each part; their sum is the change of the sensitivity.
     pub parts: Sensitivity,
 }
 
@@ -71,7 +71,7 @@ fn mapped(a: &Sensitivity, b: &Sensitivity, of: impl Fn(f64, f64) -> f64) -> Sen
     Sensitivity { shupe: of(a.shupe, b.shupe), eo_axial: of(a.eo_axial, b.eo_axial), eo_radial: of(a.eo_radial, b.eo_radial) }
 }
 
-/// What the tolerances of a design change in its steady-ramp sensitivity: one standard deviation of each number that acts in a ramp, in the order of
+/// Changes of a design's steady-ramp sensitivity by its tolerances: one standard deviation of each number that acts in a ramp, in the order of
 /// [`Parameter::ALL`], tails last. Where the design cannot have a number on one side, as a Poisson's ratio beyond its bound, the other side counts alone.
 ///
 /// # Errors

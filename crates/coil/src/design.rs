@@ -10,7 +10,7 @@ use winding::Spec;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Design {
-    /// How the fibre is wound.
+    /// The winding of the fibre.
     pub winding: Spec,
     /// The homogenised coil.
     pub body: Body,
@@ -18,17 +18,17 @@ pub struct Design {
     pub spool: Option<Spool>,
     /// Medium in the rest of the chamber.
     pub surroundings: Surroundings,
-    /// How stiffness and bonds depend on temperature and time.
+    /// Dependence of stiffness and bonds on temperature and time.
     pub mechanics: Mechanics,
     /// Heat paths and sources beyond conduction through solids and medium.
     pub heat: HeatPaths,
-    /// Where the thermometer sits.
+    /// Place of the thermometer.
     pub sensor: Sensor,
     /// The fibre's optics.
     pub optics: Optics,
-    /// What the optics and the read-out depend on temperature with, beyond their constants.
+    /// Temperature dependence of the optics and the read-out, beyond their constants.
     pub drifts: Drifts,
-    /// From macroscopic strain to the strain of the fibre's glass.
+    /// Map from macroscopic strain to the strain of the fibre's glass.
     pub dehomogenization: Dehomogenization,
 }
 
@@ -88,7 +88,7 @@ pub struct Flange {
     pub side: Side,
     /// Thickness along the axis \[m\].
     pub thickness: f64,
-    /// How far it reaches beyond the coil's outer radius \[m\], ≥ 0.
+    /// Overhang beyond the coil's outer radius \[m\], ≥ 0.
     pub overhang: f64,
     /// Contact between flange and coil face.
     pub contact: Contact,
@@ -104,7 +104,7 @@ pub enum Side {
     Right,
 }
 
-/// How a face of the spool meets the coil.
+/// Contact of a face of the spool with the coil.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Contact {
@@ -118,7 +118,7 @@ impl Contact {
     /// Width of the gap at an unbonded face \[m\].
     pub const GAP: f64 = 0.2e-3;
 
-    /// How far the spool's part stands back from the coil \[m\].
+    /// Distance by which the spool's part stands back from the coil \[m\].
     pub fn gap(self) -> f64 {
         match self {
             Contact::Bonded => 0.0,
@@ -141,7 +141,7 @@ pub struct Surroundings {
     pub margin: f64,
 }
 
-/// How the coil's transverse stiffness, or its bond to a flange, depends on temperature and time. Temperatures are means over the coil.
+/// Dependence of the coil's transverse stiffness, or of its bond to a flange, on temperature and time. Temperatures are means over the coil.
 ///
 /// The law is incremental: stress rates follow strain rates and temperature rates with the stiffness of the moment.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -8,7 +8,7 @@ use crate::{
 use bias::Bias;
 use nalgebra::{DMatrix, DVector};
 
-/// How finely a coil in time is modelled.
+/// Resolution of a coil's model in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fidelity {
@@ -72,7 +72,7 @@ type Parts = (Dynamics, ThermalModel, Vec<Vec<f64>>, Option<Model>);
 /// times that distance.
 pub const REDUCTION_SAFETY: f64 = 4.0;
 
-/// Estimates of what the reduction leaves out, for any course of the drives and readings that are means over a second or more.
+/// Estimates of the reduction's error, for any course of the drives and readings that are means over a second or more.
 ///
 /// A response to any course is the convolution of the drive's rate with the step response, so a difference of step responses bounds
 /// the difference of responses for every course of bounded rate. What is taken is [`REDUCTION_SAFETY`] ([`MODEL_SAFETY`]) times the difference to
@@ -196,8 +196,8 @@ impl Dynamics {
         Ok((dynamics, fields, section))
     }
 
-    /// Of a design in a parametric model's box, in milliseconds: driven by the chamber, and by its heaters if it has any. The others stand
-    /// on fewer of the model's fields and leave out what is quadratic in temperature; see [`Self::distance`].
+    /// Model of a design in a parametric model's box, in milliseconds: driven by the chamber, and by its heaters if it has any. The others stand
+    /// on fewer of the model's fields and leave out terms quadratic in temperature; see [`Self::distance`].
     ///
     /// # Errors
     /// As [`ParametricModel::at`].
@@ -223,7 +223,7 @@ impl Dynamics {
         Ok([of(reduced, curvature), of(more, None), of(fewer, None)])
     }
 
-    /// Largest distances of thermometer \[K\] and rate \[rad/s\] from those of others along a profile, without what is quadratic in temperature;
+    /// Largest distances of thermometer \[K\] and rate \[rad/s\] from those of others along a profile, without terms quadratic in temperature;
     /// NaN if any value is.
     ///
     /// # Errors

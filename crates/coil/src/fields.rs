@@ -46,7 +46,7 @@ impl TurnFields {
         Ok((turns, SectionFields::new(&columns, &displacements)))
     }
 
-    /// Of the values of each column.
+    /// Fields of the values of each column.
     fn of(model: &Model, values: &[TurnValues]) -> Self {
         let of = |value: fn(&TurnValues) -> &Vec<f64>| {
             DMatrix::from_iterator(model.winding().turns().len(), values.len(), values.iter().flat_map(value).copied())
@@ -68,7 +68,7 @@ impl TurnFields {
         self.bias_parts_weighted(optics, winding, winding.weights())
     }
 
-    /// The same where the fields are at other turns than the winding's, `weights` being what each of them stands for \[m²\].
+    /// The same where the fields are at other turns than the winding's, with the weight of each in `weights` \[m²\].
     ///
     /// # Errors
     /// As [`Self::bias_parts`].

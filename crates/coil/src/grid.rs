@@ -18,7 +18,7 @@ pub struct MeshFineness {
     pub ratio: f64,
 }
 
-/// How much of the half-plane is meshed.
+/// Part of the half-plane that is meshed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Domain {
     /// Coil and spool: enough for mechanics.
@@ -37,12 +37,12 @@ pub enum Bonds {
     Opened,
 }
 
-/// How far a mesh is graded on either side of an edge of the coil.
+/// Grading of a mesh on either side of an edge of the coil.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Grading {
     /// As many layers everywhere.
     Even,
-    /// What the coil's strain needs: the finest elements are as wide along the coil's long side as along its short one, where the
+    /// The grading that the coil's strain needs: the finest elements are as wide along the coil's long side as along its short one, where the
     /// resolution's layers are, and one layer wider in the spool, which is much the stiffer.
     Strain,
 }
@@ -57,7 +57,7 @@ pub struct Grid {
     y_lines: Vec<f64>,
     /// element number of each grid cell, column by column, if it is meshed
     cells: Vec<Option<usize>>,
-    /// where each node lies in the lattice: column + row × columns of nodes
+    /// place of each node in the lattice: column + row × columns of nodes
     places: Vec<usize>,
 }
 
@@ -271,7 +271,7 @@ impl Grid {
         [&self.r_lines, &self.y_lines]
     }
 
-    /// Where each node lies in the lattice of nodes, whether all of it is meshed or not: column + row × columns of nodes.
+    /// Place of each node in the lattice of nodes, whether all of it is meshed or not: column + row × columns of nodes.
     pub(crate) fn places(&self) -> &[usize] {
         &self.places
     }

@@ -28,7 +28,7 @@ const HALVINGS: i32 = 2;
 pub struct Inferred {
     /// The chamber at each instant, smoothed \[K or °C, as the record\].
     pub chamber: Vec<f64>,
-    /// Its standard deviation \[K\]: what the noise leaves open if the chamber is as rough as [`Self::roughness`] says and the model exact.
+    /// Its standard deviation \[K\] by the noise, if the chamber is as rough as [`Self::roughness`] and the model exact.
     pub chamber_sd: Vec<f64>,
     /// Root mean square of the record minus the thermometer under that chamber \[K\], all modes in.
     pub sensor_residual_rms: f64,
@@ -94,7 +94,7 @@ struct Filter<'a> {
 struct Transition {
     dt: f64,
     decay: Vec<f64>,
-    /// What a slope of 1 adds to each entry of the state.
+    /// Contribution of a slope of 1 to each entry of the state.
     push: Vec<f64>,
     /// The lagging thermometer at the interval's end per unit of each entry at its start, the slope's in `push`.
     follow: Option<Vec<f64>>,
@@ -166,7 +166,7 @@ impl Transition {
     }
 }
 
-/// One row of the filter: what the smoother needs.
+/// One row of the filter, as the smoother needs it.
 struct Visit {
     /// The chamber, predicted from the rows before.
     predicted: f64,
@@ -188,7 +188,7 @@ impl Filter<'_> {
         self.chamber() + if self.lag > 0.0 { 3 } else { 2 }
     }
 
-    /// What the thermometer reads per unit of each entry of the state.
+    /// Reading of the thermometer per unit of each entry of the state.
     fn observation(&self) -> Vec<f64> {
         let mut h = vec![0.0; self.size()];
         let m = self.chamber();

@@ -1,4 +1,4 @@
-//! Which rectangle of the (r, y) half-plane holds what.
+//! Rectangles of the (r, y) half-plane and their content.
 
 use crate::{Contact, Design, Error, Mechanics, Side};
 
@@ -51,7 +51,7 @@ pub struct Layout {
     pub chamber: Rectangle,
     /// Bore of the hub, or of the coil where there is no spool \[m\].
     pub bore: f64,
-    /// Where a bond that can open stays closed: flange and outer radius of the lasting bond \[m\].
+    /// Closed part of a bond that can open: flange and outer radius of the lasting bond \[m\].
     pub lasting_bond: Option<(Side, f64)>,
 }
 
@@ -82,7 +82,7 @@ impl Region {
     }
 }
 
-/// Which skins are laid out.
+/// Skins that are laid out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Skins {
     /// Those that carry a resistance.

@@ -1,10 +1,10 @@
-//! States of a coil whose stiffness or bond changes, and how a course of temperature moves between them.
+//! States of a coil whose stiffness or bond changes, and the way of a course of temperature between them.
 
 use crate::{Bonds, Design, FactorsAt, Mechanics};
 use fem_core::material::TransverselyIsotropic;
 use nalgebra::DMatrix;
 
-/// One state of the coil's mechanics: what a linear model is made for.
+/// One state of the coil's mechanics, for which a linear model is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MechanicalState {
     /// Factor on E_r and G_zr.
@@ -16,7 +16,7 @@ pub struct MechanicalState {
 }
 
 impl MechanicalState {
-    /// As the design's constants say.
+    /// The state of the design's constants.
     pub const NOMINAL: Self = Self { transverse_modulus: 1.0, transverse_expansion: 1.0, bonds: Bonds::Closed };
 
     pub(crate) fn elastic(&self, nominal: &TransverselyIsotropic) -> TransverselyIsotropic {
@@ -44,7 +44,7 @@ const MOST_STATES: usize = 64;
 /// Rates of the three bias parts.
 type Parts = [f64; 3];
 
-/// How the responses of the states combine along a course.
+/// Combination of the responses of the states along a course.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Blend {
@@ -138,7 +138,7 @@ fn refined(rows: &[FactorsAt]) -> Vec<FactorsAt> {
 }
 
 impl Design {
-    /// The states between which the coil moves, and how.
+    /// The states between which the coil moves, and their combination.
     pub(crate) fn states(&self) -> (Vec<MechanicalState>, Blend) {
         let nominal = MechanicalState::NOMINAL;
         match &self.mechanics {

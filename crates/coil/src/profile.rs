@@ -1,4 +1,4 @@
-//! Courses of the drives: what can be run, the rest before it, and a smooth course through the rows of a record.
+//! Courses of the drives: conditions to run them, the rest before them, and a smooth course through the rows of a record.
 
 use crate::{Drive, Error};
 

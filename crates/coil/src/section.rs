@@ -15,7 +15,7 @@ pub struct SectionFields {
 }
 
 impl SectionFields {
-    /// Of nodal temperatures \[K\] and the displacements \[m\] that they cause, a list for each column.
+    /// Maps of nodal temperatures \[K\] and the displacements \[m\] that they cause, a list for each column.
     pub(crate) fn new(temperatures: &[Vec<f64>], displacements: &[Vec<f64>]) -> Self {
         let of = |columns: &[Vec<f64>]| {
             DMatrix::from_iterator(columns.first().map_or(0, Vec::len), columns.len(), columns.iter().flatten().copied())
@@ -24,7 +24,7 @@ impl SectionFields {
     }
 }
 
-/// The meshed section of a coil and its spool, with what moves it.
+/// The meshed section of a coil and its spool, with its drives.
 #[derive(Debug)]
 pub struct Section<'a> {
     grid: Grid,
@@ -36,9 +36,9 @@ pub struct Section<'a> {
 #[derive(Debug)]
 pub struct SectionState<'a> {
     section: &'a Section<'a>,
-    /// At each node.
+    /// Temperature at each node.
     temperature: Vec<f64>,
-    /// From the strain-free state, at each node.
+    /// Temperature difference from the strain-free state, at each node.
     warming: Vec<f64>,
     displacement: Vec<f64>,
 }

@@ -1,4 +1,4 @@
-//! Which tails, or which turns removed at the ends, null the steady sensitivity of a coil, and how surely.
+//! Tails, or turns to remove at the ends, that null the steady sensitivity of a coil, with their uncertainty.
 
 use crate::band::{Band, sensitivity_band};
 use crate::grid::Grading;
@@ -11,7 +11,7 @@ use winding::{Half, Tails};
 pub struct TailTrim {
     /// CW tail minus CCW tail, the shorter one kept as it is \[m\].
     pub cw_minus_ccw: f64,
-    /// What the design's tolerances leave of the sensitivity, (°/h)/(°C/min); over the slope it is the uncertainty of the asymmetry.
+    /// Spread of the sensitivity by the design's tolerances, (°/h)/(°C/min); over the slope it is the uncertainty of the asymmetry.
     pub band: Band,
     /// Change of the sensitivity per metre at the null, (°/h)/(°C/min)/m.
     pub slope: f64,
@@ -133,7 +133,7 @@ pub fn with_asymmetry(design: &Design, cw_minus_ccw: f64) -> Design {
     design
 }
 
-/// What cutting off up to `most` turns from either outer end leaves of the sensitivity, tails as they are.
+/// Sensitivity that is left when up to `most` turns are cut off from either outer end, tails as they are.
 ///
 /// # Errors
 /// [`Error`] names the dimension or property at fault, or the solve that failed.

@@ -1,4 +1,4 @@
-//! What tolerances make of a sensitivity: the linear band against sampled designs, and its exact cases.
+//! Spread of a sensitivity by tolerances: the linear band against sampled designs, and its exact cases.
 
 use crate::common::{changed, normal, reference};
 use coil::{Design, FINE, MeshFineness, Model, Number, Parameter, Tolerance, Tolerances, sensitivity_band};

@@ -1,6 +1,6 @@
-//! Laws that nobody listed: small ones are tried beside what is known, and the choice among them is paid for.
+//! Laws that the library does not hold: small ones are tried beside the known mechanisms, and the choice among them is paid for.
 //!
-//! A law's first parameter is its size, in which the response is linear. By what the size would gain at each of the law's starts all laws are ranked,
+//! A law's first parameter is its size, in which the response is linear. All laws are ranked by the gain of the size at each of the law's starts;
 //! the best are fitted, constants and sensors free, and the best of those is kept; then a second law is sought beside it.
 
 use crate::fit::{Fit, Fitter, Hypothesis};
@@ -14,26 +14,26 @@ const TASK: &str = "composing a law for what nothing explains";
 /// Least gain of ln evidence of a law, the choice among all paid for: e³ is strong evidence on the scale of Kass and Raftery (1995).
 const WORTH: f64 = 3.0;
 
-/// How far is looked for laws.
+/// Extent of the search for laws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Breadth {
     /// Laws that may be added up.
     pub terms: usize,
-    /// Laws that are fitted after they were ranked.
+    /// Number of laws that are fitted after the ranking.
     pub followed: usize,
-    /// Of those, laws that are given noise of their own.
+    /// Number of these laws that are given noise of their own.
     pub likeliest: usize,
     /// Laws that are followed in the place of each that came first, one at a time: laws that explain a record together need not come first each by itself
     /// (limited discrepancy search with one discrepancy, Harvey and Ginsberg 1995).
     pub turnings: usize,
-    /// What becomes of the laws before the last.
+    /// Fate of the laws before the last.
     pub earlier: Earlier,
 }
 
-/// What becomes of laws beside which another one was found.
+/// Fate of the earlier laws when another one is found beside them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Earlier {
-    /// All stay.
+    /// All of them stay.
     Kept,
     /// Those stay that still gain enough beside the others, the choice paid for.
     Weighed,
@@ -45,16 +45,16 @@ impl Default for Breadth {
     }
 }
 
-/// Laws that were composed.
+/// Composed laws.
 #[derive(Debug, Clone)]
 pub struct Composed {
-    /// The fit with them: its mechanisms are what was known, then the laws.
+    /// The fit with them: the known mechanisms come first, then the laws.
     pub fit: Fit,
     /// Number of laws.
     pub laws: usize,
-    /// Gain of ln evidence over what was known, the choice among all laws paid for.
+    /// Gain of ln evidence over the known mechanisms, the choice among all laws paid for.
     pub gain: f64,
-    /// What that choice costs of ln evidence.
+    /// Cost of that choice in ln evidence.
     pub choice: f64,
     /// Other laws that were fitted in the place of the last, and by how much ln evidence they stay behind it; the nearest first.
     pub others: Vec<(usize, f64)>,
@@ -68,8 +68,8 @@ impl Composed {
         self.fit.active[..self.fit.active.len() - self.laws].iter().map(|active| active.mechanism).collect()
     }
 
-    /// ln of evidence times probability before anything was seen, which is `log_prior` of any laws of this number: terms are found in any order, and
-    /// others in the place of the last count, too.
+    /// ln of evidence times prior probability, which is `log_prior` for any laws of this number: terms are found in any order, and others in the
+    /// place of the last count, too.
     pub fn log_weight(&self, log_prior: f64) -> f64 {
         let orders = (1..=self.laws).product::<usize>() as f64;
         let kin = 1.0 + self.others.iter().map(|(_, behind)| (-behind).exp()).sum::<f64>();
@@ -92,7 +92,7 @@ pub fn compose<M: ForwardModel>(
     compose_within(model, laws, records, observations, beside, Breadth::default(), progress)
 }
 
-/// The same, looking as far as is asked.
+/// The same, with the extent of the search given.
 ///
 /// # Errors
 /// As [`compose`].
@@ -150,7 +150,7 @@ pub fn compose_within<M: ForwardModel>(
     Ok((!best.steps.is_empty()).then(|| composed(best)))
 }
 
-/// Laws that were added one after another.
+/// Laws added one after another.
 #[derive(Clone)]
 struct Path {
     fit: Fit,
@@ -159,7 +159,31 @@ struct Path {
     steps: Vec<Fit>,
 }
 
-/// ln of evidence that a fit gains where its noise is fitted anew from that of another: of two fits, one may have found a likelier noise. At least 0.
+/// The likeliest of the `laws` in the place of one mechanism of a fit, all others kept; `None` if none is defined on these records.
+///
+/// A mechanism that such a law explains as well is named by what was thought of it beforehand, not by what was recorded.
+///
+/// # Errors
+/// As [`compose`].
+pub fn in_place_of<M: ForwardModel>(
+    model: &M,
+    laws: &Range<usize>,
+    records: &[usize],
+    observations: &[Observation],
+    fit: &Fit,
+    mechanism: usize,
+) -> Result<Option<Fit>, Error<M::Error>> {
+    let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
+    let mut without = fit.hypothesis.clone();
+    without.mechanisms.retain(|(other, _)| *other != mechanism);
+    // with the noise that the mechanism leaves, which has swallowed nothing of it
+    let Some(base) = defined(fitter.fit(&without, &fit.noise, Some(fit)))? else { return Ok(None) };
+    // one law stands for all others: the choice among them is no matter
+    let mut likeliest = fitter.with_one_more(&base, laws, Breadth::default(), &|_| 0.0)?.into_iter();
+    Ok(likeliest.next())
+}
+
+/// Gain of ln evidence of a fit when its noise is fitted anew from that of another, which may have found a likelier noise. At least 0.
 ///
 /// # Errors
 /// As [`compose`].
@@ -183,13 +207,18 @@ pub fn gained_by_noise_of<M: ForwardModel>(
     Ok((again.log_evidence - fit.log_evidence + structure).max(0.0))
 }
 
-/// A fit, unless its law is no number somewhere on the way: then it is no law for these records.
+/// A fit; none where its law gives no number on the way, so that it is no law for these records.
 fn defined<E>(fit: Result<Fit, Error<E>>) -> Result<Option<Fit>, Error<E>> {
     match fit {
         Ok(fit) => Ok(Some(fit)),
         Err(Error::NotFinite | Error::NoStart) => Ok(None),
         Err(error) => Err(error),
     }
+}
+
+/// The law that was added last.
+fn last(fit: &Fit) -> usize {
+    fit.hypothesis.mechanisms.last().map_or(0, |(law, _)| *law)
 }
 
 impl<M: ForwardModel> Fitter<'_, M> {
@@ -203,30 +232,13 @@ impl<M: ForwardModel> Fitter<'_, M> {
         first: usize,
     ) -> Result<(f64, Vec<Path>), Error<M::Error>> {
         let known = &path.fit;
-        let last = |fit: &Fit| fit.hypothesis.mechanisms.last().map_or(0, |(law, _)| *law);
         let net = |fit: &Fit| fit.log_evidence - cost(last(fit));
         // noise that has not swallowed what is sought
         let noise = known.noise.calmed(self.model.channels(), self.observations)?;
         let Some(base) = defined(self.fit(&known.hypothesis, &noise, Some(known)))? else {
             return Ok((known.log_evidence, Vec::new()));
         };
-        let taken = known.hypothesis.numbers();
-        let mut fits = Vec::new();
-        let mut ranked = self.ranked(laws.clone().filter(|law| !taken.contains(law)), &base)?;
-        ranked.sort_by(|a, b| (b.0 - cost(b.1.mechanism)).total_cmp(&(a.0 - cost(a.1.mechanism))));
-        for (_, law) in ranked.into_iter().take(breadth.followed) {
-            let mut hypothesis: Hypothesis = base.hypothesis.clone();
-            hypothesis.mechanisms.push((law.mechanism, None));
-            let mut from = base.clone();
-            from.active.push(law);
-            fits.extend(defined(self.screened(&hypothesis, &from))?);
-        }
-        fits.sort_by(|a, b| net(b).total_cmp(&net(a)));
-        let mut own = Vec::new();
-        for fit in fits.iter().take(breadth.likeliest) {
-            own.extend(defined(self.fit_with_noise(&fit.hypothesis, fit, 2))?);
-        }
-        own.sort_by(|a, b| net(b).total_cmp(&net(a)));
+        let own = self.with_one_more(&base, laws, breadth, cost)?;
         // the noise that a law leaves may be likelier without the law, too, than the noise that was found without it
         let mut without = known.log_evidence;
         for other in own.first().map(|best| &best.noise).into_iter().chain([&noise]) {
@@ -251,6 +263,35 @@ impl<M: ForwardModel> Fitter<'_, M> {
         Ok((without, longer))
     }
 
+    /// A fit with one law more, for the likeliest of the laws, each with its own noise; the best first, the choice paid for.
+    fn with_one_more(
+        &self,
+        base: &Fit,
+        laws: &Range<usize>,
+        breadth: Breadth,
+        cost: &impl Fn(usize) -> f64,
+    ) -> Result<Vec<Fit>, Error<M::Error>> {
+        let net = |fit: &Fit| fit.log_evidence - cost(last(fit));
+        let taken = base.hypothesis.numbers();
+        let mut fits = Vec::new();
+        let mut ranked = self.ranked(laws.clone().filter(|law| !taken.contains(law)), base)?;
+        ranked.sort_by(|a, b| (b.0 - cost(b.1.mechanism)).total_cmp(&(a.0 - cost(a.1.mechanism))));
+        for (_, law) in ranked.into_iter().take(breadth.followed) {
+            let mut hypothesis: Hypothesis = base.hypothesis.clone();
+            hypothesis.mechanisms.push((law.mechanism, None));
+            let mut from = base.clone();
+            from.active.push(law);
+            fits.extend(defined(self.screened(&hypothesis, &from))?);
+        }
+        fits.sort_by(|a, b| net(b).total_cmp(&net(a)));
+        let mut own = Vec::new();
+        for fit in fits.iter().take(breadth.likeliest) {
+            own.extend(defined(self.fit_with_noise(&fit.hypothesis, fit, 2))?);
+        }
+        own.sort_by(|a, b| net(b).total_cmp(&net(a)));
+        Ok(own)
+    }
+
     /// A fit without those of its laws, from number `first` on and before the last, that gain less than they cost.
     fn weighed(&self, mut fit: Fit, first: usize, cost: &impl Fn(usize) -> f64) -> Result<Fit, Error<M::Error>> {
         let mut place = first;
@@ -265,7 +306,7 @@ impl<M: ForwardModel> Fitter<'_, M> {
         Ok(fit)
     }
 
-    /// Laws with what their sizes would gain beside a fit, each at the best of its starts and of the size that is best there.
+    /// Laws with the gain of their sizes beside a fit, each at the best of its starts and at the best size there.
     fn ranked(&self, laws: impl Iterator<Item = usize>, base: &Fit) -> Result<Vec<(f64, Active)>, Error<M::Error>> {
         let respond = |at: usize, active: &[Active]| {
             self.model.respond(self.records[at], &base.nuisances[at], active).map_err(Error::Model)
@@ -301,8 +342,8 @@ impl<M: ForwardModel> Fitter<'_, M> {
     }
 }
 
-/// ln evidence that a whitened function gains beside a fit, its amplitude known beforehand as `prior` says, in whose standard deviations it is, and the
-/// likeliest amplitude; `None` if it is not finite.
+/// Gain of ln evidence of a whitened function beside a fit, and its likeliest amplitude in standard deviations of `prior`, the amplitude's prior;
+/// `None` if it is not finite.
 fn gained(base: &Fit, column: Vec<f64>, prior: Prior) -> Option<(f64, f64)> {
     let (free, gradient) = base.marginal(&DMatrix::from_vec(column.len(), 1, column));
     let (free, along) = (free[0].max(0.0), gradient[0]);

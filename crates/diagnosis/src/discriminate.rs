@@ -1,4 +1,4 @@
-//! How well records yet to be made can tell hypotheses apart.
+//! Expected separation of hypotheses by records yet to be made.
 
 use crate::fit::{Fit, Fitter, Hypothesis, expected};
 use crate::noise::Noise;
@@ -17,13 +17,13 @@ pub struct Plan<'a> {
     pub noise: Option<&'a [NoiseModel]>,
 }
 
-/// How far what is at work lies from the best that a rival hypothesis makes of it.
+/// Distance of the truth from the nearest response of a rival hypothesis.
 #[derive(Debug, Clone)]
 pub struct Separation {
     /// Twice the least objective: the squared whitened distance of the noise-free response from the rival's nearest one, plus the squared
     /// distances in σ of the rival's parameters, nuisances and offsets from the middles of their priors.
     pub squared: f64,
-    /// What the truth pays for its own parameters: their squared distances in σ from the middles of their priors.
+    /// Cost of the truth's own parameters: their squared distances in σ from the middles of their priors.
     pub own: f64,
     /// The rival, fitted; its residuals are what tells the two apart.
     pub rival: Fit,
@@ -80,7 +80,7 @@ impl<M: ForwardModel> ForwardModel for Under<'_, M> {
     }
 }
 
-/// How well the records of `plan` can tell `truth` (nothing at work: the nominal model) from the nearest of `rivals`, each of them fitted to the
+/// Separation by the records of `plan` of `truth` (nothing at work: the nominal model) from the nearest of `rivals`, each of them fitted to the
 /// noise-free response of the truth with its parameters, the model's errors and every offset free.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! What can go wrong in a diagnosis.
+//! Errors of a diagnosis.
 
 /// Errors of this crate; `E` is the forward model's own.
 #[derive(Debug, thiserror::Error)]

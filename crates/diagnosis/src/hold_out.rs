@@ -1,4 +1,4 @@
-//! What a fit predicts of a record that it has not seen.
+//! A fit's prediction of a record that it has not seen.
 
 use crate::fit::{Fit, Offset, Unseen, designed};
 use crate::noise::{MINUTE, Noise};
@@ -15,50 +15,50 @@ pub struct HeldOut {
     /// Standard deviation of the noise in a sample as identified in the fit, of every channel, with no more drift and walk than are usual: where a fit
     /// leaves something unexplained, its noise has swallowed that.
     pub noise_floor: Vec<f64>,
-    /// Root mean square of means over a minute, or over a row that is longer: so a record says the same in rows of a second and of a minute. Of a record of
-    /// less than an hour there are sixty means.
+    /// Root mean square of means over a minute, or over a row that is longer, so that the length of a record's rows does not matter. A record of
+    /// less than an hour has sixty means.
     pub of_minutes: Vec<f64>,
     /// The same noise in those means.
     pub quiet: Vec<f64>,
-    /// ln of the probability density of the record, but for a constant that fits with the same noise share: offsets, what every record has of its own, and
-    /// what the fit leaves open of its unknowns are marginalised.
+    /// ln of the probability density of the record, but for a constant that fits with the same noise share: offsets, the numbers that every record
+    /// has of its own, and the unknowns that the fit leaves open are marginalised.
     pub log_score: f64,
 }
 
-/// ln of a likelihood ratio beyond which it is no matter of chance: if the other prediction were right, e⁵ or more would have a probability
+/// ln of the likelihood ratio beyond which chance is excluded: if the other prediction were right, e⁵ or more would have a probability
 /// of at most e⁻⁵ = 1/148 (Markov's inequality).
 const CLEAR: f64 = 5.0;
-/// Error over the noise identified elsewhere that is still noise. A record of a dozen correlation times of the drift holds some six
+/// Largest error over the noise identified elsewhere that is still noise. A record of a dozen correlation times of the drift holds some six
 /// independent stretches of it, from which its size is known to 1/√(2·6) = 0.29 (1σ).
 const NOISE: f64 = 1.3;
-/// Error over the noise that is far more: beyond three times that uncertainty, 1 + 3·0.29, rounded.
+/// Least error over the noise that is far more than noise: beyond three times that uncertainty, 1 + 3·0.29, rounded.
 const FAR: f64 = 2.0;
-/// Error over the nominal model's that is hardly less: a tenth of the variance explained, 1 − 0.95².
+/// Least error over the nominal model's that is hardly less than it: a tenth of the variance explained, 1 − 0.95².
 pub(crate) const BARELY: f64 = 0.95;
 /// Largest drift and walk that are usual, over the medians of their priors: about one standard deviation of the drift's logarithm (0.7) above.
 const USUAL: f64 = 2.0;
-/// Fewest means that tell an error: to a tenth of it.
+/// Fewest means that determine an error to a tenth of it.
 const FEWEST: usize = 60;
 /// Share of the error beyond which one prediction is worse than another, by convention: two digits of it.
 const WORSE: f64 = 0.01;
 
 impl HeldOut {
-    /// Whether what it leaves of a channel is no larger than noise.
+    /// Whether the residual of a channel is no larger than noise.
     pub fn within_noise(&self, channel: usize) -> bool {
         self.of_minutes[channel] <= NOISE * self.quiet[channel]
     }
 
-    /// What it leaves of a channel over the noise in it.
+    /// Residual of a channel over the noise in it.
     pub fn over_noise(&self, channel: usize) -> f64 {
         self.of_minutes[channel] / self.quiet[channel]
     }
 
-    /// Whether what it leaves of a channel is far more than noise.
+    /// Whether the residual of a channel is far more than noise.
     pub fn is_far_from_noise(&self, channel: usize) -> bool {
         self.over_noise(channel) > FAR
     }
 
-    /// Whether this is no proof of what was fitted: what it leaves of a channel is far more than noise, and hardly less than `nominal` leaves.
+    /// Whether this is no proof of the fit: the residual of a channel is far more than noise, and hardly less than that of `nominal`.
     pub fn proves_nothing(&self, nominal: &Self, channel: usize) -> bool {
         self.is_far_from_noise(channel) && self.of_minutes[channel] > BARELY * nominal.of_minutes[channel]
     }
@@ -71,7 +71,7 @@ impl HeldOut {
 }
 
 impl Fit {
-    /// Predicts `record` of the model and compares with what was observed; `judge` gives the noise under which it is scored.
+    /// Predicts `record` of the model and compares with its observations; `judge` gives the noise under which it is scored.
     ///
     /// # Errors
     /// [`Error`] if the model fails.
@@ -86,7 +86,7 @@ impl Fit {
     }
 }
 
-/// The same for the model as it is designed: nothing fitted but the offsets, which are the means of what it leaves of `fitted`.
+/// The same for the model as it is designed: nothing fitted but the offsets, which are the means of its residuals in `fitted`.
 ///
 /// # Errors
 /// [`Error`] if the model fails.
@@ -108,7 +108,7 @@ pub fn as_designed<M: ForwardModel>(
     judged(model, designed(model, held.0)?, &offsets, held.1, judge)
 }
 
-/// A prediction with offsets against what was observed.
+/// A prediction with offsets against the observations.
 fn judged<M: ForwardModel>(
     model: &M,
     unseen: Unseen,
@@ -161,7 +161,7 @@ fn noise_of(noise: &Noise, observed: &Observation, channel: &crate::Channel, c: 
     (model.white / (rows as f64).sqrt()).hypot(drift).hypot(walk).hypot(model.passed)
 }
 
-/// Whitened columns of what is open: an offset in each channel, and the loadings of what else moves the prediction.
+/// Whitened columns of the open unknowns: an offset in each channel, and the loadings of all else that moves the prediction.
 fn stacked(by_offset: &[Vec<f64>], by_moved: &[Vec<f64>], loadings: DMatrix<f64>, rows: usize) -> DMatrix<f64> {
     let mut columns = DMatrix::zeros(rows, by_offset.len() + by_moved.len());
     let mut from = 0;

@@ -1,4 +1,4 @@
-//! Which part of the chain a mismatch comes from: one flexible input at a time, placed at each stage.
+//! Origin of a mismatch in the chain, found by one flexible input at a time, placed at each stage.
 
 use crate::fit::{Fit, products};
 use crate::locate::whiteness;
@@ -8,7 +8,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 /// Responses `[function][channel][row]` of one record.
 type Functions = Vec<Vec<Vec<f64>>>;
 
-/// What a flexible input at one stage makes of a mismatch.
+/// Fit of a flexible input at one stage to a mismatch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stage {
     /// Part of the chain.
@@ -17,18 +17,18 @@ pub struct Stage {
     pub gain: f64,
     /// Probability among the stages, each as likely as another beforehand.
     pub probability: f64,
-    /// Probability that noise is less white than what is left in each channel of the first record ([`whiteness`]).
+    /// Probability that noise is less white than the residual in each channel of the first record ([`whiteness`]).
     pub whiteness: Vec<f64>,
 }
 
-/// How well the members of a group, such as layers, can be told apart.
+/// Resolution of the members of a group, such as layers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MemberResolution {
     /// Most probable amplitude of each member, all at once.
     pub values: Vec<f64>,
     /// Their standard deviations.
     pub errors: Vec<f64>,
-    /// Diagonal of the resolution matrix (JᵀJ + P⁻¹)⁻¹ JᵀJ: 1 where the records alone say how much, 0 where the prior does.
+    /// Diagonal of the resolution matrix (JᵀJ + P⁻¹)⁻¹ JᵀJ: 1 where the records alone determine the amplitude, 0 where the prior does.
     pub resolved: Vec<f64>,
 }
 
@@ -91,8 +91,8 @@ impl Fit {
         Ok(stages)
     }
 
-    /// What a flexible input at each stage of the chain would make of this fit's residual, best first. To be asked of the nominal model under
-    /// the noise of the best candidate.
+    /// Fit of a flexible input at each stage of the chain to this fit's residual, best first. Meant for the fit of the nominal model under the
+    /// noise of the best candidate.
     ///
     /// # Errors
     /// [`Error`] if the model fails.
@@ -128,7 +128,7 @@ impl Fit {
         Ok(stages)
     }
 
-    /// What is left of the whitened residual after functions of amplitude `scale` and the fit's own unknowns have taken their part.
+    /// Whitened residual that remains after functions of amplitude `scale` and the fit's own unknowns have taken their part.
     fn after(&self, columns: &DMatrix<f64>, scale: f64) -> DVector<f64> {
         let scaled = columns * scale;
         let all = DMatrix::from_columns(&self.jacobian().column_iter().chain(scaled.column_iter()).collect::<Vec<_>>());
@@ -138,8 +138,8 @@ impl Fit {
         }
     }
 
-    /// How well the members of the model's group ([`ForwardModel::members`]) can be told apart by the records, their amplitudes being
-    /// known beforehand to 1σ = `prior`; `None` if the model has no such group.
+    /// Resolution of the members of the model's group ([`ForwardModel::members`]) by the records, where the prior of each amplitude has
+    /// 1σ = `prior`; `None` if the model has no such group.
     ///
     /// # Errors
     /// [`Error`] if the model fails.

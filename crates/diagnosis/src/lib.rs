@@ -20,7 +20,7 @@ mod settle;
 mod structure;
 mod verdict;
 
-pub use compose::{Breadth, Composed, Earlier, compose, compose_within, gained_by_noise_of};
+pub use compose::{Breadth, Composed, Earlier, compose, compose_within, gained_by_noise_of, in_place_of};
 pub use discriminate::{Plan, Separation, fitted, separation};
 pub use error::Error;
 pub use fit::{Fit, Hypothesis, Sampled, Samples, alternatives, expected, sampled};

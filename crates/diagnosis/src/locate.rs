@@ -1,21 +1,21 @@
-//! Where a residual is not noise: in time, over the state, in frequency.
+//! Places where a residual is not noise: in time, over the state, in frequency.
 
 use crate::fit::Fit;
 use crate::noise::Noise;
 use crate::{ForwardModel, Observation, State};
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
-/// Share of false discoveries among those that are called significant.
+/// Share of false discoveries among the significant ones.
 const FALSE_DISCOVERIES: f64 = 0.05;
 
 /// A stretch of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Block {
-    /// From, to \[s\].
+    /// Start and end \[s\].
     pub time: [f64; 2],
     /// Sum of squares of the whitened residual divided by its expectation.
     pub excess: f64,
-    /// Probability of as much or more in noise.
+    /// Probability that noise gives as much or more.
     pub p: f64,
     /// Whether it stands out, the number of blocks considered.
     pub significant: bool,
@@ -24,11 +24,11 @@ pub struct Block {
 /// A cell of the plane of level and rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cell {
-    /// Levels.
+    /// Lower and upper level.
     pub level: [f64; 2],
-    /// Rates.
+    /// Lower and upper rate.
     pub rate: [f64; 2],
-    /// Rows in it.
+    /// Number of rows in it.
     pub rows: usize,
     /// Mean residual.
     pub mean: f64,
@@ -43,13 +43,13 @@ pub struct Cell {
 pub struct Spectrum {
     /// Frequency \[Hz\].
     pub frequency: f64,
-    /// With level, rate, and the change of the rate, 0 to 1.
+    /// Coherence with level, rate, and the change of the rate, 0 to 1.
     pub coherence: [f64; 3],
-    /// What noise exceeds once in twenty.
+    /// Threshold that noise exceeds once in twenty.
     pub threshold: f64,
 }
 
-/// Marks what stands out (Benjamini and Hochberg 1995).
+/// Marks the significant ones (Benjamini and Hochberg 1995).
 fn discoveries(p: &[f64]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..p.len()).collect();
     order.sort_by(|&a, &b| p[a].total_cmp(&p[b]));

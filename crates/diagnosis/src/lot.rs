@@ -1,4 +1,4 @@
-//! What the units of a lot have in common.
+//! The constants that the units of a lot have in common.
 //!
 //! A constant of unit k is θₖ = ℓ + δₖ in standard deviations of its tolerance: the lot's part ℓ ~ N(0, S) and the unit's own δₖ ~ N(0, D),
 //! with S + D = I. The records of a unit say of θₖ what a normal density says, with the precision Lₖ = C⁻¹ − I and the information
@@ -13,7 +13,7 @@ use crate::fit::{Fit, Unknown};
 use crate::{Active, Error, ForwardModel};
 use nalgebra::{DMatrix, DVector};
 
-/// What the records of a unit say of some constants, in standard deviations of their tolerances.
+/// Information in a unit's records on some constants, in standard deviations of their tolerances.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Said {
     precision: DMatrix<f64>,
@@ -29,26 +29,26 @@ pub struct Believed {
     pub covariance: DMatrix<f64>,
 }
 
-/// What some units say of their lot.
+/// A lot as some of its units show it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lot {
     /// The part in common.
     pub common: Believed,
-    /// Each unit's constants, by its own records and by what the others say of the lot.
+    /// Each unit's constants, by its own records and by the lot as the others show it.
     pub units: Vec<Believed>,
     /// The constants of a further unit.
     pub further: Believed,
 }
 
 impl Said {
-    /// Of constants that have this mean and covariance by the records and a standard normal prior; `None` if the covariance is singular.
+    /// Information on constants that have this mean and covariance by the records and a standard normal prior; `None` if the covariance is singular.
     pub fn of(posterior: &Believed) -> Option<Self> {
         let inverse = posterior.covariance.clone().cholesky()?.inverse();
         let count = inverse.nrows();
         Some(Self { information: &inverse * &posterior.mean, precision: inverse - DMatrix::identity(count, count) })
     }
 
-    /// Of the lot's part, the units' own parts having the variances `own`.
+    /// Information on the lot's part, where the units' own parts have the variances `own`.
     fn of_lot(&self, own: &DMatrix<f64>) -> Option<Self> {
         let count = own.nrows();
         let through = (DMatrix::identity(count, count) + &self.precision * own).lu();
@@ -60,7 +60,7 @@ impl Said {
 }
 
 impl Believed {
-    /// Of what has this precision and information.
+    /// Mean and covariance from a precision and an information.
     fn of(precision: DMatrix<f64>, information: &DVector<f64>) -> Option<Self> {
         let covariance = precision.cholesky()?.inverse();
         Some(Self { mean: &covariance * information, covariance })
@@ -115,11 +115,11 @@ impl Fit {
     }
 }
 
-/// Knowledge of some nuisances in place of what a fit took them for beforehand: their numbers, and their covariance in standard deviations of their priors.
+/// Knowledge of some nuisances in place of their priors in a fit: their numbers, and their covariance in standard deviations of their priors.
 pub type Known<'a> = (&'a [usize], &'a DMatrix<f64>);
 
 impl Fit {
-    /// Standard deviations by which an effect stands out of the records beside all that is free in this fit, for small changes.
+    /// Size of an effect, for small changes, in standard deviations by which it stands out of the records beside all unknowns of this fit.
     ///
     /// # Errors
     /// [`Error`] if the model fails, or a covariance is singular.
@@ -169,7 +169,7 @@ mod tests {
         assert!((a - b).amax() < 1e-9, "{a}{b}");
     }
 
-    /// Three units of which records tell the constant θ with variance v, by hand: each is an observation of ℓ with variance v + D.
+    /// Three units whose records give the constant θ with variance v, by hand: each is an observation of ℓ with variance v + D.
     #[test]
     fn one_constant_is_a_weighted_mean() {
         let (theta, v, share) = ([0.9, 1.4, 0.1], [0.01, 0.2, 1.0], 0.5);

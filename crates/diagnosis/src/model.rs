@@ -1,4 +1,4 @@
-//! What the engine needs of a forward model.
+//! The interface of a forward model that the engine needs.
 
 use crate::{Parameter, Prior};
 use nalgebra::DMatrix;
@@ -15,7 +15,7 @@ pub struct Channel {
     pub offset: (f64, f64),
     /// Span of a sample's mean \[s\], 0 for momentary values.
     pub averaging: f64,
-    /// What is known of its noise.
+    /// Prior of its noise.
     pub noise: NoisePrior,
 }
 
@@ -30,27 +30,27 @@ pub struct NoisePrior {
     pub drift_time: (f64, f64),
     /// Random walk [unit/√s].
     pub walk: (f64, f64),
-    /// What the noise of the drive does, passed through the model: standard deviation; 0 where the drive is known.
+    /// Noise of the drive, passed through the model: standard deviation; 0 where the drive is known.
     pub passed: (f64, f64),
     /// Its correlation time \[s\], > 0.
     pub passed_time: f64,
 }
 
 impl NoisePrior {
-    /// Where the drive is known: of white noise, drift, its correlation time and random walk.
+    /// Noise where the drive is known: white noise, drift, its correlation time and random walk.
     pub fn new(white: (f64, f64), drift: (f64, f64), drift_time: (f64, f64), walk: (f64, f64)) -> Self {
         Self { white, drift, drift_time, walk, passed: (0.0, 1.0), passed_time: 1.0 }
     }
 }
 
-/// When an uncertain number of the nominal model is let free.
+/// Role of an uncertain number of the nominal model: when it is free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// Always: an error that the model is known to have.
+    /// Always free: an error that the model is known to have.
     ModelError,
-    /// Always: what an instrument is off.
+    /// Always free: the error of an instrument.
     Sensor,
-    /// Wherever the design is not taken for right to the digit.
+    /// Free wherever the design is not taken for right to the digit.
     Constant,
 }
 
@@ -59,7 +59,7 @@ pub enum Role {
 pub struct Nuisance {
     /// The number.
     pub parameter: Parameter,
-    /// When it is free.
+    /// Role, which says when it is free.
     pub role: Role,
     /// Whether every record has its own.
     pub local: bool,
@@ -104,7 +104,7 @@ pub struct State {
     pub rate: Vec<f64>,
 }
 
-/// A flexible input at one part of the chain: what the channels do when each of its functions acts with amplitude 1.
+/// A flexible input at one part of the chain: response of the channels to each of its functions with amplitude 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Latent {
     /// Part of the chain.
@@ -113,9 +113,9 @@ pub struct Latent {
     pub functions: Vec<Vec<Vec<f64>>>,
 }
 
-/// A nominal model with what it may leave out, prepared for some records.
+/// A nominal model with the mechanisms that it may leave out, prepared for some records.
 pub trait ForwardModel {
-    /// Why a response cannot be computed.
+    /// Error of a response that cannot be computed.
     type Error;
 
     /// The channels, in the order of every response.
@@ -133,8 +133,8 @@ pub trait ForwardModel {
     /// The library.
     fn mechanisms(&self) -> &[Omission];
 
-    /// The nuisance in whose place a mechanism's first parameter stands while it is at work, told alike: a factor on a constant is all that the unit
-    /// deviates by there, and no record could tell the two apart.
+    /// The nuisance that a mechanism's first parameter replaces while it is at work, on the same scale: a factor on a constant is the unit's whole
+    /// deviation there, and no record could tell the two apart.
     fn stands_for(&self, _mechanism: usize) -> Option<usize> {
         None
     }
@@ -142,13 +142,13 @@ pub trait ForwardModel {
     /// Response of every channel at the instants of a record, with nuisances at given values and mechanisms at work.
     ///
     /// # Errors
-    /// What keeps the model from responding.
+    /// The model's error if it cannot respond.
     fn respond(&self, record: usize, nuisances: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error>;
 
     /// The same model where it is good about these nuisances and mechanisms, if it is not yet: a model that is linear in some of them is made anew there.
     ///
     /// # Errors
-    /// What keeps the model from being made.
+    /// The model's error if it cannot be made.
     fn about(&self, _nuisances: &[f64], _active: &[Active]) -> Result<Option<Self>, Self::Error>
     where
         Self: Sized,
@@ -168,21 +168,21 @@ pub trait ForwardModel {
     /// A flexible input at every stage where one can act; without any, a mismatch is not located by stage.
     ///
     /// # Errors
-    /// What keeps the model from responding.
+    /// The model's error if it cannot respond.
     fn latent(&self, _record: usize) -> Result<Vec<Latent>, Self::Error> {
         Ok(Vec::new())
     }
 
-    /// Members of a group, such as layers, each a function: which of them are at work may be asked of a record.
+    /// Members of a group, such as layers, each a function; a record may tell which of them are at work.
     ///
     /// # Errors
-    /// What keeps the model from responding.
+    /// The model's error if it cannot respond.
     fn members(&self, _record: usize) -> Result<Option<Latent>, Self::Error> {
         Ok(None)
     }
 }
 
-/// What was recorded, one series for each channel; NaN where nothing usable was.
+/// Recorded values, one series for each channel; NaN where none is usable.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observation {
     /// Instants \[s\], increasing.

@@ -6,10 +6,10 @@ use recording::minimise::{Effort, nelder_mead};
 use recording::noise::{NoiseModel, Whitener};
 use std::sync::Arc;
 
-/// Span over which noise is told whatever the rows are \[s\].
+/// Span over which noise is stated, whatever the rows are \[s\].
 pub(crate) const MINUTE: f64 = 60.0;
 
-/// White noise of rows of one length, in rows of another \[s\]: that of means falls with their length.
+/// White noise of rows of one length, converted to rows of another \[s\]: the noise of means falls with their length.
 fn white_in(model: &NoiseModel, interval: f64, other: f64) -> f64 {
     if model.averaging > 0.0 { model.white * (interval / other).sqrt() } else { model.white }
 }
@@ -19,7 +19,7 @@ fn white_in(model: &NoiseModel, interval: f64, other: f64) -> f64 {
 pub(crate) struct Noise {
     models: Vec<Vec<NoiseModel>>,
     whiteners: Arc<Vec<Vec<Whitener>>>,
-    /// of each record's rows \[s\]
+    /// interval of each record's rows \[s\]
     intervals: Vec<f64>,
     /// ln p of the noise's own parameters under their priors
     pub(crate) log_prior: f64,
@@ -63,7 +63,7 @@ fn least(cost: impl Fn(&Standard) -> f64, start: Standard) -> Standard {
     standard(&nelder_mead(|x| cost(&standard(x)), &start, &edges, &anywhere, EFFORT).0)
 }
 
-/// Of a record's rows \[s\]; 1 of one that has none.
+/// Interval of a record's rows \[s\]; 1 for a record without rows.
 fn interval(observed: &Observation) -> f64 {
     recording::median_interval(&observed.time).unwrap_or(1.0)
 }
@@ -78,7 +78,7 @@ fn log_likelihood(whitener: &Whitener, series: &[f64]) -> f64 {
 }
 
 impl Noise {
-    /// Median noise.
+    /// Noise at the medians of its priors.
     pub(crate) fn typical(channels: &[Channel], observations: &[Observation]) -> Result<Self, recording::Error> {
         let models = observations.iter().map(|_| channels.iter().map(|c| model(&c.noise, c.averaging, &[0.0; TERMS])).collect());
         Self::with(models.collect(), 0.0, observations)
@@ -93,7 +93,7 @@ impl Noise {
         Ok(Self { models, whiteners: Arc::new(whiteners), intervals, log_prior })
     }
 
-    /// What all records say of the noise of another one: means of the variances, white noise of means as it falls with the length of rows.
+    /// Noise of another record by all of these: means of the variances; the white noise of means falls with the length of rows.
     pub(crate) fn pooled(&self, observed: &Observation) -> Result<Self, recording::Error> {
         let rows = interval(observed);
         let channels = 0..self.models.first().map_or(0, Vec::len);
@@ -114,7 +114,7 @@ impl Noise {
         Self::with(vec![channels.map(model).collect()], 0.0, std::slice::from_ref(observed))
     }
 
-    /// The same with no more drift and walk than expected beforehand: what an unexplained effect swells is cut back.
+    /// The same with no more drift and walk than expected beforehand: an unexplained effect does not swell the noise.
     pub(crate) fn calmed(&self, channels: &[Channel], observations: &[Observation]) -> Result<Self, recording::Error> {
         let calm = |(m, c): (&NoiseModel, &Channel)| NoiseModel {
             drift: m.drift.min(c.noise.drift.0),

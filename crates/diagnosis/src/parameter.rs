@@ -1,8 +1,8 @@
-//! Parameters and what is known of them beforehand.
+//! Parameters and their priors.
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
-/// What is known of a parameter before a recording is seen. Each is the image of a standard normal variable u, so that every
+/// Prior distribution of a parameter, before a recording is seen. Each is the image of a standard normal variable u, so that every
 /// parameter is fitted on one scale.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Prior {
@@ -38,7 +38,7 @@ pub enum Prior {
 /// sinh(1).
 const SINH_1: f64 = 1.175_201_193_643_801_4;
 
-/// Largest |u| that is looked at: 1 in 10¹⁵ of a prior lies beyond.
+/// Largest |u| that is considered: 1 in 10¹⁵ of a prior lies beyond.
 const MOST: f64 = 8.0;
 
 impl Prior {
@@ -53,12 +53,12 @@ impl Prior {
         }
     }
 
-    /// Standard deviation where it is normal; else half of what u from −1 to 1 spans.
+    /// Standard deviation where it is normal; else half of the range that u from −1 to 1 spans.
     pub fn sd(&self) -> f64 {
         (self.value(1.0) - self.value(-1.0)).abs() / 2.0
     }
 
-    /// The u of a value; of one outside the prior's range, the nearest that is looked at.
+    /// The u of a value; of one outside the prior's range, the nearest that is considered.
     pub fn standard(&self, value: f64) -> f64 {
         let u = match *self {
             Prior::Normal { mean, sd } => (value - mean) / sd,
@@ -77,7 +77,7 @@ impl Prior {
 pub struct Parameter {
     /// Name with its unit, as it is reported.
     pub name: String,
-    /// What is known of it.
+    /// Its prior distribution.
     pub prior: Prior,
     /// Step for differences, in units of u: large where the response has kinks.
     pub step: f64,

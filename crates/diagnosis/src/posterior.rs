@@ -1,4 +1,4 @@
-//! What a fit knows of its unknowns: normal in the coordinate in which each one's prior is standard normal.
+//! Posterior of a fit's unknowns: normal in the coordinate in which each one's prior is standard normal.
 
 use crate::fit::{Fit, Unknown, parameter};
 use crate::{ForwardModel, Prior, Role};
@@ -15,7 +15,7 @@ pub struct Estimate {
     pub ci90: [f64; 2],
 }
 
-/// What an unknown of a fit stands for.
+/// Meaning of an unknown of a fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
     /// An uncertain number of the nominal model.
@@ -29,11 +29,11 @@ pub enum Place {
 pub struct Posterior {
     /// Name with unit.
     pub name: String,
-    /// What it belongs to.
+    /// The number or mechanism that it belongs to.
     pub place: Place,
     /// The record it belongs to, if every record has its own.
     pub record: Option<usize>,
-    /// What was known beforehand.
+    /// Its prior.
     pub prior: Prior,
     /// Most probable u.
     pub u: f64,

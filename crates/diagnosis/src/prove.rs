@@ -1,21 +1,21 @@
-//! Whether records that were held out bear out what was fitted, whatever a search said of it.
+//! Test of a fit on held-out records, independent of the search that found it.
 
 use crate::hold_out::BARELY;
 use crate::{Error, Fit, ForwardModel, HeldOut, Observation};
 
-/// What records that were held out say of a fit beside another.
+/// Comparison of two fits on held-out records.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Proof {
-    /// Every record as the other fit predicts it.
+    /// Every record, predicted by the other fit.
     pub before: Vec<HeldOut>,
-    /// Every record as this one does.
+    /// Every record, predicted by this one.
     pub after: Vec<HeldOut>,
-    /// Whether a channel is predicted clearly better over all records, and no channel of any record clearly worse; never so without a record.
+    /// Whether a channel is predicted clearly better over all records, and no channel of any record clearly worse; false without a record.
     pub accepted: bool,
 }
 
 impl Proof {
-    /// Root mean squares of what is left of a channel over all records, each with the same weight: before and after.
+    /// Root mean squares of a channel's residuals over all records, each with the same weight: before and after.
     pub fn rmse(&self, channel: usize) -> [f64; 2] {
         [&self.before, &self.after].map(|held| {
             let squares: f64 = held.iter().map(|held| held.rmse[channel].powi(2)).sum();
@@ -49,8 +49,8 @@ pub fn prove<M: ForwardModel>(
     Ok(proof)
 }
 
-/// The last of some fits, each of which has a law more than those before, to which records that were held out lead from `before`: a fit that they do not
-/// bear out beside the last that they do is passed over. `None` if they bear out none.
+/// The last of some fits, each of which has a law more than those before, that held-out records confirm, starting from `before`: a fit that they do not
+/// confirm beside the last confirmed one is passed over. `None` if they confirm none.
 ///
 /// # Errors
 /// [`Error`] if the model fails.

@@ -12,9 +12,9 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 /// A structure found in a residual.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rival {
-    /// Which.
+    /// The kind of structure.
     pub structure: Structure,
-    /// In which channel.
+    /// The channel in which it was found.
     pub channel: usize,
     /// Period in the level, or instant of a step \[s\], where the structure has one.
     pub at: Option<f64>,
@@ -22,8 +22,8 @@ pub struct Rival {
     pub gain: f64,
 }
 
-/// Amplitudes that are averaged over, in units of the channel's white noise over a minute: so a record says the same in rows of a second and of a
-/// minute.
+/// Amplitudes that are averaged over, in units of the channel's white noise over a minute, so that the length of a record's rows does not
+/// matter.
 const AMPLITUDES: [f64; 4] = [0.3, 1.0, 3.0, 10.0];
 
 /// ln of the mean of e^x, each with its share.
@@ -63,7 +63,7 @@ impl Fit {
         scales.iter().map(of).collect()
     }
 
-    /// How much each structure in each channel would add to the fit, best first.
+    /// Gain of ln evidence of each structure in each channel, best first.
     pub(crate) fn rivals<M: ForwardModel>(&self, model: &M, records: &[usize], times_of: &[&[f64]]) -> Vec<Rival> {
         let states = || records.iter().map(|r| model.state(*r));
         let spans = || times_of.iter().map(|time| time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first));

@@ -1,4 +1,4 @@
-//! A model that is linear in its constants, made anew about what the records say of them.
+//! A model that is linear in its constants, made anew about their values by the records.
 
 use crate::fit::{Fit, Fitter, Hypothesis, alternatives};
 use crate::noise::Noise;
@@ -6,7 +6,7 @@ use crate::{Error, ForwardModel, Nuisance, Observation, Role};
 use progress::Step;
 
 const TASK: &str = "finding the constants about which to compare";
-/// Times that a model is made anew, at most. Where it is smooth, each time the distance to where it settles shrinks as its square.
+/// Most times that a model is made anew. Where it is smooth, the distance to its limit is squared each time.
 const ROUNDS: usize = 6;
 /// Rounds after which the likeliest of several starts is followed.
 const TRIED: usize = 2;
@@ -17,7 +17,7 @@ const STRAINED: f64 = 2.0;
 /// Choices of a mechanism that are tried.
 const CHOICES: usize = 3;
 
-/// A model about the constants for which the records speak.
+/// A model about the constants that the records favour.
 pub struct Settled<M> {
     /// The model anew, where the one given was not good there.
     pub model: Option<M>,
@@ -109,7 +109,7 @@ pub fn settled<M: ForwardModel>(
     })
 }
 
-/// On the way from a model to one that is good about what is found by it.
+/// State on the way from a model to one that is good about its own result.
 struct Way<'a, M> {
     model: &'a M,
     records: &'a [usize],

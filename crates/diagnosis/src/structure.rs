@@ -1,4 +1,4 @@
-//! Families of functions of the state, for what no mechanism of the library explains.
+//! Families of functions of the state, for effects that no mechanism of the library explains.
 
 use crate::State;
 use recording::condition::slopes;
@@ -22,7 +22,7 @@ pub enum Structure {
     Direction,
     /// A step at an instant.
     Step,
-    /// What accumulates with time or with the level's wandering.
+    /// An effect that accumulates with time or with the changes of the level.
     Accumulation,
 }
 
@@ -40,7 +40,7 @@ impl Structure {
         Self::Accumulation,
     ];
 
-    /// In words.
+    /// Description in words.
     pub fn describe(self) -> &'static str {
         match self {
             Self::PeriodicInLevel => "periodic in the level",
@@ -60,7 +60,7 @@ pub(crate) fn range<'a>(x: impl Iterator<Item = &'a f64>) -> [f64; 2] {
     x.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)])
 }
 
-/// What all records together reach.
+/// Ranges that all records together cover.
 pub(crate) struct Reach {
     pub(crate) level: [f64; 2],
     pub(crate) rate: [f64; 2],
@@ -69,7 +69,7 @@ pub(crate) struct Reach {
     pub(crate) together: f64,
 }
 
-/// An instant \[s\] at which a step is tried in a record, none where it is another record's own, and the share of probability that it stands for.
+/// An instant \[s\] at which a step is tried in a record, none where the step is in another record, and its share of the probability.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Jump {
     pub(crate) at: Option<f64>,
@@ -180,12 +180,12 @@ const STEPS_A_CYCLE: f64 = 3.0;
 const CYCLES_STEPS: usize = 84;
 /// Even stretches of a record between which a step is tried.
 const STEPS: usize = 48;
-/// Jumps of a residual at which a step is tried besides.
+/// Number of a residual's jumps at which a step is tried besides.
 const JUMPS: usize = 6;
-/// What is compared before and after a jump \[s\], and the fewest rows of it.
+/// Stretch that is compared before and after a jump \[s\], and the fewest rows of it.
 const BESIDE_JUMP: f64 = 300.0;
 const FEWEST_BESIDE: usize = 3;
-/// Stretch of time that a jump stands for \[s\]: a step may be anywhere.
+/// Stretch of time for which a jump stands \[s\]: a step may be anywhere.
 const JUMP: f64 = 60.0;
 
 /// Instants at which a step may be, of every record: half of the probability evenly in time, half on all instants, of which those are tried at which the

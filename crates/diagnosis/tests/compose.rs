@@ -3,7 +3,7 @@
 use crate::common::lines::{Lines, WHITE, alone};
 use diagnosis::{
     Active, Breadth, Channel, Earlier, Fit, ForwardModel, Hypothesis, Nuisance, Observation, Omission, State, compose,
-    compose_within, fitted, prove, proven,
+    compose_within, fitted, in_place_of, prove, proven,
 };
 use rand::SeedableRng;
 use rand::rngs::SmallRng;
@@ -34,6 +34,22 @@ fn the_law_that_made_a_record_is_composed_with_its_size() {
     let single = fitted(&lines, &[0], std::slice::from_ref(&observed), &[alone(1)]).expect("a fit");
     let gain = single.log_evidence - nothing.log_evidence - 2.0_f64.ln();
     assert!((found.gain - gain).abs() < 0.05, "{} and {gain}", found.gain);
+}
+
+#[test]
+fn a_law_in_the_place_of_a_mechanism_is_behind_by_what_the_record_tells() {
+    // the second mechanism made the record: another one with its own column stands for it, the first does not
+    let (lines, observed, _) = record(1.5, 5);
+    let observed = std::slice::from_ref(&observed);
+    let named = fitted(&lines, &[0], observed, &[alone(1)]).expect("a fit");
+    let of = |laws: std::ops::Range<usize>| in_place_of(&lines, &laws, &[0], observed, &named, 1).expect("fits").expect("a law");
+    let [same, other] = [of(1..2), of(0..1)];
+    assert!((same.log_evidence - named.log_evidence).abs() < 1e-3, "{} and {}", same.log_evidence, named.log_evidence);
+    assert!(named.log_evidence - other.log_evidence > 20.0, "{} and {}", other.log_evidence, named.log_evidence);
+    // the best of both, and no trace of the mechanism
+    let best = of(0..2);
+    assert_eq!(best.hypothesis.mechanisms, [(1, None)]);
+    assert_eq!(other.hypothesis.mechanisms, [(0, None)]);
 }
 
 #[test]

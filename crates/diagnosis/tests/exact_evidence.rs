@@ -6,7 +6,7 @@ use diagnosis::{Fit, Hypothesis, Observation, Plan, Settings, Verdict, diagnose,
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
-/// What a linear Gaussian model y = A x + e says exactly, with x ~ N(0, P) and e ~ N(0, WHITE²).
+/// Exact results of a linear Gaussian model y = A x + e, with x ~ N(0, P) and e ~ N(0, WHITE²).
 struct Exact {
     /// ln N(y; 0, A P Aᵀ + WHITE² I) + n/2 ln 2π
     log_evidence: f64,

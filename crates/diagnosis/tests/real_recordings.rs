@@ -26,7 +26,7 @@ fn laws<P: Plant>(model: &Offered<P>, composed: Option<&Composed>) -> Vec<Law> {
     composed.map_or_else(Vec::new, |c| c.fit.active.iter().map(|a| model.laws[a.mechanism]).collect())
 }
 
-/// What was held out as the laws that it bears out predict it, or the nominal model: each record's root mean square.
+/// Root mean square of each held-out record's residual, by the laws that it confirms or by the nominal model.
 fn held_out<P: Plant>(model: &Offered<P>, nominal: &Fit, found: Option<&Composed>, held: &[(usize, &Observation)]) -> Vec<f64> {
     let steps = found.map_or(&[][..], |c| &c.steps);
     let best = proven(model, nominal, steps, held).expect("predictions").unwrap_or(nominal);

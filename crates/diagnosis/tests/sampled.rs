@@ -8,7 +8,7 @@ const ROWS: usize = 80;
 const STEPS: usize = 4000;
 const SIZE: f64 = 1.5;
 
-/// What the sampler finds of a record in which the first mechanism adds `size` times its column.
+/// Samples for a record in which the first mechanism adds `size` times its column.
 fn samples(lines: &Lines, size: f64) -> Samples {
     let mut normal = normal(4);
     let y: Vec<f64> = lines.column(0).iter().map(|c| size * c + WHITE * normal()).collect();

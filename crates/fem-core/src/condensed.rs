@@ -187,7 +187,7 @@ fn centre(mesh: &Mesh, e: usize) -> [f64; 2] {
     [sum(0), sum(1)]
 }
 
-/// What elimination needs to know of each unknown, and room to work in.
+/// Bookkeeping of elimination for each unknown, and work space.
 struct Assembly {
     /// number of fronts that an unknown is still in
     open: Vec<usize>,

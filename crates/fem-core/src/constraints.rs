@@ -2,7 +2,7 @@
 
 use crate::Error;
 
-/// What a constrained unknown equals, gathered before elimination.
+/// Values of constrained unknowns, gathered before elimination.
 #[derive(Debug, Clone)]
 pub struct Constraints {
     /// parent and factor: u = factor · u_parent; a root is its own parent

@@ -1,4 +1,4 @@
-//! What can go wrong, with the numbers.
+//! Errors, with the numbers behind them.
 
 /// Errors of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -22,9 +22,9 @@ pub enum Error {
     Law {
         /// Region number.
         region: usize,
-        /// What was given.
+        /// The given shape.
         found: String,
-        /// What the form needs.
+        /// The shape that the form needs.
         needed: String,
     },
     /// A constraint cannot be applied.
@@ -37,7 +37,7 @@ pub enum Error {
     NotPositiveDefinite {
         /// Number of unknowns.
         unknowns: usize,
-        /// What the factorisation reported.
+        /// Message of the factorisation.
         detail: String,
     },
     /// A solve left a residual that rounding cannot explain.

@@ -5,7 +5,7 @@ use crate::{Error, Mesh};
 use nalgebra::DMatrix;
 use std::f64::consts::TAU;
 
-/// What the area element is multiplied by.
+/// Factor on the area element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Measure {
     /// Per unit length across the plane: dA.

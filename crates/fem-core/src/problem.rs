@@ -67,7 +67,7 @@ impl<'a> Problem<'a> {
         self.mesh
     }
 
-    /// Which unknowns the active regions use, for [`crate::Constraints::eliminate`].
+    /// Unknowns that the active regions use, for [`crate::Constraints::eliminate`].
     pub fn used(&self, active: impl Fn(usize) -> bool) -> Vec<bool> {
         let c = self.form.components;
         let mut used = vec![false; self.mesh.nodes().len() * c];

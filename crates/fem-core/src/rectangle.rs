@@ -22,7 +22,7 @@ pub(crate) struct Rectangle {
     y: Vec<DMatrix<f64>>,
 }
 
-/// What a form makes of the operators ∂x, ∂y, 1/x of the shape functions (rows: operator, then component) for one law.
+/// Coefficients of a form on the operators ∂x, ∂y, 1/x of the shape functions (rows: operator, then component) for one law.
 #[derive(Debug, Clone)]
 pub(crate) struct Coefficients(DMatrix<f64>);
 

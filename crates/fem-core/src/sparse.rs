@@ -78,7 +78,7 @@ pub(crate) fn element_dofs(mesh: &Mesh, map: &DofMap) -> Vec<ElementDofs> {
     mesh.elements().iter().map(|element| element.iter().flat_map(of_node).collect()).collect()
 }
 
-/// Which entries of the matrix can be non-zero, and where each element's entries go: symbolic once, numeric often.
+/// Pattern of the entries of the matrix that can be non-zero, with the places of each element's entries: symbolic once, numeric often.
 #[derive(Debug, Clone)]
 pub struct Pattern {
     rows: usize,

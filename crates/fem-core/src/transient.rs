@@ -17,13 +17,13 @@ const W: f64 = SQRT_2 / 4.0;
 /// Halvings of an interval before the control gives up.
 const MOST_HALVINGS: u32 = 30;
 
-/// How far below the tolerance the error must lie before the step is doubled, which raises it eightfold.
+/// Factor by which the error must lie below the tolerance before the step is doubled, which raises it eightfold.
 const ROOM: f64 = 16.0;
 
 /// Factors that are kept: a ladder of step sizes has a few, irregular instants would have one each.
 const MOST_FACTORS: usize = 32;
 
-/// What the stepping did.
+/// Effort of the stepping.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Effort {
     /// Steps that were taken.
@@ -71,7 +71,7 @@ impl Transient {
         &self.capacity
     }
 
-    /// What the stepping did so far.
+    /// Effort of the stepping so far.
     pub fn effort(&self) -> Effort {
         self.effort
     }

@@ -1,4 +1,4 @@
-//! Why a file was not read or written.
+//! Errors of reading and writing files.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ pub enum Error {
     /// A file cannot be used.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// What was asked for contradicts itself or the file.
+    /// The request contradicts itself or the file.
     #[error("{0}")]
     Usage(String),
     /// A result cannot be written.
@@ -19,7 +19,7 @@ pub enum Error {
     Output {
         /// The file.
         file: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: std::io::Error,
     },
     /// A cell could not be solved.
@@ -27,7 +27,7 @@ pub enum Error {
     Homogenization {
         /// The cell file.
         file: PathBuf,
-        /// What went wrong.
+        /// The fault.
         source: homogenization::Error,
     },
     /// A coil could not be solved.
@@ -35,7 +35,7 @@ pub enum Error {
     Coil {
         /// The coil file.
         file: PathBuf,
-        /// What went wrong.
+        /// The fault.
         source: coil::Error,
     },
 }

@@ -11,18 +11,18 @@ use crate::shown_path;
 /// Cause, consequence and remedy of a remark: the columns of the table below.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Explanation {
-    /// When the program says it.
+    /// Condition under which the program gives it.
     pub cause: &'static str,
-    /// What it does to the result.
+    /// Its effect on the result.
     pub consequence: &'static str,
-    /// How to mend it.
+    /// The remedy.
     pub remedy: &'static str,
 }
 
 /// One table: an id cannot be printed without a row, and a row cannot lack a part.
 macro_rules! remarks {
     ($($name:ident $id:literal: $cause:literal, $consequence:literal, $remedy:literal;)*) => {
-        /// A kind of warning or note; what is printed ends in its id in brackets.
+        /// A kind of warning or note; the printed text ends in its id in brackets.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
         pub enum Remark { $(#[doc = $cause] $name,)* }
 
@@ -305,7 +305,7 @@ remarks! {
         "None is needed; the reason stands in the message.";
 }
 
-/// How much a note matters.
+/// Importance of a note.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Severity {
     /// It may make the whole answer void.
@@ -316,16 +316,16 @@ pub enum Severity {
 
 /// Something that a user should know although nothing is wrong.
 ///
-/// What is printed, and its value in JSON, is `FILE: text [id]`, of a warning `warning: FILE: text [id]`.
+/// The printed form, and the value in JSON, is `FILE: text [id]`, of a warning `warning: FILE: text [id]`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {
     /// Its kind.
     pub remark: Remark,
-    /// How much it matters.
+    /// Its importance.
     pub severity: Severity,
     /// The file that it is about, where the text alone does not say it.
     pub place: Option<PathBuf>,
-    /// What is said, in words.
+    /// The text, in words.
     pub text: String,
 }
 
@@ -341,13 +341,13 @@ impl Note {
         self.severity == Severity::Warning
     }
 
-    /// What is said where it stands among its like: `FILE: text [id]`.
+    /// The form among others of its kind: `FILE: text [id]`.
     pub fn message(&self) -> String {
         let place = self.place.as_ref().map_or(String::new(), |file| format!("{}: ", shown_path(file)));
         format!("{place}{} [{}]", self.text, self.remark.id())
     }
 
-    /// What is said among other lines: `warning: FILE: text [id]` or `note: FILE: text [id]`.
+    /// The form among other lines: `warning: FILE: text [id]` or `note: FILE: text [id]`.
     pub fn line(&self) -> String {
         let kind = if self.is_warning() { "" } else { "note: " };
         format!("{kind}{self}")

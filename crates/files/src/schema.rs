@@ -5,7 +5,8 @@ use serde_json::Value;
 /// Keywords that say something of the reader, not of the value.
 const NOTES: [&str; 9] = ["$schema", "$defs", "$comment", "title", "description", "default", "format", "x-unit", "examples"];
 
-/// What of `value` does not keep `schema`, and where; `None` if all does. A property that an object's schema does not name is a fault, too.
+/// The first part of `value` that does not keep `schema`, with its place; `None` if all does. A property that an object's schema does not name
+/// is a fault, too.
 ///
 /// It knows the keywords that the project's schemas use; another one is a fault of the schema.
 pub fn misfit(value: &Value, schema: &Value) -> Option<String> {

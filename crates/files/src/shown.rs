@@ -1,8 +1,8 @@
-//! Names as a terminal shows them: what it would obey becomes its escape.
+//! Names as a terminal shows them: a character that it would obey becomes its escape.
 
 use std::path::Path;
 
-/// A text of one line, with escapes for what a terminal would obey: controls, ends of lines, and changes of direction.
+/// A text of one line, with escapes for characters that a terminal would obey: controls, ends of lines, and changes of direction.
 ///
 /// ```
 /// assert_eq!(files::shown("a\u{1b}[2J\n\u{202e} b\u{fc}"), "a\\u{1b}[2J\\n\\u{202e} b\u{fc}");

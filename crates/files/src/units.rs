@@ -1,4 +1,4 @@
-//! Between the units of the files and SI: the only place where a factor is applied.
+//! Conversion between the units of the files and SI: the only place where a factor is applied.
 //!
 //! Divisions by powers of ten are correctly rounded, so `from_mm(43.5)` is the double nearest to 0.0435.
 
@@ -8,7 +8,7 @@ use laws::Unit;
 
 use bias::units::{DEG_PER_H_PER_RAD_PER_S, S_PER_H, S_PER_MIN};
 
-/// What a key in a case file may end in, after the quantity's name.
+/// Endings of a case file's key, after the quantity's name.
 pub(crate) const SUFFIXES: [&str; 14] =
     ["um", "mm", "m", "mpa", "gpa", "per_k", "w_per_mk", "kg_per_m3", "j_per_kgk", "c", "s", "w", "w_per_m2k", "m2k_per_w"];
 
@@ -127,7 +127,7 @@ fn unit_of_words(words: &[&str]) -> String {
     }
 }
 
-/// What a name ends in whose number has a unit: `deg_per_h_per_k` of `deg/h/K`; empty of a pure number, or of what is no unit.
+/// Ending of the name of a number with a unit: `deg_per_h_per_k` for `deg/h/K`; empty for a pure number, or for a text that is no unit.
 pub(crate) fn suffix(unit: &str) -> String {
     let words = Unit::words(unit).unwrap_or_default();
     let word = |(name, power): &(&str, f64)| {
@@ -149,7 +149,7 @@ pub(crate) struct ColumnUnit {
     pub(crate) scale: f64,
     /// Added after the factor.
     pub(crate) offset: f64,
-    /// Whether it is so rare that nobody is asked for it who did not say it.
+    /// Whether it is so rare that it is never suggested.
     pub(crate) is_rare: bool,
 }
 

@@ -18,21 +18,21 @@ use crate::simulate::{SimulatedRow, Simulation, number, windowed};
 use crate::summary::{Regression, Summary};
 use crate::table::{significant, table};
 
-/// A simulation's band: one standard deviation of everything that follows from it.
+/// A simulation's band: one standard deviation of each of its results.
 pub struct CourseBand {
     /// Instant \[s\], rate \[deg/h\] and its standard deviation, thermometer \[°C\] and its own, of every row.
     rows: Vec<[f64; 5]>,
-    /// Of the rate in the row with the largest |rate| \[deg/h\].
+    /// Standard deviation of the rate in the row with the largest |rate| \[deg/h\].
     pub peak: f64,
-    /// Of the root of the mean square \[deg/h\].
+    /// Standard deviation of the root mean square \[deg/h\].
     pub rms: f64,
-    /// Of the slope on the thermometer's rate \[(deg/h)/(degC/min)\]; `None` if there is none.
+    /// Standard deviation of the slope on the thermometer's rate \[(deg/h)/(degC/min)\]; `None` if there is none.
     pub slope: Option<f64>,
     /// Shares of the variance at the peak by the keys of the numbers, the largest first.
     pub shares: Vec<(&'static str, f64)>,
 }
 
-/// How many shares are told.
+/// Number of shares that are printed.
 const TOLD: usize = 6;
 
 /// Effect of one standard deviation of a number on every row: thermometer and rate.
@@ -118,7 +118,7 @@ impl CourseBand {
         }
     }
 
-    /// One object, as scripts read it: one standard deviation each.
+    /// The band as one JSON object: one standard deviation each.
     pub fn json(&self) -> Value {
         let shares = self.shares.iter().map(|(key, share)| json!({"key": key, "share": share}));
         json!({
@@ -129,7 +129,7 @@ impl CourseBand {
         })
     }
 
-    /// For people.
+    /// The band as text.
     pub fn text(&self) -> String {
         let line = |name: &str, value: String, unit: &str| vec![name.to_owned(), value, unit.to_owned()];
         let mut rows = vec![

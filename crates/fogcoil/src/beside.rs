@@ -42,7 +42,7 @@ fn divided(course: &[f64]) -> Vec<f64> {
 }
 
 impl Simulation<'_> {
-    /// Adds what mechanisms do at the values that their files give, by the reduced models that a diagnosis has.
+    /// Adds the effects of mechanisms at the values that their files give, by the reduced models of a diagnosis.
     ///
     /// # Errors
     /// [`files::Error::Usage`] where they cannot act, or a law is no number; [`files::Error::Input`] for a parameter without a value.

@@ -1,9 +1,9 @@
-//! Models that have been built once, kept on disk by the content of what they were built from.
+//! Models that have been built once, kept on disk by the content of their inputs.
 //!
 //! A file is named by the SHA-256 of everything the model depends on: the format, the build of the program, the purpose and the key. It
-//! holds a magic number, the format, a SHA-256 over name and payload, and the payload (postcard; doubles bit for bit). What is
-//! truncated, spoilt or of another model fails the check and is built anew. A checksum is no signature: on Unix a file counts only if it
-//! belongs to the user, or to the system's administrator, and nobody else may write to it. Nothing here is an error: where no file can be
+//! holds a magic number, the format, a SHA-256 over name and payload, and the payload (postcard; doubles bit for bit). A file that is
+//! truncated, spoilt or of another model fails the check, and its model is built anew. A checksum is no signature: on Unix a file counts only
+//! if it belongs to the user, or to the system's administrator, and nobody else may write to it. Nothing here is an error: where no file can be
 //! read or written, models are built each time.
 
 use std::env;
@@ -30,12 +30,12 @@ const HEADER: usize = MAGIC.len() + size_of::<u32>() + size_of::<Name>();
 const SUFFIX: &str = ".fogcoil-model";
 /// Largest file \[bytes\]; a larger model is not kept.
 const LARGEST: u64 = 256 << 20;
-/// All files together \[bytes\]; beyond, the longest unused go.
+/// Limit of all files together \[bytes\]; beyond it, the longest unused are removed.
 const MOST: u64 = 1 << 30;
 
 type Name = [u8; 32];
 
-/// Where a model came from.
+/// Origin of a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Source {
     /// It was built now.
@@ -68,7 +68,7 @@ impl Cache {
         Self { code: Some(file.into()), ..self }
     }
 
-    /// The user's: `$FOGCOIL_CACHE`, else `fogcoil` in `$XDG_CACHE_HOME`, else `.cache/fogcoil` in the home folder.
+    /// The user's cache: `$FOGCOIL_CACHE`, else `fogcoil` in `$XDG_CACHE_HOME`, else `.cache/fogcoil` in the home folder.
     pub fn of_user() -> Self {
         let from = |variable: &str| env::var_os(variable).filter(|value| !value.is_empty()).map(PathBuf::from);
         // the XDG specification has relative paths ignored
@@ -104,8 +104,8 @@ impl Cache {
     }
 }
 
-/// What the file of the code is, so that no model outlives the code that made it: its length \[bytes\], when it was written, and on Unix its
-/// place on the disk and when it was put there, as archives and packages may give every build the same instant of writing.
+/// Identity of the code's file, so that no model outlives the code that made it: its length \[bytes\], its instant of writing, and on Unix its
+/// place on the disk and the instant when it was put there, as archives and packages may give every build the same instant of writing.
 fn this_build(code: Option<&Path>) -> Option<impl Serialize + use<>> {
     let about = fs::metadata(code.map_or_else(env::current_exe, |file| Ok(file.to_owned())).ok()?).ok()?;
     #[cfg(unix)]
@@ -134,7 +134,7 @@ fn name(code: Option<&Path>, purpose: &str, key: &impl Serialize) -> Option<Name
     Some(Sha256::digest(all).into())
 }
 
-/// Over the name too: a sound file under another's name is not taken for it.
+/// Checksum over payload and name: a sound file under another's name is not taken for it.
 fn checksum(name: &Name, payload: &[u8]) -> Name {
     Sha256::new().chain_update(name).chain_update(payload).finalize().into()
 }

@@ -36,7 +36,7 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Effective constants and the M row of a fibre's cell, and the strains inside it
     Homogenize(Homogenize),
-    /// Constituents from measured effective constants, with what is and is not determined
+    /// Constituents from measured effective constants, with their determined and undetermined combinations
     Identify {
         /// Measured effective constants and the cells to try, e.g. fixtures/identify/table-one.ron
         #[arg(value_name = "TARGETS.ron")]
@@ -69,7 +69,7 @@ pub(crate) enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Tail lengths, or turns to cut off, that null the steady sensitivity, and how surely
+    /// Tail lengths, or turns to cut off, that null the steady sensitivity, with their uncertainty
     Trim {
         /// Case file of the coil
         #[arg(value_name = "COIL.ron")]
@@ -81,9 +81,9 @@ pub(crate) enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Two designs side by side: what differs, sensitivity by part with tolerances, bias under a profile
+    /// Two designs side by side: differing keys, sensitivity by part with tolerances, bias under a profile
     Compare(Compare),
-    /// Designs around a drawing by the thousand, as a table: grids, samples, tolerances, and which part of the design the spread comes from
+    /// Designs around a drawing by the thousand, as a table: grids, samples, tolerances, and the part of the design from which the spread comes
     Sweep(Sweep),
     /// The design with the least sensitivity, spread, mass or length within limits, over numbers and choices; the front where several are weighed
     Optimise(Optimise),
@@ -95,7 +95,7 @@ pub(crate) enum Command {
     Calibrate(Calibrate),
     /// Many units of one design: each measured, diagnosed and judged by limits; tables, and a page with trends
     Batch(BatchOf),
-    /// Which chamber programme, or which further sensor, tells mechanisms apart
+    /// The chamber programme, or the further sensor, that tells mechanisms apart
     Recommend(Recommend),
     /// The meaning of an id of a mechanism or a warning; or the change of a coil that would give a measured sensitivity
     Explain(Explain),
@@ -139,7 +139,7 @@ pub(crate) struct Diagnose {
     /// Write the prediction of the first held-out record here
     #[arg(long, value_name = "P.csv", requires = "holdouts")]
     pub(crate) prediction: Option<PathBuf>,
-    /// Write the extended design here, a coil file with what was found at its place; a mechanism of your own gets M.ID.ron beside it
+    /// Write the extended design here, a coil file with the explanation in its place; a mechanism of your own gets M.ID.ron beside it
     #[arg(long, value_name = "M.ron")]
     pub(crate) model_out: Option<PathBuf>,
     /// Write a page with plots here

@@ -1,4 +1,4 @@
-//! `batch`: its arguments, and what it does with them.
+//! `batch`: its arguments and its work.
 
 use std::path::{Path, PathBuf};
 
@@ -22,7 +22,7 @@ pub(crate) struct BatchOf {
     /// A recording, or a folder with the recordings (*.csv) of one unit, of which holdout*.csv judge; or a folder of such folders
     #[arg(value_name = "RECORD.csv|FOLDER", required = true)]
     records: Vec<PathBuf>,
-    /// What a unit must keep; exit status 1 if one does not
+    /// Limits that every unit must keep; exit status 1 if one does not
     #[arg(long, value_name = "LIMITS.ron")]
     limits: Option<PathBuf>,
     /// Write table.csv, table.parquet, table.xlsx, report.html and units/ here; an interrupted run goes on from what is there
@@ -31,7 +31,7 @@ pub(crate) struct BatchOf {
     /// A mechanism of your own beside the program's, or the id of one that is weighed on request; may be given more than once
     #[arg(long = "mechanism", value_name = "MECHANISM.ron|ID")]
     mechanisms: Vec<PathBuf>,
-    /// What is known of the records besides their columns [default: meta.ron beside each, if it is there]
+    /// Facts about the records besides their columns [default: meta.ron beside each, if it is there]
     #[arg(long, value_name = "FILE")]
     meta: Option<PathBuf>,
     /// A file that says how the records are read [default: RECORD.map.ron beside each RECORD.csv, if it is there]
@@ -67,7 +67,7 @@ pub(crate) fn run(arguments: &BatchOf, progress: &Progress) -> Result<(), Error>
     judged(&batch)
 }
 
-/// All files that may be written into a folder that is there, those of units where they are kept from a run before; the path itself where it is no folder.
+/// All files that may be written into an existing folder, those of units where an earlier run kept them; the path itself where it is no folder.
 fn places(out: &Path, units: &[Unit]) -> Vec<PathBuf> {
     if !out.is_dir() {
         return out.exists().then(|| out.to_owned()).into_iter().collect();

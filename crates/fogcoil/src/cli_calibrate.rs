@@ -1,4 +1,4 @@
-//! `calibrate`: its arguments, and what it does with them.
+//! `calibrate`: its arguments and its work.
 
 use std::path::PathBuf;
 

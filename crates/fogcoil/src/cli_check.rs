@@ -1,4 +1,4 @@
-//! The arguments of `check`, and those that say how a recording is read.
+//! The arguments of `check`, and the options for reading a recording.
 
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -16,7 +16,7 @@ pub(crate) struct Check {
     /// Facts about the record besides its columns [default: meta.ron beside it, if it is there]
     #[arg(long, value_name = "FILE")]
     pub(crate) meta: Option<PathBuf>,
-    /// Write a map file that says how the recording seems to be read, and check it so read [default: RECORD.map.ron beside it]
+    /// Propose a map file for reading the recording, write it, and check the recording so read [default: RECORD.map.ron beside it]
     #[arg(long, value_name = "FILE.map.ron", num_args = 0..=1, conflicts_with = "map")]
     pub(crate) write_map: Option<Option<PathBuf>>,
     /// Print one JSON object
@@ -27,10 +27,10 @@ pub(crate) struct Check {
     pub(crate) svg: Option<PathBuf>,
 }
 
-/// How a logger's file is read.
+/// Options for reading a logger's file.
 #[derive(Args, Clone)]
 pub(crate) struct Format {
-    /// A file with what the flags below say [default: RECORD.map.ron beside RECORD.csv, if it is there]
+    /// A file in place of the flags below [default: RECORD.map.ron beside RECORD.csv, if it is there]
     #[arg(long, value_name = "FILE.ron")]
     map: Option<PathBuf>,
     /// Name of a column in the file; KEY is time, chamber, spool or rate

@@ -1,4 +1,4 @@
-//! `compare`: its arguments, and what it does with them.
+//! `compare`: its arguments and its work.
 
 use std::path::PathBuf;
 
@@ -15,7 +15,7 @@ pub(crate) struct Compare {
     /// Case file of a coil
     #[arg(value_name = "A.ron")]
     a: PathBuf,
-    /// Case file of the coil that it is held against
+    /// Case file of the coil to compare it with
     #[arg(value_name = "B.ron")]
     b: PathBuf,
     /// Profile under which to compare their bias, e.g. fixtures/profiles/paper.csv

@@ -1,4 +1,4 @@
-//! `explain`: its arguments, and what it does with them.
+//! `explain`: its arguments and its work.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! `measure`: its arguments, and what it does with them.
+//! `measure`: its arguments and its work.
 
 use std::path::{Path, PathBuf};
 

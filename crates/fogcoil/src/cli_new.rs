@@ -17,7 +17,7 @@ pub(crate) struct New {
     kind: Kind,
 }
 
-/// What a file to start from may hold.
+/// Kinds of files to start from.
 #[derive(Clone, Copy, ValueEnum)]
 enum Kind {
     /// A coil on its spool, for wind, sensitivity, trim, simulate, diagnose, recommend and explain
@@ -43,7 +43,7 @@ impl Kind {
         }
     }
 
-    /// What to do with it first.
+    /// First command to try on it.
     fn first(self) -> &'static str {
         match self {
             Self::Coil => "fogcoil sensitivity",

@@ -1,4 +1,4 @@
-//! `optimise`: its arguments, and what it does with them.
+//! `optimise`: its arguments and its work.
 
 use std::path::PathBuf;
 
@@ -13,7 +13,7 @@ use crate::{line, print};
 
 #[derive(Args)]
 pub(crate) struct Optimise {
-    /// What varies, what is minimised, within which limits
+    /// The varied keys, the numbers to minimise and the limits
     #[arg(value_name = "PLAN.ron")]
     plan: PathBuf,
     /// Write every design that was tried here

@@ -1,4 +1,4 @@
-//! `recommend`: its arguments, and what it does with them.
+//! `recommend`: its arguments and its work.
 
 use std::path::PathBuf;
 

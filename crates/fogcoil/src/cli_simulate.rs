@@ -24,7 +24,7 @@ pub(crate) struct Simulate {
     /// Profile: time_s,chamber_c and, where wanted, left_c, right_c, mount_left_c, mount_right_c
     #[arg(long, value_name = "P.csv")]
     profile: Option<PathBuf>,
-    /// How the temperatures run between the profile's rows
+    /// Course of the temperatures between the profile's rows
     #[arg(long, value_enum, default_value_t = Between::Linear, conflicts_with = "spool")]
     between: Between,
     /// Add a row every S seconds from the first row, on the straight lines between the profile's own
@@ -59,7 +59,7 @@ pub(crate) struct Simulate {
     no_cache: bool,
 }
 
-/// Largest noise \[K\] of a thermometer that says anything.
+/// Largest noise \[K\] of a thermometer that is of use.
 const MOST_NOISE: f64 = 10.0;
 
 fn noise(text: &str) -> Result<f64, String> {
@@ -100,7 +100,7 @@ pub(crate) fn run(arguments: &Simulate, progress: &Progress) -> Result<(), Error
     print(&if *json { line(&object) } else { summary::text(&simulation) + &told })
 }
 
-/// Where files may be written in the folder of a section; the folder itself if it is still to be made.
+/// Files that may be written in the folder of a section; the folder itself if it is still to be made.
 fn places(folder: &Path) -> Vec<PathBuf> {
     if folder.is_dir() { section_files::possible(folder) } else { vec![folder.to_owned()] }
 }

@@ -13,7 +13,7 @@ use crate::{line, print};
 
 #[derive(Args)]
 pub(crate) struct Sweep {
-    /// What varies, how points are chosen, what is computed
+    /// The varied keys, the choice of points and the outputs
     #[arg(value_name = "PLAN.ron")]
     plan: PathBuf,
     /// Write the table here; rows are kept in FILE.parts beside it until all are there, and an interrupted run goes on from them

@@ -1,4 +1,4 @@
-//! What a meta file says of a record against what the record itself shows.
+//! Contradictions between a record and its meta file.
 
 use files::{Note, Remark};
 use recording::Recording;
@@ -13,7 +13,7 @@ use crate::table::significant;
 const FACTOR: f64 = 3.0;
 /// Standard deviations from which a value is not the one that is declared: one in 370 by chance.
 const SIGMAS: f64 = 3.0;
-/// Share of the rows' changes that are too small for a last digit, from which it is not theirs.
+/// Share of the rows' changes smaller than a declared last digit, from which that digit contradicts the record.
 const SMALL: f64 = 0.5;
 const S_PER_H: f64 = 3600.0;
 
@@ -57,7 +57,7 @@ fn of_interval(meta: &Meta, interval: f64) -> Option<Note> {
     apart(told, interval).then(|| Remark::IntervalDiffers.warning(message()))
 }
 
-/// Noise and last digits that are declared and far above what is read.
+/// Declared noise and last digits that are far above the recorded ones.
 fn of_thermometers(meta: &Meta, record: &Recording) -> Vec<Note> {
     let digits = meta.resolutions();
     let mut found = Vec::new();

@@ -1,4 +1,4 @@
-//! Why a command did not finish.
+//! Errors of a command.
 
 use coil::{Design, Spool};
 use mechanisms::Mechanism;
@@ -10,7 +10,7 @@ use crate::input::{self, InputError};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A file cannot be used, solved or written, or what was asked for contradicts itself or a file.
+    /// A file cannot be used, solved or written, or the request contradicts itself or a file.
     #[error(transparent)]
     File(files::Error),
     /// Standard output cannot be written.
@@ -28,9 +28,9 @@ pub enum Error {
     /// Units of a batch do not keep their limits.
     #[error("{failing} of {units} units do not keep the limits")]
     Limits {
-        /// How many do not.
+        /// Number of units that do not.
         failing: usize,
-        /// How many there are.
+        /// Number of all units.
         units: usize,
     },
     /// A diagnosis failed.
@@ -78,7 +78,7 @@ fn outlier(design: &Design, part: &str) -> Option<(String, &'static str)> {
     }
 }
 
-/// What to say of a design whose equations no factorisation solves: its numbers are too far apart.
+/// Error of a design whose equations no factorisation solves: its numbers are too far apart.
 fn unsolvable(file: &Path, part: &str) -> InputError {
     const FAR: &str = "too far apart to be solved in double precision";
     if let Some((field, remedy)) = input::read_coil(file).ok().and_then(|case| outlier(&case.design, part)) {
@@ -120,12 +120,12 @@ impl Error {
         Self::File(files::Error::Usage(problem.into()))
     }
 
-    /// What a model says, as an error of its coil's file or of what drives it.
+    /// A model's error as an error of its coil's file or of its drive.
     pub(crate) fn of_coil(file: &Path) -> impl Fn(coil::Error) -> Self + Copy {
         move |source| files::Error::Coil { file: file.to_owned(), source }.into()
     }
 
-    /// What a diagnosis says, as an error of the coil's file or of its own.
+    /// A diagnosis's error as an error of the coil's file or of its own.
     pub(crate) fn of_diagnosis(file: &Path) -> impl Fn(diagnosis::Error<coil::Error>) -> Self + Copy {
         move |error| match error {
             diagnosis::Error::Model(source) => Self::of_coil(file)(source),
@@ -133,7 +133,7 @@ impl Error {
         }
     }
 
-    /// The same of a diagnosis with mechanisms of a user's own: a law of theirs may be no number somewhere.
+    /// The same for a diagnosis with mechanisms of a user's own, whose laws may give no number somewhere.
     pub(crate) fn of_diagnosis_with(
         file: &Path,
         mechanisms: &[&dyn Mechanism],

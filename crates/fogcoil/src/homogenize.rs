@@ -27,7 +27,7 @@ pub fn json(case: &CellCase, result: &Homogenized) -> Value {
     all.into()
 }
 
-/// What only some cells have: the second shear modulus of square packing, what follows from densities.
+/// Constants that only some cells have: the second shear modulus of square packing, constants that follow from densities.
 fn extras(case: &CellCase, result: &Homogenized) -> impl Iterator<Item = (&'static str, f64)> + use<> {
     let square = (case.cell.packing == Packing::Square).then(|| result.effective.shear_moduli_across()[1]);
     // a density out of range was refused when the file was read

@@ -1,11 +1,11 @@
-//! Constants as the keys of a coil file tell them.
+//! Constants in the keys of a coil file.
 
 use coil::{Design, Number};
 use files::input::keyed;
 use mechanisms::{number_of, with_constant};
 
-/// The key of the constant of this name, one of `all`, and its value in the key's unit where these have the values told of them, but this one the
-/// value `told`; `None` for a name that is none of the design's. Of tails it is the difference, which is what a record knows.
+/// The key of the constant of this name, one of `all`, and its value in the key's unit, where the others have their stated values and this one the
+/// value `told`; `None` for a name that is none of the design's. For tails it is the difference, which alone a record determines.
 pub(crate) fn by_key<'n>(
     design: &Design,
     all: impl Iterator<Item = (&'n str, f64)>,

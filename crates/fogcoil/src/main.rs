@@ -43,7 +43,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Ends the program with what the command line's reader says, whose colours go where a name would give a terminal orders.
+/// Ends the program with the message of the command line's reader, without colours where a name would give a terminal orders.
 fn refuse(error: &clap::Error) -> ! {
     let text = error.render().to_string();
     let shown = files::shown_lines(&text);
@@ -203,7 +203,7 @@ fn line(json: &serde_json::Value) -> String {
     files::shown_json(&json.to_string()) + "\n"
 }
 
-/// Writes to standard output what no terminal obeys; a reader that has left is no error.
+/// Writes to standard output without orders to a terminal; a reader that has left is no error.
 fn print(text: &str) -> Result<(), Error> {
     let mut stdout = std::io::stdout().lock();
     let written = stdout.write_all(files::shown_lines(text).as_bytes()).and_then(|()| stdout.flush());

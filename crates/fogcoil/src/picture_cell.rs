@@ -12,11 +12,13 @@ use crate::homogenize::Quantity;
 /// Phases in Okabe and Ito's colours, pale enough to carry a mesh.
 const PHASES: [&str; 8] = ["#9ecae9", "#f2cf7d", "#8fd0b5", "#e6b3cf", "#f0a881", "#bcbddc", "#f7f0a8", "#c8c8c8"];
 const SIDE: f64 = 640.0;
-const LEFT: f64 = 40.0;
-const TOP: f64 = 84.0;
-/// Room at the right for the legend [px].
-const LEGEND: f64 = 350.0;
-/// Width of what is shown around the cell, in widths of the cell.
+const LEFT: f64 = 20.0;
+const FONT: f64 = 18.0;
+/// Height of a line of text [px].
+const LINE: f64 = 1.5 * FONT;
+/// Most characters of a line: letters take 0.56 font sizes.
+const MOST: usize = 63;
+/// Width of the surroundings that are shown, in widths of the cell.
 const AROUND: f64 = 0.12;
 
 /// Positions [m] to pixels; y upwards.
@@ -52,11 +54,15 @@ fn corners([a, b]: [[f64; 2]; 2]) -> [[f64; 2]; 4] {
 /// The picture as an SVG document, with a field if one is given.
 pub fn svg(name: &str, caption: &str, solution: &Solution, sample: &Sample, field: Option<Quantity>) -> String {
     let view = View::new(sample, solution.periodic.lattice);
-    let (width, height) = (LEFT + view.size[0] + LEGEND, TOP + view.size[1] + 70.0);
+    let caption_lines = broken(caption);
+    let top = 34.0 + LINE * caption_lines.len() as f64 + 0.7 * FONT;
+    let below = top + view.size[1];
+    let rows = if field.is_some() { 2.7 } else { 1.0 + solution.phases.len() as f64 };
+    let (width, height) = (2.0 * LEFT + SIDE, below + (2.6 + rows) * LINE);
     let frame = Frame {
         ids: ["title", "desc"],
         size: [width, height],
-        font: 15.0,
+        font: FONT,
         title: &format!("{name}: {caption}"),
         description: match field {
             Some(_) => {
@@ -69,12 +75,18 @@ pub fn svg(name: &str, caption: &str, solution: &Solution, sample: &Sample, fiel
     };
     let colours = field.map(|quantity| (quantity, colours(quantity, sample)));
     frame.document(|svg| {
-        svg.element("text", attributes! { "x": "{LEFT}", "y": "34", "font-size": "20", "font-weight": "bold" }, name);
-        svg.element("text", attributes! { "x": "{LEFT}", "y": "60" }, caption);
+        svg.element(
+            "text",
+            attributes! { "x": "{LEFT}", "y": "34", "font-size": "{:.0}"(1.2 * FONT), "font-weight": "bold" },
+            name,
+        );
+        for (n, line) in caption_lines.iter().enumerate() {
+            svg.text([LEFT, 34.0 + LINE * (n + 1) as f64], "start", line);
+        }
         svg.open("clipPath", attributes! { "id": "frame" });
         let [w, h] = view.size;
         svg.leaf("rect", attributes! { "width": "{w:.1}", "height": "{h:.1}" }).joined().close("clipPath");
-        svg.group(attributes! { "transform": "translate({LEFT} {TOP})", "clip-path": "url(#frame)" }, |svg| {
+        svg.group(attributes! { "transform": "translate({LEFT} {top})", "clip-path": "url(#frame)" }, |svg| {
             svg.open("defs", &[]).group(attributes! { "id": "cell" }, |svg| {
                 fill(svg, &view, sample, colours.as_ref());
                 mesh(svg, &view, solution, sample);
@@ -82,13 +94,24 @@ pub fn svg(name: &str, caption: &str, solution: &Solution, sample: &Sample, fiel
             svg.joined().close("defs");
             copies(svg, &view, solution);
         });
-        let right = LEFT + view.size[0] + 24.0;
-        match &colours {
-            Some((quantity, colours)) => bar(svg, right, *quantity, colours),
-            None => legend(svg, right, solution),
-        }
-        scale_bar(svg, &view);
+        scale_bar(svg, &view, below);
+        svg.moved([LEFT, below + 2.4 * LINE], |svg| match &colours {
+            Some((_, colours)) => colours.scale(svg, FONT, SIDE - 2.0 * FONT, 5.0 * FONT),
+            None => legend(svg, solution),
+        });
     })
+}
+
+/// A text in lines that are short enough, broken behind blanks and commas.
+fn broken(text: &str) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_inclusive([' ', ',']) {
+        if lines.last().is_some_and(|line| !line.is_empty() && line.chars().count() + word.trim_end().chars().count() > MOST) {
+            lines.push(String::new());
+        }
+        lines.last_mut().into_iter().for_each(|line| line.push_str(word));
+    }
+    lines
 }
 
 fn colours(quantity: Quantity, sample: &Sample) -> Colours {
@@ -97,7 +120,7 @@ fn colours(quantity: Quantity, sample: &Sample) -> Colours {
     Colours::of(quantity.label(), range, 1e-9)
 }
 
-/// All of one colour as one path; edges of their own colour hide the seams. Without a field an element is filled as a whole.
+/// Elements of one colour as one path; edges of their own colour hide the seams. Without a field an element is filled as a whole.
 fn fill(svg: &mut Svg, view: &View, sample: &Sample, colours: Option<&(Quantity, Colours)>) {
     let mut paths: BTreeMap<String, String> = BTreeMap::new();
     let Some((quantity, colours)) = colours else {
@@ -206,47 +229,33 @@ fn copies(svg: &mut Svg, view: &View, solution: &Solution) {
     );
 }
 
-fn dashed(svg: &mut Svg, x: f64, y: f64) {
-    svg.element("text", attributes! { "x": "{x:.1}", "y": "{y:.1}", "fill": "#c00000" }, "dashed: the lattice cell");
-}
-
-fn legend(svg: &mut Svg, x: f64, solution: &Solution) {
+fn legend(svg: &mut Svg, solution: &Solution) {
     for (k, phase) in solution.phases.iter().enumerate() {
-        let y = TOP + 20.0 + 28.0 * k as f64;
+        let y = LINE * (k as f64 + 0.75);
         let share = solution.response.fractions.get(k).copied().unwrap_or(0.0);
-        let (top, colour) = (y - 14.0, PHASES[k % PHASES.len()]);
+        let (top, colour) = (y - 0.85 * FONT, PHASES[k % PHASES.len()]);
         svg.leaf(
             "rect",
-            attributes! { "x": "{x:.1}", "y": "{top:.1}", "width": "18", "height": "18", "fill": "{colour}", "stroke": "#000" },
+            attributes! { "y": "{top:.1}", "width": "{FONT}", "height": "{FONT}", "fill": "{colour}", "stroke": "#000" },
         );
-        let said = format!("{}, {:.2} %", phase.name, 100.0 * share);
-        svg.element("text", attributes! { "x": "{:.1}"(x + 28.0), "y": "{y:.1}" }, &said);
+        svg.text([1.6 * FONT, y], "start", &format!("{}, {:.2} %", phase.name, 100.0 * share));
     }
-    let y = TOP + 30.0 + 28.0 * solution.phases.len() as f64;
-    dashed(svg, x, y);
     let said = format!("{} elements of order {}", solution.mesh.elements().len(), solution.mesh.order());
-    svg.element("text", attributes! { "x": "{x:.1}", "y": "{:.1}"(y + 26.0) }, &said);
+    svg.text([0.0, LINE * (solution.phases.len() as f64 + 0.75)], "start", &said);
 }
 
-fn bar(svg: &mut Svg, x: f64, quantity: Quantity, colours: &Colours) {
-    let (width, y) = (LEGEND - 110.0, TOP + 34.0);
-    svg.element("text", attributes! { "x": "{x:.1}", "y": "{:.1}"(TOP + 14.0) }, &quantity.label());
-    svg.open("g", attributes! { "transform": "translate({x:.1} {y:.1}) scale({width:.1} 18)" });
-    colours.bar(svg);
-    svg.close("g");
-    for (k, anchor) in [(0.0, "start"), (0.5, "middle"), (1.0, "end")] {
-        let value = colours.range[0] + k * (colours.range[1] - colours.range[0]);
-        svg.text([x + k * width, y + 38.0], anchor, &significant(value, 4));
-    }
-    dashed(svg, x, y + 76.0);
-}
-
-fn scale_bar(svg: &mut Svg, view: &View) {
+/// A length to scale and the outline of the lattice cell, below the picture.
+fn scale_bar(svg: &mut Svg, view: &View, below: f64) {
     let metres = 0.25 * view.size[0] / view.scale;
     let decade = 10_f64.powf(metres.log10().floor());
     let length = [5.0, 2.0, 1.0].into_iter().map(|m| m * decade).find(|l| *l <= metres).unwrap_or(decade);
-    let (y, pixels) = (TOP + view.size[1] + 24.0, length * view.scale);
+    let (y, pixels) = (below + 0.8 * LINE, length * view.scale);
     svg.leaf("path", attributes! { "d": "M{LEFT} {y:.1}h{pixels:.1}", "stroke": "#000", "stroke-width": "3" });
     let said = format!("{} µm; x to the right, y upwards", significant(length * 1e6, 3));
-    svg.element("text", attributes! { "x": "{LEFT}", "y": "{:.1}"(y + 22.0) }, &said);
+    svg.text([LEFT, y + LINE], "start", &said);
+    svg.element(
+        "text",
+        attributes! { "x": "{:.1}"(LEFT + SIDE), "y": "{:.1}"(y + LINE), "text-anchor": "end", "fill": "#c00000" },
+        "dashed: the lattice cell",
+    );
 }

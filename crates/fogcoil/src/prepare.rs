@@ -1,4 +1,4 @@
-//! What a diagnosis or a recommendation starts from: a design's library of models, and recordings as the engine wants them.
+//! Inputs of a diagnosis or a recommendation: a design's library of models, and recordings in the engine's form.
 
 use std::collections::BTreeMap;
 
@@ -34,29 +34,29 @@ const FEWEST_KELVIN: f64 = 5.0;
 /// Rows from which what is missing counts as a gap, and readings on either side from which the chamber's slope there is taken.
 const GAP_ROWS: f64 = 3.0;
 const BESIDE_GAP: usize = 10;
-/// What chamber and spool may differ by at rest, and the chamber move by in the first minutes \[K\]: thermometers' offsets and noise.
+/// Largest difference of chamber and spool at rest, and largest movement of the chamber in the first minutes \[K\]: thermometers' offsets and noise.
 const REST: Rest = Rest { duration: 600.0, tolerance: 0.5 };
 
-/// A record as the engine wants it.
+/// A record in the engine's form.
 #[derive(Clone)]
 pub(crate) struct Record {
     pub(crate) fingerprint: Fingerprint,
     pub(crate) observed: Observation,
     /// as read, averaged as the others are
     pub(crate) chamber: Vec<f64>,
-    /// what drives the model
+    /// drive of the model
     pub(crate) drive: Chamber,
     pub(crate) averaging: f64,
     /// further columns, which laws name, without gaps
     columns: BTreeMap<String, Vec<f64>>,
-    /// what is known of its instruments
+    /// facts about its instruments
     meta: Option<Meta>,
     /// instants of the rows before they were averaged \[s\], and how much earlier than its instant the middle of an averaged one lies
     instants: (Vec<f64>, f64),
 }
 
 impl Record {
-    /// What every model of a library does under it.
+    /// Responses of every model of a library to it.
     pub(crate) fn prepared(&self, library: &Library) -> Result<Prepared, coil::Error> {
         let prepared = Prepared::under(library, &self.observed.time, &self.drive, self.averaging)?;
         Ok(prepared.with_columns(self.columns.clone()))
@@ -67,7 +67,7 @@ impl Record {
         &self.instants.0
     }
 
-    /// The statement about its rows as averaged, at the instants before: on straight lines between the middles of the means.
+    /// Values of its averaged rows at the instants before the averaging: on straight lines between the middles of the means.
     pub(crate) fn at_instants(&self, values: &[f64]) -> Vec<f64> {
         let (instants, earlier) = (&self.instants.0, self.instants.1);
         let time = &self.observed.time;
@@ -228,7 +228,7 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     Ok(Record { fingerprint, observed, chamber, drive, averaging, columns, meta: case.meta.clone(), instants: (before, earlier) })
 }
 
-/// What is to be said of a record whose unit was built to a design of another name; what the program writes has the drawing's name before a comma.
+/// Note on a record whose unit was built to a design of another name; files that the program writes have the drawing's name before a comma.
 pub(crate) fn other_design(case: &CoilCase, record: &RecordCase) -> Option<Note> {
     let told = record.meta.as_ref().map(|meta| meta.design.trim()).filter(|told| !told.is_empty())?;
     let name = case.name.split(',').next().unwrap_or_default().trim();
@@ -236,7 +236,7 @@ pub(crate) fn other_design(case: &CoilCase, record: &RecordCase) -> Option<Note>
     (!told.eq_ignore_ascii_case(name)).then(|| Remark::OtherDesign.warning(message()).at(&record.fingerprint.file))
 }
 
-/// What the chamber's readings say; `None` where there are none.
+/// The chamber by its readings; `None` where there are none.
 fn drive(recording: &Recording, digit: Option<f64>) -> Option<Chamber> {
     let readings = recording.time().iter().zip(&recording.channel(CHAMBER)?.values).filter(|(_, value)| value.is_finite());
     let (time, readings): (Vec<f64>, Vec<f64>) = readings.unzip();
@@ -263,7 +263,7 @@ pub(crate) fn gyro<'m>(
     )
 }
 
-/// What some records say of their instruments: of each number, the first that says it.
+/// Instruments by the meta files of some records; each number comes from the first record that states it.
 fn instruments_of(records: &[Record]) -> Instruments {
     let metas = || records.iter().filter_map(|record| record.meta.as_ref());
     let first = |of: &dyn Fn(&Meta) -> Option<f64>| metas().find_map(of);
@@ -296,7 +296,7 @@ fn earth_of(records: &[Record]) -> Option<f64> {
     records.iter().all(|record| told(record) == Some(first)).then_some(first)
 }
 
-/// White noise of thermometer and rate in a sample as the first record has them, of the quietest of some records; `usual` where none tells. That of the
+/// White noise of thermometer and rate in a sample of the first record, by the quietest of some records; `usual` where none shows it. The noise of the
 /// rate, a mean, falls with the length of rows.
 fn noise_of(records: &[Record], usual: [f64; 2]) -> [f64; 2] {
     let first = records.first().and_then(|r| median_interval(&r.observed.time));
@@ -316,7 +316,7 @@ fn noise_of(records: &[Record], usual: [f64; 2]) -> [f64; 2] {
     [of(SPOOL_NUMBER), of(RATE_NUMBER)]
 }
 
-/// Standard deviation of what a display rounds away, evenly within its last digit.
+/// Standard deviation of a display's rounding, evenly within its last digit.
 fn of_rounding(digit: f64) -> f64 {
     digit / 12.0_f64.sqrt()
 }

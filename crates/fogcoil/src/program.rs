@@ -1,4 +1,4 @@
-//! Which program computed what is kept: results of another build do not count as this one's, though its version be the same.
+//! Identity of the program that computed kept results: results of another build do not count as this one's, even with the same version.
 
 use std::env;
 use std::fs::File;

@@ -1,4 +1,4 @@
-//! What is going on, on standard error: notes, and a bar for what takes longer than a second; a line in its place where nobody watches.
+//! Progress on standard error: notes, and a bar for tasks that take longer than a second; a line in its place where nobody watches.
 
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -17,11 +17,11 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::signals;
 
-/// What takes this long is named.
+/// Duration from which a task is named.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// Interval between two pictures of a bar that turns.
 const TICK: Duration = Duration::from_millis(120);
-/// A bar, and what stands for it where nothing can be counted.
+/// A bar, and its form where nothing can be counted.
 const COUNTED: &str = "{spinner} {msg} [{bar:32}] {percent} % {elapsed}, {eta} left";
 const UNCOUNTED: &str = "{spinner} {msg} {elapsed}";
 /// Longest that an interrupt waits for files which are being written; then it waits as long for them to be given up.

@@ -48,7 +48,7 @@ pub struct SectionFiles<'a> {
     parts: Vec<usize>,
 }
 
-/// A file: its name, and what is in it.
+/// A file: its name and its content.
 pub struct File {
     /// Name in the folder.
     pub name: String,
@@ -103,7 +103,7 @@ impl<'a> SectionFiles<'a> {
         self.section.at(&sample.state, &self.rest)
     }
 
-    /// The turns as rectangles of pitch by layer, with what the glass of each feels and adds to the bias.
+    /// The turns as rectangles of pitch by layer, with temperature and strain of the glass of each and its contribution to the bias.
     fn turns(&self, sample: &Sample) -> io::Result<Grid> {
         let (case, turns) = (self.simulation.case, self.simulation.case.winding.turns());
         let centres: Vec<[f64; 2]> = turns.iter().map(|turn| [turn.r, turn.y]).collect();

@@ -15,7 +15,7 @@ pub(crate) struct Share {
     pub(crate) tolerance: String,
     /// The change that it causes.
     pub(crate) change: f64,
-    /// Of the variance.
+    /// Share of the variance.
     pub(crate) share: f64,
 }
 
@@ -36,7 +36,7 @@ pub(crate) fn tolerance_in_words(case: &CoilCase, number: Number) -> Option<Stri
 const WORTH: f64 = 0.005;
 
 impl Share {
-    /// Those of a design's band that are worth a line, the largest first.
+    /// Shares of a design's band that are worth a line, the largest first.
     pub(crate) fn of(case: &CoilCase, band: &Band) -> Vec<Self> {
         let of = |((number, change), share): (&(Number, f64), &f64)| {
             let (key, _) = keyed(*number, &case.design)?;
@@ -47,8 +47,8 @@ impl Share {
     }
 }
 
-/// The parts and their total in (deg/h)/(degC/min), the error estimate of the total in the same unit, the fibre's length in m, and what tolerances make
-/// of the total.
+/// The parts and their total in (deg/h)/(degC/min), the error estimate of the total in the same unit, the fibre's length in m, and the spread of the total
+/// by tolerances.
 pub fn json(case: &CoilCase, result: &SteadySensitivity, band: &Band) -> Value {
     let parts = result.sensitivity;
     let shares = Share::of(case, band);
@@ -65,7 +65,7 @@ pub fn json(case: &CoilCase, result: &SteadySensitivity, band: &Band) -> Value {
     })
 }
 
-/// The parts as a table, and where the numbers behind them come from.
+/// The parts as a table, and the origin of the numbers behind them.
 pub fn text(case: &CoilCase, result: &SteadySensitivity, band: &Band) -> String {
     let (parts, errors) = (result.sensitivity, result.part_errors);
     let row = |name: &str, value: f64, error: f64, meaning: &str| {

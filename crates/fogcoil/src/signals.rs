@@ -1,4 +1,4 @@
-//! What asks the program to end: the user's interrupt, the system's termination, a terminal that is closed.
+//! Signals that ask the program to end: the user's interrupt, the system's termination, a terminal that is closed.
 
 /// Calls `leave` with a signal's number when the program is asked to end.
 ///

@@ -15,7 +15,7 @@ use crate::units::DurationUnit;
 pub struct Summary {
     /// Number of rows.
     pub rows: usize,
-    /// From the first to the last instant \[s\].
+    /// Duration from the first to the last instant \[s\].
     pub duration: f64,
     /// Lowest and highest temperature of the chamber \[°C\].
     pub chamber: [f64; 2],
@@ -32,22 +32,22 @@ pub struct Summary {
     pub errors: Errors,
 }
 
-/// Estimated numerical errors of a simulation at the chamber it is driven by: the distance to the same run on a coarser mesh and, of the bias,
-/// what the reduced model leaves out; nothing of what the model itself leaves out.
+/// Estimated numerical errors of a simulation at its given chamber: the distance to the same run on a coarser mesh and, of the bias, the error of the
+/// reduced model. They do not include errors of the model itself.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Errors {
-    /// Of the thermometer in any row \[K\].
+    /// Error of the thermometer in any row \[K\].
     pub spool: f64,
-    /// Of the bias in any row: thermal phase, axial strain, radial strain, read-out, their sum \[deg/h\].
+    /// Errors of the bias in any row: thermal phase, axial strain, radial strain, read-out, their sum \[deg/h\].
     pub parts: [f64; 5],
-    /// Of the root of the mean square \[deg/h\].
+    /// Error of the root mean square \[deg/h\].
     pub rms: f64,
-    /// Of the slope \[(deg/h)/(degC/min)\]; `None` if there is none.
+    /// Error of the slope \[(deg/h)/(degC/min)\]; `None` if there is none.
     pub slope: Option<f64>,
 }
 
 impl Errors {
-    /// Of a simulation with these rates \[deg/h\] and this regression.
+    /// Errors of a simulation with these rates \[deg/h\] and this regression.
     fn of(simulation: &Simulation, rms: f64, peak: f64, regression: &Regression) -> Self {
         let mut errors = Self::default();
         let (mut last, mut squared) = (simulation.row(0).time, 0.0);
@@ -76,7 +76,7 @@ impl Errors {
     }
 }
 
-/// Where the read-out stands in [`Errors::parts`]; it follows the thermometer, no strain.
+/// Index of the read-out in [`Errors::parts`]; it follows the thermometer, no strain.
 const READ_OUT: usize = 3;
 
 /// Least-squares line through points that come one by one (Welford's update).
@@ -92,7 +92,7 @@ pub(crate) struct Regression {
 const STILL: f64 = 1e-9;
 
 impl Regression {
-    /// Of the rate on the thermometer's rate.
+    /// Regression of the rate on the thermometer's rate.
     pub(crate) fn of(windows: impl Iterator<Item = Window>) -> Self {
         let mut regression = Self::default();
         windows.for_each(|window| regression.add(window.spool_rate, window.rate));
@@ -114,7 +114,7 @@ impl Regression {
 }
 
 impl Summary {
-    /// Of a simulation.
+    /// Summary of a simulation.
     pub fn of(simulation: &Simulation) -> Self {
         let first = simulation.row(0);
         let (mut chamber, mut spool) = ([first.chamber; 2], [first.spool; 2]);
@@ -203,7 +203,7 @@ pub(crate) fn rounded(value: f64) -> String {
     format!("{:.4}", (value * 1e4).round() / 1e4 + 0.0)
 }
 
-/// Name, value and unit of each number, for people.
+/// Name, value and unit of each number as text.
 pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
     let Summary { rows, duration, chamber, spool, peak, rms, slope, errors } = Summary::of(simulation);
     let [shupe, eo_axial, eo_radial, read_out, sum] = errors.parts;

@@ -1,4 +1,4 @@
-//! `fogcoil trim`: which tails, or which turns cut off, null the steady sensitivity, and what remains in transients.
+//! `fogcoil trim`: tails, or turns to cut off, that null the steady sensitivity, and the bias that remains in transients.
 
 use std::fmt::Write;
 
@@ -19,9 +19,9 @@ const MOST_TURNS: usize = 12;
 /// Effect of trimming on a coil.
 #[derive(Debug, Clone)]
 pub struct Trim {
-    /// By tails.
+    /// Trimming by tails.
     pub tails: TailTrim,
-    /// By turns.
+    /// Trimming by turns.
     pub turns: Vec<TurnTrim>,
     /// Root mean square and peak of |bias| under the profile \[deg/h\], before and after trimming the tails.
     pub transients: Option<[[f64; 2]; 2]>,
@@ -48,7 +48,7 @@ pub fn trim(case: &CoilCase, profile: Option<&ProfileCase>) -> Result<Trim, Erro
     Ok(Trim { tails, turns, transients })
 }
 
-/// All of it; lengths in m, sensitivities in (deg/h)/(degC/min), bias in deg/h.
+/// The result as JSON; lengths in m, sensitivities in (deg/h)/(degC/min), bias in deg/h.
 pub fn json(trim: &Trim) -> Value {
     let turns =
         |t: &TurnTrim| json!({ "half": name(t.half), "turns": t.turns, "length_m": t.length, "sensitivity": t.sensitivity });
@@ -65,7 +65,7 @@ pub fn json(trim: &Trim) -> Value {
     })
 }
 
-/// All of it in words and tables.
+/// The result in words and tables.
 pub fn text(case: &CoilCase, trim: &Trim) -> String {
     let TailTrim { cw_minus_ccw, band, slope, before } = &trim.tails;
     let uncertainty = trim.tails.uncertainty();

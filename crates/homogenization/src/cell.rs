@@ -38,13 +38,13 @@ impl Constituent {
 pub struct Ring {
     /// Outer radius \[m\].
     pub outer_radius: f64,
-    /// What it is made of.
+    /// Its material.
     pub constituent: Constituent,
     /// Whether it guides the light or belongs to the glass whose mean strain M reports.
     pub role: Role,
 }
 
-/// What a ring is for.
+/// Role of a ring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// Glass: counted in the mean strain of the dehomogenisation matrix.
@@ -56,7 +56,7 @@ pub enum Role {
 /// A fibre's rings from the inside out, in adhesive, at the lattice pitch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FibreCell {
-    /// How the fibres are packed.
+    /// Packing of the fibres.
     pub packing: Packing,
     /// Distance between neighbouring fibre axes \[m\].
     pub pitch: f64,
@@ -80,7 +80,7 @@ impl FibreCell {
         Ok(LatticeCell::new(self.packing, self.pitch, self.rings.iter().map(|r| r.outer_radius).collect())?)
     }
 
-    /// What the phases are made of: the rings from the inside out, last the adhesive.
+    /// Constituents of the phases: the rings from the inside out, last the adhesive.
     pub fn constituents(&self) -> impl Iterator<Item = &Constituent> {
         self.rings.iter().map(|ring| &ring.constituent).chain([&self.adhesive])
     }

@@ -21,7 +21,7 @@ macro_rules! constants {
                 [$((stringify!($name), self.$name),)*]
             }
 
-            /// From values in the order of the names.
+            /// Constants from values in the order of the names.
             pub(crate) fn of([$($name),*]: [f64; 16]) -> Self {
                 Self { $($name),* }
             }
@@ -65,7 +65,7 @@ constants! {
 }
 
 impl Constants {
-    /// Those of a law, of the conductivities along and across the fibre, and of the row M; `None` if the stiffness is singular.
+    /// Constants of a law, of the conductivities along and across the fibre, and of the row M; `None` if the stiffness is singular.
     pub(crate) fn read(law: &ThermoElastic, [k_z, k_r]: [f64; 2], [m_rx, m_ry, m_rz, m_rt]: [f64; 4]) -> Option<Self> {
         let stiffness = &law.stiffness;
         let compliance = stiffness.try_inverse()?;

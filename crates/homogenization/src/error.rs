@@ -1,4 +1,4 @@
-//! What can go wrong in a homogenisation.
+//! Errors of a homogenisation.
 
 /// Errors of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -23,7 +23,7 @@ pub enum Error {
     Property {
         /// "ring 0", "ring 1", … from the inside, or "adhesive".
         constituent: String,
-        /// Which property.
+        /// The property.
         what: &'static str,
         /// Its unit.
         unit: &'static str,
@@ -35,7 +35,7 @@ pub enum Error {
     Multipoles {
         /// Highest order.
         order: usize,
-        /// What happened.
+        /// The fault.
         detail: String,
     },
     /// The constants cannot be computed to the accuracy that was asked for.
@@ -46,13 +46,13 @@ pub enum Error {
     Accuracy {
         /// The least accurate constant.
         constant: &'static str,
-        /// What was asked for.
+        /// Accuracy that was asked for.
         requested: f64,
-        /// What was reached.
+        /// Accuracy that was reached.
         reached: f64,
-        /// What it was reached with: "multipoles up to order 41", "318 elements of order 12".
+        /// Effort with which it was reached: "multipoles up to order 41", "318 elements of order 12".
         with: String,
-        /// What stands in the way, and what to do.
+        /// The obstacle, and the remedy.
         why: String,
     },
     /// No ring is glass, so the dehomogenisation matrix has nothing to report on.
@@ -78,7 +78,7 @@ impl Error {
         Self::Property { constituent, what: "conductivity", unit: "W/(m K)", value }
     }
 
-    /// What no positive definite set of constituents makes.
+    /// Error of an effective stiffness that no positive definite set of constituents can have.
     pub(crate) fn singular() -> Self {
         Self::Solve(fem_core::Error::NotPositiveDefinite { unknowns: 6, detail: "effective stiffness".into() })
     }

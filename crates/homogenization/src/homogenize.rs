@@ -1,4 +1,4 @@
-//! From a cell to its effective constants with an error beside each.
+//! Effective constants of a cell with an error beside each.
 
 use crate::cell::Phases;
 use crate::multipole::{self, HIGHEST_ORDER, Multipoles};
@@ -11,7 +11,7 @@ use rve_mesh::{Extent, Resolution};
 /// effective expansion for expansions and strains of the glass per K) is as good as zero, and so is its relative error.
 pub const NEGLIGIBLE: f64 = 1e-6;
 
-/// By how much the multipoles fall from one order that is tried to the next.
+/// Least decrease of the multipoles from one order that is tried to the next.
 const STEP: f64 = 0.03;
 
 /// A constant's estimate is at least this share of the worst one's: two orders may agree in one of them by chance.
@@ -91,7 +91,7 @@ pub fn homogenize_on(cell: &FibreCell, discretization: &Discretization) -> Resul
     Ok(Homogenized { constants, relative_error, unknowns: effective.unknowns, effective })
 }
 
-/// What is left out, from two results of which one leaves out less.
+/// Truncation error, from two results of which one has the smaller error.
 fn truncation(a: &Constants, b: &Constants) -> Constants {
     let difference = relative_difference(a, b);
     let floor = SHARE * worst(&difference.named()).1;
@@ -103,7 +103,7 @@ pub(crate) fn worst(errors: &[(&'static str, f64)]) -> (&'static str, f64) {
 }
 
 impl Constants {
-    /// What the relative error of each is relative to: its size, or [`NEGLIGIBLE`] of its natural scale if that is larger; of the row M, which has
+    /// Reference of the relative error of each: its size, or [`NEGLIGIBLE`] of its natural scale if that is larger; for the row M, which has
     /// zeros without contrast, that scale itself where it is less than [`NEGLIGIBLE`] of it.
     pub fn size(&self) -> Self {
         let expansion = self.alpha_z.abs().max(self.alpha_r.abs());
@@ -179,7 +179,7 @@ pub fn homogenize_to(cell: &FibreCell, relative_error: f64) -> Result<Homogenize
     }
 }
 
-/// What rounding may do to each constant, relative; infinite where a rounding away there is no cell.
+/// Effect of rounding on each constant, relative; infinite where a rounding away there is no cell.
 fn rounding(multipoles: &Multipoles, cell: &FibreCell, effective: &Effective, exact: &Constants) -> Constants {
     let least = rounding::least(effective);
     let mut errors = exact.combine(exact, |_, _| least);
@@ -197,7 +197,7 @@ fn rounding(multipoles: &Multipoles, cell: &FibreCell, effective: &Effective, ex
 pub struct FreeCell {
     /// Mean radial strain of the glass \[1/K\].
     pub glass_strain: f64,
-    /// What is left of the mean stress (xx, yy, zz), relative to the stress of the fully held cell.
+    /// Remainder of the mean stress (xx, yy, zz), relative to the stress of the fully held cell.
     pub relative_stress: f64,
 }
 

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 pub struct Random(u64);
 
 impl Random {
-    /// From a seed.
+    /// A generator from a seed.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }

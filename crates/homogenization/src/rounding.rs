@@ -1,5 +1,5 @@
-//! What rounding may do to the constants: the cell is solved again with inputs that are a few roundings off, so that every one on the way
-//! falls out differently. Cancellation wherever it is (thermal stresses of a nearly incompressible phase against the far smaller one of
+//! Effect of rounding on the constants: the cell is solved again with inputs that are a few roundings off, so that every rounding on the
+//! way falls out differently. Cancellation wherever it is (thermal stresses of a nearly incompressible phase against the far smaller one of
 //! the cell, a stack of rings of great contrast, the dense system) shows as spread.
 
 use crate::cell::Constituent;

@@ -147,7 +147,7 @@ impl CellProblem {
         if load == 4 { -law.thermal_stress } else { law.stiffness.column(VOIGT[load]).into_owned() }
     }
 
-    /// What `∫ B` of stresses (xx, yy, xy) that xx and yy share looks like: one column per load.
+    /// Load `∫ B` of stresses (xx, yy, xy) that xx and yy share: one column per load.
     fn volumetric(stresses: &[f64]) -> DMatrix<f64> {
         DMatrix::from_fn(3, stresses.len(), |i, j| if i < 2 { stresses[j] } else { 0.0 })
     }

@@ -10,7 +10,7 @@ use homogenization::{
 };
 use proptest::prelude::*;
 
-/// What rounding may do to closed forms, relative: they take differences of phases that may be a million times stiffer, and far stiffer
+/// Effect of rounding on closed forms, relative: they take differences of phases that may be a million times stiffer, and far stiffer
 /// still against compression; bounds that are attained lie at the root of a difference that should vanish.
 fn rounding(cell: &FibreCell) -> f64 {
     let all = || cell.constituents().map(|c| c.elastic);

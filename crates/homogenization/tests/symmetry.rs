@@ -1,4 +1,4 @@
-//! What the symmetry of the lattice and of the law demands.
+//! Demands of the symmetry of the lattice and of the law.
 
 use crate::common::{cells, solve};
 use approx::{assert_abs_diff_eq, assert_relative_eq};

@@ -26,7 +26,7 @@ pub(crate) enum Node {
     One(Function, Box<Term>),
 }
 
-/// Of two terms.
+/// Operation of two terms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Operator {
     Sum,
@@ -38,7 +38,7 @@ pub(crate) enum Operator {
     Most,
 }
 
-/// Of one term.
+/// Operation of one term.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Function {
     Abs,

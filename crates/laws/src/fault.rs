@@ -10,7 +10,7 @@ pub struct Fault {
     pub at: Range<usize>,
     /// The fault.
     pub problem: String,
-    /// How to mend it.
+    /// The remedy.
     pub remedy: String,
 }
 

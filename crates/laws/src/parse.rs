@@ -1,4 +1,4 @@
-//! From a text to an expression.
+//! Parser of a text into an expression.
 
 use crate::Fault;
 use crate::expression::{Expression, FUNCTIONS, FUNCTIONS_OF_TWO, Node, Operator, Term};
@@ -57,7 +57,7 @@ impl Expression {
 /// Whether a text can be a name in an expression.
 ///
 /// # Errors
-/// Why not.
+/// The fault.
 pub fn check_name(name: &str) -> Result<(), Fault> {
     let fault = |problem: String| Err(Fault::new(0..name.len(), problem, "take letters, digits and _, e.g. size or tau_slow"));
     let taken = FUNCTIONS.iter().map(|f| f.0).chain(FUNCTIONS_OF_TWO.iter().map(|f| f.0)).chain(CONSTANTS.iter().map(|c| c.0));

@@ -9,7 +9,7 @@ const STEPS: usize = 4;
 /// γ = 1 − 1/√2: of second order whatever the derivatives, and fast states are followed without overshoot.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
-/// How a state goes on from its value before.
+/// Change of a state from its value before.
 #[derive(Debug, Clone, PartialEq)]
 pub enum State {
     /// dx/dt is an expression \[unit of the state/s\]; at first the state has the value of another, in which no state occurs.
@@ -21,7 +21,7 @@ pub enum State {
     },
     /// It follows an expression, without other states, once that has moved half a width away; in the first row it is in the middle (a play, or backlash).
     Play {
-        /// Which is followed.
+        /// The expression that is followed.
         of: Expression,
         /// Width of the play, of parameters alone; 0 or less is none.
         width: Expression,
@@ -41,7 +41,7 @@ pub struct System {
     pub inputs: usize,
     /// States.
     pub states: Vec<State>,
-    /// What is asked for.
+    /// The laws to evaluate.
     pub laws: Vec<Expression>,
 }
 

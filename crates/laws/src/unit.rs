@@ -71,7 +71,7 @@ pub(crate) const UNITS: [Named; 46] = [
 ];
 
 impl Unit {
-    /// Of a pure number.
+    /// Unit of a pure number.
     pub const ONE: Self = Self { factor: 1.0, powers: [0.0; 6] };
 
     /// A unit as it is written: `deg/h/K`, `W/(m2 K)`, `1/K^2`, `%`; empty for a pure number.
@@ -138,7 +138,7 @@ impl Unit {
         self.powers.iter().zip(&other.powers).all(|(a, b)| (a - b).abs() < SAME)
     }
 
-    /// By how much numbers in this unit are larger in the other.
+    /// Factor by which numbers in this unit are larger in the other.
     pub fn in_units_of(self, other: Self) -> f64 {
         self.factor / other.factor
     }

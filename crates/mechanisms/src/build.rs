@@ -1,4 +1,4 @@
-//! How the models of a design are made: what is solved in full, side by side.
+//! Construction of a design's models: full solutions, side by side.
 
 use crate::catalogue::debond;
 use crate::design::{heatable_flanges, with_heater};

@@ -6,11 +6,11 @@ use crate::record_to_bias::Prepared;
 /// Change of a coil's response, a value for each row of a record.
 #[derive(Debug, Clone)]
 pub struct Change {
-    /// Of the bias: Shupe, elasto-optic axial and radial \[deg/h\].
+    /// Change of the bias: Shupe, elasto-optic axial and radial \[deg/h\].
     pub parts: Parts,
-    /// Of the spool's thermometer \[K\]; `None` if there is none.
+    /// Change of the spool's thermometer \[K\]; `None` if there is none.
     pub thermometer: Option<Vec<f64>>,
-    /// Of the rate beside the bias \[deg/h\]; `None` if there is none.
+    /// Change of the rate beside the bias \[deg/h\]; `None` if there is none.
     pub rate: Option<Vec<f64>>,
 }
 

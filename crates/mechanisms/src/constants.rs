@@ -10,7 +10,7 @@ pub(crate) struct Constant {
     pub(crate) parameter: Parameter,
     /// Its value in the drawing, SI.
     pub(crate) drawn: f64,
-    /// What a unit may be off, one standard deviation, SI.
+    /// Deviation of a unit, one standard deviation, SI.
     pub(crate) tolerance: f64,
 }
 
@@ -45,7 +45,7 @@ impl Constant {
         }
     }
 
-    /// How a value, SI, is told.
+    /// Text of a value in SI.
     pub(crate) fn told(&self, value: f64) -> f64 {
         value / self.unit()
     }
@@ -95,7 +95,7 @@ const TAILS: &str = "CW tail less CCW tail [m]";
 /// Name of the nuisance that is the factor on the thermometer's lag.
 const SENSOR_LAG: &str = "lag of the spool's thermometer";
 
-/// What else of a design is known to a tolerance: optics, tails, thermometer.
+/// Further numbers of a design with a tolerance: optics, tails, thermometer.
 pub(crate) fn others(design: &Design, tolerances: &Tolerances) -> [Nuisance; 3] {
     // none at all is a number that is known: a hair keeps the unknown one
     let share = |number: Number, value: f64| (tolerances.of(number).of(value) / value.abs().max(f64::MIN_POSITIVE)).max(KNOWN);

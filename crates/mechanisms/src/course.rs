@@ -16,12 +16,12 @@ pub type Parts = [Vec<f64>; 3];
 /// Rows that end this much later than the averaging span after the row before are gaps \[spans\].
 pub(crate) const GAP: f64 = 1.5;
 
-/// What instruments of the chamber are taken to be off \[s\].
+/// Assumed delays of the chamber's instruments \[s\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Delay {
     /// Time constant of its thermometer.
     pub lag: f64,
-    /// How late its log's clock is.
+    /// Delay of its log's clock.
     pub clock: f64,
 }
 

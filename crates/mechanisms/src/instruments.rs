@@ -1,4 +1,4 @@
-//! What is read: channels with their noise, and what instruments and the model itself may be off.
+//! Channels with their noise, and the errors of instruments and of the model itself.
 
 use crate::constants::{KNOWN, constants, others};
 use crate::course::{RATE, SPOOL};
@@ -36,20 +36,20 @@ const DAY: f64 = 86_400.0;
 /// Uncertainty of the size of what is passed through the coil: smoothing says how much noise is left in a quiet stretch, not at every turn of a programme.
 const PASSED_SPREAD: f64 = 0.5;
 
-/// What is known of an instrument, standard deviations; where nothing is, a wide one stands.
+/// Uncertainties of an instrument, standard deviations; a wide one stands where nothing is known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Instrument {
-    /// Of its offset \[unit of the channel\].
+    /// Standard deviation of its offset \[unit of the channel\].
     pub offset_sd: Option<f64>,
-    /// Of its gain, relative.
+    /// Standard deviation of its gain, relative.
     pub gain_sd: Option<f64>,
     /// Its time constant \[s\].
     pub lag: Option<f64>,
-    /// Of its clock \[s\].
+    /// Standard deviation of its clock \[s\].
     pub clock_sd: Option<f64>,
 }
 
-/// What is known of the instruments of a record.
+/// Uncertainties of the instruments of a record.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Instruments {
     /// White noise of thermometer \[K\] and rate \[deg/h\] in a sample.
@@ -122,19 +122,19 @@ pub(crate) fn channels(averaging: f64, instruments: &Instruments, interval: f64,
     vec![channel("spool_c", "degC", 0.0, SPOOL), channel("rate_deg_per_h", "deg/h", averaging, RATE)]
 }
 
-/// What the forward model is off by: discretisation, and a start that was not quite at rest.
+/// Error of the forward model's gain: discretisation, and a start that was not quite at rest.
 const GAIN_ERROR: f64 = 0.003;
-/// The Shupe part is what differences of temperature within the coil leave: small, and the first to feel a coarse mesh or a coarse record.
+/// Error of the Shupe part, which is a small difference of temperatures within the coil and the first to feel a coarse mesh or a coarse record.
 const SHUPE_ERROR: f64 = 0.006;
 const REST_ERROR_K: f64 = 0.005;
 
 /// Gain of a thermometer about its span's middle: class B of IEC 60751 is 0.3 K + 0.5 % of the temperature.
 const THERMOMETER_GAIN: f64 = 0.004;
-/// How late the chamber's readings may be against the gyroscope's \[s\]: a thermometer's time constant in moving air (sheathed resistors of 3 to 6 mm
+/// Possible delay of the chamber's readings behind the gyroscope's \[s\]: a thermometer's time constant in moving air (sheathed resistors of 3 to 6 mm
 /// have 20 to 90 s in an air of 1 to 3 m/s), and a clock that is read by the minute.
 const LAG_S: f64 = 60.0;
 const CLOCK_S: f64 = 30.0;
-/// What a time constant that is given may be off, relative: moving air is never quite the same.
+/// Uncertainty of a given time constant, relative: moving air is never quite the same.
 const LAG_SHARE: f64 = 0.2;
 /// Square of the time constant of the chamber's thermometer \[s²\]: a minute's, either way. Of a thermometer with the time constant τ on a
 /// log that is late by c, the delay τ + c is the first cumulant and τ² the second: in them the response is linear, which it is not in τ and c.
@@ -142,7 +142,7 @@ const LAG_SQUARED_S2: f64 = 3600.0;
 
 /// Square of the time constant of the gyroscope's output filter beyond its averaging \[s²\], some twenty seconds', either way.
 const FILTER_SQUARED_S2: f64 = 500.0;
-/// How late the rate's readings may be against the spool's thermometer \[s\]: another logger, and the filter.
+/// Possible delay of the rate's readings behind the spool's thermometer \[s\]: another logger, and the filter.
 const RATE_DELAY_S: f64 = 5.0;
 
 /// Numbers of the instruments: name, and the column that it is of with what it is there.

@@ -29,7 +29,7 @@ impl Chain {
         &self.library
     }
 
-    /// What the coil does at a coordinate of the heat path of mechanism `id` at a place, counted from 0, less what it does as designed.
+    /// Response of the coil at a coordinate of the heat path of mechanism `id` at a place, counted from 0, less its response as designed.
     pub fn along(&self, record: &Prepared, id: &str, place: usize, coordinate: f64) -> Change {
         let mut change = Change { thermometer: Some(vec![0.0; record.time.len()]), ..Change::none(record) };
         if let Some(path) = record.paths.iter().find(|path| path.id == id && path.place == place) {
@@ -45,7 +45,7 @@ impl Chain {
         change
     }
 
-    /// What a watt in a flange does, of those that may be heated, that is switched on `before` \[s\] the first row; `None` without such a flange.
+    /// Response to a watt in a flange, of those that may be heated, switched on `before` \[s\] the first row; `None` without such a flange.
     pub(crate) fn heated(&self, record: &Prepared, place: usize, before: f64) -> Option<Series> {
         Some(record.heaters.get(place)?.at(self.library.heaters.get(place)?, before))
     }

@@ -1,4 +1,4 @@
-//! What the nominal model of a fibre-optic-gyroscope coil may leave out, each at its physical place.
+//! Mechanisms that the nominal model of a fibre-optic-gyroscope coil leaves out, each at its physical place.
 //!
 //! [`Library`] holds reduced models of a design at chosen values of every mechanism's parameters; [`Prepared`] runs them under the
 //! chamber of one recording; [`Gyro`] interpolates between them and is the forward model that [`diagnosis`] fits.

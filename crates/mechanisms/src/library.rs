@@ -20,7 +20,7 @@ pub(crate) type Functionals = [DVector<f64>; 3];
 /// Factors on the transverse moduli that are tabulated, within the range that is modelled.
 const MODULUS_NODES: usize = 9;
 
-/// All that is solved in full for a design: a parametric model, and the mechanics of open bonds.
+/// The full solutions for a design: a parametric model, and the mechanics of open bonds.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Models {
@@ -36,11 +36,11 @@ pub struct Models {
 pub(crate) struct Tabulated {
     /// Id of the mechanism whose path it is.
     pub(crate) id: String,
-    /// Which of the places at which the design has it.
+    /// Number of the place, of those at which the design has it.
     pub(crate) place: usize,
     /// Nodes in the path's coordinate, increasing.
     pub(crate) nodes: Vec<f64>,
-    /// Which node is the design as it is.
+    /// Number of the node that is the unchanged design.
     pub(crate) nominal: usize,
     /// A model at every other node, in their order.
     pub(crate) models: Vec<Reduced>,
@@ -125,7 +125,7 @@ impl Library {
         &self.models.drawing
     }
 
-    /// How far a unit may be from the drawing.
+    /// Tolerances of a unit about the drawing.
     pub fn tolerances(&self) -> &Tolerances {
         &self.models.tolerances
     }
@@ -150,7 +150,7 @@ impl Library {
         self.heat_paths.iter().filter_map(|(id, _, path)| Some((place(path.factor_on?)?, id.clone()))).collect()
     }
 
-    /// What each opening of each flange changes of the parts, by its open share.
+    /// Changes of the parts by each opening of each flange, by its open share.
     pub(crate) fn of_openings(&self) -> Vec<Vec<(f64, Functionals)>> {
         let mut states = 1 + 2 * self.moduli.len()..;
         let mut of = |(share, _): &(f64, Projected)| Some((*share, self.functionals(states.next()?)));
@@ -180,7 +180,7 @@ fn is_nominal(x: f64) -> bool {
     x.abs() <= 1e-12
 }
 
-/// What the turns of a sound winding stand for in one with a defect in a layer: fields are cubic along that layer, elsewhere as they are \[m²\].
+/// Weights of the turns of a sound winding in one with a defect in a layer: fields are cubic along that layer, elsewhere unchanged \[m²\].
 fn moved(sound: &Winding, wound: &Winding, layer: usize) -> Vec<f64> {
     let mut along: Vec<(f64, usize)> =
         sound.turns().iter().enumerate().filter(|(_, t)| t.layer == layer).map(|(i, t)| (t.y, i)).collect();

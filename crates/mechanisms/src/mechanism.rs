@@ -41,19 +41,19 @@ impl Stage {
     }
 }
 
-/// All of a mechanism but its unknowns and its law; the words are Markdown where they are longer than a sentence.
+/// The facts of a mechanism, without its unknowns and its law; texts longer than a sentence are Markdown.
 pub struct Facts<'a> {
     /// Short name in every file and output, in kebab case; `unknown:` stands before the id of one that only describes.
     pub id: &'a str,
     /// Heading of its page.
     pub title: &'a str,
-    /// Where it acts.
+    /// Stage at which it acts.
     pub stage: Stage,
     /// Its law.
     pub equation: &'a str,
-    /// What of the model it changes, and which key of a coil file holds it.
+    /// Its change of the model, and the key of a coil file that holds it.
     pub place: &'a str,
-    /// What a record shows of it.
+    /// Its signature in a record.
     pub signature: &'a str,
     /// Literature.
     pub source: &'a str,
@@ -61,11 +61,11 @@ pub struct Facts<'a> {
     pub naming: Naming<'a>,
     /// The path of heat that it is, if it is one.
     pub heat_path: Option<HeatPath>,
-    /// What it does in a steady ramp: a law for each parameter that matters. Empty for one that only describes.
+    /// Its effect in a steady ramp: a law for each parameter that matters. Empty for one that only describes.
     pub steady: Vec<Steady>,
-    /// Where in a record it acts.
+    /// Part of a record in which it acts.
     pub extent: fn(&Active, &Sight) -> Extent,
-    /// What the extended design says less exactly than the fit.
+    /// Approximation of the extended design in place of the fit.
     pub caveat: fn(&Design) -> Option<&'static str>,
 }
 
@@ -99,14 +99,14 @@ pub enum Naming<'a> {
     },
 }
 
-/// What the sizes of effects are measured by: where the coil was, and how quiet the gyroscope is.
+/// Scales of the sizes of effects: the range of the coil, and the noise of the gyroscope.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scene {
     /// The coldest and the hottest that the coil was \[°C\].
     pub temperatures: [f64; 2],
     /// White noise of the rate in a reading of a minute \[deg/h\]: electronics and optics of a noisier gyroscope may be off by more.
     pub noise: f64,
-    /// What of Earth's rate the gyroscope turns with \[deg/h\], if it was told.
+    /// Earth's rate along the gyroscope's axis \[deg/h\], if it was given.
     pub earth: Option<f64>,
 }
 
@@ -129,7 +129,7 @@ impl Offer {
     }
 }
 
-/// What a mechanism does in a record.
+/// Effect of a mechanism in a record.
 pub enum Effect {
     /// It changes the coil's response.
     Coil(Change),
@@ -137,17 +137,17 @@ pub enum Effect {
     Readings(Box<dyn Fn(&mut Readings) + Send + Sync>),
 }
 
-/// What thermometer and gyroscope say, a value for each row of a record.
+/// Readings of thermometer and gyroscope, a value for each row of a record.
 pub struct Readings<'a> {
     /// Instants \[s\].
     pub time: &'a [f64],
-    /// Of the spool's thermometer \[°C\].
+    /// Readings of the spool's thermometer \[°C\].
     pub thermometer: Vec<f64>,
-    /// Of the gyroscope \[deg/h\].
+    /// Readings of the gyroscope \[deg/h\].
     pub rate: Vec<f64>,
 }
 
-/// How a mechanism enters the sensitivity in a steady ramp.
+/// Effect of a mechanism on the sensitivity in a steady ramp.
 #[derive(Clone, Copy)]
 pub enum Steady {
     /// The first parameter changes the design.
@@ -158,7 +158,7 @@ pub enum Steady {
         parameter: usize,
         /// The changed design.
         changed: fn(&Design, f64) -> (Design, MechanicalState),
-        /// Under which condition; empty if under any.
+        /// Condition under which it holds; empty if there is none.
         when: &'static str,
     },
     /// A number of turns changes one layer.
@@ -168,11 +168,11 @@ pub enum Steady {
         /// The design with that layer so rewound.
         changed: fn(&Design, usize, i32) -> Design,
     },
-    /// Not at all, for this reason.
+    /// No effect, for this reason.
     Nothing(&'static str),
 }
 
-/// Where in a record a mechanism acts; `None` where the question makes no sense.
+/// Extent of a mechanism in a record; `None` where the question makes no sense.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Extent {
     /// Temperatures of the coil \[°C\].
@@ -190,7 +190,7 @@ impl Extent {
     }
 }
 
-/// What is known when a mechanism is asked for its [`Extent`].
+/// Facts from which a mechanism states its [`Extent`].
 pub struct Sight<'a> {
     /// The design.
     pub design: &'a Design,
@@ -204,7 +204,7 @@ pub struct Sight<'a> {
 ///
 /// No method has a default and no field of [`Facts`] either, so that a forgotten part is an error of the compiler.
 pub trait Mechanism: Send + Sync {
-    /// All but its unknowns and its law.
+    /// The facts, without its unknowns and its law.
     fn facts(&self) -> Facts<'_>;
 
     /// Its unknowns with their priors. `None` if the design leaves it no place.
@@ -279,7 +279,7 @@ pub(crate) struct Described {
     pub(crate) signature: &'static str,
     pub(crate) source: &'static str,
     pub(crate) offer: fn(&Scene) -> Offer,
-    /// What it changes in a record, by the values of its parameters.
+    /// Its change of a record, by the values of its parameters.
     pub(crate) law: fn(&Prepared, &[f64]) -> Change,
     /// As in [`Naming::Described`].
     pub(crate) likeness: fn(&[f64], Digits) -> String,

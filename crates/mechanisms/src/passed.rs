@@ -3,7 +3,7 @@
 use crate::course::{Clock, Course, RATE, SPOOL, Series, total};
 use coil::Reduced;
 
-/// What the channels have of errors that are passed through the coil.
+/// Errors of the channels that are passed through the coil.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Passed {
     /// Standard deviations.
@@ -15,7 +15,7 @@ pub(crate) struct Passed {
 /// Responses to errors of the chamber's temperature are followed for so many of their own times, and in so many steps of each.
 const FOLLOWED: (usize, usize) = (60, 6);
 
-/// What errors of the chamber's temperature of size `sd` \[K\], each over a `time` \[s\] and independent of the next, do to thermometer and rate.
+/// Effect on thermometer and rate of errors of the chamber's temperature of size `sd` \[K\], each over a `time` \[s\] and independent of the next.
 ///
 /// The response of a channel to them is the sum of its responses h to hats of one error each: its variance is ∫h²/time, its correlation time
 /// that after which the autocorrelation of h has fallen to 1/e.
@@ -47,7 +47,7 @@ pub(crate) fn passed(model: &Reduced, (sd, width): (f64, f64), averaging: f64) -
 impl Passed {
     pub(crate) const NONE: Self = Self { sd: [0.0; 2], time: [1.0; 2] };
 
-    /// With what the model itself is off, which no gain makes up for.
+    /// The same with the model's own error, for which no gain makes up.
     pub(crate) fn with_model_error(self, base: &Series) -> Self {
         let rate = total(&base.parts);
         let with = |channel: usize, by: f64| {
@@ -63,7 +63,7 @@ impl Passed {
     }
 }
 
-/// What a model is off beside its gain, of thermometer and rate, relative to their own size, and the time over which that is one error, of the
+/// Errors of a model beside its gain, of thermometer and rate, relative to their own size, and the time over which each is one error, of the
 /// order of a coil's slowest transients \[s\].
 ///
 /// Measured and rounded up: this chain and an independent code with meshes of its own differ by 0.1 % of the rate, rms, beside a gain, on coils of

@@ -165,7 +165,7 @@ impl Prepared {
         Self { earth, ..self }
     }
 
-    /// What a model does under drives of its own, from rest.
+    /// Response of a model under drives of its own, from rest.
     pub(crate) fn driven(&self, model: &Reduced, drives: &[Vec<f64>]) -> Series {
         let clocks: Vec<Clock> = drives.iter().map(|drive| Clock::new(&self.time, drive, self.averaging)).collect();
         let rest: Vec<f64> = drives.iter().map(|drive| drive[0]).collect();

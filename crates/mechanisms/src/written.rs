@@ -18,11 +18,11 @@ pub struct Written {
     pub id: String,
     /// A heading.
     pub title: String,
-    /// Where it acts.
+    /// Stage at which it acts.
     pub stage: Stage,
     /// Its law, as it is written.
     pub equation: String,
-    /// What a record shows of it.
+    /// Its signature in a record.
     pub signature: String,
     /// Literature.
     pub source: String,
@@ -34,15 +34,15 @@ pub struct Written {
     pub parameters: Vec<Parameter>,
     /// Values of the parameters from which fits start.
     pub starts: Vec<Vec<f64>>,
-    /// What its laws and states see of a record, in the order of the system's inputs.
+    /// Quantities of a record that its laws and states use, in the order of the system's inputs.
     pub inputs: Vec<Input>,
     /// Its laws with their states, in parameters and inputs.
     pub system: System,
-    /// What each law changes.
+    /// Changed quantity of each law.
     pub targets: Vec<Target>,
 }
 
-/// What a law may see of a record.
+/// Quantity of a record that a law may use.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Input {
     /// Seconds since the first row.
@@ -57,7 +57,7 @@ pub enum Input {
     Column(String),
 }
 
-/// Of what a temperature is.
+/// Body of a temperature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Body {
     /// The chamber.
@@ -68,7 +68,7 @@ pub enum Body {
     Coil,
 }
 
-/// What a law may change.
+/// Quantity that a law may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Target {
     /// Added to the rate \[deg/h\].
@@ -127,7 +127,7 @@ impl Target {
         }
     }
 
-    /// What of the model it changes, in words.
+    /// The changed part of the model, in words.
     pub const fn place(self) -> &'static str {
         match self {
             Self::Rate => "added to the rate",

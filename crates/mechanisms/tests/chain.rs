@@ -198,7 +198,7 @@ fn optics_read_out_and_sensor_follow_the_chain() {
     agrees("sensor-lag", &[70.0], None, &[SPOOL]);
 }
 
-/// What each mechanism does to a design, by hand.
+/// Effect of each mechanism on a design, by hand.
 #[test]
 fn exact_the_extended_design_has_the_change_at_its_place() {
     let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);

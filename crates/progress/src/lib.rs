@@ -1,4 +1,4 @@
-//! How far long work is: a task, how much of it is done, of how much.
+//! Progress of long work: a task, its finished part, and its whole.
 //!
 //! A library that works long takes a callback, `&dyn Fn(Step)`, and calls it as each task begins and, where the task can be counted, again
 //! and again while it goes on. What is shown of that is the caller's affair.
@@ -8,7 +8,7 @@
 pub struct Step<'a> {
     /// The task, in words for people.
     pub task: &'a str,
-    /// How many of its parts are done, of how many; `None` of a task that cannot be counted.
+    /// Number of its finished parts, and of all; `None` for a task that cannot be counted.
     pub done: Option<(usize, usize)>,
 }
 

@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVector};
 pub const STORED: usize = 200;
 /// Time between stored fields \[s\].
 pub const INTERVAL: f64 = 300.0;
-/// What is read from each stored field: mean temperatures of coil and spool \[°C\], mean hoop, radial and axial strain of the coil.
+/// Outputs of each stored field: mean temperatures of coil and spool \[°C\], mean hoop, radial and axial strain of the coil.
 pub const OUTPUTS: [&str; 5] = ["Tcoil", "Tspool", "ett", "err", "ezz"];
 
 const R: [f64; 6] = [60e-3, 82e-3, 87e-3, 97.65e-3, 99.65e-3, 120e-3];
@@ -34,7 +34,7 @@ const COLD: f64 = -40.0;
 const RAMP: [f64; 2] = [3000.0, 33_000.0];
 const RATE: f64 = 0.2 / 60.0;
 
-/// How finely the job is done.
+/// Resolution of the job.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setting {
     /// Order of the elements for heat flow and for mechanics, not less.
@@ -47,7 +47,7 @@ pub struct Setting {
     pub steps: usize,
 }
 
-/// What the job gives.
+/// Result of the job.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JobResult {
     /// Unknowns of heat flow and of mechanics.

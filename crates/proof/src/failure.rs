@@ -1,6 +1,6 @@
-//! Why a chore could not be finished.
+//! The reason why a chore could not be finished.
 
-/// Why something could not be finished, in words for the one who started it.
+/// The reason why something could not be finished, in words for the user.
 #[derive(Debug)]
 pub struct Failure(pub String);
 

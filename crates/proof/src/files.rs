@@ -11,7 +11,7 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).map_or_else(PathBuf::new, Path::to_path_buf)
 }
 
-/// What fails at `path`, in words.
+/// The failure at `path`, in words.
 pub fn failed(path: &Path) -> impl Fn(std::io::Error) -> Failure {
     move |e| Failure(format!("{}: {e}", path.display()))
 }

@@ -1,4 +1,4 @@
-//! What is asked of the program's numbers, and how it is shown.
+//! Requirements on the program's numbers, and the proofs that they are met.
 //!
 //! - [`validation`]: the whole chain against the paper's Tables I to IV and an independent finite-element code.
 //! - [`cells`]: cells of many kinds against much finer solutions, finite elements and NGSolve.

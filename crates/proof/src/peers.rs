@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-/// What a program printed.
+/// Output of a program.
 #[derive(Debug, Clone, Deserialize)]
 pub struct Printed {
     /// Unknowns.
@@ -43,18 +43,18 @@ pub struct Run {
     pub wall: f64,
     /// CPU time of the process \[s\], if the system tells.
     pub cpu: Option<f64>,
-    /// What it printed.
+    /// Its output.
     pub printed: Printed,
 }
 
 /// A program with its runs.
 #[derive(Debug)]
 pub struct Program {
-    /// What the tables call it.
+    /// Its name in the tables.
     pub name: String,
-    /// What is run.
+    /// The executable.
     pub path: PathBuf,
-    /// … with these arguments.
+    /// Its arguments.
     pub arguments: Vec<OsString>,
     /// Its runs so far.
     pub runs: Vec<Run>,
@@ -82,7 +82,7 @@ impl Program {
         self.median(|r| r.cpu.unwrap_or(r.wall))
     }
 
-    /// What it printed first.
+    /// Output of its first run.
     pub fn printed(&self) -> &Printed {
         &self.runs[0].printed
     }

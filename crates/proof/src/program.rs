@@ -1,4 +1,4 @@
-//! Which program answered: a hash over everything it is made from.
+//! Identity of the program that answered: a hash over all its sources.
 
 use std::path::{Path, PathBuf};
 

@@ -13,7 +13,7 @@ pub(crate) const FITTED: [&str; 2] = ["run1.csv", "run2.csv"];
 /// The record that is held out.
 pub(crate) const HELD_OUT: &str = "holdout.csv";
 
-/// What the program writes of the unit in a folder.
+/// Output of the program on the unit in a folder.
 pub(crate) fn answer(coil: &CoilCase, folder: &Path, cache: &Cache) -> Result<Written, Failure> {
     let fitted: Vec<PathBuf> = FITTED.iter().map(|file| folder.join(file)).collect();
     answer_records(coil, &fitted, &folder.join(HELD_OUT), cache)
@@ -43,7 +43,7 @@ impl HoldOut {
         Ok(rms(left.iter().map(|r| r - offset)))
     }
 
-    /// What an answer and the design leave beside the truth, whose error is given.
+    /// Residuals of an answer and of the design beside that of the truth, whose error is given.
     pub(crate) fn judge(&self, answer: &Answer, predicted: &[f64], truth: f64) -> Result<HeldOut, Failure> {
         let model = self.left(predicted)?;
         // of many rows the answer's errors are those of means over some: the noise that both predictions lose by that is the same

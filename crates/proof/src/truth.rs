@@ -1,4 +1,4 @@
-//! What a unit conceals: opened by the scorer only, after every answer is written.
+//! Truth of a unit: opened by the scorer only, after every answer is written.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -10,11 +10,11 @@ use crate::Failure;
 /// The truth of one unit, as `fixtures/concealed/truth/case_NN.ron` holds it; fields that no score needs are passed over.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Truth {
-    /// What was built into the unit; the id `none` for nothing.
+    /// Mechanisms that were built into the unit; the id `none` for nothing.
     pub(crate) mechanisms: Vec<ConcealedEffect>,
     /// Strength of each in the record that is fitted.
     pub(crate) snr: Vec<Strength>,
-    /// For each: itself, then what that record cannot separate from it.
+    /// For each mechanism: itself, then those that this record cannot separate from it.
     pub(crate) confusable_sets: Vec<Vec<String>>,
     pub(crate) noise: Noise,
     pub(crate) spool_sensor: SpoolSensor,
@@ -127,7 +127,7 @@ impl Truth {
         Ok(ron::ser::to_string_pretty(self, ron::ser::PrettyConfig::default())? + "\n")
     }
 
-    /// What was built in, `none` left out.
+    /// Mechanisms that were built in, `none` left out.
     pub(crate) fn concealed(&self) -> impl Iterator<Item = &ConcealedEffect> {
         self.mechanisms.iter().filter(|m| m.id != "none")
     }

@@ -8,7 +8,7 @@ use std::ops::Range;
 use crate::series::GAP;
 use crate::{Channel, Recording, Sampling};
 
-/// When neighbouring rows are averaged, and how far.
+/// Rule by which neighbouring rows are averaged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thinning {
     /// Rows up to which a recording stays as it is.
@@ -22,7 +22,7 @@ pub struct Thinning {
 /// A recording of which neighbouring rows were averaged.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Thinned {
-    /// What is left.
+    /// The remaining recording.
     pub recording: Recording,
     /// Rows of the original in one of these, at least 2.
     pub every: usize,
@@ -116,25 +116,25 @@ pub fn slopes(time: &[f64], values: &[f64]) -> Vec<f64> {
     (0..time.len()).map(at).collect()
 }
 
-/// What counts as rest at the beginning.
+/// Condition of rest at the beginning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rest {
-    /// How long what drives should be steady \[s\].
+    /// Duration for which the drive should be steady \[s\].
     pub duration: f64,
-    /// What it may move by, and differ by from what follows it \[u\]: offsets and noise of sensors.
+    /// Largest movement of the drive, and largest difference from the channel that follows it \[u\]: offsets and noise of sensors.
     pub tolerance: f64,
 }
 
-/// Why a recording does not start at rest.
+/// Reason why a recording does not start at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Unrest {
-    /// What drives and what follows differ at first, by so much \[u\], and the difference moves within the duration.
+    /// The drive and the channel that follows it differ at first, by so much \[u\], and the difference moves within the duration.
     Apart(f64),
-    /// What drives moves at first, by so much within the duration \[u\].
+    /// The drive moves at first, by so much within the duration \[u\].
     Moving(f64),
 }
 
-/// Why a recording does not start at rest, if it does not: from `driver`, which is finite, and `follower`, NaN where it is not known.
+/// Reason why a recording does not start at rest, if it does not: from `driver`, which is finite, and `follower`, NaN where it is not known.
 ///
 /// At rest both stand still: a model that starts from equilibrium has no other beginning. Two thermometers may differ all the same, by a constant. The
 /// follower's first finite value counts; that the two differ is said before that the driver moves.

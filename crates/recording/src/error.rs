@@ -1,4 +1,4 @@
-//! What cannot be computed.
+//! Errors of results that cannot be computed.
 
 use crate::Seconds;
 
@@ -9,7 +9,7 @@ pub enum Error {
     /// A series is longer or shorter than its instants.
     #[error("`{name}` has {found} values where there are {expected} instants; give one for each")]
     Length {
-        /// Which series.
+        /// Name of the series.
         name: String,
         /// Its length.
         found: usize,
@@ -32,7 +32,7 @@ pub enum Error {
     /// A row that is used has no finite value.
     #[error("`{name}` is {value} in row {row}, which is used; mask the row")]
     Value {
-        /// Which series.
+        /// Name of the series.
         name: String,
         /// The row, from 0.
         row: usize,

@@ -1,4 +1,4 @@
-//! What linear first-order systems lag behind their input: columns that stand for a slow response of unknown shape.
+//! Lags of linear first-order systems behind their input: columns that stand for a slow response of unknown shape.
 
 /// Input minus the state of a first-order system of time constant `lag` \[s\] that follows it, from rest at the first instant.
 ///

@@ -1,6 +1,6 @@
 //! The least value of a function of a few variables, none of whose derivatives is known.
 
-/// How long it is sought.
+/// Effort of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
     /// Difference of the function's values over the simplex at which the search has settled, ≥ 0.

@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::series::check_length;
 
-/// How a channel's value belongs to its instant.
+/// Relation of a channel's value to its instant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sampling {
     /// The value at the instant.
@@ -21,7 +21,7 @@ pub struct Channel {
     pub unit: String,
     /// One value for each instant; NaN where it is missing.
     pub values: Vec<f64>,
-    /// What a value is.
+    /// Meaning of a value.
     pub sampling: Sampling,
 }
 

@@ -127,7 +127,7 @@ fn moves(steps: &[f64], lag: f64) -> Vec<Move> {
     moves
 }
 
-/// What is found of a series: ln of a step's variance over the noise's, and every step's weight.
+/// Estimates for a series: ln of a step's variance over the noise's, and every step's weight.
 #[derive(Clone)]
 struct Found {
     ln_ratio: f64,
@@ -231,7 +231,7 @@ fn wander(dt: f64, lag: f64) -> Matrix {
     [0.5 - off, 0.5 + off].into_iter().map(|share| at(share) * at(share).transpose() * (dt / 2.0)).sum()
 }
 
-/// What is known of the state before a value, and what the value says.
+/// Prediction of the state before a value, and the information in the value.
 struct Predicted {
     mean: Vector,
     covariance: Matrix,
@@ -240,7 +240,7 @@ struct Predicted {
     spread: f64,
 }
 
-/// What the values say of ratio and weights.
+/// Information in the values on ratio and weights.
 struct Said {
     squares: f64,
     log_det: f64,
@@ -353,7 +353,7 @@ mod tests {
         }
     }
 
-    /// What is left is as much as it says, over many noises, and far less than the noise; a lag is found.
+    /// The remaining error is as large as stated, over many noises, and far less than the noise; a lag is found.
     #[test]
     fn what_is_left_of_noise_is_little_and_known() {
         for (lag, most) in [(90.0, 0.25), (20.0, 0.15), (300.0, 0.25)] {

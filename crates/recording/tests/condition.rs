@@ -18,7 +18,7 @@ fn recording(time: &[f64], reading: &[f64], mean: &[f64]) -> Recording {
 
 const RULE: Thinning = Thinning { many_rows: 6, interval: 4.0, most_rows: 1000 };
 
-/// What is left of a recording with intervals of 1 s.
+/// A thinned recording with intervals of 1 s.
 fn thin(recording: &Recording) -> Thinned {
     thinned(recording, 1.0, &RULE).expect("thinned")
 }

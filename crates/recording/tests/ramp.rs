@@ -20,7 +20,7 @@ fn temperature(programme: &Programme, t: f64) -> f64 {
     programme.windows(2).find_map(within).unwrap_or(if t < first.0 { first.1 } else { last.1 })
 }
 
-/// What a unit answers: two time constants \[s\], of no part in the estimator's, with their sensitivities \[u/(K/s)\], heating and cooling.
+/// Response of a unit: two time constants \[s\], none of the estimator's, with their sensitivities \[u/(K/s)\], heating and cooling.
 #[derive(Clone, Copy)]
 struct Unit {
     lags: [f64; 2],

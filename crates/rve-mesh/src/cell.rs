@@ -3,7 +3,7 @@
 use crate::Error;
 use std::f64::consts::PI;
 
-/// How the fibres are packed.
+/// Packing of the fibres.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Packing {
     /// Orthocyclic: six nearest neighbours.
@@ -80,7 +80,7 @@ impl LatticeCell {
         Ok(Self { packing, pitch, radii })
     }
 
-    /// How the fibres are packed.
+    /// Packing of the fibres.
     pub fn packing(&self) -> Packing {
         self.packing
     }

@@ -2,7 +2,7 @@
 
 use crate::{Error, LatticeCell, Packing};
 
-/// How much of the hexagon or square is meshed.
+/// Part of the hexagon or square that is meshed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
     /// All of it; opposite sides are translations of each other.
@@ -12,7 +12,7 @@ pub enum Extent {
     Quarter,
 }
 
-/// How finely the cell is divided.
+/// Resolution of the cell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolution {
     /// Elements per wedge between the film's narrowest part and the next corner (30° of the hexagon, 45° of the square), ≥ 1.
@@ -37,7 +37,7 @@ pub struct CellMesh {
     pub elements: Vec<Vec<usize>>,
     /// Phase of each element: the rings from 0 inside, last the adhesive.
     pub phases: Vec<usize>,
-    /// What the lattice's symmetry says of the boundary nodes.
+    /// Relations of the boundary nodes by the lattice's symmetry.
     pub symmetry: Symmetry,
 }
 

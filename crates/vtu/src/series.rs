@@ -7,7 +7,7 @@ use crate::array::escaped;
 /// Files with their instants; several files at one instant are its parts.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Series {
-    /// In order of time.
+    /// Instants and files, in order of time.
     pub entries: Vec<Entry>,
 }
 

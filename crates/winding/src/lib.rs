@@ -1,4 +1,4 @@
-//! Where every turn of a fibre coil lies, and which stretch of the fibre it is.
+//! Place of every turn of a fibre coil, and its stretch of the fibre.
 //!
 //! A [`Spec`] names a pattern and its dimensions; [`wind`] lays the fibre and returns a [`Winding`]: one [`Turn`] per loop, in
 //! order along the fibre, each with its centre (r, y) in the coil's cross-section and its span (`z_start`, `z_end`) of the fibre.

@@ -1,4 +1,4 @@
-//! What is wound: pattern, counts, dimensions \[m\].
+//! Specification of a winding: pattern, counts, dimensions \[m\].
 
 /// The order in which the two halves of the fibre take the layers.
 ///
@@ -24,9 +24,9 @@ pub enum Pattern {
 /// In the cylindrical pattern, which has no such point: CCW is the half nearer z = 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Half {
-    /// From the mid-point to z = L; wound clockwise.
+    /// The half from the mid-point to z = L; wound clockwise.
     Cw,
-    /// From z = 0 to the mid-point; wound counter-clockwise.
+    /// The half from z = 0 to the mid-point; wound counter-clockwise.
     Ccw,
 }
 
@@ -36,13 +36,13 @@ pub enum Half {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ClimbSide {
-    /// At −y: the mirror image of `Right`, turn j of a layer of N becoming turn N + 1 − j.
+    /// The side −y: the mirror image of `Right`, turn j of a layer of N becoming turn N + 1 − j.
     Left,
-    /// At +y.
+    /// The side +y.
     Right,
 }
 
-/// How much fibre a turn takes.
+/// Length of fibre in a turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum TurnLength {
@@ -56,9 +56,9 @@ pub enum TurnLength {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tails {
-    /// At the outer end of the CW half \[m\].
+    /// Tail at the outer end of the CW half \[m\].
     pub cw: f64,
-    /// At the outer end of the CCW half \[m\].
+    /// Tail at the outer end of the CCW half \[m\].
     pub ccw: f64,
 }
 
@@ -85,7 +85,7 @@ pub struct LayerDefect {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Spec {
-    /// Which half takes which layer.
+    /// Order in which the halves take the layers.
     pub pattern: Pattern,
     /// Number of layers, ≥ 1.
     pub layers: usize,
@@ -100,7 +100,7 @@ pub struct Spec {
     pub pitch: f64,
     /// The end of the coil at which the CW half climbs.
     pub cw_climbs: ClimbSide,
-    /// How much fibre a turn takes.
+    /// Length of fibre in a turn.
     pub turn_length: TurnLength,
     /// Bare fibre beyond the winding.
     pub tails: Tails,

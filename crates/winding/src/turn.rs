@@ -15,9 +15,9 @@ pub struct Turn {
     pub r: f64,
     /// Axial position of its centre above the coil's left face \[m\].
     pub y: f64,
-    /// Where it begins along the fibre \[m\].
+    /// Its beginning along the fibre \[m\].
     pub z_start: f64,
-    /// Where it ends along the fibre \[m\], > `z_start`.
+    /// Its end along the fibre \[m\], > `z_start`.
     pub z_end: f64,
 }
 

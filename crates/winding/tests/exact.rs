@@ -190,3 +190,59 @@ fn a_defect_that_cannot_be_wound_is_refused() {
         assert!(error.contains(says), "{error}");
     }
 }
+
+#[test]
+fn a_defect_leaves_its_owner_one_turn_at_least_and_twice_as_many_at_most() {
+    for cw_climbs in [ClimbSide::Right, ClimbSide::Left] {
+        for pattern in ALL {
+            let sound =
+                Spec { pattern: *pattern, cw_climbs, layers: 8, turns_odd_layers: 12, turns_even_layers: 11, ..REFERENCE };
+            let coil = wind(&sound).unwrap();
+            for layer in 1..=sound.layers {
+                // in a cylinder one winder lays the whole layer, whichever half its turns belong to
+                let of_half = |half| coil.turns().iter().filter(|t| t.layer == layer && t.half == half).count();
+                let all = of_half(Half::Cw) + of_half(Half::Ccw);
+                let owned = if *pattern == Pattern::Cylindrical { all } else { of_half(Half::Cw).max(of_half(Half::Ccw)) };
+                let owned = i32::try_from(owned).unwrap();
+                let wound = |turns| wind(&Spec { defect: Some(LayerDefect { layer, turns }), ..sound }).is_ok();
+                let least_and_most = [-owned, 1 - owned, owned, owned + 1].map(wound);
+                assert_eq!(least_and_most, [false, true, true, false], "{pattern:?} {cw_climbs:?} layer {layer}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_coil_of_no_radius_or_pitch_is_refused() {
+    for (spec, field) in [(Spec { inner_radius: 0.0, ..REFERENCE }, "inner_radius"), (Spec { pitch: 0.0, ..REFERENCE }, "pitch")]
+    {
+        let error = wind(&spec).unwrap_err().to_string();
+        assert!(error.contains(field), "{error}");
+    }
+}
+
+/// Whatever lies beyond the middle is of the CW half, and so is what has it within.
+#[test]
+fn exact_a_turn_about_the_middle_of_a_bobbin_is_of_the_cw_half() {
+    let one = Spec { pattern: Pattern::Cylindrical, layers: 1, turns_odd_layers: 1, turns_even_layers: 1, ..REFERENCE };
+    let coil = wind(&one).unwrap();
+    assert_eq!((coil.turns().len(), coil.turns()[0].half), (1, Half::Cw));
+}
+
+/// Two turns, one on the other, are equally far from their mean, and their weights are opposite: the second radial moment is nothing about the mean, and
+/// about any other radius it is not.
+#[test]
+fn exact_second_moment_of_two_layers_is_nothing_about_their_mean() {
+    let two = Spec {
+        pattern: Pattern::Cylindrical,
+        layers: 2,
+        turns_odd_layers: 1,
+        turns_even_layers: 1,
+        turn_length: TurnLength::Equal,
+        ..REFERENCE
+    };
+    let coil = wind(&two).unwrap();
+    let (turn, step) = (coil.turns()[0].length(), two.pitch * 3_f64.sqrt() / 2.0);
+    assert_relative_eq!(coil.moment(1, 0), -turn * turn * step, max_relative = 1e-9);
+    assert_abs_diff_eq!(coil.moment(2, 0), 0.0, epsilon = 1e-9 * (turn * step).powi(2));
+}

@@ -14,7 +14,7 @@ const OURS: [(&str, Setting); 3] = [
     ("fogcoil, 2000 steps of 30 s", Setting { orders: [4, 9], layers: [1, 0, 0], ratio: 0.1, steps: 10 }),
     ("fogcoil, fine, 200 steps", Setting { orders: [5, 7], layers: [2, 1, 1], ratio: 0.12, steps: 1 }),
 ];
-/// What errors are measured against, and the coarser run whose distance bounds its own error.
+/// Reference of the errors, and the coarser run whose distance bounds its own error.
 const REFERENCE: Setting = Setting { orders: [8, 8], layers: [3, 2, 2], ratio: 0.15, steps: 4 };
 const SECOND: Setting = Setting { orders: [6, 6], layers: [2, 1, 1], ratio: 0.15, steps: 2 };
 

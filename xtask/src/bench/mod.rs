@@ -1,6 +1,7 @@
 //! `cargo xtask bench`: times beside errors, against other programs and against the full model. Each subcommand prints a table and
 //! rewrites its section of docs/benchmarks.md.
 
+mod batch;
 mod cell;
 mod coil;
 mod diagnose;
@@ -31,9 +32,11 @@ fn file(path: &str) -> Result<PathBuf, String> {
     Some(PathBuf::from(path)).filter(|path| path.is_file()).ok_or_else(|| "no such file".into())
 }
 
-/// What is timed.
+/// The benchmarks.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Bench {
+    /// Thirty records of a production to one table and page
+    Batch,
     /// The reference cell, ours and the other programs'
     Cell(Options),
     /// The reference cell, ours alone
@@ -64,6 +67,7 @@ impl Bench {
     /// Runs it; whether all is as it must be.
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         match self {
+            Self::Batch => batch::run()?,
             Self::Cell(options) => cell::run(options.python.as_deref(), options.repetitions.unwrap_or(11))?,
             Self::CellJob { name } => cell::child(name)?,
             Self::Coil(options) => coil::run(options.python.as_deref(), options.repetitions.unwrap_or(FEWEST))?,

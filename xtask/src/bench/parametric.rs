@@ -29,11 +29,11 @@ const ENDS: [(Parameter, f64); 4] = [
 const RUNS: usize = 11;
 /// Full chains of which a time is the median.
 const CHAINS: usize = 5;
-/// What the relative error may be at 99 % of the points, and at any.
+/// Largest relative error at 99 % of the points, and at any.
 const ALLOWED: [f64; 2] = [1e-3, 1e-2];
 /// Share of points at which it must be so, and at which the estimate must cover the error.
 const MOST: f64 = 0.99;
-/// What the median of the estimate over the error must stay below.
+/// Bound of the median of the estimate over the error.
 const LOOSEST: f64 = 30.0;
 /// Fewest parameters; most building \[s\], memory \[MB\], time of a day at a new point and with derivatives \[ms\]; least ratio to a full chain.
 const ASKED: [f64; 6] = [25.0, 30.0, 200.0, 3.0, 30.0, 1000.0];
@@ -165,7 +165,7 @@ fn exponent(sizes: &[f64], times: &[f64]) -> f64 {
     along / sizes.iter().map(|size| (size.ln() - x).powi(2)).sum::<f64>()
 }
 
-/// How times grow with the number of parameters, turns and rows.
+/// Growth of times with the number of parameters, turns and rows.
 fn scaling(design: &Design, ranges: &[Range], progress: &Progress) -> Result<String, Failure> {
     let mut out = String::from(
         "\n| what grows | of it | building, CPU s | new point, ms | with derivatives, ms |\n|---|---|---|---|---|\n",

@@ -1,4 +1,4 @@
-//! What goes on, and what came of it.
+//! Progress of benchmarks, and their results.
 
 use proof::Failure;
 use proof::files::{renew, root};

@@ -8,7 +8,7 @@ use super::page::Page;
 /// The book's table of contents.
 pub(super) const SUMMARY: &str = "docs/SUMMARY.md";
 
-/// What is wrong with the links of `pages`, which are by path.
+/// Faults of the links of `pages`, which are by path.
 pub(super) fn faults(root: &Path, pages: &BTreeMap<PathBuf, Page>) -> Vec<String> {
     let mut faults = Vec::new();
     for page in pages.values() {

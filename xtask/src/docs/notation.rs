@@ -83,7 +83,7 @@ impl Parser<'_> {
         Ok(if name == "Some" { inside } else { Value::Object(Map::from_iter([(name, inside)])) })
     }
 
-    /// What stands between parentheses: keys with values, or values.
+    /// Content of parentheses: keys with values, or values.
     fn group(&mut self) -> Result<Value, String> {
         let start = self.rest;
         self.take('(');

@@ -35,7 +35,7 @@ impl Fence {
         self.words.first().map_or("", String::as_str)
     }
 
-    /// What stands behind `prefix` in a word of the info string.
+    /// The text behind `prefix` in a word of the info string.
     pub(super) fn word(&self, prefix: &str) -> Option<&str> {
         self.words.iter().skip(1).find_map(|word| word.strip_prefix(prefix))
     }

@@ -11,7 +11,7 @@ use super::compare::{TOLERANCE, compare};
 use super::page::{Fence, Page};
 use proof::Failure;
 
-/// What of the repository the commands may see.
+/// Parts of the repository that the commands may see.
 const SEEN: [&str; 6] = ["README.md", "ARCHITECTURE.md", "crates", "docs", "fixtures", "python"];
 /// `cargo` in place of the real one: runs the program and refuses the rest.
 const CARGO: &str = "#!/bin/sh

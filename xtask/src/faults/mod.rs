@@ -22,13 +22,13 @@ use work::{Left, Outputs, WORKS, Work, said};
 
 const PAGE: &str = "docs/trust.md";
 const MARKS: [&str; 2] = ["<!-- faults: written by `cargo xtask faults` -->", "<!-- faults end -->"];
-/// Of the random instants.
+/// Seed of the random instants.
 const SEED: u64 = 1;
 /// Kills after which the kept models are thrown away, so that kills meet their making, too.
 const COLD_EVERY: usize = 8;
 /// Longest that a kill waits beyond an undisturbed run, as a share of it.
 const BEYOND: f64 = 0.1;
-/// By how much the clock is wrong.
+/// Error of the clock.
 const WRONG_CLOCK: Duration = Duration::from_secs(30 * 86_400);
 /// Runs at once.
 const AT_ONCE: usize = 4;

@@ -13,9 +13,9 @@ pub(super) struct Row {
     pub(super) fault: String,
     pub(super) runs: usize,
     pub(super) left: Left,
-    /// Of runs that end by themselves, how many refused.
+    /// Number of refusals, of runs that end by themselves.
     pub(super) refused: usize,
-    /// What must not be.
+    /// Faults: states that must not occur.
     pub(super) faults: Vec<String>,
 }
 

@@ -70,7 +70,7 @@ pub(super) const WORKS: [Work; 6] = [
     },
 ];
 
-/// What became of a run's outputs.
+/// State of a run's outputs.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Left {
     /// As a run that nothing disturbs writes them.
@@ -165,7 +165,7 @@ impl Work {
         Ok(names(folder)?.iter().map(size).sum::<Result<usize, _>>()?)
     }
 
-    /// What is left in a folder, beside the outputs that may be right.
+    /// Files left in a folder, beside the outputs that may be right.
     pub(super) fn left(&self, folder: &Path, right: &[&Outputs]) -> Result<Left, Failure> {
         let mut left = Left::default();
         let inputs: Vec<&str> = self.inputs.iter().map(|(_, name)| *name).collect();
@@ -190,7 +190,7 @@ impl Work {
     }
 }
 
-/// What a run said on its way out.
+/// Exit status and last words of a run.
 pub(super) fn said(run: &Output) -> String {
     format!("{}, {}", run.status, String::from_utf8_lossy(&run.stderr).trim())
 }

@@ -19,7 +19,7 @@ const MOST_HIGH: u64 = 16_000;
 const LEAST_LETTER: f64 = 9.0;
 const CHECK: &str = include_str!("look.js");
 
-/// What a reader prefers, as CSS calls it.
+/// A reader's preferred colour schemes, as CSS names them.
 pub(super) const THEMES: [&str; 2] = ["light", "dark"];
 
 #[derive(Debug, Clone, Deserialize)]
@@ -50,7 +50,7 @@ struct Said {
     findings: Vec<Finding>,
 }
 
-/// What was found on a page at a width in a theme.
+/// Findings on a page at a width in a theme.
 pub(super) struct Look {
     pub(super) page: String,
     pub(super) width: u32,
@@ -62,7 +62,7 @@ pub(super) struct Look {
     pub(super) labels: Vec<String>,
     /// Errors and warnings.
     pub(super) console: Vec<String>,
-    /// What was asked of the network or the disk besides the page.
+    /// Requests to the network or the disk besides the page.
     pub(super) requests: Vec<String>,
     pub(super) axe: String,
 }

@@ -79,7 +79,7 @@ fn kept(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(names.iter().filter(|name| name.ends_with(".html")).map(|name| folder.join(name)).collect())
 }
 
-/// What was found, as docs/pages.md.
+/// The findings, as docs/pages.md.
 fn markdown(looks: &[Look], chromium: &str) -> String {
     let version = looks.first().map_or(axe::VERSION, |look| look.axe.as_str());
     let mut out = format!(

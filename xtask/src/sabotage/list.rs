@@ -8,9 +8,9 @@ use std::path::Path;
 pub(super) const CRATES: [&str; 3] = ["fem-core", "rve-mesh", "homogenization"];
 
 pub(super) struct Sabotage {
-    /// What is wrong then.
+    /// The fault that it makes.
     pub(super) name: &'static str,
-    /// In which file of the workspace.
+    /// The file, in the workspace.
     pub(super) file: &'static str,
     /// The text that is replaced; it must be there exactly once.
     pub(super) find: &'static str,

@@ -66,7 +66,7 @@ impl Kept {
 
 /// Breaks the crates in every way of the list, writes [`PAGE`], and says whether each was caught.
 ///
-/// What was found for the same sources is kept in target/sabotage: a run that was stopped goes on.
+/// Outcomes for the same sources are kept in target/sabotage: a run that was stopped goes on.
 pub(crate) fn run() -> Result<bool, Failure> {
     let (root, start) = (root(), Instant::now());
     let step = |what: &str| eprintln!("[{:5.0} s] {what}", start.elapsed().as_secs_f64());

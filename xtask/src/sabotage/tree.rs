@@ -10,7 +10,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// How many tests ran and the names (crate, binary, test) of those that failed.
+/// Number of tests that ran, and the names (crate, binary, test) of those that failed.
 #[derive(Clone, serde::Serialize, serde::Deserialize)]
 pub(super) struct TestRun {
     pub(super) count: usize,
@@ -68,7 +68,7 @@ impl Tree {
         Ok(tree)
     }
 
-    /// What the outcome under `sabotage` depends on: sources and change.
+    /// Key of the outcome under `sabotage`: sources and change.
     pub(super) fn key(&self, sabotage: Option<&Sabotage>) -> String {
         let mut hash = Sha256::new();
         hash.update(&self.hash);

@@ -10,7 +10,7 @@ use proof::validation::report::{kind, verdict};
 use proof::validation::{ComparisonRow, Section, Verdict, printed};
 use proof::{Failure, files};
 
-/// What is read, besides the code.
+/// Inputs besides the code.
 const INPUTS: [(&str, &str); 10] = [
     ("cell", "fixtures/cell-reference.ron"),
     ("coil", "fixtures/coil-reference.ron"),

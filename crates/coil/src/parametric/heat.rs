@@ -202,7 +202,7 @@ impl Heat {
         Ok([k, c])
     }
 
-    /// What conductivity and capacity on all fields change by: differences over designs with their sections and weights; `None` where nothing
+    /// Changes of conductivity and capacity on all fields: differences over designs with their sections and weights; `None` where nothing
     /// changes.
     pub(super) fn change(&self, stencil: &Stencil) -> Result<[Option<DMatrix<f64>>; 2], Error> {
         let [k, c] = combined(stencil, |design, section| self.coefficients(design, section))?;

@@ -52,7 +52,7 @@ const COARSER: [f64; 2] = [0.85, 0.75];
 /// boxes of `cargo xtask bench parametric` it covers; directions that are missing from all of them are not seen.
 pub const MODEL_SAFETY: f64 = 3.0;
 
-/// What the turns have of every field, a row each: temperature of temperature fields, strains of displacement fields.
+/// Values of every field at the turns, a row each: temperature of temperature fields, strains of displacement fields.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Turns {

@@ -46,7 +46,7 @@ pub enum Parameter {
     HubThickness,
     /// Thickness of every flange \[m\]: the outer face moves, and with it a thermometer that sits on it.
     FlangeThickness,
-    /// How far every flange reaches beyond the coil \[m\].
+    /// Overhang of every flange beyond the coil \[m\].
     FlangeOverhang,
     /// Distance to the chamber's wall \[m\].
     Margin,
@@ -62,7 +62,7 @@ pub enum Parameter {
     Heater(Side),
 }
 
-/// How far a number of a design may be from its drawing, one standard deviation.
+/// Deviation of a design's number from its drawing, one standard deviation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Tolerance {
@@ -127,7 +127,7 @@ impl Parameter {
         Self::Heater(Side::Right),
     ];
 
-    /// How far it usually is from the drawing.
+    /// Its usual deviation from the drawing.
     ///
     /// Judgement, not measurement: data sheets of adhesives and coatings leave 10 % of a modulus or a conductivity open and 5 % of a heat
     /// capacity or an expansion, handbooks of metals 3 to 5 %; lengths are within ISO 2768-m, ±0.1 mm as two standard deviations; still air is a

@@ -41,7 +41,7 @@ impl Fields {
     }
 }
 
-/// An integral over a rectangle: of which fields (numbers of components), by which matrices along r and y.
+/// An integral over a rectangle: its fields (numbers of components), and its matrices along r and y.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Kind {
     /// Components of rows and columns.
@@ -125,7 +125,7 @@ pub(super) struct Terms {
 const LEAST_TERM: f64 = 1e-13;
 
 impl Terms {
-    /// Of matrices of one shape, or 0 × 0 for nothing.
+    /// A sum of matrices of one shape, or 0 × 0 for nothing.
     pub(super) fn new(matrices: Vec<DMatrix<f64>>, symmetric: bool) -> Self {
         let sizes: Vec<f64> = matrices.iter().map(DMatrix::norm).collect();
         let shape @ (rows, columns) = matrices.iter().map(DMatrix::shape).max().unwrap_or((0, 0));

@@ -4,20 +4,20 @@ use super::strip::Stretch;
 use crate::layout::Skins;
 use crate::{Design, Domain, Error, Layout, Region};
 
-/// Lines of a section and what lies between them.
+/// Lines of a section and the regions between them.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Section {
-    /// Along r and along y, increasing \[m\].
+    /// Lines along r and along y, increasing \[m\].
     pub(super) lines: [Vec<f64>; 2],
-    /// Of each rectangle, r fastest; `None` where nothing is modelled.
+    /// Region of each rectangle, r fastest; `None` where nothing is modelled.
     pub(super) regions: Vec<Option<Region>>,
 }
 
 /// Relative change of a radius at most: the series of 1/r leaves out its fourth power.
 const MOST_MOVED: f64 = 0.02;
 
-/// What a design whose section cannot be reached by stretching is told.
+/// Error of a design whose section cannot be reached by stretching.
 fn other_section(field: &str) -> Error {
     let problem = "this design has other parts or faces than the one that was modelled; model it anew";
     Error::design(field, problem.into())
@@ -61,7 +61,7 @@ impl Section {
         self.regions[j * self.strips(0) + i]
     }
 
-    /// How this section's strips lie in the section of a changed design: along r, along y.
+    /// Places of this section's strips in the section of a changed design: along r, along y.
     ///
     /// # Errors
     /// [`Error::Design`] if stretching does not get there, or the coil itself is changed.
@@ -90,7 +90,7 @@ impl Section {
         Ok(all)
     }
 
-    /// Where a point of a changed section lies in this one.
+    /// Place in this section of a point of a changed one.
     pub(super) fn reference(&self, changed: &Section, at: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|d| {
             let (from, to) = (&changed.lines[d], &self.lines[d]);
@@ -100,7 +100,7 @@ impl Section {
     }
 }
 
-/// How much of the half-plane a design's heat flow takes.
+/// Part of the half-plane that a design's heat flow takes.
 pub(crate) fn domain(design: &Design) -> Domain {
     if design.heat.film.is_some() { Domain::Solids } else { Domain::Chamber }
 }

@@ -16,7 +16,7 @@ pub struct Slopes {
     slopes: Vec<Outputs<Slope>>,
 }
 
-/// Derivative of an output: of each drive, what it has of the drive itself, of w and of v in every mode, with
+/// Derivative of an output: for each drive, its coefficients on the drive itself, on w and on v in every mode, with
 /// `ẇ = −λ w + u̇` and `v̇ = −λ v + w`.
 #[derive(Debug, Clone)]
 struct Slope {
@@ -30,7 +30,7 @@ struct OfDrive {
     twice: Vec<f64>,
 }
 
-/// Two rates closer than this, relative to their size, are one: what differences of their modes lose is more than what that leaves out.
+/// Two rates closer than this, relative to their size, are one: differences of their modes lose more digits than that leaves out.
 const ONE_RATE: f64 = 1e-6;
 
 /// Courses of outputs in time: a value an instant for the model, then for each parameter's derivative.
@@ -79,7 +79,7 @@ impl Parameter {
     }
 }
 
-/// What changes with a parameter, on the reduced fields.
+/// Changes with a parameter, on the reduced fields.
 struct Change {
     /// conductivity and capacity
     heat: [Option<DMatrix<f64>>; 2],
@@ -326,7 +326,7 @@ impl Slopes {
     }
 }
 
-/// What an interval does to w and v of a mode: decay, what a slope adds to w and to v, what w adds to v.
+/// Effect of an interval on w and v of a mode: decay, contribution of a slope to w and to v, contribution of w to v.
 fn interval(rate: f64, dt: f64) -> [f64; 4] {
     let x = rate * dt;
     let decay = (-x).exp();

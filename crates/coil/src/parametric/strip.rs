@@ -1,4 +1,4 @@
-//! One-dimensional matrices of the strips between the lines of a section, and what a stretched strip makes of them.
+//! One-dimensional matrices of the strips between the lines of a section, and of stretched strips.
 
 use crate::Grid;
 use fem_core::polynomial::{Lagrange, gauss};
@@ -92,7 +92,7 @@ impl Strip {
     }
 }
 
-/// How a strip lies in a changed section: its place is `shift + stretch · x`.
+/// Place of a strip in a changed section: `shift + stretch · x`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stretch {
     pub(super) shift: f64,
@@ -100,7 +100,7 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    /// From the ends that a strip has to those that it shall have.
+    /// The map from the present ends of a strip to its new ones.
     pub(super) fn between(from: [f64; 2], to: [f64; 2]) -> Self {
         if from == to {
             return Self { shift: 0.0, stretch: 1.0 };

@@ -168,7 +168,7 @@ impl Structure {
         Ok([k, f])
     }
 
-    /// What stiffness and load change by: differences over designs with their sections and weights; `None` where nothing changes.
+    /// Changes of stiffness and load: differences over designs with their sections and weights; `None` where nothing changes.
     pub(super) fn change(&self, stencil: &Stencil, state: &MechanicalState) -> Result<[Option<DMatrix<f64>>; 2], Error> {
         let [k, f] = combined(stencil, |design, section| self.coefficients(design, section, state))?;
         Ok([k.map(|k| self.stiffness.sum(&k)), f.map(|f| self.load.sum(&f))])
@@ -203,7 +203,7 @@ impl Solved {
         transposed_product(&self.load, adjoint)
     }
 
-    /// What changes of [`Self::through`] with a change of the stiffness and of the load.
+    /// Change of [`Self::through`] with a change of the stiffness and of the load.
     pub(super) fn changed(&self, adjoint: &DMatrix<f64>, [stiffness, load]: &[Option<DMatrix<f64>>; 2]) -> DMatrix<f64> {
         let mut change = DMatrix::zeros(self.load.ncols(), adjoint.ncols());
         if let Some(load) = load {

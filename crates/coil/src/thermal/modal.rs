@@ -34,7 +34,7 @@ impl Interval {
     }
 }
 
-/// What a mode feels of the drives, of which there are few.
+/// Drive of a mode: the sum over the drives, of which there are few.
 fn forced(drive: &[f64], by: &[f64]) -> f64 {
     drive.iter().zip(by).map(|(drive, by)| drive * by).sum()
 }
@@ -45,7 +45,7 @@ impl Reduced {
         amplitudes.iter_mut().zip(&self.drive).for_each(|(q, drive)| *q -= forced(drive, by));
     }
 
-    /// What an interval of `dt` \[s\] does to each mode.
+    /// Effect of an interval of `dt` \[s\] on each mode.
     pub(crate) fn interval(&self, dt: f64) -> Interval {
         let drives = self.drive.first().map_or(0, Vec::len);
         let push =

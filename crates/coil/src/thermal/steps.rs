@@ -15,7 +15,7 @@ pub struct Steps<'a> {
     /// The instant of `state`.
     at: usize,
     state: ThermalState,
-    /// What the last step's length does: kept for as many steps as have it.
+    /// Interval of the last step's length: kept for as many steps as have it.
     interval: Interval,
 }
 

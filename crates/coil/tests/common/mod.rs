@@ -101,7 +101,7 @@ pub(crate) fn dynamics(design: &Design, drives: &[Drive]) -> Dynamics {
     Dynamics::new(design, drives, &QUICK).expect("model")
 }
 
-/// What the quick model of a design says to a profile.
+/// Response of the quick model of a design to a profile.
 pub(crate) fn run(design: &Design, drives: &[Drive], profile: &Profile) -> Vec<Response> {
     dynamics(design, drives).simulate(profile).expect("run")
 }

@@ -3,7 +3,7 @@
 
 use diagnosis::{Active, Channel, ForwardModel, NoisePrior, Nuisance, Omission, Parameter, Prior, Role, State};
 
-/// What was fed to the pump \[V\], every `step` seconds, held in between; and the lower level at the start \[V\].
+/// Input of the pump \[V\], every `step` seconds, held in between; and the lower level at the start \[V\].
 #[derive(Debug, Clone)]
 pub(crate) struct Feed {
     /// Interval \[s\].
@@ -21,7 +21,7 @@ pub(crate) struct Course {
     pub(crate) upper: Vec<f64>,
     /// Lower level.
     pub(crate) lower: Vec<f64>,
-    /// What the sensor reads of the lower level.
+    /// Reading of the sensor of the lower level.
     pub(crate) reading: Vec<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! What is known of a fit's unknowns before the records are seen.
+//! Prior of a fit's unknowns, before the records are seen.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -27,7 +27,7 @@ impl Beforehand {
         changed
     }
 
-    /// −ln of their density, but for what all share.
+    /// −ln of their density, but for a common constant.
     pub(crate) fn energy(&self, u: &DVector<f64>) -> f64 {
         (&self.precision * u).dot(u) / 2.0
     }

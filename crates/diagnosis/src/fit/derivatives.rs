@@ -15,7 +15,7 @@ impl Derivatives {
         Self { products: products(&jacobian), jacobian }
     }
 
-    /// Puts other columns in the places of some.
+    /// Replaces some columns by others.
     pub(super) fn put(&mut self, places: &[usize], columns: &[DVector<f64>]) {
         for (place, column) in places.iter().zip(columns) {
             self.jacobian.column_mut(*place).copy_from(column);

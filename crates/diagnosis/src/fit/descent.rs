@@ -1,19 +1,19 @@
-//! The way to the least objective: Levenberg's (1944) and Marquardt's (1963) method on whitened residuals and normal priors.
+//! Minimisation of the objective by Levenberg's (1944) and Marquardt's (1963) method on whitened residuals and normal priors.
 
 use super::derivatives::Derivatives;
 use super::objective::{Objective, Point};
 use crate::{Error, ForwardModel};
 use nalgebra::{Cholesky, DVector, Dyn};
 
-/// Steps at most.
+/// Largest number of steps.
 const MOST_STEPS: usize = 16;
 /// Change of ln p at which a fit has settled: far below what odds can tell.
 const SETTLED: f64 = 5e-3;
-/// Share of that below which the gain that a step promises is not worth a look.
+/// Share of that below which the promised gain of a step is not worth its computation.
 const NOTHING: f64 = 1e-5;
 /// Largest step of a mechanism's unknown, and of any beside a kink [u]: half of a prior's reach.
 const STRIDE: f64 = 2.0;
-/// Damping at first, at least, and where no step is left; relative to the diagonal.
+/// First damping, least damping, and damping at which no step is left; relative to the diagonal.
 const DAMPING: [f64; 3] = [1e-3, 1e-9, 1e8];
 
 impl<M: ForwardModel> Objective<'_, M> {
@@ -48,7 +48,7 @@ impl<M: ForwardModel> Objective<'_, M> {
         Ok((at, derivatives))
     }
 
-    /// Derivatives at another point: all of them, where they are its own, or those that change.
+    /// Derivatives at another point: all of them where they are its own, else those that change.
     fn found_anew(&self, at: &Point, all: bool, derivatives: &mut Derivatives) -> Result<(), Error<M::Error>> {
         if all && self.is_exact() {
             *derivatives = self.derivatives(at)?;
@@ -57,7 +57,7 @@ impl<M: ForwardModel> Objective<'_, M> {
         self.renew(at, derivatives)
     }
 
-    /// By how much −ln p would fall on the way to its minimum if the prediction were linear.
+    /// Fall of −ln p on the way to its minimum if the prediction were linear.
     fn left(&self, at: &Point, derivatives: &Derivatives) -> Result<f64, Error<M::Error>> {
         let gradient = self.gradient(at, derivatives);
         let normal: Cholesky<f64, Dyn> =
@@ -65,12 +65,12 @@ impl<M: ForwardModel> Objective<'_, M> {
         Ok(gradient.dot(&normal.solve(&gradient)) / 2.0)
     }
 
-    /// Of ln p.
+    /// Gradient of ln p.
     pub(super) fn gradient(&self, at: &Point, derivatives: &Derivatives) -> DVector<f64> {
         derivatives.jacobian.tr_mul(&at.whitened) - self.beforehand.slope(&at.u)
     }
 
-    /// One step down, damped as little as leads down; the same point if none does, or none that could promises anything.
+    /// One step down with the least damping that leads down; the same point if no step leads down or promises a gain.
     fn step(&self, at: Point, derivatives: &Derivatives, damping: &mut f64) -> Result<Point, Error<M::Error>> {
         let normal = self.beforehand.curvature(derivatives.products.clone());
         let gradient = self.gradient(&at, derivatives);

@@ -1,4 +1,4 @@
-//! How derivatives of the prediction are found, and which are taken over.
+//! Derivatives of the prediction by differences, some of them taken over from another fit.
 
 use super::derivatives::Derivatives;
 use super::objective::{Objective, Point, Series};
@@ -7,7 +7,8 @@ use crate::{Error, ForwardModel, Observation};
 use nalgebra::{DMatrix, DVector};
 
 impl<M: ForwardModel> Objective<'_, M> {
-    /// At a point; by what is no mechanism's, from a fit beside this one, if there is one ([`Self::with_derivatives_of`]).
+    /// Derivatives at a point; those by all but mechanisms' parameters come from a fit beside this one, if there is one
+    /// ([`Self::with_derivatives_of`]).
     pub(super) fn derivatives(&self, at: &Point) -> Result<Derivatives, Error<M::Error>> {
         let Some(like) = self.like else {
             let all = (0..self.layout.len()).map(|i| self.column(at, i)).collect::<Result<Vec<_>, _>>()?;
@@ -50,7 +51,7 @@ impl<M: ForwardModel> Objective<'_, M> {
         Ok(self.whiten(&series))
     }
 
-    /// Derivative by unknown `i`, by a difference away from the end of the range that is looked at.
+    /// Derivative by unknown `i`, by a difference away from the end of the range that is considered.
     fn derivative(&self, at: &Point, i: usize, step: f64) -> Result<Series, Error<M::Error>> {
         let mut beside = at.u.clone();
         let step = if at.u[i] > 0.0 { -step } else { step };

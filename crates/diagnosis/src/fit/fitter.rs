@@ -1,4 +1,4 @@
-//! What is fitted, and what a fit finds.
+//! The quantities to fit, and the result of a fit.
 
 use super::beforehand::Beforehand;
 use super::derivatives::Derivatives;
@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 /// A hypothesis at its most probable parameters.
 #[derive(Debug, Clone)]
 pub struct Fit {
-    /// What was fitted.
+    /// The fitted hypothesis.
     pub hypothesis: Hypothesis,
     /// ln of the marginal likelihood (Laplace), up to a constant that all fits to the same records share.
     pub log_evidence: f64,
@@ -43,7 +43,7 @@ impl Fit {
         &self.derivatives.jacobian
     }
 
-    /// −ln p of records and unknowns, but for what all fits under the same noise share.
+    /// −ln p of records and unknowns, but for a constant that all fits under the same noise share.
     pub(crate) fn value(&self) -> f64 {
         self.whitened.norm_squared() / 2.0 + self.beforehand.energy(&self.u)
     }
@@ -54,28 +54,28 @@ impl Fit {
     }
 }
 
-/// What is fitted: a model to observations of some of its records.
+/// A model to be fitted to observations of some of its records.
 pub(crate) struct Fitter<'a, M> {
     pub(crate) model: &'a M,
     pub(crate) observations: &'a [Observation],
-    /// numbers of the model's records
+    /// numbers of the records in the model
     pub(crate) records: &'a [usize],
-    /// of every channel of every record
+    /// offset of every channel of every record
     offsets: Vec<Vec<Offset>>,
 }
 
-/// What is known of an offset beforehand: it is normal.
+/// Prior of an offset: a normal distribution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Offset {
     pub(crate) mean: f64,
     pub(crate) sd: f64,
 }
 
-/// Standard deviation that stands for anything, in those of the recorded channel: what is recorded cannot tell it from infinity.
+/// Standard deviation, in those of the recorded channel, that stands for an infinite one: a record cannot tell the two apart.
 const ANYTHING: f64 = 10.0;
 
 impl Offset {
-    /// Of a channel of which `recorded` is known and `predicted`.
+    /// The prior of a channel's offset, from the `recorded` and the `predicted` values.
     pub(crate) fn of(channel: &Channel, recorded: &[f64], predicted: &[f64]) -> Self {
         let (mean, sd) = channel.offset;
         if sd.is_finite() {
@@ -99,7 +99,7 @@ impl Offset {
 
 impl<'a, M: ForwardModel> Fitter<'a, M> {
     /// # Errors
-    /// What keeps the model from responding.
+    /// The model's error if it cannot respond.
     pub(crate) fn new(model: &'a M, records: &'a [usize], observations: &'a [Observation]) -> Result<Self, M::Error> {
         let middle = expected(model.nuisances());
         let of = |(record, observed): (&usize, &Observation)| -> Result<Vec<Offset>, M::Error> {
@@ -137,7 +137,7 @@ impl<'a, M: ForwardModel> Fitter<'a, M> {
         layout
     }
 
-    /// What is known of some unknowns; `None` if the model's word is no density.
+    /// Prior of some unknowns; `None` if the model's precision is not that of a density.
     pub(super) fn beforehand(&self, layout: &Layout) -> Option<Beforehand> {
         let shared = |i: usize| match layout[i] {
             Unknown::Nuisance { number, record: None } => Some(number),

@@ -1,8 +1,8 @@
-//! Hypotheses: what may be fitted.
+//! Hypotheses, which can be fitted.
 
 use crate::ForwardModel;
 
-/// Which mechanisms are at work, and whether the nominal constants are re-estimated.
+/// A set of mechanisms at work, with the nominal constants given or re-estimated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hypothesis {
     /// Numbers in the library, each with the value of its choice, if it has one.
@@ -26,7 +26,7 @@ impl Hypothesis {
     }
 
     /// Whether a mechanism is at work, whatever its choice.
-    pub(crate) fn has(&self, mechanism: usize) -> bool {
+    pub fn has(&self, mechanism: usize) -> bool {
         self.mechanisms.iter().any(|(number, _)| *number == mechanism)
     }
 }

@@ -7,7 +7,7 @@ use nalgebra::{Cholesky, DVector};
 
 /// Rounds of the search around a fit.
 const SEARCHES: usize = 6;
-/// Gain of ln p that makes a round worth while.
+/// Least gain of ln p that is worth a round.
 const WORTH: f64 = 0.3;
 
 impl<M: ForwardModel> Fitter<'_, M> {

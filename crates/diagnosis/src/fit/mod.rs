@@ -1,6 +1,6 @@
 //! One hypothesis fitted to the records, and its evidence.
 //!
-//! [`hypothesis`]: what may be at work; [`unknowns`]: what is found, and [`beforehand`] what is known of it; [`objective`]: what is made least, with its
+//! [`hypothesis`]: the mechanisms at work; [`unknowns`]: the quantities to find, and [`beforehand`] their prior; [`objective`]: the function to minimise, with its
 //! [`derivatives`], found by [`differences`]; from [`starts`] by [`descent`], and beside [`kinks`]: how; [`laplace`]: the evidence; [`fitter`]: all together; [`unseen`]: what it foretells. [`mod@sampled`] checks it.
 
 mod beforehand;
@@ -38,7 +38,7 @@ use crate::{Active, Error, ForwardModel};
 const STARTS: usize = 4;
 /// Difference of ln p below which two fits have ended alike: ten times the change at which one settles.
 const ALIKE: f64 = 0.05;
-/// Gain of ln evidence by another round of fitting the noise below which none follows.
+/// Least gain of ln evidence by a round of fitting the noise after which another round follows.
 const NOISE_SETTLED: f64 = 0.1;
 
 impl<M: ForwardModel> Fitter<'_, M> {
@@ -48,7 +48,7 @@ impl<M: ForwardModel> Fitter<'_, M> {
     }
 
     /// The same beside a fit under the same noise, whose derivatives by nuisances are taken for this one's: several times as fast. Mechanisms change
-    /// what nuisances do, but by little of it; where the records know a nuisance far better than its prior, the fit may stay behind the best.
+    /// the effect of nuisances a little; where the records know a nuisance far better than its prior, the fit may stay behind the best.
     pub(crate) fn screened(&self, hypothesis: &Hypothesis, beside: &Fit) -> Result<Fit, Error<M::Error>> {
         self.screened_from(hypothesis, beside, &[])
     }

@@ -1,5 +1,5 @@
-//! What a fit makes least: −ln p(data, u) = ½ ‖r(u)‖² + ½ uᵀPu, up to a constant, with the whitened residual r of all records and channels
-//! and the precision P of what is known beforehand.
+//! Objective that a fit minimises: −ln p(data, u) = ½ ‖r(u)‖² + ½ uᵀPu, up to a constant, with the whitened residual r of all records and
+//! channels and the precision P of the prior.
 
 use super::beforehand::Beforehand;
 use super::fitter::{Fit, Fitter, Offset};
@@ -18,11 +18,11 @@ pub(super) struct Objective<'a, M> {
     pub(super) noise: &'a Noise,
     pub(super) layout: Layout,
     pub(super) beforehand: Beforehand,
-    /// A fit under the same noise, whose derivatives by what is no mechanism's are taken over.
+    /// A fit under the same noise, whose derivatives by all but mechanisms' parameters are taken over.
     pub(super) like: Option<&'a Fit>,
 }
 
-/// Unknowns, and what follows from them.
+/// Unknowns with the residuals and derivatives that follow from them.
 pub(super) struct Point {
     pub(super) u: DVector<f64>,
     pub(super) responses: Series,
@@ -32,7 +32,7 @@ pub(super) struct Point {
 
 impl<'a, M: ForwardModel> Objective<'a, M> {
     /// # Errors
-    /// [`Error::NotFinite`] if what the model knows of its nuisances beforehand is no density.
+    /// [`Error::NotFinite`] if the model's prior of its nuisances is no density.
     pub(super) fn new(fitter: &'a Fitter<'a, M>, hypothesis: &'a Hypothesis, noise: &'a Noise) -> Result<Self, Error<M::Error>> {
         let layout = fitter.layout(hypothesis);
         let beforehand = fitter.beforehand(&layout).ok_or(Error::NotFinite)?;
@@ -115,7 +115,7 @@ impl<'a, M: ForwardModel> Objective<'a, M> {
         DVector::from_vec(all)
     }
 
-    /// What was observed less responses and offsets.
+    /// Observations less responses and offsets.
     pub(super) fn residuals(&self, u: &DVector<f64>, responses: &Series) -> Series {
         let difference = |(r, y): (&Vec<f64>, &Vec<f64>)| y.iter().zip(r).map(|(y, r)| y - r).collect();
         let of = |(response, o): (&Vec<Vec<f64>>, &Observation)| response.iter().zip(&o.channels).map(difference).collect();

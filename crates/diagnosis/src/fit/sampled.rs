@@ -2,8 +2,8 @@
 //!
 //! Metropolis and Hastings' walk whose proposals keep the normal density of a minimum: û + ρ (u − û) + √(1 − ρ²) ξ (S. L. Cotter and others, *Statistical
 //! Science* 28, 424 (2013)), along all of that density's axes or a few of them: the fewer, the farther it goes at once where the posterior is not normal.
-//! What is accepted is decided by what that density misses, so that a posterior that is normal is sampled at every step. Now and then, with ρ = 0 along
-//! all axes, the walk jumps from one minimum to another, as the mixture of all their densities proposes. No derivatives are needed.
+//! Acceptance depends on the ratio of the posterior to that density alone, so that a normal posterior is sampled at every step. Now and then, with ρ = 0
+//! along all axes, the walk jumps from one minimum to another, as the mixture of all their densities proposes. No derivatives are needed.
 
 use super::fitter::{Fit, Fitter};
 use super::hypothesis::Hypothesis;
@@ -15,11 +15,11 @@ use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 use rand_distr::StandardNormal;
 
-/// Walks, each begun elsewhere.
+/// Number of walks, each with its own start.
 const WALKS: usize = 4;
 /// Share of a walk that is left out: it may not have forgotten its start.
 const FORGOTTEN: f64 = 0.2;
-/// How a walk goes on: it jumps, or keeps so much of its place along this share of the axes.
+/// Kinds of steps of a walk: it jumps, or keeps so much of its place along this share of the axes.
 const MOVES: [Option<(f64, f64)>; 6] =
     [None, Some((0.7, 1.0)), Some((0.95, 1.0)), Some((0.3, 0.3)), Some((0.0, 0.1)), Some((0.0, 0.03))];
 /// −ln p above the least beyond which a minimum holds nothing.
@@ -28,32 +28,32 @@ const FAR: f64 = 15.0;
 const ONE: f64 = 1.0;
 /// Fewest steps of a walk.
 const FEWEST: usize = 20;
-/// A walk begins as many times farther from a minimum as the unknowns are spread.
+/// Distance of a walk's start from a minimum, over the spread of the unknowns.
 const SPREAD: f64 = 1.5;
 
 /// An unknown as Laplace's method and a sampler have it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sampled {
-    /// As Laplace's method has it.
+    /// The unknown by Laplace's method.
     pub laplace: Posterior,
     /// Ends of the samples' interval that holds it with probability 0.9.
     pub ci90: [f64; 2],
     /// Share of the samples within Laplace's interval.
     pub inside: f64,
-    /// Number of independent samples that tell as much of it.
+    /// Number of independent samples that would determine it as well.
     pub effective: f64,
-    /// By how much the walks' spread together is larger than each one's (Gelman and Rubin 1992): 1 where they agree.
+    /// Ratio of the spread of all walks together to that of each (Gelman and Rubin 1992): 1 where they agree.
     pub disagreement: f64,
 }
 
-/// What a sampler finds of a fit.
+/// Result of a sampler around a fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Samples {
     /// Every unknown but offsets.
     pub unknowns: Vec<Sampled>,
-    /// Minima between which it walked.
+    /// Number of minima between which it walked.
     pub minima: usize,
-    /// Share of the steps that were taken.
+    /// Share of the steps that were accepted.
     pub taken: f64,
 }
 
@@ -85,7 +85,7 @@ impl Mode {
         &self.axes * DVector::from_fn(self.at.len(), |_, _| random.sample::<f64, _>(StandardNormal))
     }
 
-    /// From `u` on, by a proposal that keeps the density: `kept` of its place remains along each axis that is of the `share`.
+    /// Next point after `u`, by a proposal that keeps the density: along each axis of the `share`, the part `kept` of its place remains.
     fn beside(&self, u: &DVector<f64>, (kept, share): (f64, f64), random: &mut SmallRng) -> DVector<f64> {
         let places = &self.precision * (u - &self.at);
         // one of them at least
@@ -109,10 +109,10 @@ fn mixture(modes: &[Mode], u: &DVector<f64>) -> f64 {
     least - each.iter().map(|energy| (least - energy).exp()).sum::<f64>().ln()
 }
 
-/// Walks about the posterior of a hypothesis, under the noise of `fit`: `steps` of each of four, the same for one `seed`.
+/// Samples the posterior of a hypothesis under the noise of `fit` by four walks of `steps` each, the same for one `seed`.
 ///
 /// # Errors
-/// What keeps the model from responding; [`Error::NotFinite`] if a minimum has no normal density.
+/// The model's error if it cannot respond; [`Error::NotFinite`] if a minimum has no normal density.
 pub fn sampled<M: ForwardModel>(
     model: &M,
     records: &[usize],

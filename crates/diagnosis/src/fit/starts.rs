@@ -1,4 +1,4 @@
-//! Where a fit's unknowns start.
+//! Starting points of a fit's unknowns.
 
 use super::fitter::Fit;
 use super::objective::Objective;
@@ -6,7 +6,7 @@ use super::unknowns::Unknown;
 use crate::{Active, ForwardModel};
 use nalgebra::DVector;
 
-/// An unknown of a known fit [u] beyond which a fit starts from the middles of the priors, too.
+/// Largest unknown of a known fit [u] from which alone a fit starts; beyond it the fit starts from the middles of the priors, too.
 const STRAYED: f64 = 3.0;
 
 impl<M: ForwardModel> Objective<'_, M> {

@@ -1,9 +1,9 @@
-//! The unknowns of a fit, all on one scale: each is a standard normal variable u beforehand ([`crate::Prior`]); what they stand for.
+//! The unknowns of a fit and their meaning; all are on one scale, each a standard normal variable u beforehand ([`crate::Prior`]).
 
 use super::hypothesis::Hypothesis;
 use crate::{ForwardModel, Nuisance, Parameter};
 
-/// What an unknown is.
+/// Kind of an unknown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Unknown {
     /// `record` where every record has its own

@@ -1,4 +1,4 @@
-//! What a fit knows of a record that it has not seen: a prediction, and how its unknowns may still move it.
+//! A fit's knowledge of a record that it has not seen: a prediction, and the changes of it that the unknowns still allow.
 
 use super::Fit;
 use super::unknowns::{Unknown, expected, parameter};
@@ -11,12 +11,12 @@ type Response = Vec<Vec<f64>>;
 /// A prediction.
 pub(crate) struct Unseen {
     pub(crate) response: Response,
-    /// What independent standard normal variables do to it: `loadings[(moved, variable)]` of the series `moved`.
+    /// Effect of independent standard normal variables on it: `loadings[(moved, variable)]` of the series `moved`.
     pub(crate) moved: Vec<Response>,
     pub(crate) loadings: DMatrix<f64>,
 }
 
-/// Of the model as it is designed; what every record has of its own is free.
+/// Prediction of the model as it is designed; the numbers that every record has of its own are free.
 ///
 /// # Errors
 /// [`Error`] if the model fails.
@@ -40,7 +40,7 @@ impl There {
         model.respond(record, &self.nuisances, &self.active).map_err(Error::Model)
     }
 
-    /// The derivative of the response, `response` here, by what `moves` the numbers by one unit in so many steps.
+    /// The derivative of the response, `response` here, along the change that `moves` the numbers by one unit in so many steps.
     fn derivative<M: ForwardModel>(
         &self,
         model: &M,
@@ -59,7 +59,7 @@ impl There {
     }
 }
 
-/// What a standard deviation of each number that every record has of its own does.
+/// Effect of one standard deviation of each number that every record has of its own.
 fn own<M: ForwardModel>(model: &M, record: usize, there: &There, response: &Response) -> Result<Vec<Response>, Error<M::Error>> {
     let local = model.nuisances().iter().enumerate().filter(|(_, nuisance)| nuisance.local);
     let moved = local.map(|(number, nuisance)| {
@@ -70,7 +70,7 @@ fn own<M: ForwardModel>(model: &M, record: usize, there: &There, response: &Resp
 }
 
 impl Fit {
-    /// The prediction of a record of the model, with all that this fit leaves open.
+    /// The prediction of a record of the model, with all unknowns that this fit leaves open.
     ///
     /// # Errors
     /// [`Error`] if the model fails.
@@ -108,7 +108,7 @@ impl Fit {
     }
 }
 
-/// Whether an unknown is of all records alike.
+/// Whether all records share an unknown.
 fn is_shared(unknown: Unknown) -> bool {
     matches!(unknown, Unknown::Nuisance { record: None, .. } | Unknown::Mechanism { .. })
 }

@@ -1,4 +1,4 @@
-//! The search: everything a model may leave out is fitted and weighed.
+//! The search: every mechanism that a model may leave out is fitted and weighed.
 //!
 //! [`singles`] fits every mechanism alone and gives those that matter noise of their own; [`pairs`] looks for what may stand beside them.
 
@@ -31,11 +31,11 @@ struct Pool<'a, M> {
     /// Every mechanism alone, once for each of its choices.
     singles: Vec<Vec<Hypothesis>>,
     candidates: Vec<Candidate>,
-    /// Told each task as it begins, and the long ones as they go.
+    /// Listener that is told each task as it begins, and the long ones as they go.
     progress: &'a dyn Fn(Step),
 }
 
-/// Compares everything that `model` may leave out on its records `records`, which observed `observations`.
+/// Compares all hypotheses of `model` on its records `records`, which observed `observations`.
 ///
 /// `progress` is told each task as it begins, and the long ones as they go.
 ///
@@ -106,7 +106,7 @@ impl<M: ForwardModel> Pool<'_, M> {
         self.fitter.fit_with_noise(&Hypothesis::NOMINAL, &first, 3)
     }
 
-    /// Takes in the nominal model, its constants given or re-estimated, each with its own noise found from the leader's; the former.
+    /// Takes in the nominal model, its constants given or re-estimated, each with its own noise found from the leader's; returns the former.
     fn without_mechanisms(&mut self, nominal: Fit, leader: &Fit) -> Result<Fit, Error<M::Error>> {
         let under_leader = |nominal: &Fit| Fit { noise: leader.noise.clone(), ..nominal.clone() };
         let again = self.fitter.fit_with_noise(&Hypothesis::NOMINAL, &under_leader(&nominal), 2)?;

@@ -1,4 +1,4 @@
-//! What may be at work beside the likeliest mechanisms.
+//! Mechanisms that may be at work beside the likeliest ones.
 
 use progress::Step;
 

@@ -1,20 +1,20 @@
-//! What is thought of hypotheses before any recording is seen.
+//! Prior probabilities of hypotheses, before any recording is seen.
 
 use crate::fit::Hypothesis;
 use crate::{ForwardModel, Role, Structure};
 
-/// Probabilities before any recording is seen, and what counts as excluded.
+/// Prior probabilities, and the limit of exclusion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Of the nominal model.
+    /// Prior probability of the nominal model.
     pub none: f64,
-    /// Of constants that must be re-estimated.
+    /// Prior probability of constants that must be re-estimated.
     pub recalibrate: f64,
-    /// Of one mechanism, all together.
+    /// Prior probability of one mechanism, all mechanisms together.
     pub single: f64,
-    /// Of two mechanisms, all pairs together.
+    /// Prior probability of two mechanisms, all pairs together.
     pub pair: f64,
-    /// Of something that is not in the library.
+    /// Prior probability of something that is not in the library.
     pub unknown: f64,
     /// Smallest probability of a mechanism, relative to the best, at which it is not excluded.
     pub excluded: f64,
@@ -28,18 +28,18 @@ impl Default for Settings {
 
 /// Share of the unknown that the unnamed mechanisms have; the rest is the structures'.
 const DESCRIBED: f64 = 0.5;
-/// A law that nobody listed may have one term or two.
+/// Most terms of a law that the library does not hold.
 const NUMBERS: f64 = 2.0;
 
 impl Settings {
-    /// ln of the probability, before anything is seen, that laws of a certain number that nobody listed are at work beside a hypothesis: the design's
+    /// ln of the prior probability that a certain number of laws that the library does not hold are at work beside a hypothesis: the design's
     /// constants, with mechanisms or without. The choice among the laws is not in it.
     pub fn log_unlisted<M: ForwardModel>(&self, model: &M, beside: &Hypothesis) -> f64 {
         let mechanisms = if beside.mechanisms.is_empty() { 0.0 } else { self.log_prior(model, beside, false) };
         mechanisms + (self.unknown * DESCRIBED / NUMBERS).ln()
     }
 
-    /// ln of the probability of a hypothesis, beside a structure or alone, before anything is seen.
+    /// ln of the prior probability of a hypothesis, beside a structure or alone.
     pub(super) fn log_prior<M: ForwardModel>(&self, model: &M, hypothesis: &Hypothesis, rival: bool) -> f64 {
         let library = model.mechanisms();
         // among those of its kind

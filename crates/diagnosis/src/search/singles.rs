@@ -6,7 +6,7 @@ use super::{BEHIND, FOLLOWED, LIKELIEST, Pool, SINGLES, sort};
 use crate::fit::{Fit, Hypothesis};
 use crate::{Error, ForwardModel};
 
-/// Rounds of fitting all of them, at most.
+/// Largest number of rounds of fitting all of them.
 const ROUNDS: usize = 3;
 /// Gain of ln evidence by which another fit takes the lead.
 const LEADS: f64 = 0.5;
@@ -53,7 +53,7 @@ impl<M: ForwardModel> Pool<'_, M> {
         Ok(fits)
     }
 
-    /// Takes in every single mechanism of `fits` (best first); those that were given their own noise, best first.
+    /// Takes in every single mechanism of `fits` (best first); returns those that were given their own noise, best first.
     pub(super) fn likeliest(&mut self, fits: Vec<Fit>) -> Result<Vec<Fit>, Error<M::Error>> {
         let lead = fits[0].log_evidence;
         let mut leaders: Vec<Fit> = Vec::new();

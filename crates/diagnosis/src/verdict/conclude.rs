@@ -1,4 +1,4 @@
-//! From weighed candidates to a verdict.
+//! Verdict on weighed candidates.
 
 use super::set::{likely, marginals, named};
 use super::{Diagnosis, Verdict};
@@ -43,7 +43,7 @@ impl Diagnosis {
     }
 }
 
-/// Sorts candidates by their weights, best first, and makes probabilities of them.
+/// Sorts candidates by their weights, best first, and turns the weights into probabilities.
 fn weigh(candidates: &mut [Candidate]) {
     candidates.sort_by(|a, b| b.log_weight.total_cmp(&a.log_weight));
     let most = candidates[0].log_weight;
@@ -76,7 +76,7 @@ fn of_one_kind(a: &Candidate, b: &Candidate) -> bool {
     a.fit.hypothesis.numbers() == b.fit.hypothesis.numbers() && structure(a) == structure(b)
 }
 
-/// Candidates as one.
+/// Several candidates taken as one.
 struct Marginal {
     /// ln of their weights' sum.
     log_weight: f64,

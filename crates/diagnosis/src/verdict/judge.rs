@@ -1,20 +1,20 @@
-//! The verdict before records that were held out: what they prove, and what they contradict.
+//! The verdict tested on held-out records, which may prove or contradict it.
 
 use super::set::{likely, marginals, named};
 use super::{Diagnosis, Verdict};
 use crate::{Candidate, Error, Fit, ForwardModel, HeldOut, Hypothesis, Observation, as_designed};
 
-/// Probability of a mechanism from which it is named although a structure is left beside it.
+/// Least probability of a mechanism that is named although a structure remains beside it.
 const SURE: f64 = 0.8;
 
-/// A record that was held out, predicted twice.
+/// A held-out record with its predictions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
-    /// By the nominal model as it is designed, its offsets fitted ([`as_designed`]).
+    /// Prediction by the nominal model as it is designed, its offsets fitted ([`as_designed`]).
     pub nominal: HeldOut,
-    /// By the best candidate, nothing fitted anew ([`crate::Fit::hold_out`]).
+    /// Prediction by the best candidate, nothing fitted anew ([`crate::Fit::hold_out`]).
     pub model: HeldOut,
-    /// By the design's own constants re-estimated, nothing fitted anew, if that was compared.
+    /// Prediction by the design's own constants re-estimated, nothing fitted anew, if that was compared.
     pub constants: Option<HeldOut>,
     /// Whether the best candidate's error of the channel that judges is no larger than the nominal model's.
     pub accepted: bool,
@@ -33,56 +33,56 @@ impl Judged {
     }
 }
 
-/// What the records that were held out do to a verdict.
+/// Effect of the held-out records on a verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ruling {
-    /// Nothing.
+    /// The verdict stands.
     Stands,
     /// Mechanisms beside which a structure was left are proven: unknown becomes explained.
     AcceptedBeside,
-    /// By all records together the design, or its constants re-estimated, are likelier than the explanation: none or recalibrate.
+    /// The design, or its constants re-estimated, are likelier than the explanation by all records together: none or recalibrate.
     Outweighed,
     /// The explanation is taken back: none or unknown remains.
     TakenBack {
         /// Number of the first record that contradicts it, among those held out.
         record: usize,
-        /// How.
+        /// Kind of contradiction.
         why: Contradiction,
     },
 }
 
-/// How a record contradicts an explanation.
+/// Way in which a record contradicts an explanation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Contradiction {
-    /// It is predicted clearly worse than by the nominal model ([`HeldOut::clearly_worse_than`]).
+    /// The explanation predicts it clearly worse than the nominal model does ([`HeldOut::clearly_worse_than`]).
     ClearlyWorse,
-    /// It is predicted hardly better, and far from its noise ([`HeldOut::proves_nothing`]).
+    /// The explanation predicts it hardly better, and far from its noise ([`HeldOut::proves_nothing`]).
     ProvesNothing,
 }
 
-/// What became of a diagnosis before the records that were held out.
+/// Outcome of a diagnosis tested on the held-out records.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judgement {
-    /// Their predictions, in their order.
+    /// Predictions of the held-out records, in their order.
     pub records: Vec<Judged>,
-    /// What followed.
+    /// Effect on the verdict.
     pub ruling: Ruling,
-    /// Mechanisms that were taken back, with their probabilities by what was fitted.
+    /// Mechanisms that were taken back, with their probabilities by the fitted records.
     pub withdrawn: Vec<(usize, f64)>,
 }
 
 impl Diagnosis {
-    /// Predicts the records `held` (numbers of the model's, with what was observed) and lets them judge the verdict by `channel`; `fitted` is the first
-    /// record that was fitted, and `drawn` the model that is exact as it is designed, before it [`crate::settled`]. `alone` is the fit of the constants
-    /// alone with the model that is good about them ([`crate::Settled::alone`]), if there is one.
+    /// Predicts the records `held` (their numbers in the model, and their observations) and judges the verdict by the errors of `channel`. `fitted` is
+    /// the first record that was fitted, `drawn` the model that is exact as it is designed, before it [`crate::settled`]. `alone` is the fit of the
+    /// constants alone with the model that is good about them ([`crate::Settled::alone`]), if there is one.
     ///
     /// - A structure beside mechanisms that have a name, one of them nearly certain, is no bar to naming them if *every* record is predicted to within
     ///   its noise, and clearly better than by the nominal model and by its constants re-estimated: the verdict becomes [`Verdict::Explained`], and
     ///   their probabilities count the candidates with a structure.
-    /// - An explanation is outweighed where the design or its constants are likelier by what was fitted and by what was held out together.
-    /// - An explanation, or a recalibration, is taken back if *any* record contradicts it ([`Contradiction`]). Then there is nothing to explain if
-    ///   the nominal model predicts that record to within noise, else what there is is unknown; the mechanisms lose their probabilities, which
-    ///   were of the fitted records alone.
+    /// - An explanation is outweighed where the design or its constants are likelier by fitted and held-out records together.
+    /// - An explanation, or a recalibration, is taken back if *any* record contradicts it ([`Contradiction`]). The verdict is then none if the
+    ///   nominal model predicts that record to within noise, and unknown otherwise; the mechanisms lose their probabilities, which were of the
+    ///   fitted records alone.
     ///
     /// # Errors
     /// [`Error`] if the model fails.
@@ -142,7 +142,7 @@ impl Diagnosis {
         Ok(Judgement { records, ruling, withdrawn })
     }
 
-    /// Takes the explanation's place by the design or its constants, the likelier by all records `together`.
+    /// Replaces the explanation by the design or its constants, whichever is likelier by all records `together`.
     fn outweighed<M: ForwardModel>(&mut self, together: [f64; 4], model: &M) {
         // no other explanation has a prediction of its own: all keep their shares of what explanations have
         let left = together[2] / self.verdicts[2];
@@ -161,7 +161,7 @@ impl Diagnosis {
             (0..self.best().fit.active.len()).map(|place| crate::marginal::estimates(model, &self.candidates, place)).collect();
     }
 
-    /// Whether what is called unknown is a structure beside mechanisms that have a name.
+    /// Whether the unknown is a structure beside mechanisms that have a name.
     pub fn is_beside_named<M: ForwardModel>(&self, model: &M) -> bool {
         let best = self.best();
         let something = best.rival.is_some() && !best.fit.hypothesis.mechanisms.is_empty();
@@ -173,7 +173,7 @@ fn is_accepted(model: &HeldOut, nominal: &HeldOut, channel: usize) -> bool {
     model.rmse[channel] <= nominal.rmse[channel]
 }
 
-/// Probabilities of none, recalibrate, explained and unknown by what was fitted and what was held out; the leading candidate stands for what has no
+/// Probabilities of none, recalibrate, explained and unknown by fitted and held-out records; the leading candidate stands for a verdict without a
 /// prediction of its own.
 fn together(verdicts: [f64; 4], records: &[Judged]) -> [f64; 4] {
     let gain = |of: &dyn Fn(&Judged) -> Option<f64>| -> f64 {
@@ -217,7 +217,7 @@ fn rule(verdict: Verdict, together: [f64; 4], beside_named: bool, records: &[Jud
 mod tests {
     use super::*;
 
-    /// Errors of the nominal model and of the best candidate where noise is 1, and by how much the likelihood is for the latter.
+    /// Errors of the nominal model and of the best candidate where noise is 1, and the ln of the likelihood ratio in favour of the latter.
     fn judged(nominal: f64, model: f64, gain: f64) -> Judged {
         let of = |rmse: f64, log_score: f64| HeldOut {
             prediction: Vec::new(),
@@ -234,7 +234,7 @@ mod tests {
         rule(verdict, together(SURELY, records), false, records, 1)
     }
 
-    /// Probabilities of verdicts that leave the design hardly any.
+    /// Probabilities of the verdicts, of which the design has hardly any.
     const SURELY: [f64; 4] = [1e-12, 1e-12, 0.9, 0.1];
 
     #[test]

@@ -1,7 +1,7 @@
-//! What the recordings say, in a word and in numbers.
+//! Verdict of the recordings, in a word and in numbers.
 //!
-//! [`conclude`] makes a verdict of weighed candidates, [`set`] says which mechanisms are not excluded, [`judge`] what records that were held
-//! out make of it, [`unlisted`] what a law that was composed makes of it.
+//! [`conclude`] makes a verdict of weighed candidates, and [`set`] says which mechanisms are not excluded. [`judge`] tests the verdict on
+//! held-out records, [`unlisted`] on a composed law.
 
 mod conclude;
 mod judge;
@@ -16,7 +16,7 @@ use crate::{Estimate, Rival, Stage};
 /// A hypothesis that was compared.
 #[derive(Debug, Clone)]
 pub struct Candidate {
-    /// At its most probable parameters.
+    /// The fit, at its most probable parameters.
     pub fit: Fit,
     /// Structure that was added to it, if any.
     pub rival: Option<Rival>,
@@ -32,18 +32,18 @@ impl Candidate {
         self.rival.is_none() && self.fit.hypothesis == Hypothesis::RECALIBRATED
     }
 
-    /// ln of its probability before anything was seen.
+    /// ln of its prior probability.
     pub fn log_prior(&self) -> f64 {
         self.log_weight - self.log_evidence()
     }
 
     /// ln of the evidence, with that of its structure.
-    pub(crate) fn log_evidence(&self) -> f64 {
+    pub fn log_evidence(&self) -> f64 {
         self.fit.log_evidence + self.rival.as_ref().map_or(0.0, |r| r.gain)
     }
 }
 
-/// What the recordings say.
+/// Conclusion drawn from the recordings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     /// The nominal model suffices.
@@ -59,9 +59,9 @@ pub enum Verdict {
 /// The outcome.
 #[derive(Debug, Clone)]
 pub struct Diagnosis {
-    /// In a word.
+    /// The verdict in a word.
     pub verdict: Verdict,
-    /// Everything compared, most probable first.
+    /// All candidates, most probable first.
     pub candidates: Vec<Candidate>,
     /// Marginal probability of every mechanism (its number in the library), most probable first.
     pub mechanisms: Vec<(usize, f64)>,
@@ -71,9 +71,9 @@ pub struct Diagnosis {
     pub parameters: Vec<Vec<Estimate>>,
     /// The nominal model, its offsets and model errors fitted.
     pub nominal: Fit,
-    /// The nominal model under the best candidate's noise: what it leaves is the mismatch.
+    /// The nominal model under the best candidate's noise; its residual is the mismatch.
     pub mismatch: Fit,
-    /// What a flexible input at each stage would make of the mismatch, best first.
+    /// Fit of a flexible input at each stage to the mismatch, best first.
     pub stages: Vec<Stage>,
     verdicts: [f64; 4],
     excluded: f64,
@@ -90,7 +90,7 @@ impl Diagnosis {
         self.verdicts
     }
 
-    /// Ends of what the choice of the best candidate's mechanism at `place` may be, if it has one.
+    /// Ends of the interval of the choice of the best candidate's mechanism at `place`, if it has one.
     pub fn choice(&self, place: usize) -> Option<[f64; 2]> {
         self.best().fit.hypothesis.mechanisms.get(place)?.1?;
         Some(self.parameters.get(place)?.first()?.ci90)

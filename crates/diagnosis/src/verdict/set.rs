@@ -1,4 +1,4 @@
-//! Which mechanisms the recordings do not exclude.
+//! Mechanisms that the recordings do not exclude.
 
 use crate::{Candidate, ForwardModel};
 
@@ -23,8 +23,8 @@ pub(super) fn marginals<M: ForwardModel>(
     all
 }
 
-/// Mechanisms that are not excluded, best first: of those `of_kind`, whoever has at least the share `excluded` of the best one's probability, and
-/// is either likely of itself or needed.
+/// Mechanisms `of_kind` that are not excluded, best first: each has at least the share `excluded` of the best one's probability, and is either
+/// likely of itself or needed.
 pub(super) fn likely(
     marginals: &[(usize, f64)],
     candidates: &[Candidate],
@@ -99,7 +99,7 @@ pub(super) mod tests {
         }
     }
 
-    /// A candidate of which only mechanisms and probability are told.
+    /// A candidate with mechanisms and a probability, and nothing else.
     pub(crate) fn candidate(mechanisms: &[usize], probability: f64) -> Candidate {
         let hypothesis = Hypothesis { mechanisms: mechanisms.iter().map(|m| (*m, None)).collect(), constants_free: false };
         let fit = Fit {

@@ -1,18 +1,29 @@
-//! A law that was composed, weighed with the mechanisms that have a name.
+//! A composed law, weighed with the mechanisms that have a name.
 
 use super::{Diagnosis, Verdict};
 use crate::Candidate;
 
 impl Diagnosis {
-    /// Weighs a law that was composed, beside the design's constants or mechanisms that have a name, with all that was compared: `log_weight` is ln of its
-    /// evidence and prior probability ([`Composed::log_weight`](crate::Composed::log_weight)). What is probable of it is taken from all others, and given to
-    /// the mechanisms `names` that stand beside it. What was compared gains `by_noise` of ln evidence in the noise that the law leaves
-    /// ([`gained_by_noise_of`](crate::gained_by_noise_of)), and what the leader gains over the law by records that were held out, `by_held_out`. Where the law
-    /// is likelier than what explained the records, they are unknown, and the law describes them.
+    /// Weighs a composed law, beside the design's constants or mechanisms that have a name, with all candidates: `log_weight` is ln of its evidence and
+    /// prior probability ([`Composed::log_weight`](crate::Composed::log_weight)). Its probability is taken from all others and given to the mechanisms
+    /// `names` that stand beside it. The candidates gain `by_noise` of ln evidence in the noise that the law leaves
+    /// ([`gained_by_noise_of`](crate::gained_by_noise_of)), and the leader's gain over the law on held-out records, `by_held_out`. Where the law is
+    /// likelier than the explanation, the verdict is unknown, and the law describes the records.
     pub fn weigh_unlisted(&mut self, log_weight: f64, names: &[usize], by_noise: f64, by_held_out: f64) {
         let ratio = |c: &Candidate| (c.log_weight + by_noise + by_held_out - log_weight).exp();
         let others: f64 = self.candidates.iter().map(ratio).sum();
         self.make_room(1.0 / (1.0 + others), names);
+    }
+
+    /// Leaves a mechanism so much of its probability as the records give it over another law in its place that is as likely as the mechanism beforehand
+    /// ([`in_place_of`](crate::in_place_of)): `behind` is by how much ln evidence of all records the law is behind. A name that the records do not
+    /// tell from a law of another cause is thought of, not found. The verdict is not touched: it weighs what is thought beforehand, too. The share
+    /// that is left.
+    pub fn doubt(&mut self, mechanism: usize, behind: f64) -> f64 {
+        let share = 1.0 / (1.0 + (-behind).exp());
+        self.mechanisms.iter_mut().filter(|(m, _)| *m == mechanism).for_each(|(_, p)| *p *= share);
+        self.mechanisms.sort_by(|a, b| b.1.total_cmp(&a.1));
+        share
     }
 
     /// Gives this probability to something unknown beside mechanisms that have a name.
@@ -75,6 +86,20 @@ mod tests {
         assert_eq!(law.names(), names);
         diagnosis.weigh_unlisted(law.log_weight(0.0), names, by_noise, 0.0);
         diagnosis
+    }
+
+    #[test]
+    fn a_name_keeps_what_the_records_give_it_over_a_law_in_its_place() {
+        for (behind, left) in [(0.0, 0.5), (9.0_f64.ln(), 0.9), (-9.0_f64.ln(), 0.1), (f64::INFINITY, 1.0), (700.0, 1.0)] {
+            let (mut diagnosis, before) = (explained(), explained());
+            assert!((diagnosis.doubt(0, behind) - left).abs() < 1e-12);
+            assert!((diagnosis.mechanisms[0].1 - left * before.mechanisms[0].1).abs() < 1e-12);
+            assert_eq!((diagnosis.verdict, diagnosis.verdicts()), (before.verdict, before.verdicts()));
+            // of another mechanism nothing is said
+            let mut other = explained();
+            other.doubt(1, behind);
+            assert_eq!(other.mechanisms, before.mechanisms);
+        }
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What `--mechanism` asks for: files of a user's own, and ids of mechanisms that are weighed on request.
+//! Mechanisms that `--mechanism` asks for: files of a user's own, and ids of mechanisms that are weighed on request.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ use super::mechanism::{MechanismCase, read_mechanism};
 use super::name::meant;
 use crate::{Error, shown, shown_path};
 
-/// What `--mechanism` asks for beside the program's usual mechanisms.
+/// Mechanisms that `--mechanism` asks for beside the program's usual ones.
 #[derive(Default)]
 pub struct Asked {
     /// Files of a user's own.
@@ -18,7 +18,7 @@ pub struct Asked {
     pub listed: Vec<&'static dyn Mechanism>,
 }
 
-/// Reads what `--mechanism` asks for, each once: files, or ids of mechanisms that are weighed on request.
+/// Reads the values of `--mechanism`, each once: files, or ids of mechanisms that are weighed on request.
 ///
 /// # Errors
 /// As [`read_mechanism`]; [`Error::Usage`] if one is given twice.
@@ -90,7 +90,7 @@ pub fn further_columns(own: &[MechanismCase]) -> Vec<String> {
     all.into_iter().map(str::to_owned).collect()
 }
 
-/// What to do with an id where files are simulated.
+/// Error of an id where files are simulated.
 fn not_simulated(id: &str) -> Error {
     let mut listed = CATALOGUE.iter().chain(ON_REQUEST).map(|mechanism| mechanism.facts());
     let text = match listed.find(|facts| facts.id == id) {

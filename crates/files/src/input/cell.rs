@@ -12,6 +12,7 @@ use super::cell_material::{Material, material};
 use super::fingerprint::Fingerprint;
 use super::group::Group;
 use super::mirror::Mirror;
+use super::opened::open;
 use super::source::{CELL, Source};
 use crate::Error;
 
@@ -26,7 +27,7 @@ pub struct CellCase {
     pub name: String,
     /// Names of the rings from the inside out.
     pub ring_names: Vec<String>,
-    /// What it describes, in SI.
+    /// The cell that it describes, in SI.
     pub cell: FibreCell,
     /// Its content.
     pub fingerprint: Fingerprint,
@@ -46,7 +47,7 @@ pub enum AnyCell {
 /// # Errors
 /// The fault, in which file, line and field, and how to mend it.
 pub fn read_cell(path: &Path) -> Result<CellCase, InputError> {
-    let source = Source::read(path)?;
+    let source = open(path)?;
     let file: CellFile = source.parse(Some(&CELL))?;
     if let Some(key) = file.general_key() {
         return Err(irregular(&Group::whole(&source), &key));
@@ -59,7 +60,7 @@ pub fn read_cell(path: &Path) -> Result<CellCase, InputError> {
 /// # Errors
 /// The fault, in which file, line and field, and how to mend it.
 pub fn read_any_cell(path: &Path) -> Result<AnyCell, InputError> {
-    any(path, &Source::read(path)?)
+    any(path, &open(path)?)
 }
 
 /// Checks a cell file that is not written yet: the case that [`read_any_cell`] would read.
@@ -83,13 +84,13 @@ fn irregular(top: &Group, key: &str) -> InputError {
     top.fault(key, "the cell must be regular here", "leave the key out, or take `fogcoil homogenize`")
 }
 
-/// What every cell has: a fibre of rings, and constituents.
+/// Common part of every cell: a fibre of rings, and constituents.
 struct Fibre<'a> {
     source: &'a Source,
     file: CellFile,
-    /// Of the rings from the inside out.
+    /// Outlines of the rings from the inside out.
     outlines: Vec<Outline>,
-    /// Of the rings, last of the adhesive.
+    /// Names, roles and materials of the rings, last of the adhesive.
     phases: Vec<(String, Role, Material)>,
 }
 

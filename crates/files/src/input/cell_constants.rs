@@ -16,7 +16,7 @@ pub struct AtTemperature {
     pub heavy: [Option<f64>; 2],
     /// The nearest transversely isotropic constants, mean over realisations.
     pub nearest: Option<Constants>,
-    /// How far the realisation that is farthest is from transversely isotropic.
+    /// Distance of the farthest realisation from transverse isotropy.
     pub anisotropy: f64,
     /// Mean and standard deviation of each constant over several realisations.
     pub spread: Option<Spread>,
@@ -24,7 +24,7 @@ pub struct AtTemperature {
 
 /// Statistics over realisations.
 pub struct Spread {
-    /// How many there are.
+    /// Number of realisations.
     pub count: usize,
     /// Mean of each constant, in the order of their names.
     pub mean: Vec<f64>,

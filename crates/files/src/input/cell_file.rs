@@ -22,7 +22,7 @@ pub(super) struct CellFile {
     pub(super) pitch_um: Given<FibreUm>,
     /// Concentric rings of the fibre, from the inside out, 1 to 16.
     pub(super) rings: Vec<RingFile>,
-    /// What fills the rest of the cell.
+    /// Material of the rest of the cell.
     pub(super) adhesive: MaterialFile,
     /// Lattice; hexagonal unless given.
     #[serde(default)]
@@ -62,9 +62,9 @@ pub(super) struct DisplacedFile {
     pub(super) most_um: FibreUm,
     /// Thinnest film left between two fibres.
     pub(super) least_film_um: FibreUm,
-    /// Of the random numbers; realisation k takes `seed` + k.
+    /// Seed of the random numbers; realisation k takes `seed` + k.
     pub(super) seed: u64,
-    /// How many cells are solved and averaged; 1 unless given.
+    /// Number of cells that are solved and averaged; 1 unless given.
     #[serde(default = "one")]
     pub(super) realisations: usize,
 }
@@ -77,7 +77,7 @@ pub(super) struct VoidFile {
     pub(super) centre_um: (PlaceUm, PlaceUm),
     /// Its two axes.
     pub(super) diameters_um: (FibreUm, FibreUm),
-    /// Of the first axis from x; 0 unless given.
+    /// Angle of the first axis from x; 0 unless given.
     #[serde(default)]
     pub(super) angle_deg: AngleDeg,
 }
@@ -89,13 +89,13 @@ pub(super) struct RingFile {
     /// Its name.
     #[serde(deserialize_with = "super::name::printable")]
     pub(super) name: String,
-    /// Of a round ring.
+    /// Outer diameter of a round ring.
     #[serde(default)]
     pub(super) outer_diameter_um: Given<FibreUm>,
     /// The two axes of an ellipse, in place of `outer_diameter_um`.
     #[serde(default)]
     pub(super) outer_diameters_um: Given<(FibreUm, FibreUm)>,
-    /// Of the ellipse's first axis from x; 0 unless given.
+    /// Angle of the ellipse's first axis from x; 0 unless given.
     #[serde(default)]
     pub(super) angle_deg: AngleDeg,
     /// Its centre (x, y) from the fibre's axis; (0, 0) unless given.
@@ -103,7 +103,7 @@ pub(super) struct RingFile {
     pub(super) offset_um: (PlaceUm, PlaceUm),
     /// Whether the row M reports its mean strain.
     pub(super) glass: bool,
-    /// What it is made of.
+    /// Its material.
     pub(super) material: MaterialFile,
 }
 
@@ -123,10 +123,10 @@ pub(super) struct MaterialFile {
     /// Thermal conductivity; isotropic.
     #[serde(default)]
     pub(super) conductivity_w_per_mk: Given<Conductivity>,
-    /// Optional, for the cell's mean density.
+    /// Density; optional, for the cell's mean density.
     #[serde(default)]
     pub(super) density_kg_per_m3: Given<Density>,
-    /// Optional, for the cell's mean heat capacity.
+    /// Specific heat; optional, for the cell's mean heat capacity.
     #[serde(default)]
     pub(super) specific_heat_j_per_kgk: Given<SpecificHeat>,
     /// Orthotropic constants, in place of the isotropic ones.
@@ -181,7 +181,7 @@ mirrored! {
         k_y_w_per_mk: Conductivity = k_y,
         /// Conductivity along z.
         k_z_w_per_mk: Conductivity = k_z,
-        /// Of the material's x from the cell's; 0 unless given.
+        /// Angle of the material's x from the cell's; 0 unless given.
         #[serde(default)]
         angle_deg: AngleDeg = angle,
     }
@@ -236,7 +236,7 @@ impl CellFile {
 }
 
 impl MaterialFile {
-    /// What it has in place of one set of isotropic constants.
+    /// The key that stands in place of one set of isotropic constants.
     pub(super) fn general_key(&self) -> Option<&'static str> {
         if self.orthotropic.is_some() { Some("orthotropic") } else { (!self.table.is_empty()).then_some("table") }
     }

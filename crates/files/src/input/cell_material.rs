@@ -13,7 +13,7 @@ use super::syntax::MISSING;
 
 const MOST_ROWS: usize = 1000;
 
-/// What a phase is made of.
+/// Material of a phase.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Material {
     /// Isotropic, the same at all temperatures.
@@ -95,7 +95,7 @@ pub(super) fn material(at: &Group, file: &MaterialFile) -> Result<Material, Inpu
     Ok(Material::Isotropic(Constituent { density, specific_heat, ..plain }))
 }
 
-/// Of modulus, ratio, expansion and conductivity, SI.
+/// Constants from modulus, ratio, expansion and conductivity, SI.
 fn constituent(at: &Group, [modulus, ratio, expansion, conductivity]: [f64; 4]) -> Result<Constituent, InputError> {
     let elastic = Isotropic { youngs_modulus: modulus, poisson_ratio: ratio, thermal_expansion: expansion };
     at.law(elastic.law())?;

@@ -14,6 +14,7 @@ use super::fingerprint::Fingerprint;
 use super::group::Group;
 use super::mechanics::mechanics;
 use super::mirror::Mirror;
+use super::opened::open;
 use super::source::{COIL, Source};
 use super::spool_file::spool;
 use super::tolerances::tolerances;
@@ -34,30 +35,30 @@ pub struct CoilCase {
     pub file: PathBuf,
     /// Its name.
     pub name: String,
-    /// What it describes, in SI.
+    /// The design that it describes, in SI.
     pub design: Design,
-    /// How far a unit may be from it.
+    /// Deviations of a unit from it.
     pub tolerances: Tolerances,
     /// Its turns.
     pub winding: Winding,
-    /// Where its numbers come from.
+    /// Origin of its numbers.
     pub provenance: Provenance,
     /// The content of the file and of the cells it names, in this order.
     pub fingerprints: Vec<Fingerprint>,
-    /// What is allowed but looks like a mistake.
+    /// Warnings of entries that are allowed but look like mistakes.
     pub warnings: Vec<Note>,
 }
 
-/// Where the numbers of a design come from that a file can give in several ways.
+/// Origins of a design's numbers that a file can give in several ways.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Provenance {
-    /// Of the coil's constants.
+    /// Origin of the coil's constants.
     pub material: Origin,
-    /// Of the dehomogenisation row.
+    /// Origin of the dehomogenisation row.
     pub dehomogenization: Origin,
 }
 
-/// Where a set of numbers comes from.
+/// Origin of a set of numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Origin {
     /// Written in the coil file.
@@ -74,19 +75,19 @@ struct Cells<'a> {
     source: &'a Source,
     done: Vec<(PathBuf, Constants)>,
     fingerprints: Vec<Fingerprint>,
-    /// What was taken for something else.
+    /// Notes on numbers that were replaced by an approximation.
     notes: Vec<Note>,
-    /// Of the winding \[m\].
+    /// Pitch of the winding \[m\].
     pitch: f64,
 }
 
-/// How far the winding may reach beyond the coil's rectangle, in pitches: drawings round to hundredths of a millimetre.
+/// Largest overhang of the winding beyond the coil's rectangle, in pitches: drawings round to hundredths of a millimetre.
 const SLACK: f64 = 0.1;
 
 /// Largest relative difference between the pitches of cell and winding that passes without a word.
 const SAME_PITCH: f64 = 0.01;
 
-/// How far from transversely isotropic a coil's cell may be: a coil's law is.
+/// Largest distance of a coil's cell from transverse isotropy, which a coil's law has.
 const MOST_ANISOTROPY: f64 = 0.01;
 
 /// Reads and checks a coil file; homogenises the cells it names.
@@ -97,7 +98,7 @@ const MOST_ANISOTROPY: f64 = 0.01;
 /// [`Error::Input`] says what is wrong, in which file, line and field, and how to mend it; [`Error::Homogenization`] if a sound
 /// cell cannot be solved.
 pub fn read_coil(path: &Path) -> Result<CoilCase, Error> {
-    checked(path, Source::read(path)?)
+    checked(path, open(path)?)
 }
 
 /// Checks a coil file that is yet to be written: the case that [`read_coil`] would read.

@@ -24,15 +24,15 @@ pub(crate) struct CoilFile {
     /// Its name.
     #[serde(deserialize_with = "super::name::printable")]
     pub(crate) name: String,
-    /// How the fibre lies.
+    /// Places of the turns.
     pub(crate) winding: WindingFile,
     /// The potted winding as a body.
     pub(crate) coil: BodyFile,
-    /// What it is wound on; none is a free coil.
+    /// The spool; none is a free coil.
     pub(crate) spool: Option<SpoolFile>,
     /// The medium around the solids.
     pub(crate) surroundings: SurroundingsFile,
-    /// What of stiffness and bond depends on temperature or time; Elastic unless given.
+    /// Dependence of stiffness and bond on temperature or time; Elastic unless given.
     #[serde(default, skip_serializing_if = "says_default::<Mechanics, _>")]
     pub(crate) mechanics: MechanicsFile,
     /// Heat paths besides conduction.
@@ -45,9 +45,9 @@ pub(crate) struct CoilFile {
     /// Terms that vanish at a reference temperature.
     #[serde(default, skip_serializing_if = "says_default::<Drifts, _>")]
     pub(crate) drifts: DriftsFile,
-    /// From the coil's strains to those of the glass.
+    /// Map from the coil's strains to those of the glass.
     pub(crate) dehomogenization: DehomogenizationFile,
-    /// One standard deviation of what a unit may be from this drawing, by the keys of its numbers; usual ones where none is given.
+    /// One standard deviation of a unit's deviation from this drawing, by the keys of its numbers; usual ones where none is given.
     #[serde(default, deserialize_with = "super::tolerances::each_once", skip_serializing_if = "TolerancesFile::is_empty")]
     pub(crate) tolerances: TolerancesFile,
     /// Correlations of two numbers that have a tolerance, by their keys: of a lot whose units were calibrated; all others are independent.
@@ -61,7 +61,7 @@ pub(crate) struct CoilFile {
 pub(crate) struct BodyFile {
     /// Its outer radius.
     pub(crate) outer_radius_mm: LengthMm,
-    /// From y = 0 to its right face.
+    /// Height from y = 0 to its right face.
     pub(crate) height_mm: LengthMm,
     /// Density.
     pub(crate) density_kg_per_m3: Density,
@@ -136,9 +136,9 @@ mirrored! {
 
     /// The fibre's optics.
     OpticsFile is Optics {
-        /// n.
+        /// Refractive index n.
         refractive_index: Index = refractive_index,
-        /// dn/dT.
+        /// Thermo-optic coefficient dn/dT.
         thermo_optic_per_k: ExpansionPerK = thermo_optic,
         /// Expansion of the glass.
         thermal_expansion_per_k: ExpansionPerK = thermal_expansion,
@@ -156,13 +156,13 @@ mirrored! {
 
     /// eps_r of the glass = m_rx eps_rr + m_ry eps_yy + m_rz eps_hoop + m_rt dT, with total strains.
     MatrixFile is Dehomogenization {
-        /// Of the coil's radial strain.
+        /// Factor on the coil's radial strain.
         m_rx: StrainRatio = m_rx,
-        /// Of the coil's axial strain.
+        /// Factor on the coil's axial strain.
         m_ry: StrainRatio = m_ry,
-        /// Of the hoop strain.
+        /// Factor on the hoop strain.
         m_rz: StrainRatio = m_rz,
-        /// Of the temperature difference.
+        /// Factor on the temperature difference.
         m_rt_per_k: ExpansionPerK = m_rt,
     }
 }
@@ -179,7 +179,7 @@ impl Default for DriftsFile {
 }
 
 impl CoilFile {
-    /// The file that says `design`, its constants written out, and how far a unit may be from it.
+    /// The file of `design`, with its constants written out and the tolerances of a unit.
     pub(crate) fn new(name: &str, design: &Design, known: &Tolerances) -> Self {
         let body = &design.body;
         let (elastic, conductivity_z, conductivity_r) = (body.elastic, body.conductivity_z, body.conductivity_r);

@@ -12,7 +12,7 @@ use super::source::Source;
 /// part of a path.
 ///
 /// # Errors
-/// That there is no such field; messages call the text `path`.
+/// A field that is not there; messages call the text `path`.
 pub fn field_text<'t>(path: &Path, text: &'t str, field: &str) -> Result<&'t str, InputError> {
     let map = FieldMap::new(text);
     match map.find(field) {
@@ -51,7 +51,7 @@ fn with_field(path: &Path, mut text: String, field: &str, new: &str) -> Result<S
     }
 }
 
-/// Where a field's value stands, without blanks and comments around it.
+/// Place of a field's value, without blanks and comments around it.
 fn value(map: &FieldMap, text: &str, field: usize) -> Range<usize> {
     let Range { start, end: behind } = map.span(field);
     let mut tokens = Scanner::new(&text[start..behind]);

@@ -11,7 +11,7 @@ pub(crate) enum Encoding {
 }
 
 impl Encoding {
-    /// With their names in map files.
+    /// Encodings with their names in map files.
     pub(super) const ALL: [(Self, &'static str); 4] =
         [(Self::Utf8, "utf-8"), (Self::Utf16Le, "utf-16le"), (Self::Utf16Be, "utf-16be"), (Self::Windows1252, "windows-1252")];
 
@@ -19,7 +19,7 @@ impl Encoding {
         Self::ALL.iter().find(|(encoding, _)| *encoding == self).map_or("", |(_, name)| name)
     }
 
-    /// That of a file which begins with `bytes`: by its mark, by zeros where Western letters have them in UTF-16, by what is no UTF-8.
+    /// Encoding of a file that begins with `bytes`: by its mark, by zeros where Western letters have them in UTF-16, by bytes that are no UTF-8.
     pub(super) fn of(bytes: &[u8]) -> Self {
         let zeros = |first: usize| bytes.iter().skip(first).step_by(2).filter(|byte| **byte == 0).count();
         let mostly = |count: usize| 4 * count > bytes.len();

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crate::{shown, shown_path};
 
-/// A value, a line or a file that cannot be used: what, where, and how to mend it.
+/// A value, a line or a file that cannot be used, with its place and its remedy.
 ///
 /// Displays as one message, `file:line: field: problem; remedy`.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,9 +16,9 @@ pub struct InputError {
     pub line: Option<usize>,
     /// Path of the field, e.g. `rings[1].material.poisson_ratio`, if the error has one.
     pub field: Option<String>,
-    /// What is wrong, with the value.
+    /// The fault, with the value.
     pub problem: String,
-    /// How to mend it; empty where the problem says it.
+    /// The remedy; empty where the problem says it.
     pub remedy: String,
 }
 
@@ -50,7 +50,7 @@ impl fmt::Display for InputError {
 /// Longest part of a message \[characters\]; what a file holds may be longer.
 const LONGEST: usize = 400;
 
-/// The start of a long text, without what a terminal would obey.
+/// The start of a long text, without orders to a terminal.
 fn cut(text: &str) -> String {
     let short: String = text.chars().take(LONGEST).collect();
     let more = if short.len() < text.len() { "..." } else { "" };

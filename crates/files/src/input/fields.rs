@@ -1,4 +1,4 @@
-//! Which line of a RON text holds which field.
+//! Lines of the fields in a RON text.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Which content an input had, so that a report can name it.
+//! Identity of an input's content, so that a report can name it.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -19,7 +19,7 @@ pub struct Fingerprint {
 }
 
 impl Fingerprint {
-    /// Of a content and the name that it goes by.
+    /// Fingerprint of a content and its name.
     pub fn of(file: PathBuf, content: &[u8]) -> Self {
         let mut hash = Hash::new();
         hash.update(content);
@@ -40,7 +40,7 @@ impl fmt::Display for Fingerprint {
 
 /// The hashes of a content that comes in pieces.
 pub(crate) struct Hash {
-    /// How many have come so far.
+    /// Number of bytes so far.
     pub(crate) bytes: u64,
     fnv1a: u64,
     sha256: Sha256,
@@ -59,7 +59,7 @@ impl Hash {
         }
     }
 
-    /// Of what has come so far.
+    /// Fingerprint of the content so far.
     pub(crate) fn fingerprint(&self, file: PathBuf) -> Fingerprint {
         let sha256 = hexadecimal(&self.sha256.clone().finalize());
         Fingerprint { file, bytes: self.bytes, fnv1a: self.fnv1a, sha256 }

@@ -1,4 +1,4 @@
-//! Where in a file a value stands that is checked against others.
+//! Place in a file of a value that is checked against others.
 
 use super::InputError;
 use super::fields::join;

@@ -30,7 +30,7 @@ mirrored! {
 
     /// A contact resistance between a bonded flange and the coil's face.
     FlangeContactFile is FlangeContact {
-        /// Of the flange.
+        /// Side of the flange.
         side: SideFile = side,
         /// Resistance times area.
         resistance_m2k_per_w: Resistance = resistance,
@@ -38,7 +38,7 @@ mirrored! {
 
     /// A path from the outer face of a flange, or of the hub where there is no flange, to its mount, or to the chamber.
     MountFile is Mount {
-        /// Of the spool.
+        /// End of the spool.
         side: SideFile = side,
         /// Conductance per area.
         conductance_w_per_m2k: Conductance = conductance,
@@ -46,7 +46,7 @@ mirrored! {
 
     /// Heat dissipated evenly in a flange, or in the hub where there is no flange, on from the first row of the profile.
     HeaterFile is Heater {
-        /// Of the spool.
+        /// End of the spool.
         side: SideFile = side,
         /// Power.
         power_w: PowerW = power,

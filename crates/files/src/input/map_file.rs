@@ -1,4 +1,4 @@
-//! `RECORD.map.ron`: how a logger's file is read.
+//! `RECORD.map.ron`: the form of a logger's file.
 
 use std::fmt::Write;
 
@@ -8,17 +8,17 @@ use serde::Deserialize;
 
 use super::record_options::{Key, RecordOptions};
 
-/// How a logger's file is read, `RECORD.map.ron`; what is left out is standard.
+/// Form of a logger's file, `RECORD.map.ron`; a key that is left out is standard.
 #[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct MapFile {
-    /// How its text is encoded: utf-8, utf-16le, utf-16be or windows-1252; empty: utf-8.
+    /// Encoding of its text: utf-8, utf-16le, utf-16be or windows-1252; empty: utf-8.
     pub(super) encoding: String,
     /// Lines above the names of the columns that are not read; those that begin with # need not be counted.
     pub(super) preamble_lines: u32,
     /// Lines below the names of the columns that are not read: their units.
     pub(super) lines_below_names: u32,
-    /// Between the fields: a character, or `tab`; empty: a comma.
+    /// Separator of the fields: a character, or `tab`; empty: a comma.
     pub(super) separator: String,
     /// Whether numbers are written like 20,5.
     pub(super) decimal_comma: bool,
@@ -67,7 +67,7 @@ impl MapFile {
         }
     }
 
-    /// Puts in what the user says, which wins.
+    /// Puts in the user's options, which win.
     pub(super) fn declare(&mut self, options: &RecordOptions) {
         if let Some(separator) = &options.separator {
             self.separator.clone_from(separator);

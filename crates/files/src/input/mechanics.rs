@@ -1,4 +1,4 @@
-//! What `COIL.ron` says of stiffness and bond that depend on temperature and time.
+//! Stiffness and bond that depend on temperature and time, in `COIL.ron`.
 
 use coil::{Body, FactorsAt, Mechanics, Opening};
 use schemars::JsonSchema;
@@ -13,7 +13,7 @@ use super::winding_file::SideFile;
 /// Rows of the longest temperature table accepted: each costs a model.
 const MOST_ROWS: usize = 100;
 
-/// What of the coil's stiffness or bond depends on temperature or time.
+/// Dependence of the coil's stiffness or bond on temperature or time.
 #[derive(Serialize, Deserialize, JsonSchema, Default)]
 pub(crate) enum MechanicsFile {
     #[default]
@@ -27,9 +27,9 @@ pub(crate) enum MechanicsFile {
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RelaxingFile {
-    /// What relaxes.
+    /// Share of the modulus that relaxes.
     fraction: RelaxingShare,
-    /// In what time.
+    /// Relaxation time.
     time_s: TimeS,
 }
 
@@ -38,19 +38,19 @@ mirrored! {
     FactorsFile is FactorsAt {
         /// The temperature.
         temperature_c: TemperatureC = temperature,
-        /// On E_r and G.
+        /// Factor on E_r and G.
         transverse_modulus_factor: Factor = transverse_modulus,
-        /// On alpha_r.
+        /// Factor on alpha_r.
         transverse_expansion_factor: Factor = transverse_expansion,
     }
 
     /// The outer part of the bond to a flange opens in the cold.
     OpeningFile is Opening {
-        /// Of the flange.
+        /// Side of the flange.
         side: SideFile = side,
-        /// Where it opens.
+        /// Temperature below which it opens.
         below_c: TemperatureC = below,
-        /// How much above it closes.
+        /// Distance above that temperature at which it closes.
         hysteresis_k: HysteresisK = hysteresis,
         /// Share of the annulus' width.
         fraction: Share = fraction,

@@ -11,6 +11,7 @@ use super::group::Group;
 use super::mechanism_file::{GoesFile, LawFile, MechanismFile, ParameterFile, PriorFile};
 use super::mechanism_quantities::{Quantities, Sight, expressions};
 use super::mirror::Mirror;
+use super::opened::open;
 use super::source::{MECHANISM, Source};
 
 /// Most parameters, columns, states and laws, each.
@@ -77,7 +78,7 @@ impl MechanismCase {
 /// # Errors
 /// The fault, in which file, line and field, and how to mend it.
 pub fn read_mechanism(path: &Path) -> Result<MechanismCase, InputError> {
-    checked(Source::read(path)?)
+    checked(open(path)?)
 }
 
 /// Checks a mechanism that is not in a file, with the content of one; messages call it `path`.

@@ -20,7 +20,7 @@ pub(crate) struct MechanismFile {
     /// The mechanism in a sentence, as an answer tells it.
     #[serde(default, deserialize_with = "super::name::printable")]
     pub(crate) meaning: String,
-    /// What a record shows of it.
+    /// Its signature in a record.
     #[serde(default, deserialize_with = "super::name::printable")]
     pub(crate) signature: String,
     /// A check of the unit itself that decides about it.
@@ -34,10 +34,10 @@ pub(crate) struct MechanismFile {
     /// Further columns of the records that states and laws name, up to 8.
     #[serde(default)]
     pub(crate) columns: Vec<ColumnFile>,
-    /// What it remembers, up to 8.
+    /// States, its memory, up to 8.
     #[serde(default)]
     pub(crate) states: Vec<StateFile>,
-    /// What it changes, 1 to 8.
+    /// Its changes of the model, 1 to 8.
     pub(crate) laws: Vec<LawFile>,
 }
 
@@ -54,9 +54,9 @@ pub(crate) struct ParameterFile {
     pub(crate) name: String,
     /// Its unit, like s or deg/h/K; 1 for a pure number.
     pub(crate) unit: String,
-    /// What is known of it beforehand, in its unit.
+    /// Its prior distribution, in its unit.
     pub(crate) prior: PriorFile,
-    /// Where that is known from.
+    /// Source of the prior.
     #[serde(default, deserialize_with = "super::name::printable")]
     pub(crate) source: String,
     /// Values from which fits start, up to 50; empty: from the prior.
@@ -67,7 +67,7 @@ pub(crate) struct ParameterFile {
     pub(crate) value: Option<f64>,
 }
 
-/// What is known of a number beforehand: Normal(mean, standard deviation); Size(scale); LogNormal(median, standard deviation of the logarithm); Uniform(low, high).
+/// Prior distribution of a number: Normal(mean, standard deviation); Size(scale); LogNormal(median, standard deviation of the logarithm); Uniform(low, high).
 #[derive(Serialize, Deserialize, JsonSchema, Clone, Copy)]
 pub(crate) enum PriorFile {
     /// Mean and standard deviation.
@@ -86,11 +86,11 @@ pub(crate) enum PriorFile {
 pub(crate) struct ColumnFile {
     /// Its name in the record, and in states and laws.
     pub(crate) name: String,
-    /// The unit in which it stands there.
+    /// Its unit in the record.
     pub(crate) unit: String,
 }
 
-/// What a mechanism remembers.
+/// A state of a mechanism, its memory.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StateFile {
@@ -98,14 +98,14 @@ pub(crate) struct StateFile {
     pub(crate) name: String,
     /// Its unit.
     pub(crate) unit: String,
-    /// How it goes on.
+    /// Its change in time.
     pub(crate) goes: GoesFile,
 }
 
-/// How a state goes on.
+/// Change of a state in time.
 #[derive(Serialize, Deserialize, JsonSchema)]
 pub(crate) enum GoesFile {
-    /// By its rate of change, from a first value.
+    /// A rate of change, from a first value.
     #[serde(rename = "Rate")]
     Rate {
         /// dx/dt, in its unit over seconds.
@@ -113,26 +113,26 @@ pub(crate) enum GoesFile {
         /// Its value in the first row, without states.
         first: String,
     },
-    /// By a play (backlash, hysteresis): it follows once what it follows is half the width away.
+    /// A play (backlash, hysteresis): the state follows an expression once that is half the width away.
     #[serde(rename = "Play")]
     Play {
-        /// What it follows, without states.
+        /// The expression that it follows, without states.
         of: String,
-        /// Width, of parameters alone.
+        /// Width, in parameters alone.
         width: String,
     },
     /// The highest value so far of an expression without states.
     Highest(String),
-    /// The lowest.
+    /// The lowest value so far of an expression without states.
     Lowest(String),
 }
 
-/// What a law changes, and the law.
+/// The changed quantity of a law, and the law.
 #[derive(Serialize, Deserialize, JsonSchema)]
 pub(crate) enum LawFile {
     /// Added to the rate, deg/h.
     Rate(String),
-    /// Added to what the spool's thermometer sees, K.
+    /// Added to the temperature of the spool's thermometer, K.
     Thermometer(String),
     /// Added to the chamber's temperature, K: everything follows.
     Chamber(String),

@@ -1,4 +1,4 @@
-//! What a mechanism's expressions may name, with its units.
+//! Quantities that a mechanism's expressions may name, with their units.
 
 use laws::{Expression, Fault, State, System, Unit, check_name};
 use mechanisms::{INPUTS, Input};
@@ -7,7 +7,7 @@ use super::InputError;
 use super::group::Group;
 use super::mechanism_file::{GoesFile, MechanismFile};
 
-/// Which names an expression may have.
+/// Names that an expression may have.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Sight {
     Parameters,
@@ -15,7 +15,7 @@ pub(super) enum Sight {
     All,
 }
 
-/// Names with their units: parameters, what is seen of a record, states.
+/// Names with their units: parameters, quantities of a record, states.
 pub(super) struct Quantities {
     names: Vec<String>,
     units: Vec<Unit>,
@@ -112,7 +112,7 @@ impl Quantities {
         Ok(())
     }
 
-    /// The laws in what they see of a record alone.
+    /// The laws in the quantities of a record alone.
     pub(super) fn system(&self, states: Vec<State>, laws: Vec<Expression>) -> (System, Vec<Input>) {
         let used = |k: &usize| {
             let place = self.parameters + k;
@@ -147,7 +147,7 @@ pub(super) fn expressions(state: &State) -> Vec<&Expression> {
     }
 }
 
-/// What is wrong, with the part of the text that it concerns.
+/// A fault with the part of the text that it concerns.
 fn placed(fault: &Fault, text: &str) -> String {
     let part = text.get(fault.at.clone()).unwrap_or("");
     let character = text.get(..fault.at.start).map_or(0, |before| before.chars().count()) + 1;

@@ -1,7 +1,5 @@
 //! Facts about a record besides its columns: `meta.ron` beside it.
 
-use std::path::Path;
-
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -17,12 +15,12 @@ pub struct Meta {
     pub design: String,
     /// Serial number of the unit.
     pub serial: Option<i64>,
-    /// When it was recorded, e.g. "2026-03-02".
+    /// Date of the recording, e.g. "2026-03-02".
     pub date: String,
     /// Nominal interval between rows \[s\]; 0 if it is not given.
     #[schemars(with = "NotNegative")]
     pub sample_interval_s: f64,
-    /// In words, what a row's rate is.
+    /// Meaning of a row's rate, in words.
     pub rate_is: String,
     /// The thermometers.
     pub temperature_sensor: TemperatureSensor,
@@ -130,9 +128,8 @@ pub struct TemperatureSensor {
 /// Longest interval between rows \[s\]: thirty years.
 pub(super) const MOST_INTERVAL_S: f64 = 1e9;
 
-/// Reads and checks a meta file.
-pub(super) fn read(path: &Path) -> Result<Meta, InputError> {
-    let source = Source::read(path)?;
+/// The content of a meta file, checked.
+pub(super) fn checked(source: &Source) -> Result<Meta, InputError> {
     let meta: Meta = source.parse(None)?;
     let sensor = &meta.temperature_sensor;
     let mut values = vec![
@@ -156,7 +153,7 @@ pub(super) fn read(path: &Path) -> Result<Meta, InputError> {
         ];
         values.extend(of_thermometer.map(|(field, value)| (format!("{name}.{field}"), value.unwrap_or(0.0))));
     }
-    check_axis(&source, rate)?;
+    check_axis(source, rate)?;
     if !(0.0..=MOST_INTERVAL_S).contains(&meta.sample_interval_s) {
         let problem = format!("{:e} s is not an interval of 0 to {MOST_INTERVAL_S:e} s", meta.sample_interval_s);
         return Err(source.fault(
@@ -210,7 +207,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("meta.ron");
         std::fs::write(&path, text).expect("written");
-        read(&path).map_err(|error| error.to_string())
+        checked(&crate::input::opened::open(&path).unwrap()).map_err(|error| error.to_string())
     }
 
     #[test]

@@ -1,13 +1,13 @@
-//! Both ways between what a file says and the model in SI: one list of pairs for reading and writing.
+//! Both ways between a file and the model in SI: one list of pairs for reading and writing.
 
 use coil::Contact;
 
 /// A part of a case file that says the same as an `M` of the model.
 pub(crate) trait Mirror<M> {
-    /// What it says, in SI.
+    /// The model's part, in SI.
     fn model(&self) -> M;
 
-    /// What a file says of `model`.
+    /// The file's form of `model`.
     fn of(model: &M) -> Self;
 }
 
@@ -67,7 +67,7 @@ macro_rules! mirrored_choice {
     };
 }
 
-/// Whether a part says what a file says that leaves it out.
+/// Whether a part equals the default of a file that leaves it out.
 pub(crate) fn says_default<M: Default + PartialEq, T: Mirror<M>>(file: &T) -> bool {
     file.model() == M::default()
 }

@@ -1,4 +1,4 @@
-//! Names as they are read, and those that were likely meant.
+//! Names as they are read, and the likely meaning of a misspelt one.
 
 use std::borrow::Cow;
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Deserializer};
 
 use crate::shown;
 
-/// Reads a name; what a terminal would obey becomes its escape.
+/// Reads a name; a character that a terminal would obey becomes its escape.
 pub(super) fn printable<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
     Cow::<str>::deserialize(deserializer).map(|name| shown(&name))
 }

@@ -1,4 +1,4 @@
-//! A profile: the chamber's temperature in time, `time_s,chamber_c` and what else drives the coil.
+//! A profile: the chamber's temperature in time, `time_s,chamber_c`, and the other drives of the coil.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -23,23 +23,23 @@ const MOST_C: f64 = 1000.0;
 const KELVIN_C: f64 = 180.0;
 /// Latest instant, either side of 0 [s]: 30 000 years, to catch a wrong unit.
 pub(super) const MOST_S: f64 = 1e12;
-/// Shortest interval between rows \[s\], but for what rounding may take from it.
+/// Shortest interval between rows \[s\], but for rounding.
 const SHORTEST_S: f64 = 1e-6;
 
-/// Rows closer than this \[s\] are noted: the model's fastest modes last about as long, and what a jump does within it is not resolved.
+/// Rows closer than this \[s\] are noted: the model's fastest modes last about as long, and the effect of a jump within it is not resolved.
 const RESOLVED_S: f64 = 1.0;
 
-/// Rows longer than this \[s\] are noted: what a coil does within them is averaged away.
+/// Rows longer than this \[s\] are noted: a coil's response within them is averaged away.
 const COARSE_S: f64 = 120.0;
 
-/// How a profile's drives run between its rows.
+/// Course of a profile's drives between its rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Between {
-    /// Straight: what a programme says.
+    /// Straight, as a programme is.
     #[default]
     Linear,
-    /// On a smooth cubic through the rows: what a chamber that was recorded does.
+    /// A smooth cubic through the rows, as a recorded chamber moves.
     Cubic,
 }
 
@@ -56,7 +56,7 @@ impl Between {
 /// A profile that has been read and checked.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProfileCase {
-    /// What drives the coil, in the order of the profile's courses; the chamber first.
+    /// Drives of the coil, in the order of the profile's courses; the chamber first.
     pub drives: Vec<Drive>,
     /// Instants \[s\] and courses \[°C; heaters in units of their power\].
     pub profile: Profile,
@@ -64,17 +64,17 @@ pub struct ProfileCase {
     pub further: BTreeMap<String, Vec<f64>>,
     /// How the chamber's course was inferred from a thermometer; `None` if it is given.
     pub inferred: Option<Inference>,
-    /// What a user should know although nothing is wrong.
+    /// Notes for the user although nothing is wrong.
     pub notes: Vec<Note>,
     /// The file.
     pub fingerprint: Fingerprint,
-    /// How the drives run between its rows.
+    /// Course of the drives between its rows.
     pub between: Between,
     /// Longest part \[s\] into which its rows were divided, if they were.
     pub step: Option<f64>,
 }
 
-/// How well a thermometer's record determines the chamber's course.
+/// Accuracy of a chamber's course inferred from a thermometer's record.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inference {
     /// Standard deviation of the readings \[K\], given.
@@ -93,7 +93,7 @@ impl ProfileCase {
         &self.profile.drives[0]
     }
 
-    /// Notes rows in which, or before which, something changes, and which last so long that what the coil does is averaged away.
+    /// Notes rows in which, or before which, something changes, and which last so long that the coil's response is averaged away.
     pub fn note_long_rows(&mut self, remedy: &str) {
         let Profile { time, drives } = &self.profile;
         let changes = |n: usize| n > 0 && drives.iter().any(|course| course[n] != course[n - 1]);
@@ -204,7 +204,7 @@ fn read(mut rows: Rows, path: &Path, design: &Design, further: &[String]) -> Res
     })
 }
 
-/// What is said of a chamber whose course seems to be in another unit than \[°C\].
+/// Note on a chamber whose course seems to be in another unit than \[°C\].
 fn other_unit(chamber: &[f64]) -> Option<Note> {
     if chamber.iter().all(|celsius| *celsius > KELVIN_C) {
         let problem = format!("chamber_c never falls below {KELVIN_C} degC; if it is in kelvin, subtract 273.15");

@@ -1,4 +1,4 @@
-//! The header of a profile: which column drives what.
+//! The header of a profile: drives of its columns.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use crate::remark::{Note, Remark};
 pub(crate) const TIME: &str = "time_s";
 const CHAMBER: &str = "chamber_c";
 
-/// Columns that a profile may have, and what they drive.
+/// Columns that a profile may have, and their drives.
 pub(super) const DRIVES: [(&str, Drive); 5] = [
     (CHAMBER, Drive::Chamber),
     ("left_c", Drive::EndWall(Side::Left)),
@@ -64,7 +64,7 @@ impl Columns {
         Ok(Self { time, drives, further, names, ignored })
     }
 
-    /// Which columns are not used.
+    /// Columns that are not used.
     pub(crate) fn note(&self, path: &Path) -> Option<Note> {
         let which = match self.ignored.as_slice() {
             [] => return None,

@@ -1,4 +1,4 @@
-//! A map file for a logger's recording, from what the recording looks like.
+//! A map file for a logger's recording, proposed from its content.
 
 use std::path::Path;
 
@@ -20,7 +20,7 @@ const MOST_ASIDES: usize = 25;
 
 /// A map file for a recording, `RECORD.map.ron`: its content, and the recording as it is read with it.
 ///
-/// What `options` say wins over what the file looks like.
+/// The `options` win over the proposal from the file's content.
 ///
 /// # Errors
 /// As [`read_record`](super::read_record), and if the file shows no table.
@@ -50,7 +50,7 @@ fn read(path: &Path, map: &MapFile, options: &RecordOptions) -> Result<RecordCas
     record::read_as(path, &format, options)
 }
 
-/// Another unit that a rate has to be in, where nothing says its unit, and those that it may be in, the likeliest first.
+/// The rate with the units that its values admit, the likeliest first, where nothing states its unit and the standard one cannot be right.
 fn another_unit(map: &MapFile, case: &RecordCase) -> Option<(Key, Vec<String>)> {
     let rate = map.column(Key::Rate);
     let said = !rate.unit.is_empty() || rate.scale != 0.0;
@@ -64,9 +64,9 @@ fn another_unit(map: &MapFile, case: &RecordCase) -> Option<(Key, Vec<String>)> 
 /// The map that a table suggests.
 struct Proposal {
     map: MapFile,
-    /// What is not sure of a column.
+    /// Uncertainties about a column.
     doubts: Vec<(Key, String)>,
-    /// What may be in the map.
+    /// Lines that may be in the map.
     asides: Vec<String>,
 }
 
@@ -98,7 +98,7 @@ fn proposed(table: &Sniffed) -> Proposal {
     Proposal { map, doubts, asides }
 }
 
-/// Puts a column that was found into the map, and what is not sure of it among the doubts.
+/// Puts a column that was found into the map, and its uncertainties among the doubts.
 fn propose_column(table: &Sniffed, key: Key, found: &Found, map: &mut MapFile, doubts: &mut Vec<(Key, String)>) {
     let Found { column, unit, foreign, others } = found;
     let (name, standard) = (&table.names[*column], key.units()[0].names[0]);
@@ -119,7 +119,7 @@ fn propose_column(table: &Sniffed, key: Key, found: &Found, map: &mut MapFile, d
     }
 }
 
-/// Temperatures that nothing says whose they are, as lines of the map for those that are wanted.
+/// Temperatures of unknown origin, as lines of the map for those that are wanted.
 fn asides(table: &Sniffed, map: &MapFile, taken: &[usize]) -> Vec<String> {
     let has = |key: Key| !map.column(key).column.is_empty() || table.names.iter().any(|name| name == key.standard());
     let unused = unused_temperatures(table, taken);
@@ -137,7 +137,7 @@ fn asides(table: &Sniffed, map: &MapFile, taken: &[usize]) -> Vec<String> {
     heading.into_iter().chain(lines).take(MOST_ASIDES).collect()
 }
 
-/// What is said of a column whose name has no unit, or in its place something that is none.
+/// Remark on a column whose name has no unit, or a text in its place that is none.
 fn no_unit(foreign: Option<&str>, standard: &str) -> String {
     match foreign {
         Some(text) => format!("{} is no unit here: taken as {standard}; write unit: ..., scale: ...", quoted(text)),

@@ -1,4 +1,4 @@
-//! The kinds of numbers in case files: unit, what is accepted, and SI. Wide enough for any coil, narrow enough to catch a wrong unit.
+//! The kinds of numbers in case files: unit, accepted range, and SI. The ranges are wide enough for any coil, narrow enough to catch a wrong unit.
 
 use std::convert::identity;
 
@@ -10,15 +10,15 @@ use serde::{Deserialize, Deserializer, Serialize};
 use super::mirror::Mirror;
 use crate::units::{from_gpa, from_mm, from_mpa, from_um, to_gpa, to_mm, to_mpa, to_um};
 
-/// A kind of number: what is accepted, what to say of other values, and how it becomes SI.
+/// A kind of number: its accepted range, the message on other values, and its conversion to SI.
 pub(crate) struct Quantity {
     least: f64,
     most: f64,
     unit: &'static str,
     example: &'static str,
-    /// From the file's unit.
+    /// Conversion from the file's unit.
     pub(crate) si: fn(f64) -> f64,
-    /// To the file's unit.
+    /// Conversion to the file's unit.
     from_si: fn(f64) -> f64,
 }
 

@@ -8,6 +8,7 @@ use recording::{Channel, Recording, Sampling, Seconds};
 use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::meta::{self, Meta};
+use super::opened::open;
 use super::record_clock::Clock;
 use super::record_columns::RecordColumns;
 use super::record_expectations::{expectations, possible};
@@ -32,7 +33,7 @@ pub struct RecordCase {
     pub averaging: f64,
     /// The meta file, if there is one.
     pub meta: Option<Meta>,
-    /// What a user should know about how the file was read.
+    /// Notes for the user on the reading of the file.
     pub notes: Vec<Note>,
     /// The file.
     pub fingerprint: Fingerprint,
@@ -97,7 +98,7 @@ pub fn check_record(path: &Path, text: String, meta: Option<&Path>, further: &[S
 
 /// A meta file with its path.
 fn known(meta: Option<PathBuf>) -> Result<Option<(PathBuf, Meta)>, InputError> {
-    meta.map(|path| meta::read(&path).map(|meta| (path, meta))).transpose()
+    meta.map(|path| open(&path).and_then(|source| meta::checked(&source)).map(|meta| (path, meta))).transpose()
 }
 
 fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<(PathBuf, Meta)>) -> Result<RecordCase, Error> {
@@ -126,7 +127,7 @@ fn fits(path: &Path, meta: Meta, span: f64) -> Result<Meta, InputError> {
     Err(InputError::whole(path, problem, "give the seconds over which a rate is a mean, or leave the field out"))
 }
 
-/// The recording, and what is to be said of its instants.
+/// The recording, and the note on its instants.
 fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) -> Result<(Recording, Option<Note>), InputError> {
     let channels: Vec<(Key, usize)> =
         [Key::Chamber, Key::Spool, Key::Rate].into_iter().filter_map(|key| Some((key, columns.column(key)?))).collect();

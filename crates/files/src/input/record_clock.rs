@@ -22,11 +22,11 @@ pub(super) struct Clock<'a> {
     form: Form,
 }
 
-/// How instants are written, as the first row says.
+/// Form of the instants, by the first row.
 #[derive(Clone, Copy, PartialEq)]
 enum Form {
     Numbers,
-    /// Since the first.
+    /// Seconds since the first row.
     Dates(Date),
     /// Seconds of the day of the first row and of the last, and of the days between \[s\].
     Times {
@@ -41,7 +41,7 @@ impl<'a> Clock<'a> {
         Self { column: columns.column(Key::Time), time_of_day: columns.time_of_day, format, form: Form::Numbers }
     }
 
-    /// What is to be said of instants that are no numbers.
+    /// Note on instants that are no numbers.
     pub(super) fn note(&self) -> Option<Note> {
         match self.form {
             Form::Numbers => None,
@@ -121,7 +121,7 @@ impl<'a> Clock<'a> {
     }
 }
 
-/// How the first instant is written.
+/// Form of the first instant.
 fn first(text: &str) -> Form {
     match (timestamp::date(text), time_of_day(text)) {
         (Some(date), _) => Form::Dates(date),

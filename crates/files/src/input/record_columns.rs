@@ -1,4 +1,4 @@
-//! The header of a recording: which column is what.
+//! The header of a recording: meaning of its columns.
 
 use super::InputError;
 use super::record_format::RecordFormat;

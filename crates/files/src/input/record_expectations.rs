@@ -1,4 +1,4 @@
-//! What a recording is expected to hold.
+//! Expected content of a recording.
 
 use recording::check::{Clock, Expectation, Expectations, Offset};
 use recording::{Channel, Recording};
@@ -9,13 +9,13 @@ use super::record_options::Key;
 
 /// Rows below which a recording is noted as short.
 const FEW_ROWS: usize = 100;
-/// Where temperatures may lie \[°C\].
+/// Range of temperatures \[°C\].
 const TEMPERATURE_C: [f64; 2] = [-100.0, 200.0];
 /// Temperatures \[°C\] that a sensor on a coil can tell: from absolute zero to where polyimide, the most resistant polymer on a fibre, decomposes.
 const POSSIBLE_C: [f64; 2] = [ABSOLUTE_ZERO_C, 400.0];
 /// The Earth's rate \[deg/h\] with two parts in a thousand (IERS Conventions 2010: 7.292115e-5 rad/s).
 const EARTH_DEG_PER_H: f64 = 15.041 * 1.002;
-/// Where rates may lie at rest \[deg/h\]: a hundred times the Earth's, far beyond an optical gyro's bias.
+/// Range of rates at rest \[deg/h\]: a hundred times the Earth's, far beyond an optical gyro's bias.
 const RATE_DEG_PER_H: [f64; 2] = [-100.0 * EARTH_DEG_PER_H, 100.0 * EARTH_DEG_PER_H];
 /// Rates \[deg/h\] that a gyro can tell: some thousand degrees a second.
 const POSSIBLE_DEG_PER_H: [f64; 2] = [-1e8, 1e8];
@@ -25,20 +25,20 @@ const NOISE_DEG_PER_H: [f64; 2] = [2e-5, 3600.0];
 const SMALL_DEG_PER_H: f64 = EARTH_DEG_PER_H / 3600.0;
 /// A constant offset above this is no bias of the gyros that this program is for \[deg/h\].
 const OFFSET_DEG_PER_H: f64 = 0.5;
-/// The fastest that a chamber's air changes \[degC/s\], 30 degC a minute: twice the fastest rate of IEC 60068-2-14, test Nb (15 K/min). What changes
-/// faster, as in a test by thermal shock, is no chamber whose bias follows a model that starts at rest.
+/// The fastest change of a chamber's air \[degC/s\], 30 degC a minute: twice the fastest rate of IEC 60068-2-14, test Nb (15 K/min). In a
+/// faster change, as in a test by thermal shock, the bias does not follow a model that starts at rest.
 const FASTEST_C_PER_S: f64 = 0.5;
-/// What a recording may last \[s\]: longer than a minute, as a coil needs minutes to answer, and at most 100 days.
+/// Range of a recording's duration \[s\]: longer than a minute, as a coil needs minutes to answer, and at most 100 days.
 const SPAN_S: [f64; 2] = [60.0, 100.0 * 86_400.0];
-/// What one usually lasts \[s\]: ten hours.
+/// Usual duration of a recording \[s\]: ten hours.
 const USUAL_S: f64 = 36_000.0;
 
-/// What no value is beyond, in the standard unit.
+/// Range beyond which no value is possible, in the standard unit.
 pub(super) fn possible(key: Key) -> [f64; 2] {
     if key == Key::Rate { POSSIBLE_DEG_PER_H } else { POSSIBLE_C }
 }
 
-/// What a gyro's record holds.
+/// Expectations of a gyro's record.
 pub(super) fn expectations(recording: &Recording, format: &RecordFormat, has_dates: bool) -> Expectations {
     // one word is enough where both are too fast
     let driver = [Key::Chamber, Key::Spool].into_iter().find(|key| recording.channel(key.standard()).is_some());

@@ -1,4 +1,4 @@
-//! How a logger's file is to be read: flags, or a file `<record>.map.ron` beside it.
+//! Form of a logger's file, by flags or by a file `<record>.map.ron` beside it.
 
 use std::path::Path;
 
@@ -8,9 +8,9 @@ use super::InputError;
 use super::encoding::Encoding;
 use super::map_file::MapFile;
 use super::meta::MOST_INTERVAL_S;
+use super::opened::open;
 use super::record_options::{Key, RecordOptions};
 use super::rows::Dialect;
-use super::source::Source;
 use crate::Error;
 use crate::units::ColumnUnit;
 
@@ -23,7 +23,7 @@ fn once<T>(flag: &str, declared: &[(Key, T)]) -> Result<(), String> {
     }
 }
 
-/// How a file is read, complete.
+/// Complete form of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RecordFormat {
     pub(super) dialect: Dialect,
@@ -47,7 +47,7 @@ pub(super) struct ColumnFormat {
 }
 
 impl RecordFormat {
-    /// From the flags and the map file, if there is one.
+    /// The form by the flags and the map file, if there is one.
     pub(super) fn read(record: &Path, options: &RecordOptions) -> Result<Self, Error> {
         let mut format = match options.map_of(record) {
             Some(path) => Self::from_file(&path)?,
@@ -64,11 +64,11 @@ impl RecordFormat {
     }
 
     fn from_file(path: &Path) -> Result<Self, InputError> {
-        let source = Source::read(path)?;
+        let source = open(path)?;
         Self::of(&source.parse(None)?).map_err(|(field, problem)| source.fault(&field, problem, ""))
     }
 
-    /// From a map file; an error is field and problem.
+    /// The form by a map file; an error is field and problem.
     pub(super) fn of(file: &MapFile) -> Result<Self, (String, String)> {
         let at = |field: String| |problem: String| (field, problem);
         let mut format = Self::standard();
@@ -153,7 +153,7 @@ impl ColumnFormat {
         self.unit.scale * self.count * value + self.unit.offset
     }
 
-    /// The key's other units, in which the column may be: from what was taken for the standard unit to what then is.
+    /// The key's other units, in which the column may be: conversion from the value read as standard to the value in that unit.
     pub(super) fn mistaken(&self, key: Key) -> Vec<Unit> {
         let others = key.units().iter().filter(|unit| **unit != self.unit && !unit.is_rare);
         let of = |unit: &ColumnUnit| {

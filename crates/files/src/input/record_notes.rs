@@ -1,4 +1,4 @@
-//! What a user should know about how a recording was read.
+//! Notes for the user on the reading of a recording.
 
 use recording::Seconds;
 
@@ -10,7 +10,7 @@ use super::rows::quoted;
 use super::unit_names::{foreign, is_temperature};
 use crate::remark::{Note, Remark};
 
-/// What there is to say of the columns; `dates` is what there is to say of the instants.
+/// Notes on the columns; `dates` is the note on the instants.
 pub(super) fn notes(columns: &RecordColumns, format: &RecordFormat, dates: Option<Note>) -> Vec<Note> {
     let mut notes = Vec::new();
     for key in Key::ALL {
@@ -50,7 +50,7 @@ fn absent(key: Key) -> Note {
     Remark::AbsentColumn.note(format!("there is no column {}; a model can do without it, less surely", key.standard()))
 }
 
-/// What is said of a column that is not the standard one.
+/// Note on a column that is not the standard one.
 fn mapped(key: Key, name: &str, form: &ColumnFormat) -> Option<Note> {
     let counts = if form.count == 1.0 { String::new() } else { format!("counts of {} ", form.count) };
     let unit = form.unit.names[0];
@@ -58,7 +58,7 @@ fn mapped(key: Key, name: &str, form: &ColumnFormat) -> Option<Note> {
     (name != key.standard() || !form.is_standard(key)).then(|| Remark::MappedColumn.note(message()))
 }
 
-/// What is said of the unit in a column's name if it is not the one that is read.
+/// Note on the unit in a column's name if it is not the one that is read.
 fn unit(key: Key, name: &str, form: &ColumnFormat) -> Option<Note> {
     let (read, shown, key_name) = (form.unit.names[0], quoted(name), key.name());
     if let Some(named) = key.unit_in(name).filter(|named| *named != form.unit) {
@@ -74,7 +74,7 @@ fn unit(key: Key, name: &str, form: &ColumnFormat) -> Option<Note> {
     Some(Remark::UnknownUnit.warning(message))
 }
 
-/// What is said of temperatures that are not used although one is wanted.
+/// Note on temperatures that are not used although one is wanted.
 fn unused_temperatures(columns: &RecordColumns, ignored: &[&str]) -> Option<Note> {
     let wanted: Vec<Key> = [Key::Chamber, Key::Spool].into_iter().filter(|key| columns.column(*key).is_none()).collect();
     let unused: Vec<&str> = ignored.iter().copied().filter(|name| is_temperature(name)).collect();
@@ -92,7 +92,7 @@ fn unused_temperatures(columns: &RecordColumns, ignored: &[&str]) -> Option<Note
     Some(Remark::UnusedTemperature.warning(message))
 }
 
-/// What is said where the rows are not as far apart as the meta file says.
+/// Note on rows whose distance is not the meta file's.
 pub(super) fn interval_note(meta: &Meta, interval: f64) -> Option<Note> {
     let nominal = meta.sample_interval_s;
     let differs = nominal > 0.0 && interval > 0.0 && (interval / nominal - 1.0).abs() > 0.02;

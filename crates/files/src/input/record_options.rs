@@ -1,4 +1,4 @@
-//! The columns that the program knows, and the words of the user about a record's file.
+//! The columns that the program knows, and the user's options about a record's file.
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -76,7 +76,7 @@ impl FromStr for Key {
     }
 }
 
-/// What the user says about a record's file; what is not said comes from the map file, then from the standard.
+/// The user's options about a record's file; a missing one comes from the map file, then from the standard.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RecordOptions {
     /// A map file in place of the one beside the record.
@@ -89,7 +89,7 @@ pub struct RecordOptions {
     pub units: Vec<(Key, String)>,
     /// Factors that make counts a unit.
     pub scales: Vec<(Key, f64)>,
-    /// Between the fields: a character, or `tab`.
+    /// Separator of the fields: a character, or `tab`.
     pub separator: Option<String>,
     /// Whether numbers have a decimal comma.
     pub decimal_comma: bool,

@@ -15,12 +15,12 @@ use super::fingerprint::{Fingerprint, Hash};
 
 /// Largest table [bytes]: 2 GiB.
 pub(crate) const LARGEST: u64 = 2 << 30;
-/// Longest line \[bytes\]; what has longer ones is no table of numbers.
+/// Longest line \[bytes\]; a file with a longer one is no table of numbers.
 const LONGEST_LINE: usize = 1 << 16;
 /// Longest part of the file that a message quotes \[characters\].
 const QUOTED: usize = 40;
 
-/// How a table writes its rows.
+/// Form of a table's rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Dialect {
     pub(crate) separator: u8,
@@ -37,11 +37,11 @@ impl Dialect {
     pub(crate) const STANDARD: Self = Self { separator: b',', decimal: '.', encoding: Encoding::Utf8, preamble: 0, below: 0 };
 }
 
-/// What is said of text in another encoding.
+/// Message on text in another encoding.
 pub(super) const NOT_UTF8: &str = "is not UTF-8 text";
-/// What a field without a value may hold, in lower case.
+/// Words of a field without a value, in lower case.
 const MISSING: [&str; 9] = ["", "nan", "na", "n/a", "null", "none", "-", "--", "#n/a"];
-/// What a meter writes beyond its range, in lower case, perhaps behind a sign.
+/// Words of a meter beyond its range, in lower case, perhaps behind a sign.
 const OVERLOAD: [&str; 8] = ["ovld", "overload", "ol", "ovl", "over", "overrange", "over range", "overflow"];
 
 pub(crate) struct Rows {
@@ -275,7 +275,7 @@ fn is_quoted(field: &str) -> bool {
     field.trim_start().starts_with('"')
 }
 
-/// The fields of a line that was split at every separator: what stands in quotes is one field, without them. A quote that is not closed stays.
+/// The fields of a line that was split at every separator: a text in quotes is one field, without them. A quote that is not closed stays.
 pub(super) fn unquoted(pieces: &[&str], separator: char) -> Vec<String> {
     let mut fields = Vec::new();
     let mut rest = pieces;

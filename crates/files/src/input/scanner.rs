@@ -1,4 +1,4 @@
-//! The words of a RON text, for [`FieldMap`](super::fields::FieldMap). Never fails: what it does not know it calls `Other`.
+//! The tokens of a RON text, for [`FieldMap`](super::fields::FieldMap). It never fails: an unknown token is `Other`.
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Token<'a> {

@@ -11,7 +11,7 @@ use super::mechanism_file::MechanismFile;
 use super::meta::Meta;
 use super::targets_file::TargetsFile;
 
-/// How the JSON that a schema speaks of is written as RON.
+/// Rules for writing the JSON of a schema as RON.
 const RON: &str = "The file is RON: an object is written (key: value, ...), a list [a, b] or, of fixed length, (a, b), an object with one \
     capitalised key, {\"Name\": x}, is Name(x), a capitalised string is written without quotes, null is None. Numbers are in the unit x-unit.";
 
@@ -35,7 +35,7 @@ fn of<T: JsonSchema>() -> Value {
     schema
 }
 
-/// Puts unit and range of a number behind what is said of its field, and the unit of a list's numbers beside the list.
+/// Puts unit and range of a number behind the description of its field, and the unit of a list's numbers beside the list.
 fn ordered(schema: &mut Value) {
     match schema {
         Value::Array(items) => items.iter_mut().for_each(ordered),

@@ -1,4 +1,4 @@
-//! What a logger's file looks like: encoding, separator, decimal sign, the line of names, some rows below it.
+//! Form of a logger's file: encoding, separator, decimal sign, the line of names, some rows below it.
 
 use std::fs::File;
 use std::io::Read;
@@ -13,9 +13,9 @@ use super::unit_names::spelled;
 
 /// Bytes that are looked at.
 const SAMPLE: u64 = 1 << 18;
-/// Rows below the names that have to be like them.
+/// Rows below the names that must fit them.
 const ROWS: usize = 20;
-/// Separators, and their names in map files; the first of those that do equally well is taken.
+/// Separators, and their names in map files; the first of those that fit equally well is taken.
 const SEPARATORS: [(char, &str); 4] = [('\t', "tab"), (';', ";"), (',', ","), ('|', "|")];
 
 /// A table in a file.
@@ -27,7 +27,7 @@ pub(super) struct Sniffed {
     /// Lines above the names.
     pub(super) preamble: usize,
     pub(super) names: Vec<String>,
-    /// What a line below the names says of their units; empty if there is none.
+    /// Units from a line below the names; empty if there is none.
     pub(super) units: Vec<String>,
     /// Some rows, with as many fields as there are names.
     pub(super) rows: Vec<Vec<String>>,

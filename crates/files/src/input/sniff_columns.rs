@@ -1,4 +1,4 @@
-//! Which column of a logger's file is what, by the usual words and units in its name.
+//! Meaning of a logger's columns, by the usual words and units in their names.
 
 use super::record_options::Key;
 use super::sniff::{Sniffed, is_value};
@@ -15,7 +15,7 @@ fn words(key: Key) -> &'static [&'static str] {
     }
 }
 
-/// Words of what is asked for, not measured, and of what goes with a channel.
+/// Words for set points, not measurements, and for side columns of a channel.
 const BESIDE: [&str; 9] = ["set", "setpoint", "soll", "sollwert", "target", "alarm", "status", "limit", "consigne"];
 
 /// A column that was found.
@@ -24,9 +24,9 @@ pub(super) struct Found {
     pub(super) column: usize,
     /// The unit that its name, or a line below it, says.
     pub(super) unit: Option<&'static str>,
-    /// What stands in its name where a unit would, and is none.
+    /// Text in its name at the place of a unit that is none.
     pub(super) foreign: Option<String>,
-    /// Others that it may be.
+    /// Other columns that it may be.
     pub(super) others: Vec<usize>,
 }
 

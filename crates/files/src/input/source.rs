@@ -1,6 +1,5 @@
-//! A case file's text: read, told from other kinds, parsed, and asked where a field stands.
+//! A case file's text: told from other kinds, parsed, and asked where a field stands.
 
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use ron::error::SpannedError;
@@ -12,64 +11,34 @@ use super::fingerprint::Fingerprint;
 use super::scanner::{Scanner, Token};
 use super::syntax::explain;
 
-/// Largest case file [bytes]: some 300 times the reference files.
-const LARGEST: u64 = 1 << 20;
-
-/// The text of a case file, for [`check_coil`](super::check_coil) and the like.
-///
-/// # Errors
-/// Why it cannot be read.
-pub fn read_text(path: &Path) -> Result<String, InputError> {
-    Source::read(path).map(|source| source.text)
-}
-
-/// Reads a RON file of any type: the reader of case files for a program's own.
-///
-/// # Errors
-/// The fault, in which file, line and field, and how to mend it.
-pub fn read_ron<T: DeserializeOwned>(path: &Path) -> Result<T, InputError> {
-    Source::read(path)?.parse(None)
-}
-
-/// A complaint about a field of a case file that was read before, with its line if the file is still there.
-pub fn fault_in(path: &Path, field: &str, problem: String, remedy: String) -> InputError {
-    match Source::read(path) {
-        Ok(source) => source.fault(field, problem, remedy),
-        Err(_) => InputError { field: Some(field.to_owned()), ..InputError::whole(path, problem, remedy) },
-    }
-}
-
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Source {
     path: PathBuf,
+    /// RON.
     text: String,
+    /// The file's own text, if that is JSON.
+    json: Option<String>,
 }
 
 impl Source {
-    pub(crate) fn read(path: &Path) -> Result<Self, InputError> {
-        let fault = |problem: String, remedy: &str| InputError::whole(path, problem, remedy);
-        let unreadable = |error: std::io::Error| fault(format!("cannot be read: {error}"), "check the path and its permissions");
-        let kind = std::fs::metadata(path).map_err(unreadable)?;
-        if kind.is_dir() {
-            return Err(fault("is a directory".into(), "give the path of a case file (*.ron)"));
-        }
-        let mut bytes = Vec::new();
-        std::fs::File::open(path).map_err(unreadable)?.take(LARGEST + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-        if bytes.len() as u64 > LARGEST {
-            return Err(fault(format!("is larger than {LARGEST} bytes"), "give a case file (*.ron), not a recording"));
-        }
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let (valid, bytes) = (error.utf8_error().valid_up_to(), error.as_bytes());
-            let line = 1 + bytes[..valid].iter().filter(|&&b| b == b'\n').count();
-            InputError { line: Some(line), ..fault("is not UTF-8 text".into(), "save the file as UTF-8") }
-        })?;
-        let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
-        Ok(Self { path: path.to_owned(), text })
-    }
-
     /// A text that is not in a file yet.
     pub(crate) fn of(path: &Path, text: String) -> Self {
-        Self { path: path.to_owned(), text }
+        Self { path: path.to_owned(), text, json: None }
+    }
+
+    /// The content of a file in JSON, with its RON.
+    pub(super) fn of_json(path: &Path, json: String, ron: String) -> Self {
+        Self { json: Some(json), ..Self::of(path, ron) }
+    }
+
+    /// RON.
+    pub(super) fn into_text(self) -> String {
+        self.text
+    }
+
+    /// Whether the file looks like one of a kind.
+    pub(super) fn is(&self, kind: &Kind) -> bool {
+        matches!(FieldMap::new(&self.text).find(kind.mark), (Some(_), ""))
     }
 
     /// A file named inside this one: relative to it, or absolute.
@@ -82,7 +51,7 @@ impl Source {
     }
 
     pub(crate) fn fingerprint(&self) -> Fingerprint {
-        Fingerprint::of(self.path.clone(), self.text.as_bytes())
+        Fingerprint::of(self.path.clone(), self.json.as_ref().unwrap_or(&self.text).as_bytes())
     }
 
     /// The file's content, of a kind if `fogcoil new` writes such files.
@@ -144,7 +113,7 @@ pub(super) struct Kind {
     name: &'static str,
     /// A field that each has at its top, and no other kind.
     mark: &'static str,
-    /// What writes one.
+    /// Command that writes one.
     command: &'static str,
 }
 
@@ -153,11 +122,6 @@ pub(super) static CELL: Kind = Kind { name: "a cell file", mark: "adhesive", com
 pub(super) static TARGETS: Kind = Kind { name: "a file of targets", mark: "targets", command: "fogcoil new --kind targets FILE" };
 pub(super) static MECHANISM: Kind =
     Kind { name: "a mechanism's file", mark: "laws", command: "fogcoil new --kind mechanism FILE" };
-
-/// Whether a file can be read and looks like a coil's.
-pub fn is_coil(path: &Path) -> bool {
-    Source::read(path).is_ok_and(|source| matches!(FieldMap::new(&source.text).find(COIL.mark), (Some(_), "")))
-}
 
 /// Problem and remedy if `text` is not of the kind that is wanted but of another, a table, or nothing.
 fn mistaken(text: &str, wanted: Option<&Kind>) -> Option<(String, String)> {

@@ -21,13 +21,13 @@ const GAP: f64 = 10.0;
 /// A thermometer's record that has been read and checked.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpoolCase {
-    /// What drives the coil: the chamber, and its heaters if it has any.
+    /// Drives of the coil: the chamber, and its heaters if it has any.
     pub drives: Vec<Drive>,
     /// Instants \[s\].
     pub time: Vec<f64>,
     /// Readings \[°C\].
     pub spool: Vec<f64>,
-    /// What a user should know although nothing is wrong.
+    /// Notes for the user although nothing is wrong.
     pub notes: Vec<Note>,
     /// The file.
     pub fingerprint: Fingerprint,
@@ -75,7 +75,7 @@ fn columns(rows: &Rows) -> Result<Vec<String>, InputError> {
     }
 }
 
-/// What to say of the longest gap.
+/// Note on the longest gap.
 fn gap(time: &[f64]) -> Option<String> {
     let mut intervals: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let (at, longest) = intervals.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;

@@ -1,4 +1,4 @@
-//! The spool of `COIL.ron`, what is around it, and its thermometer: as they are written, and in SI.
+//! The spool of `COIL.ron`, its surroundings and its thermometer: as they are written, and in SI.
 
 use coil::{Contact, Flange, Sensor, Solid, Spool, Surroundings};
 use fem_core::material::Isotropic;
@@ -18,7 +18,7 @@ use crate::units::to_mm;
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SurroundingsFile {
-    /// Still air, or what else there is.
+    /// Still air, or another medium.
     pub(crate) medium: MediumFile,
     /// From the solids' bounding box to the chamber's wall.
     pub(crate) margin_mm: LengthMm,
@@ -55,9 +55,9 @@ mirrored! {
         specific_heat_j_per_kgk: SpecificHeat = specific_heat,
     }
 
-    /// What the coil is wound on.
+    /// The spool on which the coil is wound.
     SpoolFile is Spool {
-        /// What it is made of.
+        /// Its material.
         material: SolidFile = material,
         /// Radial thickness of the hub.
         hub_thickness_mm: WallMm = hub_thickness,
@@ -69,9 +69,9 @@ mirrored! {
 
     /// A flange.
     FlangeFile is Flange {
-        /// On which side of the coil.
+        /// Side of the coil.
         side: SideFile = side,
-        /// Along y.
+        /// Thickness along y.
         thickness_mm: WallMm = thickness,
         /// Beyond the coil's outer radius.
         overhang_mm: ExtraLengthMm = overhang,

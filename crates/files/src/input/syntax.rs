@@ -7,7 +7,7 @@ use super::rows::quoted;
 
 pub(super) const MISSING: &str = "the field is missing";
 
-/// What is written with several numbers: names of the program's choices, and how they look.
+/// Choices that are written with several numbers: their names in the program, and their form in a file.
 const FORMS: [(&str, &str); 4] = [
     ("PriorFile::Normal", "write Normal(mean, standard deviation), e.g. Normal(0.0, 0.01)"),
     ("PriorFile::LogNormal", "write LogNormal(median, standard deviation of the logarithm), e.g. LogNormal(1800.0, 1.0)"),

@@ -8,8 +8,9 @@ use homogenization::identify::{Family, MaterialPrior, Prior, RingPrior, Target, 
 use super::InputError;
 use super::group::Group;
 use super::mirror::Mirror;
+use super::opened::open;
 use super::quantity::{Conductivity, ExpansionPerK, FibreUm, ModulusGpa, ModulusMpa, Quantity, Ratio};
-use super::source::{Source, TARGETS};
+use super::source::TARGETS;
 use super::targets_file::{CellPrior, Entries, Entry, MaterialFile, RangeFile, TargetsFile};
 
 const MOST_CELLS: usize = 6;
@@ -34,7 +35,7 @@ pub struct TargetsCase {
 /// # Errors
 /// The fault, in which file, line and field, and how to mend it.
 pub fn read_targets(path: &Path) -> Result<TargetsCase, InputError> {
-    let source = Source::read(path)?;
+    let source = open(path)?;
     let file: TargetsFile = source.parse(Some(&TARGETS))?;
     let top = Group::whole(&source);
     let pitch = file.pitch_um.model();

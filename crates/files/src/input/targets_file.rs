@@ -16,7 +16,7 @@ pub(crate) struct TargetsFile {
     pub(crate) name: String,
     /// Distance of neighbouring fibres, hexagonal.
     pub(crate) pitch_um: FibreUm,
-    /// What was measured.
+    /// The measured constants.
     pub(crate) targets: Entries,
     /// Kinds of cell to try.
     pub(crate) cells: Vec<CellPrior>,
@@ -71,7 +71,7 @@ pub(crate) struct CellPrior {
     pub(crate) name: String,
     /// Rings from the inside out, 1 to 16.
     pub(crate) rings: Vec<RingFile>,
-    /// What fills the rest.
+    /// Material of the rest.
     pub(crate) adhesive: MaterialFile,
 }
 
@@ -82,15 +82,15 @@ pub(crate) struct RingFile {
     /// Its name.
     #[serde(deserialize_with = "super::name::printable")]
     pub(crate) name: String,
-    /// Range that holds 90 % of the expectation.
+    /// Outer diameter: range that holds 90 % of the expectation.
     pub(crate) outer_diameter_um: (FibreUm, FibreUm),
     /// Whether it is of the glass.
     pub(crate) glass: bool,
-    /// What it is expected to be made of.
+    /// Its expected material.
     pub(crate) material: MaterialFile,
 }
 
-/// What a constituent is expected to be.
+/// Expected material of a constituent.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MaterialFile {

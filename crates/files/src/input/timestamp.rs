@@ -1,6 +1,6 @@
 //! Instants as date and time of day.
 
-/// How instants are written that are dates, for messages.
+/// Forms of instants that are dates, for messages.
 pub(crate) const FORMS: &str = "2024-05-01T12:00:00.5Z, or day first 01.05.2024 12:00:00.5";
 
 /// Hours of a time of day, and of a time since a start.
@@ -30,7 +30,7 @@ const MONTHS: [(&str, i64); 17] = [
 /// A date and time of day.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Date {
-    /// Since 1970-01-01T00:00:00Z.
+    /// Seconds since 1970-01-01T00:00:00Z.
     pub(crate) seconds: f64,
     /// Whether its zone is written.
     pub(crate) is_zoned: bool,

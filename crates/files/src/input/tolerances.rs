@@ -1,4 +1,4 @@
-//! The tolerances of `COIL.ron`: how far a unit may be from the drawing.
+//! The tolerances of `COIL.ron`: deviations of a unit from the drawing.
 
 use std::collections::BTreeMap;
 use std::fmt::Formatter;
@@ -82,13 +82,13 @@ const KEYS: &[(&str, Number, f64)] = &[
     ("sensor.lag_s", Number::SensorLag, 1.0),
 ];
 
-/// The key of a number that has a tolerance, and what a design says there, in the key's unit; `None` where the design has no such number.
+/// The key of a number that has a tolerance, and its value in a design, in the key's unit; `None` where the design has no such number.
 pub fn keyed(number: Number, design: &Design) -> Option<(&'static str, f64)> {
     let (key, unit) = key(number, design)?;
     Some((key, number.of(design)? / unit))
 }
 
-/// Largest share: beyond, a number says nothing.
+/// Largest share: beyond it a number means nothing.
 const MOST: f64 = 0.5;
 
 /// The tolerances and correlations that a file gives, checked.

@@ -78,7 +78,7 @@ const RATES: &[(&str, &str)] = &[
 /// Prefixes as loggers write them, in lower case, and as the program does.
 const PREFIXES: [(char, &str); 5] = [('m', "m"), ('u', "u"), ('\u{b5}', "u"), ('\u{3bc}', "u"), ('n', "n")];
 
-/// What often stands in round brackets and is no unit, in lower case.
+/// Words that often stand in round brackets and are no units, in lower case.
 const NO_UNITS: [&str; 14] = ["raw", "utc", "gmt", "cet", "mez", "set", "ist", "soll", "avg", "mean", "max", "min", "x", "z"];
 
 /// The unit that a text is, if it is one of the key's.
@@ -113,7 +113,7 @@ pub(super) fn ending(name: &str, key: Key) -> Option<ColumnUnit> {
     }
 }
 
-/// What a column's name has in brackets that seems to be a unit and is none of the key's.
+/// Text in brackets of a column's name that seems to be a unit and is none of the key's.
 pub(super) fn foreign(name: &str, key: Key) -> Option<&str> {
     let (bare, text) = bracketed(name)?;
     let (text, lower) = (text.trim(), text.trim().to_lowercase());

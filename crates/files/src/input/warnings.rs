@@ -12,7 +12,7 @@ const ROOM: f64 = 1.0;
 /// Largest relative distance of the effective diameter from the coil's mean diameter that passes without a word.
 const SAME_DIAMETER: f64 = 0.02;
 
-/// How far from a solid a thermometer may be and still be on it \[m\]: what a drawing's decimals leave.
+/// Distance from a solid at which a thermometer is still on it \[m\]: the rounding of a drawing.
 const ON: f64 = 1e-6;
 
 /// Whether a thermometer is on no solid.

@@ -12,9 +12,9 @@ const MOST_LAYERS: usize = 10_000;
 const MOST_TURNS: usize = 100_000;
 
 mirrored! {
-    /// How the fibre lies.
+    /// Places of the turns.
     WindingFile is Spec {
-        /// Which layer belongs to which half.
+        /// The half of each layer.
         pattern: PatternFile = pattern,
         /// Number of layers, 1 to 10000.
         layers: usize = layers,
@@ -39,7 +39,7 @@ mirrored! {
 
     /// A layer wound wrongly.
     DefectFile is LayerDefect {
-        /// Which, from 1, outwards.
+        /// Its number, from 1, outwards.
         layer: usize = layer,
         /// Turns too many, or if negative too few, of the half that owns the layer.
         turns: i32 = turns,
@@ -47,21 +47,21 @@ mirrored! {
 
     /// Bare fibre beyond the winding, at the temperature of the hub's bore.
     TailsFile is Tails {
-        /// At the CW half's outer end.
+        /// Tail at the CW half's outer end.
         cw: TailM = cw,
-        /// At the CCW half's outer end.
+        /// Tail at the CCW half's outer end.
         ccw: TailM = ccw,
     }
 }
 
 mirrored_choice! {
-    /// Which layer belongs to which half.
+    /// The half of each layer.
     PatternFile is Pattern: { Cylindrical, Dipole, Quadrupole, PracticalQuadrupole, Octupole }
 
     /// An end of the coil: Left is y = 0, Right +y.
     SideFile is Side, ClimbSide: { Left, Right }
 
-    /// How long a turn is.
+    /// Length of a turn.
     TurnLengthFile is TurnLength: { True, Equal }
 }
 

@@ -1,13 +1,13 @@
-//! A design key by key, as its coil file says it.
+//! A design key by key, as its coil file writes it.
 
 use coil::{Design, Tolerances};
 use serde_json::Value;
 
 use crate::input::CoilFile;
 
-/// Every key of a design with its value, in the order of a coil file and in the units of the keys: what [`super::coil_file`] writes, but for the name
-/// and the tolerances. Keys are those that a value is replaced by: `spool.flanges[0].side`. A choice stands at its own key, what belongs to it below;
-/// what a file may leave out, and does, is not there, and of an empty list nothing.
+/// Every key of a design with its value, in the order of a coil file and in the units of the keys, as [`super::coil_file`] writes them, but
+/// for the name and the tolerances. Keys are those by which a value is replaced: `spool.flanges[0].side`. A choice stands at its own key, its
+/// fields below. A key that a file may leave out, and does, is missing; an empty list gives nothing.
 pub fn design_entries(design: &Design) -> Vec<(String, String)> {
     let file = CoilFile::new("", design, &Tolerances::default());
     let mut all = Vec::new();

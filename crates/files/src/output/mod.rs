@@ -37,7 +37,7 @@ pub fn coil_file(name: &str, design: &Design, known: &Tolerances, comments: &[St
 pub enum Content<'a> {
     /// A text.
     Text(String),
-    /// What this writes; it may be called more than once.
+    /// The bytes that this writes; it may be called more than once.
     Written(&'a dyn Fn(&mut dyn Write) -> io::Result<()>),
 }
 
@@ -130,7 +130,7 @@ pub fn make_folder(folder: &Path) -> Result<(), Error> {
     fs::create_dir_all(folder).map_err(|source| Error::Output { file: folder.to_owned(), source })
 }
 
-/// Where the file at `path` is or will be: in a folder that exists, links resolved.
+/// Place where the file at `path` is or will be: in a folder that exists, links resolved.
 fn place(path: &Path) -> Result<PathBuf, Error> {
     const STREAM: &str = "is a device or a pipe; name a file (only a summary, with --json, goes to standard output)";
     let refuse = |problem: &str| Error::Usage(format!("{}: {problem}", shown_path(path)));

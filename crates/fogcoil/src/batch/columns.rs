@@ -4,7 +4,7 @@ use super::row::{MEASURED, NUMBERS, Row};
 use super::run::Batch;
 use crate::tabular::{Column, Table};
 
-/// A row for each unit: what it is, what was measured and found, whether it passes.
+/// A row for each unit: its name, its measured figures, its diagnosis, and whether it passes.
 pub fn table(batch: &Batch) -> Table {
     let rows = || batch.rows.iter().map(|(row, _)| row);
     let text = |name: &str, of: &dyn Fn(&Row) -> Option<String>| Column::texts(name, rows().map(of).collect());

@@ -1,4 +1,4 @@
-//! What the records of a unit say: figures and diagnosis, as one object.
+//! Finding of a unit's records: figures and diagnosis, as one object.
 
 use std::path::PathBuf;
 
@@ -12,17 +12,17 @@ use crate::diagnose::diagnose;
 use crate::input::{Asked, CoilCase, RecordCase, RecordOptions, hexadecimal, read_record};
 use crate::measure::{self, Prediction, measure};
 
-/// What all units have in common.
+/// Inputs that all units share.
 pub struct Inputs<'a> {
     /// The design.
     pub case: &'a CoilCase,
-    /// What is weighed.
+    /// The mechanisms to weigh.
     pub asked: &'a Asked,
-    /// How records are read.
+    /// Options for reading records.
     pub options: &'a RecordOptions,
-    /// Where the design's models are.
+    /// Cache of the design's models.
     pub cache: &'a Cache,
-    /// What the design predicts.
+    /// Prediction of the design.
     pub prediction: &'a Prediction,
 }
 
@@ -31,7 +31,7 @@ pub(super) struct Read {
     pub(super) name: String,
     fits: Vec<RecordCase>,
     holdouts: Vec<RecordCase>,
-    /// SHA-256 of all that its finding follows from.
+    /// SHA-256 of all inputs of its finding.
     pub(super) key: String,
 }
 
@@ -66,7 +66,7 @@ impl Inputs<'_> {
         Ok(Read { name: unit.name.clone(), fits, holdouts, key })
     }
 
-    /// What its records say, and the page of its diagnosis, if there is one.
+    /// The finding of its records, and the page of its diagnosis, if there is one.
     pub(super) fn find(&self, unit: &Read) -> (Value, Option<String>) {
         let records = || unit.fits.iter().chain(&unit.holdouts);
         let measured = self.measured(unit);

@@ -9,12 +9,12 @@ use super::units::Unit;
 use crate::output::{Content, write_files};
 use crate::{Error, FileError};
 
-/// Where the findings of a batch are.
+/// Folder of a batch's findings.
 pub(super) struct Kept {
     folder: PathBuf,
 }
 
-/// Of a batch's folder.
+/// Folder of the units in the folder of a batch.
 const UNITS: &str = "units";
 
 /// The page of a unit, from the batch's folder.
@@ -29,7 +29,7 @@ pub fn kept_files(batch: &Path, units: &[Unit]) -> Vec<PathBuf> {
 }
 
 impl Kept {
-    /// In the folder of a batch, which is made.
+    /// Findings in the folder of a batch, which is created.
     ///
     /// # Errors
     /// [`files::Error::Output`] where it cannot be made.
@@ -44,7 +44,7 @@ impl Kept {
         self.folder.join(format!("{unit}.{end}"))
     }
 
-    /// The finding of a unit from what has this key; with its page where it was diagnosed.
+    /// The finding of a unit with this key; with its page where it was diagnosed.
     pub(super) fn load(&self, unit: &str, key: &str) -> Option<Value> {
         let text = fs::read_to_string(self.file(unit, "json")).ok()?;
         let finding: Value = serde_json::from_str(&text).ok()?;

@@ -10,7 +10,7 @@ use crate::input::{Fingerprint, fault_in, meant, read_ron, read_text};
 use crate::table::significant;
 use crate::variants::each_once;
 
-/// What a number must be.
+/// Condition on a number.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 enum Limit {
     /// At most, in magnitude.
@@ -19,7 +19,7 @@ enum Limit {
     Within(f64, f64),
 }
 
-/// Which of a number's values keeps the limit.
+/// The value of a number that must keep the limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 enum By {
     /// The number itself.
@@ -45,9 +45,9 @@ struct LimitsFile {
 pub struct Limits {
     limits: Vec<(&'static str, Limit)>,
     judged_by: By,
-    /// Those that pass; all where there are none.
+    /// Verdicts that pass; all where there are none.
     verdicts: Vec<String>,
-    /// Their file.
+    /// File of the limits.
     pub fingerprint: Fingerprint,
 }
 
@@ -56,9 +56,9 @@ pub struct Limits {
 pub enum Judged {
     /// There are no limits.
     Unjudged,
-    /// It does.
+    /// It keeps its limits.
     Passes,
-    /// It does not.
+    /// It does not keep its limits.
     Fails(Vec<String>),
 }
 
@@ -106,7 +106,7 @@ pub fn read_limits(path: &Path) -> Result<Limits, Error> {
 }
 
 impl Limits {
-    /// Judges a unit: what was not measured does not keep a limit.
+    /// Judges a unit: a number that was not measured does not keep a limit.
     pub fn judge(&self, row: &Row) -> Judged {
         let mut reasons: Vec<String> = self.limits.iter().filter_map(|(name, limit)| self.reason(name, *limit, row)).collect();
         if !self.verdicts.is_empty() {
@@ -142,7 +142,7 @@ impl Limits {
 }
 
 impl Judged {
-    /// In a word; empty where there are no limits.
+    /// The outcome in a word; empty where there are no limits.
     pub fn word(&self) -> &'static str {
         match self {
             Self::Unjudged => "",
@@ -151,7 +151,7 @@ impl Judged {
         }
     }
 
-    /// Why it fails.
+    /// Reasons why it fails.
     pub fn reasons(&self) -> Option<String> {
         match self {
             Self::Fails(reasons) => Some(reasons.join("; ")),

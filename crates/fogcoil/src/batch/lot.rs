@@ -1,4 +1,4 @@
-//! What the units of a batch have in common, and which stand out.
+//! Mean and spread of the units of a batch, and the units that stand out.
 
 use recording::statistics::{median, normal_quantile, robust_sd};
 
@@ -12,9 +12,9 @@ pub(super) struct Common {
     pub(super) name: String,
     /// Mean distance from the design, in standard deviations of its tolerance.
     pub(super) mean: f64,
-    /// What units differ by from that mean.
+    /// Standard deviation of units about that mean.
     pub(super) sd: f64,
-    /// How many units.
+    /// Number of units.
     pub(super) units: usize,
 }
 
@@ -33,10 +33,10 @@ pub(super) struct Outlier<'a> {
 const FAR: f64 = 3.5;
 /// Distance from the design, in standard deviations of its tolerance, from which a constant is worth a line.
 const WORTH: f64 = 0.5;
-/// Fewest units that tell what is common, and what is usual.
+/// Fewest units that show a common deviation, and the usual range.
 const FEWEST: usize = 5;
 
-/// Constants that are farther from the design on average than is worth a line, and than twice what their mean is uncertain by, the farthest first.
+/// Constants whose mean is farther from the design than is worth a line, and than twice its own uncertainty, the farthest first.
 pub(super) fn common(batch: &Batch) -> Vec<Common> {
     let ordinary: Vec<&Row> = batch
         .rows

@@ -1,6 +1,6 @@
-//! `fogcoil batch`: many units of one design: measured and diagnosed each, judged by limits, and what they have in common.
+//! `fogcoil batch`: many units of one design, each measured, diagnosed and judged by limits, and their common features.
 //!
-//! What a unit's records say is kept in a file of its own as soon as it is known, under the hash of design, records and program; an interrupted run goes on
+//! The finding of a unit is kept in a file of its own as soon as it is known, under the hash of design, records and program; an interrupted run goes on
 //! from there. Every table and page is made of these files alone, so that it does not matter which run computed them.
 
 mod columns;

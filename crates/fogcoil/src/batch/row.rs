@@ -1,4 +1,4 @@
-//! A unit in a row: what of its finding stands in the table.
+//! A unit as a row of the table.
 
 use serde_json::Value;
 
@@ -20,7 +20,7 @@ pub(super) const NUMBERS: [&str; 14] = [
     "probability",
 ];
 
-/// How many of [`NUMBERS`] have intervals.
+/// Number of the [`NUMBERS`] that have intervals.
 pub(super) const MEASURED: usize = 8;
 
 /// A constant of the design as a unit has it.
@@ -39,7 +39,7 @@ pub struct Row {
     pub unit: String,
     /// Its serial number: of the meta file, or the digits that its name ends in.
     pub serial: Option<i64>,
-    /// When it was recorded, as the meta file says.
+    /// Date of the recording, by the meta file.
     pub date: Option<String>,
     /// Its records.
     pub files: Vec<String>,
@@ -49,18 +49,18 @@ pub struct Row {
     pub verdict: Option<String>,
     /// Ids that the records do not exclude, best first.
     pub set: Vec<String>,
-    /// Parameters of what was found: name, value and both ends of the 90 % interval.
+    /// Parameters of the explanation: name, value and both ends of the 90 % interval.
     pub parameters: Vec<(String, [f64; 3])>,
     /// Constants of the design as the records leave them.
     pub constants: Vec<Constant>,
-    /// Why there is no diagnosis.
+    /// Reason why there is no diagnosis.
     pub problem: Option<String>,
     numbers: Vec<Option<f64>>,
     intervals: Vec<Option<[f64; 2]>>,
 }
 
 impl Row {
-    /// Of what is kept of a unit.
+    /// Row of a unit's kept finding.
     pub(super) fn of(finding: &Value) -> Self {
         let text = |value: &Value| value.as_str().map(str::to_owned);
         let texts = |value: &Value| value.as_array().into_iter().flatten().filter_map(text).collect::<Vec<_>>();

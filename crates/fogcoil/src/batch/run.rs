@@ -62,7 +62,7 @@ pub fn run(
 }
 
 impl Batch {
-    /// How many units fail.
+    /// Number of units that fail.
     pub fn failing(&self) -> usize {
         self.rows.iter().filter(|(_, judged)| matches!(judged, Judged::Fails(_))).count()
     }

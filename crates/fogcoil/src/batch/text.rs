@@ -1,4 +1,4 @@
-//! A batch for people.
+//! A batch as text.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use super::lot::{common, outliers};
 use super::run::Batch;
 use crate::table::{significant, table};
 
-/// A line for each unit, and what stands out.
+/// A line for each unit, and the units that stand out.
 pub fn text(batch: &Batch) -> String {
     let head = ["unit", "sensitivity", "90 %", "residual/noise", "verdict", "judged", "what"].map(str::to_owned).to_vec();
     let rows = batch.rows.iter().map(|(row, judged)| {

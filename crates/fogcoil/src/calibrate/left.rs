@@ -1,4 +1,4 @@
-//! What the constants of a unit leave of its records, beside the noise of these.
+//! Residuals of a unit's records under its constants, beside the noise of the records.
 
 use diagnosis::{Fit, ForwardModel, NoisePrior, Observation};
 use mechanisms::{Gyro, RATE, SPOOL};
@@ -6,26 +6,26 @@ use recording::check::white_noise;
 
 use crate::table::significant;
 
-/// Drift that is usual, over the median of what is known of it: about a standard deviation of its logarithm above. The median is a share of the white
-/// noise over a minute, so that neither the size of the noise nor the length of rows matters.
+/// Usual drift over the median of its prior: about a standard deviation of its logarithm above. The median is a share of the white noise over a minute,
+/// so that neither the size of the noise nor the length of rows matters.
 const USUAL: f64 = 2.0;
-/// What is left over noise with usual drift, from which it is more than noise. A record of a dozen correlation times of the drift holds some six
+/// Ratio of a residual to noise with usual drift from which it is more than noise. A record of a dozen correlation times of the drift holds some six
 /// stretches of it, from which its size is known to 1/√(2·6) = 0.29: three times that above one, 1 + 3·0.29, rounded.
 const MISFIT: f64 = 2.0;
 
-/// What a fit leaves of one channel of a record, in the channel's unit.
+/// Residual of a fit in one channel of a record, in the channel's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Left {
     /// Root mean square of recorded less fitted.
     pub(super) rms: f64,
-    /// Noise of a row: what a row differs by from its neighbours, without what is slow.
+    /// Noise of a row: its difference from its neighbours, without slow changes.
     pub(super) noise: f64,
-    /// The same with as much drift as is usual beside it, and what the noise of the chamber's thermometer does through the model.
+    /// The same with the usual drift beside it, and the noise of the chamber's thermometer, passed through the model.
     pub(super) with_drift: f64,
 }
 
 impl Left {
-    /// Of the record of a unit in which it is largest over the noise; `None` of a channel that was not recorded.
+    /// Residual in the record of a unit in which it is largest over the noise; `None` for a channel that was not recorded.
     fn of(gyro: &Gyro, fit: &Fit, observations: &[Observation], channel: usize) -> Option<Self> {
         let left = observations.iter().zip(&fit.residuals).enumerate().filter_map(|(record, (observed, residuals))| {
             let residual = &residuals[channel];
@@ -49,7 +49,7 @@ impl Left {
     }
 }
 
-/// What is left of a unit's rate \[deg/h\] and of its thermometer \[K\].
+/// Residuals of a unit's rate \[deg/h\] and of its thermometer \[K\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct LeftOfUnit {
     pub(super) rate: Option<Left>,
@@ -69,7 +69,7 @@ impl LeftOfUnit {
             .filter_map(|(name, unit, left)| Some((name, unit, left?)))
     }
 
-    /// Why the design cannot be this unit's; `None` where what is left is noise.
+    /// Reason why the design cannot be this unit's; `None` where the residual is noise.
     pub(super) fn misfit(&self) -> Option<String> {
         let misfits: Vec<String> = self
             .channels()

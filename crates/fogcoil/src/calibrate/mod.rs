@@ -1,8 +1,8 @@
-//! `fogcoil calibrate`: records of good units of a lot in; the lot's constants, with what further units may deviate by, out.
+//! `fogcoil calibrate`: the constants of a lot, with the deviations of further units, from records of its good units.
 //!
-//! A lot is made of the same batches: part of what its units deviate by from the drawing they have in common. What each unit's records say of its
-//! constants is weighed together ([`diagnosis::Lot`]); the design file that comes of it has the lot's values, tolerances of what units differ by, and
-//! correlations of what the records know only together.
+//! A lot is made of the same batches: its units share part of their deviation from the drawing. The information of each unit's records on its constants
+//! is weighed together ([`diagnosis::Lot`]). The resulting design file has the lot's values, the tolerances by which units differ, and the correlations
+//! of constants that the records determine only together.
 
 mod left;
 mod text;
@@ -32,14 +32,14 @@ pub struct Outcome {
     constants: Vec<Constant>,
     lot: Lot,
     units: Vec<Told>,
-    /// by how many standard deviations an effect stands out of a unit's records, known from the drawing and from the lot
+    /// standard deviations by which an effect stands out of a unit's records, known from the drawing and from the lot
     effects: Vec<(String, [f64; 2])>,
     notes: Vec<Note>,
 }
 
 /// A constant that the units of a lot have partly in common.
 struct Constant {
-    /// of the forward model's nuisances
+    /// number among the forward model's nuisances
     at: usize,
     name: String,
     number: Number,
@@ -139,7 +139,7 @@ fn fit(
     Ok((Unit { gyro, fit: recalibrated, records: read.len(), left }, doubts))
 }
 
-/// Those constants of a model that a lot has partly in common.
+/// Constants of a model that a lot has partly in common.
 fn constants(gyro: &Gyro) -> Vec<Constant> {
     let of = |(at, nuisance): (usize, &diagnosis::Nuisance)| {
         let name = nuisance.parameter.name.clone();
@@ -149,7 +149,8 @@ fn constants(gyro: &Gyro) -> Vec<Constant> {
     gyro.nuisances().iter().enumerate().filter_map(of).collect()
 }
 
-/// By how much each named mechanism, at the size from which its fit starts, stands out of a unit's records: known from the drawing, and from the lot.
+/// Standard deviations by which each named mechanism, at the size from which its fit starts, stands out of a unit's records: with the constants known
+/// from the drawing, and from the lot.
 fn effects(unit: &Unit, numbers: &[usize], further: &Believed) -> Result<Vec<(String, [f64; 2])>, diagnosis::Error<coil::Error>> {
     let records: Vec<usize> = (0..unit.records).collect();
     let mut all = Vec::new();
@@ -175,12 +176,12 @@ impl Outcome {
         &self.notes
     }
 
-    /// The constants as told where they are at `mean`.
+    /// The constants in their units where they are at `mean`.
     fn told<'a>(&'a self, mean: &'a Believed) -> impl Iterator<Item = (&'a str, f64)> + Clone {
         self.constants.iter().zip(mean.mean.iter()).map(|(c, u)| (c.name.as_str(), c.prior.value(*u)))
     }
 
-    /// The lot's design: its values, tolerances of what units differ by, correlations of what was told together only.
+    /// The lot's design: its values, the tolerances by which units differ, correlations of constants that were determined only together.
     fn design(&self) -> (Design, Tolerances) {
         let Lot { further, .. } = &self.lot;
         let put = |design: Design, (name, told): (&str, f64)| with_constant(&design, name, told).unwrap_or(design);

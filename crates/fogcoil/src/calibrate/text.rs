@@ -16,7 +16,7 @@ impl Outcome {
     /// The coil file of the lot.
     ///
     /// # Errors
-    /// Why a coil file cannot hold it.
+    /// Reason why a coil file cannot hold it.
     pub fn file(&self) -> Result<String, Error> {
         let (design, tolerances) = self.design();
         let name = format!("{}, calibrated", self.case.name);
@@ -34,7 +34,7 @@ impl Outcome {
         Ok(text)
     }
 
-    /// Which units the lot is of: those are called good that fit, and that nothing else speaks against.
+    /// The lot's units in words: those are called good that fit and that nothing else speaks against.
     fn of_units(&self) -> String {
         let (all, good) = (self.units.len(), self.units.iter().filter(|unit| unit.good).count());
         let units = if all == 1 { "unit" } else { "units" };
@@ -45,7 +45,7 @@ impl Outcome {
         }
     }
 
-    /// Some constants as scripts read them.
+    /// Some constants as JSON.
     fn told_json(&self, believed: &Believed) -> Value {
         let (half, sd) = (half_of_90(), believed.sd());
         let of = |(k, constant): (usize, &Constant)| {
@@ -57,7 +57,7 @@ impl Outcome {
         self.constants.iter().enumerate().filter_map(of).collect()
     }
 
-    /// One object, as scripts read it.
+    /// The lot as one JSON object.
     pub fn json(&self) -> Value {
         let files = |unit: &Told| unit.files.iter().map(|f| f.file.display().to_string()).collect::<Vec<_>>();
         let left = |left: Option<Left>| {
@@ -86,7 +86,7 @@ impl Outcome {
         })
     }
 
-    /// What is left of every unit's records beside their noise.
+    /// Residuals of every unit's records beside their noise.
     fn left(&self) -> String {
         let mut rows = vec![["unit", "of the", "rms left", "noise of a row", "with usual drift", ""].map(str::to_owned).to_vec()];
         for (n, unit) in self.units.iter().enumerate() {
@@ -100,7 +100,7 @@ impl Outcome {
         table(&rows)
     }
 
-    /// For people: what is left of each unit, the lot's constants, each unit's, and what a further unit shows the sooner.
+    /// The lot as text: residuals of each unit, the lot's constants, each unit's, and the effects that a further unit shows the sooner.
     pub fn text(&self) -> String {
         let Lot { common, units, further } = &self.lot;
         let (half, sd) = (half_of_90(), common.sd());

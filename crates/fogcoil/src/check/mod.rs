@@ -7,7 +7,8 @@
 mod json;
 mod text;
 
-use charts::{Axis, Figure, Panel, Series as Line, Style};
+use bias::units::S_PER_H;
+use charts::{Axis, Figure, Panel, Series as Line, Style, significant};
 use recording::allan::{AllanPoint, CONFIDENCE, allan};
 use recording::condition::bridged;
 use recording::lag::lagging;
@@ -54,13 +55,15 @@ const UNEXPECTED: f64 = 4.0;
 const QUANTISED: f64 = -0.7;
 /// Most identifications, each without what the one before did not expect.
 const MOST_PASSES: usize = 4;
+/// Factor by which guides and marks may lie below the least Allan deviation in a picture.
+const BELOW: f64 = 30.0;
 /// Most values of all lags together: memory.
 const MOST_VALUES: usize = 20_000_000;
 /// Fewest rows for each lag.
 const ROWS_A_LAG: usize = 20;
 
 impl GyroNoise {
-    /// What is fitted beside it, in words.
+    /// The terms fitted beside it, in words.
     fn taken_off(&self) -> String {
         match self.driver {
             Some(name) => format!("an offset and what {} linear lags of {name} explain", self.lags.len()),
@@ -166,14 +169,24 @@ pub(crate) struct Allan<'a> {
 }
 
 impl<'a> Allan<'a> {
-    /// Deviation, intervals and model; `None` where there is no deviation to draw.
+    /// Deviation, intervals, model and guides; `None` where there is no deviation to draw.
     pub(crate) fn figure(self, id: &'static str, title: String, caption: String) -> Option<Figure<'a>> {
-        self.points.iter().any(|point| point.deviation > 0.0).then(|| Figure {
+        let bottom = self.bottom()?;
+        let mut series = self.guides(bottom);
+        series.extend([
+            self.curve(&format!("{:.0} % interval", 100.0 * CONFIDENCE), Style::Third, |_, point| point.low),
+            self.curve("", Style::Third, |_, point| point.high),
+            self.curve("fitted model", Style::Marked(1), |allan, point| allan.deviation(point.tau)),
+            self.curve("recording", Style::Marked(0), |_, point| point.deviation),
+        ]);
+        series.extend(self.marks(bottom));
+        Some(Figure {
             id,
             title,
             description:
                 "Overlapping Allan deviation against averaging time, both axes logarithmic, between the ends of its 90 % \
-                          intervals, and that of the fitted noise model."
+                          intervals, and that of the fitted noise model; guides of the slopes −1/2, 0 and +1/2, and marks at \
+                          the angle random walk and the bias instability."
                     .into(),
             caption,
             columns: 1,
@@ -181,19 +194,70 @@ impl<'a> Allan<'a> {
                 Axis::logarithmic("averaging time [s]"),
                 Axis::logarithmic("Allan deviation [°/h]"),
                 24.0,
-                vec![
-                    self.curve(&format!("{:.0} % interval", 100.0 * CONFIDENCE), Style::Third, |_, point| point.low),
-                    self.curve("", Style::Third, |_, point| point.high),
-                    self.curve("fitted model", Style::Marked(1), |allan, point| {
-                        allan.model.allan_deviation(point.tau, allan.interval)
-                    }),
-                    self.curve("recording", Style::Marked(0), |_, point| point.deviation),
-                ],
+                series,
             )],
         })
     }
 
     fn curve(self, name: &str, style: Style, of: fn(&Self, &AllanPoint) -> f64) -> Line<'a> {
         Line::new(name, style, self.points.iter().map(|point| (point.tau, of(&self, point))).collect())
+    }
+
+    /// Deviation of the model.
+    fn deviation(&self, tau: f64) -> f64 {
+        self.model.allan_deviation(tau, self.interval)
+    }
+
+    /// Shortest and longest averaging time \[s\].
+    fn ends(&self) -> [f64; 2] {
+        [self.interval, self.points.last().map_or(self.interval, |point| point.tau)]
+    }
+
+    /// Deviation of the model's white noise alone.
+    fn white(&self, tau: f64) -> f64 {
+        let span = if self.model.averaging > 0.0 { self.model.averaging } else { self.interval };
+        self.model.white * (span / tau).sqrt()
+    }
+
+    /// Least deviation that the picture reaches down to; `None` where there is no deviation to draw.
+    fn bottom(&self) -> Option<f64> {
+        let drawn = self.points.iter().map(|point| point.deviation).filter(|deviation| *deviation > 0.0);
+        drawn.reduce(f64::min).map(|least| least / BELOW)
+    }
+
+    /// Lines of slope −1/2 through the model's white noise, 0 through its floor and +1/2 through its rate random walk, the latter two through
+    /// its last point where it has none.
+    fn guides(&self, bottom: f64) -> Vec<Line<'a>> {
+        let [first, last] = self.ends();
+        let hour = last.max(S_PER_H);
+        let (at, floor) = self.floor().unwrap_or((last, self.deviation(last)));
+        let walk = if self.model.walk > 0.0 { self.model.walk / 3_f64.sqrt() } else { floor / at.sqrt() };
+        let white = self.white(1.0);
+        let low = bottom.max(floor.min(self.white(hour)));
+        let ends = [[first, hour.min((white / bottom).powi(2))], [first, hour], [first.max((low / walk).powi(2)), last]];
+        let lines = [(white, -0.5), (floor, 0.0), (walk, 0.5)].into_iter().zip(ends);
+        let lines = lines.filter(|((size, _), [from, to])| *size > 0.0 && from < to);
+        let line = |(n, ((size, slope), ends)): (usize, ((f64, f64), [f64; 2]))| {
+            let name = if n == 0 { "slopes −1/2, 0 and +1/2" } else { "" };
+            Line::new(name, Style::Guide, ends.map(|tau| (tau, size * tau.powf(slope))).to_vec())
+        };
+        lines.enumerate().map(line).collect()
+    }
+
+    fn floor(&self) -> Option<(f64, f64)> {
+        self.model.floor(self.ends(), self.interval)
+    }
+
+    /// The angle random walk, which is the white noise's deviation at 1 h, and the floor, each where the model has it.
+    fn marks(&self, bottom: f64) -> Vec<Line<'a>> {
+        let walk = self.model.angle_random_walk().filter(|_| self.white(S_PER_H) >= bottom).map(|walk| {
+            let name = format!("angle random walk {} °/√h, at 1 h", significant(walk / S_PER_H.sqrt(), 3));
+            Line::new(name, Style::Points(2), vec![(S_PER_H, self.white(S_PER_H))])
+        });
+        let floor = self.floor().map(|(tau, floor)| {
+            let name = format!("bias instability {} °/h, at {} s", significant(floor, 2), significant(tau, 2));
+            Line::new(name, Style::Points(3), vec![(tau, floor)])
+        });
+        walk.into_iter().chain(floor).collect()
     }
 }

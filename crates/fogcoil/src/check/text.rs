@@ -23,7 +23,7 @@ pub fn warnings(case: &RecordCase) -> String {
     out
 }
 
-/// All findings but the first error, which [`RecordCase::require_usable`] says.
+/// All findings but the first error, which [`RecordCase::require_usable`] reports.
 fn listed(case: &RecordCase) -> Vec<&Finding> {
     let findings = &case.report.findings;
     let said = findings.iter().position(|finding| finding.severity == Severity::Error);

@@ -11,7 +11,7 @@ pub struct CourseNumbers {
     pub peak: (f64, f64),
     /// Root of the mean square over time.
     pub rms: f64,
-    /// In the last row.
+    /// Value in the last row.
     pub end: f64,
     /// Numerical errors of the three: estimates; of the difference the sum of both.
     pub errors: [f64; 3],

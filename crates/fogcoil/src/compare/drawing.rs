@@ -1,4 +1,4 @@
-//! Which keys of two designs differ.
+//! Keys in which two designs differ.
 
 use coil::Number;
 
@@ -10,11 +10,11 @@ use crate::units::parameter_unit;
 /// A key whose values differ.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Differing {
-    /// Of a coil file.
+    /// Key of a coil file.
     pub key: String,
     /// Unit of a number; none of a choice, or of a number without one.
     pub unit: Option<String>,
-    /// In A and in B, as a coil file says it; `None` where a design has no such key.
+    /// Value in A and in B, as a coil file writes it; `None` where a design has no such key.
     pub values: [Option<String>; 2],
 }
 

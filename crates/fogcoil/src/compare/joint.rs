@@ -7,8 +7,8 @@
 //! c_Bᵀ R_B c_B + c_Aᵀ R_A c_A − 2 c_Aᵀ R_AB c_B
 //! ```
 //!
-//! A number that both designs share (the same value, tolerance and correlations with the others that they share) deviates by the same in both. What is
-//! A's alone and what is B's alone have nothing in common but that: with S the shared numbers, R_AB = R_A[·,S] R[S,S]⁻¹ R_B[S,·]. Where nothing is
+//! A number that both designs share (the same value, tolerance and correlations with the others that they share) deviates by the same in both. The own
+//! numbers of A and of B are correlated through shared numbers alone: with S the shared numbers, R_AB = R_A[·,S] R[S,S]⁻¹ R_B[S,·]. Where nothing is
 //! correlated, a shared number contributes (c_B − c_A)², another c_A² and c_B².
 
 use coil::Number;

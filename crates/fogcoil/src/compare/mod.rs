@@ -1,4 +1,4 @@
-//! `fogcoil compare`: two designs A and B side by side: which keys differ, their sensitivities by part with errors and tolerances, their bias under a
+//! `fogcoil compare`: two designs A and B side by side: their differing keys, their sensitivities by part with errors and tolerances, their bias under a
 //! profile; and B less A of each.
 
 mod course;
@@ -27,7 +27,7 @@ pub const PARTS: [&str; 4] = ["shupe", "eo_axial", "eo_radial", "total"];
 /// A part of the sensitivity in A, in B, and B less A, (deg/h)/(degC/min).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Part {
-    /// In A, in B, B less A.
+    /// Value in A, value in B, and B less A.
     pub value: [f64; 3],
     /// Numerical error of each: an estimate; that of the difference is the sum of both.
     pub error: [f64; 3],
@@ -42,7 +42,7 @@ pub struct Part {
 pub struct Changed {
     /// Its key.
     pub key: &'static str,
-    /// Of A and of B; 0 where a design has no such number, or has it exactly.
+    /// Change in A and in B; 0 where a design has no such number, or has it exactly.
     pub change: [f64; 2],
     /// Whether both designs have it with the same value, tolerance and correlations, so that its deviation is the same in both.
     pub shared: bool,
@@ -56,13 +56,13 @@ pub struct Comparison<'a> {
     pub differing: Vec<Differing>,
     /// Keys whose tolerances differ, in words.
     pub tolerances: Vec<Differing>,
-    /// In the order of [`PARTS`].
+    /// The parts, in the order of [`PARTS`].
     pub parts: [Part; 4],
     /// Change of each part, the largest change of the total first.
     pub changes: Vec<Changed>,
     /// Length of the fibre with tails \[m\].
     pub length: [f64; 2],
-    /// Under a profile.
+    /// Comparison under a profile.
     pub simulations: Option<[Simulation<'a>; 2]>,
 }
 

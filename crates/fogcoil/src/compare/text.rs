@@ -11,7 +11,7 @@ use super::{Comparison, CourseNumbers, Differing, PARTS, Part};
 use crate::summary::rounded;
 use crate::table::{plus_minus, significant, table};
 
-/// How the band of the difference comes about.
+/// Origin of the band of the difference.
 pub(super) const HOW: [&str; 4] = [
     "Standard deviations by tolerances are to first order. In the difference a number that both designs share, with its value, its tolerance and its",
     "correlations, is one and the same: its deviation counts by the difference of what it changes in either. All others deviate independently.",
@@ -60,7 +60,7 @@ pub fn json(c: &Comparison) -> Value {
     })
 }
 
-/// Key, A, B and unit of what differs.
+/// Key, A, B and unit of each differing number.
 pub(super) fn differing_rows(all: &[Differing]) -> Vec<Vec<String>> {
     let value = |value: &Option<String>| value.clone().unwrap_or_else(|| "-".into());
     all.iter()
@@ -103,7 +103,7 @@ fn aligned(head: &[&str], rows: Vec<Vec<String>>) -> String {
     table(&all)
 }
 
-/// For people.
+/// The comparison as text.
 pub fn text(c: &Comparison) -> String {
     let mut text = String::new();
     for (letter, (case, length)) in ["A", "B"].iter().zip(c.cases.iter().zip(c.length)) {

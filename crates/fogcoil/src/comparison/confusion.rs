@@ -1,4 +1,4 @@
-//! Who is mistaken for whom: expected ln odds as a chequered table.
+//! Mistaken mechanisms: expected ln odds of each pair as a chequered table.
 
 use charts::{Frame, Svg, attributes};
 

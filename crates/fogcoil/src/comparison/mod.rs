@@ -1,4 +1,4 @@
-//! The library's mechanisms as pictures and tables: what each changes, and what it is mistaken for.
+//! The library's mechanisms as pictures and tables: the changes by each, and the rivals that it is mistaken for.
 
 mod confusion;
 mod signature;
@@ -20,7 +20,7 @@ use crate::recommend::{Contender, Limits, Programme, everything, prepared, progr
 pub(crate) use signature::{CHANNELS, chamber};
 pub use trial::Trial;
 
-/// What a test tells of a truth against a rival.
+/// Separation of a truth from a rival by a test.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Told {
     /// Distance in standard deviations of the noise, priors included.
@@ -45,15 +45,15 @@ pub struct TypicalParameter {
 pub struct Entry {
     /// Its id.
     pub id: String,
-    /// Where in the chain it acts.
+    /// Stage of the chain where it acts.
     pub stage: String,
     /// Its parameters, its choice first.
     pub parameters: Vec<TypicalParameter>,
-    /// What it changes in each of [`Comparison::programmes`] at its typical size: spool temperature \[K\] and rate \[deg/h\].
+    /// Its changes in each of [`Comparison::programmes`] at its typical size: spool temperature \[K\] and rate \[deg/h\].
     pub(crate) changes: Vec<[Vec<f64>; 2]>,
 }
 
-/// What the mechanisms of a design change, without their comparison.
+/// Changes by the mechanisms of a design, without their comparison.
 pub(crate) struct Responses {
     /// The mechanisms.
     pub(crate) entries: Vec<Entry>,
@@ -86,7 +86,7 @@ impl Comparison {
         Self::among(case, Responses::of(case, cache)?, progress)
     }
 
-    /// The same of those that are weighed on request, against all.
+    /// The same for mechanisms that are weighed on request, against all.
     ///
     /// # Errors
     /// As [`Self::measure`].

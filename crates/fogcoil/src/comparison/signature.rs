@@ -1,4 +1,4 @@
-//! What a mechanism changes, drawn.
+//! Drawings of the changes by a mechanism.
 
 use charts::{Axis, Figure, Panel, Series, Style, significant};
 use mechanisms::{RATE, SPOOL};
@@ -8,7 +8,7 @@ use crate::recommend::Programme;
 
 const HOUR: f64 = 3600.0;
 
-/// How the change of a channel is drawn: its number, label, line, and what is no change but rounding \[deg/h\], \[K\].
+/// Drawing of a channel's change: its number, label, line, and the magnitude below which it is rounding \[deg/h\], \[K\].
 type Channel = (usize, &'static str, Style, f64);
 
 pub(crate) const CHANNELS: [Channel; 2] =
@@ -20,7 +20,7 @@ pub(crate) fn chamber(programme: &Programme, time: Axis, high: f64) -> Panel<'st
 }
 
 impl Entry {
-    /// What the mechanism changes in a channel under a programme, the `number`th of its comparison.
+    /// Change by the mechanism in a channel under a programme, the `number`th of its comparison.
     pub(crate) fn change<'a>(
         &'a self,
         (number, programme): (usize, &Programme),

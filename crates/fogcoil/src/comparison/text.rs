@@ -57,7 +57,10 @@ impl Comparison {
         let mut near: Vec<usize> = (0..self.rivals.len()).filter(|j| *j != i).collect();
         let rank = |j: &usize| self.told[0][i][*j].map_or(f64::INFINITY, |t| t.log_odds);
         near.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
-        out.push_str("Expected ln odds for it over what is fitted in its place, in 24 h; above 3.5 the two are told apart:\n\n| fitted in its place |");
+        out.push_str(
+            "Expected ln odds for it over each rival that is fitted in its place, in 24 h; above 3.5 the two are told apart:\n\n\
+             | fitted in its place |",
+        );
         out.extend(self.programmes.iter().map(|p| format!(" {} |", p.family)));
         out.push_str(" best test |\n|---|");
         out.push_str(&"---|".repeat(self.programmes.len() + 1));
@@ -75,7 +78,7 @@ impl Comparison {
         out
     }
 
-    /// The mechanisms with what each is hardest to tell from under the slow ramp and under the best of the programmes, in Markdown.
+    /// The mechanisms with the nearest rival of each under the slow ramp and under the best of the programmes, in Markdown.
     pub fn overview(&self) -> String {
         let mut out =
             "| truth | stage | hardest rival, slow ramp | ln odds | hardest rival, best programme against it | ln odds |\n"

@@ -1,4 +1,4 @@
-//! Whether what is recommended tells two mechanisms apart: recordings of it, made with noise and fitted by both.
+//! Test whether a recommended programme tells two mechanisms apart: its recordings, made with noise and fitted by both.
 
 use diagnosis::{Active, ForwardModel, Observation, expected, fitted};
 use mechanisms::{CATALOGUE, Gyro};
@@ -39,7 +39,7 @@ impl Trial {
 }
 
 impl Comparison {
-    /// Tries what it recommends for every pair; `normal` draws from the standard normal distribution.
+    /// Tries the recommendation for every pair; `normal` draws from the standard normal distribution.
     ///
     /// # Errors
     /// [`files::Error::Coil`] if the design cannot be modelled.

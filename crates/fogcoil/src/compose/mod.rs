@@ -1,8 +1,10 @@
-//! Laws composed where nothing that is listed explains a record.
+//! Laws composed where no mechanism of the library explains a record.
 
 mod laws;
 
-use diagnosis::{Diagnosis, Estimate, Fit, ForwardModel, HeldOut, Judged, Observation, Settings, Verdict};
+use std::ops::Range;
+
+use diagnosis::{Active, Candidate, Diagnosis, Estimate, Fit, ForwardModel, HeldOut, Judged, Observation, Settings, Verdict};
 use mechanisms::{Gyro, Mechanism, RATE};
 use progress::Step;
 use serde_json::{Value, json};
@@ -11,7 +13,7 @@ use crate::Error;
 use crate::input::{MechanismCase, check_mechanism};
 use laws::{Law, Ranges};
 
-/// A law that was composed, one or two terms, with its sizes.
+/// A composed law of one or two terms, with its sizes.
 pub(crate) struct Composed {
     terms: Vec<Term>,
     /// Its fit, constants and sensors free.
@@ -19,10 +21,31 @@ pub(crate) struct Composed {
     gain: f64,
     /// titles and ids of laws that the records hardly tell from the last, and by how much ln evidence they are behind
     others: Vec<(String, String, f64)>,
-    /// What it predicts of each record that was held out.
+    /// Its prediction of each held-out record.
     pub(crate) held: Vec<HeldOut>,
-    /// Whether every record that was held out, and there is one, is predicted better by it.
+    /// Whether it predicts every held-out record better, and there is one.
     pub(crate) accepted: bool,
+}
+
+/// What was composed for a diagnosis.
+pub(crate) struct Sought {
+    /// For what it leaves unknown; `None` where it leaves nothing, no law gains enough, or a name is likelier.
+    pub(crate) composed: Option<Composed>,
+    /// In the place of each name that is likelier than not.
+    pub(crate) stand_ins: Vec<StandIn>,
+}
+
+/// The likeliest law in the place of a mechanism that has a name.
+pub(crate) struct StandIn {
+    /// The mechanism's id.
+    pub(crate) of: String,
+    id: String,
+    title: String,
+    known: &'static str,
+    /// ln evidence of all records by which the law is behind
+    behind: f64,
+    /// probability of the mechanism against the law, both as likely beforehand
+    share: f64,
 }
 
 /// A term of a law.
@@ -33,10 +56,10 @@ struct Term {
     estimates: Vec<Estimate>,
 }
 
-/// Laws that were found beside a hypothesis, and what they foretell of the records held out.
+/// Laws that were found beside a hypothesis, with their predictions of the held-out records.
 struct Found {
     law: diagnosis::Composed,
-    /// ln of the probability of any laws beside it, before anything is seen
+    /// ln of the prior probability of any laws beside it
     log_prior: f64,
     held: Vec<HeldOut>,
 }
@@ -56,11 +79,16 @@ impl Found {
     }
 }
 
+type Failure = diagnosis::Error<coil::Error>;
+
 /// ln evidence by which another law is behind and still not excluded, as odds of 1 to 20.
 const NEAR: f64 = 3.0;
 
-/// Composes a law for what a diagnosis leaves unknown, or names; `None` where it leaves nothing, no law gains enough, or a name is likelier. `held` are
-/// the records held out, by their numbers, and `judged` what is predicted of them without a law.
+/// Probability from which a name is put to the test by a law in its place: one that is less likely than not claims nothing.
+const LIKELIER_THAN_NOT: f64 = 0.5;
+
+/// Composes a law for the residual of a diagnosis, unknown or named, and one in the place of each name. `held` are the held-out records, by their numbers,
+/// and `judged` their predictions without a law.
 pub(crate) fn compose(
     gyro: &Gyro,
     diagnosis: &mut Diagnosis,
@@ -69,9 +97,9 @@ pub(crate) fn compose(
     held: &[(usize, &Observation)],
     judged: &[Judged],
     progress: &dyn Fn(Step),
-) -> Result<Option<Composed>, diagnosis::Error<coil::Error>> {
+) -> Result<Sought, Failure> {
     if !matches!(diagnosis.verdict, Verdict::Unknown | Verdict::Explained) {
-        return Ok(None);
+        return Ok(Sought { composed: None, stand_ins: Vec::new() });
     }
     // beside the constants, and beside a mechanism that has a name if it leaves something
     let constants = diagnosis.candidates.iter().find(|c| c.is_constants_alone());
@@ -84,57 +112,140 @@ pub(crate) fn compose(
     let kinds: Vec<&dyn Mechanism> = cases.iter().map(|(case, _)| &case.mechanism as &dyn Mechanism).collect();
     let first = gyro.mechanisms().len();
     let with = gyro.beside(&kinds);
-    let all = first..with.mechanisms().len();
     let numbers: Vec<usize> = (0..fitted.len()).collect();
+    let judge = diagnosis.best().fit.clone();
+    let laws = first..with.mechanisms().len();
+    let search = Search { with, cases: &cases, laws, numbers: &numbers, fitted, held, judge };
     let mut all_found: Vec<Found> = Vec::new();
     for beside in constants.into_iter().chain(named) {
-        if let Some(law) = diagnosis::compose(&with, all.clone(), &numbers, fitted, &beside.fit, progress)? {
-            // in the noise in which the others are judged
-            let predicted =
-                |&(record, observed): &(usize, &Observation)| law.fit.hold_out(&with, record, observed, &diagnosis.best().fit);
-            let held = held.iter().map(predicted).collect::<Result<Vec<_>, _>>()?;
-            all_found.push(Found { log_prior: settings.log_unlisted(gyro, &beside.fit.hypothesis), law, held });
+        let log_prior = settings.log_unlisted(gyro, &beside.fit.hypothesis);
+        all_found.extend(search.found(&beside.fit, log_prior, progress)?);
+    }
+    let chosen = chosen(all_found);
+    let accepted = chosen.as_ref().is_some_and(|Chosen { found, .. }| {
+        !held.is_empty() && judged.iter().zip(&found.held).all(|(without, by_law)| without.is_beaten_by(by_law, RATE))
+    });
+    let by_best = judged.iter().map(|judged| judged.model.log_score).sum();
+    let mut answers = vec![(diagnosis.best().clone(), by_best)];
+    if let Some(Chosen { found, log_weight, names }) = &chosen {
+        let by_law = log_score(&found.held);
+        // what has a name gives way to a law that is likelier by all records; what has none, unless a record that was held out says otherwise
+        let is_named = diagnosis.verdict == Verdict::Explained;
+        if is_named || accepted || held.is_empty() {
+            let by_noise = diagnosis::gained_by_noise_of(gyro, &numbers, fitted, diagnosis.best(), &found.law.fit)?;
+            diagnosis.weigh_unlisted(*log_weight, names, by_noise, if is_named { by_best - by_law } else { 0.0 });
+        }
+        let beside_law = Candidate { fit: found.law.fit.clone(), rival: None, ..diagnosis.best().clone() };
+        answers.push((beside_law, by_law));
+    }
+    let mut stand_ins = Vec::new();
+    for mechanism in likely_names(gyro, diagnosis) {
+        // in the answer that holds it, of several the last
+        let holds = |(answer, _): &&(Candidate, f64)| answer.fit.hypothesis.has(mechanism);
+        let Some((answer, score)) = answers.iter().rev().find(holds) else { continue };
+        if let Some(mut stand_in) = search.stand_in(mechanism, answer, *score)? {
+            stand_in.share = diagnosis.doubt(mechanism, stand_in.behind);
+            stand_ins.push(stand_in);
         }
     }
-    all_found.sort_by(|a, b| b.log_weight().total_cmp(&a.log_weight()));
-    let mut all_found = all_found.into_iter();
-    let Some(likeliest) = all_found.next() else { return Ok(None) };
-    let (log_weight, mut names) = (likeliest.log_weight(), likeliest.law.names());
+    let unknown = chosen.filter(|_| diagnosis.verdict != Verdict::Explained);
+    Ok(Sought { composed: unknown.map(|chosen| search.told(chosen.found, accepted)), stand_ins })
+}
+
+/// The search among laws: the model with all of them beside the library, and the records.
+struct Search<'a> {
+    with: Gyro<'a>,
+    /// each law, and the known physics of its form
+    cases: &'a [(MechanismCase, &'static str)],
+    /// their numbers in the model
+    laws: Range<usize>,
+    numbers: &'a [usize],
+    fitted: &'a [Observation],
+    held: &'a [(usize, &'a Observation)],
+    /// in whose noise records held out are judged
+    judge: Fit,
+}
+
+impl Search<'_> {
+    fn predicted(&self, fit: &Fit) -> Result<Vec<HeldOut>, Failure> {
+        self.held.iter().map(|(record, observed)| fit.hold_out(&self.with, *record, observed, &self.judge)).collect()
+    }
+
+    /// Laws beside a fit.
+    fn found(&self, beside: &Fit, log_prior: f64, progress: &dyn Fn(Step)) -> Result<Option<Found>, Failure> {
+        let Self { with, laws, numbers, fitted, .. } = self;
+        let law = diagnosis::compose(with, laws.clone(), numbers, fitted, beside, progress)?;
+        law.map(|law| Ok(Found { log_prior, held: self.predicted(&law.fit)?, law })).transpose()
+    }
+
+    /// The likeliest law in the place of a mechanism of an answer, which predicts the records held out with this ln of their density.
+    fn stand_in(&self, mechanism: usize, answer: &Candidate, log_score: f64) -> Result<Option<StandIn>, Failure> {
+        let Self { with, laws, numbers, fitted, .. } = self;
+        let Some(law) = diagnosis::in_place_of(with, laws, numbers, fitted, &answer.fit, mechanism)? else { return Ok(None) };
+        let by_noise = diagnosis::gained_by_noise_of(with, numbers, fitted, answer, &law)?;
+        let by_held_out = log_score - self::log_score(&self.predicted(&law)?);
+        let behind = answer.log_evidence() + by_noise + by_held_out - law.log_evidence;
+        let of = with.mechanisms()[mechanism].id.clone();
+        Ok(law.hypothesis.mechanisms.last().map(|(law, _)| {
+            let facts = with.mechanism(*law).facts();
+            let known = self.case(facts.id).map_or("", |(_, known)| known);
+            StandIn { of, id: facts.id.to_owned(), title: facts.title.to_owned(), known, behind, share: 1.0 }
+        }))
+    }
+
+    fn case(&self, id: &str) -> Option<&(MechanismCase, &'static str)> {
+        self.cases.iter().find(|(case, _)| case.mechanism.id == id)
+    }
+
+    /// Laws as they are told.
+    fn told(&self, found: Found, accepted: bool) -> Composed {
+        let Found { law: diagnosis::Composed { fit, laws, gain, others, .. }, held, .. } = found;
+        let own = fit.active.iter().enumerate().skip(fit.active.len() - laws);
+        let term = |(place, active): (usize, &Active)| {
+            let (case, known) = self.case(&self.with.mechanisms()[active.mechanism].id)?;
+            let estimates = fit.estimates(&self.with, place);
+            Some(Term { case: case.clone(), known, values: active.values.clone(), estimates })
+        };
+        let other = |(law, behind): &(usize, f64)| {
+            let facts = self.with.mechanism(*law).facts();
+            (*behind < NEAR).then(|| (facts.title.to_owned(), facts.id.to_owned(), *behind))
+        };
+        let (terms, others) = (own.filter_map(term).collect(), others.iter().filter_map(other).collect());
+        Composed { terms, fit, gain, others, held, accepted }
+    }
+}
+
+/// Laws to be told, their weight, and the names beside them.
+struct Chosen {
+    found: Found,
+    log_weight: f64,
+    names: Vec<usize>,
+}
+
+/// Of laws that were found, beside names or alone, those to be told.
+fn chosen(mut found: Vec<Found>) -> Option<Chosen> {
+    found.sort_by(|a, b| b.log_weight().total_cmp(&a.log_weight()));
+    let mut found = found.into_iter();
+    let likeliest = found.next()?;
+    let (log_weight, names) = (likeliest.log_weight(), likeliest.law.names());
     // a name beside a law has to be borne out, as the law has
-    let chosen = match all_found.next() {
+    match found.next() {
         Some(alone) if !names.is_empty() && !likeliest.bears_out_names_over(&alone) => {
-            names.clear();
-            alone
+            Some(Chosen { found: alone, log_weight, names: Vec::new() })
         }
-        _ => likeliest,
-    };
-    let Found { law: found, held: predictions, .. } = chosen;
-    let own = found.fit.active.iter().enumerate().skip(found.fit.active.len() - found.laws);
-    let mut terms = Vec::new();
-    for (place, active) in own {
-        let id = &with.mechanisms()[active.mechanism].id;
-        let Some((case, known)) = cases.iter().find(|(case, _)| case.mechanism.id == *id) else { continue };
-        let estimates = found.fit.estimates(&with, place);
-        terms.push(Term { case: case.clone(), known, values: active.values.clone(), estimates });
+        _ => Some(Chosen { found: likeliest, log_weight, names }),
     }
-    let other = |(law, behind): &(usize, f64)| {
-        let facts = with.mechanism(*law).facts();
-        (*behind < NEAR).then(|| (facts.title.to_owned(), facts.id.to_owned(), *behind))
-    };
-    let others = found.others.iter().filter_map(other).collect();
-    let accepted =
-        !held.is_empty() && judged.iter().zip(&predictions).all(|(without, by_law)| without.is_beaten_by(by_law, RATE));
-    let by_held_out = judged.iter().zip(&predictions).map(|(without, by_law)| without.model.log_score - by_law.log_score).sum();
-    // what has a name gives way to a law that is likelier by all records; what has none, unless a record that was held out says otherwise
-    let is_named = diagnosis.verdict == Verdict::Explained;
-    if is_named || accepted || held.is_empty() {
-        let by_noise = diagnosis::gained_by_noise_of(gyro, &numbers, fitted, diagnosis.best(), &found.fit)?;
-        diagnosis.weigh_unlisted(log_weight, &names, by_noise, if is_named { by_held_out } else { 0.0 });
-    }
-    if diagnosis.verdict == Verdict::Explained {
-        return Ok(None);
-    }
-    Ok(Some(Composed { terms, fit: found.fit, gain: found.gain, others, held: predictions, accepted }))
+}
+
+/// ln of the probability density of records that were held out.
+fn log_score(held: &[HeldOut]) -> f64 {
+    held.iter().map(|held| held.log_score).sum()
+}
+
+/// Mechanisms with a name that are likelier than not.
+fn likely_names(gyro: &Gyro, diagnosis: &Diagnosis) -> Vec<usize> {
+    let likely = diagnosis.mechanisms.iter().filter(|(m, p)| *p >= LIKELIER_THAN_NOT && gyro.mechanisms()[*m].named);
+    likely.map(|(m, _)| *m).collect()
 }
 
 fn ranges(gyro: &Gyro, fitted: &[Observation]) -> Ranges {
@@ -145,6 +256,25 @@ fn ranges(gyro: &Gyro, fitted: &[Observation]) -> Ranges {
     Ranges::new(gyro.scene(), rate, duration, gyro.largest_parts(fitted.len()))
 }
 
+impl StandIn {
+    /// One object, as scripts read it.
+    pub(crate) fn json(&self) -> Value {
+        let Self { of, id, title, known, behind, share } = self;
+        json!({"in_place_of": of, "id": id, "title": title, "known_physics": known, "behind": behind, "share": share})
+    }
+
+    /// For people; `None` where the records tell the name from the law.
+    pub(crate) fn text(&self) -> Option<String> {
+        let Self { of, title, known, behind, share, .. } = self;
+        (*behind < NEAR).then(|| {
+            format!(
+                "These records hardly tell {of} from a law that nobody listed: {title} (known physics of this form: {known}; {behind:.1} of ln evidence \
+                 behind). The probability of {of} counts both as equally likely beforehand, which leaves it {share:.2} of what it had."
+            )
+        })
+    }
+}
+
 impl Composed {
     /// The law with its sizes as mechanisms' files: names and texts.
     pub(crate) fn files(&self) -> Result<Vec<(String, String)>, Error> {
@@ -152,7 +282,7 @@ impl Composed {
         self.terms.iter().map(of).collect()
     }
 
-    /// One object, as scripts read it.
+    /// The law as one JSON object.
     pub(crate) fn json(&self) -> Value {
         let term = |term: &Term| {
             let parameters: serde_json::Map<String, Value> =
@@ -174,7 +304,7 @@ impl Composed {
         })
     }
 
-    /// For people: what it is, its form, its numbers.
+    /// The law as text: its meaning, its form, its numbers.
     pub(crate) fn text(&self) -> (String, Vec<Estimate>) {
         let mut out = String::new();
         for (k, term) in self.terms.iter().enumerate() {

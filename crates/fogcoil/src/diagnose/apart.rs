@@ -1,4 +1,4 @@
-//! What the records leave to be told apart, and with which probabilities.
+//! Explanations that the records leave to be told apart, with their probabilities.
 
 use std::path::Path;
 
@@ -24,7 +24,7 @@ pub(super) struct Explanation<'a> {
 }
 
 impl Explanation<'_> {
-    /// As it is told.
+    /// Its name, with a word if it was taken back.
     pub(super) fn said(&self) -> String {
         if self.withdrawn { format!("{}, taken back", self.name) } else { self.name.to_owned() }
     }
@@ -36,7 +36,7 @@ impl Outcome<'_> {
         self.diagnosis.mechanisms.iter().filter(|(_, p)| *p >= NEGLIGIBLE).map(|(m, p)| (self.id(*m), *p))
     }
 
-    /// The design, its constants, the likeliest mechanisms, and what has no name.
+    /// The design, its constants, the likeliest mechanisms, and the unknown.
     pub(super) fn explanations(&self) -> Vec<Explanation<'_>> {
         let d = &self.diagnosis;
         let [none, recalibrate, _, unknown] = d.verdicts();

@@ -8,11 +8,11 @@ use crate::input::{CHAMBER, RATE, SPOOL};
 use crate::prepare::Record;
 use crate::table::significant;
 
-/// What the model leaves of a record as it is over what it leaves of it as suspected, from which that is said.
+/// Least ratio of the residual with the columns as they are to the residual with the suspected columns at which the suspicion is reported.
 const SUSPECT: f64 = 4.0;
 /// The same for the rate's sign: beside the thermal bias there is noise.
 const REVERSED: f64 = 2.5;
-/// Root mean square of what the nominal model leaves of the thermometer below which no column is suspected \[K\].
+/// Root mean square of the nominal model's residual of the thermometer below which no column is suspected \[K\].
 const FAIR_K: f64 = 0.5;
 
 /// The warning about a record, if there is one: `number` is its number in `gyro`, the design as it is, and `answered` what the answer leaves of

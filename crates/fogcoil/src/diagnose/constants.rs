@@ -1,4 +1,4 @@
-//! What the records say of the design's constants and of the instruments, beside what was known.
+//! Constants of the design and the instruments by the records, beside their prior values.
 
 use diagnosis::{Place, Posterior, Role};
 use mechanisms::reading_of;
@@ -37,7 +37,7 @@ impl Outcome<'_> {
         self.diagnosis.best().fit.posteriors(&self.gyro).into_iter().filter_map(of).collect()
     }
 
-    /// Those that moved, the farthest first.
+    /// The constants that moved, the farthest first.
     pub(super) fn moved(&self) -> Vec<Constant> {
         let mut moved: Vec<Constant> = self.constants().into_iter().filter(|c| c.moved().abs() >= MOVED).collect();
         moved.sort_by(|a, b| b.moved().abs().total_cmp(&a.moved().abs()));
@@ -50,7 +50,7 @@ impl Outcome<'_> {
         !moved.is_empty() && moved.iter().all(|c| c.kind != "design")
     }
 
-    /// All of them as scripts read them, in the words of the terminal.
+    /// All constants as JSON, in the words of the terminal.
     pub(super) fn unknowns_json(&self) -> Value {
         let of = |c: &Constant| {
             let p = &c.posterior;
@@ -86,7 +86,7 @@ fn ends(posterior: &Posterior) -> [f64; 3] {
 /// Standard deviations from which scripts are told of a constant.
 const WORTH: f64 = 0.5;
 
-/// Those of a kind that moved, as key, value and interval.
+/// Constants of a kind that moved, as key, value and interval.
 fn worth(all: &[Constant], kind: &str, of: impl Fn(&Posterior) -> Option<(&'static str, f64, [f64; 2])>) -> Value {
     let mut moved: Vec<&Constant> = all.iter().filter(|c| c.kind == kind && c.moved().abs() > WORTH).collect();
     moved.sort_by(|a, b| b.moved().abs().total_cmp(&a.moved().abs()));

@@ -11,10 +11,10 @@ use crate::table::significant;
 impl Outcome<'_> {
     /// A coil file of the design with what was found, fitted, that `fogcoil simulate` runs.
     ///
-    /// Where the nominal model suffices, or predicts a held-out record better, it is the nominal design.
+    /// The extended design; where the nominal model suffices, or predicts a held-out record better, it is the nominal design.
     ///
     /// # Errors
-    /// Why there is none: nothing was found, or a coil file cannot hold it.
+    /// Reason why there is none: nothing was found, or a coil file cannot hold it.
     pub fn model(&self) -> Result<String, String> {
         let composed = self.law();
         let best = composed.map_or(&self.diagnosis.best().fit, |composed| &composed.fit);
@@ -61,7 +61,7 @@ impl Outcome<'_> {
         Ok(text)
     }
 
-    /// What the file holds, and from what.
+    /// Heading of the file: its contents and their origin.
     fn heading(&self) -> Vec<String> {
         let names = |records: &mut dyn Iterator<Item = &Record>| records.map(Record::name).collect::<Vec<_>>().join(", ");
         let mut lines = vec![format!("{}, extended by fogcoil diagnose.", self.name), self.verdict()];

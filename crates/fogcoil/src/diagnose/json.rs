@@ -5,7 +5,7 @@ use mechanisms::RATE as RATE_CHANNEL;
 use serde_json::{Value, json};
 
 use super::{Outcome, name};
-use crate::compose::Composed;
+use crate::compose::{Composed, StandIn};
 
 impl Outcome<'_> {
     /// One object, as scripts read it.
@@ -49,6 +49,7 @@ impl Outcome<'_> {
             "named": self.named_json(),
             "located": located.unwrap_or(nowhere),
             "structure": self.structure(),
+            "stand_ins": self.stand_ins.iter().map(StandIn::json).collect::<Vec<_>>(),
             "composed": self.composed.as_ref().map(Composed::json),
             "holdout": held,
             "notes": self.notes,

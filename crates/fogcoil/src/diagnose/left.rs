@@ -1,4 +1,4 @@
-//! What the best explanation leaves of the rate.
+//! Residual of the rate under the best explanation.
 
 use mechanisms::RATE as RATE_CHANNEL;
 use recording::check::white_noise;

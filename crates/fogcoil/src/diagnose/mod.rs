@@ -24,7 +24,7 @@ use recording::Seconds;
 
 use crate::Error;
 use crate::cache::Cache;
-use crate::compose::{Composed, compose};
+use crate::compose::{Composed, Sought, StandIn, compose};
 use crate::input::{CoilCase, Fingerprint, InputError, RecordCase};
 use crate::prepare::{Record, gyro, library, other_design, ready, refuse_copies};
 use crate::table::significant;
@@ -41,6 +41,8 @@ pub struct Outcome<'m> {
     diagnosis: Diagnosis,
     /// a law for what is unknown, if one gains enough
     composed: Option<Composed>,
+    /// laws in the place of what is named
+    stand_ins: Vec<StandIn>,
     fits: Vec<Record>,
     holdouts: Vec<Held>,
     /// mechanisms that a record held out took back, with their probabilities by what was fitted
@@ -101,7 +103,8 @@ pub fn diagnose<'m>(
     if let Ruling::TakenBack { record, why } = ruling {
         notes.push(taken_back(&held[record].fingerprint.file, why));
     }
-    let composed = compose(gyro, &mut diagnosis, &settings, &observations, &numbered, &records, progress).map_err(failed)?;
+    let Sought { composed, stand_ins } =
+        compose(gyro, &mut diagnosis, &settings, &observations, &numbered, &records, progress).map_err(failed)?;
     let best = diagnosis.best();
     let fitted_to = best.fit.residuals.iter().map(|channels| channels.iter().map(|r| rms(r)).collect());
     let answered: Vec<Vec<f64>> = fitted_to.chain(records.iter().map(|judged| judged.model.rmse.clone())).collect();
@@ -130,6 +133,7 @@ pub fn diagnose<'m>(
         mechanisms: mechanisms.to_vec(),
         diagnosis,
         composed,
+        stand_ins,
         fits: read,
         holdouts,
         withdrawn,
@@ -191,7 +195,7 @@ fn rms(series: &[f64]) -> f64 {
     (sum / count.max(1.0)).sqrt()
 }
 
-/// What is to be said of a held-out record in which the answer leaves more than noise.
+/// Note on a held-out record in which the answer leaves more than noise.
 fn left_over(held: &Held) -> Option<Note> {
     let answer = if held.accepted { &held.model } else { &held.nominal };
     let of = |channel: usize, name: &str| {
@@ -229,11 +233,11 @@ fn name(verdict: Verdict) -> &'static str {
     }
 }
 
-/// What the design as it is is called.
+/// Name of the unchanged design.
 const NOMINAL: &str = "nominal model";
 
 impl Outcome<'_> {
-    /// What the model that the verdict rests on is called, where it is not the nominal one.
+    /// Name of the model that the verdict rests on, where it is not the nominal one.
     fn found(&self) -> Option<&'static str> {
         match self.diagnosis.verdict {
             Verdict::None => None,

@@ -1,4 +1,4 @@
-//! What a residual looks like that nothing explains, in words: temperatures, kelvins and hours for levels, periods and instants.
+//! Description of an unexplained residual, in words: temperatures, kelvins and hours for levels, periods and instants.
 
 use bias::units::S_PER_H;
 use diagnosis::{Active, ForwardModel, Rival, Structure};
@@ -8,7 +8,7 @@ use super::Outcome;
 use crate::table::significant;
 
 impl Outcome<'_> {
-    /// What the residual looks like where nothing explains it.
+    /// Description of the residual where nothing explains it.
     pub(super) fn structure(&self) -> Option<String> {
         let best = self.diagnosis.best();
         let mut parts: Vec<String> = best.fit.active.iter().filter_map(|active| self.like(active)).collect();

@@ -7,6 +7,7 @@ use diagnosis::{Estimate, Verdict};
 use mechanisms::{Extent, Naming, RATE as RATE_CHANNEL};
 
 use super::{NOMINAL, Outcome};
+use crate::compose::StandIn;
 use crate::table::{significant, table};
 use crate::units::parameter_unit;
 
@@ -55,6 +56,9 @@ impl Outcome<'_> {
         }
         if let Some(alternatives) = self.alternatives() {
             let _ = writeln!(out, "{alternatives}");
+        }
+        for text in self.stand_ins.iter().filter_map(StandIn::text) {
+            let _ = writeln!(out, "{text}");
         }
         // of the third column, the units, the heading says nothing
         let line = |name: &str, value: String, unit: &str| vec![name.to_owned(), value, unit.to_owned(), String::new()];
@@ -140,7 +144,7 @@ impl Outcome<'_> {
         }
     }
 
-    /// How far it may be said that the design suffices: `surely` where it is likely, and no record that was held out is far from its noise.
+    /// Strength of the statement that the design suffices: `surely` where it is likely, and no held-out record is far from its noise.
     fn how_surely(&self, surely: &str) -> String {
         let [none, recalibrate, ..] = self.diagnosis.verdicts();
         if self.is_left_over() {
@@ -152,7 +156,7 @@ impl Outcome<'_> {
         }
     }
 
-    /// What the records do not exclude beside what is most likely, and what would tell.
+    /// Mechanisms that the records do not exclude beside the likeliest, and the test that would decide.
     pub(super) fn alternatives(&self) -> Option<String> {
         let ids = self.apart();
         let command = (!ids.is_empty()).then(|| self.recommend(&ids))?;
@@ -160,7 +164,7 @@ impl Outcome<'_> {
     }
 }
 
-/// Where in the chain, at which temperatures, in which layers, when.
+/// Place of the difference: stage of the chain, temperatures, layers, time.
 pub(super) fn place(stage: &str, extent: &Extent) -> String {
     let mut place = format!("part of the chain: {stage}");
     if let Some([low, high]) = extent.temperature {

@@ -8,7 +8,7 @@ pub const PLAUSIBLE: f64 = 2.0;
 /// Distance up to which it is not out of the question \[σ\].
 pub const STRAINED: f64 = 3.0;
 
-/// What a mechanism would have to be.
+/// Size that a mechanism would have to have.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reach {
     /// It gives the sensitivity.
@@ -24,12 +24,12 @@ pub enum Reach {
     },
     /// It changes the sensitivity, but not so much, within four σ of its prior.
     OutOfReach {
-        /// What it can give, (deg/h)/(degC/min).
+        /// Range that it can give, (deg/h)/(degC/min).
         range: [f64; 2],
     },
     /// It does not change the sensitivity.
     Unable {
-        /// Why.
+        /// The reason.
         why: &'static str,
     },
 }
@@ -41,9 +41,9 @@ pub struct Explanation {
     pub id: String,
     /// Its parameter; empty where none is solved for.
     pub parameter: String,
-    /// Under which condition.
+    /// Condition under which it holds.
     pub when: &'static str,
-    /// What it would have to be.
+    /// Size that it would have to have.
     pub outcome: Reach,
 }
 

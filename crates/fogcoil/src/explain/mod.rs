@@ -1,4 +1,4 @@
-//! `fogcoil explain`: which change of a coil would give a measured sensitivity, and how far it is from what is expected.
+//! `fogcoil explain`: changes of a coil that would give a measured sensitivity, and their distance from the expected coil.
 
 mod explanation;
 mod say;
@@ -27,17 +27,17 @@ pub struct Explained {
     pub measured: f64,
     /// Whether that sign is the design's own: it was measured as a magnitude.
     pub magnitude: bool,
-    /// The design's.
+    /// Sensitivity of the design.
     pub nominal: f64,
     /// Numerical error of the design's.
     pub error: f64,
-    /// What the design's own constants, uncertain together, leave \[σ\] of the difference.
+    /// Remainder of the difference beside the design's own constants, uncertain together \[σ\].
     pub recalibrate: f64,
     /// Their joint standard uncertainty, (deg/h)/(degC/min).
     pub constants: f64,
-    /// In the library's order.
+    /// Explanations, in the library's order.
     pub explanations: Vec<Explanation>,
-    /// What tells the plausible ones apart.
+    /// Tests that tell the plausible ones apart.
     pub tests: Vec<Test>,
 }
 
@@ -120,7 +120,7 @@ fn constants(gyro: &Gyro) -> Result<f64, coil::Error> {
     Ok(square.sqrt())
 }
 
-/// Why a mechanism that leaves the fields of a steady ramp as they are cannot change the sensitivity.
+/// Reason why a mechanism that leaves the fields of a steady ramp as they are cannot change the sensitivity.
 const EVEN: &str = "in a steady ramp everything warms at the same rate: no heat path matters";
 
 struct Problem<'a> {

@@ -61,7 +61,7 @@ fn row(x: &Explanation) -> Option<Vec<String>> {
     })
 }
 
-/// For people.
+/// The explanations as text.
 pub fn text(case: &CoilCase, e: &Explained) -> String {
     let sign = if e.magnitude { " (a magnitude, taken with the design's sign)" } else { "" };
     let mut out = format!(

@@ -1,8 +1,8 @@
-//! Where a curve, perhaps not monotonic, meets a value.
+//! Points where a curve, perhaps not monotonic, meets a value.
 
-/// How far from a prior's middle is looked \[σ\].
+/// Range of the search about a prior's middle \[σ\].
 pub(super) const REACH: f64 = 4.0;
-/// Points of the first look.
+/// Number of points of the first search.
 const POINTS: i32 = 33;
 /// Halvings of an interval; it is then as small as rounding allows to tell.
 const HALVINGS: usize = 30;

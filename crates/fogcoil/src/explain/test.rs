@@ -1,4 +1,4 @@
-//! Which test tells a longer tail from the other explanations.
+//! Test that tells a longer tail from the other explanations.
 
 use diagnosis::Plan;
 use mechanisms::Gyro;
@@ -7,14 +7,14 @@ use progress::Step;
 use super::explanation::{Explanation, STRAINED, active};
 use crate::recommend::{Contender, Odds, Programme, everything, odds, usual};
 
-/// What tells two explanations apart.
+/// A test that tells two explanations apart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Test {
     /// Their ids.
     pub between: [String; 2],
-    /// The slow ramp, and what it tells.
+    /// The slow ramp and its separation.
     pub slow: (String, Odds),
-    /// The best programme, and what it tells.
+    /// The best programme and its separation.
     pub best: (String, Odds),
 }
 

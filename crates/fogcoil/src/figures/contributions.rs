@@ -19,7 +19,7 @@ type Part = fn(&Bias) -> f64;
 /// Contribution of each turn to the steady sensitivity, in the winding's order \[(°/h)/(°C/min)\]; tails left out.
 ///
 /// # Errors
-/// [`bias::Error`] if an optical constant is out of range, with which no coil could have been simulated.
+/// [`bias::Error`] if an optical constant is out of range; no coil with it can be simulated.
 pub fn contributions_in_ramp(simulation: &Simulation, fields: &TurnFields) -> Result<Vec<Bias>, bias::Error> {
     // every wall and mount warms by 1 K/s, the heaters stay as they are
     let drives: Vec<f64> = simulation.profile.drives.iter().map(|d| f64::from(u8::from(*d != Drive::Heaters))).collect();

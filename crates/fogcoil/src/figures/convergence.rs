@@ -20,7 +20,7 @@ fn mesh(order: usize) -> MeshFineness {
 /// The reference that is taken for exact: two orders and a layer beyond the finest mesh behind an estimate.
 const REFERENCE: usize = 12;
 
-/// How a coil's steady sensitivity converges.
+/// Convergence of a coil's steady sensitivity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Convergence {
     /// Unknowns, sensitivity, and sensitivity of the next finer mesh, by order.

@@ -77,7 +77,7 @@ pub(super) fn all<'a>(simulation: &'a Simulation, fields: &TurnFields) -> Vec<Fi
     [temperature, radial, axial].map(|words| course.figure(simulation, words)).into()
 }
 
-/// A quantity, and what is said of it.
+/// A quantity and its description.
 struct Words {
     id: &'static str,
     title: &'static str,
@@ -90,12 +90,12 @@ struct Words {
     least: f64,
 }
 
-/// The samples of a simulation with all that is needed to see the turns at each.
+/// The samples of a simulation with the fields of the turns.
 struct Course<'a> {
     winding: &'a Winding,
     fields: &'a TurnFields,
     samples: &'a [Sample],
-    /// Drives at rest: what strains count from.
+    /// Drives at rest, from which strains are counted.
     rest: Vec<f64>,
     instants: Instants,
 }

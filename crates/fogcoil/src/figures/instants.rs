@@ -36,7 +36,7 @@ impl Instants {
         Self { means, chosen }
     }
 
-    /// When a chosen instant is since the first row, and the fibre's mean temperature then.
+    /// Time of a chosen instant since the first row, and the fibre's mean temperature then.
     pub(super) fn when(&self, simulation: &Simulation, chosen: Chosen) -> [String; 2] {
         let unit = DurationUnit::of(simulation.duration());
         let since = unit.of_seconds(simulation.samples[chosen.sample].time - simulation.row(0).time);

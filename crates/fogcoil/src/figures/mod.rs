@@ -1,5 +1,5 @@
-//! The figures of a coil and of a simulation, after Osunluk et al., Figs. 2 and 4 to 7, and what the paper does not show: where in the
-//! cross-section the bias comes from, and how it converges.
+//! The figures of a coil and of a simulation, after Osunluk et al., Figs. 2 and 4 to 7, and two that the paper does not have: the origin of the
+//! bias in the cross-section, and the convergence of the sensitivity.
 //!
 //! Each figure is drawn once and stands either in a page ([`crate::report`]) or alone as an SVG document ([`documents`]).
 

@@ -59,7 +59,7 @@ fn area(rectangle: &Rectangle, name: String) -> Area {
     Area { fill, name, x: mm(rectangle.y), y: mm(rectangle.r) }
 }
 
-/// From the back to the front: where two overlap the layout's earlier one holds.
+/// Parts from the back to the front: where two overlap the layout's earlier one holds.
 fn solids(layout: &Layout, name: impl Fn(&Rectangle) -> String) -> Vec<Area> {
     layout.solids.iter().rev().map(|solid| area(solid, name(solid))).collect()
 }

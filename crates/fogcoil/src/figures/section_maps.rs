@@ -23,7 +23,7 @@ pub(super) struct Quantity {
     pub(super) kind: Kind,
 }
 
-/// Where a field comes from.
+/// Source of a field.
 pub(super) enum Kind {
     /// The section; the second argument is the fibre's mean temperature.
     Point(fn(&PointValues, f64) -> f64),
@@ -75,9 +75,9 @@ pub(super) struct Raster<'a> {
 
 /// Values in the cells of a raster, row by row from the inside; not a number where there is nothing.
 pub(super) struct Maps {
-    /// One for each of [`QUANTITIES`].
+    /// A raster for each of [`QUANTITIES`].
     pub(super) values: Vec<Vec<f64>>,
-    /// Blocks of turns with what each adds to the bias.
+    /// Blocks of turns with the contribution of each to the bias.
     pub(super) blocks: Cells,
     /// Sum over all turns \[°/h\].
     pub(super) bias: f64,

@@ -1,4 +1,4 @@
-//! The library's mechanisms: what they say of themselves, with the numbers that `cargo xtask mechanisms` measured.
+//! The library's mechanisms: their descriptions, with the numbers that `cargo xtask mechanisms` measured.
 
 use std::fmt::Write;
 
@@ -13,7 +13,7 @@ const MEASURED: &str = include_str!("measured.md");
 /// Words before the measured table of rivals.
 const RIVALS: &str = "fitted in its place";
 
-/// A mechanism, or what stands among the mechanisms in tables, in words; Markdown.
+/// A mechanism, or another entry among the mechanisms in tables, in words; Markdown.
 #[derive(Debug, Clone, Copy)]
 pub struct Subject {
     /// Its id.
@@ -27,7 +27,7 @@ pub struct Subject {
     source: &'static str,
 }
 
-/// What stands among the mechanisms in tables.
+/// Entries that stand among the mechanisms in tables.
 const BESIDE: [Subject; 2] = [
     Subject {
         id: "recalibrate",
@@ -50,7 +50,7 @@ const BESIDE: [Subject; 2] = [
     },
 ];
 
-/// All mechanisms, in the order of the library; then those without a name, those that are weighed on request, and what stands among them in tables.
+/// All mechanisms, in the order of the library; then those without a name, those that are weighed on request, and the other entries of tables.
 pub fn all() -> impl Iterator<Item = Subject> {
     let of = |mechanism: &&'static dyn mechanisms::Mechanism| {
         let facts = mechanism.facts();
@@ -67,19 +67,19 @@ pub fn all() -> impl Iterator<Item = Subject> {
     CATALOGUE.iter().chain(ON_REQUEST).map(of).chain(BESIDE)
 }
 
-/// How many have a name, how many have none, how many are weighed on request, and how many stand among them in tables alone.
+/// Numbers of mechanisms with a name, without one, and weighed on request, and of the entries of tables alone.
 pub(super) fn counts() -> [usize; 4] {
     let named = all().filter(|m| m.stage.is_some()).count() - ON_REQUEST.len();
     [named, CATALOGUE.len() - named, ON_REQUEST.len(), BESIDE.len()]
 }
 
-/// How a mechanism that is weighed on request is asked for; empty of any other.
+/// Option that asks for a mechanism that is weighed on request; empty for any other.
 fn request(id: &str) -> String {
     let Some(mechanism) = ON_REQUEST.iter().find(|mechanism| mechanism.facts().id == id) else { return String::new() };
     let columns = mechanism.columns();
     let needs =
         if columns.is_empty() { String::new() } else { format!(", with the column {} in every record", columns.join(", ")) };
-    format!("It is weighed where it is asked for: `fogcoil diagnose ... --mechanism {id}`{needs}.")
+    format!("It is weighed on request: `fogcoil diagnose ... --mechanism {id}`{needs}.")
 }
 
 /// A check of the unit itself that decides about a mechanism.
@@ -100,7 +100,7 @@ impl Subject {
         let request = request(id);
         let asked = if request.is_empty() { request } else { format!("{request}\n\n") };
         format!(
-            "# {title}\n\n`{id}`\n\n{asked}## Equation\n\n{equation}\n\n## Place in the chain\n\n{place}\n\n## What it looks like\n\n{signature}\n\n\
+            "# {title}\n\n`{id}`\n\n{asked}## Equation\n\n{equation}\n\n## Place in the chain\n\n{place}\n\n## Signature\n\n{signature}\n\n\
              ## Source\n\n{source}\n\n## Measured\n\n<!-- measured: written by `cargo xtask mechanisms` -->\n\n{}\n<!-- measured end -->\n",
             measured.trim()
         )
@@ -116,11 +116,11 @@ impl Subject {
         let measured = self.measured();
         say("Equation", self.equation);
         say("Place in the chain", self.place);
-        say("How it is asked for", &request(self.id));
+        say("Request", &request(self.id));
         say("Parameters (prior and typical size as for the reference coil)", &table(&rows(measured, "parameter")));
-        say("What it looks like", self.signature);
+        say("Signature", self.signature);
         say(
-            "What it is confused with: expected ln odds for it over what is fitted in its place, by test; above 3.5 they are told apart",
+            "Rivals: expected ln odds for it over each rival that is fitted in its place, by test; above 3.5 the two are told apart",
             &table(&rows(measured, RIVALS)),
         );
         if let Some(inspection) = inspection(self.id) {

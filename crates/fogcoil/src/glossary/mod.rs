@@ -1,4 +1,4 @@
-//! `fogcoil explain ID`: what the ids mean that the program prints, of mechanisms and of its own remarks.
+//! `fogcoil explain ID`: meaning of the ids that the program prints, of mechanisms and of its own remarks.
 
 mod mechanism;
 mod own;
@@ -25,7 +25,7 @@ pub enum Entry {
 
 /// Ids offered for one that is not known, at most.
 const OFFERED: usize = 3;
-/// All but the nearest differ from it in one of so many characters at most.
+/// Inverse of the share of characters in which ids other than the nearest may differ.
 const ALIKE: usize = 3;
 
 /// Meaning of an id.
@@ -56,7 +56,7 @@ impl Entry {
         }
     }
 
-    /// The explanation for people.
+    /// The explanation as text.
     pub fn text(&self) -> String {
         match self {
             Self::Mechanism(mechanism) => mechanism.text(),

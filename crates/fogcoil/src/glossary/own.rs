@@ -1,4 +1,4 @@
-//! A mechanism of a user's own: what its file says.
+//! A mechanism of a user's own, as its file describes it.
 
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ use crate::input::MechanismCase;
 use crate::table::{significant, table};
 use crate::units::parameter_unit;
 
-/// For people.
+/// The mechanism as text.
 pub fn own_text(case: &MechanismCase) -> String {
     let facts = case.mechanism.facts();
     let mut out = format!("{}: {}\n", facts.id, facts.title);
@@ -28,7 +28,7 @@ pub fn own_text(case: &MechanismCase) -> String {
     };
     let rows = case.mechanism.parameters.iter().zip(&case.values).map(row);
     say("Parameters", &table(&std::iter::once(header).chain(rows).collect::<Vec<_>>()));
-    say("What it looks like", facts.signature);
+    say("Signature", facts.signature);
     say("How to test it", &facts.inspection().map_or(String::new(), |inspection| format!("On the unit: {inspection}.")));
     say("Source", facts.source);
     out

@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json as object};
 use super::constants::presentation;
 use crate::table::{significant, table};
 
-/// Of each constant: `reuss`, `hashin_shtrikman_lower`, `hashin_shtrikman_upper`, `voigt` (null where there is no bound) and `cylinders`.
+/// Bounds of each constant: `reuss`, `hashin_shtrikman_lower`, `hashin_shtrikman_upper`, `voigt` (null where there is no bound) and `cylinders`.
 pub(super) fn json(bounds: &Bounds) -> Value {
     let finite = |value: f64| value.is_finite().then_some(value);
     let rows = bounds.reuss_voigt.named().into_iter().zip(bounds.hashin_shtrikman.named()).zip(bounds.cylinders.named());

@@ -1,10 +1,10 @@
-//! How effective constants are shown.
+//! Display of effective constants.
 
 use serde_json::{Map, Value};
 
 use crate::units::{to_mpa, to_ppm};
 
-/// Keys of what follows from densities.
+/// Keys of the constants that follow from densities.
 pub(super) const HEAVY: [&str; 2] = ["density_kg_per_m3", "heat_capacity_j_per_m3k"];
 
 pub(super) fn object(named: impl IntoIterator<Item = (&'static str, f64)>) -> Map<String, Value> {

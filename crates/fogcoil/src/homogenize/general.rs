@@ -6,7 +6,7 @@ use super::constants::{HEAVY, object, presentation};
 use crate::input::{AtTemperature, GeneralCase};
 use crate::table::{plus_minus, significant, table};
 
-/// The constants in SI under their own names, `error_estimate`, and what else the response says.
+/// The constants in SI under their own names, `error_estimate`, and the further results of the response.
 pub fn json(found: &AtTemperature) -> Value {
     let response = &found.first.response;
     let temperature = found.celsius.map(|celsius| ("temperature_c", celsius));

@@ -25,7 +25,7 @@ impl Quantity {
         all
     }
 
-    /// As written: `xx` (total strain), `mechanical_xx`, `stress_xx`, `von_mises`.
+    /// Name as written: `xx` (total strain), `mechanical_xx`, `stress_xx`, `von_mises`.
     pub fn name(self) -> String {
         match self {
             Self::Strain(component, Convention::Total) => component.name().into(),

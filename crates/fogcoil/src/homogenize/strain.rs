@@ -56,7 +56,7 @@ impl Strains {
         )
     }
 
-    /// By phase, component and convention: mean, least, most. Components without meaning are left out.
+    /// Summary by phase, component and convention: mean, least, most. Components without meaning are left out.
     pub fn json(&self) -> Value {
         let mut phases = Map::new();
         for phase in &self.phases {

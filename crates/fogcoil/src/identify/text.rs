@@ -12,7 +12,7 @@ use crate::table::{significant, table};
 /// Further measurements shown.
 const MEASUREMENTS: usize = 5;
 
-/// The whole answer.
+/// The whole answer as text.
 pub fn text(case: &TargetsCase, result: &Identification) -> String {
     let mut out = format!("{}: constituents from {} effective constants\n", case.name, case.targets.len());
     for (family, outcome) in case.families.iter().zip(&result.outcomes) {

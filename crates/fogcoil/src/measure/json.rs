@@ -33,7 +33,7 @@ pub fn json(measured: &Measurement, prediction: Option<&Prediction>) -> Value {
     all
 }
 
-/// Of one record its own object, of several `{"records": […]}`.
+/// Output for one record: its own object; for several: `{"records": […]}`.
 pub fn all(measured: &[Measurement], prediction: Option<&Prediction>) -> Value {
     match measured {
         [one] => json(one, prediction),

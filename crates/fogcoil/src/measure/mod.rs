@@ -36,15 +36,15 @@ pub struct Measurement {
     pub temperatures: Option<[&'static str; 2]>,
     /// Time constants that were tried \[s\].
     pub lags: Vec<f64>,
-    /// Of the bias to the temperature's rate in a steady ramp: the mean of heating and cooling \[(deg/h)/(degC/min)\].
+    /// Sensitivity of the bias to the temperature's rate in a steady ramp: the mean of heating and cooling \[(deg/h)/(degC/min)\].
     pub sensitivity: Told,
-    /// While it rises.
+    /// Sensitivity while the temperature rises.
     pub heating: Told,
-    /// While it falls.
+    /// Sensitivity while the temperature falls.
     pub cooling: Told,
     /// Heating less cooling.
     pub asymmetry: Told,
-    /// At rest at one temperature, reached from below, less reached from above \[deg/h\].
+    /// Bias at rest at one temperature, reached from below, less that reached from above \[deg/h\].
     pub hysteresis: Told,
     /// Largest less least bias at rest over the record's range of temperatures \[deg/h\].
     pub bias_span: Told,
@@ -131,7 +131,7 @@ fn told(response: &Result<Response, String>, of: fn(&Response) -> &Result<Estima
     of(response).as_ref().map(|estimate| figure(estimate.times(factor))).map_err(ToString::to_string)
 }
 
-/// What the rate answers to the temperatures, and to which.
+/// Response of the rate to the temperatures, with the names of these.
 fn response(case: &RecordCase) -> (Option<[&'static str; 2]>, Result<Response, String>) {
     let used = case.report.used(&case.recording);
     let interval = case.report.instants.as_ref().map_or(0.0, |instants| instants.interval);

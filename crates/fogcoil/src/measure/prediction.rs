@@ -16,7 +16,7 @@ pub struct Prediction {
 }
 
 impl Prediction {
-    /// Of a design.
+    /// Prediction of a design.
     pub fn of(design: &str, steady: &SteadySensitivity, band: &Band) -> Self {
         let (value, sd) = (steady.sensitivity.total(), band.sd.hypot(steady.error_estimate));
         let half = normal_quantile(0.95) * sd;

@@ -16,15 +16,15 @@ use crate::variants::{Dimensions, Factor, Value, Variants};
 pub struct Checked {
     /// Its design.
     pub case: CoilCase,
-    /// What was tried.
+    /// The design that was tried.
     pub tried: Tried,
     /// The sensitivity with its numerical error.
     pub steady: SteadySensitivity,
-    /// What tolerances make of it to first order.
+    /// Its spread by tolerances to first order.
     pub band: Band,
     /// |S| of designs within the tolerances, the least first.
     pub within: Vec<f64>,
-    /// From the drawing to it, change by change: key, value, sensitivity then; `None` where there is no design on the way.
+    /// Way from the drawing to it, change by change: key, value, sensitivity then; `None` where there is no design on the way.
     pub path: Vec<(String, String, Option<f64>)>,
 }
 
@@ -57,7 +57,7 @@ fn within(case: &CoilCase, seed: u64) -> Result<Vec<f64>, Error> {
     Ok(all)
 }
 
-/// What each change does, in the plan's order, each beside those before it.
+/// Effect of each change, in the plan's order, each beside those before it.
 fn path(plan: &Plan, tried: &Tried) -> Vec<(String, String, Option<f64>)> {
     let mut written: Vec<(usize, Value)> = Vec::new();
     let mut steps = Vec::new();
@@ -77,7 +77,7 @@ impl Checked {
         self.within.iter().filter(|magnitude| **magnitude < bound).count() as f64 / self.within.len().max(1) as f64
     }
 
-    /// What 95 % of the units stay below, and the largest.
+    /// Value below which 95 % of the units stay, and the largest value.
     pub fn quantiles(&self) -> [f64; 2] {
         let last = self.within.len().saturating_sub(1);
         [(0.95 * last as f64).round() as usize, last].map(|n| self.within.get(n).copied().unwrap_or(f64::NAN))

@@ -13,11 +13,11 @@ use crate::variants::Value;
 pub struct Tried {
     /// Coordinates from 0 to 1.
     pub point: Vec<f64>,
-    /// What varies, in the units of the keys.
+    /// Values of the varied keys, in the units of the keys.
     pub values: Vec<Option<Value>>,
     /// Its numbers.
     pub measures: Measures,
-    /// By how much it leaves the limits, relative, summed up; 0 where it keeps them.
+    /// Sum of the relative excesses over the limits; 0 where it keeps them.
     pub violation: f64,
 }
 

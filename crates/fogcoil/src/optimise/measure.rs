@@ -1,4 +1,4 @@
-//! What is minimised or limited.
+//! Numbers that are minimised or limited.
 
 use serde::Deserialize;
 
@@ -48,7 +48,7 @@ impl Measure {
         }
     }
 
-    /// What it is, with its unit.
+    /// Its name with its unit.
     pub fn label(self) -> &'static str {
         match self {
             Self::Sensitivity => "|S| [(°/h)/(°C/min)]",
@@ -64,7 +64,7 @@ impl Measure {
         matches!(self, Self::Spread | Self::Worst)
     }
 
-    /// Of a design.
+    /// Measures of a design.
     pub fn of(self, measures: &Measures) -> f64 {
         match self {
             Self::Sensitivity => measures.sensitivity.abs(),

@@ -36,15 +36,15 @@ const TRIALS: std::ops::RangeInclusive<usize> = 10..=1_000_000;
 /// Most combinations of choices.
 const MOST_COMBINATIONS: usize = 10_000;
 
-/// What to minimise over what.
+/// A plan: numbers to minimise, varied keys and limits.
 pub struct Plan {
     /// The plan's file and all that it names.
     pub files: Vec<Fingerprint>,
-    /// What varies.
+    /// The varied keys.
     pub variants: Variants,
-    /// What is minimised; the first decides which design is the optimum.
+    /// Numbers to minimise; the first decides which design is the optimum.
     pub minimise: Vec<Measure>,
-    /// What must lie within two ends.
+    /// Numbers that must lie within two ends.
     pub limits: Vec<(Measure, [f64; 2])>,
     /// About how many designs are tried.
     pub trials: usize,

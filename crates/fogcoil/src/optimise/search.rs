@@ -15,7 +15,7 @@ use super::weigh::{NONE, weighed, weighings};
 use crate::Error;
 use crate::sweep::{Points, Sampling};
 
-/// What was found.
+/// Result of a search.
 pub struct Found {
     /// The drawing's numbers.
     pub drawn: super::measure::Measures,

@@ -30,7 +30,7 @@ pub(super) fn weighings(count: usize) -> Vec<Vec<f64>> {
     if count == 1 { vec![vec![1.0]] } else { all.into_iter().map(|(parts, _)| weights(parts)).collect() }
 }
 
-/// What a weighing makes of a design; any that leaves the limits is worse than any that keeps them.
+/// Weighted objective of a design; any design that leaves the limits is worse than any that keeps them.
 pub(super) fn weighed(tried: &Tried, minimise: &[Measure], scales: &[f64], weights: &[f64]) -> f64 {
     if tried.violation > 0.0 {
         return BEYOND * (1.0 + tried.violation);
@@ -39,7 +39,7 @@ pub(super) fn weighed(tried: &Tried, minimise: &[Measure], scales: &[f64], weigh
     (parts().fold(0.0, f64::max) + SHARE * parts().sum::<f64>()).min(BEYOND)
 }
 
-/// What stands for a point of which there is no design.
+/// Objective of a point for which there is no design.
 pub(super) const NONE: f64 = 10.0 * BEYOND;
 
 #[cfg(test)]

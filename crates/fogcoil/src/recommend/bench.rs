@@ -1,4 +1,4 @@
-//! Contenders, and how well a test tells them apart.
+//! Contenders, and their separation by a test.
 
 use diagnosis::{Active, ForwardModel, Hypothesis, Observation, Plan, Settings, alternatives, expected, separation};
 use mechanisms::{Chamber, Gyro, Library, Prepared, RATE, SPOOL};
@@ -16,17 +16,17 @@ pub(super) const INTERVAL: f64 = 30.0;
 
 pub(super) type Failure = diagnosis::Error<coil::Error>;
 
-/// What is to be told apart from others.
+/// A hypothesis to be told apart from others.
 #[derive(Clone)]
 pub(crate) struct Contender {
     pub(crate) id: String,
     pub(crate) hypotheses: Vec<Hypothesis>,
-    /// what is at work when it is the truth; the nominal and the recalibrated design are never taken for the truth
+    /// the mechanism at work when it is the truth; the nominal and the recalibrated design are never taken for the truth
     pub(crate) truth: Option<Active>,
 }
 
 impl Contender {
-    /// Of an id, a mechanism's at a size that is neither small nor large: the middle of the priors, or one σ beyond where the middle means
+    /// Contender of an id. A mechanism has a size that is neither small nor large: the middle of the priors, or one σ beyond where the middle means
     /// that nothing is at work. `None` if the library does not hold it.
     pub(crate) fn named(gyro: &Gyro, id: &str) -> Result<Option<Self>, Failure> {
         Ok(match (id, gyro.find(id)) {
@@ -47,7 +47,7 @@ impl Contender {
         Self { id: RECALIBRATE.into(), hypotheses, truth: None }
     }
 
-    /// With few of its choices. As a rival it is told apart at least as well as with all of them: an upper bound.
+    /// The contender with few of its choices. As a rival it is told apart at least as well as with all of them: an upper bound.
     pub(super) fn narrowed(&self) -> Self {
         let every = self.hypotheses.len().div_ceil(FEW);
         Self { hypotheses: self.hypotheses.iter().skip(every / 2).step_by(every.max(1)).cloned().collect(), ..self.clone() }
@@ -70,10 +70,10 @@ fn typical(gyro: &Gyro, mechanism: usize) -> Result<Active, Failure> {
     Ok(at(if off < 1e-9 { 1.0 } else { 0.0 }))
 }
 
-/// How well something tells contenders apart: of the pair that it tells worst.
+/// Separation of contenders: of the pair that is told apart worst.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Odds {
-    /// The truth, and what is taken for it.
+    /// The truth, and the rival that is taken for it.
     pub pair: [String; 2],
     /// Distance in standard deviations of the noise.
     pub sigma: f64,
@@ -93,7 +93,7 @@ pub(crate) fn told_apart(log_odds: f64) -> bool {
     log_odds >= -Settings::default().excluded.ln()
 }
 
-/// Of every ordered pair of contenders the one that is told apart worst.
+/// The ordered pair of contenders that is told apart worst.
 pub(crate) fn odds(gyro: &Gyro, contenders: &[Contender], plan: &Plan) -> Result<Odds, Failure> {
     let mut worst: Option<Odds> = None;
     for truth in contenders {

@@ -1,4 +1,4 @@
-//! What a programme is expected to show of the pair that it tells apart worst.
+//! Expected course of a programme for the pair that it tells apart worst.
 
 use diagnosis::{ForwardModel, Plan, expected, separation};
 use mechanisms::{Gyro, RATE, SPOOL};
@@ -9,7 +9,7 @@ use super::bench::{Contender, Failure, INTERVAL, Odds, everything};
 /// The expected course of a test.
 #[derive(Debug, Clone)]
 pub struct Course {
-    /// The truth, and what is taken for it.
+    /// The truth, and the rival that is taken for it.
     pub pair: [String; 2],
     /// Instants \[s\].
     pub time: Vec<f64>,
@@ -24,9 +24,9 @@ pub struct Course {
 /// One channel of it.
 #[derive(Debug, Clone)]
 pub struct Trace {
-    /// What each of the pair, at its size, adds to the response of the design; zero for what is no mechanism.
+    /// Contribution of each of the pair, at its size, to the response of the design; zero where it is no mechanism.
     pub added: [Vec<f64>; 2],
-    /// What of the truth is left when its rival, the model's errors and the offset are fitted to it.
+    /// Remainder of the truth when its rival, the model's errors and the offset are fitted to it.
     pub left: Vec<f64>,
     /// Share of that in the squared distance, 0 to 1.
     pub share: f64,
@@ -35,7 +35,7 @@ pub struct Trace {
 }
 
 impl Course {
-    /// Of the pair that `odds` names, under the record `number` of the model, which is `programme`.
+    /// Course of the pair that `odds` names, under the record `number` of the model, which is `programme`.
     pub(super) fn new(
         gyro: &Gyro,
         contenders: &[Contender],

@@ -1,4 +1,4 @@
-//! `fogcoil recommend`: which chamber programme, or which further sensor, would tell mechanisms apart.
+//! `fogcoil recommend`: the chamber programme, or the further sensor, that would tell mechanisms apart.
 
 mod bench;
 mod course;
@@ -27,12 +27,12 @@ pub use recommendation::{Ranked, Recommendation, Size, WithSensor};
 pub use say::{json, text};
 pub(crate) use say::{number, sentence, with};
 
-/// What speaks against taking sizes and noise from some records: units of another design, meta files that their records contradict.
+/// Notes against the use of sizes and noise from some records: units of another design, meta files that their records contradict.
 pub fn notes(case: &CoilCase, records: &[RecordCase]) -> Vec<Note> {
     records.iter().flat_map(|record| other_design(case, record).into_iter().chain(contradictions(record))).collect()
 }
 
-/// Finds what tells the mechanisms `between` apart; `records` of the unit, if there are any, give sizes, noise, and the test that is repeated.
+/// Finds the test that tells the mechanisms `between` apart; `records` of the unit, if there are any, give sizes, noise, and the test that is repeated.
 ///
 /// # Errors
 /// [`files::Error::Usage`] for ids that the design's library does not hold and for limits that leave nothing to vary; [`files::Error::Input`] for a record that

@@ -1,4 +1,4 @@
-//! Why an id cannot be told apart from others.
+//! Reasons why an id cannot be told apart from others.
 
 use coil::{Design, Mechanics};
 use diagnosis::ForwardModel;
@@ -7,7 +7,7 @@ use mechanisms::{Gyro, Mechanism, ON_REQUEST};
 use super::bench::Contender;
 use crate::input::meant;
 
-/// What to say of an id that the library of a design does not hold, where these `mechanisms` were asked for.
+/// Message on an id that the library of a design does not hold, where these `mechanisms` were asked for.
 pub(super) fn not_there(id: &str, gyro: &Gyro, mechanisms: &[&dyn Mechanism]) -> String {
     if mechanisms.iter().any(|mechanism| mechanism.facts().id == id) {
         let why = why(id, gyro.library().design());
@@ -28,7 +28,7 @@ pub(super) fn not_there(id: &str, gyro: &Gyro, mechanisms: &[&dyn Mechanism]) ->
     )
 }
 
-/// Why a design leaves a mechanism no place.
+/// Reason why a design leaves a mechanism no place.
 fn why(id: &str, design: &Design) -> String {
     let flanges = design.spool.as_ref().map_or(0, |spool| spool.flanges.len());
     match id {

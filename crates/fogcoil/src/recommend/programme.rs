@@ -1,4 +1,4 @@
-//! Chamber programmes within what the chamber can do: the five families, several members of each.
+//! Chamber programmes within the chamber's limits: five families, several members of each.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -23,7 +23,7 @@ pub struct Limits {
 const HOURS: [f64; 2] = [2.0, 240.0];
 
 impl Limits {
-    /// Those of a usual chamber and a day, where nothing else is said.
+    /// Limits of a usual chamber and a day, where nothing else is given.
     pub const USUAL: Self = Self { coldest: -40.0, hottest: 60.0, fastest: 2.0, hours: 24.0 };
 
     /// Limits that leave something to vary.
@@ -68,7 +68,7 @@ pub struct Programme {
 /// Time at rest before anything moves \[s\].
 const REST: f64 = 1800.0;
 const HOUR: f64 = 3600.0;
-/// Where a test begins if the limits allow it \[°C\].
+/// Temperature at which a test begins if the limits allow it \[°C\].
 const ROOM: f64 = 20.0;
 
 /// Corners under way, cut at the end of the test.
@@ -223,7 +223,7 @@ impl Programme {
         (time, chamber)
     }
 
-    /// As a profile that `fogcoil simulate` reads.
+    /// The programme as a profile that `fogcoil simulate` reads.
     pub fn csv(&self) -> String {
         let mut text = "time_s,chamber_c\n".to_owned();
         for (time, temperature) in &self.corners {

@@ -1,4 +1,4 @@
-//! A question about a design, and how it is answered.
+//! A question about a design, and its answer.
 
 use std::path::Path;
 
@@ -25,7 +25,7 @@ struct Repeat {
     records: Vec<usize>,
     instants: Vec<Observation>,
     noise: [NoiseModel; 2],
-    /// how often it fits into the time of the others
+    /// number of times that it fits into the time of the others
     times: f64,
 }
 
@@ -36,7 +36,8 @@ pub(crate) struct Question<'a> {
     pub(crate) between: &'a [String],
     pub(crate) records: Vec<Record>,
     pub(crate) limits: Limits,
-    /// Whether all is asked for; else of a programme that is not the best no more is worked out than that, and no sensor where a programme does.
+    /// Whether all results are asked for; else a programme is no longer computed once it is known not to be the best, and sensors are left out where a
+    /// programme decides.
     pub(crate) thorough: bool,
 }
 
@@ -183,7 +184,7 @@ fn over(noise: &NoiseModel, averaging: f64) -> NoiseModel {
     NoiseModel { averaging, white: noise.white * share, ..*noise }
 }
 
-/// Refuses what leaves nothing to tell apart.
+/// Refuses a question that leaves nothing to tell apart.
 pub(super) fn check(between: &[String], limits: &Limits) -> Result<(), Error> {
     limits.check()?;
     if let Some((_, id)) = between.iter().enumerate().find(|(k, id)| between[..*k].contains(*id)) {

@@ -4,7 +4,7 @@ use super::bench::Odds;
 use super::course::Course;
 use super::programme::{Limits, Programme};
 
-/// A programme and what it tells.
+/// A programme and its separation.
 #[derive(Debug, Clone)]
 pub struct Ranked {
     /// The programme.
@@ -38,20 +38,20 @@ pub struct Size {
 pub struct Recommendation {
     /// Ids to be told apart.
     pub between: Vec<String>,
-    /// Of those that are mechanisms: a check of the unit itself that decides.
+    /// A check of the unit itself that decides, for each one that is a mechanism.
     pub inspections: Vec<(String, String)>,
-    /// Within these limits.
+    /// Limits of the programmes.
     pub limits: Limits,
-    /// At these sizes.
+    /// Sizes of the mechanisms.
     pub sizes: Vec<Size>,
     /// Whether the sizes and the noise were fitted to a record; else they are typical.
     pub fitted: bool,
-    /// What is repeated for comparison, and what it tells in the same time.
+    /// The test that is repeated for comparison, and its separation in the same time.
     pub repeat: (String, Odds),
     /// Programmes, best first.
     pub profiles: Vec<Ranked>,
     /// Sensors, with the test that is repeated and with the best programme.
     pub sensors: Vec<WithSensor>,
-    /// What the best programme is expected to show.
+    /// Expected course of the best programme.
     pub course: Course,
 }

@@ -50,7 +50,7 @@ pub fn json(r: &Recommendation) -> Value {
     })
 }
 
-/// ln odds or σ, as precise as they are meant.
+/// ln odds or σ, with the digits that mean something.
 pub(crate) fn number(x: f64) -> String {
     if x.abs() >= 9.95 { format!("{x:.0}") } else { format!("{x:.1}") }
 }
@@ -84,7 +84,7 @@ pub(crate) fn sentence(r: &Recommendation) -> String {
     out
 }
 
-/// For people.
+/// The recommendation as text.
 pub fn text(r: &Recommendation) -> String {
     let said = sentence(r);
     // a sentence begins with a capital

@@ -64,7 +64,7 @@ fn side(side: Side) -> &'static str {
     }
 }
 
-/// Drives, mesh, modes, and what they leave out.
+/// Drives, mesh, modes, and the error of their reduction.
 pub(super) fn computation(simulation: &Simulation) -> Markup {
     let mesh =
         |r: coil::MeshFineness| format!("elements of order {}, {} layers towards each edge of the coil", r.order, r.layers);

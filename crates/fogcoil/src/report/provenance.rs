@@ -5,7 +5,7 @@ use maud::{Markup, html};
 
 use crate::input::Fingerprint;
 
-/// The last section of a page: `what` was run of fogcoil, on which files with their hashes, with which options; the same inputs give the same.
+/// The last section of a page: the command `what`, its files with their hashes, and its options; the same inputs give the same section.
 pub fn provenance(what: &str, files: &[(&str, &Fingerprint)], options: &[(String, String)]) -> Markup {
     let program = row("program", format!("fogcoil {}, {what}", env!("CARGO_PKG_VERSION")));
     let of = |(role, file): &(&str, &Fingerprint)| {

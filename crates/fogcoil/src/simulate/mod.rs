@@ -40,13 +40,13 @@ pub struct Simulation<'a> {
     /// Whether the model was built or found in the cache.
     pub source: Source,
     responses: Vec<Response>,
-    /// On a coarser mesh.
+    /// The same response on a coarser mesh.
     coarser: Vec<Response>,
     /// States at instants evenly spaced over the course; none if it has no duration.
     pub(crate) samples: Vec<Sample>,
-    /// Fewer of them, with both ends; one if it has no duration.
+    /// Fewer states, with both ends; one if it has no duration.
     pub(crate) frames: Vec<Sample>,
-    /// what mechanisms add to thermometer \[K\] and rate \[deg/h\] in every row; none without mechanisms
+    /// contribution of mechanisms to thermometer \[K\] and rate \[deg/h\] in every row; none without mechanisms
     pub(crate) added: Vec<[f64; 2]>,
 }
 
@@ -122,7 +122,7 @@ impl Simulation<'_> {
         (0..self.count()).map(|n| self.row(n))
     }
 
-    /// From the first to the last instant \[s\].
+    /// Duration from the first to the last instant \[s\].
     pub fn duration(&self) -> f64 {
         self.row(self.count() - 1).time - self.row(0).time
     }

@@ -5,7 +5,7 @@ use coil::Response;
 
 use crate::input::ProfileCase;
 
-/// A column's name, and what it holds of a row.
+/// A column's name, and its value in a row.
 pub type Column = (&'static str, fn(&SimulatedRow) -> f64);
 
 /// Columns of the result.
@@ -21,7 +21,7 @@ pub const COLUMNS: [Column; 7] = [
 
 /// Span over which the thermometer is differenced for its rate \[s\]: the interval of the paper's record.
 pub const WINDOW_S: f64 = 30.0;
-/// How much shorter a window may be, in windows: what clocks of recorders jitter.
+/// Share by which a window may be shorter: the jitter of recorders' clocks.
 const JITTER: f64 = 0.1;
 
 /// One row of the result, in the units of its [`COLUMNS`]; rates are means since the previous row, 0 in the first.

@@ -13,7 +13,7 @@ pub(crate) struct Sample {
     /// Instant \[s\].
     pub(crate) time: f64,
     pub(crate) state: ThermalState,
-    /// How fast it changes, per second.
+    /// Its rate of change, per second.
     pub(crate) change: ThermalState,
 }
 

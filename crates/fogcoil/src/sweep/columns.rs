@@ -6,7 +6,7 @@ use super::row::Row;
 use crate::tabular::{Column, Table};
 use crate::variants::Value;
 
-/// The table of a plan's rows, all of them and in order: the point's number, what varies in the unit of its key, what comes out, and why there is none.
+/// The table of a plan's rows, all of them and in order: the point's number, the factors in the units of their keys, the outputs, and the reason of a lack.
 pub fn table(plan: &Plan, rows: &[Row]) -> Table {
     let mut columns = vec![Column::whole("point", (0..rows.len() as i64).collect())];
     if let Sampling::Indices(_) = plan.sampling {
@@ -21,7 +21,7 @@ pub fn table(plan: &Plan, rows: &[Row]) -> Table {
     Table { columns, about: about.map(|(key, value)| (key.to_owned(), value)).to_vec() }
 }
 
-/// Of which matrix a point is: A, B, or A with a group of B.
+/// Matrix to which a point belongs: A, B, or A with a group of B.
 fn matrix(plan: &Plan, number: usize) -> String {
     match number % plan.points.block() {
         0 => "A".into(),

@@ -43,7 +43,7 @@ const RESAMPLES: usize = 1000;
 const STREAM: u64 = 1 << 40;
 
 impl Indices {
-    /// From |S| of every point in the order of the plan, `None` of what cannot be; `None` where nothing varies.
+    /// Indices from |S| of every point in the order of the plan, `None` where there is no such design; `None` where nothing varies.
     pub fn of(groups: &[Group], magnitudes: &[Option<f64>], seed: u64) -> Option<Self> {
         let blocks: Vec<Vec<f64>> =
             magnitudes.chunks_exact(groups.len() + 2).filter_map(|block| block.iter().copied().collect()).collect();

@@ -1,4 +1,4 @@
-//! A sweep for scripts. See docs/schema/sweep.schema.json.
+//! A sweep as JSON. See docs/schema/sweep.schema.json.
 
 use serde_json::{Value, json};
 

@@ -1,5 +1,5 @@
-//! `fogcoil sweep`: designs around a drawing, computed by the thousand: a table of what varies and what comes out, its statistics, and which part of a
-//! design the spread of the sensitivity comes from.
+//! `fogcoil sweep`: designs around a drawing, computed by the thousand: a table of varied keys and outputs, its statistics, and the part of a design from
+//! which the spread of the sensitivity comes.
 //!
 //! The points follow from plan and seed alone, whatever computes them and in which order: a task is a range of points, its rows are kept in a file of
 //! their own until all are there ([`Parts`]), and the table that is made of them has the same bytes on one thread, on many, after an interruption, and

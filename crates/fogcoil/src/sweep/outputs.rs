@@ -1,4 +1,4 @@
-//! What is computed of a design.
+//! Outputs computed for a design.
 
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::{Design, Dynamics, Layout, Region, STANDARD, STEADY, Tolerances, sensitivity_band, sensitivity_on};
@@ -34,7 +34,7 @@ impl Output {
     /// The numbers of a design.
     ///
     /// # Errors
-    /// [`coil::Error`] names what keeps it from being computed.
+    /// [`coil::Error`] names the reason why it cannot be computed.
     pub fn of(&self, design: &Design, tolerances: &Tolerances) -> Result<Vec<Option<f64>>, coil::Error> {
         match self {
             Self::Sensitivity => {

@@ -1,7 +1,7 @@
 //! Rows that are computed, kept range by range until the table is whole.
 //!
-//! A file of a range is named by the hash of what its rows follow from; it holds a SHA-256 over that hash, the range and the rows, and the rows (postcard,
-//! doubles bit for bit). What is cut short, spoilt or of another plan does not count, and is computed again.
+//! A file of a range is named by the hash of the inputs of its rows; it holds a SHA-256 over that hash, the range and the rows, and the rows (postcard,
+//! doubles bit for bit). A file that is cut short, spoilt or of another plan does not count, and its rows are computed again.
 
 use std::fs;
 use std::io::Write;
@@ -26,14 +26,14 @@ pub struct Parts {
 }
 
 impl Parts {
-    /// Beside `table`: `TABLE.parts`, of rows that follow from what has this `hash`.
+    /// Parts beside `table`: `TABLE.parts`, of rows that follow from the inputs with this `hash`.
     pub fn beside(table: &Path, hash: String) -> Self {
         let mut name = table.file_name().unwrap_or_default().to_owned();
         name.push(".parts");
         Self { folder: table.with_file_name(name), hash }
     }
 
-    /// Where they are.
+    /// Folder of the parts.
     pub fn folder(&self) -> &Path {
         &self.folder
     }

@@ -46,21 +46,21 @@ fn usual_outputs() -> Vec<OutputFile> {
     vec![OutputFile::Sensitivity]
 }
 
-/// What to compute.
+/// A plan: factors, points and outputs.
 pub struct Plan {
     /// The plan's file and all that it names.
     pub files: Vec<Fingerprint>,
-    /// How points are chosen.
+    /// Choice of points.
     pub sampling: Sampling,
     /// Seed of the points.
     pub seed: u64,
-    /// What varies.
+    /// The varied factors.
     pub variants: Variants,
     /// The points.
     pub points: Points,
     /// The groups of factors that are there.
     pub groups: Vec<Group>,
-    /// What is computed.
+    /// The computed outputs.
     pub outputs: Vec<Output>,
     /// Whether the factors are the numbers with a tolerance and nothing else.
     pub is_band: bool,
@@ -164,17 +164,17 @@ fn points(path: &Path, file: &PlanFile, variants: &Variants, groups: &[Group]) -
 }
 
 impl Plan {
-    /// How many points it has.
+    /// Number of points.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Names of all that is computed.
+    /// Names of all outputs.
     pub fn names(&self) -> Vec<&'static str> {
         self.outputs.iter().flat_map(|output| output.names().iter().copied()).collect()
     }
 
-    /// SHA-256 of all that the rows follow from: the program, the plan, the files that it names.
+    /// SHA-256 of all inputs of the rows: the program, the plan, the files that it names.
     pub fn hash(&self) -> String {
         let mut hash = Sha256::new().chain_update(format!("{}\n", program::hash()));
         self.files.iter().for_each(|file| hash.update(format!("{}\n", file.sha256)));

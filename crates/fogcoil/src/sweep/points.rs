@@ -5,7 +5,7 @@ use sobol_burley::{NUM_DIMENSIONS, sample};
 
 use super::random::{bits, permutation, uniform};
 
-/// How points are chosen.
+/// Choice of points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub enum Sampling {
     /// Every combination of the values of all keys, the last key changing fastest.
@@ -27,9 +27,9 @@ pub(super) const LONGEST_SEQUENCE: usize = 1 << 16;
 pub struct Points {
     sampling: Sampling,
     seed: u64,
-    /// How many values each factor has, of a grid.
+    /// Number of values of each factor, for a grid.
     levels: Vec<usize>,
-    /// Which of the groups each factor belongs to.
+    /// The group of each factor.
     groups: Vec<usize>,
     /// Order of the parts of each factor's range, of a Latin hypercube.
     orders: Vec<Vec<u32>>,
@@ -39,7 +39,7 @@ pub struct Points {
 const JITTER: u64 = 1 << 32;
 
 impl Points {
-    /// Of factors with so many values each (a grid needs them), each of one of the groups 0, 1, ….
+    /// Points of factors with so many values each (a grid needs them), each of one of the groups 0, 1, ….
     pub fn new(sampling: Sampling, seed: u64, levels: Vec<usize>, groups: Vec<usize>) -> Self {
         let orders = match sampling {
             Sampling::LatinHypercube(count) => (0..groups.len() as u64).map(|n| permutation(count, seed, n)).collect(),
@@ -58,7 +58,7 @@ impl Points {
         self.groups() + 2
     }
 
-    /// How many points there are; `None` if more than a machine counts.
+    /// Number of points; `None` if a machine cannot count them.
     pub fn count(&self) -> Option<usize> {
         match self.sampling {
             Sampling::Grid => self.levels.iter().try_fold(1_usize, |all, levels| all.checked_mul(*levels)),

@@ -17,14 +17,14 @@ const TASK: usize = 32;
 /// A share of a plan's tasks: the k-th of n.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Share {
-    /// From 1.
+    /// Number of this share, from 1.
     pub number: usize,
-    /// How many there are.
+    /// Number of all shares.
     pub of: usize,
 }
 
 impl Share {
-    /// All of it.
+    /// All tasks in one share.
     pub const WHOLE: Self = Self { number: 1, of: 1 };
 
     fn of_tasks(self, tasks: usize) -> Range<usize> {

@@ -1,4 +1,4 @@
-//! What the rows of a sweep come down to.
+//! Summary of a sweep's rows.
 
 use super::indices::Indices;
 use super::plan::Plan;
@@ -6,7 +6,7 @@ use super::points::Sampling;
 use super::row::Row;
 use crate::Error;
 
-/// How a number that is computed spreads over the designs.
+/// Spread of a computed number over the designs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spread {
     /// Its name.
@@ -15,11 +15,11 @@ pub struct Spread {
     pub mean: f64,
     /// Standard deviation.
     pub sd: f64,
-    /// Least, what 5, 50 and 95 % of the designs stay below, largest.
+    /// Least value, 5, 50 and 95 % quantiles, largest value.
     pub quantiles: [f64; 5],
 }
 
-/// What a sweep comes down to.
+/// Summary of a sweep.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Summary {
     /// Designs that were computed.
@@ -30,7 +30,7 @@ pub struct Summary {
     pub spreads: Vec<Spread>,
     /// Standard deviation of the sensitivity by its tolerances to first order, where the tolerances are all that varies.
     pub linear_sd: Option<f64>,
-    /// Which groups the spread of |S| comes from.
+    /// Groups from which the spread of |S| comes.
     pub indices: Option<Indices>,
 }
 
@@ -38,7 +38,7 @@ pub struct Summary {
 pub(super) const TOTAL: &str = "total";
 
 impl Summary {
-    /// Of the rows of a plan, all of them and in order.
+    /// Summary of the rows of a plan, all of them and in order.
     ///
     /// # Errors
     /// [`files::Error::Coil`] if the drawing cannot be modelled.
@@ -62,7 +62,7 @@ impl Summary {
         Ok(Self { designs, failed, spreads, linear_sd, indices })
     }
 
-    /// How the sensitivity spreads.
+    /// Spread of the sensitivity.
     pub fn total(&self) -> Option<&Spread> {
         self.spreads.iter().find(|spread| spread.name == TOTAL)
     }

@@ -1,4 +1,4 @@
-//! A sweep for people.
+//! A sweep as text.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use super::statistics::{Spread, Summary};
 use crate::table::{significant, table};
 use crate::units::parameter_unit;
 
-/// What was computed, how it spreads, and where the spread comes from.
+/// The computed designs, the spread of their outputs and its origins.
 pub fn text(plan: &Plan, summary: &Summary) -> String {
     let mut out =
         format!("{}: {} designs of {} points, seed {}\n", plan.variants.case.name, summary.designs, plan.count(), plan.seed);
@@ -37,7 +37,7 @@ pub fn text(plan: &Plan, summary: &Summary) -> String {
     out
 }
 
-/// What is nothing but rounding, as the thermal phase of a steady ramp.
+/// Largest magnitude that is nothing but rounding, as the thermal phase of a steady ramp.
 const ROUNDING: f64 = 1e-12;
 
 fn without_rounding(value: f64) -> f64 {

@@ -1,4 +1,4 @@
-//! What a table is written as, and the table so written.
+//! Formats of a table, and the table written in one of them.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use super::xlsx;
 use super::{csv, parquet};
 use crate::Error;
 
-/// What a table is written as.
+/// Format of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     /// Comma-separated values; every number reads back to the same double.
@@ -20,7 +20,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// By the end of a file's name, one of `known`.
+    /// The format by the end of a file's name, one of `known`.
     ///
     /// # Errors
     /// [`files::Error::Usage`] names the file and the ends that are known.

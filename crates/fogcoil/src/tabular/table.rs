@@ -3,9 +3,9 @@
 /// A table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// From the left.
+    /// Columns, from the left.
     pub columns: Vec<Column>,
-    /// What a Parquet file says of itself: names and texts.
+    /// Metadata of a Parquet file: names and texts.
     pub about: Vec<(String, String)>,
 }
 
@@ -14,11 +14,11 @@ pub struct Table {
 pub struct Column {
     /// Its name; of a number with its unit.
     pub name: String,
-    /// From the top.
+    /// Cells, from the top.
     pub cells: Cells,
 }
 
-/// What a column holds; every column of a table as many.
+/// Cells of a column; all columns of a table have the same number.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cells {
     /// Whole numbers.
@@ -47,7 +47,7 @@ impl Column {
 }
 
 impl Table {
-    /// How many rows it has.
+    /// Number of rows.
     pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, |column| match &column.cells {
             Cells::Whole(cells) => cells.len(),

@@ -9,11 +9,11 @@ use super::value::Value;
 use super::varied::{Varied, normal};
 use crate::input::{CoilCase, check_coil, field_text, with_fields};
 
-/// What is varied of a drawing.
+/// Variations of a drawing.
 pub struct Variants {
     /// The drawing.
     pub case: CoilCase,
-    /// What is varied, each with a coordinate.
+    /// The varied factors, each with a coordinate.
     pub factors: Vec<Factor>,
     /// Whether the body follows the winding.
     pub dimensions: Dimensions,
@@ -27,12 +27,12 @@ pub struct Variants {
 pub struct Variant {
     /// The design.
     pub design: Design,
-    /// What each factor is in it, in the unit of its key; `None` where the design has no such number.
+    /// Value of each factor in it, in the unit of its key; `None` where the design has no such number.
     pub values: Vec<Option<Value>>,
 }
 
 impl Variants {
-    /// Of the drawing `case`, read from `text`.
+    /// Variations of the drawing `case`, read from `text`.
     pub fn new(case: CoilCase, text: String, factors: Vec<Factor>, dimensions: Dimensions) -> Self {
         let mixing = mixing(&factors, &case.tolerances);
         Self { case, factors, dimensions, text, mixing }
@@ -41,7 +41,7 @@ impl Variants {
     /// The design at a point of the unit cube.
     ///
     /// # Errors
-    /// In words, why there is no such design.
+    /// Message that says why there is no such design.
     pub fn at(&self, point: &[f64]) -> Result<Variant, String> {
         let written: Vec<(usize, Value)> = self.keys().map(|(n, varied)| (n, varied.at(point[n]))).collect();
         let mut design = self.with(&written)?;
@@ -55,7 +55,7 @@ impl Variants {
         Ok(Variant { design, values })
     }
 
-    /// What a plan itself gives at a point, of a design that cannot be as of others.
+    /// Values that the plan itself gives at a point, also for a design that cannot be.
     pub fn values(&self, point: &[f64]) -> Vec<Option<Value>> {
         let mut values = vec![None; self.factors.len()];
         self.keys().for_each(|(n, varied)| values[n] = Some(varied.at(point[n])));
@@ -65,7 +65,7 @@ impl Variants {
     /// The drawing with one of the factors at its middle; any value of a factor that is none.
     ///
     /// # Errors
-    /// In words, why there is no such design.
+    /// Message that says why there is no such design.
     pub(super) fn alone(&self, factor: &Factor) -> Result<Design, String> {
         let own = self.keys().find(|(n, _)| self.factors[*n] == *factor);
         self.with(&own.map(|(n, varied)| (n, varied.at(0.5))).into_iter().collect::<Vec<_>>())
@@ -74,7 +74,7 @@ impl Variants {
     /// The drawing with some of its keys written anew: places of factors, and their values.
     ///
     /// # Errors
-    /// In words, why there is no such design.
+    /// Message that says why there is no such design.
     pub fn with(&self, written: &[(usize, Value)]) -> Result<Design, String> {
         if written.is_empty() {
             return Ok(self.case.design.clone());

@@ -1,4 +1,4 @@
-//! What is varied of a drawing: a key of its file, or a number within its tolerance.
+//! A varied number of a drawing: a key of its file, or a number within its tolerance.
 
 use coil::{Design, Number, Tolerances};
 
@@ -12,34 +12,34 @@ use crate::input::keyed;
 pub struct Factor {
     /// Key of a coil file.
     pub key: String,
-    /// What it belongs to.
+    /// The group of its key.
     pub group: Group,
-    /// How it varies.
+    /// Kind of variation.
     pub kind: Kind,
 }
 
-/// How something varies.
+/// Kind of variation.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Kind {
-    /// As a plan says.
+    /// Variation that a plan states.
     Key(Varied),
-    /// Normally, by its tolerance.
+    /// Normal variation, by its tolerance.
     Tolerance(Toleranced),
 }
 
 /// A number that has a tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Toleranced {
-    /// One that a design has once.
+    /// A number that a design has once.
     Number(Number),
     /// The tail of the CW half.
     CwTail,
-    /// That of the other.
+    /// The tail of the CCW half.
     CcwTail,
 }
 
 impl Factor {
-    /// Those numbers of a design that deviate within its tolerances.
+    /// Numbers of a design that deviate within its tolerances.
     pub fn within_tolerances(design: &Design, tolerances: &Tolerances) -> Vec<Self> {
         let of = |number: Number| {
             let key =
@@ -56,7 +56,7 @@ impl Factor {
         Number::every().flat_map(of).collect()
     }
 
-    /// How many values it has; `None` of a number between two ends.
+    /// Number of values; `None` for a number between two ends.
     pub fn levels(&self) -> Option<usize> {
         match &self.kind {
             Kind::Key(varied) => varied.count(),
@@ -78,7 +78,7 @@ impl Factor {
         }
     }
 
-    /// Lets the number deviate by so many standard deviations of what the design now says.
+    /// Lets the number deviate by so many standard deviations from the design's present value.
     pub(super) fn deviate(&self, design: &mut Design, tolerances: &Tolerances, deviations: f64) {
         let Kind::Tolerance(of) = self.kind else { return };
         match of {
@@ -92,7 +92,7 @@ impl Factor {
         }
     }
 
-    /// What it is in a design, in the unit of its key, if it is a number within its tolerance.
+    /// Its value in a design, in the unit of its key, if it is a number within its tolerance.
     pub(super) fn value(&self, design: &Design) -> Option<Value> {
         let Kind::Tolerance(of) = self.kind else { return None };
         let value = match of {
@@ -104,7 +104,7 @@ impl Factor {
     }
 }
 
-/// Both tails longer by as much, so that none is shorter than nothing: what counts is their difference.
+/// Makes both tails longer by as much, so that neither has a negative length: only their difference counts.
 pub(super) fn without_negative_tails(design: &mut Design) {
     let tails = &mut design.winding.tails;
     let missing = -tails.cw.min(tails.ccw).min(0.0);

@@ -1,4 +1,4 @@
-//! A body that follows its winding: what a designer draws anew when the number of turns changes.
+//! A body that follows its winding, as a designer draws it anew when the number of turns changes.
 
 use serde::Deserialize;
 
@@ -11,8 +11,8 @@ pub enum Dimensions {
     /// All dimensions are those of the drawing.
     #[default]
     AsDrawn,
-    /// The coil's outer radius and height keep their distance from what the winding reaches, the thermometer its from the bore and from mid height, D its
-    /// from the mean diameter; odd and even layers differ by as many turns. What a plan varies itself does not follow.
+    /// The coil's outer radius and height keep their distance from the ends of the winding, the thermometer its distance from the bore and from mid height, D
+    /// its distance from the mean diameter; odd and even layers differ by as many turns. A key that the plan varies does not follow.
     FollowWinding,
 }
 
@@ -27,7 +27,7 @@ fn is_varied(edits: &[(String, String)], key: &str) -> bool {
 }
 
 impl Dimensions {
-    /// What makes room for whatever winding the edits give.
+    /// Further edits that make room for the winding of the given edits.
     pub(super) fn room(self, case: &CoilCase, edits: &[(String, String)]) -> Vec<(String, String)> {
         if self == Self::AsDrawn {
             return Vec::new();

@@ -1,19 +1,19 @@
-//! What a key belongs to: the parts of a design that are bought, made or chosen together.
+//! Groups of keys: the parts of a design that are bought, made or chosen together.
 
 /// A part of a design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Group {
-    /// What the winding has from the glass: along the fibre, and the row M.
+    /// Constants of the winding that come from the glass: along the fibre, and the row M.
     Fibre,
-    /// What it has from coatings and adhesive: across the fibre, density and heat capacity.
+    /// Constants that come from coatings and adhesive: across the fibre, density and heat capacity.
     Adhesive,
     /// The spool.
     Spool,
-    /// How the fibre lies, tails and the potted body's dimensions.
+    /// Places of the turns, tails and the potted body's dimensions.
     Winding,
     /// The fibre's optics.
     Optics,
-    /// Medium, heat paths, thermometer, and what else there is.
+    /// Medium, heat paths, thermometer, and all else.
     Surroundings,
 }
 
@@ -24,7 +24,7 @@ impl Group {
     /// All of them.
     pub const ALL: [Self; 6] = [Self::Fibre, Self::Adhesive, Self::Spool, Self::Winding, Self::Optics, Self::Surroundings];
 
-    /// Of a key.
+    /// The group of a key.
     pub fn of(key: &str) -> Self {
         let last = key.rsplit('.').next().unwrap_or(key);
         let begins = |with: &str| key == with || key.strip_prefix(with).is_some_and(|rest| rest.starts_with(['.', '[']));

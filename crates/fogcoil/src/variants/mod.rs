@@ -1,8 +1,8 @@
 //! Designs that differ from a drawing: numbers and choices of its coil file by their keys, numbers within their tolerances.
 //!
-//! A design is a point of the unit cube, a coordinate for every factor: what [`Varied`] says of a key, or the normal deviation of a number that has a
-//! tolerance. A key is set in the text of the coil file, which is then read and checked like any other; a number within its tolerance is set in the design,
-//! where what follows it does so (G the transverse modulus, the thermometer the bore).
+//! A design is a point of the unit cube, a coordinate for every factor: [`Varied`] for a key, or the normal deviation of a number that has a tolerance.
+//! A key is set in the text of the coil file, which is then read and checked like any other. A number within its tolerance is set in the design, where the
+//! numbers that depend on it follow (G the transverse modulus, the thermometer the bore).
 
 mod design;
 mod factor;

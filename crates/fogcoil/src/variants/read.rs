@@ -1,4 +1,4 @@
-//! What a plan varies of a drawing, checked: every key is one of the drawing's, every value one that it can have.
+//! Variations of a drawing in a plan, checked: every key is one of the drawing's, every value one that it can have.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use super::varied::Varied;
 use crate::Error;
 use crate::input::{CoilCase, InputError, fault_in, read_text};
 
-/// What of a drawing a plan says nothing about.
+/// Treatment of the numbers that a plan does not name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 pub enum Others {
     /// As the drawing has it.
@@ -25,7 +25,7 @@ pub enum Others {
 /// Most factors: dimensions of a Sobol' sequence, of which indices take two each.
 pub const MOST_FACTORS: usize = 128;
 
-/// What the plan in `file` varies of the drawing `case`.
+/// Variations of the drawing `case` by the plan in `file`.
 ///
 /// # Errors
 /// [`files::Error::Input`] names the key of the plan that the drawing has not, or whose values it cannot have.
@@ -69,7 +69,7 @@ pub fn variants(
     Ok(variants)
 }
 
-/// Whether a key of a plan is that of a factor, or what both tails have in common.
+/// Whether a key of a plan is that of a factor, or the common length of both tails.
 fn is_of(key: &str, factor: &str) -> bool {
     let numbered = |key: &str| key.replace("[0]", "").replace("[1]", "");
     numbered(key) == factor || factor.strip_prefix(key).is_some_and(|rest| matches!(rest, ".cw" | ".ccw"))

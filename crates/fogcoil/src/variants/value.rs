@@ -3,7 +3,7 @@
 /// A value of a key.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Value {
-    /// In the unit of the key.
+    /// A number, in the unit of the key.
     Number(f64),
     /// A choice.
     Choice(String),
@@ -12,7 +12,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// As a coil file has it.
+    /// The value as a coil file writes it.
     pub fn ron(&self) -> String {
         match self {
             Self::Number(value) => format!("{value}"),
@@ -20,7 +20,7 @@ impl Value {
         }
     }
 
-    /// For people.
+    /// The value as text.
     pub fn shown(&self) -> String {
         match self {
             Self::Number(value) => format!("{value:?}"),

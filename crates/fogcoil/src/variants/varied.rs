@@ -1,4 +1,4 @@
-//! How a key varies, as a plan says it.
+//! Variation of a key, as a plan states it.
 
 use std::fmt::Formatter;
 use std::marker::PhantomData;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::value::Value;
 
-/// How a key varies.
+/// Variation of a key.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub enum Varied {
     /// By its tolerance, which the drawing gives or which is usual.
@@ -43,7 +43,7 @@ pub enum Choice {
 /// Reads a map in its order, no key twice.
 ///
 /// # Errors
-/// That a key stands there twice.
+/// The key that stands there twice.
 pub fn each_once<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Vec<(String, T)>, D::Error> {
     struct Entries<T>(PhantomData<T>);
     impl<'de, T: Deserialize<'de>> Visitor<'de> for Entries<T> {
@@ -84,7 +84,7 @@ fn part(u: f64, count: usize) -> usize {
 }
 
 impl Varied {
-    /// What is wrong with it, if something is.
+    /// Fault of the range or of the values, if there is one.
     pub fn fault(&self) -> Option<String> {
         let ends = |low: f64, high: f64| {
             let bad = !low.is_finite() || !high.is_finite() || low >= high;
@@ -123,7 +123,7 @@ impl Varied {
         matches!(self, Self::Uniform(..) | Self::LogUniform(..) | Self::Normal(..) | Self::Tolerance)
     }
 
-    /// How many values it has; `None` of a number between two ends.
+    /// Number of values; `None` for a number between two ends.
     pub fn count(&self) -> Option<usize> {
         match self {
             Self::Tolerance | Self::Uniform(..) | Self::LogUniform(..) | Self::Normal(..) => None,

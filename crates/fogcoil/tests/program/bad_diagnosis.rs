@@ -70,7 +70,7 @@ fn verdict(content: &str) -> (String, String, String) {
     (json["verdict"].as_str().unwrap().to_owned(), stdout(&output) + &stderr(&output), page)
 }
 
-/// What moves the spool was not recorded.
+/// The cause of the spool's movement was not recorded.
 #[test]
 fn a_dead_chamber_beside_a_moving_spool_is_refused() {
     let (folder, report) = folder();

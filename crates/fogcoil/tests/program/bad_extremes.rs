@@ -125,7 +125,7 @@ fn a_name_gives_no_orders_to_a_terminal() {
     assert!(text.chars().all(|c| c == '\n' || !c.is_control()));
 }
 
-/// What a terminal obeys: escape sequences, a carriage return, a change of direction.
+/// Orders to a terminal: escape sequences, a carriage return, a change of direction.
 #[cfg(unix)]
 #[test]
 fn a_file_s_name_gives_no_orders_to_a_terminal() {

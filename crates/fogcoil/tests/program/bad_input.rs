@@ -2,7 +2,7 @@
 
 use crate::common::{CELL, COIL, Folder, change, line_of, stderr};
 
-/// What is replaced, by what, the field the message names, and a part of what it says.
+/// Replaced text, its replacement, the field that the message names, and a part of the message.
 type Case = (&'static str, &'static str, &'static str, &'static str);
 
 fn refuse(folder: &Folder, arguments: &[&str], expected: &[&str]) {

@@ -128,7 +128,7 @@ fn bad_batches_are_refused_and_nothing_is_written() {
     results_never_lie_on_inputs(&folder);
 }
 
-/// What is read is no result's place, which is said before anything is computed or written.
+/// A file that is read is no place for a result; the message comes before anything is computed or written.
 fn results_never_lie_on_inputs(folder: &Folder) {
     let record = fs::read_to_string(folder.path("U8378.csv")).unwrap();
     fs::create_dir_all(folder.path("mine/units")).unwrap();

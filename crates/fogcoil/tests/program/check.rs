@@ -100,7 +100,11 @@ fn text_json_and_picture() {
         assert!(text.contains(part), "{part}: {text}");
     }
     let picture = std::fs::read_to_string(folder.path("a.svg")).unwrap();
-    assert!(picture.starts_with("<svg") && picture.contains("Allan deviation") && picture.contains("fitted model"));
+    for part in
+        ["Allan deviation", "fitted model", "slopes −1/2, 0 and +1/2", "angle random walk 0.00", " °/√h, at 1 h", "line guide"]
+    {
+        assert!(picture.starts_with("<svg") && picture.contains(part), "{part}");
+    }
 
     // notes are neither warnings nor errors
     let output = folder.run(&["check", "r.csv", "--quiet"]);
@@ -228,7 +232,7 @@ fn mislabelled_units_are_suspected() {
     assert_eq!(declared, "");
 }
 
-/// What is read in another unit than a column's name says is a warning, also for `--quiet`.
+/// A column read in another unit than its name says is a warning, also for `--quiet`.
 #[test]
 fn a_unit_in_a_columns_name_is_heard() {
     let folder = Folder::new();

@@ -164,7 +164,7 @@ fn the_report_holds_every_record_and_the_recommended_profile() {
     assert!(folder.path("next.csv").exists() && page.contains("next-test-narrow") && page.contains("expected separation"));
 }
 
-/// What a mistake in the file's columns does, and no mechanism: said before the verdict.
+/// A mistake in the file's columns, not a mechanism: it is named before the verdict.
 #[test]
 fn exchanged_columns_and_a_reversed_rate_are_named() {
     let folder = Folder::new();

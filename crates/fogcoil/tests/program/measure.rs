@@ -25,7 +25,7 @@ fn normals() -> impl FnMut() -> f64 {
     }
 }
 
-/// What the reference coil does in it, by `simulate`, with noise of the rate \[deg/h\] and of the thermometers \[K\].
+/// Record of the reference coil, by `simulate`, with noise of the rate \[deg/h\] and of the thermometers \[K\].
 fn record(folder: &Folder, offset: f64) {
     let rows =
         |of: &dyn Fn(f64) -> f64| (0..=500).map(|n| 60.0 * f64::from(n)).map(|t| format!("{t},{}\n", of(t))).collect::<String>();

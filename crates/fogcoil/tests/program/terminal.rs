@@ -101,7 +101,8 @@ fn every_id_is_explained_and_a_wrong_one_is_answered_with_the_nearest() {
     let head = stdout(&folder.run(&["explain", "kelvin"])).lines().next().unwrap().to_owned();
     assert!(head.starts_with("kelvin: A profile's chamber_c never falls"), "{head}");
     let debond = stdout(&folder.run(&["explain", "debond"]));
-    for part in ["Equation", "debond_c", "hysteresis_k", "Place in the chain", "confused with", "ultrasound", "Hutchinson"] {
+    for part in ["Equation", "debond_c", "hysteresis_k", "Place in the chain", "Signature", "Rivals", "ultrasound", "Hutchinson"]
+    {
         assert!(debond.contains(part), "{part}: {debond}");
     }
     let gap: Value = serde_json::from_str(&stdout(&folder.run(&["explain", "long-tail", "--json"]))).unwrap();

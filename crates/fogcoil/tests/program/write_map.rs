@@ -119,7 +119,7 @@ fn tabs_milliseconds_fahrenheit_and_radians_below_a_mark() {
     );
 }
 
-/// What is not sure stands beside its column.
+/// A doubt stands beside its column.
 #[test]
 fn doubts_are_written_down() {
     let text = "t,oven,ambient,coil,gyro\n".to_owned() + &lines(|_, [t, c, s, r]| format!("{t},{c:.5},25,{s:.5},{r:.6}"));

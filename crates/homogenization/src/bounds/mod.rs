@@ -1,4 +1,4 @@
-//! What is known of the effective constants without solving the cell: bounds, and the composite-cylinder estimate.
+//! Limits of the effective constants without a solution of the cell: bounds, and the composite-cylinder estimate.
 //!
 //! Two quadratic forms enclose the cell's energy in every axisymmetric state (strain across, strain along, temperature). From below
 //! and above: uniform stress and uniform strain (Reuss, Voigt; with temperature Schapery 1968), and the tighter pair of Hashin and
@@ -104,7 +104,7 @@ fn mixed(phases: &[Phase], modulus: impl Fn(&Phase) -> f64, environment: Interva
     })
 }
 
-/// What follows for every constant from two forms and the intervals of `g_r`, `g_zr` and `k_r`.
+/// Ranges of all constants from two forms and the intervals of `g_r`, `g_zr` and `k_r`.
 fn enclosed(phases: &[Phase], pair: &Pair, [g_r, g_zr, k_r]: [Interval; 3]) -> Range {
     let compliance = |i: usize, j: usize| entry(&pair.conjugates, i, j);
     let (across, along) = (compliance(0, 0), compliance(1, 1)); // e per 2σ, ε per σ

@@ -1,4 +1,4 @@
-//! Which component of a strain is asked for.
+//! Component of a strain that is asked for.
 
 use nalgebra::Vector6;
 

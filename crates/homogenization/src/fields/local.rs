@@ -34,7 +34,7 @@ pub struct Fields<'a> {
     free: Vec<Vector6<f64>>,
 }
 
-/// What is at a point.
+/// State at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct State {
     /// Position \[m\].

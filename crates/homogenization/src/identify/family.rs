@@ -33,9 +33,9 @@ pub struct RingPrior {
     pub name: String,
     /// Outer diameter \[m\].
     pub outer_diameter: Prior,
-    /// What it is for.
+    /// Its role.
     pub role: Role,
-    /// What it is made of.
+    /// Its material.
     pub material: MaterialPrior,
 }
 
@@ -52,7 +52,7 @@ pub struct Family {
     pub adhesive: MaterialPrior,
 }
 
-/// What a parameter is.
+/// Quantity of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     /// Young's modulus \[Pa\].
@@ -76,7 +76,7 @@ pub struct Parameter {
     pub phase: String,
     /// Its meaning.
     pub quantity: Quantity,
-    /// Where it lies before the measurement.
+    /// Its prior distribution, before the measurement.
     pub prior: Prior,
 }
 

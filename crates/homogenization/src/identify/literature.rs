@@ -1,4 +1,4 @@
-//! What the literature says of a coil's constituents before anything is measured; ranges hold 90 %.
+//! Constants of a coil's constituents by the literature, before anything is measured; ranges hold 90 %.
 //!
 //! - Silica: fused silica is known to a percent (N. P. Bansal and R. H. Doremus, *Handbook of Glass Properties*, 1986); drawn fibre is a
 //!   little softer, and dopants move its expansion.

@@ -1,4 +1,4 @@
-//! What to measure next.
+//! The next measurement.
 
 use super::emulator::Emulator;
 use super::response::{KNOWN, Known, known};
@@ -13,9 +13,9 @@ const DRAWS: usize = 300;
 /// A further measurement and what is predicted for it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurement {
-    /// What is measured, and on what.
+    /// The quantity to measure, and its specimen.
     pub what: String,
-    /// What each of the two sets predicts, SI.
+    /// Prediction of each of the two sets, SI.
     pub values: [f64; 2],
     /// Standard deviation of the posterior's predictions, SI.
     pub spread: f64,
@@ -68,7 +68,7 @@ pub(crate) fn measurements(emulator: &Emulator, targets: &[Target], sets: [&Fit;
     all
 }
 
-/// All that can be measured on a cell beside its targets; NaN what it has not.
+/// All further quantities that can be measured on a cell; NaN for those that it does not have.
 fn quantities(family: &Family, targets: &[Target], cell: &FibreCell, values: &[f64], known: &Known) -> Vec<Quantified> {
     let mut all = Vec::new();
     let mut add = |what: String, value: f64, relative: f64, absolute: f64| {

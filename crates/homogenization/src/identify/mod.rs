@@ -48,14 +48,14 @@ pub struct Alternatives {
     pub measurements: Vec<Measurement>,
 }
 
-/// What the measured constants say.
+/// Result of an identification.
 #[derive(Debug, Clone)]
 pub struct Identification {
-    /// Of each family in the order given.
+    /// Fit of each family in the order given.
     pub outcomes: Vec<FamilyFit>,
     /// The family that the rest is about: of those that explain the entries the one closest to its priors, else that with the least misfit.
     pub chosen: usize,
-    /// What is known of its parameters; `None` if no family explains the entries, or none of its minima that chains may start from does.
+    /// Posterior of its parameters; `None` if no family explains the entries, or none of its minima that chains may start from does.
     pub posterior: Option<Posterior>,
     /// Two of its cells; `None` if they cannot be found.
     pub alternatives: Option<Alternatives>,

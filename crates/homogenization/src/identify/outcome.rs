@@ -1,4 +1,4 @@
-//! What a family of cells can do about the entries.
+//! Agreement that a family of cells can reach with the entries.
 
 use super::response::{Known, Response, known};
 use super::{Family, Target};
@@ -49,12 +49,12 @@ impl Fit {
     }
 }
 
-/// What a family can do.
+/// Best fits of a family.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FamilyFit {
     /// The cell that meets the entries best, however far from the priors.
     pub best: Fit,
-    /// Where that is not ordinary or does not meet all: the ordinary cell that misses least.
+    /// The ordinary cell that misses least, where the best one is not ordinary or does not meet all entries.
     pub ordinary: Option<Fit>,
 }
 

@@ -1,4 +1,4 @@
-//! What is known after the measurement.
+//! Posterior distribution, after the measurement.
 
 use super::emulator::Emulator;
 use super::fit::jacobian;
@@ -95,7 +95,7 @@ fn central(mut values: Vec<f64>, probability: f64) -> [f64; 2] {
     [(1.0 - probability) / 2.0, (1.0 + probability) / 2.0].map(|p| quantile(&values, p))
 }
 
-/// Of sorted values.
+/// Quantile of sorted values.
 fn quantile(values: &[f64], p: f64) -> f64 {
     if values.is_empty() {
         return f64::NAN;

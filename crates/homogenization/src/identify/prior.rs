@@ -1,4 +1,4 @@
-//! What is known of a constant before the measurement.
+//! Prior distribution of a constant, before the measurement.
 
 /// Standard deviations between a normal distribution's median and its 95 % quantile.
 pub const Z95: f64 = 1.644_853_626_951_472_7;
@@ -14,7 +14,7 @@ pub struct Prior {
     pub high: f64,
 }
 
-/// On which scale a prior is normal.
+/// Scale on which a prior is normal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     /// Log-normal.

@@ -21,7 +21,7 @@ const BATCHES: usize = 32;
 pub struct Region {
     /// Its probability (Laplace–Metropolis estimate, S. M. Lewis and A. E. Raftery, *J. Am. Stat. Assoc.* 92, 648, 1997).
     pub weight: f64,
-    /// Where it is densest, in prior standard deviations.
+    /// Point of the highest density, in prior standard deviations.
     pub centre: Vec<f64>,
     /// Share of proposals accepted.
     pub acceptance: f64,

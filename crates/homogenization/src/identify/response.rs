@@ -1,4 +1,4 @@
-//! What a cell answers: nine independent numbers, from which the constants follow.
+//! Response of a cell: nine independent numbers, from which the constants follow.
 
 use crate::bounds::cylinders;
 use crate::{Constants, FibreCell, homogenize};
@@ -38,12 +38,12 @@ pub(crate) fn known(y: &Response) -> Known {
     [e_z, e_r, g_zr, g_r, k, nu_zr, nu_r, nu_zr * e_r / e_z, alpha_z * EXPANSION, alpha_r * EXPANSION, k_z, k_r]
 }
 
-/// By composite cylinders, in microseconds.
+/// Response by composite cylinders, in microseconds.
 pub(crate) fn estimated(cell: &FibreCell) -> Option<Response> {
     response(&cylinders(cell).ok()?.constants()?)
 }
 
-/// By multipoles, to 1e-6; `None` where they do not get there.
+/// Response by multipoles, to 1e-6; `None` where they do not reach it.
 pub(crate) fn solved(cell: &FibreCell) -> Option<Response> {
     response(&homogenize(cell).ok()?.constants)
 }

@@ -15,7 +15,7 @@ const MOST_REFINEMENTS: usize = 12;
 /// The emulator is right where it misses every entry by less than this many standard deviations of it.
 const RIGHT: f64 = 0.03;
 
-/// What a fit gives way to.
+/// The demand that a fit gives way to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Demand {
     /// Every entry is met if it can be, however far from the priors.

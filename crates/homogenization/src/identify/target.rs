@@ -2,7 +2,7 @@
 
 use super::response::{KNOWN, Known, Response, known};
 
-/// How well a constant is known.
+/// Accuracy to which a constant is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Uncertainty {
     /// Anything within this half width is the same printed number.
@@ -18,7 +18,7 @@ pub struct Target {
     index: usize,
     /// Its value.
     pub value: f64,
-    /// How well it is known.
+    /// Accuracy to which it is known.
     pub uncertainty: Uncertainty,
 }
 
@@ -81,7 +81,7 @@ pub(crate) fn distances(targets: &[Target], response: &Response) -> Vec<f64> {
     targets.iter().map(|t| t.distance(t.of(&known))).collect()
 }
 
-/// What of `x` exceeds `limit` either way, with sign.
+/// Excess of `x` over `limit` either way, with sign.
 pub(crate) fn beyond(x: f64, limit: f64) -> f64 {
     (x.abs() - limit).max(0.0).copysign(x)
 }

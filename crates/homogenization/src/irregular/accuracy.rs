@@ -115,7 +115,7 @@ impl Cell {
         }
     }
 
-    /// What rounding may do to each constant at `level`, relative: a few times the largest distance between constants whose inputs
+    /// Effect of rounding on each constant at `level`, relative: a few times the largest distance between constants whose inputs
     /// differ by a rounding, as in [`crate::rounding`]; infinite where a rounding away there is no cell.
     fn rounding(&self, level: Level, exact: &Directional) -> Vec<f64> {
         let mut most = vec![0.0_f64; exact.named().len()];

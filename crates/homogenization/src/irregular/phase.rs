@@ -1,4 +1,4 @@
-//! What a phase of a cell is made of.
+//! Material of a phase of a cell.
 
 use crate::random::Random;
 use crate::{Constituent, Error, Role};
@@ -25,7 +25,7 @@ pub struct Solid {
 pub struct Phase {
     /// Its name.
     pub name: String,
-    /// What it is made of.
+    /// Its material.
     pub solid: Solid,
     /// Whether it counts as glass in the row M.
     pub role: Role,

@@ -1,4 +1,4 @@
-//! What a cell is like from outside; its engineering constants, which need not be isotropic across the fibre.
+//! Macroscopic response of a cell; its engineering constants, which need not be isotropic across the fibre.
 
 use crate::{Constants, NEGLIGIBLE, SAFETY};
 use fem_core::material::ThermoElastic;
@@ -27,7 +27,7 @@ pub struct Response {
     pub glass_strain: SMatrix<f64, 6, LOADS>,
     /// Share of each phase in the cell's area; what is missing to 1 is void.
     pub fractions: Vec<f64>,
-    /// How far the stiffness is from transversely isotropic about z: the largest relative difference of strain energy, over all strains,
+    /// Distance of the stiffness from transverse isotropy about z: the largest relative difference of strain energy, over all strains,
     /// from the mean of the stiffness over all turns about z. The same in any units and for any choice of x.
     pub anisotropy: f64,
     /// Largest relative difference of a phase's meshed and exact area.
@@ -120,7 +120,7 @@ impl Directional {
         [&e[..], g, nu, alpha, k, &[*k_plane_strain], m].concat()
     }
 
-    /// What each error is taken relative to at least: [`NEGLIGIBLE`] of the natural size of its kind, all of it for those that vanish in
+    /// Least reference of each relative error: [`NEGLIGIBLE`] of the natural size of its kind, all of it for those that vanish in
     /// cells of some symmetry.
     fn floors(&self) -> Vec<f64> {
         let largest = |v: &[f64]| v.iter().fold(0.0, |m: f64, v| m.max(v.abs()));

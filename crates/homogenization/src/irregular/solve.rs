@@ -27,7 +27,7 @@ pub struct Solution {
     pub periodic: PeriodicMesh,
     /// The phases.
     pub phases: Vec<Phase>,
-    /// What the cell is like from outside.
+    /// Macroscopic response of the cell.
     pub response: Response,
     /// in-plane fluctuations (x, y at each node) of [`PLANE_LOADS`]
     plane: Vec<Vec<f64>>,

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 const DIRECT: usize = 20;
 /// Shells that are summed then: 8.6 pitches to the power of −18 against 1.
 const SHELLS: i32 = 10;
-/// What adds nothing to a sum, of which the nearest points contribute up to one each.
+/// Size of a term that adds nothing to a sum, to which the nearest points contribute up to one each.
 const NOTHING: f64 = 1e-20;
 /// Highest power of q = e^{2πiτ}, |q| < 0.0044, in the series.
 const TERMS: usize = 24;

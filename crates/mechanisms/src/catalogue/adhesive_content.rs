@@ -23,8 +23,8 @@ pub(super) const ADHESIVE_CONTENT: Named = Named {
         with g the glass, fused silica, and p the polymer. v_0 follows from the design's E_z with E_p = 1 GPa; any E_p up to 3 GPa moves it by 0.03 at most.\n\
         A design whose constants are not those of silica in a polymer is not offered this mechanism.",
     place: "The material of the coil: `coil.material` and the heat capacity, from which mechanics and heat flow follow.",
-    signature: "A softer, more expanding coil changes the strain by nearly one factor everywhere: in slow ramps a gain, like a longer tail. Its heat capacity\n\
-        and conductivity change too, and these show in fast transients.",
+    signature: "A softer coil that expands more changes the strain by nearly one factor everywhere. In slow ramps this is a gain, like that of a longer\n\
+        tail. Heat capacity and conductivity change too, and these changes show in fast transients.",
     source: "R. Hill, *Journal of the Mechanics and Physics of Solids* 12, 199 (1964).",
     meaning: "the coil holds more (+) or less (−) polymer than designed, as a share of its volume",
     inspection: "weigh the coil before and after potting, or section a sister unit",

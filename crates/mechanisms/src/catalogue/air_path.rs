@@ -13,8 +13,8 @@ pub(super) const AIR_PATH: Named = Named {
     stage: Stage::Thermal,
     equation: "The conductivity of the medium around the coil is k = f k_air: convection, another gas, another gap.",
     place: "The heat flow: `surroundings.medium`.",
-    signature: "Coil and spool follow the chamber faster or slower: both channels shift in time. A mount that is coupled to the chamber does nearly the same, from one\n\
-        side; only the difference between the two faces tells them, which fast changes make large.",
+    signature: "Coil and spool follow the chamber faster or slower, and both channels shift in time. A mount that is coupled to the chamber does nearly the\n\
+        same from one side. Only the difference between the two faces tells them apart; fast changes make it large.",
     source: "F. P. Incropera and D. P. DeWitt, *Fundamentals of Heat and Mass Transfer*, Wiley, ch. 9; H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed., Oxford (1959), ch. 1.",
     meaning: "the surroundings conduct heat better or worse than designed, by conductivity_factor",
     inspection: "repeat the test in vacuum or in another gas",

@@ -14,7 +14,8 @@ pub(super) const AXIAL_HEAT_PATH: Named = Named {
     stage: Stage::Thermal,
     equation: "The outer face of the flange exchanges h (T_chamber − T) with the chamber, per area.",
     place: "The heat flow: `heat.mounts`.",
-    signature: "Like better conducting surroundings, but from one face: the coil is warmed unevenly along its axis, which a practical quadrupole feels.",
+    signature: "The effect resembles that of better conducting surroundings, but from one face. The coil is warmed unevenly along its axis, and a practical\n\
+        quadrupole is sensitive to that.",
     source: "F. P. Incropera and D. P. DeWitt, *Fundamentals of Heat and Mass Transfer*, Wiley, ch. 3.",
     meaning: "the flange's outer face exchanges heat with the chamber through its mount",
     inspection: "repeat the test with the flange insulated from its mount",

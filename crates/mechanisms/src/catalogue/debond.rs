@@ -12,11 +12,11 @@ pub(super) const DEBOND: Named = Named {
     id: "debond",
     title: "A bond that opens in the cold",
     stage: Stage::Bond,
-    equation: "Below T_d the outer part of the bond between coil and flange, a share f of the annulus' width, carries no force; above T_d + h it carries again. Heat\n\
-        passes in either state, and nothing jumps at the switch: only rates change.",
+    equation: "Below T_d the outer part of the bond between coil and flange, a share f of the annulus' width, carries no force; above T_d + h it carries force\n\
+        again. Heat passes in either state. Nothing jumps at the switch: only rates change.",
     place: "The bond of coil and flange: `mechanics: Opening(...)`.",
-    signature: "The sensitivity has two values, by temperature, with hysteresis, and is not monotonic in f. A profile that passes both thresholds shows it; one that stays\n\
-        below T_d shows a gain.",
+    signature: "The sensitivity has one value at low and another at high temperature, with hysteresis, and is not monotonic in f. A profile that passes both\n\
+        thresholds shows both values; a profile that stays below T_d shows a gain.",
     source: "J. W. Hutchinson and Z. Suo, *Advances in Applied Mechanics* 29, 63 (1992).",
     meaning: "below debond_c the outer part of the bond between coil and flange, fraction of its width, carries no force; it closes \
               hysteresis_k above",

@@ -16,7 +16,8 @@ pub(super) const GLASS_TRANSITION: Named = Named {
         \n\
         with the incremental law dσ = D(T)(dε − α(T) dT) and T the mean temperature of the coil.",
     place: "The material of the coil: `mechanics: TemperatureTable(...)`.",
-    signature: "The sensitivity differs on the two sides of T_g. Any profile that ramps on both sides shows it; one that stays on one side shows a gain.",
+    signature: "The sensitivity differs on the two sides of T_g. Any profile with ramps on both sides shows the difference; a profile that stays on one side\n\
+        shows a gain.",
     source: "J. D. Ferry, *Viscoelastic Properties of Polymers*, 3rd ed., Wiley (1980), ch. 11.",
     meaning: "transverse stiffness and expansion change around tg_c, by the factors, over some width_k to either side",
     inspection: "measure the adhesive's storage modulus against temperature (DMA)",

@@ -13,7 +13,8 @@ pub(super) const INTERFACE_RESISTANCE: Named = Named {
     stage: Stage::Thermal,
     equation: "A resistance R between hub and coil: the heat flux is q = ΔT/R across the interface.",
     place: "The heat flow: `heat.hub_resistance_m2k_per_w`.",
-    signature: "The coil lags behind the hub; neither moves the steady ramp's sensitivity, in which the lag is constant. Steps and turning points show it.",
+    signature: "The coil lags behind the hub. In a steady ramp the lag is constant, and the sensitivity does not change. Steps and turning points show the\n\
+        lag.",
     source: "C. V. Madhusudana, *Thermal Contact Conductance*, Springer (1996).",
     meaning: "heat passes between hub and coil through a contact resistance",
     inspection: "heat the hub and record a thermometer on the coil's outer surface",

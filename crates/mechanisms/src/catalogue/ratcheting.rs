@@ -1,4 +1,4 @@
-//! What sets for good the first time a temperature is reached.
+//! A change that sets for good the first time that a temperature is reached.
 
 use crate::mechanism::{Change, Described, Offer, Stage};
 use crate::series::rates_per_hour;

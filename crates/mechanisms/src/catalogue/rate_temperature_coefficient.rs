@@ -10,9 +10,9 @@ pub(super) const RATE_TEMPERATURE_COEFFICIENT: Named = Named {
     id: "rate-temperature-coefficient",
     title: "A read-out that drifts with temperature",
     stage: Stage::Electronics,
-    equation: "Bias c (T_spool − 20 °C): the electronics, or a scale factor that turns with temperature in the Earth's rate.",
+    equation: "Bias c (T_spool − 20 °C): the electronics, or a scale factor that changes with temperature and acts on the Earth's rate.",
     place: "The electronics: `drifts.read_out`.",
-    signature: "It follows the temperature, not its rate: dwells at different temperatures show it, and no winding or material imitates it.",
+    signature: "The rate follows the temperature, not its rate of change. Dwells at different temperatures show it, and no winding or material imitates it.",
     source: "H. C. Lefèvre, *The Fiber-Optic Gyroscope*, 2nd ed., Artech House (2014); IEEE Std 952, *Specification Format Guide and Test Procedure for Single-Axis Interferometric Fiber Optic Gyros*.",
     meaning: "the read-out adds a rate proportional to the temperature, from 20 degC",
     inspection: "exchange the electronics, or warm them alone",
@@ -37,7 +37,7 @@ pub(super) const RATE_TEMPERATURE_COEFFICIENT: Named = Named {
     },
 };
 
-/// What a rate may follow the temperature by \[deg/h/K\], of all that does so (1σ).
+/// Usual temperature coefficient of the rate, of all causes together (1σ) \[deg/h/K\].
 pub(super) fn usual(scene: &Scene) -> f64 {
     2.0 * scene.noise
 }

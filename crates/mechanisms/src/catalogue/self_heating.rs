@@ -10,8 +10,8 @@ pub(super) const SELF_HEATING: Named = Named {
     stage: Stage::Thermal,
     equation: "A constant power P in the flange since `before_s` ahead of the record's first row.",
     place: "The heat flow: `heat.heaters`.",
-    signature: "A settling at the start of the record, whatever the chamber does, and a constant offset of the spool's temperature after it. A chamber that rests while the\n\
-        unit is switched on shows it best.",
+    signature: "The rate settles at the start of the record, whatever the chamber does, and the spool's temperature has a constant offset afterwards. A chamber\n\
+        that rests while the unit is switched on shows the effect best.",
     source: "H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed., Oxford (1959), ch. 3.",
     meaning: "power is dissipated at the flange; it was switched on before_s before the first row",
     inspection: "switch the electronics on at a steady chamber temperature",

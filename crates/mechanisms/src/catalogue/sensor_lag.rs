@@ -9,8 +9,9 @@ pub(super) const SENSOR_LAG: Named = Named {
     title: "A slow spool thermometer",
     stage: Stage::Sensor,
     equation: "The thermometer follows the bore with a first-order lag: τ dT_s/dt = T − T_s.",
-    place: "The sensor: `sensor.lag_s`. The rate does not feel it.",
-    signature: "It shows in the spool's channel alone: τ times the temperature's rate. Everything that delays the spool itself also moves the rate.",
+    place: "The sensor: `sensor.lag_s`. The rate does not depend on it.",
+    signature: "The effect shows in the spool's channel alone: τ times the temperature's rate of change. An effect that delays the spool itself also changes the\n\
+        rate.",
     source: "L. Michalski, K. Eckersdorf, J. Kucharski and J. McGhee, *Temperature Measurement*, 2nd ed., Wiley (2001).",
     meaning: "the spool's thermometer follows the bore with a time constant of its own",
     inspection: "dip the thermometer alone into a bath",

@@ -17,8 +17,8 @@ pub(super) const TAIL_ASYMMETRY: Named = Named {
         \n\
         shifts by Δ, and the tails add their own share. φ′ is the phase per length of eqs. (1) and (2) of the paper.",
     place: "The winding, before the optics: `winding.tails_m` of the coil file.",
-    signature: "Shifting all weights by one constant weighs the coil's mean phase rate: nearly a gain on the rate in a slow ramp, which a changed coil\n\
-        gives as well. What is left to tell them is the transient, in which the mean of the coil and its ends do not follow the chamber alike.",
+    signature: "One constant added to all weights weighs the coil's mean phase rate: nearly a gain on the rate in a slow ramp. A changed coil gives the\n\
+        same gain. Only the transient tells the two apart, because the mean of the coil and its ends follow the chamber differently.",
     source: "D. M. Shupe, *Applied Optics* 19, 654 (1980); F. Mohr, *Journal of Lightwave Technology* 14, 27 (1996).",
     meaning: "the fibre's tails outside the winding are of unequal length; tail_m is the CW one less the CCW one",
     inspection: "measure both tails' lengths outside the winding",

@@ -10,7 +10,8 @@ pub(super) const THERMO_OPTIC_CURVATURE: Named = Named {
     stage: Stage::Optics,
     equation: "∂n/∂T = nominal + b (T − 20 °C), with the local temperature of every turn.",
     place: "The optics: `drifts.thermo_optic_curvature_per_k2`.",
-    signature: "It scales the Shupe part with temperature: nothing in steady ramps, where that part is zero, and little elsewhere. Transients far from 20 °C show it.",
+    signature: "The Shupe part is scaled with temperature. In steady ramps, where that part is zero, nothing changes, and elsewhere little. Transients far from\n\
+        20 °C show the effect.",
     source: "D. B. Leviton and B. J. Frey, *Proc. SPIE* 6273, 62732K (2006), for fused silica.",
     meaning: "the fibre's dn/dT depends on temperature",
     inspection: "measure the fibre's dn/dT at both ends of the range",

@@ -13,8 +13,8 @@ pub(super) const VISCOELASTIC_RELAXATION: Named = Named {
     stage: Stage::Material,
     equation: "E_r and G relax with one time constant: E(t)/E_0 = 1 − g + g e^{−t/τ}. The nominal value is the unrelaxed one.",
     place: "The material of the coil: `mechanics: Relaxing(...)`.",
-    signature: "In ramps much slower than τ the coil is merely softer. A rate that goes on changing for τ after the chamber has come to rest is its mark; heat that\n\
-        still flows does the same on its own scale.",
+    signature: "In ramps much slower than τ the coil is merely softer. After the chamber has come to rest the rate goes on changing for τ. Heat that still flows\n\
+        does the same on its own time scale.",
     source: "J. D. Ferry, *Viscoelastic Properties of Polymers*, 3rd ed., Wiley (1980), ch. 1 to 3.",
     meaning: "the transverse stiffness relaxes by relaxing_fraction with the time constant tau_s",
     inspection: "measure the adhesive's stress relaxation (DMA)",

@@ -12,9 +12,9 @@ pub(super) const WINDING_DEFECT: Named = Named {
     equation: "Layer k holds N_k + n turns, spread evenly over its unchanged width. The half that owns the layer is longer by 2π r_k n, every turn beyond\n\
         it moves along the fibre, and the layer's own share of Σ (L − 2z) grows.",
     place: "The winding: `winding.defect` of a design; layers count from the inside, and each is tried.",
-    signature: "Lengthening one half acts like a tail; which layer it is shows only in the layer's own temperature and strain, which differ from the mean of\n\
-        the coil in transients. With 36 layers to choose from it imitates whatever else moves the middle of the fibre.",
-    source: "N. J. Frigo, *Proc. SPIE* 412, 268 (1983), for what a pattern must balance.",
+    signature: "A longer half acts like a tail. Only the layer's own temperature and strain, which differ from the mean of the coil in transients, show which\n\
+        layer it is. With 36 layers to choose from, the mechanism imitates any other one that moves the middle of the fibre.",
+    source: "N. J. Frigo, *Proc. SPIE* 412, 268 (1983), for the balance of a pattern.",
     meaning: "one layer has turns too many (+) or too few (−)",
     inspection: "count the turns of each layer in the winding record, or section a sister unit",
     columns: &[],

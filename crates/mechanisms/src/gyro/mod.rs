@@ -144,7 +144,7 @@ impl<'m> Gyro<'m> {
         self.records.iter().take(records).map(of).fold([0.0; 4], most)
     }
 
-    /// Where the coil was in the fitted records, and how quiet the gyroscope is.
+    /// Range of the coil in the fitted records, and noise of the gyroscope.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -177,7 +177,7 @@ impl<'m> Gyro<'m> {
         self.kinds[number]
     }
 
-    /// Where a mechanism acts; `choices` are the first and the last value of its choice that are not excluded.
+    /// Extent of a mechanism in a record; `choices` are the first and the last value of its choice that are not excluded.
     pub fn extent(&self, active: &Active, choices: Option<[f64; 2]>) -> Extent {
         let known = (!self.records.is_empty()).then(|| self.effect(0, active).ok()).flatten();
         let change = known.as_ref().and_then(|known| known.change());
@@ -203,7 +203,7 @@ impl<'m> Gyro<'m> {
         (moved, others)
     }
 
-    /// What a mechanism does in a record; kept for as long as other unknowns are varied.
+    /// Effect of a mechanism in a record; kept for as long as other unknowns are varied.
     fn effect(&self, record: usize, active: &Active) -> Result<Arc<Known>, Error> {
         let mut known = self.known.borrow_mut();
         if let Some((.., effect)) = known.iter().find(|(r, a, _)| *r == record && a == active) {

@@ -124,7 +124,7 @@ impl Gyro<'_> {
         (parts, sensor)
     }
 
-    /// What a thermometer of the spool says of its temperature.
+    /// Reading of a thermometer of the spool from its temperature.
     pub(super) fn read(&self, record: &Prepared, thermometer: &mut Vec<f64>, u: &[f64]) {
         let lag = self.library().design().sensor.lag * u[instruments::LAG];
         if lag > 0.0 {

@@ -1,4 +1,4 @@
-//! What is kept of the nominal model somewhere.
+//! Parts of the nominal model that are kept at a point.
 
 use crate::course::{Parts, product};
 
@@ -13,7 +13,7 @@ pub(super) struct Recalibrated {
     pub(super) gain: [f64; 3],
 }
 
-/// How much of a series another one is, the sum of whose squares is known: ⟨a, b⟩/⟨b, b⟩.
+/// Share of a second series, the sum of whose squares is known, in the first: ⟨a, b⟩/⟨b, b⟩.
 pub(super) fn share(a: &[f64], b: &[f64], squares: f64) -> f64 {
     if squares > 0.0 { product(a, b) / squares } else { 0.0 }
 }

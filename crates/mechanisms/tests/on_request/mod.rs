@@ -45,7 +45,7 @@ fn as_noisy(
     Gyro::fitted_to(library, mechanisms, vec![prepared.with_columns(columns)], 1, &told).expect("gyro")
 }
 
-/// What a mechanism changes of a channel.
+/// Change of a channel by a mechanism.
 fn changed(gyro: &Gyro, id: &str, values: &[f64], channel: usize) -> Vec<f64> {
     let middle = diagnosis::expected(gyro.nuisances());
     let active = Active { mechanism: gyro.find(id).expect("a mechanism"), values: values.to_vec(), choice: None };
@@ -190,7 +190,7 @@ fn exact_a_coil_swells_as_it_would_expand_across_its_fibre() {
     assert!(rate[5..].iter().all(|r| (r - expected).abs() < 0.02 * expected.abs()), "{} for {expected}", rate[300]);
 }
 
-/// What dries in one record is what swells in another whose humidity steps at the first row; twice as much has twice the effect.
+/// Drying in one record mirrors swelling in another whose humidity steps at the first row; twice the step has twice the effect.
 #[test]
 fn symmetry_what_dries_is_what_was_taken_up() {
     let (time, chamber) = course();

@@ -38,7 +38,7 @@ fn written(states: &[(&str, &str)], target: Target, law: &str) -> Written {
     }
 }
 
-/// What a law adds to thermometer and rate, with a and b.
+/// Contribution of a law to thermometer and rate, with a and b.
 fn adds(written: &Written, values: [f64; 2]) -> [Vec<f64>; 2] {
     let (time, chamber) = super::course();
     let library = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner).library().clone();

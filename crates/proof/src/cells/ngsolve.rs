@@ -20,7 +20,7 @@ pub(crate) struct Solved {
     pub(crate) constants: Constants,
 }
 
-/// What the script prints for a cell: its constants at two orders of the elements.
+/// Output of the script for a cell: its constants at two orders of the elements.
 #[derive(Serialize, Deserialize)]
 struct Answer {
     version: String,

@@ -1,4 +1,4 @@
-//! What the program says of a unit, read back from what it writes.
+//! The program's answer on a unit, read back from its files.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use crate::{Failure, files};
 /// Probability from which something is said to be there.
 pub(crate) const MORE_THAN_NOT: f64 = 0.5;
 
-/// What `fogcoil diagnose COIL --fit F --holdout H --json J --prediction P` writes of a unit: J, scored in part, and P.
+/// Output of `fogcoil diagnose COIL --fit F --holdout H --json J --prediction P` on a unit: J, scored in part, and P.
 pub(crate) type Written = [String; 2];
 
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
@@ -25,11 +25,11 @@ pub(crate) struct Answer {
     pub(crate) set: Vec<String>,
     pub(crate) parameters: BTreeMap<String, Fitted>,
     pub(crate) located: Place,
-    /// What was seen, in words.
+    /// The structure that was seen, in words.
     pub(crate) structure: Option<String>,
     #[serde(default)]
     pub(crate) holdout: Option<Held>,
-    /// What the records leave of the design's constants and the instruments.
+    /// Constants of the design and the instruments as the records leave them.
     #[serde(default, rename = "unknowns")]
     pub(crate) constants: Vec<Constant>,
 }
@@ -44,7 +44,7 @@ pub(crate) struct Constant {
     pub(crate) drawing: f64,
 }
 
-/// What was fitted, held against the record held out, whether it was accepted or not.
+/// Fit compared with the held-out record, whether it was accepted or not.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
 pub(crate) struct Held {
     pub(crate) rmse_model: f64,
@@ -94,7 +94,7 @@ pub(crate) fn paths(folder: &Path, unit: &str) -> [PathBuf; 2] {
     ["json", "csv"].map(|kind| folder.join(format!("{unit}.{kind}")))
 }
 
-/// What is said of a unit and the rates that are predicted, from the files in `folder`.
+/// The answer on a unit and the predicted rates, from the files in `folder`.
 pub(crate) fn answered(folder: &Path, unit: &str) -> Result<(Answer, Vec<f64>), Failure> {
     let [json, prediction] = paths(folder, unit);
     Ok((serde_json::from_str(&files::read(&json)?)?, rates(&files::read(&prediction)?)?))

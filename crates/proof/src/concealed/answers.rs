@@ -27,7 +27,7 @@ pub(crate) struct Case {
     pub(crate) noise: f64,
     /// Held-out root mean squares of the regressions.
     pub(crate) regressions: [f64; REGRESSIONS.len()],
-    /// What BIC in white noise says.
+    /// Answer of BIC in white noise.
     pub(crate) selection: Scored,
 }
 

@@ -1,4 +1,4 @@
-//! What is commonly done with the same records: regressions pasted on the nominal model's output, and selection by BIC in white noise.
+//! Common practice with the same records: regressions on the nominal model's output, and selection by BIC in white noise.
 
 use diagnosis::{Active, ForwardModel, Omission};
 use mechanisms::{RATE, SPOOL};

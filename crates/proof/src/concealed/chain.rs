@@ -1,4 +1,4 @@
-//! What the coil's chain says of a unit's two records: the nominal design, and the design with the truth built in.
+//! Prediction of a unit's two records by the coil's chain: the nominal design, and the design with the truth built in.
 
 use std::path::PathBuf;
 
@@ -16,10 +16,10 @@ use crate::truth::{ConcealedEffect, Kind, Truth};
 /// The place of the record that is fitted, and of the one that is held out.
 pub(crate) const FIT: usize = 0;
 pub(crate) const HOLDOUT: usize = 1;
-/// What the noise of the recorded chamber temperature adds to a rate that is computed from it \[deg/h\].
+/// Contribution of the noise of the recorded chamber temperature to a rate that is computed from it \[deg/h\].
 const CHAMBER_NOISE: f64 = 0.002;
 
-/// Where in its prior a parameter is tried that the truth does not name (how long before the first row a heater was on), standard deviations.
+/// Places in its prior at which a parameter is tried that the truth does not name (the time of a heater before the first row), standard deviations.
 const UNNAMED: [f64; 9] = [-4.0, -3.0, -2.0, -1.5, -1.0, -0.5, 0.0, 1.0, 2.0];
 
 /// The design's library, from the cache if it is there.
@@ -29,7 +29,7 @@ pub(crate) fn library(coil: &CoilCase, cache: &Cache) -> Result<Library, Failure
     Ok(Library::new(models, CATALOGUE)?)
 }
 
-/// What was recorded in a channel; NaN where it cannot be used.
+/// Recorded values of a channel; NaN where they cannot be used.
 pub(crate) type Series = Vec<f64>;
 
 pub(crate) struct Unit {
@@ -124,7 +124,7 @@ impl Unit {
         [white, noise.gm_sigma_deg_per_h, walk, CHAMBER_NOISE].iter().map(|n| n * n).sum::<f64>().sqrt()
     }
 
-    /// How well a prediction of the held-out rate does beside the nominal and the true model.
+    /// Error of a prediction of the held-out rate beside those of the nominal and the true model.
     ///
     /// The true model is the chain with the truth built in, its offset from the record that is fitted; what the truth does not name is such
     /// that the held-out record is met best. For what the library does not hold it is the noise.

@@ -1,4 +1,4 @@
-//! What the record that is fitted cannot separate from the truth, asked for the names that an answer gives.
+//! Names in an answer that the fitted record cannot separate from the truth.
 
 use diagnosis::{Active, ForwardModel, Hypothesis, Observation, Plan, alternatives, separation};
 use mechanisms::{RATE, SPOOL};

@@ -77,7 +77,7 @@ pub(crate) fn markdown(rows: &[ScoreRow]) -> String {
     out
 }
 
-/// What is not as it should be with a unit, in words.
+/// Faults of the answer on a unit, in words.
 pub(crate) fn faults(scored: &Scored) -> Vec<&'static str> {
     let library = matches!(scored.kind, Kind::Single | Kind::Double);
     let skill = scored.held.and_then(|held| held.skill());

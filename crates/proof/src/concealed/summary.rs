@@ -4,7 +4,7 @@ use super::score::{HeldOut, Scored};
 use crate::statistics::{Measured, mean, median, rate};
 use crate::truth::{Kind, Tier};
 
-/// What is asked of a number.
+/// Requirement on a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Bound {
     AtLeast(f64),
@@ -122,7 +122,7 @@ impl Group<'_> {
         self.share_of_some(quantity, bound, |u| Some(is(u)))
     }
 
-    /// What was accepted, then what was fitted, whether it was accepted or not.
+    /// Share of units made worse: by the accepted answer, then by the fit, whether it was accepted or not.
     fn both_worse(&self) -> [ScoreRow; 2] {
         let worse = |held: Option<HeldOut>| held.map(|held| held.is_worse());
         let fitted = "made worse by what was fitted, before it was accepted or not";

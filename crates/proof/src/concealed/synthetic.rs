@@ -19,7 +19,7 @@ use crate::statistics::{Measured, rate};
 use crate::truth::{Kind, Truth};
 use crate::{Failure, program};
 
-/// How many units of which seed.
+/// Number of units, and their seed.
 #[derive(Debug, Clone, PartialEq, Eq, Args)]
 pub(crate) struct Plan {
     /// Of the synthetic units

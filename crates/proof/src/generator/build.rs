@@ -1,21 +1,21 @@
-//! What a unit is built from.
+//! Parts from which a unit is built.
 
 use coil::Design;
 
-/// What a unit is built from: a design, and what a design does not hold.
+/// Parts from which a unit is built: a design, and properties that a design does not hold.
 #[derive(Clone)]
 pub(super) struct Build {
     pub(super) design: Design,
     pub(super) softening: Option<Softening>,
     /// Relaxing share of the transverse moduli, and its time \[s\].
     pub(super) relaxing: Option<(f64, f64)>,
-    /// Of ∂n/∂T \[1/K²\].
+    /// Curvature of ∂n/∂T \[1/K²\].
     pub(super) curvature: f64,
     /// [deg/h per K].
     pub(super) read_out: f64,
-    /// Of the thermometer \[s\].
+    /// Delay of the thermometer \[s\].
     pub(super) lag: f64,
-    /// On the whole rate: what a mesh does to a sensitivity.
+    /// Factor on the whole rate, as a mesh has it on a sensitivity.
     pub(super) gain: f64,
 }
 
@@ -26,9 +26,9 @@ pub(super) struct Softening {
     pub(super) at: f64,
     /// \[K\]
     pub(super) width: f64,
-    /// On E_r and G.
+    /// Factor on E_r and G.
     pub(super) modulus: f64,
-    /// On α_r.
+    /// Factor on α_r.
     pub(super) expansion: f64,
 }
 

@@ -23,7 +23,7 @@ const TOLERANCES: [f64; 9] = [0.1, 0.05, 0.1, 0.03, 0.03, 0.03, 0.02, 0.05, 0.05
 const FARTHEST: f64 = 2.0;
 /// Standard deviations that derivatives are taken with.
 const STEP: f64 = 0.5;
-/// How late the chamber's thermometer and log are, one standard deviation \[s\].
+/// Delay of the chamber's thermometer and log, one standard deviation \[s\].
 const LATE: f64 = 45.0;
 /// Error of a good forward model, relative.
 const GRANTED: f64 = 0.003;
@@ -52,7 +52,7 @@ fn moved(build: &mut Build, constant: usize, deviations: f64) {
     }
 }
 
-/// What was put into a unit.
+/// The effect that was put into a unit.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Concealed {
     pub(crate) law: ConcealedEffect,
@@ -175,7 +175,7 @@ impl DrawnUnits {
     }
 }
 
-/// What a unit does in a scene, a law added.
+/// Response of a unit in a scene, a law added.
 fn of(scene: &Scene, plant: &Plant, law: Option<&Drawn>) -> Signal {
     let mut run = plant.run(&scene.course.temperature);
     // before the first row the unit is at rest, and so is a law

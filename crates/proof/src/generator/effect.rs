@@ -1,4 +1,4 @@
-//! What can be concealed: the families of the library, built straight into a design, with parameters at random.
+//! Effects that can be concealed: the families of the library, built straight into a design, with parameters at random.
 
 use super::build::{Build, Softening};
 use super::outside::Outside;

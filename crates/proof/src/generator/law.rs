@@ -1,4 +1,4 @@
-//! How the phase follows the temperature where stiffness or bonds depend on temperature and history.
+//! The phase as a function of the temperature where stiffness or bonds depend on temperature and history.
 
 use super::build::{Build, Softening};
 use super::chamber::STEP;
@@ -12,7 +12,7 @@ const SHARES: [f64; 5] = [0.0, 0.146_446_609_406_726_24, 0.5, 0.853_553_390_593_
 const RELAXED: [f64; 7] = [0.0, 0.1, 0.25, 0.45, 0.65, 0.85, 1.0];
 /// Exponentials that stand for a relaxing coil.
 const EXPONENTIALS: usize = 4;
-/// What they may leave of the response.
+/// Largest error that they may leave in the response.
 const LEFT: f64 = 1e-3;
 
 /// Functionals of drives and modes \[rad\].
@@ -21,7 +21,7 @@ type Functional = Vec<f64>;
 pub(super) enum Law {
     Elastic(Functional),
     Softening(Softening, Vec<Functional>),
-    /// What answers at once, and what follows with a time constant \[s\].
+    /// The immediate response, and the responses that follow with a time constant \[s\].
     Relaxing(Functional, Vec<(f64, Functional)>),
     /// Closed, open.
     Opening(Opening, [Functional; 2]),
@@ -81,7 +81,7 @@ impl Law {
 }
 
 impl Running<'_> {
-    /// What the phase gains in a step to `y`, in which the coil's mean temperature goes `from` … `to` \[rad\].
+    /// Gain of the phase in a step to `y`, in which the coil's mean temperature goes `from` … `to` \[rad\].
     pub(super) fn advance(&mut self, y: &[f64], from: f64, to: f64) -> f64 {
         let now = self.law.phases(y);
         let gains: Vec<f64> = now.iter().zip(&self.phases).map(|(now, before)| now - before).collect();

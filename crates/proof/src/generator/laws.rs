@@ -6,7 +6,7 @@ use super::random::Random;
 use crate::truth::ConcealedEffect;
 use std::f64::consts::TAU;
 
-/// Which temperature a law sees.
+/// Temperature on which a law depends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Body {
     Chamber,
@@ -28,15 +28,15 @@ enum Form {
         at: f64,
         width: f64,
     },
-    /// What the direction of a change decides.
+    /// An effect of the direction of a change.
     Direction {
         slow: f64,
     },
-    /// What fades from the start.
+    /// An effect that fades from the start.
     Fading {
         time: f64,
     },
-    /// What a chamber's heater draws above the balance of pump and walls.
+    /// Current of a chamber's heater above the balance of pump and walls.
     HeaterCurrent {
         walls: f64,
     },
@@ -47,19 +47,19 @@ enum Form {
     Bend {
         time: f64,
     },
-    /// What a part lags behind.
+    /// Lag of a part behind the temperature.
     Lag {
         time: f64,
     },
-    /// What the mean of a slab lags behind, into which heat or moisture diffuses from one side.
+    /// Lag of the mean of a slab, into which heat or moisture diffuses from one side.
     Slab {
         time: f64,
     },
-    /// What a part with friction lags behind: it follows when it is this far off.
+    /// Lag of a part with friction: it follows when it is this far off.
     Play {
         width: f64,
     },
-    /// As play, but what lets go jumps all the way.
+    /// As play, but the part jumps all the way once it lets go.
     Slip {
         width: f64,
     },
@@ -171,7 +171,7 @@ impl Drawn {
     }
 }
 
-/// What a law remembers.
+/// Memory of a law.
 struct Past {
     lagging: f64,
     rate: f64,

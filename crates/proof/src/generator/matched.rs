@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// Innovations of the Kalman filter of a unit's noise on one set of instants.
 pub(super) struct Whitening {
-    /// What a reading sees of each state.
+    /// Coefficient of a reading on each state.
     measure: DVector<f64>,
     steps: Vec<Step>,
 }
@@ -41,7 +41,7 @@ fn passage(components: &[Component], dt: f64) -> (DMatrix<f64>, DMatrix<f64>) {
     (transition, noise)
 }
 
-/// What a reading sees of each state, and the states' variances at the start.
+/// Coefficients of a reading on each state, and the states' variances at the start.
 fn states(components: &[Component]) -> (DVector<f64>, DVector<f64>) {
     let (mut measured, mut variances) = (Vec::new(), Vec::new());
     for component in components {

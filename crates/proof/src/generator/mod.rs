@@ -20,6 +20,7 @@ mod noise;
 mod ordinary;
 mod outside;
 mod plant;
+mod production;
 mod random;
 mod record;
 mod scene;
@@ -31,14 +32,15 @@ mod tests;
 pub(crate) use drawn::{DrawnUnit, DrawnUnits};
 pub(crate) use noise::SPAN;
 pub(crate) use ordinary::{NOTHING, Ordinary};
+pub use production::{Produced, production};
 pub use random::Random;
 pub(crate) use record::THERMOMETER;
 pub use unit::{Generator, Unit, Which};
 
 use sha2::{Digest, Sha256};
 
-/// What the units are made by, by file.
-const SOURCES: [(&str, &str); 17] = [
+/// Sources that make the units, by file.
+const SOURCES: [(&str, &str); 18] = [
     ("build.rs", include_str!("build.rs")),
     ("chamber.rs", include_str!("chamber.rs")),
     ("drawn.rs", include_str!("drawn.rs")),
@@ -51,6 +53,7 @@ const SOURCES: [(&str, &str); 17] = [
     ("ordinary.rs", include_str!("ordinary.rs")),
     ("outside.rs", include_str!("outside.rs")),
     ("plant.rs", include_str!("plant.rs")),
+    ("production.rs", include_str!("production.rs")),
     ("random.rs", include_str!("random.rs")),
     ("record.rs", include_str!("record.rs")),
     ("scene.rs", include_str!("scene.rs")),
@@ -58,7 +61,7 @@ const SOURCES: [(&str, &str); 17] = [
     ("coil-reference.ron", include_str!("../../../../fixtures/coil-reference.ron")),
 ];
 
-/// SHA-256 of the generator's sources, to know its units from those of another.
+/// SHA-256 of the generator's sources, to tell its units from those of another.
 pub(crate) fn fingerprint() -> String {
     crate::program::hex(SOURCES.iter().fold(Sha256::new(), |hash, (_, source)| hash.chain_update(source)))
 }

@@ -10,7 +10,7 @@ use super::unit::{Generator, meta};
 use crate::Failure;
 use std::f64::consts::TAU;
 
-/// What is ordinary about a unit.
+/// Ordinary properties of a unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Ordinary {
     /// Earth's rate in the record [deg/h].
@@ -80,7 +80,7 @@ impl Ordinary {
         }
     }
 
-    /// What slow electronics add: they are settled at first, and the spool is linear between rows.
+    /// Contribution of slow electronics: they are settled at first, and the spool is linear between rows.
     fn slow_board(&self, time: &[f64], spool: &[f64]) -> Vec<f64> {
         let (tau, size) = self.board;
         let (mut behind, mut before) = (0.0, 0.0);

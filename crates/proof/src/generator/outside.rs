@@ -6,7 +6,7 @@ use super::random::Random;
 use crate::truth::ConcealedEffect;
 use std::f64::consts::TAU;
 
-/// What it follows; parameters beside the size.
+/// The shape of its course; parameters beside the size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Shape {
     /// `sin(2π T/period + phase)`: polarisation coupling; period \[K\].

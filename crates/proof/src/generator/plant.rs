@@ -25,7 +25,7 @@ pub(super) struct Plant {
 
 /// A unit's course every [`STEP`] seconds.
 pub(super) struct Run {
-    /// What the thermometer shows \[°C\].
+    /// Reading of the thermometer \[°C\].
     pub(super) sensor: Vec<f64>,
     /// Temperature at the thermometer's place \[°C\].
     pub(super) bore: Vec<f64>,

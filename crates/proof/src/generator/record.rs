@@ -55,7 +55,7 @@ pub(super) fn at(course: &[f64], time: f64) -> f64 {
     (0..4).map(|k| weight(k) * course[first + k]).sum()
 }
 
-/// What a record would hold without noise; a reading of the rate is the mean over the [`SPAN`] that ends at its instant, before the start the
+/// A record without noise; a reading of the rate is the mean over the [`SPAN`] that ends at its instant, before the start the
 /// unit is at rest.
 pub(super) fn signal(run: &Run, time: &[f64], rest: f64) -> Signal {
     let angle = |t: f64| if t > 0.0 { at(&run.angle, t) } else { rest * t };

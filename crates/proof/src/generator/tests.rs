@@ -23,7 +23,7 @@ static DESIGN: LazyLock<Design> = LazyLock::new(|| {
 });
 static GENERATOR: LazyLock<Generator> = LazyLock::new(|| Generator::new(DESIGN.clone()).unwrap());
 
-/// What is taken of `coil`: designs, and what is assembled from them. Reduced models, integrators and profiles are not among it.
+/// Items taken from `coil`: designs, and the models assembled from them; no reduced models, integrators or profiles.
 const OF_COIL: &str = "Body Bonds Design Drive Error Heater MechanicalState Mechanics MeshFineness Model Mount Opening Outputs Side \
                        ThermalModel functionals";
 

@@ -57,13 +57,13 @@ pub struct Unit {
     pub fit: String,
     /// The record that judges, as CSV.
     pub holdout: String,
-    /// How both were sampled, as RON.
+    /// Sampling of both, as RON.
     pub meta: String,
-    /// What is concealed, as RON.
+    /// The concealed mechanisms, as RON.
     pub truth: String,
 }
 
-/// What all units share: the design, and how it answers to the conductivity of its air.
+/// Common parts of all units: the design, and its response to the conductivity of its air.
 pub struct Generator {
     pub(super) design: Design,
     nominal: Plant,
@@ -199,7 +199,7 @@ impl Kind {
     }
 }
 
-/// What the n-th unit conceals: of twenty, two are outside the library, three hold two families, fifteen one; families in turn.
+/// Concealed kinds of the n-th unit: of twenty, two are outside the library, three hold two families, fifteen one; families in turn.
 fn kinds(n: usize, random: &mut Random) -> Vec<Kind> {
     const ROUND: usize = 20;
     let (round, place) = (n / ROUND, n % ROUND);
@@ -222,7 +222,7 @@ fn kinds(n: usize, random: &mut Random) -> Vec<Kind> {
     }
 }
 
-/// How a record was sampled, as RON.
+/// Sampling of a record, as RON.
 pub(super) fn meta(sensors: &Sensors, arw: Option<f64>) -> String {
     format!(
         "(\n    design: \"reference-coil\",\n    sample_interval_s: {SPAN:?},\n    rate_is: \"mean over the 30 s that end at time_s\",\n    \

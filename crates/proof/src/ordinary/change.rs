@@ -1,4 +1,4 @@
-//! What must not change an answer: another offset, another unit, another sampling.
+//! Changes that must not change an answer: another offset, another unit, another sampling.
 
 use std::path::Path;
 
@@ -20,7 +20,7 @@ pub(super) enum Change {
 }
 
 const FACTOR: f64 = 12.0;
-/// What loggers write for an overload; a code has no unit.
+/// Code that loggers write for an overload; it has no unit.
 const CODE: f64 = 9999.0;
 
 impl Change {

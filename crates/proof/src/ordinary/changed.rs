@@ -33,7 +33,7 @@ impl Said {
     }
 }
 
-/// What is said of a unit as it is, and after each of the changes.
+/// Answers on a unit as it is, and after each of the changes.
 #[derive(Debug)]
 struct Case {
     unit: String,
@@ -68,7 +68,7 @@ pub(crate) fn run(only: &[String]) -> Result<bool, Failure> {
     Ok(holds)
 }
 
-/// How many cases are answered alike after a change.
+/// Number of cases that are answered alike after a change.
 fn alike(cases: &[Case], change: usize) -> usize {
     cases.iter().filter(|case| case.changed[change] == case.first).count()
 }
@@ -90,7 +90,7 @@ fn result(cases: &[Case]) -> (bool, String) {
     )
 }
 
-/// How many are answered alike after each change, and those that are not.
+/// Number of cases that are answered alike after each change, and those that are not.
 fn section(cases: &[Case], result: &str) -> String {
     let mut out = String::from("| change | answered alike |\n|---|---|\n");
     for (at, change) in Change::ALL.iter().enumerate() {

@@ -28,7 +28,7 @@ const UNITS: [&str; 10] = [
 /// Steps of each walk.
 const STEPS: usize = 6000;
 const SEED: u64 = 1;
-/// What the samples within Laplace's interval must lie between, where walks agree, for an interval to hold.
+/// Range of the share of samples within Laplace's interval, where walks agree, for an interval to hold.
 const HOLDS: [f64; 2] = [0.8, 0.97];
 /// Disagreement of walks, and fewest independent samples, beyond which nothing is said of an unknown.
 const AGREE: f64 = 1.1;

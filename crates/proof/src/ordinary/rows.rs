@@ -10,7 +10,7 @@ use crate::files::{self, root};
 use crate::generator::{Generator, NOTHING, Ordinary};
 use crate::{Failure, program};
 
-/// What is ordinary, and the mechanism that is concealed beside it.
+/// An ordinary property, and the mechanism that is concealed beside it.
 struct Row {
     what: &'static str,
     of: Ordinary,

@@ -65,7 +65,7 @@ pub(super) fn score(truth: &Truth, answer: &Answer, held: HeldOut, lag: f64) -> 
 }
 
 impl Scored {
-    /// What is not as it should be, in words.
+    /// Faults, in words.
     pub(super) fn faults(&self) -> Vec<&'static str> {
         let detectable = self.kind == Kind::Detectable;
         [

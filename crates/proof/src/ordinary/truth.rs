@@ -1,4 +1,4 @@
-//! What an ordinary unit is: opened by the scorer only, after every answer is written.
+//! Truth of an ordinary unit: opened by the scorer only, after every answer is written.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -11,15 +11,15 @@ use crate::truth::ConcealedEffect;
 /// The truth of one unit, as `truth.ron` beside its records holds it; fields that no score needs are passed over.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 pub(super) struct Truth {
-    /// What was built into the unit; none for a good one.
+    /// Mechanisms that were built into the unit; none for a good one.
     pub(super) mechanisms: Vec<ConcealedEffect>,
     pub(super) effects: Vec<Effect>,
-    /// From the drawing: shares, lengths in mm or m.
+    /// Deviations from the drawing: shares, lengths in mm or m.
     pub(super) deviations: BTreeMap<String, f64>,
     pub(super) holdout_noise_rms_deg_per_h: f64,
 }
 
-/// How an effect stands out of the records that are fitted.
+/// Size of an effect beside the noise of the fitted records.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 pub(super) struct Effect {
     pub(super) id: String,

@@ -23,7 +23,7 @@ impl Compared {
     }
 }
 
-/// What came of a draw.
+/// Outcome of a draw.
 #[derive(Debug)]
 pub(super) enum Drawn {
     /// The program refuses it: its own check of the error, or a bound that is crossed.

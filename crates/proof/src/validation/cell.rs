@@ -11,7 +11,7 @@ const SELF_CONVERGENCE: f64 = 1e-4;
 const MOST_UNKNOWNS: f64 = 5e3;
 /// Nothing is claimed to more than nine digits, however small the estimated error, relative.
 pub(crate) const NINE_DIGITS: f64 = 1e-9;
-/// What a mended entry of Table II may still be off: the identified cell is not the authors'.
+/// Largest error of a mended entry of Table II: the identified cell is not the authors'.
 const MENDED: f64 = 0.06;
 /// Two routes to the same number, both of about 1e-9 of rounding at order 10.
 const IDENTITY: f64 = 1e-7;

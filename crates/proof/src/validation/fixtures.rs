@@ -1,4 +1,4 @@
-//! What the comparison reads: the two reference files, the paper's tables, the independent values, the spool materials.
+//! Inputs of the comparison: the two reference files, the paper's tables, the independent values, the spool materials.
 
 use crate::Failure;
 use crate::files::root;

@@ -83,7 +83,7 @@ fn fitted(ours: &Channels, theirs: &Channels) -> ([f64; 3], Difference) {
     (gains, difference(&sum, &theirs[RATE]))
 }
 
-/// How much the chamber's rate changes over the row before `n` and the row after it \[K/min\].
+/// Change of the chamber's rate over the row before `n` and the row after it \[K/min\].
 fn turn(profile: &Profile, n: usize) -> f64 {
     let rate = |n: usize| (profile.drives[0][n] - profile.drives[0][n - 1]) / (profile.time[n] - profile.time[n - 1]);
     let last = profile.time.len() - 1;

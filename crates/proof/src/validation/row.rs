@@ -5,7 +5,7 @@ use crate::Failure;
 use serde::Serialize;
 use std::time::Instant;
 
-/// What stands behind an agreement.
+/// Kind of an agreement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Agreement {
@@ -21,7 +21,7 @@ pub enum Agreement {
     Misprint,
 }
 
-/// How printed and computed compare.
+/// Comparison of printed and computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
@@ -40,7 +40,7 @@ pub enum Verdict {
 pub struct ComparisonRow {
     /// Permanent, with the table in front.
     pub id: String,
-    /// What is compared.
+    /// The compared quantity.
     pub quantity: String,
     /// The paper's number, digit by digit; `None` where it has none.
     pub printed: Option<String>,
@@ -48,15 +48,15 @@ pub struct ComparisonRow {
     pub computed: f64,
     /// Absolute, in `unit`.
     pub numerical_error: f64,
-    /// Of both.
+    /// Unit of both.
     pub unit: String,
-    /// How they compare.
+    /// Their comparison.
     pub verdict: Verdict,
-    /// What stands behind an agreement.
+    /// Kind of an agreement.
     pub kind: Agreement,
     /// Whether the command fails with this row.
     pub must_hold: bool,
-    /// Why they differ, or what the agreement means.
+    /// Reason of the difference, or meaning of the agreement.
     pub reason: String,
 }
 
@@ -108,7 +108,7 @@ pub struct Section {
     pub title: String,
     /// Paragraphs above the rows, in Markdown.
     pub notes: Vec<String>,
-    /// What took how long, for the terminal.
+    /// Durations of the steps, for the terminal.
     pub timings: Vec<String>,
     /// The comparisons.
     pub rows: Vec<ComparisonRow>,

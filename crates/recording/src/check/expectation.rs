@@ -1,4 +1,4 @@
-//! What a channel is expected to hold.
+//! Expected content of a channel.
 
 /// A unit in which a channel may be recorded by mistake: expected value = scale · value + offset.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,18 +18,18 @@ pub struct Offset {
     pub largest: f64,
     /// The most that what is known explains \[u\].
     pub explained: f64,
-    /// What is known, e.g. "Earth rate not removed".
+    /// Its cause, e.g. "Earth rate not removed".
     pub of: String,
 }
 
-/// What a channel is expected to hold.
+/// Expected content of a channel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expectation {
-    /// Where its values may lie \[u\].
+    /// Range of its values \[u\].
     pub values: [f64; 2],
-    /// What no value is beyond, whatever was recorded \[u\].
+    /// Range beyond which no value is possible, whatever was recorded \[u\].
     pub possible: [f64; 2],
-    /// Where a recording at rest in a room starts \[u\]; a start elsewhere is suspected if another unit brings it there.
+    /// Range in which a recording at rest in a room starts \[u\]; a start elsewhere is suspected if another unit brings it there.
     pub start: [f64; 2],
     /// Where the standard deviation of its white noise may lie \[u\].
     pub noise: [f64; 2],
@@ -39,7 +39,7 @@ pub struct Expectation {
     pub fastest: f64,
     /// Units in which it may be by mistake.
     pub mistaken: Vec<Unit>,
-    /// What it is called where its unit is said; empty if that is nowhere.
+    /// Its key where its unit is declared; empty if it cannot be.
     pub key: String,
     /// An offset that may have been left in.
     pub offset: Option<Offset>,
@@ -66,16 +66,16 @@ impl Default for Expectation {
     }
 }
 
-/// What the instants are expected to be.
+/// Expected instants.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clock {
-    /// What a recording may last \[s\]; of a short one only if it has many rows.
+    /// Range of a recording's duration \[s\]; a short one needs many rows.
     pub span: [f64; 2],
-    /// What one usually lasts \[s\]: the unit that comes nearest to it is the likeliest.
+    /// Usual duration \[s\]: the unit that comes nearest to it is the likeliest.
     pub usual: f64,
     /// Units in which the instants may be by mistake.
     pub mistaken: Vec<Unit>,
-    /// What they are called where their unit is said; empty if that is nowhere.
+    /// Their key where their unit is declared; empty if it cannot be.
     pub key: String,
 }
 

@@ -5,7 +5,7 @@ use std::fmt;
 
 use crate::Seconds;
 
-/// How bad a finding is.
+/// Severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
     /// Worth knowing.
@@ -16,7 +16,7 @@ pub enum Severity {
     Error,
 }
 
-/// What was done about a finding.
+/// Repair of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Repair {
     /// Nothing.
@@ -33,9 +33,9 @@ pub enum Repair {
 pub enum FindingKind {
     /// Rows are missing.
     Gap {
-        /// From the last row before it to the first after it \[s\].
+        /// Duration from the last row before it to the first after it \[s\].
         length: f64,
-        /// How many rows it would have held.
+        /// Number of rows that it would have held.
         missing: usize,
     },
     /// Intervals vary.
@@ -70,37 +70,37 @@ pub enum FindingKind {
     },
     /// The values are not of the size that the unit makes them.
     Unit {
-        /// Which size was judged, e.g. "values".
+        /// The size that was judged, e.g. "values".
         what: &'static str,
         /// The result \[u\].
         found: f64,
-        /// What is plausible \[u\].
+        /// The plausible range \[u\].
         range: [f64; 2],
         /// Units in which it would be plausible.
         candidates: Vec<String>,
-        /// What the channel is called where its unit is said.
+        /// Key of the channel where its unit is declared.
         key: String,
     },
     /// The channel changes faster than it can.
     TooFast {
-        /// How fast \[u/s\].
+        /// Its rate \[u/s\].
         rate: f64,
         /// The fastest that can be \[u/s\].
         limit: f64,
         /// Units of the instants in which it would be slow enough, the likeliest first.
         candidates: Vec<String>,
-        /// What the instants are called where their unit is said.
+        /// Key of the instants where their unit is declared.
         key: String,
     },
     /// The recording is too short or too long to be one.
     Span {
-        /// From the first instant to the last \[s\].
+        /// Duration from the first instant to the last \[s\].
         found: f64,
-        /// What is plausible \[s\].
+        /// The plausible range \[s\].
         range: [f64; 2],
         /// Units of the instants in which it would be plausible, the likeliest first.
         candidates: Vec<String>,
-        /// What the instants are called where their unit is said.
+        /// Key of the instants where their unit is declared.
         key: String,
     },
     /// Values that no measurement gives; the largest \[u\].
@@ -109,16 +109,16 @@ pub enum FindingKind {
     Moving {
         /// The largest \[u\].
         largest: f64,
-        /// What is plausible \[u\].
+        /// The plausible range \[u\].
         range: [f64; 2],
     },
     /// A start that would be a room's in another unit.
     Start {
         /// The start \[u\].
         found: f64,
-        /// That unit.
+        /// The other unit.
         candidate: String,
-        /// What the channel is called where its unit is said.
+        /// Key of the channel where its unit is declared.
         key: String,
     },
     /// One value \[u\] throughout.
@@ -133,7 +133,7 @@ pub enum FindingKind {
         median: f64,
         /// The most that is expected \[u\].
         largest: f64,
-        /// What would explain it.
+        /// The cause that would explain it.
         of: String,
         /// Whether it would explain all of it.
         is_explained: bool,
@@ -145,7 +145,7 @@ pub enum FindingKind {
 pub struct Finding {
     /// What.
     pub kind: FindingKind,
-    /// In which channel; `None` if it is about the instants.
+    /// The channel; `None` if it is about the instants.
     pub channel: Option<String>,
     /// Unit of the channel; empty if there is none.
     pub unit: String,
@@ -153,9 +153,9 @@ pub struct Finding {
     pub span: Option<[f64; 2]>,
     /// Number of rows concerned, 0 if it is about all.
     pub rows: usize,
-    /// How bad it is.
+    /// Its severity.
     pub severity: Severity,
-    /// What was done.
+    /// The repair.
     pub repair: Repair,
 }
 
@@ -170,7 +170,7 @@ impl Finding {
         Self { span: Some(span), rows, repair, ..Self::whole(kind, severity) }
     }
 
-    /// What to do, if there is something.
+    /// Advice, if there is any.
     pub fn advice(&self) -> Cow<'static, str> {
         let advice = match (&self.kind, self.severity) {
             (FindingKind::Start { candidate, key, .. }, _) => return declare(key, std::slice::from_ref(candidate)),
@@ -258,7 +258,7 @@ fn ask(f: &mut fmt::Formatter<'_>, candidates: &[String]) -> fmt::Result {
     if candidates.is_empty() { Ok(()) } else { write!(f, "; are the instants in {}?", candidates.join(" or ")) }
 }
 
-/// How to say a unit, the likeliest of several.
+/// Advice to declare a unit, the likeliest of several.
 fn declare(key: &str, candidates: &[String]) -> Cow<'static, str> {
     match candidates {
         [first, others @ ..] if !key.is_empty() => {

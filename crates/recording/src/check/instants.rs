@@ -12,22 +12,22 @@ pub struct Gap {
     pub from: f64,
     /// First instant after it \[s\].
     pub to: f64,
-    /// How many rows it would have held.
+    /// Number of rows that it would have held.
     pub missing: usize,
 }
 
-/// What there is to say about increasing instants.
+/// Summary of increasing instants.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instants {
     /// Median interval \[s\].
     pub interval: f64,
-    /// From the first to the last \[s\].
+    /// Duration from the first to the last \[s\].
     pub span: f64,
     /// Root-mean-square distance of the intervals that are no gaps from the median \[s\].
     pub jitter: f64,
     /// Their largest distance \[s\].
     pub largest_jitter: f64,
-    /// Where rows are missing.
+    /// Gaps, where rows are missing.
     pub gaps: Vec<Gap>,
 }
 

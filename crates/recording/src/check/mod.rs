@@ -22,14 +22,14 @@ pub use white_noise::white_noise;
 
 use crate::Recording;
 
-/// What a recording is expected to hold.
+/// Expected content of a recording.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Expectations {
-    /// Of the channels, in their order; of channels beyond its end nothing is expected.
+    /// Expectations of the channels, in their order; of channels beyond its end nothing is expected.
     pub channels: Vec<Expectation>,
     /// Rows below which a recording is noted as short.
     pub fewest_rows: usize,
-    /// Of the instants.
+    /// Expectations of the instants.
     pub clock: Clock,
 }
 
@@ -54,7 +54,7 @@ impl Report {
         self.findings.iter().all(|finding| finding.severity != Severity::Error)
     }
 
-    /// What is to be used of the recording that was checked: the rows that are kept, NaN where a value is not used.
+    /// Usable part of the recording that was checked: the rows that are kept, NaN where a value is not used.
     ///
     /// # Panics
     /// If the report is of a recording with more rows or channels.

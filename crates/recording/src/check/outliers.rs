@@ -11,7 +11,7 @@ const REACH: usize = 3;
 const NEAR: f64 = 4.5;
 /// Distance from the neighbours' median, in standard deviations of the noise: of normal noise one value in 10⁹.
 const FAR: f64 = 6.5;
-/// How much of the distance the value has to keep to both values beside it, and how much of it the neighbours may differ.
+/// Share of the distance that the value has to keep to both values beside it, and share by which the neighbours may differ.
 const LONE: [f64; 2] = [0.6, 0.5];
 
 /// Values in a row that may be outliers together: a logger that repeats a bad one.

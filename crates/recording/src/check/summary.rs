@@ -1,8 +1,8 @@
-//! What there is to say about a channel, and what it is judged by.
+//! Summary of a channel, with the numbers by which it is judged.
 
 use super::expectation::Expectation;
 
-/// What there is to say about a channel.
+/// Summary of a channel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChannelSummary {
     /// Its name.

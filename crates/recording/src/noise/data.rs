@@ -18,7 +18,7 @@ pub struct Series<'a> {
     pub values: &'a [f64],
     /// Rows that are used; of others no value is read.
     pub mask: &'a [bool],
-    /// What besides noise the series may hold, each in an unknown amount: an offset, a trend, the columns of a Jacobian.
+    /// Terms besides noise that the series may hold, each in an unknown amount: an offset, a trend, the columns of a Jacobian.
     pub columns: &'a [&'a [f64]],
 }
 

@@ -1,4 +1,4 @@
-//! How much of each column is in a series, by generalised least squares under a noise model.
+//! Amount of each column in a series, by generalised least squares under a noise model.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -44,15 +44,15 @@ impl Bounds {
 /// `None` where the term is absent, or where the likelihood has no maximum inside the bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StandardErrors {
-    /// Of the white noise.
+    /// Uncertainty of the white noise.
     pub white: Option<f64>,
-    /// Of the drift's standard deviation.
+    /// Uncertainty of the drift's standard deviation.
     pub drift: Option<f64>,
-    /// Of its correlation time.
+    /// Uncertainty of its correlation time.
     pub drift_time: Option<f64>,
-    /// Of the rate random walk.
+    /// Uncertainty of the rate random walk.
     pub walk: Option<f64>,
-    /// Of the quantisation.
+    /// Uncertainty of the quantisation.
     pub quantisation: Option<f64>,
 }
 
@@ -145,7 +145,7 @@ pub fn identify(series: &Series, bounds: &Bounds) -> Result<NoiseEstimate, Error
     })
 }
 
-/// What is left of a series when the columns are taken off in the amounts that are best under the model; NaN in rows that are not used.
+/// Residual of a series when the columns are taken off in the amounts that are best under the model; NaN in rows that are not used.
 ///
 /// # Errors
 /// As [`identify`].

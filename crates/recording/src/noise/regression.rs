@@ -8,7 +8,7 @@ pub(super) struct Regression {
     pub(super) squares: f64,
     /// ln det(AᵀA) of the columns.
     pub(super) log_det: f64,
-    /// How much of every column is in the series.
+    /// Amount of every column in the series.
     pub(super) amounts: DVector<f64>,
     /// R of the columns' QR factors.
     upper: DMatrix<f64>,

@@ -25,7 +25,7 @@ pub struct Whitener {
     log_det: f64,
 }
 
-/// What a row used does to the filter's mean.
+/// Effect of a used row on the filter's mean.
 #[derive(Debug, Clone, Copy)]
 struct Step {
     /// From the state after the last row used to the sample.
@@ -160,7 +160,7 @@ struct Passage {
     advance: Vector,
     /// Variance that the pause adds to the state before the span begins.
     pause: Vector,
-    /// What of that reaches the sample and the state.
+    /// Parts of that which reach the sample and the state.
     pause_measure: Vector,
     pause_advance: Vector,
     /// Noise of the sample, of the state, and their covariance, arising within the span.

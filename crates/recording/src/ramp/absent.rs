@@ -1,8 +1,8 @@
-//! Why a number cannot be told.
+//! Reasons why a number cannot be determined.
 
 use crate::{Error, Seconds};
 
-/// Why a record does not tell a number.
+/// Reason why a record does not determine a number.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Absent {
@@ -22,12 +22,12 @@ pub enum Absent {
     /// The longest ramp is shorter than a few rows.
     #[error("the longest ramp takes {} s, fewer than {rows} rows; record at shorter intervals, or slower ramps", Seconds(*duration))]
     Fast {
-        /// How long it takes \[s\].
+        /// Its duration \[s\].
         duration: f64,
         /// Rows that it needs.
         rows: f64,
     },
-    /// What it does looks like an offset, a bias over temperature or a settling in this record.
+    /// Its effect looks like an offset, a bias over temperature or a settling in this record.
     #[error(
         "its effect cannot be told from an offset or a bias over temperature; record a rest before and after the ramp, or ramps of several rates"
     )]
@@ -45,7 +45,7 @@ pub enum Absent {
     Noise(#[from] Error),
 }
 
-/// Which way a temperature goes.
+/// Direction of a temperature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {
     /// Upwards.

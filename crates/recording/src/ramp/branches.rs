@@ -28,18 +28,18 @@ pub(super) struct Branch {
     pub(super) direction: Direction,
     /// First row of the next.
     pub(super) end: usize,
-    /// How far it goes \[K\].
+    /// Its range \[K\].
     pub(super) travel: f64,
-    /// How long its longest ramp without a rest takes \[s\].
+    /// Duration of its longest ramp without a rest \[s\].
     pub(super) ramp: f64,
-    /// How long its longest rest takes \[s\].
+    /// Duration of its longest rest \[s\].
     pub(super) rest: f64,
 }
 
 /// A temperature's course.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Course {
-    /// In their order.
+    /// Branches, in their order.
     pub(super) branches: Vec<Branch>,
     /// Sum of all movement upwards, and of all downwards: the temperature less its first value is the sum of the two \[K\].
     pub(super) movement: [Vec<f64>; 2],
@@ -54,7 +54,7 @@ pub(super) fn threshold(range: f64, noise: f64, step: f64) -> f64 {
 }
 
 impl Course {
-    /// Of a temperature whose movements below `threshold` are noise.
+    /// Course of a temperature whose movements below `threshold` are noise.
     pub(super) fn new(time: &[f64], temperature: &[f64], threshold: f64) -> Self {
         let mut branches = Vec::new();
         let mut from = 0;

@@ -64,7 +64,7 @@ impl Design {
         if self.split { end..end + self.lags.len() } else { end..end }
     }
 
-    /// What a steady ramp of rate 1 settles at: in both directions' mean, or the only one's.
+    /// Settled response to a steady ramp of rate 1: the mean of both directions, or the only one.
     pub(super) fn sensitivity(&self) -> Weights {
         self.common().map(|number| (number, 1.0)).collect()
     }
@@ -88,12 +88,12 @@ impl Design {
         Err(Absent::OneWay(other))
     }
 
-    /// What changes at rest from one warmth to another.
+    /// Change at rest from one warmth to another.
     pub(super) fn at_rest(from: f64, to: f64) -> Weights {
         vec![(1, to - from), (2, to * to - from * from)]
     }
 
-    /// What the temperature does in a row beside what it did in the first.
+    /// Effect of the temperature in a row less that in the first.
     pub(super) fn thermal(&self, row: usize) -> Weights {
         let ramps = self.common().start..self.difference().end;
         let ramps = ramps.map(|number| (number, self.columns[number][row]));

@@ -1,4 +1,4 @@
-//! What a channel reads at rest at one temperature, reached from below and from above.
+//! Readings of a channel at rest at one temperature, reached from below and from above.
 
 use super::absent::Absent;
 use super::branches::Course;
@@ -34,7 +34,7 @@ pub(super) fn hysteresis(model: &Model, course: &Course, observed: Observed) -> 
     with.sum(&vec![(design.columns.len(), 1.0)])
 }
 
-/// How many of some have one of the others beside them; both are sorted.
+/// Number of values that have one of the others beside them; both lists are sorted.
 fn shared(of: &[f64], others: &[f64]) -> usize {
     let beside = |x: &&f64| others.get(others.partition_point(|y| *y < **x - SAME)).is_some_and(|y| *y <= **x + SAME);
     of.iter().filter(beside).count()

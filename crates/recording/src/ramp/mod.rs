@@ -1,4 +1,4 @@
-//! What a channel answers to a temperature's rate of change: the steady-ramp sensitivity, by heating and cooling, beside a bias over temperature.
+//! Response of a channel to a temperature's rate of change: the steady-ramp sensitivity, by heating and cooling, beside a bias over temperature.
 //!
 //! A linear system that conducts heat answers a temperature T with Σ cₖ rₖ, where rₖ is the rate of T as a first-order system of time constant τₖ
 //! follows it. In a steady ramp every rₖ settles at the ramp's rate: the **sensitivity** is Σ cₖ \[u per K/s\], and the record need not hold a ramp
@@ -31,10 +31,10 @@ use branches::Course;
 use design::{Design, Weights};
 use model::{Model, Observed};
 
-/// What a channel answers.
+/// Response of a channel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Response {
-    /// What a steady ramp settles at, for each K/s: the mean of heating and cooling \[u/(K/s)\].
+    /// Settled response to a steady ramp, for each K/s: the mean of heating and cooling \[u/(K/s)\].
     pub sensitivity: Result<Estimate, Absent>,
     /// The same while the temperature rises.
     pub heating: Result<Estimate, Absent>,
@@ -42,11 +42,11 @@ pub struct Response {
     pub cooling: Result<Estimate, Absent>,
     /// Heating less cooling.
     pub asymmetry: Result<Estimate, Absent>,
-    /// At rest at one temperature: reached from below, less reached from above \[u\].
+    /// Value at rest at one temperature, reached from below, less that reached from above \[u\].
     pub hysteresis: Result<Estimate, Absent>,
     /// Largest less least at rest over the range of temperatures \[u\].
     pub span: Result<Estimate, Absent>,
-    /// What the temperature does where it does most, beside the first row \[u\], and the instant \[s\].
+    /// Largest effect of the temperature beside the first row \[u\], and its instant \[s\].
     pub peak: Result<(Estimate, f64), Absent>,
     /// Time constants \[s\].
     pub lags: Vec<f64>,
@@ -57,7 +57,7 @@ pub struct Response {
 /// A course that is known better than this share of its range is not known so.
 const LEAST_NOISE: f64 = 1e-6;
 
-/// What a channel answers to a temperature.
+/// Response of a channel to a temperature.
 ///
 /// # Errors
 /// [`Absent`] where the temperature stands still, or nothing can be told.

@@ -1,4 +1,4 @@
-//! Where fibres stand: regular lattices, and random displacements from them.
+//! Places of fibres: regular lattices, and random displacements from them.
 
 use super::LayoutError;
 use super::layout::{reduced, shifts};

@@ -8,7 +8,7 @@ use std::ops::Range;
 /// A point of the torus in one of its copies: number and shift.
 pub(super) type Corner = (usize, [i32; 2]);
 
-/// How far cells are repeated around the one that is kept.
+/// Width over which cells are repeated around the one that is kept.
 const REACH: i32 = 2;
 /// Points are displaced by this fraction of the cell's width, all copies alike: points on a common circle, which regular lattices have,
 /// are then connected alike in all copies.

@@ -1,4 +1,4 @@
-//! Where an outline is divided: finely where a film or a ring is thin, coarsely elsewhere.
+//! Division of an outline: finely where a film or a ring is thin, coarsely elsewhere.
 
 use super::Layout;
 use super::layout::shifts;

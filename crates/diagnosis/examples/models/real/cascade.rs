@@ -5,7 +5,7 @@ use super::noise;
 use super::plant::{Acts, Facts, Kind, Moment, Place, Plant, Quantity};
 use diagnosis::{Channel, Nuisance, Parameter, Prior, Role};
 
-/// What was fed to the pump \[V\], held for a step \[s\], and the lower level \[V\].
+/// Input of the pump \[V\], held for a step \[s\], and the lower level \[V\].
 #[derive(Debug, Clone)]
 pub(crate) struct Feed {
     pub(crate) time: Vec<f64>,

@@ -14,7 +14,7 @@ pub(crate) struct Test {
 
 /// Last digit of the thermometers, as they are written \[K\].
 const DIGIT: f64 = 0.03;
-/// What a thermometer of 10 bits over 3.3 V at 10 mV/K may be off \[K\].
+/// Possible error of a thermometer of 10 bits over 3.3 V at 10 mV/K \[K\].
 const OFFSET: f64 = 0.32;
 /// Power of each heater over its setting [W/%]: the makers of the board publish 1 W and 0.75 W at 100 % (APMonitor, temperature control lab, energy balance);
 /// boards and supplies differ by a third or so.

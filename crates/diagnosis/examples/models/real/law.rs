@@ -6,23 +6,23 @@ use super::shapes::{self, Past, Rates, Shape};
 /// Weight of what textbooks begin with over that of the special forms: strong evidence on the scale of Kass and Raftery (1995) is needed against it.
 const SIMPLE: f64 = 20.0;
 
-/// What a law multiplies its shape with.
+/// Factor by which a law multiplies its shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Factor {
     One,
     /// A quantity that is nothing at 0.
     Flow(usize),
-    /// What the nominal model has at the place.
+    /// The nominal model's own flow or loss at the place.
     Own,
 }
 
-/// What a shape is made of.
+/// Argument of a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Of {
     Quantity(usize),
     /// The difference of two quantities in one unit.
     Difference(usize, usize),
-    /// What the nominal model has at the first place, over the range of the larger of the two.
+    /// The nominal model's own flow or loss at the first place, over the range of the larger of the two.
     Place(usize, usize),
 }
 
@@ -222,7 +222,7 @@ fn alike(quantities: &[Quantity], places: &[Place], at: usize) -> Vec<Law> {
     laws
 }
 
-/// What flows from another place into this one by the difference of what the two fill.
+/// Flows from another place into this one by the difference of the quantities that the two fill.
 fn exchanges(quantities: &[Quantity], places: &[Place], at: usize) -> Vec<Law> {
     let Some(own) = places[at].own.filter(|_| places[at].acts == Acts::Flow) else { return Vec::new() };
     let of = |from: usize| {

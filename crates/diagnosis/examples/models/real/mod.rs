@@ -1,5 +1,5 @@
-//! What the examples on real recordings share: a nominal model tells of its quantities and places, all small laws are offered to it, and what is
-//! composed is judged by what was held out, beside least squares and a network.
+//! Common parts of the examples on real recordings: a nominal model names its quantities and places, all small laws are offered to it, and the
+//! composed laws are judged on held-out records, beside least squares and a network.
 
 #![allow(dead_code, reason = "each example and test uses its part")]
 

@@ -105,7 +105,7 @@ impl Network {
         }
     }
 
-    /// What it gives for features.
+    /// Output of the network for features.
     pub(crate) fn of(&self, features: &[f64]) -> f64 {
         self.output.0 + self.output.1 * self.forward(&self.scaled(features)).1
     }

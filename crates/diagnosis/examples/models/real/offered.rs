@@ -148,7 +148,7 @@ impl<P: Plant> Offered<P> {
         }
     }
 
-    /// What was recorded of a test, `[channel][row]`, in a record's rows.
+    /// Recorded values of a test, `[channel][row]`, in a record's rows.
     pub(crate) fn observed(&self, record: usize, channels: &[Vec<f64>]) -> Observation {
         let Part { test, rows } = &self.parts[record];
         Observation {

@@ -1,4 +1,4 @@
-//! What a study leaves, before and after, as pictures.
+//! Residuals of a study, before and after, as pictures.
 
 use super::chart::{Chart, Line};
 use super::plant::Plant;
@@ -8,7 +8,7 @@ use diagnosis::{ForwardModel, Observation};
 /// Points of a line at most.
 const POINTS: usize = 400;
 
-/// What is left of a channel of every record, one behind another: recorded less predicted.
+/// Residual of a channel in every record, one behind another: recorded less predicted.
 type Left = Vec<Vec<f64>>;
 
 /// By the nominal model and with the laws that are borne out, of the records in the order fitted, then held out.

@@ -1,8 +1,8 @@
-//! What a nominal model tells of itself, so that small laws can be offered to it without knowing what it is.
+//! A nominal model's description of itself, so that small laws can be offered to it without further knowledge of it.
 
 use diagnosis::{Channel, Nuisance};
 
-/// What kind of number a quantity is.
+/// Kind of number that a quantity is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Kind {
     /// A level without a natural zero, such as a temperature.
@@ -33,7 +33,7 @@ pub(crate) struct Place {
     pub(crate) acts: Acts,
 }
 
-/// What acts at a place.
+/// Kind of action at a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Acts {
     /// A flow to which others add.
@@ -51,7 +51,7 @@ pub(crate) struct Moment<'a> {
     pub(crate) places: &'a mut [f64],
 }
 
-/// What a plant is made of.
+/// Parts of a plant.
 #[derive(Debug, Clone)]
 pub(crate) struct Facts {
     pub(crate) channels: Vec<Channel>,

@@ -7,7 +7,7 @@ use diagnosis::ForwardModel;
 /// ln evidence by which another law is behind and still not excluded: odds of 1 to 148, as those by which what was held out is judged.
 pub(crate) const NEAR: f64 = 5.0;
 
-/// What was composed, in words and numbers.
+/// The composed laws, in words and numbers.
 pub(crate) fn findings<P: Plant>(study: &Study<P>) -> String {
     let model = &study.model;
     let mut out = format!("{} small laws offered\n", model.laws.len());

@@ -4,7 +4,7 @@ use super::plant::Kind;
 use diagnosis::{Parameter, Prior};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// What a law makes of a quantity x, which goes from −1 to 1 or so; r is its rate, from −1 to 1 too.
+/// Function of a quantity x in a law; x runs from about −1 to 1, and so does its rate r.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Shape {
     Linear,
@@ -72,7 +72,7 @@ const OF_PHASE: [Shape; 12] = [
 ];
 const IN_PRODUCT: [Shape; 6] = [Linear, Square, Cube, Threshold, Bump, Ripple];
 const OF_TIME_IN_PRODUCT: [Shape; 2] = [Linear, Threshold];
-/// What is bounded needs no scale of its own: logistic functions are this wide in a quantity's scale.
+/// Width of logistic functions in a quantity's scale: bounded functions need no scale of their own.
 const WIDTH: f64 = 0.1;
 /// A stop does in this share of a quantity's scale what a knee does in all of it.
 const STEEP: f64 = 0.05;
@@ -231,7 +231,7 @@ impl Rates {
     }
 }
 
-/// What a law remembers within a test.
+/// Memory of a law within a test.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Past {
     states: [Option<f64>; 3],

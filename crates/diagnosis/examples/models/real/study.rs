@@ -32,14 +32,14 @@ pub(crate) struct Told {
     pub(crate) laws: Vec<Law>,
 }
 
-/// What came of it.
+/// Results of a study.
 pub(crate) struct Study<P> {
     pub(crate) model: Offered<P>,
     pub(crate) nominal: Fit,
     pub(crate) composed: Option<Composed>,
-    /// What was held out, by the nominal model and with all laws that were composed.
+    /// Predictions of the held-out records, by the nominal model and with all composed laws.
     pub(crate) proof: Option<Proof>,
-    /// Of those laws the ones that what was held out bears out, and what they predict of it.
+    /// Those of the laws that the held-out records confirm, and their predictions of these records.
     pub(crate) accepted: Option<(Fit, Proof)>,
     /// By least squares with the terms told.
     pub(crate) told: Vec<(&'static str, Proof)>,

@@ -1,17 +1,17 @@
-//! A small law as a mechanism's file, and how far records go on which its parameters depend.
+//! A small law as a mechanism's file, and the ranges of records on which its parameters depend.
 
 use std::fmt::Write as _;
 
 use mechanisms::Scene;
 
-/// How far what laws depend on goes in the records that are fitted.
+/// Ranges of the quantities that laws depend on, in the fitted records.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Ranges {
     /// Coldest and hottest \[°C\].
     pub(super) temperatures: [f64; 2],
-    /// Farthest from 20 °C \[K\].
+    /// Largest distance from 20 °C \[K\].
     pub(super) far: f64,
-    /// Fastest of the spool \[K/s\].
+    /// Largest rate of the spool \[K/s\].
     pub(super) rate: f64,
     /// Longest record \[s\].
     pub(super) duration: f64,
@@ -21,9 +21,9 @@ pub(crate) struct Ranges {
     pub(super) size: f64,
 }
 
-/// Size that is expected of an effect, in noises of a reading of a minute: what is larger is seen by eye, and what is smaller hardly at all.
+/// Size that is expected of an effect, in noises of a reading of a minute: a larger effect is seen by eye, a smaller one hardly at all.
 const EXPECTED: f64 = 30.0;
-/// What a rate is told over \[s\]: no law is seen in less.
+/// Span over which a rate is stated \[s\]: no law shows in less.
 const MINUTE_S: f64 = 60.0;
 /// Most cycles of a ripple over the range of temperatures of which fits start.
 const MOST_CYCLES: f64 = 25.0;
@@ -42,28 +42,33 @@ impl Ranges {
         }
     }
 
-    /// A time constant \[s\] of which nothing is known: as likely any between a minute and the longest record, the middle of their logarithms, and a quarter of
-    /// the way between as its standard deviation. Beside it where fits start.
+    /// An unknown time constant \[s\]: its prior has the middle between a minute and the longest record, in logarithms, and a quarter of the way between as its
+    /// standard deviation. Beside it stand the starts of fits.
     pub(super) fn memory(&self) -> Beside {
         between(MINUTE_S, self.duration)
     }
 
-    /// The same of what follows within a filter: between a minute and the middle of the former.
+    /// The same for a filter: between a minute and the middle of the former.
     pub(super) fn filter(&self) -> Beside {
         between(MINUTE_S, (MINUTE_S * self.duration).sqrt())
     }
 
-    /// From the coldest to the hottest \[K\], a kelvin at least.
+    /// Range from the coldest to the hottest \[K\], a kelvin at least.
     pub(super) fn span(&self) -> f64 {
         let [low, high] = self.temperatures;
         (high - low).max(1.0)
     }
 
-    /// Periods \[K\] that differ by a third of a cycle over the range, or somewhat more, from two cycles in it on: what lies between them a fit finds.
+    /// Periods \[K\] that differ by a third of a cycle over the range, or somewhat more, from two cycles in it on: a fit finds the periods between them.
     pub(super) fn periods(&self) -> Vec<f64> {
         const STEPS: u32 = 49;
         let step = (MOST_CYCLES - 2.0) / f64::from(STEPS);
         (0..=STEPS).map(|k| self.span() / (2.0 + step * f64::from(k))).collect()
+    }
+
+    /// Temperatures over the range, not farther apart than these kelvin, or a fiftieth of it: each sees what lies half-way to the next.
+    pub(super) fn every(&self, step: f64) -> Vec<f64> {
+        self.across((self.span() / step).ceil().clamp(1.0, 50.0) as u32)
     }
 
     /// So many temperatures evenly over the range.
@@ -94,7 +99,7 @@ pub(super) struct Form<'a> {
     pub(super) title: String,
     pub(super) known: &'static str,
     pub(super) stage: &'static str,
-    /// What the law is where the size is 1 in its unit, at most
+    /// largest value of the law at size 1 in its unit
     pub(super) per_size: f64,
     pub(super) unit: &'a str,
     pub(super) beside: Vec<Beside>,

@@ -1,4 +1,4 @@
-//! The small laws that are tried where nothing that is listed explains a record, each as a mechanism's file.
+//! The small laws that are tried where no mechanism of the library explains a record, each as a mechanism's file.
 
 mod form;
 mod of_part;

@@ -195,7 +195,7 @@ pub(super) fn forms<'a>(t: &str, ranges: &Ranges) -> Vec<Form<'a>> {
             "latent heat: ice, or a polymer that melts",
             "deg s/h/K",
             rate,
-            vec![at(), width()],
+            vec![("at", "degC", at().2, ranges.every(2.0 * TRANSITION_K)), width()],
             none(),
             "size * T_rate * exp(-((T - at) / width)^2)".into(),
         ),

@@ -1,4 +1,4 @@
-//! What was compared, how probable each is, and the evidence against each rival of what leads.
+//! The compared hypotheses with their probabilities, and the evidence against each rival of the leading one.
 
 use charts::{Cells, grid, signed, significant};
 use diagnosis::{Candidate, ForwardModel, Structure};
@@ -19,7 +19,7 @@ struct Group<'a> {
     log_weight: f64,
 }
 
-/// What a rival's hypotheses are known by.
+/// Test whether a candidate belongs to a rival's hypotheses.
 type Fits = Box<dyn Fn(&Candidate) -> bool>;
 
 impl Outcome<'_> {
@@ -162,7 +162,7 @@ impl Outcome<'_> {
     }
 }
 
-/// What was added to a candidate, and where.
+/// Structure that was added to a candidate, and its channel.
 fn structure(candidate: &Candidate) -> Option<(Structure, usize)> {
     candidate.rival.as_ref().map(|rival| (rival.structure, rival.channel))
 }

@@ -102,7 +102,7 @@ pub(super) fn panel(clock: &Clock, label: &str, least: f64, lines: f64, series: 
     Panel::lines(Axis { label: String::new(), ..clock.axis() }, Axis::round(label, least), lines, series)
 }
 
-/// Of panels over one axis of time the last alone carries its label.
+/// Labels the time axis of the last panel: panels over one axis share one label.
 pub(super) fn label_last(panels: &mut [Panel], clock: &Clock) {
     if let Some(last) = panels.last_mut() {
         last.x = Axis { covers: last.x.covers, ..clock.axis() };

@@ -40,7 +40,7 @@ impl Outcome<'_> {
         }
     }
 
-    /// What is shown of a held-out record: the nominal model and what was found, where that is another.
+    /// Predictions of a held-out record that are shown: the nominal model's, and the found model's where it is another.
     fn predictions<'a>(&self, held: &'a Held) -> Vec<(&'static str, &'a HeldOut)> {
         let found = self.found().map(|name| (name, &held.model));
         [(NOMINAL, &held.nominal)].into_iter().chain(found).collect()

@@ -17,6 +17,7 @@ use maud::{Markup, html};
 use mechanisms::{RATE, SPOOL};
 
 use super::{NOMINAL, Outcome, Record};
+use crate::compose::StandIn;
 use crate::report::provenance;
 use crate::units::DurationUnit;
 
@@ -44,11 +45,11 @@ impl Shown<'_> {
     }
 }
 
-/// What is shown for a channel.
+/// Quantity shown for a channel.
 #[derive(Clone, Copy)]
 struct Quantity {
     channel: usize,
-    /// With its unit.
+    /// Name with its unit.
     label: &'static str,
     name: &'static str,
     unit: &'static str,
@@ -151,6 +152,7 @@ impl Outcome<'_> {
         if let Some(composed) = &self.composed {
             rows.push(row("composed law", nice(&composed.text().0)));
         }
+        rows.extend(self.stand_ins.iter().filter_map(StandIn::text).map(|text| row("a law in its place", nice(&text))));
         rows.extend(self.fits.iter().map(|record| row("fitted", format!("{}, {}", record.name(), record.span()))));
         for held in &self.holdouts {
             rows.push(row("held out", format!("{}, {}", held.record.name(), held.record.span())));
@@ -202,7 +204,7 @@ fn sized(nuisance: &Nuisance) -> String {
 }
 
 impl Record {
-    /// How long and how many rows.
+    /// Duration and number of rows.
     fn span(&self) -> String {
         let time = &self.observed.time;
         let seconds = time.first().zip(time.last()).map_or(0.0, |(a, b)| b - a);

@@ -34,7 +34,7 @@ impl Outcome<'_> {
         }
     }
 
-    /// What would confirm or sharpen, where no two mechanisms are left.
+    /// Tests that would confirm or sharpen the answer, where no two mechanisms are left.
     fn nothing_to_tell_apart(&self) -> String {
         let proven = !self.holdouts.is_empty() && self.accepted();
         let names = self.names();
@@ -105,7 +105,7 @@ fn brief(odds: &Odds) -> String {
     format!("{apart} (ln odds {}, {} σ)", nice(&number(odds.log_odds)), number(odds.sigma))
 }
 
-/// What an expected separation means.
+/// Meaning of an expected separation, in words.
 fn meaning(odds: &Odds) -> String {
     let excluded = Settings::default().excluded;
     let [truth, rival] = &odds.pair;

@@ -1,4 +1,4 @@
-//! What was fitted: densities after the recording beside those before.
+//! The fitted parameters: densities after the recording beside those before.
 
 use charts::{Axis, Cells, Figure, Panel, Series, Style, grid, significant};
 use diagnosis::{Place, Posterior, Role, Verdict};
@@ -8,7 +8,7 @@ use crate::diagnose::Outcome;
 use crate::units::parameter_unit;
 
 const POINTS: usize = 400;
-/// How far a density is drawn [standard deviations].
+/// Half-width over which a density is drawn [standard deviations].
 const REACH: f64 = 5.0;
 
 impl Outcome<'_> {

@@ -1,4 +1,4 @@
-//! Where the difference is: over temperature and its rate, in time, in frequency.
+//! Place of the difference: over temperature and its rate, in time, in frequency.
 
 use bias::units::S_PER_MIN;
 use charts::{Axis, Colours, Figure, HeatMap, Height, Panel, Series, Style};

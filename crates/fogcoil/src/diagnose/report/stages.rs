@@ -1,4 +1,4 @@
-//! In which part of the chain the difference is, and whether in single layers.
+//! Stage of the chain in which the difference enters, and whether it is in single layers.
 
 use charts::{Axis, Cells, Figure, Panel, Series, Style, grid, significant};
 use diagnosis::MemberResolution;

@@ -17,10 +17,11 @@ pub(super) const CONSTANT_FIELD: Named = Named {
         bias = b r(T),   r(T) = (1 + v (T − 20 °C)) (T_s − 20 °C)/(T_s − T)\n\
         ```\n\
         \n\
-        with v and T_s as of `magneto-optic`. The constant share of it is in the record's offset, which is free.",
-    place: "The optics, beside the bias of the coil: the rate is added to.",
-    signature: "It follows the coil's temperature, 0.12 % of b a kelvin, almost linearly. A read-out that drifts and a scale factor in the Earth's rate do the same: no record of a\n\
-        unit that stands still tells them. The unit turned about its axis in the field, or put into a shield, does.",
+        with v and T_s as in `magneto-optic`. The constant part of it is in the record's offset, which is free.",
+    place: "The optics, beside the bias of the coil: the effect adds to the rate.",
+    signature: "The rate follows the coil's temperature almost linearly, by 0.12 % of b per kelvin. A read-out that drifts and a scale factor in the Earth's\n\
+        rate do the same, and no record of a unit that stands still tells them apart. A turn of the unit about its axis in the field, or a magnetic\n\
+        shield, does.",
     source: "K. Hotate and K. Tabe, *Applied Optics* 25, 1086 (1986); H. C. Lefèvre, *The Fiber-Optic Gyroscope*, 2nd ed., Artech House (2014), ch. 7.",
     meaning: "a constant magnetic field biases the rate by field_bias_deg_per_h at 20 degC, and more where the coil is warmer",
     inspection: "repeat the test in a magnetic shield, or with the unit turned in the field",

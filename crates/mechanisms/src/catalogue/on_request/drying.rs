@@ -8,17 +8,17 @@ pub(super) const DRYING: Named = Named {
     id: "drying",
     title: "A coil that dries",
     stage: Stage::Material,
-    equation: "At the first row the coil is swollen by ε throughout, across its fibre, beyond what the air around it allows. The air stays as it is, and the water leaves by Fick's\n\
-        law as of `moisture`:\n\
+    equation: "At the first row the coil is swollen by ε throughout, across its fibre, beyond the equilibrium with the air around it. The air stays as it is,\n\
+        and the water leaves by Fick's law as in `moisture`:\n\
         \n\
         ```\n\
         strain = ε Σ 8/((2n+1)²π²) exp(−(2n+1)²π²θ/4),   θ = ∫ D(T) dt / l²\n\
         ```\n\
         \n\
         with l the coil's thickness from hub to outer face. A coil that takes water up has a negative ε.",
-    place: "The material of the coil: a strain across its fibre beside that of α_r; eqs. (1) and (2) make a bias of its rate.",
-    signature: "A rate that falls with the root of time from the first row on, in the soaks too, faster where it is warm. A second run after the first has less of it: a coil that dries does\n\
-        not repeat. Stress that relaxes falls faster at the end; a heater shows in the spool's thermometer besides.",
+    place: "The material of the coil: a strain across its fibre beside that of α_r; by eqs. (1) and (2) its rate of change gives a bias.",
+    signature: "The rate falls with the root of time from the first row on, in the soaks too, and faster at higher temperature. A second run shows less of the\n\
+        effect, because a coil that dries does not repeat. Relaxing stress falls faster at the end; a heater shows in the spool's thermometer as well.",
     source: "J. Crank, *The Mathematics of Diffusion*, 2nd ed., Oxford (1975), eq. (4.18).",
     meaning: "the coil is swollen by wet_strain at the first row, and dries with diffusivity_um2_per_s at 20 degC",
     inspection: "weigh the coil before and after the test, or bake it dry and repeat",

@@ -18,9 +18,9 @@ pub(super) const MAGNETO_OPTIC: Named = Named {
         B is the record's column `field_ut` in µT, along the axis in which the coil is sensitive to it, T the coil's mean temperature. Silica's Verdet constant grows by\n\
         v = 6.9·10⁻⁵ a kelvin. The birefringence, which holds the light's polarisation, comes from thermal stress and is gone at T_s, taken as 900 °C: the\n\
         warmer the coil, the less of it.",
-    place: "The optics, beside the bias of the coil: the rate is added to.",
-    signature: "The rate follows the field at once, whatever the temperature does. A field that is turned while the chamber rests shows it alone. A field that the heaters make\n\
-        goes with the chamber's rate, and so does much else: then only the field's own course tells.",
+    place: "The optics, beside the bias of the coil: the effect adds to the rate.",
+    signature: "The rate follows the field at once, at any temperature. A field that is turned while the chamber rests shows the effect alone. The field of the\n\
+        chamber's heaters follows the chamber's rate, and so do many other effects: then only the field's own course tells them apart.",
     source: "K. Hotate and K. Tabe, *Applied Optics* 25, 1086 (1986); P. A. Williams, A. H. Rose, G. W. Day, T. E. Milner and M. N. Deeter, *Applied Optics* 30, 1176 (1991), for v; that \
              the birefringence of stress falls with temperature is textbook physics of PANDA fibres.",
     meaning: "the rate answers the recorded magnetic field by sensitivity_deg_per_h_per_ut, at 20 degC",
@@ -48,7 +48,7 @@ pub(super) const MAGNETO_OPTIC: Named = Named {
 const FIELD: &str = "field_ut";
 /// Relative change of silica's Verdet constant \[1/K\].
 const VERDET_PER_K: f64 = 0.69e-4;
-/// Where the stress that makes a fibre birefringent is gone \[°C\].
+/// Temperature at which the stress that makes a fibre birefringent is gone \[°C\].
 const SOFTENS_C: f64 = 900.0;
 
 /// Bias by a field at a temperature \[°C\], as a share of that at 20 °C.

@@ -16,10 +16,12 @@ pub(super) const MODULATOR_RESET: Named = Named {
         rate = (1 − k (T − 20 °C)) (Ω_E + bias)\n\
         ```\n\
         \n\
-        with Earth's rate Ω_E as the record's meta file says it: without it the mechanism has no place. T is the spool thermometer's, as a modulator beside the coil has it.",
+        with Earth's rate Ω_E from the record's meta file; without it the mechanism has no place. T is the reading of the spool's thermometer: the\n\
+        modulator is taken to be beside the coil.",
     place: "The closed loop of the read-out, after the coil.",
-    signature: "That of a scale factor that changes with temperature, of which it is one kind: records of a unit that stands still tell it neither from that nor from a read-out that\n\
-        drifts. On a rate table its error changes with the rate, where resets become as frequent as the loop; a second loop that holds the reset at 2π takes it away.",
+    signature: "The effect is one kind of a scale factor that changes with temperature. Records of a unit that stands still tell it apart neither from that\n\
+        nor from a read-out that drifts. On a rate table its error changes with the rate, where resets become as frequent as the cycles of the loop. A\n\
+        second loop that holds the reset at 2π removes it.",
     source: "H. C. Lefèvre, *The Fiber-Optic Gyroscope*, 2nd ed., Artech House (2014), on closed-loop operation with a digital phase ramp.",
     meaning: "the modulator's voltage for 2 pi changes by reset_ppm_per_k, and Earth's rate is read by so much less",
     inspection: "log the loop's 2 pi voltage, or warm the modulator alone at a known rate",

@@ -11,7 +11,7 @@ pub(super) const MOISTURE: Named = Named {
     id: "moisture",
     title: "A coil that swells with the recorded humidity",
     stage: Stage::Material,
-    equation: "Water diffuses into the coil from its outer face; hub and flanges let none pass. Its share c of what the coil holds at saturation goes by Fick's law,\n\
+    equation: "Water diffuses into the coil from its outer face; hub and flanges let none pass. Its concentration c, relative to saturation, follows Fick's law,\n\
         \n\
         ```\n\
         ∂c/∂t = D(T) ∂²c/∂x²,   c = φ/100 % at the outer face,   ∂c/∂x = 0 at the hub,   D(T) = D exp(E/R (1/293.15 K − 1/T))\n\
@@ -19,9 +19,10 @@ pub(super) const MOISTURE: Named = Named {
         \n\
         with φ the record's column `humidity_percent`, E = 40 kJ/mol and T the coil's mean temperature. The coil swells across its fibre by β c̄, c̄ the mean of c: as α_r ΔT would\n\
         widen it, but alone. It strains the coil where the spool holds it. At the first row c is that of the humidity throughout.",
-    place: "The material of the coil: a strain across its fibre beside that of α_r; eqs. (1) and (2) make a bias of its rate.",
-    signature: "The rate answers a step of the humidity at once and then falls with the root of time, for hours or for weeks, in the direction of the step, whatever the chamber does. A\n\
-        humidity that follows the chamber's temperature goes with much else; one that is stepped at a steady temperature tells.",
+    place: "The material of the coil: a strain across its fibre beside that of α_r; by eqs. (1) and (2) its rate of change gives a bias.",
+    signature: "The rate answers a step of the humidity at once, in the direction of the step, and then falls with the root of time, for hours or for weeks,\n\
+        whatever the chamber does. Many other effects follow a humidity that follows the chamber's temperature; a step of the humidity at a steady\n\
+        temperature tells them apart.",
     source: "J. Crank, *The Mathematics of Diffusion*, 2nd ed., Oxford (1975), ch. 4; that the diffusivity of water in polymers goes by Arrhenius' law is textbook physics.",
     meaning: "the coil takes up and gives off water with diffusivity_um2_per_s at 20 degC, and swells by swelling at saturation",
     inspection: "step the humidity at a steady temperature, or weigh the coil",
@@ -63,7 +64,7 @@ pub(super) fn offered(design: &Design) -> bool {
     design.mechanics == Mechanics::Elastic
 }
 
-/// What a coil does whose outer face swells as `surface` says, a strain for each row, from an even strain at the first.
+/// Response of a coil whose outer face swells by `surface`, a strain for each row, from an even strain at the first.
 pub(super) fn swollen(chain: &Chain, record: &Prepared, diffusivity: f64, surface: &[f64], first: f64) -> Change {
     let design = chain.library().design();
     let sheet = Sheet {

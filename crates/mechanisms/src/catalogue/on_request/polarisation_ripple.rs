@@ -10,18 +10,19 @@ pub(super) const POLARISATION_RIPPLE: Named = Named {
     id: "polarisation-ripple",
     title: "Two polarisation paths that interfere",
     stage: Stage::Optics,
-    equation: "Light that crosses to the other polarisation and back interferes with that which does not. The delay between the two paths grows with the\n\
+    equation: "Light that crosses to the other polarisation and back interferes with light that does not. The delay between the two paths grows with the\n\
         temperature T of the coil, by a fringe every P:\n\
         \n\
         ```\n\
         bias = γ (a sin 2π(T − 20 °C)/P + b cos 2π(T − 20 °C)/P),   γ = exp(−(π m/N)² / (4 ln 2)),   m = (T − T_0)/P\n\
         ```\n\
         \n\
-        T is the spool thermometer's. At T_0 the delays are equal. N = λ/Δλ is the coherence of a source whose spectrum is a normal curve with the full width Δλ at half\n\
+        T is the reading of the spool's thermometer. At T_0 the delays are equal. N = λ/Δλ is the coherence of a source whose spectrum is a normal curve with the full width Δλ at half\n\
         its height: so many fringes from T_0 the paths no longer interfere.",
-    place: "The optics, beside the bias of the coil: the rate is added to.",
-    signature: "The rate waves with the temperature itself, alike on the way up and on the way down, and fades away from one temperature. A slow ramp shows several waves;\n\
-        a fast one shows them in less time. Whatever else is periodic in the temperature, such as reflections between two faces, looks the same.",
+    place: "The optics, beside the bias of the coil: the effect adds to the rate.",
+    signature: "The rate is periodic in the temperature itself, alike on the way up and on the way down, and its amplitude decreases away from one temperature.\n\
+        A slow ramp shows several periods; a fast ramp shows them in less time. Any other effect that is periodic in the temperature, such as\n\
+        reflections between two faces, has the same signature.",
     source: "H. C. Lefèvre, *The Fiber-Optic Gyroscope*, 2nd ed., Artech House (2014), ch. 5; the coherence of a normal spectrum is textbook optics.",
     meaning: "two polarisation paths interfere: a ripple in the spool's temperature with period_k, largest at centre_c, gone some coherence_fringes from it",
     inspection: "repeat the test with a depolariser in the coil, or with a source of another width",
@@ -75,7 +76,7 @@ fn wave([a, b]: [f64; 2], fringes: f64) -> f64 {
     a * sine + b * cosine
 }
 
-/// How far paths interfere that are so many fringes apart.
+/// Degree of interference of paths that are so many fringes apart.
 fn visibility(fringes: f64, coherence: f64) -> f64 {
     (-(PI * fringes / coherence).powi(2) / (4.0 * LN_2)).exp()
 }

@@ -15,10 +15,10 @@ pub(super) const RACKET: Named = Named {
         E_r, G → exp(−b (T − 20 °C)) E_r, G\n\
         ```\n\
         \n\
-        with the incremental law of `glass-transition`. The coil holds its sensitivity at 20 °C.",
+        with the incremental law of `glass-transition`. At 20 °C the sensitivity is that of the design.",
     place: "The material of the coil: `mechanics: TemperatureTable(...)`.",
-    signature: "The same ramp gives another bias at one end of the range than at the other, alike on the way up and on the way down and in every run. A glass transition changes it\n\
-        about one temperature, this everywhere. The other reading of the name, `ratcheting`, shows once and not again.",
+    signature: "The same ramp gives another bias at one end of the range than at the other, alike on the way up and on the way down and in every run. A glass\n\
+        transition changes the bias about one temperature, this mechanism everywhere. The other reading of the name, `ratcheting`, shows once only.",
     source: "The paper names a racket effect without a source; that the moduli of polymers fall with temperature is in J. D. Ferry, *Viscoelastic Properties of Polymers*, 3rd ed., Wiley (1980), ch. 11.",
     meaning: "the transverse stiffness falls by softening_per_k with the coil's temperature",
     inspection: "measure the adhesive's storage modulus against temperature (DMA)",

@@ -8,7 +8,8 @@ pub(super) const RATCHETING: Named = Named {
     id: "ratcheting",
     title: "The racket effect, read as a ratchet",
     stage: Stage::Bond,
-    equation: "The spool's grip of the coil slips where the coil is warmer, or colder, than it ever was, and holds within that range: the range grows with what is reached,\n\
+    equation: "The spool's grip of the coil slips where the coil is warmer, or colder, than ever before, and holds within that range. The range grows with the\n\
+        temperatures that are reached:\n\
         \n\
         ```\n\
         elasto-optic parts → (1 − s) of them   while T > T_high or T < T_low,   T_high, T_low = the highest and the lowest T so far\n\
@@ -16,8 +17,8 @@ pub(super) const RATCHETING: Named = Named {
         \n\
         T is the coil's mean temperature. At the first row the range reaches `before_k` to either side of it.",
     place: "The bond of coil and spool; a coil file has no key for it.",
-    signature: "The first cycle differs from all later ones: the sensitivity is smaller while new temperatures are reached, and as designed on the way back and in a second cycle. A bond that\n\
-        opens does so in every cycle.",
+    signature: "The first cycle differs from all later ones. The sensitivity is smaller while new temperatures are reached, and as designed on the way back and\n\
+        in a second cycle. A bond that opens in the cold does so in every cycle.",
     source: "The paper names a racket effect without a source; slip that stops once a range has been passed is shakedown: K. L. Johnson, *Contact Mechanics*, Cambridge (1985), ch. 7 and 9.",
     meaning: "the coil slips on its spool by slipping_fraction of its strain where it goes beyond all temperatures before; those were before_k about the first row",
     inspection: "repeat the same cycle: the second one has none of it",

@@ -10,17 +10,19 @@ pub(super) const SCALE_FACTOR_DRIFT: Named = Named {
     id: "scale-factor-drift",
     title: "A scale factor that changes with temperature",
     stage: Stage::Electronics,
-    equation: "The gyroscope reads (1 + k (T − 20 °C)) of what it turns with, Earth's rate and its own bias:\n\
+    equation: "The gyroscope reads the factor 1 + k (T − 20 °C) of its rate, which is Earth's rate and its own bias:\n\
         \n\
         ```\n\
         rate = (1 + k (T − 20 °C)) (Ω_E + bias)\n\
         ```\n\
         \n\
-        T is the spool thermometer's, Ω_E what the record's meta file says of Earth's rate: without it the mechanism has no place. The scale factor goes with 1/λ and with the\n\
-        coil's area; the wavelength of a semiconductor source moves by hundreds of ppm a kelvin, that of an erbium source by some.",
+        T is the reading of the spool's thermometer, Ω_E Earth's rate from the record's meta file; without it the mechanism has no place. The scale\n\
+        factor is in proportion to 1/λ and to the coil's area. The wavelength of a semiconductor source changes by hundreds of ppm per kelvin, that of\n\
+        an erbium source by a few.",
     place: "The read-out, after the coil.",
-    signature: "It follows the temperature in the soaks, in proportion to Earth's rate: a read-out that drifts, a constant field and a modulator's reset do the same while the unit stands\n\
-        still. A unit turned over has the opposite sign of it, and the same sign of a drifting read-out; a rate table shows it at once.",
+    signature: "The rate follows the temperature in the soaks, in proportion to Earth's rate. A read-out that drifts, a constant field and a modulator's reset\n\
+        do the same while the unit stands still. When the unit is turned over, the effect changes its sign, and a drifting read-out does not. A rate\n\
+        table shows the effect at once.",
     source: "H. C. Lefèvre, *The Fiber-Optic Gyroscope*, 2nd ed., Artech House (2014); IEEE Std 952, *Specification Format Guide and Test Procedure for Single-Axis Interferometric Fiber Optic Gyros*.",
     meaning: "the scale factor changes by scale_ppm_per_k with the spool's temperature, and Earth's rate with it",
     inspection: "repeat the test with the unit turned over, or on a rate table",

@@ -9,8 +9,8 @@ pub(super) const STRESS_FREE_TEMPERATURE: Named = Named {
     id: "stress-free-temperature",
     title: "A coil that is not yet free of the stress of its cure",
     stage: Stage::Material,
-    equation: "The transverse moduli relax as of `viscoelastic-relaxation`, E(t)/E_0 = 1 − g + g e^{−t/τ}, but the coil does not begin at rest: the stress that relaxes is at the first row\n\
-        that of a coil which is free of it at T_f,\n\
+    equation: "The transverse moduli relax as in `viscoelastic-relaxation`, E(t)/E_0 = 1 − g + g e^{−t/τ}, but the coil does not begin at rest: at the first\n\
+        row the relaxing stress is that of a coil which is free of stress at T_f,\n\
         \n\
         ```\n\
         σ_relaxing(0) = g D (α(T_f) − α(T(0))),   dσ_relaxing/dt = −σ_relaxing/τ + g D (dε/dt − α dT/dt)\n\
@@ -18,8 +18,8 @@ pub(super) const STRESS_FREE_TEMPERATURE: Named = Named {
         \n\
         T_f is the temperature of the cure right after it, and the coil's own after a long rest.",
     place: "The material of the coil: `mechanics: Relaxing(...)`, with a stress at the start that a coil file does not hold.",
-    signature: "A rate that decays over τ from the first row on even if the chamber rests, in proportion to how far T_f is from where the unit was stored; then that of a coil whose moduli\n\
-        relax. A run after a long rest has the second alone.",
+    signature: "The rate decays over τ from the first row on, even if the chamber rests, in proportion to the distance of T_f from the temperature of storage.\n\
+        Then it is the rate of a coil whose moduli relax. A run after a long rest has the second part alone.",
     source: "J. D. Ferry, *Viscoelastic Properties of Polymers*, 3rd ed., Wiley (1980), ch. 1 to 3; S. P. Timoshenko and J. N. Goodier, *Theory of Elasticity*, 3rd ed., McGraw-Hill (1970), ch. 13, for thermal stress.",
     meaning: "a stored_fraction of the transverse stiffness relaxes with stored_tau_s; at the first row its stress is that of a coil which is free of it at stress_free_c",
     inspection: "repeat the test after a week at rest, or anneal the coil",
