@@ -8,7 +8,7 @@ const BANNED: [&str; 13] = [
     "http://", "https://", "<script ", "<link", "<img", "url(", "@import", "javascript:", "onclick", "NaN", ">inf", "inf ", "\"inf",
 ];
 /// Elements without an end.
-const VOID: [&str; 2] = ["meta", "br"];
+const VOID: [&str; 3] = ["meta", "br", "input"];
 const ENTITIES: [&str; 4] = ["amp;", "lt;", "gt;", "quot;"];
 
 /// Everything that is wrong with a page; nothing if it is whole.

@@ -21,210 +21,202 @@ const hand = root => {
   };
   const numbers = text => text.split(' ').map(Number);
   const sign = text => text.replace(/-/g, '\u2212');
-  // along an axis, logarithms where it is logarithmic
+  const fixed = (value, digits) => sign(value.toFixed(digits).replace(/^-(0(\.0*)?)$/, '$1'));
   const scale = (range, from, to) => value => from + (value - range[0]) / (range[1] - range[0]) * (to - from);
+  // the value of a line at a place, as it is drawn; none farther than `slack` beyond its ends
+  const on = (points, at, slack) => {
+    const place = Math.min(Math.max(at, points[0][0]), points[points.length - 1][0]);
+    if (Math.abs(place - at) > slack) return undefined;
+    const n = points.findIndex(([x]) => x >= place);
+    if (!n) return points[0][1];
+    const [[a, v], [b, w]] = [points[n - 1], points[n]];
+    return v + (w - v) * (place - a) / (b - a);
+  };
 
-  // round numbers between two, at most so many, with their labels
+  // round numbers between two ends of an axis, some `most` of them, with their labels; logarithms along a logarithmic axis
   const ticks = (axis, range, most) => {
-    const to = v => axis.to(v), back = v => axis.back(v);
-    const [low, high] = range.map(to);
-    if (axis.log && high - low > 1.5) {
-      const step = Math.ceil((high - low) / most), first = Math.ceil(low / step) * step;
-      return Array.from({ length: Math.floor((high - first) / step) + 1 }, (_, n) => first + n * step).map(p => [back(p), sign(Number(10 ** p).toPrecision(1).replace(/e\+?/, ' E'))]);
+    const [low, high] = range.map(axis.to);
+    const power = p => '10' + String(p).replace(/./g, c => '⁻⁰¹²³⁴⁵⁶⁷⁸⁹'['-0123456789'.indexOf(c)]);
+    const multiples = (step, from, to) => Array.from({ length: Math.floor(to / step + 1e-9) - Math.ceil(from / step - 1e-9) + 1 }, (_, n) => (Math.ceil(from / step - 1e-9) + n) * step);
+    if (axis.log && high - low > 0.7) {
+      const factors = high - low > 2.5 ? [1] : [1, 2, 5];
+      return multiples(Math.ceil((high - low) / most), Math.floor(low), high).flatMap(p => factors.map(f => [p + Math.log10(f), Math.abs(p) > 3 ? (f > 1 ? f + ' · ' : '') + power(p) : String(Number((f * 10 ** p).toPrecision(1)))]))
+        .filter(([v]) => v >= low && v <= high);
     }
     const [a, b] = axis.log ? [10 ** low, 10 ** high] : [low, high];
-    const raw = (b - a) / most, power = 10 ** Math.floor(Math.log10(raw));
-    const step = [1, 2, 5, 10].find(n => n * power >= raw * (1 - 1e-9)) * power;
+    const raw = (b - a) / most, decade = 10 ** Math.floor(Math.log10(raw));
+    const step = [1, 2, 5, 10].find(n => n * decade >= raw * (1 - 1e-9)) * decade;
     const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-    const first = Math.ceil(a / step - 1e-9);
-    return Array.from({ length: Math.max(0, Math.floor(b / step - first + 1e-9) + 1) }, (_, n) => (first + n) * step)
-      .map(v => [back(axis.log ? Math.log10(v) : v), sign(digits > 8 ? v.toExponential(2) : v.toFixed(digits).replace(/^-(0(\.0*)?)$/, '$1'))]);
+    return multiples(step, a, b).map(v => [axis.back(axis.log ? Math.log10(v) : v), digits > 8 ? sign(v.toExponential(2)) : fixed(v, digits)]);
   };
 
   // one drawing of a panel
   const drawn = plot => {
-    const [width, height] = numbers(plot.dataset.plot);
+    const [width, height] = numbers(plot.dataset.plot), [x, y] = [plot.dataset.x, plot.dataset.y].map(numbers);
+    const right = scale([0, width], x[0], x[1]), up = scale([height, 0], y[0], y[1]);
     const lines = [...plot.querySelectorAll('[data-name]')].map(group => {
-      const path = group.querySelector('path.line');
-      const marks = [...group.children].filter(mark => mark !== path).map(mark => ({ mark }));
-      const points = path ? (path.getAttribute('d').match(/[-.\d]+ [-.\d]+/g) || []).map(numbers) : [];
-      // a line that turns back has no one value at a place
-      const rises = points.length > 1 && points.every(([x], n) => !n || x >= points[n - 1][0]);
-      return { group, path, marks, points, rises };
+      const path = group.querySelector('path.line'), own = path ? path.getAttribute('d') : group.dataset.points;
+      const pixels = (own.match(/[-.\d]+ [-.\d]+/g) || []).map(numbers);
+      const points = pixels.map(([a, b]) => [right(a), up(b)]);
+      const marks = [...group.children].filter(mark => mark !== path);
+      // a line that turns back has no one value at a place, and a guide none of its own
+      const read = path && !path.classList.contains('guide') && points.length > 1 && points.every(([a], n) => !n || a >= points[n - 1][0]);
+      return { group, name: group.dataset.name, path, own, pixels, points, marks, read };
     });
-    const texts = [...plot.children].filter(child => child.tagName === 'text');
-    const font = parseFloat(plot.ownerSVGElement.getAttribute('font-size'));
-    const is = { y: t => t.getAttribute('text-anchor') === 'end', x: t => t.getAttribute('text-anchor') === 'middle' && +t.getAttribute('y') < height + 2 * font };
-    const label = { x: texts.find(t => !is.x(t) && !is.y(t)), y: plot.previousElementSibling };
-    // what is drawn stays between the axes
-    const window = svg('svg', { width, height, overflow: 'hidden' });
+    const texts = [...plot.children].filter(child => child.tagName === 'text'), font = parseFloat(plot.ownerSVGElement.getAttribute('font-size'));
+    const ticks = texts.filter(t => t.getAttribute('text-anchor') === 'end' || +t.getAttribute('y') < height + 2 * font);
+    const labels = { x: texts.find(t => !ticks.includes(t)), y: plot.previousElementSibling };
+    // lines stay between the axes, and a hand is felt there
+    const window = svg('svg', { width, height, overflow: 'hidden' }), cursor = svg('path', { class: 'cursor' }), touch = svg('rect', { class: 'touch', width, height });
     lines[0].group.before(window);
     window.append(...lines.map(line => line.group));
-    const cursor = svg('path', { class: 'cursor', d: '' });
-    plot.append(cursor);
-    return { plot, width, height, lines, texts, is, label, font, cursor, grid: plot.querySelector('.grid'), axis: plot.querySelector('.axis') };
+    plot.append(cursor, touch);
+    const [grid, axis] = ['grid', 'axis'].map(name => { const path = plot.querySelector('.' + name); return { path, own: path.getAttribute('d') }; });
+    return { plot, width, height, x, y, lines, ticks, shown: ticks, labels, font, cursor, touch, grid, axis };
   };
 
-  const figure = (frame, number) => {
-    const drawings = [...frame.querySelectorAll('svg.plot')].map(s => [...s.querySelectorAll('g[data-x]')].map(drawn));
-    const first = drawings[0];
-    if (!first || !first.length) return;
-    const axis = (text, label) => {
-      const [low, high, log] = numbers(text), unit = (/\[([^\]]+)\]\s*$/.exec(label || '') || [])[1];
-      const group = log ? undefined : UNITS.find(group => group[unit]);
-      const [factor, offset = 0] = group ? group[unit] : [1];
-      const made = { whole: [low, high], log, unit, units: group ? Object.keys(group) : [], shown: unit };
-      // between the figure's own unit and the one that is shown
-      const conversion = () => (group ? group[made.shown] : [1]);
-      made.to = v => { const [f, o = 0] = conversion(); return group ? (v * factor + offset - o) / f : v; };
-      made.back = v => { const [f, o = 0] = conversion(); return group ? (v * f + o - offset) / factor : v; };
-      return made;
-    };
-    const said = (panel, of) => (panel.label[of] ? panel.label[of].textContent : '');
-    // of panels under one another the last alone names their axis
-    const below = n => first.slice(n).map(panel => said(panel, 'x')).find(text => text) || '';
-    const panels = first.map((panel, n) => ({ x: axis(panel.plot.dataset.x, below(n)), y: axis(panel.plot.dataset.y, said(panel, 'y')) }));
-    const names = [...new Set(first.flatMap(panel => panel.lines.map(line => line.group.dataset.name)).filter(name => name))];
-    const hidden = new Set();
-    const whole = panels[0].x.whole, together = panels.every(panel => panel.x.whole.join() === whole.join());
-    let view = whole, at = null;
+  // its unit changes with its label alone
+  const axis = (label, log, labelled) => {
+    const unit = (/\[([^\]]+)\]\s*$/.exec(label) || [])[1];
+    // kelvins are differences, which have no zero to shift
+    const group = log || !labelled || unit === 'K' ? undefined : UNITS.find(group => group[unit]);
+    const made = { log, unit, shown: unit, units: group ? Object.keys(group) : [] };
+    const [factor, offset = 0] = group ? group[unit] : [1];
+    made.to = v => { const [f, o = 0] = group ? group[made.shown] : [1]; return group ? (v * factor + offset - o) / f : v; };
+    made.back = v => { const [f, o = 0] = group ? group[made.shown] : [1]; return group ? (v * f + o - offset) / factor : v; };
+    return made;
+  };
 
-    const value = (range, of, size, pixel) => (of === 'x' ? scale([0, size], range[0], range[1])(pixel) : scale([size, 0], range[0], range[1])(pixel));
-    // the height of what is seen
-    const seen = (n, panel) => {
-      const y = panels[n].y;
-      if (view === whole) return y.whole;
-      const inside = panel.lines.filter(line => !hidden.has(line.group.dataset.name)).flatMap(line => line.points)
-        .filter(([px]) => { const v = value(whole, 'x', panel.width, px); return v >= view[0] && v <= view[1]; })
-        .map(([, py]) => value(y.whole, 'y', panel.height, py));
-      if (!inside.length) return y.whole;
+  // tools for panels that share an abscissa: of each drawing the same
+  const tools = (drawings, alone) => {
+    const first = drawings[0], along = first[0].plot.dataset.along, labelled = first.some(panel => panel.labels.x);
+    const axes = first.map(panel => ({ x: axis(along, panel.x[2], labelled), y: axis(panel.labels.y.textContent, panel.y[2], true) }));
+    const bare = label => label.replace(/\s*\[[^\]]+\]\s*$/, '');
+    const whole = first[0].x, names = [...new Set(first.flatMap(panel => panel.lines.map(line => line.name)).filter(name => name))];
+    const hidden = new Set(), slack = (whole[1] - whole[0]) / first[0].width;
+    const visible = panel => panel.lines.filter(line => !hidden.has(line.name));
+    // the stretch that is seen if not all is, the place that is read, and where a stretch begins
+    let view = null, at = null, held = null;
+
+    const heights = panel => {
+      const inside = view ? visible(panel).flatMap(({ points, read }) => points.filter(([a]) => a >= view[0] && a <= view[1]).map(([, b]) => b)
+        .concat(read ? view.map(end => on(points, end, 0)).filter(b => b !== undefined) : [])) : [];
+      if (!inside.length) return panel.y;
       const low = inside.reduce((a, b) => Math.min(a, b)), high = inside.reduce((a, b) => Math.max(a, b));
-      const margin = Math.max((high - low) * 0.05, (y.whole[1] - y.whole[0]) * 1e-3);
+      const margin = Math.max((high - low) * 0.05, (panel.y[1] - panel.y[0]) * 1e-3);
       return [low - margin, high + margin];
     };
-    const relabel = (panel, of, axis, range, pixel) => {
-      panel.texts.filter(panel.is[of]).forEach(t => t.remove());
-      const most = of === 'x' ? panel.width / (6 * panel.font) : panel.height / (3 * panel.font);
-      const made = ticks(axis, range, Math.max(2, most)).map(([v, text]) => {
-        const p = pixel(v);
-        const place = of === 'x' ? { x: p.toFixed(1), y: (panel.height + 1.4 * panel.font).toFixed(1), 'text-anchor': 'middle' }
-          : { x: (-0.5 * panel.font).toFixed(1), y: (p + 0.35 * panel.font).toFixed(1), 'text-anchor': 'end' };
-        const t = svg('text', place);
-        t.textContent = text;
-        panel.plot.append(t);
-        return [t, p];
-      });
-      panel.texts = panel.texts.filter(t => !panel.is[of](t)).concat(made.map(([t]) => t));
-      return made.map(([, p]) => (of === 'x' ? `M${p.toFixed(1)} 0V${panel.height}` : `M0 ${p.toFixed(1)}H${panel.width}`)).join('');
-    };
-    const draw = () => drawings.forEach(drawing => drawing.forEach((panel, n) => {
-      const { x, y } = panels[n], high = seen(n, first[n]);
-      const across = scale(view, 0, panel.width), up = scale(high, panel.height, 0);
-      const moved = ([px, py]) => [across(value(whole, 'x', panel.width, px)), up(value(y.whole, 'y', panel.height, py))];
-      panel.lines.forEach(line => {
-        line.group.style.display = hidden.has(line.group.dataset.name) ? 'none' : '';
-        if (line.path) line.path.setAttribute('d', line.points.map((p, k) => (k ? 'L' : 'M') + moved(p).map(v => v.toFixed(1)).join(' ')).join(''));
-        line.marks.forEach(mark => {
-          if (!mark.at) { const box = mark.mark.getBBox(); mark.at = [box.x + box.width / 2, box.y + box.height / 2]; }
-          const [a, b] = moved(mark.at);
-          mark.mark.setAttribute('transform', `translate(${(a - mark.at[0]).toFixed(1)} ${(b - mark.at[1]).toFixed(1)})`);
+    const mark = () => drawings.flat().forEach(panel => {
+      const range = view || panel.x, places = [at, held].filter(v => v !== null && v >= range[0] && v <= range[1]);
+      panel.cursor.setAttribute('d', places.map(v => `M${scale(range, 0, panel.width)(v).toFixed(1)} 0V${panel.height}`).join(''));
+    });
+    const draw = () => {
+      drawings.forEach(panels => panels.forEach((panel, n) => {
+        const { x, y } = axes[n], { width, height, font } = panel, across = view || panel.x, high = heights(panel);
+        const right = scale(across, 0, width), up = scale(high, height, 0), place = ([a, b]) => [right(a), up(b)];
+        panel.lines.forEach(line => {
+          line.group.style.display = hidden.has(line.name) ? 'none' : '';
+          if (line.path) line.path.setAttribute('d', view ? line.points.map((p, k) => (k ? 'L' : 'M') + place(p).map(v => v.toFixed(1)).join(' ')).join('') : line.own);
+          line.marks.forEach((mark, k) => mark.setAttribute('transform', `translate(${place(line.points[k]).map((v, of) => (v - line.pixels[k][of]).toFixed(1)).join(' ')})`));
         });
-      });
-      const named = panel.texts.some(panel.is.x);
-      const grid = (named ? relabel(panel, 'x', x, view, across) : '') + relabel(panel, 'y', y, high, up);
-      if (panel.grid) panel.grid.setAttribute('d', grid);
-      if (panel.axis) panel.axis.setAttribute('d', `M0 0V${panel.height}H${panel.width}` + (high[0] < 0 && high[1] > 0 && !y.log ? `M0 ${up(0).toFixed(1)}H${panel.width}` : ''));
-      for (const [of, axis] of [['x', x], ['y', y]]) {
-        if (panel.label[of] && axis.shown) panel.label[of].textContent = panel.label[of].textContent.replace(/\[[^\]]+\](\s*)$/, `[${axis.shown}]$1`);
-      }
-      panel.cursor.setAttribute('d', at === null || at < view[0] || at > view[1] ? '' : `M${across(at).toFixed(1)} 0V${panel.height}`);
-    }));
+        panel.shown.forEach(t => t.remove());
+        const named = panel.ticks.some(t => t.getAttribute('text-anchor') !== 'end');
+        const texts = (axis, range, most, attributes) => ticks(axis, range, Math.max(2, most)).map(([v, text]) => Object.assign(svg('text', attributes(v)), { textContent: text }));
+        const own = !view && x.shown === x.unit && y.shown === y.unit, middle = 0.35 * font;
+        panel.shown = own ? panel.ticks : [
+          ...named ? texts(x, across, width / (6 * font), v => ({ x: right(v).toFixed(1), y: (height + 1.4 * font).toFixed(1), 'text-anchor': 'middle' })) : [],
+          ...texts(y, high, height / (3 * font), v => ({ x: (-0.5 * font).toFixed(1), y: (up(v) + middle).toFixed(1), 'text-anchor': 'end' })),
+        ];
+        panel.plot.append(...panel.shown);
+        panel.grid.path.setAttribute('d', own ? panel.grid.own : panel.shown.map(t => (t.getAttribute('text-anchor') === 'end' ? `M0 ${(t.getAttribute('y') - middle).toFixed(1)}H${width}` : `M${t.getAttribute('x')} 0V${height}`)).join(''));
+        panel.axis.path.setAttribute('d', own ? panel.axis.own : `M0 0V${height}H${width}` + (high[0] < 0 && high[1] > 0 && !y.log ? `M0 ${up(0).toFixed(1)}H${width}` : ''));
+        for (const [of, axis] of [['x', x], ['y', y]]) {
+          if (panel.labels[of] && axis.shown) panel.labels[of].textContent = panel.labels[of].textContent.replace(/\[[^\]]+\](\s*)$/, `[${axis.shown}]$1`);
+        }
+      }));
+      mark();
+      read();
+    };
 
     const readout = element('output', { className: 'readout' });
-    // to what a tenth of a pixel is worth, as finely as the lines are drawn
-    const worded = (axis, v, size) => {
-      if (axis.log) return sign(String(Number((10 ** v).toPrecision(3))));
-      const worth = Math.abs(axis.to(axis.whole[1]) - axis.to(axis.whole[0])) / size / 10;
-      return sign(axis.to(v).toFixed(Math.min(12, Math.max(0, Math.ceil(-Math.log10(worth))))).replace(/^-(0(\.0*)?)$/, '$1'));
+    // to a tenth of a pixel, as finely as lines are drawn
+    const worded = (axis, v, range, size) => {
+      const worth = Math.abs(axis.to(range[1]) - axis.to(range[0])) / size / 10, unit = axis.shown ? ' ' + axis.shown : '';
+      return (axis.log ? sign(String(Number((10 ** v).toPrecision(3)))) : fixed(axis.to(v), Math.min(12, Math.max(0, Math.ceil(-Math.log10(worth)))))) + unit;
     };
     const read = () => {
       if (at === null) return;
-      const { x } = panels[0];
-      const parts = first.flatMap((panel, n) => panel.lines.filter(line => line.rises && !hidden.has(line.group.dataset.name)).map(line => {
-        const pixel = scale(whole, 0, panel.width)(at);
-        const near = line.points.reduce((best, p) => (Math.abs(p[0] - pixel) < Math.abs(best[0] - pixel) ? p : best));
-        const { y } = panels[n], called = line.group.dataset.name || said(panel, 'y').replace(/\s*\[[^\]]+\]\s*$/, '');
-        return `${called} ${worded(y, value(y.whole, 'y', panel.height, near[1]), panel.height)}${y.shown ? ' ' + y.shown : ''}`;
+      const values = first.flatMap((panel, n) => visible(panel).filter(line => line.read).map(line => {
+        const value = on(line.points, at, slack), name = line.name || bare(panel.labels.y.textContent);
+        return [name + ' ', value === undefined ? '–' : worded(axes[n].y, value, panel.y, panel.height)];
       }));
-      readout.textContent = `${worded(x, at, first[0].width)}${x.shown ? ' ' + x.shown : ''}: ${parts.join('; ')}`;
+      readout.replaceChildren(worded(axes[0].x, at, whole, first[0].width) + ': ', ...values.flatMap(([name, text], n) => [n ? '; ' : '', name, element('b', { textContent: text })]));
     };
     const point = v => {
-      at = Math.min(view[1], Math.max(view[0], v));
-      slider.value = String(Math.round(scale(view, 0, 1000)(at)));
-      draw();
+      const range = view || whole;
+      at = Math.min(range[1], Math.max(range[0], v));
+      slider.value = String(Math.round(scale(range, 0, 1000)(at)));
+      mark();
       read();
     };
-    const zoom = range => {
+    const zoom = ([a, b]) => {
       const least = (whole[1] - whole[0]) / 500;
-      let [a, b] = range;
       if (b - a < least) [a, b] = [(a + b - least) / 2, (a + b + least) / 2];
-      a = Math.max(a, whole[0]);
-      b = Math.min(b, whole[1]);
-      view = a <= whole[0] && b >= whole[1] ? whole : [a, b];
+      view = a <= whole[0] && b >= whole[1] ? null : [Math.max(a, whole[0]), Math.min(b, whole[1])];
       draw();
-      read();
     };
     const about = factor => {
-      const middle = at === null ? (view[0] + view[1]) / 2 : at;
-      zoom([middle - (middle - view[0]) * factor, middle + (view[1] - middle) * factor]);
+      const range = view || whole, middle = at === null ? (range[0] + range[1]) / 2 : at;
+      zoom(range.map(end => middle + (end - middle) * factor));
     };
 
-    const slider = element('input', { type: 'range', min: '0', max: '1000', value: '0' });
-    slider.setAttribute('aria-label', 'Place along the abscissa');
-    slider.addEventListener('input', () => point(scale([0, 1000], view[0], view[1])(+slider.value)));
+    const bar = element('div', { className: 'hand' }, ...alone ? [] : [bare(along) + ':']);
     const button = (text, act) => {
       const made = element('button', { type: 'button', textContent: text });
       made.addEventListener('click', act);
       return made;
     };
-    const tools = element('div', { className: 'hand' });
     names.length > 1 && names.forEach(name => {
       const box = element('input', { type: 'checkbox', checked: true });
-      box.addEventListener('change', () => { hidden[box.checked ? 'delete' : 'add'](name); draw(); read(); });
-      tools.append(element('label', {}, box, ' ' + name));
+      box.addEventListener('change', () => { hidden[box.checked ? 'delete' : 'add'](name); draw(); });
+      bar.append(element('label', {}, box, ' ' + name));
     });
-    const chosen = new Map();
-    panels.flatMap(panel => [panel.x, panel.y]).filter(axis => axis.units.length > 1).forEach(axis => chosen.set(axis.unit, [...(chosen.get(axis.unit) || []), axis]));
-    chosen.forEach((axes, unit) => {
-      const select = element('select', {}, ...axes[0].units.map(name => element('option', { textContent: name, selected: name === unit })));
-      select.setAttribute('aria-label', 'Unit in place of ' + unit);
-      select.addEventListener('change', () => { axes.forEach(axis => { axis.shown = select.value; }); draw(); read(); });
-      tools.append(select);
+    const alike = new Map();
+    axes.flatMap(({ x, y }) => [x, y]).filter(axis => axis.units.length > 1).forEach(axis => alike.set(axis.unit, [...(alike.get(axis.unit) || []), axis]));
+    alike.forEach((all, unit) => {
+      const select = element('select', { title: 'Unit in place of ' + unit }, ...all[0].units.map(name => element('option', { textContent: name, selected: name === unit })));
+      select.addEventListener('change', () => { all.forEach(axis => { axis.shown = select.value; }); draw(); });
+      bar.append(select);
     });
-    if (together) {
-      tools.append(slider, button('Closer', () => about(0.5)), button('Wider', () => about(2)), button('Whole', () => zoom(whole)));
-      const place = event => {
-        const drawing = drawings.find(drawing => drawing[0].plot.ownerSVGElement === event.currentTarget);
-        const panel = drawing && drawing[0], from = panel.plot.getScreenCTM();
-        return value(view, 'x', panel.width, (event.clientX - from.e) / from.a);
-      };
-      let held = null;
-      drawings.forEach(([panel]) => {
-        const paper = panel.plot.ownerSVGElement;
-        paper.classList.add('touched');
-        paper.addEventListener('pointerdown', event => { held = place(event); });
-        paper.addEventListener('pointermove', event => point(place(event)));
-        paper.addEventListener('pointerup', event => {
-          const end = place(event), start = held;
-          held = null;
-          if (start !== null && Math.abs(end - start) > (view[1] - view[0]) / 50) zoom([Math.min(start, end), Math.max(start, end)]);
-        });
-        paper.addEventListener('dblclick', () => zoom(whole));
+    const slider = element('input', { type: 'range', min: '0', max: '1000', value: '0' });
+    slider.setAttribute('aria-label', 'Place along: ' + bare(along));
+    slider.addEventListener('input', () => point(scale([0, 1000], ...(view || whole))(+slider.value)));
+    bar.append(element('span', {}, slider, button('Closer', () => about(0.5)), button('Wider', () => about(2)), button('Whole', () => zoom(whole))), readout);
+    drawings.flat().forEach(({ plot, touch, width, x }) => {
+      const place = event => { const from = plot.getScreenCTM(); return scale([0, width], ...(view || x).slice(0, 2))((event.clientX - from.e) / from.a); };
+      touch.addEventListener('pointermove', event => point(place(event)));
+      // a finger reads; a mouse that is held marks a stretch
+      touch.addEventListener('pointerdown', event => { held = event.pointerType === 'touch' ? null : place(event); });
+      touch.addEventListener('pointerleave', () => { held = null; mark(); });
+      touch.addEventListener('pointerup', event => {
+        const ends = [held, place(event)].sort((a, b) => a - b), [from, to] = view || whole, marked = held !== null && ends[1] - ends[0] > (to - from) / 50;
+        held = null;
+        if (marked) zoom(ends);
+        else mark();
       });
-    }
-    tools.append(readout);
-    frame.querySelector('figcaption').before(tools);
+      touch.addEventListener('dblclick', () => zoom(whole));
+    });
+    return bar;
   };
-  root.querySelectorAll('figure').forEach(figure);
+
+  root.querySelectorAll('figure').forEach(frame => {
+    const drawings = [...frame.querySelectorAll('svg.plot')].map(s => [...s.querySelectorAll('g[data-x]')].filter(plot => plot.querySelector('[data-name]')).map(drawn));
+    if (!drawings.length || !drawings[0].length) return;
+    const ranges = drawings[0].map(({ plot }) => plot.dataset.x + plot.dataset.along), kinds = new Set(ranges);
+    kinds.forEach(range => {
+      const of = list => list.filter((_, n) => ranges[n] === range);
+      frame.querySelector('figcaption').before(tools(drawings.map(of), kinds.size === 1));
+    });
+  });
 };
 hand(document);

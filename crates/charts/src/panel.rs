@@ -3,8 +3,9 @@
 use std::fmt::Write;
 
 use crate::scale::Scale;
+use crate::series::path;
 use crate::size::Measures;
-use crate::svg::{Attributes, Svg};
+use crate::svg::Svg;
 use crate::{Axis, Colours, Drawing, Fill, HeatMap, Series, attributes};
 
 /// A plot within a figure.
@@ -190,8 +191,8 @@ impl<'a> Panel<'a> {
         Place { left, plot, above: heading + 1.5 * m.font * rows as f64 + bar + 2.1 * m.font, below }
     }
 
-    /// The panel, as wide as `width`; `id` names a map's cells.
-    pub(crate) fn draw(&self, svg: &mut Svg, m: &Measures, width: f64, place: &Place, id: &str) {
+    /// The panel, as wide as `width`; `id` names a map's cells, `along` is the label of its abscissa, which a panel below may have.
+    pub(crate) fn draw(&self, svg: &mut Svg, m: &Measures, width: f64, place: &Place, [id, along]: [&str; 2]) {
         let mut at = 0.0;
         if !self.heading.is_empty() {
             svg.element("text", attributes! { "class": "heading", "x": "4", "y": "{:.1}"(1.2 * m.font) }, &self.heading);
@@ -215,11 +216,18 @@ impl<'a> Panel<'a> {
         svg.text([0.2 * m.font, place.above - 0.9 * m.font], "start", &self.y.label);
         let [x, y] = self.scales(m, place);
         let [width, height] = place.plot;
-        let (ends, size) = ([x.ends(), y.ends()], format!("{width:.1} {height:.1}"));
-        let read = matches!(self.content, Content::Lines(_)) && m.live && self.y.names.is_none();
-        let at: Attributes = attributes! { "transform": "translate({:.1} {:.1})"(place.left, place.above) };
-        let known: Attributes = attributes! { "data-x": "{}"(ends[0]), "data-y": "{}"(ends[1]), "data-plot": "{size}" };
-        svg.group(&[at, if read { known } else { &[] }].concat(), |svg| self.plot(svg, [&x, &y], m, place, id));
+        let plot = |svg: &mut Svg| self.plot(svg, [&x, &y], m, place, id);
+        match &self.content {
+            // a page's script reads them
+            Content::Lines(_) if m.live && self.y.names.is_none() => svg.group(
+                attributes! {
+                    "transform": "translate({:.1} {:.1})"(place.left, place.above), "data-x": "{}"(x.ends()), "data-y": "{}"(y.ends()),
+                    "data-plot": "{width:.1} {height:.1}", "data-along": "{along}"
+                },
+                plot,
+            ),
+            _ => svg.moved([place.left, place.above], plot),
+        }
     }
 
     /// The axes over the pixels between them.
@@ -255,10 +263,15 @@ impl<'a> Panel<'a> {
                 let zero = y.holds(0.0) && self.y.names.is_none();
                 axes(svg, &if zero { format!("M0 {:.1}H{width:.1}", y.pixel(0.0)) } else { String::new() });
                 for (n, one) in series.iter().enumerate() {
-                    let draw = |svg: &mut Svg| one.draw(svg, |(a, b)| (x.pixel(a), y.pixel(b)));
-                    match m.live {
-                        true => svg.group(attributes! { "data-name": "{}"(Series::called(series, n)) }, draw),
-                        false => draw(svg),
+                    let points = one.points(|(a, b)| (x.pixel(a), y.pixel(b)));
+                    let draw = |svg: &mut Svg| one.draw(svg, &points);
+                    let name = Series::called(series, n);
+                    match (m.live, one.style.is_points()) {
+                        (true, true) => {
+                            svg.group(attributes! { "data-name": "{name}", "data-points": "{}"(path(&points)) }, draw);
+                        }
+                        (true, false) => svg.group(attributes! { "data-name": "{name}" }, draw),
+                        (false, _) => draw(svg),
                     }
                 }
             }

@@ -92,11 +92,10 @@ impl<'a> Series<'a> {
         Self { thinning: Thinning::Distance, ..self }
     }
 
-    /// The line, and a mark at each point where the style has marks.
-    pub(crate) fn draw(&self, svg: &mut Svg, pixel: impl Fn((f64, f64)) -> (f64, f64)) {
-        let points = self.points(pixel);
+    /// The line through [`Series::points`], and a mark at each where the style has marks.
+    pub(crate) fn draw(&self, svg: &mut Svg, points: &[(f64, f64)]) {
         if !self.style.is_points() {
-            svg.leaf("path", attributes! { "class": "{}"(self.style.class()), "d": "{}"(path(&points)) });
+            svg.leaf("path", attributes! { "class": "{}"(self.style.class()), "d": "{}"(path(points)) });
         }
         points.iter().for_each(|point| self.mark(svg, *point));
     }
@@ -156,7 +155,7 @@ impl<'a> Series<'a> {
 }
 
 /// Path data to tenths of a pixel.
-fn path(points: &[(f64, f64)]) -> String {
+pub(crate) fn path(points: &[(f64, f64)]) -> String {
     let mut data = String::new();
     for (i, (x, y)) in points.iter().enumerate() {
         let _ = write!(data, "{}{x:.1} {y:.1}", if i == 0 { 'M' } else { 'L' });
