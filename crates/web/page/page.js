@@ -106,9 +106,6 @@
         });
         await show('The coil is modelled.', { sensitivity: { coil: computed.design.coil } }, answer => {
           computed.sensitivity = answer.json;
-          const { total, error_estimate: error, tolerance_sd: sd } = answer.json;
-          at('headline').textContent = 'S = ' + total.toPrecision(5) + ' ± ' + error.toPrecision(2) + ' (numerical) ± ' + sd.toPrecision(2)
-            + ' (tolerances) (°/h)/(°C/min)';
           at('sensitivity').textContent = answer.text;
         });
       }
@@ -122,7 +119,9 @@
         hand(at('figures'));
         offer('bias-file', answer.csv);
       });
-      state('All of it is computed.', true);
+      const { total, error_estimate: error, tolerance_sd: sd } = computed.sensitivity, { peak, numerical_error: of } = computed.bias.json;
+      state(`S = ${total.toPrecision(5)} ± ${error.toPrecision(2)} (numerical) ± ${sd.toPrecision(2)} (tolerances) (°/h)/(°C/min); \
+largest bias ${peak.rate_deg_per_h.toPrecision(4)} ± ${of.rate_deg_per_h.toPrecision(2)} °/h`.replace(/-/g, '\u2212'), true);
     } catch (error) {
       if (mine !== turn) return;
       wrong(error);
@@ -164,6 +163,7 @@
     if (!given) return;
     const text = await given.text();
     if (given.name.endsWith('.ron')) return replace(text);
+    if (given.name.endsWith('.json')) return wrong(new Error(given.name + ': this page reads a coil as RON; the program reads JSON, too.'));
     if (/rate|gyro|omega/i.test(text.split('\n', 1)[0]) || !/chamber_c/.test(text.split('\n', 1)[0])) return check(given.name, text);
     at('profile').value = text;
     compute(1);
