@@ -23,8 +23,8 @@ const TARGET: &str = "wasm32-unknown-unknown";
 /// Compile the program to WebAssembly, put it into a page, and compare the page with the program in headless Chromium
 ///
 /// Writes docs/try-it.html, which is not kept in the repository, and the sizes and differences into docs/try.md. Needs the standard library for wasm32:
-/// that of the compiler if it is there, else one that is fetched into target/tools. Exit status 1 if a number differs by more than 1e-9, or the page asks
-/// for anything.
+/// that of the compiler if it is there, else one that is fetched into target/tools. Exit status 1 if a number differs by more than
+/// rounding, or the page asks for anything.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Web {
     /// Make the page and do not open it
