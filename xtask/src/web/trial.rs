@@ -98,11 +98,12 @@ pub(super) fn tried(chromium: &str, page: &Path, program: &Path) -> Result<Tried
     let slowest = times[1..].iter().copied().fold(0.0, f64::max);
     let text = format!(
         "In {} it opens with all its numbers after {:.1} s; a change takes {slowest:.1} s at most, sensitivity, band and a profile of {rows} rows included, on two cores that other \
-         work shares. Over {} designs its numbers and the program's differ by at most {winding:.0e} (lengths of the winding), {sensitivity:.1e} (sensitivity and band) \
+         work shares. Over {} designs its numbers and the program's differ by at most {} (lengths of the winding), {sensitivity:.1e} (sensitivity and band) \
          and {bias:.1e} (bias, of its largest value), relatively; over a recording by {noise:.1e} (sizes of the noise). It asks for nothing.",
         browser.version,
         times[0],
         DESIGNS.len(),
+        if winding == 0.0 { "0".to_owned() } else { format!("{winding:.1e}") },
     );
     Ok(Tried { text, faults })
 }
