@@ -120,7 +120,7 @@ mod tests {
             ("<h3>x</h3>", "headings"),
             ("<script>a < b && c</script>", "scripts and their hashes: 1 and 0"),
             ("<script src=\"x\"></script>", "<script "),
-            ("<script>", "not closed"),
+            ("<script>", "closes nothing"),
         ] {
             let found = faults(&page(body));
             assert!(found.iter().any(|one| one.contains(fault)), "{body}: {found:?}");
