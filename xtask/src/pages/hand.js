@@ -18,7 +18,7 @@
       ends: plot.dataset.x.split(' ').map(Number),
       values: () => [...frame.querySelectorAll('.readout b')].map(b => Number(b.textContent.split(' ')[0].replace('\u2212', '-'))),
       lines: () => [...plot.querySelectorAll('path.line')].map(path => path.getAttribute('d')),
-      ticks: () => [...plot.children].filter(child => child.tagName === 'text').map(text => text.textContent),
+      ticks: () => [...plot.children].filter(child => child.tagName === 'text').map(text => text.textContent).sort(),
       button: name => [...frame.querySelectorAll('button')].find(b => b.textContent === name).click(),
     };
   };
