@@ -210,9 +210,11 @@ const hand = root => {
   };
 
   root.querySelectorAll('figure').forEach(frame => {
-    const drawings = [...frame.querySelectorAll('svg.plot')].map(s => [...s.querySelectorAll('g[data-x]')].filter(plot => plot.querySelector('[data-name]')).map(drawn));
-    if (!drawings.length || !drawings[0].length) return;
-    const ranges = drawings[0].map(({ plot }) => plot.dataset.x + plot.dataset.along), kinds = new Set(ranges);
+    const plots = [...frame.querySelectorAll('svg.plot')].map(s => [...s.querySelectorAll('g[data-x]')].filter(plot => plot.querySelector('[data-name]')));
+    const ranges = (plots[0] || []).map(plot => plot.dataset.x + plot.dataset.along), kinds = new Set(ranges);
+    // many small panels with an abscissa each would drown in tools
+    if (!kinds.size || kinds.size > 3) return;
+    const drawings = plots.map(panels => panels.map(drawn));
     kinds.forEach(range => {
       const of = list => list.filter((_, n) => ranges[n] === range);
       frame.querySelector('figcaption').before(tools(drawings.map(of), kinds.size === 1));
