@@ -52,6 +52,7 @@ pub mod homogenize;
 pub mod identify;
 mod keys;
 pub mod measure;
+#[cfg(not(target_family = "wasm"))]
 pub mod optimise;
 pub mod picture;
 pub mod picture_cell;

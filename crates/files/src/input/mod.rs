@@ -53,6 +53,7 @@ mod tolerances;
 mod unit_names;
 mod warnings;
 mod winding_file;
+mod written_constants;
 
 pub use asked::{Asked, further_columns, read_mechanisms, read_simulated};
 pub use cell::{AnyCell, CellCase, check_any_cell, read_any_cell, read_cell};
@@ -77,3 +78,4 @@ pub use schema::schemas;
 pub use spool::{SpoolCase, read_spool};
 pub use targets::{TargetsCase, check_targets, read_targets};
 pub use tolerances::keyed;
+pub use written_constants::with_constants;

@@ -55,7 +55,7 @@ pub fn documents(simulation: &Simulation, fields: Option<&Fields>, measured: &[M
 }
 
 /// All figures as elements of a page, in wide and narrow, each with its data.
-pub(crate) fn elements(simulation: &Simulation, fields: Option<&Fields>, convergence: Option<&Convergence>) -> Markup {
+pub fn elements(simulation: &Simulation, fields: Option<&Fields>, convergence: Option<&Convergence>) -> Markup {
     let last = convergence.map(|measured| convergence::figure(simulation.case, measured));
     html! { @for figure in all(simulation, fields, &[]).iter().chain(&last) { (figure.element()) } }
 }

@@ -24,6 +24,7 @@ pub use columns::table;
 pub use indices::{Index, Indices};
 pub use json::json;
 pub use outputs::Output;
+#[cfg(not(target_family = "wasm"))]
 pub(crate) use outputs::mass;
 pub use parts::Parts;
 pub use picture::svg;
