@@ -78,7 +78,7 @@ impl Place {
         command
     }
 
-    /// Computes the plan in one run on one thread; its processor time [s].
+    /// Computes the plan in one run on one thread; its processor time \[s\].
     pub(super) fn alone(&self) -> Result<f64, Failure> {
         timed(self.sweep(&self.plan(), ALONE).env("RAYON_NUM_THREADS", "1"))
     }
@@ -88,7 +88,7 @@ impl Place {
         done(self.sweep(&self.plan(), table).arg("--merge"))
     }
 
-    /// Size of the kept rows of the plan [bytes].
+    /// Size of the kept rows of the plan \[bytes\].
     pub(super) fn kept_bytes(&self) -> Result<u64, Failure> {
         const TABLE: &str = "kept.parquet";
         done(self.sweep(&self.plan(), TABLE).args(["--share", "1/1"]))?;

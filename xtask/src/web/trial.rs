@@ -91,7 +91,7 @@ pub(super) fn tried(chromium: &str, page: &Path, program: &Path) -> Result<Tried
         [("winding", winding, SAME), ("sensitivity", sensitivity, SAME), ("bias", bias, SAME_BIAS), ("noise", noise, SAME_NOISE)]
     {
         // not-a-number is no agreement
-        if !(difference <= most) {
+        if difference.is_nan() || difference > most {
             faults.push(format!("{what}: the page and the program differ by {difference:.1e}, more than {most:.0e}"));
         }
     }
