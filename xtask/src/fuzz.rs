@@ -2,10 +2,11 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 
 use proof::Failure;
 use proof::files::{failed, names, read, renew, root};
+use proof::peers::children;
 
 use crate::tools::tool;
 
@@ -31,8 +32,8 @@ const READERS: [(&str, &[&str]); 8] = [
 
 /// Feed every reader of files with inputs that are guided by the code that they reach
 ///
-/// The runner is installed into target/tools. Writes docs/trust.md, where times and inputs of all runs add up, and the corpus that `cargo test` replays, fuzz/src/__fuzz__. Exit status 1 if an input
-/// crashes a reader: it is kept there, too.
+/// The runner is installed into target/tools. Writes docs/trust.md, where processor times and inputs of all runs add up, and the corpus that `cargo test`
+/// replays, fuzz/src/__fuzz__. Exit status 1 if an input crashes a reader: it is kept there, too.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Fuzz {
     /// Readers, by the names of their tests in fuzz/src/readers.rs [default: all]
@@ -46,6 +47,7 @@ pub(crate) struct Fuzz {
 struct Fed {
     reader: &'static str,
     inputs: u64,
+    /// Processor time \[s\].
     seconds: u64,
     /// Edges of code that inputs reach.
     edges: u64,
@@ -123,16 +125,23 @@ fn fed(reader: &'static str, seeds: &[&str], seconds: u64) -> Result<Fed, Failur
     for name in names(&kept)? {
         fs::copy(kept.join(&name), corpus.join(&name)).map_err(failed(&kept))?;
     }
-    let mut command = runner("test", reader, &corpus, &crashes)?;
-    let run = command.arg("--time").arg(format!("{seconds}s")).stderr(Stdio::piped()).output()?;
+    let fed_for = |seconds: u64| -> Result<Output, Failure> {
+        let mut command = runner("test", reader, &corpus, &crashes)?;
+        Ok(command.arg("-T").arg(format!("{seconds}s")).stderr(Stdio::piped()).output()?)
+    };
+    // what compiles before the first input counts for nothing
+    fed_for(1)?;
+    let time = || children().ok_or_else(|| Failure("this system does not tell the processor time of commands".into()));
+    let before = time()?;
+    let run = fed_for(seconds)?;
+    let lasted = (time()? - before) as u64;
     let said = String::from_utf8_lossy(&run.stderr).into_owned();
     let crashed = names(&crashes)?.len();
     if !run.status.success() && crashed == 0 {
         return Err(Failure(format!("{reader} was not fuzzed: {}", said.lines().rev().take(5).collect::<Vec<_>>().join("; "))));
     }
     let number = |word: &str| said.rsplit_once(word)?.1.split_whitespace().next()?.parse::<u64>().ok();
-    let (inputs, lasted) = (number("Done ").unwrap_or(0), number("runs in ").unwrap_or(0));
-    let edges = number(" cov: ").unwrap_or(0);
+    let (inputs, edges) = (number("Done ").unwrap_or(0), number(" cov: ").unwrap_or(0));
     // inputs that reach what no other does
     if !runner("reduce", reader, &corpus, &crashes)?.stderr(Stdio::null()).status()?.success() {
         return Err(Failure(format!("{reader}: the corpus cannot be reduced")));

@@ -101,7 +101,7 @@ impl Place {
         }
     }
 
-    /// Memory of the merge of a plan of so many designs, whose windings alone are computed [bytes].
+    /// Memory of the merge of a plan of so many designs, whose windings alone are computed \[bytes\].
     pub(super) fn peak_of_merge(&self, designs: usize) -> Result<u64, Failure> {
         let (plan, table) = (self.path(&format!("{designs}.ron")), format!("{designs}.parquet"));
         self.write_plan(&plan, designs, "Winding")?;

@@ -18,14 +18,14 @@ pub(super) fn done(command: &mut Command) -> Result<(), Failure> {
     if status.success() { Ok(()) } else { Err(failed(command, status)) }
 }
 
-/// Runs a command that has to succeed; its processor time [s].
+/// Runs a command that has to succeed; its processor time \[s\].
 pub(super) fn timed(command: &mut Command) -> Result<f64, Failure> {
-    let before = time_of_children()?;
+    let before = proof::peers::children().unwrap_or(f64::NAN);
     done(command)?;
-    Ok(time_of_children()? - before)
+    Ok(proof::peers::children().unwrap_or(f64::NAN) - before)
 }
 
-/// Runs a command that has to succeed; the most memory that it had [bytes].
+/// Runs a command that has to succeed; the most memory that it had \[bytes\].
 pub(super) fn peak(command: &mut Command) -> Result<u64, Failure> {
     let mut child = command.spawn().map_err(|error| failed(command, error))?;
     let file = format!("/proc/{}/status", child.id());
@@ -114,17 +114,6 @@ impl Drop for Running {
 fn fields(process: &str) -> Option<Vec<String>> {
     let about = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
     Some(about.rsplit_once(')')?.1.split_whitespace().map(str::to_owned).collect())
-}
-
-/// Processor time of all ended children [s].
-fn time_of_children() -> Result<f64, Failure> {
-    /// places of the ticks in user's and system's code
-    const TICKS: [usize; 2] = [13, 14];
-    let output = Command::new("getconf").arg("CLK_TCK").output()?;
-    let per_second: f64 = String::from_utf8_lossy(&output.stdout).trim().parse().unwrap_or(100.0);
-    let fields = fields("self").unwrap_or_default();
-    let ticks: f64 = TICKS.iter().filter_map(|at| fields.get(*at)?.parse::<f64>().ok()).sum();
-    Ok(ticks / per_second)
 }
 
 fn parent(process: u32) -> Option<u32> {
