@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 
 use proof::Failure;
 use proof::files::{failed, names, read, renew, root};
@@ -31,8 +31,8 @@ const READERS: [(&str, &[&str]); 8] = [
 
 /// Feed every reader of files with inputs that are guided by the code that they reach
 ///
-/// The runner is installed into target/tools. Writes docs/trust.md, where times and inputs of all runs add up, and the corpus that `cargo test` replays, fuzz/src/__fuzz__. Exit status 1 if an input
-/// crashes a reader: it is kept there, too.
+/// The runner is installed into target/tools. Writes docs/trust.md, where processor times and inputs of all runs add up, and the corpus that `cargo test`
+/// replays, fuzz/src/__fuzz__. Exit status 1 if an input crashes a reader: it is kept there, too.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Fuzz {
     /// Readers, by the names of their tests in fuzz/src/readers.rs [default: all]
@@ -46,6 +46,7 @@ pub(crate) struct Fuzz {
 struct Fed {
     reader: &'static str,
     inputs: u64,
+    /// Processor time \[s\].
     seconds: u64,
     /// Edges of code that inputs reach.
     edges: u64,
@@ -99,6 +100,18 @@ fn runner(command: &str, reader: &str, corpus: &Path, crashes: &Path) -> Result<
     Ok(runner)
 }
 
+/// Processor time of all commands that were run and have ended \[s\].
+fn time_of_children() -> Result<u64, Failure> {
+    /// Ticks of Linux's clock for programs \[1/s\].
+    const TICKS: u64 = 100;
+    let place = Path::new("/proc/self/stat");
+    let stat = read(place)?;
+    // behind the name, which may hold anything: the 14th and 15th number
+    let numbers = stat.rsplit_once(')').map_or("", |(_, numbers)| numbers).split_whitespace().skip(13).take(2);
+    let ticks = numbers.map(|number| number.parse::<u64>().ok()).sum::<Option<u64>>();
+    ticks.map(|ticks| ticks / TICKS).ok_or_else(|| Failure(format!("{}: no processor time", place.display())))
+}
+
 /// The files of a folder, or the file.
 fn files(place: &str) -> Result<Vec<PathBuf>, Failure> {
     let path = root().join(place);
@@ -123,16 +136,22 @@ fn fed(reader: &'static str, seeds: &[&str], seconds: u64) -> Result<Fed, Failur
     for name in names(&kept)? {
         fs::copy(kept.join(&name), corpus.join(&name)).map_err(failed(&kept))?;
     }
-    let mut command = runner("test", reader, &corpus, &crashes)?;
-    let run = command.arg("--time").arg(format!("{seconds}s")).stderr(Stdio::piped()).output()?;
+    let fed_for = |seconds: u64| -> Result<Output, Failure> {
+        let mut command = runner("test", reader, &corpus, &crashes)?;
+        Ok(command.arg("-T").arg(format!("{seconds}s")).stderr(Stdio::piped()).output()?)
+    };
+    // what compiles before the first input counts for nothing
+    fed_for(1)?;
+    let before = time_of_children()?;
+    let run = fed_for(seconds)?;
+    let lasted = time_of_children()? - before;
     let said = String::from_utf8_lossy(&run.stderr).into_owned();
     let crashed = names(&crashes)?.len();
     if !run.status.success() && crashed == 0 {
         return Err(Failure(format!("{reader} was not fuzzed: {}", said.lines().rev().take(5).collect::<Vec<_>>().join("; "))));
     }
     let number = |word: &str| said.rsplit_once(word)?.1.split_whitespace().next()?.parse::<u64>().ok();
-    let (inputs, lasted) = (number("Done ").unwrap_or(0), number("runs in ").unwrap_or(0));
-    let edges = number(" cov: ").unwrap_or(0);
+    let (inputs, edges) = (number("Done ").unwrap_or(0), number(" cov: ").unwrap_or(0));
     // inputs that reach what no other does
     if !runner("reduce", reader, &corpus, &crashes)?.stderr(Stdio::null()).status()?.success() {
         return Err(Failure(format!("{reader}: the corpus cannot be reduced")));
@@ -152,6 +171,17 @@ fn fed(reader: &'static str, seeds: &[&str], seconds: u64) -> Result<Fed, Failur
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn time_of_a_command_that_computes_counts_and_of_one_that_sleeps_does_not() {
+        let lasted = |script: &str| {
+            let before = time_of_children().expect("Linux");
+            assert!(Command::new("sh").args(["-c", script]).status().expect("a shell").success());
+            time_of_children().expect("Linux") - before
+        };
+        assert_eq!(lasted("sleep 1.1"), 0);
+        assert!(lasted("i=0; while [ $i -lt 3000000 ]; do i=$((i+1)); done") >= 1);
+    }
 
     #[test]
     fn runs_of_a_reader_add_up_and_leave_the_others_as_they_were() {
