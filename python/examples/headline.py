@@ -1,6 +1,7 @@
 """The bias of the reference coil under the paper's profile, and its sensitivity by part: a notebook as a script.
 
-Run it cell by cell in an editor or Jupyter, or as a whole: `python headline.py [FOLDER]` writes `headline.svg` and `headline.png` there.
+Run it cell by cell in an editor or Jupyter, or as a whole: `python headline.py FOLDER` writes `headline.svg` and `headline.png` there; without a folder
+nothing is written.
 """
 
 # %% The design and the paper's profile
@@ -15,8 +16,8 @@ import numpy as np
 import fogcoil
 
 # a notebook has arguments of its own
-folder = Path(sys.argv[1]) if len(sys.argv) == 2 and "ipykernel" not in sys.modules else Path.cwd()
-if not folder.is_dir():
+folder = Path(sys.argv[1]) if len(sys.argv) == 2 and "ipykernel" not in sys.modules else None
+if folder is not None and not folder.is_dir():
     sys.exit(f"{folder}: is no folder; make it, or give another")
 fixtures = Path(__file__).resolve().parents[2] / "fixtures"
 coil = fogcoil.Coil(fixtures / "coil-reference.ron")
@@ -75,5 +76,7 @@ sweep.axvline(float(coil["spool.hub_thickness_mm"]), color="0.6", linewidth=0.8)
 sweep.set_xlabel("thickness of the hub [mm]")
 sweep.set_ylabel("sensitivity [(°/h)/(°C/min)]")
 
-figure.savefig(folder / "headline.svg")
-figure.savefig(folder / "headline.png", dpi=150)
+if folder is not None:
+    figure.savefig(folder / "headline.svg")
+    figure.savefig(folder / "headline.png", dpi=150)
+figure

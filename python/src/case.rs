@@ -11,9 +11,9 @@ use crate::error::{InputError, UNSAVED, called, raised, warn};
 
 /// A text with the path that messages call it and that its own paths are relative to.
 #[derive(Clone)]
-struct Text {
-    path: PathBuf,
-    text: String,
+pub(crate) struct Text {
+    pub(crate) path: PathBuf,
+    pub(crate) text: String,
 }
 
 /// Suffix of the name of a file whose values were replaced.
@@ -21,7 +21,7 @@ const ALTERED: &str = " (altered)";
 
 impl Text {
     /// A path, or a RON text: what starts with a bracket or has more than one line.
-    fn new(source: &Bound<PyAny>, folder: Option<PathBuf>) -> PyResult<Self> {
+    pub(crate) fn new(source: &Bound<PyAny>, folder: Option<PathBuf>) -> PyResult<Self> {
         if let Ok(text) = source.cast::<PyString>() {
             let text: String = text.extract()?;
             if text.trim_start().starts_with('(') || text.contains('\n') {
@@ -101,9 +101,9 @@ impl Coil {
         Ok(coil)
     }
 
-    /// The design that a diagnosis found, beside the one it extends, of which the user has been warned already.
-    pub(crate) fn extended(&self, py: Python, text: String) -> PyResult<Self> {
-        Self::checked(py, Text { path: self.text.folder().join(UNSAVED), text })
+    /// The design that was found, beside the one that it was made from, of which the user has been warned already.
+    pub(crate) fn beside(py: Python, other: &Path, text: String) -> PyResult<Self> {
+        Self::checked(py, Text { path: other.with_file_name(UNSAVED), text })
     }
 }
 

@@ -1,114 +1,125 @@
-//! The computations. Every function frees the interpreter while it works.
+//! Computations about a design: cells, windings, ramps, profiles. Every function frees the interpreter while it works.
 
-use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::path::PathBuf;
 
 use fogcoil::cache::Cache;
 use fogcoil::homogenize as cells;
-use fogcoil::input::{self, AnyCell, Between, ProfileCase, RecordCase, RecordOptions, at_temperature};
-use fogcoil::measure::{self as measuring, Prediction};
-use fogcoil::simulate::SimulatedRow;
-use fogcoil::units::to_mm;
+use fogcoil::input::{self, AnyCell, Between, ProfileCase, at_temperature};
 use fogcoil::{
-    Error, compare as comparison, diagnose as diagnosis, sensitivity as ramp, simulate as runs, summary, wind as turns,
+    compare as comparison, explain as explaining, figures, glossary, picture, sensitivity as ramp, simulate as runs, summary,
+    templates, trim as trimming, wind as turns,
 };
-use progress::Step;
 use pyo3::prelude::*;
-use pyo3::types::PyByteArray;
-use serde_json::{Value, json};
+use serde_json::json;
 
-use crate::case::{Cell, Coil};
-use crate::columns::{Column, at_element, bytes, table};
+use crate::case::{Cell, Coil, Text};
 use crate::error::{InputError, raised, warn};
+use crate::found::Found;
+use crate::table::Table;
+use crate::watched::watched;
 
-/// Columns by name, as the bytes of their doubles.
-type Columns<'py> = Vec<(&'static str, Bound<'py, PyByteArray>)>;
+/// Names and numbers of columns.
+pub(crate) type Columns = Vec<(String, Vec<f64>)>;
 
-/// The effective constants as JSON.
+/// The figure of a simulation that shows it in a notebook.
+const COURSE: &str = "bias";
+
 #[pyfunction]
-pub(crate) fn homogenize(py: Python, cell: &Cell, tolerance: f64, temperature_c: Option<f64>) -> PyResult<String> {
-    let solve = || -> Result<Value, Error> {
-        match &cell.case {
-            AnyCell::Regular(case, _) => Ok(cells::json(case, &case.homogenize_to(tolerance)?)),
-            AnyCell::General(case) => Ok(cells::general::json(&at_temperature(case, temperature_c, tolerance)?)),
-        }
-    };
+pub(crate) fn homogenize(py: Python, cell: &Cell, tolerance: f64, temperature_c: Option<f64>) -> PyResult<Found> {
     let tabulated = matches!(&cell.case, AnyCell::General(case) if case.temperatures().is_some());
     if temperature_c.is_some() && !tabulated {
         let problem = "no constituent is a table over temperature: the constants are the same at all; leave temperature_c out";
         return Err(InputError::new_err(problem));
     }
-    py.detach(solve).map(|object| object.to_string()).map_err(raised)
+    watched(py, None, |_| match &cell.case {
+        AnyCell::Regular(case, _) => {
+            let result = case.homogenize_to(tolerance)?;
+            Ok(Found::new(&cells::json(case, &result), cells::text(case, &result)))
+        }
+        AnyCell::General(case) => {
+            let result = at_temperature(case, temperature_c, tolerance)?;
+            Ok(Found::new(&cells::general::json(&result), cells::general::text(&result, case)))
+        }
+    })
 }
 
-/// The turn table: halves, layers, turns, and the columns of lengths.
+/// The winding, with its turn table.
 #[pyfunction]
-pub(crate) fn wind<'py>(py: Python<'py>, coil: &Coil) -> (Vec<&'static str>, Vec<usize>, Vec<usize>, Columns<'py>) {
-    let all = coil.case.winding.turns();
-    let columns = vec![
-        ("y_mm", bytes(py, all.iter().map(|turn| to_mm(turn.y)))),
-        ("r_mm", bytes(py, all.iter().map(|turn| to_mm(turn.r)))),
-        ("z_start_m", bytes(py, all.iter().map(|turn| turn.z_start))),
-        ("z_end_m", bytes(py, all.iter().map(|turn| turn.z_end))),
-    ];
-    let halves = all.iter().map(|turn| turns::name(turn.half)).collect();
-    (halves, all.iter().map(|turn| turn.layer).collect(), all.iter().map(|turn| turn.turn).collect(), columns)
+pub(crate) fn wind(coil: &Coil) -> Found {
+    let case = &coil.case;
+    let drawn = picture::svg(&case.name, &case.winding);
+    Found::new(&turns::json(case), turns::text(case)).with_table(turns::turns(&case.winding)).with_picture(drawn)
 }
 
-/// The steady sensitivity as JSON, with the errors of the parts.
+/// The steady sensitivity, with the errors of its parts.
 #[pyfunction]
-pub(crate) fn sensitivity(py: Python, coil: &Coil) -> PyResult<String> {
-    let computed = || Ok::<_, fogcoil::FileError>((coil.case.steady_sensitivity()?, coil.case.sensitivity_band()?));
-    let (result, band) = py.detach(computed).map_err(raised)?;
-    let (mut object, errors) = (ramp::json(&coil.case, &result, &band), result.part_errors);
-    object["part_error_estimates"] = json!({"shupe": errors.shupe, "eo_axial": errors.eo_axial, "eo_radial": errors.eo_radial});
-    Ok(object.to_string())
+pub(crate) fn sensitivity(py: Python, coil: &Coil) -> PyResult<Found> {
+    watched(py, None, |_| {
+        let case = &coil.case;
+        let (result, band) = (case.steady_sensitivity()?, case.sensitivity_band()?);
+        let (mut object, errors) = (ramp::json(case, &result, &band), result.part_errors);
+        object["part_error_estimates"] =
+            json!({"shupe": errors.shupe, "eo_axial": errors.eo_axial, "eo_radial": errors.eo_radial});
+        Ok(Found::new(&object, ramp::text(case, &result, &band)).with_picture(figures::section(case)))
+    })
 }
 
-/// Two designs compared, under a profile if there is one, as JSON.
+/// Trimming, with the remaining sensitivity for each number of turns cut off.
+#[pyfunction]
+pub(crate) fn trim(py: Python, coil: &Coil, profile: Option<Columns>, between: &str) -> PyResult<Found> {
+    let profile = profile.map(|columns| checked_profile(py, coil, columns, &[], between)).transpose()?;
+    watched(py, None, |_| {
+        let found = trimming::trim(&coil.case, profile.as_ref())?;
+        let table = trimming::turns_cut_off(&found);
+        Ok(Found::new(&trimming::json(&found), trimming::text(&coil.case, &found)).with_table(table))
+    })
+}
+
+/// Two designs compared, under a profile if there is one.
 #[pyfunction]
 pub(crate) fn compare(
     py: Python,
     a: &Coil,
     b: &Coil,
-    profile: Option<Vec<Column>>,
+    profile: Option<Columns>,
     between: &str,
     code: Option<PathBuf>,
-) -> PyResult<String> {
-    let read = |columns: Vec<Column>| -> PyResult<[ProfileCase; 2]> {
-        Ok([checked_profile(py, a, &columns, &[], between)?, checked_profile(py, b, &columns, &[], between)?])
+) -> PyResult<Found> {
+    let read = |columns: Columns| -> PyResult<[ProfileCase; 2]> {
+        Ok([checked_profile(py, a, columns.clone(), &[], between)?, checked_profile(py, b, columns, &[], between)?])
     };
     let profiles = profile.map(read).transpose()?;
-    let run = || comparison::compare([&a.case, &b.case], profiles.as_ref(), &cache(code), &|_| ()).map(|c| comparison::json(&c));
-    py.detach(run).map(|object| object.to_string()).map_err(raised)
+    watched(py, None, |tell| {
+        let c = comparison::compare([&a.case, &b.case], profiles.as_ref(), &cache(code), tell)?;
+        Ok(Found::new(&comparison::json(&c), comparison::text(&c)).with_page(comparison::report(&c)))
+    })
 }
 
-/// The user's cache for models that the library in the file `code` makes; none without it.
-fn cache(code: Option<PathBuf>) -> Cache {
-    code.map_or(Cache::NONE, |file| Cache::of_user().of_code_in(file))
+/// The response to a profile, with its columns.
+#[pyfunction]
+pub(crate) fn simulate(
+    py: Python,
+    coil: &Coil,
+    profile: Columns,
+    between: &str,
+    mechanisms: Vec<PathBuf>,
+    code: Option<PathBuf>,
+) -> PyResult<Found> {
+    let own = input::read_simulated(&mechanisms).map_err(raised)?;
+    let further = input::further_columns(&own);
+    let (case, profile) = (&coil.case, checked_profile(py, coil, profile, &further, between)?);
+    watched(py, None, |tell| {
+        let cache = cache(code);
+        let model = runs::model(case, &profile.drives, &cache)?;
+        let mut simulation = runs::simulate(case, &profile, &model)?;
+        simulation.add(&own, &cache, tell)?;
+        let drawn = figures::documents(&simulation, None, &[]).into_iter().find(|(id, _)| *id == COURSE);
+        let found = Found::new(&summary::json(&simulation), summary::text(&simulation));
+        Ok(found.with_table(simulation.table()).with_picture(drawn.map(|(_, svg)| svg)))
+    })
 }
 
-fn checked_profile(py: Python, coil: &Coil, columns: &[Column], further: &[String], between: &str) -> PyResult<ProfileCase> {
-    let between = match between {
-        "linear" => Between::Linear,
-        "cubic" => Between::Cubic,
-        other => return Err(InputError::new_err(format!("between: {other:?} is not known; give \"linear\" or \"cubic\""))),
-    };
-    let read = || {
-        input::check_profile("profile".as_ref(), table(columns), &coil.case.design, further)
-            .map_err(|error| at_element(error.into()))
-    };
-    let mut profile = py.detach(read).map_err(raised)?;
-    profile.between = between;
-    warn(py, profile.notes.clone())?;
-    Ok(profile)
-}
-
-fn columns<'py>(py: Python<'py>, rows: &[SimulatedRow]) -> Columns<'py> {
-    runs::COLUMNS.map(|(name, of)| (name, bytes(py, rows.iter().map(of)))).into()
-}
-
-/// A design's model for all designs that differ from it within a box. Immutable.
+/// A design's model for all designs that differ from it within a box.
 #[pyclass(frozen, module = "fogcoil")]
 pub(crate) struct DesignBox(runs::DesignBox);
 
@@ -116,133 +127,80 @@ pub(crate) struct DesignBox(runs::DesignBox);
 impl DesignBox {
     #[new]
     fn new(py: Python, coil: &Coil, code: Option<PathBuf>) -> PyResult<Self> {
-        py.detach(|| runs::DesignBox::about(&coil.case, &cache(code), &|_| ())).map(Self).map_err(raised)
+        watched(py, None, |tell| runs::DesignBox::about(&coil.case, &cache(code), tell)).map(Self)
     }
 
     fn including(&self, py: Python, coil: &Coil) -> PyResult<Self> {
-        py.detach(|| self.0.including(&coil.case)).map(Self).map_err(raised)
+        watched(py, None, |_| self.0.including(&coil.case)).map(Self)
     }
 
     /// The columns of the result, and the estimated errors of thermometer and rate.
-    fn simulate<'py>(
-        &self,
-        py: Python<'py>,
-        coil: &Coil,
-        profile: Vec<Column>,
-        between: &str,
-    ) -> PyResult<(Columns<'py>, [f64; 2])> {
-        let profile = checked_profile(py, coil, &profile, &[], between)?;
+    fn simulate(&self, py: Python, coil: &Coil, profile: Columns, between: &str) -> PyResult<(Table, [f64; 2])> {
+        let profile = checked_profile(py, coil, profile, &[], between)?;
         let varied = py.detach(|| self.0.simulate(&coil.case, &profile)).map_err(raised)?;
-        Ok((columns(py, &varied.rows), varied.errors))
+        Ok((runs::table(&varied.rows).into(), varied.errors))
     }
 }
 
-/// The columns of the result, and its summary as JSON.
+/// The changes of a design that would give a measured sensitivity.
 #[pyfunction]
-pub(crate) fn simulate<'py>(
-    py: Python<'py>,
+pub(crate) fn explain_sensitivity(
+    py: Python,
     coil: &Coil,
-    profile: Vec<Column>,
-    between: &str,
-    mechanisms: Vec<PathBuf>,
-    code: Option<PathBuf>,
-) -> PyResult<(Columns<'py>, String)> {
-    let own = input::read_simulated(&mechanisms).map_err(raised)?;
-    let further = input::further_columns(&own);
-    let (case, profile) = (&coil.case, checked_profile(py, coil, &profile, &further, between)?);
-    let run = || {
-        let cache = cache(code);
-        let model = runs::model(case, &profile.drives, &cache)?;
-        let mut simulation = runs::simulate(case, &profile, &model)?;
-        simulation.add(&own, &cache, &|_| ())?;
-        let object = summary::json(&simulation).to_string();
-        Ok((simulation.rows().collect::<Vec<_>>(), object))
-    };
-    let (rows, object) = py.detach(run).map_err(|error: Error| raised(error))?;
-    Ok((columns(py, &rows), object))
-}
-
-/// A record: the file, or what messages call it, and its columns if it is no file.
-type Record = (PathBuf, Option<Vec<Column>>);
-
-fn read((path, columns): &Record, meta: Option<&Path>, further: &[String]) -> Result<RecordCase, Error> {
-    match columns {
-        Some(columns) => input::check_record(path, table(columns), meta, further).map_err(|error| at_element(error.into())),
-        None => {
-            let meta = meta.map(Path::to_owned);
-            let options = RecordOptions { meta, further: further.to_vec(), ..RecordOptions::default() };
-            Ok(input::read_record(path, &options)?)
-        }
-    }
-}
-
-/// The figures of a record as JSON, with a design's prediction where there is one.
-#[pyfunction]
-pub(crate) fn measure(py: Python, record: Record, coil: Option<&Coil>, meta: Option<PathBuf>) -> PyResult<String> {
-    let run = || -> Result<String, Error> {
-        let measured = measuring::measure(&read(&record, meta.as_deref(), &[])?)?;
-        let predict = |coil: &Coil| -> Result<Prediction, Error> {
-            Ok(Prediction::of(&coil.case.name, &coil.case.steady_sensitivity()?, &coil.case.sensitivity_band()?))
-        };
-        let prediction = coil.map(predict).transpose()?;
-        Ok(measuring::json(&measured, prediction.as_ref()).to_string())
-    };
-    py.detach(run).map_err(raised)
-}
-
-/// The outcome as JSON and in words, the prediction of the first record held out, and the extended design, where there is one.
-type Diagnosed<'py> = (String, String, Option<Columns<'py>>, Option<Coil>);
-
-/// Further columns of records that mechanisms of a user's own name.
-#[pyfunction]
-pub(crate) fn further_columns(mechanisms: Vec<PathBuf>) -> PyResult<Vec<String>> {
-    let read = || Ok::<_, Error>(input::read_mechanisms(&mechanisms)?.further_columns());
-    read().map_err(raised)
-}
-
-/// Diagnosis of a unit's records against its design.
-#[pyfunction]
-#[expect(clippy::too_many_arguments, reason = "as many as Python gives")]
-pub(crate) fn diagnose<'py>(
-    py: Python<'py>,
-    coil: &Coil,
-    fit: Vec<Record>,
-    holdout: Vec<Record>,
-    mechanisms: Vec<PathBuf>,
-    meta: Option<PathBuf>,
+    measured: f64,
+    signed: bool,
     code: Option<PathBuf>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<Diagnosed<'py>> {
-    let said = |Step { task, done }: Step| -> PyResult<()> {
-        Python::attach(|py| {
-            py.check_signals()?;
-            progress.as_ref().map_or(Ok(()), |call| call.call1(py, (task, done)).map(drop))
-        })
+) -> PyResult<Found> {
+    watched(py, progress.as_ref(), |tell| {
+        fogcoil::diagnose::check_design(&coil.case, &coil.case.file)?;
+        let found = explaining::explain(&coil.case, measured, !signed, &cache(code), tell)?;
+        Ok(Found::new(&explaining::json(&found), explaining::text(&coil.case, &found)))
+    })
+}
+
+/// The meaning of an id; of all without one.
+#[pyfunction]
+pub(crate) fn explain_id(id: Option<&str>) -> PyResult<Found> {
+    let Some(id) = id else { return Ok(Found::new(&glossary::list_json(), glossary::list())) };
+    let entry = glossary::look_up(id).map_err(|near| {
+        InputError::new_err(format!("{id}: is no id of a mechanism, a warning or a note; nearest: {}", near.join(", ")))
+    })?;
+    Ok(Found::new(&entry.json(), entry.text()))
+}
+
+/// The meaning of a mechanism of a user's own.
+#[pyfunction]
+pub(crate) fn explain_mechanism(source: &Bound<PyAny>) -> PyResult<Found> {
+    let Text { path, text } = Text::new(source, None)?;
+    let case = input::check_mechanism(&path, text).map_err(raised)?;
+    Ok(Found::new(&glossary::own_json(&case), glossary::own_text(&case)))
+}
+
+/// A commented file to start from.
+#[pyfunction]
+pub(crate) fn template(kind: &str) -> PyResult<&'static str> {
+    let found = templates::ALL.iter().find(|(name, _)| *name == kind).map(|(_, text)| *text);
+    found.ok_or_else(|| {
+        let kinds: Vec<&str> = templates::ALL.iter().map(|(name, _)| *name).collect();
+        InputError::new_err(format!("kind: {kind:?} is not known; give one of {}", kinds.join(", ")))
+    })
+}
+
+/// The user's cache for models that the library in the file `code` makes; none without it.
+pub(crate) fn cache(code: Option<PathBuf>) -> Cache {
+    code.map_or(Cache::NONE, |file| Cache::of_user().of_code_in(file))
+}
+
+fn checked_profile(py: Python, coil: &Coil, columns: Columns, further: &[String], between: &str) -> PyResult<ProfileCase> {
+    let between = match between {
+        "linear" => Between::Linear,
+        "cubic" => Between::Cubic,
+        other => return Err(InputError::new_err(format!("between: {other:?} is not known; give \"linear\" or \"cubic\""))),
     };
-    // the first exception of the callback is raised at the end: a diagnosis cannot be stopped half way
-    let raised_by_callback = OnceLock::new();
-    let run = || -> Result<_, Error> {
-        diagnosis::check_design(&coil.case, &coil.case.file)?;
-        let asked = input::read_mechanisms(&mechanisms)?;
-        let further = asked.further_columns();
-        let all = |records: &[Record]| {
-            records.iter().map(|record| read(record, meta.as_deref(), &further)).collect::<Result<Vec<_>, _>>()
-        };
-        let note = |step: Step| {
-            if let Err(error) = said(step) {
-                let _ = raised_by_callback.set(error);
-            }
-        };
-        let outcome =
-            diagnosis::diagnose(&coil.case, &asked.with_catalogue(), &all(&fit)?, &all(&holdout)?, &cache(code), &note)?;
-        let prediction = outcome.predicted_rate();
-        Ok((outcome.json().to_string(), outcome.text(), prediction, outcome.model().ok()))
-    };
-    let result = py.detach(run);
-    if let Some(error) = raised_by_callback.into_inner() {
-        return Err(error);
-    }
-    let (object, text, prediction, model) = result.map_err(raised)?;
-    let prediction = prediction.map(|[time, rate]| vec![("time_s", bytes(py, time)), ("rate_deg_per_h", bytes(py, rate))]);
-    Ok((object, text, prediction, model.map(|text| coil.extended(py, text)).transpose()?))
+    let read = || input::check_profile("profile".as_ref(), input::Table::Columns(columns), &coil.case.design, further);
+    let mut profile = py.detach(read).map_err(raised)?;
+    profile.between = between;
+    warn(py, profile.notes.clone())?;
+    Ok(profile)
 }

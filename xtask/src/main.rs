@@ -1,7 +1,10 @@
 //! Project chores.
 
 mod bench;
+mod browser;
+mod cluster;
 mod crates;
+mod dist;
 mod docs;
 mod faults;
 mod figures;
@@ -13,6 +16,7 @@ mod sabotage;
 mod supply;
 mod tools;
 mod validate;
+mod web;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -61,7 +65,10 @@ enum Chore {
     Sabotage,
     /// Each library by itself: what it promises, its own features, its tests, its package
     Crates,
+    Cluster(cluster::Cluster),
     Supply(supply::Supply),
+    Dist(dist::Dist),
+    Web(web::Web),
     Faults(faults::Faults),
     Fuzz(fuzz::Fuzz),
     Mutants(mutants::Mutants),
@@ -83,7 +90,10 @@ fn main() -> ExitCode {
         Chore::Survey(survey) => survey.run(),
         Chore::Sabotage => sabotage::run(),
         Chore::Crates => crates::run(),
+        Chore::Cluster(cluster) => cluster.run(),
         Chore::Supply(supply) => supply.run(),
+        Chore::Dist(dist) => dist.run(),
+        Chore::Web(web) => web.run(),
         Chore::Faults(faults) => faults.run(),
         Chore::Fuzz(fuzz) => fuzz.run(),
         Chore::Mutants(mutants) => mutants.run(),
@@ -117,6 +127,7 @@ mod tests {
         assert!(matches!(parsed("prove --ordinary --changed --unit U7986"), Ok(Chore::Prove(_))));
         assert!(matches!(parsed("prove --ordinary --sealed"), Ok(Chore::Prove(_))));
         assert!(matches!(parsed("docs-check --page README.md"), Ok(Chore::DocsCheck(_))));
+        assert!(matches!(parsed("dist --no-wheel"), Ok(Chore::Dist(_))));
         assert!(matches!(parsed("bench cell --repetitions 3"), Ok(Chore::Bench(_))));
         assert!(matches!(parsed("prove --synthetic --nulls 5 --seed 7 --concealed 0"), Ok(Chore::Prove(_))));
         assert_eq!(parsed("--help").unwrap_err(), 0);
@@ -141,6 +152,7 @@ mod tests {
             "prove --unit U1847",
             "prove --changed",
             "docs-check --tutorial --write",
+            "dist here",
             "identify --cells 0",
             "bench",
             "bench cell --repetitions 2",

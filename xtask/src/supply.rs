@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::tools::{cargo, run, tool};
+use crate::tools::{DATE, cargo, remapped, run, tool};
 use proof::Failure;
 use proof::files::{below, failed, root};
 use proof::program::hex;
@@ -15,8 +15,6 @@ const BILL: [&str; 2] = ["cargo-cyclonedx", "0.5.9"];
 /// Parts of the repository that a build of the program needs.
 const SOURCES: [&str; 5] = ["crates", "xtask", "tests", "python", "fuzz"];
 const FILES: [&str; 2] = ["Cargo.toml", "Cargo.lock"];
-/// Second of the clock that a bill is dated with, so that it does not change from day to day: 1 January 2026.
-const DATE: &str = "1767225600";
 
 /// Check what the program is made of, and whether a second build of it is the same
 ///
@@ -44,7 +42,7 @@ impl Supply {
 fn bill(into: &Path) -> Result<PathBuf, Failure> {
     let mut tool = tool(BILL)?;
     let arguments = ["cyclonedx", "--quiet", "--format", "json", "--override-filename", "bill", "--manifest-path"];
-    if !run(tool.env("SOURCE_DATE_EPOCH", DATE).args(arguments).arg("crates/fogcoil/Cargo.toml"))? {
+    if !run(tool.env("SOURCE_DATE_EPOCH", DATE.to_string()).args(arguments).arg("crates/fogcoil/Cargo.toml"))? {
         return Err(Failure("the bill of materials cannot be written".into()));
     }
     // the tool writes one beside the manifest of every crate of the workspace
@@ -90,14 +88,9 @@ fn built(folder: &Path) -> Result<String, Failure> {
         fs::create_dir_all(parent).map_err(failed(parent))?;
         fs::copy(root().join(&file), &copy).map_err(failed(&copy))?;
     }
-    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
-    let home = home.or_else(|| Some(std::env::home_dir()?.join(".cargo"))).unwrap_or_default();
-    // names of folders would be in the program's line tables
-    let remapped =
-        [(&sources, "fogcoil"), (&home, "cargo")].map(|(from, to)| format!("--remap-path-prefix={}=/{to}", from.display()));
     let mut build = cargo();
     build.args(["build", "--quiet", "--release", "--locked", "--package", "fogcoil", "--bin", "fogcoil"]);
-    build.env("CARGO_TARGET_DIR", &target).env("CARGO_ENCODED_RUSTFLAGS", remapped.join("\u{1f}")).current_dir(&sources);
+    build.env("CARGO_TARGET_DIR", &target).env("CARGO_ENCODED_RUSTFLAGS", remapped(&sources)).current_dir(&sources);
     if !build.status()?.success() {
         return Err(Failure(format!("the program cannot be built in {}", sources.display())));
     }

@@ -1,10 +1,13 @@
 //! Other programs that chores run: the build tool, tools from the registry, our own program.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use proof::Failure;
 use proof::files::root;
+
+/// Second of the clock that files are dated with, so that they do not change from day to day: 1 January 2026.
+pub(crate) const DATE: u64 = 1_767_225_600;
 
 /// Runs a command where the workspace is; whether it went well.
 pub(crate) fn run(command: &mut Command) -> Result<bool, Failure> {
@@ -30,10 +33,42 @@ pub(crate) fn tool([name, version]: [&str; 2]) -> Result<Command, Failure> {
     Ok(Command::new(program))
 }
 
-/// Our program, built beside this one.
+/// Our program, built beside this one in its profile.
 pub(crate) fn program() -> Result<PathBuf, Failure> {
-    if !run(cargo().args(["build", "--quiet", "--release", "--package", "fogcoil"]))? {
-        return Err(Failure("the program does not build".into()));
+    let this = std::env::current_exe()?;
+    let folder = this.parent().ok_or_else(|| Failure("this program has no folder".into()))?;
+    let mut build = cargo();
+    build.args(["build", "--quiet"]);
+    if folder.ends_with("release") {
+        build.args(["--release", "--package", "fogcoil"]);
+    } else {
+        // so cargo takes what `cargo test --workspace` has built: for one package it would resolve the features anew
+        build.args(["--workspace", "--bins", "--tests"]);
     }
-    Ok(std::env::current_exe()?.with_file_name(format!("fogcoil{}", std::env::consts::EXE_SUFFIX)))
+    if !run(build.env("CARGO_TARGET_DIR", folder.parent().unwrap_or(folder)))? {
+        return Err(Failure("fogcoil cannot be built".into()));
+    }
+    Ok(folder.join(format!("fogcoil{}", std::env::consts::EXE_SUFFIX)))
+}
+
+/// Flags of the compiler, as CARGO_ENCODED_RUSTFLAGS, by which no name of a folder gets into what it makes of `sources`.
+pub(crate) fn remapped(sources: &Path) -> String {
+    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = home.or_else(|| Some(std::env::home_dir()?.join(".cargo"))).unwrap_or_default();
+    let folders = [(sources, "fogcoil"), (&home, "cargo")];
+    folders.map(|(from, to)| format!("--remap-path-prefix={}=/{to}", from.display())).join("\u{1f}")
+}
+
+/// A new environment for Python in `folder`; its programs' folder.
+pub(crate) fn environment(folder: &Path) -> Result<PathBuf, Failure> {
+    let made = Command::new("python3").args(["-m", "venv", "--clear"]).arg(folder).output();
+    let remedy = "install Python 3.9 or later with its module venv";
+    match made {
+        Ok(done) if done.status.success() => Ok(folder.join(if cfg!(windows) { "Scripts" } else { "bin" })),
+        Ok(done) => {
+            let said = String::from_utf8_lossy(&done.stderr);
+            Err(Failure(format!("python3 makes no environment: {}; {remedy}", said.trim())))
+        }
+        Err(error) => Err(Failure(format!("python3 does not start ({error}); {remedy}"))),
+    }
 }

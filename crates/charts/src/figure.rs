@@ -61,7 +61,8 @@ impl Figure<'_> {
 
     /// The figure as a document of its own, with its title.
     pub fn document(&self) -> String {
-        let (m, (body, height)) = (WIDE, self.body(&WIDE));
+        let m = Measures { live: false, ..WIDE };
+        let (body, height) = self.body(&m);
         let ids = ["title", "desc"].map(|part| format!("{}-{part}", self.id));
         let frame = Frame {
             ids: [&ids[0], &ids[1]],
@@ -94,7 +95,10 @@ impl Figure<'_> {
             let places: Vec<Place> = row.iter().zip(&lefts).map(|(panel, left)| panel.place(m, width, *left)).collect();
             for (column, (panel, place)) in row.iter().zip(&places).enumerate() {
                 let id = format!("{}-map-{}", self.id, number * columns + column);
-                svg.moved([column as f64 * (width + gap), top], |svg| panel.draw(svg, m, width, place, &id));
+                // of panels under one another the last alone names their axis
+                let below = self.panels.iter().skip(number * columns + column).step_by(columns);
+                let along = below.map(|panel| panel.x.label.as_str()).find(|label| !label.is_empty()).unwrap_or_default();
+                svg.moved([column as f64 * (width + gap), top], |svg| panel.draw(svg, m, width, place, [&id, along]));
             }
             top += places.iter().map(Place::height).fold(0.0, f64::max);
         }

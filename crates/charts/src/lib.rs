@@ -2,7 +2,7 @@
 //!
 //! - A [`Figure`] holds [`Panel`]s of [`Series`], a [`HeatMap`] or a [`Drawing`] over two [`Axis`]; it stands alone
 //!   ([`Figure::document`]) or in a page, with tables of its data ([`Figure::element`]).
-//! - A [`page()`] frames [`facts`], [`grid`]s and figures; [`faults`] says what a browser, a printer or a screen reader would stumble over.
+//! - A [`page()`] frames [`facts`], [`grid`]s and figures, one that is [`scripted`] acts by itself; [`faults`] says what a browser, a printer or a screen reader would stumble over.
 //! - [`Svg`] is for pictures of another kind, in a [`Frame`]; text that enters it is escaped, as maud's templates do in pages.
 //! - [`significant`], [`signed`] and [`nice`] put numbers into words.
 //!
@@ -57,7 +57,7 @@ pub use faults::faults;
 pub use figure::Figure;
 pub use map::{Colours, HeatMap};
 pub use number::{nice, signed, significant};
-pub use page::page;
+pub use page::{HAND, Script, page, scripted};
 pub use panel::{Content, Height, Panel};
 pub use scale::{Axis, Ends};
 pub use series::{MOST_POINTS, Series, Style, Thinning};

@@ -1,16 +1,33 @@
 //! The frame of a page.
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use sha2::{Digest, Sha256};
 
 use crate::style::page_style;
 
 const STYLE: &str = include_str!("page.css");
 
-/// Permissions of a page in a browser: nothing but be drawn, with the styles in it. No page has a script, a picture or a font of its own.
+/// Lets the figures of a page answer to a hand; a script that adds figures later calls `hand` with the element that holds them.
+pub const HAND: &str = include_str!("hand.js");
+
+/// Permissions of a page in a browser: nothing but be drawn, with the styles in it.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";
 
-/// A page that needs nothing but itself, on paper, phone and screen, in light and dark: `lead` in its header, `body` below. Control
-/// characters, which no page may hold, are dropped.
+/// What a page does by itself.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Script<'a> {
+    /// JavaScript; none if empty. The browser runs no other.
+    pub text: &'a str,
+    /// Rules beside the page's own style.
+    pub style: &'a str,
+    /// Further permissions, as `Content-Security-Policy` writes them after the sources of scripts.
+    pub permissions: &'a str,
+}
+
+/// A page that needs nothing but itself, on paper, phone and screen, in light and dark: `lead` in its header, `body` below. Its figures
+/// answer to a hand. Control characters, which no page may hold, are dropped.
 ///
 /// ```
 /// use charts::{page, faults};
@@ -21,19 +38,41 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";
 /// assert!(faults(&page).is_empty());
 /// ```
 pub fn page(title: &str, lead: &Markup, body: &Markup) -> String {
+    // what has no axes has nothing to read
+    let text = if body.0.contains(" data-x=\"") { HAND } else { "" };
+    scripted(title, lead, body, Script { text, ..Script::default() })
+}
+
+/// A page, as [`page`] makes it, that acts: its script alone is run, told by its SHA-256.
+///
+/// ```
+/// use charts::{Script, faults, scripted};
+/// use maud::html;
+///
+/// let script = Script { text: "document.title = 1 < 2 && 'acts';", ..Script::default() };
+/// let page = scripted("Waits", &html! { p { "For a script." } }, &html! { h2 { "Result" } }, script);
+/// assert!(page.contains("script-src 'sha256-") && page.contains("1 < 2 && 'acts'"));
+/// assert_eq!(faults(&page), [""; 0]);
+/// ```
+pub fn scripted(title: &str, lead: &Markup, body: &Markup, Script { text, style, permissions }: Script) -> String {
+    let policy = match text {
+        "" => POLICY.to_owned(),
+        _ => format!("{POLICY}; script-src 'sha256-{}'{permissions}", STANDARD.encode(Sha256::digest(text))),
+    };
     let page = html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta http-equiv="Content-Security-Policy" content=(policy);
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (title) }
-                style { (PreEscaped(page_style())) (PreEscaped(STYLE)) }
+                style { (PreEscaped(page_style())) (PreEscaped(STYLE)) (PreEscaped(style)) }
             }
             body {
                 header { h1 { (title) } (lead) }
                 main { (body) }
+                @if !text.is_empty() { script { (PreEscaped(text)) } }
             }
         }
     };

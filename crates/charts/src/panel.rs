@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::scale::Scale;
+use crate::series::path;
 use crate::size::Measures;
 use crate::svg::Svg;
 use crate::{Axis, Colours, Drawing, Fill, HeatMap, Series, attributes};
@@ -190,8 +191,8 @@ impl<'a> Panel<'a> {
         Place { left, plot, above: heading + 1.5 * m.font * rows as f64 + bar + 2.1 * m.font, below }
     }
 
-    /// The panel, as wide as `width`; `id` names a map's cells.
-    pub(crate) fn draw(&self, svg: &mut Svg, m: &Measures, width: f64, place: &Place, id: &str) {
+    /// The panel, as wide as `width`; `id` names a map's cells, `along` is the label of its abscissa, which a panel below may have.
+    pub(crate) fn draw(&self, svg: &mut Svg, m: &Measures, width: f64, place: &Place, [id, along]: [&str; 2]) {
         let mut at = 0.0;
         if !self.heading.is_empty() {
             svg.element("text", attributes! { "class": "heading", "x": "4", "y": "{:.1}"(1.2 * m.font) }, &self.heading);
@@ -213,14 +214,31 @@ impl<'a> Panel<'a> {
             });
         }
         svg.text([0.2 * m.font, place.above - 0.9 * m.font], "start", &self.y.label);
-        svg.moved([place.left, place.above], |svg| self.plot(svg, m, place, id));
+        let [x, y] = self.scales(m, place);
+        let [width, height] = place.plot;
+        let plot = |svg: &mut Svg| self.plot(svg, [&x, &y], m, place, id);
+        match &self.content {
+            // a page's script reads them
+            Content::Lines(_) if m.live && self.y.names.is_none() => svg.group(
+                attributes! {
+                    "transform": "translate({:.1} {:.1})"(place.left, place.above), "data-x": "{}"(x.ends()), "data-y": "{}"(y.ends()),
+                    "data-plot": "{width:.1} {height:.1}", "data-along": "{along}"
+                },
+                plot,
+            ),
+            _ => svg.moved([place.left, place.above], plot),
+        }
+    }
+
+    /// The axes over the pixels between them.
+    fn scales(&self, m: &Measures, place: &Place) -> [Scale; 2] {
+        let ([x, y], [width, height]) = (self.ranges(), place.plot);
+        [Scale::new(&self.x, x, [0.0, width], m.apart[0]), Scale::new(&self.y, y, [height, 0.0], m.apart[1])]
     }
 
     /// The content between the axes, and the axes; the origin is the upper left corner.
-    fn plot(&self, svg: &mut Svg, m: &Measures, place: &Place, id: &str) {
-        let ([x_range, y_range], [width, height]) = (self.ranges(), place.plot);
-        let x = Scale::new(&self.x, x_range, [0.0, width], m.apart[0]);
-        let y = Scale::new(&self.y, y_range, [height, 0.0], m.apart[1]);
+    fn plot(&self, svg: &mut Svg, [x, y]: [&Scale; 2], m: &Measures, place: &Place, id: &str) {
+        let [width, height] = place.plot;
         let (mut grid, mut labels) = (String::new(), Svg::default());
         for (tick, label) in x.ticks() {
             let at = x.pixel(tick);
@@ -244,16 +262,27 @@ impl<'a> Panel<'a> {
                 svg.leaf("path", attributes! { "class": "grid", "d": "{grid}" });
                 let zero = y.holds(0.0) && self.y.names.is_none();
                 axes(svg, &if zero { format!("M0 {:.1}H{width:.1}", y.pixel(0.0)) } else { String::new() });
-                series.iter().for_each(|series| series.draw(svg, |(a, b)| (x.pixel(a), y.pixel(b))));
+                for (n, one) in series.iter().enumerate() {
+                    let points = one.points(|(a, b)| (x.pixel(a), y.pixel(b)));
+                    let draw = |svg: &mut Svg| one.draw(svg, &points);
+                    let name = Series::called(series, n);
+                    match (m.live, one.style.is_points()) {
+                        (true, true) => {
+                            svg.group(attributes! { "data-name": "{name}", "data-points": "{}"(path(&points)) }, draw);
+                        }
+                        (true, false) => svg.group(attributes! { "data-name": "{name}" }, draw),
+                        (false, _) => draw(svg),
+                    }
+                }
             }
             Content::Map(map) => {
                 map.cells(svg, place.plot, id, m.first);
                 map.dots(svg, place.plot);
-                axes(svg, &outward_ticks(&x, &y, height));
+                axes(svg, &outward_ticks(x, y, height));
             }
             Content::Drawing(drawing) => {
-                drawing.draw(svg, (&x, &y), m.font);
-                axes(svg, &outward_ticks(&x, &y, height));
+                drawing.draw(svg, (x, y), m.font);
+                axes(svg, &outward_ticks(x, y, height));
             }
         }
         svg.append(&labels);

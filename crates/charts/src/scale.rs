@@ -97,6 +97,11 @@ impl Scale {
         self.pixels[0] + (value - self.low) / (self.high - self.low) * (self.pixels[1] - self.pixels[0])
     }
 
+    /// Both ends of the drawn range, and whether they are decimal logarithms, as a page's script reads them.
+    pub(crate) fn ends(&self) -> String {
+        format!("{} {} {}", self.low, self.high, u8::from(self.logarithmic))
+    }
+
     /// Whether a value lies in the drawn range.
     pub(crate) fn holds(&self, value: f64) -> bool {
         !self.logarithmic && (self.low..=self.high).contains(&value)

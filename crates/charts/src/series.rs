@@ -92,13 +92,18 @@ impl<'a> Series<'a> {
         Self { thinning: Thinning::Distance, ..self }
     }
 
-    /// The line, and a mark at each point where the style has marks.
-    pub(crate) fn draw(&self, svg: &mut Svg, pixel: impl Fn((f64, f64)) -> (f64, f64)) {
-        let points = self.points(pixel);
+    /// The line through [`Series::points`], and a mark at each where the style has marks.
+    pub(crate) fn draw(&self, svg: &mut Svg, points: &[(f64, f64)]) {
         if !self.style.is_points() {
-            svg.leaf("path", attributes! { "class": "{}"(self.style.class()), "d": "{}"(path(&points)) });
+            svg.leaf("path", attributes! { "class": "{}"(self.style.class()), "d": "{}"(path(points)) });
         }
         points.iter().for_each(|point| self.mark(svg, *point));
+    }
+
+    /// The name of one of several: what has none is another part of the one before it that looks like it.
+    pub(crate) fn called<'s>(all: &'s [Series], n: usize) -> &'s str {
+        let alike = all[..=n].iter().rev().filter(|other| other.style == all[n].style);
+        alike.map(|other| other.name.as_str()).find(|name| !name.is_empty()).unwrap_or_default()
     }
 
     /// A piece of it for a legend, 34 × 12 px.
@@ -150,7 +155,7 @@ impl<'a> Series<'a> {
 }
 
 /// Path data to tenths of a pixel.
-fn path(points: &[(f64, f64)]) -> String {
+pub(crate) fn path(points: &[(f64, f64)]) -> String {
     let mut data = String::new();
     for (i, (x, y)) in points.iter().enumerate() {
         let _ = write!(data, "{}{x:.1} {y:.1}", if i == 0 { 'M' } else { 'L' });

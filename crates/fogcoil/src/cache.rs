@@ -68,6 +68,11 @@ impl Cache {
         Self { code: Some(file.into()), ..self }
     }
 
+    /// The file that holds this code, if it is not the executable.
+    pub(crate) fn code(&self) -> Option<&Path> {
+        self.code.as_deref()
+    }
+
     /// The user's cache: `$FOGCOIL_CACHE`, else `fogcoil` in `$XDG_CACHE_HOME`, else `.cache/fogcoil` in the home folder.
     pub fn of_user() -> Self {
         let from = |variable: &str| env::var_os(variable).filter(|value| !value.is_empty()).map(PathBuf::from);

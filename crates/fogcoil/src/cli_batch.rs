@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use fogcoil::batch::{self, Batch, Inputs, Limits, Unit, kept_files, read_limits, report, table, text, units};
+use fogcoil::batch::{self, Batch, Inputs, Unit, kept_files, read_limits, report, table, text, units};
 use fogcoil::cache::Cache;
 use fogcoil::input::{self, RecordOptions};
 use fogcoil::measure::Prediction;
-use fogcoil::output::Content;
-use fogcoil::tabular::{Format, bytes};
+use fogcoil::tabular::Format;
 use fogcoil::{Error, diagnose};
 
+use crate::cli_tables::Tables;
 use crate::print;
 use crate::progress::Progress;
 
@@ -39,10 +39,6 @@ pub(crate) struct BatchOf {
     map: Option<PathBuf>,
 }
 
-const NAMES: [(&str, Format); 3] = [("table.csv", Format::Csv), ("table.parquet", Format::Parquet), ("table.xlsx", Format::Xlsx)];
-
-const PAGE: &str = "report.html";
-
 pub(crate) fn run(arguments: &BatchOf, progress: &Progress) -> Result<(), Error> {
     let BatchOf { coil, records, limits, out, mechanisms, meta, map } = arguments;
     let asked = input::read_mechanisms(mechanisms)?;
@@ -53,7 +49,8 @@ pub(crate) fn run(arguments: &BatchOf, progress: &Progress) -> Result<(), Error>
     let all = units.iter().flat_map(|unit| unit.fits.iter().chain(&unit.holdouts)).flat_map(|record| options.files(record));
     let mut inputs: Vec<PathBuf> = all.chain(asked.own.iter().map(|own| own.file.clone())).collect();
     inputs.extend(limits.iter().map(|limits| limits.fingerprint.file.clone()));
-    let outputs = places(out, &units);
+    let tables = Tables::within(out, &[Format::Csv, Format::Parquet, Format::Xlsx]);
+    let outputs = places(&tables, out, &units);
     let case = progress.read_coil_for(coil, &inputs, &outputs.iter().map(|path| Some(path.as_path())).collect::<Vec<_>>())?;
     diagnose::check_design(&case, coil)?;
     let prediction = progress.during("modelling the coil", || {
@@ -62,32 +59,18 @@ pub(crate) fn run(arguments: &BatchOf, progress: &Progress) -> Result<(), Error>
     })?;
     let inputs = Inputs { case: &case, asked: &asked, options: &options, cache: &Cache::of_user(), prediction: &prediction };
     let batch = progress.tasks(|tell| batch::run(&inputs, &units, limits.as_ref(), out, tell))?;
-    save(&inputs, limits.as_ref(), &batch, out, progress)?;
+    tables.save(&table(&batch), || report(&inputs, limits.as_ref(), &batch), Vec::new(), progress)?;
     print(&text(&batch))?;
     judged(&batch)
 }
 
 /// All files that may be written into an existing folder, those of units where an earlier run kept them; the path itself where it is no folder.
-fn places(out: &Path, units: &[Unit]) -> Vec<PathBuf> {
+fn places(tables: &Tables, out: &Path, units: &[Unit]) -> Vec<PathBuf> {
     if !out.is_dir() {
         return out.exists().then(|| out.to_owned()).into_iter().collect();
     }
-    let tables = NAMES.iter().map(|(name, _)| *name).chain([PAGE]).map(|name| out.join(name));
     let kept = kept_files(out, units).into_iter().filter(|file| file.exists());
-    tables.chain(kept).collect()
-}
-
-fn save(inputs: &Inputs, limits: Option<&Limits>, batch: &Batch, out: &Path, progress: &Progress) -> Result<(), Error> {
-    let table = table(batch);
-    let written = NAMES.iter().map(|(name, format)| Ok((out.join(name), bytes(&table, *format)?)));
-    let written: Vec<(PathBuf, Vec<u8>)> = written.collect::<Result<_, Error>>()?;
-    let writers: Vec<_> =
-        written.iter().map(|(path, bytes)| (path, move |to: &mut dyn std::io::Write| to.write_all(bytes))).collect();
-    let mut files: Vec<(&Path, Content)> =
-        writers.iter().map(|(path, write)| (path.as_path(), Content::Written(write))).collect();
-    let page = out.join(PAGE);
-    files.push((&page, Content::Text(report(inputs, limits, batch))));
-    progress.save(&files)
+    tables.files().map(Path::to_owned).chain(kept).collect()
 }
 
 /// Bad input comes before failing units.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use fogcoil::{Error, output};
+use fogcoil::{Error, output, templates};
 
 use crate::print;
 
@@ -35,11 +35,11 @@ enum Kind {
 impl Kind {
     fn template(self) -> &'static str {
         match self {
-            Self::Coil => include_str!("../templates/coil.ron"),
-            Self::Cell => include_str!("../templates/cell.ron"),
-            Self::Targets => include_str!("../templates/targets.ron"),
-            Self::Mechanism => include_str!("../templates/mechanism.ron"),
-            Self::Profile => include_str!("../templates/profile.csv"),
+            Self::Coil => templates::COIL,
+            Self::Cell => templates::CELL,
+            Self::Targets => templates::TARGETS,
+            Self::Mechanism => templates::MECHANISM,
+            Self::Profile => templates::PROFILE,
         }
     }
 

@@ -52,6 +52,7 @@ pub mod homogenize;
 pub mod identify;
 mod keys;
 pub mod measure;
+#[cfg(not(target_family = "wasm"))]
 pub mod optimise;
 pub mod picture;
 pub mod picture_cell;
@@ -66,6 +67,7 @@ pub mod summary;
 pub mod sweep;
 mod table;
 pub mod tabular;
+pub mod templates;
 pub mod trim;
 mod turn_bias;
 pub mod variants;

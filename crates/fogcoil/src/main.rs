@@ -14,6 +14,7 @@ mod cli_optimise;
 mod cli_recommend;
 mod cli_simulate;
 mod cli_sweep;
+mod cli_tables;
 mod progress;
 mod signals;
 

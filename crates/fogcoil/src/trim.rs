@@ -11,6 +11,7 @@ use crate::Error;
 use crate::input::{CoilCase, ProfileCase};
 use crate::sensitivity::Share;
 use crate::table::{significant, table};
+use crate::tabular::{Column, Table};
 use crate::wind::name;
 
 /// Turns cut off from either end, at most, in the table.
@@ -63,6 +64,19 @@ pub fn json(trim: &Trim) -> Value {
         "turns_cut_off": trim.turns.iter().map(turns).collect::<Vec<_>>(),
         "transients_deg_per_h": transients,
     })
+}
+
+/// The remaining sensitivity, a row for each number of turns cut off either end.
+pub fn turns_cut_off(trim: &Trim) -> Table {
+    let all = &trim.turns;
+    let numbers = |name: &str, of: fn(&TurnTrim) -> f64| Column::numbers(name, all.iter().map(|t| Some(of(t))).collect());
+    let columns = vec![
+        Column::texts("half", all.iter().map(|t| Some(name(t.half).to_owned())).collect()),
+        Column::whole("turns", all.iter().map(|t| t.turns as i64).collect()),
+        numbers("length_m", |t| t.length),
+        numbers("sensitivity", |t| t.sensitivity),
+    ];
+    Table { columns, about: Vec::new() }
 }
 
 /// The result in words and tables.

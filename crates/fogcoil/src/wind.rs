@@ -3,10 +3,11 @@
 use std::fmt::Write;
 
 use serde_json::{Value, json};
-use winding::{Half, Winding};
+use winding::{Half, Turn, Winding};
 
 use crate::input::CoilCase;
 use crate::table::{significant, table};
+use crate::tabular::{Column, Table};
 use crate::units::to_mm;
 
 /// The turn table, one row a turn, in order along the fibre from z = 0; every number reads back to the same double.
@@ -17,6 +18,23 @@ pub fn csv(winding: &Winding) -> String {
         let _ = writeln!(text, "{half},{},{},{y},{r},{},{}", turn.layer, turn.turn, turn.z_start, turn.z_end);
     }
     text
+}
+
+/// The turn table, a row a turn, in order along the fibre from z = 0.
+pub fn turns(winding: &Winding) -> Table {
+    let all = winding.turns();
+    let numbers = |name: &str, of: fn(&Turn) -> f64| Column::numbers(name, all.iter().map(|turn| Some(of(turn))).collect());
+    let whole = |name: &str, of: fn(&Turn) -> usize| Column::whole(name, all.iter().map(|turn| of(turn) as i64).collect());
+    let columns = vec![
+        Column::texts("half", all.iter().map(|turn| Some(name(turn.half).to_owned())).collect()),
+        whole("layer", |turn| turn.layer),
+        whole("turn", |turn| turn.turn),
+        numbers("y_mm", |turn| to_mm(turn.y)),
+        numbers("r_mm", |turn| to_mm(turn.r)),
+        numbers("z_start_m", |turn| turn.z_start),
+        numbers("z_end_m", |turn| turn.z_end),
+    ];
+    Table { columns, about: Vec::new() }
 }
 
 /// `CW` or `CCW`.

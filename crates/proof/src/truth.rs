@@ -120,7 +120,7 @@ const UNSEEN: f64 = 3.0;
 
 impl Truth {
     pub(crate) fn read(file: &Path) -> Result<Self, Failure> {
-        Ok(fogcoil::input::read_ron(file)?)
+        Ok(fogcoil::input::read_ron(file)?.0)
     }
 
     pub(crate) fn write(&self) -> Result<String, Failure> {

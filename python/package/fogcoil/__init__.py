@@ -11,31 +11,50 @@ in (deg/h)/(degC/min). Signs: y = 0 is the coil's left face, z = 0 the outer end
 
 A :class:`DesignBox` simulates one changed design after another in milliseconds.
 
+A result shows itself in a notebook, with its picture; ``result.table`` is a DataFrame of pandas or polars, and any library that reads Arrow's C data
+interface takes ``result.arrow``. Ctrl-C ends what is computed at its next step.
+
 Bad input is an :class:`InputError`, a :class:`ValueError` whose message says what, where and how to mend it; ``RuntimeError`` is a failure
 of the program's own. Other threads run while anything is computed, so that ``concurrent.futures.ThreadPoolExecutor`` makes sweeps parallel.
 """
 
-from fogcoil._diagnose import Diagnosis, Record, diagnose
-from fogcoil._measure import Measurement, measure
+from fogcoil._arrays import Columns, Result
+from fogcoil._diagnose import Calibration, Diagnosis, Record, batch, calibrate, diagnose, recommend
+from fogcoil._measure import Measurement, check, measure
 from fogcoil._native import Cell, Coil, InputError, __version__
-from fogcoil._solve import DesignBox, Sensitivity, Simulation, compare, homogenize, sensitivity, simulate, wind
+from fogcoil._plans import Optimum, explain, identify, new, optimise, sweep
+from fogcoil._solve import DesignBox, Sensitivity, Simulation, compare, homogenize, sensitivity, simulate, trim, wind
 
 __all__ = [
+    "Calibration",
     "Cell",
     "Coil",
+    "Columns",
     "DesignBox",
     "Diagnosis",
     "InputError",
     "Measurement",
+    "Optimum",
     "Record",
+    "Result",
     "Sensitivity",
     "Simulation",
     "__version__",
+    "batch",
+    "calibrate",
+    "check",
     "compare",
     "diagnose",
+    "explain",
     "homogenize",
+    "identify",
     "measure",
+    "new",
+    "optimise",
+    "recommend",
     "sensitivity",
     "simulate",
+    "sweep",
+    "trim",
     "wind",
 ]

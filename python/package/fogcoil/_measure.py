@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import os
 from typing import Any, TypedDict, cast
 
 from fogcoil import _native
+from fogcoil._arrays import Result
 from fogcoil._diagnose import Record, record as checked
 from fogcoil._solve import AnyCoil, coil_of
 
@@ -54,4 +54,9 @@ def measure(record: Record, coil: AnyCoil | None = None, *, meta: str | os.PathL
     the measured one. ``meta`` is the path of a meta file; without it, ``meta.ron`` beside a CSV is read.
     """
     design = None if coil is None else coil_of(coil)
-    return cast(Measurement, json.loads(_native.measure(checked("record", record), design, meta)))
+    return cast(Measurement, Result(_native.measure(checked("record", record), design, meta)))
+
+
+def check(record: Record, *, meta: str | os.PathLike[str] | None = None) -> Result:
+    """Is ``record`` usable, and which noise is in it? The keys of ``fogcoil check --json``; a notebook shows the Allan deviation."""
+    return Result(_native.check(checked("record", record), meta))

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any, TypedDict, Union
+from typing import Any, TypedDict, Union, cast
 
 import numpy as np
 import numpy.typing as npt
 
 from fogcoil import _native
-from fogcoil._arrays import CODE, Array, arrays, table
-from fogcoil._native import Cell, Coil, InputError
+from fogcoil._arrays import CODE, Array, Columns, Result, arrays, profile_of, table
+from fogcoil._native import Cell, Coil
 
 AnyCoil = Union[Coil, str, "os.PathLike[str]"]
 AnyCell = Union[Cell, str, "os.PathLike[str]"]
@@ -23,7 +22,7 @@ def coil_of(design: AnyCoil) -> Coil:
     return design if isinstance(design, Coil) else Coil(design)
 
 
-def homogenize(cell: AnyCell, tolerance: float = 1e-6, temperature_c: float | None = None) -> dict[str, Any]:
+def homogenize(cell: AnyCell, tolerance: float = 1e-6, temperature_c: float | None = None) -> Result:
     """Effective constants of a fibre's cell, each to the relative error ``tolerance``.
 
     Keys: ``e_z e_r g_zr g_r k_plane_strain`` [Pa], ``nu_zr nu_r nu_rz``, ``alpha_z alpha_r`` [1/K], ``k_z k_r`` [W/(m K)], the mean radial
@@ -33,19 +32,17 @@ def homogenize(cell: AnyCell, tolerance: float = 1e-6, temperature_c: float | No
     A cell of another kind (displaced or several fibres, voids) has constants along x, y and z, arrays ``stiffness`` [Pa] and
     ``thermal_stress`` [Pa/K], and ``transversely_isotropic``, the nearest constants. ``temperature_c`` is for constituents that are tables.
     """
-    solved = _native.homogenize(cell if isinstance(cell, Cell) else Cell(cell), tolerance, temperature_c)
-    result: dict[str, Any] = json.loads(solved)
+    result = Result(_native.homogenize(cell if isinstance(cell, Cell) else Cell(cell), tolerance, temperature_c))
     for key in ("stiffness", "thermal_stress"):
         if key in result:
             result[key] = np.array(result[key])
     return result
 
 
-def wind(coil: AnyCoil) -> dict[str, npt.NDArray[Any]]:
+def wind(coil: AnyCoil) -> Columns:
     """The turn table in order along the fibre: ``half`` ("CW", "CCW"), ``layer`` and ``turn`` from 1, ``y_mm``, ``r_mm``, ``z_start_m``,
-    ``z_end_m``."""
-    half, layer, turn, columns = _native.wind(coil_of(coil))
-    return {"half": np.array(half), "layer": np.array(layer), "turn": np.array(turn), **arrays(columns)}
+    ``z_end_m``; a notebook shows the section."""
+    return Columns(_native.wind(coil_of(coil)))
 
 
 class Sensitivity(TypedDict):
@@ -69,8 +66,7 @@ class Sensitivity(TypedDict):
 
 def sensitivity(coil: AnyCoil) -> Sensitivity:
     """Bias per temperature rate in a steady ramp, by part. Half a second."""
-    result: Sensitivity = json.loads(_native.sensitivity(coil_of(coil)))
-    return result
+    return cast(Sensitivity, Result(_native.sensitivity(coil_of(coil))))
 
 
 def compare(
@@ -81,7 +77,7 @@ def compare(
     *,
     between: str = "linear",
     cache: bool = True,
-) -> dict[str, Any]:
+) -> Result:
     """Two designs side by side: the keys of ``fogcoil compare --json``.
 
     ``differing`` and ``tolerances`` list what differs. ``sensitivity[part]["a" | "b" | "difference"]`` has ``value``, ``error_estimate``
@@ -90,21 +86,29 @@ def compare(
     two units without a deviation in common. With a chamber ``chamber_c`` [degC] at the instants ``time_s`` [s], ``bias`` has the peak, the root mean
     square and the end of each course [deg/h], and of b less a row by row; without it is None.
     """
-    if (time_s is None) != (chamber_c is None):
-        raise InputError("compare: time_s and chamber_c go together; give both or neither")
-    profile = None if time_s is None else table("profile", {"time_s": time_s, "chamber_c": chamber_c})
-    compared = _native.compare(coil_of(a), coil_of(b), profile, between, CODE if cache else None)
-    result: dict[str, Any] = json.loads(compared)
-    return result
+    profile = profile_of("compare", time_s, chamber_c)
+    return Result(_native.compare(coil_of(a), coil_of(b), profile, between, CODE if cache else None))
 
 
-class Simulation(dict[str, Array]):
+def trim(
+    coil: AnyCoil,
+    time_s: npt.ArrayLike | None = None,
+    chamber_c: npt.ArrayLike | None = None,
+    *,
+    between: str = "linear",
+) -> Result:
+    """Tail lengths, or turns to cut off, that null the steady sensitivity: the keys of ``fogcoil trim --json``.
+
+    ``table`` has the sensitivity that is left for each number of turns cut off either end. With a chamber ``chamber_c`` [degC] at the instants
+    ``time_s`` [s], ``transients_deg_per_h`` is what the tails' trim leaves of the bias.
+    """
+    return Result(_native.trim(coil_of(coil), profile_of("trim", time_s, chamber_c), between))
+
+
+class Simulation(Columns):
     """Columns in time: ``time_s``, ``chamber_c``, ``spool_c``, and the bias ``shupe_deg_per_h``, ``eo_axial_deg_per_h``,
-    ``eo_radial_deg_per_h``, ``rate_deg_per_h`` (their sum, with the read-out's drift), means since the row before. A dict of arrays, as
-    ``pandas.DataFrame`` takes it."""
-
-    summary: dict[str, Any]
-    """What it comes down to, with error estimates: the keys of ``fogcoil simulate --json``."""
+    ``eo_radial_deg_per_h``, ``rate_deg_per_h`` (their sum, with the read-out's drift), means since the row before; ``summary`` has
+    error estimates. ``table`` is a DataFrame."""
 
 
 def simulate(
@@ -130,10 +134,14 @@ def simulate(
     given = {"left_c": left_c, "right_c": right_c, "mount_left_c": mount_left_c, "mount_right_c": mount_right_c}
     drives = {name: values for name, values in given.items() if values is not None}
     profile = table("profile", {"time_s": time_s, "chamber_c": chamber_c, **drives, **(further or {})})
-    columns, summary = _native.simulate(coil_of(coil), profile, between, list(mechanisms), CODE if cache else None)
-    result = Simulation(arrays(columns))
-    result.summary = json.loads(summary)
-    return result
+    return Simulation(_native.simulate(coil_of(coil), profile, between, list(mechanisms), CODE if cache else None))
+
+
+class BoxSimulation(dict[str, Array]):
+    """The columns of a :class:`Simulation`, as numpy arrays."""
+
+    summary: dict[str, Any]
+    """``error_estimate`` of ``spool_c`` and ``rate_deg_per_h``."""
 
 
 class DesignBox:
@@ -152,7 +160,7 @@ class DesignBox:
 
     def simulate(
         self, coil: AnyCoil, time_s: npt.ArrayLike, chamber_c: npt.ArrayLike, *, between: str = "linear"
-    ) -> Simulation:
+    ) -> BoxSimulation:
         """As :func:`simulate`, of a design in the box; end walls and mounts follow the chamber.
 
         ``summary["error_estimate"]`` says how far ``spool_c`` and ``rate_deg_per_h`` are anywhere from those of :func:`simulate`, an estimate.
@@ -160,7 +168,7 @@ class DesignBox:
         """
         profile = table("profile", {"time_s": time_s, "chamber_c": chamber_c})
         columns, (spool, rate) = self._native.simulate(coil_of(coil), profile, between)
-        result = Simulation(arrays(columns))
+        result = BoxSimulation(arrays(columns))
         result.summary = {"error_estimate": {"spool_c": spool, "rate_deg_per_h": rate}}
         return result
 

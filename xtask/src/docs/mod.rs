@@ -11,7 +11,6 @@ mod table;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use clap::Args;
 use fogcoil::input;
@@ -20,6 +19,8 @@ use shell::{Shell, Tally};
 
 use proof::Failure;
 use proof::files::{self, root};
+
+use crate::tools::program;
 
 const TUTORIAL: &str = "docs/tutorial.md";
 const FORMATS: &str = "docs/formats.md";
@@ -66,7 +67,9 @@ impl DocsCheck {
         {
             return Err(Failure(format!("{}: is no page; name it from the repository's root", page.display())));
         }
-        let (program, cache) = program()?;
+        let program = program()?;
+        // beside the folder of the profile
+        let cache = program.ancestors().nth(2).unwrap_or(root).join("tmp/cache");
         let shell = Shell::new(root, &program, cache.clone())?;
         let mut tally = Tally::default();
         for page in pages.values().filter(|page| only.as_ref().is_none_or(|only| page.path == *only)) {
@@ -123,23 +126,4 @@ fn snippets(page: &Page) -> Vec<String> {
 
 fn formats(root: &Path) -> Result<String, Failure> {
     Ok(table::renewed(&files::read(&root.join(FORMATS))?, &input::schemas()))
-}
-
-/// The program, built in the profile of this one, and where its tests keep their models.
-fn program() -> Result<(PathBuf, PathBuf), Failure> {
-    let this = std::env::current_exe()?;
-    let folder = this.parent().ok_or_else(|| Failure("this program has no folder".into()))?;
-    let mut build = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    build.args(["build", "--quiet"]).current_dir(root());
-    if folder.ends_with("release") {
-        build.args(["--release", "--package", "fogcoil"]);
-    } else {
-        // so cargo takes what `cargo test --workspace` has built: for one package it would resolve the features anew
-        build.args(["--workspace", "--bins", "--tests"]);
-    }
-    let target = folder.parent().unwrap_or(folder);
-    if !build.env("CARGO_TARGET_DIR", target).status()?.success() {
-        return Err(Failure("fogcoil cannot be built".into()));
-    }
-    Ok((folder.join("fogcoil"), target.join("tmp/cache")))
 }

@@ -101,8 +101,8 @@ fn kind(of: &Value) -> String {
             other => other.into(),
         },
         (Value::Array(kinds), _) => {
-            let some = kinds.iter().find(|kind| *kind != "null").and_then(Value::as_str).unwrap_or_default();
-            format!("`None` or `Some` {some}")
+            let some: Vec<&str> = kinds.iter().filter_map(Value::as_str).filter(|kind| *kind != "null").collect();
+            format!("`None` or `Some` {}", some.join(" or "))
         }
         _ => "–".into(),
     }

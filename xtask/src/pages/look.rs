@@ -3,10 +3,12 @@
 use std::fs;
 use std::path::Path;
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::json;
 
-use super::browser::{Browser, decoded};
+use crate::browser::{Browser, complaint, request};
 use proof::Failure;
 
 /// Widths of a phone, a tablet and a screen [CSS px].
@@ -100,7 +102,7 @@ pub(super) fn look(
     resize(browser, width, 900)?;
     let scheme = json!({ "name": "prefers-color-scheme", "value": theme });
     browser.call("Emulation.setEmulatedMedia", json!({ "media": "screen", "features": [scheme] }))?;
-    open(browser, &url)?;
+    browser.open(&url)?;
     browser.evaluate(axe)?;
     let said: Said = serde_json::from_value(browser.evaluate(CHECK)?)?;
     if said.inner != width {
@@ -110,7 +112,7 @@ pub(super) fn look(
     resize(browser, width, said.height.min(MOST_HIGH) as u32)?;
     let shot = browser.call("Page.captureScreenshot", json!({ "format": "png" }))?;
     let name = format!("{page}-{width}-{}.png", theme);
-    fs::write(folder.join(name), decoded(shot["data"].as_str().unwrap_or_default()))?;
+    fs::write(folder.join(name), decoded(shot["data"].as_str().unwrap_or_default())?)?;
     let small =
         (said.smallest > 0.0 && said.smallest < LEAST_LETTER).then(|| format!("letters of {:.1} px in a figure", said.smallest));
     let covered = said.overlapping.into_iter().map(|label| format!("covers another: {label}"));
@@ -132,10 +134,10 @@ pub(super) fn look(
 pub(super) fn print(browser: &mut Browser, file: &Path, folder: &Path) -> Result<(), Failure> {
     let page = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     browser.call("Emulation.setEmulatedMedia", json!({ "media": "", "features": [] }))?;
-    open(browser, &format!("file://{}", file.display()))?;
+    browser.open(&format!("file://{}", file.display()))?;
     let margins = json!({ "paperWidth": 8.27, "paperHeight": 11.69, "printBackground": true });
     let printed = browser.call("Page.printToPDF", margins)?;
-    fs::write(folder.join(format!("{page}.pdf")), decoded(printed["data"].as_str().unwrap_or_default()))?;
+    fs::write(folder.join(format!("{page}.pdf")), decoded(printed["data"].as_str().unwrap_or_default())?)?;
     Ok(())
 }
 
@@ -144,26 +146,7 @@ fn resize(browser: &mut Browser, width: u32, height: u32) -> Result<(), Failure>
     browser.call("Emulation.setDeviceMetricsOverride", metrics).map(drop)
 }
 
-fn open(browser: &mut Browser, url: &str) -> Result<(), Failure> {
-    browser.events();
-    let answer = browser.call("Page.navigate", json!({ "url": url }))?;
-    match answer["errorText"].as_str() {
-        Some(error) => Err(Failure(format!("{url}: {error}"))),
-        None => browser.until("Page.loadEventFired"),
-    }
-}
-
-fn complaint(event: &Value) -> Option<String> {
-    let params = &event["params"];
-    match event["method"].as_str()? {
-        "Runtime.exceptionThrown" => Some(params["exceptionDetails"]["text"].to_string()),
-        "Runtime.consoleAPICalled" if params["type"] != "log" => Some(params["args"].to_string()),
-        "Log.entryAdded" if params["entry"]["level"] != "verbose" => Some(params["entry"]["text"].to_string()),
-        _ => None,
-    }
-}
-
-fn request(event: &Value) -> Option<String> {
-    (event["method"] == "Network.requestWillBeSent")
-        .then(|| event["params"]["request"]["url"].as_str().unwrap_or_default().to_owned())
+/// Bytes of a picture or a page.
+fn decoded(base64: &str) -> Result<Vec<u8>, Failure> {
+    STANDARD.decode(base64).map_err(|error| Failure(format!("Chromium's answer is no base64: {error}")))
 }

@@ -1,7 +1,7 @@
 //! `cargo xtask pages`: the reports as readers have them, in a browser: on a phone, a tablet and a screen, in light and dark, on paper.
 
 mod axe;
-mod browser;
+mod hand;
 mod look;
 mod make;
 
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use browser::Browser;
+use crate::browser::{self, Browser};
 use look::{Finding, Look, THEMES, WIDTHS};
 use proof::Failure;
 
@@ -59,7 +59,12 @@ impl Pages {
             }
             look::print(&mut browser, file, folder)?;
         }
-        let holds = looks.iter().all(Look::holds);
+        let mut wrong = Vec::new();
+        for file in files.iter().filter(|file| file.ends_with("simulate.html")) {
+            wrong.extend(hand::faults(&mut browser, file)?);
+        }
+        wrong.iter().for_each(|fault| println!("{fault}"));
+        let holds = looks.iter().all(Look::holds) && wrong.is_empty();
         if !self.kept {
             proof::files::write(DOCUMENT.as_ref(), &markdown(&looks, &browser.version))?;
         }
@@ -83,7 +88,8 @@ fn markdown(looks: &[Look], chromium: &str) -> String {
          that nothing in the library explains, one that needs no explanation) and of `cargo xtask validate`, made from the fixtures, opened in \
          {chromium} as on a phone, a tablet and a screen, in light and dark, folded tables opened, and judged by axe-core {version}. The \
          command exits with 1 on a serious or critical finding, on an element wider than the page, on a figure's label that leaves the \
-         figure, covers another or is smaller than 9 px, on an error or a warning of the console, and on any request besides the page itself. \
+         figure, covers another or is smaller than 9 px, on an error or a warning of the console, on any request besides the page itself, and on \
+         a figure that does not answer to a hand: values under the pointer beside those of its table, a part of it, other units, a line taken away. \
          Screenshots and prints on A4 are left in target/pages.\n\n\
          | page | width [px] | colours | axe: serious, critical | axe: others | wider than the page | labels | console | requests |\n\
          |---|---|---|---|---|---|---|---|---|\n"

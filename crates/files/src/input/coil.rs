@@ -101,6 +101,15 @@ pub fn read_coil(path: &Path) -> Result<CoilCase, Error> {
     checked(path, open(path)?)
 }
 
+/// Reads and checks a coil file, with its text.
+///
+/// # Errors
+/// As [`read_coil`].
+pub fn read_coil_with_text(path: &Path) -> Result<(CoilCase, String), Error> {
+    let source = open(path)?;
+    Ok((checked(path, source.clone())?, source.into_text()))
+}
+
 /// Checks a coil file that is yet to be written: the case that [`read_coil`] would read.
 ///
 /// # Errors

@@ -1,7 +1,9 @@
 //! Facts about a record besides its columns: `meta.ron` beside it.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Deserializer, de};
 
 use super::InputError;
 use super::quantity::NotNegative;
@@ -13,8 +15,8 @@ use super::source::Source;
 pub struct Meta {
     /// Name of the design that the unit was built to.
     pub design: String,
-    /// Serial number of the unit.
-    pub serial: Option<i64>,
+    /// Serial number of the unit, as it is written: 1847, or "A-0042".
+    pub serial: Option<Serial>,
     /// Date of the recording, e.g. "2026-03-02".
     pub date: String,
     /// Nominal interval between rows \[s\]; 0 if it is not given.
@@ -33,6 +35,40 @@ pub struct Meta {
     pub spool_c: Thermometer,
     /// The gyroscope.
     pub rate_deg_per_h: Rate,
+}
+
+/// A serial number: a number or a text, whose digits stay as they are written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Serial(pub String);
+
+impl<'de> Deserialize<'de> for Serial {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let raw = Box::<ron::value::RawValue>::deserialize(from)?;
+        let written = raw.get_ron().trim();
+        let text = if written.starts_with(|c: char| c.is_ascii_digit()) {
+            Some(written.to_owned())
+        } else {
+            ron::from_str(written).ok()
+        };
+        let serial = text.filter(|text| !text.is_empty() && !text.contains(char::is_control));
+        let problem = format!("{written} is no serial number");
+        let remedy = "give a number or a text, e.g. Some(1847) or Some(\"A-0042\")";
+        serial.map(Self).ok_or_else(|| de::Error::invalid_value(de::Unexpected::Other(&problem), &remedy))
+    }
+}
+
+impl JsonSchema for Serial {
+    fn schema_name() -> Cow<'static, str> {
+        "Serial".into()
+    }
+
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({"type": ["integer", "string"]})
+    }
 }
 
 /// A thermometer as its certificate has it, standard deviations; where nothing is given, a wide one stands.
@@ -231,6 +267,21 @@ mod tests {
         assert!((at(0.0) - EARTH).abs() < 1e-12 && at(90.0).abs() < 1e-12);
         assert_eq!(Rate { earth_rate_deg_per_h: Some(9.7), ..Rate::default() }.earth(), Some(9.7));
         assert_eq!(Rate::default().earth(), None);
+    }
+
+    #[test]
+    fn a_serial_number_stays_as_it_is_written() {
+        let serial = |text: &str| of(&format!("(serial: {text})")).map(|meta| meta.serial.map(|serial| serial.0));
+        for (written, told) in
+            [("Some(4907)", "4907"), ("Some(0042)", "0042"), ("Some(\"0042\")", "0042"), ("Some( \"A \\\"7\" )", "A \"7")]
+        {
+            assert_eq!(serial(written), Ok(Some(told.to_owned())), "{written}");
+        }
+        assert_eq!(serial("None"), Ok(None));
+        for written in ["Some(\"\")", "Some(true)", "Some(-1)", "Some((1, 2))"] {
+            let message = serial(written).expect_err(written);
+            assert!(message.contains("meta.ron:1: serial: ") && message.contains("is no serial number"), "{message}");
+        }
     }
 
     #[test]

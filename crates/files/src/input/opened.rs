@@ -6,6 +6,7 @@ use std::path::Path;
 use serde::de::DeserializeOwned;
 
 use super::InputError;
+use super::fingerprint::Fingerprint;
 use super::json;
 use super::source::{COIL, Source};
 
@@ -20,12 +21,24 @@ pub fn read_text(path: &Path) -> Result<String, InputError> {
     open(path).map(Source::into_text)
 }
 
-/// Reads a RON file of a program's own type.
+/// Reads a RON file of a program's own type, with its fingerprint.
 ///
 /// # Errors
 /// The fault, in which file, line and field, and how to mend it.
-pub fn read_ron<T: DeserializeOwned>(path: &Path) -> Result<T, InputError> {
-    open(path)?.parse(None)
+pub fn read_ron<T: DeserializeOwned>(path: &Path) -> Result<(T, Fingerprint), InputError> {
+    parsed(&open(path)?)
+}
+
+/// A RON text of a program's own type, with its fingerprint; messages call it `path`.
+///
+/// # Errors
+/// The fault, in which line and field, and how to mend it.
+pub fn check_ron<T: DeserializeOwned>(path: &Path, text: &str) -> Result<(T, Fingerprint), InputError> {
+    parsed(&Source::of(path, text.to_owned()))
+}
+
+fn parsed<T: DeserializeOwned>(source: &Source) -> Result<(T, Fingerprint), InputError> {
+    Ok((source.parse(None)?, source.fingerprint()))
 }
 
 /// A complaint about a field of a case file that was read before, with its line if the file is still there.

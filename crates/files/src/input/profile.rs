@@ -9,7 +9,7 @@ use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::profile_columns::{Columns, TIME};
 use super::record_options::Key;
-use super::rows::{Dialect, Rows};
+use super::rows::{Dialect, Rows, Table};
 use crate::remark::{Note, Remark};
 
 /// Rooms \[°C\].
@@ -159,8 +159,13 @@ pub fn read_profile(path: &Path, design: &Design, further: &[String]) -> Result<
 ///
 /// # Errors
 /// As [`read_profile`]; messages call the text `path`.
-pub fn check_profile(path: &Path, text: String, design: &Design, further: &[String]) -> Result<ProfileCase, InputError> {
-    read(Rows::of(path, text), path, design, further)
+pub fn check_profile(
+    path: &Path,
+    table: impl Into<Table>,
+    design: &Design,
+    further: &[String],
+) -> Result<ProfileCase, InputError> {
+    read(Rows::of(path, table.into()), path, design, further)
 }
 
 fn read(mut rows: Rows, path: &Path, design: &Design, further: &[String]) -> Result<ProfileCase, InputError> {

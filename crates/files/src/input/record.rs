@@ -15,7 +15,7 @@ use super::record_expectations::{expectations, possible};
 use super::record_format::RecordFormat;
 use super::record_notes::{interval_note, notes};
 use super::record_options::{Key, RecordOptions};
-use super::rows::{NOT_UTF8, Rows};
+use super::rows::{NOT_UTF8, Rows, Table};
 use crate::Error;
 use crate::remark::Note;
 
@@ -90,10 +90,10 @@ pub(super) fn read_as(path: &Path, format: &RecordFormat, options: &RecordOption
 /// content with nothing beside it but `meta`, which is the path of a meta file; `further` columns are read as they stand.
 ///
 /// # Errors
-/// As [`read_record`]; messages call the text `path`.
-pub fn check_record(path: &Path, text: String, meta: Option<&Path>, further: &[String]) -> Result<RecordCase, Error> {
+/// As [`read_record`]; messages call the table `path`.
+pub fn check_record(path: &Path, table: impl Into<Table>, meta: Option<&Path>, further: &[String]) -> Result<RecordCase, Error> {
     let meta = known(meta.map(Path::to_owned))?;
-    checked(Rows::of(path, text), &RecordFormat { further: further.to_vec(), ..RecordFormat::standard() }, meta)
+    checked(Rows::of(path, table.into()), &RecordFormat { further: further.to_vec(), ..RecordFormat::standard() }, meta)
 }
 
 /// A meta file with its path.

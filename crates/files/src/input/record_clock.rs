@@ -138,7 +138,8 @@ fn not_a_date(rows: &Rows, name: &str, text: &str) -> InputError {
 
 /// The complaint about a field that is no number, where it may be a date.
 fn not_an_instant(error: InputError, text: &str) -> InputError {
-    if text.parse::<f64>().is_ok() || error.remedy.contains("--decimal-comma") {
+    // of numbers by column there is no text
+    if text.is_empty() || text.parse::<f64>().is_ok() || error.remedy.contains("--decimal-comma") {
         return error;
     }
     let problem = if is_ambiguous(text) {

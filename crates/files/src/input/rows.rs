@@ -37,6 +37,8 @@ impl Dialect {
     pub(crate) const STANDARD: Self = Self { separator: b',', decimal: '.', encoding: Encoding::Utf8, preamble: 0, below: 0 };
 }
 
+/// Remedy for a row without a number.
+const REMOVED: &str = "remove the row: between rows the course is linear";
 /// Message on text in another encoding.
 pub(super) const NOT_UTF8: &str = "is not UTF-8 text";
 /// Words of a field without a value, in lower case.
@@ -44,15 +46,41 @@ const MISSING: [&str; 9] = ["", "nan", "na", "n/a", "null", "none", "-", "--", "
 /// Words of a meter beyond its range, in lower case, perhaps behind a sign.
 const OVERLOAD: [&str; 8] = ["ovld", "overload", "ol", "ovl", "over", "overrange", "over range", "overflow"];
 
+/// A table that is not in a file.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Table {
+    /// CSV, in the standard dialect.
+    Text(String),
+    /// Numbers by column, each with its name; a value that is missing is not a number.
+    Columns(Vec<(String, Vec<f64>)>),
+}
+
+impl From<String> for Table {
+    fn from(text: String) -> Self {
+        Self::Text(text)
+    }
+}
+
 pub(crate) struct Rows {
     path: PathBuf,
     dialect: Dialect,
-    reader: csv::Reader<Chain<Decoded<Metered>, &'static [u8]>>,
+    source: Source,
+    /// Fields of this row; of numbers by column the names alone.
     record: StringRecord,
     /// Whether a row was met.
     begun: bool,
     /// Whether a field stood in quotes.
     quotes: bool,
+}
+
+enum Source {
+    Text(Box<csv::Reader<Chain<Decoded<Metered>, &'static [u8]>>>),
+    Columns {
+        columns: Vec<Vec<f64>>,
+        /// From 1; 0 is the row of the names.
+        row: usize,
+        hash: Hash,
+    },
 }
 
 /// A file, or a text in memory, that is hashed and measured while it is read.
@@ -105,9 +133,26 @@ impl Rows {
         Ok(Self::new(path, Box::new(file), dialect))
     }
 
-    /// A table in memory in the standard dialect, called `path` in messages.
-    pub(crate) fn of(path: &Path, text: String) -> Self {
-        Self::new(path, Box::new(Cursor::new(text)), Dialect::STANDARD)
+    /// A table in memory, called `path` in messages.
+    pub(crate) fn of(path: &Path, table: Table) -> Self {
+        match table {
+            Table::Text(text) => Self::new(path, Box::new(Cursor::new(text)), Dialect::STANDARD),
+            Table::Columns(columns) => Self::of_columns(path, columns),
+        }
+    }
+
+    fn of_columns(path: &Path, columns: Vec<(String, Vec<f64>)>) -> Self {
+        let mut hash = Hash::new();
+        for (name, values) in &columns {
+            hash.update(name.as_bytes());
+            values.iter().for_each(|value| hash.update(&value.to_le_bytes()));
+        }
+        let (names, columns): (Vec<String>, _) = columns.into_iter().unzip();
+        Self::from(path, Source::Columns { columns, row: 0, hash }, Dialect::STANDARD, names.into())
+    }
+
+    fn from(path: &Path, source: Source, dialect: Dialect, record: StringRecord) -> Self {
+        Self { path: path.to_owned(), dialect, source, record, begun: false, quotes: false }
     }
 
     fn new(path: &Path, source: Box<dyn Read>, dialect: Dialect) -> Self {
@@ -120,13 +165,24 @@ impl Rows {
             .delimiter(dialect.separator)
             .terminator(Terminator::Any(b'\n'))
             .from_reader(Decoded::new(metered, dialect.encoding).chain(&b"\n"[..]));
-        Self { path: path.to_owned(), dialect, reader, record: StringRecord::new(), begun: false, quotes: false }
+        Self::from(path, Source::Text(Box::new(reader)), dialect, StringRecord::new())
     }
 
     /// Moves to the next row that is not blank; `false` at the end.
     pub(crate) fn advance(&mut self) -> Result<bool, InputError> {
         loop {
-            let read = self.reader.read_record(&mut self.record);
+            let read = match &mut self.source {
+                Source::Text(reader) => reader.read_record(&mut self.record),
+                Source::Columns { .. } if !self.begun => {
+                    self.begun = true;
+                    return Ok(true);
+                }
+                Source::Columns { columns, row, .. } => {
+                    self.record.clear();
+                    *row += 1;
+                    return Ok(columns.iter().any(|values| *row <= values.len()));
+                }
+            };
             if self.record.iter().any(is_quoted) {
                 self.quotes = true;
                 let fields: Vec<&str> = self.record.iter().collect();
@@ -177,7 +233,17 @@ impl Rows {
     }
 
     pub(crate) fn count(&self) -> usize {
-        self.record.len()
+        match &self.source {
+            Source::Text(_) => self.record.len(),
+            Source::Columns { columns, .. } => columns.len(),
+        }
+    }
+
+    /// A number of this row; `None` of a text. What is missing is not a number.
+    fn of_column(&self, column: usize) -> Option<f64> {
+        let Source::Columns { columns, row, .. } = &self.source else { return None };
+        let value = row.checked_sub(1).and_then(|row| columns.get(column)?.get(row).copied());
+        Some(value.unwrap_or(f64::NAN))
     }
 
     /// A field of this row without blanks and quotes around it; empty if there is none.
@@ -208,12 +274,16 @@ impl Rows {
 
     /// A field as a finite number.
     pub(crate) fn number(&self, column: usize, name: &str) -> Result<f64, InputError> {
+        if let Some(value) = self.of_column(column) {
+            let fault = || self.fault(Some(name), format!("`{value}` is not a finite number"), REMOVED);
+            return Some(value).filter(|value| value.is_finite()).ok_or_else(fault);
+        }
         let text = self.field(column);
         match text.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
             Ok(_) => {
                 let problem = format!("{} is not a finite number", quoted(text));
-                Err(self.fault(Some(name), problem, "remove the row: between rows the course is linear"))
+                Err(self.fault(Some(name), problem, REMOVED))
             }
             Err(_) if text.is_empty() => {
                 Err(self.fault(Some(name), "is empty", "give a number, or remove the row: between rows the course is linear"))
@@ -227,6 +297,11 @@ impl Rows {
 
     /// A field as a finite number in the table's dialect; `None` if it says that there is none.
     pub(crate) fn value(&self, column: usize, name: &str) -> Result<Option<f64>, InputError> {
+        if let Some(value) = self.of_column(column) {
+            let fault =
+                || self.fault(Some(name), format!("`{value}` is not a finite number"), "give nan where a value is missing");
+            return if value.is_infinite() { Err(fault()) } else { Ok(Some(value).filter(|value| !value.is_nan())) };
+        }
         let text = self.field(column);
         let decimal = self.dialect.decimal;
         if decimal != '.' && text.contains('.') && text.replace([decimal, '.'], "").parse::<f64>().is_ok() {
@@ -249,15 +324,23 @@ impl Rows {
         }
     }
 
-    /// The line of this row, from 1.
+    /// The line of this row, from 1; 0 of a table without lines.
     fn line(&self) -> u64 {
-        self.reader.position().line().saturating_sub(1)
+        match &self.source {
+            Source::Text(reader) => reader.position().line().saturating_sub(1),
+            Source::Columns { .. } => 0,
+        }
     }
 
-    /// A complaint about this row.
+    /// A complaint about this row: at a line of a text, at an element of a column.
     pub(crate) fn fault(&self, column: Option<&str>, problem: impl Into<String>, remedy: impl Into<String>) -> InputError {
         let line = usize::try_from(self.line()).unwrap_or(usize::MAX);
-        InputError { line: Some(line.max(1)), field: column.map(str::to_owned), ..InputError::whole(&self.path, problem, remedy) }
+        let (line, field) = match &self.source {
+            Source::Text(_) => (Some(line.max(1)), column.map(str::to_owned)),
+            Source::Columns { row: 0, .. } => (None, column.map(str::to_owned)),
+            Source::Columns { row, .. } => (None, column.map(|column| format!("{column}[{}]", row - 1))),
+        };
+        InputError { line, field, ..InputError::whole(&self.path, problem, remedy) }
     }
 
     pub(crate) fn whole_fault(&self, problem: &str, remedy: impl Into<String>) -> InputError {
@@ -266,8 +349,11 @@ impl Rows {
 
     /// The content read so far.
     pub(crate) fn fingerprint(&self) -> Fingerprint {
-        let metered = &self.reader.get_ref().get_ref().0.source;
-        metered.hash.fingerprint(self.path.clone())
+        let hash = match &self.source {
+            Source::Text(reader) => &reader.get_ref().get_ref().0.source.hash,
+            Source::Columns { hash, .. } => hash,
+        };
+        hash.fingerprint(self.path.clone())
     }
 }
 
@@ -311,4 +397,38 @@ pub(crate) fn quoted(text: &str) -> String {
     let shown: String = text.chars().take(QUOTED).collect();
     let more = if shown.len() < text.len() { "..." } else { "" };
     format!("`{}{more}`", shown.escape_debug())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers() -> Rows {
+        let columns = vec![("a".to_owned(), vec![1.0, f64::NAN, 0.1]), ("b".to_owned(), vec![f64::INFINITY, 2.0])];
+        Rows::of(Path::new("t"), Table::Columns(columns))
+    }
+
+    #[test]
+    fn numbers_by_column_are_rows_without_a_text_between() {
+        let mut rows = numbers();
+        rows.header("a,b").unwrap();
+        assert_eq!(rows.fields().collect::<Vec<_>>(), ["a", "b"]);
+        assert!(rows.advance().unwrap());
+        assert_eq!((rows.count(), rows.value(0, "a"), rows.number(0, "a")), (2, Ok(Some(1.0)), Ok(1.0)));
+        let infinite = rows.value(1, "b").unwrap_err();
+        assert_eq!((infinite.line, infinite.field.as_deref()), (None, Some("b[0]")));
+        assert!(rows.number(1, "b").is_err() && rows.advance().unwrap());
+        assert_eq!((rows.value(0, "a"), rows.value(1, "b")), (Ok(None), Ok(Some(2.0))));
+        assert_eq!(rows.number(0, "a").unwrap_err().to_string(), format!("t: a[1]: `NaN` is not a finite number; {REMOVED}"));
+        // a column that is too short has no value
+        assert!(rows.advance().unwrap() && rows.value(1, "b") == Ok(None) && rows.value(0, "a") == Ok(Some(0.1)));
+        assert!(!rows.advance().unwrap() && !rows.advance().unwrap());
+    }
+
+    #[test]
+    fn other_numbers_by_column_have_another_fingerprint() {
+        let of = |a: f64| Rows::of_columns(Path::new("t"), vec![("a".into(), vec![a])]).fingerprint();
+        assert!(of(0.0) == of(0.0) && of(0.0) != of(-0.0));
+        assert_eq!(numbers().fingerprint().bytes, 2 + 8 * 5);
+    }
 }

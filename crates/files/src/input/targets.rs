@@ -10,7 +10,7 @@ use super::group::Group;
 use super::mirror::Mirror;
 use super::opened::open;
 use super::quantity::{Conductivity, ExpansionPerK, FibreUm, ModulusGpa, ModulusMpa, Quantity, Ratio};
-use super::source::TARGETS;
+use super::source::{Source, TARGETS};
 use super::targets_file::{CellPrior, Entries, Entry, MaterialFile, RangeFile, TargetsFile};
 
 const MOST_CELLS: usize = 6;
@@ -35,7 +35,18 @@ pub struct TargetsCase {
 /// # Errors
 /// The fault, in which file, line and field, and how to mend it.
 pub fn read_targets(path: &Path) -> Result<TargetsCase, InputError> {
-    let source = open(path)?;
+    checked(open(path)?)
+}
+
+/// Checks targets that are not in a file, with the content of one; messages call them `path`.
+///
+/// # Errors
+/// The fault, in which line and field, and how to mend it.
+pub fn check_targets(path: &Path, text: &str) -> Result<TargetsCase, InputError> {
+    checked(Source::of(path, text.to_owned()))
+}
+
+fn checked(source: Source) -> Result<TargetsCase, InputError> {
     let file: TargetsFile = source.parse(Some(&TARGETS))?;
     let top = Group::whole(&source);
     let pitch = file.pitch_um.model();
@@ -49,7 +60,7 @@ pub fn read_targets(path: &Path) -> Result<TargetsCase, InputError> {
     }
     let cells = file.cells.iter().enumerate().map(|(i, cell)| family(&top.group(&format!("cells[{i}]")), cell, pitch));
     let families = cells.collect::<Result<_, _>>()?;
-    Ok(TargetsCase { file: path.to_owned(), name: file.name, targets, families })
+    Ok(TargetsCase { file: source.path().to_owned(), name: file.name, targets, families })
 }
 
 fn entries(at: &Group, file: &Entries) -> Result<Vec<Target>, InputError> {

@@ -12,7 +12,7 @@ pub fn table(batch: &Batch) -> Table {
     let judged = || batch.rows.iter().map(|(_, judged)| judged);
     let mut columns = vec![
         text("unit", &|row| Some(row.unit.clone())),
-        Column::numbers("serial", rows().map(|row| row.serial.map(|serial| serial as f64)).collect()),
+        text("serial", &|row| row.serial.clone()),
         text("date", &|row| row.date.clone()),
         Column::texts("judged", judged().map(|judged| Some(judged.word().to_owned()).filter(|word| !word.is_empty())).collect()),
         Column::texts("reason", judged().map(super::limits::Judged::reasons).collect()),

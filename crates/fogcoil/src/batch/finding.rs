@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use progress::Step;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
@@ -67,10 +68,10 @@ impl Inputs<'_> {
     }
 
     /// The finding of its records, and the page of its diagnosis, if there is one.
-    pub(super) fn find(&self, unit: &Read) -> (Value, Option<String>) {
+    pub(super) fn find(&self, unit: &Read, progress: &(dyn Fn(Step) + Sync)) -> (Value, Option<String>) {
         let records = || unit.fits.iter().chain(&unit.holdouts);
         let measured = self.measured(unit);
-        let diagnosis = diagnose(self.case, &self.asked.with_catalogue(), &unit.fits, &unit.holdouts, self.cache, &|_| {});
+        let diagnosis = diagnose(self.case, &self.asked.with_catalogue(), &unit.fits, &unit.holdouts, self.cache, progress);
         let (told, left, page, problem) = match &diagnosis {
             Ok(outcome) => (outcome.json(), json!(outcome.left_of_rate()), Some(outcome.report()), None),
             Err(error) => (Value::Null, Value::Null, None, Some(error.to_string())),
@@ -80,7 +81,7 @@ impl Inputs<'_> {
             "key": unit.key,
             "program": format!("fogcoil {}", env!("CARGO_PKG_VERSION")),
             "unit": unit.name,
-            "serial": meta(&|meta| meta.serial.map(Value::from)),
+            "serial": meta(&|meta| Some(meta.serial.as_ref()?.0.clone().into())),
             "date": meta(&|meta| Some(meta.date.clone()).filter(|date| !date.is_empty()).map(Value::from)),
             "files": records().map(|r| r.fingerprint.file.display().to_string()).collect::<Vec<_>>(),
             "sha256": records().map(|r| r.fingerprint.sha256.clone()).collect::<Vec<_>>(),

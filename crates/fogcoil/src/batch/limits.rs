@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::row::{NUMBERS, Row};
 use crate::Error;
-use crate::input::{Fingerprint, fault_in, meant, read_ron, read_text};
+use crate::input::{Fingerprint, check_ron, fault_in, meant, read_ron};
 use crate::table::significant;
 use crate::variants::each_once;
 
@@ -68,9 +68,20 @@ const VERDICTS: [&str; 4] = ["none", "recalibrate", "explained", "unknown"];
 /// Reads and checks a file of limits.
 ///
 /// # Errors
-/// [`files::Error::Input`] says what is wrong, where, and how to mend it.
+/// As [`check_limits`].
 pub fn read_limits(path: &Path) -> Result<Limits, Error> {
-    let file: LimitsFile = read_ron(path)?;
+    checked(path, read_ron(path)?)
+}
+
+/// Checks limits that are not in a file, with the content of one; messages call them `path`.
+///
+/// # Errors
+/// [`files::Error::Input`] says what is wrong, where, and how to mend it.
+pub fn check_limits(path: &Path, text: &str) -> Result<Limits, Error> {
+    checked(path, check_ron(path, text)?)
+}
+
+fn checked(path: &Path, (file, fingerprint): (LimitsFile, Fingerprint)) -> Result<Limits, Error> {
     let fault = |field: &str, problem: String, remedy: String| Err(fault_in(path, field, problem, remedy).into());
     let mut limits = Vec::new();
     for (name, limit) in file.limits {
@@ -101,7 +112,6 @@ pub fn read_limits(path: &Path) -> Result<Limits, Error> {
             "give a limit, e.g. limits: {\"sensitivity\": Magnitude(3.0)}".into(),
         );
     }
-    let fingerprint = Fingerprint::of(path.to_owned(), read_text(path)?.as_bytes());
     Ok(Limits { limits, judged_by: file.judged_by, verdicts: file.verdicts, fingerprint })
 }
 

@@ -17,7 +17,7 @@ mod units;
 pub use columns::table;
 pub use finding::Inputs;
 pub use kept::kept_files;
-pub use limits::{Judged, Limits, read_limits};
+pub use limits::{Judged, Limits, check_limits, read_limits};
 pub use report::report;
 pub use row::Row;
 pub use run::{Batch, run};

@@ -7,7 +7,7 @@ use super::finding::Inputs;
 use super::kept::page;
 use super::limits::{Judged, Limits};
 use super::lot::{common, outliers};
-use super::row::Row;
+use super::row::{Row, trailing};
 use super::run::Batch;
 use crate::input::Fingerprint;
 use crate::report::provenance;
@@ -21,7 +21,7 @@ pub fn report(inputs: &Inputs, limits: Option<&Limits>, batch: &Batch) -> String
         h2 { "Units" } "\n"
         (units(batch))
         h2 { "Trends" } "\n"
-        (trend(batch, "serial", "Over serial numbers", "serial number", &|row| row.serial.map(|serial| serial as f64)).element())
+        (trend(batch, "serial", "Over serial numbers", "serial number", &|row| trailing(row.serial.as_deref()?)?.parse().ok()).element())
         @if batch.rows.iter().any(|(row, _)| day(row).is_some()) {
             (trend(batch, "date", "Over dates", "days since 1 January 2000", &day).element())
         }
@@ -65,7 +65,7 @@ fn units(batch: &Batch) -> Markup {
                     th scope="row" {
                         @if row.problem.is_none() { a href=(page(&row.unit)) { (row.unit) } } @else { (row.unit) }
                     }
-                    td { (row.serial.map_or(String::new(), |serial| serial.to_string())) }
+                    td { (row.serial.clone().unwrap_or_default()) }
                     td { (row.date.clone().unwrap_or_default()) }
                     td {
                         (shown(row.number("sensitivity"), 4))

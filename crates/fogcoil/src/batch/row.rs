@@ -38,7 +38,7 @@ pub struct Row {
     /// Its name.
     pub unit: String,
     /// Its serial number: of the meta file, or the digits that its name ends in.
-    pub serial: Option<i64>,
+    pub serial: Option<String>,
     /// Date of the recording, by the meta file.
     pub date: Option<String>,
     /// Its records.
@@ -74,7 +74,7 @@ impl Row {
         numbers.push(diagnosis["mechanisms"][0]["probability"].as_f64());
         let constants = diagnosis["unknowns"].as_array().into_iter().flatten().filter(|c| c["kind"] == "design");
         Self {
-            serial: finding["serial"].as_i64().or_else(|| trailing(&unit)),
+            serial: text(&finding["serial"]).or_else(|| trailing(&unit).map(str::to_owned)),
             date: text(&finding["date"]),
             files: texts(&finding["files"]),
             hashes: texts(&finding["sha256"]),
@@ -116,10 +116,10 @@ fn constant(value: &Value) -> Option<Constant> {
     Some(Constant { name: value["name"].as_str()?.to_owned(), sigmas: value["sigmas"].as_f64()? })
 }
 
-/// The number that a name ends in.
-fn trailing(name: &str) -> Option<i64> {
+/// The digits that a name ends in.
+pub(super) fn trailing(name: &str) -> Option<&str> {
     let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
-    name[letters.len()..].parse().ok()
+    Some(&name[letters.len()..]).filter(|digits| !digits.is_empty())
 }
 
 #[cfg(test)]
@@ -138,7 +138,7 @@ mod tests {
                 "unknowns": [{"name": "E_r and G", "kind": "design", "sigmas": 1.5}, {"name": "gain", "kind": "instrument", "sigmas": 0.1}],
             },
         }));
-        assert_eq!((row.serial, row.number("sensitivity"), row.number("arw")), (Some(42), Some(-2.7), None));
+        assert_eq!((row.serial.as_deref(), row.number("sensitivity"), row.number("arw")), (Some("0042"), Some(-2.7), None));
         assert_eq!((row.interval("sensitivity"), row.interval("residual_over_noise")), (Some([-2.8, -2.6]), None));
         assert!((row.number("residual_over_noise").unwrap() - 3.0).abs() < 1e-12);
         assert_eq!((row.number("probability"), row.constants.len()), (Some(0.9), 1));

@@ -35,7 +35,7 @@ pub fn run(
 ) -> Result<Batch, Error> {
     const NAME: &str = "diagnosing units";
     progress(Step::begins("reading the records"));
-    let program = program::hash();
+    let program = program::hash(inputs.cache.code());
     let read: Vec<Read> = units.par_iter().map(|unit| inputs.read(unit, &program)).collect::<Result<_, _>>()?;
     let kept = Kept::within(folder)?;
     let found: Vec<Option<Value>> = read.iter().map(|unit| kept.load(&unit.name, &unit.key)).collect();
@@ -43,14 +43,16 @@ pub fn run(
         models(inputs.case, inputs.cache, progress)?;
     }
     let done = AtomicUsize::new(found.iter().flatten().count());
-    progress(Step::counted(NAME, done.load(Ordering::Relaxed), read.len()));
+    let tell = || progress(Step::counted(NAME, done.load(Ordering::Relaxed), read.len()));
+    tell();
     let row = |(unit, found): (&Read, Option<Value>)| {
         let finding = match found {
             Some(finding) => finding,
             None => {
-                let (finding, page) = inputs.find(unit);
+                let (finding, page) = inputs.find(unit, &|_| tell());
                 let finding = kept.keep(&unit.name, &finding, page)?;
-                progress(Step::counted(NAME, done.fetch_add(1, Ordering::Relaxed) + 1, read.len()));
+                done.fetch_add(1, Ordering::Relaxed);
+                tell();
                 finding
             }
         };

@@ -76,7 +76,7 @@ pub(super) fn figure(case: &CoilCase, measured: &Convergence) -> Figure<'static>
         caption: format!(
             "{}: meshes of order {} to {}, with half as many layers towards the coil's edges; order {} is that of fields and profiles. \
              Reference: order {REFERENCE}, {} layers, {unknowns} unknowns. The next finer mesh is two orders and a layer finer. \
-             The program reports the sensitivity from another mesh, of order 7, and estimates its error from lower orders.",
+             The program reports the sensitivity from another mesh, of order 7, and estimates its error from lower orders and a coarser grading.",
             case.name,
             ORDERS.start(),
             ORDERS.end(),

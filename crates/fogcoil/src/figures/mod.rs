@@ -19,6 +19,7 @@ mod spools;
 use charts::Figure;
 use maud::{Markup, html};
 
+use crate::input::CoilCase;
 use crate::simulate::{Fields, Simulation};
 
 pub use contributions::contributions_in_ramp;
@@ -42,6 +43,11 @@ fn all<'a>(simulation: &'a Simulation, fields: Option<&Fields>, measured: &[Meas
     figures
 }
 
+/// A coil on its spool in section, an SVG document.
+pub fn section(case: &CoilCase) -> String {
+    model::figure(case).document()
+}
+
 /// All figures of a simulation as files of their own; those of temperature and strain along the fibre and of the turns' contributions
 /// only with `fields`. Sensitivities that were `measured` stand beside the computed one.
 pub fn documents(simulation: &Simulation, fields: Option<&Fields>, measured: &[Measured]) -> Vec<Document> {
@@ -49,7 +55,7 @@ pub fn documents(simulation: &Simulation, fields: Option<&Fields>, measured: &[M
 }
 
 /// All figures as elements of a page, in wide and narrow, each with its data.
-pub(crate) fn elements(simulation: &Simulation, fields: Option<&Fields>, convergence: Option<&Convergence>) -> Markup {
+pub fn elements(simulation: &Simulation, fields: Option<&Fields>, convergence: Option<&Convergence>) -> Markup {
     let last = convergence.map(|measured| convergence::figure(simulation.case, measured));
     html! { @for figure in all(simulation, fields, &[]).iter().chain(&last) { (figure.element()) } }
 }

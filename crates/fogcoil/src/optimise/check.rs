@@ -8,7 +8,7 @@ use super::evaluate::Tried;
 use super::measure::Measures;
 use super::plan::Plan;
 use crate::Error;
-use crate::input::{CoilCase, read_text};
+use crate::input::CoilCase;
 use crate::sweep::{Points, Sampling};
 use crate::variants::{Dimensions, Factor, Value, Variants};
 
@@ -42,19 +42,19 @@ pub fn check(plan: &Plan, tried: &Tried) -> Result<Checked, Error> {
     let winding = wind(&variant.design.winding).map_err(|error| at(error.into()))?;
     let case = CoilCase { design: variant.design, winding, ..drawn.clone() };
     let (steady, band) = (case.steady_sensitivity()?, case.sensitivity_band()?);
-    let within = within(&case, plan.seed)?;
+    let within = within(plan, &case);
     Ok(Checked { path: path(plan, tried), case, tried: tried.clone(), steady, band, within })
 }
 
 /// |S| of designs within the tolerances of one, sorted.
-fn within(case: &CoilCase, seed: u64) -> Result<Vec<f64>, Error> {
+fn within(plan: &Plan, case: &CoilCase) -> Vec<f64> {
     let factors = Factor::within_tolerances(&case.design, &case.tolerances);
-    let points = Points::new(Sampling::LatinHypercube(UNITS), seed, Vec::new(), vec![0; factors.len()]);
-    let variants = Variants::new(case.clone(), read_text(&case.file)?, factors, Dimensions::AsDrawn);
+    let points = Points::new(Sampling::LatinHypercube(UNITS), plan.seed, Vec::new(), vec![0; factors.len()]);
+    let variants = Variants::new(plan.variants.drawing_of(case.clone()), factors, Dimensions::AsDrawn);
     let of = |n: usize| Some(sensitivity_on(&variants.at(&points.point(n)).ok()?.design, &STEADY).ok()?.total().abs());
     let mut all: Vec<f64> = (0..UNITS).into_par_iter().filter_map(of).collect();
     all.sort_by(f64::total_cmp);
-    Ok(all)
+    all
 }
 
 /// Effect of each change, in the plan's order, each beside those before it.

@@ -8,6 +8,10 @@ use super::search::Found;
 
 /// The first two measures of every design that keeps the limits, of the front and of the drawing; `None` where one alone is minimised.
 pub fn svg(plan: &Plan, found: &Found) -> Option<String> {
+    Some(figure(plan, found)?.document())
+}
+
+pub(super) fn figure<'a>(plan: &Plan, found: &Found) -> Option<Figure<'a>> {
     let [first, second, ..] = plan.minimise[..] else { return None };
     let at = |measures| (first.of(measures), second.of(measures));
     let sound = found.all.iter().filter(|tried| tried.violation == 0.0).map(|tried| at(&tried.measures)).collect();
@@ -18,13 +22,12 @@ pub fn svg(plan: &Plan, found: &Found) -> Option<String> {
         Series::new("front", Style::Marked(1), best),
         Series::new("the drawing", Style::Points(3), vec![at(&found.drawn)]),
     ];
-    let figure = Figure {
+    Some(Figure {
         id: "front",
         title: format!("Designs of {}", plan.variants.case.name),
         description: format!("{} over {} of every design that was tried.", second.label(), first.label()),
         caption: "On the front are designs of which none is better in everything that is minimised.".into(),
         columns: 1,
         panels: vec![Panel::lines(Axis::round(first.label(), 1e-6), Axis::round(second.label(), 1e-6), 24.0, series)],
-    };
-    Some(figure.document())
+    })
 }

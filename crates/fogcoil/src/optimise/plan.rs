@@ -6,8 +6,8 @@ use serde::Deserialize;
 
 use super::measure::Measure;
 use crate::Error;
-use crate::input::{Fingerprint, InputError, fault_in, meant, read_coil, read_ron, read_text};
-use crate::variants::{Dimensions, Others, Variants, Varied, each_once, variants};
+use crate::input::{Fingerprint, InputError, check_ron, fault_in, meant, read_ron};
+use crate::variants::{Dimensions, Drawing, Others, Variants, Varied, each_once, variants};
 
 /// Paths inside are relative to the plan's own.
 #[derive(Deserialize)]
@@ -55,14 +55,24 @@ pub struct Plan {
 /// Reads and checks a plan and the files that it names.
 ///
 /// # Errors
-/// [`files::Error::Input`] says what is wrong, in which file, line and field, and how to mend it.
+/// As [`check_plan`].
 pub fn read_plan(path: &Path) -> Result<Plan, Error> {
-    let file: PlanFile = read_ron(path)?;
-    let own = Fingerprint::of(path.to_owned(), read_text(path)?.as_bytes());
+    checked(path, read_ron(path)?)
+}
+
+/// Checks a plan that is not in a file, with the content of one, and reads the files that it names; messages call it `path`, and its paths start there.
+///
+/// # Errors
+/// [`files::Error::Input`] says what is wrong, in which file, line and field, and how to mend it.
+pub fn check_plan(path: &Path, text: &str) -> Result<Plan, Error> {
+    checked(path, check_ron(path, text)?)
+}
+
+fn checked(path: &Path, (file, own): (PlanFile, Fingerprint)) -> Result<Plan, Error> {
     check_measures(path, &file)?;
-    let case = read_coil(&path.parent().unwrap_or(Path::new("")).join(&file.design))?;
-    let files = [vec![own], case.fingerprints.clone()].concat();
-    let variants = variants(path, case, &file.vary, Others::AsDrawn, file.dimensions)?;
+    let drawing = Drawing::read(&path.parent().unwrap_or(Path::new("")).join(&file.design))?;
+    let files = [vec![own], drawing.case.fingerprints.clone()].concat();
+    let variants = variants(path, drawing, &file.vary, Others::AsDrawn, file.dimensions)?;
     if let Some((key, _)) = file.vary.iter().find(|(_, varied)| matches!(varied, Varied::Tolerance | Varied::Normal(..))) {
         let problem = format!("{key:?} has a distribution, but what is optimised is chosen");
         return Err(fault(path, "vary", problem, "give its ends, e.g. Uniform(2.0, 6.0), or choices").into());

@@ -23,6 +23,30 @@ pub fn text(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
         found.all.len(),
         best.len()
     );
+    out.push_str(&with_end(designs(plan, found, &best)));
+    match checked {
+        None => {
+            let _ = writeln!(out, "\n{NOTHING}");
+        }
+        Some(checked) => {
+            let [first, second] = of_optimum(plan, found, checked);
+            let steps = with_end(steps(found, checked));
+            let _ = write!(out, "\n{first}\n{second}\n\n{steps}\n{}\n", of_spread(checked));
+        }
+    }
+    out
+}
+
+/// Message where no design keeps the limits.
+pub(super) const NOTHING: &str = "no design that was tried keeps the limits; widen them, vary more, or give more trials";
+
+/// The rows as text; an empty last cell keeps every number to the right.
+fn with_end(rows: Vec<Vec<String>>) -> String {
+    table(&rows.into_iter().map(|row| [row, vec![String::new()]].concat()).collect::<Vec<_>>())
+}
+
+/// The drawing and designs of the front, the optimum first, below a head.
+pub(super) fn designs(plan: &Plan, found: &Found, best: &[usize]) -> Vec<Vec<String>> {
     let known: Vec<Measure> =
         Measure::ALL.into_iter().filter(|m| plan.asks(Measure::needs_tolerances) || !m.needs_tolerances()).collect();
     let numbers = |measures: &Measures| known.iter().map(|m| significant(m.of(measures), 3)).collect::<Vec<_>>();
@@ -38,14 +62,7 @@ pub fn text(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
         let name = if n == 0 { "optimum".to_owned() } else { String::new() };
         rows.push([vec![name], numbers(&tried.measures), values].concat());
     }
-    out.push_str(&table(&rows.into_iter().map(|row| [row, vec![String::new()]].concat()).collect::<Vec<_>>()));
-    match checked {
-        None => out.push_str("\nno design that was tried keeps the limits; widen them, vary more, or give more trials\n"),
-        Some(checked) => {
-            let _ = write!(out, "\n{}", of_optimum(plan, found, checked));
-        }
-    }
-    out
+    rows
 }
 
 fn short(value: &crate::variants::Value) -> String {
@@ -55,32 +72,43 @@ fn short(value: &crate::variants::Value) -> String {
     }
 }
 
-fn of_optimum(plan: &Plan, found: &Found, checked: &Checked) -> String {
+/// The optimum by the full model, and its spread by tolerances.
+pub(super) fn of_optimum(plan: &Plan, found: &Found, checked: &Checked) -> [String; 2] {
     let total = checked.steady.sensitivity.total();
     let [most, largest] = checked.quantiles();
     let ratio = found.drawn.sensitivity.abs() / total.abs();
-    let mut out = format!(
-        "the optimum (least {}) by the full model: S = {} ± {} (deg/h)/(degC/min), |S| {} times below the drawing's\n\
-         by its tolerances {} (1 sigma, linear); of {} units within them |S| is below {} in 95 %, {} at most; below 0.5 in {:.1} %\n\n",
+    let model = format!(
+        "the optimum (least {}) by the full model: S = {} ± {} (deg/h)/(degC/min), |S| {} times below the drawing's",
         plan.minimise[0].name(),
         significant(total, 3),
         significant(checked.steady.error_estimate, 2),
         significant(ratio, 2),
+    );
+    let units = format!(
+        "by its tolerances {} (1 sigma, linear); of {} units within them |S| is below {} in 95 %, {} at most; below 0.5 in {:.1} %",
         significant(checked.band.sd, 2),
         checked.within.len(),
         significant(most, 3),
         significant(largest, 3),
         100.0 * checked.share_below(0.5),
     );
-    let head = ["what leads there, change by change", "", "S then", ""].map(str::to_owned).to_vec();
-    let start = vec!["the drawing".to_owned(), String::new(), significant(found.drawn.sensitivity, 4), String::new()];
+    [model, units]
+}
+
+/// The changes that lead to the optimum, below a head.
+pub(super) fn steps(found: &Found, checked: &Checked) -> Vec<Vec<String>> {
+    let head = ["what leads there, change by change", "", "S then"].map(str::to_owned).to_vec();
+    let start = vec!["the drawing".to_owned(), String::new(), significant(found.drawn.sensitivity, 4)];
     let step = |(key, value, total): &(String, String, Option<f64>)| {
         let value = value.parse().map_or_else(|_| value.clone(), |number: f64| significant(number, 5));
-        vec![key.clone(), value, total.map_or("no design".into(), |total| significant(total, 4)), String::new()]
+        vec![key.clone(), value, total.map_or("no design".into(), |total| significant(total, 4))]
     };
-    let rows: Vec<Vec<String>> = [head, start].into_iter().chain(checked.path.iter().map(step)).collect();
+    [head, start].into_iter().chain(checked.path.iter().map(step)).collect()
+}
+
+/// The tolerances that the optimum's spread comes from.
+pub(super) fn of_spread(checked: &Checked) -> String {
     let shares =
         Share::of(&checked.case, &checked.band).into_iter().take(4).map(|s| format!("{} ({:.0} %)", s.key, 100.0 * s.share));
-    let _ = write!(out, "{}\nwhat is left of its spread comes from {}\n", table(&rows), shares.collect::<Vec<_>>().join(", "));
-    out
+    format!("what is left of its spread comes from {}", shares.collect::<Vec<_>>().join(", "))
 }

@@ -3,6 +3,7 @@
 mod bench;
 mod course;
 mod no_place;
+mod picture;
 mod programme;
 mod question;
 mod recommendation;
@@ -21,6 +22,8 @@ use files::Note;
 pub use bench::Odds;
 pub(crate) use bench::{Contender, everything, odds, prepared, told_apart, usual};
 pub use course::{Course, Trace};
+pub(crate) use picture::figure;
+pub use picture::svg;
 pub use programme::{Limits, Programme, programmes};
 pub(crate) use question::Question;
 pub use recommendation::{Ranked, Recommendation, Size, WithSensor};

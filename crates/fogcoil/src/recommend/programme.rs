@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use crate::Error;
 use crate::table::significant;
+use crate::tabular::{Column, Table};
 
 /// Abilities of the chamber.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -221,6 +222,12 @@ impl Programme {
         };
         let chamber = time.iter().map(at).collect();
         (time, chamber)
+    }
+
+    /// The corners as a profile.
+    pub fn table(&self) -> Table {
+        let (time, chamber) = self.corners.iter().map(|corner| (Some(corner.0), Some(corner.1))).unzip();
+        Table { columns: vec![Column::numbers("time_s", time), Column::numbers("chamber_c", chamber)], about: Vec::new() }
     }
 
     /// The programme as a profile that `fogcoil simulate` reads.

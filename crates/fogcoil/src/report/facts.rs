@@ -69,7 +69,7 @@ pub(super) fn computation(simulation: &Simulation) -> Markup {
     let mesh =
         |r: coil::MeshFineness| format!("elements of order {}, {} layers towards each edge of the coil", r.order, r.layers);
     let (coarser, ReductionError { bias, sensor }) = (mesh(coil::COARSER.resolution), simulation.reduction);
-    let [low, high] = CHECKS.map(|check| check.order);
+    let [alike, .., less] = CHECKS;
     let mut rows = vec![
         row("driven by", simulation.profile.drives.iter().map(|drive| name(*drive)).collect::<Vec<_>>().join(", ")),
         row("start", "uniform at the first chamber temperature and free of stress; heaters off before the first row"),
@@ -83,7 +83,17 @@ pub(super) fn computation(simulation: &Simulation) -> Markup {
             "left out by the modes",
             format!("less than {bias:.1e} of the largest bias, less than {sensor:.1e} s of the thermometer's lag"),
         ),
-        row("steady-ramp sensitivity", format!("mesh: {}; its error from orders {low} and {high} on it", mesh(STEADY))),
+        row(
+            "steady-ramp sensitivity",
+            format!(
+                "mesh: {}; its error from orders {} and {}, graded by {} and {}",
+                mesh(STEADY),
+                alike.order,
+                less.order,
+                alike.ratio,
+                less.ratio
+            ),
+        ),
     ];
     if let Some(inference) = simulation.profile.inferred {
         let [median, largest] = inference.chamber_sd;

@@ -23,6 +23,7 @@ pub(crate) use samples::{MOST_FRAMES, Sample};
 use crate::Error;
 use crate::cache::Source;
 use crate::input::{CoilCase, ProfileCase};
+use crate::tabular::{self, Table};
 
 /// Response of a coil to a profile.
 #[derive(Debug, Clone)]
@@ -75,6 +76,16 @@ pub fn simulate<'a>(case: &'a CoilCase, profile: &'a ProfileCase, model: &Model)
         frames,
         added: Vec::new(),
     })
+}
+
+/// A table of rows, with the [`COLUMNS`].
+pub fn table(rows: &[SimulatedRow]) -> Table {
+    tabled(COLUMNS.into_iter(), rows)
+}
+
+fn tabled(columns: impl Iterator<Item = Column>, rows: &[SimulatedRow]) -> Table {
+    let column = |(name, of): Column| tabular::Column::numbers(name, rows.iter().map(|row| Some(of(row))).collect());
+    Table { columns: columns.map(column).collect(), about: Vec::new() }
 }
 
 impl Simulation<'_> {
@@ -147,13 +158,23 @@ impl Simulation<'_> {
         windowed(self.row(0), self.coarser_rows().skip(1))
     }
 
+    /// Names of the result's columns, and the value of each in a row.
+    fn columns(&self) -> impl Iterator<Item = Column> {
+        const OWN: Column = ("mechanisms_deg_per_h", |row| row.mechanisms);
+        COLUMNS.into_iter().chain((!self.added.is_empty()).then_some(OWN))
+    }
+
+    /// The result as a table.
+    pub fn table(&self) -> Table {
+        tabled(self.columns(), &self.rows().collect::<Vec<_>>())
+    }
+
     /// Writes the result; every number reads back to the same double.
     ///
     /// # Errors
     /// The error of `out`.
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        const OWN: Column = ("mechanisms_deg_per_h", |row| row.mechanisms);
-        let columns: Vec<Column> = COLUMNS.into_iter().chain((!self.added.is_empty()).then_some(OWN)).collect();
+        let columns: Vec<Column> = self.columns().collect();
         let line = |of: &dyn Fn(&Column) -> String| columns.iter().map(of).collect::<Vec<_>>().join(",");
         writeln!(out, "{}", line(&|(name, _)| (*name).to_owned()))?;
         self.rows().try_for_each(|row| writeln!(out, "{}", line(&|(_, of)| number(of(&row)))))

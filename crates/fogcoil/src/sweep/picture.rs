@@ -9,6 +9,10 @@ type Shown = (&'static str, u8, fn(&Index) -> WithInterval);
 
 /// Every group's indices as marks with their intervals, a document of its own.
 pub fn svg(name: &str, indices: &Indices) -> String {
+    figure(name, indices).document()
+}
+
+pub(super) fn figure<'a>(name: &str, indices: &Indices) -> Figure<'a> {
     let names: Vec<String> = indices.all.iter().rev().map(|index| index.group.name().to_owned()).collect();
     let place = |n: usize, kind: usize| (indices.all.len() - 1 - n) as f64 + [0.12, -0.12][kind];
     let kinds: [Shown; 2] =
@@ -25,7 +29,7 @@ pub fn svg(name: &str, indices: &Indices) -> String {
         series.push(Series::new(*legend, Style::Points(kind as u8), points));
     }
     let high = 3.0 * indices.all.len() as f64;
-    let figure = Figure {
+    Figure {
         id: "sobol-indices",
         title: format!("Where the spread of |S| of {name} comes from"),
         description:
@@ -41,6 +45,5 @@ pub fn svg(name: &str, indices: &Indices) -> String {
             high,
             series,
         )],
-    };
-    figure.document()
+    }
 }

@@ -7,8 +7,8 @@ use sha2::{Digest, Sha256};
 
 use super::outputs::Output;
 use super::points::{LONGEST_SEQUENCE, Points, Sampling};
-use crate::input::{CoilCase, Fingerprint, InputError, fault_in, hexadecimal, read_coil, read_profile, read_ron, read_text};
-use crate::variants::{Dimensions, Factor, Group, MOST_FACTORS, Others, Variants, Varied, each_once, variants};
+use crate::input::{CoilCase, Fingerprint, InputError, check_ron, fault_in, hexadecimal, read_profile, read_ron};
+use crate::variants::{Dimensions, Drawing, Factor, Group, MOST_FACTORS, Others, Variants, Varied, each_once, variants};
 use crate::{Error, program};
 
 /// Most points of a plan.
@@ -65,21 +65,34 @@ pub struct Plan {
     /// Whether the factors are the numbers with a tolerance and nothing else.
     pub is_band: bool,
     count: usize,
+    /// The file that holds this code; `None`: the executable.
+    code: Option<PathBuf>,
 }
 
 /// Reads and checks a plan and the files that it names.
 ///
 /// # Errors
-/// [`files::Error::Input`] says what is wrong, in which file, line and field, and how to mend it.
+/// As [`check_plan`].
 pub fn read_plan(path: &Path) -> Result<Plan, Error> {
-    let file: PlanFile = read_ron(path)?;
-    let own = Fingerprint::of(path.to_owned(), read_text(path)?.as_bytes());
-    let case = read_coil(&beside(path, &file.design))?;
-    check_tolerances(path, &file, &case)?;
+    checked(path, read_ron(path)?)
+}
+
+/// Checks a plan that is not in a file, with the content of one, and reads the files that it names; messages call it `path`, and its paths start there.
+///
+/// # Errors
+/// [`files::Error::Input`] says what is wrong, in which file, line and field, and how to mend it.
+pub fn check_plan(path: &Path, text: &str) -> Result<Plan, Error> {
+    checked(path, check_ron(path, text)?)
+}
+
+fn checked(path: &Path, (file, own): (PlanFile, Fingerprint)) -> Result<Plan, Error> {
+    let drawing = Drawing::read(&beside(path, &file.design))?;
+    let case = &drawing.case;
+    check_tolerances(path, &file, case)?;
     let mut files = [vec![own], case.fingerprints.clone()].concat();
-    let outputs = outputs(path, &file.outputs, &case, &mut files)?;
+    let outputs = outputs(path, &file.outputs, case, &mut files)?;
     let is_band = file.vary.iter().all(|(_, varied)| *varied == Varied::Tolerance) && file.others == Others::WithinTolerances;
-    let variants = variants(path, case, &file.vary, file.others, file.dimensions)?;
+    let variants = variants(path, drawing, &file.vary, file.others, file.dimensions)?;
     let groups: Vec<Group> =
         Group::ALL.into_iter().filter(|group| variants.factors.iter().any(|factor| factor.group == *group)).collect();
     let points = points(path, &file, &variants, &groups)?;
@@ -87,7 +100,7 @@ pub fn read_plan(path: &Path) -> Result<Plan, Error> {
         let count = points.count().map_or("more than a machine counts".to_owned(), |count| count.to_string());
         fault(path, "sampling", format!("these are {count} points"), &format!("give 1 to {MOST_POINTS}"))
     })?;
-    Ok(Plan { files, sampling: file.sampling, seed: file.seed, variants, points, groups, outputs, is_band, count })
+    Ok(Plan { files, sampling: file.sampling, seed: file.seed, variants, points, groups, outputs, is_band, count, code: None })
 }
 
 fn beside(plan: &Path, named: &str) -> PathBuf {
@@ -164,6 +177,12 @@ fn points(path: &Path, file: &PlanFile, variants: &Variants, groups: &[Group]) -
 }
 
 impl Plan {
+    /// The same plan for code that is not in the executable but in a library that it loads, `file`.
+    #[must_use]
+    pub fn of_code_in(self, file: impl Into<PathBuf>) -> Self {
+        Self { code: Some(file.into()), ..self }
+    }
+
     /// Number of points.
     pub fn count(&self) -> usize {
         self.count
@@ -176,7 +195,7 @@ impl Plan {
 
     /// SHA-256 of all inputs of the rows: the program, the plan, the files that it names.
     pub fn hash(&self) -> String {
-        let mut hash = Sha256::new().chain_update(format!("{}\n", program::hash()));
+        let mut hash = Sha256::new().chain_update(format!("{}\n", program::hash(self.code.as_deref())));
         self.files.iter().for_each(|file| hash.update(format!("{}\n", file.sha256)));
         hexadecimal(&hash.finalize())
     }

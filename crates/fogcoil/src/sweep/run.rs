@@ -54,16 +54,39 @@ pub fn run(plan: &Plan, share: Share, parts: Option<&Parts>, progress: &(dyn Fn(
         if let Some(rows) = found {
             return Ok(rows);
         }
-        let rows: Vec<Row> = range.clone().into_par_iter().map(|number| row(plan, number)).collect();
+        let tell = || progress(Step::counted(NAME, done.load(Ordering::Relaxed), count));
+        let rows: Vec<Row> = range.clone().into_par_iter().inspect(|_| tell()).map(|number| row(plan, number)).collect();
         if let Some(parts) = parts {
             parts.keep(range, &rows)?;
         }
-        let done = done.fetch_add(rows.len(), Ordering::Relaxed) + rows.len();
-        progress(Step::counted(NAME, done, count));
+        done.fetch_add(rows.len(), Ordering::Relaxed);
+        tell();
         Ok(rows)
     };
     let rows: Vec<Vec<Row>> = tasks.par_iter().zip(found).map(task).collect::<Result<_, Error>>()?;
     Ok(rows.concat())
+}
+
+/// The rows of a plan in order, as shares left them in `parts`: nothing is computed.
+///
+/// # Errors
+/// [`files::Error::Usage`] if some are missing.
+pub fn merged(plan: &Plan, parts: &Parts) -> Result<Vec<Row>, Error> {
+    let (mut rows, mut missing) = (Vec::new(), Vec::new());
+    for range in ranges(plan.count()) {
+        match parts.load(&range) {
+            Some(kept) => rows.extend(kept),
+            None => missing.push(range),
+        }
+    }
+    let Some(first) = missing.first() else { return Ok(rows) };
+    let (count, folder) = (missing.iter().map(Range::len).sum::<usize>(), files::shown_path(parts.folder()));
+    Err(Error::usage(format!(
+        "{folder}: of {} rows of this plan by this program {count} are missing, the first from point {}; compute the shares that are not \
+         finished, or leave out --merge to compute what is missing here",
+        plan.count(),
+        first.start
+    )))
 }
 
 /// Removes what was kept of a plan's rows.

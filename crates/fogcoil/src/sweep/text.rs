@@ -44,7 +44,7 @@ fn without_rounding(value: f64) -> f64 {
     if value.abs() < ROUNDING { 0.0 } else { value }
 }
 
-fn unit(name: &str) -> String {
+pub(super) fn unit(name: &str) -> String {
     match name {
         "turns" => String::new(),
         "mass_kg" => "kg".into(),

@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use super::table::Table;
-use super::{csv, parquet, xlsx};
+#[cfg(not(target_family = "wasm"))]
+use super::xlsx;
+use super::{csv, parquet};
 use crate::Error;
 
 /// Format of a table.
@@ -50,7 +52,10 @@ pub fn bytes(table: &Table, format: Format) -> Result<Vec<u8>, Error> {
     match format {
         Format::Csv => Ok(csv::bytes(table)),
         Format::Parquet => parquet::bytes(table).map_err(|error| Error::Table(error.to_string())),
+        #[cfg(not(target_family = "wasm"))]
         Format::Xlsx => xlsx::bytes(table).map_err(|error| Error::Table(error.to_string())),
+        #[cfg(target_family = "wasm")]
+        Format::Xlsx => Err(Error::Table("a page writes no workbooks".into())),
     }
 }
 

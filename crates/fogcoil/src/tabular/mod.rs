@@ -4,6 +4,7 @@ mod csv;
 mod format;
 mod parquet;
 mod table;
+#[cfg(not(target_family = "wasm"))]
 mod xlsx;
 
 pub use format::{Format, bytes};

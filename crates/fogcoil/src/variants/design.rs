@@ -1,5 +1,7 @@
 //! The design at a point of the unit cube.
 
+use std::path::Path;
+
 use coil::{Design, Number, Tolerances};
 use nalgebra::{DMatrix, DVector};
 
@@ -7,7 +9,26 @@ use super::factor::{Factor, Kind, without_negative_tails};
 use super::follow::Dimensions;
 use super::value::Value;
 use super::varied::{Varied, normal};
-use crate::input::{CoilCase, check_coil, field_text, with_fields};
+use crate::FileError;
+use crate::input::{CoilCase, check_coil, field_text, read_coil_with_text, with_fields};
+
+/// A drawing, with the text of its file.
+pub struct Drawing {
+    /// The drawing.
+    pub case: CoilCase,
+    text: String,
+}
+
+impl Drawing {
+    /// Reads and checks a coil file.
+    ///
+    /// # Errors
+    /// As [`read_coil`](crate::input::read_coil).
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        let (case, text) = read_coil_with_text(path)?;
+        Ok(Self { case, text })
+    }
+}
 
 /// Variations of a drawing.
 pub struct Variants {
@@ -32,10 +53,15 @@ pub struct Variant {
 }
 
 impl Variants {
-    /// Variations of the drawing `case`, read from `text`.
-    pub fn new(case: CoilCase, text: String, factors: Vec<Factor>, dimensions: Dimensions) -> Self {
+    /// Variations of a drawing.
+    pub fn new(Drawing { case, text }: Drawing, factors: Vec<Factor>, dimensions: Dimensions) -> Self {
         let mixing = mixing(&factors, &case.tolerances);
         Self { case, factors, dimensions, text, mixing }
+    }
+
+    /// A design made of the drawing, with the drawing's text.
+    pub(crate) fn drawing_of(&self, case: CoilCase) -> Drawing {
+        Drawing { case, text: self.text.clone() }
     }
 
     /// The design at a point of the unit cube.

@@ -12,7 +12,7 @@ mod read;
 mod value;
 mod varied;
 
-pub use design::{Variant, Variants};
+pub use design::{Drawing, Variant, Variants};
 pub use factor::{Factor, Kind};
 pub use follow::Dimensions;
 pub use group::Group;

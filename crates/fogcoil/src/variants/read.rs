@@ -4,13 +4,13 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::design::Variants;
+use super::design::{Drawing, Variants};
 use super::factor::{Factor, Kind};
 use super::follow::Dimensions;
 use super::group::Group;
 use super::varied::Varied;
 use crate::Error;
-use crate::input::{CoilCase, InputError, fault_in, read_text};
+use crate::input::{InputError, fault_in};
 
 /// Treatment of the numbers that a plan does not name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
@@ -25,18 +25,18 @@ pub enum Others {
 /// Most factors: dimensions of a Sobol' sequence, of which indices take two each.
 pub const MOST_FACTORS: usize = 128;
 
-/// Variations of the drawing `case` by the plan in `file`.
+/// Variations of a drawing by the plan in `file`.
 ///
 /// # Errors
 /// [`files::Error::Input`] names the key of the plan that the drawing has not, or whose values it cannot have.
 pub fn variants(
     file: &Path,
-    case: CoilCase,
+    drawing: Drawing,
     vary: &[(String, Varied)],
     others: Others,
     dimensions: Dimensions,
 ) -> Result<Variants, Error> {
-    let toleranced = Factor::within_tolerances(&case.design, &case.tolerances);
+    let toleranced = Factor::within_tolerances(&drawing.case.design, &drawing.case.tolerances);
     let mut factors = Vec::new();
     for (key, varied) in vary {
         let fault = |problem: String, remedy: &str| in_plan(file, format!("{key:?}: {problem}"), remedy);
@@ -63,8 +63,7 @@ pub fn variants(
         let problem = format!("{} numbers and choices vary", factors.len());
         return Err(in_plan(file, problem, &format!("vary 1 to {MOST_FACTORS}, or set others: WithinTolerances")));
     }
-    let text = read_text(&case.file)?;
-    let variants = Variants::new(case, text, factors, dimensions);
+    let variants = Variants::new(drawing, factors, dimensions);
     check(file, &variants)?;
     Ok(variants)
 }

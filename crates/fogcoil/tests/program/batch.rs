@@ -22,7 +22,7 @@ fn lot() -> Folder {
     fs::create_dir_all(folder.path("lot/U7986")).unwrap();
     folder.write("lot/U7986/run1.csv", part("U7986", "run1"));
     folder.write("lot/U7986/holdout.csv", part("U7986", "holdout"));
-    folder.write("lot/U7986/meta.ron", "(date: \"2026-03-02\", serial: Some(17))");
+    folder.write("lot/U7986/meta.ron", "(date: \"2026-03-02\", serial: Some(0017))");
     folder.write("U8378.csv", part("U8378", "run1"));
     folder.write("U4907.csv", part("U4907", "run1"));
     folder.write("limits.ron", "(limits: {\"arw\": Magnitude(1e-9)}, verdicts: [\"none\", \"recalibrate\", \"explained\"])");
@@ -47,7 +47,7 @@ fn units_become_a_table_and_a_page_whatever_interrupts_them() {
     let table = String::from_utf8(whole[0].clone()).unwrap();
     let lines: Vec<&str> = table.lines().collect();
     assert!(lines[0].starts_with("unit,serial,date,judged,reason,verdict,set,sensitivity,sensitivity_low,sensitivity_high,"));
-    assert!(lines[1].starts_with("U4907,4907.0,,fail,") && lines[2].starts_with("U7986,17.0,2026-03-02,fail,"), "{table}");
+    assert!(lines[1].starts_with("U4907,4907,,fail,") && lines[2].starts_with("U7986,0017,2026-03-02,fail,"), "{table}");
     assert!(lines.len() == 4 && lines[2].contains("run1.csv; ") && lines[2].contains("holdout.csv"), "{table}");
     let page = String::from_utf8(whole[3].clone()).unwrap();
     assert!(faults(&page).is_empty(), "{:?}", faults(&page));
@@ -133,7 +133,7 @@ fn results_never_lie_on_inputs(folder: &Folder) {
     let record = fs::read_to_string(folder.path("U8378.csv")).unwrap();
     fs::create_dir_all(folder.path("mine/units")).unwrap();
     folder.write("mine/table.csv", &record);
-    folder.write("mine/units/table.json", "(verdicts: [\"none\"])");
+    folder.write("mine/units/table.json", "{\"verdicts\": [\"none\"]}");
     for (arguments, said) in [
         (vec!["lot/U7986", "--out", "lot/U7986"], "give another --out"),
         (vec!["mine/table.csv", "--out", "mine"], "is an input"),

@@ -3,6 +3,7 @@
 use std::fs;
 use std::process::Command;
 
+use charts::faults;
 use fogcoil::schema::misfit;
 use serde_json::Value;
 
@@ -51,9 +52,12 @@ fn the_optimum_is_found_checked_and_explained() {
     let json = run("2", "two.csv");
     assert_eq!(misfit(&json, &schema("optimise")), None);
     assert_eq!(
-        (&run("1", "one.csv"), fs::read(folder.path("one.csv")).unwrap()),
+        (&run("1", "one"), fs::read(folder.path("one/table.csv")).unwrap()),
         (&json, fs::read(folder.path("two.csv")).unwrap())
     );
+    let page = fs::read_to_string(folder.path("one/report.html")).unwrap();
+    assert!(faults(&page).is_empty() && folder.path("one/table.parquet").exists(), "{:?}", faults(&page));
+    assert!(page.contains("The optimum (least sensitivity) by the full model") && page.contains("plan.ron"));
     let best = &json["optimum"];
     // the flange makes most of the reference coil's sensitivity
     assert!(number(&best["total"]).abs() < number(&json["drawing"]["sensitivity"]) / 5.0, "{json}");

@@ -4,6 +4,7 @@ use std::fs;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use charts::faults;
 use fogcoil::schema::misfit;
 use serde_json::Value;
 
@@ -70,7 +71,12 @@ fn the_same_bytes_on_any_threads_in_shares_and_after_a_kill() {
         on_threads(&folder, "1", &["sweep", "plan.ron", "--out", "shares.parquet", "--share", number]);
     }
     assert!(!folder.path("shares.parquet").exists() && folder.path("shares.parquet.parts").exists());
-    on_threads(&folder, "1", &["sweep", "plan.ron", "--out", "shares.parquet"]);
+    let merge = ["sweep", "plan.ron", "--out", "shares.parquet", "--merge"];
+    let refused = folder.run(&merge);
+    let said = "shares.parquet.parts: of 150 rows of this plan by this program 54 are missing, the first from point 96";
+    assert!(refused.status.code() == Some(2) && stderr(&refused).contains(said), "{}", stderr(&refused));
+    on_threads(&folder, "1", &["sweep", "plan.ron", "--out", "shares.parquet", "--share", "3/3"]);
+    on_threads(&folder, "1", &merge);
     assert!(fs::read(folder.path("shares.parquet")).unwrap() == expected);
     // killed once the first rows are kept
     let mut command = Command::new(env!("CARGO_BIN_EXE_fogcoil"));
@@ -89,6 +95,27 @@ fn the_same_bytes_on_any_threads_in_shares_and_after_a_kill() {
     on_threads(&folder, "2", &arguments);
     assert!(fs::read(folder.path("killed.parquet")).unwrap() == expected && !parts.exists());
     assert_eq!(folder.names(), ["coil.ron", "killed.parquet", "plan.ron", "shares.parquet", "two.parquet"]);
+}
+
+#[test]
+fn a_folder_gets_both_tables_and_a_page() {
+    let folder = with_plan("(design: \"coil.ron\", sampling: Indices(8), others: WithinTolerances)");
+    swept(&folder, &["plan.ron", "--out", "t.csv"]);
+    swept(&folder, &["plan.ron", "--out", "t.parquet"]);
+    let json = swept(&folder, &["plan.ron", "--out", "swept"]);
+    for format in ["csv", "parquet"] {
+        let [alone, within] = ["t", "swept/table"].map(|name| fs::read(folder.path(&format!("{name}.{format}"))).unwrap());
+        assert!(alone == within, "{format}");
+    }
+    let page = fs::read_to_string(folder.path("swept/report.html")).unwrap();
+    assert!(faults(&page).is_empty(), "{:?}", faults(&page));
+    for said in ["points, seed 0", "Sobol", "plan.ron", "coil.ron"] {
+        assert!(page.contains(said), "{said}");
+    }
+    // it is a folder now, whatever its name
+    let other = swept(&folder, &["plan.ron", "--out", "swept/"]);
+    assert_eq!(other["outputs"], json["outputs"]);
+    assert_eq!(fs::read_dir(folder.path("swept")).unwrap().count(), 3);
 }
 
 #[test]

@@ -50,7 +50,7 @@ fn is_outside(id: &str) -> bool {
 
 impl Truth {
     pub(super) fn read(file: &Path) -> Result<Self, Failure> {
-        Ok(fogcoil::input::read_ron(file)?)
+        Ok(fogcoil::input::read_ron(file)?.0)
     }
 
     pub(super) fn kind(&self) -> Kind {

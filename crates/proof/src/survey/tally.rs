@@ -28,6 +28,8 @@ impl Compared {
 pub(super) enum Drawn {
     /// The program refuses it: its own check of the error, or a bound that is crossed.
     Refused,
+    /// It answers; finer solutions scatter more than the error that it states.
+    Undecided,
     /// It answers.
     Compared {
         /// The draw in a few words.
@@ -39,12 +41,13 @@ pub(super) enum Drawn {
 /// A table of all subjects; whether each quantity is covered in 99 of 100 draws.
 pub(super) fn table(subjects: &[(&'static str, Vec<Drawn>)]) -> (String, bool) {
     let mut text = String::from(
-        "\n| random | drawn, of them refused | quantity | errors covered [90 % interval] | least ratio, stated over true | median ratio |\n\
+        "\n| random | drawn, of them refused, undecided | quantity | errors covered [90 % interval] | least ratio, stated over true | median ratio |\n\
          |---|---|---|---|---|---|\n",
     );
     let mut covered = true;
     for (subject, drawn) in subjects {
         let refused = drawn.iter().filter(|drawn| matches!(drawn, Drawn::Refused)).count();
+        let undecided = drawn.iter().filter(|drawn| matches!(drawn, Drawn::Undecided)).count();
         let mut ratios: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
         for drawn in drawn {
             let Drawn::Compared { rows, .. } = drawn else { continue };
@@ -58,7 +61,7 @@ pub(super) fn table(subjects: &[(&'static str, Vec<Drawn>)]) -> (String, bool) {
             let [low, high] = share.interval.map(|end| 100.0 * end);
             let _ = writeln!(
                 text,
-                "| {subject} | {}, {refused} | {quantity} | {within} of {} [{low:.1} to {high:.1} %] | {least:.2} | {:.1} |",
+                "| {subject} | {}, {refused}, {undecided} | {quantity} | {within} of {} [{low:.1} to {high:.1} %] | {least:.2} | {:.1} |",
                 drawn.len(),
                 ratios.len(),
                 middle(ratios.clone()),
@@ -78,9 +81,9 @@ mod tests {
 
     #[test]
     fn an_error_above_what_is_stated_is_counted_and_fails() {
-        let (text, covered) = table(&[("thing", vec![of(2.0, 1.0), of(0.5, 1.0), Drawn::Refused])]);
+        let (text, covered) = table(&[("thing", vec![of(2.0, 1.0), of(0.5, 1.0), Drawn::Refused, Drawn::Undecided])]);
         assert!(!covered);
-        assert!(text.contains("| thing | 3, 1 | x | 1 of 2 ["), "{text}");
+        assert!(text.contains("| thing | 4, 1, 1 | x | 1 of 2 ["), "{text}");
         assert!(text.contains("| 0.50 |"), "{text}");
         assert!(table(&[("thing", vec![of(2.0, 1.0), of(0.0, 0.0)])]).1);
         assert!(!table(&[("thing", vec![of(f64::NAN, 1.0)])]).1);

@@ -85,9 +85,9 @@ impl Fixtures {
         Ok(Self {
             cell: read_cell(&at.join("cell-reference.ron"))?.cell,
             coil: read_coil(&at.join("coil-reference.ron"))?.design,
-            independent: read_ron(&at.join("independent.ron"))?,
-            spools: read_ron(&at.join("spool-materials.ron"))?,
-            printed: read_ron::<Tables>(&at.join("paper/tables.ron"))?.rows,
+            independent: read_ron(&at.join("independent.ron"))?.0,
+            spools: read_ron(&at.join("spool-materials.ron"))?.0,
+            printed: read_ron::<Tables>(&at.join("paper/tables.ron"))?.0.rows,
         })
     }
 

@@ -11,6 +11,11 @@ impl Outcome<'_> {
         html! { (self.recording().element()) (self.residuals().element()) }
     }
 
+    /// The recordings with their models, an SVG document.
+    pub fn picture(&self) -> String {
+        self.recording().document()
+    }
+
     fn recording(&self) -> Figure<'static> {
         let (columns, panels) = multiples(self.each().map(|shown| self.recorded(&shown)).collect());
         Figure {

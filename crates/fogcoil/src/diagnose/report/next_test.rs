@@ -1,15 +1,11 @@
 //! The test to make next: the profile that tells apart what the records do not, what it is expected to show, and how to get it.
 
-use charts::{Axis, Figure, Panel, Series, Style, facts, nice, row, significant};
+use charts::{facts, nice, row, significant};
 use diagnosis::{Settings, Verdict};
 use maud::{Markup, html};
 
 use crate::diagnose::Outcome;
-use crate::recommend::{Course, Limits, Odds, Question, Recommendation, number, sentence};
-use crate::units::DurationUnit;
-
-/// Share of the squared distance from which a thermometer's course is drawn.
-const WORTH_DRAWING: f64 = 0.05;
+use crate::recommend::{Limits, Odds, Question, Recommendation, figure, number, sentence};
 
 impl Outcome<'_> {
     pub(super) fn next_test(&self) -> Markup {
@@ -92,11 +88,10 @@ fn recommended(found: &Recommendation) -> Markup {
         let values: Vec<String> = size.values.iter().map(|(name, v)| format!("{name} = {}", significant(*v, 3))).collect();
         rows.push(row(&format!("size of {} (fitted alone)", size.id), nice(&values.join(", "))));
     }
-    let what = if best.odds.decides() { "The recommended test" } else { "The best within these limits, which does not decide" };
     html! {
         p { (capital) } "\n"
         (facts("The recommended test", &rows))
-        (figure(&found.course, format!("{what}: {}", best.programme.name)).element())
+        (figure(found).element())
     }
 }
 
@@ -118,49 +113,4 @@ fn meaning(odds: &Odds) -> String {
         -excluded.ln(),
         1.0 / excluded,
     )
-}
-
-fn figure(course: &Course, title: String) -> Figure<'static> {
-    let Course { pair: [truth, rival], time, chamber, rate, spool } = course;
-    let unit = DurationUnit::of(time.last().copied().unwrap_or(0.0));
-    let over = |values: &[f64]| time.iter().zip(values).map(|(t, v)| (unit.of_seconds(*t), *v)).collect::<Vec<_>>();
-    let panel = |heading: &str, label: &str, least: f64, lines: f64, series| {
-        Panel::lines(Axis::tight("", 1e-6), Axis::round(label, least), lines, series).headed(heading)
-    };
-    let mut panels = vec![panel("the profile", "chamber [°C]", 0.1, 10.0, vec![Series::new("", Style::First, over(chamber))])];
-    for (trace, label, of, least) in [(rate, "rate [°/h]", "°/h", 1e-4), (spool, "spool thermometer [K]", "K", 0.01)] {
-        if trace.share < WORTH_DRAWING && label != "rate [°/h]" {
-            continue;
-        }
-        let [own, other] = &trace.added;
-        let both =
-            vec![Series::new(truth.clone(), Style::First, over(own)), Series::new(rival.clone(), Style::Second, over(other))];
-        panels.push(panel("what each adds to the design", label, least, 14.0, both));
-        let noise = trace.noise;
-        let at = |level: f64| over(&vec![level; time.len()]);
-        let noise_name = format!("± noise of a reading, {} {of}", significant(noise, 2));
-        let left = vec![
-            Series::new(noise_name, Style::Third, at(noise)),
-            Series::new("", Style::Third, at(-noise)),
-            Series::new(format!("left of {truth}"), Style::First, over(&trace.left)),
-        ];
-        panels.push(panel("what tells them apart", label, least, 10.0, left));
-    }
-    if let Some(last) = panels.last_mut() {
-        last.x.label = format!("time [{}]", unit.name);
-    }
-    Figure {
-        id: "next-test",
-        title,
-        description: format!(
-            "Chamber temperature of the recommended profile over time, the rates that {truth} and {rival} add to the design's, and what tells \
-             the two apart."
-        ),
-        caption: format!(
-            "Predicted, without noise, at the sizes that were fitted to the record, each mechanism alone. What tells them apart: what is left of \
-             {truth} when {rival}, the model's own errors and the offset are fitted to it; over the whole test this decides."
-        ),
-        columns: 1,
-        panels,
-    }
 }

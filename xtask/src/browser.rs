@@ -15,18 +15,18 @@ const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "goog
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A browser with one tab; it ends with this value.
-pub(super) struct Browser {
+pub(crate) struct Browser {
     child: Child,
     to: ChildStdin,
     from: Receiver<Value>,
     session: Option<String>,
     sent: u64,
     events: Vec<Value>,
-    pub(super) version: String,
+    pub(crate) version: String,
 }
 
 /// The command that starts Chromium.
-pub(super) fn find() -> Result<String, Failure> {
+pub(crate) fn find() -> Result<String, Failure> {
     let starts = |name: &str| {
         Command::new(name).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|s| s.success())
     };
@@ -39,7 +39,7 @@ pub(super) fn find() -> Result<String, Failure> {
 
 impl Browser {
     /// Starts `chromium` with a fresh profile in `profile`.
-    pub(super) fn launch(chromium: &str, profile: &Path) -> Result<Self, Failure> {
+    pub(crate) fn launch(chromium: &str, profile: &Path) -> Result<Self, Failure> {
         #[rustfmt::skip]
         let flags = [
             "--remote-debugging-pipe", "--disable-background-networking", "--headless=new", "--no-sandbox", "--disable-gpu",
@@ -75,7 +75,7 @@ impl Browser {
     }
 
     /// Sends a command and waits for its answer.
-    pub(super) fn call(&mut self, method: &str, params: Value) -> Result<Value, Failure> {
+    pub(crate) fn call(&mut self, method: &str, params: Value) -> Result<Value, Failure> {
         self.sent += 1;
         let mut message = json!({ "id": self.sent, "method": method, "params": params });
         if let Some(session) = &self.session {
@@ -94,7 +94,7 @@ impl Browser {
     }
 
     /// Waits for an event, which may have come already.
-    pub(super) fn until(&mut self, event: &str) -> Result<(), Failure> {
+    pub(crate) fn until(&mut self, event: &str) -> Result<(), Failure> {
         if self.events.iter().any(|e| e["method"] == event) {
             return Ok(());
         }
@@ -118,13 +118,23 @@ impl Browser {
         }
     }
 
+    /// Opens a page and waits until it is there; only what happens from then on is among the events.
+    pub(crate) fn open(&mut self, url: &str) -> Result<(), Failure> {
+        self.events();
+        let answer = self.call("Page.navigate", json!({ "url": url }))?;
+        match answer["errorText"].as_str() {
+            Some(error) => Err(Failure(format!("{url}: {error}"))),
+            None => self.until("Page.loadEventFired"),
+        }
+    }
+
     /// The events since the last call of this.
-    pub(super) fn events(&mut self) -> Vec<Value> {
+    pub(crate) fn events(&mut self) -> Vec<Value> {
         std::mem::take(&mut self.events)
     }
 
     /// Value of an expression in the page; a promise is awaited.
-    pub(super) fn evaluate(&mut self, expression: &str) -> Result<Value, Failure> {
+    pub(crate) fn evaluate(&mut self, expression: &str) -> Result<Value, Failure> {
         let params = json!({ "expression": expression, "awaitPromise": true, "returnByValue": true });
         let answer = self.call("Runtime.evaluate", params)?;
         match answer.get("exceptionDetails") {
@@ -146,31 +156,19 @@ fn text(value: &Value, key: &str) -> String {
     value[key].as_str().unwrap_or_default().to_owned()
 }
 
-/// Bytes of a picture or a page that came as Base64 (RFC 4648).
-pub(super) fn decoded(base64: &str) -> Vec<u8> {
-    let digit = |c: u8| match c {
-        b'A'..=b'Z' => Some(u32::from(c - b'A')),
-        b'a'..=b'z' => Some(u32::from(c - b'a') + 26),
-        b'0'..=b'9' => Some(u32::from(c - b'0') + 52),
-        b'+' => Some(62),
-        b'/' => Some(63),
+/// An error or a warning of the console.
+pub(crate) fn complaint(event: &Value) -> Option<String> {
+    let params = &event["params"];
+    match event["method"].as_str()? {
+        "Runtime.exceptionThrown" => Some(params["exceptionDetails"]["text"].to_string()),
+        "Runtime.consoleAPICalled" if params["type"] != "log" => Some(params["args"].to_string()),
+        "Log.entryAdded" if params["entry"]["level"] != "verbose" => Some(params["entry"]["text"].to_string()),
         _ => None,
-    };
-    let digits: Vec<u32> = base64.bytes().filter_map(digit).collect();
-    let bytes = |four: &[u32]| {
-        let all = (0..4).fold(0, |sum, k| sum << 6 | four.get(k).copied().unwrap_or(0));
-        all.to_be_bytes().into_iter().skip(1).take(four.len() * 6 / 8)
-    };
-    digits.chunks(4).flat_map(bytes).collect()
+    }
 }
 
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn the_test_vectors_of_rfc_4648() {
-        for (text, bytes) in [("", ""), ("Zg==", "f"), ("Zm8=", "fo"), ("Zm9v", "foo"), ("Zm9vYmFy", "foobar")] {
-            assert_eq!(super::decoded(text), bytes.as_bytes());
-        }
-        assert_eq!(super::decoded("+/+/"), [0xfb, 0xff, 0xbf]);
-    }
+/// What was asked of the network or the disk.
+pub(crate) fn request(event: &Value) -> Option<String> {
+    (event["method"] == "Network.requestWillBeSent")
+        .then(|| event["params"]["request"]["url"].as_str().unwrap_or_default().to_owned())
 }

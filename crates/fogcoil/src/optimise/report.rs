@@ -1,0 +1,50 @@
+//! The page of an optimisation.
+
+use charts::{Cells, grid, nice};
+use maud::{Markup, html};
+
+use super::check::Checked;
+use super::front::front;
+use super::picture::figure;
+use super::plan::Plan;
+use super::search::Found;
+use super::text::{NOTHING, designs, of_optimum, of_spread, steps};
+use crate::report::provenance;
+
+/// The front, the optimum with its check, and the changes that lead to it.
+pub fn report(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
+    let best = front(&found.all, &plan.minimise);
+    let sound = found.all.iter().filter(|tried| tried.violation == 0.0).count();
+    let lead = html! {
+        p { (found.all.len()) " designs were tried, " (sound) " keep the limits, " (best.len()) " are on the front." }
+    };
+    let files: Vec<_> = ["plan", "coil"].into_iter().chain(std::iter::repeat("cell")).zip(&plan.files).collect();
+    let body = html! {
+        h2 { "Front" } "\n"
+        @if let Some(front) = figure(plan, found) { (front.element()) }
+        (headed("The drawing and designs of the front", &designs(plan, found, &best)))
+        h2 { "Optimum" } "\n"
+        @match checked {
+            None => p { (sentence(NOTHING)) },
+            Some(checked) => {
+                @for text in of_optimum(plan, found, checked) { p { (sentence(&text)) } }
+                (headed("What leads there, change by change; S in (deg/h)/(degC/min)", &steps(found, checked)))
+                p { (sentence(&of_spread(checked))) }
+            }
+        }
+        (provenance("optimise", &files, &[("seed".to_owned(), plan.seed.to_string())]))
+    };
+    charts::page(&format!("{}: the best of {} designs", plan.variants.case.name, found.all.len()), &lead, &body)
+}
+
+/// A table whose first row is its head.
+fn headed(caption: &str, rows: &[Vec<String>]) -> Markup {
+    html! { @if let Some((head, rows)) = rows.split_first() { (grid(caption, Cells::Words, head, rows)) } }
+}
+
+/// The text with a capital and a full stop.
+fn sentence(text: &str) -> String {
+    let mut rest = text.chars();
+    let first: String = rest.next().into_iter().flat_map(char::to_uppercase).collect();
+    nice(&format!("{first}{}.", rest.as_str()))
+}

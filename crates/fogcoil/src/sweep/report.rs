@@ -1,0 +1,67 @@
+//! The page of a sweep.
+
+use charts::{Axis, Cells, Figure, Panel, Series, Style, grid, nice, significant};
+use maud::html;
+
+use super::picture::figure;
+use super::plan::Plan;
+use super::row::Row;
+use super::statistics::{Spread, Summary, TOTAL};
+use super::text::unit;
+use crate::report::provenance;
+
+/// Most points of a line that is drawn.
+const DRAWN: usize = 500;
+
+/// Statistics, the distribution of the sensitivity, and its Sobol' indices where there are some.
+pub fn report(plan: &Plan, summary: &Summary, rows: &[Row]) -> String {
+    let name = &plan.variants.case.name;
+    let lead = html! {
+        p {
+            (summary.designs) " designs of " (plan.count()) " points, seed " (plan.seed) "."
+            @if let Some((count, first)) = &summary.failed { " " (count) " points have no design; of the first: " (nice(first)) "." }
+            @if let Some((linear, total)) = summary.linear_sd.zip(summary.total()) {
+                " The sensitivity has a standard deviation of " (significant(total.sd, 3)) " (°/h)/(°C/min); to first order in the tolerances "
+                (significant(linear, 3)) "."
+            }
+        }
+    };
+    let head = ["", "mean", "sd", "least", "5 %", "median", "95 %", "largest", "unit"];
+    let numbers = |s: &Spread| {
+        let numbers = [s.mean, s.sd].into_iter().chain(s.quantiles).map(|value| significant(value, 4));
+        std::iter::once(s.name.to_owned()).chain(numbers).chain([unit(s.name)]).collect::<Vec<_>>()
+    };
+    let files: Vec<_> = ["plan", "coil"].into_iter().chain(std::iter::repeat("input")).zip(&plan.files).collect();
+    let body = html! {
+        h2 { "Numbers" } "\n"
+        (grid("Every number over all designs", Cells::Numbers, &head, &summary.spreads.iter().map(numbers).collect::<Vec<_>>()))
+        @if let Some(distribution) = distribution(plan, rows) { h2 { "Sensitivity" } "\n" (distribution.element()) }
+        @if let Some(indices) = &summary.indices { h2 { "Where its spread comes from" } "\n" (figure(name, indices).element()) }
+        (provenance("sweep", &files, &[]))
+    };
+    charts::page(&format!("{name}: {} designs", summary.designs), &lead, &body)
+}
+
+/// The share of the designs whose sensitivity is below a number.
+fn distribution<'a>(plan: &Plan, rows: &[Row]) -> Option<Figure<'a>> {
+    let place = plan.names().iter().position(|name| *name == TOTAL)?;
+    let mut all: Vec<f64> = rows.iter().filter_map(|row| row.outputs[place]).collect();
+    all.sort_by(f64::total_cmp);
+    let last = all.len().checked_sub(1)?;
+    let drawn = all.len().min(DRAWN);
+    let at = |n: usize| if drawn > 1 { n * last / (drawn - 1) } else { 0 };
+    let points = (0..drawn).map(|n| (all[at(n)], (at(n) + 1) as f64 / all.len() as f64)).collect();
+    Some(Figure {
+        id: "distribution",
+        title: "Distribution of the sensitivity".into(),
+        description: "Share of the designs whose steady-ramp sensitivity is below a number.".into(),
+        caption: format!("Of {} designs.", all.len()),
+        columns: 1,
+        panels: vec![Panel::lines(
+            Axis::round("sensitivity [(°/h)/(°C/min)]", 1e-6),
+            Axis::round("share of the designs below", 0.1).covering([0.0, 1.0]),
+            14.0,
+            vec![Series::new("", Style::First, points)],
+        )],
+    })
+}

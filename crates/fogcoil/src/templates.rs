@@ -1,0 +1,16 @@
+//! Commented files to start from.
+
+/// A coil on its spool.
+pub const COIL: &str = include_str!("../templates/coil.ron");
+/// A fibre's cell.
+pub const CELL: &str = include_str!("../templates/cell.ron");
+/// Measured constants, and the cells to try.
+pub const TARGETS: &str = include_str!("../templates/targets.ron");
+/// A mechanism of a user's own.
+pub const MECHANISM: &str = include_str!("../templates/mechanism.ron");
+/// A profile of the chamber's temperature.
+pub const PROFILE: &str = include_str!("../templates/profile.csv");
+
+/// Every template by the name of its kind.
+pub const ALL: [(&str, &str); 5] =
+    [("coil", COIL), ("cell", CELL), ("targets", TARGETS), ("mechanism", MECHANISM), ("profile", PROFILE)];
