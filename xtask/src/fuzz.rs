@@ -101,18 +101,6 @@ fn runner(command: &str, reader: &str) -> Result<Command, Failure> {
     Ok(runner)
 }
 
-/// Processor time of all commands that were run and have ended \[s\].
-fn time_of_children() -> Result<u64, Failure> {
-    /// Ticks of Linux's clock for programs \[1/s\].
-    const TICKS: u64 = 100;
-    let place = Path::new("/proc/self/stat");
-    let stat = read(place)?;
-    // behind the name, which may hold anything: the 14th and 15th number
-    let numbers = stat.rsplit_once(')').map_or("", |(_, numbers)| numbers).split_whitespace().skip(13).take(2);
-    let ticks = numbers.map(|number| number.parse::<u64>().ok()).sum::<Option<u64>>();
-    ticks.map(|ticks| ticks / TICKS).ok_or_else(|| Failure(format!("{}: no processor time", place.display())))
-}
-
 /// The files of a folder, or the file.
 fn files(place: &str) -> Result<Vec<PathBuf>, Failure> {
     let path = root().join(place);
