@@ -91,12 +91,12 @@ fn table(fed: &[Fed], page: &str) -> String {
     table
 }
 
-/// A command of the runner for a reader, with its inputs in a folder.
-fn runner(command: &str, reader: &str, corpus: &Path, crashes: &Path) -> Result<Command, Failure> {
+/// A command of the runner for a reader.
+fn runner(command: &str, reader: &str) -> Result<Command, Failure> {
     let mut runner = tool(RUNNER)?;
     // the engine needs no sanitizer here, for there is no unsafe code; the toolchain at hand will do
     runner.args(["bolero", command, "--package", "fuzz", "--rustc-bootstrap", "--sanitizer", "NONE"]);
-    runner.arg("--target-dir").arg(root().join("target/fuzz")).arg("--corpus-dir").arg(corpus).arg("--crashes-dir").arg(crashes);
+    runner.arg("--target-dir").arg(root().join("target/fuzz"));
     runner.arg(format!("readers::{reader}")).current_dir(root()).stdin(Stdio::null()).stdout(Stdio::null());
     Ok(runner)
 }
@@ -126,7 +126,8 @@ fn fed(reader: &'static str, seeds: &[&str], seconds: u64) -> Result<Fed, Failur
         fs::copy(kept.join(&name), corpus.join(&name)).map_err(failed(&kept))?;
     }
     let fed_for = |seconds: u64| -> Result<Output, Failure> {
-        let mut command = runner("test", reader, &corpus, &crashes)?;
+        let mut command = runner("test", reader)?;
+        command.arg("--corpus-dir").arg(&corpus).arg("--crashes-dir").arg(&crashes);
         Ok(command.arg("-T").arg(format!("{seconds}s")).stderr(Stdio::piped()).output()?)
     };
     // what compiles before the first input counts for nothing
@@ -142,20 +143,26 @@ fn fed(reader: &'static str, seeds: &[&str], seconds: u64) -> Result<Fed, Failur
     }
     let number = |word: &str| said.rsplit_once(word)?.1.split_whitespace().next()?.parse::<u64>().ok();
     let (inputs, edges) = (number("Done ").unwrap_or(0), number(" cov: ").unwrap_or(0));
-    // inputs that reach what no other does
-    if !runner("reduce", reader, &corpus, &crashes)?.stderr(Stdio::null()).status()?.success() {
+    // inputs that reach what no other does; the runner looks for them where they are kept
+    renewed(&kept, &corpus, &names(&corpus)?)?;
+    if !runner("reduce", reader)?.stderr(Stdio::null()).status()?.success() {
         return Err(Failure(format!("{reader}: the corpus cannot be reduced")));
     }
+    renewed(&corpus, &kept, &names(&kept)?)?;
     let size = |name: String| Ok((fs::metadata(corpus.join(&name)).map_err(failed(&corpus))?.len(), name));
     let mut reduced = names(&corpus)?.into_iter().map(size).collect::<Result<Vec<_>, Failure>>()?;
     reduced.retain(|(size, _)| *size <= LONGEST);
     reduced.sort();
     reduced.truncate(MOST);
-    fs::remove_dir_all(&kept).and_then(|()| fs::create_dir_all(&kept)).map_err(failed(&kept))?;
-    for (_, name) in &reduced {
-        fs::copy(corpus.join(name), kept.join(name)).map_err(failed(&kept))?;
-    }
+    let reduced: Vec<String> = reduced.into_iter().map(|(_, name)| name).collect();
+    renewed(&kept, &corpus, &reduced)?;
     Ok(Fed { reader, inputs, seconds: lasted, edges, kept: reduced.len(), crashes: crashed })
+}
+
+/// Fills a folder anew with files of another.
+fn renewed(folder: &Path, from: &Path, names: &[String]) -> Result<(), Failure> {
+    fs::remove_dir_all(folder).and_then(|()| fs::create_dir_all(folder)).map_err(failed(folder))?;
+    names.iter().try_for_each(|name| fs::copy(from.join(name), folder.join(name)).map(drop).map_err(failed(folder)))
 }
 
 #[cfg(test)]
