@@ -84,7 +84,8 @@ mod tests {
         let design = of(&[], false, &[]).unwrap();
         assert_eq!(design["values"].as_object().unwrap().len(), KEYS.len());
         assert_eq!(start()["adhesive"].as_object().unwrap().len(), ADHESIVE.len());
-        let free = of(&[("spool", "None")], false, &[]).unwrap();
+        // without a spool there is nothing of it that could have a tolerance
+        let free = of(&[("spool", "None"), ("tolerances", "{}")], false, &[]).unwrap();
         assert!(free["values"].get("spool.hub_thickness_mm").is_none());
         let changed = of(&[("winding.pattern", "Octupole"), ("winding.tails_m.cw", "0.5")], false, &[]).unwrap();
         assert_eq!([&changed["winding"]["pattern"], &changed["values"]["winding.tails_m.cw"]], ["Octupole", "0.5"]);
