@@ -7,8 +7,7 @@ use std::process::{Command, Stdio};
 use proof::Failure;
 use proof::files::{failed, root};
 
-use super::Trial;
-use super::place::{FILES, Place, SHARES};
+use super::place::{FILES, Place, SHARES, Trial};
 use super::processes::{Running, done};
 
 const VERSION: &str = "0.27.0";

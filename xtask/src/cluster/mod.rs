@@ -12,7 +12,7 @@ use proof::Failure;
 use proof::files::{renew, root};
 
 use cost::Cost;
-use place::{DESIGNS, Place, SHARES};
+use place::{DESIGNS, Place, SHARES, Trial};
 
 /// Try a sweep on HyperQueue and on Slurm, each with two workers on this machine of which one is killed half way
 ///
@@ -26,16 +26,6 @@ pub(crate) struct Cluster {
     /// Leave Slurm out, and the page as it is
     #[arg(long)]
     no_slurm: bool,
-}
-
-/// A finished sweep.
-struct Trial {
-    /// The scheduler and its version.
-    scheduler: String,
-    /// The course, with the loss.
-    course: String,
-    /// The table's file.
-    table: &'static str,
 }
 
 impl Cluster {

@@ -31,6 +31,16 @@ pub(super) struct Place {
     program: PathBuf,
 }
 
+/// A finished sweep.
+pub(super) struct Trial {
+    /// The scheduler and its version.
+    pub(super) scheduler: String,
+    /// The course, with the loss.
+    pub(super) course: String,
+    /// The table's file.
+    pub(super) table: &'static str,
+}
+
 impl Place {
     pub(super) fn new() -> Result<Self, Failure> {
         let place = Self { program: program()?, folder: tempfile::tempdir()? };

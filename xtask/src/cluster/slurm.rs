@@ -10,8 +10,7 @@ use proof::files::failed;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-use super::Trial;
-use super::place::{FILES, Place, SHARES};
+use super::place::{FILES, Place, SHARES, Trial};
 use super::processes::{Running, done, until, with_variables};
 
 const TABLE: &str = "slurm.parquet";

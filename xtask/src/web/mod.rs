@@ -13,12 +13,12 @@ use proof::files::{failed, renew, root};
 use crate::browser;
 use crate::tools::{cargo, program, remapped, run};
 use page::page;
+use toolchain::TARGET;
 
 /// Beside the book's pages, which are built with it.
 const PAGE: &str = "docs/try-it.html";
 const ABOUT: &str = "docs/try.md";
 const MARKS: [&str; 2] = ["<!-- web: written by `cargo xtask web` -->", "<!-- web end -->"];
-const TARGET: &str = "wasm32-unknown-unknown";
 
 /// Compile the program to WebAssembly, put it into a page, and compare the page with the program in headless Chromium
 ///

@@ -7,7 +7,8 @@ use std::process::Command;
 use proof::Failure;
 use proof::files::{below, failed, names, root};
 
-use super::TARGET;
+/// Of the page.
+pub(super) const TARGET: &str = "wasm32-unknown-unknown";
 
 /// Suite of Debian whose compiler is taken: that of the stable one is too old.
 const SUITE: &str = "testing";
