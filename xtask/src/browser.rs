@@ -167,7 +167,7 @@ pub(crate) fn complaint(event: &Value) -> Option<String> {
     }
 }
 
-/// What was asked of the network or the disk.
+/// An address that was asked of the network or the disk.
 pub(crate) fn request(event: &Value) -> Option<String> {
     (event["method"] == "Network.requestWillBeSent")
         .then(|| event["params"]["request"]["url"].as_str().unwrap_or_default().to_owned())

@@ -1,25 +1,18 @@
 //! `cargo xtask crates`: each library crate by itself, as another project would take it.
 
+use crate::tools::{self, printed};
 use proof::Failure;
 use proof::files::root;
 use serde_json::Value;
 use std::path::Path;
-use std::process::Command;
 use std::time::Instant;
 
-fn cargo(arguments: &[&str]) -> Result<Vec<u8>, Failure> {
-    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let output = Command::new(program).args(arguments).current_dir(root()).output()?;
-    if output.status.success() {
-        return Ok(output.stdout);
-    }
-    let said = String::from_utf8_lossy(&output.stderr);
-    let tail: Vec<&str> = said.lines().rev().take(40).collect();
-    Err(Failure(format!("cargo {}: {}", arguments.join(" "), tail.into_iter().rev().collect::<Vec<_>>().join("\n"))))
+fn cargo(arguments: &[&str]) -> Result<String, Failure> {
+    printed(tools::cargo().args(arguments).current_dir(root()))
 }
 
 fn workspace() -> Result<Vec<Value>, Failure> {
-    let metadata: Value = serde_json::from_slice(&cargo(&["metadata", "--no-deps", "--format-version", "1"])?)?;
+    let metadata: Value = serde_json::from_str(&cargo(&["metadata", "--no-deps", "--format-version", "1"])?)?;
     metadata["packages"].as_array().cloned().ok_or_else(|| Failure("cargo metadata names no packages".into()))
 }
 

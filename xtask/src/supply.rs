@@ -6,8 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::tools::{DATE, cargo, remapped, run, tool};
 use proof::Failure;
 use proof::files::{below, failed, root};
-use proof::program::hex;
-use sha2::{Digest, Sha256};
+use proof::program::hash_of_file;
 
 /// Tools from the registry, each with its version: an answer must not change because a tool did.
 const DENY: [&str; 2] = ["cargo-deny", "0.20.2"];
@@ -95,7 +94,5 @@ fn built(folder: &Path) -> Result<String, Failure> {
         return Err(Failure(format!("the program cannot be built in {}", sources.display())));
     }
     let program = target.join("release").join(format!("fogcoil{}", std::env::consts::EXE_SUFFIX));
-    let mut hash = Sha256::new();
-    hash.update(fs::read(&program).map_err(failed(&program))?);
-    Ok(hex(hash))
+    hash_of_file(&program)
 }

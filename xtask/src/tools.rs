@@ -1,7 +1,7 @@
 //! Other programs that chores run: the build tool, tools from the registry, our own program.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 use proof::Failure;
 use proof::files::root;
@@ -12,6 +12,21 @@ pub(crate) const DATE: u64 = 1_767_225_600;
 /// Runs a command where the workspace is; whether it went well.
 pub(crate) fn run(command: &mut Command) -> Result<bool, Failure> {
     Ok(command.current_dir(root()).status()?.success())
+}
+
+/// Output of a command that has to succeed. [`Failure`] names the command and ends with its complaint.
+pub(crate) fn printed(command: &mut Command) -> Result<String, Failure> {
+    /// Most lines of a complaint: the last ones.
+    const LINES: usize = 40;
+    let words = [command.get_program()].into_iter().chain(command.get_args()).map(|word| word.to_string_lossy().into_owned());
+    let name = words.collect::<Vec<_>>().join(" ");
+    let output = command.stdin(Stdio::null()).output().map_err(|error| Failure(format!("{name} does not start ({error})")))?;
+    if output.status.success() {
+        return Ok(String::from_utf8_lossy(&output.stdout).into_owned());
+    }
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    let lines: Vec<&str> = complaint.trim().lines().collect();
+    Err(Failure(format!("{name}: {}", lines[lines.len().saturating_sub(LINES)..].join("\n"))))
 }
 
 /// The build tool that runs this.
@@ -59,12 +74,31 @@ pub(crate) fn remapped(sources: &Path) -> String {
     folders.map(|(from, to)| format!("--remap-path-prefix={}=/{to}", from.display())).join("\u{1f}")
 }
 
+/// The folder of the programs of an environment for Python that has a package of this version, which is installed if it is not there yet.
+pub(crate) fn python_with([package, version]: [&str; 2]) -> Result<PathBuf, Failure> {
+    let folder = root().join("target/tools").join(format!("{package}-{version}"));
+    let (programs, finished) = (programs(&folder), folder.join("installed"));
+    if !finished.exists() {
+        eprintln!("installing {package} {version}");
+        environment(&folder)?;
+        let wanted = format!("{package}=={version}");
+        let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", &wanted];
+        printed(Command::new(programs.join("python")).args(install))?;
+        proof::files::write(&finished, "")?;
+    }
+    Ok(programs)
+}
+
+fn programs(environment: &Path) -> PathBuf {
+    environment.join(if cfg!(windows) { "Scripts" } else { "bin" })
+}
+
 /// A new environment for Python in `folder`; its programs' folder.
 pub(crate) fn environment(folder: &Path) -> Result<PathBuf, Failure> {
     let made = Command::new("python3").args(["-m", "venv", "--clear"]).arg(folder).output();
     let remedy = "install Python 3.9 or later with its module venv";
     match made {
-        Ok(done) if done.status.success() => Ok(folder.join(if cfg!(windows) { "Scripts" } else { "bin" })),
+        Ok(done) if done.status.success() => Ok(programs(folder)),
         Ok(done) => {
             let said = String::from_utf8_lossy(&done.stderr);
             Err(Failure(format!("python3 makes no environment: {}; {remedy}", said.trim())))

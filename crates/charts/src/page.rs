@@ -15,7 +15,7 @@ pub const HAND: &str = include_str!("hand.js");
 /// Permissions of a page in a browser: nothing but be drawn, with the styles in it.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";
 
-/// What a page does by itself.
+/// Work that a page does by itself.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Script<'a> {
     /// JavaScript; none if empty. The browser runs no other.

@@ -33,6 +33,11 @@ pub fn hash(root: &Path) -> Result<String, Failure> {
     Ok(hex(hash))
 }
 
+/// SHA-256 of a file, in digits. [`Failure`] names the file that cannot be read.
+pub fn hash_of_file(file: &Path) -> Result<String, Failure> {
+    Ok(hex(Sha256::new().chain_update(std::fs::read(file).map_err(files::failed(file))?)))
+}
+
 /// A digest in hexadecimal digits.
 pub fn hex(hash: Sha256) -> String {
     hexadecimal(&hash.finalize())

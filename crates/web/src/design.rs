@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 
 use crate::question::Changes;
 
-/// What messages call the texts.
+/// Names of the texts in messages.
 const COIL: &str = "coil.ron";
 const CELL: &str = "cell.ron";
 /// Keys that a page has fields for; their values come with every design.

@@ -1,4 +1,4 @@
-//! How a page hands texts over: it writes the question into memory of this module, calls, and reads the answer there.
+//! Exchange of texts with a page: it writes the question into memory of this module, calls, and reads the answer there.
 //!
 //! WebAssembly passes numbers alone. Therefore the two texts lie in memory that belongs to the module, the one piece of global state of the whole
 //! workspace: [`room`] makes place for a question and says where, [`ask`] puts the answer in the question's place. A page is one thread; natively a lock

@@ -1,4 +1,4 @@
-//! What a page may ask.
+//! Questions of a page.
 
 use serde::Deserialize;
 

@@ -1,4 +1,4 @@
-//! What takes longer: sensitivities, simulations, recordings.
+//! Longer work: sensitivities, simulations, recordings.
 
 use fogcoil::cache::Cache;
 use fogcoil::check::{self, Analysis};
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::design::case;
 
-/// What messages call the profile.
+/// Name of the profile in messages.
 const PROFILE: &str = "profile.csv";
 /// Shortest time between rows that are added \[s\].
 const LEAST_STEP_S: f64 = 1.0;

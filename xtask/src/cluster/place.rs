@@ -5,9 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use proof::Failure;
-use proof::files::{failed, root, write};
-use proof::program::hex;
-use sha2::{Digest, Sha256};
+use proof::files::{root, write};
+use proof::program::hash_of_file;
 use tempfile::TempDir;
 
 use super::processes::{Running, done, peak, timed, until};
@@ -121,10 +120,7 @@ impl Place {
 
     /// SHA-256 of a table.
     pub(super) fn hash(&self, table: &str) -> Result<String, Failure> {
-        let path = self.path(table);
-        let mut hash = Sha256::new();
-        hash.update(fs::read(&path).map_err(failed(&path))?);
-        Ok(hex(hash))
+        hash_of_file(&self.path(table))
     }
 
     /// Kills a worker with its `tasks` once it has some and a part of the table's rows is kept; the number of files of rows at that moment.

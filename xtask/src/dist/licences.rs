@@ -8,19 +8,15 @@ use proof::Failure;
 use proof::files::names;
 use serde_json::Value;
 
-use crate::tools::cargo;
+use crate::tools::{cargo, printed};
 
-/// How names of files begin that say under which terms a package is passed on.
+/// Beginnings of the names of files with the terms under which a package is passed on.
 const NAMES: [&str; 6] = ["license", "licence", "copying", "copyright", "notice", "unlicense"];
 
 /// Every package within the program on this platform with its licence, and every text once.
 pub(super) fn of_packages(platform: &str) -> Result<String, Failure> {
     let arguments = ["metadata", "--locked", "--format-version", "1", "--filter-platform", platform];
-    let output = cargo().args(arguments).current_dir(proof::files::root()).output()?;
-    if !output.status.success() {
-        return Err(Failure(format!("cargo metadata: {}", String::from_utf8_lossy(&output.stderr).trim())));
-    }
-    let metadata: Value = serde_json::from_slice(&output.stdout)?;
+    let metadata: Value = serde_json::from_str(&printed(cargo().args(arguments).current_dir(proof::files::root()))?)?;
     let within = within(&metadata);
     let mut list = BTreeMap::new();
     let mut texts: BTreeMap<String, Vec<String>> = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! `cargo xtask dist`: what is installed without a compiler, built for this platform and tried as its user would.
+//! `cargo xtask dist`: files that are installed without a compiler, built for this platform and tried as its user would.
 
 mod archive;
 mod licences;
@@ -10,10 +10,9 @@ use std::process::Command;
 
 use proof::Failure;
 use proof::files::{below, failed, names, renew, root, write};
-use proof::program::hex;
-use sha2::{Digest, Sha256};
+use proof::program::hash_of_file;
 
-use crate::tools::{DATE, cargo, environment, remapped, run};
+use crate::tools::{DATE, cargo, printed, python_with, remapped, run};
 use archive::{Entry, packed};
 
 const FOLDER: &str = "target/dist";
@@ -21,7 +20,7 @@ const SUMS: &str = "SHA256SUMS";
 const PAGE: &str = "docs/install.md";
 const MARKS: [&str; 2] = ["<!-- dist: written by `cargo xtask dist` -->", "<!-- dist end -->"];
 const PROFILE: [&str; 3] = ["--locked", "--profile", "packed"];
-const MATURIN: &str = "1.16.0";
+const MATURIN: [&str; 2] = ["maturin", "1.16.0"];
 /// Shells, and the names under which they look for the completions of the program.
 const SHELLS: [(&str, &str); 5] = [
     ("bash", "fogcoil.bash"),
@@ -60,8 +59,10 @@ impl Dist {
             wheel(&into)?;
         }
         let files = names(&into)?;
-        let sums: Vec<String> =
-            files.iter().map(|file| Ok(format!("{}  {file}\n", sum(&into.join(file))?))).collect::<Result<_, Failure>>()?;
+        let sums: Vec<String> = files
+            .iter()
+            .map(|file| Ok(format!("{}  {file}\n", hash_of_file(&into.join(file))?)))
+            .collect::<Result<_, Failure>>()?;
         write(&into.join(SUMS), &sums.concat())?;
         let mut sizes = String::from("| file | size | unpacked |\n|---|---|---|\n");
         for file in &files {
@@ -82,10 +83,9 @@ fn megabytes(bytes: u64) -> String {
     format!("{:.1} MB", bytes as f64 / 1e6)
 }
 
-/// What the compiler calls this platform.
+/// The compiler's name of this platform.
 fn platform() -> Result<String, Failure> {
-    let said = cargo().arg("-vV").output()?.stdout;
-    let said = String::from_utf8_lossy(&said);
+    let said = printed(cargo().arg("-vV"))?;
     let host = said.lines().find_map(|line| line.strip_prefix("host: "));
     host.map(str::to_owned).ok_or_else(|| Failure("cargo -vV names no host".into()))
 }
@@ -101,15 +101,6 @@ fn program() -> Result<PathBuf, Failure> {
     Ok(target.join("packed").join(format!("fogcoil{}", std::env::consts::EXE_SUFFIX)))
 }
 
-/// What the program prints.
-fn said(program: &Path, words: &[&str]) -> Result<Vec<u8>, Failure> {
-    let output = Command::new(program).args(words).output()?;
-    match output.status.success() {
-        true => Ok(output.stdout),
-        false => Err(Failure(format!("fogcoil {}: {}", words.join(" "), String::from_utf8_lossy(&output.stderr)))),
-    }
-}
-
 /// The content of the archive.
 fn entries(program: &Path, platform: &str) -> Result<Vec<Entry>, Failure> {
     let read = |path: &Path| fs::read(path).map_err(failed(path));
@@ -120,10 +111,13 @@ fn entries(program: &Path, platform: &str) -> Result<Vec<Entry>, Failure> {
     }
     entries.push(Entry::new("LICENSES-THIRD-PARTY.txt", licences::of_packages(platform)?.into_bytes()));
     for (shell, file) in SHELLS {
-        entries.push(Entry::new(format!("completions/{file}"), said(program, &["completions", shell])?));
+        entries.push(Entry::new(
+            format!("completions/{file}"),
+            printed(Command::new(program).args(["completions", shell]))?.into_bytes(),
+        ));
     }
     let manual = tempfile::tempdir()?;
-    said(program, &["man", "--quiet", "--dir", &manual.path().to_string_lossy()])?;
+    printed(Command::new(program).args(["man", "--quiet", "--dir"]).arg(manual.path()))?;
     for file in below(manual.path())? {
         entries.push(Entry::new(format!("man/man1/{}", file.display()), read(&manual.path().join(&file))?));
     }
@@ -132,27 +126,8 @@ fn entries(program: &Path, platform: &str) -> Result<Vec<Entry>, Failure> {
 
 /// Builds the wheel into a folder.
 fn wheel(into: &Path) -> Result<(), Failure> {
-    let tools = root().join("target/tools").join(format!("maturin-{MATURIN}"));
-    let mut maturin = tools.join(if cfg!(windows) { "Scripts" } else { "bin" }).join("maturin");
-    if !Command::new(&maturin).arg("--version").output().is_ok_and(|done| done.status.success()) {
-        let programs = environment(&tools)?;
-        let mut pip = Command::new(programs.join("pip"));
-        if !run(pip.args(["install", "--quiet", "--disable-pip-version-check", &format!("maturin=={MATURIN}")]))? {
-            return Err(Failure(format!(
-                "maturin {MATURIN} cannot be installed; is a package index within reach? Else give --no-wheel"
-            )));
-        }
-        maturin = programs.join("maturin");
-    }
-    let mut build = Command::new(maturin);
+    let mut build = Command::new(python_with(MATURIN)?.join("maturin"));
     build.args(["build", "--quiet", "--manifest-path", "python/Cargo.toml", "--out"]).arg(into).args(PROFILE);
     build.env("CARGO_ENCODED_RUSTFLAGS", remapped(&root())).env("SOURCE_DATE_EPOCH", DATE.to_string());
     if run(&mut build)? { Ok(()) } else { Err(Failure("the wheel does not build".into())) }
-}
-
-/// SHA-256 of a file, in digits.
-fn sum(path: &Path) -> Result<String, Failure> {
-    let mut hash = Sha256::new();
-    hash.update(fs::read(path).map_err(failed(path))?);
-    Ok(hex(hash))
 }

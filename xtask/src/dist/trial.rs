@@ -1,4 +1,4 @@
-//! What was packed, tried as its user would: in an empty folder, without a compiler.
+//! The packed files, tried as its user would: in an empty folder, without a compiler.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use proof::Failure;
 use proof::files::{below, failed};
 use serde_json::Value;
 
-use crate::tools::environment;
+use crate::tools::{environment, printed};
 
 /// Largest relative difference between what the packed program computes and what this one does.
 const SAME: f64 = 1e-9;
@@ -23,12 +23,12 @@ pub(super) fn tried(path: &Path, name: &str) -> Result<u64, Failure> {
 
 /// Unpacks the archive in the empty folder `place` and runs the program in `folder`, which the archive makes.
 fn archive(path: &Path, folder: &Path, place: &Path) -> Result<u64, Failure> {
-    said(Command::new("tar").arg("-xzf").arg(path).current_dir(place))?;
+    printed(Command::new("tar").arg("-xzf").arg(path).current_dir(place))?;
     let bytes = size(folder)?;
     let program = folder.join(format!("fogcoil{}", std::env::consts::EXE_SUFFIX));
     let run = |words: &str| {
         let mut command = Command::new(&program);
-        said(command.args(words.split(' ')).current_dir(place).env_remove("PATH").env("FOGCOIL_CACHE", place.join("cache")))
+        printed(command.args(words.split(' ')).current_dir(place).env_remove("PATH").env("FOGCOIL_CACHE", place.join("cache")))
     };
     let version = run("--version")?;
     if version.trim() != concat!("fogcoil ", env!("CARGO_PKG_VERSION")) {
@@ -55,11 +55,11 @@ fn wheel(path: &Path, place: &Path) -> Result<u64, Failure> {
         command.current_dir(place).env("PATH", &programs).env("PIP_DISABLE_PIP_VERSION_CHECK", "1");
         command
     };
-    said(within("pip").args(["install", "--quiet", "--only-binary", ":all:"]).arg(path))?;
+    printed(within("pip").args(["install", "--quiet", "--only-binary", ":all:"]).arg(path))?;
     fs::write(place.join("coil.ron"), COIL)?;
     let call = "import fogcoil, os; print(fogcoil.sensitivity('coil.ron')['total'], os.path.dirname(fogcoil.__file__))";
-    let printed = said(within("python").args(["-c", call]))?;
-    let (total, folder) = printed.trim().split_once(' ').ok_or_else(|| Failure(format!("Python prints {printed:?}")))?;
+    let answer = printed(within("python").args(["-c", call]))?;
+    let (total, folder) = answer.trim().split_once(' ').ok_or_else(|| Failure(format!("Python prints {answer:?}")))?;
     same(place, total.parse().ok())?;
     size(Path::new(folder))
 }
@@ -73,15 +73,6 @@ fn same(place: &Path, total: Option<f64>) -> Result<(), Failure> {
     match total {
         Some(total) if (total - right).abs() <= SAME * right.abs() => Ok(()),
         _ => Err(Failure(format!("the sensitivity is {right}; what was packed says {total:?}"))),
-    }
-}
-
-/// What a command prints.
-fn said(command: &mut Command) -> Result<String, Failure> {
-    let output = command.output().map_err(|e| Failure(format!("{command:?}: {e}")))?;
-    match output.status.success() {
-        true => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
-        false => Err(Failure(format!("{command:?}: {}", String::from_utf8_lossy(&output.stderr).trim()))),
     }
 }
 

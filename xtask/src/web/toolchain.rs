@@ -7,12 +7,14 @@ use std::process::Command;
 use proof::Failure;
 use proof::files::{below, failed, names, root};
 
+use crate::tools::printed;
+
 /// Of the page.
 pub(super) const TARGET: &str = "wasm32-unknown-unknown";
 
 /// Suite of Debian whose compiler is taken: that of the stable one is too old.
 const SUITE: &str = "testing";
-/// What is fetched with all that it needs; the compiler itself would bring one for C along.
+/// Packages that are fetched with all that they need; the compiler itself would bring one for C along.
 const NEEDED: [&str; 2] = ["libstd-rust-dev", "libstd-rust-dev-wasm32"];
 const COMPILER: &str = "rustc";
 /// Parts of the packages that nothing here needs.
@@ -131,14 +133,4 @@ fn mirror() -> Result<String, Failure> {
         printed(Command::new("apt-get").args(["indextargets", "--format", "$(ORIGIN) $(REPO_URI)", "Created-By: Packages"]))?;
     let found = listed.lines().find_map(|line| line.strip_prefix("Debian "));
     found.map(str::to_owned).ok_or_else(|| Failure("this system takes no packages from Debian".into()))
-}
-
-/// What a command prints.
-fn printed(command: &mut Command) -> Result<String, Failure> {
-    let name = command.get_program().to_string_lossy().into_owned();
-    let output = command.output().map_err(|error| Failure(format!("{name} does not start ({error})")))?;
-    match output.status.success() {
-        true => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
-        false => Err(Failure(format!("{name}: {}", String::from_utf8_lossy(&output.stderr).trim()))),
-    }
 }

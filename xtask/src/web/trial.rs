@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::time::Instant;
 
 use fogcoil::input::{read_text, with_fields};
@@ -11,6 +11,7 @@ use proof::files::root;
 use serde_json::{Value, json};
 
 use crate::browser::{Browser, complaint, request};
+use crate::tools::printed;
 
 /// Largest relative difference between the page and the program: they round in another order.
 const SAME: f64 = 1e-9;
@@ -40,11 +41,11 @@ const ADHESIVE: &str = "in a softer adhesive";
 const COMPUTED: &str = "new Promise(done => { const look = () => document.documentElement.dataset.state === 'done' ? done(fogcoil()) : \
                         setTimeout(look, 20); look(); })";
 
-/// How it went.
+/// Course of the trial.
 pub(super) struct Tried {
     /// For the document.
     pub(super) text: String,
-    /// What is wrong.
+    /// Faults that were seen.
     pub(super) faults: Vec<String>,
 }
 
@@ -137,7 +138,7 @@ fn compare(computed: &Value, place: &Path, program: &Path, of_cell: bool, differ
     }
     fs::write(place.join("coil.ron"), coil)?;
     fs::write(place.join("profile.csv"), include_str!("../../../crates/fogcoil/templates/profile.csv"))?;
-    let run = |words: &str| said(program, words, place);
+    let run = |words: &str| printed(Command::new(program).args(words.split(' ')).current_dir(place));
     let wound: Value = serde_json::from_str(&run("wind coil.ron --json --quiet")?)?;
     differences.winding = differences.winding.max(apart(&computed["design"]["winding"], &wound, &|_| true));
     let ramp: Value = serde_json::from_str(&run("sensitivity coil.ron --json --quiet")?)?;
@@ -162,7 +163,9 @@ fn recording(browser: &mut Browser, program: &Path, differences: &mut Difference
     let judged = browser.evaluate(
         "new Promise(done => { const look = () => fogcoil().check ? done(fogcoil().check.json) : setTimeout(look, 20); look(); })",
     )?;
-    let own: Value = serde_json::from_str(&said(program, &format!("check {RECORDING} --json --quiet"), &root())?)?;
+    let own: Value = serde_json::from_str(&printed(
+        Command::new(program).args(["check", RECORDING, "--json", "--quiet"]).current_dir(root()),
+    )?)?;
     differences.noise = apart(&judged["noise"], &own["noise"], &|key| !key.contains("error") && !key.contains("interval"));
     if judged["usable"] != own["usable"] || judged["findings"] != own["findings"] {
         return Err(Failure("the page judges a recording otherwise than the program".into()));
@@ -183,16 +186,6 @@ fn refusals(browser: &mut Browser) -> Result<Vec<String>, Failure> {
         }
     }
     Ok(faults)
-}
-
-/// What the program prints.
-fn said(program: &Path, words: &str, place: &Path) -> Result<String, Failure> {
-    let mut command = Command::new(program);
-    let output = command.args(words.split(' ')).current_dir(place).stdin(Stdio::null()).output()?;
-    match output.status.success() {
-        true => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
-        false => Err(Failure(format!("fogcoil {words}: {}", String::from_utf8_lossy(&output.stderr)))),
-    }
 }
 
 /// Largest relative difference of the numbers in two values, of the keys that are `counted`; infinite where they are not alike otherwise.
