@@ -1,6 +1,6 @@
 //! Summary of a simulation: peak, root mean square, and the slope on the thermometer's rate beside the steady sensitivity.
 
-use coil::Mechanics;
+use coil::{Mechanics, SAFETY};
 use recording::Seconds;
 use serde_json::{Value, json};
 
@@ -32,12 +32,8 @@ pub struct Summary {
     pub errors: Errors,
 }
 
-/// Rounding of the thermometer, a sum of exponentials, relative to the range of the chamber or its own, whichever is larger. In `cargo xtask survey` both
-/// meshes agreed to 6e-10 K where a finer one was 1.2e-8 K away, in ranges of up to 150 K.
-const ROUNDING: f64 = 1e-9;
-
-/// Estimated numerical errors of a simulation at its given chamber: the distance to the same run on a coarser mesh and, of the bias, the error of the
-/// reduced model. They do not include errors of the model itself.
+/// Estimated numerical errors of a simulation at its given chamber: [`SAFETY`] times the distance to the same run on a coarser mesh, and the
+/// error of the reduced model. They do not include errors of the model itself.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Errors {
     /// Error of the thermometer in any row \[K\].
@@ -51,21 +47,23 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Errors of a simulation in this range of temperatures \[K\], with these rates \[deg/h\] and this regression.
-    fn of(simulation: &Simulation, range: f64, rms: f64, peak: f64, regression: &Regression) -> Self {
+    /// Errors of a simulation with these rates \[deg/h\] and this regression.
+    fn of(simulation: &Simulation, rms: f64, peak: f64, regression: &Regression) -> Self {
         let mut errors = Self::default();
         let (mut last, mut squared) = (simulation.row(0).time, 0.0);
         for row in simulation.differences() {
-            errors.spool = errors.spool.max(row.spool.abs());
+            errors.spool = errors.spool.max(SAFETY * row.spool.abs());
             let parts = [row.shupe, row.eo_axial, row.eo_radial, row.read_out, row.rate];
             for (most, part) in errors.parts.iter_mut().zip(parts) {
-                *most = most.max(part.abs());
+                *most = most.max(SAFETY * part.abs());
             }
-            squared += row.rate * row.rate * (row.time - last);
+            squared += (SAFETY * row.rate).powi(2) * (row.time - last);
             last = row.time;
         }
-        errors.spool += ROUNDING * range;
-        // what the modes leave out is stated of the sum's peak
+        let rates =
+            simulation.rows().zip(simulation.rows().skip(1)).map(|(a, b)| ((b.chamber - a.chamber) / (b.time - a.time)).abs());
+        errors.spool += simulation.reduction.sensor * rates.fold(0.0, f64::max);
+        // what the modes leave out of the bias is stated of the sum's peak
         let reduced = simulation.reduction.bias;
         for (n, most) in errors.parts.iter_mut().enumerate() {
             *most += if n == READ_OUT { 0.0 } else { reduced * peak };
@@ -75,7 +73,7 @@ impl Errors {
         let coarser = Regression::of(simulation.coarser_windows());
         errors.slope = regression.slope().zip(coarser.slope()).map(|(slope, other)| {
             // the modes' errors, however they lie, turn the line by no more than their rms over that of its abscissa
-            (slope - other).abs() + reduced * rms / (regression.xx / regression.count).sqrt()
+            SAFETY * (slope - other).abs() + reduced * rms / (regression.xx / regression.count).sqrt()
         });
         errors
     }
@@ -138,8 +136,7 @@ impl Summary {
         let duration = simulation.duration();
         let rms = if duration > 0.0 { (squared / duration).sqrt() } else { 0.0 };
         let slope = regression.slope();
-        let range = [chamber, spool].map(|[low, high]| high - low).into_iter().fold(0.0, f64::max);
-        let errors = Errors::of(simulation, range, rms, peak.rate.abs(), &regression);
+        let errors = Errors::of(simulation, rms, peak.rate.abs(), &regression);
         Self { rows: simulation.count(), duration, chamber, spool, peak, rms, slope, errors }
     }
 }

@@ -28,9 +28,8 @@ pub const TOLERANCE: f64 = 1e-6;
 pub struct Homogenized {
     /// The constants.
     pub constants: Constants,
-    /// Estimated relative error of each: [`SAFETY`] times its distance from its value with fewer multipoles ([`homogenize_to`], which
-    /// adds what rounding may do) or two polynomial orders higher ([`homogenize_on`]), and no less than a tenth of the worst one's. A
-    /// constant that is nearly zero is compared with [`Constants::size`] instead.
+    /// Estimated relative error of each: [`SAFETY`] times its distance from its value with fewer multipoles ([`homogenize_to`]) or two
+    /// polynomial orders higher ([`homogenize_on`]), and no less than a tenth of the worst one's; the effect of rounding is added. A constant that is nearly zero is compared with [`Constants::size`] instead.
     pub relative_error: Constants,
     /// Stiffness, thermal stress, conductivity and glass strain behind the constants.
     pub effective: Effective,
@@ -87,7 +86,9 @@ pub fn homogenize_on(cell: &FibreCell, discretization: &Discretization) -> Resul
     let effective = effective(cell, discretization)?;
     let finer = crate::effective(cell, &discretization.refined())?;
     let constants = effective.constants().ok_or_else(Error::singular)?;
-    let relative_error = truncation(&constants, &finer.constants().ok_or_else(Error::singular)?);
+    let truncation = truncation(&constants, &finer.constants().ok_or_else(Error::singular)?);
+    let rounding = rounding(cell, &effective, &constants, |shaken| crate::effective(shaken, discretization));
+    let relative_error = truncation.combine(&rounding, |t, r| t + r);
     Ok(Homogenized { constants, relative_error, unknowns: effective.unknowns, effective })
 }
 
@@ -157,7 +158,7 @@ pub fn homogenize_to(cell: &FibreCell, relative_error: f64) -> Result<Homogenize
         let multipoles = Multipoles::new(cell, order)?;
         let effective = multipoles.effective(cell)?;
         let constants = effective.constants().ok_or_else(Error::singular)?;
-        let rounding = rounding(&multipoles, cell, &effective, &constants);
+        let rounding = rounding(cell, &effective, &constants, |shaken| multipoles.effective(shaken));
         let lower = multipoles.lowered(order.saturating_sub(step).max(1)).effective(cell)?;
         let truncation = truncation(&lower.constants().ok_or_else(Error::singular)?, &constants);
         let relative = truncation.combine(&rounding, |t, r| t + r);
@@ -180,11 +181,16 @@ pub fn homogenize_to(cell: &FibreCell, relative_error: f64) -> Result<Homogenize
 }
 
 /// Effect of rounding on each constant, relative; infinite where a rounding away there is no cell.
-fn rounding(multipoles: &Multipoles, cell: &FibreCell, effective: &Effective, exact: &Constants) -> Constants {
+fn rounding(
+    cell: &FibreCell,
+    effective: &Effective,
+    exact: &Constants,
+    solved: impl Fn(&FibreCell) -> Result<Effective, Error>,
+) -> Constants {
     let least = rounding::least(effective);
     let mut errors = exact.combine(exact, |_, _| least);
     for seed in 0..rounding::CELLS {
-        let other = multipoles.effective(&shaken(cell, seed)).ok().and_then(|effective| effective.constants());
+        let other = solved(&shaken(cell, seed)).ok().and_then(|effective| effective.constants());
         let distance = other.map_or(exact.combine(exact, |_, _| f64::INFINITY), |other| relative_difference(&other, exact));
         errors = errors.combine(&distance, |error, d| error.max(rounding::SPREAD * d));
     }

@@ -69,21 +69,23 @@ pub(super) fn computation(simulation: &Simulation) -> Markup {
     let mesh =
         |r: coil::MeshFineness| format!("elements of order {}, {} layers towards each edge of the coil", r.order, r.layers);
     let (coarser, ReductionError { bias, sensor }) = (mesh(coil::COARSER.resolution), simulation.reduction);
-    let [low, high] = CHECKS.map(|check| check.order);
     let mut rows = vec![
         row("driven by", simulation.profile.drives.iter().map(|drive| name(*drive)).collect::<Vec<_>>().join(", ")),
         row("start", "uniform at the first chamber temperature and free of stress; heaters off before the first row"),
         row("mesh", mesh(coil::STANDARD.resolution)),
         row(
             "numerical errors (±)",
-            format!("the largest difference in any row to {coarser}, and what the modes leave out of the bias"),
+            format!("twice the largest difference in any row to {coarser}, and what the modes leave out"),
         ),
         row("modes", format!("{} in all; the drives are linear between rows, the modes exact", simulation.modes)),
         row(
             "left out by the modes",
             format!("less than {bias:.1e} of the largest bias, less than {sensor:.1e} s of the thermometer's lag"),
         ),
-        row("steady-ramp sensitivity", format!("mesh: {}; its error from orders {low} and {high} on it", mesh(STEADY))),
+        row(
+            "steady-ramp sensitivity",
+            format!("mesh: {}; its error from {} meshes of lower orders and other gradings", mesh(STEADY), CHECKS.len()),
+        ),
     ];
     if let Some(inference) = simulation.profile.inferred {
         let [median, largest] = inference.chamber_sd;
