@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::scale::Scale;
+use crate::scale::{DIGIT, power_of_ten};
 use crate::svg::Svg;
-use crate::{Axis, attributes};
+use crate::attributes;
 
 /// Steps of colour; odd, so that a diverging map has a middle.
 const STEPS: usize = 41;
@@ -70,18 +70,32 @@ impl Colours {
         format!("#{:02x}{:02x}{:02x}", channel(16), channel(8), channel(0))
     }
 
-    /// The label, below it all colours as a bar of this `width` \[px\], and below that round numbers at least `apart` \[px\] from each other, in a font of
-    /// this size \[px\]; all of it 3.7 font sizes high.
-    pub fn scale(&self, svg: &mut Svg, font: f64, width: f64, apart: f64) {
-        let scale = Scale::new(&Axis::tight("", 0.0), self.range, [0.0, width], apart.min(width / 4.0));
-        svg.text([0.0, 1.1 * font], "start", &self.label);
-        let (top, high) = (1.6 * font, 0.8 * font);
-        svg.group(attributes! { "transform": "translate(0 {top:.1}) scale({width:.1} {high:.1})" }, |svg| self.bar(svg));
-        let mut marks = format!("M0 {top:.1}h{width:.1}v{high:.1}h-{width:.1}z");
-        for (tick, label) in scale.ticks() {
-            let at = scale.pixel(tick);
-            let _ = write!(marks, "M{at:.1} {:.1}v4", top + high);
-            svg.text([at, top + high + 1.25 * font], "middle", &label);
+    /// The label, below it all colours as a bar of this `width` \[px\], and below that the values at its ends and, where there is room, in its middle, in a font
+    /// of this size \[px\]; all of it 3.7 font sizes high.
+    pub fn scale(&self, svg: &mut Svg, font: f64, width: f64) {
+        let [low, high] = self.range;
+        let most = low.abs().max(high.abs());
+        let power = if most > 0.0 && !(1e-3..1e6).contains(&most) { most.log10().floor() } else { 0.0 };
+        let unit = 10.0_f64.powf(power);
+        let named = if power == 0.0 { self.label.clone() } else { format!("{} · {}", self.label, power_of_ten(power)) };
+        // two digits of the range
+        let decimals = (1.0 - ((high - low) / unit).log10().floor()).clamp(0.0, 15.0) as usize;
+        let said = |value: f64| {
+            let text = format!("{:.decimals$}", value / unit);
+            let zero = text.chars().all(|c| "-0.".contains(c));
+            if zero { "0".to_owned() } else { text.replace('-', "\u{2212}") }
+        };
+        let middle = said(low + (high - low) / 2.0);
+        let [low, high] = [low, high].map(said);
+        svg.text([0.0, 1.1 * font], "start", &named);
+        let (top, deep) = (1.6 * font, 0.8 * font);
+        svg.group(attributes! { "transform": "translate(0 {top:.1}) scale({width:.1} {deep:.1})" }, |svg| self.bar(svg));
+        let room = [&low, &middle, &high].map(|text| text.chars().count() + 2).iter().sum::<usize>() as f64 * DIGIT * font;
+        let places = [(0.0, "start", low), (width / 2.0, "middle", middle), (width, "end", high)];
+        let mut marks = format!("M0 {top:.1}h{width:.1}v{deep:.1}h-{width:.1}z");
+        for (at, anchor, text) in places.into_iter().filter(|(_, anchor, _)| *anchor != "middle" || room < width) {
+            let _ = write!(marks, "M{at:.1} {:.1}v4", top + deep);
+            svg.text([at, top + deep + 1.25 * font], anchor, &text);
         }
         svg.leaf("path", attributes! { "class": "axis", "fill": "none", "stroke": "currentColor", "d": "{marks}" });
     }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::scale::DIGIT;
 use crate::scale::Scale;
 use crate::series::path;
 use crate::size::Measures;
@@ -41,8 +42,6 @@ pub enum Content<'a> {
     Drawing(Drawing),
 }
 
-/// Width of a digit in font sizes, a little more than the usual fonts have.
-const DIGIT: f64 = 0.62;
 /// Mean width of a letter in font sizes, a little more than the usual fonts have.
 const LETTER: f64 = 0.56;
 /// Length of a legend's sample \[px\].
@@ -76,7 +75,7 @@ fn colour_bar(svg: &mut Svg, colours: &Colours, m: &Measures, left: f64, across:
     let inset = 2.0 * m.font;
     let width = BAR.min(across - inset);
     svg.group(attributes! { "transform": "translate({:.1} 0)"(left.max(inset)) }, |svg| {
-        colours.scale(svg, m.font, width, m.apart[0]);
+        colours.scale(svg, m.font, width);
     });
 }
 

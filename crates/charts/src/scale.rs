@@ -152,12 +152,20 @@ fn of_ten((power, factor): (f64, f64), short: bool) -> (f64, String) {
         let value = factor * 10_f64.powf(power);
         return (value, format!("{value:.decimals$}"));
     }
+    let ten = power_of_ten(power);
+    (factor * 10_f64.powf(power), if factor == 1.0 { ten } else { format!("{factor} · {ten}") })
+}
+
+/// Width of a digit in font sizes, a little more than the usual fonts have.
+pub(crate) const DIGIT: f64 = 0.62;
+
+/// A power of ten as text.
+pub(crate) fn power_of_ten(power: f64) -> String {
     let digit = |c: char| match c {
         '-' => '⁻',
         c => c.to_digit(10).map_or(c, |d| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][d as usize]),
     };
-    let ten: String = "10".chars().chain(format!("{power:.0}").chars().map(digit)).collect();
-    (factor * 10_f64.powf(power), if factor == 1.0 { ten } else { format!("{factor} · {ten}") })
+    "10".chars().chain(format!("{power:.0}").chars().map(digit)).collect()
 }
 
 /// A tick this close to the end of an axis, in steps, is on it.

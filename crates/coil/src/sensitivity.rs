@@ -19,8 +19,8 @@ pub const CHECKS: [MeshFineness; 3] = [
     MeshFineness { order: 5, layers: 3, ratio: 0.2 },
 ];
 /// Share of the distances to the [`CHECKS`], both elasto-optic parts and all meshes together, that is stated as the error. It covers the total and the parts
-/// of 717 designs of `cargo xtask survey` (seeds 1, 2, 3 and 5) with a margin of 1.25 in the worst one; in the median it is seven times the error.
-pub const SHARE: f64 = 0.7;
+/// of 896 designs of `cargo xtask survey` (seeds 1, 2, 3, 5 and 7), with a margin of 1.03 in the worst one and 1.4 in the next; in the median it is eight times the error.
+pub const SHARE: f64 = 0.78;
 /// Least error that is stated, relative to the sum of the parts' magnitudes: rounding. Up to 2.5e-5 in those designs, in coils of a layer or a few,
 /// whose meshes of any order agree less well than they converge.
 const LEAST: f64 = 4e-5;

@@ -96,7 +96,7 @@ pub fn svg(name: &str, caption: &str, solution: &Solution, sample: &Sample, fiel
         });
         scale_bar(svg, &view, below);
         svg.moved([LEFT, below + 2.4 * LINE], |svg| match &colours {
-            Some((_, colours)) => colours.scale(svg, FONT, SIDE - 2.0 * FONT, 5.0 * FONT),
+            Some((_, colours)) => colours.scale(svg, FONT, SIDE - 2.0 * FONT),
             None => legend(svg, solution),
         });
     })

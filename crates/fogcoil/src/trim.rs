@@ -83,11 +83,20 @@ pub fn turns_cut_off(trim: &Trim) -> Table {
 pub fn text(case: &CoilCase, trim: &Trim) -> String {
     let TailTrim { cw_minus_ccw, band, slope, before } = &trim.tails;
     let uncertainty = trim.tails.uncertainty();
-    let (longer, difference) = if *cw_minus_ccw >= 0.0 { ("CW", *cw_minus_ccw) } else { ("CCW", -cw_minus_ccw) };
+    let (longer, other, difference) =
+        if *cw_minus_ccw >= 0.0 { ("CW", "CCW", *cw_minus_ccw) } else { ("CCW", "CW", -cw_minus_ccw) };
+    let tails = case.design.winding.tails;
+    let more = cw_minus_ccw - (tails.cw - tails.ccw);
+    let [add, cut] = if more >= 0.0 { ["CW", "CCW"] } else { ["CCW", "CW"] };
     let mut text = format!(
-        "{}: sensitivity {before:.4} (deg/h)/(degC/min); null it by either\n\n\
-         tails: the {longer} tail longer by {difference:.3} ± {uncertainty:.3} m (standard uncertainty); each metre adds {slope:.3} (deg/h)/(degC/min)\n\n",
-        case.name
+        "{}: sensitivity {before:.4} (deg/h)/(degC/min); two ways to null it\n\n\
+         tails: the {longer} tail must be {difference:.3} ± {uncertainty:.3} m longer than the {other} tail (± standard uncertainty)\n\
+         in this file CW is {:.3} m and CCW {:.3} m: add {length:.3} m to {add}, or cut as much off {cut} if there is enough\n\
+         each metre of CW adds {slope:.3} (deg/h)/(degC/min); the spread that tolerances cause stays\n\n",
+        case.name,
+        tails.cw,
+        tails.ccw,
+        length = more.abs()
     );
     let head = ["of the uncertainty, by the tolerance of", "1 sd", "length", ""].map(str::to_owned);
     let rows = Share::of(case, band).into_iter().map(|share| {
@@ -100,7 +109,7 @@ pub fn text(case: &CoilCase, trim: &Trim) -> String {
         let TurnTrim { half, turns, length, sensitivity } = best;
         let _ = writeln!(
             text,
-            "or turns: cut {turns} off the {} end ({length:.2} m), which leaves {sensitivity:.4} (deg/h)/(degC/min)",
+            "turns: cut {turns} off the {} end ({length:.2} m), which leaves {sensitivity:.4} (deg/h)/(degC/min)",
             name(*half)
         );
     }

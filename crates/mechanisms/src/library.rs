@@ -79,13 +79,14 @@ impl Models {
 }
 
 impl Library {
-    /// The same of the drawing with its constants at other values, in their order.
+    /// The same of the drawing with its constants at other values, in their order; of one outside the range that was modelled, at the range's end.
     ///
     /// # Errors
-    /// [`Error::Design`] if a value lies outside what was modelled.
+    /// [`Error::Design`] if the design cannot be solved.
     pub fn about(&self, values: &[f64]) -> Result<Self, Error> {
         let set = |design: Design, (constant, value): (&Constant, &f64)| constant.parameter.set(&design, *value);
         let design = self.constants.iter().zip(values).fold(unheated(&self.models.drawing), set);
+        let design = self.models.model.nearest(&design);
         Self::at(Arc::clone(&self.models), self.heat_paths.clone(), design)
     }
 

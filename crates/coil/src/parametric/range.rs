@@ -37,10 +37,10 @@ impl Range {
             }
         }
         let of = |(parameter, value, by): (Parameter, f64, f64)| {
+            let by = REACH * by;
             // a wall keeps half of its thickness, whatever the tolerance
-            let by = REACH
-                * if matches!(parameter.tolerance(), Tolerance::Absolute(_)) { by.min(value.abs() / (2.0 * REACH)) } else { by };
-            Self { parameter, low: value - by, high: value + by }
+            let less = if matches!(parameter.tolerance(), Tolerance::Absolute(_)) { by.min(value.abs() / 2.0) } else { by };
+            Self { parameter, low: value - less, high: value + by }
         };
         all.into_iter().map(of).collect()
     }

@@ -166,6 +166,12 @@ pub(super) fn correlated(tolerances: &Tolerances) -> Vec<CorrelationFile> {
 
 /// The tolerances that a file gives.
 fn given(at: &Group, file: &TolerancesFile, design: &Design) -> Result<Vec<(Number, Tolerance)>, InputError> {
+    let of_none = |key: &&String| KEYS.iter().any(|(known, number, _)| known == *key && number.of(design).is_none());
+    let none: Vec<String> = file.keys().filter(of_none).map(|key| format!("{key:?}")).collect();
+    if let Some((first, others)) = none.split_first() {
+        let also = if others.is_empty() { String::new() } else { format!(", and likewise {}", others.join(", ")) };
+        return Err(at.fault("", format!("{first} has a tolerance, but the design has no such number"), format!("remove it{also}")));
+    }
     let mut given = Vec::new();
     for (key, tolerance) in file {
         let Some((_, number, _)) = KEYS.iter().find(|(known, ..)| known == key) else {

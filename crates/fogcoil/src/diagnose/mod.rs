@@ -236,6 +236,9 @@ fn name(verdict: Verdict) -> &'static str {
 /// Name of the unchanged design.
 const NOMINAL: &str = "nominal model";
 
+/// Name of the design with constants and instruments fitted to the records, nothing else.
+const REFITTED: &str = "constants and instruments fitted";
+
 impl Outcome<'_> {
     /// Name of the model that the verdict rests on, where it is not the nominal one.
     fn found(&self) -> Option<&'static str> {

@@ -70,7 +70,8 @@ impl Outcome<'_> {
             rows.push(["parameter (fitted)", "value", "", "90 % interval"].map(str::to_owned).to_vec());
             for estimate in estimates {
                 let interval = estimate.ci90.map(|end| significant(end, 4)).join(" to ");
-                let unit = parameter_unit(&estimate.name).into_owned();
+                let unit = parameter_unit(&estimate.name);
+                let unit = if unit == "1" { "-".into() } else { unit.into_owned() };
                 rows.push(vec![estimate.name.clone(), significant(estimate.value, 4), unit, interval]);
             }
         }

@@ -50,7 +50,10 @@ fn row(x: &Explanation) -> Option<Vec<String>> {
     let name = format!("{} ({})", x.id, x.parameter);
     Some(match &x.outcome {
         Reach::Gives { value, error, sigma, layer } => {
-            let layer = layer.map_or(String::new(), |(k, n)| format!(", in layer {k}; as plausibly in {n} layers"));
+            let layer = layer.map_or(String::new(), |(k, n)| match *value {
+                0.0 => ": no turn is nearer to it than one is, in any layer".into(),
+                _ => format!(", in layer {k}; as plausibly in {n} layers"),
+            });
             let value = format!("{} ± {}", significant(*value, 3), significant(*error, 1));
             vec![name, value, format!("{sigma:+.1}"), format!("{}{layer}{when}", verdict(*sigma))]
         }
@@ -84,7 +87,7 @@ pub fn text(case: &CoilCase, e: &Explained) -> String {
     }
     out.push_str(
         "\nOne number cannot tell these apart, and a slow ramp hardly can: in it a longer tail and a changed coil are both factors on the\n\
-         slope. Expected ln odds at these sizes, their own likelihood beforehand included, in 24 h, -40 to 60 degC, at most 2 K/min:\n",
+         slope. Expected ln odds at these sizes, prior odds included, in 24 h, -40 to 60 degC, at most 2 K/min:\n",
     );
     let mut rows = vec![["", "slow ramp", "best", "by"].map(str::to_owned).to_vec()];
     for Test { between, slow, best } in &e.tests {

@@ -74,7 +74,7 @@ fn at_instants<'a>(simulation: &'a Simulation, raster: &Raster, instants: &Insta
             "Coil, hub and flanges, each map with a scale of its own; above the first maps the time since the first row and the fibre's mean \
              temperature. Strains and displacements are those since the first row. In the coil the \
              hoop strain is the glass's axial strain. The bias is that of the instant, summed over blocks of 4 layers by about 4 turns, in \
-             which most of it cancels.{}",
+             which most of it cancels. A scale of one sign is dark at the least magnitude and bright at the largest.{}",
             state(simulation)
         ),
         columns: instants.chosen.len(),

@@ -238,7 +238,16 @@ fn trim_says_how_to_null_the_reference_coil() {
     let output = folder.run(&["sensitivity", "trimmed.ron", "--json"]);
     let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert!(json["total"].as_f64().unwrap().abs() < 1e-5, "{json}");
-    assert!(stdout(&folder.run(&["trim", "coil.ron"])).contains("CW tail longer by 1.499"));
+    let said = stdout(&folder.run(&["trim", "coil.ron"]));
+    assert!(said.contains("CW tail must be 1.499 ± ") && said.contains("add 1.499 m to CW"), "{said}");
+    // tails that differ already: the step that is told leads to the null
+    folder.write("tailed.ron", change(COIL, "tails_m: (cw: 0.0, ccw: 0.0)", "tails_m: (cw: 0.5, ccw: 0.7)"));
+    let said = stdout(&folder.run(&["trim", "tailed.ron"]));
+    let step: f64 = said.split_once(": add ").unwrap().1.split_once(" m to CW").unwrap().0.parse().unwrap();
+    folder.write("nulled.ron", change(COIL, "tails_m: (cw: 0.0, ccw: 0.0)", &format!("tails_m: (cw: {}, ccw: 0.7)", 0.5 + step)));
+    let output = folder.run(&["sensitivity", "nulled.ron", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert!(json["total"].as_f64().unwrap().abs() < 2e-3, "{said}: {json}");
 }
 
 #[test]

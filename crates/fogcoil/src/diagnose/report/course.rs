@@ -57,7 +57,7 @@ impl Outcome<'_> {
             id: "residuals",
             title: "What each model leaves".into(),
             description:
-                "Recorded less modelled rate and spool temperature over time, for the nominal model and for what was found."
+                "Recorded less modelled rate and spool temperature over time, for the design with constants and instruments fitted, and for what was found."
                     .into(),
             caption: "A channel's panels have one scale. What is noise has no shape; what has one is missing in the model."
                 .into(),

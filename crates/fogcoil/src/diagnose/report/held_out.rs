@@ -3,7 +3,7 @@
 use charts::{Cells, Figure, Panel, Series, Style, grid, significant};
 use diagnosis::{HeldOut, Verdict, whiteness};
 use maud::{Markup, html};
-use mechanisms::RATE;
+use mechanisms::{RATE, SPOOL};
 
 use super::course::{self, multiples};
 use super::spectrum;
@@ -21,10 +21,11 @@ impl Outcome<'_> {
                 significant(prediction.rmse[RATE], 3),
                 significant(prediction.noise_floor[RATE], 3),
                 judged(self, held, prediction),
+                if self.thermometer(held).is_some() { significant(prediction.rmse[SPOOL], 3) } else { "–".into() },
             ]
         };
         let rows: Vec<Vec<String>> = all.map(row).collect();
-        let head = ["prediction", "rms error [°/h]", "noise as identified [°/h]", "Ljung–Box, 30 lags"];
+        let head = ["prediction", "rms error [°/h]", "noise as identified [°/h]", "Ljung–Box, 30 lags", "thermometer, rms error [K]"];
         let said = if self.diagnosis.verdict == Verdict::None {
             "No effect was found, so the nominal model is the prediction."
         } else if self.holdouts.iter().any(|held| !held.accepted) {
@@ -34,7 +35,7 @@ impl Outcome<'_> {
         };
         html! {
             h2 { "Proof on a record that was held out" } "\n"
-            (grid("Errors of the predictions of the rate", Cells::Words, &head, &rows))
+            (grid("Errors of the predictions", Cells::Words, &head, &rows))
             p { (said) } "\n"
             (self.proof().element())
         }

@@ -16,7 +16,7 @@ use files::Note;
 use maud::{Markup, html};
 use mechanisms::{RATE, SPOOL};
 
-use super::{NOMINAL, Outcome, Record};
+use super::{Outcome, REFITTED, Record};
 use crate::compose::StandIn;
 use crate::report::provenance;
 use crate::units::DurationUnit;
@@ -105,13 +105,13 @@ impl Outcome<'_> {
         page(&format!("{}: what differs from the design", self.name), &html! { p { (nice(&self.verdict())) } }, &body)
     }
 
-    /// The nominal model and, where it is another, what the verdict rests on, for a record that was fitted.
+    /// The design with what may be recalibrated and, where it is another, what the verdict rests on, for a record that was fitted.
     fn shown(&self, number: usize) -> Vec<Shown<'_>> {
         let best = &self.diagnosis.best().fit;
         let of = |name, fit| Shown { name, fit, number, record: &self.fits[number], judge: best };
         match self.found() {
-            None => vec![of(NOMINAL, best)],
-            Some(name) => vec![of(NOMINAL, &self.diagnosis.mismatch), of(name, best)],
+            None => vec![of(REFITTED, best)],
+            Some(name) => vec![of(REFITTED, &self.diagnosis.mismatch), of(name, best)],
         }
     }
 
