@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
+use crate::attributes;
 use crate::scale::{DIGIT, power_of_ten};
 use crate::svg::Svg;
-use crate::attributes;
 
 /// Steps of colour; odd, so that a diverging map has a middle.
 const STEPS: usize = 41;

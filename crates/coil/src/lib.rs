@@ -62,7 +62,7 @@ pub use parametric::{
 pub use profile::{Profile, Smooth};
 pub use section::{Places, PointValues, Section, SectionElement, SectionFields, SectionState};
 pub use sensitivity::{
-    CHECKS, COARSE, FINE, SAFETY, SHARE, STEADY, SteadySensitivity, sensitivity_in, sensitivity_on, steady_sensitivity,
+    CHECKS, COARSE, FACTOR, FINE, SAFETY, STEADY, SteadySensitivity, sensitivity_in, sensitivity_on, steady_sensitivity,
 };
 pub use thermal::{
     Drive, FullRun, Output, Outputs, RampLag, Reduced, Reduction, Step, Steps, ThermalModel, ThermalState, ramp_lag,

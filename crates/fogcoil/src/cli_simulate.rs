@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::{ArgGroup, Args};
 use coil::Drive;
 use fogcoil::cache::Cache;
-use fogcoil::input::{self, Between, CoilCase, ProfileCase};
+use fogcoil::input::{self, Between, CoilCase, ProfileCase, RecordOptions};
 use fogcoil::output::{self, Content};
 use fogcoil::section_files::{self, SectionFiles};
 use fogcoil::simulate::{self, Fields, Model, Simulation};
@@ -16,7 +16,7 @@ use crate::progress::Progress;
 use crate::{CLOSER, line, print};
 
 #[derive(Args)]
-#[command(group(ArgGroup::new("drive").required(true).args(["profile", "spool"])))]
+#[command(group(ArgGroup::new("drive").required(true).args(["profile", "record", "spool"])))]
 pub(crate) struct Simulate {
     /// Case file of the coil
     #[arg(value_name = "COIL.ron")]
@@ -24,6 +24,10 @@ pub(crate) struct Simulate {
     /// Profile: time_s,chamber_c and, where wanted, left_c, right_c, mount_left_c, mount_right_c
     #[arg(long, value_name = "P.csv")]
     profile: Option<PathBuf>,
+    /// In place of a profile: a recording, whose chamber drives the coil and whose thermometer and rate stand beside the result; read as `fogcoil check`
+    /// reads it, with RECORD.map.ron beside it if it is there
+    #[arg(long, value_name = "RECORD.csv", conflicts_with = "step")]
+    record: Option<PathBuf>,
     /// Course of the temperatures between the profile's rows
     #[arg(long, value_enum, default_value_t = Between::Linear, conflicts_with = "spool")]
     between: Between,
@@ -77,9 +81,10 @@ fn step(text: &str) -> Result<f64, String> {
 }
 
 pub(crate) fn run(arguments: &Simulate, progress: &Progress) -> Result<(), Error> {
-    let Simulate { coil, profile, spool, mechanisms, out, report, vtu, band, json, no_cache, .. } = arguments;
+    let Simulate { coil, profile, record, spool, mechanisms, out, report, vtu, band, json, no_cache, .. } = arguments;
     let own = input::read_simulated(mechanisms)?;
-    let inputs: Vec<PathBuf> = [profile, spool].into_iter().flatten().chain(mechanisms).cloned().collect();
+    let recorded = record.iter().flat_map(|path| RecordOptions::default().files(path));
+    let inputs: Vec<PathBuf> = [profile, spool].into_iter().flatten().chain(mechanisms).cloned().chain(recorded).collect();
     let section = vtu.as_deref().map_or(Vec::new(), places);
     let mut outputs = vec![Some(out.as_path()), report.as_deref(), band.as_deref()];
     outputs.extend(section.iter().map(|path| Some(path.as_path())));
@@ -147,7 +152,14 @@ impl Simulate {
                 let modelled = model(&profile.drives)?;
                 Ok((profile, modelled))
             }
-            (None, None) => Err(Error::usage("give a profile (--profile) or a thermometer's record (--spool)")),
+            (None, None) => {
+                let path = self.record.as_deref().ok_or_else(|| Error::usage("give --profile, --record or --spool"))?;
+                let options = RecordOptions { further: further.to_vec(), ..RecordOptions::default() };
+                let record = progress.during(&reading(path), || input::read_recorded(path, &options, &case.design))?;
+                let record = self.divided(record)?;
+                let modelled = model(&record.drives)?;
+                Ok((record, modelled))
+            }
         }
     }
 

@@ -30,7 +30,37 @@ pub struct Summary {
     pub slope: Option<f64>,
     /// Numerical errors of the above.
     pub errors: Errors,
+    /// Recorded less simulated thermometer \[K\] and rate \[deg/h\], where the profile is a recording with these.
+    pub left: [Option<Left>; 2],
 }
+
+/// Recorded less simulated values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Left {
+    /// Their mean: an offset, Earth's rate.
+    pub mean: f64,
+    /// Root mean square about it.
+    pub rms: f64,
+}
+
+impl Left {
+    /// Of the values that are numbers; `None` if there is none.
+    fn of(values: impl Iterator<Item = f64>) -> Option<Self> {
+        let values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let rms = (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
+        (count > 0.0).then_some(Self { mean, rms })
+    }
+
+    fn json(self) -> Value {
+        json!({ "mean": self.mean, "rms_about_mean": self.rms })
+    }
+}
+
+/// Least error of the thermometer that is stated, relative to the range of the chamber or its own: rounding and fast modes, of which two meshes and two numbers of
+/// modes say nothing. In `cargo xtask survey` up to 6e-9.
+const LEAST: f64 = 3e-8;
 
 /// Estimated numerical errors of a simulation at its given chamber: [`SAFETY`] times the distance to the same run on a coarser mesh, and the
 /// error of the reduced model. They do not include errors of the model itself.
@@ -47,8 +77,8 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Errors of a simulation with these rates \[deg/h\] and this regression.
-    fn of(simulation: &Simulation, rms: f64, peak: f64, regression: &Regression) -> Self {
+    /// Errors of a simulation in this range of temperatures \[K\], with these rates \[deg/h\] and this regression.
+    fn of(simulation: &Simulation, range: f64, rms: f64, peak: f64, regression: &Regression) -> Self {
         let mut errors = Self::default();
         let (mut last, mut squared) = (simulation.row(0).time, 0.0);
         for row in simulation.differences() {
@@ -62,7 +92,7 @@ impl Errors {
         }
         let rates =
             simulation.rows().zip(simulation.rows().skip(1)).map(|(a, b)| ((b.chamber - a.chamber) / (b.time - a.time)).abs());
-        errors.spool += simulation.reduction.sensor * rates.fold(0.0, f64::max);
+        errors.spool += simulation.reduction.sensor * rates.fold(0.0, f64::max) + LEAST * range;
         // what the modes leave out of the bias is stated of the sum's peak
         let reduced = simulation.reduction.bias;
         for (n, most) in errors.parts.iter_mut().enumerate() {
@@ -136,17 +166,24 @@ impl Summary {
         let duration = simulation.duration();
         let rms = if duration > 0.0 { (squared / duration).sqrt() } else { 0.0 };
         let slope = regression.slope();
-        let errors = Errors::of(simulation, rms, peak.rate.abs(), &regression);
-        Self { rows: simulation.count(), duration, chamber, spool, peak, rms, slope, errors }
+        let range = [chamber, spool].map(|[low, high]| high - low).into_iter().fold(0.0, f64::max);
+        let errors = Errors::of(simulation, range, rms, peak.rate.abs(), &regression);
+        // the first row has no rate of its own
+        let left = [
+            Left::of(simulation.rows().map(|row| row.recorded[0] - row.spool)),
+            Left::of(simulation.rows().skip(1).map(|row| row.recorded[1] - row.rate)),
+        ];
+        Self { rows: simulation.count(), duration, chamber, spool, peak, rms, slope, errors, left }
     }
 }
 
 /// The summary as one object, units in the keys; `slope` and sensitivities in (deg/h)/(degC/min).
 pub fn json(simulation: &Simulation) -> Value {
-    let Summary { rows, duration, chamber, spool, peak, rms, slope, errors } = Summary::of(simulation);
+    let Summary { rows, duration, chamber, spool, peak, rms, slope, errors, left } = Summary::of(simulation);
     let [shupe, eo_axial, eo_radial, read_out, rate] = errors.parts;
+    let [left_spool, left_rate] = left.map(|left| left.map(Left::json));
     let steady = simulation.steady;
-    json!({
+    let mut object = json!({
         "rows": rows,
         "duration_s": duration,
         "chamber_c": chamber,
@@ -177,7 +214,11 @@ pub fn json(simulation: &Simulation) -> Value {
         "reduction_error": simulation.reduction.bias,
         "inferred": simulation.profile.inferred.map(inferred),
         "cached": simulation.source == Source::Cached,
-    })
+    });
+    if simulation.profile.recorded.is_some() {
+        object["recorded_less_simulated"] = json!({ "spool_k": left_spool, "rate_deg_per_h": left_rate });
+    }
+    object
 }
 
 fn inferred(inference: Inference) -> Value {
@@ -208,14 +249,14 @@ pub(crate) fn rounded(value: f64) -> String {
 
 /// Name, value and unit of each number as text.
 pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
-    let Summary { rows, duration, chamber, spool, peak, rms, slope, errors } = Summary::of(simulation);
+    let Summary { rows, duration, chamber, spool, peak, rms, slope, errors, left } = Summary::of(simulation);
     let [shupe, eo_axial, eo_radial, read_out, sum] = errors.parts;
     let entry = |name: &str, value: String, unit: &str| [name.to_owned(), value, unit.to_owned()];
     let range = |[low, high]: [f64; 2]| format!("{:.2} to {:.2}", low + 0.0, high + 0.0);
     let rate = |value: f64, error: f64| format!("{} ± {}", rounded(value), significant(error, 2));
     let unit = DurationUnit::of(duration);
     let after = format!("s, {:.2} {} after the first row", unit.of_seconds(peak.time - simulation.row(0).time), unit.name);
-    let slope_name = format!("slope of the bias on the spool's degC/min, over {WINDOW_S} s or a row");
+    let slope_name = format!("slope of the bias against the spool's rate, over {WINDOW_S} s or a row");
     let steady = format!("{:.4} ± {}", simulation.steady.sensitivity.total(), significant(simulation.steady.error_estimate, 2));
     let mut all = vec![
         entry("rows", rows.to_string(), ""),
@@ -247,6 +288,12 @@ pub(crate) fn entries(simulation: &Simulation) -> Vec<[String; 3]> {
         entry(&slope_name, slope, "(deg/h)/(degC/min)"),
         entry("steady-ramp sensitivity", steady, nominal),
     ]);
+    for (name, left, unit) in [("thermometer", left[0], "K"), ("rate", left[1], "deg/h")] {
+        if let Some(Left { mean, rms }) = left {
+            all.push(entry(&format!("recorded less simulated {name}, mean"), significant(mean, 3), unit));
+            all.push(entry("  root mean square about it", significant(rms, 3), unit));
+        }
+    }
     if let Some(Inference { noise, sensor_residual_rms, chamber_sd: [median, largest], .. }) = simulation.profile.inferred {
         let sd = format!("{} (median), {} (largest)", significant(median, 2), significant(largest, 2));
         all.extend([

@@ -64,6 +64,8 @@ pub struct ProfileCase {
     pub further: BTreeMap<String, Vec<f64>>,
     /// How the chamber's course was inferred from a thermometer; `None` if it is given.
     pub inferred: Option<Inference>,
+    /// Readings beside the chamber's, where the profile is a recording.
+    pub recorded: Option<Recorded>,
     /// Notes for the user although nothing is wrong.
     pub notes: Vec<Note>,
     /// The file.
@@ -72,6 +74,15 @@ pub struct ProfileCase {
     pub between: Between,
     /// Longest part \[s\] into which its rows were divided, if they were.
     pub step: Option<f64>,
+}
+
+/// Readings of a recording, a value for each instant; NaN where none is to be used.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recorded {
+    /// Thermometer \[°C\].
+    pub spool: Vec<f64>,
+    /// Rate of the gyroscope \[deg/h\].
+    pub rate: Vec<f64>,
 }
 
 /// Accuracy of a chamber's course inferred from a thermometer's record.
@@ -202,6 +213,7 @@ fn read(mut rows: Rows, path: &Path, design: &Design, further: &[String]) -> Res
         profile: Profile { time, drives: courses },
         further,
         inferred: None,
+        recorded: None,
         notes,
         fingerprint: rows.fingerprint(),
         between: Between::Linear,

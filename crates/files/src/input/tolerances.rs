@@ -170,7 +170,11 @@ fn given(at: &Group, file: &TolerancesFile, design: &Design) -> Result<Vec<(Numb
     let none: Vec<String> = file.keys().filter(of_none).map(|key| format!("{key:?}")).collect();
     if let Some((first, others)) = none.split_first() {
         let also = if others.is_empty() { String::new() } else { format!(", and likewise {}", others.join(", ")) };
-        return Err(at.fault("", format!("{first} has a tolerance, but the design has no such number"), format!("remove it{also}")));
+        return Err(at.fault(
+            "",
+            format!("{first} has a tolerance, but the design has no such number"),
+            format!("remove it{also}"),
+        ));
     }
     let mut given = Vec::new();
     for (key, tolerance) in file {

@@ -52,9 +52,28 @@ fn temperatures<'a>(simulation: &'a Simulation) -> Figure<'a> {
             x,
             Axis::round("temperature [°C]", LEAST_C),
             20.0,
-            vec![series("chamber", Style::Second, |row| row.chamber), series("spool thermometer", Style::First, |row| row.spool)],
+            recorded(simulation, "thermometer as recorded", time, |row| row.recorded[0], 0.0)
+                .into_iter()
+                .chain([
+                    series("chamber", Style::Second, |row| row.chamber),
+                    series("spool thermometer", Style::First, |row| row.spool),
+                ])
+                .collect(),
         )],
     }
+}
+
+/// What was recorded, less an offset, where there is anything.
+fn recorded<'a>(
+    simulation: &'a Simulation,
+    name: &str,
+    time: impl Fn(f64) -> f64,
+    of: fn(&SimulatedRow) -> f64,
+    offset: f64,
+) -> Option<Series<'a>> {
+    let points: Vec<(f64, f64)> =
+        simulation.rows().map(|row| (time(row.time), of(&row) - offset)).filter(|(_, value)| value.is_finite()).collect();
+    (!points.is_empty()).then(|| Series::new(name, Style::Fine(2), points))
 }
 
 fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<'a> {
@@ -66,12 +85,17 @@ fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<'a> {
             (time(simulation.row(n).time), value(&row))
         })
     };
-    let bias = vec![
+    let left = Summary::of(simulation).left[1];
+    let recorded = left.and_then(|left| {
+        let name = format!("as recorded, less {} °/h", signed(left.mean, 3));
+        recorded(simulation, &name, time, |row| row.recorded[1], left.mean)
+    });
+    let bias = recorded.into_iter().chain([
         series("Shupe", Style::First, |row| row.shupe),
         series("elasto-optic, axial strain", Style::Second, |row| row.eo_axial),
         series("elasto-optic, radial strain", Style::Third, |row| row.eo_radial),
         series("total", Style::Total, |row| row.rate),
-    ];
+    ]);
     let ends = [simulation.row(0).time, simulation.row(simulation.count() - 1).time].map(time);
     let rate = Series::computed("", Style::First, windows.len(), move |n| (time(windows[n].time), windows[n].spool_rate));
     let unlabelled = Axis::tight("", x.least_span).covering(ends);
@@ -89,7 +113,7 @@ fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<'a> {
         ),
         columns: 1,
         panels: vec![
-            Panel::lines(unlabelled, Axis::round("bias [°/h]", LEAST_DEG_PER_H), 18.0, bias),
+            Panel::lines(unlabelled, Axis::round("bias [°/h]", LEAST_DEG_PER_H), 18.0, bias.collect()),
             Panel::lines(
                 x.covering(ends),
                 Axis::round("rate of the spool's temperature [°C/min]", LEAST_C_PER_MIN),

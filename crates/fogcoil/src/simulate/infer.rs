@@ -50,6 +50,7 @@ pub fn infer(record: SpoolCase, noise: f64, model: &Model) -> Result<ProfileCase
         profile: Profile { time, drives: courses },
         further: BTreeMap::new(),
         inferred: Some(inference),
+        recorded: None,
         notes,
         fingerprint,
         between: Between::Linear,

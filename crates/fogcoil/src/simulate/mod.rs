@@ -84,7 +84,8 @@ pub fn table(rows: &[SimulatedRow]) -> Table {
 }
 
 fn tabled(columns: impl Iterator<Item = Column>, rows: &[SimulatedRow]) -> Table {
-    let column = |(name, of): Column| tabular::Column::numbers(name, rows.iter().map(|row| Some(of(row))).collect());
+    let cell = |value: f64| (!value.is_nan()).then_some(value);
+    let column = |(name, of): Column| tabular::Column::numbers(name, rows.iter().map(|row| cell(of(row))).collect());
     Table { columns: columns.map(column).collect(), about: Vec::new() }
 }
 
@@ -161,7 +162,10 @@ impl Simulation<'_> {
     /// Names of the result's columns, and the value of each in a row.
     fn columns(&self) -> impl Iterator<Item = Column> {
         const OWN: Column = ("mechanisms_deg_per_h", |row| row.mechanisms);
-        COLUMNS.into_iter().chain((!self.added.is_empty()).then_some(OWN))
+        const RECORDED: [Column; 2] =
+            [("recorded_spool_c", |row| row.recorded[0]), ("recorded_rate_deg_per_h", |row| row.recorded[1])];
+        let recorded = self.profile.recorded.iter().flat_map(|_| RECORDED);
+        COLUMNS.into_iter().chain((!self.added.is_empty()).then_some(OWN)).chain(recorded)
     }
 
     /// The result as a table.

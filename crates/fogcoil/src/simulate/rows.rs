@@ -45,6 +45,8 @@ pub struct SimulatedRow {
     pub mechanisms: f64,
     /// The sum of the five \[deg/h\].
     pub rate: f64,
+    /// Recorded thermometer \[°C\] and rate \[deg/h\]; columns of the result where the profile is a recording, NaN where there is nothing to be used.
+    pub recorded: [f64; 2],
 }
 
 impl SimulatedRow {
@@ -61,6 +63,7 @@ impl SimulatedRow {
             read_out: response.read_out * DEG_PER_H_PER_RAD_PER_S,
             mechanisms: 0.0,
             rate: response.rate() * DEG_PER_H_PER_RAD_PER_S,
+            recorded: profile.recorded.as_ref().map_or([f64::NAN; 2], |recorded| [recorded.spool[n], recorded.rate[n]]),
         }
     }
 }
@@ -93,9 +96,10 @@ pub(crate) fn windowed(first: SimulatedRow, rows: impl Iterator<Item = Simulated
     })
 }
 
-/// The shortest text that reads back to the same double; plain between a millionth and a quadrillion.
+/// The shortest text that reads back to the same double; plain between a millionth and a quadrillion. Nothing for what is no number.
 pub(crate) fn number(value: f64) -> String {
     match value.abs() {
+        v if v.is_nan() => String::new(),
         0.0 => "0".into(),
         1e-6..1e15 => value.to_string(),
         _ => format!("{value:e}"),

@@ -25,7 +25,8 @@ impl Outcome<'_> {
             ]
         };
         let rows: Vec<Vec<String>> = all.map(row).collect();
-        let head = ["prediction", "rms error [°/h]", "noise as identified [°/h]", "Ljung–Box, 30 lags", "thermometer, rms error [K]"];
+        let head =
+            ["prediction", "rms error [°/h]", "noise as identified [°/h]", "Ljung–Box, 30 lags", "thermometer, rms error [K]"];
         let said = if self.diagnosis.verdict == Verdict::None {
             "No effect was found, so the nominal model is the prediction."
         } else if self.holdouts.iter().any(|held| !held.accepted) {
