@@ -50,6 +50,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         course.push(bias(&optics, coil.length(), &slices)?.total() * DEG_PER_H_PER_RAD_PER_S);
     }
     let largest = course.iter().fold(0.0, |most: f64, rate| if rate.abs() > most.abs() { *rate } else { most });
-    assert_eq!(format!("{largest:.4} deg/h, {:.4} after an hour", course[60]), "");
+    assert_eq!(format!("{largest:.4} deg/h, {:.4} after an hour", course[60]), "-0.1265 deg/h, 0.0014 after an hour");
     Ok(())
 }
