@@ -45,7 +45,7 @@ pub(crate) fn run(folder: &Path) -> Result<bool, Failure> {
 /// The reference cell held in all directions and 10 K warmer: its radial strain.
 fn cell() -> Result<String, Failure> {
     let case = input::read_cell(CELL.as_ref())?;
-    let general = Cell::of_fibres(&case.cell, &Arrangement::hexagonal(case.cell.pitch, 1, 1))?;
+    let general = Cell::of_fibres(&case.cell, &Arrangement::hexagonal(case.cell.pitch, 1, 1)?)?;
     let load = Load { temperature: 10.0, ..Load::default() };
     let quantity = Quantity::Strain(Component::MeanRadial, Convention::Mechanical);
     let solution = general.homogenize_to(homogenization::TOLERANCE)?.solution;

@@ -30,7 +30,7 @@ pub enum Error {
         length: f64,
     },
     /// A slice changes at a rate that is not a finite number.
-    #[error("slice {index}: {field} = {value}, but it must be finite; look for the solver or the record that made it")]
+    #[error("slice {index}: {field} = {value}, but it must be finite; check the solver or recording that produced it")]
     Rate {
         /// Index of the slice, from 0.
         index: usize,

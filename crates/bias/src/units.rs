@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+/// Speed of light in vacuum c \[m/s\].
+pub const SPEED_OF_LIGHT: f64 = 299_792_458.0;
 /// Degrees in a radian.
 pub const DEG_PER_RAD: f64 = 180.0 / PI;
 /// Seconds in a minute.

@@ -1,6 +1,6 @@
 //! Master–slave constraints `u_slave = factor · u_master`, eliminated so that the system stays symmetric positive definite.
 
-use crate::Error;
+use crate::{Error, Mesh};
 
 /// Values of constrained unknowns, gathered before elimination.
 #[derive(Debug, Clone)]
@@ -39,7 +39,32 @@ impl Constraints {
         Err(Error::Constraint(format!("unknown {i} of {}", self.parent.len())))
     }
 
-    /// u_i = 0.
+    /// u_i = 0. No other value can be held: of prescribed values u₀ (zero at the other unknowns) and a load f, the rest w = u − u₀ is held
+    /// at zero and solves `K w = f − K u₀`.
+    ///
+    /// ```
+    /// use fem_core::{Constraints, Form, Mesh, Problem};
+    /// use nalgebra::DMatrix;
+    ///
+    /// // a square, 20 °C at the bottom and 30 °C at the top
+    /// let mesh = Mesh::rectangles(2, &[0.0, 1.0], &[0.0, 1.0], |_, _| Some(0))?;
+    /// let problem = Problem::new(&mesh, Form::DIFFUSION, 3);
+    /// let at = |y: f64| if y == 0.0 { Some(20.0) } else { (y == 1.0).then_some(30.0) };
+    /// let known: Vec<Option<f64>> = mesh.nodes().iter().map(|[_, y]| at(*y)).collect();
+    /// let mut constraints = Constraints::new(known.len());
+    /// let all = constraints.eliminate(&problem.used(|_| true));
+    /// (0..known.len()).filter(|i| known[*i].is_some()).try_for_each(|i| constraints.hold(i))?;
+    /// let map = constraints.eliminate(&problem.used(|_| true));
+    ///
+    /// let laws = [Some(DMatrix::identity(2, 2))];
+    /// let prescribed: Vec<f64> = known.iter().map(|t| t.unwrap_or(0.0)).collect();
+    /// let load: Vec<f64> = problem.stiffness(&all, &laws)?.multiply(&prescribed).iter().map(|f| -f).collect();
+    /// let rest = map.expand(&problem.factor(&map, &laws)?.solve(&[map.restrict(&load)])?[0]);
+    /// for ((w, t), [_, y]) in rest.iter().zip(&prescribed).zip(mesh.nodes()) {
+    ///     assert!((w + t - (20.0 + 10.0 * y)).abs() < 1e-12);
+    /// }
+    /// # Ok::<(), fem_core::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`Error::Constraint`] if there is no such unknown.
@@ -48,6 +73,19 @@ impl Constraints {
         let (root, _) = self.root(i);
         self.held[root] = true;
         Ok(())
+    }
+
+    /// u_r = 0 at every node on the axis r = 0, of [`crate::Form::AXISYMMETRIC_ELASTICITY`] on `mesh`: the axis of a body of revolution stays where
+    /// it is. Nothing in the weak form says so, because the axis has no area.
+    ///
+    /// # Errors
+    /// [`Error::Map`] unless there are two unknowns for each node.
+    pub fn hold_axis(&mut self, mesh: &Mesh) -> Result<(), Error> {
+        let (found, needed) = (self.parent.len(), 2 * mesh.nodes().len());
+        if found != needed {
+            return Err(Error::Map { found, needed, components: 2 });
+        }
+        mesh.on_axis().into_iter().try_for_each(|node| self.hold(2 * node))
     }
 
     /// u_slave = sign · u_master, sign +1 or −1. Chains and loops are resolved; a loop that demands u = −u holds u at zero.
@@ -129,8 +167,13 @@ impl DofMap {
         self.entries[i]
     }
 
-    /// Tᵀ f: a full load vector onto the reduced unknowns.
+    /// Tᵀ f: a full load vector onto the reduced unknowns. Of values of the unknowns it makes sums over those that are tied: read single
+    /// values with [`Self::get`].
+    ///
+    /// # Panics
+    /// If `full` has not one entry for each full unknown.
     pub fn restrict(&self, full: &[f64]) -> Vec<f64> {
+        assert!(full.len() == self.full(), "a load of {} entries for a map of {} unknowns", full.len(), self.full());
         let mut reduced = vec![0.0; self.reduced];
         for (entry, value) in self.entries.iter().zip(full) {
             if let Some((i, factor)) = entry {
@@ -141,7 +184,11 @@ impl DofMap {
     }
 
     /// T u: a reduced solution onto all unknowns.
+    ///
+    /// # Panics
+    /// If `reduced` has not one entry for each reduced unknown.
     pub fn expand(&self, reduced: &[f64]) -> Vec<f64> {
+        assert!(reduced.len() == self.reduced, "a solution of {} entries for {} reduced unknowns", reduced.len(), self.reduced);
         self.entries.iter().map(|entry| entry.map_or(0.0, |(i, factor)| factor * reduced[i])).collect()
     }
 }

@@ -17,7 +17,15 @@ pub enum Error {
     /// The mesh's arrays do not fit each other, or an element is turned inside out.
     #[error("mesh: {0}")]
     Mesh(String),
-    /// The matrix of constants of a region is missing or has the wrong shape.
+    /// A region has no entry among the laws.
+    #[error("region {laws} has no law: {laws} {} for {regions} regions; give each region an entry, `None` where it takes no part", plural(*laws, "law"))]
+    MissingLaw {
+        /// Number of entries.
+        laws: usize,
+        /// Number of regions of the mesh.
+        regions: usize,
+    },
+    /// The matrix of constants of a region has the wrong shape.
     #[error("constants of region {region}: {found}, but the weak form needs {needed}")]
     Law {
         /// Region number.
@@ -30,9 +38,35 @@ pub enum Error {
     /// A constraint cannot be applied.
     #[error("constraint: {0}")]
     Constraint(String),
+    /// A map was made for another form or another mesh.
+    #[error(
+        "the map has {found} unknowns, this form on this mesh has {needed}; make its `Constraints` with {needed} unknowns, \
+         {components} for each node"
+    )]
+    Map {
+        /// Unknowns of the map.
+        found: usize,
+        /// Unknowns of the form on the mesh.
+        needed: usize,
+        /// Unknowns of the form at each node.
+        components: usize,
+    },
+    /// A body of revolution reaches its axis, where nothing keeps it from moving off.
+    #[error("node {node} lies on the axis and its u_r is free; hold u_r there with `Constraints::hold_axis`")]
+    Axis {
+        /// Number of the node.
+        node: usize,
+    },
+    /// An integral over the edges of elements cannot be taken.
+    #[error("edges: {0}")]
+    Edges(String),
+    /// A quadrature has no point.
+    #[error("points = 0, but a quadrature needs at least 1; give the mesh's order plus 1")]
+    NoPoints,
     /// The matrix is not positive definite: a material law or a missing constraint.
     #[error(
-        "the matrix of {unknowns} unknowns is not positive definite ({detail}); hold the rigid motions and check the material constants"
+        "the matrix of {unknowns} unknowns is not positive definite ({detail}); hold the rigid motions, check the material \
+         constants, and take at least one Gauss point more than the order"
     )]
     NotPositiveDefinite {
         /// Number of unknowns.
@@ -58,4 +92,9 @@ pub enum Error {
         /// The smallest step tried \[s\].
         step: f64,
     },
+}
+
+/// The noun of a count.
+fn plural(count: usize, noun: &str) -> String {
+    if count == 1 { noun.into() } else { format!("{noun}s") }
 }

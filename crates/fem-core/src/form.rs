@@ -58,6 +58,9 @@ impl Form {
     pub const AXISYMMETRIC_DIFFUSION: Self = Self { measure: Measure::Revolution, ..Self::DIFFUSION };
 
     /// Axisymmetric elasticity in (r, y): strains (rr, yy, hoop, ry), displacements (u_r, u_y).
+    ///
+    /// A body that touches r = 0 needs u_r held there ([`crate::Constraints::hold_axis`]): the hoop strain u_r/r is integrated at points off the
+    /// axis, so the form itself would not notice that the axis moves. A stiffness with a free axis is refused ([`crate::Error::Axis`]).
     pub const AXISYMMETRIC_ELASTICITY: Self = Self {
         components: 2,
         strains: 4,
@@ -77,6 +80,11 @@ impl Form {
             Operator::DY => g.d_y.clone(),
             Operator::OverX => DMatrix::from_fn(value.nrows(), value.ncols(), |a, k| value[(a, k)] / g.x[k]),
         }
+    }
+
+    /// Component that is divided by the radius, and so vanishes on the axis of a body of revolution.
+    pub(crate) fn over_radius(&self) -> Option<usize> {
+        self.terms.iter().find(|term| term.operator == Operator::OverX).map(|term| term.component)
     }
 
     fn operators(&self) -> Vec<Operator> {

@@ -4,7 +4,7 @@
 //! The stress is `C ε − β ΔT` with the thermal stress vector `β = C α` \[Pa/K\].
 
 use crate::Error;
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3, Vector6};
 
 /// A linear thermo-elastic law: stiffness \[Pa\] and thermal stress vector \[Pa/K\] in Voigt order.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -232,7 +232,17 @@ pub fn stress_rotation(angle: f64) -> Matrix6<f64> {
     rotation
 }
 
+/// Rows of the Voigt order that are rr, yy, hoop and ry of a body of revolution: x is the radius, z the hoop.
+const AXISYMMETRIC: [usize; 4] = [0, 1, 2, 5];
+
 impl ThermoElastic {
+    /// Stiffness (4 × 4) \[Pa\] and thermal stress (4 × 1) \[Pa/K\] in the order rr, yy, hoop, ry of [`crate::Form::AXISYMMETRIC_ELASTICITY`]: x of
+    /// the law is the radius, y the axis of revolution, z the hoop.
+    pub fn axisymmetric(&self) -> (DMatrix<f64>, DMatrix<f64>) {
+        let stiffness = DMatrix::from_fn(4, 4, |i, j| self.stiffness[(AXISYMMETRIC[i], AXISYMMETRIC[j])]);
+        (stiffness, DMatrix::from_fn(4, 1, |i, _| self.thermal_stress[AXISYMMETRIC[i]]))
+    }
+
     /// The same solid turned by `angle` \[rad\] about z.
     pub fn turned(&self, angle: f64) -> Self {
         let rotation = stress_rotation(angle);
@@ -315,6 +325,16 @@ mod tests {
             other => panic!("{other:?}"),
         });
         assert_eq!(fields, ["nu_xy", "nu_xz", "g_xy"]);
+    }
+
+    #[test]
+    fn exact_the_hoop_of_a_body_of_revolution_is_the_fibre() {
+        let law = coil().law().unwrap();
+        let (stiffness, stress) = law.axisymmetric();
+        let c = &law.stiffness;
+        assert_eq!([stiffness[(2, 2)], stiffness[(0, 2)], stiffness[(3, 3)]], [c[(2, 2)], c[(0, 2)], c[(5, 5)]]);
+        assert_eq!((stiffness[(0, 3)], stress.as_slice()), (0.0, &[stress[0], stress[0], law.thermal_stress[2], 0.0][..]));
+        assert!(stress[0] != stress[2]);
     }
 
     /// A quarter turn exchanges x and y; any turn and back is none; energy does not know of a turn of both solid and strain.

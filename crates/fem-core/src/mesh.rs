@@ -1,6 +1,10 @@
 //! Quadrilateral meshes of any order: curved, isoparametric, one region number per element.
 
 use crate::Error;
+use crate::polynomial::gauss_lobatto;
+
+/// A node lies on the axis of a body of revolution if its radius is less than this share of the largest one: rounding.
+const ON_AXIS: f64 = 1e-12;
 
 /// Quadrilaterals of polynomial order p with (p+1)² nodes each, on a tensor grid of Gauss–Lobatto points.
 ///
@@ -42,6 +46,49 @@ impl Mesh {
         Ok(Self { order, nodes, elements, regions })
     }
 
+    /// Rectangles between the breaks along x and along y \[m\], each increasing: cell (i, j) lies between breaks i and i + 1 along x and j and
+    /// j + 1 along y. `region` gives its material, or `None` where the mesh has a hole. Elements are numbered along x first, and the nodes
+    /// at breaks lie there exactly.
+    ///
+    /// ```
+    /// // an L of two materials
+    /// let region = |i, j| if (i, j) == (1, 1) { None } else { Some(j) };
+    /// let mesh = fem_core::Mesh::rectangles(2, &[0.0, 1.0, 3.0], &[0.0, 1.0, 2.0], region)?;
+    /// assert_eq!((mesh.regions(), mesh.nodes().len()), (&[0, 0, 1][..], 21));
+    /// # Ok::<(), fem_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Mesh`] for order 0, fewer than two breaks, or breaks that do not increase.
+    pub fn rectangles(order: usize, x: &[f64], y: &[f64], region: impl Fn(usize, usize) -> Option<usize>) -> Result<Self, Error> {
+        if order == 0 {
+            return Err(Error::Mesh("the polynomial order must be at least 1".into()));
+        }
+        let [along_x, along_y] = [lines("x", x, order)?, lines("y", y, order)?];
+        let width = along_x.len();
+        let mut number = vec![None; width * along_y.len()];
+        let (mut nodes, mut elements, mut regions) = (Vec::new(), Vec::new(), Vec::new());
+        for (j, i) in (1..y.len()).flat_map(|j| (1..x.len()).map(move |i| (j - 1, i - 1))) {
+            let Some(region) = region(i, j) else { continue };
+            let mut node = |k: usize| {
+                let (a, b) = (i * order + k % (order + 1), j * order + k / (order + 1));
+                *number[b * width + a].get_or_insert_with(|| {
+                    nodes.push([along_x[a], along_y[b]]);
+                    nodes.len() - 1
+                })
+            };
+            elements.push((0..(order + 1) * (order + 1)).map(&mut node).collect());
+            regions.push(region);
+        }
+        Self::new(order, nodes, elements, regions)
+    }
+
+    /// Nodes on the axis x = 0 of a body of revolution.
+    pub(crate) fn on_axis(&self) -> Vec<usize> {
+        let largest = self.nodes.iter().fold(0.0, |most: f64, p| most.max(p[0].abs()));
+        (0..self.nodes.len()).filter(|&node| self.nodes[node][0].abs() <= ON_AXIS * largest).collect()
+    }
+
     /// Polynomial order p.
     pub fn order(&self) -> usize {
         self.order
@@ -66,4 +113,17 @@ impl Mesh {
     pub fn region_count(&self) -> usize {
         self.regions.iter().max().map_or(0, |r| r + 1)
     }
+}
+
+/// Positions of the nodes between `breaks`, Gauss–Lobatto points in each interval.
+fn lines(axis: &str, breaks: &[f64], order: usize) -> Result<Vec<f64>, Error> {
+    if breaks.len() < 2 || !breaks.windows(2).all(|pair| pair[0] < pair[1]) {
+        return Err(Error::Mesh(format!("the breaks along {axis} must be at least two and increase, they are {breaks:?}")));
+    }
+    let lattice = gauss_lobatto(order);
+    let within = |pair: &[f64]| {
+        let (low, high) = (pair[0], pair[1]);
+        lattice[..order].iter().map(|xi| low + (high - low) * (1.0 + xi) / 2.0).collect::<Vec<_>>()
+    };
+    Ok(breaks.windows(2).flat_map(within).chain(breaks.last().copied()).collect())
 }

@@ -36,7 +36,7 @@ fn newton(mut x: f64, step: impl Fn(f64) -> f64) -> f64 {
     x
 }
 
-/// Gauss–Legendre quadrature with `n ≥ 1` points, exact to degree 2n − 1.
+/// Gauss–Legendre quadrature with `n ≥ 1` points (0 counts as 1), exact to degree 2n − 1.
 pub fn gauss(n: usize) -> Quadrature {
     let n = n.max(1);
     let root = |i: usize| {
@@ -54,7 +54,7 @@ pub fn gauss(n: usize) -> Quadrature {
     Quadrature { points, weights }
 }
 
-/// The `order + 1` Gauss–Lobatto points, `order ≥ 1`: the end points and the extrema of the Legendre polynomial.
+/// The `order + 1` Gauss–Lobatto points, `order ≥ 1` (0 counts as 1; [`crate::Mesh::new`] refuses it): the end points and the extrema of the Legendre polynomial.
 pub fn gauss_lobatto(order: usize) -> Vec<f64> {
     let n = order.max(1);
     let inner = |i: usize| {

@@ -50,6 +50,7 @@ impl Coupling {
 pub struct Problem<'a> {
     mesh: &'a Mesh,
     form: Form,
+    points: usize,
     reference: ReferenceElement,
 }
 
@@ -57,9 +58,10 @@ impl<'a> Problem<'a> {
     /// `form` on `mesh` with `points` Gauss points per direction.
     ///
     /// Order p needs p + 1 on straight elements, and on curved ones to reproduce uniform strains exactly in the plane; curved
-    /// elements of a body of revolution need 3p/2 + 1 for that. One more than p + 1 suits gently curved elements.
+    /// elements of a body of revolution need 3p/2 + 1 for that. One more than p + 1 suits gently curved elements. Without any point every
+    /// integral is refused ([`Error::NoPoints`]).
     pub fn new(mesh: &'a Mesh, form: Form, points: usize) -> Self {
-        Self { mesh, form, reference: ReferenceElement::new(mesh.order(), points) }
+        Self { mesh, form, points, reference: ReferenceElement::new(mesh.order(), points) }
     }
 
     /// The mesh.
@@ -79,12 +81,38 @@ impl<'a> Problem<'a> {
         used
     }
 
+    /// The map must be of this form on this mesh, and hold the axis of a body of revolution where an element that is `active` touches it.
+    fn check_map(&self, map: &DofMap, active: impl Fn(usize) -> bool) -> Result<(), Error> {
+        let components = self.form.components;
+        let (found, needed) = (map.full(), self.mesh.nodes().len() * components);
+        if found != needed {
+            return Err(Error::Map { found, needed, components });
+        }
+        let Some(component) = self.form.over_radius() else { return Ok(()) };
+        let free: Vec<usize> =
+            self.mesh.on_axis().into_iter().filter(|node| map.get(node * components + component).is_some()).collect();
+        let touched = |node: &usize| self.mesh.elements().iter().enumerate().any(|(e, nodes)| active(e) && nodes.contains(node));
+        match free.into_iter().find(touched) {
+            Some(node) => Err(Error::Axis { node }),
+            None => Ok(()),
+        }
+    }
+
+    fn has_law<'m>(&'m self, laws: &'m [Option<DMatrix<f64>>]) -> impl Fn(usize) -> bool {
+        |e| laws[self.mesh.regions()[e]].is_some()
+    }
+
+    fn check_points(&self) -> Result<(), Error> {
+        if self.points == 0 { Err(Error::NoPoints) } else { Ok(()) }
+    }
+
     /// Each region of the mesh must have an entry; those that are not `None` must have `rows` rows and, if given, `columns` columns.
     fn check(&self, laws: &[Option<DMatrix<f64>>], rows: usize, columns: Option<usize>) -> Result<(), Error> {
+        self.check_points()?;
         let needed = || format!("{rows} × {}", columns.map_or("any".into(), |c| c.to_string()));
-        if laws.len() < self.mesh.region_count() {
-            let found = format!("only {} regions have an entry", laws.len());
-            return Err(Error::Law { region: laws.len(), found, needed: needed() });
+        let regions = self.mesh.region_count();
+        if laws.len() < regions {
+            return Err(Error::MissingLaw { laws: laws.len(), regions });
         }
         match laws.iter().position(|l| l.as_ref().is_some_and(|l| l.nrows() != rows || columns.is_some_and(|c| l.ncols() != c))) {
             None => Ok(()),
@@ -132,9 +160,12 @@ impl<'a> Problem<'a> {
     /// Stiffness matrix. `laws[region]` is the constitutive matrix (strains × strains), `None` where the region takes no part.
     ///
     /// # Errors
-    /// [`Error::Law`] if the constants do not fit; [`Error::Mesh`] if an element is turned inside out.
+    /// [`Error::Law`] and [`Error::MissingLaw`] if the constants do not fit, [`Error::Map`] if the map does not; [`Error::Axis`] if a body of
+    /// revolution touches its axis and is not held there; [`Error::Mesh`] if an element is turned inside out; [`Error::NoPoints`].
     pub fn stiffness(&self, map: &DofMap, laws: &[Option<DMatrix<f64>>]) -> Result<SparseMatrix, Error> {
-        let elements: Vec<_> = self.stiffnesses(laws)?.collect::<Result<_, _>>()?;
+        let elements = self.stiffnesses(laws)?;
+        self.check_map(map, self.has_law(laws))?;
+        let elements: Vec<_> = elements.collect::<Result<_, _>>()?;
         Ok(self.pattern(map, laws).assemble(&elements))
     }
 
@@ -151,7 +182,9 @@ impl<'a> Problem<'a> {
     /// # Errors
     /// As [`Self::stiffness`] and [`Condensed::new`].
     pub fn condense(&self, map: &DofMap, laws: &[Option<DMatrix<f64>>]) -> Result<Condensed, Error> {
-        Condensed::assemble(self.mesh, map, |e| laws[self.mesh.regions()[e]].is_some(), self.stiffnesses(laws)?)
+        let elements = self.stiffnesses(laws)?;
+        self.check_map(map, self.has_law(laws))?;
+        Condensed::assemble(self.mesh, map, self.has_law(laws), elements)
     }
 
     /// As [`Self::condense`], of the sum of this stiffness and that of `fewer`, the same form on the same mesh with fewer Gauss points
@@ -170,11 +203,12 @@ impl<'a> Problem<'a> {
         volumetric: &[Option<DMatrix<f64>>],
     ) -> Result<Condensed, Error> {
         let sums = self.stiffnesses(laws)?.zip(fewer.stiffnesses(volumetric)?).map(|(a, b)| Ok(a? + b?));
-        Condensed::assemble(self.mesh, map, |e| laws[self.mesh.regions()[e]].is_some(), sums)
+        self.check_map(map, self.has_law(laws))?;
+        Condensed::assemble(self.mesh, map, self.has_law(laws), sums)
     }
 
     fn pattern(&self, map: &DofMap, laws: &[Option<DMatrix<f64>>]) -> Pattern {
-        Pattern::new(self.mesh, map, |e| laws[self.mesh.regions()[e]].is_some())
+        Pattern::new(self.mesh, map, self.has_law(laws))
     }
 
     /// Full load vectors `∫ Bᵀ σ_j`. `stresses[region]` has one column per load (strains × loads), or is `None`.
@@ -235,7 +269,10 @@ impl<'a> Problem<'a> {
     /// # Errors
     /// As [`Self::stiffness`].
     pub fn mass(&self, map: &DofMap, capacities: &[Option<DMatrix<f64>>]) -> Result<SparseMatrix, Error> {
-        let elements: Vec<_> = self.masses(capacities)?.collect::<Result<_, _>>()?;
+        let elements = self.masses(capacities)?;
+        // a mass does not ask whether the axis is held
+        self.check_map(map, |_| false)?;
+        let elements: Vec<_> = elements.collect::<Result<_, _>>()?;
         Ok(self.pattern(map, capacities).assemble(&elements))
     }
 
@@ -243,7 +280,7 @@ impl<'a> Problem<'a> {
     /// eliminated, factorised: a diffusion's response to a drive that grows as e^(rate t).
     ///
     /// # Errors
-    /// As [`Self::condense`].
+    /// As [`Self::condense`] and [`Self::boundary_mass`].
     pub fn condense_shifted(
         &self,
         map: &DofMap,
@@ -253,6 +290,8 @@ impl<'a> Problem<'a> {
         edges: &[(usize, Edge, f64)],
     ) -> Result<Condensed, Error> {
         let both = self.stiffnesses(laws)?.zip(self.masses(capacities)?).enumerate();
+        self.check_map(map, self.has_law(laws))?;
+        self.check_edges(edges)?;
         let sums = both.map(|(e, (stiffness, mass))| {
             let mut sum = stiffness? + mass? * rate;
             for &(_, edge, h) in edges.iter().filter(|(at, ..)| *at == e) {
@@ -260,10 +299,37 @@ impl<'a> Problem<'a> {
             }
             Ok(sum)
         });
-        Condensed::assemble(self.mesh, map, |e| laws[self.mesh.regions()[e]].is_some(), sums)
+        Condensed::assemble(self.mesh, map, self.has_law(laws), sums)
+    }
+
+    /// Edges must be of elements of the mesh, and the form a scalar one.
+    fn check_edges(&self, edges: &[(usize, Edge, f64)]) -> Result<(), Error> {
+        let (components, elements) = (self.form.components, self.mesh.elements().len());
+        if !edges.is_empty() && components != 1 {
+            return Err(Error::Edges(format!(
+                "the boundary mass is of a scalar form, this one has {components} unknowns for each node"
+            )));
+        }
+        match edges.iter().find(|(e, ..)| *e >= elements) {
+            Some((e, ..)) => Err(Error::Edges(format!("element {e} is named, the mesh has {elements}, numbered from 0"))),
+            None => Ok(()),
+        }
     }
 
     /// Boundary mass `∫ N h N ds` of a scalar form over the given (element, edge, h), on the pattern of the whole mesh.
+    ///
+    /// # Errors
+    /// [`Error::Edges`] if the form has several unknowns for each node or there is no such element; [`Error::Map`].
+    pub fn boundary_mass(&self, map: &DofMap, edges: &[(usize, Edge, f64)]) -> Result<SparseMatrix, Error> {
+        self.check_map(map, |_| false)?;
+        self.check_edges(edges)?;
+        Ok(self.edge_mass(map, edges))
+    }
+
+    /// As [`Self::boundary_mass`], of edges and a map that are known to fit.
+    ///
+    /// # Panics
+    /// Where [`Self::boundary_mass`] returns an error.
     pub fn edge_mass(&self, map: &DofMap, edges: &[(usize, Edge, f64)]) -> SparseMatrix {
         let nodes = (self.mesh.order() + 1).pow(2);
         let mut elements = vec![DMatrix::zeros(nodes, nodes); self.mesh.elements().len()];
@@ -276,8 +342,9 @@ impl<'a> Problem<'a> {
     /// Area (or volume of revolution) of each region \[m² or m³\].
     ///
     /// # Errors
-    /// [`Error::Mesh`] if an element is turned inside out.
+    /// [`Error::Mesh`] if an element is turned inside out; [`Error::NoPoints`].
     pub fn region_measures(&self) -> Result<Vec<f64>, Error> {
+        self.check_points()?;
         self.reference.region_measures(self.mesh, self.form.measure)
     }
 

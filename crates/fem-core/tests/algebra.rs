@@ -181,7 +181,6 @@ fn bounds_constants_of_the_wrong_shape_are_refused() {
     let refused = |result: Result<SparseMatrix, Error>, region: usize| {
         assert!(matches!(result, Err(Error::Law { region: r, .. }) if r == region));
     };
-    refused(problem.stiffness(&map, &[law(3, 3)]), 1);
     refused(problem.stiffness(&map, &[law(3, 3), law(2, 2)]), 1);
     refused(problem.mass(&map, &[law(3, 3), None]), 0);
     assert!(matches!(problem.coupling(&[law(3, 2), None]), Err(Error::Law { region: 0, .. })));

@@ -7,4 +7,5 @@ mod exact;
 mod factor;
 mod mms;
 mod patch;
+mod refused;
 mod transient;

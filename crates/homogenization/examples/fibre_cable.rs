@@ -1,5 +1,6 @@
-//! How much a ribbon of ordinary telecom fibres (125 µm glass, 245 µm coating) expands more than its glass, and why: the coating
-//! is soft across the fibre but pulls along it.
+//! How much a bundle of many ordinary telecom fibres (125 µm glass, 245 µm coating) in resin expands more than its glass, and why: the
+//! coating is soft across the fibre but pulls along it. A cell repeats for ever, so this is the inside of a bundle; for one fibre in air see
+//! `single_fibre.rs`.
 
 use fem_core::material::Isotropic;
 use homogenization::{Constituent, Error, FibreCell, Ring, Role, homogenize};

@@ -44,6 +44,17 @@ pub struct Ring {
     pub role: Role,
 }
 
+impl Ring {
+    /// "ring 0 (glass)", "ring 1 (coating)", …: its number from the inside, and its role.
+    pub(crate) fn name(&self, number: usize) -> String {
+        let role = match self.role {
+            Role::Glass => "glass",
+            Role::Coating => "coating",
+        };
+        format!("ring {number} ({role})")
+    }
+}
+
 /// Role of a ring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
@@ -128,9 +139,9 @@ impl FibreCell {
         Ok(sum)
     }
 
-    /// "ring 0", "ring 1", … from the inside, or "adhesive".
+    /// "ring 0 (glass)", "ring 1 (coating)", … from the inside, or "adhesive".
     pub(crate) fn phase_name(&self, phase: usize) -> String {
-        if phase < self.rings.len() { format!("ring {phase}") } else { "adhesive".into() }
+        self.rings.get(phase).map_or_else(|| "adhesive".into(), |ring| ring.name(phase))
     }
 }
 

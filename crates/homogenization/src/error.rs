@@ -13,7 +13,7 @@ pub enum Error {
     /// A constituent's constant is out of range.
     #[error("{constituent}: {source}")]
     Constituent {
-        /// "ring 0", "ring 1", … from the inside, or "adhesive".
+        /// "ring 0 (glass)", "ring 1 (coating)", … from the inside, or "adhesive".
         constituent: String,
         /// The fault.
         source: fem_core::Error,
@@ -21,7 +21,7 @@ pub enum Error {
     /// A constituent's conductivity, density or specific heat is out of range.
     #[error("{constituent}: {what} {value} {unit} must be finite and greater than 0")]
     Property {
-        /// "ring 0", "ring 1", … from the inside, or "adhesive".
+        /// "ring 0 (glass)", "ring 1 (coating)", … from the inside, or "adhesive".
         constituent: String,
         /// The property.
         what: &'static str,
@@ -29,6 +29,19 @@ pub enum Error {
         unit: &'static str,
         /// Its value.
         value: f64,
+    },
+    /// The accuracy that is asked for is no number above 0.
+    #[error("relative_error = {0}, but it must be greater than 0; `TOLERANCE` is 1e-6")]
+    Tolerance(f64),
+    /// A layout names a phase that the cell does not have.
+    #[error("{place} names phase {phase}, there are {phases}, numbered from 0; add its material, or name another phase")]
+    NoPhase {
+        /// "inclusion 0", … or "the matrix".
+        place: String,
+        /// The number that is named.
+        phase: usize,
+        /// Number of phases.
+        phases: usize,
     },
     /// A solution by multipoles failed.
     #[error("multipoles up to order {order}: {detail}")]
@@ -59,10 +72,12 @@ pub enum Error {
     #[error("no ring is glass; mark at least one so that the dehomogenisation matrix has a mean to report")]
     NoGlass,
     /// The mesh's phase areas differ from the exact ones.
-    #[error("phase {phase}: the mesh covers {area:.9e} m², exact is {exact:.9e} m²; use a higher order or more sectors")]
+    #[error("{name}: the mesh covers {area:.9e} m², exact is {exact:.9e} m²; use a higher order or more sectors")]
     Area {
         /// Phase number from the inside.
         phase: usize,
+        /// Name of the phase.
+        name: String,
         /// Area of the mesh \[m²\].
         area: f64,
         /// Exact area \[m²\].
@@ -74,6 +89,11 @@ pub enum Error {
 }
 
 impl Error {
+    /// Refuses an accuracy that no result can have.
+    pub(crate) fn unless_positive(relative_error: f64) -> Result<(), Self> {
+        if relative_error > 0.0 { Ok(()) } else { Err(Self::Tolerance(relative_error)) }
+    }
+
     pub(crate) fn conductivity(constituent: String, value: f64) -> Self {
         Self::Property { constituent, what: "conductivity", unit: "W/(m K)", value }
     }

@@ -143,9 +143,10 @@ pub fn homogenize(cell: &FibreCell) -> Result<Homogenized, Error> {
 /// thickness, raised until two orders agree.
 ///
 /// # Errors
-/// [`Error::Accuracy`] if rounding, or a film too thin for [`HIGHEST_ORDER`], stands in the way, with the best estimate reached;
+/// [`Error::Accuracy`] if rounding, or a film too thin for [`HIGHEST_ORDER`], stands in the way, with the best estimate reached; [`Error::Tolerance`] for a `relative_error` that is not above 0;
 /// else [`Error`] names the constituent or the geometry at fault.
 pub fn homogenize_to(cell: &FibreCell, relative_error: f64) -> Result<Homogenized, Error> {
+    Error::unless_positive(relative_error)?;
     Phases::new(cell)?;
     let decay = multipole::decay(cell);
     // orders of one residue modulo the symmetry converge evenly, those of −1 fastest
@@ -169,9 +170,9 @@ pub fn homogenize_to(cell: &FibreCell, relative_error: f64) -> Result<Homogenize
         let rounded = reached < 2.0 * worst(&rounding.named()).1;
         if rounded || order == highest {
             let why = if rounded {
-                "rounding stands in the way (a nearly incompressible phase, a great contrast): raise the tolerance above that"
+                "rounding stands in the way (a nearly incompressible phase, a great contrast): choose a tolerance above this value"
             } else {
-                "the film between the fibres is too thin: make the pitch larger, or the tolerance greater than that"
+                "the film between the fibres is too thin: make the pitch larger, or choose a tolerance above this value"
             };
             let with = format!("multipoles up to order {order}");
             return Err(Error::Accuracy { constant, requested: relative_error, reached, with, why: why.into() });

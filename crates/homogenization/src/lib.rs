@@ -6,6 +6,9 @@
 //! returns its [`Constants`] (Young's and shear moduli, Poisson's ratios, expansions, conductivities), the row M that leads back
 //! from the coil's strain to the glass's, and the numerical error of each.
 //!
+//! A cell repeats for ever: its constants are those of fibres that are surrounded by many others. They are not those of a cable of a few
+//! fibres, most of which lie at its surface. [`free_fibre`] is the other end: one coated fibre alone in air.
+//!
 //! # Equations
 //! The displacement of the cell is `u = ε̄ x + w` with the macroscopic strain ε̄ and a fluctuation w that repeats from cell to
 //! cell. Nothing varies along the fibre (generalised plane strain: ε_zz = ε̄_zz), so all unknowns live in the cross-section:
@@ -48,6 +51,7 @@ pub mod bounds;
 mod cell;
 mod constants;
 mod error;
+mod fibre;
 pub mod fields;
 mod homogenize;
 pub mod identify;
@@ -60,6 +64,7 @@ mod solve;
 pub use cell::{Constituent, FibreCell, Ring, Role};
 pub use constants::Constants;
 pub use error::Error;
+pub use fibre::{FreeFibre, free_fibre};
 pub use homogenize::{
     FreeCell, Homogenized, NEGLIGIBLE, SAFETY, TOLERANCE, effective, effective_with, free_cell, homogenize, homogenize_on,
     homogenize_to,

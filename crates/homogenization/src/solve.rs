@@ -103,7 +103,7 @@ impl CellProblem {
             let exact = exact * share;
             area_error = area_error.max((area / exact - 1.0).abs());
             if (area / exact - 1.0).abs() > AREA_TOLERANCE {
-                return Err(Error::Area { phase, area: *area, exact });
+                return Err(Error::Area { phase, name: cell.phase_name(phase), area: *area, exact });
             }
         }
         phases.fractions = areas.iter().map(|a| a / area).collect();

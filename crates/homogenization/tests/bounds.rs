@@ -117,8 +117,8 @@ fn bounds_bad_constituents_are_named() {
         fails(&cell)
     };
     for (message, parts) in [
-        (with(0, solid(-1.0, 0.2, 0.0, 1.0)), ["ring 0", "youngs_modulus"]),
-        (with(1, solid(1e6, 0.5, 0.0, 1.0)), ["ring 1", "poisson_ratio"]),
+        (with(0, solid(-1.0, 0.2, 0.0, 1.0)), ["ring 0 (glass)", "youngs_modulus"]),
+        (with(1, solid(1e6, 0.5, 0.0, 1.0)), ["ring 1 (coating)", "poisson_ratio"]),
         (with(2, solid(1e6, 0.3, f64::NAN, 1.0)), ["ring 2", "thermal_expansion"]),
         (with(3, solid(f64::INFINITY, 0.3, 0.0, 1.0)), ["adhesive", "youngs_modulus"]),
         (with(1, solid(1e6, 0.3, 0.0, 0.0)), ["ring 1", "conductivity"]),

@@ -10,7 +10,7 @@ use homogenization::{Role, homogenize};
 use nalgebra::Vector6;
 
 fn reference_cell() -> Cell {
-    Cell::of_fibres(&reference(), &Arrangement::hexagonal(170e-6, 1, 1)).unwrap()
+    Cell::of_fibres(&reference(), &Arrangement::hexagonal(170e-6, 1, 1).unwrap()).unwrap()
 }
 
 fn load() -> Load {

@@ -77,7 +77,8 @@ fn difference(a: &Response, b: &Response) -> f64 {
 fn exact_agreement_with_the_structured_route() {
     for cell in crate::common::cells() {
         let c = homogenize(&cell).unwrap().constants;
-        let irregular = Cell::of_fibres(&cell, &Arrangement::hexagonal(cell.pitch, 1, 1)).unwrap().homogenize_to(1e-5).unwrap();
+        let irregular =
+            Cell::of_fibres(&cell, &Arrangement::hexagonal(cell.pitch, 1, 1).unwrap()).unwrap().homogenize_to(1e-5).unwrap();
         let d = irregular.constants;
         for (structured, found) in [
             ([c.e_r, c.e_r, c.e_z], d.e),
@@ -108,7 +109,7 @@ fn exact_agreement_with_the_structured_route() {
 fn exact_agreement_in_square_packing() {
     let cell = FibreCell { packing: Packing::Square, ..reference() };
     let structured = homogenize(&cell).unwrap();
-    let found = Cell::of_fibres(&cell, &Arrangement::square(cell.pitch, 1, 1)).unwrap().solve(6, 1.0).unwrap().response;
+    let found = Cell::of_fibres(&cell, &Arrangement::square(cell.pitch, 1, 1).unwrap()).unwrap().solve(6, 1.0).unwrap().response;
     let reference = structured.effective.stiffness;
     assert!((found.stiffness - reference).amax() < 1e-5 * reference.amax());
     assert_relative_eq!(found.stiffness[(5, 5)], reference[(5, 5)], max_relative = 1e-4);
@@ -123,7 +124,7 @@ fn exact_agreement_in_square_packing() {
 fn symmetry_several_fibres_are_one() {
     let cell = &varied()[1];
     let solve = |columns, rows| {
-        let arrangement = Arrangement::hexagonal(cell.pitch, columns, rows);
+        let arrangement = Arrangement::hexagonal(cell.pitch, columns, rows).unwrap();
         Cell::of_fibres(cell, &arrangement).unwrap().solve(6, 1.0).unwrap().response
     };
     let one = solve(1, 1);
@@ -321,7 +322,7 @@ fn exact_thermal_stress_follows_from_the_mechanical_strains() {
 /// Displaced fibres: films stay, the same seed gives the same cell, another another; the cell is no longer quite isotropic.
 #[test]
 fn bounds_displaced_fibres() {
-    let (cell, regular) = (reference(), Arrangement::hexagonal(170e-6, 2, 2));
+    let (cell, regular) = (reference(), Arrangement::hexagonal(170e-6, 2, 2).unwrap());
     let at = |seed| displace(&regular, 82.5e-6, 4e-6, 1e-6, seed).unwrap();
     assert_eq!(at(7), at(7));
     assert_ne!(at(7), at(8));
@@ -379,7 +380,8 @@ fn exact_density_and_heat_capacity() {
 #[test]
 fn rounding_is_in_the_estimate() {
     let cell = |youngs_modulus| FibreCell { adhesive: solid(youngs_modulus, 0.3, 250e-6, 0.45), ..reference() };
-    let found = |cell: &FibreCell| Cell::of_fibres(cell, &Arrangement::hexagonal(cell.pitch, 1, 1)).unwrap().homogenize_to(1e-6);
+    let found =
+        |cell: &FibreCell| Cell::of_fibres(cell, &Arrangement::hexagonal(cell.pitch, 1, 1).unwrap()).unwrap().homogenize_to(1e-6);
     match found(&cell(1.0)) {
         Err(Error::Accuracy { reached, why, .. }) => assert!(reached > 1e-5 && why.starts_with("rounding"), "{reached:e} {why}"),
         other => panic!("{:?}", other.map(|found| found.relative_error)),
@@ -389,4 +391,27 @@ fn rounding_is_in_the_estimate() {
     let estimate = found.relative_error.iter().find(|(name, _)| *name == "g_xz").unwrap().1;
     let error = (found.constants.g[1] / exact.g_zr - 1.0).abs();
     assert!(1e-9 < error && error < estimate, "{error:e} {estimate:e}");
+}
+
+#[test]
+fn bounds_phases_orders_and_tolerances_that_there_are_not_are_refused() {
+    let cell = Cell::of_fibres(&reference(), &Arrangement::hexagonal(170e-6, 1, 1).unwrap()).unwrap();
+    let said = |result: Result<(), Error>| result.unwrap_err().to_string();
+    assert!(said(cell.solve(0, 1.0).map(|_| ())).contains("order = 0, but it must be at least 1"));
+    for tolerance in [f64::NAN, 0.0, -1e-3] {
+        let expected = format!("relative_error = {tolerance}, but it must be greater than 0; `TOLERANCE` is 1e-6");
+        assert_eq!(said(cell.homogenize_to(tolerance).map(|_| ())), expected);
+        assert_eq!(said(homogenization::homogenize_to(&reference(), tolerance).map(|_| ())), expected);
+    }
+
+    let fibre = Inclusion { outlines: vec![Outline::circle([0.0, 0.0], 0.3)], phases: vec![Some(5)] };
+    let of = |inclusion: &Inclusion, matrix| Cell {
+        layout: Layout::new([[1.0, 0.0], [0.0, 1.0]], vec![inclusion.clone()], matrix).unwrap(),
+        phases: vec![phase("glass", isotropic(&glass()), Role::Glass)],
+    };
+    let beyond = of(&fibre, 0);
+    assert!(said(beyond.solve(4, 1.0).map(|_| ())).starts_with("inclusion 0 names phase 5, there are 1, numbered from 0; "));
+    assert!(said(beyond.density().map(|_| ())).starts_with("inclusion 0 names phase 5"));
+    let matrix = of(&Inclusion { phases: vec![Some(0)], ..fibre }, 2);
+    assert!(said(matrix.solve(4, 1.0).map(|_| ())).starts_with("the matrix names phase 2, there are 1"));
 }

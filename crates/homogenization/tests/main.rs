@@ -5,6 +5,7 @@ mod closed_form;
 mod common;
 mod exact;
 mod fields;
+mod free_fibre;
 mod identify;
 mod irregular;
 mod multipoles;

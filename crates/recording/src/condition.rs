@@ -15,7 +15,7 @@ pub struct Thinning {
     pub many_rows: usize,
     /// Interval to which rows are averaged \[s\], > 0.
     pub interval: f64,
-    /// Most rows that are wished for; of more, the interval grows. At least 1.
+    /// Most rows that are wished for; of more, the interval grows. At least 1: 0 counts as 1.
     pub most_rows: usize,
 }
 
@@ -30,18 +30,19 @@ pub struct Thinned {
     pub rows: usize,
 }
 
-/// Means over whole numbers of rows; `None` where the recording stays as it is, because it has few rows or long intervals.
+/// Means over whole numbers of rows; `None` where the recording stays as it is, because it has few rows or long intervals, or its interval
+/// is not known.
 ///
-/// `interval` is the usual time between its rows \[s\] ([`crate::check::Instants::interval`]). A group of `every` rows without a gap (an interval over 1.5 usual ones) becomes
+/// `interval` is the usual time between its rows \[s\], > 0 ([`crate::check::Instants::interval`]). A group of `every` rows without a gap (an interval over 1.5 usual ones) becomes
 /// one, at its last instant: what a gap cuts short is no mean over the interval, and is left out. A channel of means
 /// ([`Sampling::Mean`]) is averaged over the group; momentary values over as many rows on either side of the instant as are there, at most
 /// half a group, which is a reading at that instant with less noise. A mean of which less than half is finite is NaN.
 pub fn thinned(recording: &Recording, interval: f64, rule: &Thinning) -> Option<Thinned> {
     let time = recording.time();
     let rows = time.len();
-    let wished = if interval > 0.0 { (rule.interval / interval).round() as usize } else { 1 };
-    let every = wished.max(rows.div_ceil(rule.most_rows));
-    if rows <= rule.many_rows || every < 2 {
+    let every = ((rule.interval / interval).round() as usize).max(rows.div_ceil(rule.most_rows.max(1)));
+    // an interval of 0 (or NaN) tells no gap from a neighbour
+    if rows <= rule.many_rows || every < 2 || interval.is_nan() || interval <= 0.0 {
         return None;
     }
     let neighbours = |row: usize| time[row] - time[row - 1] <= GAP * interval;
@@ -153,7 +154,7 @@ pub fn unrest(time: &[f64], driver: &[f64], follower: &[f64], rest: &Rest) -> Op
     if is_apart { Some(Unrest::Apart(apart.abs())) } else { (moved > rest.tolerance).then_some(Unrest::Moving(moved)) }
 }
 
-/// Largest less smallest of the values, those that are NaN left out; −∞ of nothing.
+/// Largest minus smallest of the values, those that are NaN left out; −∞ of nothing.
 pub fn span(values: &[f64]) -> f64 {
     let [low, high] = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(*v), high.max(*v)]);
     high - low

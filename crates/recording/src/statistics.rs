@@ -21,19 +21,25 @@ pub fn robust_sd(values: impl Iterator<Item = f64>, centre: f64) -> Option<f64> 
 /// 1 / Φ⁻¹(3/4).
 const MAD_TO_SD: f64 = 1.482_602_218_505_602;
 
-/// The value that a standard normal variable stays below with `probability` in (0, 1).
-///
-/// # Panics
-/// If the probability is not between 0 and 1.
+/// The value that a standard normal variable stays below with `probability` in (0, 1); NaN for another probability.
 pub fn normal_quantile(probability: f64) -> f64 {
-    Normal::standard().inverse_cdf(probability)
+    if is_probability(probability) { Normal::standard().inverse_cdf(probability) } else { f64::NAN }
 }
 
-/// The value that a chi-square variable of `freedom` > 0 degrees stays below with `probability` in (0, 1); NaN for another `freedom`.
+fn is_probability(value: f64) -> bool {
+    value > 0.0 && value < 1.0
+}
+
+/// The value that a chi-square variable of `freedom` > 0 degrees stays below with `probability` in (0, 1); NaN for another probability or
+/// freedom.
 ///
 /// By bisection: Newton's method in `statrs` 0.18 is off by 0.3 % at some 300 degrees of freedom and gives NaN for a million.
 pub fn chi_square_quantile(probability: f64, freedom: f64) -> f64 {
     let Ok(distribution) = ChiSquared::new(freedom) else { return f64::NAN };
+    // no value has it: the search below would never end
+    if !(is_probability(probability) && freedom.is_finite()) {
+        return f64::NAN;
+    }
     let (mut low, mut high) = (0.0, freedom + 10.0);
     while distribution.cdf(high) < probability {
         (low, high) = (high, 2.0 * high);
@@ -99,7 +105,14 @@ mod tests {
             let expected = -2.0 * (-probability).ln_1p();
             assert!((chi_square_quantile(probability, 2.0) / expected - 1.0).abs() < 1e-13, "{probability}");
         }
-        assert!(chi_square_quantile(0.5, -1.0).is_nan());
+        assert!([-1.0, 0.0, f64::INFINITY, f64::NAN].into_iter().all(|freedom| chi_square_quantile(0.5, freedom).is_nan()));
+    }
+
+    #[test]
+    fn what_is_no_probability_has_no_quantile() {
+        for probability in [-0.1, 0.0, 1.0, 1.5, f64::INFINITY, f64::NAN] {
+            assert!(chi_square_quantile(probability, 3.0).is_nan() && normal_quantile(probability).is_nan(), "{probability}");
+        }
     }
 
     #[test]

@@ -28,6 +28,19 @@ fn values<'a>(recording: &'a Recording, name: &str) -> &'a [f64] {
 }
 
 #[test]
+fn bounds_neither_a_rule_nor_an_interval_of_nothing_is_divided_by() {
+    let ramp: Vec<f64> = (0..18).map(f64::from).collect();
+    let recording = recording(&ramp, &ramp, &ramp);
+    // as many rows as there are become one, and no row would be left of an interval that is not known
+    let one = thinned(&recording, 1.0, &Thinning { most_rows: 0, ..RULE }).expect("thinned");
+    assert_eq!((one.every, one.recording.time()), (18, &[17.0][..]));
+    assert_eq!(thinned(&recording, 1.0, &Thinning { interval: 0.0, ..RULE }), None);
+    for interval in [0.0, -1.0, f64::NAN] {
+        assert_eq!(thinned(&recording, interval, &Thinning { most_rows: 3, ..RULE }), None, "{interval}");
+    }
+}
+
+#[test]
 fn means_are_those_of_the_group_and_readings_belong_to_the_instant() {
     // rows 0..10, a gap, rows 10..18: groups of four end at rows 3 and 7, then at 13 and 17
     let time: Vec<f64> = (0..18).map(|n| f64::from(n) + if n < 10 { 0.0 } else { 100.0 }).collect();

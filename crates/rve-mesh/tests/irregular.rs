@@ -104,7 +104,7 @@ proptest! {
 
     #[test]
     fn bounds_displaced_fibres_keep_their_films(seed in any::<u64>(), columns in 1..5_usize, rows in 1..5_usize, square in any::<bool>()) {
-        let regular = if square { Arrangement::square(1.0, columns, rows) } else { Arrangement::hexagonal(1.0, columns, rows) };
+        let regular = if square { Arrangement::square(1.0, columns, rows) } else { Arrangement::hexagonal(1.0, columns, rows) }.unwrap();
         let displaced = displace(&regular, 0.45, 0.2, 0.01, seed).unwrap();
         let inclusions = displaced.centres.iter().map(|c| Inclusion { outlines: vec![Outline::circle(*c, 0.455)], phases: vec![Some(0)] });
         // films of at least 0.01 at radius 0.45: of 0 and more at 0.455
@@ -140,4 +140,22 @@ fn bounds_refusals_name_what_is_wrong() {
     assert!(matches!(flat, Err(LayoutError::Lattice(_))));
     let layout = Layout::new(square, vec![fibre(0.0, 0.2)], 0).unwrap();
     assert!(periodic_mesh(&layout, 0.1, &[-1.0, 1.0]).is_err() && periodic_mesh(&layout, 1.0, &[-1.0, 0.0]).is_err());
+}
+
+#[test]
+fn bounds_arrangements_and_displacements_of_nothing_are_refused() {
+    let regular = Arrangement::hexagonal(1.0, 2, 2).unwrap();
+    let refused = [
+        (Arrangement::hexagonal(1.0, 0, 0), "columns = 0, but it must be at least 1"),
+        (Arrangement::square(1.0, 1, 0), "rows = 0, but it must be at least 1"),
+        (Arrangement::square(f64::NAN, 1, 1), "pitch = NaN, but it must be finite and greater than 0 m"),
+        (displace(&regular, 0.4, f64::NAN, 0.01, 1), "most = NaN, but it must be finite and 0 m or more"),
+        (displace(&regular, 0.4, -0.1, 0.01, 1), "most = -0.1, but it must be finite and 0 m or more"),
+        (displace(&regular, f64::NAN, 0.1, 0.01, 1), "radius = NaN, but it must be finite and greater than 0 m"),
+        (displace(&regular, 0.4, 0.1, f64::NAN, 1), "film = NaN, but it must be finite"),
+    ];
+    for (result, said) in refused {
+        assert_eq!(result.map_err(|error| error.to_string()), Err(said.into()));
+    }
+    assert_eq!(displace(&regular, 0.4, 0.0, 0.01, 1), Ok(regular));
 }

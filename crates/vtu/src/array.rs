@@ -28,9 +28,15 @@ impl Array {
         Self { name: name.into(), components: Vec::new(), values: Values::Real(values) }
     }
 
-    /// As many real numbers a place as there are names of components.
+    /// As many real numbers a place as there are names of components: a vector has three, a symmetric tensor six, in the order xx, yy, zz,
+    /// xy, yz, xz of ParaView. Of two components it makes three, the third of them 0: viewers take no shorter vector.
     pub fn components(name: impl Into<String>, components: &[&'static str], values: Vec<f64>) -> Self {
-        Self { name: name.into(), components: components.to_vec(), values: Values::Real(values) }
+        let (mut components, mut values) = (components.to_vec(), values);
+        if components.len() == 2 && values.len().is_multiple_of(2) {
+            values = values.chunks(2).flat_map(|pair| [pair[0], pair[1], 0.0]).collect();
+            components.push("0");
+        }
+        Self { name: name.into(), components, values: Values::Real(values) }
     }
 
     /// One whole number a place.

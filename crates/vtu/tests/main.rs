@@ -25,7 +25,9 @@ fn a_grid_holds_its_points_cells_and_values() {
         body.split_whitespace().map(|word| word.parse().unwrap()).collect::<Vec<f64>>()
     };
     assert_eq!(array("position"), [0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 1.0, 0.0]);
-    assert_eq!(array("u"), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+    // a vector of the plane has no third component, but viewers want one
+    assert_eq!(array("u"), [0.0, 1.0, 0.0, 2.0, 3.0, 0.0, 4.0, 5.0, 0.0, 6.0, 7.0, 0.0]);
+    assert!(text.contains("Name=\"u\" NumberOfComponents=\"3\""), "{text}");
     assert_eq!(
         [array("part"), array("connectivity"), array("offsets"), array("types")].concat(),
         [3.0, 0.0, 1.0, 2.0, 3.0, 4.0, 9.0]

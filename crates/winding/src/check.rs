@@ -45,7 +45,8 @@ impl Spec {
         if self.layers == 0 {
             return Err(Error::NoLayers);
         }
-        if even != odd && Some(even) != odd.checked_sub(1) {
+        // one layer has no even one beside it
+        if self.layers > 1 && even != odd && Some(even) != odd.checked_sub(1) {
             return Err(Error::EvenTurns { odd, even });
         }
         let needed = match self.pattern {
@@ -97,7 +98,7 @@ mod tests {
             (Spec { layers: 0, ..SPEC }, "at least one layer"),
             (Spec { turns_even_layers: 1, ..SPEC }, "set it to 3 or to one less"),
             (Spec { turns_even_layers: 4, ..SPEC }, "set it to 3 or to one less"),
-            (Spec { turns_odd_layers: 2, turns_even_layers: 1, ..SPEC }, "layer 2 has 1 turns"),
+            (Spec { turns_odd_layers: 2, turns_even_layers: 1, ..SPEC }, "layer 2 has 1 turn,"),
             (Spec { turns_odd_layers: 0, turns_even_layers: 0, pattern: Pattern::Dipole, ..SPEC }, "layer 1 has 0 turns"),
             (Spec { layers: 400_001, ..SPEC }, "more than 1000000 turns"),
             (Spec { layers: usize::MAX, turns_odd_layers: usize::MAX, turns_even_layers: usize::MAX, ..SPEC }, "lower one"),

@@ -30,8 +30,8 @@ pub enum Error {
     },
     /// A layer has too few turns for its pattern.
     #[error(
-        "layer {layer} has {turns} turns, but this pattern needs at least {needed} a layer; \
-         raise turns_odd_layers and turns_even_layers"
+        "layer {layer} has {}, but this pattern needs at least {needed} a layer; raise turns_odd_layers and turns_even_layers",
+        turns_of(*turns as i64)
     )]
     TooFewTurns {
         /// The layer, counted from 1.
@@ -51,7 +51,8 @@ pub enum Error {
     },
     /// A defect leaves no turn, or more than twice as many as designed.
     #[error(
-        "a defect of {turns} turns in layer {layer}, where its owner lays {owned}; leave at least one turn and at most twice as many"
+        "a defect of {} in layer {layer}, where its owner lays {owned}; leave at least one turn and at most twice as many",
+        turns_of(i64::from(*turns))
     )]
     DefectTurns {
         /// The layer, counted from 1.
@@ -82,4 +83,9 @@ pub enum Error {
         /// Length of the fibre with tails \[m\].
         length: f64,
     },
+}
+
+/// A number of turns with its noun.
+fn turns_of(count: i64) -> String {
+    if count.abs() == 1 { format!("{count} turn") } else { format!("{count} turns") }
 }

@@ -11,7 +11,8 @@
 //! y_j = (j − 1/2) p   in odd layers,      y_j = j p   in even layers, whose turns rest in the grooves
 //! ```
 //!
-//! and a turn of layer i takes 2π r_i of fibre. The bias of a gyroscope weights each point of the fibre by L − 2z (Shupe 1980),
+//! and a turn of layer i takes 2π r_i of fibre: turns are rings, not helices, and the steps from ring to ring and from layer to layer take
+//! no fibre. The pitch is the outer diameter of the fibre, because turns touch. The bias of a gyroscope weights each point of the fibre by L − 2z (Shupe 1980),
 //! so a turn's share is W = ∫ (L − 2z) dz over its span, and the moments Σ W rⁱ yʲ say which temperature and strain fields a
 //! pattern lets through: the octupole cancels more of them than the quadrupole, the quadrupole more than the dipole.
 //!

@@ -91,12 +91,12 @@ pub struct Spec {
     pub layers: usize,
     /// Turns in layers 1, 3, 5, …; ≥ 1, for the practical quadrupole ≥ 2.
     pub turns_odd_layers: usize,
-    /// Turns in layers 2, 4, 6, …: as many as in the odd layers or one less; where there is such a layer, ≥ 1, for the practical
-    /// quadrupole ≥ 2.
+    /// Turns in layers 2, 4, 6, …: as many as in the odd layers or one less, ≥ 1, for the practical quadrupole ≥ 2. Of a coil of one layer,
+    /// which has no such layer, it means nothing.
     pub turns_even_layers: usize,
     /// Inner radius of the coil, the surface of its hub \[m\], > 0.
     pub inner_radius: f64,
-    /// Distance between the centres of touching turns \[m\], > 0.
+    /// Distance between the centres of touching turns, the outer diameter of the fibre \[m\], > 0.
     pub pitch: f64,
     /// The end of the coil at which the CW half climbs.
     pub cw_climbs: ClimbSide,

@@ -246,3 +246,16 @@ fn exact_second_moment_of_two_layers_is_nothing_about_their_mean() {
     assert_relative_eq!(coil.moment(1, 0), -turn * turn * step, max_relative = 1e-9);
     assert_abs_diff_eq!(coil.moment(2, 0), 0.0, epsilon = 1e-9 * (turn * step).powi(2));
 }
+
+/// One layer has no even one, whatever is said of those; counts are said with their nouns.
+#[test]
+fn bounds_only_the_layers_that_there_are_count() {
+    let one = Spec { pattern: Pattern::Cylindrical, layers: 1, turns_odd_layers: 5, turns_even_layers: 0, ..REFERENCE };
+    assert_eq!(wind(&one).unwrap().turns().len(), 5);
+    let said = |spec: &Spec| wind(spec).unwrap_err().to_string();
+    assert!(said(&Spec { layers: 2, ..one }).starts_with("turns_even_layers = 0 does not fit"));
+    let few = Spec { layers: 2, turns_odd_layers: 2, turns_even_layers: 1, ..REFERENCE };
+    assert!(said(&few).starts_with("layer 2 has 1 turn, but"), "{}", said(&few));
+    let defect = Spec { defect: Some(LayerDefect { layer: 2, turns: -1 }), turns_odd_layers: 2, turns_even_layers: 2, ..few };
+    assert!(said(&defect).starts_with("a defect of -1 turn in layer 2"), "{}", said(&defect));
+}

@@ -131,10 +131,12 @@ fn lattice(top: &Group, file: &CellFile) -> Result<Arrangement, InputError> {
         let problem = format!("{columns} columns of {rows} are {} fibres, more than {MOST_FIBRES}", columns * rows);
         return Err(top.fault("rows", problem, "take a smaller cell and more realisations"));
     }
-    Ok(match file.packing.unwrap_or(PackingFile::Hexagonal) {
+    let arrangement = match file.packing.unwrap_or(PackingFile::Hexagonal) {
         PackingFile::Hexagonal => Arrangement::hexagonal(pitch, columns, rows),
         PackingFile::Square => Arrangement::square(pitch, columns, rows),
-    })
+    };
+    arrangement
+        .map_err(|error| top.fault("pitch_um", error.to_string(), "give the distance between the axes of neighbouring fibres"))
 }
 
 fn given(top: &Group, file: &CellFile) -> Result<Arrangement, InputError> {

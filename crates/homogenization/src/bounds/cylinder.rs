@@ -54,7 +54,7 @@ pub fn cylinders(cell: &FibreCell) -> Result<Effective, Error> {
 ///
 /// In a layer `u = A r + B/r`, `σ_rr = 2k A − 2G B/r² + λ ε − β T`; `u/r` and `σ_rr` are continuous. Everything is carried as a row of
 /// coefficients of (strain of the innermost layer, ε, T).
-fn axisymmetric(phases: &[Phase]) -> (SMatrix<f64, 2, 3>, RowVector3<f64>) {
+pub(crate) fn axisymmetric(phases: &[Phase]) -> (SMatrix<f64, 2, 3>, RowVector3<f64>) {
     let unit = |i: usize| RowVector3::from_fn(|_, j| f64::from(i == j));
     let (mut strain, mut stress) = (unit(0), RowVector3::zeros()); // u/r and σ_rr
     let (mut axial, mut glass, mut glass_share) = (RowVector3::zeros(), RowVector3::zeros(), 0.0);

@@ -11,7 +11,7 @@
 //! 4 as well: the hexagonal lattice has neither, the square one has 4, and there `g_r` keeps its Reuss and Voigt bounds. For three
 //! phases the bounds are valid but no longer attained, and those of the expansions are wide where Levin's relation does not fix them.
 
-mod cylinder;
+pub(crate) mod cylinder;
 mod form;
 pub(crate) mod phases;
 

@@ -15,7 +15,7 @@
 //! # };
 //! # let glass = Ring { outer_radius: 62.5e-6, constituent: solid(72e9, 0.17, 0.55e-6, 1.38), role: Role::Glass };
 //! # let fibre_cell = FibreCell::hexagonal(140e-6, vec![glass], solid(3e9, 0.38, 60e-6, 0.2));
-//! let cell = Cell::of_fibres(&fibre_cell, &Arrangement::hexagonal(140e-6, 1, 1))?;
+//! let cell = Cell::of_fibres(&fibre_cell, &Arrangement::hexagonal(140e-6, 1, 1)?)?;
 //! let solution = cell.solve(6, 1.0)?;
 //! // held in all directions and heated by 10 K: the epoxy squeezes the glass
 //! let fields = Fields::new(&solution, Load { temperature: 10.0, ..Load::default() });

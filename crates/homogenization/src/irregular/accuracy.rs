@@ -67,9 +67,10 @@ impl Cell {
     /// two solutions agree; where two orders do not bring the error to a tenth, the mesh is refined, twice at most.
     ///
     /// # Errors
-    /// [`Error::Accuracy`] with the best estimate reached if neither helps, or a million unknowns do not suffice; else [`Error`] names
-    /// the constituent at fault, or the mesh or solve that failed.
+    /// [`Error::Accuracy`] with the best estimate reached if neither helps, or a million unknowns do not suffice; [`Error::Tolerance`] for a
+    /// `relative_error` that is not above 0; else [`Error`] names the constituent at fault, or the mesh or solve that failed.
     pub fn homogenize_to(&self, relative_error: f64) -> Result<HomogenizedCell, Error> {
+        Error::unless_positive(relative_error)?;
         let mut level = Level { order: FIRST_ORDER, fineness: 1.0 };
         let mut last = constants(&self.solve(level.order, level.fineness)?)?;
         let rounding = self.rounding(level, &last);
@@ -98,12 +99,12 @@ impl Cell {
             let unknowns = (solution.response.unknowns as f64 * next.growth(level)) as usize;
             stalls = if left.is_some_and(|left| left > STALLED) { stalls + 1 } else { 0 };
             let why = if 2.0 * rounded > reached {
-                "rounding stands in the way (a nearly incompressible phase, a great contrast): raise the tolerance above that"
+                "rounding stands in the way (a nearly incompressible phase, a great contrast): choose a tolerance above this value"
                     .into()
             } else if stalls == PATIENCE || next.fineness > FINEST {
-                "neither a higher order nor a finer mesh brings it down: raise the tolerance above that".into()
+                "neither a higher order nor a finer mesh brings it down: choose a tolerance above this value".into()
             } else if unknowns > MOST_UNKNOWNS {
-                let remedy = "raise the tolerance above that, or take fewer fibres";
+                let remedy = "choose a tolerance above this value, or take fewer fibres";
                 format!("the next step would take {unknowns} unknowns, more than {MOST_UNKNOWNS}: {remedy}")
             } else {
                 refined = next.fineness > level.fineness;

@@ -5,7 +5,7 @@ use super::solve::Solution;
 use crate::random::Random;
 use crate::{Error, FibreCell, Role};
 use fem_core::polynomial;
-use rve_mesh::{Arrangement, Inclusion, Layout, Outline, periodic_mesh};
+use rve_mesh::{Arrangement, Inclusion, Layout, LayoutError, Outline, periodic_mesh};
 
 /// A periodic cell with its constituents.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +41,7 @@ impl Cell {
     /// Mean density \[kg/m³\], if that of every phase is known; voids weigh nothing.
     ///
     /// # Errors
-    /// [`Error::Property`] of a density that is not positive.
+    /// [`Error::Property`] of a density that is not positive; [`Error::NoPhase`].
     pub fn density(&self) -> Result<Option<f64>, Error> {
         self.mean("density", "kg/m³", |solid| solid.density)
     }
@@ -58,6 +58,7 @@ impl Cell {
     }
 
     fn mean(&self, what: &'static str, unit: &'static str, of: impl Fn(&Solid) -> Option<f64>) -> Result<Option<f64>, Error> {
+        self.check_phases()?;
         let mut sum = Some(0.0);
         for (phase, area) in self.phases.iter().zip(self.layout.phase_areas()).filter(|(_, area)| *area > 0.0) {
             let value = of(&phase.solid);
@@ -76,11 +77,30 @@ impl Cell {
         Self { phases: self.phases.iter().map(phase).collect(), ..self.clone() }
     }
 
-    /// Solves the cell problems on elements of polynomial `order`; `fineness` 1 is the standard mesh.
+    /// Every phase that the layout names must be there.
+    fn check_phases(&self) -> Result<(), Error> {
+        let of_inclusions = self.layout.inclusions().iter().enumerate();
+        let named =
+            of_inclusions.flat_map(|(i, inclusion)| inclusion.phases.iter().flatten().map(move |phase| (Some(i), *phase)));
+        let phases = self.phases.len();
+        match named.chain([(None, self.layout.matrix())]).find(|(_, phase)| *phase >= phases) {
+            Some((inclusion, phase)) => {
+                let place = inclusion.map_or_else(|| "the matrix".into(), |i| format!("inclusion {i}"));
+                Err(Error::NoPhase { place, phase, phases })
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Solves the cell problems on elements of polynomial `order`, at least 1; `fineness` 1 is the standard mesh.
     ///
     /// # Errors
-    /// [`Error`] names the constituent at fault, or the mesh or solve that failed.
+    /// [`Error`] names the constituent or the inclusion at fault, or the mesh or solve that failed.
     pub fn solve(&self, order: usize, fineness: f64) -> Result<Solution, Error> {
+        if order == 0 {
+            return Err(LayoutError::Resolution("order = 0, but it must be at least 1; 4 and more are accurate".into()).into());
+        }
+        self.check_phases()?;
         self.phases.iter().try_for_each(|phase| phase.solid.check(&phase.name))?;
         if !self.phases.iter().any(|phase| phase.role == Role::Glass) {
             return Err(Error::NoGlass);

@@ -51,7 +51,8 @@ impl Solution {
         {
             area_error = area_error.max((area / exact - 1.0).abs());
             if (area / exact - 1.0).abs() > AREA_TOLERANCE {
-                return Err(Error::Area { phase, area, exact });
+                let name = phases.get(phase).map_or_else(|| format!("phase {phase}"), |phase| phase.name.clone());
+                return Err(Error::Area { phase, name, area, exact });
             }
         }
         let [[ax, ay], [bx, by]] = periodic.lattice;

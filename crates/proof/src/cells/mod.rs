@@ -127,7 +127,7 @@ fn general(cell: &FibreCell, exact: &Constants) -> Result<(String, bool), Failur
         Packing::Hexagonal => Arrangement::hexagonal(cell.pitch, 1, 1),
         Packing::Square => Arrangement::square(cell.pitch, 1, 1),
     };
-    let general = Cell::of_fibres(cell, &arrangement)?;
+    let general = Cell::of_fibres(cell, &arrangement.map_err(homogenization::Error::from)?)?;
     let found = match general.homogenize_to(TOLERANCE) {
         Err(homogenization::Error::Accuracy { reached, .. }) => return Ok((format!("{reached:.1e}, refused | - | -"), true)),
         found => found?,

@@ -27,7 +27,7 @@ pub enum Repair {
     Masked,
 }
 
-/// The result.
+/// The kind of a finding, with its numbers.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum FindingKind {
@@ -72,7 +72,7 @@ pub enum FindingKind {
     Unit {
         /// The size that was judged, e.g. "values".
         what: &'static str,
-        /// The result \[u\].
+        /// The size that was found \[u\].
         found: f64,
         /// The plausible range \[u\].
         range: [f64; 2],
@@ -143,7 +143,7 @@ pub enum FindingKind {
 /// Something found in a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// What.
+    /// The kind of finding.
     pub kind: FindingKind,
     /// The channel; `None` if it is about the instants.
     pub channel: Option<String>,
@@ -224,7 +224,7 @@ impl Finding {
                 if candidates.is_empty() { Ok(()) } else { write!(f, "; is it in {}?", candidates.join(" or ")) }
             }
             FindingKind::TooFast { rate, limit, candidates, .. } => {
-                write!(f, "changes by {} {unit}/s, which no chamber does (at most {} {unit}/s)", Short(*rate), Short(*limit))?;
+                write!(f, "changes by {} {unit}/s, faster than it can (at most {} {unit}/s)", Short(*rate), Short(*limit))?;
                 ask(f, candidates)
             }
             FindingKind::Span { found, range: [least, most], candidates, .. } => {

@@ -33,7 +33,7 @@ pub struct Expectations {
     pub clock: Clock,
 }
 
-/// The result.
+/// The findings of a check, and the rows and values that are fit for use.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
     /// Everything found, the worst first.

@@ -23,7 +23,7 @@ pub struct NoiseModel {
     pub walk: f64,
     /// Quantisation Q: standard deviation of the rounding of the integrated sample \[u s\]; needs a span.
     pub quantisation: f64,
-    /// Noise of what drives, passed through what responds: a second drift, standard deviation \[u\].
+    /// Noise of the driving temperature as it reaches the output: a second drift, standard deviation \[u\].
     pub passed: f64,
     /// Its correlation time \[s\]; positive, without meaning if there is none.
     pub passed_time: f64,

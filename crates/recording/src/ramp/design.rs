@@ -78,7 +78,7 @@ impl Design {
         Ok(self.common().map(|number| (number, 1.0)).chain(self.difference().map(|number| (number, half))).collect())
     }
 
-    /// Heating less cooling.
+    /// Heating minus cooling.
     pub(super) fn asymmetry(&self) -> Result<Weights, Absent> {
         let other = match self.only {
             None => return Ok(self.difference().map(|number| (number, 1.0)).collect()),

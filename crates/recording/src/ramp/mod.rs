@@ -40,7 +40,7 @@ pub struct Response {
     pub heating: Result<Estimate, Absent>,
     /// The same while it falls.
     pub cooling: Result<Estimate, Absent>,
-    /// Heating less cooling.
+    /// Heating minus cooling.
     pub asymmetry: Result<Estimate, Absent>,
     /// Value at rest at one temperature, reached from below, less that reached from above \[u\].
     pub hysteresis: Result<Estimate, Absent>,
@@ -54,7 +54,7 @@ pub struct Response {
     pub noise: NoiseEstimate,
 }
 
-/// A course that is known better than this share of its range is not known so.
+/// No course is taken to be known better than this share of its range.
 const LEAST_NOISE: f64 = 1e-6;
 
 /// Response of a channel to a temperature.

@@ -14,27 +14,41 @@ pub struct Arrangement {
 }
 
 impl Arrangement {
-    /// `columns` × `rows` fibres at `pitch` \[m\], each row by half a pitch beyond the one below it.
-    pub fn hexagonal(pitch: f64, columns: usize, rows: usize) -> Self {
+    /// `columns` × `rows` fibres, at least one of each, at `pitch` \[m\], > 0, each row by half a pitch beyond the one below it.
+    ///
+    /// # Errors
+    /// [`LayoutError::Range`] names the number that is 0, or the pitch that is no length.
+    pub fn hexagonal(pitch: f64, columns: usize, rows: usize) -> Result<Self, LayoutError> {
         Self::rows(pitch, columns, rows, [pitch / 2.0, pitch * 0.75_f64.sqrt()])
     }
 
-    /// `columns` × `rows` fibres at `pitch` \[m\], row above row.
-    pub fn square(pitch: f64, columns: usize, rows: usize) -> Self {
+    /// `columns` × `rows` fibres, at least one of each, at `pitch` \[m\], > 0, row above row.
+    ///
+    /// # Errors
+    /// As [`Self::hexagonal`].
+    pub fn square(pitch: f64, columns: usize, rows: usize) -> Result<Self, LayoutError> {
         Self::rows(pitch, columns, rows, [0.0, pitch])
     }
 
-    fn rows(pitch: f64, columns: usize, rows: usize, step: [f64; 2]) -> Self {
+    fn rows(pitch: f64, columns: usize, rows: usize, step: [f64; 2]) -> Result<Self, LayoutError> {
+        check("pitch", pitch, pitch > 0.0, "finite and greater than 0 m")?;
+        for (field, count) in [("columns", columns), ("rows", rows)] {
+            check(field, count as f64, count > 0, "at least 1")?;
+        }
         let centre = |k: usize| {
             let (row, column) = ((k / columns) as f64, (k % columns) as f64);
             [column * pitch + row * step[0], row * step[1]]
         };
         let rows_up = rows as f64;
-        Self {
+        Ok(Self {
             lattice: reduced([[columns as f64 * pitch, 0.0], [rows_up * step[0], rows_up * step[1]]]),
             centres: (0..columns * rows).map(centre).collect(),
-        }
+        })
     }
+}
+
+fn check(field: &'static str, value: f64, holds: bool, range: &'static str) -> Result<(), LayoutError> {
+    if holds && value.is_finite() { Ok(()) } else { Err(LayoutError::Range { field, value, range }) }
 }
 
 /// A small generator of equidistributed numbers (Steele, Lea and Flood, 2014).
@@ -63,8 +77,11 @@ const SWEEPS: usize = 60;
 /// after `SWEEPS` of them the arrangement is a sample of hard discs tied to their places. The same seed gives the same places.
 ///
 /// # Errors
-/// [`LayoutError::Overlap`] if the arrangement itself leaves thinner films.
+/// [`LayoutError::Overlap`] if the arrangement itself leaves thinner films; [`LayoutError::Range`] names the length that is none.
 pub fn displace(regular: &Arrangement, radius: f64, most: f64, film: f64, seed: u64) -> Result<Arrangement, LayoutError> {
+    check("radius", radius, radius > 0.0, "finite and greater than 0 m")?;
+    check("most", most, most >= 0.0, "finite and 0 m or more")?;
+    check("film", film, true, "finite")?;
     let mut arrangement = regular.clone();
     let mut random = SplitMix64::new(seed);
     for i in 0..regular.centres.len() {

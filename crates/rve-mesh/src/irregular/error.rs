@@ -7,6 +7,16 @@ pub enum LayoutError {
     /// The lattice vectors do not span a cell.
     #[error("the lattice vectors {0:?} m do not span a cell; give two finite vectors, the second to the left of the first")]
     Lattice([[f64; 2]; 2]),
+    /// A number is outside its range.
+    #[error("{field} = {value}, but it must be {range}")]
+    Range {
+        /// Name of the argument.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// The valid range, in words.
+        range: &'static str,
+    },
     /// The cell has no inclusion.
     #[error("the cell holds no fibre")]
     Empty,

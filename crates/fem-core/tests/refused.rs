@@ -1,0 +1,149 @@
+//! Input that does not fit is refused by an error that names the remedy.
+
+use crate::common::isotropic;
+use fem_core::{Constraints, DofMap, Edge, Error, Form, Mesh, Problem};
+use nalgebra::DMatrix;
+
+const AXI: Form = Form::AXISYMMETRIC_ELASTICITY;
+
+/// A cylinder of radius 1 and height 1, solid (bore 0) or hollow.
+fn cylinder(bore: f64) -> Mesh {
+    Mesh::rectangles(3, &[bore, 0.6, 1.0], &[0.0, 1.0], |i, _| Some(i)).expect("a mesh")
+}
+
+fn whole(unknowns: usize) -> DofMap {
+    Constraints::new(unknowns).eliminate(&vec![true; unknowns])
+}
+
+/// u of a cylinder of glass and steel, heated by 1 K and held at one node along its axis.
+fn heated(mesh: &Mesh, constraints: &mut Constraints) -> Result<Vec<f64>, Error> {
+    let (mut laws, mut stresses) = (Vec::new(), Vec::new());
+    for law in [isotropic(70e9, 0.17, 0.5e-6), isotropic(200e9, 0.3, 12e-6)] {
+        let (stiffness, stress) = law.axisymmetric();
+        laws.push(Some(stiffness));
+        stresses.push(Some(stress));
+    }
+    let problem = Problem::new(mesh, AXI, mesh.order() + 1);
+    constraints.hold(1)?;
+    let map = constraints.eliminate(&problem.used(|_| true));
+    let load = map.restrict(&problem.loads(&stresses)?[0]);
+    let u = problem.factor(&map, &laws)?.solve(&[load.clone()])?;
+    assert_eq!(problem.condense(&map, &laws).map(|c| c.unknowns()), Ok(map.reduced()));
+    Ok(map.expand(&u[0]))
+}
+
+#[test]
+fn bounds_an_axis_that_nothing_holds_is_refused() {
+    let mesh = cylinder(0.0);
+    let axis: Vec<usize> = (0..mesh.nodes().len()).filter(|&node| mesh.nodes()[node][0] == 0.0).collect();
+    let free = heated(&mesh, &mut Constraints::new(2 * mesh.nodes().len())).expect_err("the axis is free");
+    assert_eq!(free, Error::Axis { node: axis[0] });
+    assert!(free.to_string().ends_with("hold u_r there with `Constraints::hold_axis`"), "{free}");
+
+    let mut held = Constraints::new(2 * mesh.nodes().len());
+    held.hold_axis(&mesh).expect("two unknowns for each node");
+    let u = heated(&mesh, &mut held).expect("a solution");
+    assert!(axis.iter().all(|node| u[2 * node] == 0.0));
+
+    // one node of the axis is not all of it
+    let mut partly = Constraints::new(2 * mesh.nodes().len());
+    partly.hold(2 * axis[0]).expect("an unknown");
+    assert_eq!(heated(&mesh, &mut partly), Err(Error::Axis { node: axis[1] }));
+    // a tube has no axis to hold, and a region without a law does not touch it
+    assert!(heated(&cylinder(0.2), &mut Constraints::new(2 * cylinder(0.2).nodes().len())).is_ok());
+    let problem = Problem::new(&mesh, AXI, 4);
+    let steel = Some(isotropic(200e9, 0.3, 0.0).axisymmetric().0);
+    assert!(problem.stiffness(&whole(2 * mesh.nodes().len()), &[None, steel]).is_ok());
+}
+
+#[test]
+fn bounds_a_map_of_another_form_is_refused() {
+    let mesh = Mesh::rectangles(1, &[1.0, 2.0], &[0.0, 1.0], |_, _| Some(0)).expect("a mesh");
+    let problem = Problem::new(&mesh, AXI, 2);
+    let laws = [Some(isotropic(1.0, 0.3, 0.0).axisymmetric().0)];
+    let expected = Error::Map { found: 4, needed: 8, components: 2 };
+    assert!(expected.to_string().starts_with("the map has 4 unknowns, this form on this mesh has 8; "), "{expected}");
+    let one = [Some(DMatrix::identity(1, 1))];
+    let found = [
+        problem.stiffness(&whole(4), &laws).err(),
+        problem.factor(&whole(4), &laws).err(),
+        problem.condense(&whole(4), &laws).err(),
+        problem.condense_selective(&whole(4), &laws, &problem, &laws).err(),
+        problem.mass(&whole(4), &one).err(),
+        problem.condense_shifted(&whole(4), &laws, &one, 0.0, &[]).err(),
+        Constraints::new(4).hold_axis(&mesh).err(),
+    ];
+    assert!(found.iter().all(|error| *error == Some(expected.clone())), "{found:?}");
+}
+
+#[test]
+#[should_panic(expected = "a load of 3 entries for a map of 4 unknowns")]
+fn bounds_a_short_load_is_a_mistake() {
+    whole(4).restrict(&[1.0; 3]);
+}
+
+#[test]
+#[should_panic(expected = "a solution of 5 entries for 4 reduced unknowns")]
+fn bounds_a_long_solution_is_a_mistake() {
+    whole(4).expand(&[1.0; 5]);
+}
+
+#[test]
+fn bounds_a_boundary_mass_needs_a_scalar_form_and_its_elements() {
+    let mesh = cylinder(0.5);
+    let nodes = mesh.nodes().len();
+    let said = |form: Form, unknowns: usize, element: usize| {
+        let edges = [(element, Edge::XiHigh, 1.0)];
+        let problem = Problem::new(&mesh, form, 4);
+        let map = whole(unknowns);
+        let shifted = || {
+            let laws = vec![Some(DMatrix::identity(form.strains, form.strains)); 2];
+            problem.condense_shifted(&map, &laws, &[Some(DMatrix::identity(1, 1)), Some(DMatrix::identity(1, 1))], 1.0, &edges)
+        };
+        let plain = problem.boundary_mass(&map, &edges).map(|_| ());
+        assert_eq!(plain, shifted().map(|_| ()));
+        plain.map_err(|error| error.to_string())
+    };
+    assert_eq!(said(Form::AXISYMMETRIC_DIFFUSION, nodes, 1), Ok(()));
+    let beyond = said(Form::AXISYMMETRIC_DIFFUSION, nodes, 2);
+    assert_eq!(beyond, Err("edges: element 2 is named, the mesh has 2, numbered from 0".into()));
+    let elastic = said(AXI, 2 * nodes, 1).expect_err("an elastic form");
+    assert!(elastic.ends_with("is of a scalar form, this one has 2 unknowns for each node"), "{elastic}");
+}
+
+#[test]
+fn bounds_a_region_without_an_entry_and_a_quadrature_without_points_are_refused() {
+    let mesh = cylinder(0.5);
+    let map = whole(mesh.nodes().len());
+    let laws = [Some(DMatrix::identity(2, 2))];
+    let short = Problem::new(&mesh, Form::DIFFUSION, 4).stiffness(&map, &laws).expect_err("one law for two regions");
+    assert!(short.to_string().starts_with("region 1 has no law: 1 law for 2 regions; "), "{short}");
+    let none = Problem::new(&mesh, Form::DIFFUSION, 4).loads(&[]).expect_err("no law for two regions");
+    assert!(none.to_string().starts_with("region 0 has no law: 0 laws for 2 regions; "), "{none}");
+
+    let problem = Problem::new(&mesh, Form::DIFFUSION, 0);
+    let laws = [laws[0].clone(), laws[0].clone()];
+    assert_eq!(problem.stiffness(&map, &laws).err(), Some(Error::NoPoints));
+    assert_eq!(problem.region_measures().err(), Some(Error::NoPoints));
+}
+
+#[test]
+fn bounds_breaks_that_do_not_increase_are_refused() {
+    let mesh = |order, x: &[f64]| Mesh::rectangles(order, x, &[0.0, 1.0], |_, _| Some(0));
+    assert!(mesh(1, &[0.0, 1.0]).is_ok());
+    for (order, x) in [(0, &[0.0, 1.0][..]), (1, &[0.0]), (1, &[]), (1, &[0.0, 0.0]), (1, &[1.0, 0.0]), (1, &[0.0, f64::NAN])] {
+        assert!(matches!(mesh(order, x), Err(Error::Mesh(_))), "{order} {x:?}");
+    }
+}
+
+/// Positions, materials and holes of rectangles: their nodes are shared, and the areas are those of the cells.
+#[test]
+fn exact_rectangles_between_breaks() {
+    let region = |i: usize, j: usize| if (i, j) == (1, 0) { None } else { Some(i) };
+    let mesh = Mesh::rectangles(4, &[0.1, 0.3, 0.7], &[-1.0, 0.2, 0.9], region).expect("a mesh");
+    // 9 × 9 places, less those of the hole that it does not share
+    assert_eq!((mesh.elements().len(), mesh.nodes().len()), (3, 81 - 4 * 4));
+    let areas = Problem::new(&mesh, Form::DIFFUSION, 5).region_measures().expect("areas");
+    assert!((areas[0] - 0.2 * 1.9).abs() < 1e-14 && (areas[1] - 0.4 * 0.7).abs() < 1e-14, "{areas:?}");
+    assert!(mesh.nodes().iter().any(|p| *p == [0.3, 0.2]) && mesh.nodes().iter().any(|p| *p == [0.7, 0.9]));
+}
