@@ -22,14 +22,17 @@ use crate::cli_sweep::Sweep;
 #[derive(Parser)]
 #[command(
     version,
-    after_help = "Exit status: 0 done; 2 bad usage or input; 1 the program's own failure; 130 interrupted, 143 terminated, 129 hung up."
+    after_help = "Exit status: 0 done; 2 bad usage or input; 1 the program's own failure, and of `batch` a unit that fails a limit; 130 interrupted, 143 terminated, 129 hung up."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
-    /// No notes and no progress on standard error
+    /// No notes, and no progress on standard error; results and warnings stay
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
+    /// Number of threads [default: $RAYON_NUM_THREADS, or that of the cores]
+    #[arg(long, value_name = "N", global = true)]
+    pub(crate) jobs: Option<std::num::NonZeroUsize>,
 }
 
 #[derive(Subcommand)]
@@ -99,11 +102,11 @@ pub(crate) enum Command {
     Recommend(Recommend),
     /// The meaning of an id of a mechanism or a warning; or the change of a coil that would give a measured sensitivity
     Explain(Explain),
-    /// Is a recording usable? Gaps, units, outliers, noise, Allan deviation
+    /// Are recordings usable? Gaps, units, outliers, noise, Allan deviation; of several a line each
     Check(Check),
     /// Bias sensitivity per degC/min, bias over temperature and noise of recordings, as specifications state them
     Measure(Measure),
-    /// A commented file to start from: a coil design, a cell, targets to identify, a mechanism of your own, or a profile
+    /// A commented file to start from: a coil design, a cell, targets to identify, a mechanism of your own, a profile, or limits of a batch
     New(New),
     /// Completions of the command line, for a shell to read
     Completions {

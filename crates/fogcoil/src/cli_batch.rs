@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use fogcoil::batch::{self, Batch, Inputs, Unit, kept_files, read_limits, report, table, text, units};
+use fogcoil::batch::{self, Batch, Inputs, Unit, json, kept_files, kept_in, read_limits, report, table, text, units};
 use fogcoil::cache::Cache;
 use fogcoil::input::{self, RecordOptions};
 use fogcoil::measure::Prediction;
@@ -11,8 +11,8 @@ use fogcoil::tabular::Format;
 use fogcoil::{Error, diagnose};
 
 use crate::cli_tables::Tables;
-use crate::print;
 use crate::progress::Progress;
+use crate::{line, print};
 
 #[derive(Args)]
 pub(crate) struct BatchOf {
@@ -22,12 +22,15 @@ pub(crate) struct BatchOf {
     /// A recording, or a folder with the recordings (*.csv) of one unit, of which holdout*.csv judge; or a folder of such folders
     #[arg(value_name = "RECORD.csv|FOLDER", required = true)]
     records: Vec<PathBuf>,
-    /// Limits that every unit must keep; exit status 1 if one does not
+    /// Limits that every unit must keep (`fogcoil new --kind limits`); exit status 1 if a unit fails one
     #[arg(long, value_name = "LIMITS.ron")]
     limits: Option<PathBuf>,
     /// Write table.csv, table.parquet, table.xlsx, report.html and units/ here; an interrupted run goes on from what is there
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// Print the table as one JSON object
+    #[arg(long)]
+    json: bool,
     /// A mechanism of your own beside the program's, or the id of one that is weighed on request; may be given more than once
     #[arg(long = "mechanism", value_name = "MECHANISM.ron|ID")]
     mechanisms: Vec<PathBuf>,
@@ -40,7 +43,7 @@ pub(crate) struct BatchOf {
 }
 
 pub(crate) fn run(arguments: &BatchOf, progress: &Progress) -> Result<(), Error> {
-    let BatchOf { coil, records, limits, out, mechanisms, meta, map } = arguments;
+    let BatchOf { coil, records, limits, out, json: as_json, mechanisms, meta, map } = arguments;
     let asked = input::read_mechanisms(mechanisms)?;
     let further = asked.further_columns();
     let options = RecordOptions { map: map.clone(), meta: meta.clone(), further, ..RecordOptions::default() };
@@ -58,10 +61,11 @@ pub(crate) fn run(arguments: &BatchOf, progress: &Progress) -> Result<(), Error>
         Ok::<_, Error>(Prediction::of(&case.name, &steady, &band))
     })?;
     let inputs = Inputs { case: &case, asked: &asked, options: &options, cache: &Cache::of_user(), prediction: &prediction };
+    progress.keeps(&kept_in(out), "units");
     let batch = progress.tasks(|tell| batch::run(&inputs, &units, limits.as_ref(), out, tell))?;
     tables.save(&table(&batch), || report(&inputs, limits.as_ref(), &batch), Vec::new(), progress)?;
-    print(&text(&batch))?;
-    judged(&batch)
+    print(&if *as_json { line(&json(&batch)) } else { text(&batch) })?;
+    judged(&batch, progress)
 }
 
 /// All files that may be written into an existing folder, those of units where an earlier run kept them; the path itself where it is no folder.
@@ -74,13 +78,19 @@ fn places(tables: &Tables, out: &Path, units: &[Unit]) -> Vec<PathBuf> {
 }
 
 /// Bad input comes before failing units.
-fn judged(batch: &Batch) -> Result<(), Error> {
+fn judged(batch: &Batch, progress: &Progress) -> Result<(), Error> {
     if let Some((unit, problem)) = batch.problems().next() {
         let count = batch.problems().count();
         return Err(Error::usage(format!("{count} of {} units are not diagnosed; {unit}: {problem}", batch.rows.len())));
     }
-    match batch.failing() {
+    let (failing, not_known, units) = (batch.failing(), batch.not_known(), batch.rows.len());
+    if not_known > 0 {
+        progress.note(&format!(
+            "of {not_known} of {units} units it is not known whether they keep the limits: they have not passed; see the column reason"
+        ));
+    }
+    match failing {
         0 => Ok(()),
-        failing => Err(Error::Limits { failing, units: batch.rows.len() }),
+        _ => Err(Error::Limits { failing, units }),
     }
 }

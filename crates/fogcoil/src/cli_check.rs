@@ -1,16 +1,22 @@
-//! The arguments of `check`, and the options for reading a recording.
+//! `check`: its arguments and its work; and the options for reading a recording.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::Args;
-use fogcoil::input::{Key, RecordOptions};
+use fogcoil::input::{Key, RecordOptions, recordings};
+use fogcoil::output::Content;
+use fogcoil::{Error, check, input, output};
+use serde_json::json;
+
+use crate::progress::Progress;
+use crate::{line, print};
 
 #[derive(Args)]
 pub(crate) struct Check {
-    /// Recording: time_s,chamber_c,spool_c,rate_deg_per_h, or a logger's own file with the flags below
-    #[arg(value_name = "RECORD.csv")]
-    pub(crate) record: PathBuf,
+    /// Recordings: time_s,chamber_c,spool_c,rate_deg_per_h, or a logger's own files with the flags below; of a folder its *.csv and those of its folders
+    #[arg(value_name = "RECORD.csv|FOLDER", required = true)]
+    pub(crate) records: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) format: Format,
     /// Facts about the record besides its columns [default: meta.ron beside it, if it is there]
@@ -25,6 +31,69 @@ pub(crate) struct Check {
     /// Draw the Allan deviation here
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,
+}
+
+pub(crate) fn run(arguments: &Check, progress: &Progress) -> Result<(), Error> {
+    let Check { records, format, meta, write_map, json, svg } = arguments;
+    let options = format.options(meta.clone());
+    match &recordings(records)?[..] {
+        [record] => one(record, &options, arguments, progress),
+        _ if write_map.is_some() || svg.is_some() => Err(Error::usage("--write-map and --svg are of one recording; give one")),
+        all => several(all, &options, *json, progress),
+    }
+}
+
+fn one(record: &Path, options: &RecordOptions, arguments: &Check, progress: &Progress) -> Result<(), Error> {
+    let Check { write_map, json, svg, .. } = arguments;
+    let map = write_map.as_ref().map(|path| path.clone().unwrap_or_else(|| record.with_extension("map.ron")));
+    progress.reads(&options.files(record).into_iter().chain(map.clone()).collect::<Vec<_>>(), &[svg.as_deref()])?;
+    let reading = format!("reading {}", files::shown_path(record));
+    let case = match map {
+        None => progress.during(&reading, || input::read_record(record, options))?,
+        Some(path) => {
+            let (map, case) = progress.during(&reading, || input::propose_map(record, options))?;
+            output::write_new(&path, &map)?;
+            progress.note(&format!("{} is written", files::shown_path(&path)));
+            case
+        }
+    };
+    let analysis = progress.during("identifying the noise", || check::Analysis::new(&case));
+    print(&match (json, progress.is_silent()) {
+        (true, _) => line(&check::json(&analysis)),
+        (false, true) => check::text_without_notes(&analysis),
+        (false, false) => check::text(&analysis),
+    })?;
+    case.require_usable()?;
+    match (svg, check::svg(&analysis)) {
+        (Some(path), Some(picture)) => progress.save(&[(path, Content::Text(picture))]),
+        (Some(path), None) => Err(Error::usage(format!("{}: there is no Allan deviation to draw", files::shown_path(path)))),
+        (None, _) => Ok(()),
+    }
+}
+
+/// A line for each; one that cannot be used does not keep the others from being checked.
+fn several(records: &[PathBuf], options: &RecordOptions, as_json: bool, progress: &Progress) -> Result<(), Error> {
+    let (mut lines, mut objects, mut bad) = (Vec::new(), Vec::new(), 0);
+    for record in records {
+        let checked = progress.during(&format!("checking {}", files::shown_path(record)), || {
+            let case = input::read_record(record, options)?;
+            let analysis = check::Analysis::new(&case);
+            Ok::<_, Error>((analysis.line(), check::json(&analysis), case.report.usable()))
+        });
+        let (line, object, usable) = checked.unwrap_or_else(|error| {
+            let why = error.to_string();
+            (
+                check::unreadable(record, &why),
+                json!({"file": record.display().to_string(), "usable": false, "problem": why}),
+                false,
+            )
+        });
+        bad += usize::from(!usable);
+        lines.push(line);
+        objects.push(object);
+    }
+    print(&if as_json { line(&json!({"records": objects})) } else { check::several(&lines) })?;
+    if bad == 0 { Ok(()) } else { Err(Error::usage(format!("{bad} of {} recordings cannot be used", records.len()))) }
 }
 
 /// Options for reading a logger's file.

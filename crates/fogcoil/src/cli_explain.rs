@@ -11,7 +11,7 @@ use crate::{line, print};
 
 #[derive(Args)]
 pub(crate) struct Explain {
-    /// Id of a mechanism, a warning or a note, or the file of a mechanism of your own; with --sensitivity the case file of a coil; without
+    /// Id of a mechanism, a verdict, a warning or a note, or the file of a mechanism of your own; with --sensitivity the case file of a coil; without
     /// either all ids are listed
     #[arg(value_name = "ID|COIL.ron", required_if_eq("signed", "true"))]
     subject: Option<PathBuf>,

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use fogcoil::measure::{Prediction, all, measure, text};
+use fogcoil::measure::{Prediction, all, measure, text, text_without_notes};
 use fogcoil::{Error, input};
 
 use crate::cli_check::Format;
@@ -53,6 +53,7 @@ pub(crate) fn run(arguments: &Measure, progress: &Progress) -> Result<(), Error>
     if *json {
         return print(&line(&all(&measured, prediction.as_ref())));
     }
+    let text = if progress.is_silent() { text_without_notes } else { text };
     print(&measured.iter().map(|one| text(one, prediction.as_ref())).collect::<Vec<_>>().join("\n"))
 }
 

@@ -30,6 +30,8 @@ enum Kind {
     Mechanism,
     /// A profile of the chamber's temperature, for simulate and trim
     Profile,
+    /// Limits that units must keep, for batch
+    Limits,
 }
 
 impl Kind {
@@ -40,6 +42,7 @@ impl Kind {
             Self::Targets => templates::TARGETS,
             Self::Mechanism => templates::MECHANISM,
             Self::Profile => templates::PROFILE,
+            Self::Limits => templates::LIMITS,
         }
     }
 
@@ -51,6 +54,7 @@ impl Kind {
             Self::Targets => "fogcoil identify",
             Self::Mechanism => "fogcoil explain",
             Self::Profile => "fogcoil simulate COIL.ron --step 30 --out BIAS.csv --profile",
+            Self::Limits => "fogcoil batch COIL.ron RECORDS --out DIR --limits",
         }
     }
 }

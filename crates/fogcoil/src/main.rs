@@ -25,12 +25,11 @@ use std::process::ExitCode;
 use crate::progress::Progress;
 use clap::Parser;
 use cli::{Cli, Command, Diagnose};
-use cli_check::Check;
 use fogcoil::cache::Cache;
 use fogcoil::glossary::{Note, Remark};
 use fogcoil::input::RecordOptions;
 use fogcoil::output::Content;
-use fogcoil::{Error, check, diagnose, identify, input, output, picture, sensitivity, trim, wind};
+use fogcoil::{Error, diagnose, identify, input, picture, sensitivity, trim, wind};
 
 fn main() -> ExitCode {
     let cli = Cli::try_parse().unwrap_or_else(|error| refuse(&error));
@@ -38,7 +37,8 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             // nobody is left to tell if standard error is closed
-            let _ = writeln!(std::io::stderr().lock(), "error: {}", files::shown_lines(&error.to_string()));
+            let kind = if matches!(error, Error::Limits { .. }) { "" } else { "error: " };
+            let _ = writeln!(std::io::stderr().lock(), "{kind}{}", files::shown_lines(&error.to_string()));
             ExitCode::from(error.exit_code())
         }
     }
@@ -55,13 +55,17 @@ fn refuse(error: &clap::Error) -> ! {
     std::process::exit(error.exit_code())
 }
 
-fn run(Cli { command, quiet }: &Cli) -> Result<(), Error> {
+fn run(Cli { command, quiet, jobs }: &Cli) -> Result<(), Error> {
     let progress = &Progress::new(*quiet);
+    if let Some(jobs) = jobs {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs.get());
+        pool.build_global().map_err(|error| Error::usage(format!("--jobs {jobs}: no such number of threads begins: {error}")))?;
+    }
     match command {
         Command::Homogenize(arguments) => cli_homogenize::run(arguments, progress),
         Command::Batch(arguments) => cli_batch::run(arguments, progress),
         Command::Calibrate(arguments) => cli_calibrate::run(arguments, progress),
-        Command::Check(arguments) => run_check(arguments, progress),
+        Command::Check(arguments) => cli_check::run(arguments, progress),
         Command::Compare(arguments) => cli_compare::run(arguments, progress),
         Command::Completions { shell } => cli_manual::completions(*shell),
         Command::Diagnose(arguments) => run_diagnose(arguments, progress),
@@ -150,40 +154,6 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
 /// `M.ID.ron` beside `M.ron`.
 fn beside(model: &Path, id: &str) -> PathBuf {
     model.with_extension(format!("{id}.ron"))
-}
-
-fn run_check(arguments: &Check, progress: &Progress) -> Result<(), Error> {
-    let Check { record, format, meta, write_map, json, svg } = arguments;
-    let quiet = progress.is_silent();
-    let options = format.options(meta.clone());
-    let map = write_map.as_ref().map(|path| path.clone().unwrap_or_else(|| record.with_extension("map.ron")));
-    progress.reads(&options.files(record).into_iter().chain(map.clone()).collect::<Vec<_>>(), &[svg.as_deref()])?;
-    let reading = format!("reading {}", files::shown_path(record));
-    let case = match map {
-        None => progress.during(&reading, || input::read_record(record, &options))?,
-        Some(path) => {
-            let (map, case) = progress.during(&reading, || input::propose_map(record, &options))?;
-            output::write_new(&path, &map)?;
-            progress.note(&format!("{} is written", files::shown_path(&path)));
-            case
-        }
-    };
-    if quiet && !*json && svg.is_none() {
-        print(&check::warnings(&case))?;
-        return Ok(case.require_usable()?);
-    }
-    let analysis = progress.during("identifying the noise", || check::Analysis::new(&case));
-    print(&match (json, quiet) {
-        (true, _) => line(&check::json(&analysis)),
-        (false, true) => check::warnings(&case),
-        (false, false) => check::text(&analysis),
-    })?;
-    case.require_usable()?;
-    match (svg, check::svg(&analysis)) {
-        (Some(path), Some(picture)) => progress.save(&[(path, Content::Text(picture))]),
-        (Some(path), None) => Err(Error::usage(format!("{}: there is no Allan deviation to draw", files::shown_path(path)))),
-        (None, _) => Ok(()),
-    }
 }
 
 /// The remedy for rows that last long where --step is none.

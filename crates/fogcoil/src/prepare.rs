@@ -216,10 +216,10 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     }
     if let Some(unrest) = unrest(&time, &chamber, &spool, &REST) {
         let (by, off) = match unrest {
-            Unrest::Apart(by) => (by, format!("spool and chamber differ by {by:.1} K, and less and less")),
+            Unrest::Apart(by) => (by, format!("spool and chamber differ by {by:.1} K, and the difference is shrinking")),
             Unrest::Moving(by) => (by, format!("the chamber moves by {by:.1} K in the first {} min", REST.duration / S_PER_MIN)),
         };
-        let text = format!("does not start at rest ({off}), as the model does: what this leaves is no finding");
+        let text = format!("does not start at rest ({off}): the model assumes rest; residuals from this are not findings");
         let far = by > FEWEST_KELVIN;
         let note = if far { Remark::NotAtRest.warning(text) } else { Remark::NotAtRest.note(text) };
         notes.push(note.at(file));

@@ -13,7 +13,7 @@ use ::progress::Step;
 use fogcoil::glossary::Note;
 use fogcoil::output::{self, Content};
 use fogcoil::{Error, input};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use crate::signals;
 
@@ -22,7 +22,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// Interval between two pictures of a bar that turns.
 const TICK: Duration = Duration::from_millis(120);
 /// A bar, and its form where nothing can be counted.
-const COUNTED: &str = "{spinner} {msg} [{bar:32}] {percent} % {elapsed}, {eta} left";
+const COUNTED: &str = "{spinner} {msg} [{bar:32}] {pos} of {len}, {elapsed}{left}";
 const UNCOUNTED: &str = "{spinner} {msg} {elapsed}";
 /// Longest that an interrupt waits for files which are being written; then it waits as long for them to be given up.
 const LEAVE: Duration = Duration::from_secs(5);
@@ -50,6 +50,57 @@ pub(crate) struct Progress {
     stop: Arc<AtomicBool>,
     /// The files that the run reads: no result may replace one.
     inputs: Mutex<Vec<PathBuf>>,
+    /// Results that the work keeps as it goes on, if it does.
+    kept: Arc<Mutex<Option<Kept>>>,
+    /// The expected end of the task that is counted.
+    expected: Arc<Mutex<Expected>>,
+}
+
+/// Results that are kept as work goes on, so that an interrupted run is not lost.
+struct Kept {
+    folder: String,
+    /// Their name in the plural.
+    name: &'static str,
+    /// Number that is kept, and of all, once it is known.
+    count: Option<(usize, usize)>,
+}
+
+impl Kept {
+    /// Words for the user who has interrupted; `None` as long as nothing is known to be kept.
+    fn said(&self) -> Option<String> {
+        let Self { folder, name, count } = self;
+        count.map(|(done, all)| format!("{done} of {all} {name} are kept in {folder}; the same command goes on from there"))
+    }
+}
+
+/// The expected end of a task: it is reckoned anew whenever a part is done, and the time left runs down in between.
+#[derive(Default)]
+struct Expected {
+    task: String,
+    /// Begin of the counting, and the number that was done then.
+    begun: Option<(Instant, usize)>,
+    done: usize,
+    end: Option<Instant>,
+}
+
+impl Expected {
+    fn told(&mut self, task: &str, (done, all): (usize, usize), now: Instant) {
+        let Some((since, first)) = self.begun.filter(|(_, first)| self.task == task && *first <= done) else {
+            *self = Self { task: task.to_owned(), begun: Some((now, done)), done, end: None };
+            return;
+        };
+        if done > self.done {
+            let each = now.duration_since(since).div_f64((done - first) as f64);
+            self.done = done;
+            self.end = Some(now + each.mul_f64(all.saturating_sub(done) as f64));
+        }
+    }
+
+    /// The time left, in words after those of a bar; empty where it is not known.
+    fn left(&self, now: Instant) -> String {
+        let left = self.end.map(|end| end.saturating_duration_since(now)).filter(|left| !left.is_zero());
+        left.map_or(String::new(), |left| format!(", {:#} left", HumanDuration(Duration::from_secs(1 + left.as_secs()))))
+    }
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -72,10 +123,18 @@ impl Progress {
             written: Arc::default(),
             stop: Arc::default(),
             inputs: Mutex::default(),
+            kept: Arc::default(),
+            expected: Arc::default(),
         };
+        let kept = Arc::clone(&progress.kept);
         let (bar, written, stop) = (Arc::clone(&progress.bar), Arc::clone(&progress.written), Arc::clone(&progress.stop));
-        signals::on_end(move |signal| leave(signal, &bar, &written, &stop));
+        signals::on_end(move |signal| leave(signal, &bar, (&written, &kept), &stop));
         progress
+    }
+
+    /// Says from now on, if the user interrupts, how many of the results that the next counted task makes are kept in a folder.
+    pub(crate) fn keeps(&self, folder: &Path, name: &'static str) {
+        *lock(&self.kept) = Some(Kept { folder: files::shown_path(folder), name, count: None });
     }
 
     pub(crate) fn is_silent(&self) -> bool {
@@ -103,12 +162,23 @@ impl Progress {
     }
 
     fn task(&self, Step { task, done }: Step) {
+        if let (Some(kept), Some(count)) = (lock(&self.kept).as_mut(), done) {
+            kept.count = Some(count);
+        }
+        if let Some(count) = done {
+            lock(&self.expected).told(task, count, Instant::now());
+        }
         if let Some(bar) = lock(&self.bar).as_ref() {
             if let Some((done, all)) = done {
                 bar.set_length(all as u64);
                 bar.set_position(done as u64);
             }
-            bar.set_style(style(if done.is_some() { COUNTED } else { UNCOUNTED }));
+            let expected = Arc::clone(&self.expected);
+            let left = move |_: &ProgressState, out: &mut dyn std::fmt::Write| {
+                // a bar that cannot be drawn is no failure
+                let _ = out.write_str(&lock(&expected).left(Instant::now()));
+            };
+            bar.set_style(style(if done.is_some() { COUNTED } else { UNCOUNTED }).with_key("left", left));
             bar.set_message(task.to_owned());
             return;
         }
@@ -210,7 +280,12 @@ impl Progress {
 
 /// Ends the program that was interrupted, as soon as no file is being written, and says what is written. Files that take long are
 /// given up.
-fn leave(signal: i32, bar: &Mutex<Option<ProgressBar>>, written: &Mutex<Vec<String>>, stop: &AtomicBool) -> ! {
+fn leave(
+    signal: i32,
+    bar: &Mutex<Option<ProgressBar>>,
+    (written, kept): (&Mutex<Vec<String>>, &Mutex<Option<Kept>>),
+    stop: &AtomicBool,
+) -> ! {
     let asked = Instant::now();
     let mut files = written.try_lock();
     while matches!(files, Err(TryLockError::WouldBlock)) && asked.elapsed() < 2 * LEAVE {
@@ -218,7 +293,12 @@ fn leave(signal: i32, bar: &Mutex<Option<ProgressBar>>, written: &Mutex<Vec<Stri
         thread::sleep(Duration::from_millis(10));
         files = written.try_lock();
     }
-    let state = files.as_ref().map_or("each file that was being written is whole or absent".into(), |files| are_written(files));
+    let told = lock(kept).as_ref().and_then(Kept::said);
+    let state = match (files.as_ref(), told) {
+        (Ok(files), Some(told)) if files.is_empty() => told,
+        (Ok(files), _) => are_written(files),
+        (Err(_), _) => "each file that was being written is whole or absent".into(),
+    };
     if let Some(bar) = lock(bar).take() {
         bar.finish_and_clear();
     }
@@ -274,6 +354,35 @@ mod tests {
         assert!(progress.save(&[(new.as_path(), text()), (new.as_path(), text())]).is_err());
         assert_eq!((std::fs::read_to_string(&read).unwrap().as_str(), new.exists()), ("read", false));
         progress.save(&[(new.as_path(), text())]).unwrap();
+    }
+
+    #[test]
+    fn units_that_are_kept_are_told() {
+        let progress = Progress::new(true);
+        let said = || lock(&progress.kept).as_ref().and_then(Kept::said);
+        progress.keeps("lot/units".as_ref(), "units");
+        progress.task(Step::begins("reading the records"));
+        assert_eq!(said(), None);
+        progress.task(Step::counted("diagnosing units", 7, 30));
+        assert_eq!(said().unwrap(), "7 of 30 units are kept in lot/units; the same command goes on from there");
+    }
+
+    #[test]
+    fn the_time_left_runs_down() {
+        let (mut expected, begin) = (Expected::default(), Instant::now());
+        let at = |seconds: u64| begin + Duration::from_secs(seconds);
+        expected.told("units", (3, 10), at(0));
+        assert_eq!(expected.left(at(50)), "");
+        expected.told("units", (4, 10), at(100));
+        // six more at 100 s each, whatever goes by without one that is done
+        let left = [100, 300, 500].map(|now| {
+            expected.told("units", (4, 10), at(now));
+            expected.left(at(now))
+        });
+        assert_eq!(left, [", 10m left", ", 7m left", ", 3m left"]);
+        assert_eq!(expected.left(at(1000)), "");
+        expected.told("another", (0, 2), at(1000));
+        assert_eq!(expected.left(at(1000)), "");
     }
 
     #[test]

@@ -10,7 +10,9 @@ pub const TARGETS: &str = include_str!("../templates/targets.ron");
 pub const MECHANISM: &str = include_str!("../templates/mechanism.ron");
 /// A profile of the chamber's temperature.
 pub const PROFILE: &str = include_str!("../templates/profile.csv");
+/// Limits that units must keep.
+pub const LIMITS: &str = include_str!("../templates/limits.ron");
 
 /// Every template by the name of its kind.
-pub const ALL: [(&str, &str); 5] =
-    [("coil", COIL), ("cell", CELL), ("targets", TARGETS), ("mechanism", MECHANISM), ("profile", PROFILE)];
+pub const ALL: [(&str, &str); 6] =
+    [("coil", COIL), ("cell", CELL), ("targets", TARGETS), ("mechanism", MECHANISM), ("profile", PROFILE), ("limits", LIMITS)];

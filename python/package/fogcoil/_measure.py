@@ -34,7 +34,7 @@ class Measurement(TypedDict):
     bias_span: Figure | None
     """Largest less least bias at rest over the record's range of temperatures [deg/h]."""
     peak: Figure | None
-    """Bias by temperature where it is largest, beside the first row [deg/h]."""
+    """Bias by temperature where it is largest, relative to the first row [deg/h]."""
     peak_time_s: float | None
     arw: Figure | None
     """Angle random walk [deg/sqrt(h)]."""
@@ -45,6 +45,10 @@ class Measurement(TypedDict):
     """Of the design that was given: ``value``, ``ci90`` and ``sigmas``, measured less predicted in standard deviations of both together."""
     notes: list[str]
     """What a user should know besides."""
+    not_known: dict[str, str]
+    """The reason for each figure that is not known."""
+    without_interval: dict[str, float]
+    """Figures whose interval alone is not known; they are None above."""
 
 
 def measure(record: Record, coil: AnyCoil | None = None, *, meta: str | os.PathLike[str] | None = None) -> Measurement:

@@ -17,6 +17,8 @@ pub struct Meta {
     pub design: String,
     /// Serial number of the unit, as it is written: 1847, or "A-0042".
     pub serial: Option<Serial>,
+    /// Lot of the unit, as it is written: 7, or "L-07"; of a batch the folder in which the unit's own lies if it is left out.
+    pub lot: Option<Serial>,
     /// Date of the recording, e.g. "2026-03-02".
     pub date: String,
     /// Nominal interval between rows \[s\]; 0 if it is not given.
@@ -37,7 +39,7 @@ pub struct Meta {
     pub rate_deg_per_h: Rate,
 }
 
-/// A serial number: a number or a text, whose digits stay as they are written.
+/// A serial number, of a unit or a lot: a number or a text, whose digits stay as they are written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Serial(pub String);
 

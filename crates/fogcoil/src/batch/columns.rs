@@ -26,6 +26,7 @@ pub fn table(batch: &Batch) -> Table {
             columns.push(Column::numbers(format!("{name}_{end}"), cells));
         }
     }
+    columns.extend([text("first_mechanism", &|row| row.first.clone()), text("lot", &|row| row.lot.clone())]);
     columns.extend(parameters(batch));
     columns.extend([
         text("files", &|row| joined(&row.files)),

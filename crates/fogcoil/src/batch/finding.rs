@@ -30,6 +30,8 @@ pub struct Inputs<'a> {
 /// A unit whose records have been read.
 pub(super) struct Read {
     pub(super) name: String,
+    /// Its lot where no meta file tells one.
+    pub(super) lot: Option<String>,
     fits: Vec<RecordCase>,
     holdouts: Vec<RecordCase>,
     /// SHA-256 of all inputs of its finding.
@@ -64,7 +66,7 @@ impl Inputs<'_> {
             }
         }
         let key = hexadecimal(&hash.finalize());
-        Ok(Read { name: unit.name.clone(), fits, holdouts, key })
+        Ok(Read { name: unit.name.clone(), lot: unit.lot.clone(), fits, holdouts, key })
     }
 
     /// The finding of its records, and the page of its diagnosis, if there is one.
@@ -73,7 +75,10 @@ impl Inputs<'_> {
         let measured = self.measured(unit);
         let diagnosis = diagnose(self.case, &self.asked.with_catalogue(), &unit.fits, &unit.holdouts, self.cache, progress);
         let (told, left, page, problem) = match &diagnosis {
-            Ok(outcome) => (outcome.json(), json!(outcome.left_of_rate()), Some(outcome.report()), None),
+            Ok(outcome) => {
+                let page = titled(&outcome.report(), &unit.name, &self.case.name);
+                (outcome.json(), json!(outcome.left_of_rate()), Some(page), None)
+            }
             Err(error) => (Value::Null, Value::Null, None, Some(error.to_string())),
         };
         let meta = |of: &dyn Fn(&crate::input::Meta) -> Option<Value>| records().find_map(|r| of(r.meta.as_ref()?));
@@ -82,6 +87,7 @@ impl Inputs<'_> {
             "program": format!("fogcoil {}", env!("CARGO_PKG_VERSION")),
             "unit": unit.name,
             "serial": meta(&|meta| Some(meta.serial.as_ref()?.0.clone().into())),
+            "lot": meta(&|meta| Some(meta.lot.as_ref()?.0.clone().into())),
             "date": meta(&|meta| Some(meta.date.clone()).filter(|date| !date.is_empty()).map(Value::from)),
             "files": records().map(|r| r.fingerprint.file.display().to_string()).collect::<Vec<_>>(),
             "sha256": records().map(|r| r.fingerprint.sha256.clone()).collect::<Vec<_>>(),
@@ -99,5 +105,26 @@ impl Inputs<'_> {
         let width = |m: &measure::Measurement| m.sensitivity.as_ref().map_or(f64::INFINITY, |f| f.ci90[1] - f.ci90[0]);
         let best = all.iter().min_by(|a, b| width(a).total_cmp(&width(b)));
         best.map_or(Value::Null, |best| measure::json(best, Some(self.prediction)))
+    }
+}
+
+/// The page of a unit, which is that of a diagnosis of the design, under the unit's name.
+fn titled(page: &str, unit: &str, design: &str) -> String {
+    let [unit, design] = [unit, design].map(|name| maud::html! { (name) }.into_string());
+    ["<title>", "<h1>"]
+        .iter()
+        .fold(page.to_owned(), |page, mark| page.replacen(&format!("{mark}{design}: "), &format!("{mark}{unit} ({design}): "), 1))
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_units_page_begins_with_its_name() {
+        let page = "<title>a &amp; b: unknown</title><h1>a &amp; b: unknown</h1><p>a &amp; b: unknown</p>";
+        let titled = super::titled(page, "L1-09", "a & b");
+        assert_eq!(
+            titled,
+            "<title>L1-09 (a &amp; b): unknown</title><h1>L1-09 (a &amp; b): unknown</h1><p>a &amp; b: unknown</p>"
+        );
     }
 }

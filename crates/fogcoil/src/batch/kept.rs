@@ -22,9 +22,14 @@ pub(super) fn page(unit: &str) -> String {
     format!("{UNITS}/{unit}.html")
 }
 
+/// The folder of the units' findings in the folder of a batch.
+pub fn kept_in(batch: &Path) -> PathBuf {
+    batch.join(UNITS)
+}
+
 /// Files that the findings of some units are kept in, in the folder of a batch.
 pub fn kept_files(batch: &Path, units: &[Unit]) -> Vec<PathBuf> {
-    let file = |unit: &Unit, end: &str| batch.join(UNITS).join(format!("{}.{end}", unit.name));
+    let file = |unit: &Unit, end: &str| kept_in(batch).join(format!("{}.{end}", unit.name));
     units.iter().flat_map(|unit| ["json", "html"].map(|end| file(unit, end))).collect()
 }
 
@@ -34,7 +39,7 @@ impl Kept {
     /// # Errors
     /// [`files::Error::Output`] where it cannot be made.
     pub(super) fn within(batch: &Path) -> Result<Self, Error> {
-        let folder = batch.join(UNITS);
+        let folder = kept_in(batch);
         let failed = |source| Error::File(FileError::Output { file: folder.clone(), source });
         fs::create_dir_all(&folder).map_err(failed)?;
         Ok(Self { folder })

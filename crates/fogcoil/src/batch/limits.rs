@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::row::{NUMBERS, Row};
+use super::row::{NUMBERS, Row, has_interval};
 use crate::Error;
 use crate::input::{Fingerprint, check_ron, fault_in, meant, read_ron};
 use crate::table::significant;
@@ -51,7 +51,7 @@ pub struct Limits {
     pub fingerprint: Fingerprint,
 }
 
-/// Whether a unit keeps its limits, with the reasons where it does not.
+/// Whether a unit keeps its limits, with the reasons where it does not, or where that is not known.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Judged {
     /// There are no limits.
@@ -60,6 +60,15 @@ pub enum Judged {
     Passes,
     /// It does not keep its limits.
     Fails(Vec<String>),
+    /// It breaks no limit, and of one at least it is not known whether it keeps it: it has not passed.
+    NotKnown(Vec<String>),
+}
+
+/// Whether a number or a verdict keeps a limit.
+enum Kept {
+    Yes,
+    No(String),
+    NotKnown(String),
 }
 
 /// Verdicts of a diagnosis.
@@ -115,31 +124,69 @@ fn checked(path: &Path, (file, fingerprint): (LimitsFile, Fingerprint)) -> Resul
     Ok(Limits { limits, judged_by: file.judged_by, verdicts: file.verdicts, fingerprint })
 }
 
-impl Limits {
-    /// Judges a unit: a number that was not measured does not keep a limit.
-    pub fn judge(&self, row: &Row) -> Judged {
-        let mut reasons: Vec<String> = self.limits.iter().filter_map(|(name, limit)| self.reason(name, *limit, row)).collect();
-        if !self.verdicts.is_empty() {
-            match &row.verdict {
-                Some(verdict) if self.verdicts.contains(verdict) => {}
-                Some(verdict) => reasons.push(format!("the verdict is {verdict}")),
-                None => reasons.push("there is no verdict".into()),
-            }
+impl Limit {
+    fn ends(self) -> [f64; 2] {
+        match self {
+            Self::Magnitude(most) => [-most, most],
+            Self::Within(low, high) => [low, high],
         }
-        if reasons.is_empty() { Judged::Passes } else { Judged::Fails(reasons) }
     }
 
-    fn reason(&self, name: &str, limit: Limit, row: &Row) -> Option<String> {
-        let Some(value) = row.number(name) else { return Some(format!("{name} is not known")) };
-        let ends = match (self.judged_by, row.interval(name)) {
-            (By::Interval, Some(ends)) => ends,
-            _ => [value; 2],
-        };
-        let (keeps, told) = match limit {
-            Limit::Magnitude(most) => (ends.iter().all(|end| end.abs() <= most), format!("more than {most} in magnitude")),
-            Limit::Within(low, high) => {
-                (ends.iter().all(|end| (low..=high).contains(end)), format!("not within {low} and {high}"))
+    fn broken(self) -> String {
+        match self {
+            Self::Magnitude(most) => format!("more than {most} in magnitude"),
+            Self::Within(low, high) => format!("not within {low} and {high}"),
+        }
+    }
+}
+
+impl Limits {
+    /// Both ends of the limit of a number, if it has one.
+    pub(super) fn ends(&self, number: &str) -> Option<[f64; 2]> {
+        self.limits.iter().find(|(name, _)| *name == number).map(|(_, limit)| limit.ends())
+    }
+
+    /// Judges a unit: of a number that was not measured, or whose interval is wider than its limits, it is not known whether it keeps them.
+    pub fn judge(&self, row: &Row) -> Judged {
+        let verdict = (!self.verdicts.is_empty()).then(|| match &row.verdict {
+            Some(verdict) if self.verdicts.contains(verdict) => Kept::Yes,
+            Some(verdict) => Kept::No(format!("the verdict is {verdict}")),
+            None => Kept::NotKnown("there is no verdict".into()),
+        });
+        let (mut broken, mut not_known) = (Vec::new(), Vec::new());
+        for kept in self.limits.iter().map(|(name, limit)| self.kept(name, *limit, row)).chain(verdict) {
+            match kept {
+                Kept::Yes => {}
+                Kept::No(reason) => broken.push(reason),
+                Kept::NotKnown(reason) => not_known.push(reason),
             }
+        }
+        match (broken.is_empty(), not_known.is_empty()) {
+            (true, true) => Judged::Passes,
+            (true, false) => Judged::NotKnown(not_known),
+            (false, _) => Judged::Fails(broken.into_iter().chain(not_known).collect()),
+        }
+    }
+
+    fn kept(&self, name: &str, limit: Limit, row: &Row) -> Kept {
+        let Some(value) = row.number(name) else {
+            let why = row.why(name).map_or(String::new(), |why| format!(": {why}"));
+            return Kept::NotKnown(format!("{name} is not known{why}"));
+        };
+        let ([least, most], interval) = (limit.ends(), row.interval(name));
+        if let Some([low, high]) = interval.filter(|[low, high]| high - low > most - least && *low < most && *high > least) {
+            let [low, high] = [low, high].map(|end| significant(end, 4));
+            let limits = format!("{least} to {most}");
+            return Kept::NotKnown(format!(
+                "{name} is not known well enough: its 90 % interval, {low} to {high}, is wider than the limits, {limits}"
+            ));
+        }
+        let ends = match (self.judged_by, interval) {
+            (By::Interval, Some(ends)) => ends,
+            (By::Interval, None) if has_interval(name) => {
+                return Kept::NotKnown(format!("{name} is {}, its interval is not known", significant(value, 4)));
+            }
+            _ => [value; 2],
         };
         let shown = match ends {
             [low, high] if low != high => {
@@ -147,7 +194,11 @@ impl Limits {
             }
             _ => significant(value, 4),
         };
-        (!keeps).then(|| format!("{name} is {shown}, {told}"))
+        if ends.iter().all(|end| (least..=most).contains(end)) {
+            Kept::Yes
+        } else {
+            Kept::No(format!("{name} is {shown}, {}", limit.broken()))
+        }
     }
 }
 
@@ -158,14 +209,66 @@ impl Judged {
             Self::Unjudged => "",
             Self::Passes => "pass",
             Self::Fails(_) => "fail",
+            Self::NotKnown(_) => "not known",
         }
     }
 
-    /// Reasons why it fails.
+    /// Reasons why it does not pass.
     pub fn reasons(&self) -> Option<String> {
         match self {
-            Self::Fails(reasons) => Some(reasons.join("; ")),
+            Self::Fails(reasons) | Self::NotKnown(reasons) => Some(reasons.join("; ")),
             Self::Unjudged | Self::Passes => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn judged(limits: &str, measured: serde_json::Value) -> Judged {
+        let limits = check_limits("limits.ron".as_ref(), limits).unwrap();
+        limits.judge(&Row::of(&json!({"unit": "U", "measured": measured, "diagnosis": {"verdict": "recalibrate"}})))
+    }
+
+    const LIMITS: &str = "(limits: {\"sensitivity\": Within(-3.2, -2.3)}, verdicts: [\"recalibrate\"])";
+
+    #[test]
+    fn what_is_not_known_neither_passes_nor_fails() {
+        let why = "slower responses: the unit may not have settled; record ramps and rests that last longer";
+        let unsettled = judged(LIMITS, json!({"sensitivity": null, "not_known": {"sensitivity": why}}));
+        assert_eq!((unsettled.word(), unsettled.reasons().unwrap()), ("not known", format!("sensitivity is not known: {why}")));
+        // a unit that breaks another limit fails
+        let other = LIMITS.replace("recalibrate", "none");
+        let fails = judged(&other, json!({"sensitivity": null, "not_known": {"sensitivity": why}}));
+        assert_eq!(
+            (fails.word(), fails.reasons().unwrap()),
+            ("fail", format!("the verdict is recalibrate; sensitivity is not known: {why}"))
+        );
+    }
+
+    #[test]
+    fn an_interval_wider_than_the_limits_judges_nothing() {
+        let of = |low: f64, high: f64| judged(LIMITS, json!({"sensitivity": {"value": (low + high) / 2.0, "ci90": [low, high]}}));
+        assert_eq!([of(-2.8, -2.6).word(), of(-3.5, -2.0).word(), of(-2.0, -0.5).word()], ["pass", "not known", "fail"]);
+        assert!(
+            of(-3.5, -2.0)
+                .reasons()
+                .unwrap()
+                .contains("its 90 % interval, -3.500 to -2.000, is wider than the limits, -3.2 to -2.3")
+        );
+    }
+
+    #[test]
+    fn an_interval_that_is_not_known_keeps_no_limit_of_intervals() {
+        let limits = "(limits: {\"arw\": Magnitude(0.002)}, judged_by: Interval)";
+        let measured = || json!({"arw": null, "without_interval": {"arw": 0.001}});
+        let by_interval = judged(limits, measured());
+        assert_eq!(
+            (by_interval.word(), by_interval.reasons().unwrap().contains("its interval is not known")),
+            ("not known", true)
+        );
+        assert_eq!(judged(&limits.replace("Interval", "Value"), measured()), Judged::Passes);
     }
 }

@@ -1,5 +1,7 @@
 //! Mean and spread of the units of a batch, and the units that stand out.
 
+use std::collections::BTreeMap;
+
 use recording::statistics::{median, normal_quantile, robust_sd};
 
 use super::row::{NUMBERS, Row};
@@ -36,14 +38,35 @@ const WORTH: f64 = 0.5;
 /// Fewest units that show a common deviation, and the usual range.
 const FEWEST: usize = 5;
 
+impl Common {
+    /// The constant in words.
+    pub(super) fn said(&self) -> String {
+        let Self { name, mean, sd, units } = self;
+        let side = if *mean < 0.0 { "below" } else { "above" };
+        format!(
+            "{name} lies {:.2} tolerances (1 sd) {side} the design on average over {units} units; spread between units {sd:.2}",
+            mean.abs()
+        )
+    }
+}
+
+/// The units lot by lot, each under its name; all together, under none, where they are of one.
+pub(super) fn lots(batch: &Batch) -> Vec<(Option<&str>, Vec<&Row>)> {
+    let mut lots: BTreeMap<Option<&str>, Vec<&Row>> = BTreeMap::new();
+    for row in batch.units() {
+        lots.entry(row.lot.as_deref()).or_default().push(row);
+    }
+    if lots.len() < 2 {
+        vec![(None, batch.units())]
+    } else {
+        lots.into_iter().map(|(lot, rows)| (lot.or(Some("none")), rows)).collect()
+    }
+}
+
 /// Constants whose mean is farther from the design than is worth a line, and than twice its own uncertainty, the farthest first.
-pub(super) fn common(batch: &Batch) -> Vec<Common> {
-    let ordinary: Vec<&Row> = batch
-        .rows
-        .iter()
-        .map(|(row, _)| row)
-        .filter(|row| matches!(row.verdict.as_deref(), Some("none" | "recalibrate")))
-        .collect();
+pub(super) fn common(units: &[&Row]) -> Vec<Common> {
+    let ordinary: Vec<&Row> =
+        units.iter().copied().filter(|row| matches!(row.verdict.as_deref(), Some("none" | "recalibrate"))).collect();
     let Some(first) = ordinary.first().filter(|_| ordinary.len() >= FEWEST) else { return Vec::new() };
     let of = |name: &str| {
         let all: Vec<f64> =
@@ -63,7 +86,7 @@ pub(super) fn outliers(batch: &Batch) -> Vec<Outlier<'_>> {
     let mut all = Vec::new();
     // half of a 90 % interval of a normal number in its standard deviations
     let half = normal_quantile(0.95);
-    for number in NUMBERS.iter().filter(|number| **number != "probability") {
+    for number in NUMBERS.iter().filter(|number| !number.ends_with("probability")) {
         let known: Vec<(&Row, f64)> = batch.rows.iter().filter_map(|(row, _)| Some((row, row.number(number)?))).collect();
         if known.len() < FEWEST {
             continue;
@@ -106,10 +129,29 @@ mod tests {
     #[test]
     fn what_is_shared_is_told_and_what_is_far_stands_out() {
         let batch = batch(&[-2.70, -2.72, -2.71, -2.69, -1.0, -2.70]);
-        let found = common(&batch);
+        let found = common(&batch.units());
         assert!(found.len() == 1 && found[0].name == "shared" && (found[0].mean - 1.1).abs() < 1e-12, "{found:?}");
         let far = outliers(&batch);
         assert_eq!((far.len(), far[0].unit, far[0].number, far[0].median), (1, "U4", "sensitivity", -2.70));
-        assert!((outliers(&super::tests::batch(&[1.0; 6])).len(), common(&super::tests::batch(&[1.0; 2])).len()) == (0, 0));
+        assert!(
+            (outliers(&super::tests::batch(&[1.0; 6])).len(), common(&super::tests::batch(&[1.0; 2]).units()).len()) == (0, 0)
+        );
+    }
+
+    #[test]
+    fn lots_are_told_apart() {
+        let mut batch = batch(&[-2.7; 12]);
+        assert_eq!(lots(&batch).iter().map(|(lot, rows)| (*lot, rows.len())).collect::<Vec<_>>(), [(None, 12)]);
+        for (n, (row, _)) in batch.rows.iter_mut().enumerate() {
+            row.lot = Some(format!("L{}", n / 6));
+            if n >= 6 {
+                row.constants.iter_mut().for_each(|constant| constant.sigmas -= 2.0);
+            }
+        }
+        let all = lots(&batch);
+        let said: Vec<(Option<&str>, String)> = all.iter().map(|(lot, rows)| (*lot, common(rows)[0].said())).collect();
+        assert_eq!(said[0].0, Some("L0"));
+        assert!(said[0].1.starts_with("shared lies 1.10 tolerances (1 sd) above the design on average over 6 units"), "{said:?}");
+        assert!(said[1].1.contains("below the design on average"), "{said:?}");
     }
 }

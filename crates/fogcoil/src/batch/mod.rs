@@ -5,18 +5,22 @@
 
 mod columns;
 mod finding;
+mod json;
 mod kept;
 mod limits;
 mod lot;
 mod report;
 mod row;
 mod run;
+mod serials;
 mod text;
+mod trends;
 mod units;
 
 pub use columns::table;
 pub use finding::Inputs;
-pub use kept::kept_files;
+pub use json::json;
+pub use kept::{kept_files, kept_in};
 pub use limits::{Judged, Limits, check_limits, read_limits};
 pub use report::report;
 pub use row::Row;

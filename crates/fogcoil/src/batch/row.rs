@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 /// Numbers of a unit, in the order of the table; the first eight have intervals, as `fogcoil measure` tells them.
-pub(super) const NUMBERS: [&str; 14] = [
+pub(super) const NUMBERS: [&str; 16] = [
     "sensitivity",
     "heating",
     "cooling",
@@ -18,10 +18,15 @@ pub(super) const NUMBERS: [&str; 14] = [
     "noise_deg_per_h",
     "residual_over_noise",
     "probability",
+    "verdict_probability",
+    "first_probability",
 ];
 
 /// Number of the [`NUMBERS`] that have intervals.
 pub(super) const MEASURED: usize = 8;
+
+/// Probability from which a verdict is sure, as a name beside a structure is in the diagnosis itself.
+const SURE: f64 = 0.8;
 
 /// A constant of the design as a unit has it.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,8 +42,10 @@ pub struct Constant {
 pub struct Row {
     /// Its name.
     pub unit: String,
-    /// Its serial number: of the meta file, or the digits that its name ends in.
+    /// Its serial number: of the meta file, or of its name.
     pub serial: Option<String>,
+    /// Its lot: of the meta file, or the folder in which its own lies.
+    pub lot: Option<String>,
     /// Date of the recording, by the meta file.
     pub date: Option<String>,
     /// Its records.
@@ -49,12 +56,16 @@ pub struct Row {
     pub verdict: Option<String>,
     /// Ids that the records do not exclude, best first.
     pub set: Vec<String>,
+    /// The likeliest mechanism.
+    pub first: Option<String>,
     /// Parameters of the explanation: name, value and both ends of the 90 % interval.
     pub parameters: Vec<(String, [f64; 3])>,
     /// Constants of the design as the records leave them.
     pub constants: Vec<Constant>,
     /// Reason why there is no diagnosis.
     pub problem: Option<String>,
+    /// Figures that were not measured, and why.
+    missing: Vec<(String, String)>,
     numbers: Vec<Option<f64>>,
     intervals: Vec<Option<[f64; 2]>>,
 }
@@ -66,23 +77,30 @@ impl Row {
         let texts = |value: &Value| value.as_array().into_iter().flatten().filter_map(text).collect::<Vec<_>>();
         let (measured, diagnosis) = (&finding["measured"], &finding["diagnosis"]);
         let unit = text(&finding["unit"]).unwrap_or_default();
-        let mut numbers: Vec<Option<f64>> = NUMBERS[..MEASURED].iter().map(|name| measured[name]["value"].as_f64()).collect();
+        let alone = &measured["without_interval"];
+        let told = |name: &&str| measured[name]["value"].as_f64().or_else(|| alone[name].as_f64());
+        let mut numbers: Vec<Option<f64>> = NUMBERS[..MEASURED].iter().map(told).collect();
         let [residual, noise] = [0, 1].map(|n| finding["left"][n].as_f64());
         let prediction = &measured["prediction"];
         numbers.extend([prediction["value"].as_f64(), prediction["sigmas"].as_f64(), residual, noise]);
         numbers.push(residual.zip(noise).map(|(residual, noise)| residual / noise));
-        numbers.push(diagnosis["mechanisms"][0]["probability"].as_f64());
+        let first = &diagnosis["mechanisms"][0];
+        let probability = first["probability"].as_f64();
+        numbers.extend([probability, of_verdict(diagnosis), probability]);
         let constants = diagnosis["unknowns"].as_array().into_iter().flatten().filter(|c| c["kind"] == "design");
         Self {
-            serial: text(&finding["serial"]).or_else(|| trailing(&unit).map(str::to_owned)),
+            serial: text(&finding["serial"]),
+            lot: text(&finding["lot"]),
             date: text(&finding["date"]),
             files: texts(&finding["files"]),
             hashes: texts(&finding["sha256"]),
             verdict: text(&diagnosis["verdict"]),
             set: texts(&diagnosis["set"]),
+            first: text(&first["id"]),
             parameters: parameters(&diagnosis["parameters"]),
             constants: constants.filter_map(constant).collect(),
             problem: text(&finding["problem"]),
+            missing: pairs(&measured["not_known"]),
             intervals: NUMBERS[..MEASURED].iter().map(|name| ends(&measured[name]["ci90"])).collect(),
             numbers,
             unit,
@@ -94,10 +112,48 @@ impl Row {
         NUMBERS.iter().position(|known| *known == name).and_then(|n| self.numbers[n])
     }
 
+    /// The verdict, with a question mark where it is not sure.
+    pub fn shown_verdict(&self) -> Option<String> {
+        let doubtful = self.number("verdict_probability").is_some_and(|probability| probability < SURE);
+        self.verdict.as_ref().map(|verdict| format!("{verdict}{}", if doubtful { "?" } else { "" }))
+    }
+
+    /// Reason why a number is not known.
+    pub(super) fn why(&self, name: &str) -> Option<&str> {
+        // what is measured less what is predicted
+        let measured = if name == "sigmas_from_predicted" { "sensitivity" } else { name };
+        let why = self.missing.iter().find(|(missing, _)| missing == measured).map(|(_, why)| why.as_str());
+        why.or(self.problem.as_deref())
+    }
+
     /// The ends of its 90 % interval, if it was measured.
     pub fn interval(&self, name: &str) -> Option<[f64; 2]> {
         NUMBERS[..MEASURED].iter().position(|known| *known == name).and_then(|n| self.intervals[n])
     }
+}
+
+/// Probability of a diagnosis' verdict; of none and recalibrate together where one of them is it: the design suffices.
+fn of_verdict(diagnosis: &Value) -> Option<f64> {
+    let of = |verdict: &str| diagnosis["verdicts"][verdict].as_f64();
+    match diagnosis["verdict"].as_str()? {
+        "none" | "recalibrate" => Some(of("none")? + of("recalibrate")?),
+        verdict => of(verdict),
+    }
+}
+
+/// Unit of a number of the table.
+pub(super) fn unit_of(number: &str) -> &'static str {
+    match number {
+        "sensitivity" | "heating" | "cooling" | "predicted_sensitivity" => " (deg/h)/(degC/min)",
+        "hysteresis" | "bias_span" | "peak" | "bias_instability" | "residual_deg_per_h" | "noise_deg_per_h" => " deg/h",
+        "arw" => " deg/sqrt(h)",
+        _ => "",
+    }
+}
+
+fn pairs(value: &Value) -> Vec<(String, String)> {
+    let of = |(name, text): (&String, &Value)| Some((name.clone(), text.as_str()?.to_owned()));
+    value.as_object().into_iter().flatten().filter_map(of).collect()
 }
 
 fn ends(value: &Value) -> Option<[f64; 2]> {
@@ -116,6 +172,11 @@ fn constant(value: &Value) -> Option<Constant> {
     Some(Constant { name: value["name"].as_str()?.to_owned(), sigmas: value["sigmas"].as_f64()? })
 }
 
+/// Whether a number has an interval where it is measured.
+pub(super) fn has_interval(name: &str) -> bool {
+    NUMBERS[..MEASURED].contains(&name)
+}
+
 /// The digits that a name ends in.
 pub(super) fn trailing(name: &str) -> Option<&str> {
     let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
@@ -130,18 +191,30 @@ mod tests {
     #[test]
     fn a_finding_becomes_a_row() {
         let row = Row::of(&json!({
-            "unit": "SN-0042", "serial": null, "date": "2026-03-02", "files": ["a.csv"], "sha256": ["ff"], "left": [0.3, 0.1], "problem": null,
-            "measured": {"sensitivity": {"value": -2.7, "ci90": [-2.8, -2.6]}, "arw": null, "prediction": {"value": -2.73, "sigmas": 0.2}},
+            "unit": "SN-0042", "serial": "42", "date": "2026-03-02", "files": ["a.csv"], "sha256": ["ff"], "left": [0.3, 0.1], "problem": null,
+            "measured": {"sensitivity": {"value": -2.7, "ci90": [-2.8, -2.6]}, "arw": null, "without_interval": {"arw": 0.001}, "not_known": {"peak": "it moved"}, "prediction": {"value": -2.73, "sigmas": 0.2}},
             "diagnosis": {
-                "verdict": "explained", "set": ["debond"], "mechanisms": [{"id": "debond", "probability": 0.9}],
+                "verdict": "explained", "verdicts": {"none": 0.0, "recalibrate": 0.1, "explained": 0.7, "unknown": 0.2}, "set": ["debond"], "mechanisms": [{"id": "debond", "probability": 0.9}],
                 "parameters": {"area": {"value": 0.3, "ci90": [0.2, 0.4]}},
                 "unknowns": [{"name": "E_r and G", "kind": "design", "sigmas": 1.5}, {"name": "gain", "kind": "instrument", "sigmas": 0.1}],
             },
         }));
-        assert_eq!((row.serial.as_deref(), row.number("sensitivity"), row.number("arw")), (Some("0042"), Some(-2.7), None));
+        assert_eq!((row.serial.as_deref(), row.number("sensitivity"), row.number("arw")), (Some("42"), Some(-2.7), Some(0.001)));
+        assert_eq!((row.interval("arw"), row.number("peak"), row.why("peak")), (None, None, Some("it moved")));
+        assert_eq!((row.first.as_deref(), row.number("first_probability")), (Some("debond"), Some(0.9)));
+        assert_eq!((row.number("verdict_probability"), row.shown_verdict().as_deref()), (Some(0.7), Some("explained?")));
         assert_eq!((row.interval("sensitivity"), row.interval("residual_over_noise")), (Some([-2.8, -2.6]), None));
         assert!((row.number("residual_over_noise").unwrap() - 3.0).abs() < 1e-12);
         assert_eq!((row.number("probability"), row.constants.len()), (Some(0.9), 1));
         assert_eq!(row.parameters, [("area".to_owned(), [0.3, 0.2, 0.4])]);
+    }
+
+    #[test]
+    fn a_design_that_suffices_is_doubted_below_the_sure() {
+        let of = |none: f64, recalibrate: f64| {
+            let verdicts = json!({"none": none, "recalibrate": recalibrate, "explained": 0.0, "unknown": 0.0});
+            Row::of(&json!({"unit": "U", "diagnosis": {"verdict": "recalibrate", "verdicts": verdicts}})).shown_verdict()
+        };
+        assert_eq!([of(0.0, 0.63), of(0.35, 0.5)].map(Option::unwrap), ["recalibrate?", "recalibrate"]);
     }
 }

@@ -11,6 +11,7 @@ use super::finding::{Inputs, Read};
 use super::kept::Kept;
 use super::limits::{Judged, Limits};
 use super::row::Row;
+use super::serials::settle;
 use super::units::Unit;
 use crate::prepare::models;
 use crate::{Error, program};
@@ -56,17 +57,33 @@ pub fn run(
                 finding
             }
         };
-        let row = Row::of(&finding);
-        let judged = limits.map_or(Judged::Unjudged, |limits| limits.judge(&row));
-        Ok((row, judged))
+        let mut row = Row::of(&finding);
+        row.lot = row.lot.or_else(|| unit.lot.clone());
+        Ok(row)
     };
-    Ok(Batch { rows: read.par_iter().zip(found).map(row).collect::<Result<_, Error>>()? })
+    let mut rows: Vec<Row> = read.par_iter().zip(found).map(row).collect::<Result<_, Error>>()?;
+    settle(&mut rows);
+    let judged = |row: Row| {
+        let judged = limits.map_or(Judged::Unjudged, |limits| limits.judge(&row));
+        (row, judged)
+    };
+    Ok(Batch { rows: rows.into_iter().map(judged).collect() })
 }
 
 impl Batch {
     /// Number of units that fail.
     pub fn failing(&self) -> usize {
         self.rows.iter().filter(|(_, judged)| matches!(judged, Judged::Fails(_))).count()
+    }
+
+    /// Number of units of which it is not known whether they keep the limits; none of them has passed.
+    pub fn not_known(&self) -> usize {
+        self.rows.iter().filter(|(_, judged)| matches!(judged, Judged::NotKnown(_))).count()
+    }
+
+    /// Its units.
+    pub(super) fn units(&self) -> Vec<&Row> {
+        self.rows.iter().map(|(row, _)| row).collect()
     }
 
     /// Units that could not be diagnosed, and why.

@@ -2,8 +2,10 @@
 
 use std::fmt::Write;
 
-use super::lot::{common, outliers};
+use super::lot::{common, lots, outliers};
+use super::row::unit_of;
 use super::run::Batch;
+use super::serials::repeated;
 use crate::table::{significant, table};
 
 /// A line for each unit, and the units that stand out.
@@ -19,7 +21,7 @@ pub fn text(batch: &Batch) -> String {
             shown(row.number("sensitivity"), 4),
             interval.unwrap_or_default(),
             shown(row.number("residual_over_noise"), 3),
-            row.verdict.clone().unwrap_or_else(|| "-".into()),
+            row.shown_verdict().unwrap_or_else(|| "-".into()),
             judged.word().to_owned(),
             [Some(row.set.join(", ")).filter(|set| !set.is_empty()), reasons]
                 .into_iter()
@@ -30,10 +32,19 @@ pub fn text(batch: &Batch) -> String {
     });
     let rows: Vec<Vec<String>> = std::iter::once(head).chain(rows).collect();
     let mut out = table(&rows);
+    out.push_str(LEFT);
+    out.push_str(&judged(batch));
+    if batch.rows.iter().any(|(row, _)| row.shown_verdict().is_some_and(|verdict| verdict.ends_with('?'))) {
+        out.push_str("verdict?: its probability is below 0.8; a small fault may hide in it (column verdict_probability)\n");
+    }
+    for (serial, units) in repeated(&batch.units()) {
+        let _ = writeln!(out, "note: {} units have the serial number {serial}: {}", units.len(), units.join(", "));
+    }
     for outlier in outliers(batch) {
+        let unit = unit_of(outlier.number);
         let _ = writeln!(
             out,
-            "{}: {} is {}, far from the median {} ({:+.1} robust standard deviations)",
+            "{}: {} is {}{unit}, far from the median {}{unit} ({:+.1} robust standard deviations)",
             outlier.unit,
             outlier.number,
             significant(outlier.value, 4),
@@ -41,12 +52,69 @@ pub fn text(batch: &Batch) -> String {
             outlier.distance
         );
     }
-    for shared in common(batch) {
-        let _ = writeln!(
-            out,
-            "in common: {} is {:+.2} standard deviations of its tolerance from the design, in {} units that differ by {:.2}",
-            shared.name, shared.mean, shared.units, shared.sd
-        );
+    for (lot, units) in lots(batch) {
+        let place = lot.map_or(String::new(), |lot| format!(" in lot {lot}"));
+        for shared in common(&units) {
+            let _ = writeln!(out, "in common{place}: {}", shared.said());
+        }
     }
     out
+}
+
+/// Meaning of the residual over the noise.
+const LEFT: &str = "(residual/noise: rms that the best explanation leaves of the rate, over the white noise of a row, from neighbours' differences, 1 sd;\n \
+     drift of the gyroscope counts as residual)\n";
+
+/// Numbers of units by judgement; empty where there are no limits.
+fn judged(batch: &Batch) -> String {
+    let count = |word: &str| batch.rows.iter().filter(|(_, judged)| judged.word() == word).count();
+    let [passing, failing, not_known] = ["pass", "fail", "not known"].map(count);
+    match (passing + failing + not_known, not_known) {
+        (0, _) => String::new(),
+        (all, 0) => format!("{passing} of {all} units pass, {failing} fail\n"),
+        (all, _) => format!(
+            "{passing} of {all} units pass, {failing} fail, {not_known} are not known (not passed: a figure is missing)\n"
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::batch::limits::Judged;
+    use crate::batch::row::Row;
+    use serde_json::json;
+
+    fn batch(judged: &[Judged]) -> Batch {
+        let row = |(n, judged): (usize, &Judged)| {
+            let verdicts = json!({"none": 0.0, "recalibrate": 0.6, "explained": 0.4, "unknown": 0.0});
+            let sensitivity = if n == 0 { -1.0 } else { -2.7 - 0.01 * n as f64 };
+            let mut row = Row::of(&json!({
+                "unit": format!("U{n}"), "serial": "7",
+                "measured": {"cooling": {"value": sensitivity, "ci90": [sensitivity, sensitivity]}},
+                "diagnosis": {"verdict": "recalibrate", "verdicts": verdicts},
+            }));
+            row.lot = Some(format!("L{}", n / 4));
+            (row, judged.clone())
+        };
+        Batch { rows: judged.iter().enumerate().map(row).collect() }
+    }
+
+    #[test]
+    fn doubt_and_what_is_not_known_are_said() {
+        let reasons = || vec!["sensitivity is not known".to_owned()];
+        let batch =
+            batch(&[Judged::Passes, Judged::Fails(reasons()), Judged::NotKnown(reasons()), Judged::Passes, Judged::Passes]);
+        let text = text(&batch);
+        for part in [
+            "recalibrate?",
+            "verdict?: its probability is below 0.8",
+            "3 of 5 units pass, 1 fail, 1 are not known (not passed",
+            "note: 5 units have the serial number 7: U0, U1, U2, U3, U4",
+            "U0: cooling is -1.000 (deg/h)/(degC/min), far from the median -2.720 (deg/h)/(degC/min)",
+        ] {
+            assert!(text.contains(part), "{part}: {text}");
+        }
+        assert_eq!((batch.failing(), batch.not_known()), (1, 1));
+    }
 }

@@ -15,6 +15,8 @@ pub struct Unit {
     pub fits: Vec<PathBuf>,
     /// Records that are held out: of a folder those whose names begin with `holdout`, if there are others.
     pub holdouts: Vec<PathBuf>,
+    /// Its lot where no meta file tells one: the folder in which its own folder lies, or its file.
+    pub lot: Option<String>,
 }
 
 /// Begins the name of a record that judges.
@@ -38,7 +40,8 @@ pub fn units(paths: &[PathBuf], out: &Path) -> Result<Vec<Unit>, Error> {
     for path in paths {
         if !path.is_dir() {
             let name = named(path.file_stem());
-            add(path, Unit { name, fits: vec![path.clone()], holdouts: Vec::new() })?;
+            let lot = lot(&path.canonicalize().unwrap_or_else(|_| path.clone()));
+            add(path, Unit { name, fits: vec![path.clone()], holdouts: Vec::new(), lot })?;
             continue;
         }
         let below = |folder: &Path| -> Result<Vec<PathBuf>, Error> {
@@ -78,8 +81,14 @@ fn of_folder(folder: &Path, records: Vec<PathBuf>) -> Unit {
     let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
     let judges = |record: &PathBuf| named(record.file_stem()).to_ascii_lowercase().starts_with(HELD_OUT);
     let (holdouts, fits): (Vec<PathBuf>, Vec<PathBuf>) = records.into_iter().partition(judges);
-    let name = named(whole.file_name());
-    if fits.is_empty() { Unit { name, fits: holdouts, holdouts: fits } } else { Unit { name, fits, holdouts } }
+    let (name, lot) = (named(whole.file_name()), lot(&whole));
+    let (fits, holdouts) = if fits.is_empty() { (holdouts, fits) } else { (fits, holdouts) };
+    Unit { name, fits, holdouts, lot }
+}
+
+/// Name of the folder in which a unit's folder or file lies.
+fn lot(whole: &Path) -> Option<String> {
+    Some(whole.parent()?.file_name()?.to_string_lossy().into_owned())
 }
 
 /// A name that is one of a file anywhere.
@@ -108,6 +117,7 @@ mod tests {
         let told: Vec<String> =
             found.iter().map(|unit| format!("{} {} {}", unit.name, unit.fits.len(), unit.holdouts.len())).collect();
         assert_eq!(told, ["U1 1 1", "U2 1 0", "lone 1 0", "one_b 1 0"]);
+        assert_eq!((found[0].lot.as_deref(), found[3].lot.as_deref()), (Some("lot"), found[2].lot.as_deref()));
         let says = |paths: &[PathBuf]| units(paths, &at("out")).unwrap_err().to_string();
         assert!(says(&[at("empty")]).contains("has no recording"));
         assert!(says(&[at("lot"), at("lot/U1")]).contains("is the second unit of the name U1"));

@@ -7,6 +7,9 @@
 mod left;
 mod text;
 
+use std::ffi::OsStr;
+use std::path::Path;
+
 use coil::{Design, Number, Tolerance, Tolerances};
 use diagnosis::{Active, Believed, ForwardModel, Lot, Observation, Prior, Said, Settled};
 use files::{Note, Remark};
@@ -56,6 +59,7 @@ struct Unit {
 
 /// The statement about a unit beside its constants.
 struct Told {
+    name: String,
     files: Vec<Fingerprint>,
     left: LeftOfUnit,
     /// nothing speaks against it
@@ -88,12 +92,12 @@ pub fn calibrate(
     }
     let library = library(case, cache, progress)?;
     let (mut fitted, mut told) = (Vec::new(), Vec::new());
-    for records in units {
+    for (records, name) in units.iter().zip(names(units)) {
         let read: Vec<Record> = records.iter().map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
         let (unit, doubts) = fit(case, &library, &read, progress)?;
         let files: Vec<Fingerprint> = records.iter().map(|record| record.fingerprint.clone()).collect();
         let other = records.iter().any(|record| other_design(case, record).is_some());
-        told.push(Told { left: unit.left, good: doubts.is_empty() && !other, files });
+        told.push(Told { name, left: unit.left, good: doubts.is_empty() && !other, files });
         notes.extend(doubts.into_iter().map(|note| note.at(&records[0].fingerprint.file)));
         fitted.push(unit);
     }
@@ -110,6 +114,19 @@ pub fn calibrate(
     let lot = Lot::of(&said, &shared).ok_or_else(not_finite)?;
     let effects = effects(first, &numbers, &lot.further).map_err(failed)?;
     Ok(Outcome { case: case.clone(), constants, lot, units: told, effects, notes })
+}
+
+/// Names of the units: of the folders in which their records lie; of their first records where two would share a folder.
+fn names(units: &[Vec<RecordCase>]) -> Vec<String> {
+    let files: Vec<&Path> = units.iter().filter_map(|records| Some(records.first()?.fingerprint.file.as_path())).collect();
+    names_of(&files)
+}
+
+fn names_of(files: &[&Path]) -> Vec<String> {
+    let of = |name: Option<&OsStr>| files::shown(&name.unwrap_or_default().to_string_lossy());
+    let folders: Vec<String> = files.iter().map(|file| of(file.parent().and_then(Path::file_name))).collect();
+    let apart = folders.iter().enumerate().all(|(n, name)| !name.is_empty() && !folders[..n].contains(name));
+    if apart && files.len() > 1 { folders } else { files.iter().map(|file| of(file.file_stem())).collect() }
 }
 
 fn not_finite() -> Error {
@@ -209,4 +226,17 @@ impl Outcome {
 /// A tolerance to four digits.
 fn rounded(share: f64) -> f64 {
     format!("{share:.3e}").parse().unwrap_or(share)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_have_the_names_of_their_folders_or_files() {
+        let of = |files: &[&str]| names_of(&files.iter().map(Path::new).collect::<Vec<_>>());
+        assert_eq!(of(&["lot/U1/run1.csv", "lot/U2/run1.csv"]), ["U1", "U2"]);
+        assert_eq!(of(&["lot/a1.csv", "lot/b1.csv"]), ["a1", "b1"]);
+        assert_eq!(of(&["a1.csv", "b1.csv"]), ["a1", "b1"]);
+    }
 }

@@ -74,6 +74,7 @@ impl Outcome {
             "constants": self.told_json(&self.lot.common),
             "units": units
                 .map(|(unit, believed)| json!({
+                    "name": unit.name,
                     "files": files(unit),
                     "good": unit.good,
                     "left": {"rate_deg_per_h": left(unit.left.rate), "spool_c": left(unit.left.spool)},
@@ -88,13 +89,14 @@ impl Outcome {
 
     /// Residuals of every unit's records beside their noise.
     fn left(&self) -> String {
-        let mut rows = vec![["unit", "of the", "rms left", "noise of a row", "with usual drift", ""].map(str::to_owned).to_vec()];
-        for (n, unit) in self.units.iter().enumerate() {
+        let mut rows =
+            vec![["unit", "of the", "rms left", "noise of a row, 1 sd", "with usual drift", ""].map(str::to_owned).to_vec()];
+        for unit in &self.units {
             for (name, of, left) in unit.left.channels() {
                 let [rms, noise, with_drift] =
                     [left.rms, left.noise, left.with_drift].map(|value| format!("{} {of}", significant(value, 3)));
                 let says = if left.is_misfit() { "does not fit" } else { "" };
-                rows.push(vec![format!("unit {}", n + 1), name.to_owned(), rms, noise, with_drift, says.to_owned()]);
+                rows.push(vec![unit.name.clone(), name.to_owned(), rms, noise, with_drift, says.to_owned()]);
             }
         }
         table(&rows)
@@ -105,7 +107,7 @@ impl Outcome {
         let Lot { common, units, further } = &self.lot;
         let (half, sd) = (half_of_90(), common.sd());
         let mut rows = vec![["constant (fitted)", "lot", "90 % interval", "sigma", "tolerance"].map(str::to_owned).to_vec()];
-        rows[0].extend((1..=units.len()).map(|n| format!("unit {n}")));
+        rows[0].extend(self.units.iter().map(|unit| unit.name.clone()));
         for (k, constant) in self.constants.iter().enumerate() {
             let u = common.mean[k];
             let at = |u: f64| constant.prior.value(u);
@@ -127,6 +129,7 @@ impl Outcome {
         let effects: Vec<Vec<String>> = std::iter::once(head).chain(effects).collect();
         format!(
             "{}: {}.\n\nWhat its constants leave of each unit, in the record in which that is most beside the noise:\n\n{}\n\
+             Noise of a row: white, from neighbours' differences.\n\
              A constant is a factor on the drawing's value; sigma is what the lot deviates by, in tolerances;\n\
              tolerance: of a unit about the drawing, and of a further unit about the lot.\n\n{}\n\
              The smallest effect of a fault that a record of a further unit shows, with the lot's design over with the drawing\n\

@@ -17,7 +17,7 @@ use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Series, Term, Whitener
 use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
 
 pub use json::json;
-pub use text::{text, warnings};
+pub use text::{several, text, text_without_notes, unreadable};
 
 /// A recording and its noise.
 #[derive(Debug, Clone)]
@@ -45,6 +45,8 @@ pub struct GyroNoise {
     pub interval: f64,
 }
 
+/// Reason why a fitted number has no interval.
+pub const NO_MAXIMUM: &str = "the likelihood of the noise has no maximum within its bounds; record longer, at one temperature";
 /// Shortest lag, in intervals; the longest is a third of the length.
 const SHORTEST_LAG: f64 = 2.0;
 /// A lag is this many times the one before.
@@ -63,6 +65,16 @@ const MOST_VALUES: usize = 20_000_000;
 const ROWS_A_LAG: usize = 20;
 
 impl GyroNoise {
+    /// Shortest and longest averaging time \[s\].
+    pub fn ends(&self) -> [f64; 2] {
+        [self.interval, self.allan.last().map_or(self.interval, |point| point.tau)]
+    }
+
+    /// The floor of the fitted Allan deviation: its averaging time \[s\] and the deviation \[deg/h\]; `None` where it still falls.
+    pub fn floor(&self) -> Option<(f64, f64)> {
+        self.estimate.model.floor(self.ends(), self.interval)
+    }
+
     /// The terms fitted beside it, in words.
     fn taken_off(&self) -> String {
         match self.driver {
@@ -154,7 +166,8 @@ pub fn svg(analysis: &Analysis) -> Option<String> {
     let noise = analysis.noise.as_ref()?;
     let file = analysis.case.fingerprint.file.file_name().unwrap_or_default().to_string_lossy();
     let caption = format!("{file}; beside {}.", noise.taken_off());
-    let title = format!("Allan deviation of the rate, {file}");
+    let less = noise.driver.map_or(String::new(), |_| " less its linear response to temperature".to_owned());
+    let title = format!("Allan deviation of the rate{less}, {file}");
     let allan = Allan { points: &noise.allan, model: &noise.estimate.model, interval: noise.interval };
     Some(allan.figure("allan", title, caption)?.document())
 }

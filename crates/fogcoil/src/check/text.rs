@@ -1,27 +1,21 @@
 //! The result for people.
 
 use std::fmt::Write;
+use std::path::Path;
 
 use bias::units::S_PER_H;
 use files::Remark;
+use recording::Seconds;
 use recording::check::{Finding, Severity};
 use recording::noise::{StandardErrors, Term};
 
-use super::{Analysis, GyroNoise};
+use super::{Analysis, GyroNoise, NO_MAXIMUM};
 use crate::input::RecordCase;
 use crate::table::{significant, table};
 use crate::units::DurationUnit;
 
 /// Most findings of one kind in one channel that are written out.
 const MOST_ALIKE: usize = 8;
-
-/// The faults of a recording, line by line; empty if nothing is.
-pub fn warnings(case: &RecordCase) -> String {
-    let mut out: String = case.notes.iter().filter(|note| note.is_warning()).map(|note| format!("{note}\n")).collect();
-    let wrong: Vec<&Finding> = listed(case).into_iter().filter(|finding| finding.severity != Severity::Note).collect();
-    findings(&mut out, &wrong);
-    out
-}
 
 /// All findings but the first error, which [`RecordCase::require_usable`] reports.
 fn listed(case: &RecordCase) -> Vec<&Finding> {
@@ -32,16 +26,27 @@ fn listed(case: &RecordCase) -> Vec<&Finding> {
 
 /// The result as text with tables.
 pub fn text(analysis: &Analysis) -> String {
+    written(analysis, Severity::Note)
+}
+
+/// The same with its warnings, without its notes.
+pub fn text_without_notes(analysis: &Analysis) -> String {
+    written(analysis, Severity::Warning)
+}
+
+/// The result with its remarks of a severity and above.
+fn written(analysis: &Analysis, least: Severity) -> String {
     let case = analysis.case;
     let verdict = if case.report.usable() { "usable" } else { "cannot be used (the message at the end says why)" };
     let mut out = format!("{}: {verdict}\n\n", files::shown_path(&case.fingerprint.file));
     out.push_str(&table(&overview(analysis)));
     out.push('\n');
     out.push_str(&channels(analysis));
-    for note in &case.notes {
+    for note in case.notes.iter().filter(|note| least == Severity::Note || note.is_warning()) {
         let _ = writeln!(out, "{}", note.line());
     }
-    let found = listed(case);
+    let shown = |finding: &&Finding| least == Severity::Note || finding.severity != Severity::Note;
+    let found: Vec<&Finding> = listed(case).into_iter().filter(shown).collect();
     if case.report.findings.is_empty() {
         out.push_str("nothing suspicious found\n");
     }
@@ -79,7 +84,8 @@ fn channels(analysis: &Analysis) -> String {
             [&[channel.name.clone(), channel.used.to_string()], &numbers[..], std::slice::from_ref(&channel.unit)].concat(),
         );
     }
-    table(&rows) + "(noise: white, standard deviation of a value; step: resolution, where the values show one)\n\n"
+    table(&rows)
+        + "(noise: white, of a value, from neighbours' differences, 1 sd; step: resolution, where the values show one)\n\n"
 }
 
 /// A line for each, up to a number of one kind.
@@ -109,24 +115,29 @@ pub(super) fn severity(severity: Severity) -> &'static str {
 
 fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
     let estimate = &noise.estimate;
-    let _ = writeln!(out, "\nNoise of the rate beside {} (fitted; slow terms: upper bounds):\n", noise.taken_off());
+    let _ = writeln!(
+        out,
+        "\nNoise of the rate beside {} (fitted, white noise with drift; slow terms: upper bounds):\n",
+        noise.taken_off()
+    );
     let model = &estimate.model;
     let StandardErrors { white, drift, drift_time, walk, quantisation } = estimate.standard_errors;
     let row = |name: &str, value: f64, error: Option<f64>, unit: &str| {
-        let error = error.map_or(String::new(), |error| format!("± {:.0} %", 100.0 * error));
+        let error = error.map_or("not known".to_owned(), |error| format!("± {:.0} %", 100.0 * error));
         vec![name.to_owned(), significant(value, 3), error, unit.to_owned()]
     };
-    let mut rows = vec![row("white noise of a sample", model.white, white, "deg/h")];
+    let mut rows = vec![["", "value", "1 sd", "unit"].map(str::to_owned).to_vec()];
+    rows.push(row("white noise of a sample", model.white, white, "deg/h"));
     if let Some(n) = model.angle_random_walk() {
         rows.push(row("angle random walk", n / S_PER_H.sqrt(), white, "deg/sqrt(h)"));
     }
     if let Some(bench) = analysis.case.meta.as_ref().and_then(|meta| meta.nominal_arw_deg_per_sqrt_h) {
-        rows.push(row("  the meta file's", bench, None, "deg/sqrt(h)"));
+        rows.push(vec!["  the meta file's".into(), significant(bench, 3), String::new(), "deg/sqrt(h)".into()]);
     }
     if estimate.terms.contains(&Term::Drift) {
         rows.push(row("drift", model.drift, drift, "deg/h"));
         rows.push(row("  correlation time", model.drift_time / S_PER_H, drift_time, "h"));
-        rows.push(row("  bias instability", model.bias_instability(), drift, "deg/h"));
+        rows.push(row("  floor of the drift alone", model.bias_instability(), drift, "deg/h"));
     }
     if estimate.terms.contains(&Term::Walk) {
         rows.push(row("rate random walk", model.walk * S_PER_H.sqrt(), walk, "deg/h/sqrt(h)"));
@@ -134,7 +145,24 @@ fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
     if estimate.terms.contains(&Term::Quantisation) {
         rows.push(row("quantisation of the angle", model.quantisation, quantisation, "arcsec"));
     }
+    match noise.floor() {
+        Some((tau, floor)) => {
+            let error = estimate.relative_error(|model| model.allan_deviation(tau, noise.interval));
+            let at = format!("deg/h, at {} s", Seconds(tau.round()));
+            rows.push(row("bias instability, the Allan floor", floor, error, &at));
+        }
+        None => rows.push(vec![
+            "bias instability, the Allan floor".into(),
+            "-".into(),
+            String::new(),
+            "(still falls: record longer)".into(),
+        ]),
+    }
+    let not_known = rows.iter().any(|row| row[2] == "not known");
     out.push_str(&table(&rows));
+    if not_known {
+        let _ = writeln!(out, "(interval not known: {NO_MAXIMUM})");
+    }
     if noise.left_out > 0 {
         let _ = writeln!(out, "{} rows that this model does not expect (fast transients) were left out", noise.left_out);
     }
@@ -149,4 +177,55 @@ fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
         rows.push(vec![significant(point.tau, 4), deviation, low, high, format!("{:.2}", point.slope), modelled]);
     }
     out.push_str(&table(&rows));
+}
+
+/// A line for each recording.
+pub fn several(lines: &[[String; 7]]) -> String {
+    let head = ["recording", "", "rows", "span", "interval [s]", "angle random walk [deg/sqrt(h)]", "remarks"].map(str::to_owned);
+    table(&std::iter::once(&head).chain(lines).map(|line| line.to_vec()).collect::<Vec<_>>())
+}
+
+/// The line of a recording that cannot be read.
+pub fn unreadable(file: &Path, why: &str) -> [String; 7] {
+    let none = || "-".to_owned();
+    [
+        files::shown_path(file),
+        "cannot be used".into(),
+        none(),
+        none(),
+        none(),
+        none(),
+        why.strip_prefix(&format!("{}: ", files::shown_path(file))).unwrap_or(why).to_owned(),
+    ]
+}
+
+impl Analysis<'_> {
+    /// The recording's line among others: rows, span, interval, angle random walk, and the ids of its warnings.
+    pub fn line(&self) -> [String; 7] {
+        let Self { case, noise } = self;
+        let file = &case.fingerprint.file;
+        if let Err(error) = case.require_usable() {
+            return unreadable(file, &error.problem);
+        }
+        let number = |value: Option<f64>, digits| value.map_or("-".to_owned(), |value| significant(value, digits));
+        let instants = case.report.instants.as_ref();
+        let span = instants.map_or("-".to_owned(), |instants| {
+            let unit = DurationUnit::of(instants.span);
+            format!("{} {}", significant(unit.of_seconds(instants.span), 3), unit.name)
+        });
+        let walk = noise.as_ref().and_then(|noise| noise.estimate.model.angle_random_walk());
+        let notes = case.notes.iter().filter(|note| note.is_warning()).map(|note| note.remark.id());
+        let severe = case.report.findings.iter().filter(|finding| finding.severity != Severity::Note);
+        let mut warnings: Vec<&str> = notes.chain(severe.map(|finding| Remark::of_finding(&finding.kind).id())).collect();
+        warnings.dedup();
+        [
+            files::shown_path(file),
+            "usable".into(),
+            case.report.rows.len().to_string(),
+            span,
+            number(instants.map(|instants| instants.interval), 4),
+            number(walk.map(|walk| walk / S_PER_H.sqrt()), 3),
+            warnings.join(", "),
+        ]
+    }
 }

@@ -256,6 +256,11 @@ fn ranges(gyro: &Gyro, fitted: &[Observation]) -> Ranges {
     Ranges::new(gyro.scene(), rate, duration, gyro.largest_parts(fitted.len()))
 }
 
+/// The ln evidence of what is `behind` by so much, in words.
+fn lower(behind: f64) -> String {
+    format!("ln evidence {} by {:.1}", if behind < 0.0 { "higher" } else { "lower" }, behind.abs())
+}
+
 impl StandIn {
     /// One object, as scripts read it.
     pub(crate) fn json(&self) -> Value {
@@ -268,8 +273,9 @@ impl StandIn {
         let Self { of, title, known, behind, share, .. } = self;
         (*behind < NEAR).then(|| {
             format!(
-                "These records hardly tell {of} from a law that nobody listed: {title} (known physics of this form: {known}; {behind:.1} of ln evidence \
-                 behind). The probability of {of} counts both as equally likely beforehand, which leaves it {share:.2} of what it had."
+                "These records hardly tell {of} from a law that nobody listed: {title} (known physics of this form: {known}; {}). The probability \
+                 of {of} counts both as equally likely beforehand, which leaves it {share:.2} of what it had.",
+                lower(*behind)
             )
         })
     }
@@ -314,7 +320,7 @@ impl Composed {
             out.extend(mechanism.equation.lines().map(|line| format!("  {line}\n")));
         }
         let by = format!("It gains {:.1} of ln evidence, the choice among all laws paid for", self.gain);
-        let others: Vec<String> = self.others.iter().map(|(title, _, behind)| format!("{title} ({behind:.1} behind)")).collect();
+        let others: Vec<String> = self.others.iter().map(|(title, _, behind)| format!("{title} ({})", lower(*behind))).collect();
         let others =
             if others.is_empty() { String::new() } else { format!("; these records hardly tell it from {}", others.join(", ")) };
         let judged = match (self.held.is_empty(), self.accepted) {

@@ -37,7 +37,7 @@ const BESIDE: [Subject; 2] = [
                    3 % (E_z, alpha_z, alpha_r) and 2 % (expansion of the spool).",
         place: "None of its own: nothing is added to the design, its numbers were off.",
         signature: "A gain on parts of the bias, and another time scale of the heat flow: the same at all temperatures and in every run.",
-        source: "The priors are in `crates/mechanisms/src/nuisances.rs`.",
+        source: "Tolerances of the coil file; the widths above where it names none.",
     },
     Subject {
         id: "nominal",
@@ -126,6 +126,9 @@ impl Subject {
         if let Some(inspection) = inspection(self.id) {
             let chamber = "In the chamber: the best test above; `fogcoil recommend` finds it for your design.";
             say("How to test it", &format!("{chamber}\nOn the unit: {inspection}."));
+        }
+        if let Some(verdict) = super::verdict::find(self.id) {
+            say("As a verdict", &format!("{}\n{}\nNext: {}", verdict.meaning, verdict.limits, verdict.next));
         }
         say("Source", self.source);
         out

@@ -2,10 +2,12 @@
 
 mod mechanism;
 mod own;
+mod verdict;
 
 pub use files::{Explanation, Note, Remark, Severity};
 pub use mechanism::{Subject, all as mechanisms};
 pub use own::{own_json, own_text};
+pub use verdict::{VERDICTS, Verdict};
 
 use std::fmt::Write;
 
@@ -21,6 +23,8 @@ pub enum Entry {
     Mechanism(Subject),
     /// A warning or a note.
     Remark(Remark),
+    /// A verdict that is no entry of tables.
+    Verdict(&'static Verdict),
 }
 
 /// Ids offered for one that is not known, at most.
@@ -44,7 +48,9 @@ pub fn look_up(id: &str) -> Result<Entry, Vec<&'static str>> {
 }
 
 fn entries() -> impl Iterator<Item = Entry> {
-    mechanisms().map(Entry::Mechanism).chain(Remark::ALL.iter().copied().map(Entry::Remark))
+    // as an entry of tables, `recalibrate` stands among the mechanisms
+    let verdicts = VERDICTS.iter().filter(|verdict| mechanisms().all(|mechanism| mechanism.id != verdict.id));
+    mechanisms().map(Entry::Mechanism).chain(verdicts.map(Entry::Verdict)).chain(Remark::ALL.iter().copied().map(Entry::Remark))
 }
 
 impl Entry {
@@ -53,6 +59,7 @@ impl Entry {
         match self {
             Self::Mechanism(mechanism) => mechanism.id,
             Self::Remark(remark) => remark.id(),
+            Self::Verdict(verdict) => verdict.id,
         }
     }
 
@@ -63,6 +70,9 @@ impl Entry {
             Self::Remark(remark) => {
                 let Explanation { cause, consequence, remedy } = remark.explanation();
                 format!("{}: {cause}\n\nConsequence: {consequence}\nRemedy:      {remedy}\n", remark.id())
+            }
+            Self::Verdict(Verdict { id, meaning, limits, next }) => {
+                format!("{id}, a verdict: {meaning}\n\nLimits: {limits}\nNext:   {next}\n")
             }
         }
     }
@@ -75,6 +85,9 @@ impl Entry {
                 let Explanation { cause, consequence, remedy } = remark.explanation();
                 json!({"id": remark.id(), "kind": "remark", "cause": cause, "consequence": consequence, "remedy": remedy})
             }
+            Self::Verdict(Verdict { id, meaning, limits, next }) => {
+                json!({"id": id, "kind": "verdict", "meaning": meaning, "limits": limits, "next": next})
+            }
         }
     }
 }
@@ -86,6 +99,10 @@ pub fn list() -> String {
         "Mechanisms: {named} with a name; {unnamed} without one, unknown:..., which describe what has none; {asked} that are weighed on request, --mechanism ID; {beside} that stand among them in tables:\n\n"
     );
     out.push_str(&table(&mechanisms().map(|m| vec![m.id.to_owned(), m.title.to_owned()]).collect::<Vec<_>>()));
+    out.push_str("\nVerdicts:\n\n");
+    out.push_str(&table(
+        &VERDICTS.iter().map(|verdict| vec![verdict.id.to_owned(), verdict.meaning.to_owned()]).collect::<Vec<_>>(),
+    ));
     out.push_str("\nWarnings and notes:\n\n");
     let row = |remark: &Remark| vec![remark.id().to_owned(), remark.explanation().cause.to_owned()];
     out.push_str(&table(&Remark::ALL.iter().map(row).collect::<Vec<_>>()));
@@ -98,6 +115,7 @@ pub fn list_json() -> Value {
     let of = |remark: &Remark| Entry::Remark(*remark).json();
     json!({
         "mechanisms": mechanisms().map(|m| m.json()).collect::<Vec<_>>(),
+        "verdicts": VERDICTS.iter().map(|verdict| Entry::Verdict(verdict).json()).collect::<Vec<_>>(),
         "remarks": Remark::ALL.iter().map(of).collect::<Vec<_>>(),
     })
 }
@@ -122,6 +140,14 @@ mod tests {
     fn the_mechanisms_are_counted() {
         assert_eq!(mechanism::counts(), [13, 6, 10, 2]);
         assert!(list().starts_with("Mechanisms: 13 with a name; 6 without one, unknown:..., "));
+    }
+
+    #[test]
+    fn verdicts_are_explained() {
+        for id in ["none", "recalibrate", "explained", "unknown", "inseparable"] {
+            let text = look_up(id).unwrap().text();
+            assert!(text.contains("Next:") && !text.contains(".rs"), "{text}");
+        }
     }
 
     #[test]

@@ -9,5 +9,20 @@ pub struct Figure {
     pub ci90: [f64; 2],
 }
 
+/// A number that is not told, or not its interval.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Untold {
+    /// Reason why it, or its interval, is not told.
+    pub why: String,
+    /// The number, where only its interval is not known.
+    pub value: Option<f64>,
+}
+
+impl From<String> for Untold {
+    fn from(why: String) -> Self {
+        Self { why, value: None }
+    }
+}
+
 /// A number, or why the record does not tell it.
-pub type Told = Result<Figure, String>;
+pub type Told = Result<Figure, Untold>;

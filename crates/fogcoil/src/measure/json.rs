@@ -1,14 +1,14 @@
 //! The figures as one object. See docs/schema/measure.schema.json.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::{Figure, Measurement, Prediction};
+use super::{Figure, Measurement, Prediction, Untold};
 
 fn object(figure: &Figure) -> Value {
     json!({"value": figure.value, "ci90": figure.ci90})
 }
 
-/// One object, as scripts read it; `null` where a number is not told, with the reason in `notes`.
+/// One object, as scripts read it; `null` where a number or its interval is not told, with the reason in `notes`.
 pub fn json(measured: &Measurement, prediction: Option<&Prediction>) -> Value {
     let mut all = json!({
         "file": measured.fingerprint.file.display().to_string(),
@@ -27,9 +27,17 @@ pub fn json(measured: &Measurement, prediction: Option<&Prediction>) -> Value {
         "notes": measured.notes,
         "note_ids": measured.notes.iter().map(|note| note.remark.id()).collect::<Vec<_>>(),
     });
+    let (mut not_known, mut without_interval) = (Map::new(), Map::new());
     for (key, _, told) in measured.figures() {
+        match told {
+            Ok(_) => {}
+            Err(Untold { value: Some(value), .. }) => drop(without_interval.insert(key.to_owned(), json!(value))),
+            Err(Untold { why, .. }) => drop(not_known.insert(key.to_owned(), json!(why))),
+        }
         all[key] = told.as_ref().map_or(Value::Null, object);
     }
+    all["not_known"] = not_known.into();
+    all["without_interval"] = without_interval.into();
     all
 }
 

@@ -19,10 +19,10 @@ use recording::ramp::{Absent, Estimate, Input, Response, respond};
 use crate::check::Analysis;
 use crate::input::{CHAMBER, Fingerprint, InputError, RATE, RecordCase, SPOOL};
 
-pub use figure::{Figure, Told};
+pub use figure::{Figure, Told, Untold};
 pub use json::{all, json};
 pub use prediction::Prediction;
-pub use text::text;
+pub use text::{text, text_without_notes};
 
 /// Rows beyond which neighbours are averaged: a ramp of an hour in a day's record is then of more than a hundred.
 const MOST_ROWS: usize = 3_000;
@@ -48,7 +48,7 @@ pub struct Measurement {
     pub hysteresis: Told,
     /// Largest less least bias at rest over the record's range of temperatures \[deg/h\].
     pub bias_span: Told,
-    /// Bias by temperature where it is largest, beside the first row \[deg/h\].
+    /// Bias by temperature where it is largest, relative to the first row \[deg/h\].
     pub peak: Told,
     /// The instant of the peak \[s\].
     pub peak_time: Option<f64>,
@@ -78,7 +78,8 @@ pub fn measure(case: &RecordCase) -> Result<Measurement, InputError> {
     // u/(K/s) to u/(K/min)
     let per_minute = |of: fn(&Response) -> &Result<Estimate, Absent>| told(&response, of, 1.0 / S_PER_MIN);
     let plain = |of: fn(&Response) -> &Result<Estimate, Absent>| told(&response, of, 1.0);
-    let peak = response.as_ref().map_err(Clone::clone).and_then(|r| r.peak.as_ref().map_err(ToString::to_string));
+    let peak = response.as_ref().map_err(|why| Untold::from(why.clone()));
+    let peak = peak.and_then(|r| r.peak.as_ref().map_err(|absent| Untold::from(absent.to_string())));
     let peak = peak.map(|(estimate, time)| (figure(*estimate), *time));
     let mut measured = Measurement {
         fingerprint: case.fingerprint.clone(),
@@ -93,12 +94,14 @@ pub fn measure(case: &RecordCase) -> Result<Measurement, InputError> {
         peak: peak.clone().map(|(figure, _)| figure),
         peak_time: peak.ok().map(|(_, time)| time),
         arw: noise.arw,
-        bias_instability: noise.floor.clone().map(|(figure, _)| figure),
-        floor_time: noise.floor.ok().map(|(_, tau)| tau),
+        bias_instability: noise.floor,
+        floor_time: noise.floor_time,
         notes,
     };
-    let missing =
-        measured.figures().into_iter().filter_map(|(key, _, told)| told.as_ref().err().map(|why| format!("{key}: {why}")));
+    let missing = measured
+        .figures()
+        .into_iter()
+        .filter_map(|(key, _, told)| told.as_ref().err().map(|untold| format!("{key}: {}", untold.why)));
     let missing: Vec<Note> = missing.map(|text| Remark::NotMeasured.note(text).at(file)).collect();
     measured.notes.extend(missing);
     Ok(measured)
@@ -127,8 +130,8 @@ fn figure(estimate: Estimate) -> Figure {
 }
 
 fn told(response: &Result<Response, String>, of: fn(&Response) -> &Result<Estimate, Absent>, factor: f64) -> Told {
-    let response = response.as_ref().map_err(Clone::clone)?;
-    of(response).as_ref().map(|estimate| figure(estimate.times(factor))).map_err(ToString::to_string)
+    let response = response.as_ref().map_err(|why| Untold::from(why.clone()))?;
+    of(response).as_ref().map(|estimate| figure(estimate.times(factor))).map_err(|absent| absent.to_string().into())
 }
 
 /// Response of the rate to the temperatures, with the names of these.

@@ -2,18 +2,47 @@
 
 use std::fmt::Write;
 
+use files::{Note, Remark};
 use recording::Seconds;
 
-use super::{Figure, Measurement, Prediction};
+use super::{Figure, Measurement, Prediction, Untold};
 use crate::table::{significant, table};
 
-/// A table of the figures, the design's prediction among them, and how they are meant.
+/// A table of the figures, the design's prediction among them, how they are meant, and the notes.
 pub fn text(measured: &Measurement, prediction: Option<&Prediction>) -> String {
+    let others = measured.notes.iter().filter(|note| note.remark != Remark::NotMeasured);
+    let notes: String = others.map(Note::line).chain(missing(measured)).map(|line| line + "\n").collect();
+    figures(measured, prediction) + &notes
+}
+
+/// The same with its warnings, without its notes.
+pub fn text_without_notes(measured: &Measurement, prediction: Option<&Prediction>) -> String {
+    let warnings = measured.notes.iter().filter(|note| note.is_warning());
+    figures(measured, prediction) + &warnings.map(|note| note.line() + "\n").collect::<String>()
+}
+
+/// A line for each reason, with the figures that are not told because of it.
+fn missing(measured: &Measurement) -> Vec<String> {
+    let mut all: Vec<(Vec<&str>, &str)> = Vec::new();
+    for (key, _, told) in measured.figures() {
+        let Err(Untold { why, .. }) = told else { continue };
+        match all.iter_mut().find(|(_, known)| known == why) {
+            Some((keys, _)) => keys.push(key),
+            None => all.push((vec![key], why)),
+        }
+    }
+    all.iter().map(|(keys, why)| Remark::NotMeasured.note(format!("{}: {why}", keys.join(", "))).line()).collect()
+}
+
+fn figures(measured: &Measurement, prediction: Option<&Prediction>) -> String {
     let mut out = format!("{}\n\n", files::shown_path(&measured.fingerprint.file));
     let mut rows = vec![["", "value", "90 % interval", "unit"].map(str::to_owned).to_vec()];
     for (key, unit, told) in measured.figures() {
         rows.push(match told {
             Ok(figure) => row(name(key), figure, unit),
+            Err(Untold { value: Some(value), .. }) => {
+                vec![name(key).into(), significant(*value, 3), "not known".into(), unit.into()]
+            }
             Err(_) => vec![name(key).into(), "-".into(), String::new(), String::new()],
         });
         if let (Some(prediction), "asymmetry") = (prediction, key) {
@@ -25,7 +54,7 @@ pub fn text(measured: &Measurement, prediction: Option<&Prediction>) -> String {
         let _ = writeln!(out, "\nFitted. Rates are those of {driver}; the bias over temperature is over {seat}, at rest.");
     }
     if let Some(time) = measured.peak_time {
-        let _ = writeln!(out, "The peak is at {} s, beside the first row.", Seconds(time));
+        let _ = writeln!(out, "The peak is at {} s, relative to the first row.", Seconds(time));
     }
     if let Some(tau) = measured.floor_time {
         let _ = writeln!(
@@ -42,9 +71,6 @@ pub fn text(measured: &Measurement, prediction: Option<&Prediction>) -> String {
             significant(sigmas, 2)
         );
     }
-    for note in &measured.notes {
-        let _ = writeln!(out, "{}", note.line());
-    }
     out
 }
 
@@ -57,7 +83,7 @@ fn name(key: &str) -> &str {
         "hysteresis" => "hysteresis at rest",
         "bias_span" => "bias over temperature",
         "peak" => "largest bias by temperature",
-        "arw" => "angle random walk",
+        "arw" => "angle random walk (fitted with drift)",
         _ => "bias instability",
     }
 }

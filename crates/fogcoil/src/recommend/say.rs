@@ -70,7 +70,9 @@ pub(crate) fn sentence(r: &Recommendation) -> String {
             r.limits.hours
         );
     }
-    let mut out = format!("No profile within the limits separates {all}: the best, {name}, gives ln odds {odds}{hardest}. ");
+    let mut out = format!(
+        "No profile within the limits separates {all}: the best of the insufficient ones, {name}, gives ln odds {odds}{hardest}. "
+    );
     let sensor = r.sensors.iter().filter(|s| s.odds.decides()).max_by(|a, b| a.odds.log_odds.total_cmp(&b.odds.log_odds));
     match sensor {
         Some(s) => {

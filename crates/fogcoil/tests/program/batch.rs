@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use charts::faults;
 
-use crate::common::{Folder, change, stderr, stdout};
+use crate::common::{Folder, change, schema, stderr, stdout};
 
 const ORDINARY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/ordinary/B");
 const CACHE: &str = concat!(env!("CARGO_TARGET_TMPDIR"), "/cache");
@@ -41,7 +41,9 @@ fn units_become_a_table_and_a_page_whatever_interrupts_them() {
     let folder = lot();
     let output = folder.run(&[&RUN[..], &["--out", "whole"]].concat());
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    assert!(stderr(&output).contains("3 of 3 units do not keep the limits"), "{}", stderr(&output));
+    // that units fail is a result, no error
+    let said = stderr(&output);
+    assert!(said.contains("3 of 3 units do not keep the limits") && !said.contains("error:"), "{said}");
     assert!(stdout(&output).contains("more than 0.000000001 in magnitude"), "{}", stdout(&output));
     let whole = tables(&folder, "whole");
     let table = String::from_utf8(whole[0].clone()).unwrap();
@@ -55,8 +57,11 @@ fn units_become_a_table_and_a_page_whatever_interrupts_them() {
         assert!(page.contains(&format!("<a href=\"units/{unit}.html\">{unit}</a>")));
         let own = fs::read_to_string(folder.path(&format!("whole/units/{unit}.html"))).unwrap();
         assert!(faults(&own).is_empty(), "{unit}: {:?}", faults(&own));
+        assert!(own.contains(&format!("<title>{unit} (coil-B): ")) && own.contains(&format!("<h1>{unit} (coil-B): ")), "{unit}");
     }
+    assert!(lines[0].contains(",verdict_probability,first_probability,first_mechanism,lot,"), "{table}");
     killed_and_gone_on(&folder, &whole);
+    what_is_not_known_has_not_passed(&folder);
     // a record that is another counts anew, and limits that are kept pass
     folder.write("limits.ron", "(limits: {\"arw\": Within(0.0, 1e3)})");
     let before = fs::metadata(folder.path("whole/units/U8378.json")).unwrap().modified().unwrap();
@@ -67,6 +72,22 @@ fn units_become_a_table_and_a_page_whatever_interrupts_them() {
     let output = folder.run(&[&RUN[..], &["--out", "whole"]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert!(hash("U4907") != old && fs::metadata(folder.path("whole/units/U8378.json")).unwrap().modified().unwrap() == before);
+}
+
+/// A figure that no record tells neither passes nor fails; the table is one object, too.
+fn what_is_not_known_has_not_passed(folder: &Folder) {
+    folder.write("limits.ron", "(limits: {\"hysteresis\": Magnitude(10.0)})");
+    let output = folder.run(&[&RUN[..], &["--out", "whole", "--json"]].concat());
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("of 3 of 3 units it is not known whether they keep the limits: they have not passed"), "{said}");
+    let found: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(fogcoil::schema::misfit(&found, &schema("batch")), None);
+    assert_eq!((&found["failing"], &found["not_known"]), (&0.into(), &3.into()));
+    let unit = &found["units"][1];
+    assert_eq!((&unit["unit"], &unit["judged"], &unit["lot"]), (&"U7986".into(), &"not known".into(), &"lot".into()));
+    assert!(unit["reason"].as_str().unwrap().starts_with("hysteresis is not known: "), "{unit}");
+    assert!(unit["verdict_probability"].as_f64().is_some() && unit["first_mechanism"].is_string(), "{unit}");
 }
 
 /// A run that is killed once the first unit is kept, and the next, give what one run gives.

@@ -95,6 +95,8 @@ fn text_json_and_picture() {
         "note: gap of 630 s, 20 rows missing, from 14970 to 15600 s",
         "angle random walk",
         "the meta file's",
+        "from neighbours' differences, 1 sd",
+        "bias instability, the Allan floor",
         "tau [s]",
     ] {
         assert!(text.contains(part), "{part}: {text}");
@@ -106,16 +108,15 @@ fn text_json_and_picture() {
         assert!(picture.starts_with("<svg") && picture.contains(part), "{part}");
     }
 
-    // notes are neither warnings nor errors
+    assert!(picture.contains("Allan deviation of the rate less its linear response to temperature"), "{picture}");
+
+    // the result without notes, which are neither warnings nor errors
     let output = folder.run(&["check", "r.csv", "--quiet"]);
-    assert!(output.status.success() && stdout(&output).is_empty() && stderr(&output).is_empty(), "{}", stdout(&output));
+    assert!(output.status.success() && stderr(&output).is_empty(), "{}", stderr(&output));
+    assert!(stdout(&output).contains("r.csv: usable") && !stdout(&output).contains("note: "), "{}", stdout(&output));
     folder.write("kelvin.csv", standard(&rows.iter().map(|[t, a, b, r]| [*t, a + 273.15, *b, *r]).collect::<Vec<_>>()));
     let output = folder.run(&["check", "kelvin.csv", "--quiet"]);
-    assert!(
-        !stdout(&output).is_empty() && stdout(&output).lines().all(|line| line.starts_with("warning: ")),
-        "{}",
-        stdout(&output)
-    );
+    assert!(stdout(&output).contains("\nwarning: ") && !stdout(&output).contains("note: "), "{}", stdout(&output));
 
     let output = folder.run(&["check", "r.csv", "--json"]);
     assert_eq!(stdout(&output).lines().count(), 1);
@@ -129,6 +130,30 @@ fn text_json_and_picture() {
     let walk = json["noise"]["angle_random_walk_deg_per_sqrt_h"].as_f64().unwrap();
     assert!((walk / (white * (30.0 / 3600.0_f64).sqrt()) - 1.0).abs() < 1e-12, "N = white · √(30 s)");
     assert!(json["noise"]["allan"].as_array().unwrap().len() > 10);
+}
+
+#[test]
+fn several_recordings_have_a_line_each() {
+    let folder = Folder::new();
+    std::fs::create_dir_all(folder.path("lot/U2")).unwrap();
+    folder.write("lot/a.csv", standard(&rows(600)));
+    folder.write("lot/U2/b.csv", standard(&rows(700)));
+    let output = folder.run(&["check", "lot"]);
+    let text = stdout(&output);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let line = |name: &str| text.lines().find(|line| line.starts_with(name)).unwrap_or_else(|| panic!("{name}: {text}"));
+    assert!(line("lot/a.csv").contains("usable") && line("lot/U2/b.csv").contains(" 700 "), "{text}");
+    assert_eq!(text.lines().count(), 3, "{text}");
+    // one that cannot be used does not hide the others
+    folder.write("lot/c.csv", "time_s,rate_deg_per_h\n0,nan\n");
+    let output = folder.run(&["check", "lot", "--json"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("1 of 3 recordings cannot be used"), "{}", stderr(&output));
+    let found: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let usable: Vec<&Value> = found["records"].as_array().unwrap().iter().map(|record| &record["usable"]).collect();
+    assert_eq!(usable, [true, false, true]);
+    let output = folder.run(&["check", "lot", "--svg", "a.svg"]);
+    assert!(output.status.code() == Some(2) && stderr(&output).contains("are of one recording"), "{}", stderr(&output));
 }
 
 #[test]
@@ -246,7 +271,7 @@ fn a_unit_in_a_columns_name_is_heard() {
     }
     assert_eq!(said.lines().filter(|line| line.ends_with("[unit-in-name]")).count(), 2, "{said}");
     let declared = folder.run(&[&columns[..], &["--unit", "time=min", "--unit", "chamber=K"]].concat());
-    assert_eq!(stdout(&declared), "");
+    assert!(!stdout(&declared).contains("warning: "), "{}", stdout(&declared));
 }
 
 #[test]

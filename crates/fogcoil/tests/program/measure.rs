@@ -88,6 +88,11 @@ fn the_steady_sensitivity_of_a_coil_is_measured_again() {
         text.contains("the design's sensitivity") && text.contains("angle random walk") && text.contains("[not-measured]"),
         "{text}"
     );
+    // the reason that figures share is said once, and not at all if notes are not asked for
+    let reasons = text.lines().filter(|line| line.ends_with("[not-measured]"));
+    assert!(reasons.clone().count() == 1 && reasons.clone().all(|line| !line.contains("r.csv")), "{text}");
+    let quiet = stdout(&folder.run(&["measure", "r.csv", "coil.ron", "--quiet"]));
+    assert!(quiet.contains("angle random walk") && !quiet.contains("note: "), "{quiet}");
     // another offset, another unit, another origin and fewer columns: the same
     let rows = std::fs::read_to_string(folder.path("r.csv")).unwrap();
     let moved = rows.lines().skip(1).map(|line| {
@@ -168,6 +173,12 @@ fn what_a_record_does_not_tell_is_null() {
             assert!(said, "{file} {key}: {notes:?}");
         }
         assert_eq!(found["arw"].is_null(), file == "short.csv", "{found}");
+        assert!(found["not_known"]["heating"].as_str().unwrap().contains(says), "{found}");
+        let text = stdout(&folder.run(&["measure", file]));
+        assert!(
+            text.contains(&format!("sensitivity, heating, cooling, asymmetry, hysteresis, bias_span, peak: {says}")),
+            "{text}"
+        );
         // white noise has no floor
         let falls = found["notes"].to_string().contains("bias_instability: the Allan deviation still falls at");
         assert!(found["bias_instability"].is_null() && falls == (file != "short.csv"), "{found}");

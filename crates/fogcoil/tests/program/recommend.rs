@@ -49,6 +49,11 @@ fn a_fast_profile_is_recommended_and_can_be_simulated() {
     assert!(table.contains("for comparison: slow ramp") && table.contains("gain: in ln odds, over the slow ramp"), "{table}");
     let says = r["recommendation"].as_str().unwrap();
     assert!(says.starts_with("No profile within the limits") && says.contains("tails' lengths"), "{says}");
+    assert!(says.contains("the best of the insufficient ones, "), "{says}");
+    // a profile that does not separate is written where it is asked for, and said to be none that does
+    let output = folder.run(&[&narrow[..], &["--out", "narrow.csv"]].concat());
+    let note = "note: narrow.csv does not separate tail-asymmetry, adhesive-content";
+    assert!(folder.path("narrow.csv").exists() && stderr(&output).contains(note), "{}", stderr(&output));
 }
 
 #[test]
