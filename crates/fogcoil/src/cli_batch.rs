@@ -86,7 +86,7 @@ fn judged(batch: &Batch, progress: &Progress) -> Result<(), Error> {
     let (failing, not_known, units) = (batch.failing(), batch.not_known(), batch.rows.len());
     if not_known > 0 {
         progress.note(&format!(
-            "of {not_known} of {units} units it is not known whether they keep the limits: they have not passed; see the column reason"
+            "{not_known} of {units} units are not known to keep the limits: they have not passed; see the column reason"
         ));
     }
     match failing {
