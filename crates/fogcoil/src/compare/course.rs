@@ -1,5 +1,7 @@
 //! Bias under a profile: of A, of B, and of B less A row by row.
 
+use coil::SAFETY;
+
 use super::Comparison;
 use crate::simulate::Simulation;
 use crate::summary::Summary;
@@ -13,7 +15,7 @@ pub struct CourseNumbers {
     pub rms: f64,
     /// Value in the last row.
     pub end: f64,
-    /// Numerical errors of the three: estimates; of the difference the sum of both.
+    /// Numerical errors of the three: estimates; of the difference that of its meshes' difference, and the sum of what modes leave out.
     pub errors: [f64; 3],
 }
 
@@ -40,6 +42,26 @@ impl Comparison<'_> {
         a.rows().zip(b.rows()).map(|(a, b)| (a.time, b.rate - a.rate)).collect()
     }
 
+    /// Numerical errors of the peak, root mean square and end of the difference: what both designs' meshes are off by alike falls out.
+    fn errors_of_difference(&self, duration: f64) -> Option<[f64; 3]> {
+        let [a, b] = self.simulations.as_ref()?;
+        let (mut most, mut squares, mut last) = (0.0_f64, 0.0, a.row(0).time);
+        for (a, b) in a.differences().zip(b.differences()) {
+            let off = SAFETY * (b.rate - a.rate);
+            most = most.max(off.abs());
+            squares += off * off * (a.time - last);
+            last = a.time;
+        }
+        let mut modes = [0.0; 2];
+        for simulation in [a, b] {
+            let Summary { peak, rms, .. } = Summary::of(simulation);
+            let share = simulation.reduction.bias;
+            modes = [modes[0] + share * peak.rate.abs(), modes[1] + share * rms];
+        }
+        let rms = if duration > 0.0 { (squares / duration).sqrt() } else { 0.0 };
+        Some([most + modes[0], rms + modes[1], most + modes[0]])
+    }
+
     /// The bias of A, of B, and of B less A row by row; `None` without a profile.
     pub fn bias(&self) -> Option<[CourseNumbers; 3]> {
         let [a, b] = self.simulations.as_ref()?.each_ref().map(CourseNumbers::of);
@@ -51,7 +73,7 @@ impl Comparison<'_> {
         let duration = last.0 - first.0;
         let squares: f64 = rows.windows(2).map(|w| w[1].1.powi(2) * (w[1].0 - w[0].0)).sum();
         let rms = if duration > 0.0 { (squares / duration).sqrt() } else { 0.0 };
-        let errors = [0, 1, 2].map(|n| a.errors[n] + b.errors[n]);
+        let errors = self.errors_of_difference(duration)?;
         Some([a, b, CourseNumbers { peak, rms, end: last.1, errors }])
     }
 }

@@ -116,7 +116,7 @@ fn a_record_that_cannot_be_used_is_refused_in_one_message() {
     }
     folder.write("r.csv", format!("time_s,spool_c\n{twelve}"));
     refuse(&["--spool", "r.csv", "--profile", "p.csv"], "cannot be used with");
-    refuse(&[], "<--profile <P.csv>|--spool <RECORD.csv>>");
+    refuse(&[], "<--profile <P.csv>|--record <RECORD.csv>|--spool <RECORD.csv>>");
     refuse(&["--profile", "p.csv", "--spool-noise", "0.1"], "cannot be used with");
     refuse(&["--profile", "r.csv"], "a record of the spool's thermometer goes to --spool");
     for noise in ["0", "-1", "nan", "inf", "much"] {
