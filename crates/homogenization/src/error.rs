@@ -30,8 +30,8 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
-    /// The accuracy that is asked for is no number from 0 up.
-    #[error("relative_error = {0}, but it must be a number, 0 or greater; `TOLERANCE` is 1e-6")]
+    /// The accuracy that is asked for is not a number, or negative.
+    #[error("relative_error = {0}, but it must be 0 or more; `TOLERANCE` is 1e-6")]
     Tolerance(f64),
     /// A layout names a phase that the cell does not have.
     #[error("{place} names phase {phase}, there are {phases}, numbered from 0; add its material, or name another phase")]
@@ -90,7 +90,7 @@ pub enum Error {
 
 impl Error {
     /// Refuses an accuracy that no result can have.
-    pub(crate) fn unless_positive(relative_error: f64) -> Result<(), Self> {
+    pub(crate) fn unless_accuracy(relative_error: f64) -> Result<(), Self> {
         if relative_error >= 0.0 { Ok(()) } else { Err(Self::Tolerance(relative_error)) }
     }
 

@@ -143,10 +143,10 @@ pub fn homogenize(cell: &FibreCell) -> Result<Homogenized, Error> {
 /// thickness, raised until two orders agree.
 ///
 /// # Errors
-/// [`Error::Accuracy`] if rounding, or a film too thin for [`HIGHEST_ORDER`], stands in the way, with the best estimate reached; [`Error::Tolerance`] for a `relative_error` that is not above 0;
+/// [`Error::Accuracy`] if rounding, or a film too thin for [`HIGHEST_ORDER`], stands in the way, with the best estimate reached; [`Error::Tolerance`] for a `relative_error` that is negative or NaN;
 /// else [`Error`] names the constituent or the geometry at fault.
 pub fn homogenize_to(cell: &FibreCell, relative_error: f64) -> Result<Homogenized, Error> {
-    Error::unless_positive(relative_error)?;
+    Error::unless_accuracy(relative_error)?;
     Phases::new(cell)?;
     let decay = multipole::decay(cell);
     // orders of one residue modulo the symmetry converge evenly, those of −1 fastest

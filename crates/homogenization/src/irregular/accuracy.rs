@@ -68,9 +68,9 @@ impl Cell {
     ///
     /// # Errors
     /// [`Error::Accuracy`] with the best estimate reached if neither helps, or a million unknowns do not suffice; [`Error::Tolerance`] for a
-    /// `relative_error` that is not above 0; else [`Error`] names the constituent at fault, or the mesh or solve that failed.
+    /// `relative_error` that is negative or NaN; else [`Error`] names the constituent at fault, or the mesh or solve that failed.
     pub fn homogenize_to(&self, relative_error: f64) -> Result<HomogenizedCell, Error> {
-        Error::unless_positive(relative_error)?;
+        Error::unless_accuracy(relative_error)?;
         let mut level = Level { order: FIRST_ORDER, fineness: 1.0 };
         let mut last = constants(&self.solve(level.order, level.fineness)?)?;
         let rounding = self.rounding(level, &last);
