@@ -126,7 +126,7 @@ fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
         let error = error.map_or("not known".to_owned(), |error| format!("± {:.0} %", 100.0 * error));
         vec![name.to_owned(), significant(value, 3), error, unit.to_owned()]
     };
-    let mut rows = vec![["", "value", "1 sd", "unit"].map(str::to_owned).to_vec()];
+    let mut rows = vec![["", "value", "± 1 sd", "unit"].map(str::to_owned).to_vec()];
     rows.push(row("white noise of a sample", model.white, white, "deg/h"));
     if let Some(n) = model.angle_random_walk() {
         rows.push(row("angle random walk", n / S_PER_H.sqrt(), white, "deg/sqrt(h)"));
