@@ -88,10 +88,12 @@ pub fn text(case: &CoilCase, trim: &Trim) -> String {
     let tails = case.design.winding.tails;
     let more = cw_minus_ccw - (tails.cw - tails.ccw);
     let [add, cut] = if more >= 0.0 { ["CW", "CCW"] } else { ["CCW", "CW"] };
+    let spare = if cut == "CW" { tails.cw } else { tails.ccw };
+    let or = if spare >= more.abs() { format!(", or cut as much off {cut}") } else { String::new() };
     let mut text = format!(
         "{}: sensitivity {before:.4} (deg/h)/(degC/min); two ways to null it\n\n\
          tails: the {longer} tail must be {difference:.3} ± {uncertainty:.3} m longer than the {other} tail (± standard uncertainty)\n\
-         in this file CW is {:.3} m and CCW {:.3} m: add {length:.3} m to {add}, or cut as much off {cut} if there is enough\n\
+         in this file CW is {:.3} m and CCW {:.3} m: add {length:.3} m to {add}{or}\n\
          each metre of CW adds {slope:.3} (deg/h)/(degC/min); the spread that tolerances cause stays\n\n",
         case.name,
         tails.cw,
