@@ -27,7 +27,7 @@ fn heated(mesh: &Mesh, constraints: &mut Constraints) -> Result<Vec<f64>, Error>
     constraints.hold(1)?;
     let map = constraints.eliminate(&problem.used(|_| true));
     let load = map.restrict(&problem.loads(&stresses)?[0]);
-    let u = problem.factor(&map, &laws)?.solve(std::slice::from_ref(&load))?;
+    let u = problem.factor(&map, &laws)?.solve(&[load])?;
     assert_eq!(problem.condense(&map, &laws).map(|c| c.unknowns()), Ok(map.reduced()));
     Ok(map.expand(&u[0]))
 }
