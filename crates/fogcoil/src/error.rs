@@ -154,8 +154,9 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         use coil::Error::{Bias, Design, Profile, Record, Winding};
         use files::Error::{Coil, Homogenization};
+        use homogenization::Error::{Accuracy, Tolerance};
         match self {
-            Self::File(Homogenization { source: homogenization::Error::Accuracy { .. }, .. }) => 2,
+            Self::File(Homogenization { source: Accuracy { .. } | Tolerance(_), .. }) => 2,
             Self::File(Coil { source: Design { .. } | Profile { .. } | Record(_) | Winding(_) | Bias(_), .. }) => 2,
             Self::File(Homogenization { .. } | Coil { .. }) => 1,
             Self::File(_) | Self::Identification { .. } => 2,
