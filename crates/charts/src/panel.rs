@@ -2,8 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::scale::DIGIT;
-use crate::scale::Scale;
+use crate::scale::{DIGIT, Scale};
 use crate::series::path;
 use crate::size::Measures;
 use crate::svg::Svg;

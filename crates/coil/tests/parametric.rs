@@ -303,3 +303,15 @@ fn heaters_settle(model: &ParametricModel) {
     assert!((heated(1.0) / steady - 1.0).abs() < 1e-4, "{} against {steady}", heated(1.0));
     assert!((heated(0.5) / heated(1.0) - 0.5).abs() < 1e-9);
 }
+
+/// A wide tolerance keeps half of a length below, and all of its reach above.
+#[test]
+fn a_wide_tolerance_of_a_length_reaches_three_deviations_up() {
+    let design = crate::common::reference();
+    let drawn = Parameter::Margin.of(&design).unwrap();
+    let margin = (coil::Number::Constant(Parameter::Margin), coil::Tolerance::Absolute(0.4 * drawn));
+    let tolerances = coil::Tolerances { given: vec![margin], ..coil::Tolerances::default() };
+    let ranges = Range::tolerated(&design, &tolerances);
+    let range = ranges.iter().find(|range| range.parameter == Parameter::Margin).unwrap();
+    assert!((range.low / drawn - 0.5).abs() < 1e-12 && (range.high / drawn - 2.2).abs() < 1e-12, "{range:?} of {drawn}");
+}

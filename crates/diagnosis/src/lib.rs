@@ -36,4 +36,4 @@ pub use rival::Rival;
 pub use search::{Settings, diagnose, diagnose_beside};
 pub use settle::{Settled, settled};
 pub use structure::Structure;
-pub use verdict::{Candidate, Contradiction, Diagnosis, Judged, Judgement, Ruling, Verdict};
+pub use verdict::{Candidate, Contradiction, Diagnosis, Judged, Judgement, Ruling, SURE, Verdict};

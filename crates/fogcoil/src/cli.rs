@@ -22,7 +22,7 @@ use crate::cli_sweep::Sweep;
 #[derive(Parser)]
 #[command(
     version,
-    after_help = "Exit status: 0 done; 2 bad usage or input; 1 the program's own failure, and of `batch` a unit that fails a limit; 130 interrupted, 143 terminated, 129 hung up."
+    after_help = "Exit status: 0 done; 2 bad usage or input; 1 the program's own failure, and of `batch` a unit that has not passed its limits; 130 interrupted, 143 terminated, 129 hung up."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]

@@ -25,11 +25,13 @@ pub enum Error {
     /// A table cannot be written in the format that was asked for.
     #[error("the table cannot be written: {0}")]
     Table(String),
-    /// Units of a batch do not keep their limits.
-    #[error("{failing} of {units} units do not keep the limits")]
+    /// Units of a batch have not passed.
+    #[error("{}", not_passed(*failing, *not_known, *units))]
     Limits {
-        /// Number of units that do not.
+        /// Number of units that fail a limit.
         failing: usize,
+        /// Number of units of which it is not known whether they keep the limits.
+        not_known: usize,
         /// Number of all units.
         units: usize,
     },
@@ -163,4 +165,12 @@ impl Error {
             Self::Stdout(_) | Self::Limits { .. } | Self::Table(_) | Self::Diagnosis(_) | Self::NotFinite { .. } => 1,
         }
     }
+}
+
+/// Units that have not passed, in words.
+fn not_passed(failing: usize, not_known: usize, units: usize) -> String {
+    let fails = (failing > 0).then(|| format!("{failing} of {units} units do not keep the limits"));
+    let unknown =
+        || format!("{not_known} of {units} units are not known to keep the limits: they have not passed; see the column reason");
+    fails.into_iter().chain((not_known > 0).then(unknown)).collect::<Vec<_>>().join("; ")
 }

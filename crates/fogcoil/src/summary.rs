@@ -80,15 +80,12 @@ impl Errors {
     /// Errors of a simulation in this range of temperatures \[K\], with these rates \[deg/h\] and this regression.
     fn of(simulation: &Simulation, range: f64, rms: f64, peak: f64, regression: &Regression) -> Self {
         let mut errors = Self::default();
-        let (mut last, mut squared) = (simulation.row(0).time, 0.0);
         for row in simulation.differences() {
             errors.spool = errors.spool.max(SAFETY * row.spool.abs());
             let parts = [row.shupe, row.eo_axial, row.eo_radial, row.read_out, row.rate];
             for (most, part) in errors.parts.iter_mut().zip(parts) {
                 *most = most.max(SAFETY * part.abs());
             }
-            squared += (SAFETY * row.rate).powi(2) * (row.time - last);
-            last = row.time;
         }
         let rates =
             simulation.rows().zip(simulation.rows().skip(1)).map(|(a, b)| ((b.chamber - a.chamber) / (b.time - a.time)).abs());
@@ -98,8 +95,7 @@ impl Errors {
         for (n, most) in errors.parts.iter_mut().enumerate() {
             *most += if n == READ_OUT { 0.0 } else { reduced * peak };
         }
-        let duration = simulation.duration();
-        errors.rms = if duration > 0.0 { (squared / duration).sqrt() } else { 0.0 } + reduced * rms;
+        errors.rms = SAFETY * over_time(simulation.differences().map(|row| (row.time, row.rate))) + reduced * rms;
         let coarser = Regression::of(simulation.coarser_windows());
         errors.slope = regression.slope().zip(coarser.slope()).map(|(slope, other)| {
             // the modes' errors, however they lie, turn the line by no more than their rms over that of its abscissa
@@ -107,6 +103,18 @@ impl Errors {
         });
         errors
     }
+}
+
+/// Root of the mean over time of a squared course, each value the mean since the one before; 0 without a duration.
+pub(crate) fn over_time(course: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let (mut first, mut last, mut squares) = (None, 0.0, 0.0);
+    for (time, value) in course {
+        squares += value * value * if first.is_some() { time - last } else { 0.0 };
+        first.get_or_insert(time);
+        last = time;
+    }
+    let duration = last - first.unwrap_or(last);
+    if duration > 0.0 { (squares / duration).sqrt() } else { 0.0 }
 }
 
 /// Index of the read-out in [`Errors::parts`]; it follows the thermometer, no strain.
@@ -151,7 +159,7 @@ impl Summary {
     pub fn of(simulation: &Simulation) -> Self {
         let first = simulation.row(0);
         let (mut chamber, mut spool) = ([first.chamber; 2], [first.spool; 2]);
-        let (mut peak, mut last, mut squared) = (first, first.time, 0.0);
+        let mut peak = first;
         let widen = |range: &mut [f64; 2], value: f64| *range = [range[0].min(value), range[1].max(value)];
         for row in simulation.rows() {
             widen(&mut chamber, row.chamber);
@@ -159,12 +167,10 @@ impl Summary {
             if row.rate.abs() > peak.rate.abs() {
                 peak = row;
             }
-            squared += row.rate * row.rate * (row.time - last);
-            last = row.time;
         }
         let regression = Regression::of(simulation.windows());
         let duration = simulation.duration();
-        let rms = if duration > 0.0 { (squared / duration).sqrt() } else { 0.0 };
+        let rms = over_time(simulation.rows().map(|row| (row.time, row.rate)));
         let slope = regression.slope();
         let range = [chamber, spool].map(|[low, high]| high - low).into_iter().fold(0.0, f64::max);
         let errors = Errors::of(simulation, range, rms, peak.rate.abs(), &regression);

@@ -4,8 +4,8 @@ use super::set::{likely, marginals, named};
 use super::{Diagnosis, Verdict};
 use crate::{Candidate, Error, Fit, ForwardModel, HeldOut, Hypothesis, Observation, as_designed};
 
-/// Least probability of a mechanism that is named although a structure remains beside it.
-const SURE: f64 = 0.8;
+/// Least probability of a mechanism that is named although a structure remains beside it, and of a verdict that is told without a doubt.
+pub const SURE: f64 = 0.8;
 
 /// A held-out record with its predictions.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,7 +8,7 @@ mod judge;
 mod set;
 mod unlisted;
 
-pub use judge::{Contradiction, Judged, Judgement, Ruling};
+pub use judge::{Contradiction, Judged, Judgement, Ruling, SURE};
 
 use crate::fit::{Fit, Hypothesis};
 use crate::{Estimate, Rival, Stage};

@@ -1,5 +1,6 @@
 //! A unit as a row of the table.
 
+use diagnosis::SURE;
 use serde_json::Value;
 
 /// Numbers of a unit, in the order of the table; the first eight have intervals, as `fogcoil measure` tells them.
@@ -24,9 +25,6 @@ pub(super) const NUMBERS: [&str; 16] = [
 
 /// Number of the [`NUMBERS`] that have intervals.
 pub(super) const MEASURED: usize = 8;
-
-/// Probability from which a verdict is sure, as a name beside a structure is in the diagnosis itself.
-const SURE: f64 = 0.8;
 
 /// A constant of the design as a unit has it.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,7 +4,7 @@ use coil::SAFETY;
 
 use super::Comparison;
 use crate::simulate::Simulation;
-use crate::summary::Summary;
+use crate::summary::{Summary, over_time};
 
 /// Summary of a course of the bias \[deg/h\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,23 +43,17 @@ impl Comparison<'_> {
     }
 
     /// Numerical errors of the peak, root mean square and end of the difference: what both designs' meshes are off by alike falls out.
-    fn errors_of_difference(&self, duration: f64) -> Option<[f64; 3]> {
+    fn errors_of_difference(&self) -> Option<[f64; 3]> {
         let [a, b] = self.simulations.as_ref()?;
-        let (mut most, mut squares, mut last) = (0.0_f64, 0.0, a.row(0).time);
-        for (a, b) in a.differences().zip(b.differences()) {
-            let off = SAFETY * (b.rate - a.rate);
-            most = most.max(off.abs());
-            squares += off * off * (a.time - last);
-            last = a.time;
-        }
+        let off = || a.differences().zip(b.differences()).map(|(a, b)| (a.time, SAFETY * (b.rate - a.rate)));
+        let most = off().fold(0.0, |most: f64, (_, off)| most.max(off.abs()));
         let mut modes = [0.0; 2];
         for simulation in [a, b] {
             let Summary { peak, rms, .. } = Summary::of(simulation);
             let share = simulation.reduction.bias;
             modes = [modes[0] + share * peak.rate.abs(), modes[1] + share * rms];
         }
-        let rms = if duration > 0.0 { (squares / duration).sqrt() } else { 0.0 };
-        Some([most + modes[0], rms + modes[1], most + modes[0]])
+        Some([most + modes[0], over_time(off()) + modes[1], most + modes[0]])
     }
 
     /// The bias of A, of B, and of B less A row by row; `None` without a profile.
@@ -70,10 +64,8 @@ impl Comparison<'_> {
         let peak = rows
             .iter()
             .fold((0.0, first.0), |(most, at), (time, rate)| if rate.abs() > most { (rate.abs(), *time) } else { (most, at) });
-        let duration = last.0 - first.0;
-        let squares: f64 = rows.windows(2).map(|w| w[1].1.powi(2) * (w[1].0 - w[0].0)).sum();
-        let rms = if duration > 0.0 { (squares / duration).sqrt() } else { 0.0 };
-        let errors = self.errors_of_difference(duration)?;
+        let rms = over_time(rows.iter().copied());
+        let errors = self.errors_of_difference()?;
         Some([a, b, CourseNumbers { peak, rms, end: last.1, errors }])
     }
 }

@@ -51,7 +51,7 @@ fn row(x: &Explanation) -> Option<Vec<String>> {
     Some(match &x.outcome {
         Reach::Gives { value, error, sigma, layer } => {
             let layer = layer.map_or(String::new(), |(k, n)| match *value {
-                0.0 => ": no turn is nearer to it than one is, in any layer".into(),
+                0.0 => ": in no layer does a whole turn come nearer than none".into(),
                 _ => format!(", in layer {k}; as plausibly in {n} layers"),
             });
             let value = format!("{} ± {}", significant(*value, 3), significant(*error, 1));

@@ -85,7 +85,7 @@ fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<'a> {
             (time(simulation.row(n).time), value(&row))
         })
     };
-    let left = Summary::of(simulation).left[1];
+    let left = simulation.profile.recorded.as_ref().and_then(|_| Summary::of(simulation).left[1]);
     let recorded = left.and_then(|left| {
         let name = format!("as recorded, less {} °/h", signed(left.mean, 3));
         recorded(simulation, &name, time, |row| row.recorded[1], left.mean)

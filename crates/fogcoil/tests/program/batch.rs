@@ -79,7 +79,7 @@ fn what_is_not_known_has_not_passed(folder: &Folder) {
     folder.write("limits.ron", "(limits: {\"hysteresis\": Magnitude(10.0)})");
     let output = folder.run(&[&RUN[..], &["--out", "whole", "--json"]].concat());
     let said = stderr(&output);
-    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.contains("2 of 3 units are not known to keep the limits: they have not passed"), "{said}");
     let found: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(fogcoil::schema::misfit(&found, &schema("batch")), None);

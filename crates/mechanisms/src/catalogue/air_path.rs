@@ -17,7 +17,7 @@ pub(super) const AIR_PATH: Named = Named {
         same from one side. Only the difference between the two faces tells them apart; fast changes make it large.",
     source: "F. P. Incropera and D. P. DeWitt, *Fundamentals of Heat and Mass Transfer*, Wiley, ch. 9; H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed., Oxford (1959), ch. 1.",
     meaning: "the surroundings conduct heat better or worse than designed, by conductivity_factor",
-    inspection: "measure the gap to the chamber wall (surroundings.margin_mm): a factor below one is the same as a wider gap; then stop the fan, or change the gas",
+    inspection: "measure the gap to the chamber wall (surroundings.margin_mm): a factor below one acts like a wider gap; then stop the fan, or change the gas",
     columns: &[],
     heat_path: Some(|| HeatPath {
         places: |design| usize::from(applies(design)),
