@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::attributes;
-use crate::scale::{DIGIT, power_of_ten};
+use crate::scale::{DIGIT, Scale, power_of_ten};
 use crate::svg::Svg;
 
 /// Steps of colour; odd, so that a diverging map has a middle.
@@ -128,6 +128,8 @@ pub struct HeatMap {
     pub bar: bool,
     /// Numbers of the cells that stand out, in the order of the values; each carries a dot.
     pub marked: Vec<usize>,
+    /// Rectangles that are outlined, by their ends along x and along y.
+    pub outlines: Vec<[[f64; 2]; 2]>,
 }
 
 impl HeatMap {
@@ -157,6 +159,16 @@ impl HeatMap {
             let (x, y) = ((cell % columns) as f64 + 0.5, (rows - 1 - cell / columns) as f64 + 0.5);
             let (x, y) = (x * width / columns as f64, y * height / rows as f64);
             svg.leaf("circle", attributes! { "class": "dot", "cx": "{x:.1}", "cy": "{y:.1}", "r": "3.5" });
+        }
+    }
+
+    /// The outlines, each on a wide line of the page's colour, so that it stands out on any map.
+    pub(crate) fn outlined(&self, svg: &mut Svg, [x, y]: [&Scale; 2]) {
+        for [across, along] in &self.outlines {
+            let ([left, right], [low, high]) = (across.map(|end| x.pixel(end)), along.map(|end| y.pixel(end)));
+            let path = format!("M{left:.1} {low:.1}H{right:.1}V{high:.1}H{left:.1}z");
+            svg.leaf("path", attributes! { "class": "outline under", "d": "{path}" });
+            svg.leaf("path", attributes! { "class": "outline", "d": "{path}" });
         }
     }
 
@@ -206,7 +218,16 @@ mod tests {
     fn cells_of_one_colour_that_touch_are_one_box() {
         let colours = Colours::diverging("", 1.0, 0.0);
         let values = vec![1.0, 1.0, -1.0, f64::NAN, 1.0, 1.0];
-        let map = HeatMap { columns: 3, values, x: [0.0, 1.0], y: [0.0, 1.0], colours, bar: true, marked: vec![1] };
+        let map = HeatMap {
+            columns: 3,
+            values,
+            x: [0.0, 1.0],
+            y: [0.0, 1.0],
+            colours,
+            bar: true,
+            marked: vec![1],
+            outlines: Vec::new(),
+        };
         let drawn = |draw: &dyn Fn(&mut Svg)| {
             let mut svg = Svg::default();
             draw(&mut svg);

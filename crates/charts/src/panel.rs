@@ -275,6 +275,7 @@ impl<'a> Panel<'a> {
             }
             Content::Map(map) => {
                 map.cells(svg, place.plot, id, m.first);
+                map.outlined(svg, [x, y]);
                 map.dots(svg, place.plot);
                 axes(svg, &outward_ticks(x, y, height));
             }

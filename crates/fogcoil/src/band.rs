@@ -118,6 +118,22 @@ impl CourseBand {
         }
     }
 
+    /// The rate of a row and its standard deviation \[deg/h\].
+    ///
+    /// # Panics
+    /// If the simulation has no such row.
+    pub fn rate(&self, row: usize) -> [f64; 2] {
+        [self.rows[row][1], self.rows[row][2]]
+    }
+
+    /// The thermometer of a row and its standard deviation \[°C\].
+    ///
+    /// # Panics
+    /// If the simulation has no such row.
+    pub fn spool(&self, row: usize) -> [f64; 2] {
+        [self.rows[row][3], self.rows[row][4]]
+    }
+
     /// The band as one JSON object: one standard deviation each.
     pub fn json(&self) -> Value {
         let shares = self.shares.iter().map(|(key, share)| json!({"key": key, "share": share}));

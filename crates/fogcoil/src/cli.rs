@@ -80,6 +80,9 @@ pub(crate) enum Command {
         /// Profile under which to show what remains, e.g. fixtures/profiles/paper.csv
         #[arg(long, value_name = "P.csv")]
         profile: Option<PathBuf>,
+        /// Add a row every S seconds from the first row, on the straight lines between the profile's own
+        #[arg(long, value_name = "S", value_parser = crate::cli_simulate::step, requires = "profile")]
+        step: Option<f64>,
         /// Print one JSON object
         #[arg(long)]
         json: bool,

@@ -8,7 +8,7 @@ use fogcoil::output::Content;
 use fogcoil::{Error, compare, input};
 
 use crate::progress::Progress;
-use crate::{CLOSER, line, print};
+use crate::{divide, line, print};
 
 #[derive(Args)]
 pub(crate) struct Compare {
@@ -21,6 +21,9 @@ pub(crate) struct Compare {
     /// Profile under which to compare their bias, e.g. fixtures/profiles/paper.csv
     #[arg(long, value_name = "P.csv")]
     profile: Option<PathBuf>,
+    /// Add a row every S seconds from the first row, on the straight lines between the profile's own
+    #[arg(long, value_name = "S", value_parser = crate::cli_simulate::step, requires = "profile")]
+    step: Option<f64>,
     /// Write a page with pictures side by side here
     #[arg(long, value_name = "R.html")]
     report: Option<PathBuf>,
@@ -33,7 +36,7 @@ pub(crate) struct Compare {
 }
 
 pub(crate) fn run(arguments: &Compare, progress: &Progress) -> Result<(), Error> {
-    let Compare { a, b, profile, report, json, no_cache } = arguments;
+    let Compare { a, b, profile, step, report, json, no_cache } = arguments;
     let inputs: Vec<PathBuf> = [b].into_iter().chain(profile).cloned().collect();
     let outputs = [report.as_deref()];
     let case_a = progress.read_coil_for(a, &inputs, &outputs)?;
@@ -41,7 +44,7 @@ pub(crate) fn run(arguments: &Compare, progress: &Progress) -> Result<(), Error>
     let read = |path: &PathBuf| -> Result<_, Error> {
         let of = |case: &input::CoilCase| input::read_profile(path, &case.design, &[]);
         let mut profiles = [of(&case_a)?, of(&case_b)?];
-        profiles.iter_mut().for_each(|profile| profile.note_long_rows(CLOSER));
+        profiles.iter_mut().try_for_each(|profile| divide(profile, *step))?;
         progress.tell(&profiles[0].notes);
         Ok(profiles)
     };

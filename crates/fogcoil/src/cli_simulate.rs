@@ -13,7 +13,7 @@ use fogcoil::simulate::{self, Fields, Model, Simulation};
 use fogcoil::{Error, band, figures, report, summary};
 
 use crate::progress::Progress;
-use crate::{CLOSER, line, print};
+use crate::{divide, line, print};
 
 #[derive(Args)]
 #[command(group(ArgGroup::new("drive").required(true).args(["profile", "record", "spool"])))]
@@ -75,7 +75,8 @@ fn noise(text: &str) -> Result<f64, String> {
 /// Steps \[s\] that a profile can be divided into.
 const STEPS_S: std::ops::RangeInclusive<f64> = 1.0..=1e6;
 
-fn step(text: &str) -> Result<f64, String> {
+/// The argument of `--step`.
+pub(crate) fn step(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|step| STEPS_S.contains(step));
     number.ok_or_else(|| format!("give seconds from {} to {}", STEPS_S.start(), STEPS_S.end()))
 }
@@ -167,13 +168,12 @@ impl Simulate {
     fn divided(&self, mut profile: ProfileCase) -> Result<ProfileCase, Error> {
         profile.between = self.between;
         match (self.step, self.between) {
-            (Some(step), Between::Linear) => profile.divide(step)?,
             (Some(_), Between::Cubic) => {
                 return Err(Error::usage("--step adds rows on straight lines: it does not go with --between cubic"));
             }
-            (None, _) => {}
+            (None, Between::Cubic) => profile.note_long_rows("give the profile closer rows"),
+            (step, Between::Linear) => divide(&mut profile, step)?,
         }
-        profile.note_long_rows(if self.between == Between::Linear { "give --step 30" } else { CLOSER });
         Ok(profile)
     }
 
@@ -193,7 +193,7 @@ impl Simulate {
         if let Some(path) = &self.report {
             let measured =
                 progress.during("solving on finer meshes", || figures::Convergence::measure(simulation.case, cache))?;
-            files.push((path, Content::Text(report::html(simulation, fields, Some(&measured)))));
+            files.push((path, Content::Text(report::html(simulation, fields, Some(&measured), within))));
         }
         let section = self.vtu.as_deref().zip(fields);
         let section =

@@ -77,7 +77,7 @@ fn run(Cli { command, quiet, jobs }: &Cli) -> Result<(), Error> {
         Command::Recommend(arguments) => cli_recommend::run(arguments, progress),
         Command::Simulate(arguments) => cli_simulate::run(arguments, progress),
         Command::Sweep(arguments) => cli_sweep::run(arguments, progress),
-        Command::Trim { coil, profile, json } => run_trim(coil, profile.as_deref(), *json, progress),
+        Command::Trim { coil, profile, step, json } => run_trim(coil, profile.as_deref(), *step, *json, progress),
         Command::Wind { coil, csv, svg, json } => run_wind(coil, csv.as_deref(), svg.as_deref(), *json, progress),
         Command::Identify { targets, json } => {
             let case = input::read_targets(targets)?;
@@ -156,14 +156,18 @@ fn beside(model: &Path, id: &str) -> PathBuf {
     model.with_extension(format!("{id}.ron"))
 }
 
-/// The remedy for rows that last long where --step is none.
-pub(crate) const CLOSER: &str = "give the profile closer rows";
+/// A profile with the rows that `--step` adds, and a note where rows are long all the same.
+pub(crate) fn divide(profile: &mut input::ProfileCase, step: Option<f64>) -> Result<(), Error> {
+    step.map_or(Ok(()), |step| profile.divide(step))?;
+    profile.note_long_rows("give --step 30");
+    Ok(())
+}
 
-fn run_trim(coil: &Path, profile: Option<&Path>, json: bool, progress: &Progress) -> Result<(), Error> {
+fn run_trim(coil: &Path, profile: Option<&Path>, step: Option<f64>, json: bool, progress: &Progress) -> Result<(), Error> {
     let case = progress.read_coil(coil)?;
     let mut profile = profile.map(|path| input::read_profile(path, &case.design, &[])).transpose()?;
     if let Some(profile) = &mut profile {
-        profile.note_long_rows(CLOSER);
+        divide(profile, step)?;
         progress.tell(&profile.notes);
     }
     let result = progress.during("trimming", || trim::trim(&case, profile.as_ref()))?;

@@ -59,11 +59,12 @@ impl Left {
 }
 
 /// Least error of the thermometer that is stated, relative to the range of the chamber or its own: rounding and fast modes, of which two meshes and two numbers of
-/// modes say nothing. In `cargo xtask survey` up to 6e-9.
-const LEAST: f64 = 3e-8;
+/// modes say nothing. In `cargo xtask survey` up to 1e-7.
+const LEAST: f64 = 3e-7;
 
-/// Estimated numerical errors of a simulation at its given chamber: [`SAFETY`] times the distance to the same run on a coarser mesh, and the
-/// error of the reduced model. They do not include errors of the model itself.
+/// Estimated numerical errors of a simulation at its given chamber: [`SAFETY`] times the distance to the same run on a coarser mesh, of the sum that
+/// of its parts together; the error of the steady ramp at the thermometer's rate, which sees the elements' grading, too; and the error of the reduced
+/// model. They do not include errors of the model itself.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Errors {
     /// Error of the thermometer in any row \[K\].
@@ -82,8 +83,7 @@ impl Errors {
         let mut errors = Self::default();
         for row in simulation.differences() {
             errors.spool = errors.spool.max(SAFETY * row.spool.abs());
-            let parts = [row.shupe, row.eo_axial, row.eo_radial, row.read_out, row.rate];
-            for (most, part) in errors.parts.iter_mut().zip(parts) {
+            for (most, part) in errors.parts.iter_mut().zip(row.parts().into_iter().chain([apart(&row)])) {
                 *most = most.max(SAFETY * part.abs());
             }
         }
@@ -95,14 +95,30 @@ impl Errors {
         for (n, most) in errors.parts.iter_mut().enumerate() {
             *most += if n == READ_OUT { 0.0 } else { reduced * peak };
         }
-        errors.rms = SAFETY * over_time(simulation.differences().map(|row| (row.time, row.rate))) + reduced * rms;
+        let steady = &simulation.steady.part_errors;
+        let fastest = simulation.windows().fold(0.0, |most: f64, window| most.max(window.spool_rate.abs()));
+        let in_ramp = [steady.shupe, steady.eo_axial, steady.eo_radial, 0.0, simulation.steady.error_estimate];
+        for (most, error) in errors.parts.iter_mut().zip(in_ramp) {
+            *most += error * fastest;
+        }
+        let ramps = over_time(simulation.windows().map(|window| (window.time, window.spool_rate)));
+        errors.rms = SAFETY * over_time(simulation.differences().map(|row| (row.time, apart(&row))))
+            + simulation.steady.error_estimate * ramps
+            + reduced * rms;
         let coarser = Regression::of(simulation.coarser_windows());
         errors.slope = regression.slope().zip(coarser.slope()).map(|(slope, other)| {
             // the modes' errors, however they lie, turn the line by no more than their rms over that of its abscissa
-            SAFETY * (slope - other).abs() + reduced * rms / (regression.xx / regression.count).sqrt()
+            SAFETY * (slope - other).abs()
+                + simulation.steady.error_estimate
+                + reduced * rms / (regression.xx / regression.count).sqrt()
         });
         errors
     }
+}
+
+/// Distance of two meshes, part by part: the parts' errors may cancel in the sum on one mesh and not on another.
+fn apart(difference: &SimulatedRow) -> f64 {
+    difference.parts().iter().map(|part| part.abs()).sum()
 }
 
 /// Root of the mean over time of a squared course, each value the mean since the one before; 0 without a duration.

@@ -10,6 +10,7 @@ use winding::Half;
 use crate::Error;
 use crate::input::{CoilCase, ProfileCase};
 use crate::sensitivity::Share;
+use crate::summary::over_time;
 use crate::table::{significant, table};
 use crate::tabular::{Column, Table};
 use crate::wind::name;
@@ -39,8 +40,8 @@ pub fn trim(case: &CoilCase, profile: Option<&ProfileCase>) -> Result<Trim, Erro
     let run = |design: &Design, profile: &ProfileCase| -> Result<[f64; 2], Error> {
         let rows = Dynamics::new(design, &profile.drives, &STANDARD).and_then(|d| d.simulate(&profile.profile)).map_err(at)?;
         let rates: Vec<f64> = rows.iter().map(|row| row.rate() * DEG_PER_H_PER_RAD_PER_S).collect();
-        let mean_square = rates.iter().map(|r| r * r).sum::<f64>() / rates.len() as f64;
-        Ok([mean_square.sqrt(), rates.iter().fold(0.0, |m: f64, r| m.max(r.abs()))])
+        let course = profile.profile.time.iter().copied().zip(rates.iter().copied());
+        Ok([over_time(course), rates.iter().fold(0.0, |m: f64, r| m.max(r.abs()))])
     };
     let transients = match profile {
         None => None,

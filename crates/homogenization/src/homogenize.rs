@@ -28,7 +28,7 @@ pub const TOLERANCE: f64 = 1e-6;
 pub struct Homogenized {
     /// The constants.
     pub constants: Constants,
-    /// Estimated relative error of each: [`SAFETY`] times its distance from its value with fewer multipoles ([`homogenize_to`]) or two
+    /// Estimated relative error of each: [`SAFETY`] times its largest distance from its values with fewer multipoles ([`homogenize_to`]) or two
     /// polynomial orders higher ([`homogenize_on`]), and no less than a tenth of the worst one's; the effect of rounding is added. A constant that is nearly zero is compared with [`Constants::size`] instead.
     pub relative_error: Constants,
     /// Stiffness, thermal stress, conductivity and glass strain behind the constants.
@@ -160,8 +160,14 @@ pub fn homogenize_to(cell: &FibreCell, relative_error: f64) -> Result<Homogenize
         let effective = multipoles.effective(cell)?;
         let constants = effective.constants().ok_or_else(Error::singular)?;
         let rounding = rounding(cell, &effective, &constants, |shaken| multipoles.effective(shaken));
-        let lower = multipoles.lowered(order.saturating_sub(step).max(1)).effective(cell)?;
-        let truncation = truncation(&lower.constants().ok_or_else(Error::singular)?, &constants);
+        // single orders are off by more than their neighbours on both sides, and may agree with one of them
+        let mut lower = multipoles;
+        let mut truncation = constants.combine(&constants, |_, _| 0.0);
+        for fewer in [period, step] {
+            lower = lower.lowered(order.saturating_sub(fewer).max(1));
+            let of_lower = lower.effective(cell)?.constants().ok_or_else(Error::singular)?;
+            truncation = truncation.combine(&self::truncation(&of_lower, &constants), f64::max);
+        }
         let relative = truncation.combine(&rounding, |t, r| t + r);
         let (constant, reached) = worst(&relative.named());
         if reached <= relative_error {

@@ -31,7 +31,7 @@ pub(super) fn all(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let profile = input::read_profile(PROFILE.as_ref(), &case.design, &[])?;
     let (model, fields) = simulate::model_with_fields(&case, &profile.drives, &cache)?;
     let simulation = simulate::simulate(&case, &profile, &model)?;
-    write("simulate", report::html(&simulation, Some(&fields), Some(&Convergence::measure(&case, &cache)?)))?;
+    write("simulate", report::html(&simulation, Some(&fields), Some(&Convergence::measure(&case, &cache)?), None))?;
     for (verdict, unit) in UNITS {
         let record = |file: &str| {
             let path = Path::new("fixtures/concealed/open").join(unit).join(file);

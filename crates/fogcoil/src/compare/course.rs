@@ -3,7 +3,7 @@
 use coil::SAFETY;
 
 use super::Comparison;
-use crate::simulate::Simulation;
+use crate::simulate::{SimulatedRow, Simulation};
 use crate::summary::{Summary, over_time};
 
 /// Summary of a course of the bias \[deg/h\].
@@ -45,8 +45,11 @@ impl Comparison<'_> {
     /// Numerical errors of the peak, root mean square and end of the difference: what both designs' meshes are off by alike falls out.
     fn errors_of_difference(&self) -> Option<[f64; 3]> {
         let [a, b] = self.simulations.as_ref()?;
-        let off = || a.differences().zip(b.differences()).map(|(a, b)| (a.time, SAFETY * (b.rate - a.rate)));
-        let most = off().fold(0.0, |most: f64, (_, off)| most.max(off.abs()));
+        let apart = |(a, b): (SimulatedRow, SimulatedRow)| {
+            (a.time, SAFETY * a.parts().iter().zip(b.parts()).map(|(a, b)| (b - a).abs()).sum::<f64>())
+        };
+        let off = || a.differences().zip(b.differences()).map(apart);
+        let most = off().fold(0.0, |most: f64, (_, off)| most.max(off));
         let mut modes = [0.0; 2];
         for simulation in [a, b] {
             let Summary { peak, rms, .. } = Summary::of(simulation);

@@ -113,9 +113,9 @@ fn said(posterior: &Posterior, ci90: [f64; 2]) -> String {
     let [low, high] = ci90.map(|end| significant(end, 5));
     let what = match posterior.place {
         Place::Mechanism(_) => "",
-        Place::Nominal(Role::Constant) => ", a constant of the design, a factor on its own where no unit is told",
-        Place::Nominal(Role::Sensor) => ", allowed for the instruments, not in this file",
-        Place::Nominal(Role::ModelError) => ", allowed for the model's own error, not in this file",
+        Place::Nominal(Role::Constant) => ", a constant of the design; without a unit it is a factor on the file's own number",
+        Place::Nominal(Role::Sensor) => ", of the instruments, not in this file",
+        Place::Nominal(Role::ModelError) => ", for the model's own error, not in this file",
     };
     format!("  {} = {} ({low} to {high}){what}", posterior.name, significant(posterior.value(), 5))
 }

@@ -42,11 +42,6 @@ impl Outcome<'_> {
         if let Some((law, _)) = &composed {
             out.push_str(law);
         }
-        if d.verdict == Verdict::Unknown {
-            out.push_str(
-                "Next: check signs, columns, units and times (fogcoil check), then repeat the test under another profile.\n",
-            );
-        }
         if let (Verdict::Unknown, Some(best)) = (d.verdict, self.best_named()) {
             let ids: Vec<&str> = best.fit.active.iter().map(|a| self.id(a.mechanism)).collect();
             let values = (0..ids.len()).flat_map(|place| best.fit.estimates(&self.gyro, place));
@@ -54,8 +49,10 @@ impl Outcome<'_> {
             let [ids, values] = [ids.join(" and "), values.join(", ")];
             let _ = writeln!(out, "Nearest named mechanism: {ids} ({values}).");
         }
-        if let Some(alternatives) = self.alternatives() {
-            let _ = writeln!(out, "{alternatives}");
+        match self.alternatives() {
+            Some(alternatives) => out += &format!("{alternatives}\n"),
+            None if d.verdict != Verdict::None => out += &format!("Next: {}\n", self.next()),
+            None => {}
         }
         for text in self.stand_ins.iter().filter_map(StandIn::text) {
             let _ = writeln!(out, "{text}");
@@ -127,11 +124,16 @@ impl Outcome<'_> {
             Verdict::Explained => {
                 let (best, first) = (self.names(), self.diagnosis.mechanisms.first().map_or("", |(m, _)| self.id(*m)));
                 let all = best.join(" and ");
+                let sure = |id: &str| {
+                    let probability = self.likely().find(|(name, _)| *name == id).map_or(0.0, |(_, probability)| probability);
+                    format!("{id} (probability {probability:.3})")
+                };
                 if best.contains(&first) {
-                    format!("The recording differs from the design. Most likely: {all}.")
+                    let all: Vec<String> = best.iter().map(|id| sure(id)).collect();
+                    format!("The recording differs from the design. Most likely: {}.", all.join(" and "))
                 } else {
                     // many choices of one mechanism together outweigh the best single hypothesis
-                    format!("The recording differs from the design. Most likely: {first}; the best single hypothesis: {all}.")
+                    format!("The recording differs from the design. Most likely: {}; the best single hypothesis: {all}.", sure(first))
                 }
             }
             Verdict::Unknown if !self.withdrawn.is_empty() && self.law().is_none() => {
@@ -142,6 +144,31 @@ impl Outcome<'_> {
                 let structure = self.structure().map_or(String::new(), |structure| format!(": {structure}"));
                 format!("The recording differs from the design in a way that nothing in the library explains{structure}.")
             }
+        }
+    }
+
+    /// The step after this answer, where no two mechanisms are to be told apart.
+    pub(super) fn next(&self) -> String {
+        let proven = !self.holdouts.is_empty() && self.accepted();
+        let another = "make a record of the same unit under another profile and give it with --holdout";
+        match self.diagnosis.verdict {
+            Verdict::Explained if proven => {
+                let names = self.names().join(" and ");
+                format!("inspect the unit. Only {names} is left, and a record that was held out confirms it.")
+            }
+            Verdict::Explained => {
+                format!("inspect the unit; to confirm {} on data outside the fit, {another}.", self.names().join(" and "))
+            }
+            Verdict::Recalibrate if proven => {
+                "no further test is needed. The re-estimated constants predict a record that was held out.".into()
+            }
+            Verdict::Recalibrate => format!("to confirm the re-estimated constants, {another}."),
+            Verdict::Unknown => {
+                "check signs, columns, units and times (fogcoil check), then repeat the same profile: a difference that does not \
+                                 return belongs to the test and not to the unit. Try a mechanism of your own with --mechanism."
+                    .into()
+            }
+            Verdict::None => "no test is needed to explain these records.".into(),
         }
     }
 
@@ -161,7 +188,10 @@ impl Outcome<'_> {
     pub(super) fn alternatives(&self) -> Option<String> {
         let ids = self.apart();
         let command = (!ids.is_empty()).then(|| self.recommend(&ids))?;
-        Some(format!("These records do not exclude: {}. This test would tell them apart: {command}", self.others().join(", ")))
+        Some(format!(
+            "These records do not exclude: {}. This command finds the test that separates them best: {command}",
+            self.others().join(", ")
+        ))
     }
 }
 

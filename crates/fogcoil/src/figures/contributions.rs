@@ -54,7 +54,7 @@ pub(super) fn figure<'a>(simulation: &'a Simulation, fields: &TurnFields) -> Opt
         for ((colours, maps), heading) in columns.iter().zip(headings) {
             let Cells { columns, values, y, r } = maps[k].clone();
             let (x, y, colours) = (y.map(to_mm), r.map(to_mm), colours.clone());
-            let map = HeatMap { columns, values, x, y, colours, bar: k == 0, marked: Vec::new() };
+            let map = HeatMap { columns, values, x, y, colours, bar: k == 0, marked: Vec::new(), outlines: Vec::new() };
             let [axial, radial] = ["axial position y [mm]", "radius r [mm]"].map(|label| Axis::tight(label, 1e-6));
             panels.push(Panel::map(axial, radial, Height::ToScale(20.0), map).headed(heading));
         }

@@ -2,6 +2,7 @@
 
 use charts::{Axis, Figure, Panel, Series, Style, signed, significant};
 
+use crate::band::CourseBand;
 use crate::simulate::{SimulatedRow, Simulation, WINDOW_S, Window};
 use crate::summary::Summary;
 use crate::units::DurationUnit;
@@ -11,10 +12,10 @@ const LEAST_C: f64 = 0.1;
 const LEAST_DEG_PER_H: f64 = 1e-4;
 const LEAST_C_PER_MIN: f64 = 1e-4;
 
-/// Temperatures, bias, and bias against rate, the last beside `measured` sensitivities of coils of this design.
-pub(super) fn all<'a>(simulation: &'a Simulation, measured: &[Measured]) -> [Figure<'a>; 3] {
+/// Temperatures and bias, within their `band` if there is one, and bias against rate beside `measured` sensitivities of coils of this design.
+pub(super) fn all<'a>(simulation: &'a Simulation, measured: &[Measured], band: Option<&'a CourseBand>) -> [Figure<'a>; 3] {
     let windows: Vec<Window> = simulation.windows().collect();
-    [temperatures(simulation), parts(simulation, windows.clone()), against_rate(simulation, windows, measured)]
+    [temperatures(simulation, band), parts(simulation, windows.clone(), band), against_rate(simulation, windows, measured)]
 }
 
 /// A measured sensitivity: its name, and its value \[(°/h)/(°C/min)\].
@@ -27,7 +28,7 @@ pub(crate) fn time_axis(simulation: &Simulation) -> (Axis, impl Fn(f64) -> f64 +
     (axis, move |time: f64| unit.of_seconds(time - start))
 }
 
-fn temperatures<'a>(simulation: &'a Simulation) -> Figure<'a> {
+fn temperatures<'a>(simulation: &'a Simulation, band: Option<&'a CourseBand>) -> Figure<'a> {
     let (x, time) = time_axis(simulation);
     let series = |name: &str, style, value: fn(&SimulatedRow) -> f64| {
         Series::computed(name, style, simulation.count(), move |n| {
@@ -58,9 +59,27 @@ fn temperatures<'a>(simulation: &'a Simulation) -> Figure<'a> {
                     series("chamber", Style::Second, |row| row.chamber),
                     series("spool thermometer", Style::First, |row| row.spool),
                 ])
+                .chain(edges(simulation, time, move |n| band.map(|band| band.spool(n))))
                 .collect(),
         )],
     }
+}
+
+/// The two edges of a band: a value and its standard deviation in every row; nothing without a band.
+fn edges<'a>(
+    simulation: &'a Simulation,
+    time: impl Fn(f64) -> f64 + Copy + 'a,
+    within: impl Fn(usize) -> Option<[f64; 2]> + Copy + 'a,
+) -> impl Iterator<Item = Series<'a>> {
+    let edge = move |(name, sign): (&str, f64)| {
+        within(0)?;
+        let at = move |n: usize| {
+            let [value, sd] = within(n).unwrap_or_default();
+            (time(simulation.row(n).time), value + sign * sd)
+        };
+        Some(Series::computed(name, Style::Guide, simulation.count(), at))
+    };
+    [("± 1 standard deviation by the design's tolerances", 1.0), ("", -1.0)].into_iter().filter_map(edge)
 }
 
 /// What was recorded, less an offset, where there is anything.
@@ -76,12 +95,16 @@ fn recorded<'a>(
     (!points.is_empty()).then(|| Series::new(name, Style::Fine(2), points))
 }
 
-fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<'a> {
+/// The row that a rate is taken of: the first has none and repeats the second's, and a lone row shows its zero.
+fn with_rate(simulation: &Simulation, row: usize) -> usize {
+    if row == 0 { 1.min(simulation.count() - 1) } else { row }
+}
+
+fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>, band: Option<&'a CourseBand>) -> Figure<'a> {
     let (x, time) = time_axis(simulation);
     let series = |name: &str, style, value: fn(&SimulatedRow) -> f64| {
         Series::computed(name, style, simulation.count(), move |n| {
-            // the first row has no rate: it repeats the second's, and a lone row shows its zero
-            let row = simulation.row(if n == 0 { 1.min(simulation.count() - 1) } else { n });
+            let row = simulation.row(with_rate(simulation, n));
             (time(simulation.row(n).time), value(&row))
         })
     };
@@ -96,6 +119,7 @@ fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>) -> Figure<'a> {
         series("elasto-optic, radial strain", Style::Third, |row| row.eo_radial),
         series("total", Style::Total, |row| row.rate),
     ]);
+    let bias = bias.chain(edges(simulation, time, move |n| band.map(|band| band.rate(with_rate(simulation, n)))));
     let ends = [simulation.row(0).time, simulation.row(simulation.count() - 1).time].map(time);
     let rate = Series::computed("", Style::First, windows.len(), move |n| (time(windows[n].time), windows[n].spool_rate));
     let unlabelled = Axis::tight("", x.least_span).covering(ends);

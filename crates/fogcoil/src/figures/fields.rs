@@ -166,6 +166,7 @@ impl<'a> Course<'a> {
             colours: Colours::of(words.quantity, range, words.least),
             bar: true,
             marked: Vec::new(),
+            outlines: Vec::new(),
         };
         let along = Axis::tight("place along the fibre z [m]", 1e-6);
         panels.push(Panel::map(x, along.clone(), Height::Lines(18.0), map));

@@ -18,7 +18,7 @@ pub(super) struct Instants {
 #[derive(Clone, Copy)]
 pub(super) struct Chosen {
     pub(super) sample: usize,
-    /// Its colour: 0 warming, 1 warmest, 2 cooling.
+    /// Its colour: 0 warming, 1 farthest from the start, 2 cooling.
     pub(super) kind: u8,
     /// The event.
     pub(super) what: &'static str,
@@ -44,7 +44,7 @@ impl Instants {
     }
 }
 
-/// The samples of fastest warming, highest temperature and fastest cooling, each once.
+/// The samples of fastest warming, largest change of temperature since the first and fastest cooling, each once.
 fn chosen(samples: &[Sample], means: &[f64]) -> Vec<Chosen> {
     let rate = |i: &usize| {
         let (a, b) = (i.saturating_sub(1), (i + 1).min(samples.len() - 1));
@@ -52,8 +52,11 @@ fn chosen(samples: &[Sample], means: &[f64]) -> Vec<Chosen> {
         if dt > 0.0 { (means[b] - means[a]) / dt } else { 0.0 }
     };
     let best = |value: &dyn Fn(&usize) -> f64| (0..samples.len()).max_by(|a, b| value(a).total_cmp(&value(b)));
-    let all =
-        [(1, best(&|i| means[*i]), "warmest"), (0, best(&rate), "fastest warming"), (2, best(&|i| -rate(i)), "fastest cooling")];
+    // at the first temperature there is nothing to see, though it may be the warmest
+    let change = |i: usize| means[i] - means[0];
+    let farthest = best(&|i| change(*i).abs());
+    let extreme = if farthest.is_some_and(|i| change(i) < 0.0) { "coldest" } else { "warmest" };
+    let all = [(1, farthest, extreme), (0, best(&rate), "fastest warming"), (2, best(&|i| -rate(i)), "fastest cooling")];
     let mut chosen: Vec<Chosen> =
         all.into_iter().filter_map(|(kind, sample, what)| Some(Chosen { sample: sample?, kind, what })).collect();
     chosen.sort_by_key(|c| c.sample);

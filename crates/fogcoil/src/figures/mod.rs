@@ -19,6 +19,7 @@ mod spools;
 use charts::Figure;
 use maud::{Markup, html};
 
+use crate::band::CourseBand;
 use crate::input::CoilCase;
 use crate::simulate::{Fields, Simulation};
 
@@ -32,10 +33,15 @@ pub use signatures::signatures;
 pub use spools::{OnSpool, spools, spools_element};
 
 /// All figures; those of the fields only with `fields`.
-fn all<'a>(simulation: &'a Simulation, fields: Option<&Fields>, measured: &[Measured]) -> Vec<Figure<'a>> {
+fn all<'a>(
+    simulation: &'a Simulation,
+    fields: Option<&Fields>,
+    measured: &[Measured],
+    band: Option<&'a CourseBand>,
+) -> Vec<Figure<'a>> {
     let mut figures: Vec<Figure> = fields.into_iter().flat_map(|fields| section::all(simulation, fields)).collect();
     figures.push(model::figure(simulation.case));
-    figures.extend(course::all(simulation, measured));
+    figures.extend(course::all(simulation, measured, band));
     if let Some(fields) = fields {
         figures.extend(fields::all(simulation, &fields.turns));
         figures.extend(contributions::figure(simulation, &fields.turns));
@@ -51,11 +57,16 @@ pub fn section(case: &CoilCase) -> String {
 /// All figures of a simulation as files of their own; those of temperature and strain along the fibre and of the turns' contributions
 /// only with `fields`. Sensitivities that were `measured` stand beside the computed one.
 pub fn documents(simulation: &Simulation, fields: Option<&Fields>, measured: &[Measured]) -> Vec<Document> {
-    all(simulation, fields, measured).iter().map(|figure| (figure.id, figure.document())).collect()
+    all(simulation, fields, measured, None).iter().map(|figure| (figure.id, figure.document())).collect()
 }
 
-/// All figures as elements of a page, in wide and narrow, each with its data.
-pub fn elements(simulation: &Simulation, fields: Option<&Fields>, convergence: Option<&Convergence>) -> Markup {
+/// All figures as elements of a page, in wide and narrow, each with its data; rate and thermometer within their `band`, if there is one.
+pub fn elements(
+    simulation: &Simulation,
+    fields: Option<&Fields>,
+    convergence: Option<&Convergence>,
+    band: Option<&CourseBand>,
+) -> Markup {
     let last = convergence.map(|measured| convergence::figure(simulation.case, measured));
-    html! { @for figure in all(simulation, fields, &[]).iter().chain(&last) { (figure.element()) } }
+    html! { @for figure in all(simulation, fields, &[], band).iter().chain(&last) { (figure.element()) } }
 }

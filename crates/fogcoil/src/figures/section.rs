@@ -59,6 +59,7 @@ fn at_instants<'a>(simulation: &'a Simulation, raster: &Raster, instants: &Insta
                 colours,
                 bar: true,
                 marked: Vec::new(),
+                outlines: vec![raster.coil_mm()],
             };
             let [axial, radial] = ["axial position y [mm]", "radius r [mm]"].map(|label| Axis::tight(label, 1e-6));
             panels.push(Panel::map(axial, radial, Height::ToScale(14.0), map).headed(heading));
@@ -68,10 +69,10 @@ fn at_instants<'a>(simulation: &'a Simulation, raster: &Raster, instants: &Insta
         id: "section",
         title: "The coil's section".into(),
         description: "Maps over the cross-section of coil and spool: temperature, hoop strain, radial strain of the glass, radial \
-                      displacement and contribution to the bias, at the instants of fastest warming, highest temperature and fastest cooling."
+                      displacement and contribution to the bias, at the instants of fastest warming, largest change of temperature and fastest cooling."
             .into(),
         caption: format!(
-            "Coil, hub and flanges, each map with a scale of its own; above the first maps the time since the first row and the fibre's mean \
+            "Coil, hub and flanges, the coil outlined, each map with a scale of its own; above the first maps the time since the first row and the fibre's mean \
              temperature. Strains and displacements are those since the first row. In the coil the \
              hoop strain is the glass's axial strain. The bias is that of the instant, summed over blocks of 4 layers by about 4 turns, in \
              which most of it cancels. A scale of one sign is dark at the least magnitude and bright at the largest.{}",
@@ -101,7 +102,16 @@ fn in_time<'a>(simulation: &'a Simulation, raster: &Raster, maps: &[Maps]) -> Fi
                 _ => quantity.label,
             };
             let colours = Colours::of(what, ends(&values), quantity.least);
-            let map = HeatMap { columns: courses.len(), values, x, y: ends_of, colours, bar: true, marked: Vec::new() };
+            let map = HeatMap {
+                columns: courses.len(),
+                values,
+                x,
+                y: ends_of,
+                colours,
+                bar: true,
+                marked: Vec::new(),
+                outlines: Vec::new(),
+            };
             let heading = format!("{}, {}", quantity.name, ["along the radius", "along the axis"][side]);
             panels.push(Panel::map(time_axis(simulation).0, Axis::tight(label, 1e-6), Height::Lines(9.0), map).headed(heading));
         }

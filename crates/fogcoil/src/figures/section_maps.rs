@@ -1,6 +1,6 @@
 //! The section of coil and spool as a raster, and its fields in it.
 
-use coil::{Error, Layout, Places, PointValues, STANDARD, Section, TurnFields};
+use coil::{Design, Error, Layout, Places, PointValues, STANDARD, Section, TurnFields};
 
 use super::blocks::{Cells, cells};
 use super::instants::Instants;
@@ -126,6 +126,12 @@ impl<'a> Raster<'a> {
         let of_row = |row: usize| mean(&mut along.clone().map(|column| row * columns + column));
         let of_column = |column: usize| mean(&mut across.clone().map(|row| row * columns + column));
         [(0..rows).map(of_row).collect(), (0..columns).map(of_column).collect()]
+    }
+
+    /// Ends of the coil along the axis and along the radius \[mm\].
+    pub(super) fn coil_mm(&self) -> [[f64; 2]; 2] {
+        let Design { body, winding, .. } = &self.simulation.case.design;
+        [[0.0, body.height], [winding.inner_radius, body.outer_radius]].map(|ends| ends.map(to_mm))
     }
 
     /// Ends along the axis and along the radius \[mm\].

@@ -9,6 +9,7 @@ use charts::{nice, row, signed, significant};
 use maud::{Markup, html};
 use recording::Seconds;
 
+use crate::band::CourseBand;
 use crate::figures;
 use crate::simulate::{Fields, Simulation};
 use crate::summary::{Summary, entries};
@@ -16,15 +17,20 @@ use crate::summary::{Summary, entries};
 const PARTS: [(&str, &str); 3] =
     [("shupe", "Shupe"), ("eo_axial", "elasto-optic, axial strain"), ("eo_radial", "elasto-optic, radial strain")];
 
-/// The page; temperature, strain and contributions of the turns only with `fields`.
-pub fn html(simulation: &Simulation, fields: Option<&Fields>, convergence: Option<&figures::Convergence>) -> String {
+/// The page; temperature, strain and contributions of the turns only with `fields`, the design's tolerances only with `band`.
+pub fn html(
+    simulation: &Simulation,
+    fields: Option<&Fields>,
+    convergence: Option<&figures::Convergence>,
+    band: Option<&CourseBand>,
+) -> String {
     let profile = simulation.profile.fingerprint.file.file_name().unwrap_or_default().to_string_lossy();
     let title = format!("{} under {profile}", simulation.case.name);
     let body = html! {
         h2 { "Summary" } "\n"
         (summary(simulation))
         h2 { "Figures" } "\n"
-        (figures::elements(simulation, fields, convergence))
+        (figures::elements(simulation, fields, convergence, band))
         h2 { "Coil" } "\n"
         (facts::coil(simulation))
         h2 { "Computation" } "\n"
@@ -35,11 +41,11 @@ pub fn html(simulation: &Simulation, fields: Option<&Fields>, convergence: Optio
         }
         (facts::sources(simulation))
     };
-    charts::page(&title, &lead(simulation), &body)
+    charts::page(&title, &lead(simulation, band), &body)
 }
 
 /// The result in two sentences.
-fn lead(simulation: &Simulation) -> Markup {
+fn lead(simulation: &Simulation, band: Option<&CourseBand>) -> Markup {
     let Summary { peak, slope, errors, .. } = Summary::of(simulation);
     html! {
         p {
@@ -51,6 +57,13 @@ fn lead(simulation: &Simulation) -> Markup {
                 (signed(simulation.steady.sensitivity.total(), 4)) " ± " (significant(simulation.steady.error_estimate, 2)) "."
             }
             " The errors are those of the computation."
+            @if let Some(band) = band {
+                " By the design's tolerances the largest bias has a standard deviation of " (significant(band.peak, 2)) " °/h"
+                @if let Some((key, share)) = band.shares.first() {
+                    "; " (format!("{:.0}", 100.0 * share)) " % of its variance are due to " code { (key) }
+                }
+                "."
+            }
         }
     }
 }

@@ -66,6 +66,11 @@ impl SimulatedRow {
             recorded: profile.recorded.as_ref().map_or([f64::NAN; 2], |recorded| [recorded.spool[n], recorded.rate[n]]),
         }
     }
+
+    /// The parts of the rate that are computed: thermal phase, axial strain, radial strain, read-out \[deg/h\].
+    pub(crate) fn parts(&self) -> [f64; 4] {
+        [self.shupe, self.eo_axial, self.eo_radial, self.read_out]
+    }
 }
 
 /// Rates over the shortest run of whole rows that spans [`WINDOW_S`].

@@ -17,7 +17,10 @@ fn a_concealed_bond_is_named_and_the_held_out_record_predicted() {
     arguments.extend(["--model-out", "m.ron", "--report", "r.html"]);
     let output = folder.run(&arguments);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(stdout(&output).starts_with("The recording differs") && stdout(&output).contains("Most likely: debond."));
+    assert!(
+        stdout(&output).starts_with("The recording differs")
+            && stdout(&output).contains("Most likely: debond (probability 1.000).")
+    );
     let row = |name: &str| stdout(&output).lines().find(|line| line.starts_with(name)).unwrap().to_owned();
     for (name, unit) in [("debond_c ", "degC"), ("hysteresis_k ", "K"), ("fraction ", "-")] {
         assert_eq!(row(name).split_whitespace().nth(2), Some(unit), "{}", row(name));
@@ -73,7 +76,7 @@ fn the_model_is_the_design_with_the_bond(folder: &Folder, json: &serde_json::Val
 
 fn the_page_stands_alone(page: &str) {
     for part in [
-        "Most likely: debond.",
+        "Most likely: debond (probability 1.000).",
         "course-wide",
         "residuals-narrow",
         "spectrum-wide",
@@ -90,7 +93,7 @@ fn the_page_stands_alone(page: &str) {
         // as docs/diagnosis.md says
         "gain of the rate 0.3 %, gain of the Shupe part 0.6 %, start off rest",
         "13 mechanisms with a name and 6 without one alone",
-        "No further test is needed to tell mechanisms apart: debond alone is left",
+        "Inspect the unit. Only debond is left, and a record that was held out confirms it.",
     ] {
         assert!(page.contains(part), "{part}");
     }

@@ -126,6 +126,20 @@ fn long_rows_are_noted_and_can_be_divided() {
     let (uneven, _) = run(&["--profile", "long.csv", "--step", "1000"]);
     assert_eq!(rows(&uneven).iter().map(|row| row[0]).collect::<Vec<f64>>(), [0.0, 1000.0, 2000.0, 3000.0, 3600.0]);
     assert_eq!(rows(&uneven)[3][1], 70.0);
+    // the other commands under a profile add the same rows
+    let answer = |arguments: &[&str]| stdout(&folder.run(arguments));
+    for command in [&["trim", "coil.ron", "--json"] as &[&str], &["compare", "coil.ron", "coil.ron", "--json", "--no-cache"]] {
+        let under = |profile: &[&str]| answer(&[command, profile].concat());
+        let [short, divided, long] =
+            [&["--profile", "short.csv"] as &[&str], &["--profile", "long.csv", "--step", "60"], &["--profile", "long.csv"]]
+                .map(under);
+        let part = |text: &str| -> serde_json::Value {
+            let json: serde_json::Value = serde_json::from_str(text).unwrap();
+            json["transients_deg_per_h"]["rms_before"].as_f64().map_or_else(|| json["bias"]["a"]["rms"].clone(), Into::into)
+        };
+        let [short, divided, long] = [short, divided, long].map(|text| part(&text).as_f64().unwrap());
+        assert!((short - divided).abs() < 1e-9 && (short - long).abs() > 1e-3, "{short} {divided} {long}");
+    }
     folder.write("corners.csv", "time_s,chamber_c\n100,20\n170,20\n250,30\n");
     let (corners, _) = run(&["--profile", "corners.csv", "--step", "30"]);
     assert_eq!(rows(&corners).iter().map(|row| row[0]).collect::<Vec<f64>>(), [100.0, 130.0, 160.0, 170.0, 190.0, 220.0, 250.0]);
@@ -367,7 +381,11 @@ fn the_band_is_what_a_tolerance_away_makes_of_the_rate() {
         let rates = text.lines().skip(1).map(|line| line.rsplit(',').next().unwrap().parse().unwrap()).collect();
         (serde_json::from_str(&stdout(&output)).unwrap(), rates)
     };
-    let (json, rates) = run(COIL, &["--band", "band.csv"]);
+    let (json, rates) = run(COIL, &["--band", "band.csv", "--report", "band.html"]);
+    let page = std::fs::read_to_string(folder.path("band.html")).unwrap();
+    assert!(page.contains("By the design's tolerances the largest bias has a standard deviation of"));
+    // the bias and the thermometer, each drawn wide and narrow
+    assert_eq!(page.matches("± 1 standard deviation by the design's tolerances</text>").count(), 4);
     assert_eq!(fogcoil::schema::misfit(&json, &schema("simulate")), None);
     let table = std::fs::read_to_string(folder.path("band.csv")).unwrap();
     let rows: Vec<Vec<f64>> =
@@ -404,4 +422,22 @@ fn the_band_is_what_a_tolerance_away_makes_of_the_rate() {
     let output = folder.run(&["simulate", "c.ron", "--profile", "walls.csv", "--out", "w.csv", "--band", "w2.csv"]);
     assert!(output.status.code() == Some(2) && stderr(&output).contains("--band"), "{}", stderr(&output));
     assert!(!folder.path("w.csv").exists() && !folder.path("w2.csv").exists());
+}
+
+/// In a profile that cools and comes back, the warmest instant is one at rest, where fields show nothing.
+#[test]
+fn the_section_is_drawn_at_the_largest_change_of_temperature() {
+    let folder = Folder::new();
+    folder.write("coil.ron", include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/designs/small.ron")));
+    folder.write("p.csv", "time_s,chamber_c\n0,20\n1800,-10\n3600,-10\n5400,20\n");
+    let arguments = ["simulate", "coil.ron", "--profile", "p.csv", "--step", "60", "--out", "b.csv", "--report", "r.html"];
+    let output = folder.run(&arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let page = std::fs::read_to_string(folder.path("r.html")).unwrap();
+    for (event, drawn) in [("coldest, ", true), ("fastest warming, ", true), ("fastest cooling, ", true), ("warmest, ", false)] {
+        assert_eq!(page.contains(event), drawn, "{event}");
+    }
+    // the coil is outlined in each of the maps at three instants, for wide and narrow pages; the strips over time have none
+    let maps = page.matches("class=\"outline\"").count();
+    assert!(maps >= 15 && maps.is_multiple_of(15), "{maps}");
 }

@@ -20,8 +20,8 @@ use tally::{Compared, Drawn, table};
 const PAGE: &str = "docs/trust.md";
 /// Between these lines the page holds what this command writes.
 const MARKS: [&str; 2] = ["<!-- survey: written by `cargo xtask survey` -->", "<!-- survey end -->"];
-/// Seed of the draws that the page shows. Those of seeds 1, 2, 3, 5, 7 and 8 fitted the estimates.
-const SEED: u64 = 9;
+/// Seed of the draws that the page shows. Those of seeds 1, 2, 3, 5 and 7 to 11 fitted the estimates.
+const SEED: u64 = 12;
 const CELLS: usize = 240;
 const COILS: usize = 180;
 const COURSES: usize = 120;

@@ -32,47 +32,30 @@ impl Outcome<'_> {
 
     /// Tests that would confirm or sharpen the answer, where no two mechanisms are left.
     fn nothing_to_tell_apart(&self) -> String {
-        let proven = !self.holdouts.is_empty() && self.accepted();
-        let names = self.names();
-        let looks: Vec<&str> = names.iter().filter_map(|id| self.inspection(id)).collect();
-        let (names, looks) = (names.join(" and "), looks.join("; "));
+        let next = capital(&self.next());
         let likeliest = self.likely().next().filter(|(_, p)| *p >= Settings::default().excluded);
-        match self.diagnosis.verdict {
-            Verdict::Explained if proven => format!(
-                "No further test is needed to tell mechanisms apart: {names} alone is left, and a record that was held out bears it out; \
-                 on the unit itself, {looks}."
-            ),
-            Verdict::Explained => format!(
-                "No other mechanism is left: what would confirm {names} is a record of the same unit under another profile, given with \
-                 --holdout, and on the unit itself: {looks}."
-            ),
-            Verdict::Recalibrate if proven => {
-                "No further test is needed: the re-estimated constants predict a record that was held out.".into()
+        match (self.diagnosis.verdict, likeliest) {
+            (Verdict::Explained, _) => {
+                let names = self.names();
+                let looks: Vec<&str> = names.iter().filter_map(|id| self.inspection(id)).collect();
+                format!("{next} Inspection: {}.", looks.join("; "))
             }
-            Verdict::Recalibrate => {
-                "What would confirm the re-estimated constants is a record of the same unit under another profile, given with --holdout."
-                    .into()
+            (Verdict::None, Some((id, p))) => {
+                let command = self.recommend(&[id.to_owned(), "nominal".into()]);
+                format!("{next} They exclude {id} least (probability {p:.3}); {command} finds the test that would show it.")
             }
-            Verdict::Unknown => "No profile can be computed for what no mechanism describes: repeat the same profile first, for what does \
-                                 not return is the test's and not the unit's, then another one, and give both with --fit."
-                .into(),
-            Verdict::None => match likeliest {
-                Some((id, p)) => {
-                    let command = self.recommend(&[id.to_owned(), "nominal".into()]);
-                    format!(
-                        "None is needed to explain these records; what they exclude least is {id} (probability {p:.3}), and {command} \
-                         finds the test that would show it."
-                    )
-                }
-                None => "None is needed: nothing beyond noise is left, and no mechanism stands out.".into(),
-            },
+            _ => next,
         }
     }
 }
 
+/// The words with a capital at their beginning.
+fn capital(words: &str) -> String {
+    words.chars().take(1).flat_map(char::to_uppercase).chain(words.chars().skip(1)).collect()
+}
+
 fn recommended(found: &Recommendation) -> Markup {
     let said = nice(&sentence(found));
-    let capital: String = said.chars().take(1).flat_map(char::to_uppercase).chain(said.chars().skip(1)).collect();
     let (best, limits) = (&found.profiles[0], &found.limits);
     let mut rows = vec![
         row("told apart", found.between.join(", ")),
@@ -89,7 +72,7 @@ fn recommended(found: &Recommendation) -> Markup {
         rows.push(row(&format!("size of {} (fitted alone)", size.id), nice(&values.join(", "))));
     }
     html! {
-        p { (capital) } "\n"
+        p { (capital(&said)) } "\n"
         (facts("The recommended test", &rows))
         (figure(found).element())
     }

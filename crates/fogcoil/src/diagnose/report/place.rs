@@ -141,7 +141,7 @@ fn grid(name: &str, cells: &[Cell], most: f64) -> Option<Panel<'static>> {
         }
     }
     let (y, colours) = (y.map(|rate| rate * S_PER_MIN), Colours::diverging("z", most, 1.0));
-    let map = HeatMap { columns, values, x, y, colours, bar: true, marked };
+    let map = HeatMap { columns, values, x, y, colours, bar: true, marked, outlines: Vec::new() };
     let (level, rate) = (Axis::tight("spool temperature [°C]", 0.1), Axis::tight("its rate [°C/min]", 1e-6));
     Some(Panel::map(level, rate, Height::Lines(16.0), map).headed(name))
 }
