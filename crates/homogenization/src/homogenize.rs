@@ -163,7 +163,7 @@ pub fn homogenize_to(cell: &FibreCell, relative_error: f64) -> Result<Homogenize
         // single orders are off by more than their neighbours on both sides, and may agree with one of them
         let mut lower = multipoles;
         let mut truncation = constants.combine(&constants, |_, _| 0.0);
-        for fewer in [period, step] {
+        for fewer in [Some(period), (step > period).then_some(step)].into_iter().flatten() {
             lower = lower.lowered(order.saturating_sub(fewer).max(1));
             let of_lower = lower.effective(cell)?.constants().ok_or_else(Error::singular)?;
             truncation = truncation.combine(&self::truncation(&of_lower, &constants), f64::max);
