@@ -186,7 +186,7 @@ const hand = root => {
     alike.forEach((all, unit) => {
       const select = element('select', { title: 'Unit in place of ' + unit }, ...all[0].units.map(name => element('option', { textContent: name, selected: name === unit })));
       select.addEventListener('change', () => { all.forEach(axis => { axis.shown = select.value; }); draw(); });
-      bar.append(select);
+      bar.append(element('label', {}, 'unit ', select));
     });
     const slider = element('input', { type: 'range', min: '0', max: '1000', value: '0' });
     slider.setAttribute('aria-label', 'Place along: ' + bare(along));

@@ -37,7 +37,7 @@ pub(crate) fn simulate(coil: &str, profile: &str, step: Option<f64>) -> Result<V
         "json": summary::json(&simulation),
         "text": summary::text(&simulation),
         "notes": notes.collect::<Vec<_>>(),
-        "figures": figures::elements(&simulation, None, None, None).into_string(),
+        "figures": figures::elements(&simulation, None, None, None).map(|markup| markup.into_string()).concat(),
         "csv": String::from_utf8_lossy(&csv),
     }))
 }

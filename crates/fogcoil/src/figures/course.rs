@@ -7,6 +7,9 @@ use crate::simulate::{SimulatedRow, Simulation, WINDOW_S, Window};
 use crate::summary::Summary;
 use crate::units::DurationUnit;
 
+/// Name of the figure of the bias in time.
+pub(super) const BIAS: &str = "bias";
+
 /// Smallest spans that are drawn: less is rounding or noise.
 const LEAST_C: f64 = 0.1;
 const LEAST_DEG_PER_H: f64 = 1e-4;
@@ -124,7 +127,7 @@ fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>, band: Option<&'a 
     let rate = Series::computed("", Style::First, windows.len(), move |n| (time(windows[n].time), windows[n].spool_rate));
     let unlabelled = Axis::tight("", x.least_span).covering(ends);
     Figure {
-        id: "bias",
+        id: BIAS,
         title: "Bias, its parts, and the spool's temperature rate".into(),
         description:
             "Rotation rate that the gyroscope reports at rest over time with its thermal and elasto-optic parts, and below it \

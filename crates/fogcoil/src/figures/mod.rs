@@ -60,13 +60,16 @@ pub fn documents(simulation: &Simulation, fields: Option<&Fields>, measured: &[M
     all(simulation, fields, measured, None).iter().map(|figure| (figure.id, figure.document())).collect()
 }
 
-/// All figures as elements of a page, in wide and narrow, each with its data; rate and thermometer within their `band`, if there is one.
+/// All figures as elements of a page, in wide and narrow, each with its data: the bias in time, and the others. Rate and thermometer stand within their
+/// `band`, if there is one.
 pub fn elements(
     simulation: &Simulation,
     fields: Option<&Fields>,
     convergence: Option<&Convergence>,
     band: Option<&CourseBand>,
-) -> Markup {
+) -> [Markup; 2] {
     let last = convergence.map(|measured| convergence::figure(simulation.case, measured));
-    html! { @for figure in all(simulation, fields, &[], band).iter().chain(&last) { (figure.element()) } }
+    let all = all(simulation, fields, &[], band);
+    let (bias, others): (Vec<&Figure>, Vec<&Figure>) = all.iter().chain(&last).partition(|figure| figure.id == course::BIAS);
+    [bias, others].map(|figures| html! { @for figure in figures { (figure.element()) } })
 }

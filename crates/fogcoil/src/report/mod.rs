@@ -26,11 +26,14 @@ pub fn html(
 ) -> String {
     let profile = simulation.profile.fingerprint.file.file_name().unwrap_or_default().to_string_lossy();
     let title = format!("{} under {profile}", simulation.case.name);
+    let [bias, others] = figures::elements(simulation, fields, convergence, band);
     let body = html! {
+        h2 { "Bias" } "\n"
+        (bias)
         h2 { "Summary" } "\n"
         (summary(simulation))
         h2 { "Figures" } "\n"
-        (figures::elements(simulation, fields, convergence, band))
+        (others)
         h2 { "Coil" } "\n"
         (facts::coil(simulation))
         h2 { "Computation" } "\n"

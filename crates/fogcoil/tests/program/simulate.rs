@@ -135,7 +135,9 @@ fn long_rows_are_noted_and_can_be_divided() {
                 .map(under);
         let part = |text: &str| -> serde_json::Value {
             let json: serde_json::Value = serde_json::from_str(text).unwrap();
-            json["transients_deg_per_h"]["rms_before"].as_f64().map_or_else(|| json["bias"]["a"]["rms"].clone(), Into::into)
+            json["transients_deg_per_h"]["rms_before"]
+                .as_f64()
+                .map_or_else(|| json["bias"]["a"]["rms_deg_per_h"].clone(), Into::into)
         };
         let [short, divided, long] = [short, divided, long].map(|text| part(&text).as_f64().unwrap());
         assert!((short - divided).abs() < 1e-9 && (short - long).abs() > 1e-3, "{short} {divided} {long}");
