@@ -156,15 +156,16 @@ impl<'a> Panel<'a> {
         places
     }
 
-    /// Width of the labels of y.
+    /// Width of the labels of y, or of what a label of x reaches beyond its axis if that is more.
     pub(crate) fn left(&self, m: &Measures, width: f64) -> f64 {
         if self.y.names.is_some() {
             return 0.8 * m.font;
         }
         let guess = self.place(m, width, 4.0 * m.font);
-        let y = Scale::new(&self.y, self.ranges()[1], [guess.plot[1], 0.0], m.apart[1]);
-        let widest = y.ticks().iter().map(|(_, label)| label.chars().count()).max().unwrap_or(1);
-        (widest as f64 * DIGIT + 1.0) * m.font
+        let [x, y] = self.scales(m, &guess);
+        let wide = |label: &str| label.chars().count() as f64 * DIGIT * m.font;
+        let labels = y.ticks().iter().map(|(_, label)| wide(label)).fold(DIGIT * m.font, f64::max) + m.font;
+        x.ticks().iter().map(|(tick, label)| wide(label) / 2.0 - x.pixel(*tick)).fold(labels, f64::max)
     }
 
     pub(crate) fn place(&self, m: &Measures, width: f64, left: f64) -> Place {

@@ -7,6 +7,7 @@ mod work;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
+use std::process::Child;
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
@@ -158,9 +159,10 @@ fn at_once(work: &Work, program: &Path) -> Result<Row, Failure> {
     let shared = work.place()?;
     for folders in [places.iter().map(|p| p.folder.path()).collect::<Vec<_>>(), vec![shared.folder.path(); AT_ONCE]] {
         let children = folders.iter().map(|f| work.start(program, f, cache.path())).collect::<Result<Vec<_>, _>>()?;
-        for (child, folder) in children.into_iter().zip(folders) {
-            let run = child.wait_with_output()?;
-            row.ended(work, &run, folder, &[&right], true)?;
+        // what others are still writing is no stray
+        let runs = children.into_iter().map(Child::wait_with_output).collect::<Result<Vec<_>, _>>()?;
+        for (run, folder) in runs.iter().zip(folders) {
+            row.ended(work, run, folder, &[&right], true)?;
         }
     }
     row.faults.extend(recovers(work, program, cache.path(), &right)?);

@@ -30,7 +30,7 @@ impl Row {
 }
 
 impl Row {
-    /// A run that ended by itself: it answered, with all outputs, or refused in words, with none.
+    /// A run that ended by itself: it answered, with all outputs, or refused in words, with none or because another run's are there.
     pub(super) fn ended(
         &mut self,
         work: &Work,
@@ -40,6 +40,7 @@ impl Row {
         must_answer: bool,
     ) -> Result<(), Failure> {
         let left = work.left(folder, right)?;
+        let none = left.absent == work.outputs.len();
         self.runs += 1;
         self.left += left;
         match run.status.code() {
@@ -47,7 +48,7 @@ impl Row {
             Some(0) => {
                 self.faults.push(format!("it claims to have answered, with {} outputs of {}", left.whole, work.outputs.len()))
             }
-            Some(2) if !must_answer && left.absent == work.outputs.len() && !run.stderr.is_empty() => self.refused += 1,
+            Some(2) if !run.stderr.is_empty() && (left.whole == work.outputs.len() || none && !must_answer) => self.refused += 1,
             _ => self.faults.push(said(run)),
         }
         Ok(())

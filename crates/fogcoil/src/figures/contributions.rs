@@ -41,7 +41,7 @@ pub(super) fn figure<'a>(simulation: &'a Simulation, fields: &TurnFields) -> Opt
         ("elasto-optic, radial strain", |b| b.eo_radial),
     ];
     let mut columns = Vec::new();
-    let block = format!("sum over blocks of {BLOCK} layers by about {BLOCK} turns");
+    let block = format!("each block of {BLOCK} × {BLOCK} turns");
     for (what, sum) in [("each turn", false), (block.as_str(), true)] {
         let maps = parts.map(|(_, part)| cells(winding, &contributions.iter().map(part).collect::<Vec<f64>>(), sum));
         let most = maps.iter().flat_map(|map| &map.values).filter(|v| v.is_finite()).fold(0.0, |most: f64, v| most.max(v.abs()));
