@@ -69,6 +69,11 @@ fn width_of(content: &str, m: &Measures) -> f64 {
     LETTER * m.font * content.chars().count() as f64
 }
 
+/// Width of a label of an axis.
+fn wide(label: &str, m: &Measures) -> f64 {
+    label.chars().count() as f64 * DIGIT * m.font
+}
+
 /// A colour bar under its label, `left` from the panel's left, above axes as wide as `across`.
 fn colour_bar(svg: &mut Svg, colours: &Colours, m: &Measures, left: f64, across: f64) {
     let inset = 2.0 * m.font;
@@ -163,9 +168,8 @@ impl<'a> Panel<'a> {
         }
         let guess = self.place(m, width, 4.0 * m.font);
         let [x, y] = self.scales(m, &guess);
-        let wide = |label: &str| label.chars().count() as f64 * DIGIT * m.font;
-        let labels = y.ticks().iter().map(|(_, label)| wide(label)).fold(DIGIT * m.font, f64::max) + m.font;
-        x.ticks().iter().map(|(tick, label)| wide(label) / 2.0 - x.pixel(*tick)).fold(labels, f64::max)
+        let labels = y.ticks().iter().map(|(_, label)| wide(label, m)).fold(DIGIT * m.font, f64::max) + m.font;
+        x.ticks().iter().map(|(tick, label)| wide(label, m) / 2.0 - x.pixel(*tick)).fold(labels, f64::max)
     }
 
     pub(crate) fn place(&self, m: &Measures, width: f64, left: f64) -> Place {
@@ -176,7 +180,11 @@ impl<'a> Panel<'a> {
         };
         let heading = if self.heading.is_empty() { 0.0 } else { 1.8 * m.font };
         let [x, y] = self.ranges();
-        let across = width - left - 1.6 * m.font;
+        let space = width - left;
+        let along = Scale::new(&self.x, x, [0.0, space - 1.6 * m.font], m.apart[0]);
+        let labels = along.ticks().into_iter().map(|(tick, label)| along.pixel(tick) + wide(&label, m) / 2.0);
+        // a label at the end reaches beyond its axis
+        let across = 2.0 * space - 1.6 * m.font - labels.fold(space, f64::max);
         let plot = match self.height {
             Height::Lines(lines) => [across, lines * m.font],
             Height::ToScale(most) => {
