@@ -29,6 +29,8 @@ pub fn faults(page: &str) -> Vec<String> {
     }
     let named = values(page, "aria-labelledby").flat_map(|ids| ids.split(' '));
     faults.extend(named.filter(|id| !known.contains(id)).map(|id| format!("the name {id} is not there")));
+    let places = values(page, "href").filter_map(|place| place.strip_prefix('#'));
+    faults.extend(places.filter(|id| !known.contains(id)).map(|id| format!("the place {id} is not there")));
     let count = |tag: &str| page.matches(tag).count();
     let mut equal = |what: &str, a: usize, b: usize| {
         if a != b {

@@ -43,6 +43,24 @@ pub fn page(title: &str, lead: &Markup, body: &Markup) -> String {
     scripted(title, lead, body, Script { text, ..Script::default() })
 }
 
+/// A heading of the second level, to which [`contents`] leads.
+pub fn heading(name: &str) -> Markup {
+    html! { h2 id=(anchor(name)) { (name) } "\n" }
+}
+
+/// A list of headings that a page has, each leading there.
+pub fn contents(names: &[&str]) -> Markup {
+    html! {
+        nav aria-label="Contents" { ul.contents { @for name in names { li { a href=(format!("#{}", anchor(name))) { (name) } } } } } "\n"
+    }
+}
+
+/// Name of a heading in addresses; figures have names of their own.
+fn anchor(name: &str) -> String {
+    let letters = name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' });
+    format!("to-{}", letters.collect::<String>().trim_matches('-'))
+}
+
 /// A page, as [`page`] makes it, that acts: its script alone is run, told by its SHA-256.
 ///
 /// ```

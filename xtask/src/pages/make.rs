@@ -15,7 +15,7 @@ use proof::Failure;
 const COIL: &str = "fixtures/coil-reference.ron";
 const PROFILE: &str = "fixtures/profiles/paper.csv";
 /// Units of fixtures/concealed/open by what is said of them.
-const UNITS: [(&str, &str); 3] = [("explained", "case_03"), ("unknown", "case_16"), ("none", "case_09")];
+const UNITS: [(&str, &str); 3] = [("explained", "case_13"), ("unknown", "case_16"), ("none", "case_09")];
 
 /// Writes all pages into `folder`; their files.
 pub(super) fn all(folder: &Path) -> Result<Vec<PathBuf>, Failure> {

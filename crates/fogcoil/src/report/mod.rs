@@ -5,7 +5,7 @@ mod provenance;
 
 pub use provenance::provenance;
 
-use charts::{nice, row, signed, significant};
+use charts::{contents, heading, nice, row, signed, significant};
 use maud::{Markup, html};
 use recording::Seconds;
 
@@ -28,15 +28,16 @@ pub fn html(
     let title = format!("{} under {profile}", simulation.case.name);
     let [bias, others] = figures::elements(simulation, fields, convergence, band);
     let body = html! {
-        h2 { "Bias" } "\n"
+        (heading("Bias"))
         (bias)
-        h2 { "Summary" } "\n"
+        (contents(&["Summary", "Figures", "Coil", "Computation", "Provenance"]))
+        (heading("Summary"))
         (summary(simulation))
-        h2 { "Figures" } "\n"
+        (heading("Figures"))
         (others)
-        h2 { "Coil" } "\n"
+        (heading("Coil"))
         (facts::coil(simulation))
-        h2 { "Computation" } "\n"
+        (heading("Computation"))
         (facts::computation(simulation))
         p {
             "The numbers follow from the file's spool, bonding and materials; where one of them was chosen to match a measurement, so were \

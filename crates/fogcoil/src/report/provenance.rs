@@ -13,7 +13,7 @@ pub fn provenance(what: &str, files: &[(&str, &Fingerprint)], options: &[(String
     };
     let rows: Vec<_> = std::iter::once(program).chain(files.iter().map(of)).chain(options.iter().cloned()).collect();
     html! {
-        h2 { "Provenance" } "\n"
+        (charts::heading("Provenance"))
         (charts::facts("Program, inputs and options", &rows))
     }
 }

@@ -45,8 +45,8 @@ impl Outcome<'_> {
             } "\n"
             p {
                 "Of a mechanism: the probability that it is at work, alone or with another of the library; of any in the library: "
-                (signed(library, 3)) ". Something without a name may stand alone or beside one that has a name. What is in bold is not \
-                excluded. " (d.candidates.len()) " hypotheses were compared: " (self.gyro.mechanisms().len() - unnamed) " mechanisms with \
+                (signed(library, 3)) ". Something without a name may act alone or together with a named mechanism. The records do not exclude what is \
+                in bold. " (d.candidates.len()) " hypotheses were compared: " (self.gyro.mechanisms().len() - unnamed) " mechanisms with \
                 a name and " (unnamed) " without one alone, pairs of them, and the leading ones with free structure; every choice (a \
                 layer, a second mechanism) is paid for by its share of the prior."
             }

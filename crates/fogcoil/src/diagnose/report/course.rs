@@ -3,7 +3,7 @@
 use charts::{Axis, Content, Figure, Panel, Series, Style};
 use maud::{Markup, html};
 
-use super::{Clock, Shown};
+use super::{Clock, Quantity, Shown};
 use crate::diagnose::{Outcome, Record};
 
 impl Outcome<'_> {
@@ -52,7 +52,7 @@ impl Outcome<'_> {
     }
 
     fn residuals(&self) -> Figure<'static> {
-        let (columns, panels) = multiples(self.each().map(|shown| self.left(&shown)).collect());
+        let (columns, panels) = multiples(self.each().map(|shown| self.left(&shown, self.quantities())).collect());
         Figure {
             id: "residuals",
             title: "What each model leaves".into(),
@@ -66,11 +66,24 @@ impl Outcome<'_> {
         }
     }
 
-    fn left(&self, shown: &[Shown]) -> Vec<Panel<'static>> {
+    /// The first quantity's residuals in the first record: of the design with constants and instruments fitted, and of what was found.
+    pub(super) fn before_and_after(&self) -> Figure<'static> {
+        let panels = self.each().next().map_or(Vec::new(), |shown| self.left(&shown, self.quantities().take(1)));
+        Figure {
+            id: "before-and-after",
+            title: "What is left, before and after".into(),
+            description: "Recorded less modelled rate over time, before and after what was found.".into(),
+            caption: "Both panels have one scale. Noise has no shape.".into(),
+            columns: 1,
+            panels,
+        }
+    }
+
+    fn left(&self, shown: &[Shown], quantities: impl Iterator<Item = Quantity>) -> Vec<Panel<'static>> {
         let Some(Shown { record, .. }) = shown.first() else { return Vec::new() };
         let clock = self.clock(record);
         let mut panels = Vec::new();
-        for q in self.quantities() {
+        for q in quantities {
             let of = |fit: &Shown| fit.residual(q.channel).into_iter().map(|(t, r)| (clock.at(t), r)).collect::<Vec<_>>();
             // both on one scale
             let all = self.each().flatten().flat_map(|fit| fit.residual(q.channel));

@@ -10,16 +10,17 @@ mod place;
 mod spectrum;
 mod stages;
 
-use charts::{Axis, facts, nice, page, row, significant};
+use charts::{Axis, contents, facts, heading, nice, page, row, significant};
 use diagnosis::{Fit, ForwardModel, Nuisance, Role, Verdict};
 use files::Note;
 use maud::{Markup, html};
-use mechanisms::{RATE, SPOOL};
+use mechanisms::{Naming, RATE, SPOOL};
 
 use super::{Outcome, REFITTED, Record};
 use crate::compose::StandIn;
 use crate::report::provenance;
 use crate::units::DurationUnit;
+use next_test::capital;
 
 /// A fit beside the record that it is shown for.
 #[derive(Clone, Copy)]
@@ -57,6 +58,9 @@ struct Quantity {
     least: f64,
 }
 
+/// Least probability that is told on the first screen.
+const TOLD: f64 = 0.05;
+
 const QUANTITIES: [Quantity; 2] = [
     Quantity { channel: RATE, label: "rate [°/h]", name: "rate", unit: "°/h", least: 1e-4 },
     Quantity { channel: SPOOL, label: "spool thermometer [°C]", name: "spool thermometer", unit: "K", least: 0.01 },
@@ -86,21 +90,20 @@ impl Clock {
 impl Outcome<'_> {
     /// A page that needs nothing but itself.
     pub fn report(&self) -> String {
+        let parts = [
+            ("Finding", html! { (self.finding()) (self.candidates()) (self.rivals()) (self.parameters()) }),
+            ("Recording and model", self.course()),
+            ("Is what is left noise?", self.spectra()),
+            ("Where the difference is", html! { (self.stages()) (self.place()) (self.held_out()) }),
+            ("The next test", self.next_test()),
+            ("Noise", self.noise()),
+            ("Limits", self.limits()),
+        ];
+        let names: Vec<&str> = parts.iter().map(|(name, _)| *name).chain(["Provenance"]).collect();
         let body = html! {
-            h2 { "Finding" } "\n"
-            (self.finding()) (self.candidates()) (self.rivals()) (self.parameters())
-            h2 { "Recording and model" } "\n"
-            (self.course())
-            h2 { "Is what is left noise?" } "\n"
-            (self.spectra())
-            h2 { "Where the difference is" } "\n"
-            (self.stages()) (self.place()) (self.held_out())
-            h2 { "The next test" } "\n"
-            (self.next_test())
-            h2 { "Noise" } "\n"
-            (self.noise())
-            h2 { "Limits" } "\n"
-            (self.limits()) (self.sources())
+            (heading("In short")) (self.in_short()) (contents(&names))
+            @for (name, part) in &parts { (heading(name)) (part) }
+            (self.sources())
         };
         page(&format!("{}: what differs from the design", self.name), &html! { p { (nice(&self.verdict())) } }, &body)
     }
@@ -133,6 +136,22 @@ impl Outcome<'_> {
         let longest = self.fits.iter().chain(held).filter_map(ends).fold(0.0_f64, |most, [a, b]| most.max(b - a));
         let [start, end] = ends(record).unwrap_or_default();
         Clock { unit: DurationUnit::of(longest), start, end }
+    }
+
+    /// The answer on one screen: what is left of the rate before and after, what it is, how to inspect it, how sure, and what next.
+    fn in_short(&self) -> Markup {
+        let explained = self.diagnosis.verdict == Verdict::Explained;
+        let mut rows = Vec::new();
+        for active in self.diagnosis.best().fit.active.iter().filter(|_| explained) {
+            if let Naming::Named { meaning, inspection } = self.gyro.mechanism(active.mechanism).facts().naming {
+                rows.extend([row(self.id(active.mechanism), nice(meaning)), row("inspect", nice(inspection))]);
+            }
+        }
+        let likely = self.explanations().into_iter().filter(|e| e.open || e.probability >= TOLD);
+        let sure: Vec<String> = likely.map(|e| format!("{} {:.2}", e.said(), e.probability)).collect();
+        rows.push(row("how sure", format!("probability of {}", sure.join(", "))));
+        rows.push(row("next", self.alternatives().unwrap_or_else(|| capital(&self.next()))));
+        html! { (self.before_and_after().element()) (facts("The answer in short", &rows)) }
     }
 
     fn finding(&self) -> Markup {

@@ -50,7 +50,7 @@ impl Outcome<'_> {
 }
 
 /// The words with a capital at their beginning.
-fn capital(words: &str) -> String {
+pub(super) fn capital(words: &str) -> String {
     words.chars().take(1).flat_map(char::to_uppercase).chain(words.chars().skip(1)).collect()
 }
 
