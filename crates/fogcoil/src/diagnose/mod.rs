@@ -246,7 +246,7 @@ impl Outcome<'_> {
             Verdict::None => None,
             Verdict::Recalibrate => Some("recalibrated model"),
             Verdict::Explained => Some("extended model"),
-            Verdict::Unknown if self.law().is_some() => Some("with the composed law"),
+            Verdict::Unknown if self.law().is_some() => Some("model with the composed law"),
             Verdict::Unknown if self.diagnosis.best().fit.hypothesis == Hypothesis::NOMINAL => None,
             Verdict::Unknown => Some("best of the library"),
         }
