@@ -68,6 +68,8 @@ def test_an_optimum_is_a_design(fixtures: Path) -> None:
 
 @pytest.mark.skipif(threading.current_thread() is not threading.main_thread(), reason="signals go to the main thread")
 def test_an_interrupt_ends_a_sweep_and_the_next_call_computes(coil: fogcoil.Coil, fixtures: Path) -> None:
+    # tests that a shell starts in the background would ignore it
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     begun = threading.Event()
 
     def interrupt() -> None:
