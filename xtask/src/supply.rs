@@ -60,8 +60,10 @@ fn bill(into: &Path) -> Result<PathBuf, Failure> {
 
 /// Whether two builds of copies of the sources, in folders with other names, give the same bytes.
 fn built_alike(into: &Path) -> Result<bool, Failure> {
-    let hashes = ["first", "second-and-elsewhere"].map(|name| built(&into.join(name)));
-    let [first, second] = hashes;
+    let folders = ["first", "second-and-elsewhere"].map(|name| into.join(name));
+    // both before a build, in whose minutes somebody may edit
+    folders.iter().try_for_each(|folder| copied(folder))?;
+    let [first, second] = folders.map(|folder| built(&folder));
     let (first, second) = (first?, second?);
     println!(
         "the program, built twice in two folders: {first} and {second}{}",
@@ -70,10 +72,9 @@ fn built_alike(into: &Path) -> Result<bool, Failure> {
     Ok(first == second)
 }
 
-/// SHA-256 of the program, built from a copy of the sources in `folder`.
-fn built(folder: &Path) -> Result<String, Failure> {
-    eprintln!("building in {}", folder.display());
-    let (sources, target) = (folder.join("sources"), folder.join("target"));
+/// Puts a copy of the sources into `folder`, and nothing else.
+fn copied(folder: &Path) -> Result<(), Failure> {
+    let sources = folder.join("sources");
     if folder.exists() {
         fs::remove_dir_all(folder).map_err(failed(folder))?;
     }
@@ -87,6 +88,13 @@ fn built(folder: &Path) -> Result<String, Failure> {
         fs::create_dir_all(parent).map_err(failed(parent))?;
         fs::copy(root().join(&file), &copy).map_err(failed(&copy))?;
     }
+    Ok(())
+}
+
+/// SHA-256 of the program, built from the copy of the sources in `folder`.
+fn built(folder: &Path) -> Result<String, Failure> {
+    eprintln!("building in {}", folder.display());
+    let (sources, target) = (folder.join("sources"), folder.join("target"));
     let mut build = cargo();
     build.args(["build", "--quiet", "--release", "--locked", "--package", "fogcoil", "--bin", "fogcoil"]);
     build.env("CARGO_TARGET_DIR", &target).env("CARGO_ENCODED_RUSTFLAGS", remapped(&sources)).current_dir(&sources);
