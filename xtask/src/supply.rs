@@ -95,9 +95,10 @@ fn copied(folder: &Path) -> Result<(), Failure> {
 fn built(folder: &Path) -> Result<String, Failure> {
     eprintln!("building in {}", folder.display());
     let (sources, target) = (folder.join("sources"), folder.join("target"));
+    // the whole folder is called alike: what build scripts write, and name, lies beside the sources
     let mut build = cargo();
     build.args(["build", "--quiet", "--release", "--locked", "--package", "fogcoil", "--bin", "fogcoil"]);
-    build.env("CARGO_TARGET_DIR", &target).env("CARGO_ENCODED_RUSTFLAGS", remapped(&sources)).current_dir(&sources);
+    build.env("CARGO_TARGET_DIR", &target).env("CARGO_ENCODED_RUSTFLAGS", remapped(folder)).current_dir(&sources);
     if !build.status()?.success() {
         return Err(Failure(format!("the program cannot be built in {}", sources.display())));
     }

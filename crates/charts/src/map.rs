@@ -162,7 +162,7 @@ impl HeatMap {
         }
     }
 
-    /// The outlines, each on a wide line of the page's colour, so that it stands out on any map.
+    /// The outlines, each on a wider white line, so that it stands out on any map.
     pub(crate) fn outlined(&self, svg: &mut Svg, [x, y]: [&Scale; 2]) {
         for [across, along] in &self.outlines {
             let ([left, right], [low, high]) = (across.map(|end| x.pixel(end)), along.map(|end| y.pixel(end)));

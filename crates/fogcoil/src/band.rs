@@ -15,7 +15,7 @@ use crate::cache::Cache;
 use crate::input::keyed;
 use crate::prepare::library;
 use crate::simulate::{SimulatedRow, Simulation, number, windowed};
-use crate::summary::{Regression, Summary};
+use crate::summary::{Regression, Summary, over_time};
 use crate::table::{significant, table};
 
 /// A simulation's band: one standard deviation of each of its results.
@@ -90,8 +90,7 @@ impl CourseBand {
                 ..row
             };
             let rows: Vec<SimulatedRow> = simulation.rows().enumerate().map(row).collect();
-            let squares = rows.windows(2).map(|w| w[1].rate.powi(2) * (w[1].time - w[0].time)).sum::<f64>();
-            let rms = if summary.duration > 0.0 { (squares / summary.duration).sqrt() } else { 0.0 };
+            let rms = over_time(rows.iter().map(|row| (row.time, row.rate)));
             let slope = Regression::of(windowed(rows[0], rows.iter().skip(1).copied())).slope();
             (rms, slope.unwrap_or(0.0))
         };

@@ -30,7 +30,8 @@ impl Row {
 }
 
 impl Row {
-    /// A run that ended by itself: it answered, with all outputs, or refused in words, with none or because another run's are there.
+    /// A run that ended by itself: it answered, with all outputs, or refused in words: with none, or, of outputs that are never replaced, because another
+    /// run's are there.
     pub(super) fn ended(
         &mut self,
         work: &Work,
@@ -48,7 +49,9 @@ impl Row {
             Some(0) => {
                 self.faults.push(format!("it claims to have answered, with {} outputs of {}", left.whole, work.outputs.len()))
             }
-            Some(2) if !run.stderr.is_empty() && (left.whole == work.outputs.len() || none && !must_answer) => self.refused += 1,
+            Some(2) if !run.stderr.is_empty() && (none && !must_answer || work.keeps && left.whole == work.outputs.len()) => {
+                self.refused += 1;
+            }
             _ => self.faults.push(said(run)),
         }
         Ok(())

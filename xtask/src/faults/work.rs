@@ -17,6 +17,8 @@ pub(super) struct Work {
     inputs: &'static [(&'static str, &'static str)],
     arguments: &'static str,
     pub(super) outputs: &'static [&'static str],
+    /// Whether it refuses to replace an output that is there.
+    pub(super) keeps: bool,
 }
 
 /// Rows of a recording that are enough to answer, and quick.
@@ -29,6 +31,7 @@ pub(super) const WORKS: [Work; 6] = [
         inputs: &[("fixtures/ordinary/B/drawing.ron", "coil.ron"), ("fixtures/profiles/paper.csv", "p.csv")],
         arguments: "simulate coil.ron --profile p.csv --out b.csv --report r.html --quiet",
         outputs: &["b.csv", "r.html"],
+        keeps: false,
     },
     Work {
         name: "diagnose",
@@ -39,6 +42,7 @@ pub(super) const WORKS: [Work; 6] = [
         ],
         arguments: "diagnose coil.ron --fit a.csv --holdout b.csv --json d.json --prediction p.csv --model-out m.ron --report r.html --quiet",
         outputs: &["d.json", "p.csv", "m.ron", "r.html"],
+        keeps: false,
     },
     Work {
         name: "calibrate",
@@ -49,24 +53,28 @@ pub(super) const WORKS: [Work; 6] = [
         ],
         arguments: "calibrate coil.ron --unit a.csv --unit b.csv --out lot.ron --quiet",
         outputs: &["lot.ron"],
+        keeps: false,
     },
     Work {
         name: "homogenize",
         inputs: &[("fixtures/cell-reference.ron", "cell.ron")],
         arguments: "homogenize cell.ron --load dt=10 --vtu c.vtu --svg c.svg",
         outputs: &["c.vtu", "c.svg"],
+        keeps: false,
     },
     Work {
         name: "wind",
         inputs: &[("fixtures/coil-reference.ron", "coil.ron")],
         arguments: "wind coil.ron --csv w.csv --svg w.svg",
         outputs: &["w.csv", "w.svg"],
+        keeps: false,
     },
     Work {
         name: "check",
         inputs: &[("fixtures/ordinary/B/open/U4907/run1.csv", "a.csv")],
         arguments: "check a.csv --write-map --svg a.svg",
         outputs: &["a.map.ron", "a.svg"],
+        keeps: true,
     },
 ];
 
