@@ -57,7 +57,7 @@ pub use faults::faults;
 pub use figure::Figure;
 pub use map::{Colours, HeatMap};
 pub use number::{nice, signed, significant};
-pub use page::{HAND, Script, contents, heading, page, scripted};
+pub use page::{HAND, Script, heading, page, scripted, sections};
 pub use panel::{Content, Height, Panel};
 pub use scale::{Axis, Ends};
 pub use series::{MOST_POINTS, Series, Style, Thinning};

@@ -43,15 +43,30 @@ pub fn page(title: &str, lead: &Markup, body: &Markup) -> String {
     scripted(title, lead, body, Script { text, ..Script::default() })
 }
 
-/// A heading of the second level, to which [`contents`] leads.
+/// A heading of the second level.
 pub fn heading(name: &str) -> Markup {
     html! { h2 id=(anchor(name)) { (name) } "\n" }
 }
 
-/// A list of headings that a page has, each leading there.
-pub fn contents(names: &[&str]) -> Markup {
+/// Sections of a page, each under its heading, after a list of the headings that leads to them.
+///
+/// ```
+/// use charts::{faults, page, sections};
+/// use maud::html;
+///
+/// let body = sections(&[("Coil", html! { p { "Wound." } }), ("Bias", html! { p { "Computed." } })]);
+/// assert!(body.0.contains("<a href=\"#to-bias\">Bias</a>") && body.0.contains("<h2 id=\"to-bias\">Bias</h2>"));
+/// assert!(faults(&page("Two sections", &html! { p { "A coil and its bias." } }, &body)).is_empty());
+/// ```
+pub fn sections(sections: &[(&str, Markup)]) -> Markup {
     html! {
-        nav aria-label="Contents" { ul.contents { @for name in names { li { a href=(format!("#{}", anchor(name))) { (name) } } } } } "\n"
+        nav aria-label="Contents" {
+            ul.contents {
+                @for (name, _) in sections { li { a href=(format!("#{}", anchor(name))) { (name) } } }
+            }
+        }
+        "\n"
+        @for (name, section) in sections { (heading(name)) (section) }
     }
 }
 

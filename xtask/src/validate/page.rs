@@ -48,15 +48,10 @@ pub(super) fn html(sections: &[Section]) -> Result<String, Failure> {
     let files = INPUTS.into_iter().map(read).collect::<Result<Vec<_>, Failure>>()?;
     let files: Vec<_> = files.iter().map(|(role, file)| (*role, file)).collect();
     let printed = printed()?;
-    let body = html! {
-        h2 { "Summary" } "\n"
-        (summary(sections))
-        h2 { "Words" } "\n"
-        (facts("Words", &words))
-        @for section in sections { (one(section, &printed)) }
-        (provenance("cargo xtask validate", &files, &[row("options", "none")]))
-    };
-    Ok(page("Validation against the paper's Tables I to IV", &lead(sections), &body))
+    let mut parts = vec![("Summary", summary(sections)), ("Words", facts("Words", &words))];
+    parts.extend(sections.iter().map(|section| (section.title.as_str(), one(section, &printed))));
+    parts.push(provenance("cargo xtask validate", &files, &[row("options", "none")]));
+    Ok(page("Validation against the paper's Tables I to IV", &lead(sections), &charts::sections(&parts)))
 }
 
 fn rows(sections: &[Section]) -> impl Iterator<Item = &ComparisonRow> {
@@ -100,7 +95,6 @@ fn one(section: &Section, (label, value): &(String, f64)) -> Markup {
     let lines: Vec<Vec<String>> = section.rows.iter().map(line).collect();
     let head = ["quantity", "printed", "computed", "unit", "verdict", "kind", "reason"];
     html! {
-        h2 { (section.title) } "\n"
         @for note in &section.notes { p { (nice(note).replace(['`', '*'], "")) } "\n" }
         (grid(&format!("{}, row by row", section.title), Cells::Words, &head, &lines))
         @if !section.lines.is_empty() { (spools_element(&on_spools(&section.lines), (label, *value))) }

@@ -1,6 +1,6 @@
 //! The page of a batch.
 
-use charts::{Cells, grid, nice, significant};
+use charts::{Cells, grid, nice, sections, significant};
 use maud::{Markup, html};
 
 use super::finding::Inputs;
@@ -16,17 +16,13 @@ use crate::report::provenance;
 
 /// The page, with links to the pages of the units beside it.
 pub fn report(inputs: &Inputs, limits: Option<&Limits>, batch: &Batch) -> String {
-    let body = html! {
-        h2 { "Units" } "\n"
-        (units(batch))
-        h2 { "Trends" } "\n"
-        @for trend in trends(batch, limits) { (trend.element()) }
-        h2 { "What stands out" } "\n"
-        (standing_out(batch))
-        h2 { "What the units have in common" } "\n"
-        (in_common(batch))
-        (sources(inputs, limits))
-    };
+    let body = sections(&[
+        ("Units", units(batch)),
+        ("Trends", html! { @for trend in trends(batch, limits) { (trend.element()) } }),
+        ("Outliers", standing_out(batch)),
+        ("In common", in_common(batch)),
+        sources(inputs, limits),
+    ]);
     charts::page(&format!("{}: {} units", inputs.case.name, batch.rows.len()), &lead(batch, limits), &body)
 }
 
@@ -134,7 +130,7 @@ fn in_common(batch: &Batch) -> Markup {
     }
 }
 
-fn sources(inputs: &Inputs, limits: Option<&Limits>) -> Markup {
+fn sources(inputs: &Inputs, limits: Option<&Limits>) -> (&'static str, Markup) {
     let roles = ["coil"].into_iter().chain(std::iter::repeat("cell"));
     let mut files: Vec<(&str, &Fingerprint)> = roles.zip(&inputs.case.fingerprints).collect();
     files.extend(limits.map(|limits| ("limits", &limits.fingerprint)));

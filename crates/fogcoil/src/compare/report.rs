@@ -1,6 +1,6 @@
 //! The page of a comparison.
 
-use charts::{Axis, Cells, Figure, Panel, Series, Style, grid, row, signed, significant};
+use charts::{Axis, Cells, Figure, Panel, Series, Style, grid, row, sections, signed, significant};
 use maud::{Markup, html};
 
 use super::text::{HOW, bias_rows, differing_rows, part_rows};
@@ -15,22 +15,17 @@ const LEAST_DEG_PER_H: f64 = 1e-4;
 /// The page, with both coils side by side.
 pub fn report(c: &Comparison) -> String {
     let [a, b] = c.cases.map(|case| case.name.as_str());
-    let body = html! {
-        h2 { "What differs" } "\n"
-        (designs(c))
-        (differing(c))
-        h2 { "Sensitivity" } "\n"
-        (sensitivity(c))
-        @if let Some(bias) = c.bias() {
-            h2 { "Bias under the profile" } "\n"
-            (grid("Bias under the profile, with numerical errors", Cells::Numbers, &["", "A", "B", "B \u{2212} A, row by row"], &bias_rows(&bias)))
+    let head = ["", "A", "B", "B \u{2212} A, row by row"];
+    let under_profile = c.bias().map(|bias| {
+        html! {
+            (grid("Bias under the profile, with numerical errors", Cells::Numbers, &head, &bias_rows(&bias)))
             (course(c).element())
         }
-        h2 { "Both coils" } "\n"
-        (figures::side_by_side(c.cases).element())
-        (sources(c))
-    };
-    charts::page(&format!("{a} and {b}"), &lead(c), &body)
+    });
+    let mut parts = vec![("Differences", html! { (designs(c)) (differing(c)) }), ("Sensitivity", sensitivity(c))];
+    parts.extend(under_profile.map(|part| ("Bias under the profile", part)));
+    parts.extend([("Both coils", figures::side_by_side(c.cases).element()), sources(c)]);
+    charts::page(&format!("{a} and {b}"), &lead(c), &sections(&parts))
 }
 
 /// The result in a sentence or two.
@@ -146,7 +141,7 @@ fn course<'a>(c: &'a Comparison) -> Figure<'a> {
     }
 }
 
-fn sources(c: &Comparison) -> Markup {
+fn sources(c: &Comparison) -> (&'static str, Markup) {
     let mut files: Vec<_> = Vec::new();
     for (case, roles) in c.cases.iter().zip([["A", "cell of A"], ["B", "cell of B"]]) {
         files.extend(case.fingerprints.iter().enumerate().map(|(n, file)| (roles[usize::from(n > 0)], file)));

@@ -1,6 +1,6 @@
 //! The page of an optimisation.
 
-use charts::{Cells, grid, nice};
+use charts::{Cells, grid, nice, sections};
 use maud::{Markup, html};
 
 use super::check::Checked;
@@ -19,11 +19,11 @@ pub fn report(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
         p { (found.all.len()) " designs were tried, " (sound) " keep the limits, " (best.len()) " are on the front." }
     };
     let files: Vec<_> = ["plan", "coil"].into_iter().chain(std::iter::repeat("cell")).zip(&plan.files).collect();
-    let body = html! {
-        h2 { "Front" } "\n"
+    let front = html! {
         @if let Some(front) = figure(plan, found) { (front.element()) }
         (headed("The drawing and designs of the front", &designs(plan, found, &best)))
-        h2 { "Optimum" } "\n"
+    };
+    let optimum = html! {
         @match checked {
             None => p { (sentence(NOTHING)) },
             Some(checked) => {
@@ -32,8 +32,9 @@ pub fn report(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
                 p { (sentence(&of_spread(checked))) }
             }
         }
-        (provenance("optimise", &files, &[("seed".to_owned(), plan.seed.to_string())]))
     };
+    let provenance = provenance("optimise", &files, &[("seed".to_owned(), plan.seed.to_string())]);
+    let body = sections(&[("Front", front), ("Optimum", optimum), provenance]);
     charts::page(&format!("{}: the best of {} designs", plan.variants.case.name, found.all.len()), &lead, &body)
 }
 

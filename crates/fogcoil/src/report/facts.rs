@@ -100,7 +100,7 @@ pub(super) fn computation(simulation: &Simulation) -> Markup {
     facts("The computation", &rows)
 }
 
-pub(super) fn sources(simulation: &Simulation) -> Markup {
+pub(super) fn sources(simulation: &Simulation) -> (&'static str, Markup) {
     let coils = simulation.case.fingerprints.iter().enumerate().map(|(n, file)| (if n == 0 { "coil" } else { "cell" }, file));
     let inferred = simulation.profile.inferred;
     let driven = if inferred.is_some() { "thermometer's record" } else { "profile" };

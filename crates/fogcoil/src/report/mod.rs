@@ -5,7 +5,7 @@ mod provenance;
 
 pub use provenance::provenance;
 
-use charts::{contents, heading, nice, row, signed, significant};
+use charts::{heading, nice, row, sections, signed, significant};
 use maud::{Markup, html};
 use recording::Seconds;
 
@@ -30,20 +30,13 @@ pub fn html(
     let body = html! {
         (heading("Bias"))
         (bias)
-        (contents(&["Summary", "Figures", "Coil", "Computation", "Provenance"]))
-        (heading("Summary"))
-        (summary(simulation))
-        (heading("Figures"))
-        (others)
-        (heading("Coil"))
-        (facts::coil(simulation))
-        (heading("Computation"))
-        (facts::computation(simulation))
-        p {
-            "The numbers follow from the file's spool, bonding and materials; where one of them was chosen to match a measurement, so were \
-             these."
-        }
-        (facts::sources(simulation))
+        (sections(&[
+            ("Summary", summary(simulation)),
+            ("Figures", others),
+            ("Coil", facts::coil(simulation)),
+            ("Computation", computation(simulation)),
+            facts::sources(simulation),
+        ]))
     };
     charts::page(&title, &lead(simulation, band), &body)
 }
@@ -68,6 +61,16 @@ fn lead(simulation: &Simulation, band: Option<&CourseBand>) -> Markup {
                 }
                 "."
             }
+        }
+    }
+}
+
+fn computation(simulation: &Simulation) -> Markup {
+    html! {
+        (facts::computation(simulation))
+        p {
+            "The numbers follow from the file's spool, bonding and materials; where one of them was chosen to match a measurement, so were \
+             these."
         }
     }
 }

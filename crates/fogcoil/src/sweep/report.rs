@@ -1,6 +1,6 @@
 //! The page of a sweep.
 
-use charts::{Axis, Cells, Figure, Panel, Series, Style, grid, nice, significant};
+use charts::{Axis, Cells, Figure, Panel, Series, Style, grid, nice, sections, significant};
 use maud::html;
 
 use super::picture::figure;
@@ -32,14 +32,12 @@ pub fn report(plan: &Plan, summary: &Summary, rows: &[Row]) -> String {
         std::iter::once(s.name.to_owned()).chain(numbers).chain([unit(s.name)]).collect::<Vec<_>>()
     };
     let files: Vec<_> = ["plan", "coil"].into_iter().chain(std::iter::repeat("input")).zip(&plan.files).collect();
-    let body = html! {
-        h2 { "Numbers" } "\n"
-        (grid("Every number over all designs", Cells::Numbers, &head, &summary.spreads.iter().map(numbers).collect::<Vec<_>>()))
-        @if let Some(distribution) = distribution(plan, rows) { h2 { "Sensitivity" } "\n" (distribution.element()) }
-        @if let Some(indices) = &summary.indices { h2 { "Where its spread comes from" } "\n" (figure(name, indices).element()) }
-        (provenance("sweep", &files, &[]))
-    };
-    charts::page(&format!("{name}: {} designs", summary.designs), &lead, &body)
+    let spreads: Vec<_> = summary.spreads.iter().map(numbers).collect();
+    let mut parts = vec![("Numbers", grid("Every number over all designs", Cells::Numbers, &head, &spreads))];
+    parts.extend(distribution(plan, rows).map(|distribution| ("Sensitivity", distribution.element())));
+    parts.extend(summary.indices.iter().map(|indices| ("Where its spread comes from", figure(name, indices).element())));
+    parts.push(provenance("sweep", &files, &[]));
+    charts::page(&format!("{name}: {} designs", summary.designs), &lead, &sections(&parts))
 }
 
 /// The share of the designs whose sensitivity is below a number.

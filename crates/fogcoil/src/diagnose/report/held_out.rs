@@ -11,9 +11,6 @@ use crate::diagnose::{Held, NOMINAL, Outcome};
 
 impl Outcome<'_> {
     pub(super) fn held_out(&self) -> Markup {
-        if self.holdouts.is_empty() {
-            return Markup::default();
-        }
         let all = self.holdouts.iter().flat_map(|held| self.predictions(held).into_iter().map(move |shown| (held, shown)));
         let row = |(held, (name, prediction)): (&Held, (&str, &HeldOut))| {
             vec![
@@ -35,7 +32,6 @@ impl Outcome<'_> {
             "No parameter was adjusted to a held-out record. Even its rate offset is taken from the first fitted record."
         };
         html! {
-            h2 { "Proof on a record that was held out" } "\n"
             (grid("Errors of the predictions", Cells::Words, &head, &rows))
             p { (said) } "\n"
             (self.proof().element())

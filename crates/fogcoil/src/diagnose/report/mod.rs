@@ -10,7 +10,7 @@ mod place;
 mod spectrum;
 mod stages;
 
-use charts::{Axis, contents, facts, heading, nice, page, row, significant};
+use charts::{Axis, facts, heading, nice, page, row, sections, significant};
 use diagnosis::{Fit, ForwardModel, Nuisance, Role, Verdict};
 use files::Note;
 use maud::{Markup, html};
@@ -90,21 +90,17 @@ impl Clock {
 impl Outcome<'_> {
     /// A page that needs nothing but itself.
     pub fn report(&self) -> String {
-        let parts = [
+        let mut parts = vec![
             ("Finding", html! { (self.finding()) (self.candidates()) (self.rivals()) (self.parameters()) }),
             ("Recording and model", self.course()),
             ("Is what is left noise?", self.spectra()),
-            ("Where the difference is", html! { (self.stages()) (self.place()) (self.held_out()) }),
-            ("The next test", self.next_test()),
-            ("Noise", self.noise()),
-            ("Limits", self.limits()),
+            ("Where the difference is", html! { (self.stages()) (self.place()) }),
         ];
-        let names: Vec<&str> = parts.iter().map(|(name, _)| *name).chain(["Provenance"]).collect();
-        let body = html! {
-            (heading("In short")) (self.in_short()) (contents(&names))
-            @for (name, part) in &parts { (heading(name)) (part) }
-            (self.sources())
-        };
+        if !self.holdouts.is_empty() {
+            parts.push(("Proof on a record that was held out", self.held_out()));
+        }
+        parts.extend([("The next test", self.next_test()), ("Noise", self.noise()), ("Limits", self.limits()), self.sources()]);
+        let body = html! { (heading("In short")) (self.in_short()) (sections(&parts)) };
         page(&format!("{}: what differs from the design", self.name), &html! { p { (nice(&self.verdict())) } }, &body)
     }
 
@@ -202,7 +198,7 @@ impl Outcome<'_> {
         facts("Limits", &rows)
     }
 
-    fn sources(&self) -> Markup {
+    fn sources(&self) -> (&'static str, Markup) {
         let fitted = self.fits.iter().map(|record| ("fitted", &record.fingerprint));
         let held = self.holdouts.iter().map(|held| ("held out", &held.record.fingerprint));
         let design = self.design.iter().enumerate().map(|(n, file)| (if n == 0 { "coil" } else { "cell" }, file));
