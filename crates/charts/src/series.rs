@@ -35,6 +35,8 @@ pub enum Style {
     Third,
     /// Thin, for a line that goes up and down many times: vermilion, black, blue or green.
     Fine(u8),
+    /// Thin and grey: readings, below what is computed.
+    Record,
     /// Points joined by a line: blue rings, vermilion squares.
     Marked(u8),
     /// Marks alone, each of its own shape and colour: blue ring, vermilion square, green triangle, black diamond, blue cross.
@@ -51,6 +53,7 @@ impl Style {
             Self::Second | Self::Marked(_) => "line second",
             Self::Points(kind) => MARKS[kind as usize % MARKS.len()],
             Self::Third => "line third",
+            Self::Record => "line fine record",
             Self::Fine(0) => "line fine second",
             Self::Fine(1) => "line fine total",
             Self::Fine(2) => "line fine first",

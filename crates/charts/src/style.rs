@@ -85,7 +85,7 @@ mod tests {
     fn lines_are_told_apart_by_colour_blind_readers_and_from_the_page() {
         for dark in [false, true] {
             let colour = |name: &str| PALETTE.iter().find(|c| c.0 == name).map(|c| if dark { c.2 } else { c.1 }).unwrap();
-            let lines = ["total", "first", "second", "third"].map(|name| linear(colour(name)));
+            let lines = ["total", "first", "second", "third", "axis"].map(|name| linear(colour(name)));
             for sight in SIGHTS {
                 for (n, a) in lines.iter().enumerate() {
                     for b in &lines[..n] {

@@ -17,6 +17,7 @@ use crate::cli_optimise::Optimise;
 use crate::cli_recommend::Recommend;
 use crate::cli_simulate::Simulate;
 use crate::cli_sweep::Sweep;
+use crate::cli_under::Under;
 
 /// Thermal bias of fibre-optic-gyroscope coils.
 #[derive(Parser)]
@@ -77,12 +78,8 @@ pub(crate) enum Command {
         /// Case file of the coil
         #[arg(value_name = "COIL.ron")]
         coil: PathBuf,
-        /// Profile under which to show what remains, e.g. fixtures/profiles/paper.csv
-        #[arg(long, value_name = "P.csv")]
-        profile: Option<PathBuf>,
-        /// Add a row every S seconds from the first row, on the straight lines between the profile's own
-        #[arg(long, value_name = "S", value_parser = crate::cli_simulate::step, requires = "profile")]
-        step: Option<f64>,
+        #[command(flatten)]
+        under: Under,
         /// Print one JSON object
         #[arg(long)]
         json: bool,

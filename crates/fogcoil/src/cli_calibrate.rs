@@ -16,8 +16,8 @@ pub(crate) struct Calibrate {
     /// The drawing: case file of the coil
     #[arg(value_name = "COIL.ron")]
     coil: PathBuf,
-    /// Records of a good unit, with commas between them; once for every unit
-    #[arg(long = "unit", value_name = "A1.csv,A2.csv", required = true, value_parser = records)]
+    /// Good units, each by its records with commas between them, e.g. --unit lot/*.csv; may be given more than once
+    #[arg(long = "unit", value_name = "A1.csv,A2.csv", required = true, value_parser = records, num_args = 1..)]
     good: Vec<Records>,
     /// Write the lot's design here, a coil file
     #[arg(long, value_name = "LOT.ron")]

@@ -12,8 +12,9 @@ use fogcoil::section_files::{self, SectionFiles};
 use fogcoil::simulate::{self, Fields, Model, Simulation};
 use fogcoil::{Error, band, figures, report, summary};
 
+use crate::cli_under::{divide, step};
 use crate::progress::Progress;
-use crate::{divide, line, print};
+use crate::{line, print};
 
 #[derive(Args)]
 #[command(group(ArgGroup::new("drive").required(true).args(["profile", "record", "spool"])))]
@@ -70,15 +71,6 @@ fn noise(text: &str) -> Result<f64, String> {
     let least = coil::LEAST_NOISE;
     let number = text.parse().ok().filter(|noise| (least..=MOST_NOISE).contains(noise));
     number.ok_or_else(|| format!("give kelvins from {least} to {MOST_NOISE}"))
-}
-
-/// Steps \[s\] that a profile can be divided into.
-const STEPS_S: std::ops::RangeInclusive<f64> = 1.0..=1e6;
-
-/// The argument of `--step`.
-pub(crate) fn step(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|step| STEPS_S.contains(step));
-    number.ok_or_else(|| format!("give seconds from {} to {}", STEPS_S.start(), STEPS_S.end()))
 }
 
 pub(crate) fn run(arguments: &Simulate, progress: &Progress) -> Result<(), Error> {

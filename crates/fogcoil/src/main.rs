@@ -15,6 +15,7 @@ mod cli_recommend;
 mod cli_simulate;
 mod cli_sweep;
 mod cli_tables;
+mod cli_under;
 mod progress;
 mod signals;
 
@@ -25,6 +26,7 @@ use std::process::ExitCode;
 use crate::progress::Progress;
 use clap::Parser;
 use cli::{Cli, Command, Diagnose};
+use cli_under::Under;
 use fogcoil::cache::Cache;
 use fogcoil::glossary::{Note, Remark};
 use fogcoil::input::RecordOptions;
@@ -77,7 +79,7 @@ fn run(Cli { command, quiet, jobs }: &Cli) -> Result<(), Error> {
         Command::Recommend(arguments) => cli_recommend::run(arguments, progress),
         Command::Simulate(arguments) => cli_simulate::run(arguments, progress),
         Command::Sweep(arguments) => cli_sweep::run(arguments, progress),
-        Command::Trim { coil, profile, step, json } => run_trim(coil, profile.as_deref(), *step, *json, progress),
+        Command::Trim { coil, under, json } => run_trim(coil, under, *json, progress),
         Command::Wind { coil, csv, svg, json } => run_wind(coil, csv.as_deref(), svg.as_deref(), *json, progress),
         Command::Identify { targets, json } => {
             let case = input::read_targets(targets)?;
@@ -156,20 +158,10 @@ fn beside(model: &Path, id: &str) -> PathBuf {
     model.with_extension(format!("{id}.ron"))
 }
 
-/// A profile with the rows that `--step` adds, and a note where rows are long all the same.
-pub(crate) fn divide(profile: &mut input::ProfileCase, step: Option<f64>) -> Result<(), Error> {
-    step.map_or(Ok(()), |step| profile.divide(step))?;
-    profile.note_long_rows("give --step 30");
-    Ok(())
-}
-
-fn run_trim(coil: &Path, profile: Option<&Path>, step: Option<f64>, json: bool, progress: &Progress) -> Result<(), Error> {
+fn run_trim(coil: &Path, under: &Under, json: bool, progress: &Progress) -> Result<(), Error> {
     let case = progress.read_coil(coil)?;
-    let mut profile = profile.map(|path| input::read_profile(path, &case.design, &[])).transpose()?;
-    if let Some(profile) = &mut profile {
-        divide(profile, step)?;
-        progress.tell(&profile.notes);
-    }
+    let profile = under.read(&case)?;
+    profile.iter().for_each(|profile| progress.tell(&profile.notes));
     let result = progress.during("trimming", || trim::trim(&case, profile.as_ref()))?;
     print(&if json { line(&trim::json(&result)) } else { trim::text(&case, &result) })
 }

@@ -1,6 +1,7 @@
 //! Inputs of a diagnosis or a recommendation: a design's library of models, and recordings in the engine's form.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use bias::units::S_PER_MIN;
 use coil::COARSE;
@@ -47,6 +48,8 @@ pub(crate) struct Record {
     /// drive of the model
     pub(crate) drive: Chamber,
     pub(crate) averaging: f64,
+    /// flags that name files with which it was read
+    pub(crate) flags: Vec<(&'static str, PathBuf)>,
     /// further columns, which laws name, without gaps
     columns: BTreeMap<String, Vec<f64>>,
     /// facts about its instruments
@@ -225,7 +228,8 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
         notes.push(note.at(file));
     }
     let (fingerprint, observed) = (case.fingerprint.clone(), Observation { time, channels: vec![spool, rate] });
-    Ok(Record { fingerprint, observed, chamber, drive, averaging, columns, meta: case.meta.clone(), instants: (before, earlier) })
+    let (meta, flags, instants) = (case.meta.clone(), case.flags.clone(), (before, earlier));
+    Ok(Record { fingerprint, observed, chamber, drive, averaging, flags, columns, meta, instants })
 }
 
 /// Note on a record whose unit was built to a design of another name; files that the program writes have the drawing's name before a comma.

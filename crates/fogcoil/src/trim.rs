@@ -116,6 +116,7 @@ pub fn text(case: &CoilCase, trim: &Trim) -> String {
             name(*half)
         );
     }
+    text.push_str("(a turn at an end of the fibre counts by its own strain less the mean, not by its length: turns and tails may differ in sign)\n");
     let _ = write!(text, "\n{}", table(&cut_off(trim)));
     if let Some([[rms, peak], [rms_after, peak_after]]) = trim.transients {
         let _ = writeln!(

@@ -114,7 +114,7 @@ pub struct Rate {
     pub earth_rate_deg_per_h: Option<f64>,
     /// Latitude of the laboratory \[deg\], north positive: Earth's rate follows from it and the axis, which is needed with it.
     pub latitude_deg: Option<f64>,
-    /// Direction of the axis from north, east positive \[deg\].
+    /// Direction of the axis from north, east positive \[deg\]; of a vertical axis it is not needed.
     pub azimuth_deg: Option<f64>,
     /// How far the axis points up from the horizon \[deg\].
     pub elevation_deg: Option<f64>,
@@ -124,9 +124,15 @@ pub struct Rate {
 const EARTH: f64 = 15.041_067;
 
 impl Rate {
+    fn is_vertical(&self) -> bool {
+        self.elevation_deg.is_some_and(|elevation| elevation.abs() == 90.0)
+    }
+
     /// Earth's rate along the axis \[deg/h\], where it is known.
     pub fn earth(&self) -> Option<f64> {
-        let axis = self.azimuth_deg.zip(self.elevation_deg);
+        // of a vertical axis no direction is needed
+        let azimuth = self.azimuth_deg.or(self.is_vertical().then_some(0.0));
+        let axis = azimuth.zip(self.elevation_deg);
         let of = |(azimuth, elevation): (f64, f64)| {
             let latitude = self.latitude_deg?.to_radians();
             let (azimuth, elevation) = (azimuth.to_radians(), elevation.to_radians());
@@ -221,7 +227,8 @@ fn check_axis(source: &Source, rate: &Rate) -> Result<(), InputError> {
         let problem = format!("{} lies outside -{most} to {most}", value.unwrap_or(f64::NAN));
         return Err(source.fault(&format!("rate_deg_per_h.{field}"), problem, "give the value, or leave the field out"));
     }
-    let axis = [rate.latitude_deg, rate.azimuth_deg, rate.elevation_deg].map(|angle| angle.is_some());
+    let mut axis = [rate.latitude_deg, rate.azimuth_deg, rate.elevation_deg].map(|angle| angle.is_some());
+    axis[1] |= rate.is_vertical();
     if axis.contains(&true) && axis.contains(&false) {
         let remedy = "give latitude_deg, azimuth_deg and elevation_deg, or none of them";
         return Err(source.fault(
@@ -267,6 +274,8 @@ mod tests {
             Rate { latitude_deg: Some(0.0), ..axis }.earth().expect("known")
         };
         assert!((at(0.0) - EARTH).abs() < 1e-12 && at(90.0).abs() < 1e-12);
+        let vertical = Rate { latitude_deg: Some(30.0), elevation_deg: Some(-90.0), ..Rate::default() };
+        assert!((vertical.earth().expect("known") + EARTH / 2.0).abs() < 1e-12);
         assert_eq!(Rate { earth_rate_deg_per_h: Some(9.7), ..Rate::default() }.earth(), Some(9.7));
         assert_eq!(Rate::default().earth(), None);
     }

@@ -21,8 +21,16 @@ pub(super) const DRIVES: [(&str, Drive); 5] = [
 ];
 
 /// Columns of recordings and of this program's own results; a profile may have them, and they drive nothing.
-pub(super) const RESULTS: [&str; 5] =
-    ["spool_c", "shupe_deg_per_h", "eo_axial_deg_per_h", "eo_radial_deg_per_h", "rate_deg_per_h"];
+pub(super) const RESULTS: [&str; 8] = [
+    "spool_c",
+    "shupe_deg_per_h",
+    "eo_axial_deg_per_h",
+    "eo_radial_deg_per_h",
+    "rate_deg_per_h",
+    "mechanisms_deg_per_h",
+    "recorded_spool_c",
+    "recorded_rate_deg_per_h",
+];
 
 pub(crate) struct Columns {
     pub(crate) time: usize,

@@ -11,7 +11,7 @@ use super::record_format::RecordFormat;
 use super::record_options::{Key, RecordOptions};
 use super::rows::quoted;
 use super::sniff::{Sniffed, sniff};
-use super::sniff_columns::{Found, date_and_time, find, holds, unit, unused_temperatures};
+use super::sniff_columns::{Found, date_and_time, find, holds, perhaps_temperatures, unit, unused_temperatures};
 use super::timestamp;
 use crate::Error;
 
@@ -122,7 +122,12 @@ fn propose_column(table: &Sniffed, key: Key, found: &Found, map: &mut MapFile, d
 /// Temperatures of unknown origin, as lines of the map for those that are wanted.
 fn asides(table: &Sniffed, map: &MapFile, taken: &[usize]) -> Vec<String> {
     let has = |key: Key| !map.column(key).column.is_empty() || table.names.iter().any(|name| name == key.standard());
-    let unused = unused_temperatures(table, taken);
+    let named = unused_temperatures(table, taken);
+    let (unused, heading) = if named.is_empty() {
+        (perhaps_temperatures(table, taken), "columns that may be temperatures; take the // from the lines that are right:")
+    } else {
+        (named, "temperatures that are not used; take the // from the lines that are right:")
+    };
     let line = |key: Key, column: usize| {
         let (name, standard) = (&table.names[column], key.units()[0].names[0]);
         let unit = unit(table, column, key).filter(|unit| *unit != standard);
@@ -132,8 +137,7 @@ fn asides(table: &Sniffed, map: &MapFile, taken: &[usize]) -> Vec<String> {
     let wanted = [Key::Chamber, Key::Spool].into_iter().filter(|key| !has(*key));
     let lines: Vec<String> =
         wanted.flat_map(|key| unused.iter().map(move |column| (key, *column))).map(|(key, column)| line(key, column)).collect();
-    let heading =
-        (!lines.is_empty()).then(|| "temperatures that are not used; take the // from the lines that are right:".to_owned());
+    let heading = (!lines.is_empty()).then(|| heading.to_owned());
     heading.into_iter().chain(lines).take(MOST_ASIDES).collect()
 }
 

@@ -35,6 +35,8 @@ pub struct RecordCase {
     pub meta: Option<Meta>,
     /// Notes for the user on the reading of the file.
     pub notes: Vec<Note>,
+    /// Flags of the command that name files with which it was read, `--map` and `--meta`.
+    pub flags: Vec<(&'static str, PathBuf)>,
     /// The file.
     pub fingerprint: Fingerprint,
 }
@@ -77,7 +79,10 @@ pub fn read_record(path: &Path, options: &RecordOptions) -> Result<RecordCase, E
 /// [`read_record`] in a known format.
 pub(super) fn read_as(path: &Path, format: &RecordFormat, options: &RecordOptions) -> Result<RecordCase, Error> {
     let meta = known(options.meta_of(path))?;
-    checked(Rows::open(path, "a recording (*.csv)", format.dialect)?, format, meta).map_err(|error| match error {
+    let flags = [("--map", &options.map), ("--meta", &options.meta)];
+    let flags = flags.into_iter().filter_map(|(flag, file)| Some((flag, file.clone()?))).collect();
+    let case = checked(Rows::open(path, "a recording (*.csv)", format.dialect)?, format, meta);
+    case.map(|case| RecordCase { flags, ..case }).map_err(|error| match error {
         Error::Input(wrong) if wrong.problem == NOT_UTF8 => {
             let remedy = format!("{}, or let `fogcoil check RECORD --write-map` find how it is encoded", wrong.remedy);
             InputError { remedy, ..wrong }.into()
@@ -114,7 +119,7 @@ fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<(PathBuf, Meta)>)
     let averaging = meta.as_ref().map(|meta| meta.sample_interval_s).filter(|seconds| *seconds > 0.0).unwrap_or(interval);
     let mut notes = notes(&columns, format, dates);
     notes.extend(meta.as_ref().and_then(|meta| interval_note(meta, interval)));
-    Ok(RecordCase { recording, report, averaging, meta, notes, fingerprint: rows.fingerprint() })
+    Ok(RecordCase { recording, report, averaging, meta, notes, flags: Vec::new(), fingerprint: rows.fingerprint() })
 }
 
 /// The meta file of a recording that lasts `span` \[s\], unless a rate would be a mean over more.

@@ -210,6 +210,7 @@ impl Rows {
         }
         let first = self.field(0);
         if first.starts_with("//") || first.starts_with("/*") || first == "(" || (first.starts_with('(') && first.contains(':')) {
+            let remedy = format!("{remedy}; a coil file is checked by every command that takes one, e.g. fogcoil wind");
             return Err(self.whole_fault("begins like a RON file, but a table (CSV) is read here", remedy));
         }
         Ok(())

@@ -11,7 +11,7 @@ fn words(key: Key) -> &'static [&'static str] {
         Key::Time => &["time", "zeit", "date", "datum", "elapsed", "stamp", "seconds", "temps", "uhrzeit"],
         Key::Chamber => &["chamber", "kammer", "oven", "ofen", "ambient", "umgebung", "enceinte", "climat", "klima", "air"],
         Key::Spool => &["spool", "spule", "coil", "hub", "bobbin", "bobine", "wickel"],
-        Key::Rate => &["rate", "gyro", "omega", "angular", "fog", "rotation", "winkelgeschw"],
+        Key::Rate => &["rate", "gyro", "omega", "angular", "fog", "rotation", "winkelgeschw", "kreisel", "drehrate"],
     }
 }
 
@@ -35,8 +35,11 @@ pub(super) fn find(table: &Sniffed, key: Key) -> Option<Found> {
     let fits = |column: &usize| is_of(&table.names[*column], key) && holds_values(table, *column);
     let mut candidates: Vec<usize> = (0..table.names.len()).filter(fits).collect();
     let standard = |column: &usize| table.names[*column] != key.standard();
-    // a unit that is said speaks for a column; a day alone is no instant
-    candidates.sort_by_key(|&column| (standard(&column), holds(table, column, is_day), unit(table, column, key).is_none()));
+    // a unit that is said speaks for a column, a word more; a day alone is no instant
+    candidates.sort_by_key(|&column| {
+        let says = says(&table.names[column], key);
+        (standard(&column), holds(table, column, is_day), !says, unit(table, column, key).is_none())
+    });
     let (column, others) = candidates.split_first()?;
     let foreign = foreign(&table.names[*column], key).map(str::to_owned);
     Some(Found { column: *column, unit: unit(table, *column, key), foreign, others: others.to_vec() })
@@ -62,6 +65,20 @@ pub(super) fn unused_temperatures(table: &Sniffed, taken: &[usize]) -> Vec<usize
     (0..table.names.len()).filter(is).collect()
 }
 
+/// Columns that may be temperatures for all that their names say, none of those that are `taken`: numbers of that size, without a unit.
+pub(super) fn perhaps_temperatures(table: &Sniffed, taken: &[usize]) -> Vec<usize> {
+    /// Temperatures of a chamber \[°C\].
+    const USUAL: std::ops::RangeInclusive<f64> = -100.0..=200.0;
+    let number = |field: &str| field.trim().replace(',', ".").parse::<f64>().ok();
+    let is = |column: &usize| {
+        let unit =
+            bracketed(&table.names[*column]).is_some() || table.units.get(*column).is_some_and(|unit| !unit.trim().is_empty());
+        let values: Vec<Option<f64>> = table.rows.iter().map(|row| number(&row[*column])).collect();
+        !unit && !taken.contains(column) && !values.is_empty() && values.iter().all(|v| v.is_some_and(|v| USUAL.contains(&v)))
+    };
+    (0..table.names.len()).filter(is).collect()
+}
+
 /// The unit that a column's name says, or a line below the names.
 pub(super) fn unit(table: &Sniffed, column: usize, key: Key) -> Option<&'static str> {
     let below = || spelled(table.units.get(column)?.trim_matches(['[', ']', '(', ')']), key);
@@ -77,17 +94,29 @@ fn holds_values(table: &Sniffed, column: usize) -> bool {
     table.rows.iter().any(|row| is_value(&row[column]))
 }
 
-fn is_of(name: &str, key: Key) -> bool {
+/// A name in lower case without its unit.
+fn bare(lower: &str) -> &str {
+    bracketed(lower).map_or(lower, |(bare, _)| bare)
+}
+
+fn tokens(bare: &str) -> Vec<&str> {
+    bare.split(|c: char| !c.is_alphanumeric()).collect()
+}
+
+/// Whether a name says by a word that the column is a key's.
+fn says(name: &str, key: Key) -> bool {
     let lower = name.to_lowercase();
-    let bare = match bracketed(&lower) {
-        Some((bare, _)) => bare,
-        None => &lower,
-    };
-    let tokens: Vec<&str> = bare.split(|c: char| !c.is_alphanumeric()).collect();
+    let bare = bare(&lower);
+    let tokens = tokens(bare);
     let says = |word: &&str| if word.len() <= 3 { tokens.contains(word) } else { bare.contains(*word) };
+    (key == Key::Time && bare.trim() == "t") || words(key).iter().any(says)
+}
+
+fn is_of(name: &str, key: Key) -> bool {
     let other_unit = || Key::ALL.into_iter().any(|other| other.units() != key.units() && ending(name, other).is_some());
-    let symbol = key == Key::Time && bare.trim() == "t";
-    (symbol || words(key).iter().any(says))
-        && !BESIDE.iter().any(|word| tokens.contains(word))
-        && (ending(name, key).is_some() || !other_unit())
+    let unit = ending(name, key).is_some();
+    // no other quantity of a record is told in deg/h or deg/s
+    (says(name, key) || key == Key::Rate && unit)
+        && !tokens(bare(&name.to_lowercase())).iter().any(|token| BESIDE.contains(token))
+        && (unit || !other_unit())
 }

@@ -8,6 +8,8 @@ use crate::units::to_mm;
 
 /// Room between winding and rectangle that a drawing leaves, in pitches.
 const ROOM: f64 = 1.0;
+/// The same along the axis: the strain is steep at a flange, and a tenth of a pitch there is a percent of the sensitivity.
+const AXIAL_ROOM: f64 = 0.1;
 
 /// Largest relative distance of the effective diameter from the coil's mean diameter that passes without a word.
 const SAME_DIAMETER: f64 = 0.02;
@@ -25,15 +27,17 @@ pub(crate) fn in_medium(layout: &Layout, sensor: Sensor) -> bool {
 pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> Vec<Note> {
     let mut found = Vec::new();
     let (body, pitch) = (&design.body, design.winding.pitch);
-    let mut unfilled = |what: &str, field: &str, body: f64, winding: f64| {
-        if body > winding + ROOM * pitch {
+    let mut unfilled = |what: &str, field: &str, room: f64, body: f64, winding: f64, meaning: &str| {
+        if body > winding + room * pitch {
             let (body, winding) = (to_mm(body), to_mm(winding));
-            let message = format!("{field}: the coil {what} {body:.4} mm, but its turns end at {winding:.4} mm; is this meant?");
+            let message =
+                format!("{field}: the coil {what} {body:.4} mm, but its turns end at {winding:.4} mm{meaning}; is this meant?");
             found.push(Remark::UnfilledCoil.warning(message));
         }
     };
-    unfilled("reaches to", "coil.outer_radius_mm", body.outer_radius, winding.outer_radius());
-    unfilled("is as high as", "coil.height_mm", body.height, winding.height());
+    let at_left = ": they begin at the left face, and the sensitivity depends on the room at the right";
+    unfilled("reaches to", "coil.outer_radius_mm", ROOM, body.outer_radius, winding.outer_radius(), "");
+    unfilled("is as high as", "coil.height_mm", AXIAL_ROOM, body.height, winding.height(), at_left);
     let (inner, outer) = (2.0 * design.winding.inner_radius, 2.0 * body.outer_radius);
     let sagnac = design.optics.sagnac_diameter;
     if !(inner..=outer).contains(&sagnac) {

@@ -150,6 +150,7 @@ impl Limits {
     pub fn judge(&self, row: &Row) -> Judged {
         let verdict = (!self.verdicts.is_empty()).then(|| match &row.verdict {
             Some(verdict) if self.verdicts.contains(verdict) => Kept::Yes,
+            Some(verdict) if verdict == "explained" => Kept::No(format!("an effect was found: {}", row.open())),
             Some(verdict) => Kept::No(format!("the verdict is {verdict}")),
             None => Kept::NotKnown("there is no verdict".into()),
         });

@@ -36,7 +36,7 @@ const FAR: f64 = 3.5;
 /// Distance from the design, in standard deviations of its tolerance, from which a constant is worth a line.
 const WORTH: f64 = 0.5;
 /// Fewest units that show a common deviation, and the usual range.
-const FEWEST: usize = 5;
+pub(super) const FEWEST: usize = 5;
 
 impl Common {
     /// The constant in words.
@@ -63,10 +63,14 @@ pub(super) fn lots(batch: &Batch) -> Vec<(Option<&str>, Vec<&Row>)> {
     }
 }
 
+/// Units whose records the design suffices for.
+pub(super) fn within_tolerances<'b>(units: &[&'b Row]) -> Vec<&'b Row> {
+    units.iter().copied().filter(|row| matches!(row.verdict.as_deref(), Some("none" | "recalibrate"))).collect()
+}
+
 /// Constants whose mean is farther from the design than is worth a line, and than twice its own uncertainty, the farthest first.
 pub(super) fn common(units: &[&Row]) -> Vec<Common> {
-    let ordinary: Vec<&Row> =
-        units.iter().copied().filter(|row| matches!(row.verdict.as_deref(), Some("none" | "recalibrate"))).collect();
+    let ordinary = within_tolerances(units);
     let Some(first) = ordinary.first().filter(|_| ordinary.len() >= FEWEST) else { return Vec::new() };
     let of = |name: &str| {
         let all: Vec<f64> =

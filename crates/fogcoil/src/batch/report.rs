@@ -6,10 +6,11 @@ use maud::{Markup, html};
 use super::finding::Inputs;
 use super::kept::page;
 use super::limits::Limits;
-use super::lot::{Common, Outlier, common, lots, outliers};
-use super::row::unit_of;
+use super::lot::{Common, FEWEST, Outlier, common, lots, outliers, within_tolerances};
+use super::row::{Row, unit_of};
 use super::run::Batch;
 use super::serials::repeated;
+use super::text::named;
 use super::trends::trends;
 use crate::input::Fingerprint;
 use crate::report::provenance;
@@ -36,12 +37,13 @@ fn lead(batch: &Batch, limits: Option<&Limits>) -> Markup {
                 (None, _) => { "No limits were given." }
                 (Some(_), 0) => { "All " (all) " units keep the limits." }
                 (Some(_), _) => {
-                    (failing) " of " (all) " units do not keep the limits."
-                    @if not_known > 0 { " Of " (not_known) " it is not known whether they keep them: they have not passed." }
+                    (all - failing - not_known) " of " (all) " units pass, " (failing) " fail" (named(batch, "fail"))
+                    @if not_known > 0 { "; of " (not_known) " it is not known" (named(batch, "not known")) ": a figure is missing, so they have not passed" }
+                    "."
                 }
             }
-            " " (count("none")) " units show no difference from the design; " (count("recalibrate")) " differ within tolerances; "
-            (count("explained")) " by something that has a name; " (count("unknown")) " by something that has none."
+            " Units that show no difference from the design: " (count("none")) "; that differ within tolerances: " (count("recalibrate"))
+            "; by something that has a name: " (count("explained")) "; by something that has none: " (count("unknown")) "."
             @if doubtful > 0 {
                 " Of " (doubtful) " the verdict is doubtful (?): its probability is below 0.8, and a small fault may hide in it."
             }
@@ -54,32 +56,39 @@ fn lead(batch: &Batch, limits: Option<&Limits>) -> Markup {
 
 fn units(batch: &Batch) -> Markup {
     let shown = |value: Option<f64>, digits| nice(&value.map_or("–".to_owned(), |value| significant(value, digits)));
+    // those that did not pass come first
+    let mut rows: Vec<_> = batch.rows.iter().collect();
+    rows.sort_by_key(|(_, judged)| ["fail", "not known"].iter().position(|word| *word == judged.word()).unwrap_or(2));
+    let told = |of: fn(&Row) -> &Option<String>| batch.rows.iter().any(|(row, _)| of(row).is_some());
+    let about: [(&str, fn(&Row) -> &Option<String>); 3] =
+        [("lot", |row| &row.lot), ("serial", |row| &row.serial), ("date", |row| &row.date)];
+    let about: Vec<_> = about.into_iter().filter(|(_, of)| told(*of)).collect();
     html! {
         div.scroll role="group" tabindex="0" aria-label="Units" {
             table.words.many {
                 caption { "Units; sensitivities in (°/h)/(°C/min), with 90 % intervals" }
                 thead { tr {
-                    @for head in ["unit", "lot", "serial", "date", "sensitivity", "from the design's", "verdict", "set", "left over noise", "judged", "why"] {
+                    @for head in ["unit", "judged", "why", "sensitivity", "from the design's", "verdict", "its probability", "not excluded", "left over noise"] {
                         th scope="col" { (head) }
                     }
+                    @for (head, _) in &about { th scope="col" { (head) } }
                 } }
-                tbody { @for (row, judged) in &batch.rows { tr {
+                tbody { @for (row, judged) in rows { tr {
                     th scope="row" {
                         @if row.problem.is_none() { a href=(page(&row.unit)) { (row.unit) } } @else { (row.unit) }
                     }
-                    td { (row.lot.clone().unwrap_or_default()) }
-                    td { (row.serial.clone().unwrap_or_default()) }
-                    td { (row.date.clone().unwrap_or_default()) }
+                    td { (judged.word()) }
+                    td { (nice(&judged.reasons().or_else(|| row.problem.clone()).unwrap_or_default())) }
                     td {
                         (shown(row.number("sensitivity"), 4))
                         @if let Some([low, high]) = row.interval("sensitivity") { " (" (nice(&significant(low, 3))) " to " (nice(&significant(high, 3))) ")" }
                     }
                     td { @if let Some(sigmas) = row.number("sigmas_from_predicted") { (nice(&format!("{sigmas:+.1} σ"))) } }
                     td { (row.shown_verdict().unwrap_or_default()) }
-                    td { (row.set.join(", ")) }
+                    td { (shown(row.number("verdict_probability"), 2)) }
+                    td { (row.open()) }
                     td { (shown(row.number("residual_over_noise"), 3)) }
-                    td { (judged.word()) }
-                    td { (nice(&judged.reasons().or_else(|| row.problem.clone()).unwrap_or_default())) }
+                    @for (_, of) in &about { td { (of(row).clone().unwrap_or_default()) } }
                 } "\n" } }
             }
         } "\n"
@@ -118,7 +127,7 @@ fn in_common(batch: &Batch) -> Markup {
         @for (lot, found) in &all {
             @if let Some(lot) = lot { h3 { "Lot " (lot) } "\n" }
             @if found.is_empty() {
-                p { "No constant of the units that are within tolerances is off the design's on average, or they are fewer than five." }
+                p { (nothing(batch, *lot)) }
             } @else {
                 (grid("Constants off the design's on average, in tolerances (one standard deviation)", Cells::Words,
                     &["constant", "mean", "spread between units", "units"], &found.iter().map(row).collect::<Vec<_>>()))
@@ -127,6 +136,15 @@ fn in_common(batch: &Batch) -> Markup {
         @if all.iter().any(|(_, found)| !found.is_empty()) {
             p { "Fitted. What a lot has in common belongs into its design: fogcoil calibrate writes one from its good units." }
         }
+    }
+}
+
+/// Why nothing is in common.
+fn nothing(batch: &Batch, lot: Option<&str>) -> String {
+    let within = lots(batch).into_iter().find(|(name, _)| *name == lot).map_or(0, |(_, units)| within_tolerances(&units).len());
+    match within {
+        n if n < FEWEST => format!("Only {n} units are within tolerances; {FEWEST} are needed to tell what they have in common."),
+        n => format!("No constant of the {n} units that are within tolerances is off the design's on average."),
     }
 }
 

@@ -116,6 +116,11 @@ impl Row {
         self.verdict.as_ref().map(|verdict| format!("{verdict}{}", if doubtful { "?" } else { "" }))
     }
 
+    /// What the records do not exclude, best first, in words.
+    pub(super) fn open(&self) -> String {
+        self.set.join(" or ")
+    }
+
     /// Reason why a number is not known.
     pub(super) fn why(&self, name: &str) -> Option<&str> {
         // what is measured less what is predicted

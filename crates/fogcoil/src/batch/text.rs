@@ -23,11 +23,7 @@ pub fn text(batch: &Batch) -> String {
             shown(row.number("residual_over_noise"), 3),
             row.shown_verdict().unwrap_or_else(|| "-".into()),
             judged.word().to_owned(),
-            [Some(row.set.join(", ")).filter(|set| !set.is_empty()), reasons]
-                .into_iter()
-                .flatten()
-                .collect::<Vec<_>>()
-                .join("; "),
+            [Some(row.open()).filter(|open| !open.is_empty()), reasons].into_iter().flatten().collect::<Vec<_>>().join("; "),
         ]
     });
     let rows: Vec<Vec<String>> = std::iter::once(head).chain(rows).collect();
@@ -71,11 +67,23 @@ fn judged(batch: &Batch) -> String {
     let [passing, failing, not_known] = ["pass", "fail", "not known"].map(count);
     match (passing + failing + not_known, not_known) {
         (0, _) => String::new(),
-        (all, 0) => format!("{passing} of {all} units pass, {failing} fail\n"),
+        (all, 0) => format!("{passing} of {all} units pass, {failing} fail{}\n", named(batch, "fail")),
         (all, _) => format!(
-            "{passing} of {all} units pass, {failing} fail, {not_known} are not known (not passed: a figure is missing)\n"
+            "{passing} of {all} units pass, {failing} fail{}; of {not_known} it is not known{} (a figure is missing, so they have not passed)\n",
+            named(batch, "fail"),
+            named(batch, "not known")
         ),
     }
+}
+
+/// The first units that are judged so, in brackets.
+pub(super) fn named(batch: &Batch, word: &str) -> String {
+    /// Most units that a sentence names.
+    const MOST: usize = 8;
+    let of = batch.rows.iter().filter(|(_, judged)| judged.word() == word).map(|(row, _)| row.unit.as_str());
+    let all: Vec<&str> = of.collect();
+    let further = if all.len() > MOST { format!(" and {} more", all.len() - MOST) } else { String::new() };
+    if all.is_empty() { String::new() } else { format!(" ({}{further})", all[..all.len().min(MOST)].join(", ")) }
 }
 
 #[cfg(test)]
@@ -109,7 +117,7 @@ mod tests {
         for part in [
             "recalibrate?",
             "verdict?: its probability is below 0.8",
-            "3 of 5 units pass, 1 fail, 1 are not known (not passed",
+            "3 of 5 units pass, 1 fail (U1); of 1 it is not known (U2) (a figure is missing",
             "note: 5 units have the serial number 7: U0, U1, U2, U3, U4",
             "U0: cooling is -1.000 (deg/h)/(degC/min), far from the median -2.720 (deg/h)/(degC/min)",
         ] {

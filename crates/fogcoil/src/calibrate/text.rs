@@ -102,12 +102,31 @@ impl Outcome {
         table(&rows)
     }
 
+    /// The constants in which the lot differs from the drawing, in a sentence.
+    fn deviation(&self) -> String {
+        let (common, sd) = (&self.lot.common, self.lot.common.sd());
+        let off = |k: usize| common.mean[k].abs();
+        let mut order: Vec<usize> = (0..self.constants.len()).collect();
+        order.sort_by(|a, b| off(*b).total_cmp(&off(*a)));
+        let said = |k: usize| format!("{} ({:+.1} ± {:.1} tolerances)", self.constants[k].name, common.mean[k], sd[k]);
+        let beyond: Vec<String> = order.iter().filter(|k| off(**k) > 2.0 * sd[**k]).map(|k| said(*k)).collect();
+        match (beyond.is_empty(), order.first()) {
+            (false, _) => format!("It is off the drawing, by more than two standard deviations, in {}.", beyond.join(", ")),
+            (true, Some(farthest)) => {
+                format!("It is off the drawing in no constant for certain; the farthest: {}.", said(*farthest))
+            }
+            (true, None) => String::new(),
+        }
+    }
+
     /// The lot as text: residuals of each unit, the lot's constants, each unit's, and the effects that a further unit shows the sooner.
     pub fn text(&self) -> String {
         let Lot { common, units, further } = &self.lot;
         let (half, sd) = (half_of_90(), common.sd());
         let mut rows = vec![["constant (fitted)", "lot", "90 % interval", "sigma", "tolerance"].map(str::to_owned).to_vec()];
-        rows[0].extend(self.units.iter().map(|unit| unit.name.clone()));
+        // more do not fit a line; they are in the JSON object
+        let shown = if units.len() > MOST_UNITS { &[][..] } else { &units[..] };
+        rows[0].extend(self.units.iter().take(shown.len()).map(|unit| unit.name.clone()));
         for (k, constant) in self.constants.iter().enumerate() {
             let u = common.mean[k];
             let at = |u: f64| constant.prior.value(u);
@@ -119,7 +138,7 @@ impl Outcome {
                 format!("{u:+.1}"),
                 format!("{} -> {}", significant(constant.prior.sd(), 2), significant(constant.prior.sd() * further.sd()[k], 2)),
             ];
-            row.extend(units.iter().map(|unit| told(unit.mean[k])));
+            row.extend(shown.iter().map(|unit| told(unit.mean[k])));
             rows.push(row);
         }
         let mut found: Vec<&(String, [f64; 2])> = self.effects.iter().filter(|(_, [drawing, _])| *drawing > 0.0).collect();
@@ -128,7 +147,7 @@ impl Outcome {
         let head = vec!["mechanism".to_owned(), "smallest effect, lot / drawing".to_owned()];
         let effects: Vec<Vec<String>> = std::iter::once(head).chain(effects).collect();
         format!(
-            "{}: {}.\n\nWhat its constants leave of each unit, in the record in which that is most beside the noise:\n\n{}\n\
+            "{}: {}. {}\n\nWhat its constants leave of each unit, in the record in which that is most beside the noise:\n\n{}\n\
              Noise of a row: white, from neighbours' differences.\n\
              A constant is a factor on the drawing's value; sigma is what the lot deviates by, in tolerances;\n\
              tolerance: of a unit about the drawing, and of a further unit about the lot.\n\n{}\n\
@@ -136,12 +155,16 @@ impl Outcome {
              (0.50: half as large a fault is found; 1.00: the lot does not help):\n\n{}",
             self.case.name,
             self.of_units(),
+            self.deviation(),
             self.left(),
             table(&rows),
             table(&effects),
         )
     }
 }
+
+/// Most units that have a column each.
+const MOST_UNITS: usize = 6;
 
 /// Standard deviations from the middle of a normal density to the ends of its interval of 90 %.
 fn half_of_90() -> f64 {

@@ -22,8 +22,8 @@ pub fn report(c: &Comparison) -> String {
             (course(c).element())
         }
     });
-    let mut parts = vec![("Differences", html! { (designs(c)) (differing(c)) }), ("Sensitivity", sensitivity(c))];
-    parts.extend(under_profile.map(|part| ("Bias under the profile", part)));
+    let mut parts = Vec::from_iter(under_profile.map(|part| ("Bias under the profile", part)));
+    parts.extend([("Sensitivity", sensitivity(c)), ("Differences", html! { (designs(c)) (differing(c)) })]);
     parts.extend([("Both coils", figures::side_by_side(c.cases).element()), sources(c)]);
     charts::page(&format!("{a} and {b}"), &lead(c), &sections(&parts))
 }

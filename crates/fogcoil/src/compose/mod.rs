@@ -262,6 +262,16 @@ fn lower(behind: f64) -> String {
 }
 
 impl StandIn {
+    /// Whether the records hardly tell the name from the law.
+    pub(crate) fn is_near(&self) -> bool {
+        self.behind < NEAR
+    }
+
+    /// Probability of the law over that of the name.
+    pub(crate) fn law_to_name(&self) -> f64 {
+        (1.0 - self.share) / self.share.max(f64::MIN_POSITIVE)
+    }
+
     /// One object, as scripts read it.
     pub(crate) fn json(&self) -> Value {
         let Self { of, id, title, known, behind, share } = self;
@@ -271,7 +281,7 @@ impl StandIn {
     /// For people; `None` where the records tell the name from the law.
     pub(crate) fn text(&self) -> Option<String> {
         let Self { of, title, known, behind, share, .. } = self;
-        (*behind < NEAR).then(|| {
+        self.is_near().then(|| {
             format!(
                 "These records hardly tell {of} from a law that nobody listed: {title} (known physics of this form: {known}; {}). The probability \
                  of {of} counts both as equally likely beforehand, which leaves it {share:.2} of what it had.",

@@ -12,6 +12,8 @@ const MOST: usize = 3;
 /// Most mechanisms whose probability is shown, and the probability below which none is.
 const SHOWN: usize = 6;
 const NEGLIGIBLE: f64 = 5e-4;
+/// Least probability that is told beside the answer.
+pub(super) const TOLD: f64 = 0.05;
 
 /// A row of the table of probabilities.
 pub(super) struct Explanation<'a> {
@@ -64,8 +66,21 @@ impl Outcome<'_> {
                 all.push(Explanation { name, probability, open: set.contains(&name), withdrawn: false });
             }
         }
+        if let Some(law) = self.law_in_place() {
+            all.push(Explanation { name: "a law that nobody listed", probability: law, open: false, withdrawn: false });
+        }
         all.push(of("something without a name", unknown, Verdict::Unknown));
         all
+    }
+
+    /// Probability that was taken from mechanisms with a name for laws that the records hardly tell from them; `None` without such a law.
+    pub(super) fn law_in_place(&self) -> Option<f64> {
+        let near: Vec<_> = self.stand_ins.iter().filter(|stand_in| stand_in.is_near()).collect();
+        let taken = |stand_in: &&crate::compose::StandIn| {
+            let kept = self.diagnosis.mechanisms.iter().find(|(m, _)| self.id(*m) == stand_in.of).map_or(0.0, |(_, p)| *p);
+            kept * stand_in.law_to_name()
+        };
+        (!near.is_empty()).then(|| near.iter().map(taken).fold(0.0, f64::max))
     }
 
     /// Mechanisms that are not excluded beside those of the best hypothesis, best first.
@@ -91,7 +106,10 @@ impl Outcome<'_> {
     /// The command that finds the test that tells `ids` apart.
     pub(super) fn recommend(&self, ids: &[String]) -> String {
         let from: String = self.fits.iter().map(|record| format!(" --from {}", word(&record.fingerprint.file))).collect();
-        format!("fogcoil recommend {} --between {}{from}", word(&self.coil), ids.join(","))
+        // all were read alike
+        let flags = self.fits.first().map_or(&[][..], |record| &record.flags);
+        let flags: String = flags.iter().map(|(flag, file)| format!(" {flag} {}", word(file))).collect();
+        format!("fogcoil recommend {} --between {}{from}{flags}", word(&self.coil), ids.join(","))
     }
 }
 

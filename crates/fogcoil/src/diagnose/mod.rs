@@ -205,11 +205,13 @@ fn left_over(held: &Held) -> Option<Note> {
     let left: Vec<(bool, String)> =
         [of(RATE_CHANNEL, "of the rate"), of(SPOOL_CHANNEL, "of the thermometer")].into_iter().flatten().collect();
     let words: Vec<&str> = left.iter().map(|(_, words)| words.as_str()).collect();
-    let text = format!(
-        "what was found leaves {} in this record, which was held out: something else is at work in it; is it of the same unit, mounted alike?",
-        words.join(" and ")
-    );
     let far = left.iter().any(|(far, _)| *far);
+    let meaning = if far {
+        "something else is at work in it; is it of the same unit, mounted alike?"
+    } else {
+        "little, but more than chance leaves; the answer stands"
+    };
+    let text = format!("what was found leaves {} in this record, which was held out: {meaning}", words.join(" and "));
     let note = if far { Remark::HeldOutLeft.warning(text) } else { Remark::HeldOutLeft.note(text) };
     (!left.is_empty()).then(|| note.at(&held.record.fingerprint.file))
 }

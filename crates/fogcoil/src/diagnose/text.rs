@@ -6,6 +6,7 @@ use bias::units::S_PER_H;
 use diagnosis::{Estimate, Verdict};
 use mechanisms::{Extent, Naming, RATE as RATE_CHANNEL};
 
+use super::apart::TOLD;
 use super::{NOMINAL, Outcome};
 use crate::compose::StandIn;
 use crate::table::{significant, table};
@@ -130,7 +131,10 @@ impl Outcome<'_> {
                 };
                 if best.contains(&first) {
                     let all: Vec<String> = best.iter().map(|id| sure(id)).collect();
-                    format!("The recording differs from the design. Most likely: {}.", all.join(" and "))
+                    let law = self.law_in_place().filter(|p| *p >= TOLD).map_or(String::new(), |p| {
+                        format!(", or a law that nobody listed and that does the same (probability {p:.3})")
+                    });
+                    format!("The recording differs from the design. Most likely: {}{law}.", all.join(" and "))
                 } else {
                     // many choices of one mechanism together outweigh the best single hypothesis
                     format!("The recording differs from the design. Most likely: {}; the best single hypothesis: {all}.", sure(first))
@@ -154,10 +158,21 @@ impl Outcome<'_> {
         match self.diagnosis.verdict {
             Verdict::Explained if proven => {
                 let names = self.names().join(" and ");
-                format!("inspect the unit. Only {names} is left, and a record that was held out confirms it.")
+                match self.law_in_place() {
+                    Some(_) => format!(
+                        "inspect the unit for {names}. A record that was held out confirms the size of the effect; it does not tell {names} from a \
+                         law that nobody listed, which only the inspection does."
+                    ),
+                    None => format!("inspect the unit. Only {names} is left, and a record that was held out confirms it."),
+                }
             }
             Verdict::Explained => {
                 format!("inspect the unit; to confirm {} on data outside the fit, {another}.", self.names().join(" and "))
+            }
+            Verdict::None | Verdict::Recalibrate if !self.suffices_surely() => {
+                "nothing needs an inspection; a small fault may hide behind the tolerances. A record under another profile, given with --fit, or a \
+                 design of the lot (fogcoil calibrate) narrows them."
+                    .into()
             }
             Verdict::Recalibrate if proven => {
                 "no further test is needed. The re-estimated constants predict a record that was held out.".into()
@@ -172,12 +187,17 @@ impl Outcome<'_> {
         }
     }
 
+    fn suffices_surely(&self) -> bool {
+        let [none, recalibrate, ..] = self.diagnosis.verdicts();
+        none + recalibrate >= LIKELY
+    }
+
     /// Strength of the statement that the design suffices: `surely` where it is likely, and no held-out record is far from its noise.
     fn how_surely(&self, surely: &str) -> String {
         let [none, recalibrate, ..] = self.diagnosis.verdicts();
         if self.is_left_over() {
             " for the fitted records, but a record that was held out is left with far more than noise".to_owned()
-        } else if none + recalibrate < LIKELY {
+        } else if !self.suffices_surely() {
             format!(", but not surely (probability {:.2})", none + recalibrate)
         } else {
             format!(": {surely}")

@@ -86,13 +86,14 @@ pub fn text(case: &CoilCase, e: &Explained) -> String {
         }
     }
     out.push_str(
-        "\nOne number cannot tell these apart, and a slow ramp hardly can: in it a longer tail and a changed coil are both factors on the\n\
-         slope. Expected ln odds at these sizes, prior odds included, in 24 h, -40 to 60 degC, at most 2 K/min:\n",
+        "\nOne number cannot tell these apart. In a slow ramp a longer tail and a changed coil are both factors on the slope, so a programme\n\
+         with bends tells them better. Expected ln odds at these sizes, prior odds included, in 24 h, -40 to 60 degC, at most 2 K/min:\n",
     );
     let mut rows = vec![["", "slow ramp", "best", "by"].map(str::to_owned).to_vec()];
     for Test { between, slow, best } in &e.tests {
         let says = if best.1.decides() { best.0.clone() } else { format!("{}: does not decide", best.0) };
-        let [slow, best] = [slow, best].map(|t| format!("{:.1}", t.1.log_odds));
+        let [slow, best] =
+            [slow, best].map(|t| if t.1.log_odds > 99.0 { "> 99".to_owned() } else { format!("{:.1}", t.1.log_odds) });
         rows.push(vec![format!("{} from {}", between[0], between[1]), slow, best, says]);
     }
     if e.tests.is_empty() {

@@ -95,12 +95,25 @@ fn recorded<'a>(
 ) -> Option<Series<'a>> {
     let points: Vec<(f64, f64)> =
         simulation.rows().map(|row| (time(row.time), of(&row) - offset)).filter(|(_, value)| value.is_finite()).collect();
-    (!points.is_empty()).then(|| Series::new(name, Style::Fine(2), points))
+    (!points.is_empty()).then(|| Series::new(name, Style::Record, points))
 }
 
 /// The row that a rate is taken of: the first has none and repeats the second's, and a lone row shows its zero.
 fn with_rate(simulation: &Simulation, row: usize) -> usize {
     if row == 0 { 1.min(simulation.count() - 1) } else { row }
+}
+
+/// Rate that was recorded where the simulated one vanishes \[deg/h\]: the intercept of a regression on it, or the mean where it does not change.
+fn offset(simulation: &Simulation) -> Option<f64> {
+    simulation.profile.recorded.as_ref()?;
+    let rows = || simulation.rows().skip(1).map(|row| (row.rate, row.recorded[1])).filter(|(_, recorded)| recorded.is_finite());
+    let count = rows().count() as f64;
+    let [x, y] = rows().fold([0.0; 2], |[x, y], (simulated, recorded)| [x + simulated / count, y + recorded / count]);
+    let (xx, xy) = rows().fold((0.0, 0.0), |(xx, xy), (simulated, recorded)| {
+        (xx + (simulated - x).powi(2), xy + (simulated - x) * (recorded - y))
+    });
+    let slope = if xx.sqrt() > LEAST_DEG_PER_H { xy / xx } else { 0.0 };
+    (count > 0.0).then_some(y - slope * x)
 }
 
 fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>, band: Option<&'a CourseBand>) -> Figure<'a> {
@@ -111,10 +124,8 @@ fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>, band: Option<&'a 
             (time(simulation.row(n).time), value(&row))
         })
     };
-    let left = simulation.profile.recorded.as_ref().and_then(|_| Summary::of(simulation).left[1]);
-    let recorded = left.and_then(|left| {
-        let name = format!("as recorded, less {} °/h", signed(left.mean, 3));
-        recorded(simulation, &name, time, |row| row.recorded[1], left.mean)
+    let recorded = offset(simulation).and_then(|offset| {
+        recorded(simulation, &format!("as recorded, less {} °/h", signed(offset, 4)), time, |row| row.recorded[1], offset)
     });
     let bias = recorded.into_iter().chain([
         series("Shupe", Style::First, |row| row.shupe),
@@ -136,7 +147,12 @@ fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>, band: Option<&'a 
         caption: format!(
             "Bias: means since the previous row, as a gyroscope reports them. Shupe: eq. (1), the thermal phase; elasto-optic: the two \
              terms of eq. (2), from the strain of the glass along and across the fibre. Temperature rate: differences over {WINDOW_S} s, \
-             or over one row where rows are further apart. Counterpart of the paper's Fig. 7."
+             or over one row where rows are further apart. Counterpart of the paper's Fig. 7.{}",
+            if simulation.profile.recorded.is_some() {
+                " The record is drawn less the rate that it has where the simulated one vanishes, by regression: Earth's rate and offset."
+            } else {
+                ""
+            }
         ),
         columns: 1,
         panels: vec![

@@ -22,6 +22,9 @@ struct Group<'a> {
 /// Test whether a candidate belongs to a rival's hypotheses.
 type Fits = Box<dyn Fn(&Candidate) -> bool>;
 
+/// Ln odds beyond which no more is told: larger ones depend on the noise that a hypothesis was judged with.
+const SURE: f64 = 99.0;
+
 impl Outcome<'_> {
     pub(super) fn candidates(&self) -> Markup {
         let d = &self.diagnosis;
@@ -123,7 +126,8 @@ impl Outcome<'_> {
             .map(|(rival, fits)| match groups.iter().find(|group| !holds(group.first, best) && fits(group.first)) {
                 Some(group) => {
                     let odds = winner.log_weight - group.log_weight;
-                    (odds, vec![rival, signed(odds, 1), self.said(group)])
+                    let shown = if odds > SURE { format!("> {SURE}") } else { signed(odds, 1) };
+                    (odds, vec![rival, shown, self.said(group)])
                 }
                 None => (f64::INFINITY, vec![rival, "–".into(), format!("not tried without {name}")]),
             })

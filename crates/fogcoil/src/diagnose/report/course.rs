@@ -52,7 +52,7 @@ impl Outcome<'_> {
     }
 
     fn residuals(&self) -> Figure<'static> {
-        let (columns, panels) = multiples(self.each().map(|shown| self.left(&shown, self.quantities())).collect());
+        let (columns, panels) = multiples(self.each().map(|shown| self.left(&shown, self.quantities(), 9.0)).collect());
         Figure {
             id: "residuals",
             title: "What each model leaves".into(),
@@ -68,7 +68,7 @@ impl Outcome<'_> {
 
     /// The first quantity's residuals in the first record: of the design with constants and instruments fitted, and of what was found.
     pub(super) fn before_and_after(&self) -> Figure<'static> {
-        let panels = self.each().next().map_or(Vec::new(), |shown| self.left(&shown, self.quantities().take(1)));
+        let panels = self.each().next().map_or(Vec::new(), |shown| self.left(&shown, self.quantities().take(1), 6.0));
         Figure {
             id: "before-and-after",
             title: "What is left, before and after".into(),
@@ -79,7 +79,7 @@ impl Outcome<'_> {
         }
     }
 
-    fn left(&self, shown: &[Shown], quantities: impl Iterator<Item = Quantity>) -> Vec<Panel<'static>> {
+    fn left(&self, shown: &[Shown], quantities: impl Iterator<Item = Quantity>, height: f64) -> Vec<Panel<'static>> {
         let Some(Shown { record, .. }) = shown.first() else { return Vec::new() };
         let clock = self.clock(record);
         let mut panels = Vec::new();
@@ -92,7 +92,7 @@ impl Outcome<'_> {
                 let style = if n + 1 == shown.len() { Style::Fine(2) } else { Style::Fine(0) };
                 let label = format!("{} [{}]", q.name, q.unit);
                 let heading = self.headed(&format!("recorded less {}", fit.name), record);
-                let mut panel = panel(&clock, &label, q.least, 9.0, vec![Series::new("", style, of(fit))]).headed(heading);
+                let mut panel = panel(&clock, &label, q.least, height, vec![Series::new("", style, of(fit))]).headed(heading);
                 panel.y.covers = Some([-most, most]);
                 panels.push(panel);
             }

@@ -11,15 +11,16 @@ mod spectrum;
 mod stages;
 
 use charts::{Axis, facts, heading, nice, page, row, sections, significant};
-use diagnosis::{Fit, ForwardModel, Nuisance, Role, Verdict};
+use diagnosis::{Estimate, Fit, ForwardModel, HeldOut, Nuisance, Role, Verdict};
 use files::Note;
 use maud::{Markup, html};
 use mechanisms::{Naming, RATE, SPOOL};
 
-use super::{Outcome, REFITTED, Record};
+use super::apart::TOLD;
+use super::{NOMINAL, Outcome, REFITTED, Record};
 use crate::compose::StandIn;
 use crate::report::provenance;
-use crate::units::DurationUnit;
+use crate::units::{DurationUnit, parameter_unit};
 use next_test::capital;
 
 /// A fit beside the record that it is shown for.
@@ -57,9 +58,6 @@ struct Quantity {
     /// Least span that is drawn.
     least: f64,
 }
-
-/// Least probability that is told on the first screen.
-const TOLD: f64 = 0.05;
 
 const QUANTITIES: [Quantity; 2] = [
     Quantity { channel: RATE, label: "rate [°/h]", name: "rate", unit: "°/h", least: 1e-4 },
@@ -101,7 +99,11 @@ impl Outcome<'_> {
         }
         parts.extend([("The next test", self.next_test()), ("Noise", self.noise()), ("Limits", self.limits()), self.sources()]);
         let body = html! { (heading("In short")) (self.in_short()) (sections(&parts)) };
-        page(&format!("{}: what differs from the design", self.name), &html! { p { (nice(&self.verdict())) } }, &body)
+        let lead = html! {
+            p { (nice(&self.verdict())) }
+            @if let Some(sizes) = self.sizes() { p { "Fitted: " (sizes) "." } }
+        };
+        page(&format!("{}: what differs from the design", self.name), &lead, &body)
     }
 
     /// The design with what may be recalibrated and, where it is another, what the verdict rests on, for a record that was fitted.
@@ -146,8 +148,34 @@ impl Outcome<'_> {
         let likely = self.explanations().into_iter().filter(|e| e.open || e.probability >= TOLD);
         let sure: Vec<String> = likely.map(|e| format!("{} {:.2}", e.said(), e.probability)).collect();
         rows.push(row("how sure", format!("probability of {}", sure.join(", "))));
+        rows.extend(self.held_in_short().map(|said| row("proof", said)));
         rows.push(row("next", self.alternatives().unwrap_or_else(|| capital(&self.next()))));
         html! { (self.before_and_after().element()) (facts("The answer in short", &rows)) }
+    }
+
+    /// Parameters of what was found, with their intervals.
+    fn sizes(&self) -> Option<String> {
+        let explained = self.diagnosis.verdict == Verdict::Explained;
+        let found: Vec<&Estimate> = self.diagnosis.parameters.iter().flatten().filter(|_| explained).collect();
+        let of = |estimate: &&Estimate| {
+            let unit = parameter_unit(&estimate.name);
+            let [low, high] = estimate.ci90.map(|end| significant(end, 3));
+            format!("{} {} {unit} (90 %: {low} to {high})", estimate.name, significant(estimate.value, 3))
+        };
+        (!found.is_empty()).then(|| nice(&found.iter().map(of).collect::<Vec<_>>().join("; ")))
+    }
+
+    /// Errors of the predictions of the record that was held out, of several the first.
+    fn held_in_short(&self) -> Option<String> {
+        let held = self.holdouts.first()?;
+        let of = |prediction: &HeldOut| significant(prediction.rmse[RATE], 3);
+        let model = self.found().map_or(String::new(), |name| format!(", of the {name} {}", of(&held.model)));
+        let noise = significant(held.model.noise_floor[RATE], 3);
+        Some(format!(
+            "on {}, held out, the error of the {NOMINAL} is {}{model} °/h; its noise is {noise} °/h (rms)",
+            held.record.name(),
+            of(&held.nominal)
+        ))
     }
 
     fn finding(&self) -> Markup {

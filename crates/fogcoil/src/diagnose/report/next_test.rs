@@ -38,7 +38,13 @@ impl Outcome<'_> {
             (Verdict::Explained, _) => {
                 let names = self.names();
                 let looks: Vec<&str> = names.iter().filter_map(|id| self.inspection(id)).collect();
-                format!("{next} Inspection: {}.", looks.join("; "))
+                let rival = self.likely().map(|(id, _)| id).find(|id| !names.contains(id)).unwrap_or("nominal");
+                let command = self.recommend(&[names[0].to_owned(), rival.to_owned()]);
+                format!(
+                    "{next} Inspection: {}. To be surer before it is taken apart: {command} finds the test that tells {} from {rival} best.",
+                    looks.join("; "),
+                    names[0]
+                )
             }
             (Verdict::None, Some((id, p))) => {
                 let command = self.recommend(&[id.to_owned(), "nominal".into()]);

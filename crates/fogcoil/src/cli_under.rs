@@ -1,0 +1,57 @@
+//! Arguments of the chamber under which a coil's bias is shown, for commands that can do without.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use fogcoil::Error;
+use fogcoil::input::{self, CoilCase, ProfileCase, RecordOptions};
+
+#[derive(Args)]
+pub(crate) struct Under {
+    /// Profile under which to show the bias, e.g. fixtures/profiles/paper.csv
+    #[arg(long, value_name = "P.csv")]
+    profile: Option<PathBuf>,
+    /// In place of a profile: a recording, whose chamber drives the coil; read as `fogcoil check` reads it, with RECORD.map.ron beside it if it is there
+    #[arg(long, value_name = "RECORD.csv", conflicts_with_all = ["profile", "step"])]
+    record: Option<PathBuf>,
+    /// Add a row every S seconds from the first row, on the straight lines between the profile's own
+    #[arg(long, value_name = "S", value_parser = step, requires = "profile")]
+    step: Option<f64>,
+}
+
+impl Under {
+    /// Files that are read.
+    pub(crate) fn files(&self) -> Vec<PathBuf> {
+        let recorded = self.record.iter().flat_map(|path| RecordOptions::default().files(path));
+        self.profile.iter().cloned().chain(recorded).collect()
+    }
+
+    /// The chamber's course, for a coil, where one is given.
+    pub(crate) fn read(&self, case: &CoilCase) -> Result<Option<ProfileCase>, Error> {
+        match (&self.profile, &self.record) {
+            (Some(path), _) => {
+                let mut profile = input::read_profile(path, &case.design, &[])?;
+                divide(&mut profile, self.step)?;
+                Ok(Some(profile))
+            }
+            (None, Some(path)) => Ok(Some(input::read_recorded(path, &RecordOptions::default(), &case.design)?)),
+            (None, None) => Ok(None),
+        }
+    }
+}
+
+/// Steps \[s\] that a profile can be divided into.
+const STEPS_S: std::ops::RangeInclusive<f64> = 1.0..=1e6;
+
+/// The argument of `--step`.
+pub(crate) fn step(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|step| STEPS_S.contains(step));
+    number.ok_or_else(|| format!("give seconds from {} to {}", STEPS_S.start(), STEPS_S.end()))
+}
+
+/// A profile with the rows that `--step` adds, and a note where rows are long all the same.
+pub(crate) fn divide(profile: &mut ProfileCase, step: Option<f64>) -> Result<(), Error> {
+    step.map_or(Ok(()), |step| profile.divide(step))?;
+    profile.note_long_rows("give --step 30");
+    Ok(())
+}
