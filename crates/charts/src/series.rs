@@ -35,7 +35,7 @@ pub enum Style {
     Third,
     /// Thin, for a line that goes up and down many times: vermilion, black, blue or green.
     Fine(u8),
-    /// Thin and grey: readings, below what is computed.
+    /// Thin and violet: readings, below what is computed.
     Record,
     /// Points joined by a line: blue rings, vermilion squares.
     Marked(u8),

@@ -1,7 +1,7 @@
-//! Colours of lines and areas, in light and dark; blue, vermilion and green after Okabe and Ito, darkened or lightened for contrast.
+//! Colours of lines and areas, in light and dark; blue, vermilion and green after Okabe and Ito, with violet, darkened or lightened for contrast.
 
 /// Name, in light, in dark.
-const PALETTE: [(&str, &str, &str); 14] = [
+const PALETTE: [(&str, &str, &str); 15] = [
     ("page", "#ffffff", "#14171b"),
     ("text", "#1a1d21", "#e7eaee"),
     ("quiet", "#555b63", "#a9b1ba"),
@@ -12,6 +12,7 @@ const PALETTE: [(&str, &str, &str); 14] = [
     ("first", "#0072b2", "#56b4e9"),
     ("second", "#c24e00", "#f0a050"),
     ("third", "#00805c", "#3fcf9f"),
+    ("record", "#8a3ffc", "#8a60ff"),
     ("cool", "#cfe4f2", "#1d4a68"),
     ("sand", "#dcd6c8", "#55503f"),
     ("clay", "#c6bda6", "#6e674f"),
@@ -78,14 +79,22 @@ mod tests {
     /// CIE 1976 distance of colours that nobody mixes up in thin lines: a just noticeable one is 2.3.
     const APART: f64 = 25.0;
     /// Contrast of graphics and of text against the page (WCAG 2.2, 1.4.11 and 1.4.3).
-    const CONTRAST: [(&str, f64); 7] =
-        [("total", 3.0), ("first", 3.0), ("second", 3.0), ("third", 3.0), ("axis", 3.0), ("text", 4.5), ("quiet", 4.5)];
+    const CONTRAST: [(&str, f64); 8] = [
+        ("total", 3.0),
+        ("first", 3.0),
+        ("second", 3.0),
+        ("third", 3.0),
+        ("record", 3.0),
+        ("axis", 3.0),
+        ("text", 4.5),
+        ("quiet", 4.5),
+    ];
 
     #[test]
     fn lines_are_told_apart_by_colour_blind_readers_and_from_the_page() {
         for dark in [false, true] {
             let colour = |name: &str| PALETTE.iter().find(|c| c.0 == name).map(|c| if dark { c.2 } else { c.1 }).unwrap();
-            let lines = ["total", "first", "second", "third", "axis"].map(|name| linear(colour(name)));
+            let lines = ["total", "first", "second", "third", "record"].map(|name| linear(colour(name)));
             for sight in SIGHTS {
                 for (n, a) in lines.iter().enumerate() {
                     for b in &lines[..n] {

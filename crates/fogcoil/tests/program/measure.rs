@@ -144,7 +144,7 @@ fn the_independent_code_s_coil_is_measured() {
     assert!(
         fast["bias_span"].is_null()
             && fast["sensitivity"].is_null()
-            && fast["notes"].to_string().contains("sensitivity: slower responses than"),
+            && fast["notes"].to_string().contains("sensitivity: responses slower than"),
         "{fast}"
     );
 }

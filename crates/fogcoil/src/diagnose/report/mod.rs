@@ -145,6 +145,9 @@ impl Outcome<'_> {
                 rows.extend([row(self.id(active.mechanism), nice(meaning)), row("inspect", nice(inspection))]);
             }
         }
+        for other in self.others() {
+            rows.extend(self.inspection(other).map(|inspection| row("or inspect", format!("{}, for {other}", nice(inspection)))));
+        }
         let likely = self.explanations().into_iter().filter(|e| e.open || e.probability >= TOLD);
         let sure: Vec<String> = likely.map(|e| format!("{} {:.2}", e.said(), e.probability)).collect();
         rows.push(row("how sure", format!("probability of {}", sure.join(", "))));
