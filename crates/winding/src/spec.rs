@@ -36,7 +36,8 @@ pub enum Half {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ClimbSide {
-    /// The side −y: the mirror image of `Right`, turn j of a layer of N becoming turn N + 1 − j.
+    /// The side −y: turn j of a layer of N becomes turn N + 1 − j. It is the mirror image of `Right` where even layers have a turn fewer; with equal counts they
+    /// stay half a pitch off towards +y, and the mirror image does not.
     Left,
     /// The side +y.
     Right,

@@ -54,14 +54,16 @@ fn lead(batch: &Batch, limits: Option<&Limits>) -> Markup {
     }
 }
 
+/// A text about a unit.
+type Text = fn(&Row) -> &Option<String>;
+
 fn units(batch: &Batch) -> Markup {
     let shown = |value: Option<f64>, digits| nice(&value.map_or("–".to_owned(), |value| significant(value, digits)));
     // those that did not pass come first
     let mut rows: Vec<_> = batch.rows.iter().collect();
     rows.sort_by_key(|(_, judged)| ["fail", "not known"].iter().position(|word| *word == judged.word()).unwrap_or(2));
-    let told = |of: fn(&Row) -> &Option<String>| batch.rows.iter().any(|(row, _)| of(row).is_some());
-    let about: [(&str, fn(&Row) -> &Option<String>); 3] =
-        [("lot", |row| &row.lot), ("serial", |row| &row.serial), ("date", |row| &row.date)];
+    let told = |of: Text| batch.rows.iter().any(|(row, _)| of(row).is_some());
+    let about: [(&str, Text); 3] = [("lot", |row| &row.lot), ("serial", |row| &row.serial), ("date", |row| &row.date)];
     let about: Vec<_> = about.into_iter().filter(|(_, of)| told(*of)).collect();
     html! {
         div.scroll role="group" tabindex="0" aria-label="Units" {
