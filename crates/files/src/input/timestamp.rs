@@ -106,7 +106,7 @@ fn clock(text: &str, hours: i64) -> Option<(f64, Option<f64>)> {
         None => hour,
     };
     let valid = hour < hours && minute < 60 && (0.0..61.0).contains(&second) && parts.next().is_none();
-    valid.then_some(((hour * 3600 + minute * 60) as f64 + second, zone))
+    valid.then(|| ((hour * 3600 + minute * 60) as f64 + second, zone))
 }
 
 /// A time of day without the AM or PM behind it, and the hour at which its half of the day begins.
@@ -208,6 +208,7 @@ mod tests {
             ("8", None),
             ("08:61", None),
             ("0:0:nan", None),
+            ("666666666666666666:0", None),
         ] {
             assert_eq!(time_of_day(text), seconds, "{text}");
         }
