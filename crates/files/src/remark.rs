@@ -46,8 +46,8 @@ macro_rules! remarks {
 remarks! {
     // coil files
     UnfilledCoil "unfilled-coil":
-        "The coil's rectangle (`coil.outer_radius_mm`, `coil.height_mm`) is more than a pitch larger than the winding in it.",
-        "Heat flow and stiffness are those of the rectangle, all of it winding; the optics are those of the turns alone.",
+        "The coil's rectangle (`coil.outer_radius_mm`, `coil.height_mm`) is larger than the winding in it: by more than a pitch in radius, or a tenth of one in height.",
+        "Heat flow and stiffness are those of the rectangle, all of it winding; the optics are those of the turns alone. Turns begin at the left face: room at the right changes the sensitivity.",
         "Check layers, turns and `pitch_mm` against the drawing, or reduce the rectangle to the winding.";
     SagnacOutside "sagnac-outside":
         "`optics.sagnac_diameter_mm` lies outside the coil, from its inner to its outer diameter.",

@@ -16,9 +16,12 @@ pub(crate) struct Calibrate {
     /// The drawing: case file of the coil
     #[arg(value_name = "COIL.ron")]
     coil: PathBuf,
-    /// Good units, each by its records with commas between them, e.g. --unit lot/*.csv; may be given more than once
-    #[arg(long = "unit", value_name = "A1.csv,A2.csv", required = true, value_parser = records, num_args = 1..)]
+    /// Records of a good unit, with commas between them; once for every unit
+    #[arg(long = "unit", value_name = "A1.csv,A2.csv", required_unless_present = "each", value_parser = records)]
     good: Vec<Records>,
+    /// Good units of one record each, after the coil file, e.g. --units lot/*.csv
+    #[arg(long = "units", id = "each", value_name = "A.csv", value_parser = records, num_args = 1..)]
+    each: Vec<Records>,
     /// Write the lot's design here, a coil file
     #[arg(long, value_name = "LOT.ron")]
     out: PathBuf,
@@ -48,12 +51,13 @@ fn records(text: &str) -> Result<Records, String> {
 }
 
 pub(crate) fn run(arguments: &Calibrate, progress: &Progress) -> Result<(), Error> {
-    let Calibrate { coil, good, out, json, meta, map, no_cache } = arguments;
+    let Calibrate { coil, good, each, out, json, meta, map, no_cache } = arguments;
+    let good: Vec<&Records> = good.iter().chain(each).collect();
     let options = RecordOptions { map: map.clone(), meta: meta.clone(), ..RecordOptions::default() };
     let inputs: Vec<PathBuf> = good.iter().flat_map(|unit| unit.iter()).flat_map(|record| options.files(record)).collect();
     let case = progress.read_coil_for(coil, &inputs, &[Some(out)])?;
     diagnose::check_design(&case, coil)?;
-    let unit = |paths: &Records| paths.iter().map(|path| input::read_record(path, &options)).collect::<Result<Vec<_>, _>>();
+    let unit = |paths: &&Records| paths.iter().map(|path| input::read_record(path, &options)).collect::<Result<Vec<_>, _>>();
     let units = progress.during("reading the records", || good.iter().map(unit).collect::<Result<Vec<_>, _>>())?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
     let outcome = progress.tasks(|tell| calibrate::calibrate(&case, &units, &cache, tell))?;

@@ -156,7 +156,8 @@ impl Regression {
         regression
     }
 
-    fn add(&mut self, x: f64, y: f64) {
+    /// Adds a pair to it.
+    pub(crate) fn add(&mut self, x: f64, y: f64) {
         self.count += 1.0;
         let (dx, dy) = (x - self.mean[0], y - self.mean[1]);
         self.mean[0] += dx / self.count;
@@ -167,6 +168,11 @@ impl Regression {
 
     pub(crate) fn slope(&self) -> Option<f64> {
         (self.xx > self.count * STILL * STILL).then(|| self.xy / self.xx)
+    }
+
+    /// y where x vanishes, the mean of y where x stands still; `None` without a pair.
+    pub(crate) fn intercept(&self) -> Option<f64> {
+        (self.count > 0.0).then(|| self.mean[1] - self.slope().unwrap_or(0.0) * self.mean[0])
     }
 }
 

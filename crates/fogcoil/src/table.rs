@@ -26,6 +26,11 @@ pub(crate) fn table(rows: &[impl AsRef<[String]>]) -> String {
     text
 }
 
+/// Ln odds, `shown` as far as they are more than "certain": larger ones depend on the noise that a hypothesis was judged with.
+pub(crate) fn odds(log_odds: f64, shown: impl Fn(f64) -> String) -> String {
+    if log_odds >= 99.5 { "> 99".into() } else { shown(log_odds) }
+}
+
 /// An error estimate: two significant digits.
 pub(crate) fn plus_minus(error: f64) -> String {
     if error == 0.0 { "± 0".into() } else { format!("± {error:.1e}") }

@@ -8,7 +8,7 @@ use crate::units::to_mm;
 
 /// Room between winding and rectangle that a drawing leaves, in pitches.
 const ROOM: f64 = 1.0;
-/// The same along the axis: the strain is steep at a flange, and a tenth of a pitch there is a percent of the sensitivity.
+/// The same along the axis: the strain is steep at a flange, and a tenth of a pitch of room there changes the sensitivity of the reference coil by 3 %.
 const AXIAL_ROOM: f64 = 0.1;
 
 /// Largest relative distance of the effective diameter from the coil's mean diameter that passes without a word.

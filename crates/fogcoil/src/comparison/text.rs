@@ -26,7 +26,7 @@ fn prior(prior: Option<&Prior>) -> String {
 }
 
 fn odds(told: Told) -> String {
-    if told.log_odds >= 99.5 { "> 99".into() } else { number(told.log_odds) }
+    crate::table::odds(told.log_odds, number)
 }
 
 impl Comparison {

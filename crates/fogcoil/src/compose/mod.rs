@@ -46,6 +46,8 @@ pub(crate) struct StandIn {
     behind: f64,
     /// probability of the mechanism against the law, both as likely beforehand
     share: f64,
+    /// Probability that the law took from the mechanism.
+    pub(crate) taken: f64,
 }
 
 /// A term of a law.
@@ -144,7 +146,10 @@ pub(crate) fn compose(
         let holds = |(answer, _): &&(Candidate, f64)| answer.fit.hypothesis.has(mechanism);
         let Some((answer, score)) = answers.iter().rev().find(holds) else { continue };
         if let Some(mut stand_in) = search.stand_in(mechanism, answer, *score)? {
+            let probability = |d: &Diagnosis| d.mechanisms.iter().find(|(m, _)| *m == mechanism).map_or(0.0, |(_, p)| *p);
+            let before = probability(diagnosis);
             stand_in.share = diagnosis.doubt(mechanism, stand_in.behind);
+            stand_in.taken = before - probability(diagnosis);
             stand_ins.push(stand_in);
         }
     }
@@ -189,7 +194,7 @@ impl Search<'_> {
         Ok(law.hypothesis.mechanisms.last().map(|(law, _)| {
             let facts = with.mechanism(*law).facts();
             let known = self.case(facts.id).map_or("", |(_, known)| known);
-            StandIn { of, id: facts.id.to_owned(), title: facts.title.to_owned(), known, behind, share: 1.0 }
+            StandIn { of, id: facts.id.to_owned(), title: facts.title.to_owned(), known, behind, share: 1.0, taken: 0.0 }
         }))
     }
 
@@ -267,14 +272,9 @@ impl StandIn {
         self.behind < NEAR
     }
 
-    /// Probability of the law over that of the name.
-    pub(crate) fn law_to_name(&self) -> f64 {
-        (1.0 - self.share) / self.share.max(f64::MIN_POSITIVE)
-    }
-
     /// One object, as scripts read it.
     pub(crate) fn json(&self) -> Value {
-        let Self { of, id, title, known, behind, share } = self;
+        let Self { of, id, title, known, behind, share, .. } = self;
         json!({"in_place_of": of, "id": id, "title": title, "known_physics": known, "behind": behind, "share": share})
     }
 

@@ -73,14 +73,10 @@ impl Outcome<'_> {
         all
     }
 
-    /// Probability that was taken from mechanisms with a name for laws that the records hardly tell from them; `None` without such a law.
+    /// Probability that was taken from mechanisms with a name for laws that the records hardly tell from them, of several the largest; `None` without such a
+    /// law.
     pub(super) fn law_in_place(&self) -> Option<f64> {
-        let near: Vec<_> = self.stand_ins.iter().filter(|stand_in| stand_in.is_near()).collect();
-        let taken = |stand_in: &&crate::compose::StandIn| {
-            let kept = self.diagnosis.mechanisms.iter().find(|(m, _)| self.id(*m) == stand_in.of).map_or(0.0, |(_, p)| *p);
-            kept * stand_in.law_to_name()
-        };
-        (!near.is_empty()).then(|| near.iter().map(taken).fold(0.0, f64::max))
+        self.stand_ins.iter().filter(|stand_in| stand_in.is_near()).map(|stand_in| stand_in.taken).reduce(f64::max)
     }
 
     /// Mechanisms that are not excluded beside those of the best hypothesis, best first.
@@ -109,7 +105,10 @@ impl Outcome<'_> {
         // all were read alike
         let flags = self.fits.first().map_or(&[][..], |record| &record.flags);
         let flags: String = flags.iter().map(|(flag, file)| format!(" {flag} {}", word(file))).collect();
-        format!("fogcoil recommend {} --between {}{from}{flags}", word(&self.coil), ids.join(","))
+        let on_request = mechanisms::ON_REQUEST.iter().map(|mechanism| mechanism.facts().id);
+        let asked: String =
+            on_request.filter(|id| ids.iter().any(|other| other == id)).map(|id| format!(" --mechanism {id}")).collect();
+        format!("fogcoil recommend {} --between {}{asked}{from}{flags}", word(&self.coil), ids.join(","))
     }
 }
 

@@ -209,7 +209,7 @@ fn left_over(held: &Held) -> Option<Note> {
     let meaning = if far {
         "something else is at work in it; is it of the same unit, mounted alike?"
     } else {
-        "little, but more than chance leaves; the answer stands"
+        "little, but more than chance leaves"
     };
     let text = format!("what was found leaves {} in this record, which was held out: {meaning}", words.join(" and "));
     let note = if far { Remark::HeldOutLeft.warning(text) } else { Remark::HeldOutLeft.note(text) };

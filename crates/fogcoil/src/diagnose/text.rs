@@ -170,8 +170,8 @@ impl Outcome<'_> {
                 format!("inspect the unit; to confirm {} on data outside the fit, {another}.", self.names().join(" and "))
             }
             Verdict::None | Verdict::Recalibrate if !self.suffices_surely() => {
-                "nothing needs an inspection; a small fault may hide behind the tolerances. A record under another profile, given with --fit, or a \
-                 design of the lot (fogcoil calibrate) narrows them."
+                "nothing stands out that an inspection could look for; a small fault may hide behind the tolerances. A record under another \
+                 profile, given with --fit, or a design of the lot (fogcoil calibrate) may narrow them."
                     .into()
             }
             Verdict::Recalibrate if proven => {

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::{Explained, Explanation, PLAUSIBLE, Reach, STRAINED, Test};
 use crate::input::CoilCase;
 use crate::recommend::with;
-use crate::table::{significant, table};
+use crate::table::{odds, significant, table};
 
 fn verdict(sigma: f64) -> &'static str {
     match sigma.abs() {
@@ -92,8 +92,7 @@ pub fn text(case: &CoilCase, e: &Explained) -> String {
     let mut rows = vec![["", "slow ramp", "best", "by"].map(str::to_owned).to_vec()];
     for Test { between, slow, best } in &e.tests {
         let says = if best.1.decides() { best.0.clone() } else { format!("{}: does not decide", best.0) };
-        let [slow, best] =
-            [slow, best].map(|t| if t.1.log_odds > 99.0 { "> 99".to_owned() } else { format!("{:.1}", t.1.log_odds) });
+        let [slow, best] = [slow, best].map(|t| odds(t.1.log_odds, |ln| format!("{ln:.1}")));
         rows.push(vec![format!("{} from {}", between[0], between[1]), slow, best, says]);
     }
     if e.tests.is_empty() {

@@ -4,7 +4,7 @@ use charts::{Axis, Figure, Panel, Series, Style, signed, significant};
 
 use crate::band::CourseBand;
 use crate::simulate::{SimulatedRow, Simulation, WINDOW_S, Window};
-use crate::summary::Summary;
+use crate::summary::{Regression, Summary};
 use crate::units::DurationUnit;
 
 /// Name of the figure of the bias in time.
@@ -106,14 +106,10 @@ fn with_rate(simulation: &Simulation, row: usize) -> usize {
 /// Rate that was recorded where the simulated one vanishes \[deg/h\]: the intercept of a regression on it, or the mean where it does not change.
 fn offset(simulation: &Simulation) -> Option<f64> {
     simulation.profile.recorded.as_ref()?;
-    let rows = || simulation.rows().skip(1).map(|row| (row.rate, row.recorded[1])).filter(|(_, recorded)| recorded.is_finite());
-    let count = rows().count() as f64;
-    let [x, y] = rows().fold([0.0; 2], |[x, y], (simulated, recorded)| [x + simulated / count, y + recorded / count]);
-    let (xx, xy) = rows().fold((0.0, 0.0), |(xx, xy), (simulated, recorded)| {
-        (xx + (simulated - x).powi(2), xy + (simulated - x) * (recorded - y))
-    });
-    let slope = if xx.sqrt() > LEAST_DEG_PER_H { xy / xx } else { 0.0 };
-    (count > 0.0).then_some(y - slope * x)
+    let mut regression = Regression::default();
+    let rows = simulation.rows().skip(1).filter(|row| row.recorded[1].is_finite());
+    rows.for_each(|row| regression.add(row.rate, row.recorded[1]));
+    regression.intercept()
 }
 
 fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>, band: Option<&'a CourseBand>) -> Figure<'a> {

@@ -66,9 +66,11 @@ fn a_lot_is_a_design_that_other_commands_read() {
     assert!((case.design.surroundings.conductivity / conductivity - 1.0).abs() < 1e-9);
     assert_eq!(folder.run(&["sensitivity", "lot.ron"]).status.code(), Some(0));
     // a lot is not calibrated again, and correlations that contradict each other are refused
-    let again = folder.run(&["calibrate", "lot.ron", "--unit", first, "--out", "again.ron"]);
-    assert_eq!(again.status.code(), Some(2));
-    assert!(stderr(&again).contains("correlations: is calibrated already; give the drawing"), "{}", stderr(&again));
+    for arguments in [["--unit", first, "lot.ron"], ["lot.ron", "--unit", first], ["lot.ron", "--units", first]] {
+        let again = folder.run(&[&["calibrate"], &arguments[..], &["--out", "again.ron"]].concat());
+        assert_eq!(again.status.code(), Some(2));
+        assert!(stderr(&again).contains("correlations: is calibrated already; give the drawing"), "{}", stderr(&again));
+    }
     let coil = std::fs::read_to_string(folder.path("drawing.ron")).unwrap();
     let [k, c, d] = ["coil.material.k_r_w_per_mk", "coil.specific_heat_j_per_kgk", "coil.density_kg_per_m3"];
     for (list, says) in [

@@ -227,6 +227,21 @@ fn the_effective_diameter_is_the_mean_one_unless_given_and_another_is_noted() {
 }
 
 #[test]
+fn room_beside_the_winding_is_warned_of_where_the_sensitivity_feels_it() {
+    let folder = Folder::new();
+    let noted = |height: &str| {
+        folder.write("coil.ron", change(COIL, "height_mm: 18.02", &format!("height_mm: {height}")));
+        stderr(&folder.run(&["wind", "coil.ron"]))
+    };
+    let said = noted("18.05");
+    assert!(
+        said.contains("coil.height_mm") && said.contains("they begin at the left face") && said.contains("[unfilled-coil]"),
+        "{said}"
+    );
+    assert!(!noted("18.03").contains("unfilled-coil"), "{}", noted("18.03"));
+}
+
+#[test]
 fn trim_says_how_to_null_the_reference_coil() {
     let folder = Folder::new();
     folder.write("coil.ron", COIL);

@@ -93,6 +93,24 @@ fn a_recording_stands_beside_its_simulation() {
     assert!(json["recorded_less_simulated"]["rate_deg_per_h"]["rms_about_mean"].as_f64().unwrap() > 0.0);
     let page = std::fs::read_to_string(folder.path("r.html")).unwrap();
     assert!(page.contains("thermometer as recorded") && page.contains("as recorded, less"));
+    // the figure's record is at 0 where the simulated rate is: less the intercept of a regression on it
+    let pairs: Vec<(f64, f64)> = lines.clone().skip(1).filter_map(|line| Some((field(line, 6)?, field(line, 8)?))).collect();
+    let over = |of: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>() / pairs.len() as f64;
+    let (x, y) = (over(&|p| p.0), over(&|p| p.1));
+    let slope = over(&|p| (p.0 - x) * (p.1 - y)) / over(&|p| (p.0 - x).powi(2));
+    let shown = page.split_once("as recorded, less ").unwrap().1.split_once(" °/h").unwrap().0.replace('\u{2212}', "-");
+    let offset: f64 = shown.trim_start_matches('+').parse().unwrap();
+    assert!((offset - (y - slope * x)).abs() < 6e-5, "{offset} {}", y - slope * x);
+    // the result is a profile, and the record drives other commands: both have one chamber
+    let peak = |arguments: &[&str]| {
+        let output = folder.run(&[&["trim", "coil.ron", "--json", "--quiet"], arguments].concat());
+        let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+        json["transients_deg_per_h"]["peak_before"].as_f64().unwrap()
+    };
+    let [by_record, by_result] = [peak(&["--record", "logger.csv"]), peak(&["--profile", "b.csv"])];
+    assert!(by_record > 0.0 && (by_record / by_result - 1.0).abs() < 1e-9, "{by_record} {by_result}");
+    let compared = stdout(&folder.run(&["compare", "coil.ron", "coil.ron", "--record", "logger.csv", "--quiet"]));
+    assert!(compared.contains("largest |rate|"), "{compared}");
     // the map is an input: no output may be written over it
     let output = folder.run(&["simulate", "coil.ron", "--record", "logger.csv", "--out", "logger.map.ron"]);
     assert_eq!(output.status.code(), Some(2));

@@ -191,3 +191,26 @@ fn nothing_is_overwritten_and_nothing_written_in_vain() {
     assert_eq!(std::fs::read_to_string(folder.path("m.ron")).unwrap(), map);
     assert_eq!(folder.run(&["check", "r.csv", "--map", "m.ron", "--scale", "rate=1"]).status.code(), Some(0));
 }
+
+#[test]
+fn a_rate_is_known_by_its_unit_and_numbers_without_one_may_be_temperatures() {
+    let row = |_: usize, [t, chamber, spool, rate]: [f64; 4]| format!("{t},{:.9},{chamber:.4},{spool:.4}", rate / 3600.0);
+    let folder = Folder::new();
+    folder.write("r.csv", "t [s],Achse Z [deg/s],TH1,TCH\r\n".to_owned() + &lines(row));
+    let output = folder.run(&["check", "r.csv", "--write-map"]);
+    let written = std::fs::read_to_string(folder.path("r.map.ron")).unwrap_or_else(|_| panic!("{}", stderr(&output)));
+    for part in [
+        "    rate: (column: \"Achse Z [deg/s]\", unit: \"deg/s\"),\n",
+        "    // columns that may be temperatures; take the // from the lines that are right:\n",
+        "    // chamber: (column: \"TCH\"),\n",
+        "    // spool: (column: \"TH1\"),\n",
+    ] {
+        assert!(written.contains(part), "{part}{written}");
+    }
+    // a word says more than a unit: a table's rate is not the gyroscope's
+    let row = |_: usize, [t, chamber, spool, rate]: [f64; 4]| format!("{t},{rate:.6},{rate:.6},{chamber:.4},{spool:.4}");
+    folder.write("s.csv", "t [s],table [deg/h],gyro [deg/h],chamber [degC],spool [degC]\r\n".to_owned() + &lines(row));
+    folder.run(&["check", "s.csv", "--write-map"]);
+    let written = std::fs::read_to_string(folder.path("s.map.ron")).unwrap();
+    assert!(written.contains("rate: (column: \"gyro [deg/h]\"") && written.contains("or `table [deg/h]`"), "{written}");
+}

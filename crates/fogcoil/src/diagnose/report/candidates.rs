@@ -5,6 +5,7 @@ use diagnosis::{Candidate, ForwardModel, Structure};
 use maud::{Markup, html};
 
 use crate::diagnose::Outcome;
+use crate::table::odds;
 
 /// Most rows of the table of hypotheses.
 const MOST: usize = 8;
@@ -21,9 +22,6 @@ struct Group<'a> {
 
 /// Test whether a candidate belongs to a rival's hypotheses.
 type Fits = Box<dyn Fn(&Candidate) -> bool>;
-
-/// Ln odds beyond which no more is told: larger ones depend on the noise that a hypothesis was judged with.
-const SURE: f64 = 99.0;
 
 impl Outcome<'_> {
     pub(super) fn candidates(&self) -> Markup {
@@ -125,9 +123,8 @@ impl Outcome<'_> {
             .into_iter()
             .map(|(rival, fits)| match groups.iter().find(|group| !holds(group.first, best) && fits(group.first)) {
                 Some(group) => {
-                    let odds = winner.log_weight - group.log_weight;
-                    let shown = if odds > SURE { format!("> {SURE}") } else { signed(odds, 1) };
-                    (odds, vec![rival, shown, self.said(group)])
+                    let ln = winner.log_weight - group.log_weight;
+                    (ln, vec![rival, odds(ln, |ln| signed(ln, 1)), self.said(group)])
                 }
                 None => (f64::INFINITY, vec![rival, "–".into(), format!("not tried without {name}")]),
             })

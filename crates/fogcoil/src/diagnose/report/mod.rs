@@ -162,8 +162,9 @@ impl Outcome<'_> {
         let found: Vec<&Estimate> = self.diagnosis.parameters.iter().flatten().filter(|_| explained).collect();
         let of = |estimate: &&Estimate| {
             let unit = parameter_unit(&estimate.name);
+            let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
             let [low, high] = estimate.ci90.map(|end| significant(end, 3));
-            format!("{} {} {unit} (90 %: {low} to {high})", estimate.name, significant(estimate.value, 3))
+            format!("{} {}{unit} (90 %: {low} to {high})", estimate.name, significant(estimate.value, 3))
         };
         (!found.is_empty()).then(|| nice(&found.iter().map(of).collect::<Vec<_>>().join("; ")))
     }

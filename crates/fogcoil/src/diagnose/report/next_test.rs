@@ -38,13 +38,16 @@ impl Outcome<'_> {
             (Verdict::Explained, _) => {
                 let names = self.names();
                 let looks: Vec<&str> = names.iter().filter_map(|id| self.inspection(id)).collect();
-                let rival = self.likely().map(|(id, _)| id).find(|id| !names.contains(id)).unwrap_or("nominal");
-                let command = self.recommend(&[names[0].to_owned(), rival.to_owned()]);
-                format!(
-                    "{next} Inspection: {}. To be surer before it is taken apart: {command} finds the test that tells {} from {rival} best.",
-                    looks.join("; "),
-                    names[0]
-                )
+                // of a mechanism of the user's own the command would need the file
+                let listed = |id: &str| mechanisms::find(id).is_some();
+                let rival = self.likely().map(|(id, _)| id).find(|id| !names.contains(id) && listed(id)).unwrap_or("nominal");
+                let surer = names.first().filter(|id| listed(id)).map_or(String::new(), |first| {
+                    let command = self.recommend(&[(*first).to_owned(), rival.to_owned()]);
+                    format!(
+                        " To be surer before it is taken apart: {command} finds the test that tells {first} from {rival} best."
+                    )
+                });
+                format!("{next} Inspection: {}.{surer}", looks.join("; "))
             }
             (Verdict::None, Some((id, p))) => {
                 let command = self.recommend(&[id.to_owned(), "nominal".into()]);
