@@ -1,6 +1,6 @@
 //! Effect of a design's tolerances on a number that follows from it: slopes by differences, one standard deviation to either side.
 
-use crate::{Design, Error, MeshFineness, Model, Number, Parameter, Tolerances};
+use crate::{Design, Error, MeshFineness, Model, Number, Tolerances};
 use bias::Sensitivity;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::SQRT_2;
@@ -21,30 +21,11 @@ const SLOPES: MeshFineness = MeshFineness { order: 4, layers: 2, ratio: 0.15 };
 
 /// Whether a number acts in a uniform ramp, in which no heat flows.
 fn acts_in_a_ramp(number: Number) -> bool {
-    use Parameter::{
-        AxialExpansion, AxialModulus, AxialPoisson, FlangeOverhang, FlangeThickness, HubThickness, ShearRatio, SpoolExpansion,
-        SpoolModulus, SpoolPoisson, TransverseExpansion, TransverseModulus, TransversePoisson,
-    };
     match number {
         Number::Tail => true,
         // one temperature throughout: no thermal phase between the halves
         Number::ThermoOptic | Number::SensorLag => false,
-        Number::Constant(parameter) => matches!(
-            parameter,
-            AxialModulus
-                | TransverseModulus
-                | ShearRatio
-                | AxialPoisson
-                | TransversePoisson
-                | AxialExpansion
-                | TransverseExpansion
-                | SpoolModulus
-                | SpoolPoisson
-                | SpoolExpansion
-                | HubThickness
-                | FlangeThickness
-                | FlangeOverhang
-        ),
+        Number::Constant(parameter) => parameter.of_mechanics(),
     }
 }
 
@@ -81,8 +62,7 @@ pub fn sensitivity_changes(design: &Design, tolerances: &Tolerances) -> Result<V
     let here = of(design)?;
     let mut changes = Vec::new();
     for number in Number::every().filter(|n| acts_in_a_ramp(*n)) {
-        let Some(drawn) = number.of(design) else { continue };
-        let sd = tolerances.of(number).of(drawn);
+        let (Some(drawn), Some(sd)) = (number.of(design), tolerances.sd(number, design)) else { continue };
         if sd <= 0.0 {
             continue;
         }

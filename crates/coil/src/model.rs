@@ -176,11 +176,6 @@ impl Model {
         Ok(at("structure", self.factor.solve(&loads))?.iter().map(|u| self.map.expand(u)).collect())
     }
 
-    /// Strains rr, yy, hoop at the centre of every turn, of nodal displacements.
-    pub(crate) fn strains(&self, displacements: &[Vec<f64>]) -> Vec<Vec<[f64; 3]>> {
-        displacements.iter().map(|u| self.probes.iter().map(|p| p.strain_of(u)).collect()).collect()
-    }
-
     /// Temperature of the hub's bore, which the tails share, from nodal temperatures \[K\].
     pub fn temperature_at_bore(&self, temperature: &[f64]) -> f64 {
         self.bore.value_of(temperature)

@@ -29,7 +29,7 @@ fn sampled_designs_spread_as_the_band_says() {
                 let u = &factor * nalgebra::DVector::from_fn(numbers.len(), |_, _| normal(&mut seed));
                 let put = |design: Design, (number, u): (&Number, &f64)| {
                     let drawn = number.of(&design).expect("a number");
-                    number.set(&design, drawn + u * tolerances.of(*number).of(drawn))
+                    number.set(&design, drawn + u * tolerances.sd(*number, &design).expect("a number"))
                 };
                 let mut changed = numbers.iter().zip(u.iter()).fold(design.clone(), put);
                 let tail = tolerances.of(Number::Tail).of(0.0);
@@ -76,7 +76,7 @@ fn the_mesh_is_good_to_a_per_cent_of_the_slopes() {
     assert_eq!(largest[0].0, Number::Constant(Parameter::TransverseModulus));
     for (number, change) in largest {
         let drawn = number.of(&design).expect("a number");
-        let at = |sign: f64| fine(&number.set(&design, drawn + sign * tolerances.of(number).of(drawn)));
+        let at = |sign: f64| fine(&number.set(&design, drawn + sign * tolerances.sd(number, &design).expect("a number")));
         let expected = (at(1.0) - at(-1.0)) / 2.0;
         assert!((change / expected - 1.0).abs() < 0.01, "{number:?}: {change} {expected}");
     }

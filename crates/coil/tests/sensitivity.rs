@@ -4,7 +4,7 @@ use crate::common::{changed, reference, spool};
 use bias::{Bias, Sensitivity, StrainConvention};
 use coil::{COARSE, Contact, Design, FINE, Flange, MeshFineness, Model, Side, steady_sensitivity};
 use fem_core::material::{Isotropic, TransverselyIsotropic};
-use winding::{ClimbSide, Pattern, Tails, TurnLength};
+use winding::{ClimbSide, Pattern, Spec, Tails, TurnLength};
 
 /// Enough for identities that hold on any mesh.
 const QUICK: MeshFineness = MeshFineness { order: 4, layers: 1, ratio: 0.2 };
@@ -124,6 +124,12 @@ fn symmetry_mirroring_coil_and_spool_changes_nothing_and_mirroring_one_does() {
     let s = total(&reference());
     assert!((total(&mirrored) / s - 1.0).abs() < 1e-7, "{} against {s}", total(&mirrored));
     assert!((total(&half) - s).abs() > 0.5, "handedness against the flange must matter: {} and {s}", total(&half));
+    // nearer to one flange is nearer to its mirror image
+    let nearer = |design: &Design, [start, end]: [f64; 2]| {
+        total(&Design { winding: Spec { start, end: Some(18.02e-3 + end), ..design.winding }, ..design.clone() })
+    };
+    let (near, far) = (nearer(&reference(), [0.01e-3, -0.03e-3]), nearer(&mirrored, [0.03e-3, -0.01e-3]));
+    assert!((near - s).abs() > 0.01 && (near / far - 1.0).abs() < 1e-7, "{near} against {far}, {s} in its place");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use coil::{Band, Mechanics, Number, SteadySensitivity, Tolerance};
 use serde_json::{Value, json};
 
-use crate::input::{CoilCase, Origin, keyed};
+use crate::input::{CoilCase, Origin, keyed, keyed_sd};
 use crate::table::{plus_minus, significant, table};
 use crate::units::parameter_unit;
 
@@ -21,13 +21,11 @@ pub(crate) struct Share {
 
 /// One standard deviation of a number of a design in words, a share or in the unit of its key; `None` of one that is exact or that the design has not.
 pub(crate) fn tolerance_in_words(case: &CoilCase, number: Number) -> Option<String> {
-    let (key, value) = keyed(number, &case.design)?;
-    let drawn = number.of(&case.design)?;
-    // in the unit of the key; a length that is 0 is a tail's, in m
-    let in_unit = |si: f64| if drawn == 0.0 { si } else { si * value / drawn };
+    let (key, _) = keyed(number, &case.design)?;
+    let sd = keyed_sd(number, &case.design, &case.tolerances)?;
     match case.tolerances.of(number) {
         Tolerance::Relative(share) => Some(format!("{} %", significant(100.0 * share, 2))),
-        Tolerance::Absolute(by) => Some(format!("{} {}", significant(in_unit(by), 2), parameter_unit(key))),
+        Tolerance::Absolute(_) => Some(format!("{} {}", significant(sd, 2), parameter_unit(key))),
         Tolerance::Exact => None,
     }
 }

@@ -76,6 +76,8 @@ fn name(parameter: Parameter) -> &'static str {
         Parameter::SpoolExpansion => "spool expansion",
         Parameter::MediumConductivity => "conductivity of the surroundings",
         Parameter::MediumSpecificHeat => "specific heat of the surroundings",
+        Parameter::WindingStart => "start of the winding [mm]",
+        Parameter::WindingEnd => "end of the winding [mm]",
         Parameter::HubThickness => "hub thickness [mm]",
         Parameter::FlangeThickness => "flange thickness [mm]",
         Parameter::FlangeOverhang => "flange overhang [mm]",

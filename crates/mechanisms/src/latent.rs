@@ -5,7 +5,7 @@ use crate::law_tools::Chain;
 use crate::mechanism::{Change, Mechanism, Stage};
 use crate::record_to_bias::Prepared;
 use crate::series::lagged;
-use coil::Error;
+use coil::{Error, Parameter};
 use diagnosis::Latent;
 
 /// Smooth functions of temperature that a flexible input is made of.
@@ -80,8 +80,11 @@ impl Chain {
         let mut material: Functions = shaped(&softer, &hats);
         material.extend(shaped(&wider, &hats));
         material.extend(LAGS.iter().map(|lag| of_rate(lagged(&record.time, &total(&softer.parts), *lag))));
-        let constants = self.library().constants.iter().zip(&record.slopes).filter(|(c, _)| c.parameter.of_mechanics());
-        material.extend(constants.map(|(c, slope)| of_rate(total(&slope.parts).iter().map(|x| x * c.tolerance).collect())));
+        let off = |which: fn(Parameter) -> bool| {
+            let constants = self.library().constants.iter().zip(&record.slopes).filter(move |(c, _)| which(c.parameter));
+            constants.map(|(c, slope)| of_rate(total(&slope.parts).iter().map(|x| x * c.tolerance).collect()))
+        };
+        material.extend(off(|of| of.of_mechanics() && !of.of_winding()));
         add(Stage::Material, material);
 
         let bond = record.openings.iter().flat_map(|flange| flange.iter().step_by((flange.len() / 2).max(1)));
@@ -89,6 +92,7 @@ impl Chain {
 
         let layers = self.library().design().winding.layers;
         let mut winding = vec![of_rate(total(&self.with_tail(record, TAIL)?))];
+        winding.extend(off(Parameter::of_winding));
         for layer in (1..=layers).step_by(EVERY) {
             winding.push(of_rate(total(&self.with_turns(record, layer, 1.0)?)));
         }

@@ -10,6 +10,8 @@ fn radial_moment(pattern: Pattern) -> Result<f64, Error> {
         turns_even_layers: 100,
         inner_radius: 50e-3,
         pitch: 0.2e-3,
+        start: 0.0,
+        end: None,
         cw_climbs: ClimbSide::Right,
         turn_length: TurnLength::Equal,
         tails: Tails { cw: 0.0, ccw: 0.0 },

@@ -19,6 +19,8 @@ fn main() -> Result<(), Error> {
         turns_even_layers: 79,
         inner_radius: 10e-3,
         pitch: WIRE,
+        start: 0.0,
+        end: None,
         cw_climbs: ClimbSide::Right,
         turn_length: TurnLength::True,
         tails: Tails { cw: 0.0, ccw: 0.0 },

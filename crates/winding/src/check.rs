@@ -18,6 +18,13 @@ impl Spec {
                 return Err(Error::Length { field, value, range: "above 0" });
             }
         }
+        if !self.start.is_finite() {
+            return Err(Error::Length { field: "start", value: self.start, range: "of any sign" });
+        }
+        // not `<=`: a NaN is no place
+        if let Some(end) = self.end.filter(|end| !(end.is_finite() && *end > self.start)) {
+            return Err(Error::Length { field: "end", value: end, range: "above start" });
+        }
         for (field, value) in [("tails.cw", self.tails.cw), ("tails.ccw", self.tails.ccw)] {
             if !(value.is_finite() && value >= 0.0) {
                 return Err(Error::Length { field, value, range: "of 0 or more" });
@@ -82,6 +89,8 @@ mod tests {
         turns_even_layers: 2,
         inner_radius: 0.04,
         pitch: 2e-4,
+        start: 0.0,
+        end: None,
         cw_climbs: ClimbSide::Right,
         turn_length: TurnLength::True,
         tails: Tails { cw: 0.0, ccw: 0.0 },
@@ -92,6 +101,9 @@ mod tests {
     fn a_message_names_field_value_and_remedy() {
         let cases = [
             (Spec { inner_radius: -0.04, ..SPEC }, "inner_radius = -0.04 m"),
+            (Spec { start: f64::NAN, ..SPEC }, "start = NaN m"),
+            (Spec { start: 1e-3, end: Some(1e-3), ..SPEC }, "end = 0.001 m"),
+            (Spec { end: Some(f64::NAN), ..SPEC }, "end = NaN m"),
             (Spec { pitch: f64::NAN, ..SPEC }, "pitch = NaN m"),
             (Spec { tails: Tails { cw: 0.0, ccw: -1.0 }, ..SPEC }, "tails.ccw = -1 m"),
             (Spec { tails: Tails { cw: f64::INFINITY, ccw: 0.0 }, ..SPEC }, "tails.cw = inf m"),

@@ -36,6 +36,8 @@
 //!     turns_even_layers: 105,
 //!     inner_radius: 43.5e-3,
 //!     pitch: 0.170e-3,
+//!     start: 0.0,
+//!     end: None,
 //!     cw_climbs: ClimbSide::Right,
 //!     turn_length: TurnLength::True,
 //!     tails: Tails { cw: 0.0, ccw: 0.0 },

@@ -97,7 +97,7 @@ impl Spec {
             self.position(layer, turn)
         } else if turn < first + wound {
             let share = (turn - first) as f64 + 0.5;
-            self.position(layer, first) + (share * designed as f64 / wound as f64 - 0.5) * self.pitch
+            self.position(layer, first) + (share * designed as f64 / wound as f64 - 0.5) * self.spacing()
         } else {
             self.position(layer, turn.saturating_add_signed(-surplus))
         }
@@ -128,6 +128,8 @@ mod tests {
             turns_even_layers: 2,
             inner_radius: 0.04,
             pitch: 2e-4,
+            start: 0.0,
+            end: None,
             cw_climbs: ClimbSide::Right,
             turn_length: TurnLength::True,
             tails: Tails { cw: 0.0, ccw: 0.0 },

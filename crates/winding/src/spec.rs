@@ -99,6 +99,10 @@ pub struct Spec {
     pub inner_radius: f64,
     /// Distance between the centres of touching turns, the outer diameter of the fibre \[m\], > 0.
     pub pitch: f64,
+    /// Axial place at which the winding begins, the outer edge of its first turn \[m\]: 0 where it touches the coil's left face.
+    pub start: f64,
+    /// Axial place at which it ends, the outer edge of its last turn \[m\]: turns are spread evenly between both. `None`: they touch.
+    pub end: Option<f64>,
     /// The end of the coil at which the CW half climbs.
     pub cw_climbs: ClimbSide,
     /// Length of fibre in a turn.
@@ -130,6 +134,18 @@ impl ClimbSide {
 }
 
 impl Spec {
+    /// Axial places at which the winding begins and ends \[m\].
+    pub fn edges(&self) -> [f64; 2] {
+        [self.start, self.end.unwrap_or(self.start + self.width() * self.pitch)]
+    }
+
+    /// Lowest and highest place of a turn's centre along the axis, as wound \[m\].
+    pub fn reach(&self) -> [f64; 2] {
+        let last = |layer| self.turns_in(layer).saturating_add_signed(self.surplus_in(layer));
+        let centres = (1..=self.layers).flat_map(|layer| [self.centre(layer, 1), self.centre(layer, last(layer))]);
+        centres.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)])
+    }
+
     /// Turns too many in a layer.
     pub(crate) fn surplus_in(&self, layer: usize) -> isize {
         self.defect.filter(|defect| defect.layer == layer).map_or(0, |defect| defect.turns as isize)
@@ -146,9 +162,20 @@ impl Spec {
         self.inner_radius + self.pitch / 2.0 + (layer - 1) as f64 * step
     }
 
-    /// Axial position of a turn's centre as designed \[m\].
+    /// Axial place of a turn's centre as designed \[m\].
     pub(crate) fn position(&self, layer: usize, turn: usize) -> f64 {
         let groove = if layer % 2 == 1 { 0.5 } else { 0.0 };
-        (turn as f64 - groove) * self.pitch
+        self.start + (turn as f64 - groove) * self.spacing()
+    }
+
+    /// Turns side by side that are as wide as the winding; half a turn where every other layer lies half a turn further.
+    fn width(&self) -> f64 {
+        let odd = self.turns_odd_layers as f64;
+        if self.layers > 1 { odd.max(self.turns_even_layers as f64 + 0.5) } else { odd }
+    }
+
+    /// Axial distance between the centres of neighbouring turns as designed \[m\].
+    pub(crate) fn spacing(&self) -> f64 {
+        self.end.map_or(self.pitch, |end| (end - self.start) / self.width())
     }
 }

@@ -84,10 +84,10 @@ impl Winding {
         self.spec.radius(self.spec.layers) + self.spec.pitch / 2.0
     }
 
-    /// Height of the coil \[m\], from its left face to half a pitch beyond the centre of the last turn.
+    /// Height of the winding \[m\], from the outer edge of its first turn to that of its last.
     pub fn height(&self) -> f64 {
-        let last = |layer| self.spec.position(layer, self.spec.turns_in(layer));
-        (1..=self.spec.layers.min(2)).map(last).fold(0.0, f64::max) + self.spec.pitch / 2.0
+        let [start, end] = self.spec.edges();
+        end - start
     }
 
     /// Weight of every turn in the bias, W = ∫ (L − 2z) dz \[m²\], in the order of [`turns`](Self::turns).

@@ -71,6 +71,24 @@ proptest! {
         }
     }
 
+    /// A winding between other edges is the same fibre, every turn where the axis is shifted and stretched to.
+    #[test]
+    fn exact_start_and_end_take_every_turn_along_and_nothing_else(
+        spec in any_spec(ALL), start in -1e-3..1e-3_f64, wider in prop::option::of(0.5..2.0_f64),
+    ) {
+        let from = wind(&spec).unwrap();
+        let to = wind(&Spec { start, end: wider.map(|wider| start + wider * from.height()), ..spec }).unwrap();
+        let stretch = wider.unwrap_or(1.0);
+        let rounding = 8.0 * f64::EPSILON * (from.height() * stretch + start.abs());
+        for (a, b) in from.turns().iter().zip(to.turns()) {
+            prop_assert!((start + stretch * a.y - b.y).abs() <= rounding);
+            prop_assert_eq!(Turn { y: b.y, ..*a }, *b);
+        }
+        prop_assert!((stretch * from.height() - to.height()).abs() <= rounding);
+        let ends = |turns: &[Turn]| turns.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], t| [l.min(t.y), h.max(t.y)]);
+        prop_assert_eq!(to.spec().reach(), ends(to.turns()));
+    }
+
     /// The same fibre, every turn at the mirrored place of its layer. Where the even layers have one turn less, the lattice has
     /// a mirror plane and y itself is mirrored; with equal counts the even layers are half a pitch off it.
     #[test]

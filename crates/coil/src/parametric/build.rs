@@ -2,12 +2,13 @@
 
 use super::effort::{Effort, MODULI};
 use super::heat::{self, Heat, stored};
-use super::model::{ParametricModel, Turns, Weighted};
+use super::model::ParametricModel;
 use super::project::Fields;
 use super::range::Range;
 use super::section::Section;
 use super::strip::Strip;
 use super::structure::{self, Structure};
+use super::turns::Turns;
 use crate::grid::Grading;
 use crate::layout::Skins;
 use crate::thermal::{Shifted, properties};
@@ -218,22 +219,7 @@ impl ParametricModel {
             })
             .collect::<Vec<_>>();
         let (heat, structure) = (heat.compressed(&samples)?, structure.compressed(&samples, &STATES)?);
-        let strains = model.strains(&displacements);
-        let all = |c: usize| DMatrix::from_fn(winding.turns().len(), displacements.len(), |i, j| strains[j][i][c]) * &kept;
-        let temperature =
-            DMatrix::from_columns(&loads.iter().map(|t| DVector::from_vec(model.temperature_at_turns(t))).collect::<Vec<_>>());
-        let empty = || Weighted { temperature: DVector::zeros(0), strains: [0, 1, 2].map(|_| DVector::zeros(0)) };
-        let mut turns = Turns {
-            temperature,
-            radial: all(0),
-            axial: all(1),
-            hoop: all(2),
-            weighted: empty(),
-            lengths: empty(),
-            wound: winding.wound_length(),
-        };
-        turns.weighted = turns.sums(&weights);
-        turns.lengths = turns.sums(&lengths);
+        let turns = Turns::new(&grid, &temperatures, &fields, &winding)?;
         let mean = grid.coil_mean()?;
         let mut laid = vec![0.0; lattice.size()];
         grid.places().iter().zip(&mean).for_each(|(place, m)| laid[*place] = *m);
@@ -294,11 +280,11 @@ impl Parameter {
 
     /// Whether the heat flow depends on it, other than in proportion.
     pub(super) fn of_heat(self) -> bool {
-        !self.is_elastic() && !matches!(self, Self::Heater(_))
+        !self.is_elastic() && !matches!(self, Self::Heater(_)) && !self.of_winding()
     }
 
-    /// Whether the mechanics depends on it.
+    /// Whether strain, or what the fibre makes of it, depends on it.
     pub fn of_mechanics(self) -> bool {
-        self.is_elastic() || matches!(self, Self::HubThickness | Self::FlangeThickness | Self::FlangeOverhang)
+        self.is_elastic() || self.of_winding() || matches!(self, Self::HubThickness | Self::FlangeThickness | Self::FlangeOverhang)
     }
 }

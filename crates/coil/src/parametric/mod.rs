@@ -18,6 +18,7 @@ mod stored;
 mod strip;
 mod structure;
 mod tolerance;
+mod turns;
 
 pub use effort::{Effort, MODULI};
 pub use model::{MODEL_SAFETY, ParametricModel, Projected};

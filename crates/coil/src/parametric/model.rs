@@ -7,10 +7,10 @@ use super::project::Fields;
 use super::range::Range;
 use super::section::Section;
 use super::structure::Structure;
+use super::turns::{Fibre, Turns, Weighted};
 use crate::probe::Prober;
 use crate::{Bonds, Design, Error, Grid, MechanicalState, MeshFineness, Model, Outputs, Reduced, TurnFields};
 use nalgebra::{DMatrix, DVector};
-use winding::Spec;
 
 /// Heat flow and thermo-elasticity of a design and of all that differ from it within ranges of [`Parameter`]s, projected once on fields
 /// of temperature and displacement.
@@ -52,44 +52,6 @@ const COARSER: [f64; 2] = [0.85, 0.75];
 /// boxes of `cargo xtask bench parametric` it covers; directions that are missing from all of them are not seen.
 pub const MODEL_SAFETY: f64 = 3.0;
 
-/// Values of every field at the turns, a row each: temperature of temperature fields, strains of displacement fields.
-#[derive(Debug, Clone)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) struct Turns {
-    pub(super) temperature: DMatrix<f64>,
-    pub(super) radial: DMatrix<f64>,
-    pub(super) axial: DMatrix<f64>,
-    pub(super) hoop: DMatrix<f64>,
-    /// sums of each with the weights of the nominal winding, and with the turns' lengths
-    pub(super) weighted: Weighted,
-    pub(super) lengths: Weighted,
-    /// length of the fibre without its tails \[m\]
-    pub(super) wound: f64,
-}
-
-/// The fibre of a changed design: its length with tails \[m\], the weight of those \[m²\], and sums over its turns.
-pub(super) struct Fibre {
-    pub(super) length: f64,
-    pub(super) tail_weight: f64,
-    pub(super) sums: Weighted,
-}
-
-/// Sums over turns: of temperature fields, and of the strains rr, yy, hoop of displacement fields.
-#[derive(Debug, Clone)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) struct Weighted {
-    pub(super) temperature: DVector<f64>,
-    pub(super) strains: [DVector<f64>; 3],
-}
-
-impl Turns {
-    pub(super) fn sums(&self, weights: &[f64]) -> Weighted {
-        let w = DVector::from_column_slice(weights);
-        let of = |m: &DMatrix<f64>| m.tr_mul(&w);
-        Weighted { temperature: of(&self.temperature), strains: [of(&self.radial), of(&self.axial), of(&self.hoop)] }
-    }
-}
-
 impl ParametricModel {
     /// The design that it was made about.
     pub fn design(&self) -> &Design {
@@ -103,15 +65,13 @@ impl ParametricModel {
 
     /// Number of temperature fields and of displacement fields.
     pub fn size(&self) -> [usize; 2] {
-        [self.heat.size(), self.turns.hoop.ncols()]
+        [self.heat.size(), self.turns.displacements()]
     }
 
     /// Memory that it takes \[bytes\].
     pub fn bytes(&self) -> usize {
-        let of = |m: &DMatrix<f64>| m.len();
-        let turns = [&self.turns.temperature, &self.turns.radial, &self.turns.axial, &self.turns.hoop];
         let numbers =
-            of(&self.temperatures.values) + turns.map(of).iter().sum::<usize>() + self.heat.numbers() + self.structure.numbers();
+            self.temperatures.values.len() + self.turns.numbers() + self.heat.numbers() + self.structure.numbers();
         numbers * std::mem::size_of::<f64>()
     }
 
@@ -343,30 +303,13 @@ impl ParametricModel {
         ])
     }
 
-    /// The fibre of a changed design, which differs from that of the reference in its tails alone.
-    pub(super) fn fibre(&self, design: &Design) -> Result<Fibre, Error> {
-        design.winding.validate()?;
-        let (nominal, of) = (self.design.winding.tails, design.winding.tails);
-        if (Spec { tails: nominal, ..design.winding }) != self.design.winding {
-            let problem = "this design is wound otherwise than the one that was modelled, beyond its tails; model it anew";
-            return Err(Error::design("winding", problem.into()));
-        }
-        // tails shift every turn's weight by its length
-        let by = (of.cw - of.ccw) - (nominal.cw - nominal.ccw);
-        let add = |a: &DVector<f64>, b: &DVector<f64>| a + b * by;
-        let (w, l, wound) = (&self.turns.weighted, &self.turns.lengths, self.turns.wound);
-        let strains = [0, 1, 2].map(|k| add(&w.strains[k], &l.strains[k]));
-        let sums = Weighted { temperature: add(&w.temperature, &l.temperature), strains };
-        Ok(Fibre { length: of.ccw + wound + of.cw, tail_weight: of.weight(wound), sums })
-    }
-
     /// Temperature and strain of every turn of a changed design, per unit of its drives and modes, in a state of its mechanics.
     ///
     /// # Errors
     /// As [`Self::at`].
     pub fn fields(&self, design: &Design, state: &MechanicalState) -> Result<TurnFields, Error> {
         self.holds(design, std::slice::from_ref(state))?;
-        self.fibre(design)?;
+        let winding = self.wound(design)?;
         let changed = Section::new(design)?;
         let modes = self.heat.system(design, &changed, self.heat.size())?.modes(SHIFTS)?;
         let n = self.heat.size();
@@ -378,15 +321,11 @@ impl ParametricModel {
         let first = columns.ncols() - modes.rates.len();
         columns.view_mut((1, first), (n - 1, modes.rates.len())).copy_from(&modes.shapes);
         let displacements = self.structure.solved(design, &changed, state, usize::MAX)?.displacements() * &columns;
-        let temperature = &self.turns.temperature * &columns;
-        let axial = &self.turns.hoop * &displacements;
+        let [temperature, rr, yy, hoop] = self.turns.values(&self.grid, &self.temperatures, [&columns, &displacements], &winding)?;
         let m = design.dehomogenization;
-        let radial = &self.turns.radial * &displacements * m.m_rx
-            + &self.turns.axial * &displacements * m.m_ry
-            + &axial * m.m_rz
-            + &temperature * m.m_rt;
+        let radial = rr * m.m_rx + yy * m.m_ry + &hoop * m.m_rz + &temperature * m.m_rt;
         let bore = columns.tr_mul(&self.bore_value(design, &changed)?);
-        Ok(TurnFields { temperature, axial, radial, bore: bore.as_slice().to_vec() })
+        Ok(TurnFields { temperature, axial: hoop, radial, bore: bore.as_slice().to_vec() })
     }
 
     /// Every temperature field at a place of the reference section.

@@ -42,6 +42,10 @@ pub enum Parameter {
     MediumConductivity,
     /// Specific heat of the medium \[J/(kg K)\].
     MediumSpecificHeat,
+    /// Axial place at which the winding begins between the flanges \[m\]: turns are spread to where it ends, the coil around them stays.
+    WindingStart,
+    /// Axial place at which it ends \[m\], likewise.
+    WindingEnd,
     /// Wall of the hub \[m\]: the bore moves, and with it a thermometer that sits on it.
     HubThickness,
     /// Thickness of every flange \[m\]: the outer face moves, and with it a thermometer that sits on it.
@@ -93,6 +97,17 @@ fn same(a: f64, b: f64) -> bool {
 }
 
 impl Parameter {
+    /// Whether it is a place of the winding within the coil, which is cut to no drawing: it may be 0, and its turns stay in the coil.
+    pub fn of_winding(self) -> bool {
+        matches!(self, Self::WindingStart | Self::WindingEnd)
+    }
+
+    /// Distance by which a place of the winding may move before a turn's centre reaches the coil's face there \[m\], 0 where one lies outside.
+    pub(super) fn axial_room(self, design: &Design) -> f64 {
+        let [low, high] = design.winding.reach();
+        if self == Self::WindingStart { low.max(0.0) } else { (design.body.height - high).max(0.0) }
+    }
+
     /// Every parameter.
     pub const ALL: &[Self] = &[
         Self::CoilConductivity,
@@ -113,6 +128,8 @@ impl Parameter {
         Self::SpoolExpansion,
         Self::MediumConductivity,
         Self::MediumSpecificHeat,
+        Self::WindingStart,
+        Self::WindingEnd,
         Self::HubThickness,
         Self::FlangeThickness,
         Self::FlangeOverhang,
@@ -130,8 +147,8 @@ impl Parameter {
     /// Its usual deviation from the drawing.
     ///
     /// Judgement, not measurement: data sheets of adhesives and coatings leave 10 % of a modulus or a conductivity open and 5 % of a heat
-    /// capacity or an expansion, handbooks of metals 3 to 5 %; lengths are within ISO 2768-m, ±0.1 mm as two standard deviations; still air is a
-    /// model of the medium. Poisson's ratios keep the law positive definite.
+    /// capacity or an expansion, handbooks of metals 3 to 5 %; lengths are within ISO 2768-m, ±0.1 mm as two standard deviations, of which the distance
+    /// between flanges leaves half of the variance to either end of a winding; still air is a model of the medium. Poisson's ratios keep the law positive definite.
     pub fn tolerance(self) -> Tolerance {
         match self {
             Self::CoilConductivity | Self::TransverseModulus | Self::MediumConductivity | Self::Film => Tolerance::Relative(0.10),
@@ -144,6 +161,7 @@ impl Parameter {
             Self::SpoolDensity => Tolerance::Relative(0.01),
             Self::TransversePoisson => Tolerance::Relative(0.003),
             Self::HubThickness | Self::FlangeThickness | Self::FlangeOverhang => Tolerance::Absolute(0.05e-3),
+            Self::WindingStart | Self::WindingEnd => Tolerance::Absolute(0.035e-3),
             Self::Margin => Tolerance::Absolute(0.5e-3),
             Self::HubResistance | Self::FlangeResistance(_) | Self::Mount(_) | Self::Heater(_) => Tolerance::Exact,
         }
@@ -176,6 +194,8 @@ impl Parameter {
             Self::SpoolExpansion => solid(|m| m.elastic.thermal_expansion),
             Self::MediumConductivity => still.then_some(medium.conductivity),
             Self::MediumSpecificHeat => still.then_some(medium.specific_heat),
+            Self::WindingStart => Some(design.winding.start),
+            Self::WindingEnd => Some(design.winding.edges()[1]),
             Self::HubThickness => spool.map(|s| s.hub_thickness),
             Self::FlangeThickness => first().map(|f| f.thickness),
             Self::FlangeOverhang => first().map(|f| f.overhang).filter(|overhang| *overhang > 0.0),
@@ -245,6 +265,11 @@ impl Parameter {
             Self::TransverseExpansion => body.elastic.alpha_r = value,
             Self::MediumConductivity => medium.conductivity = value,
             Self::MediumSpecificHeat => medium.specific_heat = value,
+            Self::WindingStart => {
+                let [_, end] = design.winding.edges();
+                (changed.winding.start, changed.winding.end) = (value, Some(end));
+            }
+            Self::WindingEnd => changed.winding.end = Some(value),
             Self::Margin => medium.margin = value,
             Self::HubResistance => heat.hub_resistance = value,
             Self::FlangeResistance(side) => {

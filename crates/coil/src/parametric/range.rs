@@ -39,7 +39,8 @@ impl Range {
         let of = |(parameter, value, by): (Parameter, f64, f64)| {
             let by = REACH * by;
             // a wall keeps half of its thickness, whatever the tolerance
-            let less = if matches!(parameter.tolerance(), Tolerance::Absolute(_)) { by.min(value.abs() / 2.0) } else { by };
+            let is_wall = !parameter.of_winding() && matches!(parameter.tolerance(), Tolerance::Absolute(_));
+            let less = if is_wall { by.min(value.abs() / 2.0) } else { by };
             Self { parameter, low: value - less, high: value + by }
         };
         all.into_iter().map(of).collect()

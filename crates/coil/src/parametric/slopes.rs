@@ -1,10 +1,11 @@
 //! Derivatives of every output of a parametric model with respect to its parameters.
 
 use super::heat::Modes;
-use super::model::{Fibre, ParametricModel};
+use super::model::ParametricModel;
 use super::parameter::Parameter;
 use super::section::Section;
 use super::structure::Solved;
+use super::turns::{Fibre, Weighted};
 use crate::{Design, Error, MechanicalState, Outputs, Reduced};
 use fem_core::dense::{product, transposed_product};
 use nalgebra::{DMatrix, DVector};
@@ -59,6 +60,8 @@ impl Parameter {
             }
             Self::AxialPoisson | Self::SpoolPoisson => 1e-4 * value.abs().max(0.1),
             Self::AxialExpansion | Self::TransverseExpansion | Self::SpoolExpansion => 1e-4 * value.abs().max(1e-6),
+            // strain jumps by its error from element to element: wide beside that, and every turn in the coil
+            Self::WindingStart | Self::WindingEnd => (0.1 * design.winding.pitch).min(self.axial_room(design) / 2.0),
             _ => 1e-4 * value.abs(),
         }
     }
@@ -238,11 +241,24 @@ impl ParametricModel {
                 bore += self.bore_value(of, changed)? * *weight;
             }
         }
+        // turns elsewhere weigh the same fields otherwise, tails do not
+        let moved = if parameter.of_winding() {
+            let fibres = stencil.iter().map(|(_, of, _)| self.fibre(of)).collect::<Result<Vec<_>, _>>()?;
+            let terms: Vec<(f64, &Weighted)> = stencil.iter().zip(&fibres).map(|((w, ..), fibre)| (*w, &fibre.sums)).collect();
+            Some(Fibre { length: fibre.length, tail_weight: 0.0, sums: Weighted::combined(&terms) })
+        } else {
+            None
+        };
         let heat = if parameter.of_heat() { self.heat.change(&stencil)? } else { [None, None] };
         let (c, tails) = (design.optics.coefficients(fibre.length)?, &bore * fibre.tail_weight);
         let free = &tails * design.optics.thermal_expansion;
         let mut parts = Vec::new();
         for (state, Strained { solved, adjoint }) in states.iter().zip(strained) {
+            if let Some(moved) = &moved {
+                let through = solved.through(&solved.adjoint(&self.strain_functionals(design, &moved.sums)));
+                parts.push(self.parts(design, moved, &bore, &through)?);
+                continue;
+            }
             let through = if parameter.of_mechanics() {
                 solved.changed(adjoint, &self.structure.change(&stencil, state)?)
             } else {

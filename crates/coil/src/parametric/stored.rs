@@ -2,11 +2,12 @@
 
 use super::effort::Effort;
 use super::heat::Heat;
-use super::model::{ParametricModel, Turns};
+use super::model::ParametricModel;
 use super::project::Fields;
 use super::range::Range;
 use super::section::{Section, domain};
 use super::structure::Structure;
+use super::turns::Turns;
 use crate::layout::Skins;
 use crate::{Bonds, Design, Error, Grid, Layout, MeshFineness};
 use nalgebra::DVector;

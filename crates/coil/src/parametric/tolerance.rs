@@ -68,6 +68,9 @@ impl Number {
     }
 }
 
+/// Standard deviations of a winding's start or end until a turn's centre reaches a face of the coil, at least.
+const WITHIN: f64 = 4.0;
+
 /// Tolerances of a drawing: those that it gives, and of all other numbers the usual ones ([`Number::tolerance`]).
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -84,6 +87,17 @@ impl Tolerances {
         self.given.iter().find(|(given, _)| *given == number).map_or_else(|| number.tolerance(), |(_, tolerance)| *tolerance)
     }
 
+    /// One standard deviation of a number of a design, SI; `None` if the design has no such number. A winding's turns
+    /// stay in the coil: four of it take none to a face.
+    pub fn sd(&self, number: Number, design: &Design) -> Option<f64> {
+        let drawn = number.of(design)?;
+        let sd = self.of(number).of(drawn);
+        Some(match number {
+            Number::Constant(place) if place.of_winding() => sd.min(place.axial_room(design) / WITHIN),
+            _ => sd,
+        })
+    }
+
     /// Correlations of some numbers, all with all.
     pub fn correlation(&self, numbers: &[Number]) -> DMatrix<f64> {
         let of = |a: Number, b: Number| {
@@ -96,9 +110,8 @@ impl Tolerances {
     /// Every constant of a design that has one, with its drawn value and one standard deviation, SI.
     pub fn constants(&self, design: &Design) -> Vec<(Parameter, f64, f64)> {
         let of = |&parameter: &Parameter| {
-            let drawn = parameter.of(design)?;
-            let by = self.of(Number::Constant(parameter)).of(drawn);
-            (by > 0.0).then_some((parameter, drawn, by))
+            let by = self.sd(Number::Constant(parameter), design)?;
+            (by > 0.0).then_some((parameter, parameter.of(design)?, by))
         };
         Parameter::ALL.iter().filter_map(of).collect()
     }

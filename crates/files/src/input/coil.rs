@@ -124,6 +124,7 @@ fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
     let winding = winding(&top.group("winding"), &file.winding)?;
     let inner_radius = winding.spec().inner_radius;
     check_rectangle(&top.group("coil"), &file.coil, &winding)?;
+    check_place(&top.group("winding"), &file.coil, &winding)?;
     let spool = file.spool.as_ref().map(|file| spool(&top.group("spool"), file, inner_radius)).transpose()?;
     let mut sensor: Sensor = file.sensor.model();
     if spool.is_none() {
@@ -238,6 +239,20 @@ fn check_rectangle(at: &Group, file: &BodyFile, winding: &Winding) -> Result<(),
             let remedy = format!("set it to {wound:.4} or more, or check layers, turns and pitch_mm");
             return Err(at.fault(key, problem, remedy));
         }
+    }
+    Ok(())
+}
+
+/// Whether every turn's centre lies in the coil.
+fn check_place(at: &Group, file: &BodyFile, winding: &Winding) -> Result<(), InputError> {
+    let height = file.height_mm.0;
+    let ([first, last], [start, end]) = (winding.spec().reach().map(to_mm), winding.spec().edges().map(to_mm));
+    let outside = |centre: f64| format!("the centre of a turn lies at {centre:.4} mm, outside the coil's 0 to {height} mm");
+    if first <= 0.0 {
+        return Err(at.fault("start_mm", outside(first), format!("give more than {:.4}", start - first)));
+    }
+    if last >= height {
+        return Err(at.fault("end_mm", outside(last), format!("give less than {:.4}", end + height - last)));
     }
     Ok(())
 }

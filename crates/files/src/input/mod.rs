@@ -81,5 +81,5 @@ pub use rows::Table;
 pub use schema::schemas;
 pub use spool::{SpoolCase, read_spool};
 pub use targets::{TargetsCase, check_targets, read_targets};
-pub use tolerances::keyed;
+pub use tolerances::{keyed, keyed_sd};
 pub use written_constants::with_constants;

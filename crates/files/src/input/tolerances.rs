@@ -11,6 +11,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use super::InputError;
 use super::group::Group;
 use super::name::meant;
+use crate::units::parameter_unit;
 
 /// One standard deviation of a number: a share of it, or in the unit of its key.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -70,6 +71,8 @@ const KEYS: &[(&str, Number, f64)] = &[
     ("spool.material.conductivity_w_per_mk", Number::Constant(Parameter::SpoolConductivity), 1.0),
     ("spool.material.density_kg_per_m3", Number::Constant(Parameter::SpoolDensity), 1.0),
     ("spool.material.specific_heat_j_per_kgk", Number::Constant(Parameter::SpoolSpecificHeat), 1.0),
+    ("winding.start_mm", Number::Constant(Parameter::WindingStart), MM),
+    ("winding.end_mm", Number::Constant(Parameter::WindingEnd), MM),
     ("spool.hub_thickness_mm", Number::Constant(Parameter::HubThickness), MM),
     ("spool.flanges.thickness_mm", Number::Constant(Parameter::FlangeThickness), MM),
     ("spool.flanges.overhang_mm", Number::Constant(Parameter::FlangeOverhang), MM),
@@ -86,6 +89,11 @@ const KEYS: &[(&str, Number, f64)] = &[
 pub fn keyed(number: Number, design: &Design) -> Option<(&'static str, f64)> {
     let (key, unit) = key(number, design)?;
     Some((key, number.of(design)? / unit))
+}
+
+/// One standard deviation of a number of a design in the unit of its key; `None` where the design has no such number.
+pub fn keyed_sd(number: Number, design: &Design, tolerances: &Tolerances) -> Option<f64> {
+    Some(tolerances.sd(number, design)? / key(number, design)?.1)
 }
 
 /// Largest share: beyond it a number means nothing.
@@ -115,7 +123,7 @@ fn correlated_by(
     for (at, (first, second, r)) in top.each("correlations", file) {
         let known = |key: &String| {
             let number = KEYS.iter().find(|(known, ..)| known == key).map(|(_, number, _)| *number);
-            let has = |n: &Number| n.of(design).is_some_and(|drawn| tolerances.of(*n).of(drawn) > 0.0);
+            let has = |n: &Number| tolerances.sd(*n, design).is_some_and(|sd| sd > 0.0);
             number.filter(has).ok_or_else(|| at.fault("", format!("{key:?} is no number with a tolerance"), "see tolerances"))
         };
         let (a, b) = (known(first)?, known(second)?);
@@ -186,6 +194,7 @@ fn given(at: &Group, file: &TolerancesFile, design: &Design) -> Result<Vec<(Numb
         let (Some(drawn), Some((_, unit))) = (number.of(design), self::key(*number, design)) else {
             return Err(at.fault("", format!("{key:?} has a tolerance, but the design has no such number"), "remove it"));
         };
+        let may_be_0 = matches!(number, Number::Tail | Number::Constant(Parameter::WindingStart));
         let (value, unit) = match tolerance {
             ToleranceFile::Relative(value) => (*value, None),
             ToleranceFile::Absolute(value) => (*value, Some(unit)),
@@ -197,14 +206,14 @@ fn given(at: &Group, file: &TolerancesFile, design: &Design) -> Result<Vec<(Numb
         if !value.is_finite() || value < 0.0 {
             return of(format!("{value} is no standard deviation"));
         }
-        if unit.is_none() && *number == Number::Tail {
-            return of("a share of a tail's length says nothing where it is 0; give it in m".into());
+        if unit.is_none() && may_be_0 {
+            return of(format!("a share of {drawn} says nothing where it is 0; give it in {}", parameter_unit(key)));
         }
-        if *number != Number::Tail && drawn == 0.0 {
+        if !may_be_0 && drawn == 0.0 {
             return of("the design's own value is 0, of which nothing varies".into());
         }
         let share = unit.map_or(value, |unit| value * unit / drawn.abs());
-        if *number != Number::Tail && share > MOST {
+        if !may_be_0 && share > MOST {
             return of(format!("{share} of the value is more than {MOST}, the most accepted"));
         }
         given.push((*number, unit.map_or(Tolerance::Relative(value), |unit| Tolerance::Absolute(value * unit))));
@@ -282,8 +291,15 @@ mod tests {
             read(&TEMPLATE.replace("Absolute(0.02)", "Relative(0.02)"))
                 .err()
                 .unwrap_or_default()
-                .contains("a share of a tail's length")
+                .contains("a share of 0 says nothing where it is 0; give it in m")
         );
+        let start = |tolerance: &str| {
+            read(&TEMPLATE.replace("\"winding.start_mm\": Absolute(0.035)", &format!("\"winding.start_mm\": {tolerance}")))
+                .err()
+                .unwrap_or_default()
+        };
+        assert!(start("Relative(0.1)").contains("give it in mm"), "{}", start("Relative(0.1)"));
+        assert_eq!(start("Absolute(0.01)"), "");
     }
 
     #[test]

@@ -35,9 +35,11 @@ pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> V
             found.push(Remark::UnfilledCoil.warning(message));
         }
     };
-    let at_left = ": they begin at the left face, and the sensitivity depends on the room at the right";
+    let at_left = ": they begin at the left face, and the sensitivity depends on that; give winding.start_mm and end_mm";
     unfilled("reaches to", "coil.outer_radius_mm", ROOM, body.outer_radius, winding.outer_radius(), "");
-    unfilled("is as high as", "coil.height_mm", AXIAL_ROOM, body.height, winding.height(), at_left);
+    if design.winding.start == 0.0 && design.winding.end.is_none() {
+        unfilled("is as high as", "coil.height_mm", AXIAL_ROOM, body.height, winding.height(), at_left);
+    }
     let (inner, outer) = (2.0 * design.winding.inner_radius, 2.0 * body.outer_radius);
     let sagnac = design.optics.sagnac_diameter;
     if !(inner..=outer).contains(&sagnac) {

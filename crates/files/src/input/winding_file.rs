@@ -5,8 +5,8 @@ use winding::{ClimbSide, LayerDefect, Pattern, Spec, Tails, TurnLength, Winding}
 
 use super::InputError;
 use super::group::Group;
-use super::mirror::{Mirror, mirrored, mirrored_choice};
-use super::quantity::{LengthMm, PitchMm, TailM};
+use super::mirror::{Mirror, mirrored, mirrored_choice, says_default};
+use super::quantity::{LengthMm, PitchMm, PositionMm, TailM};
 
 const MOST_LAYERS: usize = 10_000;
 const MOST_TURNS: usize = 100_000;
@@ -26,6 +26,12 @@ mirrored! {
         inner_radius_mm: LengthMm = inner_radius,
         /// Distance of neighbouring turns.
         pitch_mm: PitchMm = pitch,
+        /// Axial place at which the winding begins, from the coil's left face; 0 unless given.
+        #[serde(default, skip_serializing_if = "says_default::<f64, _>")]
+        start_mm: PositionMm = start,
+        /// Axial place at which it ends, its turns spread evenly; None, where turns touch, unless given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        end_mm: Option<PositionMm> = end,
         /// Side at which the CW half passes from layer to layer; Right is +y.
         cw_climbs: SideFile = cw_climbs,
         /// True: 2 pi r; Equal: every turn the mean length.
@@ -75,6 +81,8 @@ pub(super) fn winding(at: &Group, file: &WindingFile) -> Result<Winding, InputEr
 fn field(error: &winding::Error) -> &'static str {
     use winding::Error::{DefectLayer, DefectTurns, EvenTurns, Length, NoLayers, TooFewTurns, TooLong, TooManyTurns};
     match error {
+        Length { field: "start", .. } => "start_mm",
+        Length { field: "end", .. } => "end_mm",
         Length { field, .. } => field,
         EvenTurns { .. } => "turns_even_layers",
         TooFewTurns { layer, .. } if layer % 2 == 0 => "turns_even_layers",

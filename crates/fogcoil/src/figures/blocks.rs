@@ -85,6 +85,8 @@ mod tests {
                 turns_even_layers: odd - 1,
                 inner_radius: 0.04,
                 pitch: 1.7e-4,
+                start: 0.0,
+                end: None,
                 cw_climbs: ClimbSide::Right,
                 turn_length: TurnLength::True,
                 tails: Tails { cw: 0.0, ccw: 0.0 },

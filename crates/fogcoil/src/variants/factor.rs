@@ -42,9 +42,8 @@ impl Factor {
     /// Numbers of a design that deviate within its tolerances.
     pub fn within_tolerances(design: &Design, tolerances: &Tolerances) -> Vec<Self> {
         let of = |number: Number| {
-            let key =
-                number.of(design).filter(|drawn| tolerances.of(number).of(*drawn) > 0.0).and_then(|_| keyed(number, design));
-            let Some((key, _)) = key else { return Vec::new() };
+            let has = tolerances.sd(number, design).is_some_and(|sd| sd > 0.0);
+            let Some((key, _)) = keyed(number, design).filter(|_| has) else { return Vec::new() };
             let one = |key: String, of| Self { group: Group::of(&key), key, kind: Kind::Tolerance(of) };
             match number {
                 Number::Tail => {
@@ -83,8 +82,8 @@ impl Factor {
         let Kind::Tolerance(of) = self.kind else { return };
         match of {
             Toleranced::Number(number) => {
-                if let Some(drawn) = number.of(design) {
-                    *design = number.set(design, drawn + deviations * tolerances.of(number).of(drawn));
+                if let Some((drawn, sd)) = number.of(design).zip(tolerances.sd(number, design)) {
+                    *design = number.set(design, drawn + deviations * sd);
                 }
             }
             Toleranced::CwTail => design.winding.tails.cw += deviations * tolerances.of(Number::Tail).of(0.0),

@@ -88,6 +88,10 @@ fn a_bad_value_in_the_coil() {
     let cases: &[Case] = &[
         ("outer_radius_mm: 48.825", "outer_radius_mm: 48.0", "coil.outer_radius_mm", "the winding reaches 48.8229 mm"),
         ("outer_radius_mm: 48.825", "outer_radius_mm: 5.325", "coil.outer_radius_mm", "not greater than winding.inner_radius_mm"),
+        ("cw_climbs: Right", "start_mm: -0.1, cw_climbs: Right", "winding.start_mm", "give more than -0.0850"),
+        ("cw_climbs: Right", "end_mm: 18.2, cw_climbs: Right", "winding.end_mm", "give less than 18.105"),
+        ("cw_climbs: Right", "end_mm: -1.0, cw_climbs: Right", "winding.end_mm", "above start"),
+        ("cw_climbs: Right", "start_mm: inf, cw_climbs: Right", "winding.start_mm", "must lie between"),
         ("height_mm: 18.02", "height_mm: 17.85", "coil.height_mm", "the winding reaches 18.0200 mm"),
         ("e_r_mpa: 95.2", "e_r_mpa: 0.0", "coil.material.e_r_mpa", "not greater than 0"),
         ("nu_r: 0.979", "nu_r: 0.999", "coil.material.nu_r", "0.997982"),

@@ -13,12 +13,13 @@ use super::scene::{Scene, minus, times};
 use super::unit::meta;
 use crate::Failure;
 use crate::truth::ConcealedEffect;
-use coil::Design;
+use coil::{Design, Parameter};
 
 /// Signal-to-noise ratios, given the tolerances, that laws are sized to, evenly in the logarithm.
 const STRENGTH: [f64; 2] = [5.0, 150.0];
-/// Constants with their standard deviations, relative: of the coil k_r, c, E_r with G, E_z, α_r, α_z; α of the spool; k of the air; ∂n/∂T.
-const TOLERANCES: [f64; 9] = [0.1, 0.05, 0.1, 0.03, 0.03, 0.03, 0.02, 0.05, 0.05];
+/// Constants with their standard deviations, relative: of the coil k_r, c, E_r with G, E_z, α_r, α_z; α of the spool; k of the air; ∂n/∂T; and, in pitches,
+/// the winding's start and end.
+const TOLERANCES: [f64; 11] = [0.1, 0.05, 0.1, 0.03, 0.03, 0.03, 0.02, 0.05, 0.05, 0.1, 0.1];
 /// Standard deviations beyond which a unit is no good one.
 const FARTHEST: f64 = 2.0;
 /// Standard deviations that derivatives are taken with.
@@ -48,7 +49,12 @@ fn moved(build: &mut Build, constant: usize, deviations: f64) {
         5 => body.elastic.alpha_z *= by,
         6 => spool.iter_mut().for_each(|spool| spool.material.elastic.thermal_expansion *= by),
         7 => surroundings.conductivity *= by,
-        _ => optics.thermo_optic *= by,
+        8 => optics.thermo_optic *= by,
+        _ => {
+            let edge = if constant == 9 { Parameter::WindingStart } else { Parameter::WindingEnd };
+            let from = edge.of(&build.design).unwrap_or_default();
+            build.design = edge.set(&build.design, from + (by - 1.0) * build.design.winding.pitch);
+        }
     }
 }
 

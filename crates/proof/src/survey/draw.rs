@@ -74,6 +74,8 @@ fn winding(random: &mut Random) -> Spec {
         turns_even_layers: turns_odd_layers - random.below(2),
         inner_radius: random.log_uniform(4e-3, 300e-3),
         pitch: random.log_uniform(0.1e-3, 0.4e-3),
+        start: 0.0,
+        end: None,
         cw_climbs: if random.chance(0.5) { ClimbSide::Left } else { ClimbSide::Right },
         turn_length: if random.chance(0.9) { TurnLength::True } else { TurnLength::Equal },
         tails: Tails { cw: random.uniform(0.0, 2.0), ccw: random.uniform(0.0, 2.0) },
