@@ -107,6 +107,28 @@ fn sound_recordings_pass() {
 }
 
 #[test]
+fn a_rate_of_few_counts_is_coarse_and_not_stuck() {
+    // noise in counts, the mean between two of them: two to seven different values
+    for (seed, noise) in (0..30).flat_map(|seed| [0.3, 0.45, 0.8].map(|noise| (seed, noise))) {
+        let (mut sample, mut random) = (sound(seed, 0.01), Random::new(seed + 500));
+        let count = |_: &f64| 0.7 * (0.4 + noise * random.normal()).round();
+        sample.rate = sample.time.iter().map(count).collect();
+        let report = sample.report();
+        let coarse = |finding: &Finding| matches!(finding.kind, FindingKind::Quantised { step, .. } if (step / 0.7 - 1.0).abs() < 1e-9);
+        assert!(report.findings.iter().all(coarse), "seed {seed}, {noise}: {:?}", report.findings);
+        assert!(report.masks.iter().flatten().all(|used| *used));
+        assert!((report.channels[1].step.unwrap() / 0.7 - 1.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn levels_of_a_programme_are_no_resolution() {
+    let mut sample = sound(1, 0.01);
+    sample.temperature = sample.time.iter().map(|t| if (t / 3000.0) as usize % 2 == 0 { -20.0 } else { 50.0 }).collect();
+    assert_eq!(sample.report().channels[0].step, None);
+}
+
+#[test]
 fn moving_temperatures_pass_at_any_resolution() {
     for seed in 0..100 {
         for (resolution, amplitude) in [(0.01, 40.0), (0.0625, 40.0), (0.0625, 0.5), (0.1, 3.0), (0.5, 40.0)] {

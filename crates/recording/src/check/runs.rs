@@ -6,8 +6,11 @@ use super::summary::Context;
 use super::{Finding, FindingKind, Repair, Severity};
 use crate::statistics::median;
 
-/// Fewest different values of which a lattice can be told.
+/// Fewest different values of which a lattice can be told by their places alone.
 const FEWEST_VALUES: usize = 5;
+/// Changes from one value to another that tell a lattice of fewer: so many, and in one of so many rows. A programme's levels change more rarely, and so
+/// does what is stuck now and then.
+const CHANGES: [usize; 2] = [16, 20];
 /// Largest distance of a value from its lattice, in steps: printing to few digits moves values.
 const OFF_LATTICE: f64 = 0.2;
 /// Steps below this share of the largest value are rounding.
@@ -27,12 +30,14 @@ const HIDDEN: f64 = 0.35;
 /// That jump: in steps, and in the differences beside it.
 const JUMP: f64 = 5.0;
 
-/// Step of the lattice on which the values lie; `None` if they lie on none that is coarser than rounding.
+/// Step of the lattice on which the values lie, in the order of time; `None` if they lie on none that is coarser than rounding.
 pub(super) fn step(values: &[f64]) -> Option<f64> {
     let mut different = values.to_vec();
     different.sort_by(f64::total_cmp);
     different.dedup();
-    if different.len() < FEWEST_VALUES {
+    let changes = || values.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    let [fewest, rows] = CHANGES;
+    if different.len() < 2 || different.len() < FEWEST_VALUES && changes() < fewest.max(values.len() / rows) {
         return None;
     }
     let differences: Vec<f64> = different.windows(2).map(|pair| pair[1] - pair[0]).collect();
