@@ -71,6 +71,9 @@ impl Optics {
     }
 
     /// Sagnac phase \[rad\] of a rotation `rate` Ω \[rad/s\], `Ω 2π L D/(λ c)`, for a fibre of `length` L \[m\] and light of vacuum `wavelength` λ \[m\].
+    ///
+    /// With the sign of eqs. (1) and (2) it is the phase that the wave which enters at z = L has gathered, less that of the wave which enters at z = 0: fibre near
+    /// z = 0 that warms up meets the first of them later, and gives it more.
     pub fn phase(&self, rate: f64, length: f64, wavelength: f64) -> f64 {
         rate * TAU * length * self.sagnac_diameter / (wavelength * SPEED_OF_LIGHT)
     }

@@ -58,7 +58,7 @@ impl Ring {
 /// Role of a ring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// Glass: counted in the mean strain of the dehomogenisation matrix.
+    /// The core whose mean strain the dehomogenisation matrix gives: glass in a coil, steel in a cable.
     Glass,
     /// Coating.
     Coating,

@@ -111,13 +111,25 @@ pub struct Scene {
 }
 
 /// A mechanism as it is offered for a design: its unknowns and where fits of them start.
+///
+/// With two parameters, as a time constant and an amplitude, fits start at pairs of values:
+///
+/// ```
+/// use diagnosis::{Parameter, Prior};
+/// use mechanisms::Offer;
+///
+/// let amplitude = Parameter::new("amplitude_deg_per_h", Prior::Normal { mean: 0.0, sd: 0.3 });
+/// let lag = Parameter::new("lag_s", Prior::LogNormal { median: 600.0, spread: 1.0 });
+/// let offer = Offer { parameters: vec![amplitude, lag], choice: None, starts: vec![vec![0.1, 200.0], vec![0.1, 2000.0]] };
+/// assert!(offer.starts.iter().all(|start| start.len() == offer.parameters.len()));
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Offer {
     /// Its parameters, whose names end in their units.
     pub parameters: Vec<Parameter>,
     /// A further, whole-numbered parameter with its candidates.
     pub choice: Option<(String, Vec<f64>)>,
-    /// Values of the parameters from which fits start.
+    /// Values of the parameters, in their order, from which fits start.
     pub starts: Vec<Vec<f64>>,
 }
 
