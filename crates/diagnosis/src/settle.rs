@@ -24,6 +24,8 @@ pub struct Settled<M> {
     alone: Alone<M>,
     /// The constants re-estimated, nothing else at work, under the model that is good about *them*: to be compared with all others.
     pub recalibrated: Fit,
+    /// The likeliest mechanism beside the constants, where [`Self::model`] is good about those: where a search begins.
+    pub leading: Option<Fit>,
     /// The mechanism that explains most beside the constants, by its number, and how much ln evidence it gains on them alone, if it leads on them.
     pub suspect: Option<(usize, f64)>,
 }
@@ -91,7 +93,7 @@ pub fn settled<M: ForwardModel>(
     // constants that had to go far may stand for a mechanism that is near the drawing: about them it does not show
     let suspect = leading.hypothesis.mechanisms.first().map(|(mechanism, _)| (*mechanism, gain));
     if gain <= MATTERS && strain(model, &recalibrated) <= STRAINED {
-        return Ok(Settled { model: alone.about, alone: Alone::Settled, recalibrated, suspect });
+        return Ok(Settled { model: alone.about, alone: Alone::Settled, recalibrated, leading: None, suspect });
     }
     let mut beside = way(first)?;
     while !beside.arrived {
@@ -103,9 +105,10 @@ pub fn settled<M: ForwardModel>(
     let gain = leader.log_evidence - recalibrated.log_evidence;
     let suspect = leader.hypothesis.mechanisms.first().map(|(mechanism, _)| (*mechanism, gain));
     Ok(if gain > 0.0 {
-        Settled { model: beside.about, alone: alone.about.map_or(Alone::Given, Alone::Other), recalibrated, suspect }
+        let leading = Some(leader).filter(|leader| !leader.hypothesis.mechanisms.is_empty());
+        Settled { model: beside.about, alone: alone.about.map_or(Alone::Given, Alone::Other), recalibrated, leading, suspect }
     } else {
-        Settled { model: alone.about, alone: Alone::Settled, recalibrated, suspect }
+        Settled { model: alone.about, alone: Alone::Settled, recalibrated, leading: None, suspect }
     })
 }
 

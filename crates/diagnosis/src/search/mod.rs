@@ -31,6 +31,8 @@ struct Pool<'a, M> {
     /// Every mechanism alone, once for each of its choices.
     singles: Vec<Vec<Hypothesis>>,
     candidates: Vec<Candidate>,
+    /// A likely fit that is known beforehand: the first search for all others begins at it.
+    leading: Option<Fit>,
     /// Listener that is told each task as it begins, and the long ones as they go.
     progress: &'a dyn Fn(Step),
 }
@@ -48,10 +50,11 @@ pub fn diagnose<M: ForwardModel>(
     settings: &Settings,
     progress: &dyn Fn(Step),
 ) -> Result<Diagnosis, Error<M::Error>> {
-    compared(model, records, observations, settings, None, progress)
+    compared(model, records, observations, settings, [None, None], progress)
 }
 
-/// The same where a fit of the constants alone is known from a model that is good about them ([`crate::settled`]).
+/// The same where a fit of the constants alone is known from a model that is good about them, and one with the likeliest mechanism beside them
+/// ([`crate::settled`]).
 ///
 /// # Errors
 /// As [`diagnose`].
@@ -61,9 +64,10 @@ pub fn diagnose_beside<M: ForwardModel>(
     observations: &[Observation],
     settings: &Settings,
     recalibrated: Fit,
+    leading: Option<Fit>,
     progress: &dyn Fn(Step),
 ) -> Result<Diagnosis, Error<M::Error>> {
-    compared(model, records, observations, settings, Some(recalibrated), progress)
+    compared(model, records, observations, settings, [Some(recalibrated), leading], progress)
 }
 
 fn compared<M: ForwardModel>(
@@ -71,12 +75,12 @@ fn compared<M: ForwardModel>(
     records: &[usize],
     observations: &[Observation],
     settings: &Settings,
-    recalibrated: Option<Fit>,
+    [recalibrated, leading]: [Option<Fit>; 2],
     progress: &dyn Fn(Step),
 ) -> Result<Diagnosis, Error<M::Error>> {
     let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
     let singles = (0..model.mechanisms().len()).map(|m| alternatives(model, m)).collect();
-    let mut pool = Pool { fitter, settings: *settings, singles, candidates: Vec::new(), progress };
+    let mut pool = Pool { fitter, settings: *settings, singles, candidates: Vec::new(), leading, progress };
     if let Some(fit) = recalibrated {
         pool.push(fit, None);
     }

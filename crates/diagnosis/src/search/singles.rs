@@ -18,10 +18,12 @@ impl<M: ForwardModel> Pool<'_, M> {
     pub(super) fn singles(&self, nominal: &Fit) -> Result<(Fit, Vec<Fit>), Error<M::Error>> {
         let (model, observations) = (self.fitter.model, self.fitter.observations);
         let nominal = self.candidates.iter().find(|c| c.is_constants_alone()).map_or(nominal, |c| &c.fit);
+        // constants that make up for a mechanism may be too far from its own for a way back
+        let first = self.leading.as_ref().unwrap_or(nominal);
         // noise fitted to a residual has swallowed part of the effect: what is sought first is sought in calmer noise
-        let calm = nominal.noise.calmed(model.channels(), observations)?;
-        let mut leader = self.fitter.fit(&nominal.hypothesis, &calm, Some(nominal))?;
-        let (mut round, mut before) = (0, Vec::new());
+        let calm = first.noise.calmed(model.channels(), observations)?;
+        let mut leader = self.fitter.fit(&first.hypothesis, &calm, Some(first))?;
+        let (mut round, mut before) = (0, vec![leader.clone()]);
         loop {
             let fits = self.round(round, &leader, &before)?;
             let best = self.fitter.fit_with_noise(&fits[0].hypothesis, &fits[0], 2)?;

@@ -93,9 +93,9 @@ pub fn diagnose<'m>(
     let failed = &Error::of_diagnosis_with(&case.file, mechanisms);
     let settled = diagnosis::settled(&drawn, &numbers, &observations, progress).map_err(failed)?;
     let gyro = settled.model.as_ref().unwrap_or(&drawn);
-    let (settings, recalibrated) = (Settings::default(), settled.recalibrated.clone());
+    let (settings, recalibrated, leading) = (Settings::default(), settled.recalibrated.clone(), settled.leading.clone());
     let mut diagnosis =
-        diagnosis::diagnose_beside(gyro, &numbers, &observations, &settings, recalibrated, progress).map_err(failed)?;
+        diagnosis::diagnose_beside(gyro, &numbers, &observations, &settings, recalibrated, leading, progress).map_err(failed)?;
     let numbered: Vec<(usize, &Observation)> = (fits.len()..).zip(held.iter().map(|record| &record.observed)).collect();
     let alone = Some((settled.alone(&drawn), &settled.recalibrated));
     let Judgement { records, ruling, withdrawn } =
