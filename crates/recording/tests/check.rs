@@ -114,7 +114,8 @@ fn a_rate_of_few_counts_is_coarse_and_not_stuck() {
         let count = |_: &f64| 0.7 * (0.4 + noise * random.normal()).round();
         sample.rate = sample.time.iter().map(count).collect();
         let report = sample.report();
-        let coarse = |finding: &Finding| matches!(finding.kind, FindingKind::Quantised { step, .. } if (step / 0.7 - 1.0).abs() < 1e-9);
+        let coarse =
+            |finding: &Finding| matches!(finding.kind, FindingKind::Quantised { step, .. } if (step / 0.7 - 1.0).abs() < 1e-9);
         assert!(report.findings.iter().all(coarse), "seed {seed}, {noise}: {:?}", report.findings);
         assert!(report.masks.iter().flatten().all(|used| *used));
         assert!((report.channels[1].step.unwrap() / 0.7 - 1.0).abs() < 1e-9);

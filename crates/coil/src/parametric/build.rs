@@ -285,6 +285,8 @@ impl Parameter {
 
     /// Whether strain, or what the fibre makes of it, depends on it.
     pub fn of_mechanics(self) -> bool {
-        self.is_elastic() || self.of_winding() || matches!(self, Self::HubThickness | Self::FlangeThickness | Self::FlangeOverhang)
+        self.is_elastic()
+            || self.of_winding()
+            || matches!(self, Self::HubThickness | Self::FlangeThickness | Self::FlangeOverhang)
     }
 }

@@ -70,8 +70,7 @@ impl ParametricModel {
 
     /// Memory that it takes \[bytes\].
     pub fn bytes(&self) -> usize {
-        let numbers =
-            self.temperatures.values.len() + self.turns.numbers() + self.heat.numbers() + self.structure.numbers();
+        let numbers = self.temperatures.values.len() + self.turns.numbers() + self.heat.numbers() + self.structure.numbers();
         numbers * std::mem::size_of::<f64>()
     }
 
@@ -321,7 +320,8 @@ impl ParametricModel {
         let first = columns.ncols() - modes.rates.len();
         columns.view_mut((1, first), (n - 1, modes.rates.len())).copy_from(&modes.shapes);
         let displacements = self.structure.solved(design, &changed, state, usize::MAX)?.displacements() * &columns;
-        let [temperature, rr, yy, hoop] = self.turns.values(&self.grid, &self.temperatures, [&columns, &displacements], &winding)?;
+        let [temperature, rr, yy, hoop] =
+            self.turns.values(&self.grid, &self.temperatures, [&columns, &displacements], &winding)?;
         let m = design.dehomogenization;
         let radial = rr * m.m_rx + yy * m.m_ry + &hoop * m.m_rz + &temperature * m.m_rt;
         let bore = columns.tr_mul(&self.bore_value(design, &changed)?);

@@ -132,7 +132,8 @@ impl ParametricModel {
     pub(super) fn wound(&self, design: &Design) -> Result<Winding, Error> {
         let Spec { tails, start, end, .. } = design.winding;
         if design.winding != (Spec { tails, start, end, ..self.design.winding }) {
-            let problem = "this design is wound otherwise than the one that was modelled, beyond its tails and its place; model it anew";
+            let problem =
+                "this design is wound otherwise than the one that was modelled, beyond its tails and its place; model it anew";
             return Err(Error::design("winding", problem.into()));
         }
         Ok(winding::wind(&design.winding)?)

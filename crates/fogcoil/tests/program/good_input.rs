@@ -240,7 +240,10 @@ fn room_beside_the_winding_is_warned_of_where_the_sensitivity_feels_it() {
     );
     assert!(!noted("18.03").contains("unfilled-coil"), "{}", noted("18.03"));
     // who says where it is knows
-    folder.write("placed.ron", change(&change(COIL, "height_mm: 18.02", "height_mm: 18.05"), "cw_climbs", "start_mm: 0.01, end_mm: 18.04, cw_climbs"));
+    folder.write(
+        "placed.ron",
+        change(&change(COIL, "height_mm: 18.02", "height_mm: 18.05"), "cw_climbs", "start_mm: 0.01, end_mm: 18.04, cw_climbs"),
+    );
     let said = stderr(&folder.run(&["wind", "placed.ron"]));
     assert!(!said.contains("unfilled-coil"), "{said}");
 }
