@@ -125,7 +125,7 @@ fn a_rate_of_few_counts_is_coarse_and_not_stuck() {
 #[test]
 fn levels_of_a_programme_are_no_resolution() {
     let mut sample = sound(1, 0.01);
-    sample.temperature = sample.time.iter().map(|t| if (t / 3000.0) as usize % 2 == 0 { -20.0 } else { 50.0 }).collect();
+    sample.temperature = sample.time.iter().map(|t| if (t / 3000.0).rem_euclid(2.0) < 1.0 { -20.0 } else { 50.0 }).collect();
     assert_eq!(sample.report().channels[0].step, None);
 }
 
