@@ -53,7 +53,7 @@ fn mapped(a: &Sensitivity, b: &Sensitivity, of: impl Fn(f64, f64) -> f64) -> Sen
 }
 
 /// Changes of a design's steady-ramp sensitivity by its tolerances: one standard deviation of each number that acts in a ramp, in the order of
-/// [`Parameter::ALL`], tails last. Where the design cannot have a number on one side, as a Poisson's ratio beyond its bound, the other side counts alone.
+/// [`crate::Parameter::ALL`], tails last. Where the design cannot have a number on one side, as a Poisson's ratio beyond its bound, the other side counts alone.
 ///
 /// # Errors
 /// [`Error`] names the dimension or property at fault, or the solve that failed, of the design itself or on both sides of it.
