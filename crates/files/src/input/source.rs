@@ -56,7 +56,9 @@ impl Source {
 
     /// The file's content, of a kind if `fogcoil new` writes such files.
     pub(super) fn parse<T: DeserializeOwned>(&self, kind: Option<&Kind>) -> Result<T, InputError> {
-        ron::from_str(&self.text).map_err(|error| match mistaken(&self.text, kind) {
+        // an optional value may stand as it is
+        let format = ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
+        format.from_str(&self.text).map_err(|error| match mistaken(&self.text, kind) {
             Some((problem, remedy)) => InputError::whole(&self.path, problem, remedy),
             None => self.syntax_fault(&error),
         })

@@ -47,7 +47,6 @@ pub(crate) fn explain(error: &Error, rest: &str) -> (String, String) {
         }
         Error::ExpectedBoolean => ("`true` or `false` is needed", "write one of them"),
         Error::ExpectedString => ("a text is needed", "write it in double quotes"),
-        Error::ExpectedOption => ("`None` or `Some(...)` is needed", "write one of them"),
         Error::ExpectedArray => ("a list is needed", "write it in brackets, [...]"),
         Error::ExpectedMapColon => ("a colon is missing", "write `name: value`"),
         Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_) | Error::ExpectedDifferentStructName { .. } => {

@@ -32,7 +32,7 @@ pub(super) struct Outlier<'a> {
 }
 
 /// Distance from which a number stands out (B. Iglewicz and D. C. Hoaglin, *How to Detect and Handle Outliers*, 1993).
-const FAR: f64 = 3.5;
+pub(super) const FAR: f64 = 3.5;
 /// Distance from the design, in standard deviations of its tolerance, from which a constant is worth a line.
 const WORTH: f64 = 0.5;
 /// Fewest units that show a common deviation, and the usual range.

@@ -4,6 +4,7 @@
 //! from there. Every table and page is made of these files alone, so that it does not matter which run computed them.
 
 mod columns;
+mod doubt;
 mod finding;
 mod json;
 mod kept;

@@ -3,6 +3,7 @@
 use charts::{Cells, grid, nice, sections, significant};
 use maud::{Markup, html};
 
+use super::doubt::Doubt;
 use super::finding::Inputs;
 use super::kept::page;
 use super::limits::Limits;
@@ -30,7 +31,6 @@ pub fn report(inputs: &Inputs, limits: Option<&Limits>, batch: &Batch) -> String
 fn lead(batch: &Batch, limits: Option<&Limits>) -> Markup {
     let count = |verdict: &str| batch.rows.iter().filter(|(row, _)| row.verdict.as_deref() == Some(verdict)).count();
     let (failing, not_known, all) = (batch.failing(), batch.not_known(), batch.rows.len());
-    let doubtful = batch.rows.iter().filter(|(row, _)| row.shown_verdict().is_some_and(|verdict| verdict.ends_with('?'))).count();
     html! {
         p {
             @match (limits, failing + not_known) {
@@ -44,10 +44,8 @@ fn lead(batch: &Batch, limits: Option<&Limits>) -> Markup {
             }
             " Units that show no difference from the design: " (count("none")) "; that differ within tolerances: " (count("recalibrate"))
             "; by something that has a name: " (count("explained")) "; by something that has none: " (count("unknown")) "."
-            @if doubtful > 0 {
-                " Of " (doubtful) " the verdict is doubtful (?): its probability is below 0.8, and a small fault may hide in it."
-            }
         }
+        @if let Some(said) = Doubt::of(batch).said() { p { "Doubt: " (said) "." } }
         @for (serial, units) in repeated(&batch.units()) {
             p { (units.len()) " units have the serial number " (serial) ": " (units.join(", ")) "." }
         }
@@ -64,6 +62,7 @@ fn units(batch: &Batch) -> Markup {
     rows.sort_by_key(|(_, judged)| ["fail", "not known"].iter().position(|word| *word == judged.word()).unwrap_or(2));
     let told = |of: Text| batch.rows.iter().any(|(row, _)| of(row).is_some());
     let about: [(&str, Text); 3] = [("lot", |row| &row.lot), ("serial", |row| &row.serial), ("date", |row| &row.date)];
+    let doubt = Doubt::of(batch);
     let about: Vec<_> = about.into_iter().filter(|(_, of)| told(*of)).collect();
     html! {
         div.scroll role="group" tabindex="0" aria-label="Units" {
@@ -86,7 +85,7 @@ fn units(batch: &Batch) -> Markup {
                         @if let Some([low, high]) = row.interval("sensitivity") { " (" (nice(&significant(low, 3))) " to " (nice(&significant(high, 3))) ")" }
                     }
                     td { @if let Some(sigmas) = row.number("sigmas_from_predicted") { (nice(&format!("{sigmas:+.1} σ"))) } }
-                    td { (row.shown_verdict().unwrap_or_default()) }
+                    td { (doubt.shown(row).unwrap_or_default()) }
                     td { (shown(row.number("verdict_probability"), 2)) }
                     td { (row.open()) }
                     td { (shown(row.number("residual_over_noise"), 3)) }

@@ -1,6 +1,5 @@
 //! A unit as a row of the table.
 
-use diagnosis::SURE;
 use serde_json::Value;
 
 /// Numbers of a unit, in the order of the table; the first eight have intervals, as `fogcoil measure` tells them.
@@ -110,12 +109,6 @@ impl Row {
         NUMBERS.iter().position(|known| *known == name).and_then(|n| self.numbers[n])
     }
 
-    /// The verdict, with a question mark where it is not sure.
-    pub fn shown_verdict(&self) -> Option<String> {
-        let doubtful = self.number("verdict_probability").is_some_and(|probability| probability < SURE);
-        self.verdict.as_ref().map(|verdict| format!("{verdict}{}", if doubtful { "?" } else { "" }))
-    }
-
     /// What the records do not exclude, best first, in words.
     pub(super) fn open(&self) -> String {
         self.set.join(" or ")
@@ -205,7 +198,7 @@ mod tests {
         assert_eq!((row.serial.as_deref(), row.number("sensitivity"), row.number("arw")), (Some("42"), Some(-2.7), Some(0.001)));
         assert_eq!((row.interval("arw"), row.number("peak"), row.why("peak")), (None, None, Some("it moved")));
         assert_eq!((row.first.as_deref(), row.number("first_probability")), (Some("debond"), Some(0.9)));
-        assert_eq!((row.number("verdict_probability"), row.shown_verdict().as_deref()), (Some(0.7), Some("explained?")));
+        assert_eq!(row.number("verdict_probability"), Some(0.7));
         assert_eq!((row.interval("sensitivity"), row.interval("residual_over_noise")), (Some([-2.8, -2.6]), None));
         assert!((row.number("residual_over_noise").unwrap() - 3.0).abs() < 1e-12);
         assert_eq!((row.number("probability"), row.constants.len()), (Some(0.9), 1));
@@ -213,11 +206,13 @@ mod tests {
     }
 
     #[test]
-    fn a_design_that_suffices_is_doubted_below_the_sure() {
+    fn a_design_that_suffices_needs_no_other_constants() {
         let of = |none: f64, recalibrate: f64| {
             let verdicts = json!({"none": none, "recalibrate": recalibrate, "explained": 0.0, "unknown": 0.0});
-            Row::of(&json!({"unit": "U", "diagnosis": {"verdict": "recalibrate", "verdicts": verdicts}})).shown_verdict()
+            Row::of(&json!({"unit": "U", "diagnosis": {"verdict": "recalibrate", "verdicts": verdicts}}))
+                .number("verdict_probability")
+                .unwrap()
         };
-        assert_eq!([of(0.0, 0.63), of(0.35, 0.5)].map(Option::unwrap), ["recalibrate?", "recalibrate"]);
+        assert!((of(0.0, 0.63) - 0.63).abs() < 1e-12 && (of(0.35, 0.5) - 0.85).abs() < 1e-12);
     }
 }

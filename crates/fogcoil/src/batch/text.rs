@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::doubt::Doubt;
 use super::lot::{common, lots, outliers};
 use super::row::unit_of;
 use super::run::Batch;
@@ -11,6 +12,7 @@ use crate::table::{significant, table};
 /// A line for each unit, and the units that stand out.
 pub fn text(batch: &Batch) -> String {
     let head = ["unit", "sensitivity", "90 %", "residual/noise", "verdict", "judged", "what"].map(str::to_owned).to_vec();
+    let doubt = Doubt::of(batch);
     let rows = batch.rows.iter().map(|(row, judged)| {
         let shown = |value: Option<f64>, digits| value.map_or("-".to_owned(), |value| significant(value, digits));
         let interval =
@@ -21,7 +23,7 @@ pub fn text(batch: &Batch) -> String {
             shown(row.number("sensitivity"), 4),
             interval.unwrap_or_default(),
             shown(row.number("residual_over_noise"), 3),
-            row.shown_verdict().unwrap_or_else(|| "-".into()),
+            doubt.shown(row).unwrap_or_else(|| "-".into()),
             judged.word().to_owned(),
             [Some(row.open()).filter(|open| !open.is_empty()), reasons].into_iter().flatten().collect::<Vec<_>>().join("; "),
         ]
@@ -30,8 +32,8 @@ pub fn text(batch: &Batch) -> String {
     let mut out = table(&rows);
     out.push_str(LEFT);
     out.push_str(&judged(batch));
-    if batch.rows.iter().any(|(row, _)| row.shown_verdict().is_some_and(|verdict| verdict.ends_with('?'))) {
-        out.push_str("verdict?: its probability is below 0.8; a small fault may hide in it (column verdict_probability)\n");
+    if let Some(said) = doubt.said() {
+        let _ = writeln!(out, "{said}");
     }
     for (serial, units) in repeated(&batch.units()) {
         let _ = writeln!(out, "note: {} units have the serial number {serial}: {}", units.len(), units.join(", "));
@@ -115,8 +117,7 @@ mod tests {
             batch(&[Judged::Passes, Judged::Fails(reasons()), Judged::NotKnown(reasons()), Judged::Passes, Judged::Passes]);
         let text = text(&batch);
         for part in [
-            "recalibrate?",
-            "verdict?: its probability is below 0.8",
+            "the verdict's probability is below 0.8 in 5 of 5 units, 0.60 in the middle",
             "3 of 5 units pass, 1 fail (U1); of 1 it is not known (U2) (a figure is missing",
             "note: 5 units have the serial number 7: U0, U1, U2, U3, U4",
             "U0: cooling is -1.000 (deg/h)/(degC/min), far from the median -2.720 (deg/h)/(degC/min)",

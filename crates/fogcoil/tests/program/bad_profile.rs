@@ -130,7 +130,7 @@ fn heat_paths_that_cannot_be() {
         (contact("Right", "NaN"), "heat.flange_contacts[0].resistance_m2k_per_w", "not a finite number"),
         (contact("Right", "-1e-3"), "heat.flange_contacts[0].resistance_m2k_per_w", "negative"),
         (format!("heat: (film_w_per_m2k: Some(0.0)), {SENSOR}"), "heat.film_w_per_m2k", "not greater than 0"),
-        (format!("heat: (film_w_per_m2k: 20.0), {SENSOR}"), "heat.film_w_per_m2k", "`None` or `Some(...)`"),
+        (format!("heat: (film_w_per_m2k: 0.0), {SENSOR}"), "heat.film_w_per_m2k", "not greater than 0"),
         (format!("heat: (fan: 20.0), {SENSOR}"), "heat.fan", "unknown field `fan`; the fields here are hub_resistance_m2k_per_w"),
         ("heat: (film_w_per_m2k: Some(5.0)), sensor: (radius_mm: 55.0, y_mm: 10.01)".into(), "sensor", "a film stands in place"),
     ];

@@ -107,6 +107,24 @@ fn a_large_coil_makes_a_small_picture() {
 }
 
 #[test]
+fn an_optional_value_may_stand_without_some() {
+    let folder = Folder::new();
+    let wound = |end: &str| {
+        folder.write("coil.ron", change(COIL, "cw_climbs", &format!("end_mm: {end}, cw_climbs")));
+        json(&run(&folder, &["sensitivity", "coil.ron", "--json"]))["total"].clone()
+    };
+    assert_eq!(wound("18.0"), wound("Some(18.0)"));
+    assert_ne!(wound("18.0"), wound("None"));
+    folder.write(
+        "bare.ron",
+        change(&change(COIL, "spool: Some((", "spool: ("), "bonded: true)],\n    ))", "bonded: true)],\n    )"),
+    );
+    let total = |file: &str| json(&run(&folder, &["sensitivity", file, "--json"]))["total"].clone();
+    folder.write("coil.ron", COIL);
+    assert_eq!(total("bare.ron"), total("coil.ron"));
+}
+
+#[test]
 fn every_variant_parses() {
     let variants = [
         ("PracticalQuadrupole,  ", "Cylindrical,"),
