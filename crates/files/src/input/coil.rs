@@ -231,8 +231,10 @@ fn check_rectangle(at: &Group, file: &BodyFile, winding: &Winding) -> Result<(),
         return Err(at.fault("outer_radius_mm", problem, "give the radius, not the thickness, of the wound coil"));
     }
     let slack = SLACK * to_mm(winding.spec().pitch);
-    let extents = [("outer_radius_mm", outer, winding.outer_radius()), ("height_mm", file.height_mm.0, winding.height())];
-    for (key, given, wound) in extents {
+    let height = ("height_mm", file.height_mm.0, winding.height());
+    let extents =
+        [Some(("outer_radius_mm", outer, winding.outer_radius())), Some(height).filter(|_| winding.spec().end.is_none())];
+    for (key, given, wound) in extents.into_iter().flatten() {
         let wound = to_mm(wound);
         if wound > given + slack {
             let problem = format!("the winding reaches {wound:.4} mm, outside the coil's {given} mm");
@@ -249,10 +251,13 @@ fn check_place(at: &Group, file: &BodyFile, winding: &Winding) -> Result<(), Inp
     let ([first, last], [start, end]) = (winding.spec().reach().map(to_mm), winding.spec().edges().map(to_mm));
     let outside = |centre: f64| format!("the centre of a turn lies at {centre:.4} mm, outside the coil's 0 to {height} mm");
     if first <= 0.0 {
-        return Err(at.fault("start_mm", outside(first), format!("give more than {:.4}", start - first)));
+        // turns are spread to an end that is given, and move with the start without one
+        let least = if winding.spec().end.is_some() { end * (start - first) / (end - first) } else { start - first };
+        return Err(at.fault("start_mm", outside(first), format!("give more than {least:.4}")));
     }
     if last >= height {
-        return Err(at.fault("end_mm", outside(last), format!("give less than {:.4}", end + height - last)));
+        let most = start + (height - start) * (end - start) / (last - start);
+        return Err(at.fault("end_mm", outside(last), format!("give less than {most:.4}")));
     }
     Ok(())
 }
