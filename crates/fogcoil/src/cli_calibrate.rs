@@ -17,11 +17,14 @@ pub(crate) struct Calibrate {
     #[arg(value_name = "COIL.ron")]
     coil: PathBuf,
     /// Records of a good unit, with commas between them; once for every unit
-    #[arg(long = "unit", value_name = "A1.csv,A2.csv", required_unless_present = "each", value_parser = records)]
+    #[arg(long = "unit", value_name = "A1.csv,A2.csv", required_unless_present_any = ["each", "passed"], value_parser = records)]
     good: Vec<Records>,
     /// Good units of one record each, after the coil file, e.g. --units lot/*.csv
     #[arg(long = "units", id = "each", value_name = "A.csv", value_parser = records, num_args = 1..)]
     each: Vec<Records>,
+    /// Good units of a batch, those that passed: table.csv of the folder that `fogcoil batch --out` wrote
+    #[arg(long, value_name = "TABLE.csv")]
+    passed: Option<PathBuf>,
     /// Write the lot's design here, a coil file
     #[arg(long, value_name = "LOT.ron")]
     out: PathBuf,
@@ -51,10 +54,13 @@ fn records(text: &str) -> Result<Records, String> {
 }
 
 pub(crate) fn run(arguments: &Calibrate, progress: &Progress) -> Result<(), Error> {
-    let Calibrate { coil, good, each, out, json, meta, map, no_cache } = arguments;
-    let good: Vec<&Records> = good.iter().chain(each).collect();
+    let Calibrate { coil, good, each, passed, out, json, meta, map, no_cache } = arguments;
+    let judged = passed.as_deref().map(input::read_passed).transpose()?.unwrap_or_default();
+    let judged: Vec<Records> = judged.into_iter().map(Records::from).collect();
+    let good: Vec<&Records> = good.iter().chain(each).chain(&judged).collect();
     let options = RecordOptions { map: map.clone(), meta: meta.clone(), ..RecordOptions::default() };
-    let inputs: Vec<PathBuf> = good.iter().flat_map(|unit| unit.iter()).flat_map(|record| options.files(record)).collect();
+    let records = good.iter().flat_map(|unit| unit.iter()).flat_map(|record| options.files(record));
+    let inputs: Vec<PathBuf> = records.chain(passed.clone()).collect();
     let case = progress.read_coil_for(coil, &inputs, &[Some(out)])?;
     diagnose::check_design(&case, coil)?;
     let unit = |paths: &&Records| paths.iter().map(|path| input::read_record(path, &options)).collect::<Result<Vec<_>, _>>();

@@ -26,6 +26,11 @@ fn a_lot_is_a_design_that_other_commands_read() {
     folder.write("meta.ron", "(design: \"coil-Z\")");
     let output = folder.run(&["calibrate", "drawing.ron", "--unit", first, "--unit", second, "--out", "lot.ron", "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    // a batch's table names the same units
+    let files = |unit: &str| unit.replace(',', "; ");
+    folder.write("table.csv", format!("unit,judged,files\nA,pass,{}\nB,fail,no.csv\nC,pass,{}\n", files(first), files(second)));
+    let of_batch = folder.run(&["calibrate", "drawing.ron", "--passed", "table.csv", "--out", "lot-2.ron", "--json"]);
+    assert_eq!(stdout(&of_batch), stdout(&output), "{}", stderr(&of_batch));
     let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
     let notes = json["notes"].to_string();
     assert!(notes.contains("few-units") && notes.contains("built to `coil-Z`; this design is `coil-B`"), "{notes}");
