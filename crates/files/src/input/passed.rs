@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::InputError;
-use super::record_format::Dialect;
-use super::rows::{Rows, quoted};
+
+use super::rows::{Dialect, Rows, quoted};
 
 /// Between the files of a unit.
 const BETWEEN: &str = "; ";

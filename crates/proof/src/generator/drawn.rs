@@ -13,7 +13,7 @@ use super::scene::{Scene, minus, times};
 use super::unit::meta;
 use crate::Failure;
 use crate::truth::ConcealedEffect;
-use coil::{Design, Parameter};
+use coil::Design;
 
 /// Signal-to-noise ratios, given the tolerances, that laws are sized to, evenly in the logarithm.
 const STRENGTH: [f64; 2] = [5.0, 150.0];
@@ -36,7 +36,7 @@ const FITTED: usize = 2;
 /// A design with a constant moved by so many standard deviations.
 fn moved(build: &mut Build, constant: usize, deviations: f64) {
     let by = 1.0 + TOLERANCES[constant] * deviations;
-    let Design { body, spool, surroundings, optics, .. } = &mut build.design;
+    let Design { body, spool, surroundings, optics, winding, .. } = &mut build.design;
     match constant {
         0 => body.conductivity_r *= by,
         1 => body.specific_heat *= by,
@@ -51,9 +51,9 @@ fn moved(build: &mut Build, constant: usize, deviations: f64) {
         7 => surroundings.conductivity *= by,
         8 => optics.thermo_optic *= by,
         _ => {
-            let edge = if constant == 9 { Parameter::WindingStart } else { Parameter::WindingEnd };
-            let from = edge.of(&build.design).unwrap_or_default();
-            build.design = edge.set(&build.design, from + (by - 1.0) * build.design.winding.pitch);
+            let moved = (by - 1.0) * winding.pitch;
+            let [start, end] = winding.edges();
+            (winding.start, winding.end) = if constant == 9 { (start + moved, Some(end)) } else { (start, Some(end + moved)) };
         }
     }
 }
