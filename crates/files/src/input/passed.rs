@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use super::InputError;
-
 use super::rows::{Dialect, Rows, quoted};
 
 /// Between the files of a unit.

@@ -198,6 +198,6 @@ mod tests {
         };
         let before = written();
         let again: Vec<_> = run().into_iter().map(|case| case.scored).collect();
-        assert!(scored == again && before.len() == 8 && written() == before, "{before:?}");
+        assert!(scored == again && before.len() == 10 && written() == before, "{before:?}");
     }
 }
