@@ -69,7 +69,8 @@ mod tests {
             "{}",
             refused("unit,files\nA,a.csv\n")
         );
-        assert!(refused("unit,judged,files\nA,pass,\n").contains(":2: files: \"\" is no list of records"));
+        let without = refused("unit,judged,files\nA,pass,\n");
+        assert!(without.contains(":2:") && without.contains("files") && without.contains("no list of records"), "{without}");
         assert!(refused("unit,judged,files\nA,pass\n").contains("has 2 fields where the header has 3"));
         assert!(refused("").contains("is empty"));
     }
