@@ -11,6 +11,7 @@ use super::turns::{Fibre, Turns, Weighted};
 use crate::probe::Prober;
 use crate::{Bonds, Design, Error, Grid, MechanicalState, MeshFineness, Model, Outputs, Reduced, TurnFields};
 use nalgebra::{DMatrix, DVector};
+use winding::{Spec, Winding};
 
 /// Heat flow and thermo-elasticity of a design and of all that differ from it within ranges of [`Parameter`]s, projected once on fields
 /// of temperature and displacement.
@@ -300,6 +301,31 @@ impl ParametricModel {
             axial * c.axial + &temperature * c.axial_per_temperature_rate,
             radial * c.radial + temperature * c.radial_per_temperature_rate,
         ])
+    }
+
+    /// The winding of a changed design, which differs from that of the reference in its tails and in its place along the axis alone.
+    pub(super) fn wound(&self, design: &Design) -> Result<Winding, Error> {
+        let Spec { tails, start, end, .. } = design.winding;
+        if design.winding != (Spec { tails, start, end, ..self.design.winding }) {
+            let problem =
+                "this design is wound otherwise than the one that was modelled, beyond its tails and its place; model it anew";
+            return Err(Error::design("winding", problem.into()));
+        }
+        Ok(winding::wind(&design.winding)?)
+    }
+
+    /// The fibre of a changed design.
+    pub(super) fn fibre(&self, design: &Design) -> Result<Fibre, Error> {
+        let (winding, nominal) = (self.wound(design)?, self.design.winding);
+        let (tails, wound) = (design.winding.tails, winding.wound_length());
+        let sums = if design.winding.edges() == nominal.edges() {
+            // tails shift every turn's weight by its length
+            let by = (tails.cw - tails.ccw) - (nominal.tails.cw - nominal.tails.ccw);
+            Weighted::combined(&[(1.0, &self.turns.weighted), (by, &self.turns.lengths)])
+        } else {
+            self.turns.elsewhere(&self.grid, &self.temperatures, &winding)?
+        };
+        Ok(Fibre { length: winding.length(), tail_weight: tails.weight(wound), sums })
     }
 
     /// Temperature and strain of every turn of a changed design, per unit of its drives and modes, in a state of its mechanics.

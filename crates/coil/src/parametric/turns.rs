@@ -1,11 +1,10 @@
 //! The turns of a parametric model's designs: their temperature and strain, wherever the winding begins.
 
-use super::model::ParametricModel;
 use super::project::Fields;
 use crate::probe::{Probe, Prober, Sums};
-use crate::{Design, Error, Grid, Region};
+use crate::{Error, Grid, Region};
 use nalgebra::{DMatrix, DVector};
-use winding::{Spec, Turn, Winding};
+use winding::{Turn, Winding};
 
 /// Displacement of the coil in every field, and sums over the turns of the design that was modelled.
 #[derive(Debug, Clone)]
@@ -14,9 +13,9 @@ pub(super) struct Turns {
     /// components along r and y, a row for each of [`coil_nodes`], a column for each field
     displacement: [DMatrix<f64>; 2],
     /// sums with the weights of the turns
-    weighted: Weighted,
+    pub(super) weighted: Weighted,
     /// sums with their lengths
-    lengths: Weighted,
+    pub(super) lengths: Weighted,
 }
 
 /// The fibre of a changed design: its length with tails \[m\], the weight of those \[m²\], and sums over its turns.
@@ -86,6 +85,11 @@ impl Turns {
         self.displacement.iter().map(DMatrix::len).sum()
     }
 
+    /// Sums with the weights of another winding's turns.
+    pub(super) fn elsewhere(&self, grid: &Grid, temperatures: &Fields, winding: &Winding) -> Result<Weighted, Error> {
+        Ok(self.sums(grid, temperatures, &probes(grid, winding)?, winding.weights()))
+    }
+
     /// Sums over turns with a weight each.
     fn sums(&self, grid: &Grid, temperatures: &Fields, probes: &[Probe], weights: Vec<f64>) -> Weighted {
         let nodes = coil_nodes(grid);
@@ -124,32 +128,5 @@ impl Turns {
             }
         }
         Ok(values)
-    }
-}
-
-impl ParametricModel {
-    /// The winding of a changed design, which differs from that of the reference in its tails and in its place along the axis alone.
-    pub(super) fn wound(&self, design: &Design) -> Result<Winding, Error> {
-        let Spec { tails, start, end, .. } = design.winding;
-        if design.winding != (Spec { tails, start, end, ..self.design.winding }) {
-            let problem =
-                "this design is wound otherwise than the one that was modelled, beyond its tails and its place; model it anew";
-            return Err(Error::design("winding", problem.into()));
-        }
-        Ok(winding::wind(&design.winding)?)
-    }
-
-    /// The fibre of a changed design.
-    pub(super) fn fibre(&self, design: &Design) -> Result<Fibre, Error> {
-        let (winding, nominal) = (self.wound(design)?, self.design.winding);
-        let (tails, wound) = (design.winding.tails, winding.wound_length());
-        let sums = if design.winding.edges() == nominal.edges() {
-            // tails shift every turn's weight by its length
-            let by = (tails.cw - tails.ccw) - (nominal.tails.cw - nominal.tails.ccw);
-            Weighted::combined(&[(1.0, &self.turns.weighted), (by, &self.turns.lengths)])
-        } else {
-            self.turns.sums(&self.grid, &self.temperatures, &probes(&self.grid, &winding)?, winding.weights())
-        };
-        Ok(Fibre { length: winding.length(), tail_weight: tails.weight(wound), sums })
     }
 }
