@@ -42,7 +42,7 @@ impl Doubt {
                  any of them; ? marks those far below the others (column verdict_probability)"
             )),
             None => Some(format!(
-                "verdict?: its probability is below {SURE} in {doubtful} of {judged} units; a small fault may hide in them (column verdict_probability)"
+                "a verdict with a ? has a probability below {SURE} ({doubtful} of {judged} units): a small fault may hide there (column verdict_probability)"
             )),
         }
     }
@@ -80,7 +80,7 @@ mod tests {
         let batch = batch(&[0.9, 0.95, 0.7, 0.99, 0.92, 0.91]);
         assert_eq!(marked(&batch), ["U2"]);
         assert!(
-            Doubt::of(&batch).said().unwrap().contains("below 0.8 in 1 of 6 units; a small fault"),
+            Doubt::of(&batch).said().unwrap().contains("below 0.8 (1 of 6 units): a small fault"),
             "{:?}",
             Doubt::of(&batch).said()
         );
