@@ -60,19 +60,28 @@ fn probes(grid: &Grid, winding: &Winding) -> Result<Vec<Probe>, Error> {
     winding.turns().iter().map(|turn| prober.probe("winding", turn.r, turn.y)).collect()
 }
 
+/// Sums over turns with a weight each; displacements as [`Turns`] has them.
+fn sums([u_r, u_y]: &[DMatrix<f64>; 2], grid: &Grid, temperatures: &Fields, probes: &[Probe], weights: Vec<f64>) -> Weighted {
+    let nodes = coil_nodes(grid);
+    let sums = Sums::new(probes, weights, grid.mesh().nodes().len());
+    let on_coil = |functional: &[f64]| DVector::from_iterator(nodes.len(), nodes.iter().map(|&node| functional[node]));
+    let mut laid = vec![0.0; temperatures.values.nrows()];
+    nodes.iter().for_each(|&node| laid[grid.places()[node]] = sums.value[node]);
+    let strains = [u_r.tr_mul(&on_coil(&sums.d_r)), u_y.tr_mul(&on_coil(&sums.d_y)), u_r.tr_mul(&on_coil(&sums.over_r))];
+    Weighted { temperature: temperatures.apply(&laid), strains }
+}
+
 impl Turns {
     /// Of fields of temperature and of displacement (components along r and y) on the lattice of `grid`.
     pub(super) fn new(grid: &Grid, temperatures: &Fields, displacements: &[Fields; 2], winding: &Winding) -> Result<Self, Error> {
         let nodes = coil_nodes(grid);
-        let within = |fields: &Fields| {
+        let within = |fields: &Fields| -> DMatrix<f64> {
             DMatrix::from_fn(nodes.len(), fields.values.ncols(), |row, field| fields.values[(grid.places()[nodes[row]], field)])
         };
-        let none = || Weighted { temperature: DVector::zeros(0), strains: [0, 1, 2].map(|_| DVector::zeros(0)) };
-        let turns = Self { displacement: displacements.each_ref().map(within), weighted: none(), lengths: none() };
-        let probes = probes(grid, winding)?;
-        let sums = |weights: Vec<f64>| turns.sums(grid, temperatures, &probes, weights);
-        let (weighted, lengths) = (sums(winding.weights()), sums(winding.turns().iter().map(Turn::length).collect()));
-        Ok(Self { weighted, lengths, ..turns })
+        let (displacement, probes) = (displacements.each_ref().map(within), probes(grid, winding)?);
+        let of = |weights: Vec<f64>| sums(&displacement, grid, temperatures, &probes, weights);
+        let (weighted, lengths) = (of(winding.weights()), of(winding.turns().iter().map(Turn::length).collect()));
+        Ok(Self { displacement, weighted, lengths })
     }
 
     /// Number of fields of displacement.
@@ -87,19 +96,7 @@ impl Turns {
 
     /// Sums with the weights of another winding's turns.
     pub(super) fn elsewhere(&self, grid: &Grid, temperatures: &Fields, winding: &Winding) -> Result<Weighted, Error> {
-        Ok(self.sums(grid, temperatures, &probes(grid, winding)?, winding.weights()))
-    }
-
-    /// Sums over turns with a weight each.
-    fn sums(&self, grid: &Grid, temperatures: &Fields, probes: &[Probe], weights: Vec<f64>) -> Weighted {
-        let nodes = coil_nodes(grid);
-        let sums = Sums::new(probes, weights, grid.mesh().nodes().len());
-        let on_coil = |functional: &[f64]| DVector::from_iterator(nodes.len(), nodes.iter().map(|&node| functional[node]));
-        let mut laid = vec![0.0; temperatures.values.nrows()];
-        nodes.iter().for_each(|&node| laid[grid.places()[node]] = sums.value[node]);
-        let [u_r, u_y] = &self.displacement;
-        let strains = [u_r.tr_mul(&on_coil(&sums.d_r)), u_y.tr_mul(&on_coil(&sums.d_y)), u_r.tr_mul(&on_coil(&sums.over_r))];
-        Weighted { temperature: temperatures.apply(&laid), strains }
+        Ok(sums(&self.displacement, grid, temperatures, &probes(grid, winding)?, winding.weights()))
     }
 
     /// Temperature and strains rr, yy, hoop of every turn of `winding`, for each of some combinations of the fields of temperature and of displacement.
