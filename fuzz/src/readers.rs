@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 use bolero::check;
 use coil::Design;
 use files::input;
+use fogcoil::{batch, optimise, sweep};
 use laws::Expression;
 use tempfile::TempDir;
 
@@ -16,9 +17,14 @@ const LONGEST: usize = 4096;
 
 /// Refused, in one line of printable text that begins with the name of a file of `folder`.
 fn refused(folder: &Path, error: &dyn Display) {
+    assert!(error.to_string().starts_with(&folder.display().to_string()), "{error}");
+    in_one_line(error);
+}
+
+/// Refused, in one line of printable text, whatever file it is about.
+fn in_one_line(error: &dyn Display) {
     let message = error.to_string();
-    assert!(message.starts_with(&folder.display().to_string()), "{message:?}");
-    assert!(!message.chars().any(char::is_control), "{message:?}");
+    assert!(!message.is_empty() && !message.chars().any(char::is_control), "{message:?}");
 }
 
 fn reference() -> &'static Design {
@@ -156,6 +162,39 @@ fn recordings() {
         // of a logger's own format, whatever it is
         if let Err(error) = input::propose_map(&path, &input::RecordOptions::default()) {
             refused(folder.path(), &error);
+        }
+    });
+}
+
+/// A plan of a sweep or of an optimisation, beside those of the repository; it may name a file of any folder.
+#[test]
+fn plans() {
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../fixtures/plans/plan.ron"));
+    check!().with_max_len(LONGEST).for_each(|bytes: &[u8]| {
+        let text = String::from_utf8_lossy(bytes);
+        match sweep::check_plan(path, &text) {
+            Err(error) => in_one_line(&error),
+            Ok(plan) => assert!((1..=sweep::MOST_POINTS).contains(&plan.count())),
+        }
+        if let Err(error) = optimise::check_plan(path, &text) {
+            in_one_line(&error);
+        }
+    });
+}
+
+/// The two files of a batch: its limits, and the table that it writes.
+#[test]
+fn batches() {
+    let folder = TempDir::new().expect("a folder");
+    let (limits, table) = (folder.path().join("limits.ron"), folder.path().join("table.csv"));
+    check!().with_max_len(LONGEST).for_each(|bytes: &[u8]| {
+        if let Err(error) = batch::check_limits(&limits, &String::from_utf8_lossy(bytes)) {
+            refused(folder.path(), &error);
+        }
+        std::fs::write(&table, bytes).expect("a file");
+        match input::read_passed(&table) {
+            Err(error) => refused(folder.path(), &error),
+            Ok(units) => assert!(!units.is_empty() && units.iter().all(|records| !records.is_empty())),
         }
     });
 }

@@ -19,7 +19,7 @@ const LONGEST: u64 = 2048;
 const MOST: usize = 150;
 
 /// Readers by the names of their tests, with files of the repository, whole or a folder's, that fuzzing starts from.
-const READERS: [(&str, &[&str]); 8] = [
+const READERS: [(&str, &[&str]); 10] = [
     ("coils", &["fixtures/coil-reference.ron", "fixtures/designs", "crates/fogcoil/templates/coil.ron"]),
     ("cells", &["fixtures/cell-reference.ron", "fixtures/cells", "crates/fogcoil/templates/cell.ron"]),
     ("targets", &["fixtures/identify", "crates/fogcoil/templates/targets.ron"]),
@@ -28,6 +28,8 @@ const READERS: [(&str, &[&str]); 8] = [
     ("profiles", &["crates/fogcoil/templates/profile.csv"]),
     ("thermometers", &[]),
     ("recordings", &["fixtures/recordings"]),
+    ("plans", &["fixtures/plans"]),
+    ("batches", &["crates/fogcoil/templates/limits.ron"]),
 ];
 
 /// Feed every reader of files with inputs that are guided by the code that they reach
