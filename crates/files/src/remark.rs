@@ -49,6 +49,10 @@ remarks! {
         "The coil's rectangle (`coil.outer_radius_mm`, `coil.height_mm`) is larger than the winding in it: by more than a pitch in radius, or a tenth of one in height.",
         "Heat flow and stiffness are those of the rectangle, all of it winding; the optics are those of the turns alone. Turns begin at the left face: room at the right changes the sensitivity.",
         "Check layers, turns and `pitch_mm` against the drawing, or reduce the rectangle to the winding.";
+    OtherSpacing "other-spacing":
+        "`winding.start_mm` and `end_mm` set the turns of a layer more than 3 % closer or farther apart than `pitch_mm`.",
+        "Closer turns than a pitch do not fit between the ends; farther ones leave gaps of adhesive. The sensitivity follows the ends: some per cent for a tenth of a turn.",
+        "Check both ends, the number of turns and `pitch_mm` against the winding record.";
     SagnacOutside "sagnac-outside":
         "`optics.sagnac_diameter_mm` lies outside the coil, from its inner to its outer diameter.",
         "Every rate is inversely proportional to it.",

@@ -175,7 +175,7 @@ impl Spec {
     }
 
     /// Axial distance between the centres of neighbouring turns as designed \[m\].
-    pub(crate) fn spacing(&self) -> f64 {
+    pub fn spacing(&self) -> f64 {
         self.end.map_or(self.pitch, |end| (end - self.start) / self.width())
     }
 }

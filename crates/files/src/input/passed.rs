@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use super::InputError;
 use super::rows::{Dialect, Rows, quoted};
 
-/// Between the files of a unit.
-const BETWEEN: &str = "; ";
+/// Between the files of a unit in the table of a batch.
+pub const BETWEEN_FILES: &str = "; ";
 
 /// Records of each unit that passed, of the `table.csv` that `fogcoil batch --out` writes; their paths are as that command was given them.
 ///
@@ -27,7 +27,8 @@ pub fn read_passed(path: &Path) -> Result<Vec<Vec<PathBuf>>, InputError> {
         if rows.field(judged) != "pass" {
             continue;
         }
-        let records: Vec<PathBuf> = rows.field(files).split(BETWEEN).filter(|file| !file.is_empty()).map(PathBuf::from).collect();
+        let records: Vec<PathBuf> =
+            rows.field(files).split(BETWEEN_FILES).filter(|file| !file.is_empty()).map(PathBuf::from).collect();
         if records.is_empty() {
             let problem = format!("{} is no list of records", quoted(rows.field(files)));
             return Err(rows.fault(Some("files"), problem, "give the table as fogcoil batch wrote it"));

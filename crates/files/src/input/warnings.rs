@@ -11,6 +11,8 @@ const ROOM: f64 = 1.0;
 /// The same along the axis: the strain is steep at a flange, and a tenth of a pitch of room there changes the sensitivity of the reference coil by 3 %.
 const AXIAL_ROOM: f64 = 0.1;
 
+/// Largest relative distance of neighbouring turns' spacing from the pitch that passes without a word: the film of adhesive between two fibres.
+const SAME_SPACING: f64 = 0.03;
 /// Largest relative distance of the effective diameter from the coil's mean diameter that passes without a word.
 const SAME_DIAMETER: f64 = 0.02;
 
@@ -39,6 +41,12 @@ pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> V
     unfilled("reaches to", "coil.outer_radius_mm", ROOM, body.outer_radius, winding.outer_radius(), "");
     if design.winding.start == 0.0 && design.winding.end.is_none() {
         unfilled("is as high as", "coil.height_mm", AXIAL_ROOM, body.height, winding.height(), at_left);
+    }
+    let spacing = design.winding.spacing();
+    if (spacing / pitch - 1.0).abs() > SAME_SPACING {
+        let (spacing, pitch) = (to_mm(spacing), to_mm(pitch));
+        let message = format!("winding.end_mm: turns lie {spacing:.4} mm apart, where the pitch is {pitch} mm; is this meant?");
+        found.push(Remark::OtherSpacing.warning(message));
     }
     let (inner, outer) = (2.0 * design.winding.inner_radius, 2.0 * body.outer_radius);
     let sagnac = design.optics.sagnac_diameter;

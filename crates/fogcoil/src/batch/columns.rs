@@ -2,13 +2,14 @@
 
 use super::row::{MEASURED, NUMBERS, Row};
 use super::run::Batch;
+use crate::input::BETWEEN_FILES;
 use crate::tabular::{Column, Table};
 
 /// A row for each unit: its name, its measured figures, its diagnosis, and whether it passes.
 pub fn table(batch: &Batch) -> Table {
     let rows = || batch.rows.iter().map(|(row, _)| row);
     let text = |name: &str, of: &dyn Fn(&Row) -> Option<String>| Column::texts(name, rows().map(of).collect());
-    let joined = |all: &[String]| (!all.is_empty()).then(|| all.join("; "));
+    let joined = |all: &[String]| (!all.is_empty()).then(|| all.join(BETWEEN_FILES));
     let judged = || batch.rows.iter().map(|(_, judged)| judged);
     let mut columns = vec![
         text("unit", &|row| Some(row.unit.clone())),

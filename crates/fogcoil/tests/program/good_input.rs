@@ -263,7 +263,11 @@ fn room_beside_the_winding_is_warned_of_where_the_sensitivity_feels_it() {
         change(&change(COIL, "height_mm: 18.02", "height_mm: 18.05"), "cw_climbs", "start_mm: 0.01, end_mm: 18.04, cw_climbs"),
     );
     let said = stderr(&folder.run(&["wind", "placed.ron"]));
-    assert!(!said.contains("unfilled-coil"), "{said}");
+    assert!(!said.contains("unfilled-coil") && !said.contains("other-spacing"), "{said}");
+    // 17.4 mm for 106 turns: 0.1642 mm for each
+    folder.write("squeezed.ron", change(COIL, "cw_climbs", "start_mm: 0.31, end_mm: 17.71, cw_climbs"));
+    let said = stderr(&folder.run(&["wind", "squeezed.ron"]));
+    assert!(said.contains("winding.end_mm: turns lie 0.1642 mm apart, where the pitch is 0.17 mm"), "{said}");
 }
 
 #[test]
