@@ -98,6 +98,6 @@ impl Library {
     pub fn new(models: Models, mechanisms: &[&dyn Mechanism]) -> Result<Self, Error> {
         let design = unheated(&models.drawing);
         let paths = heat_paths(&design, mechanisms);
-        Self::at(Arc::new(models), paths, design)
+        Self::at(Arc::new(models), paths, design, Vec::new())
     }
 }

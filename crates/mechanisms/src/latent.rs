@@ -64,7 +64,7 @@ impl Chain {
             let facts = mechanism.facts();
             if let Some((path, nudge)) = facts.heat_path.as_ref().and_then(|path| Some((path, path.nudge?))) {
                 let places = 0..(path.places)(self.library().design());
-                places.for_each(|place| thermal.extend(shaped(&self.along(record, facts.id, place, nudge), &hats)));
+                places.for_each(|place| thermal.extend(shaped(&self.nudged(record, facts.id, place, nudge), &hats)));
             }
         }
         for before in SWITCHED_ON {

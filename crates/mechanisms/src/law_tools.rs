@@ -4,7 +4,7 @@ use crate::change::Change;
 use crate::course::{Parts, Series, add};
 use crate::interpolation::{Lagrange, weights};
 use crate::library::{Functionals, Library};
-use crate::record_to_bias::Prepared;
+use crate::record_to_bias::{Along, Prepared};
 use crate::series::rates_per_hour;
 use bias::units::{DEG_PER_H_PER_RAD_PER_S, S_PER_H};
 use coil::Error;
@@ -29,17 +29,38 @@ impl Chain {
         &self.library
     }
 
-    /// Response of the coil at a coordinate of the heat path of mechanism `id` at a place, counted from 0, less its response as designed.
+    /// Response of the coil at a coordinate of the heat path of mechanism `id` at a place, counted from 0, less that of the library's own design.
     pub fn along(&self, record: &Prepared, id: &str, place: usize, coordinate: f64) -> Change {
-        let mut change = Change { thermometer: Some(vec![0.0; record.time.len()]), ..Change::none(record) };
-        if let Some(path) = record.paths.iter().find(|path| path.id == id && path.place == place) {
-            for (w, series) in weights(&path.nodes, coordinate).into_iter().zip(&path.changes) {
-                for p in 0..3 {
-                    add(&mut change.parts[p], &series.parts[p], w);
-                }
-                if let Some(thermometer) = &mut change.thermometer {
-                    add(thermometer, &series.sensor, w);
-                }
+        Self::path(record, id, place).map_or_else(|| Self::still(record), |path| Self::at(record, path, coordinate))
+    }
+
+    /// What a small step along a heat path changes, from where the library's own design is.
+    pub(crate) fn nudged(&self, record: &Prepared, id: &str, place: usize, by: f64) -> Change {
+        let step = |path: &Along| {
+            let ahead = path.own + by;
+            // from the path's end it goes back
+            let x = if path.nodes.last().is_some_and(|last| ahead > *last) { path.own - by } else { ahead };
+            Self::at(record, path, x)
+        };
+        Self::path(record, id, place).map_or_else(|| Self::still(record), step)
+    }
+
+    fn path<'a>(record: &'a Prepared, id: &str, place: usize) -> Option<&'a Along> {
+        record.paths.iter().find(|path| path.id == id && path.place == place)
+    }
+
+    fn still(record: &Prepared) -> Change {
+        Change { thermometer: Some(vec![0.0; record.time.len()]), ..Change::none(record) }
+    }
+
+    fn at(record: &Prepared, path: &Along, coordinate: f64) -> Change {
+        let mut change = Self::still(record);
+        for (w, series) in weights(&path.nodes, coordinate).into_iter().zip(&path.changes) {
+            for p in 0..3 {
+                add(&mut change.parts[p], &series.parts[p], w);
+            }
+            if let Some(thermometer) = &mut change.thermometer {
+                add(thermometer, &series.sensor, w);
             }
         }
         change

@@ -2,7 +2,7 @@
 
 use crate::constants::{Constant, constants};
 use crate::design::{heatable_flanges, with_heater, with_tail};
-use crate::heat_path::HeatPath;
+use crate::heat_path::{AtWork, HeatPath};
 use crate::interpolation::{cubic_weights, nodes};
 
 use coil::{
@@ -38,12 +38,12 @@ pub(crate) struct Tabulated {
     pub(crate) id: String,
     /// Number of the place, of those at which the design has it.
     pub(crate) place: usize,
+    /// Coordinate of the library's own design.
+    pub(crate) own: f64,
     /// Nodes in the path's coordinate, increasing.
     pub(crate) nodes: Vec<f64>,
-    /// Number of the node that is the unchanged design.
-    pub(crate) nominal: usize,
-    /// A model at every other node, in their order.
-    pub(crate) models: Vec<Reduced>,
+    /// A model at every node; `None` at that of the library's own design.
+    pub(crate) models: Vec<Option<Reduced>>,
 }
 
 /// Reduced models of a design and of what it may leave out, with the derivatives by its constants.
@@ -53,6 +53,10 @@ pub struct Library {
     /// those that conduct heat, by their ids and places
     heat_paths: Vec<(String, usize, HeatPath)>,
     /// the drawing with its constants at the values that this is made for
+    unchanged: Design,
+    /// paths of heat that are at work beside them
+    pub(crate) at_work: Vec<AtWork>,
+    /// with these, too
     design: Design,
     pub(crate) constants: Vec<Constant>,
     /// thermometer, mean of the coil, nominal parts; parts at each modulus, the same with twice the expansion; of each opening
@@ -79,19 +83,36 @@ impl Models {
 }
 
 impl Library {
-    /// The same of the drawing with its constants at other values, in their order; of one outside the range that was modelled, at the range's end.
+    /// The same of the drawing with its constants at other values, in their order, and with paths of heat at work; of a value outside the range that was
+    /// modelled, at the range's end.
     ///
     /// # Errors
     /// [`Error::Design`] if the design cannot be solved.
-    pub fn about(&self, values: &[f64]) -> Result<Self, Error> {
+    pub fn about(&self, values: &[f64], at_work: Vec<AtWork>) -> Result<Self, Error> {
         let set = |design: Design, (constant, value): (&Constant, &f64)| constant.parameter.set(&design, *value);
         let design = self.constants.iter().zip(values).fold(unheated(&self.models.drawing), set);
         let design = self.models.model.nearest(&design);
-        Self::at(Arc::clone(&self.models), self.heat_paths.clone(), design)
+        Self::at(Arc::clone(&self.models), self.heat_paths.clone(), design, at_work)
     }
 
-    pub(crate) fn at(models: Arc<Models>, heat_paths: Vec<(String, usize, HeatPath)>, design: Design) -> Result<Self, Error> {
+    pub(crate) fn at(
+        models: Arc<Models>,
+        heat_paths: Vec<(String, usize, HeatPath)>,
+        unchanged: Design,
+        at_work: Vec<AtWork>,
+    ) -> Result<Self, Error> {
         let model = &models.model;
+        // with the paths of heat at work, but one
+        let with_paths = |but: Option<usize>| {
+            let at = |(k, (id, place, path)): (usize, &(String, usize, HeatPath))| {
+                let own = at_work.iter().find(|own| own.is(id, *place)).filter(|_| but != Some(k))?;
+                Some((path.design, *place, own.coordinate))
+            };
+            let put_in =
+                |design: Design, (path, place, x): (fn(&Design, usize, f64) -> Design, usize, f64)| path(&design, place, x);
+            heat_paths.iter().enumerate().filter_map(at).fold(unchanged.clone(), put_in)
+        };
+        let design = model.nearest(&with_paths(None));
         let moduli = if design.mechanics == Mechanics::Elastic {
             nodes(MODULI[0].ln(), MODULI[1].ln(), MODULUS_NODES)
         } else {
@@ -108,17 +129,29 @@ impl Library {
         let parameters: Vec<_> = constants.iter().map(|c| c.parameter).collect();
         let slopes = model.slopes(&design, &parameters)?;
         let mut paths = Vec::new();
-        for (id, place, path) in &heat_paths {
-            let nominal = path.nodes.iter().position(|x| is_nominal(*x)).unwrap_or(0);
-            let others = path.nodes.iter().filter(|x| !is_nominal(**x));
-            let at =
-                others.map(|x| model.in_states(&model.nearest(&(path.design)(&design, *place, *x)), &[MechanicalState::NOMINAL]));
-            let models = at.collect::<Result<_, _>>()?;
-            paths.push(Tabulated { id: id.clone(), place: *place, nominal, nodes: path.nodes.clone(), models });
+        for (k, (id, place, path)) in heat_paths.iter().enumerate() {
+            let mut from = with_paths(Some(k));
+            // a factor acts on the constant as it is drawn
+            let factored = path.factor_on.and_then(|parameter| constants.iter().find(|c| c.parameter == parameter));
+            let own = match factored {
+                Some(constant) => {
+                    let value = constant.parameter.of(&from).unwrap_or(constant.drawn);
+                    from = constant.parameter.set(&from, constant.drawn);
+                    (value / constant.drawn).ln()
+                }
+                None => at_work.iter().find(|own| own.is(id, *place)).map_or(0.0, |own| own.coordinate),
+            };
+            let at = |x: &f64| {
+                let changed =
+                    |x: f64| model.in_states(&model.nearest(&(path.design)(&from, *place, x)), &[MechanicalState::NOMINAL]);
+                (!is_same(*x, own)).then(|| changed(*x)).transpose()
+            };
+            let models = path.nodes.iter().map(at).collect::<Result<_, _>>()?;
+            paths.push(Tabulated { id: id.clone(), place: *place, own, nodes: path.nodes.clone(), models });
         }
         let heated = |side: Side| model.in_states(&with_heater(&design, side, 1.0), &[MechanicalState::NOMINAL]);
         let heaters = heatable_flanges(&models.drawing).into_iter().map(heated).collect::<Result<_, _>>()?;
-        Ok(Self { models, heat_paths, design, constants, base, slopes, fields, moduli, paths, heaters })
+        Ok(Self { models, heat_paths, unchanged, design, at_work, constants, base, slopes, fields, moduli, paths, heaters })
     }
 
     /// The design that it was made for, as it is drawn.
@@ -133,7 +166,7 @@ impl Library {
 
     /// Values of the constants that it stands at.
     pub fn values(&self) -> Vec<f64> {
-        self.constants.iter().map(|c| c.parameter.of(&self.design).unwrap_or(c.drawn)).collect()
+        self.constants.iter().map(|c| c.parameter.of(&self.unchanged).unwrap_or(c.drawn)).collect()
     }
 
     /// Parts at each node of the modulus, and what they change per unit of the factor on α_r.
@@ -176,9 +209,9 @@ impl Library {
     }
 }
 
-/// Whether a coordinate of a path, which is of the size of one, is that of the design as it is.
-fn is_nominal(x: f64) -> bool {
-    x.abs() <= 1e-12
+/// Whether coordinates of a path, which are of the size of one, are the same.
+fn is_same(x: f64, own: f64) -> bool {
+    (x - own).abs() <= 1e-12
 }
 
 /// Weights of the turns of a sound winding in one with a defect in a layer: fields are cubic along that layer, elsewhere unchanged \[m²\].

@@ -65,8 +65,10 @@ pub struct Prepared {
 pub(crate) struct Along {
     pub(crate) id: String,
     pub(crate) place: usize,
+    /// coordinate of the library's own design
+    pub(crate) own: f64,
     pub(crate) nodes: Vec<f64>,
-    /// at every node, zero at the nominal one
+    /// at every node, less that of this design
     pub(crate) changes: Vec<Series>,
 }
 
@@ -211,9 +213,11 @@ impl Prepared {
         let bends = undelayed(&clock.time, &bends, Delay { lag: 0.0, ..delay });
         let slower = under(bends.iter().map(|bend| -bend / 2.0).collect());
         let paths = library.paths.iter().map(|path| {
-            let mut changes: Vec<Series> = path.models.iter().map(|model| minus(&run(model).series(model), &base)).collect();
-            changes.insert(path.nominal, minus(&base, &base));
-            Along { id: path.id.clone(), place: path.place, nodes: path.nodes.clone(), changes }
+            let change = |model: &Option<Reduced>| {
+                minus(model.as_ref().map(|model| run(model).series(model)).as_ref().unwrap_or(&base), &base)
+            };
+            let changes = path.models.iter().map(change).collect();
+            Along { id: path.id.clone(), place: path.place, own: path.own, nodes: path.nodes.clone(), changes }
         });
         let heaters = library.heaters.iter().map(|model| Heating::new(model, &clock, averaging)).collect();
         let opened = |(share, change): (f64, Functionals)| (share, course.parts(&change));

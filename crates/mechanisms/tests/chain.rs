@@ -162,6 +162,62 @@ fn heat_paths_follow_the_chain() {
     agrees("axial-heat-path", &[0.9], None, &[RATE, SPOOL]);
 }
 
+/// As far as physics goes: a joint that has come off, thin and heavy gas and a fan, a flange that hangs free and one that is screwed to metal.
+#[test]
+fn heat_paths_follow_the_chain_however_strong() {
+    for resistance in [1e-4, 1e-2, 4e-2] {
+        agrees("interface-resistance", &[resistance], None, &[RATE, SPOOL]);
+    }
+    for factor in [0.2, 0.5, 3.0, 8.0] {
+        agrees("air-path", &[factor], None, &[RATE, SPOOL]);
+    }
+    for conductance in [0.1, 10.0, 45.0, 400.0] {
+        agrees("axial-heat-path", &[conductance], None, &[RATE, SPOOL]);
+    }
+}
+
+/// Constants act otherwise beside a strong path of heat than without it: the model is made about the path.
+#[test]
+fn constants_beside_a_strong_path_of_heat_follow_the_chain() {
+    let (active, design) = (
+        |gyro: &Gyro| Active { mechanism: gyro.find("axial-heat-path").expect("a mechanism"), values: vec![45.0], choice: None },
+        design(),
+    );
+    let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let active = active(&gyro);
+    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let about = gyro.about(&middle, std::slice::from_ref(&active)).expect("a model").expect("another place");
+    assert!(about.about(&middle, std::slice::from_ref(&active)).expect("a model").is_none());
+    assert!(about.about(&middle, &[]).expect("a model").is_some());
+    let mounted = gyro.extended(&design, &active).expect("a place");
+    let exact_mounted = anew(&mounted);
+    for (name, moved) in [
+        ("conductivity of the surroundings", coil::Parameter::MediumConductivity),
+        ("specific heat of the coil", coil::Parameter::CoilSpecificHeat),
+    ] {
+        let mut u = middle.clone();
+        let place = gyro.nuisances().iter().position(|n| n.parameter.name == name).expect("a place");
+        let factor = gyro.nuisances()[place].parameter.prior.value(1.0);
+        u[place] = factor;
+        let of = |model: &Gyro, active: &[Active]| {
+            minus(
+                &model.respond(0, &u, active).expect("response")[RATE],
+                &model.respond(0, &middle, active).expect("response")[RATE],
+            )
+        };
+        let value = moved.of(&mounted).expect("it has one");
+        let effect = minus(&anew(&moved.set(&mounted, factor * value))[RATE], &exact_mounted[RATE]);
+        let off = |told: &[f64]| rms(&minus(told, &effect)) / rms(&effect);
+        let (here, added) = (off(&of(&about, std::slice::from_ref(&active))), off(&of(&gyro, std::slice::from_ref(&active))));
+        // what is made about the drawing adds effects, each as if the other were not there
+        assert!(here < 0.05 && added > 4.0 * here, "{name}: off by {here:.3}, and by {added:.3} where effects are added");
+    }
+    // a hypothesis without the path has it taken away
+    let [without, nominal] = [&about, &*gyro].map(|model| model.respond(0, &middle, &[]).expect("response"));
+    let effect = minus(&exact_mounted[RATE], &nominal[RATE]);
+    assert!(rms(&minus(&without[RATE], &nominal[RATE])) < 1e-6 * rms(&effect));
+}
+
 /// Every flange may be mounted, heated and open, not the first alone.
 #[test]
 fn heat_paths_of_a_second_flange_follow_the_chain() {

@@ -33,6 +33,7 @@ pub(super) const ADHESIVE_CONTENT: Named = Named {
         places: |design| usize::from(glass(design).is_some()),
         nodes: nodes(-0.6, 0.6, 5),
         design: |design, _, x| with_polymer(design, x * glass(design).unwrap_or(0.0)),
+        coordinate: None,
         nudge: None,
         factor_on: None,
     }),

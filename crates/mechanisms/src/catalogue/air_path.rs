@@ -21,8 +21,9 @@ pub(super) const AIR_PATH: Named = Named {
     columns: &[],
     heat_path: Some(|| HeatPath {
         places: |design| usize::from(applies(design)),
-        nodes: nodes(-0.9, 0.9, 9),
+        nodes: nodes(-FARTHEST, FARTHEST, 17),
         design: |design, _, x| with_air(design, x.exp()),
+        coordinate: None,
         nudge: Some(coordinate(1.02)),
         factor_on: Some(Parameter::MediumConductivity),
     }),
@@ -36,8 +37,10 @@ pub(super) const AIR_PATH: Named = Named {
     extended: |design, active| Some(with_air(design, active.values[0])),
 };
 
-/// Spread of ln of the factor: convection in a gap of centimetres may double what still gas conducts, a thinner or a heavier gas halve it.
-const SPREAD: f64 = 0.4;
+/// Spread of ln of the factor: convection in a gap of centimetres may double what still gas conducts or more, a thinner or a heavier gas halve it.
+const SPREAD: f64 = 0.6;
+/// Largest |ln of the factor| that is modelled, four spreads.
+const FARTHEST: f64 = 4.0 * SPREAD;
 
 fn applies(design: &Design) -> bool {
     // a film takes the place of the still medium

@@ -22,8 +22,9 @@ pub(super) const AXIAL_HEAT_PATH: Named = Named {
     columns: &[],
     heat_path: Some(|| HeatPath {
         places: |design| sides(design).len(),
-        nodes: nodes(0.0, 0.9, 12),
+        nodes: nodes(0.0, 0.99, 16),
         design: |design, place, x| with_mount(design, place, CONDUCTANCE * x / (1.0 - x)),
+        coordinate: Some(coordinate),
         nudge: Some(coordinate(0.1)),
         factor_on: None,
     }),
@@ -31,16 +32,19 @@ pub(super) const AXIAL_HEAT_PATH: Named = Named {
     extent: Extent::everywhere,
     caveat: |_| None,
     offer: |design, _| {
-        let (prior, sides) = (Prior::LogNormal { median: 1.5, spread: 1.2 }, sides(design));
-        let offer = || Offer { choice: choice_of(&sides), ..Offer::one("conductance_w_per_m2k", prior, &[0.5, 4.0]) };
+        let (prior, sides) = (Prior::LogNormal { median: 10.0, spread: SPREAD }, sides(design));
+        let offer = || Offer { choice: choice_of(&sides), ..Offer::one("conductance_w_per_m2k", prior, &[0.5, 4.0, 30.0]) };
         (!sides.is_empty()).then(offer)
     },
     effect: |chain, record, active| Ok(Effect::Coil(chain.along(record, ID, chosen(active), coordinate(active.values[0])))),
     extended: |design, active| Some(with_mount(design, chosen(active), active.values[0])),
 };
 
-/// Conductance at which the coordinate is one half [W/(m² K)].
-const CONDUCTANCE: f64 = 2.0;
+/// Conductance at which the coordinate is one half [W/(m² K)]: that of two millimetres of air.
+const CONDUCTANCE: f64 = 12.0;
+/// Spread of ln of the conductance, about that of a plastic post or of air in a gap of some millimetres: from a flange that hangs free, 1 W/(m² K) and
+/// less, to one that is screwed to metal through a washer, 100 W/(m² K) and more.
+const SPREAD: f64 = 1.4;
 
 /// Flanges that may be coupled: none in a design with mounts of its own.
 fn sides(design: &Design) -> Vec<Side> {

@@ -21,8 +21,9 @@ pub(super) const INTERFACE_RESISTANCE: Named = Named {
     columns: &[],
     heat_path: Some(|| HeatPath {
         places: |design| usize::from(applies(design)),
-        nodes: nodes(0.0, 0.85, 7),
+        nodes: nodes(0.0, 0.9, 11),
         design: |design, _, x| with_hub_resistance(design, RESISTANCE * x / (1.0 - x)),
+        coordinate: Some(coordinate),
         nudge: Some(coordinate(2e-4)),
         factor_on: None,
     }),
@@ -30,14 +31,16 @@ pub(super) const INTERFACE_RESISTANCE: Named = Named {
     extent: Extent::everywhere,
     caveat: |_| None,
     offer: |design, _| {
-        applies(design).then(|| Offer::one("resistance_m2k_per_w", Prior::LogNormal { median: 7e-4, spread: 0.9 }, &[5e-4]))
+        applies(design).then(|| Offer::one("resistance_m2k_per_w", Prior::LogNormal { median: 7e-4, spread: SPREAD }, &[5e-4, 5e-3]))
     },
     effect: |chain, record, active| Ok(Effect::Coil(chain.along(record, ID, 0, coordinate(active.values[0])))),
     extended: |design, active| Some(with_hub_resistance(design, active.values[0])),
 };
 
-/// Resistance at which the coordinate is one half \[m² K/W\].
-const RESISTANCE: f64 = 2e-3;
+/// Resistance at which the coordinate is one half \[m² K/W\]: that of a tenth of a millimetre of air.
+const RESISTANCE: f64 = 5e-3;
+/// Spread of ln of the resistance, about that of some hundredths of a millimetre of air: from a joint that is glued well to one that has come off.
+const SPREAD: f64 = 1.2;
 
 fn applies(design: &Design) -> bool {
     design.spool.as_ref().is_some_and(|s| s.hub_contact == Contact::Bonded)

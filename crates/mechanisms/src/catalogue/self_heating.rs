@@ -33,8 +33,8 @@ pub(super) const SELF_HEATING: Named = Named {
         let flanges = heatable_flanges(design);
         (!flanges.is_empty()).then(|| Offer {
             parameters: vec![
-                Parameter::new("power_w", Prior::LogNormal { median: 0.05, spread: 1.4 }),
-                Parameter::new("before_s", Prior::LogNormal { median: 30.0, spread: 1.0 }),
+                Parameter::new("power_w", Prior::LogNormal { median: 0.2, spread: 1.6 }),
+                Parameter::new("before_s", Prior::LogNormal { median: 60.0, spread: 1.5 }),
             ],
             choice: choice_of(&flanges),
             starts: grid(&[&[0.005, 0.05], &[10.0, 60.0, 300.0]]),

@@ -6,6 +6,8 @@ mod recalibrated;
 use crate::REFERENCE_C;
 use crate::constants::{Constant, number_of};
 use crate::course::{Delay, RATE, Series, add, total};
+use crate::design::chosen;
+use crate::heat_path::AtWork;
 use crate::instruments::{self, Instruments, MINUTE, channels, nuisances};
 use crate::law_tools::Chain;
 use crate::library::Library;
@@ -47,9 +49,6 @@ struct Known {
     gain: [f64; 3],
 }
 
-/// Share of the drawing's value within which the model is made where a mechanism is a factor on the constant.
-const FACTOR: f64 = 0.5;
-
 /// Effects that are kept.
 const KEPT: usize = 12;
 
@@ -58,6 +57,9 @@ const KEPT: usize = 12;
 const NEAR: f64 = 0.02;
 /// Standard deviations from the drawing within which the model is made; beyond it is extrapolated.
 const MOST: f64 = 2.9;
+/// Change of a heat path's coordinate, which is of the size of one, from which the model is made anew about it: what the constants do beside the path
+/// follows it.
+const ALONG: f64 = 0.02;
 
 impl<'m> Gyro<'m> {
     /// A forward model of `records`, each prepared by [`Prepared::new`], with those of the `mechanisms` that the design leaves a place.
@@ -203,6 +205,35 @@ impl<'m> Gyro<'m> {
         (moved, others)
     }
 
+    /// The paths of heat among mechanisms that leave the constants as they are.
+    fn paths_of(&self, active: &[Active]) -> Vec<AtWork> {
+        let of = |active: &Active| {
+            let facts = self.kinds[active.mechanism].facts();
+            let path = facts.heat_path?;
+            let coordinate = (path.coordinate?)(active.values[0]).clamp(path.nodes[0], *path.nodes.last()?);
+            Some(AtWork { id: facts.id.to_owned(), place: chosen(active), coordinate })
+        };
+        active.iter().filter_map(of).collect()
+    }
+
+    /// Whether the models have just these paths of heat at work.
+    fn is_about(&self, at_work: &[AtWork]) -> bool {
+        let own = &self.library().at_work;
+        let near = |a: &AtWork| own.iter().any(|b| a.is(&b.id, b.place) && (a.coordinate - b.coordinate).abs() <= ALONG);
+        own.len() == at_work.len() && at_work.iter().all(near)
+    }
+
+    /// The paths of heat that the models have at work and a hypothesis has not, at no strength.
+    fn taken_away(&self, active: &[Active]) -> Vec<Active> {
+        let of = |own: &AtWork| {
+            let mechanism = self.find(&own.id)?;
+            let kept = active.iter().any(|a| a.mechanism == mechanism && chosen(a) == own.place);
+            let choice = self.mechanisms[mechanism].choice.as_ref().map(|(_, candidates)| candidates[own.place]);
+            (!kept).then(|| Active { mechanism, values: vec![0.0], choice })
+        };
+        self.library().at_work.iter().filter_map(of).collect()
+    }
+
     /// Effect of a mechanism in a record; kept for as long as other unknowns are varied.
     fn effect(&self, record: usize, active: &Active) -> Result<Arc<Known>, Error> {
         let mut known = self.known.borrow_mut();
@@ -292,7 +323,8 @@ impl ForwardModel for Gyro<'_> {
         let u = &moved;
         let without = self.recalibrated(number, u);
         let (mut parts, mut thermometer, mut gain) = (without.parts.clone(), without.thermometer.clone(), without.gain);
-        let effects = others.into_iter().map(|a| self.effect(number, a)).collect::<Result<Vec<_>, _>>()?;
+        let away = self.taken_away(active);
+        let effects = others.into_iter().chain(&away).map(|a| self.effect(number, a)).collect::<Result<Vec<_>, _>>()?;
         // mechanisms act on a coil that has the others: each one's gain on a part acts on the others' changes, too
         let changes = || effects.iter().filter_map(|known| known.change().map(|change| (change, known.gain)));
         for (change, own) in changes() {
@@ -331,18 +363,20 @@ impl ForwardModel for Gyro<'_> {
         let wanted = |k: usize| if k == instruments::CHAMBER_LAG_SQUARED { u[k].max(0.0) } else { u[k] };
         let moved = |k: usize| (wanted(k) - here[k]).abs() / self.nuisances[k].parameter.prior.sd();
         let places = (instruments::CONSTANTS..u.len()).chain([instruments::CHAMBER_DELAY, instruments::CHAMBER_LAG_SQUARED]);
-        if places.map(moved).fold(0.0, f64::max) <= NEAR {
+        let at_work = self.paths_of(active);
+        if places.map(moved).fold(0.0, f64::max) <= NEAR && self.is_about(&at_work) {
             return Ok(None);
         }
         let library = self.library();
         let within = |(k, (c, told)): (usize, (&Constant, &f64))| {
-            // as far as the paths of heat go, which were modelled for any design within its tolerances
-            let paths = self.factored.iter().any(|(place, _)| *place == k);
-            let by = if paths { FACTOR * c.drawn } else { MOST * c.tolerance };
-            c.value(*told).clamp(c.drawn - by, c.drawn + by)
+            let value = c.value(*told);
+            // one that a path of heat follows goes as far as the path, which its library sees to
+            let follows = self.factored.iter().any(|(place, _)| *place == k);
+            let by = MOST * c.tolerance;
+            if follows { value } else { value.clamp(c.drawn - by, c.drawn + by) }
         };
         let values: Vec<f64> = library.constants.iter().zip(&u[instruments::CONSTANTS..]).enumerate().map(within).collect();
-        let library = library.about(&values)?;
+        let library = library.about(&values, at_work)?;
         let lag = u[instruments::CHAMBER_LAG_SQUARED].max(0.0).sqrt();
         let delay = Delay { lag, clock: u[instruments::CHAMBER_DELAY] - lag };
         let records = self.records.iter().map(|r| r.again(&library, delay)).collect::<Result<_, _>>()?;

@@ -35,9 +35,9 @@ impl Gyro<'_> {
         if (to - from).abs() <= 1e-9 * self.library().constants[k].tolerance {
             return;
         }
-        let here = self.library().values()[k];
+        let drawn = self.library().constants[k].drawn;
         for (value, sign) in [(to, 1.0), (from, -1.0)] {
-            let Change { parts, thermometer, .. } = self.chain.along(record, id, 0, (value / here).ln());
+            let Change { parts, thermometer, .. } = self.chain.along(record, id, 0, (value / drawn).ln());
             series.change(&Series { sensor: thermometer.unwrap_or_default(), parts }, sign);
         }
     }
