@@ -9,6 +9,8 @@ use crate::statistics::{normal_quantile, robust_sd};
 /// it gives what the resolution leaves of it. `None` without three used neighbours.
 pub fn white_noise(time: &[f64], values: &[f64], mask: &[bool]) -> Option<f64> {
     let interval = series::median_interval(time)?;
+    let rounding =
+        ROUNDING * values.iter().zip(mask).filter(|(_, used)| **used).fold(0.0_f64, |most, (value, _)| most.max(value.abs()));
     let from = |weights: &[f64]| {
         let reach = weights.len() - 1;
         let difference = |row: usize| {
@@ -18,7 +20,7 @@ pub fn white_noise(time: &[f64], values: &[f64], mask: &[bool]) -> Option<f64> {
             used.then(|| rows.zip(weights).map(|(row, weight)| weight * values[row]).sum::<f64>())
         };
         let differences: Vec<f64> = (0..time.len().saturating_sub(reach)).filter_map(difference).collect();
-        Some(inner_sd(&differences)? / weights.iter().map(|weight| weight * weight).sum::<f64>().sqrt())
+        Some(inner_sd(&differences, rounding)? / weights.iter().map(|weight| weight * weight).sum::<f64>().sqrt())
     };
     let second = from(&SECOND)?;
     Some(from(&FOURTH).filter(|fourth| *fourth < CURVED * second).unwrap_or(second))
@@ -31,12 +33,15 @@ const FOURTH: [f64; 5] = [1.0, -4.0, 6.0, -4.0, 1.0];
 /// Share of the second differences' estimate that the fourth ones' falls below if there is curvature: far beyond chance.
 const CURVED: f64 = 0.7;
 
-/// Root mean square of values about 0 without their outliers.
-fn inner_sd(values: &[f64]) -> Option<f64> {
+/// Share of the largest value that arithmetic leaves of equal ones.
+const ROUNDING: f64 = 1e-12;
+
+/// Root mean square of values about 0 without their outliers; what is not above `rounding` is 0.
+fn inner_sd(values: &[f64], rounding: f64) -> Option<f64> {
     let robust = robust_sd(values.iter().copied(), 0.0)?;
     // of a coarsely resolved series the median may be 0: then the size that 5 % exceed, 1.96 standard deviations, takes its place
     let exceeded = || largest_but(0.05, values.iter().map(|value| value.abs()).collect()) / normal_quantile(0.975);
-    let scale = if robust > 0.0 { robust } else { exceeded() };
+    let scale = if robust > rounding { robust } else { exceeded() };
     let inner = || values.iter().filter(|value| value.abs() <= INNER * scale);
     Some((inner().map(|value| value * value).sum::<f64>() / inner().count() as f64).sqrt())
 }
@@ -48,4 +53,22 @@ const INNER: f64 = 4.0;
 fn largest_but(share: f64, mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() - 1 - (share * values.len() as f64) as usize]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A channel that stands still for most rows, in values that are no binary fractions.
+    #[test]
+    fn noise_of_a_coarsely_resolved_channel_is_not_what_arithmetic_leaves() {
+        let time: Vec<f64> = (0..400).map(f64::from).collect();
+        // a step of the last digit in every twentieth row
+        let values: Vec<f64> = (0..400).map(|n| 20.3 + if n % 20 == 7 { 0.1 } else { 0.0 } + 1e-15 * f64::from(n % 3)).collect();
+        let noise = white_noise(&time, &values, &vec![true; 400]).unwrap();
+        assert!((0.01..0.05).contains(&noise), "{noise:e}");
+        // what is rounded alone has no noise at all
+        let still: Vec<f64> = (0..400).map(|n| 20.3 + 4e-15 * f64::from(n % 3)).collect();
+        assert!(white_noise(&time, &still, &vec![true; 400]).unwrap() < 1e-13);
+    }
 }
