@@ -155,6 +155,11 @@ impl Outcome<'_> {
     pub(super) fn next(&self) -> String {
         let proven = !self.holdouts.is_empty() && self.accepted();
         let another = "make a record of the same unit under another profile and give it with --holdout";
+        if let Some((id, inspection)) = self.suspect() {
+            return format!(
+                "{id} is likelier than that the constants suffice, but not surely enough to be named. To decide: {inspection}; or {another}."
+            );
+        }
         match self.diagnosis.verdict {
             Verdict::Explained if proven => {
                 let names = self.names().join(" and ");
@@ -185,6 +190,16 @@ impl Outcome<'_> {
             }
             Verdict::None => "no test is needed to explain these records.".into(),
         }
+    }
+
+    /// The mechanism that is likelier than the constants, where these are the verdict all the same, and a check that decides about it.
+    pub(super) fn suspect(&self) -> Option<(&str, &str)> {
+        let d = &self.diagnosis;
+        let [none, recalibrate, ..] = d.verdicts();
+        let (first, probability) = *d.mechanisms.first()?;
+        let constants = matches!(d.verdict, Verdict::None | Verdict::Recalibrate);
+        let inspection = self.gyro.mechanism(first).facts().inspection()?;
+        (constants && probability > none + recalibrate).then(|| (self.id(first), inspection))
     }
 
     fn suffices_surely(&self) -> bool {
