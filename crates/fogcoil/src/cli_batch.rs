@@ -42,12 +42,21 @@ pub(crate) struct BatchOf {
     map: Option<PathBuf>,
 }
 
+/// Records from which it is said that all those in a folder are of one unit.
+const MANY: usize = 5;
+
 pub(crate) fn run(arguments: &BatchOf, progress: &Progress) -> Result<(), Error> {
     let BatchOf { coil, records, limits, out, json: as_json, mechanisms, meta, map } = arguments;
     let asked = input::read_mechanisms(mechanisms)?;
     let further = asked.further_columns();
     let options = RecordOptions { map: map.clone(), meta: meta.clone(), further, ..RecordOptions::default() };
     let units = units(records, out)?;
+    for unit in units.iter().filter(|unit| unit.records() >= MANY) {
+        let (name, records) = (&unit.name, unit.records());
+        progress.note(&format!(
+            "the {records} records in {name} are taken for those of one unit; give the files themselves if each is a unit"
+        ));
+    }
     let limits = limits.as_deref().map(read_limits).transpose()?;
     let all = units.iter().flat_map(|unit| unit.fits.iter().chain(&unit.holdouts)).flat_map(|record| options.files(record));
     let mut inputs: Vec<PathBuf> = all.chain(asked.own.iter().map(|own| own.file.clone())).collect();
@@ -61,7 +70,7 @@ pub(crate) fn run(arguments: &BatchOf, progress: &Progress) -> Result<(), Error>
         Ok::<_, Error>(Prediction::of(&case.name, &steady, &band))
     })?;
     let inputs = Inputs { case: &case, asked: &asked, options: &options, cache: &Cache::of_user(), prediction: &prediction };
-    progress.keeps(&kept_in(out), "units");
+    progress.keeps(&kept_in(out), "units", batch::TASK);
     let batch = progress.tasks(|tell| batch::run(&inputs, &units, limits.as_ref(), out, tell))?;
     tables.save(&table(&batch), || report(&inputs, limits.as_ref(), &batch), Vec::new(), progress)?;
     print(&if *as_json { line(&json(&batch)) } else { text(&batch) })?;

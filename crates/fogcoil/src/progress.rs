@@ -61,6 +61,8 @@ struct Kept {
     folder: String,
     /// Their name in the plural.
     name: &'static str,
+    /// The task that makes them.
+    task: &'static str,
     /// Number that is kept, and of all, once it is known.
     count: Option<(usize, usize)>,
 }
@@ -68,7 +70,7 @@ struct Kept {
 impl Kept {
     /// Words for the user who has interrupted; `None` as long as nothing is known to be kept.
     fn said(&self) -> Option<String> {
-        let Self { folder, name, count } = self;
+        let Self { folder, name, count, .. } = self;
         count.map(|(done, all)| format!("{done} of {all} {name} are kept in {folder}; the same command goes on from there"))
     }
 }
@@ -132,9 +134,9 @@ impl Progress {
         progress
     }
 
-    /// Says from now on, if the user interrupts, how many of the results that the next counted task makes are kept in a folder.
-    pub(crate) fn keeps(&self, folder: &Path, name: &'static str) {
-        *lock(&self.kept) = Some(Kept { folder: files::shown_path(folder), name, count: None });
+    /// Says from now on, if the user interrupts, how many of the results that a counted task makes are kept in a folder.
+    pub(crate) fn keeps(&self, folder: &Path, name: &'static str, task: &'static str) {
+        *lock(&self.kept) = Some(Kept { folder: files::shown_path(folder), name, task, count: None });
     }
 
     pub(crate) fn is_silent(&self) -> bool {
@@ -162,7 +164,9 @@ impl Progress {
     }
 
     fn task(&self, Step { task, done }: Step) {
-        if let (Some(kept), Some(count)) = (lock(&self.kept).as_mut(), done) {
+        if let (Some(kept), Some(count)) = (lock(&self.kept).as_mut(), done)
+            && kept.task == task
+        {
             kept.count = Some(count);
         }
         if let Some(count) = done {
@@ -360,8 +364,10 @@ mod tests {
     fn units_that_are_kept_are_told() {
         let progress = Progress::new(true);
         let said = || lock(&progress.kept).as_ref().and_then(Kept::said);
-        progress.keeps("lot/units".as_ref(), "units");
+        progress.keeps("lot/units".as_ref(), "units", "diagnosing units");
         progress.task(Step::begins("reading the records"));
+        // models are counted, too, and are no units
+        progress.task(Step::counted("modelling the design", 76, 80));
         assert_eq!(said(), None);
         progress.task(Step::counted("diagnosing units", 7, 30));
         assert_eq!(said().unwrap(), "7 of 30 units are kept in lot/units; the same command goes on from there");

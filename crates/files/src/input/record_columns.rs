@@ -90,7 +90,11 @@ fn shown(names: &[String]) -> String {
 
 fn absent(rows: &Rows, key: Key, name: &str, names: &[String]) -> InputError {
     let interval = if key == Key::Time { ", or, without instants, --interval SECONDS" } else { "" };
-    let remedy = format!("the columns here are {}; say which it is: --column {}=NAME{interval}", shown(names), key.name());
+    let key = key.name();
+    let remedy = format!(
+        "the columns here are {}; say which it is: --column {key}=NAME{interval}; for many records, {key}: (column: \"NAME\") in a file for --map",
+        shown(names)
+    );
     rows.fault(Some(name), "the column is missing", remedy)
 }
 

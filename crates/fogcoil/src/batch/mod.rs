@@ -25,6 +25,6 @@ pub use kept::{kept_files, kept_in};
 pub use limits::{Judged, Limits, check_limits, read_limits};
 pub use report::report;
 pub use row::Row;
-pub use run::{Batch, run};
+pub use run::{Batch, TASK, run};
 pub use text::text;
 pub use units::{Unit, units};

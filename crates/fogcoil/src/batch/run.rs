@@ -16,6 +16,9 @@ use super::units::Unit;
 use crate::prepare::models;
 use crate::{Error, program};
 
+/// The task that makes the findings, as it is told.
+pub const TASK: &str = "diagnosing units";
+
 /// A batch.
 pub struct Batch {
     /// The units by their names, and whether each keeps its limits.
@@ -34,7 +37,6 @@ pub fn run(
     folder: &Path,
     progress: &(dyn Fn(Step) + Sync),
 ) -> Result<Batch, Error> {
-    const NAME: &str = "diagnosing units";
     progress(Step::begins("reading the records"));
     let program = program::hash(inputs.cache.code());
     let read: Vec<Read> = units.par_iter().map(|unit| inputs.read(unit, &program)).collect::<Result<_, _>>()?;
@@ -44,7 +46,7 @@ pub fn run(
         models(inputs.case, inputs.cache, progress)?;
     }
     let done = AtomicUsize::new(found.iter().flatten().count());
-    let tell = || progress(Step::counted(NAME, done.load(Ordering::Relaxed), read.len()));
+    let tell = || progress(Step::counted(TASK, done.load(Ordering::Relaxed), read.len()));
     tell();
     let row = |(unit, found): (&Read, Option<Value>)| {
         let finding = match found {

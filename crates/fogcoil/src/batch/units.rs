@@ -19,6 +19,13 @@ pub struct Unit {
     pub lot: Option<String>,
 }
 
+impl Unit {
+    /// Number of its records.
+    pub fn records(&self) -> usize {
+        self.fits.len() + self.holdouts.len()
+    }
+}
+
 /// Begins the name of a record that judges.
 const HELD_OUT: &str = "holdout";
 

@@ -148,7 +148,30 @@ fn bad_batches_are_refused_and_nothing_is_written() {
     let output = folder.run(&["batch", "drawing.ron", "U8378.csv", "--out", "drawing.ron"]);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     assert!(!folder.path("out").exists());
+    many_records_in_a_folder_are_of_one_unit(&folder);
     results_never_lie_on_inputs(&folder);
+}
+
+/// Who gives a folder of units, a file each, is told how they are taken; where columns have other names, how to say so once for all.
+fn many_records_in_a_folder_are_of_one_unit(folder: &Folder) {
+    fs::create_dir_all(folder.path("many")).unwrap();
+    for unit in 0..5 {
+        folder.write(&format!("many/U{unit}.csv"), "t,T1,T2,Omega\n0,20,20,0\n60,20,20,0\n");
+    }
+    let said = stderr(&folder.run(&["batch", "drawing.ron", "many", "--out", "out"]));
+    assert!(said.contains("the 5 records in many are taken for those of one unit"), "{said}");
+    assert!(said.contains("time: (column: \"NAME\") in a file for --map"), "{said}");
+    folder.write(
+        "map.ron",
+        "(time: (column: \"t\"), chamber: (column: \"T1\"), spool: (column: \"T2\"), rate: (column: \"Omega\"))",
+    );
+    let files: Vec<String> = (0..4).map(|unit| format!("many/U{unit}.csv")).collect();
+    let arguments: Vec<&str> = ["batch", "drawing.ron", "--map", "map.ron", "--out", "out"]
+        .into_iter()
+        .chain(files.iter().map(String::as_str))
+        .collect();
+    let said = stderr(&folder.run(&arguments));
+    assert!(!said.contains("one unit") && !said.contains("is missing"), "{said}");
 }
 
 /// A file that is read is no place for a result; the message comes before anything is computed or written.
