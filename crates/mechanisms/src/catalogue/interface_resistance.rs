@@ -31,7 +31,8 @@ pub(super) const INTERFACE_RESISTANCE: Named = Named {
     extent: Extent::everywhere,
     caveat: |_| None,
     offer: |design, _| {
-        applies(design).then(|| Offer::one("resistance_m2k_per_w", Prior::LogNormal { median: 7e-4, spread: SPREAD }, &[5e-4, 5e-3]))
+        applies(design)
+            .then(|| Offer::one("resistance_m2k_per_w", Prior::LogNormal { median: 7e-4, spread: SPREAD }, &[5e-4, 5e-3]))
     },
     effect: |chain, record, active| Ok(Effect::Coil(chain.along(record, ID, 0, coordinate(active.values[0])))),
     extended: |design, active| Some(with_hub_resistance(design, active.values[0])),
