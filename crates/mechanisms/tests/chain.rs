@@ -293,6 +293,43 @@ fn exact_the_extended_design_has_the_change_at_its_place() {
     assert_eq!(gyro.extended(&relaxing, &opening), None);
 }
 
+/// A record of a unit with its constants and instruments somewhere, and a mechanism: white noise of the size that the channels' priors expect.
+fn recorded(gyro: &Gyro, u: &[f64], active: &[Active]) -> diagnosis::Observation {
+    let with = gyro.respond(0, u, active).expect("response");
+    let mut state = 1_u64;
+    let mut uniform = move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut noise = move |sd: f64| sd * ((0..12).map(|_| uniform()).sum::<f64>() - 6.0);
+    let noisy = |(series, channel): (&Vec<f64>, &diagnosis::Channel)| -> Vec<f64> {
+        series.iter().map(|x| x + noise(channel.noise.white.0)).collect()
+    };
+    let channels = with.iter().zip(gyro.channels()).map(noisy).collect();
+    diagnosis::Observation { time: course().0, channels }
+}
+
+/// Far from the drawing, where a fit that begins at it ends in a mount that does nearly the same from one side.
+#[test]
+fn surroundings_that_conduct_four_times_as_well_are_named() {
+    let library = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner).library().clone();
+    let known = ["air-path", "axial-heat-path", "interface-resistance"].map(|id| mechanisms::find(id).expect("in the catalogue"));
+    let gyro = of(library, &known);
+    let own = gyro.find("air-path").expect("offered");
+    let off = [("specific heat of the coil", 0.9), ("k_r", -1.0), ("E_r and G", -0.8), ("alpha_r", 0.8)];
+    let deviation = |name: &str| off.iter().find(|(own, _)| *own == name).map_or(0.0, |(_, deviations)| *deviations);
+    let u: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(deviation(&n.parameter.name))).collect();
+    let active = Active { mechanism: own, values: vec![4.0], choice: None };
+    let unit = gyro.about(&u, std::slice::from_ref(&active)).expect("a model").expect("another place");
+    let record = recorded(&unit, &u, &[active]);
+    let settled = diagnosis::settled(&gyro, &[0], std::slice::from_ref(&record), &|_| ()).expect("a model");
+    let about = settled.model.as_ref().unwrap_or(&gyro);
+    let found = diagnosis::diagnose(about, &[0], &[record], &diagnosis::Settings::default(), &|_| ()).expect("diagnosis");
+    assert_eq!((found.verdict, &found.set[..]), (diagnosis::Verdict::Explained, &[own][..]));
+    let estimate = &found.parameters[0][0];
+    assert!((estimate.ci90[0]..estimate.ci90[1]).contains(&4.0), "{estimate:?}");
+}
+
 /// docs/adding-a-mechanism.md: a mechanism that the crate does not know is fitted, compared and named like any other.
 #[test]
 fn a_mechanism_of_one_s_own_is_named() {
@@ -309,18 +346,7 @@ fn a_mechanism_of_one_s_own_is_named() {
     let expected = 6e-5 * (with[SPOOL][hot] - REFERENCE_C).powi(2);
     assert!(expected > 0.01 && (with[RATE][hot] - without[RATE][hot] - expected).abs() < 1e-12);
 
-    // a record of a unit that has it: white noise of the size that the channels' priors expect
-    let mut state = 1_u64;
-    let mut uniform = move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    let mut noise = move |sd: f64| sd * ((0..12).map(|_| uniform()).sum::<f64>() - 6.0);
-    let noisy = |(series, channel): (&Vec<f64>, &diagnosis::Channel)| -> Vec<f64> {
-        series.iter().map(|x| x + noise(channel.noise.white.0)).collect()
-    };
-    let channels = with.iter().zip(gyro.channels()).map(noisy).collect();
-    let record = diagnosis::Observation { time: course().0, channels };
+    let record = recorded(&gyro, &middle, &[active]);
     let found = diagnosis::diagnose(&gyro, &[0], &[record], &diagnosis::Settings::default(), &|_| ()).expect("diagnosis");
     assert_eq!(found.verdict, diagnosis::Verdict::Explained);
     assert_eq!(found.set, [own]);
