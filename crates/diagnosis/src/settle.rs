@@ -14,6 +14,8 @@ const TRIED: usize = 2;
 const MATTERS: f64 = 3.0;
 /// Standard deviations from the drawing beyond which a constant is far.
 const STRAINED: f64 = 2.0;
+/// Share of the leader's gain from which another mechanism is followed, too: about the drawing nobody can tell which of two strong ones it is.
+const RIVALS: f64 = 0.5;
 /// Choices of a mechanism that are tried.
 const CHOICES: usize = 3;
 
@@ -52,7 +54,8 @@ impl<M> Settled<M> {
 }
 
 /// The model about the constants of the likeliest hypothesis: constants alone, or one mechanism beside them. Each is followed to where the model
-/// about its own constants leads, as constants that make up for a mechanism that is left out may be far from those beside it.
+/// about its own constants leads, as constants that make up for a mechanism that is left out may be far from those beside it; so is the mechanism that comes next to
+/// the likeliest.
 ///
 /// # Errors
 /// [`Error`] if the model or a fit fails.
@@ -63,14 +66,14 @@ pub fn settled<M: ForwardModel>(
     progress: &dyn Fn(Step),
 ) -> Result<Settled<M>, Error<M::Error>> {
     let starts = model.starts();
-    let (mut steps, most) = (0, 1 + starts.len() + 2 * ROUNDS - TRIED);
+    let (mut steps, most) = (0, 1 + starts.len() + 3 * ROUNDS - TRIED);
     let mut told = || {
         progress(Step::counted(TASK, steps, most));
         steps += 1;
     };
     let way = |start: Option<&Vec<f64>>| -> Result<Way<M>, Error<M::Error>> {
         let about = start.map(|start| model.about(start, &[])).transpose().map_err(Error::Model)?.flatten();
-        Ok(Way { model, records, observations, about, known: None, rounds: 0, arrived: false })
+        Ok(Way { model, records, observations, about, known: None, only: None, rival: None, rounds: 0, arrived: false })
     };
     // how likely the constants are from where a way starts is seen when they have been found about it
     let mut likeliest = None;
@@ -89,7 +92,8 @@ pub fn settled<M: ForwardModel>(
         alone.go_on(false)?;
     }
     let recalibrated = alone.settled()?;
-    let (leading, gain) = leader(alone.here(), records, observations, Some(&recalibrated), &candidates(model, true))?;
+    let Led { fit: leading, gain, .. } =
+        leader(alone.here(), records, observations, Some(&recalibrated), &candidates(model, true))?;
     // constants that had to go far may stand for a mechanism that is near the drawing: about them it does not show
     let suspect = leading.hypothesis.mechanisms.first().map(|(mechanism, _)| (*mechanism, gain));
     if gain <= MATTERS && strain(model, &recalibrated) <= STRAINED {
@@ -100,7 +104,18 @@ pub fn settled<M: ForwardModel>(
         told();
         beside.go_on(true)?;
     }
-    let leader = beside.settled()?;
+    let mut leader = beside.settled()?;
+    if let Some(rival) = beside.rival.take() {
+        let mut other = Way { only: Some(rival), ..way(first)? };
+        while !other.arrived {
+            told();
+            other.go_on(true)?;
+        }
+        let led = other.settled()?;
+        if led.log_evidence > leader.log_evidence {
+            (beside, leader) = (other, led);
+        }
+    }
     // each at its best, about its own constants
     let gain = leader.log_evidence - recalibrated.log_evidence;
     let suspect = leader.hypothesis.mechanisms.first().map(|(mechanism, _)| (*mechanism, gain));
@@ -119,6 +134,10 @@ struct Way<'a, M> {
     observations: &'a [Observation],
     about: Option<M>,
     known: Option<Fit>,
+    /// The hypothesis that is followed, if there is but one.
+    only: Option<Hypothesis>,
+    /// The mechanism that comes next to the likeliest.
+    rival: Option<Hypothesis>,
     rounds: usize,
     arrived: bool,
 }
@@ -136,11 +155,13 @@ impl<M: ForwardModel> Way<'_, M> {
         // who leads is settled after two rounds
         let among = match &self.known {
             Some(known) if self.rounds > 1 => vec![known.hypothesis.clone()],
-            _ => candidates(self.model, mechanisms),
+            _ => self.only.clone().map_or_else(|| candidates(self.model, mechanisms), |only| vec![only]),
         };
-        let (leader, _) = leader(self.here(), self.records, self.observations, self.known.as_ref(), &among)?;
-        let next = self.here().about(&leader.nuisances[0], &leader.active).map_err(Error::Model)?;
-        self.known = Some(leader);
+        let Led { fit, rival, .. } = leader(self.here(), self.records, self.observations, self.known.as_ref(), &among)?;
+        let next = self.here().about(&fit.nuisances[0], &fit.active).map_err(Error::Model)?;
+        // of the last round in which all are tried
+        self.rival = rival.or(self.rival.take());
+        self.known = Some(fit);
         self.rounds += 1;
         self.arrived = next.is_none() || self.rounds == ROUNDS;
         self.about = next.or(self.about.take());
@@ -150,7 +171,7 @@ impl<M: ForwardModel> Way<'_, M> {
     /// The likeliest under the model as it is here, with its own noise.
     fn settled(&self) -> Result<Fit, Error<M::Error>> {
         let among = self.known.as_ref().map_or_else(Vec::new, |known| vec![known.hypothesis.clone()]);
-        let (last, _) = leader(self.here(), self.records, self.observations, self.known.as_ref(), &among)?;
+        let Led { fit: last, .. } = leader(self.here(), self.records, self.observations, self.known.as_ref(), &among)?;
         let fitter = Fitter::new(self.here(), self.records, self.observations).map_err(Error::Model)?;
         fitter.fit_with_noise(&last.hypothesis, &last, 2)
     }
@@ -178,26 +199,40 @@ fn candidates<M: ForwardModel>(model: &M, mechanisms: bool) -> Vec<Hypothesis> {
         .collect()
 }
 
-/// The best of some hypotheses and the constants alone, with the noise that it leaves, and by how much of ln evidence it leads on the latter.
+/// The best of some hypotheses and the constants alone.
+struct Led {
+    /// With the noise that it leaves.
+    fit: Fit,
+    /// Its lead on the constants alone, ln evidence.
+    gain: f64,
+    /// The best of those with another mechanism, if it leads on the constants by nearly as much.
+    rival: Option<Hypothesis>,
+}
+
+/// The best of some hypotheses and the constants alone.
 fn leader<M: ForwardModel>(
     model: &M,
     records: &[usize],
     observations: &[Observation],
     known: Option<&Fit>,
     among: &[Hypothesis],
-) -> Result<(Fit, f64), Error<M::Error>> {
+) -> Result<Led, Error<M::Error>> {
     let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
     let noise = match known {
         Some(fit) => fit.noise.calmed(model.channels(), observations)?,
         None => Noise::typical(model.channels(), observations)?,
     };
     let recalibrated = fitter.fit(&Hypothesis::RECALIBRATED, &noise, known)?;
-    let mut best = recalibrated.clone();
-    for hypothesis in among {
-        best = Fit::better(Some(best), fitter.screened(hypothesis, &recalibrated)?);
-    }
-    let gain = best.log_evidence - recalibrated.log_evidence;
+    let mut fits = among.iter().map(|hypothesis| fitter.screened(hypothesis, &recalibrated)).collect::<Result<Vec<Fit>, _>>()?;
+    fits.retain(|fit| !fit.log_evidence.is_nan());
+    fits.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+    let gain_of = |fit: &Fit| fit.log_evidence - recalibrated.log_evidence;
+    let best = fits.first().filter(|fit| gain_of(fit) > 0.0).unwrap_or(&recalibrated);
+    let gain = gain_of(best);
+    let mechanism = |fit: &Fit| fit.hypothesis.mechanisms.first().map(|(mechanism, _)| *mechanism);
+    let next = fits.iter().find(|fit| mechanism(fit) != mechanism(best));
+    let rival = next.filter(|fit| gain_of(fit) > MATTERS.max(RIVALS * gain)).map(|fit| fit.hypothesis.clone());
     // what the leader leaves is noise: the next round compares under that
     let noise = best.noise.refitted(model.channels(), observations, &best.residuals)?;
-    Ok((Fit { noise, ..best }, gain))
+    Ok(Led { fit: Fit { noise, ..best.clone() }, gain, rival })
 }
