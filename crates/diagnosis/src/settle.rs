@@ -12,8 +12,10 @@ const ROUNDS: usize = 6;
 const TRIED: usize = 2;
 /// Gain of ln evidence by which a mechanism beside the constants leads.
 const MATTERS: f64 = 3.0;
-/// Standard deviations from the drawing beyond which a constant is far.
-const STRAINED: f64 = 2.0;
+/// Standard deviations from the drawing beyond which a constant may hide a mechanism.
+const STRAINED: f64 = 1.0;
+/// Standard deviations from the drawing beyond which a constant has strayed: where it is no fit goes on from.
+const STRAYED: f64 = 3.0;
 /// Share of the leader's gain from which another mechanism is followed, too: about the drawing nobody can tell which of two strong ones it is.
 const RIVALS: f64 = 0.5;
 /// Choices of a mechanism that are tried.
@@ -224,6 +226,11 @@ fn leader<M: ForwardModel>(
     };
     let recalibrated = fitter.fit(&Hypothesis::RECALIBRATED, &noise, known)?;
     let mut fits = among.iter().map(|hypothesis| fitter.screened(hypothesis, &recalibrated)).collect::<Result<Vec<Fit>, _>>()?;
+    // what is known goes on from there, too
+    let goes_on = |known: &&Fit| !known.active.is_empty() && among.contains(&known.hypothesis) && strain(model, known) <= STRAYED;
+    if let Some(known) = known.filter(goes_on) {
+        fits.push(fitter.fit(&known.hypothesis, &noise, Some(known))?);
+    }
     fits.retain(|fit| !fit.log_evidence.is_nan());
     fits.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
     let gain_of = |fit: &Fit| fit.log_evidence - recalibrated.log_evidence;

@@ -37,7 +37,7 @@ pub(super) const SELF_HEATING: Named = Named {
                 Parameter::new("before_s", Prior::LogNormal { median: 60.0, spread: 1.5 }),
             ],
             choice: choice_of(&flanges),
-            starts: grid(&[&[0.005, 0.05], &[10.0, 60.0, 300.0]]),
+            starts: grid(&[&[0.005, 0.05, 0.5], &[10.0, 60.0, 300.0]]),
         })
     },
     effect: |chain, record, active| {
