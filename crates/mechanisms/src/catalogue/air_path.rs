@@ -31,7 +31,8 @@ pub(super) const AIR_PATH: Named = Named {
     extent: Extent::everywhere,
     caveat: |_| None,
     offer: |design, _| {
-        applies(design).then(|| Offer::one("conductivity_factor", Prior::LogNormal { median: 1.0, spread: SPREAD }, &[0.4, 1.0, 2.5]))
+        applies(design)
+            .then(|| Offer::one("conductivity_factor", Prior::LogNormal { median: 1.0, spread: SPREAD }, &[0.4, 1.0, 2.5]))
     },
     effect: |chain, record, active| Ok(Effect::Coil(chain.along(record, ID, 0, coordinate(active.values[0])))),
     extended: |design, active| Some(with_air(design, active.values[0])),
