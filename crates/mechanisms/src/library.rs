@@ -104,13 +104,11 @@ impl Library {
         let model = &models.model;
         // with the paths of heat at work, but one
         let with_paths = |but: Option<usize>| {
-            let at = |(k, (id, place, path)): (usize, &(String, usize, HeatPath))| {
-                let own = at_work.iter().find(|own| own.is(id, *place)).filter(|_| but != Some(k))?;
-                Some((path.design, *place, own.coordinate))
+            let put_in = |design: Design, (k, (id, place, path)): (usize, &(String, usize, HeatPath))| {
+                let own = at_work.iter().find(|own| own.is(id, *place)).filter(|_| but != Some(k));
+                own.map_or_else(|| design.clone(), |own| (path.design)(&design, *place, own.coordinate))
             };
-            let put_in =
-                |design: Design, (path, place, x): (fn(&Design, usize, f64) -> Design, usize, f64)| path(&design, place, x);
-            heat_paths.iter().enumerate().filter_map(at).fold(unchanged.clone(), put_in)
+            heat_paths.iter().enumerate().fold(unchanged.clone(), put_in)
         };
         let design = model.nearest(&with_paths(None));
         let moduli = if design.mechanics == Mechanics::Elastic {
