@@ -36,7 +36,7 @@ const CURVED: f64 = 0.7;
 /// Share of the largest value that arithmetic leaves of equal ones.
 const ROUNDING: f64 = 1e-12;
 
-/// Root mean square of values about 0 without their outliers; what is not above `rounding` is 0.
+/// Root mean square of values about 0 without their outliers; a median that is not above `rounding` counts as 0.
 fn inner_sd(values: &[f64], rounding: f64) -> Option<f64> {
     let robust = robust_sd(values.iter().copied(), 0.0)?;
     // of a coarsely resolved series the median may be 0: then the size that 5 % exceed, 1.96 standard deviations, takes its place
