@@ -81,14 +81,14 @@ impl Composed {
 ///
 /// # Errors
 /// [`Error`] if the model or a fit fails.
-pub fn compose<M: ForwardModel>(
-    model: &M,
+pub fn compose(
+    model: &dyn ForwardModel,
     laws: Range<usize>,
     records: &[usize],
     observations: &[Observation],
     beside: &Fit,
     progress: &dyn Fn(Step),
-) -> Result<Option<Composed>, Error<M::Error>> {
+) -> Result<Option<Composed>, Error> {
     compose_within(model, laws, records, observations, beside, Breadth::default(), progress)
 }
 
@@ -96,15 +96,15 @@ pub fn compose<M: ForwardModel>(
 ///
 /// # Errors
 /// As [`compose`].
-pub fn compose_within<M: ForwardModel>(
-    model: &M,
+pub fn compose_within(
+    model: &dyn ForwardModel,
     laws: Range<usize>,
     records: &[usize],
     observations: &[Observation],
     beside: &Fit,
     breadth: Breadth,
     progress: &dyn Fn(Step),
-) -> Result<Option<Composed>, Error<M::Error>> {
+) -> Result<Option<Composed>, Error> {
     let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
     let weights: f64 = laws.clone().map(|law| model.mechanisms()[law].weight).sum();
     // ln of how unlikely a law is before anything is seen
@@ -115,7 +115,7 @@ pub fn compose_within<M: ForwardModel>(
     let mut best = Path { fit: beside.clone(), others: Vec::new(), steps: Vec::new() };
     let mut met: Vec<Vec<usize>> = Vec::new();
     let mut without = beside.log_evidence;
-    let mut follow = |mut path: Path, turnings: &mut Vec<Path>| -> Result<Path, Error<M::Error>> {
+    let mut follow = |mut path: Path, turnings: &mut Vec<Path>| -> Result<Path, Error> {
         // the same laws in another order are no other way
         while path.steps.len() < breadth.terms && !met.contains(&path.fit.hypothesis.numbers()) {
             progress(Step::counted(TASK, path.steps.len(), breadth.terms));
@@ -165,14 +165,14 @@ struct Path {
 ///
 /// # Errors
 /// As [`compose`].
-pub fn in_place_of<M: ForwardModel>(
-    model: &M,
+pub fn in_place_of(
+    model: &dyn ForwardModel,
     laws: &Range<usize>,
     records: &[usize],
     observations: &[Observation],
     fit: &Fit,
     mechanism: usize,
-) -> Result<Option<Fit>, Error<M::Error>> {
+) -> Result<Option<Fit>, Error> {
     let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
     let mut without = fit.hypothesis.clone();
     without.mechanisms.retain(|(other, _)| *other != mechanism);
@@ -187,13 +187,13 @@ pub fn in_place_of<M: ForwardModel>(
 ///
 /// # Errors
 /// As [`compose`].
-pub fn gained_by_noise_of<M: ForwardModel>(
-    model: &M,
+pub fn gained_by_noise_of(
+    model: &dyn ForwardModel,
     records: &[usize],
     observations: &[Observation],
     candidate: &Candidate,
     other: &Fit,
-) -> Result<f64, Error<M::Error>> {
+) -> Result<f64, Error> {
     let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
     let fit = &candidate.fit;
     let from = Fit { noise: other.noise.clone(), ..fit.clone() };
@@ -208,7 +208,7 @@ pub fn gained_by_noise_of<M: ForwardModel>(
 }
 
 /// A fit; none where its law gives no number on the way, so that it is no law for these records.
-fn defined<E>(fit: Result<Fit, Error<E>>) -> Result<Option<Fit>, Error<E>> {
+fn defined(fit: Result<Fit, Error>) -> Result<Option<Fit>, Error> {
     match fit {
         Ok(fit) => Ok(Some(fit)),
         Err(Error::NotFinite | Error::NoStart) => Ok(None),
@@ -221,7 +221,7 @@ fn last(fit: &Fit) -> usize {
     fit.hypothesis.mechanisms.last().map_or(0, |(law, _)| *law)
 }
 
-impl<M: ForwardModel> Fitter<'_, M> {
+impl Fitter<'_> {
     /// A path with one law more, for every law of the likeliest that gains enough; and ln evidence without it, the noise as well fitted as with it.
     fn lengthened(
         &self,
@@ -230,7 +230,7 @@ impl<M: ForwardModel> Fitter<'_, M> {
         breadth: Breadth,
         cost: &impl Fn(usize) -> f64,
         first: usize,
-    ) -> Result<(f64, Vec<Path>), Error<M::Error>> {
+    ) -> Result<(f64, Vec<Path>), Error> {
         let known = &path.fit;
         let net = |fit: &Fit| fit.log_evidence - cost(last(fit));
         // noise that has not swallowed what is sought
@@ -270,7 +270,7 @@ impl<M: ForwardModel> Fitter<'_, M> {
         laws: &Range<usize>,
         breadth: Breadth,
         cost: &impl Fn(usize) -> f64,
-    ) -> Result<Vec<Fit>, Error<M::Error>> {
+    ) -> Result<Vec<Fit>, Error> {
         let net = |fit: &Fit| fit.log_evidence - cost(last(fit));
         let taken = base.hypothesis.numbers();
         let mut fits = Vec::new();
@@ -293,7 +293,7 @@ impl<M: ForwardModel> Fitter<'_, M> {
     }
 
     /// A fit without those of its laws, from number `first` on and before the last, that gain less than they cost.
-    fn weighed(&self, mut fit: Fit, first: usize, cost: &impl Fn(usize) -> f64) -> Result<Fit, Error<M::Error>> {
+    fn weighed(&self, mut fit: Fit, first: usize, cost: &impl Fn(usize) -> f64) -> Result<Fit, Error> {
         let mut place = first;
         while place + 1 < fit.hypothesis.mechanisms.len() {
             let mut hypothesis = fit.hypothesis.clone();
@@ -307,7 +307,7 @@ impl<M: ForwardModel> Fitter<'_, M> {
     }
 
     /// Laws with the gain of their sizes beside a fit, each at the best of its starts and at the best size there.
-    fn ranked(&self, laws: impl Iterator<Item = usize>, base: &Fit) -> Result<Vec<(f64, Active)>, Error<M::Error>> {
+    fn ranked(&self, laws: impl Iterator<Item = usize>, base: &Fit) -> Result<Vec<(f64, Active)>, Error> {
         let respond = |at: usize, active: &[Active]| {
             self.model.respond(self.records[at], &base.nuisances[at], active).map_err(Error::Model)
         };

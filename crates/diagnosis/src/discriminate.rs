@@ -2,7 +2,7 @@
 
 use crate::fit::{Fit, Fitter, Hypothesis, expected};
 use crate::noise::Noise;
-use crate::{Active, Channel, Error, ForwardModel, Nuisance, Observation, Omission, State};
+use crate::{Active, Channel, Error, Failure, ForwardModel, Nuisance, Observation, Omission, State};
 use nalgebra::DMatrix;
 use recording::noise::NoiseModel;
 
@@ -43,14 +43,12 @@ impl Separation {
     }
 }
 
-struct Under<'a, M> {
-    model: &'a M,
+struct Under<'a> {
+    model: &'a dyn ForwardModel,
     channels: Vec<Channel>,
 }
 
-impl<M: ForwardModel> ForwardModel for Under<'_, M> {
-    type Error = M::Error;
-
+impl ForwardModel for Under<'_> {
     fn channels(&self) -> &[Channel] {
         &self.channels
     }
@@ -71,7 +69,7 @@ impl<M: ForwardModel> ForwardModel for Under<'_, M> {
         self.model.mechanisms()
     }
 
-    fn respond(&self, record: usize, nuisances: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
+    fn respond(&self, record: usize, nuisances: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Failure> {
         self.model.respond(record, nuisances, active)
     }
 
@@ -85,12 +83,12 @@ impl<M: ForwardModel> ForwardModel for Under<'_, M> {
 ///
 /// # Errors
 /// [`Error::Data`] without records, rivals, or with another number of instants or noise models; [`Error`] if the model or a fit fails.
-pub fn separation<M: ForwardModel>(
-    model: &M,
+pub fn separation(
+    model: &dyn ForwardModel,
     plan: &Plan<'_>,
     truth: &[Active],
     rivals: &[Hypothesis],
-) -> Result<Separation, Error<M::Error>> {
+) -> Result<Separation, Error> {
     let (records, channels) = (plan.records, model.channels());
     if records.is_empty() || records.len() != plan.instants.len() {
         return Err(Error::Data(format!("{} records have {} series of instants", records.len(), plan.instants.len())));
@@ -140,12 +138,12 @@ fn with_noise(channels: &[Channel], noise: Option<&[NoiseModel]>) -> Vec<Channel
 ///
 /// # Errors
 /// [`Error::Data`] without a hypothesis; [`Error`] if the model or a fit fails.
-pub fn fitted<M: ForwardModel>(
-    model: &M,
+pub fn fitted(
+    model: &dyn ForwardModel,
     records: &[usize],
     observations: &[Observation],
     hypotheses: &[Hypothesis],
-) -> Result<Fit, Error<M::Error>> {
+) -> Result<Fit, Error> {
     let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
     let typical = Noise::typical(model.channels(), observations)?;
     let mut best: Option<Fit> = None;

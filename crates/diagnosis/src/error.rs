@@ -1,12 +1,15 @@
 //! Errors of a diagnosis.
 
-/// Errors of this crate; `E` is the forward model's own.
+/// A forward model's own error, whatever it is.
+pub type Failure = Box<dyn std::error::Error + Send + Sync>;
+
+/// Errors of this crate.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum Error<E> {
+pub enum Error {
     /// The forward model gave no response.
     #[error("the forward model failed: {0}")]
-    Model(E),
+    Model(Failure),
     /// The noise of a record cannot be modelled.
     #[error(transparent)]
     Noise(#[from] recording::Error),

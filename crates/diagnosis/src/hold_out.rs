@@ -75,13 +75,13 @@ impl Fit {
     ///
     /// # Errors
     /// [`Error`] if the model fails.
-    pub fn hold_out<M: ForwardModel>(
+    pub fn hold_out(
         &self,
-        model: &M,
+        model: &dyn ForwardModel,
         record: usize,
         observed: &Observation,
         judge: &Self,
-    ) -> Result<HeldOut, Error<M::Error>> {
+    ) -> Result<HeldOut, Error> {
         judged(model, self.unseen(model, record)?, &self.offsets[0], observed, judge)
     }
 }
@@ -90,12 +90,12 @@ impl Fit {
 ///
 /// # Errors
 /// [`Error`] if the model fails.
-pub fn as_designed<M: ForwardModel>(
-    model: &M,
+pub fn as_designed(
+    model: &dyn ForwardModel,
     fitted: (usize, &Observation),
     held: (usize, &Observation),
     judge: &Fit,
-) -> Result<HeldOut, Error<M::Error>> {
+) -> Result<HeldOut, Error> {
     let offsets: Vec<f64> = designed(model, fitted.0)?
         .response
         .iter()
@@ -109,13 +109,13 @@ pub fn as_designed<M: ForwardModel>(
 }
 
 /// A prediction with offsets against the observations.
-fn judged<M: ForwardModel>(
-    model: &M,
+fn judged(
+    model: &dyn ForwardModel,
     unseen: Unseen,
     offsets: &[f64],
     observed: &Observation,
     judge: &Fit,
-) -> Result<HeldOut, Error<M::Error>> {
+) -> Result<HeldOut, Error> {
     let noise = judge.noise.pooled(observed)?;
     let Unseen { response: mut prediction, moved, loadings } = unseen;
     let (rows, channels) = (recording::median_interval(&observed.time).unwrap_or(MINUTE), model.channels());
@@ -200,8 +200,6 @@ mod tests {
     }
 
     impl ForwardModel for Still {
-        type Error = std::convert::Infallible;
-
         fn channels(&self) -> &[Channel] {
             &self.channels
         }
@@ -214,7 +212,7 @@ mod tests {
             &[]
         }
 
-        fn respond(&self, _: usize, _: &[f64], _: &[crate::Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
+        fn respond(&self, _: usize, _: &[f64], _: &[crate::Active]) -> Result<Vec<Vec<f64>>, crate::Failure> {
             Ok(vec![vec![0.0; self.rows]])
         }
 

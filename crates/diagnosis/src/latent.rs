@@ -2,7 +2,7 @@
 
 use crate::fit::{Fit, products};
 use crate::locate::whiteness;
-use crate::{Error, ForwardModel, Latent, Observation};
+use crate::{Error, Failure, ForwardModel, Latent, Observation};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// Responses `[function][channel][row]` of one record.
@@ -73,10 +73,10 @@ impl Fit {
     }
 
     /// The latent inputs of every record, together.
-    fn latent<E>(
+    fn latent(
         records: &[usize],
-        of: impl Fn(usize) -> Result<Vec<Latent>, E>,
-    ) -> Result<Vec<(String, Vec<Functions>)>, Error<E>> {
+        of: impl Fn(usize) -> Result<Vec<Latent>, Failure>,
+    ) -> Result<Vec<(String, Vec<Functions>)>, Error> {
         let mut stages: Vec<(String, Vec<Functions>)> = Vec::new();
         for (n, record) in records.iter().enumerate() {
             for latent in of(*record).map_err(Error::Model)? {
@@ -96,12 +96,7 @@ impl Fit {
     ///
     /// # Errors
     /// [`Error`] if the model fails.
-    pub fn stages<M: ForwardModel>(
-        &self,
-        model: &M,
-        records: &[usize],
-        observations: &[Observation],
-    ) -> Result<Vec<Stage>, Error<M::Error>> {
+    pub fn stages(&self, model: &dyn ForwardModel, records: &[usize], observations: &[Observation]) -> Result<Vec<Stage>, Error> {
         let mut stages = Vec::new();
         for (stage, functions) in Self::latent(records, |r| model.latent(r))? {
             let Some((columns, _)) = self.whitened_functions(&functions) else { continue };
@@ -143,12 +138,7 @@ impl Fit {
     ///
     /// # Errors
     /// [`Error`] if the model fails.
-    pub fn resolution<M: ForwardModel>(
-        &self,
-        model: &M,
-        records: &[usize],
-        prior: f64,
-    ) -> Result<Option<MemberResolution>, Error<M::Error>> {
+    pub fn resolution(&self, model: &dyn ForwardModel, records: &[usize], prior: f64) -> Result<Option<MemberResolution>, Error> {
         let group = Self::latent(records, |r| Ok(model.members(r)?.into_iter().collect()))?;
         let Some((mut columns, scales)) = group.first().and_then(|(_, functions)| self.whitened_functions(functions)) else {
             return Ok(None);

@@ -22,7 +22,7 @@ mod verdict;
 
 pub use compose::{Breadth, Composed, Earlier, compose, compose_within, gained_by_noise_of, in_place_of};
 pub use discriminate::{Plan, Separation, fitted, separation};
-pub use error::Error;
+pub use error::{Error, Failure};
 pub use fit::{Fit, Hypothesis, Sampled, Samples, alternatives, expected, sampled};
 pub use hold_out::{HeldOut, as_designed};
 pub use latent::{MemberResolution, Stage};
@@ -33,7 +33,7 @@ pub use parameter::{Parameter, Prior};
 pub use posterior::{Estimate, Place, Posterior};
 pub use prove::{Proof, prove, proven};
 pub use rival::Rival;
-pub use search::{Settings, diagnose, diagnose_beside};
+pub use search::{Settings, diagnose, diagnose_settled};
 pub use settle::{Settled, settled};
 pub use structure::Structure;
 pub use verdict::{Candidate, Contradiction, Diagnosis, Judged, Judgement, Ruling, SURE, Verdict};

@@ -127,9 +127,9 @@ impl Fit {
     }
 
     /// The residual over level and rate.
-    pub fn over_state<M: ForwardModel>(
+    pub fn over_state(
         &self,
-        model: &M,
+        model: &dyn ForwardModel,
         (record, of_model): (usize, usize),
         channel: usize,
         observed: &Observation,
@@ -165,9 +165,9 @@ impl Fit {
     }
 
     /// Coherence of the residual with level, rate and the change of the rate, averaged over overlapping segments (Welch 1967).
-    pub fn in_frequency<M: ForwardModel>(
+    pub fn in_frequency(
         &self,
-        model: &M,
+        model: &dyn ForwardModel,
         (record, of_model): (usize, usize),
         channel: usize,
         observed: &Observation,

@@ -99,7 +99,7 @@ impl Fit {
     ///
     /// # Errors
     /// [`Error::Data`] if every record has its own of one of them.
-    pub fn believed<M: ForwardModel>(&self, model: &M, numbers: &[usize]) -> Result<Believed, Error<M::Error>> {
+    pub fn believed(&self, model: &dyn ForwardModel, numbers: &[usize]) -> Result<Believed, Error> {
         if let Some(local) = numbers.iter().find(|n| model.nuisances()[**n].local) {
             let name = &model.nuisances()[*local].parameter.name;
             return Err(Error::Data(format!("every record has its own {name}, which is no constant of a unit")));
@@ -123,13 +123,13 @@ impl Fit {
     ///
     /// # Errors
     /// [`Error`] if the model fails, or a covariance is singular.
-    pub fn stands_out<M: ForwardModel>(
+    pub fn stands_out(
         &self,
-        model: &M,
+        model: &dyn ForwardModel,
         records: &[usize],
         effect: &Active,
         known: Option<Known>,
-    ) -> Result<f64, Error<M::Error>> {
+    ) -> Result<f64, Error> {
         let mut column = Vec::with_capacity(self.whitened.len());
         for (at, (record, nuisances)) in records.iter().zip(&self.nuisances).enumerate() {
             let respond = |active: &[Active]| model.respond(*record, nuisances, active).map_err(Error::Model);

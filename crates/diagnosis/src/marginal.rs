@@ -11,7 +11,7 @@ const HALVINGS: usize = 60;
 
 /// Estimates of the mechanism at `place` in `candidates[0]`. Where the mechanism has a choice, intervals are those of the mixture over
 /// all candidates that differ in choices only.
-pub(crate) fn estimates<M: ForwardModel>(model: &M, candidates: &[Candidate], place: usize) -> Vec<Estimate> {
+pub(crate) fn estimates(model: &dyn ForwardModel, candidates: &[Candidate], place: usize) -> Vec<Estimate> {
     let best = &candidates[0].fit;
     let mut estimates = best.estimates(model, place);
     let (mechanism, choice) = best.hypothesis.mechanisms[place];

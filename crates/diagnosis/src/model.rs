@@ -1,6 +1,6 @@
 //! The interface of a forward model that the engine needs.
 
-use crate::{Parameter, Prior};
+use crate::{Failure, Parameter, Prior};
 use nalgebra::DMatrix;
 
 /// One output that is both predicted and recorded.
@@ -115,9 +115,6 @@ pub struct Latent {
 
 /// A nominal model with the mechanisms that it may leave out, prepared for some records.
 pub trait ForwardModel {
-    /// Error of a response that cannot be computed.
-    type Error;
-
     /// The channels, in the order of every response.
     fn channels(&self) -> &[Channel];
 
@@ -143,13 +140,13 @@ pub trait ForwardModel {
     ///
     /// # Errors
     /// The model's error if it cannot respond.
-    fn respond(&self, record: usize, nuisances: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error>;
+    fn respond(&self, record: usize, nuisances: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Failure>;
 
     /// The same model where it is good about these nuisances and mechanisms, if it is not yet: a model that is linear in some of them is made anew there.
     ///
     /// # Errors
     /// The model's error if it cannot be made.
-    fn about(&self, _nuisances: &[f64], _active: &[Active]) -> Result<Option<Self>, Self::Error>
+    fn about(&self, _nuisances: &[f64], _active: &[Active]) -> Result<Option<Self>, Failure>
     where
         Self: Sized,
     {
@@ -169,7 +166,7 @@ pub trait ForwardModel {
     ///
     /// # Errors
     /// The model's error if it cannot respond.
-    fn latent(&self, _record: usize) -> Result<Vec<Latent>, Self::Error> {
+    fn latent(&self, _record: usize) -> Result<Vec<Latent>, Failure> {
         Ok(Vec::new())
     }
 
@@ -177,7 +174,7 @@ pub trait ForwardModel {
     ///
     /// # Errors
     /// The model's error if it cannot respond.
-    fn members(&self, _record: usize) -> Result<Option<Latent>, Self::Error> {
+    fn members(&self, _record: usize) -> Result<Option<Latent>, Failure> {
         Ok(None)
     }
 }

@@ -56,7 +56,7 @@ impl Posterior {
 
 impl Fit {
     /// Every unknown but the channels' offsets.
-    pub fn posteriors<M: ForwardModel>(&self, model: &M) -> Vec<Posterior> {
+    pub fn posteriors(&self, model: &dyn ForwardModel) -> Vec<Posterior> {
         let of = |(i, unknown): (usize, &Unknown)| {
             let (place, record) = match *unknown {
                 Unknown::Nuisance { number, record } => (Place::Nominal(model.nuisances()[number].role), record),
@@ -71,7 +71,7 @@ impl Fit {
     }
 
     /// Parameters of the mechanism at `place` in the hypothesis, its choice before them.
-    pub fn estimates<M: ForwardModel>(&self, model: &M, place: usize) -> Vec<Estimate> {
+    pub fn estimates(&self, model: &dyn ForwardModel, place: usize) -> Vec<Estimate> {
         let Some(active) = self.active.get(place) else { return Vec::new() };
         let choice = model.mechanisms()[active.mechanism].choice.as_ref().zip(active.choice);
         let choice = choice.map(|((name, _), value)| Estimate { name: name.clone(), value, ci90: [value, value] });

@@ -28,13 +28,8 @@ impl Proof {
 ///
 /// # Errors
 /// [`Error`] if the model fails.
-pub fn prove<M: ForwardModel>(
-    model: &M,
-    before: &Fit,
-    fit: &Fit,
-    held: &[(usize, &Observation)],
-) -> Result<Proof, Error<M::Error>> {
-    let by = |which: &Fit| -> Result<Vec<HeldOut>, Error<M::Error>> {
+pub fn prove(model: &dyn ForwardModel, before: &Fit, fit: &Fit, held: &[(usize, &Observation)]) -> Result<Proof, Error> {
+    let by = |which: &Fit| -> Result<Vec<HeldOut>, Error> {
         held.iter().map(|(record, observed)| which.hold_out(model, *record, observed, fit)).collect()
     };
     let mut proof = Proof { before: by(before)?, after: by(fit)?, accepted: false };
@@ -54,12 +49,12 @@ pub fn prove<M: ForwardModel>(
 ///
 /// # Errors
 /// [`Error`] if the model fails.
-pub fn proven<'f, M: ForwardModel>(
-    model: &M,
+pub fn proven<'f>(
+    model: &dyn ForwardModel,
     before: &Fit,
     steps: &'f [Fit],
     held: &[(usize, &Observation)],
-) -> Result<Option<&'f Fit>, Error<M::Error>> {
+) -> Result<Option<&'f Fit>, Error> {
     let mut borne_out: Option<&Fit> = None;
     for step in steps {
         if prove(model, borne_out.unwrap_or(before), step, held)?.accepted {

@@ -64,7 +64,7 @@ impl Fit {
     }
 
     /// Gain of ln evidence of each structure in each channel, best first.
-    pub(crate) fn rivals<M: ForwardModel>(&self, model: &M, records: &[usize], times_of: &[&[f64]]) -> Vec<Rival> {
+    pub(crate) fn rivals(&self, model: &dyn ForwardModel, records: &[usize], times_of: &[&[f64]]) -> Vec<Rival> {
         let states = || records.iter().map(|r| model.state(*r));
         let spans = || times_of.iter().map(|time| time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first));
         let reach = Reach {

@@ -53,6 +53,15 @@ impl<M> Settled<M> {
             Alone::Other(model) => model,
         }
     }
+
+    /// Takes another model, the one about `leading`.
+    pub(crate) fn lead(&mut self, about: M, leading: Fit) {
+        let before = self.model.replace(about);
+        if matches!(self.alone, Alone::Settled) {
+            self.alone = before.map_or(Alone::Given, Alone::Other);
+        }
+        self.leading = Some(leading);
+    }
 }
 
 /// The model about the constants of the likeliest hypothesis: constants alone, or one mechanism beside them. Each is followed to where the model
@@ -66,14 +75,14 @@ pub fn settled<M: ForwardModel>(
     records: &[usize],
     observations: &[Observation],
     progress: &dyn Fn(Step),
-) -> Result<Settled<M>, Error<M::Error>> {
+) -> Result<Settled<M>, Error> {
     let starts = model.starts();
     let (mut steps, most) = (0, 1 + starts.len() + 3 * ROUNDS - TRIED);
     let mut told = || {
         progress(Step::counted(TASK, steps, most));
         steps += 1;
     };
-    let way = |start: Option<&Vec<f64>>| -> Result<Way<M>, Error<M::Error>> {
+    let way = |start: Option<&Vec<f64>>| -> Result<Way<M>, Error> {
         let about = start.map(|start| model.about(start, &[])).transpose().map_err(Error::Model)?.flatten();
         Ok(Way { model, records, observations, about, known: None, only: None, rival: None, rounds: 0, arrived: false })
     };
@@ -150,7 +159,7 @@ impl<M: ForwardModel> Way<'_, M> {
     }
 
     /// One round: fits constants alone, or with each of the mechanisms beside them, and makes the model anew about the likeliest.
-    fn go_on(&mut self, mechanisms: bool) -> Result<(), Error<M::Error>> {
+    fn go_on(&mut self, mechanisms: bool) -> Result<(), Error> {
         if self.arrived {
             return Ok(());
         }
@@ -171,7 +180,7 @@ impl<M: ForwardModel> Way<'_, M> {
     }
 
     /// The likeliest under the model as it is here, with its own noise.
-    fn settled(&self) -> Result<Fit, Error<M::Error>> {
+    fn settled(&self) -> Result<Fit, Error> {
         let among = self.known.as_ref().map_or_else(Vec::new, |known| vec![known.hypothesis.clone()]);
         let Led { fit: last, .. } = leader(self.here(), self.records, self.observations, self.known.as_ref(), &among)?;
         let fitter = Fitter::new(self.here(), self.records, self.observations).map_err(Error::Model)?;
@@ -180,7 +189,7 @@ impl<M: ForwardModel> Way<'_, M> {
 }
 
 /// The farthest that a constant of the design is from the drawing, standard deviations.
-fn strain<M: ForwardModel>(model: &M, fit: &Fit) -> f64 {
+fn strain(model: &dyn ForwardModel, fit: &Fit) -> f64 {
     let of = |(nuisance, value): (&Nuisance, &f64)| match nuisance.role {
         Role::Constant => nuisance.parameter.prior.standard(*value).abs(),
         Role::ModelError | Role::Sensor => 0.0,
@@ -189,7 +198,7 @@ fn strain<M: ForwardModel>(model: &M, fit: &Fit) -> f64 {
 }
 
 /// The mechanisms that have a name, each alone, of many choices a few; none at all where they are not asked for.
-fn candidates<M: ForwardModel>(model: &M, mechanisms: bool) -> Vec<Hypothesis> {
+fn candidates(model: &dyn ForwardModel, mechanisms: bool) -> Vec<Hypothesis> {
     let all = if mechanisms { model.mechanisms().len() } else { 0 };
     let named = (0..all).filter(|m| model.mechanisms()[*m].named);
     named
@@ -212,13 +221,13 @@ struct Led {
 }
 
 /// The best of some hypotheses and the constants alone.
-fn leader<M: ForwardModel>(
-    model: &M,
+fn leader(
+    model: &dyn ForwardModel,
     records: &[usize],
     observations: &[Observation],
     known: Option<&Fit>,
     among: &[Hypothesis],
-) -> Result<Led, Error<M::Error>> {
+) -> Result<Led, Error> {
     let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
     let noise = match known {
         Some(fit) => fit.noise.calmed(model.channels(), observations)?,

@@ -85,8 +85,6 @@ impl Sum {
 }
 
 impl ForwardModel for Sum {
-    type Error = std::convert::Infallible;
-
     fn channels(&self) -> &[Channel] {
         self.lines.channels()
     }
@@ -103,7 +101,7 @@ impl ForwardModel for Sum {
         self.lines.state(record)
     }
 
-    fn respond(&self, _: usize, _: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
+    fn respond(&self, _: usize, _: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
         let mut y = vec![0.0; ROWS];
         for Active { mechanism, values, .. } in active {
             y.iter_mut().zip(self.column(*mechanism)).for_each(|(y, x)| *y += values[0] * x);

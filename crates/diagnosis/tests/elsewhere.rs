@@ -17,10 +17,7 @@ fn noisy(series: &[f64], white: f64, seed: u64) -> Vec<f64> {
     series.iter().map(|y| y + white * normal()).collect()
 }
 
-fn run<M: ForwardModel>(model: &M, observed: &Observation) -> Diagnosis
-where
-    M::Error: std::fmt::Debug,
-{
+fn run(model: &dyn ForwardModel, observed: &Observation) -> Diagnosis {
     diagnose(model, &[0], std::slice::from_ref(observed), &Settings::default(), &|_| ()).expect("a diagnosis")
 }
 

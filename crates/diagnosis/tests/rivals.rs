@@ -48,8 +48,6 @@ impl Pair {
 }
 
 impl ForwardModel for Pair {
-    type Error = std::convert::Infallible;
-
     fn channels(&self) -> &[Channel] {
         &self.channels
     }
@@ -62,7 +60,7 @@ impl ForwardModel for Pair {
         &self.mechanisms
     }
 
-    fn respond(&self, _: usize, gain: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
+    fn respond(&self, _: usize, gain: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
         let of = |x: f64| {
             let effect = |a: &Active| {
                 let beside = match a.mechanism {
@@ -78,7 +76,7 @@ impl ForwardModel for Pair {
         Ok(vec![x().map(of).collect()])
     }
 
-    fn about(&self, _: &[f64], active: &[Active]) -> Result<Option<Self>, Self::Error> {
+    fn about(&self, _: &[f64], active: &[Active]) -> Result<Option<Self>, diagnosis::Failure> {
         let leads = active.first().map(|a| a.mechanism);
         Ok((leads != self.about).then(|| Self::new(leads)))
     }

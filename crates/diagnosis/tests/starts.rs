@@ -35,8 +35,6 @@ impl Oscillation {
 }
 
 impl ForwardModel for Oscillation {
-    type Error = std::convert::Infallible;
-
     fn channels(&self) -> &[Channel] {
         &self.channels
     }
@@ -49,12 +47,12 @@ impl ForwardModel for Oscillation {
         &[]
     }
 
-    fn respond(&self, _: usize, frequency: &[f64], _: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
+    fn respond(&self, _: usize, frequency: &[f64], _: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
         let linear = |t: f64| (self.here * t).sin() + (frequency[0] - self.here) * t * (self.here * t).cos();
         Ok(vec![time().map(linear).collect()])
     }
 
-    fn about(&self, frequency: &[f64], _: &[Active]) -> Result<Option<Self>, Self::Error> {
+    fn about(&self, frequency: &[f64], _: &[Active]) -> Result<Option<Self>, diagnosis::Failure> {
         let anew = || Self {
             channels: self.channels.clone(),
             nuisances: self.nuisances.clone(),

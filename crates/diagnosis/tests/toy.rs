@@ -62,8 +62,6 @@ impl Bath {
 }
 
 impl ForwardModel for Bath {
-    type Error = std::convert::Infallible;
-
     fn channels(&self) -> &[Channel] {
         &self.channels
     }
@@ -80,7 +78,7 @@ impl ForwardModel for Bath {
         (mechanism == FACTOR).then_some(1)
     }
 
-    fn respond(&self, record: usize, nuisances: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
+    fn respond(&self, record: usize, nuisances: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
         let State { level, rate } = &self.states[record];
         let mut y: Vec<f64> = rate.iter().map(|r| 100.0 * nuisances[0] * nuisances[1] * r).collect();
         for active in active {
@@ -104,7 +102,7 @@ impl ForwardModel for Bath {
         &self.states[record]
     }
 
-    fn latent(&self, record: usize) -> Result<Vec<Latent>, Self::Error> {
+    fn latent(&self, record: usize) -> Result<Vec<Latent>, diagnosis::Failure> {
         let State { level, rate } = &self.states[record];
         let one = |stage: &str, series: Vec<f64>| Latent { stage: stage.to_owned(), functions: vec![vec![series]] };
         Ok(vec![
@@ -115,7 +113,7 @@ impl ForwardModel for Bath {
     }
 
     /// Two that do the same, and one of its own.
-    fn members(&self, record: usize) -> Result<Option<Latent>, Self::Error> {
+    fn members(&self, record: usize) -> Result<Option<Latent>, diagnosis::Failure> {
         let State { level, rate } = &self.states[record];
         let bend: Vec<f64> = level.iter().zip(rate).map(|(l, r)| l * r).collect();
         Ok(Some(Latent { stage: "optics".to_owned(), functions: vec![vec![bend.clone()], vec![bend], vec![level.clone()]] }))

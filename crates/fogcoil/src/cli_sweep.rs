@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use fogcoil::output::Content;
-use fogcoil::sweep::{Parts, Plan, Share, Summary, clear, json, merged, read_plan, report, svg, table, text};
+use fogcoil::sweep::{Parts, Plan, Sampling, Share, Summary, clear, json, merged, read_plan, report, svg, table, text};
 use fogcoil::{Error, sweep};
 
 use crate::cli_tables::Tables;
@@ -26,7 +26,7 @@ pub(crate) struct Sweep {
     /// Make the table of the shares that are in FILE.parts, and compute nothing; exit status 2 if one is missing
     #[arg(long, conflicts_with = "share")]
     merge: bool,
-    /// Draw the Sobol' indices here
+    /// Draw the Sobol' indices of a plan with sampling: Indices(N) here
     #[arg(long, value_name = "FILE", conflicts_with = "share")]
     svg: Option<PathBuf>,
     /// Print one JSON object
@@ -48,6 +48,9 @@ pub(crate) fn run(arguments: &Sweep, progress: &Progress) -> Result<(), Error> {
     tables.make_folder()?;
     progress.reads(&inputs, &tables.files().chain(picture.as_deref()).map(Some).collect::<Vec<_>>())?;
     progress.tell(&plan.variants.case.warnings);
+    if let (Some(path), false) = (picture, matches!(plan.sampling, Sampling::Indices(_))) {
+        return Err(without_indices(path));
+    }
     let parts = Parts::beside(&tables.stem(), plan.hash());
     let rows = match merge {
         true => progress.during("merging the shares", || merged(&plan, &parts))?,
@@ -66,9 +69,11 @@ pub(crate) fn run(arguments: &Sweep, progress: &Progress) -> Result<(), Error> {
 
 /// The picture of the indices, and its file.
 fn drawn<'a>(plan: &Plan, summary: &Summary, path: &'a Path) -> Result<(&'a Path, Content<'a>), Error> {
-    let indices = summary.indices.as_ref().ok_or_else(|| {
-        let remedy = "give a plan with sampling: Indices(N) whose |S| varies";
-        Error::usage(format!("{}: there are no Sobol' indices to draw; {remedy}", files::shown_path(path)))
-    })?;
+    let indices = summary.indices.as_ref().ok_or_else(|| without_indices(path))?;
     Ok((path, Content::Text(svg(&plan.variants.case.name, indices))))
+}
+
+fn without_indices(path: &Path) -> Error {
+    let remedy = "give a plan with sampling: Indices(N) whose |S| varies";
+    Error::usage(format!("{}: there are no Sobol' indices to draw; {remedy}", files::shown_path(path)))
 }

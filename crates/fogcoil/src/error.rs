@@ -128,18 +128,18 @@ impl Error {
     }
 
     /// A diagnosis's error as an error of the coil's file or of its own.
-    pub(crate) fn of_diagnosis(file: &Path) -> impl Fn(diagnosis::Error<coil::Error>) -> Self + Copy {
+    pub(crate) fn of_diagnosis(file: &Path) -> impl Fn(diagnosis::Error) -> Self + Copy {
         move |error| match error {
-            diagnosis::Error::Model(source) => Self::of_coil(file)(source),
+            diagnosis::Error::Model(source) => match source.downcast::<coil::Error>() {
+                Ok(source) => Self::of_coil(file)(*source),
+                Err(other) => Self::Diagnosis(other.to_string()),
+            },
             other => Self::Diagnosis(other.to_string()),
         }
     }
 
     /// The same for a diagnosis with mechanisms of a user's own, whose laws may give no number somewhere.
-    pub(crate) fn of_diagnosis_with(
-        file: &Path,
-        mechanisms: &[&dyn Mechanism],
-    ) -> impl Fn(diagnosis::Error<coil::Error>) -> Self + Clone {
+    pub(crate) fn of_diagnosis_with(file: &Path, mechanisms: &[&dyn Mechanism]) -> impl Fn(diagnosis::Error) -> Self + Clone {
         let own: Vec<String> =
             mechanisms.iter().map(|m| m.facts().id.to_owned()).filter(|id| mechanisms::find(id).is_none()).collect();
         let file = file.to_owned();

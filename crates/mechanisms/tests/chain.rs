@@ -116,6 +116,32 @@ fn winding_type_mechanisms_follow_the_chain() {
     agrees("winding-defect", &[-3.0], Some(24.0), &[RATE]);
 }
 
+/// A shorter coil of fewer layers, with a thicker flange, whose bias is nearly all elasto-optic.
+fn short() -> Design {
+    let mut short = design();
+    short.winding = winding::Spec {
+        layers: 32,
+        turns_odd_layers: 60,
+        turns_even_layers: 59,
+        inner_radius: 30e-3,
+        pitch: 0.168e-3,
+        ..short.winding
+    };
+    (short.body.outer_radius, short.body.height) = (34.6783e-3, 10.08e-3);
+    common::spool(&mut short).flanges[0].thickness = 3e-3;
+    short.sensor = coil::Sensor { radius: 26e-3, y: 5.04e-3, ..short.sensor };
+    short.optics.sagnac_diameter = 64.6783e-3;
+    short
+}
+
+#[test]
+fn a_short_coil_s_tail_follows_the_chain() {
+    let gyro = of(Library::build(&short(), CATALOGUE, &|_| ()).expect("library"), CATALOGUE);
+    let (changed, responses) = with_mechanism(&gyro, &short(), "tail-asymmetry", &[0.3], None);
+    let [exact, nominal] = [&changed, &short()].map(anew);
+    agree("a short coil's tail", &responses, &exact, &nominal, &[RATE]);
+}
+
 #[test]
 fn material_mechanisms_follow_the_chain() {
     agrees("adhesive-content", &[0.037], None, &[RATE, SPOOL]);
@@ -213,6 +239,30 @@ fn constants_beside_a_strong_path_of_heat_follow_the_chain() {
     let [without, nominal] = [&about, &*gyro].map(|model| model.respond(0, &middle, &[]).expect("response"));
     let effect = minus(&exact_mounted[RATE], &nominal[RATE]);
     assert!(rms(&minus(&without[RATE], &nominal[RATE])) < 1e-6 * rms(&effect));
+}
+
+/// The heat of a heater spreads otherwise beside other constants: derivatives against a model made anew about them.
+#[test]
+fn a_heater_beside_constants_follows_a_model_about_them() {
+    let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let heater = Active { mechanism: gyro.find("self-heating").expect("a mechanism"), values: vec![1.0, 100.0], choice: None };
+    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let heat = |model: &Gyro, u: &[f64]| {
+        let [with, without] = [std::slice::from_ref(&heater), &[]].map(|active| model.respond(0, u, active).expect("response"));
+        [SPOOL, RATE].map(|channel| minus(&with[channel], &without[channel]))
+    };
+    let drawn = heat(&gyro, &middle);
+    for name in ["conductivity of the surroundings", "specific heat of the coil", "k_r"] {
+        let mut u = middle.clone();
+        let place = gyro.nuisances().iter().position(|n| n.parameter.name == name).expect("a place");
+        u[place] = gyro.nuisances()[place].parameter.prior.value(1.0);
+        let exact = heat(&gyro.about(&u, &[]).expect("a model").expect("another place"), &u);
+        for (channel, told) in heat(&gyro, &u).iter().enumerate() {
+            let effect = minus(&exact[channel], &drawn[channel]);
+            let off = rms(&minus(&minus(told, &drawn[channel]), &effect)) / rms(&effect);
+            assert!(off < 0.15, "{name}, channel {channel}: off by {off:.3} of {:e}", rms(&effect));
+        }
+    }
 }
 
 /// Every flange may be mounted, heated and open, not the first alone.

@@ -161,8 +161,6 @@ impl Tanks {
 }
 
 impl ForwardModel for Tanks {
-    type Error = std::convert::Infallible;
-
     fn channels(&self) -> &[Channel] {
         &self.channels
     }
@@ -175,7 +173,7 @@ impl ForwardModel for Tanks {
         &self.mechanisms
     }
 
-    fn respond(&self, record: usize, nuisances: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
+    fn respond(&self, record: usize, nuisances: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
         Ok(vec![self.run(record, nuisances, active).reading])
     }
 

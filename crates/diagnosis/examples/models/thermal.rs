@@ -134,8 +134,6 @@ impl Thermal {
 }
 
 impl ForwardModel for Thermal {
-    type Error = std::convert::Infallible;
-
     fn channels(&self) -> &[Channel] {
         &self.channels
     }
@@ -148,7 +146,7 @@ impl ForwardModel for Thermal {
         &self.mechanisms
     }
 
-    fn respond(&self, record: usize, nuisances: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
+    fn respond(&self, record: usize, nuisances: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
         Ok(vec![self.run(nuisances, active)[self.rows(record)].to_vec()])
     }
 

@@ -2,7 +2,7 @@
 
 use super::derivatives::Derivatives;
 use super::objective::{Objective, Point};
-use crate::{Error, ForwardModel};
+use crate::Error;
 use nalgebra::{Cholesky, DVector, Dyn};
 
 /// Largest number of steps.
@@ -16,9 +16,9 @@ const STRIDE: f64 = 2.0;
 /// First damping, least damping, and damping at which no step is left; relative to the diagonal.
 const DAMPING: [f64; 3] = [1e-3, 1e-9, 1e8];
 
-impl<M: ForwardModel> Objective<'_, M> {
+impl Objective<'_> {
     /// The nearest minimum below a point, with the derivatives there or a negligible step before.
-    pub(super) fn descend(&self, from: Point) -> Result<(Point, Derivatives), Error<M::Error>> {
+    pub(super) fn descend(&self, from: Point) -> Result<(Point, Derivatives), Error> {
         let mut at = from;
         let mut damping = DAMPING[0];
         let mut derivatives = self.derivatives(&at)?;
@@ -49,7 +49,7 @@ impl<M: ForwardModel> Objective<'_, M> {
     }
 
     /// Derivatives at another point: all of them where they are its own, else those that change.
-    fn found_anew(&self, at: &Point, all: bool, derivatives: &mut Derivatives) -> Result<(), Error<M::Error>> {
+    fn found_anew(&self, at: &Point, all: bool, derivatives: &mut Derivatives) -> Result<(), Error> {
         if all && self.is_exact() {
             *derivatives = self.derivatives(at)?;
             return Ok(());
@@ -58,7 +58,7 @@ impl<M: ForwardModel> Objective<'_, M> {
     }
 
     /// Fall of −ln p on the way to its minimum if the prediction were linear.
-    fn left(&self, at: &Point, derivatives: &Derivatives) -> Result<f64, Error<M::Error>> {
+    fn left(&self, at: &Point, derivatives: &Derivatives) -> Result<f64, Error> {
         let gradient = self.gradient(at, derivatives);
         let normal: Cholesky<f64, Dyn> =
             Cholesky::new(self.beforehand.curvature(derivatives.products.clone())).ok_or(Error::NotFinite)?;
@@ -71,7 +71,7 @@ impl<M: ForwardModel> Objective<'_, M> {
     }
 
     /// One step down with the least damping that leads down; the same point if no step leads down or promises a gain.
-    fn step(&self, at: Point, derivatives: &Derivatives, damping: &mut f64) -> Result<Point, Error<M::Error>> {
+    fn step(&self, at: Point, derivatives: &Derivatives, damping: &mut f64) -> Result<Point, Error> {
         let normal = self.beforehand.curvature(derivatives.products.clone());
         let gradient = self.gradient(&at, derivatives);
         let [_, least, most] = DAMPING;

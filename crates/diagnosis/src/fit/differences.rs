@@ -3,13 +3,13 @@
 use super::derivatives::Derivatives;
 use super::objective::{Objective, Point, Series};
 use super::unknowns::Unknown;
-use crate::{Error, ForwardModel, Observation};
+use crate::{Error, Observation};
 use nalgebra::{DMatrix, DVector};
 
-impl<M: ForwardModel> Objective<'_, M> {
+impl Objective<'_> {
     /// Derivatives at a point; those by all but mechanisms' parameters come from a fit beside this one, if there is one
     /// ([`Self::with_derivatives_of`]).
-    pub(super) fn derivatives(&self, at: &Point) -> Result<Derivatives, Error<M::Error>> {
+    pub(super) fn derivatives(&self, at: &Point) -> Result<Derivatives, Error> {
         let Some(like) = self.like else {
             let all = (0..self.layout.len()).map(|i| self.column(at, i)).collect::<Result<Vec<_>, _>>()?;
             return Ok(Derivatives::new(&all));
@@ -31,18 +31,18 @@ impl<M: ForwardModel> Objective<'_, M> {
     }
 
     /// Derivatives by mechanisms' parameters anew at a point: those by all else hardly change on the way.
-    pub(super) fn renew(&self, at: &Point, derivatives: &mut Derivatives) -> Result<(), Error<M::Error>> {
+    pub(super) fn renew(&self, at: &Point, derivatives: &mut Derivatives) -> Result<(), Error> {
         let own: Vec<usize> = (0..self.layout.len()).filter(|i| self.layout[*i].is_mechanism()).collect();
         self.renewed(at, &own, derivatives)
     }
 
-    fn renewed(&self, at: &Point, places: &[usize], derivatives: &mut Derivatives) -> Result<(), Error<M::Error>> {
+    fn renewed(&self, at: &Point, places: &[usize], derivatives: &mut Derivatives) -> Result<(), Error> {
         let columns = places.iter().map(|i| self.column(at, *i)).collect::<Result<Vec<_>, _>>()?;
         derivatives.put(places, &columns);
         Ok(())
     }
 
-    fn column(&self, at: &Point, i: usize) -> Result<DVector<f64>, Error<M::Error>> {
+    fn column(&self, at: &Point, i: usize) -> Result<DVector<f64>, Error> {
         let unknown = self.layout[i];
         let series = match unknown {
             Unknown::Offset { record, channel } => self.constant(record, channel),
@@ -52,7 +52,7 @@ impl<M: ForwardModel> Objective<'_, M> {
     }
 
     /// Derivative by unknown `i`, by a difference away from the end of the range that is considered.
-    fn derivative(&self, at: &Point, i: usize, step: f64) -> Result<Series, Error<M::Error>> {
+    fn derivative(&self, at: &Point, i: usize, step: f64) -> Result<Series, Error> {
         let mut beside = at.u.clone();
         let step = if at.u[i] > 0.0 { -step } else { step };
         beside[i] += step;

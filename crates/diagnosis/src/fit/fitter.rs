@@ -5,7 +5,7 @@ use super::derivatives::Derivatives;
 use super::hypothesis::Hypothesis;
 use super::unknowns::{Layout, Unknown, expected};
 use crate::noise::Noise;
-use crate::{Active, Channel, ForwardModel, Observation, Role};
+use crate::{Active, Channel, Failure, ForwardModel, Observation, Role};
 use nalgebra::{DMatrix, DVector};
 
 /// A hypothesis at its most probable parameters.
@@ -55,8 +55,8 @@ impl Fit {
 }
 
 /// A model to be fitted to observations of some of its records.
-pub(crate) struct Fitter<'a, M> {
-    pub(crate) model: &'a M,
+pub(crate) struct Fitter<'a> {
+    pub(crate) model: &'a dyn ForwardModel,
     pub(crate) observations: &'a [Observation],
     /// numbers of the records in the model
     pub(crate) records: &'a [usize],
@@ -97,12 +97,16 @@ impl Offset {
     }
 }
 
-impl<'a, M: ForwardModel> Fitter<'a, M> {
+impl<'a> Fitter<'a> {
     /// # Errors
     /// The model's error if it cannot respond.
-    pub(crate) fn new(model: &'a M, records: &'a [usize], observations: &'a [Observation]) -> Result<Self, M::Error> {
+    pub(crate) fn new(
+        model: &'a dyn ForwardModel,
+        records: &'a [usize],
+        observations: &'a [Observation],
+    ) -> Result<Self, Failure> {
         let middle = expected(model.nuisances());
-        let of = |(record, observed): (&usize, &Observation)| -> Result<Vec<Offset>, M::Error> {
+        let of = |(record, observed): (&usize, &Observation)| -> Result<Vec<Offset>, Failure> {
             let predicted = model.respond(*record, &middle, &[])?;
             let channels = model.channels().iter().zip(&observed.channels).zip(&predicted);
             Ok(channels.map(|((channel, recorded), predicted)| Offset::of(channel, recorded, predicted)).collect())

@@ -32,7 +32,7 @@ impl Hypothesis {
 }
 
 /// The hypotheses of one mechanism alone, one for each of its choices, beside constants that are free.
-pub fn alternatives<M: ForwardModel>(model: &M, mechanism: usize) -> Vec<Hypothesis> {
+pub fn alternatives(model: &dyn ForwardModel, mechanism: usize) -> Vec<Hypothesis> {
     let of = |choice| Hypothesis { mechanisms: vec![(mechanism, choice)], constants_free: true };
     match &model.mechanisms()[mechanism].choice {
         None => vec![of(None)],

@@ -2,7 +2,7 @@
 
 use super::fitter::{Fit, Fitter};
 use super::objective::{Objective, Point};
-use crate::{Error, ForwardModel};
+use crate::Error;
 use nalgebra::{Cholesky, DVector};
 
 /// Rounds of the search around a fit.
@@ -10,9 +10,9 @@ const SEARCHES: usize = 6;
 /// Least gain of ln p that is worth a round.
 const WORTH: f64 = 0.3;
 
-impl<M: ForwardModel> Fitter<'_, M> {
+impl Fitter<'_> {
     /// Looks for a better minimum around a fit: each parameter that asks for it ([`crate::Parameter::around`]) is set aside by its distances.
-    pub(super) fn searched(&self, mut best: Fit) -> Result<Fit, Error<M::Error>> {
+    pub(super) fn searched(&self, mut best: Fit) -> Result<Fit, Error> {
         for _ in 0..SEARCHES {
             let (hypothesis, noise) = (best.hypothesis.clone(), best.noise.clone());
             let objective = Objective::new(self, &hypothesis, &noise)?;
@@ -28,7 +28,7 @@ impl<M: ForwardModel> Fitter<'_, M> {
     }
 }
 
-impl<M: ForwardModel> Objective<'_, M> {
+impl Objective<'_> {
     /// Whether a fit may end in several places: a mechanism has several parameters, or one that asks for a second look.
     pub(super) fn may_have_many_minima(&self) -> bool {
         let several = |(mechanism, _): &(usize, Option<f64>)| self.fitter.model.mechanisms()[*mechanism].parameters.len() > 1;
@@ -42,7 +42,7 @@ impl<M: ForwardModel> Objective<'_, M> {
     }
 
     /// The least of the points around a fit; `None` if no parameter asks for any.
-    fn beside(&self, best: &Fit) -> Result<Option<Point>, Error<M::Error>> {
+    fn beside(&self, best: &Fit) -> Result<Option<Point>, Error> {
         let searched: Vec<usize> = self.kinked().collect();
         // one alone, or one against another: the sum of two may be what the records know
         let moves = searched
@@ -73,12 +73,7 @@ impl<M: ForwardModel> Objective<'_, M> {
     }
 
     /// The point to which the other unknowns follow by one linear step when those of `moved` are held.
-    fn followed(
-        &self,
-        best: &Fit,
-        u: DVector<f64>,
-        (i, other): (usize, Option<usize>),
-    ) -> Result<Option<Point>, Error<M::Error>> {
+    fn followed(&self, best: &Fit, u: DVector<f64>, (i, other): (usize, Option<usize>)) -> Result<Option<Point>, Error> {
         let held = || std::iter::once(i).chain(other);
         let at = self.point(u)?;
         let mut derivatives = best.derivatives.clone();

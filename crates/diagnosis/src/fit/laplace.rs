@@ -10,12 +10,12 @@
 use super::derivatives::Derivatives;
 use super::fitter::Fit;
 use super::objective::{Objective, Point};
-use crate::{Error, ForwardModel};
+use crate::Error;
 use nalgebra::{Cholesky, Dyn};
 
-impl<M: ForwardModel> Objective<'_, M> {
+impl Objective<'_> {
     /// The fit at a minimum with its derivatives.
-    pub(super) fn concluded(&self, (at, derivatives): (Point, Derivatives)) -> Result<Fit, Error<M::Error>> {
+    pub(super) fn concluded(&self, (at, derivatives): (Point, Derivatives)) -> Result<Fit, Error> {
         let normal: Cholesky<f64, Dyn> =
             Cholesky::new(self.beforehand.curvature(derivatives.products.clone())).ok_or(Error::NotFinite)?;
         let half_log_det: f64 = normal.l_dirty().diagonal().iter().map(|d| d.ln()).sum();

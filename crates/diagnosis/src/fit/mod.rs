@@ -32,7 +32,7 @@ pub(crate) use unknowns::{Unknown, parameter};
 pub(crate) use unseen::{Unseen, designed};
 
 use crate::noise::Noise;
-use crate::{Active, Error, ForwardModel};
+use crate::{Active, Error};
 
 /// Starts that are followed to the end.
 const STARTS: usize = 4;
@@ -41,25 +41,25 @@ const ALIKE: f64 = 0.05;
 /// Least gain of ln evidence by a round of fitting the noise after which another round follows.
 const NOISE_SETTLED: f64 = 0.1;
 
-impl<M: ForwardModel> Fitter<'_, M> {
+impl Fitter<'_> {
     /// Fits a hypothesis under a known noise; `known` gives a place to start from.
-    pub(crate) fn fit(&self, hypothesis: &Hypothesis, noise: &Noise, known: Option<&Fit>) -> Result<Fit, Error<M::Error>> {
+    pub(crate) fn fit(&self, hypothesis: &Hypothesis, noise: &Noise, known: Option<&Fit>) -> Result<Fit, Error> {
         self.best(&Objective::new(self, hypothesis, noise)?, known, &[])
     }
 
     /// The same beside a fit under the same noise, whose derivatives by nuisances are taken for this one's: several times as fast. Mechanisms change
     /// the effect of nuisances a little; where the records know a nuisance far better than its prior, the fit may stay behind the best.
-    pub(crate) fn screened(&self, hypothesis: &Hypothesis, beside: &Fit) -> Result<Fit, Error<M::Error>> {
+    pub(crate) fn screened(&self, hypothesis: &Hypothesis, beside: &Fit) -> Result<Fit, Error> {
         self.screened_from(hypothesis, beside, &[])
     }
 
     /// The same from where other fits have `found` some of its mechanisms, and from the likeliest of the usual starts.
-    pub(crate) fn screened_from(&self, hypothesis: &Hypothesis, beside: &Fit, found: &[Active]) -> Result<Fit, Error<M::Error>> {
+    pub(crate) fn screened_from(&self, hypothesis: &Hypothesis, beside: &Fit, found: &[Active]) -> Result<Fit, Error> {
         self.best(&Objective::new(self, hypothesis, &beside.noise)?.with_derivatives_of(beside), Some(beside), found)
     }
 
-    fn best(&self, objective: &Objective<M>, known: Option<&Fit>, found: &[Active]) -> Result<Fit, Error<M::Error>> {
-        let likeliest = |found: &[Active], count: usize| -> Result<Vec<_>, Error<M::Error>> {
+    fn best(&self, objective: &Objective, known: Option<&Fit>, found: &[Active]) -> Result<Fit, Error> {
+        let likeliest = |found: &[Active], count: usize| -> Result<Vec<_>, Error> {
             let starts = objective.starts(known, found).into_iter();
             let mut tried = starts.map(|u| objective.point(u)).collect::<Result<Vec<_>, _>>()?;
             tried.sort_by(|a, b| a.value.total_cmp(&b.value));
@@ -85,7 +85,7 @@ impl<M: ForwardModel> Fitter<'_, M> {
     }
 
     /// Fits a hypothesis and its noise in turn, `rounds` times.
-    pub(crate) fn fit_with_noise(&self, hypothesis: &Hypothesis, known: &Fit, rounds: usize) -> Result<Fit, Error<M::Error>> {
+    pub(crate) fn fit_with_noise(&self, hypothesis: &Hypothesis, known: &Fit, rounds: usize) -> Result<Fit, Error> {
         let mut best = self.fit(hypothesis, &known.noise, Some(known))?;
         for _ in 0..rounds {
             let noise = best.noise.refitted(self.model.channels(), self.observations, &best.residuals)?;

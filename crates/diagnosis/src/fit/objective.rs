@@ -6,14 +6,14 @@ use super::fitter::{Fit, Fitter, Offset};
 use super::hypothesis::Hypothesis;
 use super::unknowns::{Layout, Unknown, expected, parameter};
 use crate::noise::Noise;
-use crate::{Active, Error, ForwardModel, Observation, Parameter, Prior};
+use crate::{Active, Error, Observation, Parameter, Prior};
 use nalgebra::DVector;
 
 /// Series `[record][channel][row]`.
 pub(super) type Series = Vec<Vec<Vec<f64>>>;
 
-pub(super) struct Objective<'a, M> {
-    pub(super) fitter: &'a Fitter<'a, M>,
+pub(super) struct Objective<'a> {
+    pub(super) fitter: &'a Fitter<'a>,
     pub(super) hypothesis: &'a Hypothesis,
     pub(super) noise: &'a Noise,
     pub(super) layout: Layout,
@@ -30,10 +30,10 @@ pub(super) struct Point {
     pub(super) value: f64,
 }
 
-impl<'a, M: ForwardModel> Objective<'a, M> {
+impl<'a> Objective<'a> {
     /// # Errors
     /// [`Error::NotFinite`] if the model's prior of its nuisances is no density.
-    pub(super) fn new(fitter: &'a Fitter<'a, M>, hypothesis: &'a Hypothesis, noise: &'a Noise) -> Result<Self, Error<M::Error>> {
+    pub(super) fn new(fitter: &'a Fitter<'a>, hypothesis: &'a Hypothesis, noise: &'a Noise) -> Result<Self, Error> {
         let layout = fitter.layout(hypothesis);
         let beforehand = fitter.beforehand(&layout).ok_or(Error::NotFinite)?;
         Ok(Self { fitter, hypothesis, noise, layout, beforehand, like: None })
@@ -86,14 +86,14 @@ impl<'a, M: ForwardModel> Objective<'a, M> {
         (nuisances, active)
     }
 
-    pub(super) fn point(&self, u: DVector<f64>) -> Result<Point, Error<M::Error>> {
+    pub(super) fn point(&self, u: DVector<f64>) -> Result<Point, Error> {
         let responses = self.responses(&u)?;
         let whitened = self.whiten(&self.residuals(&u, &responses));
         let value = whitened.norm_squared() / 2.0 + self.beforehand.energy(&u);
         Ok(Point { u, responses, whitened, value })
     }
 
-    pub(super) fn responses(&self, u: &DVector<f64>) -> Result<Series, Error<M::Error>> {
+    pub(super) fn responses(&self, u: &DVector<f64>) -> Result<Series, Error> {
         let (nuisances, active) = self.at(u);
         let of = |(record, n): (&usize, &Vec<f64>)| self.fitter.model.respond(*record, n, &active).map_err(Error::Model);
         self.fitter.records.iter().zip(&nuisances).map(of).collect()

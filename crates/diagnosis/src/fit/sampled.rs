@@ -113,14 +113,14 @@ fn mixture(modes: &[Mode], u: &DVector<f64>) -> f64 {
 ///
 /// # Errors
 /// The model's error if it cannot respond; [`Error::NotFinite`] if a minimum has no normal density.
-pub fn sampled<M: ForwardModel>(
-    model: &M,
+pub fn sampled(
+    model: &dyn ForwardModel,
     records: &[usize],
     observations: &[Observation],
     fit: &Fit,
     steps: usize,
     seed: u64,
-) -> Result<Samples, Error<M::Error>> {
+) -> Result<Samples, Error> {
     let steps = steps.max(FEWEST);
     let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
     let hypothesis: &Hypothesis = &fit.hypothesis;
@@ -166,9 +166,9 @@ pub fn sampled<M: ForwardModel>(
     Ok(Samples { unknowns, minima: modes.len(), taken: taken as f64 / (WALKS * steps) as f64 })
 }
 
-impl<M: ForwardModel> Objective<'_, M> {
+impl Objective<'_> {
     /// Minima to which the mechanisms' own starts and `fit` lead, the likeliest first.
-    fn modes(&self, fit: &Fit) -> Result<Vec<Mode>, Error<M::Error>> {
+    fn modes(&self, fit: &Fit) -> Result<Vec<Mode>, Error> {
         let anew = Fit { active: Vec::new(), ..fit.clone() };
         let mut starts = self.starts(Some(&anew), &[]).into_iter().map(|u| self.point(u)).collect::<Result<Vec<_>, _>>()?;
         starts.sort_by(|a, b| a.value.total_cmp(&b.value));

@@ -3,13 +3,13 @@
 use super::fitter::Fit;
 use super::objective::Objective;
 use super::unknowns::Unknown;
-use crate::{Active, ForwardModel};
+use crate::Active;
 use nalgebra::DVector;
 
 /// Largest unknown of a known fit [u] from which alone a fit starts; beyond it the fit starts from the middles of the priors, too.
 const STRAYED: f64 = 3.0;
 
-impl<M: ForwardModel> Objective<'_, M> {
+impl Objective<'_> {
     /// Unknowns of all combinations of the mechanisms' starts; `known` gives the others, and the mechanisms that it has fitted, beside those that other
     /// fits have `found`.
     pub(super) fn starts(&self, known: Option<&Fit>, found: &[Active]) -> Vec<DVector<f64>> {

@@ -35,7 +35,7 @@ pub fn expected(nuisances: &[Nuisance]) -> Vec<f64> {
 }
 
 /// The parameter that an unknown stands for; none for an offset, or for a mechanism that the model does not have.
-pub(crate) fn parameter<'m, M: ForwardModel>(model: &'m M, hypothesis: &Hypothesis, unknown: Unknown) -> Option<&'m Parameter> {
+pub(crate) fn parameter<'m>(model: &'m dyn ForwardModel, hypothesis: &Hypothesis, unknown: Unknown) -> Option<&'m Parameter> {
     match unknown {
         Unknown::Nuisance { number, .. } => Some(&model.nuisances()[number].parameter),
         Unknown::Mechanism { place, parameter } => {

@@ -20,7 +20,7 @@ pub(crate) struct Unseen {
 ///
 /// # Errors
 /// [`Error`] if the model fails.
-pub(crate) fn designed<M: ForwardModel>(model: &M, record: usize) -> Result<Unseen, Error<M::Error>> {
+pub(crate) fn designed(model: &dyn ForwardModel, record: usize) -> Result<Unseen, Error> {
     let there = There { nuisances: expected(model.nuisances()), active: Vec::new() };
     let response = there.respond(model, record)?;
     let own = own(model, record, &there, &response)?;
@@ -36,19 +36,19 @@ struct There {
 }
 
 impl There {
-    fn respond<M: ForwardModel>(&self, model: &M, record: usize) -> Result<Response, Error<M::Error>> {
+    fn respond(&self, model: &dyn ForwardModel, record: usize) -> Result<Response, Error> {
         model.respond(record, &self.nuisances, &self.active).map_err(Error::Model)
     }
 
     /// The derivative of the response, `response` here, along the change that `moves` the numbers by one unit in so many steps.
-    fn derivative<M: ForwardModel>(
+    fn derivative(
         &self,
-        model: &M,
+        model: &dyn ForwardModel,
         record: usize,
         response: &Response,
         step: f64,
         moves: impl FnOnce(&mut Self, f64),
-    ) -> Result<Response, Error<M::Error>> {
+    ) -> Result<Response, Error> {
         let mut beside = self.clone();
         moves(&mut beside, step);
         let mut there = beside.respond(model, record)?;
@@ -60,7 +60,7 @@ impl There {
 }
 
 /// Effect of one standard deviation of each number that every record has of its own.
-fn own<M: ForwardModel>(model: &M, record: usize, there: &There, response: &Response) -> Result<Vec<Response>, Error<M::Error>> {
+fn own(model: &dyn ForwardModel, record: usize, there: &There, response: &Response) -> Result<Vec<Response>, Error> {
     let local = model.nuisances().iter().enumerate().filter(|(_, nuisance)| nuisance.local);
     let moved = local.map(|(number, nuisance)| {
         let prior = nuisance.parameter.prior;
@@ -74,7 +74,7 @@ impl Fit {
     ///
     /// # Errors
     /// [`Error`] if the model fails.
-    pub(crate) fn unseen<M: ForwardModel>(&self, model: &M, record: usize) -> Result<Unseen, Error<M::Error>> {
+    pub(crate) fn unseen(&self, model: &dyn ForwardModel, record: usize) -> Result<Unseen, Error> {
         let middle = expected(model.nuisances());
         // what every record has of its own is not known here
         let shared = |(number, nuisance): (usize, &crate::Nuisance)| {

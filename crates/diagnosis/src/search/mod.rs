@@ -1,11 +1,13 @@
 //! The search: every mechanism that a model may leave out is fitted and weighed.
 //!
-//! [`singles`] fits every mechanism alone and gives those that matter noise of their own; [`pairs`] looks for what may stand beside them.
+//! [`singles`] fits every mechanism alone and gives those that matter noise of their own; [`pairs`] looks for what may stand beside them. [`agreed`] does it under the model that is good about the result.
 
+mod agreed;
 mod pairs;
 mod settings;
 mod singles;
 
+pub use agreed::diagnose_settled;
 pub use settings::Settings;
 
 use progress::Step;
@@ -25,12 +27,14 @@ const LEADERS: usize = 5;
 /// ln evidence behind the best beyond which a candidate is not worth its own noise.
 const BEHIND: f64 = 25.0;
 
-struct Pool<'a, M> {
-    fitter: Fitter<'a, M>,
+struct Pool<'a> {
+    fitter: Fitter<'a>,
     settings: Settings,
     /// Every mechanism alone, once for each of its choices.
     singles: Vec<Vec<Hypothesis>>,
     candidates: Vec<Candidate>,
+    /// Fits of hypotheses by models that are good about them: what these tell of them holds.
+    known: &'a [Fit],
     /// A likely fit that is known beforehand: the first search for all others begins at it.
     leading: Option<Fit>,
     /// Listener that is told each task as it begins, and the long ones as they go.
@@ -43,46 +47,43 @@ struct Pool<'a, M> {
 ///
 /// # Errors
 /// [`Error`] if the model or a fit fails.
-pub fn diagnose<M: ForwardModel>(
-    model: &M,
+pub fn diagnose(
+    model: &dyn ForwardModel,
     records: &[usize],
     observations: &[Observation],
     settings: &Settings,
     progress: &dyn Fn(Step),
-) -> Result<Diagnosis, Error<M::Error>> {
-    compared(model, records, observations, settings, [None, None], progress)
+) -> Result<Diagnosis, Error> {
+    compared(model, records, observations, settings, (&[], None), progress)
 }
 
-/// The same where a fit of the constants alone is known from a model that is good about them, and one with the likeliest mechanism beside them
-/// ([`crate::settled`]).
-///
-/// # Errors
-/// As [`diagnose`].
-pub fn diagnose_beside<M: ForwardModel>(
-    model: &M,
+/// The same where fits of some hypotheses are `known` from models that are good about them, and one that is the likeliest under this model: where the search
+/// begins.
+pub(crate) fn diagnose_beside(
+    model: &dyn ForwardModel,
     records: &[usize],
     observations: &[Observation],
     settings: &Settings,
-    recalibrated: Fit,
+    known: &[Fit],
     leading: Option<Fit>,
     progress: &dyn Fn(Step),
-) -> Result<Diagnosis, Error<M::Error>> {
-    compared(model, records, observations, settings, [Some(recalibrated), leading], progress)
+) -> Result<Diagnosis, Error> {
+    compared(model, records, observations, settings, (known, leading), progress)
 }
 
-fn compared<M: ForwardModel>(
-    model: &M,
+fn compared(
+    model: &dyn ForwardModel,
     records: &[usize],
     observations: &[Observation],
     settings: &Settings,
-    [recalibrated, leading]: [Option<Fit>; 2],
+    (known, leading): (&[Fit], Option<Fit>),
     progress: &dyn Fn(Step),
-) -> Result<Diagnosis, Error<M::Error>> {
+) -> Result<Diagnosis, Error> {
     let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
     let singles = (0..model.mechanisms().len()).map(|m| alternatives(model, m)).collect();
-    let mut pool = Pool { fitter, settings: *settings, singles, candidates: Vec::new(), leading, progress };
-    if let Some(fit) = recalibrated {
-        pool.push(fit, None);
+    let mut pool = Pool { fitter, settings: *settings, singles, candidates: Vec::new(), known, leading, progress };
+    if let Some(fit) = known.iter().find(|fit| fit.hypothesis == Hypothesis::RECALIBRATED) {
+        pool.push(fit.clone(), None);
     }
     progress(Step::begins("nominal model and noise"));
     let nominal = pool.nominal()?;
@@ -102,16 +103,16 @@ fn sort(fits: &mut [Fit]) {
     fits.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
 }
 
-impl<M: ForwardModel> Pool<'_, M> {
+impl Pool<'_> {
     /// The nominal model with the noise that it leaves.
-    fn nominal(&self) -> Result<Fit, Error<M::Error>> {
+    fn nominal(&self) -> Result<Fit, Error> {
         let typical = Noise::typical(self.fitter.model.channels(), self.fitter.observations)?;
         let first = self.fitter.fit(&Hypothesis::NOMINAL, &typical, None)?;
         self.fitter.fit_with_noise(&Hypothesis::NOMINAL, &first, 3)
     }
 
     /// Takes in the nominal model, its constants given or re-estimated, each with its own noise found from the leader's; returns the former.
-    fn without_mechanisms(&mut self, nominal: Fit, leader: &Fit) -> Result<Fit, Error<M::Error>> {
+    fn without_mechanisms(&mut self, nominal: Fit, leader: &Fit) -> Result<Fit, Error> {
         let under_leader = |nominal: &Fit| Fit { noise: leader.noise.clone(), ..nominal.clone() };
         let again = self.fitter.fit_with_noise(&Hypothesis::NOMINAL, &under_leader(&nominal), 2)?;
         let nominal = Fit::better(Some(nominal), again);
@@ -133,6 +134,9 @@ impl<M: ForwardModel> Pool<'_, M> {
 
     /// The same for a candidate that stands for others like it, too: `kin` is the ln of their number.
     fn push_for(&mut self, fit: Fit, rival: Option<Rival>, kin: f64) {
+        let own = rival.is_none() && !fit.active.is_empty();
+        let known = self.known.iter().find(|known| own && known.hypothesis == fit.hypothesis);
+        let fit = known.cloned().unwrap_or(fit);
         let log_prior = self.settings.log_prior(self.fitter.model, &fit.hypothesis, rival.is_some());
         let log_weight = log_prior + fit.log_evidence + rival.as_ref().map_or(0.0, |r| r.gain) + kin;
         self.candidates.push(Candidate { fit, rival, log_weight, probability: 0.0 });
@@ -144,7 +148,7 @@ impl<M: ForwardModel> Pool<'_, M> {
 
     /// Adds every structure to the likeliest candidates and to the design's constants alone, under their own noise or calmer noise, which has not
     /// swallowed it: the likelier.
-    fn rivals(&mut self) -> Result<(), Error<M::Error>> {
+    fn rivals(&mut self) -> Result<(), Error> {
         let mut order: Vec<usize> = (0..self.candidates.len()).collect();
         order.sort_by(|&a, &b| self.candidates[b].log_weight.total_cmp(&self.candidates[a].log_weight));
         // the design's constants beside a structure are weighed in any case: among mechanisms alone the nearest would stand for it

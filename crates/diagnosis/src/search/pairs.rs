@@ -4,16 +4,16 @@ use progress::Step;
 
 use super::{BEHIND, FOLLOWED, LEADERS, PAIRS, Pool};
 use crate::fit::{Fit, Hypothesis};
-use crate::{Candidate, Error, ForwardModel};
+use crate::{Candidate, Error};
 
 /// Choices of a mechanism that are fitted beside another.
 const CHOICES: usize = 6;
 /// Gain of ln evidence below which nothing is sought beside a mechanism, and a pair is not worth its own noise.
 const PAIRED: f64 = 1.0;
 
-impl<M: ForwardModel> Pool<'_, M> {
+impl Pool<'_> {
     /// Takes in pairs of each of the `likeliest` mechanisms that has a name and gains on the design, its constants as they are or re-estimated.
-    pub(super) fn pairs(&mut self, likeliest: &[Fit]) -> Result<(), Error<M::Error>> {
+    pub(super) fn pairs(&mut self, likeliest: &[Fit]) -> Result<(), Error> {
         let mut followed: Vec<usize> = Vec::new();
         let without = self.candidates.iter().filter(|c| c.fit.hypothesis.mechanisms.is_empty());
         let design = without.map(|c| c.fit.log_evidence).fold(f64::NEG_INFINITY, f64::max);
@@ -29,7 +29,7 @@ impl<M: ForwardModel> Pool<'_, M> {
     }
 
     /// The mechanism of `fit` with every other one.
-    fn pairs_of(&mut self, fit: &Fit) -> Result<(), Error<M::Error>> {
+    fn pairs_of(&mut self, fit: &Fit) -> Result<(), Error> {
         let kin_of_first = self.kin(fit);
         let mut fits = Vec::new();
         for (pair, kin) in self.beside(fit.hypothesis.mechanisms[0]) {

@@ -34,13 +34,13 @@ const NUMBERS: f64 = 2.0;
 impl Settings {
     /// ln of the prior probability that a certain number of laws that the library does not hold are at work beside a hypothesis: the design's
     /// constants, with mechanisms or without. The choice among the laws is not in it.
-    pub fn log_unlisted<M: ForwardModel>(&self, model: &M, beside: &Hypothesis) -> f64 {
+    pub fn log_unlisted(&self, model: &dyn ForwardModel, beside: &Hypothesis) -> f64 {
         let mechanisms = if beside.mechanisms.is_empty() { 0.0 } else { self.log_prior(model, beside, false) };
         mechanisms + (self.unknown * DESCRIBED / NUMBERS).ln()
     }
 
     /// ln of the prior probability of a hypothesis, beside a structure or alone.
-    pub(super) fn log_prior<M: ForwardModel>(&self, model: &M, hypothesis: &Hypothesis, rival: bool) -> f64 {
+    pub(super) fn log_prior(&self, model: &dyn ForwardModel, hypothesis: &Hypothesis, rival: bool) -> f64 {
         let library = model.mechanisms();
         // among those of its kind
         let share = |&(m, _): &(usize, Option<f64>)| {

@@ -3,8 +3,8 @@
 use progress::Step;
 
 use super::{BEHIND, FOLLOWED, LIKELIEST, Pool, SINGLES, sort};
+use crate::Error;
 use crate::fit::{Fit, Hypothesis};
-use crate::{Error, ForwardModel};
 
 /// Largest number of rounds of fitting all of them.
 const ROUNDS: usize = 3;
@@ -13,9 +13,9 @@ const LEADS: f64 = 0.5;
 /// Gain of ln evidence of a round after which all are fitted once more, in the noise that the new leader leaves.
 const ONCE_MORE: f64 = 3.0;
 
-impl<M: ForwardModel> Pool<'_, M> {
+impl Pool<'_> {
     /// The leader with its own noise, and all fits under the noise of the leader before it, best first.
-    pub(super) fn singles(&self, nominal: &Fit) -> Result<(Fit, Vec<Fit>), Error<M::Error>> {
+    pub(super) fn singles(&self, nominal: &Fit) -> Result<(Fit, Vec<Fit>), Error> {
         let (model, observations) = (self.fitter.model, self.fitter.observations);
         let nominal = self.candidates.iter().find(|c| c.is_constants_alone()).map_or(nominal, |c| &c.fit);
         // constants that make up for a mechanism may be too far from its own for a way back
@@ -40,7 +40,7 @@ impl<M: ForwardModel> Pool<'_, M> {
     }
 
     /// Every mechanism, with every choice, and the constants re-estimated, under the leader's noise, from where they were `before`; best first.
-    fn round(&self, round: usize, leader: &Fit, before: &[Fit]) -> Result<Vec<Fit>, Error<M::Error>> {
+    fn round(&self, round: usize, leader: &Fit, before: &[Fit]) -> Result<Vec<Fit>, Error> {
         let count = self.singles.len();
         let mut fits: Vec<Fit> = Vec::new();
         for (k, hypotheses) in self.singles.iter().enumerate() {
@@ -56,7 +56,7 @@ impl<M: ForwardModel> Pool<'_, M> {
     }
 
     /// Takes in every single mechanism of `fits` (best first); returns those that were given their own noise, best first.
-    pub(super) fn likeliest(&mut self, fits: Vec<Fit>) -> Result<Vec<Fit>, Error<M::Error>> {
+    pub(super) fn likeliest(&mut self, fits: Vec<Fit>) -> Result<Vec<Fit>, Error> {
         let lead = fits[0].log_evidence;
         let mut leaders: Vec<Fit> = Vec::new();
         let mut met: Vec<usize> = Vec::new();

@@ -13,12 +13,12 @@ const FINDING: f64 = 3.0;
 
 impl Diagnosis {
     /// Concludes from the weighed `candidates`; `nominal` is the fit of the nominal model alone.
-    pub(crate) fn conclude<M: ForwardModel>(
-        fitter: &Fitter<M>,
+    pub(crate) fn conclude(
+        fitter: &Fitter,
         settings: &Settings,
         mut candidates: Vec<Candidate>,
         nominal: Fit,
-    ) -> Result<Self, Error<M::Error>> {
+    ) -> Result<Self, Error> {
         let model = fitter.model;
         weigh(&mut candidates);
         let verdicts = verdicts(model, &candidates);
@@ -55,7 +55,7 @@ fn weigh(candidates: &mut [Candidate]) {
 ///
 /// Many hypotheses that a record says nothing about are no finding: one of them has to stand out, all choices of its mechanisms together. It
 /// is the likeliest one, not one that explains more with more.
-fn gain<M: ForwardModel>(model: &M, candidates: &[Candidate]) -> f64 {
+fn gain(model: &dyn ForwardModel, candidates: &[Candidate]) -> f64 {
     let (design, findings): (Vec<&Candidate>, Vec<&Candidate>) =
         candidates.iter().partition(|c| matches!(kind(model, c), Verdict::None | Verdict::Recalibrate));
     let mut groups: Vec<Vec<&Candidate>> = Vec::new();
@@ -99,7 +99,7 @@ fn plain(candidate: &Candidate) -> bool {
 }
 
 /// Probabilities of the verdicts none, recalibrate, explained and unknown.
-fn verdicts<M: ForwardModel>(model: &M, candidates: &[Candidate]) -> [f64; 4] {
+fn verdicts(model: &dyn ForwardModel, candidates: &[Candidate]) -> [f64; 4] {
     let of = |verdict: Verdict| -> f64 { candidates.iter().filter(|c| kind(model, c) == verdict).map(|c| c.probability).sum() };
     let [none, recalibrate, unknown] = [Verdict::None, Verdict::Recalibrate, Verdict::Unknown].map(of);
     // no less than nothing by rounding
@@ -107,7 +107,7 @@ fn verdicts<M: ForwardModel>(model: &M, candidates: &[Candidate]) -> [f64; 4] {
 }
 
 /// The verdict that a candidate speaks for.
-fn kind<M: ForwardModel>(model: &M, candidate: &Candidate) -> Verdict {
+fn kind(model: &dyn ForwardModel, candidate: &Candidate) -> Verdict {
     let hypothesis = &candidate.fit.hypothesis;
     if !plain(candidate) || !named(model, candidate) {
         Verdict::Unknown
@@ -134,7 +134,7 @@ fn decide([none, recalibrate, explained, unknown]: [f64; 4], gain: f64) -> Verdi
 }
 
 /// Puts the best candidate of the verdict first.
-fn lead<M: ForwardModel>(model: &M, candidates: &mut [Candidate], verdict: Verdict, mechanisms: &[(usize, f64)]) {
+fn lead(model: &dyn ForwardModel, candidates: &mut [Candidate], verdict: Verdict, mechanisms: &[(usize, f64)]) {
     // of those that hold the likeliest mechanism, many small candidates together may outweigh a large one
     let likeliest = mechanisms.iter().map(|(m, _)| *m).find(|m| model.mechanisms()[*m].named);
     let fits = |c: &Candidate| {

@@ -86,19 +86,19 @@ impl Diagnosis {
     ///
     /// # Errors
     /// [`Error`] if the model fails.
-    pub fn judge<M: ForwardModel>(
+    pub fn judge(
         &mut self,
-        model: &M,
-        drawn: &M,
-        alone: Option<(&M, &Fit)>,
+        model: &dyn ForwardModel,
+        drawn: &dyn ForwardModel,
+        alone: Option<(&dyn ForwardModel, &Fit)>,
         fitted: (usize, &Observation),
         held: &[(usize, &Observation)],
         channel: usize,
-    ) -> Result<Judgement, Error<M::Error>> {
+    ) -> Result<Judgement, Error> {
         let best = self.best();
         let own = self.candidates.iter().find(|c| c.is_constants_alone()).map(|c| (model, &c.fit));
         let constants = own.map(|own| alone.unwrap_or(own));
-        let predicted = |&(record, observed): &(usize, &Observation)| -> Result<Judged, Error<M::Error>> {
+        let predicted = |&(record, observed): &(usize, &Observation)| -> Result<Judged, Error> {
             let nominal = as_designed(drawn, fitted, (record, observed), &best.fit)?;
             let constants = constants.map(|(model, fit)| fit.hold_out(model, record, observed, &best.fit)).transpose()?;
             let by_model = match constants.as_ref().filter(|_| best.is_constants_alone()) {
@@ -129,6 +129,11 @@ impl Diagnosis {
             }
             Ruling::AcceptedBeside => {
                 self.verdict = Verdict::Explained;
+                // the structure beside them is taken for noise
+                let explained = |c: &&Candidate| counted(c) && !c.fit.hypothesis.mechanisms.is_empty();
+                let explained: f64 = self.candidates.iter().filter(explained).map(|c| c.probability).sum();
+                let [none, recalibrate, ..] = self.verdicts;
+                self.verdicts = [none, recalibrate, explained, (1.0 - none - recalibrate - explained).max(0.0)];
                 self.mechanisms = beside;
                 self.set = likely(&self.mechanisms, &self.candidates, counted, self.excluded, |m| model.mechanisms()[m].named);
             }
@@ -143,7 +148,7 @@ impl Diagnosis {
     }
 
     /// Replaces the explanation by the design or its constants, whichever is likelier by all records `together`.
-    fn outweighed<M: ForwardModel>(&mut self, together: [f64; 4], model: &M) {
+    fn outweighed(&mut self, together: [f64; 4], model: &dyn ForwardModel) {
         // no other explanation has a prediction of its own: all keep their shares of what explanations have
         let left = together[2] / self.verdicts[2];
         self.mechanisms.iter_mut().for_each(|(_, probability)| *probability *= left.min(1.0));
@@ -162,7 +167,7 @@ impl Diagnosis {
     }
 
     /// Whether the unknown is a structure beside mechanisms that have a name.
-    pub fn is_beside_named<M: ForwardModel>(&self, model: &M) -> bool {
+    pub fn is_beside_named(&self, model: &dyn ForwardModel) -> bool {
         let best = self.best();
         let something = best.rival.is_some() && !best.fit.hypothesis.mechanisms.is_empty();
         self.verdict == Verdict::Unknown && something && named(model, best)
@@ -191,9 +196,10 @@ fn together(verdicts: [f64; 4], records: &[Judged]) -> [f64; 4] {
 fn rule(verdict: Verdict, together: [f64; 4], beside_named: bool, records: &[Judged], channel: usize) -> Ruling {
     // what a mechanism adds is proven over what constants do without it
     let beats = |other: &HeldOut, r: &Judged| other.clearly_worse_than(&r.model, channel);
-    let proves = |r: &Judged| {
-        beats(&r.nominal, r) && r.constants.as_ref().is_none_or(|constants| beats(constants, r)) && r.model.within_noise(channel)
-    };
+    // a channel of which nothing is used has nothing to leave
+    let within_noise = |r: &Judged| (0..r.model.rmse.len()).all(|c| r.model.rmse[c].is_nan() || r.model.within_noise(c));
+    let proves =
+        |r: &Judged| beats(&r.nominal, r) && r.constants.as_ref().is_none_or(|constants| beats(constants, r)) && within_noise(r);
     if beside_named && !records.is_empty() && records.iter().all(proves) {
         return Ruling::AcceptedBeside;
     }
@@ -306,6 +312,10 @@ mod tests {
         assert_eq!(of(&[proof.clone(), loud]), Ruling::Stands);
         assert_eq!(of(&[even, proof.clone()]), Ruling::Stands);
         assert_eq!(rule(Verdict::Unknown, SURELY, false, std::slice::from_ref(&proof), 1), Ruling::Stands);
+        // a thermometer that is left with more than its noise says that something is still missing
+        let mut hot = proof.clone();
+        (hot.model.rmse[0], hot.model.of_minutes[0]) = (5.0, 5.0);
+        assert_eq!(of(&[hot]), Ruling::Stands);
         // where the constants predict as well, the mechanism has proven nothing
         let with_constants = |rmse: f64, gain: f64| Judged { constants: Some(judged(1.0, rmse, gain).model), ..proof.clone() };
         assert_eq!(of(&[with_constants(1.2, 6.0)]), Ruling::Stands);

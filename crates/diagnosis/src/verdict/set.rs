@@ -6,13 +6,13 @@ use crate::{Candidate, ForwardModel};
 const BESIDE: f64 = 0.15;
 
 /// Whether all mechanisms of a candidate have a name.
-pub(super) fn named<M: ForwardModel>(model: &M, candidate: &Candidate) -> bool {
+pub(super) fn named(model: &dyn ForwardModel, candidate: &Candidate) -> bool {
     candidate.fit.hypothesis.mechanisms.iter().all(|(m, _)| model.mechanisms()[*m].named)
 }
 
 /// Probability of every mechanism in the candidates that are `counted`, most probable first.
-pub(super) fn marginals<M: ForwardModel>(
-    model: &M,
+pub(super) fn marginals(
+    model: &dyn ForwardModel,
     candidates: &[Candidate],
     counted: impl Fn(&Candidate) -> bool,
 ) -> Vec<(usize, f64)> {
@@ -81,7 +81,6 @@ pub(super) mod tests {
     }
 
     impl ForwardModel for Library {
-        type Error = std::convert::Infallible;
         fn channels(&self) -> &[Channel] {
             &[]
         }
@@ -91,7 +90,7 @@ pub(super) mod tests {
         fn mechanisms(&self) -> &[Omission] {
             &self.0
         }
-        fn respond(&self, _: usize, _: &[f64], _: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
+        fn respond(&self, _: usize, _: &[f64], _: &[Active]) -> Result<Vec<Vec<f64>>, crate::Failure> {
             Ok(Vec::new())
         }
         fn state(&self, _: usize) -> &State {

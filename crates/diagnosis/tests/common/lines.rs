@@ -100,8 +100,6 @@ impl Lines {
 }
 
 impl ForwardModel for Lines {
-    type Error = std::convert::Infallible;
-
     fn channels(&self) -> &[Channel] {
         &self.channels
     }
@@ -114,7 +112,7 @@ impl ForwardModel for Lines {
         &self.mechanisms
     }
 
-    fn respond(&self, _: usize, _: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
+    fn respond(&self, _: usize, _: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
         let mut y = vec![0.0; self.state.level.len()];
         for active in active {
             y.iter_mut()

@@ -54,6 +54,7 @@ pub(super) fn expectations(recording: &Recording, format: &RecordFormat, has_dat
                 possible: possible(key),
                 start,
                 fastest: if driver == Some(key) { FASTEST_C_PER_S } else { f64::INFINITY },
+                may_jump: key != Key::Spool,
                 mistaken,
                 key: key.name().into(),
                 ..Expectation::default()

@@ -27,7 +27,11 @@ pub fn table(batch: &Batch) -> Table {
             columns.push(Column::numbers(format!("{name}_{end}"), cells));
         }
     }
-    columns.extend([text("first_mechanism", &|row| row.first.clone()), text("lot", &|row| row.lot.clone())]);
+    columns.extend([
+        text("first_mechanism", &|row| row.first.clone()),
+        text("lot", &|row| row.lot.clone()),
+        text("warnings", &|row| joined(&row.warnings)),
+    ]);
     columns.extend(parameters(batch));
     columns.extend([
         text("files", &|row| joined(&row.files)),

@@ -79,7 +79,9 @@ fn units(batch: &Batch) -> Markup {
                         @if row.problem.is_none() { a href=(page(&row.unit)) { (row.unit) } } @else { (row.unit) }
                     }
                     td { (judged.word()) }
-                    td { (nice(&judged.reasons().or_else(|| row.problem.clone()).unwrap_or_default())) }
+                    td {
+                        (nice(&[row.warned(), judged.reasons().or_else(|| row.problem.clone())].into_iter().flatten().collect::<Vec<_>>().join("; ")))
+                    }
                     td {
                         (shown(row.number("sensitivity"), 4))
                         @if let Some([low, high]) = row.interval("sensitivity") { " (" (nice(&significant(low, 3))) " to " (nice(&significant(high, 3))) ")" }

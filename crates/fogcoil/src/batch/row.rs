@@ -53,6 +53,10 @@ pub struct Row {
     pub verdict: Option<String>,
     /// Ids that the records do not exclude, best first.
     pub set: Vec<String>,
+    /// Those of them that take part more probably than not: they act together.
+    together: Vec<String>,
+    /// Ids of the warnings about its records, each once.
+    pub warnings: Vec<String>,
     /// The likeliest mechanism.
     pub first: Option<String>,
     /// Parameters of the explanation: name, value and both ends of the 90 % interval.
@@ -93,6 +97,8 @@ impl Row {
             hashes: texts(&finding["sha256"]),
             verdict: text(&diagnosis["verdict"]),
             set: texts(&diagnosis["set"]),
+            together: probable(diagnosis),
+            warnings: warnings(diagnosis),
             first: text(&first["id"]),
             parameters: parameters(&diagnosis["parameters"]),
             constants: constants.filter_map(constant).collect(),
@@ -111,7 +117,14 @@ impl Row {
 
     /// What the records do not exclude, best first, in words.
     pub(super) fn open(&self) -> String {
-        self.set.join(" or ")
+        let others = self.set.iter().filter(|id| !self.together.contains(id)).cloned();
+        let together: Vec<String> = self.set.iter().filter(|id| self.together.contains(id)).cloned().collect();
+        Some(together.join(" and ")).filter(|all| !all.is_empty()).into_iter().chain(others).collect::<Vec<_>>().join(" or ")
+    }
+
+    /// What its records were warned of, in words.
+    pub(super) fn warned(&self) -> Option<String> {
+        (!self.warnings.is_empty()).then(|| format!("warned of {}", self.warnings.join(", ")))
     }
 
     /// Reason why a number is not known.
@@ -145,6 +158,26 @@ pub(super) fn unit_of(number: &str) -> &'static str {
         "arw" => " deg/sqrt(h)",
         _ => "",
     }
+}
+
+/// Ids of mechanisms that take part more probably than not.
+fn probable(diagnosis: &Value) -> Vec<String> {
+    let takes_part = |told: &&Value| told["probability"].as_f64().is_some_and(|p| p >= 0.5);
+    let all = diagnosis["mechanisms"].as_array().into_iter().flatten();
+    all.filter(takes_part).filter_map(|told| told["id"].as_str()).map(str::to_owned).collect()
+}
+
+/// Ids of a diagnosis' warnings, each once.
+fn warnings(diagnosis: &Value) -> Vec<String> {
+    let all = |key: &str| diagnosis[key].as_array().into_iter().flatten();
+    let mut warnings: Vec<String> = Vec::new();
+    for (note, id) in all("notes").zip(all("note_ids")) {
+        let (note, id) = (note.as_str().unwrap_or_default(), id.as_str().unwrap_or_default());
+        if note.starts_with("warning: ") && !warnings.iter().any(|known| known == id) {
+            warnings.push(id.to_owned());
+        }
+    }
+    warnings
 }
 
 fn pairs(value: &Value) -> Vec<(String, String)> {
@@ -203,6 +236,21 @@ mod tests {
         assert!((row.number("residual_over_noise").unwrap() - 3.0).abs() < 1e-12);
         assert_eq!((row.number("probability"), row.constants.len()), (Some(0.9), 1));
         assert_eq!(row.parameters, [("area".to_owned(), [0.3, 0.2, 0.4])]);
+        assert!(row.warnings.is_empty() && row.warned().is_none() && row.open() == "debond");
+    }
+
+    #[test]
+    fn what_acts_together_is_not_one_or_the_other_and_warnings_are_told() {
+        let row = Row::of(&json!({
+            "unit": "U", "diagnosis": {
+                "set": ["tail-asymmetry", "air-path", "debond"],
+                "mechanisms": [{"id": "tail-asymmetry", "probability": 0.93}, {"id": "debond", "probability": 0.2}, {"id": "air-path", "probability": 0.83}],
+                "notes": ["warning: a.csv: exchanged", "note: a.csv: late", "warning: b.csv: exchanged", "warning: stuck"],
+                "note_ids": ["exchanged-columns", "gap", "exchanged-columns", "stuck"],
+            },
+        }));
+        assert_eq!(row.open(), "tail-asymmetry and air-path or debond");
+        assert_eq!(row.warned().unwrap(), "warned of exchanged-columns, stuck");
     }
 
     #[test]

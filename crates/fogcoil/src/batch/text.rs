@@ -25,7 +25,11 @@ pub fn text(batch: &Batch) -> String {
             shown(row.number("residual_over_noise"), 3),
             doubt.shown(row).unwrap_or_else(|| "-".into()),
             judged.word().to_owned(),
-            [Some(row.open()).filter(|open| !open.is_empty()), reasons].into_iter().flatten().collect::<Vec<_>>().join("; "),
+            [row.warned(), Some(row.open()).filter(|open| !open.is_empty()), reasons]
+                .into_iter()
+                .flatten()
+                .collect::<Vec<_>>()
+                .join("; "),
         ]
     });
     let rows: Vec<Vec<String>> = std::iter::once(head).chain(rows).collect();

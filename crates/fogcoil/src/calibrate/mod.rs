@@ -168,7 +168,7 @@ fn constants(gyro: &Gyro) -> Vec<Constant> {
 
 /// Standard deviations by which each named mechanism, at the size from which its fit starts, stands out of a unit's records: with the constants known
 /// from the drawing, and from the lot.
-fn effects(unit: &Unit, numbers: &[usize], further: &Believed) -> Result<Vec<(String, [f64; 2])>, diagnosis::Error<coil::Error>> {
+fn effects(unit: &Unit, numbers: &[usize], further: &Believed) -> Result<Vec<(String, [f64; 2])>, diagnosis::Error> {
     let records: Vec<usize> = (0..unit.records).collect();
     let mut all = Vec::new();
     for (mechanism, omission) in unit.gyro.mechanisms().iter().enumerate().filter(|(_, m)| m.named) {

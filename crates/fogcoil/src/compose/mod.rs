@@ -81,7 +81,7 @@ impl Found {
     }
 }
 
-type Failure = diagnosis::Error<coil::Error>;
+type Failure = diagnosis::Error;
 
 /// ln evidence by which another law is behind and still not excluded, as odds of 1 to 20.
 const NEAR: f64 = 3.0;

@@ -91,13 +91,13 @@ pub fn diagnose<'m>(
     let observations: Vec<Observation> = read.iter().map(|r| r.observed.clone()).collect();
     let numbers: Vec<usize> = (0..fits.len()).collect();
     let failed = &Error::of_diagnosis_with(&case.file, mechanisms);
-    let settled = diagnosis::settled(&drawn, &numbers, &observations, progress).map_err(failed)?;
-    let gyro = settled.model.as_ref().unwrap_or(&drawn);
-    let (settings, recalibrated, leading) = (Settings::default(), settled.recalibrated.clone(), settled.leading.clone());
+    let (settings, mut settled) =
+        (Settings::default(), diagnosis::settled(&drawn, &numbers, &observations, progress).map_err(failed)?);
     let mut diagnosis =
-        diagnosis::diagnose_beside(gyro, &numbers, &observations, &settings, recalibrated, leading, progress).map_err(failed)?;
+        diagnosis::diagnose_settled(&drawn, &mut settled, &numbers, &observations, &settings, progress).map_err(failed)?;
+    let gyro = settled.model.as_ref().unwrap_or(&drawn);
     let numbered: Vec<(usize, &Observation)> = (fits.len()..).zip(held.iter().map(|record| &record.observed)).collect();
-    let alone = Some((settled.alone(&drawn), &settled.recalibrated));
+    let alone: Option<(&dyn ForwardModel, _)> = Some((settled.alone(&drawn), &settled.recalibrated));
     let Judgement { records, ruling, withdrawn } =
         diagnosis.judge(gyro, &drawn, alone, (0, &read[0].observed), &numbered, RATE_CHANNEL).map_err(failed)?;
     if let Ruling::TakenBack { record, why } = ruling {

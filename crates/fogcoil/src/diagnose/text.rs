@@ -162,13 +162,14 @@ impl Outcome<'_> {
         }
         match self.diagnosis.verdict {
             Verdict::Explained if proven => {
-                let names = self.names().join(" and ");
+                let (names, several) = (self.names().join(" and "), self.names().len() > 1);
+                let [is, it] = if several { ["are", "them"] } else { ["is", "it"] };
                 match self.law_in_place() {
                     Some(_) => format!(
                         "inspect the unit for {names}. A record that was held out confirms the size of the effect; it does not tell {names} from a \
                          law that nobody listed, which only the inspection does."
                     ),
-                    None => format!("inspect the unit. Only {names} is left, and a record that was held out confirms it."),
+                    None => format!("inspect the unit. Only {names} {is} left, and a record that was held out confirms {it}."),
                 }
             }
             Verdict::Explained => {

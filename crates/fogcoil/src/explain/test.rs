@@ -27,7 +27,7 @@ pub(super) fn tests(
     explanations: &[Explanation],
     programmes: &[Programme],
     progress: &dyn Fn(Step),
-) -> Result<Vec<Test>, diagnosis::Error<coil::Error>> {
+) -> Result<Vec<Test>, diagnosis::Error> {
     let likely = |e: &&Explanation| e.sigma().is_some_and(|sigma| sigma.abs() <= STRAINED);
     let mut contenders: Vec<Contender> = Vec::new();
     for truth in explanations.iter().filter(likely).filter_map(|e| active(gyro, e)) {

@@ -14,7 +14,7 @@ const FEW: usize = 6;
 /// Span of a reading in the tests that are proposed \[s\].
 pub(super) const INTERVAL: f64 = 30.0;
 
-pub(super) type Failure = diagnosis::Error<coil::Error>;
+pub(super) type Failure = diagnosis::Error;
 
 /// A hypothesis to be told apart from others.
 #[derive(Clone)]
@@ -64,7 +64,7 @@ fn typical(gyro: &Gyro, mechanism: usize) -> Result<Active, Failure> {
     let choice = entry.choice.as_ref().map(|(_, values)| values[values.len() / 2]);
     let at = |u: f64| Active { mechanism, values: entry.parameters.iter().map(|p| p.prior.value(u)).collect(), choice };
     let middle = expected(gyro.nuisances());
-    let respond = |active: &[Active]| gyro.respond(0, &middle, active).map_err(diagnosis::Error::Model);
+    let respond = |active: &[Active]| gyro.respond(0, &middle, active).map_err(|source| diagnosis::Error::Model(source.into()));
     let (with, without) = (respond(&[at(0.0)])?, respond(&[])?);
     let off = with.iter().flatten().zip(without.iter().flatten()).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
     Ok(at(if off < 1e-9 { 1.0 } else { 0.0 }))

@@ -49,7 +49,7 @@ impl Course {
         };
         let active = truth.truth.as_slice();
         let apart = separation(gyro, plan, active, &rival.hypotheses)?;
-        let respond = |active| gyro.respond(number, &middle, active).map_err(diagnosis::Error::Model);
+        let respond = |active| gyro.respond(number, &middle, active).map_err(|source| diagnosis::Error::Model(source.into()));
         let (design, own, other) = (respond(&[])?, respond(active)?, respond(rival.truth.as_slice())?);
         let instants = everything(programme);
         let trace = |channel: usize| {

@@ -168,7 +168,7 @@ fn a_unit_that_was_not_said_is_proposed() {
 #[test]
 fn an_offset_beyond_the_earths_rate_is_noted() {
     for (offset, says) in [
-        (8.0, "is more than 0.5 deg/h: Earth's rate not removed"),
+        (8.0, "is more than 0.5 deg/h: perhaps Earth's rate not removed"),
         (40.0, "is more than 0.5 deg/h, and more than this explains: Earth's rate not removed"),
     ] {
         let case = read(&record(|_, [c, s, r]| written([c, s, r + offset])));

@@ -15,7 +15,7 @@ use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Reading
 use crate::passed::Passed;
 use crate::record_to_bias::Prepared;
 use coil::{Design, Error, Number, Tolerances};
-use diagnosis::{Active, Channel, ForwardModel, Latent, Nuisance, State};
+use diagnosis::{Active, Channel, Failure, ForwardModel, Latent, Nuisance, State};
 use nalgebra::DMatrix;
 use recalibrated::{Recalibrated, share};
 use recording::median_interval;
@@ -216,6 +216,16 @@ impl<'m> Gyro<'m> {
         active.iter().filter_map(of).collect()
     }
 
+    /// How far every constant is from where the models are, SI; one that a path of heat follows far, by the logarithm.
+    fn moved_by(&self, u: &[f64]) -> Vec<f64> {
+        let library = self.library();
+        let of = |(k, ((constant, told), from)): (usize, ((&Constant, &f64), f64))| {
+            let to = constant.value(*told);
+            if self.factored.iter().any(|(place, _)| *place == k) { from * (to / from).ln() } else { to - from }
+        };
+        library.constants.iter().zip(&u[instruments::CONSTANTS..]).zip(library.values()).enumerate().map(of).collect()
+    }
+
     /// Whether the models have just these paths of heat at work.
     fn is_about(&self, at_work: &[AtWork]) -> bool {
         let own = &self.library().at_work;
@@ -255,6 +265,60 @@ impl<'m> Gyro<'m> {
         known.push((record, active.clone(), Arc::clone(&effect)));
         Ok(effect)
     }
+
+    /// Response of every channel in a record, with nuisances `u` and mechanisms at work.
+    ///
+    /// # Errors
+    /// [`Error`] if a mechanism cannot be put in.
+    pub fn respond(&self, record: usize, u: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Error> {
+        let number = record;
+        let record = &self.records[number];
+        let nominal = &record.nominal.parts;
+        let (moved, others) = self.with_factors(u, active);
+        let u = &moved;
+        let without = self.recalibrated(number, u);
+        let (mut parts, mut thermometer, mut gain) = (without.parts.clone(), without.thermometer.clone(), without.gain);
+        let away = self.taken_away(active);
+        let effects = others.into_iter().chain(&away).map(|a| self.effect(number, a)).collect::<Result<Vec<_>, _>>()?;
+        // mechanisms act on a coil that has the others: each one's gain on a part acts on the others' changes, too
+        let changes = || effects.iter().filter_map(|known| known.change().map(|change| (change, known.gain)));
+        for (change, own) in changes() {
+            for p in 0..3 {
+                let (own, scaled) = (own[p], gain[p]);
+                // what was there grows by this one's gain; what this adds beyond its gain grows by what was there
+                for ((part, changed), nominal) in parts[p].iter_mut().zip(&change.parts[p]).zip(&nominal[p]) {
+                    *part += own * *part + scaled * (changed - own * nominal);
+                }
+                gain[p] *= 1.0 + own;
+            }
+            if let Some(of_thermometer) = &change.thermometer {
+                add(&mut thermometer, of_thermometer, 1.0);
+            }
+        }
+        for (change, _) in changes().filter(|(change, _)| !change.by_constants.is_empty()) {
+            for (slope, by) in change.by_constants.iter().zip(self.moved_by(u)).filter(|(_, by)| *by != 0.0) {
+                parts.iter_mut().zip(&slope.parts).for_each(|(part, slope)| add(part, slope, by));
+                if let Some(of_thermometer) = &slope.thermometer {
+                    add(&mut thermometer, of_thermometer, by);
+                }
+            }
+        }
+        let mut rate = total(&parts);
+        rate.iter_mut().for_each(|r| *r *= u[instruments::GAIN]);
+        for added in changes().filter_map(|(change, _)| change.rate.as_ref()) {
+            add(&mut rate, added, 1.0);
+        }
+        self.read(record, &mut thermometer, u);
+        let mut readings = Readings { time: &record.time, thermometer, rate };
+        for known in &effects {
+            if let Effect::Readings(act) = &known.effect {
+                act(&mut readings);
+            }
+        }
+        let gain = u[instruments::SPOOL_GAIN];
+        let thermometer = readings.thermometer.iter().map(|t| REFERENCE_C + (t - REFERENCE_C) * gain).collect();
+        Ok(vec![thermometer, readings.rate])
+    }
 }
 
 /// The precision of nuisances of which the tolerances say that some go together.
@@ -292,8 +356,6 @@ impl Known {
 }
 
 impl ForwardModel for Gyro<'_> {
-    type Error = Error;
-
     fn channels(&self) -> &[Channel] {
         &self.channels
     }
@@ -315,49 +377,11 @@ impl ForwardModel for Gyro<'_> {
         &self.mechanisms
     }
 
-    fn respond(&self, record: usize, u: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Error> {
-        let number = record;
-        let record = &self.records[number];
-        let nominal = &record.nominal.parts;
-        let (moved, others) = self.with_factors(u, active);
-        let u = &moved;
-        let without = self.recalibrated(number, u);
-        let (mut parts, mut thermometer, mut gain) = (without.parts.clone(), without.thermometer.clone(), without.gain);
-        let away = self.taken_away(active);
-        let effects = others.into_iter().chain(&away).map(|a| self.effect(number, a)).collect::<Result<Vec<_>, _>>()?;
-        // mechanisms act on a coil that has the others: each one's gain on a part acts on the others' changes, too
-        let changes = || effects.iter().filter_map(|known| known.change().map(|change| (change, known.gain)));
-        for (change, own) in changes() {
-            for p in 0..3 {
-                let (own, scaled) = (own[p], gain[p]);
-                // what was there grows by this one's gain; what this adds beyond its gain grows by what was there
-                for ((part, changed), nominal) in parts[p].iter_mut().zip(&change.parts[p]).zip(&nominal[p]) {
-                    *part += own * *part + scaled * (changed - own * nominal);
-                }
-                gain[p] *= 1.0 + own;
-            }
-            if let Some(of_thermometer) = &change.thermometer {
-                add(&mut thermometer, of_thermometer, 1.0);
-            }
-        }
-        let mut rate = total(&parts);
-        rate.iter_mut().for_each(|r| *r *= u[instruments::GAIN]);
-        for added in changes().filter_map(|(change, _)| change.rate.as_ref()) {
-            add(&mut rate, added, 1.0);
-        }
-        self.read(record, &mut thermometer, u);
-        let mut readings = Readings { time: &record.time, thermometer, rate };
-        for known in &effects {
-            if let Effect::Readings(act) = &known.effect {
-                act(&mut readings);
-            }
-        }
-        let gain = u[instruments::SPOOL_GAIN];
-        let thermometer = readings.thermometer.iter().map(|t| REFERENCE_C + (t - REFERENCE_C) * gain).collect();
-        Ok(vec![thermometer, readings.rate])
+    fn respond(&self, record: usize, u: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Failure> {
+        Ok(Gyro::respond(self, record, u, active)?)
     }
 
-    fn about(&self, u: &[f64], active: &[Active]) -> Result<Option<Self>, Error> {
+    fn about(&self, u: &[f64], active: &[Active]) -> Result<Option<Self>, Failure> {
         let (here, (u, _)) = (self.here(), self.with_factors(u, active));
         // no thermometer has a negative square: that is left to what is linear
         let wanted = |k: usize| if k == instruments::CHAMBER_LAG_SQUARED { u[k].max(0.0) } else { u[k] };
@@ -407,13 +431,13 @@ impl ForwardModel for Gyro<'_> {
         vec![with_lag(1.0), with_lag(3.0)]
     }
 
-    fn latent(&self, record: usize) -> Result<Vec<Latent>, Error> {
-        self.chain.latent(&self.kinds, &self.records[record])
+    fn latent(&self, record: usize) -> Result<Vec<Latent>, Failure> {
+        Ok(self.chain.latent(&self.kinds, &self.records[record])?)
     }
 
     /// The layers, innermost first, with one turn more.
-    fn members(&self, record: usize) -> Result<Option<Latent>, Error> {
-        self.chain.layers(&self.records[record]).map(Some)
+    fn members(&self, record: usize) -> Result<Option<Latent>, Failure> {
+        Ok(Some(self.chain.layers(&self.records[record])?))
     }
 
     fn state(&self, record: usize) -> &State {

@@ -8,6 +8,7 @@ use super::record::{Sensors, Signal, at};
 use super::scene::Scene;
 use super::unit::{Generator, meta};
 use crate::Failure;
+use coil::{Heater, Mount, Side};
 use std::f64::consts::TAU;
 
 /// Ordinary properties of a unit.
@@ -29,6 +30,10 @@ pub(crate) struct Ordinary {
     pub constants: [f64; 3],
     /// CW tail \[m\].
     pub tail: f64,
+    /// Conductance of the right flange to the chamber [W/(m² K)], contact resistance of the hub [m² K/W], factor on the conductivity of the surroundings.
+    pub heat: [f64; 3],
+    /// Power in the right flange from the first row on \[W\].
+    pub power: f64,
     /// Electronics that follow the spool with a time constant \[s\] and add a rate for every kelvin that they are behind \[deg/h/K\].
     pub board: (f64, f64),
 }
@@ -43,6 +48,8 @@ pub(crate) const NOTHING: Ordinary = Ordinary {
     ripple: 0.0,
     constants: [1.0; 3],
     tail: 0.0,
+    heat: [0.0, 0.0, 1.0],
+    power: 0.0,
     board: (0.0, 0.0),
 };
 
@@ -118,6 +125,15 @@ impl Generator {
         design.body.elastic.e_r *= stiffness;
         design.body.elastic.g_zr *= stiffness;
         design.winding.tails.cw += of.tail;
+        let [conductance, resistance, medium] = of.heat;
+        design.surroundings.conductivity *= medium;
+        design.heat.hub_resistance += resistance;
+        if conductance > 0.0 {
+            design.heat.mounts.push(Mount { side: Side::Right, conductance });
+        }
+        if of.power > 0.0 {
+            design.heat.heaters.push(Heater { side: Side::Right, power: of.power });
+        }
         let plant = Plant::new(build, None)?;
         let mut since = 0.0;
         let mut record = |family: ProgrammeFamily| {

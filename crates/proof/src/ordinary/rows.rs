@@ -1,4 +1,4 @@
-//! `cargo xtask prove --rows`: one thing at a time that is ordinary about a unit and was once taken for a fault.
+//! `cargo xtask prove --rows`: one thing at a time that was once taken for a fault, or for another one: ordinary properties, and strong paths of heat.
 
 use std::fmt::Write as _;
 
@@ -13,6 +13,8 @@ use crate::{Failure, program};
 /// An ordinary property, and the mechanism that is concealed beside it.
 struct Row {
     what: &'static str,
+    /// The design, in fixtures.
+    drawing: &'static str,
     of: Ordinary,
     concealed: Option<&'static str>,
     /// Whether the mechanism of the tutorial is weighed, too.
@@ -22,7 +24,7 @@ struct Row {
 /// Units of each row.
 const SEEDS: [u64; 2] = [1, 2];
 
-const ROWS: [Row; 12] = [
+const ROWS: [Row; 19] = [
     row("nothing", NOTHING),
     row("Earth's rate left in, 7.5 deg/h", Ordinary { earth: 7.5, ..NOTHING }),
     row("spool thermometer 0.5 K off", Ordinary { spool_offset: 0.5, ..NOTHING }),
@@ -37,21 +39,48 @@ const ROWS: [Row; 12] = [
     row("gyroscope ten times noisier", Ordinary { noise: 10.0, ..NOTHING }),
     row("chamber ripples by 0.15 K and moves at the first row", Ordinary { ripple: 0.15, ..NOTHING }),
     Row {
+        drawing: REFERENCE,
         what: "CW tail 2.5 m longer beside a thermometer's gain of 0.3 %",
         of: Ordinary { tail: 2.5, gains: [0.0, 0.003], ..NOTHING },
         concealed: Some("tail-asymmetry"),
         own: false,
     },
     Row {
+        drawing: REFERENCE,
         what: "electronics that warm up slowly, of which a user's own file tells",
         of: Ordinary { board: (1500.0, 0.006), ..NOTHING },
         concealed: Some("slow-board"),
         own: true,
     },
+    Row { drawing: FLANGED, ..row("60 mm coil: constants 4 % to 6 % off the drawing", strong([0.0, 0.0, 1.0])) },
+    path("60 mm coil: mount of 45 W/(m² K)", [45.0, 0.0, 1.0], "axial-heat-path"),
+    path("60 mm coil: mount of 150 W/(m² K)", [150.0, 0.0, 1.0], "axial-heat-path"),
+    path("60 mm coil: hub's contact resistance of 0.025 m² K/W", [0.0, 0.025, 1.0], "interface-resistance"),
+    path("60 mm coil: fan: surroundings that conduct 4 times as well", [0.0, 0.0, 4.0], "air-path"),
+    path("60 mm coil: gas: surroundings that conduct 0.3 times as well", [0.0, 0.0, 0.3], "air-path"),
+    Row {
+        drawing: FLANGED,
+        what: "60 mm coil: heater of 1 W",
+        of: Ordinary { power: 1.0, ..strong([0.0, 0.0, 1.0]) },
+        concealed: Some("self-heating"),
+        own: false,
+    },
 ];
 
+const REFERENCE: &str = "coil-reference.ron";
+const FLANGED: &str = "designs/flanged.ron";
+
 const fn row(what: &'static str, of: Ordinary) -> Row {
-    Row { what, of, concealed: None, own: false }
+    Row { what, drawing: REFERENCE, of, concealed: None, own: false }
+}
+
+/// A path of heat that changes the bias more than all tolerances do, beside constants that are off.
+const fn path(what: &'static str, heat: [f64; 3], id: &'static str) -> Row {
+    Row { what, drawing: FLANGED, of: strong(heat), concealed: Some(id), own: false }
+}
+
+const fn strong(heat: [f64; 3]) -> Ordinary {
+    Ordinary { heat, constants: [0.96, 1.035, 0.945], ..NOTHING }
 }
 
 /// Whether an answer is right: nothing is named where nothing is concealed, what is concealed is named alone.
@@ -69,26 +98,31 @@ pub(crate) fn run() -> Result<bool, Failure> {
     let (cache, into) = (Cache::of_user(), root().join("target/prove/rows"));
     let (usual, own) =
         (input::Asked::default(), input::read_mechanisms(&[root().join("crates/fogcoil/templates/mechanism.ron")])?);
-    let coil = input::read_coil(&root().join("fixtures/coil-reference.ron"))?;
-    let generator = Generator::new(coil.design.clone())?;
+    let drawings = [REFERENCE, FLANGED].map(|drawing| -> Result<_, Failure> {
+        let coil = input::read_coil(&root().join("fixtures").join(drawing))?;
+        Ok((drawing, Generator::new(coil.design.clone())?, coil))
+    });
+    let drawings = drawings.into_iter().collect::<Result<Vec<_>, _>>()?;
     let named = |row: &Row, seed: u64| format!("{}, unit {seed}", row.what);
     let units: Vec<(&Row, u64)> = ROWS.iter().flat_map(|row| SEEDS.map(|seed| (row, seed))).collect();
     let names: Vec<String> = units.iter().map(|(row, seed)| named(row, *seed)).collect();
     let answers = each(&names, |name| {
         let of_name = units.iter().find(|(row, seed)| named(row, *seed) == name);
         let (row, seed) = of_name.ok_or_else(|| Failure("no unit has this name".into()))?;
+        let of_row = drawings.iter().find(|(drawing, ..)| *drawing == row.drawing);
+        let (_, generator, coil) = of_row.ok_or_else(|| Failure(format!("{} is not read", row.drawing)))?;
         let at = into.join(name.replace('/', " per "));
         let [fit, holdout, meta] = generator.ordinary(*seed, &row.of)?;
         let text = [("fit.csv", fit), ("holdout.csv", holdout), ("meta.ron", meta)];
         files::write_all(&text.map(|(file, text)| (at.join(file), text)))?;
         let (fit, holdout) = (record(&at.join("fit.csv"))?, record(&at.join("holdout.csv"))?);
         let kinds = if row.own { &own } else { &usual }.with_catalogue();
-        let outcome = diagnose::diagnose(&coil, &kinds, &[fit], &[holdout], &cache, &|_| ())?;
+        let outcome = diagnose::diagnose(coil, &kinds, &[fit], &[holdout], &cache, &|_| ())?;
         let answer: Answer = serde_json::from_str(&outcome.json().to_string())?;
         eprintln!("{name}: {} {:?}", answer.verdict, answer.set);
         Ok((right(&answer, row.concealed), answer))
     })?;
-    let mut out = String::from("| what is ordinary | right | said of each unit |\n|---|---|---|\n");
+    let mut out = String::from("| what is so about it | right | said of each unit |\n|---|---|---|\n");
     for (row, answers) in ROWS.iter().zip(answers.chunks(SEEDS.len())) {
         let hits = answers.iter().filter(|(right, _)| *right).count();
         let said: Vec<String> =

@@ -37,6 +37,8 @@ pub struct Expectation {
     pub least_size: f64,
     /// The fastest that it can change for some rows \[u/s\].
     pub fastest: f64,
+    /// Whether it may change by a step from one row to the next: a temperature inside a mass does not.
+    pub may_jump: bool,
     /// Units in which it may be by mistake.
     pub mistaken: Vec<Unit>,
     /// Its key where its unit is declared; empty if it cannot be.
@@ -58,6 +60,7 @@ impl Default for Expectation {
             noise: any,
             least_size: 0.0,
             fastest: f64::INFINITY,
+            may_jump: true,
             mistaken: Vec::new(),
             key: String::new(),
             offset: None,

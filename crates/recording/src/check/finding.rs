@@ -186,6 +186,9 @@ impl Finding {
             (FindingKind::Empty | FindingKind::Constant { .. }, Severity::Error) => {
                 "check the sensor's cable and the choice of the column"
             }
+            (FindingKind::Stuck { .. } | FindingKind::Saturation { .. }, _) if self.repair == Repair::None => {
+                "check the sensor and its range; the rows are still used: empty them if they are wrong"
+            }
             (FindingKind::Stuck { .. } | FindingKind::Saturation { .. }, _) => "check the sensor and its range",
             (FindingKind::Moving { .. }, _) => "cut out the rows in which the unit was moved",
             (FindingKind::Offset { is_explained: false, .. }, _) => {
@@ -247,7 +250,7 @@ impl Finding {
             FindingKind::TooShort(rows) => write!(f, "too few rows, {rows}"),
             FindingKind::Offset { median, largest, of, is_explained } => {
                 write!(f, "the median, {} {unit}, is more than {} {unit}", Short(*median), Short(*largest))?;
-                if *is_explained { write!(f, ": {of}?") } else { write!(f, ", and more than this explains: {of}") }
+                if *is_explained { write!(f, ": perhaps {of}") } else { write!(f, ", and more than this explains: {of}") }
             }
         }
     }

@@ -60,9 +60,9 @@ pub(super) fn step(values: &[f64]) -> Option<f64> {
 
 /// Lists runs of equal values that noise and resolution do not explain, and masks them.
 ///
-/// Where the resolution hides the noise, a run that a lone jump ends is listed and stays in use: a true step looks the same.
+/// Where the resolution hides the noise, a run that a lone jump ends is listed; it stays in use where a true step may look the same.
 pub(super) fn judge(context: &Context, mask: &mut [bool]) -> Vec<Finding> {
-    let Context { time, values, summary, .. } = context;
+    let Context { time, values, summary, expectation, .. } = context;
     let used: Vec<usize> = (0..time.len()).filter(|&row| mask[row]).collect();
     let step = summary.step.unwrap_or(0.0);
     let extreme = |fold: fn(f64, f64) -> f64| used.iter().map(|&row| values[row]).reduce(fold);
@@ -84,8 +84,11 @@ pub(super) fn judge(context: &Context, mask: &mut [bool]) -> Vec<Finding> {
             }
             run.iter().for_each(|&row| mask[row] = false);
             Repair::Masked
-        } else if jumps(values, &used, end, step) {
+        } else if jumps(values, &used, end, step) && expectation.may_jump {
             Repair::None
+        } else if jumps(values, &used, end, step) {
+            run.iter().for_each(|&row| mask[row] = false);
+            Repair::Masked
         } else {
             continue;
         };

@@ -86,14 +86,17 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     let told = |of: &dyn Fn(&Design) -> Result<Weights, Absent>| {
         over(&models, |model| model.told(&of(&model.design)?, noise)).and_then(settled)
     };
+    let sensitivity = told(&|design| Ok(design.sensitivity()));
+    // of terms that cannot be told apart no sum over temperatures is known either
+    let apart = |found| if sensitivity == Err(Absent::Indistinct) { Err(Absent::Indistinct) } else { found };
     Ok(Response {
-        sensitivity: told(&|design| Ok(design.sensitivity())),
         heating: told(&|design| design.towards(Direction::Heating)),
         cooling: told(&|design| design.towards(Direction::Cooling)),
         asymmetry: told(&Design::asymmetry),
         hysteresis: over(&models, |model| hysteresis::hysteresis(model, &course, observed)),
-        span: span(&models).and_then(settled),
-        peak: peak(&models, input),
+        span: apart(span(&models)).and_then(settled),
+        peak: if sensitivity == Err(Absent::Indistinct) { Err(Absent::Indistinct) } else { peak(&models, input) },
+        sensitivity,
         lags: sets.concat(),
         noise: models[0].noise.clone(),
     })

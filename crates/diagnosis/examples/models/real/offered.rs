@@ -158,11 +158,7 @@ impl<P: Plant> Offered<P> {
     }
 
     /// The same with noise that is no larger than what the nominal model leaves by least squares.
-    pub(crate) fn with_noise(
-        mut self,
-        records: &[usize],
-        observations: &[Observation],
-    ) -> Result<Self, diagnosis::Error<std::convert::Infallible>>
+    pub(crate) fn with_noise(mut self, records: &[usize], observations: &[Observation]) -> Result<Self, diagnosis::Error>
     where
         P: Clone,
     {
@@ -175,11 +171,7 @@ impl<P: Plant> Offered<P> {
     }
 
     /// The nominal model, fitted.
-    pub(crate) fn nominal(
-        &self,
-        records: &[usize],
-        observations: &[Observation],
-    ) -> Result<Fit, diagnosis::Error<std::convert::Infallible>> {
+    pub(crate) fn nominal(&self, records: &[usize], observations: &[Observation]) -> Result<Fit, diagnosis::Error> {
         fitted(self, records, observations, &[Hypothesis::RECALIBRATED])
     }
 
@@ -213,8 +205,6 @@ pub(crate) fn spread(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 impl<P: Plant> ForwardModel for Offered<P> {
-    type Error = std::convert::Infallible;
-
     fn channels(&self) -> &[Channel] {
         &self.channels
     }
@@ -231,7 +221,7 @@ impl<P: Plant> ForwardModel for Offered<P> {
         &self.state
     }
 
-    fn respond(&self, record: usize, constants: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Self::Error> {
+    fn respond(&self, record: usize, constants: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
         let mut pasts = vec![[Past::default(), Past::default()]; active.len()];
         let mut nominal = Vec::new();
         let mut laws = |mut moment: Moment<'_>| {

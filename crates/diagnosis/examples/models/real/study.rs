@@ -9,9 +9,8 @@ use diagnosis::{
     Active, Breadth, Composed, Earlier, Fit, ForwardModel, Hypothesis, Observation, Plan, Proof, compose_within, fitted, prove,
     proven, separation,
 };
-use std::convert::Infallible;
 
-pub(crate) type Error = diagnosis::Error<Infallible>;
+pub(crate) use diagnosis::Error;
 
 /// Laws that are looked for in a recording.
 pub(crate) const BREADTH: Breadth = Breadth { terms: 6, followed: 12, likeliest: 6, turnings: 5, earlier: Earlier::Weighed };

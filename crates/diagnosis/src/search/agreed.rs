@@ -1,0 +1,78 @@
+//! A comparison under the model that is good about its result.
+
+use super::{Settings, diagnose_beside};
+use crate::fit::{Fit, Fitter, Unknown};
+use crate::settle::Settled;
+use crate::{Diagnosis, Error, ForwardModel, Observation};
+use progress::Step;
+
+const TASK: &str = "the likeliest hypothesis about its own constants";
+/// Most comparisons.
+const COMPARISONS: usize = 3;
+/// Most times that a model is made anew about one hypothesis.
+const ROUNDS: usize = 6;
+/// Change of ln evidence from which a hypothesis counts as another one about its own constants.
+const MATTERS: f64 = 1.0;
+/// Change of one of its parameters from which it does, standard deviations of what is left unknown of it.
+const MOVED: f64 = 0.3;
+
+/// Compares all hypotheses under the model that is good about the likeliest of them: beside other constants a mechanism acts otherwise, and its size would
+/// be wrong. Where the comparison finds another hypothesis than that of [`Settled::model`], the model is made about that one and left in `settled`; a
+/// hypothesis that was followed so counts as it is about its own constants.
+///
+/// # Errors
+/// [`Error`] if the model or a fit fails.
+pub fn diagnose_settled<M: ForwardModel>(
+    given: &M,
+    settled: &mut Settled<M>,
+    records: &[usize],
+    observations: &[Observation],
+    settings: &Settings,
+    progress: &dyn Fn(Step),
+) -> Result<Diagnosis, Error> {
+    let mut followed: Vec<Fit> = settled.leading.iter().cloned().collect();
+    let mut comparisons = 1;
+    loop {
+        let known: Vec<Fit> = [&settled.recalibrated].into_iter().chain(&followed).cloned().collect();
+        let model = settled.model.as_ref().unwrap_or(given);
+        let found = diagnose_beside(model, records, observations, settings, &known, settled.leading.clone(), progress)?;
+        let best = &found.best().fit;
+        let is_its_own = settled.leading.as_ref().is_some_and(|leading| leading.hypothesis == best.hypothesis);
+        if best.active.is_empty() || is_its_own || comparisons == COMPARISONS {
+            return Ok(found);
+        }
+        progress(Step::begins(TASK));
+        let (fit, about) = about_itself(model, best, records, observations)?;
+        let Some(about) = about.filter(|_| differ(best, &fit)) else { return Ok(found) };
+        followed.retain(|other| other.hypothesis != fit.hypothesis);
+        followed.push(fit.clone());
+        settled.lead(about, fit);
+        comparisons += 1;
+    }
+}
+
+/// A hypothesis that was fitted under `model` fitted about its own constants, and the model there; `None` if that is `model`.
+fn about_itself<M: ForwardModel>(
+    model: &M,
+    fit: &Fit,
+    records: &[usize],
+    observations: &[Observation],
+) -> Result<(Fit, Option<M>), Error> {
+    let (mut fit, mut about) = (fit.clone(), None);
+    for _ in 0..ROUNDS {
+        let here = about.as_ref().unwrap_or(model);
+        let Some(next) = here.about(&fit.nuisances[0], &fit.active).map_err(Error::Model)? else { break };
+        fit = Fitter::new(&next, records, observations).map_err(Error::Model)?.fit_with_noise(&fit.hypothesis, &fit, 2)?;
+        about = Some(next);
+    }
+    Ok((fit, about))
+}
+
+/// Whether two fits of one hypothesis say different things.
+fn differ(a: &Fit, b: &Fit) -> bool {
+    let moved = |(i, unknown): (usize, &Unknown)| {
+        let by = (a.u[i] - b.u[i]).abs();
+        matches!(unknown, Unknown::Mechanism { .. }) && by > MOVED * b.covariance[(i, i)].max(0.0).sqrt()
+    };
+    (a.log_evidence - b.log_evidence).abs() > MATTERS || b.layout.iter().enumerate().any(moved)
+}
