@@ -12,8 +12,6 @@ pub struct Change {
     pub thermometer: Option<Vec<f64>>,
     /// Change of the rate beside the bias \[deg/h\]; `None` if there is none.
     pub rate: Option<Vec<f64>>,
-    /// Derivatives of the change by every constant of the design, in their order, SI; empty where a change is the same whatever the constants are.
-    pub by_constants: Vec<Change>,
 }
 
 impl Change {
@@ -24,7 +22,7 @@ impl Change {
 
     /// The bias changes alone.
     pub fn of_parts(parts: Parts) -> Self {
-        Self { parts, thermometer: None, rate: None, by_constants: Vec::new() }
+        Self { parts, thermometer: None, rate: None }
     }
 
     /// The rate changes, but no part of the bias.

@@ -2,7 +2,7 @@
 
 use crate::library::Functionals;
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
-use coil::{Output, Outputs, Reduced, Smooth};
+use coil::{Output, Reduced, Smooth};
 use nalgebra::DMatrix;
 
 /// Place of the spool's thermometer among the channels.
@@ -69,16 +69,6 @@ impl Clock {
         let mut begins = vec![false; fine.len()];
         starts.into_iter().for_each(|n| begins[n] = true);
         Self { chamber: fine.iter().map(|t| smooth.at(*t).0).collect(), time: fine, rows, begins }
-    }
-
-    /// From which instant to which every row was read; the first is read at one.
-    pub(crate) fn spans(&self) -> Vec<[usize; 2]> {
-        let began = |row: usize, n: usize| match row.checked_sub(1) {
-            // a reading that follows a gap begins at an instant of its own
-            Some(before) => (self.rows[before]..n).rev().find(|&m| self.begins[m]).unwrap_or(self.rows[before]),
-            None => n,
-        };
-        self.rows.iter().enumerate().map(|(row, &n)| [began(row, n), n]).collect()
     }
 }
 
@@ -158,20 +148,6 @@ impl Course {
 
     pub(crate) fn series(&self, model: &Reduced) -> Series {
         Series { sensor: self.output(model.thermometer()), parts: self.parts(&model.parts().each_ref().map(Output::vector)) }
-    }
-}
-
-/// Thermometer, and mean rates of the parts' phases, in rows that were read from one instant to another.
-pub(crate) fn rows_of(outputs: &Outputs<Vec<f64>>, time: &[f64], spans: &[[usize; 2]]) -> Series {
-    let mean = |phase: &[f64]| -> Vec<f64> {
-        let of = |&[from, to]: &[usize; 2]| {
-            if to > from { (phase[to] - phase[from]) / (time[to] - time[from]) * DEG_PER_H_PER_RAD_PER_S } else { 0.0 }
-        };
-        spans.iter().map(of).collect()
-    };
-    Series {
-        sensor: spans.iter().map(|[_, to]| outputs.thermometer[*to]).collect(),
-        parts: outputs.parts[0].each_ref().map(|phase| mean(phase)),
     }
 }
 

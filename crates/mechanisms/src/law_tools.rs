@@ -71,15 +71,6 @@ impl Chain {
         Some(record.heaters.get(place)?.at(self.library.heaters.get(place)?, before))
     }
 
-    /// Derivatives of that response by every constant of the design.
-    ///
-    /// # Errors
-    /// [`Error::Design`] if the heated design cannot be solved.
-    pub(crate) fn heated_by_constants(&self, record: &Prepared, place: usize, before: f64) -> Result<Vec<Series>, Error> {
-        let Some(heating) = record.heaters.get(place) else { return Ok(Vec::new()) };
-        Ok(heating.by_constants(self.library.heater_slopes(place)?, before))
-    }
-
     /// Parts of a coil whose CW tail is longer than its CCW tail by so much more \[m\], less the nominal ones \[deg/h\].
     ///
     /// # Errors

@@ -13,7 +13,6 @@ mod curvature;
 mod design;
 mod gyro;
 mod heat_path;
-mod heating;
 mod instruments;
 mod interpolation;
 mod latent;

@@ -11,7 +11,7 @@ use coil::{
 };
 use nalgebra::DVector;
 use std::collections::HashMap;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 use winding::{Half, LayerDefect, Winding};
 
 /// The three bias parts as functionals of drives and modes.
@@ -68,8 +68,6 @@ pub struct Library {
     pub(crate) paths: Vec<Tabulated>,
     /// driven by the chamber and by 1 W in a flange: of each that may be heated
     pub(crate) heaters: Vec<Reduced>,
-    /// of the same designs, as they are asked for
-    heater_slopes: Vec<OnceLock<Slopes>>,
 }
 
 /// A design without a heater of its own: that is no drive of a recording.
@@ -150,23 +148,8 @@ impl Library {
             paths.push(Tabulated { id: id.clone(), place: *place, own, nodes: path.nodes.clone(), models });
         }
         let heated = |side: Side| model.in_states(&with_heater(&design, side, 1.0), &[MechanicalState::NOMINAL]);
-        let heaters: Vec<Reduced> = heatable_flanges(&models.drawing).into_iter().map(heated).collect::<Result<_, _>>()?;
-        let heater_slopes = vec![OnceLock::new(); heaters.len()];
-        Ok(Self {
-            models,
-            heat_paths,
-            unchanged,
-            design,
-            at_work,
-            constants,
-            base,
-            slopes,
-            fields,
-            moduli,
-            paths,
-            heaters,
-            heater_slopes,
-        })
+        let heaters = heatable_flanges(&models.drawing).into_iter().map(heated).collect::<Result<_, _>>()?;
+        Ok(Self { models, heat_paths, unchanged, design, at_work, constants, base, slopes, fields, moduli, paths, heaters })
     }
 
     /// The design that it was made for, as it is drawn.
@@ -191,17 +174,6 @@ impl Library {
             let (nominal, doubled) = (self.functionals(1 + k), self.functionals(1 + count + k));
             (*x, nominal.clone(), [0, 1, 2].map(|p: usize| &doubled[p] - &nominal[p]))
         })
-    }
-
-    /// The model with 1 W in a flange, of those that may be heated, and its derivatives by the constants.
-    pub(crate) fn heater_slopes(&self, place: usize) -> Result<&Slopes, Error> {
-        let (known, side) = (&self.heater_slopes[place], heatable_flanges(&self.models.drawing)[place]);
-        if let Some(known) = known.get() {
-            return Ok(known);
-        }
-        let parameters: Vec<_> = self.constants.iter().map(|c| c.parameter).collect();
-        let slopes = self.models.model.slopes(&with_heater(&self.design, side, 1.0), &parameters)?;
-        Ok(known.get_or_init(|| slopes))
     }
 
     /// Constants on which the parameter of a mechanism is a factor: their places, and the ids.

@@ -1,11 +1,11 @@
 //! A library's responses to the chamber of one recording.
 
 use crate::chamber::Chamber;
-use crate::course::{BETWEEN, Clock, Course, Delay, Parts, Series, minus, product, rows_of, undelayed};
+use crate::course::{BETWEEN, Clock, Course, Delay, Parts, Series, minus, product, undelayed};
 use crate::curvature::Curvature;
-use crate::heating::Heating;
 use crate::library::{Functionals, Library};
 use crate::passed::{Passed, passed};
+use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::{Error, Parameter, Profile, Reduced};
 use diagnosis::State;
 use std::collections::BTreeMap;
@@ -70,6 +70,36 @@ pub(crate) struct Along {
     pub(crate) nodes: Vec<f64>,
     /// at every node, less that of this design
     pub(crate) changes: Vec<Series>,
+}
+
+/// A watt in a flange that is switched on some time before the first row: every mode decays on its own.
+#[derive(Debug, Clone)]
+pub(crate) struct Heating {
+    /// amplitude of every mode in every row, switched on at the first, and its mean rate; the rates of the first row are not used
+    course: Course,
+    averaging: f64,
+}
+
+impl Heating {
+    fn new(model: &Reduced, clock: &Clock, averaging: f64) -> Self {
+        let n = clock.time.len();
+        Self { course: Course::new(model, clock, &[vec![0.0; n], vec![1.0; n]], &[0.0, 0.0]), averaging }
+    }
+
+    /// Response to 1 W that is switched on `before` the first row \[s\].
+    pub(crate) fn at(&self, model: &Reduced, before: f64) -> Series {
+        let mut course = self.course.clone();
+        let drives = course.states.ncols() - model.rates().len();
+        for (i, rate) in model.rates().iter().enumerate() {
+            let (k, decayed) = (drives + i, (-rate * before).exp());
+            // the first reading began before its row, but sees nothing from before the heater was on
+            let began = course.states[(0, k)] * (-rate * (before - self.averaging).max(0.0)).exp();
+            course.states.column_mut(k).scale_mut(decayed);
+            course.rates.column_mut(k).scale_mut(decayed);
+            course.rates[(0, k)] = if self.averaging > 0.0 { (course.states[(0, k)] - began) / self.averaging } else { 0.0 };
+        }
+        course.series(model)
+    }
 }
 
 impl Prepared {
@@ -258,8 +288,27 @@ impl Clock {
         let (time, chamber) = (of(&self.time), of(&self.chamber));
         let first = chamber[0];
         let courses = library.slopes.run(&time, &[chamber], &[first]);
-        let spans: Vec<[usize; 2]> = self.spans().into_iter().map(|span| span.map(|n| n / BETWEEN)).collect();
-        courses.slopes.iter().map(|slope| rows_of(slope, &time, &spans)).collect()
+        let place = |n: usize| n / BETWEEN;
+        let mut spans = Vec::with_capacity(self.rows.len());
+        let mut began = 0;
+        for (row, &n) in self.rows.iter().enumerate() {
+            // a reading that follows a gap begins at an instant of its own
+            if row > 0 {
+                began = (self.rows[row - 1]..n).rev().find(|&m| self.begins[m]).unwrap_or(self.rows[row - 1]);
+            }
+            spans.push([place(began), place(n)]);
+        }
+        let mean = |phase: &[f64]| -> Vec<f64> {
+            let of = |&[from, to]: &[usize; 2]| {
+                if to > from { (phase[to] - phase[from]) / (time[to] - time[from]) * DEG_PER_H_PER_RAD_PER_S } else { 0.0 }
+            };
+            spans.iter().map(of).collect()
+        };
+        let series = |slope: &coil::Outputs<Vec<f64>>| Series {
+            sensor: spans.iter().map(|[_, n]| slope.thermometer[*n]).collect(),
+            parts: slope.parts[0].each_ref().map(|phase| mean(phase)),
+        };
+        courses.slopes.iter().map(series).collect()
     }
 }
 

@@ -241,30 +241,6 @@ fn constants_beside_a_strong_path_of_heat_follow_the_chain() {
     assert!(rms(&minus(&without[RATE], &nominal[RATE])) < 1e-6 * rms(&effect));
 }
 
-/// The heat of a heater spreads otherwise beside other constants: derivatives against a model made anew about them.
-#[test]
-fn a_heater_beside_constants_follows_a_model_about_them() {
-    let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    let heater = Active { mechanism: gyro.find("self-heating").expect("a mechanism"), values: vec![1.0, 100.0], choice: None };
-    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
-    let heat = |model: &Gyro, u: &[f64]| {
-        let [with, without] = [std::slice::from_ref(&heater), &[]].map(|active| model.respond(0, u, active).expect("response"));
-        [SPOOL, RATE].map(|channel| minus(&with[channel], &without[channel]))
-    };
-    let drawn = heat(&gyro, &middle);
-    for name in ["conductivity of the surroundings", "specific heat of the coil", "k_r"] {
-        let mut u = middle.clone();
-        let place = gyro.nuisances().iter().position(|n| n.parameter.name == name).expect("a place");
-        u[place] = gyro.nuisances()[place].parameter.prior.value(1.0);
-        let exact = heat(&gyro.about(&u, &[]).expect("a model").expect("another place"), &u);
-        for (channel, told) in heat(&gyro, &u).iter().enumerate() {
-            let effect = minus(&exact[channel], &drawn[channel]);
-            let off = rms(&minus(&minus(told, &drawn[channel]), &effect)) / rms(&effect);
-            assert!(off < 0.15, "{name}, channel {channel}: off by {off:.3} of {:e}", rms(&effect));
-        }
-    }
-}
-
 /// Every flange may be mounted, heated and open, not the first alone.
 #[test]
 fn heat_paths_of_a_second_flange_follow_the_chain() {

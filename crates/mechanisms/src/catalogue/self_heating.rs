@@ -1,6 +1,5 @@
 //! Power that is dissipated in a flange since the unit was switched on.
 
-use crate::course::Series;
 use crate::design::{choice_of, chosen, heatable_flanges, with_heater};
 use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, grid};
 use diagnosis::{Parameter, Prior};
@@ -46,12 +45,8 @@ pub(super) const SELF_HEATING: Named = Named {
             return Ok(Effect::Coil(Change::none(record)));
         };
         let scaled = |s: &[f64]| s.iter().map(|x| active.values[0] * x).collect::<Vec<f64>>();
-        let change = |of: &Series| {
-            let parts = of.parts.each_ref().map(|part| scaled(part));
-            Change { thermometer: Some(scaled(&of.sensor)), ..Change::of_parts(parts) }
-        };
-        let by_constants = chain.heated_by_constants(record, chosen(active), active.values[1])?;
-        Ok(Effect::Coil(Change { by_constants: by_constants.iter().map(change).collect(), ..change(&series) }))
+        let parts = [0, 1, 2].map(|p: usize| scaled(&series.parts[p]));
+        Ok(Effect::Coil(Change { thermometer: Some(scaled(&series.sensor)), ..Change::of_parts(parts) }))
     },
     extended: |design, active| {
         let side = *heatable_flanges(design).get(chosen(active))?;

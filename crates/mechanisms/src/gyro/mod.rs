@@ -216,16 +216,6 @@ impl<'m> Gyro<'m> {
         active.iter().filter_map(of).collect()
     }
 
-    /// How far every constant is from where the models are, SI; one that a path of heat follows far, by the logarithm.
-    fn moved_by(&self, u: &[f64]) -> Vec<f64> {
-        let library = self.library();
-        let of = |(k, ((constant, told), from)): (usize, ((&Constant, &f64), f64))| {
-            let to = constant.value(*told);
-            if self.factored.iter().any(|(place, _)| *place == k) { from * (to / from).ln() } else { to - from }
-        };
-        library.constants.iter().zip(&u[instruments::CONSTANTS..]).zip(library.values()).enumerate().map(of).collect()
-    }
-
     /// Whether the models have just these paths of heat at work.
     fn is_about(&self, at_work: &[AtWork]) -> bool {
         let own = &self.library().at_work;
@@ -293,14 +283,6 @@ impl<'m> Gyro<'m> {
             }
             if let Some(of_thermometer) = &change.thermometer {
                 add(&mut thermometer, of_thermometer, 1.0);
-            }
-        }
-        for (change, _) in changes().filter(|(change, _)| !change.by_constants.is_empty()) {
-            for (slope, by) in change.by_constants.iter().zip(self.moved_by(u)).filter(|(_, by)| *by != 0.0) {
-                parts.iter_mut().zip(&slope.parts).for_each(|(part, slope)| add(part, slope, by));
-                if let Some(of_thermometer) = &slope.thermometer {
-                    add(&mut thermometer, of_thermometer, by);
-                }
             }
         }
         let mut rate = total(&parts);

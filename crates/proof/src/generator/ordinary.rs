@@ -8,7 +8,7 @@ use super::record::{Sensors, Signal, at};
 use super::scene::Scene;
 use super::unit::{Generator, meta};
 use crate::Failure;
-use coil::{Heater, Mount, Side};
+use coil::{Mount, Side};
 use std::f64::consts::TAU;
 
 /// Ordinary properties of a unit.
@@ -32,8 +32,6 @@ pub(crate) struct Ordinary {
     pub tail: f64,
     /// Conductance of the right flange to the chamber [W/(m² K)], contact resistance of the hub [m² K/W], factor on the conductivity of the surroundings.
     pub heat: [f64; 3],
-    /// Power in the right flange from the first row on \[W\].
-    pub power: f64,
     /// Electronics that follow the spool with a time constant \[s\] and add a rate for every kelvin that they are behind \[deg/h/K\].
     pub board: (f64, f64),
 }
@@ -49,7 +47,6 @@ pub(crate) const NOTHING: Ordinary = Ordinary {
     constants: [1.0; 3],
     tail: 0.0,
     heat: [0.0, 0.0, 1.0],
-    power: 0.0,
     board: (0.0, 0.0),
 };
 
@@ -130,9 +127,6 @@ impl Generator {
         design.heat.hub_resistance += resistance;
         if conductance > 0.0 {
             design.heat.mounts.push(Mount { side: Side::Right, conductance });
-        }
-        if of.power > 0.0 {
-            design.heat.heaters.push(Heater { side: Side::Right, power: of.power });
         }
         let plant = Plant::new(build, None)?;
         let mut since = 0.0;

@@ -24,7 +24,7 @@ struct Row {
 /// Units of each row.
 const SEEDS: [u64; 2] = [1, 2];
 
-const ROWS: [Row; 19] = [
+const ROWS: [Row; 18] = [
     row("nothing", NOTHING),
     row("Earth's rate left in, 7.5 deg/h", Ordinary { earth: 7.5, ..NOTHING }),
     row("spool thermometer 0.5 K off", Ordinary { spool_offset: 0.5, ..NOTHING }),
@@ -58,13 +58,6 @@ const ROWS: [Row; 19] = [
     path("60 mm coil: hub's contact resistance of 0.025 m² K/W", [0.0, 0.025, 1.0], "interface-resistance"),
     path("60 mm coil: fan: surroundings that conduct 4 times as well", [0.0, 0.0, 4.0], "air-path"),
     path("60 mm coil: gas: surroundings that conduct 0.3 times as well", [0.0, 0.0, 0.3], "air-path"),
-    Row {
-        drawing: FLANGED,
-        what: "60 mm coil: heater of 1 W",
-        of: Ordinary { power: 1.0, ..strong([0.0, 0.0, 1.0]) },
-        concealed: Some("self-heating"),
-        own: false,
-    },
 ];
 
 const REFERENCE: &str = "coil-reference.ron";
