@@ -1,8 +1,9 @@
-//! Two mechanisms with nearly the same effect, one of which a model about the drawing knows badly: which of them it is shows about each of them alone.
+//! Two mechanisms with nearly the same effect, one of which a model that is not about it knows badly: what it is and how large shows about each of them alone.
 
 use crate::common::normal;
 use diagnosis::{
-    Active, Channel, ForwardModel, NoisePrior, Nuisance, Observation, Omission, Parameter, Prior, Role, State, settled,
+    Active, Channel, ForwardModel, NoisePrior, Nuisance, Observation, Omission, Parameter, Prior, Role, Settings, State,
+    diagnose_settled, settled,
 };
 
 const WHITE: f64 = 0.05;
@@ -19,6 +20,23 @@ struct Pair {
     state: State,
     /// the mechanism that it is made about
     about: Option<usize>,
+    /// effect of a mechanism of size one, in a model about itself or not
+    effect: fn(usize, bool, f64) -> f64,
+}
+
+/// Known badly elsewhere, and then looked like by the other one.
+fn bent(mechanism: usize, about_itself: bool, x: f64) -> f64 {
+    let beside = match mechanism {
+        LOOKS => 0.05 * (9.0 * x).cos(),
+        _ if about_itself => 0.0,
+        _ => 0.1 * (14.0 * x).cos(),
+    };
+    (5.0 * x).sin() + beside
+}
+
+/// Of the same shape everywhere, but a quarter too large elsewhere.
+fn larger(mechanism: usize, about_itself: bool, x: f64) -> f64 {
+    if mechanism == LOOKS || about_itself { (5.0 * x).sin() } else { 1.25 * (5.0 * x).sin() }
 }
 
 fn x() -> impl Iterator<Item = f64> {
@@ -26,23 +44,24 @@ fn x() -> impl Iterator<Item = f64> {
 }
 
 impl Pair {
-    fn new(about: Option<usize>) -> Self {
+    fn new(effect: fn(usize, bool, f64) -> f64, weights: [f64; 2], about: Option<usize>) -> Self {
         let noise = NoisePrior::new((WHITE, 1e-4), (1e-9, 1e-4), (100.0, 1e-4), (1e-9, 1e-4));
-        let one = |id: &str| Omission {
+        let one = |id: &str, sd: f64, weight: f64| Omission {
             id: id.into(),
             stage: "one".into(),
-            parameters: vec![Parameter::new("size", Prior::Normal { mean: 0.0, sd: 3.0 })],
+            parameters: vec![Parameter::new("size", Prior::Normal { mean: 0.0, sd })],
             choice: None,
             starts: vec![vec![1.0]],
             named: true,
-            weight: 1.0,
+            weight,
         };
         Self {
             channels: vec![Channel { name: "y".into(), unit: "1".into(), offset: (0.0, 1.0), averaging: 0.0, noise }],
             nuisances: vec![Nuisance::normal("gain", 1.0, 0.01, Role::Constant)],
-            mechanisms: vec![one("looks"), one("works")],
+            mechanisms: vec![one("looks", 3.0, weights[LOOKS]), one("works", 3.0, weights[WORKS])],
             state: State { level: vec![0.0; ROWS], rate: vec![0.0; ROWS] },
             about,
+            effect,
         }
     }
 }
@@ -62,15 +81,7 @@ impl ForwardModel for Pair {
 
     fn respond(&self, _: usize, gain: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
         let of = |x: f64| {
-            let effect = |a: &Active| {
-                let beside = match a.mechanism {
-                    LOOKS => 0.05 * (9.0 * x).cos(),
-                    // only about itself it is known well
-                    _ if self.about == Some(WORKS) => 0.0,
-                    _ => 0.1 * (14.0 * x).cos(),
-                };
-                a.values[0] * ((5.0 * x).sin() + beside)
-            };
+            let effect = |a: &Active| a.values[0] * (self.effect)(a.mechanism, self.about == Some(a.mechanism), x);
             gain[0] * (x + active.iter().map(effect).sum::<f64>())
         };
         Ok(vec![x().map(of).collect()])
@@ -78,7 +89,8 @@ impl ForwardModel for Pair {
 
     fn about(&self, _: &[f64], active: &[Active]) -> Result<Option<Self>, diagnosis::Failure> {
         let leads = active.first().map(|a| a.mechanism);
-        Ok((leads != self.about).then(|| Self::new(leads)))
+        let weights = [LOOKS, WORKS].map(|mechanism| self.mechanisms[mechanism].weight);
+        Ok((leads != self.about).then(|| Self::new(self.effect, weights, leads)))
     }
 
     fn state(&self, _: usize) -> &State {
@@ -86,12 +98,28 @@ impl ForwardModel for Pair {
     }
 }
 
-#[test]
-fn the_runner_up_is_followed_to_where_it_leads() {
+fn observed() -> Observation {
     let mut normal = normal(4);
     let y = x().map(|x| x + TRUTH * (5.0 * x).sin() + WHITE * normal()).collect();
-    let observed = Observation { time: x().map(|x| 600.0 * x).collect(), channels: vec![y] };
-    let settled = settled(&Pair::new(None), &[0], &[observed], &|_| ()).expect("a fit");
+    Observation { time: x().map(|x| 600.0 * x).collect(), channels: vec![y] }
+}
+
+/// Before the comparison the other one leads, as it does the same; the comparison knows that it is rare.
+#[test]
+fn the_size_of_the_likeliest_is_that_of_a_model_about_it() {
+    let (pair, observed) = (Pair::new(larger, [0.01, 1.0], None), [observed()]);
+    let mut settled = settled(&pair, &[0], &observed, &|_| ()).expect("a fit");
+    assert_eq!(settled.leading.as_ref().expect("one leads").active[0].mechanism, LOOKS);
+    let found = diagnose_settled(&pair, &mut settled, &[0], &observed, &Settings::default(), &|_| ()).expect("a diagnosis");
+    let best = &found.best().fit.active[0];
+    assert_eq!((best.mechanism, settled.model.expect("a model").about), (WORKS, Some(WORKS)));
+    assert!((best.values[0] - TRUTH).abs() < 0.1, "{best:?}");
+    assert!((found.parameters[0][0].value - TRUTH).abs() < 0.1, "{:?}", found.parameters);
+}
+
+#[test]
+fn the_runner_up_is_followed_to_where_it_leads() {
+    let settled = settled(&Pair::new(bent, [1.0; 2], None), &[0], &[observed()], &|_| ()).expect("a fit");
     let leading = settled.leading.expect("one leads");
     assert_eq!(leading.active[0].mechanism, WORKS);
     assert!((leading.active[0].values[0] - TRUTH).abs() < 0.1, "{:?}", leading.active);

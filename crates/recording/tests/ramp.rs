@@ -252,6 +252,8 @@ fn what_a_record_does_not_hold_is_not_told() {
     for reading in [0.0, 0.02] {
         let ramp = Record::of(&UNIT, &[(0.0, -40.0), (12_000.0, 60.0)], &noise(), reading, 1).respond().unwrap();
         assert_eq!(ramp.sensitivity, Err(Absent::Indistinct), "{reading}");
+        assert_eq!(ramp.span, Err(Absent::Indistinct), "{reading}");
+        assert!(matches!(ramp.peak, Err(Absent::Indistinct)), "{reading}");
         assert_eq!(ramp.cooling, Err(Absent::OneWay(Direction::Cooling)));
     }
     // between rests it is told, one way only

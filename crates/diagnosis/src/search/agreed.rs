@@ -35,7 +35,7 @@ pub fn diagnose_settled<M: ForwardModel>(
     loop {
         let known: Vec<Fit> = [&settled.recalibrated].into_iter().chain(&followed).cloned().collect();
         let model = settled.model.as_ref().unwrap_or(given);
-        let found = diagnose_beside(model, records, observations, settings, &known, settled.leading.clone(), progress)?;
+        let found = diagnose_beside(model, records, observations, settings, (&known, settled.leading.clone()), progress)?;
         let best = &found.best().fit;
         let is_its_own = settled.leading.as_ref().is_some_and(|leading| leading.hypothesis == best.hypothesis);
         if best.active.is_empty() || is_its_own || comparisons == COMPARISONS {

@@ -54,24 +54,12 @@ pub fn diagnose(
     settings: &Settings,
     progress: &dyn Fn(Step),
 ) -> Result<Diagnosis, Error> {
-    compared(model, records, observations, settings, (&[], None), progress)
+    diagnose_beside(model, records, observations, settings, (&[], None), progress)
 }
 
 /// The same where fits of some hypotheses are `known` from models that are good about them, and one that is the likeliest under this model: where the search
 /// begins.
-pub(crate) fn diagnose_beside(
-    model: &dyn ForwardModel,
-    records: &[usize],
-    observations: &[Observation],
-    settings: &Settings,
-    known: &[Fit],
-    leading: Option<Fit>,
-    progress: &dyn Fn(Step),
-) -> Result<Diagnosis, Error> {
-    compared(model, records, observations, settings, (known, leading), progress)
-}
-
-fn compared(
+fn diagnose_beside(
     model: &dyn ForwardModel,
     records: &[usize],
     observations: &[Observation],

@@ -153,7 +153,7 @@ fn chained(effect: Effect, course: &Course, fidelity: &Fidelity) -> Signal {
 }
 
 #[test]
-fn a_family_of_each_kind_agrees_with_the_chain() {
+fn heat_and_bonds_agree_with_the_chain() {
     agree_with_the_chain(&[effect::EffectFamily::HubResistance, effect::EffectFamily::Debond]);
 }
 

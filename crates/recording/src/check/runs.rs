@@ -78,20 +78,14 @@ pub(super) fn judge(context: &Context, mask: &mut [bool]) -> Vec<Finding> {
         let noise = noise_beside(values, &used, end - run.len()..end).min(summary.noise.unwrap_or(0.0));
         // rounding to steps adds their variance to what differences show of a moving value
         let noise = (noise * noise - step * step / 12.0).max(0.0).sqrt();
-        let repair = if noise > HIDDEN * step {
-            if !unlikely(run.len(), used.len(), noise, step) {
-                continue;
-            }
-            run.iter().for_each(|&row| mask[row] = false);
-            Repair::Masked
-        } else if jumps(values, &used, end, step) && expectation.may_jump {
-            Repair::None
-        } else if jumps(values, &used, end, step) {
-            run.iter().for_each(|&row| mask[row] = false);
-            Repair::Masked
-        } else {
+        let shows = noise > HIDDEN * step;
+        if !(if shows { unlikely(run.len(), used.len(), noise, step) } else { jumps(values, &used, end, step) }) {
             continue;
-        };
+        }
+        let repair = if shows || !expectation.may_jump { Repair::Masked } else { Repair::None };
+        if repair == Repair::Masked {
+            run.iter().for_each(|&row| mask[row] = false);
+        }
         let kind = if extremes.contains(&Some(value)) { FindingKind::Saturation(value) } else { FindingKind::Stuck(value) };
         let span = [time[run[0]], time[run[run.len() - 1]]];
         findings.push(Finding::at(kind, Severity::Warning, span, run.len(), repair));

@@ -88,14 +88,14 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     };
     let sensitivity = told(&|design| Ok(design.sensitivity()));
     // of terms that cannot be told apart no sum over temperatures is known either
-    let apart = |found| if sensitivity == Err(Absent::Indistinct) { Err(Absent::Indistinct) } else { found };
+    let apart = if sensitivity == Err(Absent::Indistinct) { Err(Absent::Indistinct) } else { Ok(()) };
     Ok(Response {
         heating: told(&|design| design.towards(Direction::Heating)),
         cooling: told(&|design| design.towards(Direction::Cooling)),
         asymmetry: told(&Design::asymmetry),
         hysteresis: over(&models, |model| hysteresis::hysteresis(model, &course, observed)),
-        span: apart(span(&models)).and_then(settled),
-        peak: if sensitivity == Err(Absent::Indistinct) { Err(Absent::Indistinct) } else { peak(&models, input) },
+        span: apart.clone().and_then(|()| span(&models)).and_then(settled),
+        peak: apart.and_then(|()| peak(&models, input)),
         sensitivity,
         lags: sets.concat(),
         noise: models[0].noise.clone(),
