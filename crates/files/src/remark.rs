@@ -303,6 +303,10 @@ remarks! {
         "The likeliest explanation predicts a record that was held out worse than the nominal model, or no better and far from its noise.",
         "The explanation is taken back: the verdict is none or unknown, and `taken_back` lists what it was.",
         "Check that the records are of one unit in one state; something may have changed between them.";
+    WrittenModel "written-model":
+        "Simulated under the fitted records, the design that --model-out wrote leaves more than 1.3 times what the fit leaves.",
+        "What was found stands; its sizes are rough: a strong mechanism acts otherwise than the fit takes it to, or the file rounds what was fitted.",
+        "Give the written file to `diagnose` as the design, with the same records: what is left is fitted about it.";
     NoModel "no-model":
         "--model-out was given, but the verdict leaves nothing to put into the design.",
         "The file is not written.",

@@ -28,10 +28,11 @@ use clap::Parser;
 use cli::{Cli, Command, Diagnose};
 use cli_under::Under;
 use fogcoil::cache::Cache;
+use fogcoil::diagnose::{self, Written};
 use fogcoil::glossary::{Note, Remark};
 use fogcoil::input::RecordOptions;
 use fogcoil::output::Content;
-use fogcoil::{Error, diagnose, identify, input, picture, sensitivity, trim, wind};
+use fogcoil::{Error, identify, input, picture, sensitivity, trim, wind};
 
 fn main() -> ExitCode {
     let cli = Cli::try_parse().unwrap_or_else(|error| refuse(&error));
@@ -134,8 +135,11 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
     files.extend(json_file.map(|path| (path, Content::Text(object.clone()))));
     files.extend(prediction.as_deref().zip(outcome.prediction()).map(|(path, text)| (path, Content::Text(text))));
     if let Some(path) = model_out {
-        match outcome.model() {
-            Ok(text) => files.push((path, Content::Text(text))),
+        match progress.during("simulating the extended model", || outcome.written())? {
+            Ok(Written { text, note }) => {
+                progress.tell(&note.map(|note| note.at(path)).into_iter().collect::<Vec<_>>());
+                files.push((path, Content::Text(text)));
+            }
             Err(why) => progress.tell(&[Remark::NoModel.note(format!("nothing to write: {why}")).at(path)]),
         }
     }

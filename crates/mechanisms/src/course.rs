@@ -70,6 +70,16 @@ impl Clock {
         starts.into_iter().for_each(|n| begins[n] = true);
         Self { chamber: fine.iter().map(|t| smooth.at(*t).0).collect(), time: fine, rows, begins }
     }
+
+    /// Places of the instants at which the reading of each row begins and ends; the first begins nowhere.
+    pub(crate) fn readings(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let began = |row: usize| {
+            let (before, n) = (self.rows[row - 1], self.rows[row]);
+            // a reading that follows a gap begins at an instant of its own
+            (before..n).rev().find(|&m| self.begins[m]).unwrap_or(before)
+        };
+        (0..self.rows.len()).map(move |row| [if row > 0 { began(row) } else { 0 }, self.rows[row]])
+    }
 }
 
 /// A course at later instants, plus a time constant times its rate: the chamber behind its thermometer and its log. Beyond its ends it stays.

@@ -288,16 +288,7 @@ impl Clock {
         let (time, chamber) = (of(&self.time), of(&self.chamber));
         let first = chamber[0];
         let courses = library.slopes.run(&time, &[chamber], &[first]);
-        let place = |n: usize| n / BETWEEN;
-        let mut spans = Vec::with_capacity(self.rows.len());
-        let mut began = 0;
-        for (row, &n) in self.rows.iter().enumerate() {
-            // a reading that follows a gap begins at an instant of its own
-            if row > 0 {
-                began = (self.rows[row - 1]..n).rev().find(|&m| self.begins[m]).unwrap_or(self.rows[row - 1]);
-            }
-            spans.push([place(began), place(n)]);
-        }
+        let spans: Vec<[usize; 2]> = self.readings().map(|span| span.map(|n| n / BETWEEN)).collect();
         let mean = |phase: &[f64]| -> Vec<f64> {
             let of = |&[from, to]: &[usize; 2]| {
                 if to > from { (phase[to] - phase[from]) / (time[to] - time[from]) * DEG_PER_H_PER_RAD_PER_S } else { 0.0 }

@@ -80,7 +80,7 @@ fn noise(noise: &GyroNoise) -> Value {
     };
     json!({
         "white_deg_per_h": model.white,
-        "angle_random_walk_deg_per_sqrt_h": model.angle_random_walk().map(|n| n / S_PER_H.sqrt()),
+        "angle_random_walk_deg_per_sqrt_h": noise.angle_random_walk(),
         "drift_deg_per_h": present(model.drift, model.drift),
         "drift_time_s": present(model.drift, model.drift_time),
         "bias_instability_deg_per_h": present(model.drift, model.bias_instability()),

@@ -45,6 +45,27 @@ pub struct GyroNoise {
     pub interval: f64,
 }
 
+impl GyroNoise {
+    /// Standard deviation of the white noise of a sample \[deg/h\]; `None` where other noise hides it.
+    pub fn white(&self) -> Option<f64> {
+        let model = &self.estimate.model;
+        let white = NoiseModel::white(model.white, model.averaging);
+        let of = |model: &NoiseModel| model.allan_deviation(self.interval, self.interval);
+        (of(&white) >= HIDDEN * of(model)).then_some(model.white)
+    }
+
+    /// Angle random walk \[deg/√h\]; `None` of momentary values, and where other noise hides it.
+    pub fn angle_random_walk(&self) -> Option<f64> {
+        let walk = self.estimate.model.angle_random_walk()?;
+        self.white().map(|_| walk / S_PER_H.sqrt())
+    }
+}
+
+/// Share of white noise in the Allan deviation over one interval below which nobody can tell its size: a hundredth of the variance.
+const HIDDEN: f64 = 0.1;
+/// Reason why no white noise is told.
+pub const NO_WHITE: &str =
+    "white noise is hidden by slower noise, or by what temperature does to the rate; record faster, or at one temperature";
 /// Reason why a fitted number has no interval.
 pub const NO_MAXIMUM: &str = "the likelihood of the noise has no maximum within its bounds; record longer, at one temperature";
 /// Shortest lag, in intervals; the longest is a third of the length.

@@ -127,9 +127,12 @@ fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
         vec![name.to_owned(), significant(value, 3), error, unit.to_owned()]
     };
     let mut rows = vec![["", "value", "± 1 sd", "unit"].map(str::to_owned).to_vec()];
-    rows.push(row("white noise of a sample", model.white, white, "deg/h"));
-    if let Some(n) = model.angle_random_walk() {
-        rows.push(row("angle random walk", n / S_PER_H.sqrt(), white, "deg/sqrt(h)"));
+    match noise.white() {
+        Some(sd) => rows.push(row("white noise of a sample", sd, white, "deg/h")),
+        None => rows.push(vec!["white noise of a sample".into(), "-".into(), "hidden by slower noise".into(), "deg/h".into()]),
+    }
+    if let Some(walk) = noise.angle_random_walk() {
+        rows.push(row("angle random walk", walk, white, "deg/sqrt(h)"));
     }
     if let Some(bench) = analysis.case.meta.as_ref().and_then(|meta| meta.nominal_arw_deg_per_sqrt_h) {
         rows.push(vec!["  the meta file's".into(), significant(bench, 3), String::new(), "deg/sqrt(h)".into()]);
@@ -213,7 +216,7 @@ impl Analysis<'_> {
             let unit = DurationUnit::of(instants.span);
             format!("{} {}", significant(unit.of_seconds(instants.span), 3), unit.name)
         });
-        let walk = noise.as_ref().and_then(|noise| noise.estimate.model.angle_random_walk());
+        let walk = noise.as_ref().and_then(GyroNoise::angle_random_walk);
         let notes = case.notes.iter().filter(|note| note.is_warning()).map(|note| note.remark.id());
         let severe = case.report.findings.iter().filter(|finding| finding.severity != Severity::Note);
         let mut warnings: Vec<&str> = notes.chain(severe.map(|finding| Remark::of_finding(&finding.kind).id())).collect();
@@ -224,7 +227,7 @@ impl Analysis<'_> {
             case.report.rows.len().to_string(),
             span,
             number(instants.map(|instants| instants.interval), 4),
-            number(walk.map(|walk| walk / S_PER_H.sqrt()), 3),
+            number(walk, 3),
             warnings.join(", "),
         ]
     }

@@ -9,6 +9,9 @@ mod left;
 mod report;
 mod structure;
 mod text;
+mod written;
+
+pub use written::Written;
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use bias::units::S_PER_H;
 use diagnosis::{Estimate, Verdict};
+use files::{Note, Remark};
 use mechanisms::{Extent, Naming, RATE as RATE_CHANNEL};
 
 use super::apart::TOLD;
@@ -52,7 +53,7 @@ impl Outcome<'_> {
         }
         match self.alternatives() {
             Some(alternatives) => out += &format!("{alternatives}\n"),
-            None if d.verdict != Verdict::None => out += &format!("Next: {}\n", self.next()),
+            None if d.verdict != Verdict::None || self.misread().is_some() => out += &format!("Next: {}\n", self.next()),
             None => {}
         }
         for text in self.stand_ins.iter().filter_map(StandIn::text) {
@@ -109,6 +110,18 @@ impl Outcome<'_> {
     }
 
     pub(super) fn verdict(&self) -> String {
+        match self.misread() {
+            Some(_) => format!("Void if a column is read wrongly, as it seems. As it is read: {}", self.verdict_as_read()),
+            None => self.verdict_as_read(),
+        }
+    }
+
+    /// The warning that a record seems to have columns exchanged or its rate negated, if there is one.
+    pub(super) fn misread(&self) -> Option<&Note> {
+        self.notes.iter().find(|note| matches!(note.remark, Remark::ExchangedColumns | Remark::ReversedRate))
+    }
+
+    fn verdict_as_read(&self) -> String {
         match self.diagnosis.verdict {
             Verdict::None if !self.withdrawn.is_empty() => {
                 "The explanation of the fitted records is taken back: the nominal model predicts the record that was held out.".to_owned()
@@ -153,6 +166,12 @@ impl Outcome<'_> {
 
     /// The step after this answer, where no two mechanisms are to be told apart.
     pub(super) fn next(&self) -> String {
+        if let Some(warning) = self.misread() {
+            return format!(
+                "{} Then diagnose again: before that, nothing of this answer counts.",
+                warning.remark.explanation().remedy
+            );
+        }
         let proven = !self.holdouts.is_empty() && self.accepted();
         let another = "make a record of the same unit under another profile and give it with --holdout";
         if let Some((id, inspection)) = self.suspect() {
@@ -223,7 +242,7 @@ impl Outcome<'_> {
     /// Mechanisms that the records do not exclude beside the likeliest, and the test that would decide.
     pub(super) fn alternatives(&self) -> Option<String> {
         let ids = self.apart();
-        let command = (!ids.is_empty()).then(|| self.recommend(&ids))?;
+        let command = (!ids.is_empty() && self.misread().is_none()).then(|| self.recommend(&ids))?;
         Some(format!(
             "These records do not exclude: {}. This command finds the test that separates them best: {command}",
             self.others().join(", ")

@@ -5,7 +5,7 @@ use recording::Seconds;
 use recording::statistics::normal_quantile;
 
 use super::figure::{Figure, Told, Untold};
-use crate::check::{GyroNoise, NO_MAXIMUM};
+use crate::check::{GyroNoise, NO_MAXIMUM, NO_WHITE};
 use crate::table::significant;
 
 /// Angle random walk \[deg/sqrt(h)\]; floor of the Allan deviation \[deg/h\] and its averaging time \[s\].
@@ -34,9 +34,10 @@ fn told(value: f64, error: Option<f64>) -> Told {
 }
 
 fn arw(noise: &GyroNoise) -> Told {
-    let per_root_second =
-        noise.estimate.model.angle_random_walk().ok_or_else(|| "a rate is no mean over an interval".to_owned())?;
-    told(per_root_second / S_PER_H.sqrt(), noise.estimate.standard_errors.white)
+    let mean = noise.estimate.model.angle_random_walk();
+    mean.ok_or_else(|| "a rate is no mean over an interval".to_owned())?;
+    let walk = noise.angle_random_walk().ok_or_else(|| NO_WHITE.to_owned())?;
+    told(walk, noise.estimate.standard_errors.white)
 }
 
 fn floor(noise: &GyroNoise, found: Option<(f64, f64)>) -> Told {

@@ -298,3 +298,17 @@ fn instants_are_told_to_the_microsecond() {
     assert!(text.contains(" at 1860 s"), "{text}");
     assert!(!text.contains("00000000"), "{text}");
 }
+
+/// What slower noise hides has no size: a fit at its bound is no measurement.
+#[test]
+fn white_noise_that_is_hidden_is_not_told() {
+    let folder = Folder::new();
+    let record = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/ordinary/A/open/U4615/run2.csv");
+    let json = |command: &str| -> Value { serde_json::from_str(&stdout(&folder.run(&[command, record, "--json"]))).unwrap() };
+    let checked = json("check");
+    assert!(checked["noise"]["angle_random_walk_deg_per_sqrt_h"].is_null(), "{checked}");
+    let measured = json("measure");
+    assert!(measured["arw"].is_null() && measured["without_interval"]["arw"].is_null(), "{measured}");
+    assert!(measured["not_known"]["arw"].as_str().unwrap().contains("hidden by slower noise"), "{measured}");
+    assert!(stdout(&folder.run(&["check", record])).contains("hidden by slower noise"));
+}

@@ -194,6 +194,8 @@ fn exchanged_columns_and_a_reversed_rate_are_named() {
     let lines: Vec<&str> = text.lines().take_while(|line| line.starts_with("warning: ")).collect();
     assert!(lines.iter().any(|l| says(l, ["negated.csv: rate_deg_per_h", "other sign"])), "{text}");
     assert!(lines.iter().any(|l| says(l, ["exchanged.csv: chamber_c and spool_c", "exchanged"])), "{text}");
+    assert!(text.contains("\nVoid if a column is read wrongly, as it seems. As it is read: "), "{text}");
+    assert!(text.contains("\nNext: Check the ") && !text.contains("do not exclude"), "{text}");
     // what was not changed is not suspected: the other test's records have no warning
     assert!(!lines.iter().any(|l| l.contains("negated.csv: chamber_c") || l.contains("exchanged.csv: rate")), "{text}");
 }

@@ -220,3 +220,53 @@ fn simulating_any_mechanism_gives_what_the_diagnosis_predicts() {
         assert!(off < 0.02, "{}: {off}", found.0);
     }
 }
+
+/// Of a file with mechanisms put in: the part of the largest single effect on the rate by which a full simulation differs from what the diagnosis
+/// predicts of all at once; none of a heater.
+fn missed(gyro: &Gyro, found: &[(&str, &[f64], Option<f64>)]) -> Option<f64> {
+    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let active: Vec<Active> = found.iter().map(|found| active(gyro, *found)).collect();
+    let design = active.iter().fold(gyro.library().design().clone(), |design, active| gyro.extended(&design, active).unwrap());
+    let missed = gyro.missed(0, &middle, &active, &back(&design)).unwrap()?;
+    let rate = |active: &[Active]| gyro.respond(0, &middle, active).unwrap().swap_remove(RATE_CHANNEL);
+    let nominal = rate(&[]);
+    let effect = |active: &Active| rms(rate(std::slice::from_ref(active)).iter().zip(&nominal).map(|(a, b)| a - b));
+    Some(rms(missed[RATE_CHANNEL].iter().copied()) / active.iter().map(effect).fold(0.0, f64::max))
+}
+
+/// What two mechanisms do together is worked out from what each does alone, and by what is common to their kinds.
+#[test]
+fn mechanisms_act_together_as_a_full_simulation_has_it() {
+    let gyro = gyro();
+    let all = |ids: &[&str]| -> Vec<_> { ids.iter().map(|id| *ALL.iter().find(|of| of.0 == *id).unwrap()).collect() };
+    for (ids, most) in [
+        // both move the middle of the fibre, and add up
+        (&["tail-asymmetry", "winding-defect"][..], 1e-3),
+        // one is another temperature of the other
+        (&["air-path", "tail-asymmetry"], 1e-3),
+        // two changes of the same stiffness
+        (&["adhesive-content", "glass-transition"], 0.02),
+        // a bond that can open is meshed more finely
+        (&["debond"], 0.05),
+    ] {
+        let off = missed(&gyro, &all(ids)).unwrap();
+        assert!(off < most, "{ids:?}: {off}");
+    }
+    // when a heater was switched on is no part of a design
+    assert_eq!(missed(&gyro, &all(&["self-heating"])), None);
+}
+
+#[test]
+#[ignore = "minutes"]
+fn any_two_mechanisms_act_together_as_a_full_simulation_has_it() {
+    let gyro = gyro();
+    // a law of the mechanics leaves no place for another
+    let excludes = |a: &str| ["glass-transition", "viscoelastic-relaxation", "debond"].contains(&a);
+    for (k, a) in ALL.iter().enumerate() {
+        for b in ALL[k + 1..].iter().filter(|b| !(excludes(a.0) && excludes(b.0))) {
+            let Some(off) = missed(&gyro, &[*a, *b]) else { continue };
+            eprintln!("{} and {}: {off:.4}", a.0, b.0);
+            assert!(off < 0.1, "{} and {}: {off}", a.0, b.0);
+        }
+    }
+}

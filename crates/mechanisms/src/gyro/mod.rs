@@ -2,6 +2,8 @@
 
 mod nominal;
 mod recalibrated;
+mod simulated;
+mod together;
 
 use crate::REFERENCE_C;
 use crate::constants::{Constant, number_of};
@@ -11,7 +13,7 @@ use crate::heat_path::AtWork;
 use crate::instruments::{self, Instruments, MINUTE, channels, nuisances};
 use crate::law_tools::Chain;
 use crate::library::Library;
-use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Scene, Sight};
+use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Scene, Sight, Stage};
 use crate::passed::Passed;
 use crate::record_to_bias::Prepared;
 use coil::{Design, Error, Number, Tolerances};
@@ -21,6 +23,7 @@ use recalibrated::{Recalibrated, share};
 use recording::median_interval;
 use std::cell::RefCell;
 use std::sync::Arc;
+use together::{Acting, together};
 
 /// A design's library and the recordings it is compared with.
 pub struct Gyro<'m> {
@@ -223,6 +226,12 @@ impl<'m> Gyro<'m> {
         own.len() == at_work.len() && at_work.iter().all(near)
     }
 
+    /// Whether a mechanism is another path of heat, and leaves the constants as they are.
+    fn is_path(&self, mechanism: usize) -> bool {
+        let facts = self.kinds[mechanism].facts();
+        facts.stage == Stage::Thermal && facts.heat_path.is_some()
+    }
+
     /// The paths of heat that the models have at work and a hypothesis has not, at no strength.
     fn taken_away(&self, active: &[Active]) -> Vec<Active> {
         let of = |own: &AtWork| {
@@ -263,36 +272,32 @@ impl<'m> Gyro<'m> {
     pub fn respond(&self, record: usize, u: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Error> {
         let number = record;
         let record = &self.records[number];
-        let nominal = &record.nominal.parts;
         let (moved, others) = self.with_factors(u, active);
         let u = &moved;
         let without = self.recalibrated(number, u);
-        let (mut parts, mut thermometer, mut gain) = (without.parts.clone(), without.thermometer.clone(), without.gain);
+        let mut thermometer = without.thermometer.clone();
         let away = self.taken_away(active);
-        let effects = others.into_iter().chain(&away).map(|a| self.effect(number, a)).collect::<Result<Vec<_>, _>>()?;
-        // mechanisms act on a coil that has the others: each one's gain on a part acts on the others' changes, too
-        let changes = || effects.iter().filter_map(|known| known.change().map(|change| (change, known.gain)));
-        for (change, own) in changes() {
-            for p in 0..3 {
-                let (own, scaled) = (own[p], gain[p]);
-                // what was there grows by this one's gain; what this adds beyond its gain grows by what was there
-                for ((part, changed), nominal) in parts[p].iter_mut().zip(&change.parts[p]).zip(&nominal[p]) {
-                    *part += own * *part + scaled * (changed - own * nominal);
-                }
-                gain[p] *= 1.0 + own;
-            }
+        let at_work = others.into_iter().chain(&away);
+        let effects =
+            at_work.map(|a| Ok((self.is_path(a.mechanism), self.effect(number, a)?))).collect::<Result<Vec<_>, Error>>()?;
+        let changes: Vec<Acting> = effects
+            .iter()
+            .filter_map(|(is_path, known)| Some(Acting { change: known.change()?, gain: known.gain, is_path: *is_path }))
+            .collect();
+        let parts = together(&record.nominal.parts, &without, &changes);
+        for Acting { change, .. } in &changes {
             if let Some(of_thermometer) = &change.thermometer {
                 add(&mut thermometer, of_thermometer, 1.0);
             }
         }
         let mut rate = total(&parts);
         rate.iter_mut().for_each(|r| *r *= u[instruments::GAIN]);
-        for added in changes().filter_map(|(change, _)| change.rate.as_ref()) {
+        for added in changes.iter().filter_map(|acting| acting.change.rate.as_ref()) {
             add(&mut rate, added, 1.0);
         }
         self.read(record, &mut thermometer, u);
         let mut readings = Readings { time: &record.time, thermometer, rate };
-        for known in &effects {
+        for (_, known) in &effects {
             if let Effect::Readings(act) = &known.effect {
                 act(&mut readings);
             }

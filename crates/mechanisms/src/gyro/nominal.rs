@@ -3,7 +3,7 @@
 use super::Gyro;
 use super::recalibrated::{Recalibrated, share};
 use crate::change::Change;
-use crate::course::{Parts, Series, add};
+use crate::course::{Series, add};
 use crate::instruments;
 use crate::record_to_bias::Prepared;
 use crate::series::lagged;
@@ -80,19 +80,13 @@ impl Gyro<'_> {
         if let Some(same) = known.iter().find(|known| known.record == number && known.at == u) {
             return Arc::clone(same);
         }
-        let (parts, thermometer) = self.with_nuisances(number, u);
-        let Prepared { nominal, squares, .. } = &self.records[number];
-        // of a part that is nothing throughout, as at rest, nobody can say what share is left: all
-        let of = |p: usize| if squares[p] == 0.0 { 1.0 } else { share(&parts[p], &nominal.parts[p], squares[p]) };
-        let gain = [0, 1, 2].map(of);
-        let here = Arc::new(Recalibrated { record: number, at: u.to_vec(), parts, thermometer, gain });
+        let here = Arc::new(self.with_nuisances(number, u));
         known.retain(|known| known.record != number);
         known.push(Arc::clone(&here));
         here
     }
 
-    /// Parts and thermometer of the nominal model with its uncertain numbers at `u`.
-    fn with_nuisances(&self, number: usize, u: &[f64]) -> (Parts, Vec<f64>) {
+    fn with_nuisances(&self, number: usize, u: &[f64]) -> Recalibrated {
         let (record, library) = (&self.records[number], self.library());
         let mut series = self.with_constants(number, u);
         let mut change = |of: &Series, factor: f64| series.change(of, factor);
@@ -108,20 +102,27 @@ impl Gyro<'_> {
         parts.iter_mut().zip(&record.rates[1].parts).for_each(|(part, second)| add(part, second, filter));
         let late = u[instruments::RATE_DELAY];
         parts.iter_mut().zip(&record.rates[0].parts).for_each(|(part, first)| add(part, first, -late));
-        parts.iter_mut().zip(&record.tail).for_each(|(part, tail)| add(part, tail, u[instruments::TAIL]));
         let thermo_optic = {
             let o = &library.design().optics;
             let (a, b) = (o.thermo_optic, o.refractive_index * o.thermal_expansion);
             (a * u[instruments::THERMO_OPTIC] + b) / (a + b)
         };
-        let shupe = thermo_optic * u[instruments::SHUPE];
-        parts[0].iter_mut().for_each(|s| *s *= shupe);
         // a chamber that moved by more than its thermometer said moves everything by more, from rest
-        let gain = 1.0 / u[instruments::CHAMBER_GAIN];
-        parts.iter_mut().flatten().for_each(|x| *x *= gain);
+        let more = 1.0 / u[instruments::CHAMBER_GAIN];
+        let factors = [thermo_optic * u[instruments::SHUPE] * more, more, more];
+        let mut gain = [1.0; 3];
+        for (p, part) in parts.iter_mut().enumerate() {
+            part.iter_mut().for_each(|x| *x *= factors[p]);
+            // of a part that is nothing throughout, as at rest, nobody can say what share is left: all
+            if record.squares[p] > 0.0 {
+                gain[p] = share(part, &record.nominal.parts[p], record.squares[p]);
+            }
+            // a tail weighs the coil's rates otherwise, which is no gain on what changes them
+            add(part, &record.tail[p], u[instruments::TAIL] * factors[p]);
+        }
         let rest = sensor[0];
-        sensor.iter_mut().for_each(|t| *t = rest + (*t - rest) * gain);
-        (parts, sensor)
+        sensor.iter_mut().for_each(|t| *t = rest + (*t - rest) * more);
+        Recalibrated { record: number, at: u.to_vec(), parts, thermometer: sensor, gain }
     }
 
     /// Reading of a thermometer of the spool from its temperature.

@@ -35,6 +35,7 @@ impl Outcome<'_> {
         let next = capital(&self.next());
         let likeliest = self.likely().next().filter(|(_, p)| *p >= Settings::default().excluded);
         match (self.diagnosis.verdict, likeliest) {
+            _ if self.misread().is_some() => next,
             (Verdict::Explained, _) => {
                 let names = self.names();
                 let looks: Vec<&str> = names.iter().filter_map(|id| self.inspection(id)).collect();

@@ -1,0 +1,53 @@
+//! Designs in full, beside the model that is linear in what is small.
+
+use super::Gyro;
+use crate::course::{Clock, RATE, SPOOL};
+use crate::record_to_bias::Prepared;
+use bias::units::DEG_PER_H_PER_RAD_PER_S;
+use coil::{Design, Drive, Dynamics, Error, Profile, STANDARD};
+use diagnosis::{Active, Role};
+
+impl Gyro<'_> {
+    /// Change of thermometer \[K\] and rate \[deg/h\] that `design` makes of the drawing in the rows of a record, by full solutions, less the change that
+    /// this model says constants `u` and mechanisms at work make: channel by channel, as [`Self::respond`]. Instruments read both alike.
+    ///
+    /// `None` where a design has heaters: when they were switched on is no part of it.
+    ///
+    /// # Errors
+    /// [`Error`] names the dimension or property at fault, or the solve that failed.
+    pub fn missed(&self, record: usize, u: &[f64], active: &[Active], design: &Design) -> Result<Option<Vec<Vec<f64>>>, Error> {
+        let drawing = self.library().design();
+        if !design.heat.heaters.is_empty() || !drawing.heat.heaters.is_empty() {
+            return Ok(None);
+        }
+        let mut undisturbed = u.to_vec();
+        for (value, nuisance) in undisturbed.iter_mut().zip(&self.nuisances) {
+            if nuisance.role == Role::Constant {
+                *value = nuisance.parameter.prior.value(0.0);
+            }
+        }
+        let (changed, drawn) = (self.respond(record, u, active)?, self.respond(record, &undisturbed, &[])?);
+        let (full, full_drawn) = (in_full(&self.records[record], design)?, in_full(&self.records[record], drawing)?);
+        let missed = |channel: usize| {
+            let rows = 0..changed[channel].len();
+            rows.map(|n| full[channel][n] - full_drawn[channel][n] - (changed[channel][n] - drawn[channel][n])).collect()
+        };
+        Ok(Some((0..changed.len()).map(missed).collect()))
+    }
+}
+
+/// Thermometer \[°C\] and rate \[deg/h\] of a design in the rows of a record.
+fn in_full(record: &Prepared, design: &Design) -> Result<[Vec<f64>; 2], Error> {
+    let clock = Clock::new(&record.time, &record.chamber, record.averaging);
+    let profile = Profile { time: clock.time.clone(), drives: vec![clock.chamber.clone()] };
+    let responses = Dynamics::new(design, &[Drive::Chamber], &STANDARD)?.simulate(&profile)?;
+    let turned = |n: usize| responses[n].rate() * DEG_PER_H_PER_RAD_PER_S * (clock.time[n] - clock.time[n - 1]);
+    let mean = |[from, to]: [usize; 2]| match to > from {
+        true => (from + 1..=to).map(turned).sum::<f64>() / (clock.time[to] - clock.time[from]),
+        false => 0.0,
+    };
+    let mut channels = [const { Vec::new() }; 2];
+    channels[SPOOL] = clock.rows.iter().map(|&n| responses[n].sensor).collect();
+    channels[RATE] = clock.readings().map(mean).collect();
+    Ok(channels)
+}

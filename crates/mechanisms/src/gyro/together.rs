@@ -1,0 +1,112 @@
+//! Several changes of the parts of the bias at once.
+
+use super::recalibrated::Recalibrated;
+use crate::change::Change;
+use crate::course::Parts;
+
+/// A change among others.
+pub(super) struct Acting<'a> {
+    pub(super) change: &'a Change,
+    /// share of every nominal part in its change
+    pub(super) gain: [f64; 3],
+    /// whether it is a path of heat
+    pub(super) is_path: bool,
+}
+
+/// Parts of the bias with the nominal model's constants moved and `changes` at work, of which each is that of the `nominal` parts.
+///
+/// A path of heat changes the temperatures that all others act on: its gain on a part is one on their changes, too, and theirs is one on what it adds
+/// beyond its gain. The others act on different things, and their changes add up: a tail's share of a part that cancels nearly, as a
+/// quadrupole's does, says nothing of what it does to a softer coil.
+pub(super) fn together(nominal: &Parts, without: &Recalibrated, changes: &[Acting]) -> Parts {
+    let mut parts = without.parts.clone();
+    for (p, part) in parts.iter_mut().enumerate() {
+        let of_paths = |but: Option<usize>| {
+            let paths = changes.iter().enumerate().filter(|(k, acting)| acting.is_path && Some(*k) != but);
+            paths.fold(1.0, |gain, (_, acting)| gain * (1.0 + acting.gain[p]))
+        };
+        let (all_paths, of_constants) = (of_paths(None), without.gain[p]);
+        let of_others = 1.0 + changes.iter().filter(|acting| !acting.is_path).map(|acting| acting.gain[p]).sum::<f64>();
+        part.iter_mut().for_each(|rate| *rate *= all_paths);
+        for (k, Acting { change, gain, is_path }) in changes.iter().enumerate() {
+            let own = gain[p];
+            let rows = part.iter_mut().zip(&change.parts[p]).zip(nominal[p].iter().zip(&without.parts[p]));
+            if *is_path {
+                let beyond = of_constants * of_paths(Some(k)) * of_others;
+                rows.for_each(|((rate, changed), (nominal, _))| *rate += beyond * (changed - own * nominal));
+            } else {
+                // constants that moved act on the change by their gain, and it on what they do beyond
+                rows.for_each(|((rate, changed), (nominal, moved))| {
+                    *rate += all_paths * (of_constants * changed + own * (moved - of_constants * nominal));
+                });
+            }
+        }
+    }
+    parts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NOMINAL: [f64; 4] = [1.0, -2.0, 0.5, 0.25];
+
+    fn parts(series: [f64; 4]) -> Parts {
+        [series.to_vec(), series.map(|x| 2.0 * x).to_vec(), vec![0.0; 4]]
+    }
+
+    fn change(series: [f64; 4]) -> Change {
+        Change::of_parts(parts(series))
+    }
+
+    fn at(series: [f64; 4], gain: f64) -> Recalibrated {
+        Recalibrated { record: 0, at: Vec::new(), parts: parts(series), thermometer: Vec::new(), gain: [gain; 3] }
+    }
+
+    fn acting(change: &Change, gain: f64, is_path: bool) -> Acting<'_> {
+        Acting { change, gain: [gain; 3], is_path }
+    }
+
+    fn first(changes: &[Acting], without: &Recalibrated) -> Vec<f64> {
+        let [first, ..] = together(&parts(NOMINAL), without, changes);
+        first
+    }
+
+    fn near(a: &[f64], b: &[f64]) {
+        assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12), "{a:?} {b:?}");
+    }
+
+    #[test]
+    fn one_change_of_the_drawing_is_itself() {
+        let (odd, drawing) = (change([0.3, 0.1, -0.2, 0.7]), at(NOMINAL, 1.0));
+        for is_path in [true, false] {
+            let sum: Vec<f64> = NOMINAL.iter().zip(&odd.parts[0]).map(|(a, b)| a + b).collect();
+            near(&first(&[acting(&odd, 0.4, is_path)], &drawing), &sum);
+        }
+    }
+
+    #[test]
+    fn gains_multiply_where_one_is_a_path_of_heat_and_add_up_where_none_is() {
+        let (twice, half) = (change(NOMINAL), change(NOMINAL.map(|x| 0.5 * x)));
+        let both = |paths: [bool; 2], constants: f64| {
+            let without = at(NOMINAL.map(|x| constants * x), constants);
+            first(&[acting(&twice, 1.0, paths[0]), acting(&half, 0.5, paths[1])], &without)
+        };
+        for constants in [1.0, 1.1] {
+            for paths in [[true, true], [true, false], [false, true]] {
+                near(&both(paths, constants), &NOMINAL.map(|x| constants * 3.0 * x));
+            }
+            near(&both([false, false], constants), &NOMINAL.map(|x| constants * 2.5 * x));
+        }
+    }
+
+    #[test]
+    fn the_order_of_changes_does_not_matter() {
+        let (a, b, c) = (change([0.3, 0.1, -0.2, 0.7]), change([1.0, 0.0, 0.0, 2.0]), change([0.0, -1.0, 0.1, 0.0]));
+        let without = at([1.2, -2.1, 0.4, 0.3], 1.07);
+        let all = || [acting(&a, 0.4, true), acting(&b, -0.2, false), acting(&c, 0.1, true)];
+        let mut turned = all();
+        turned.reverse();
+        near(&first(&all(), &without), &first(&turned, &without));
+    }
+}
