@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use fogcoil::measure::{Prediction, all, measure, text, text_without_notes};
+use fogcoil::input::recordings;
+use fogcoil::measure::{Measurement, Prediction, all, measure, text, text_without_notes};
 use fogcoil::{Error, input};
 
 use crate::cli_check::Format;
@@ -12,8 +13,8 @@ use crate::{line, print};
 
 #[derive(Args)]
 pub(crate) struct Measure {
-    /// Recordings, and the case file of the coil where its prediction is to stand beside them
-    #[arg(value_name = "RECORD.csv|COIL.ron", required = true)]
+    /// Recordings, of a folder its *.csv and those of its folders; and the case file of the coil where its prediction is to stand beside them
+    #[arg(value_name = "RECORD.csv|FOLDER|COIL.ron", required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]
     format: Format,
@@ -27,8 +28,8 @@ pub(crate) struct Measure {
 
 pub(crate) fn run(arguments: &Measure, progress: &Progress) -> Result<(), Error> {
     let Measure { files, format, meta, json } = arguments;
-    let (coils, records): (Vec<&PathBuf>, Vec<&PathBuf>) = files.iter().partition(|path| is_ron(path));
-    let coil = match coils[..] {
+    let (coils, records): (Vec<PathBuf>, Vec<PathBuf>) = files.iter().cloned().partition(|path| is_ron(path));
+    let coil = match &coils[..] {
         [] => None,
         [coil] => Some(coil),
         _ => return Err(Error::usage("more than one coil file (*.ron) is given; give one, or none")),
@@ -36,13 +37,20 @@ pub(crate) fn run(arguments: &Measure, progress: &Progress) -> Result<(), Error>
     if records.is_empty() {
         return Err(Error::usage("no recording is given; give at least one beside the coil file"));
     }
+    let records = recordings(&records)?;
     let options = format.options(meta.clone());
     let case = coil.map(|path| progress.read_coil(path)).transpose()?;
     let mut measured = Vec::new();
-    for path in records {
+    for path in &records {
         let shown = files::shown_path(path);
-        let record = progress.during(&format!("reading {shown}"), || input::read_record(path, &options))?;
-        measured.push(progress.during(&format!("measuring {shown}"), || measure(&record))?);
+        let one = progress.during(&format!("reading {shown}"), || input::read_record(path, &options));
+        let one =
+            one.map_err(Error::from).and_then(|record| Ok(progress.during(&format!("measuring {shown}"), || measure(&record))?));
+        measured.push(match one {
+            // one of several that cannot be used does not keep the others from being measured
+            Err(error) if records.len() > 1 => Err((path.clone(), error)),
+            one => Ok(one?),
+        });
     }
     let predict = |case: &input::CoilCase| -> Result<Prediction, Error> {
         let steady = progress.during("modelling the coil", || case.steady_sensitivity())?;
@@ -50,11 +58,21 @@ pub(crate) fn run(arguments: &Measure, progress: &Progress) -> Result<(), Error>
         Ok(Prediction::of(&case.name, &steady, &band))
     };
     let prediction = case.as_ref().map(predict).transpose()?;
-    if *json {
-        return print(&line(&all(&measured, prediction.as_ref())));
-    }
+    let prediction = prediction.as_ref();
     let text = if progress.is_silent() { text_without_notes } else { text };
-    print(&measured.iter().map(|one| text(one, prediction.as_ref())).collect::<Vec<_>>().join("\n"))
+    print(&if *json {
+        line(&all(&measured, prediction))
+    } else {
+        let of = |one: &Result<Measurement, (PathBuf, Error)>| match one {
+            Ok(measured) => text(measured, prediction),
+            Err((_, error)) => format!("{error}\n"),
+        };
+        measured.iter().map(of).collect::<Vec<_>>().join("\n")
+    })?;
+    match measured.iter().filter(|one| one.is_err()).count() {
+        0 => Ok(()),
+        bad => Err(Error::usage(format!("{bad} of {} recordings cannot be used", measured.len()))),
+    }
 }
 
 fn is_ron(path: &Path) -> bool {

@@ -102,7 +102,7 @@ fn proposed(table: &Sniffed) -> Proposal {
 fn propose_column(table: &Sniffed, key: Key, found: &Found, map: &mut MapFile, doubts: &mut Vec<(Key, String)>) {
     let Found { column, unit, foreign, others } = found;
     let (name, standard) = (&table.names[*column], key.units()[0].names[0]);
-    let is_instant = |field: &str| timestamp::date(field).is_some() || timestamp::time_of_day(field).is_some();
+    let is_instant = |field: &str| timestamp::is_date(field) || timestamp::time_of_day(field).is_some();
     let dates = key == Key::Time && holds(table, *column, is_instant);
     let of = map.column_mut(key);
     if name != key.standard() {

@@ -188,7 +188,7 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
         sampling: Sampling::Momentary,
     });
     let channels = channels.iter().zip(values).map(channel).chain(beside).collect();
-    let recording = Recording::new(time, channels).map_err(|error| rows.whole_fault(&error.to_string(), ""))?;
+    let recording = Recording::new(clock.settle(time), channels).map_err(|error| rows.whole_fault(&error.to_string(), ""))?;
     Ok((recording, clock.note()))
 }
 

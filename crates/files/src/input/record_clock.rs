@@ -8,7 +8,7 @@ use super::record_columns::RecordColumns;
 use super::record_format::RecordFormat;
 use super::record_options::Key;
 use super::rows::{Rows, quoted};
-use super::timestamp::{self, Date, FORMS, is_ambiguous, is_day, time_of_day};
+use super::timestamp::{self, Date, FORMS, First, is_day, slashed, time_of_day};
 use super::unit_names::spelled;
 use crate::remark::{Note, Remark};
 
@@ -20,6 +20,8 @@ pub(super) struct Clock<'a> {
     time_of_day: Option<usize>,
     format: &'a RecordFormat,
     form: Form,
+    /// of dates between slashes, the instants by what may stand first; none in an order in which some row is no date
+    orders: [(First, Option<Vec<Date>>); 2],
 }
 
 /// Form of the instants, by the first row.
@@ -28,6 +30,10 @@ enum Form {
     Numbers,
     /// Seconds since the first row.
     Dates(Date),
+    /// Dates of which nobody says whether the day or the month is first.
+    Slashed,
+    /// The same, with what the rows together say of it.
+    SlashedAs(Option<First>),
     /// Seconds of the day of the first row and of the last, and of the days between \[s\].
     Times {
         first: f64,
@@ -38,14 +44,38 @@ enum Form {
 
 impl<'a> Clock<'a> {
     pub(super) fn new(columns: &RecordColumns, format: &'a RecordFormat) -> Self {
-        Self { column: columns.column(Key::Time), time_of_day: columns.time_of_day, format, form: Form::Numbers }
+        let orders = [First::Day, First::Month].map(|first| (first, None));
+        Self { column: columns.column(Key::Time), time_of_day: columns.time_of_day, format, form: Form::Numbers, orders }
+    }
+
+    /// The instants of all rows \[s\] from those of [`Self::read`]: dates between slashes in the order in which they go on with the smaller jumps. Orders
+    /// between which a record's dates do not tell give the same instants.
+    pub(super) fn settle(&mut self, read: Vec<f64>) -> Vec<f64> {
+        let jumps = |dates: &Vec<Date>| dates.windows(2).map(|w| (w[1].seconds - w[0].seconds).abs()).sum::<f64>();
+        let [day, month] = self.orders.each_ref().map(|(_, dates)| dates.as_ref().map_or(f64::INFINITY, jumps));
+        if self.form != Form::Slashed {
+            return read;
+        }
+        let chosen = &mut self.orders[usize::from(month < day)];
+        let dates = chosen.1.take().unwrap_or_default();
+        let instants = dates.iter().map(|date| date.seconds - dates[0].seconds).collect();
+        self.form = Form::SlashedAs(if month == day { None } else { Some(chosen.0) });
+        instants
     }
 
     /// Note on instants that are no numbers.
     pub(super) fn note(&self) -> Option<Note> {
         match self.form {
             Form::Numbers => None,
-            Form::Dates(_) => Some(Remark::Dates.note("instants are dates; they count from the first row")),
+            Form::Dates(_) | Form::Slashed | Form::SlashedAs(None) => {
+                Some(Remark::Dates.note("instants are dates; they count from the first row"))
+            }
+            Form::SlashedAs(Some(first)) => {
+                let name = if first == First::Day { "day" } else { "month" };
+                let text =
+                    format!("instants are dates, the {name} first, as only so they go on evenly; they count from the first row");
+                Some(Remark::Dates.note(text))
+            }
             Form::Times { .. } => {
                 let text =
                     "instants are times of day; they count from the first row, and a day is added where they pass midnight";
@@ -74,6 +104,7 @@ impl<'a> Clock<'a> {
         };
         if number == 0 {
             self.form = first(&text);
+            self.orders.iter_mut().for_each(|(_, dates)| *dates = Some(Vec::new()));
         }
         let fault = |(problem, remedy): (&str, &str)| rows.fault(Some(name), format!("{} {problem}", quoted(&text)), remedy);
         let unlike = |what: &str| {
@@ -83,11 +114,31 @@ impl<'a> Clock<'a> {
         match self.form {
             Form::Dates(first) => {
                 let date = timestamp::date(&text).ok_or_else(|| unlike("a date and time"))?;
-                self.of_date(first, date).map_err(fault)
+                since(self.format, first, date).map_err(fault)
+            }
+            Form::Slashed | Form::SlashedAs(_) => {
+                let mut told = Err(unlike("a date and time"));
+                for (order, dates) in &mut self.orders {
+                    let Some(dated) = dates else { continue };
+                    let first = dated.first().copied();
+                    let of = |date: Date| since(self.format, first.unwrap_or(date), date).map(|seconds| (date, seconds));
+                    match slashed(&text, *order).map(of) {
+                        Some(Ok((date, seconds))) => {
+                            dated.push(date);
+                            told = told.or(Ok(seconds));
+                        }
+                        Some(Err(complaint)) => {
+                            told = told.or(Err(fault(complaint)));
+                            *dates = None;
+                        }
+                        None => *dates = None,
+                    }
+                }
+                told
             }
             Form::Times { first, last, days } => {
                 let now = time_of_day(&text).ok_or_else(|| unlike("a time of day"))?;
-                self.check_unit("is a time of day, which has no unit or scale").map_err(fault)?;
+                check_unit(self.format, "is a time of day, which has no unit or scale").map_err(fault)?;
                 // half a day back is midnight
                 let days = if now < last - DAY_S / 2.0 { days + DAY_S } else { days };
                 self.form = Form::Times { first, last: now, days };
@@ -100,24 +151,24 @@ impl<'a> Clock<'a> {
             },
         }
     }
+}
 
-    /// Refuses unit and scale of instants that have none; an error is problem and remedy.
-    fn check_unit(&self, problem: &'static str) -> Result<(), (&'static str, &'static str)> {
-        let remedy = "leave out --unit time and --scale time (unit and scale in the map file)";
-        if self.format.column(Key::Time).is_standard(Key::Time) { Ok(()) } else { Err((problem, remedy)) }
+/// Refuses unit and scale of instants that have none; an error is problem and remedy.
+fn check_unit(format: &RecordFormat, problem: &'static str) -> Result<(), (&'static str, &'static str)> {
+    let remedy = "leave out --unit time and --scale time (unit and scale in the map file)";
+    if format.column(Key::Time).is_standard(Key::Time) { Ok(()) } else { Err((problem, remedy)) }
+}
+
+/// Seconds since the first date; an error is problem and remedy.
+fn since(format: &RecordFormat, first: Date, date: Date) -> Result<f64, (&'static str, &'static str)> {
+    if !date.exists {
+        return Err(("is a day that its month does not have", "check day and month"));
     }
-
-    /// Seconds since the first date; an error is problem and remedy.
-    fn of_date(&self, first: Date, date: Date) -> Result<f64, (&'static str, &'static str)> {
-        if !date.exists {
-            return Err(("is a day that its month does not have", "check day and month"));
-        }
-        self.check_unit("is a date, which has no unit or scale")?;
-        match (first.is_zoned, date.is_zoned) {
-            (true, false) => Err(("has no zone, but the first instant has one", "give every instant its zone, or none")),
-            (false, true) => Err(("has a zone, but the first instant has none", "give every instant its zone, or none")),
-            _ => Ok(date.seconds - first.seconds),
-        }
+    check_unit(format, "is a date, which has no unit or scale")?;
+    match (first.is_zoned, date.is_zoned) {
+        (true, false) => Err(("has no zone, but the first instant has one", "give every instant its zone, or none")),
+        (false, true) => Err(("has a zone, but the first instant has none", "give every instant its zone, or none")),
+        _ => Ok(date.seconds - first.seconds),
     }
 }
 
@@ -125,6 +176,7 @@ impl<'a> Clock<'a> {
 fn first(text: &str) -> Form {
     match (timestamp::date(text), time_of_day(text)) {
         (Some(date), _) => Form::Dates(date),
+        (None, None) if timestamp::is_date(text) => Form::Slashed,
         (None, Some(first)) => Form::Times { first, last: first, days: 0.0 },
         (None, None) => Form::Numbers,
     }
@@ -142,11 +194,6 @@ fn not_an_instant(error: InputError, text: &str) -> InputError {
     if text.is_empty() || text.parse::<f64>().is_ok() || error.remedy.contains("--decimal-comma") {
         return error;
     }
-    let problem = if is_ambiguous(text) {
-        format!("{} does not say whether the day or the month is first", quoted(text))
-    } else {
-        error.problem
-    };
     let remedy = if is_day(text) {
         "if the time of day stands in a column of its own, name it: --time-of-day NAME (time_of_day in the map file)".into()
     } else if spelled(text, Key::Time).is_some() {
@@ -154,5 +201,5 @@ fn not_an_instant(error: InputError, text: &str) -> InputError {
     } else {
         format!("write seconds like 20.5, or dates like {FORMS}; with no column of instants, --interval SECONDS")
     };
-    InputError { problem, remedy, ..error }
+    InputError { remedy, ..error }
 }

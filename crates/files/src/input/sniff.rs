@@ -112,6 +112,6 @@ fn fields(line: &str, separator: char) -> Vec<String> {
 
 /// Whether a field is a number, with a decimal point or comma, or an instant.
 pub(super) fn is_value(field: &str) -> bool {
-    let is_instant = || timestamp::date(field).is_some() || timestamp::is_day(field) || timestamp::time_of_day(field).is_some();
-    field.replacen(',', ".", 1).parse::<f64>().is_ok() || is_instant() || timestamp::is_ambiguous(field)
+    let is_instant = || timestamp::is_date(field) || timestamp::is_day(field) || timestamp::time_of_day(field).is_some();
+    field.replacen(',', ".", 1).parse::<f64>().is_ok() || is_instant()
 }

@@ -2,7 +2,7 @@
 
 use super::record_options::Key;
 use super::sniff::{Sniffed, is_value};
-use super::timestamp::{is_ambiguous, is_day, time_of_day};
+use super::timestamp::{is_day, time_of_day};
 use super::unit_names::{bracketed, ending, foreign, is_temperature, spelled};
 
 /// Words in names of columns, in lower case; those of up to three letters stand alone.
@@ -48,10 +48,7 @@ pub(super) fn find(table: &Sniffed, key: Key) -> Option<Found> {
 /// Columns that hold date and time of day, if there are such.
 pub(super) fn date_and_time(table: &Sniffed) -> Option<(usize, usize)> {
     let find = |is: fn(&str) -> bool| (0..table.names.len()).find(|column| holds(table, *column, is));
-    Some((
-        find(|field| is_day(field) || is_ambiguous(field) && !field.contains(':'))?,
-        find(|field| time_of_day(field).is_some())?,
-    ))
+    Some((find(is_day)?, find(|field| time_of_day(field).is_some())?))
 }
 
 /// Temperatures that are measured and are none of those that are `taken`.

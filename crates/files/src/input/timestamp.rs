@@ -38,9 +38,34 @@ pub(crate) struct Date {
     pub(crate) exists: bool,
 }
 
+/// What stands first in a date between slashes, of which nobody says it: `02/03/2026`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum First {
+    Day,
+    Month,
+}
+
 /// Reads `2024-05-01T12:00:00.5+02:00`, `01.05.2024 12:00:00.5` or `01-May-2024 12:00:00 PM`; a blank may stand for the T, a comma for the
 /// point, and the zone, then UTC, be absent.
 pub(crate) fn date(text: &str) -> Option<Date> {
+    dated(text, day_of)
+}
+
+/// Reads `02/03/2026 08:00`, or `2/3/26 8:00 AM`, by what stands first.
+pub(super) fn slashed(text: &str, first: First) -> Option<Date> {
+    dated(text, |day| {
+        let [a, b, year] = between_slashes(day)?;
+        let (month, day) = if first == First::Month { (a, b) } else { (b, a) };
+        ((1..=12).contains(&month) && (1..=31).contains(&day)).then_some((year, month, day))
+    })
+}
+
+/// Whether a text is a date with a time of day, whatever stands first in it.
+pub(super) fn is_date(text: &str) -> bool {
+    date(text).is_some() || [First::Day, First::Month].iter().any(|first| slashed(text, *first).is_some())
+}
+
+fn dated(text: &str, day_of: impl Fn(&str) -> Option<(i64, i64, i64)>) -> Option<Date> {
     // what ends a date may be a letter of its month
     text.match_indices(['T', 't', ' ']).find_map(|(at, _)| {
         let (year, month, day) = day_of(&text[..at])?;
@@ -52,7 +77,7 @@ pub(crate) fn date(text: &str) -> Option<Date> {
 
 /// Whether a text is a date without a time of day.
 pub(super) fn is_day(text: &str) -> bool {
-    day_of(text).is_some()
+    day_of(text).is_some() || between_slashes(text).is_some()
 }
 
 /// Reads `08:00:00.5` or `8:00 AM`, or hours, minutes and seconds since a start, as `31:00:00` \[s\].
@@ -119,11 +144,15 @@ fn half_day(text: &str) -> (&str, Option<i64>) {
     }
 }
 
-/// Whether a text seems to be a date of which it is not said whether the day or the month is first: `02/03/2026 08:00`.
-pub(crate) fn is_ambiguous(text: &str) -> bool {
-    let mut parts = text.split('/');
-    let short = |part: Option<&str>| part.is_some_and(|part| matches!(part.len(), 1 | 2) && whole(part).is_some());
-    short(parts.next()) && short(parts.next()) && parts.next().is_some_and(|year| year.starts_with(|c: char| c.is_ascii_digit()))
+/// The numbers of `02/03/2026` or `2/3/26`; years of two digits are of this century.
+fn between_slashes(text: &str) -> Option<[i64; 3]> {
+    let mut parts = text.split('/').map(str::trim);
+    let mut number = |lengths: [usize; 2]| {
+        let part = parts.next().filter(|part| lengths.contains(&part.len()))?;
+        Some((part.len(), whole(part)?))
+    };
+    let (first, second, (digits, year)) = (number([1, 2])?, number([1, 2])?, number([2, 4])?);
+    parts.next().is_none().then_some([first.1, second.1, if digits == 2 { 2000 + year } else { year }])
 }
 
 fn whole(text: &str) -> Option<i64> {
@@ -158,7 +187,7 @@ fn days(year: i64, month: i64, day: i64) -> i64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{date, is_ambiguous, is_day, time_of_day};
+    use super::{First, date, is_date, is_day, slashed, time_of_day};
 
     #[test]
     fn instants() {
@@ -212,11 +241,24 @@ mod tests {
         ] {
             assert_eq!(time_of_day(text), seconds, "{text}");
         }
-        assert!(is_day("14-Mar-2026") && is_day("2026-03-14") && is_day("14.3.2026") && !is_day("14/3/2026") && !is_day("3.5"));
-        for (text, ambiguous) in
-            [("05/01/2024 10:00", true), ("5/1/24", true), ("2024/05/01", false), ("1/2", false), ("20.5", false)]
-        {
-            assert_eq!(is_ambiguous(text), ambiguous, "{text}");
+        assert!(is_day("14-Mar-2026") && is_day("2026-03-14") && is_day("14.3.2026") && is_day("14/3/2026") && !is_day("3.5"));
+        let of = |text: &str| [First::Day, First::Month].map(|first| slashed(text, first).map(|date| date.seconds / 86_400.0));
+        for (text, days) in [
+            ("02/01/1970 00:00:00", [Some(1.0), Some(31.0)]),
+            ("2/1/70 12:00 AM", [Some(36_526.0), Some(36_556.0)]),
+            ("13/01/1970 12:00", [Some(12.5), None]),
+            ("01/13/1970 12:00", [None, Some(12.5)]),
+            ("13/13/1970 12:00", [None, None]),
+            ("2024/05/01 12:00", [None, None]),
+            ("1/2 12:00", [None, None]),
+            ("1/2/197 12:00", [None, None]),
+            ("1/2/1970", [None, None]),
+            ("20.5", [None, None]),
+        ] {
+            assert_eq!(of(text), days, "{text}");
         }
+        assert!(
+            is_date("2/1/70 12:00 AM") && is_date("2024-05-01T10:00:00") && !is_date("13/13/1970 12:00") && !is_date("1/2/1970")
+        );
     }
 }

@@ -1,8 +1,11 @@
 //! The figures as one object. See docs/schema/measure.schema.json.
 
+use std::path::PathBuf;
+
 use serde_json::{Map, Value, json};
 
 use super::{Figure, Measurement, Prediction, Untold};
+use crate::Error;
 
 fn object(figure: &Figure) -> Value {
     json!({"value": figure.value, "ci90": figure.ci90})
@@ -41,10 +44,14 @@ pub fn json(measured: &Measurement, prediction: Option<&Prediction>) -> Value {
     all
 }
 
-/// Output for one record: its own object; for several: `{"records": […]}`.
-pub fn all(measured: &[Measurement], prediction: Option<&Prediction>) -> Value {
+/// Output for one record: its own object; for several: `{"records": […]}`, of a record that cannot be used its file and the problem.
+pub fn all(measured: &[Result<Measurement, (PathBuf, Error)>], prediction: Option<&Prediction>) -> Value {
+    let of = |one: &Result<Measurement, (PathBuf, Error)>| match one {
+        Ok(measured) => json(measured, prediction),
+        Err((file, error)) => json!({"file": file.display().to_string(), "problem": error.to_string()}),
+    };
     match measured {
-        [one] => json(one, prediction),
-        several => json!({"records": several.iter().map(|one| json(one, prediction)).collect::<Vec<_>>()}),
+        [one] => of(one),
+        several => json!({"records": several.iter().map(of).collect::<Vec<_>>()}),
     }
 }

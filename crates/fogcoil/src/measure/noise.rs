@@ -1,6 +1,5 @@
 //! The scale of the noise, from what `check` identifies.
 
-use bias::units::S_PER_H;
 use recording::Seconds;
 use recording::statistics::normal_quantile;
 

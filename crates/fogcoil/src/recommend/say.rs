@@ -63,6 +63,14 @@ pub(crate) fn sentence(r: &Recommendation) -> String {
     let hardest = if several { format!(", the hardest pair being {truth} and {rival}") } else { String::new() };
     let (name, odds) = (&best.programme.name, number(best.odds.log_odds));
     let (repeat, repeated) = (&r.repeat.0, number(r.repeat.1.log_odds));
+    let repeat_is_better = r.repeat.1.log_odds > best.odds.log_odds;
+    if r.repeat.1.decides() && (repeat_is_better || !best.odds.decides()) {
+        return format!(
+            "{repeat} separates {all} best (ln odds {repeated}{hardest}): do it again, as long as {} h. No profile within the limits gives more; \
+             the best of them, {name}, gives ln odds {odds}.",
+            r.limits.hours
+        );
+    }
     if best.odds.decides() {
         let beside = if r.repeat.1.decides() { "would do, too" } else { "would not" };
         return format!(
@@ -73,6 +81,9 @@ pub(crate) fn sentence(r: &Recommendation) -> String {
     let mut out = format!(
         "No profile within the limits separates {all}: the best of the insufficient ones, {name}, gives ln odds {odds}{hardest}. "
     );
+    if repeat_is_better {
+        let _ = write!(out, "{repeat}, done again, gives more, but not enough (ln odds {repeated}). ");
+    }
     let sensor = r.sensors.iter().filter(|s| s.odds.decides()).max_by(|a, b| a.odds.log_odds.total_cmp(&b.odds.log_odds));
     match sensor {
         Some(s) => {

@@ -70,14 +70,12 @@ fn rows_that_cannot_be_read() {
         &[],
         &["r.csv:3: time_s: `30` is not a date and time like that of the first row"],
     );
+    refuse(format!("{HEADER}02/30/2026 08:00:00,20,20,1\n"), &[], &["r.csv:2: time_s: `02/30/2026 08:00:00` is a day that its month"]);
+    // of two rows, each is a date with another order
     refuse(
-        format!("{HEADER}02/03/2026 08:00:00,20,20,1\n"),
+        format!("{HEADER}02/13/2026 08:00,20,20,1\n13/02/2026 08:00,20,20,1\n"),
         &[],
-        &[
-            "r.csv:2: time_s: `02/03/2026 08:00:00` does not say whether the day or the month is first",
-            "01.05.2024",
-            "--interval",
-        ],
+        &["r.csv:3: time_s: `13/02/2026 08:00` is not a date and time like that of the first row", "01.05.2024"],
     );
     refuse(format!("{HEADER}noon,20,20,1\n"), &[], &["time_s: `noon` is not a number", "2024-05-01T12:00:00.5Z", "--interval"]);
     // a logger's remarks count as lines

@@ -44,6 +44,29 @@ fn what_is_no_unit_is_said() {
     assert!(!said.contains("warning: "), "{said}");
 }
 
+/// The rows of a record say whether the day or the month is first, where it passes midnight; within a day it does not matter.
+#[test]
+fn dates_between_slashes_are_read_by_their_rows() {
+    let at = |n: usize, first: u8| {
+        let ([h, m, s], later) = (clock(23, n), usize::from(n >= 120));
+        let day = 2 + later;
+        if first == b'd' { format!("{day:02}/03/2026 {h:02}:{m:02}:{s:02}") } else { format!("3/{day}/26 {h}:{m:02}:{s:02}") }
+    };
+    let text = |first: u8, kept: usize| {
+        let all = lines(|n, [_, c, s, r]| format!("{},{c:.5},{s:.5},{r:.6}", at(n, first)));
+        "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &all.split_inclusive('\n').take(kept).collect::<String>()
+    };
+    for (first, name) in [(b'd', "day"), (b'm', "month")] {
+        let (code, said, _folder) = run(&text(first, usize::MAX), &[]);
+        assert!(code == Some(0) && said.contains("99.50  min"), "{said}");
+        assert!(said.contains(&format!("instants are dates, the {name} first, as only so they go on evenly")), "{said}");
+        let (code, said, _folder) = run(&text(first, 120), &[]);
+        assert!(code == Some(0) && said.contains("59.50  min") && said.contains("instants are dates; they"), "{said}");
+        let (code, said, _folder) = run(&text(first, 120), &["--unit", "time=min"]);
+        assert!(code == Some(2) && said.contains("r.csv:2: time_s: `") && said.contains("is a date, which has no unit"), "{said}");
+    }
+}
+
 #[test]
 fn date_and_time_of_day_in_two_columns() {
     let iso = |n: usize| {

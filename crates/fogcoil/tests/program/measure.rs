@@ -110,6 +110,19 @@ fn the_steady_sensitivity_of_a_coil_is_measured_again() {
     let both = json(&folder, &["measure", "r.csv", "r.csv", "--json"]);
     assert_eq!(both["records"].as_array().unwrap().len(), 2);
     assert_eq!(both["records"][1]["sensitivity"], found["sensitivity"]);
+    // of a folder its recordings; one that cannot be used does not keep the others from being measured
+    std::fs::create_dir(folder.path("lot")).unwrap();
+    std::fs::copy(folder.path("r.csv"), folder.path("lot/r.csv")).unwrap();
+    folder.write("lot/bad.csv", "time_s,chamber_c\n0,20\n");
+    let output = folder.run(&["measure", "lot", "--json"]);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(stderr(&output).contains("1 of 2 recordings cannot be used"), "{}", stderr(&output));
+    let lot: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(lot["records"][0]["file"], "lot/bad.csv");
+    assert!(lot["records"][0]["problem"].as_str().unwrap().contains("rate_deg_per_h"), "{lot}");
+    assert_eq!(lot["records"][1]["sensitivity"], found["sensitivity"]);
+    let output = folder.run(&["measure", "lot", "--quiet"]);
+    assert!(stdout(&output).contains("lot/bad.csv") && stdout(&output).contains("angle random walk"), "{}", stdout(&output));
 }
 
 /// Steady sensitivity of the reference coil \[(deg/h)/(degC/min)\].
@@ -194,7 +207,7 @@ fn what_cannot_be_measured_is_said() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
         assert!(stderr(&output).contains(says) && stdout(&output).is_empty(), "{says}: {}", stderr(&output));
     };
-    refused(&["measure"], "RECORD.csv|COIL.ron");
+    refused(&["measure"], "RECORD.csv|FOLDER|COIL.ron");
     refused(&["measure", "coil.ron"], "no recording is given");
     refused(&["measure", "coil.ron", "coil.ron", "nan.csv"], "more than one coil file");
     refused(&["measure", "none.csv"], "none.csv");
