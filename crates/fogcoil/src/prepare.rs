@@ -153,6 +153,25 @@ fn moved_in_gap(case: &RecordCase) -> Option<Note> {
     (off > REST.tolerance).then(|| Remark::Gap.warning(text))
 }
 
+/// A note on a recording that does not start at rest; a warning where that is far.
+fn off_rest(time: &[f64], chamber: &[f64], spool: &[f64]) -> Option<Note> {
+    let (by, off) = match unrest(time, chamber, spool, &REST)? {
+        Unrest::Apart(by) => (by, format!("spool and chamber differ by {by:.1} K, and the difference is shrinking")),
+        Unrest::Moving(by) => (by, format!("the chamber moves by {by:.1} K in the first {} min", REST.duration / S_PER_MIN)),
+    };
+    let text = format!("does not start at rest ({off}): the model assumes rest; residuals from this are not findings");
+    Some(if by > FEWEST_KELVIN { Remark::NotAtRest.warning(text) } else { Remark::NotAtRest.note(text) })
+}
+
+/// The same of a recording as it was read.
+pub(crate) fn starts_off_rest(case: &RecordCase) -> Option<Note> {
+    let used = case.report.used(&case.recording);
+    let values = |name| used.channel(name).map(|channel| channel.values.clone());
+    let chamber = bridged(used.time(), &values(CHAMBER)?)?;
+    let spool = values(SPOOL).unwrap_or_else(|| vec![f64::NAN; used.time().len()]);
+    off_rest(used.time(), &chamber, &spool)
+}
+
 /// A recording's usable values, averaged down where there are very many; what was done is added to `notes`.
 pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, Error> {
     case.require_usable()?;
@@ -217,16 +236,7 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     if case.number(SPOOL).is_none() {
         say(Remark::NoThermometer, "no spool_c: heat paths and the thermometer cannot be told apart".to_owned());
     }
-    if let Some(unrest) = unrest(&time, &chamber, &spool, &REST) {
-        let (by, off) = match unrest {
-            Unrest::Apart(by) => (by, format!("spool and chamber differ by {by:.1} K, and the difference is shrinking")),
-            Unrest::Moving(by) => (by, format!("the chamber moves by {by:.1} K in the first {} min", REST.duration / S_PER_MIN)),
-        };
-        let text = format!("does not start at rest ({off}): the model assumes rest; residuals from this are not findings");
-        let far = by > FEWEST_KELVIN;
-        let note = if far { Remark::NotAtRest.warning(text) } else { Remark::NotAtRest.note(text) };
-        notes.push(note.at(file));
-    }
+    notes.extend(off_rest(&time, &chamber, &spool).map(|note| note.at(file)));
     let (fingerprint, observed) = (case.fingerprint.clone(), Observation { time, channels: vec![spool, rate] });
     let (meta, flags, instants) = (case.meta.clone(), case.flags.clone(), (before, earlier));
     Ok(Record { fingerprint, observed, chamber, drive, averaging, flags, columns, meta, instants })

@@ -116,7 +116,8 @@ pub fn calibrate(
     Ok(Outcome { case: case.clone(), constants, lot, units: told, effects, notes })
 }
 
-/// Names of the units: of the folders in which their records lie; of their first records where two would share a folder.
+/// Names of the units: of the folders in which their records lie; where two share a folder, of their first records; of both where two share these, too, or
+/// there is but one unit in a folder.
 fn names(units: &[Vec<RecordCase>]) -> Vec<String> {
     let files: Vec<&Path> = units.iter().filter_map(|records| Some(records.first()?.fingerprint.file.as_path())).collect();
     names_of(&files)
@@ -124,9 +125,17 @@ fn names(units: &[Vec<RecordCase>]) -> Vec<String> {
 
 fn names_of(files: &[&Path]) -> Vec<String> {
     let of = |name: Option<&OsStr>| files::shown(&name.unwrap_or_default().to_string_lossy());
+    let apart = |names: &[String]| (0..names.len()).all(|n| !names[n].is_empty() && !names[..n].contains(&names[n]));
     let folders: Vec<String> = files.iter().map(|file| of(file.parent().and_then(Path::file_name))).collect();
-    let apart = folders.iter().enumerate().all(|(n, name)| !name.is_empty() && !folders[..n].contains(name));
-    if apart && files.len() > 1 { folders } else { files.iter().map(|file| of(file.file_stem())).collect() }
+    let records: Vec<String> = files.iter().map(|file| of(file.file_stem())).collect();
+    let of_both =
+        |(folder, record): (&String, &String)| if folder.is_empty() { record.clone() } else { format!("{folder}/{record}") };
+    match files.len() {
+        1 => folders.iter().zip(&records).map(of_both).collect(),
+        _ if apart(&folders) => folders,
+        _ if apart(&records) => records,
+        _ => folders.iter().zip(&records).map(of_both).collect(),
+    }
 }
 
 fn not_finite() -> Error {
@@ -238,5 +247,7 @@ mod tests {
         assert_eq!(of(&["lot/U1/run1.csv", "lot/U2/run1.csv"]), ["U1", "U2"]);
         assert_eq!(of(&["lot/a1.csv", "lot/b1.csv"]), ["a1", "b1"]);
         assert_eq!(of(&["a1.csv", "b1.csv"]), ["a1", "b1"]);
+        assert_eq!(of(&["lot/U1/run1.csv", "lot/U1/run2.csv", "lot/U2/run1.csv"]), ["U1/run1", "U1/run2", "U2/run1"]);
+        assert_eq!((of(&["lot/U1/run1.csv"]), of(&["a1.csv"])), (vec!["U1/run1".to_owned()], vec!["a1".to_owned()]));
     }
 }

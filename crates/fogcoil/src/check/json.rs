@@ -26,8 +26,8 @@ pub fn json(analysis: &Analysis) -> Value {
         "averaging_s": case.averaging,
         "gaps": instants.map_or_else(Vec::new, |i| i.gaps.iter().map(gap).collect::<Vec<_>>()),
         "channels": report.channels.iter().map(channel).collect::<Vec<_>>(),
-        "notes": case.notes,
-        "note_ids": case.notes.iter().map(|note| note.remark.id()).collect::<Vec<_>>(),
+        "notes": analysis.notes,
+        "note_ids": analysis.notes.iter().map(|note| note.remark.id()).collect::<Vec<_>>(),
         "findings": report.findings.iter().map(finding).collect::<Vec<_>>(),
         "noise": analysis.noise.as_ref().map(noise),
     })

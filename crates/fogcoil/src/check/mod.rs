@@ -9,12 +9,14 @@ mod text;
 
 use bias::units::S_PER_H;
 use charts::{Axis, Figure, Panel, Series as Line, Style, significant};
+use files::Note;
 use recording::allan::{AllanPoint, CONFIDENCE, allan};
 use recording::condition::bridged;
 use recording::lag::lagging;
 use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Series, Term, Whitener, identify, residual};
 
 use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
+use crate::prepare::starts_off_rest;
 
 pub use json::json;
 pub use text::{several, text, text_without_notes, unreadable};
@@ -24,6 +26,8 @@ pub use text::{several, text, text_without_notes, unreadable};
 pub struct Analysis<'a> {
     /// The recording.
     pub case: &'a RecordCase,
+    /// Remarks on how it was read and how it starts.
+    pub notes: Vec<Note>,
     /// The gyro's noise; `None` where the recording cannot be used, or has too few rows, or no noise.
     pub noise: Option<GyroNoise>,
 }
@@ -108,8 +112,10 @@ impl GyroNoise {
 impl<'a> Analysis<'a> {
     /// Analyses a recording.
     pub fn new(case: &'a RecordCase) -> Self {
-        let noise = if case.report.usable() { gyro_noise(case) } else { None };
-        Self { case, noise }
+        let usable = case.report.usable();
+        let noise = if usable { gyro_noise(case) } else { None };
+        let notes = case.notes.iter().cloned().chain(usable.then(|| starts_off_rest(case)).flatten()).collect();
+        Self { case, notes, noise }
     }
 }
 

@@ -42,7 +42,7 @@ fn written(analysis: &Analysis, least: Severity) -> String {
     out.push_str(&table(&overview(analysis)));
     out.push('\n');
     out.push_str(&channels(analysis));
-    for note in case.notes.iter().filter(|note| least == Severity::Note || note.is_warning()) {
+    for note in analysis.notes.iter().filter(|note| least == Severity::Note || note.is_warning()) {
         let _ = writeln!(out, "{}", note.line());
     }
     let shown = |finding: &&Finding| least == Severity::Note || finding.severity != Severity::Note;
@@ -205,7 +205,7 @@ pub fn unreadable(file: &Path, why: &str) -> [String; 7] {
 impl Analysis<'_> {
     /// The recording's line among others: rows, span, interval, angle random walk, and the ids of its warnings.
     pub fn line(&self) -> [String; 7] {
-        let Self { case, noise } = self;
+        let Self { case, notes, noise } = self;
         let file = &case.fingerprint.file;
         if let Err(error) = case.require_usable() {
             return unreadable(file, &error.problem);
@@ -217,7 +217,7 @@ impl Analysis<'_> {
             format!("{} {}", significant(unit.of_seconds(instants.span), 3), unit.name)
         });
         let walk = noise.as_ref().and_then(GyroNoise::angle_random_walk);
-        let notes = case.notes.iter().filter(|note| note.is_warning()).map(|note| note.remark.id());
+        let notes = notes.iter().filter(|note| note.is_warning()).map(|note| note.remark.id());
         let severe = case.report.findings.iter().filter(|finding| finding.severity != Severity::Note);
         let mut warnings: Vec<&str> = notes.chain(severe.map(|finding| Remark::of_finding(&finding.kind).id())).collect();
         warnings.dedup();

@@ -52,6 +52,7 @@ fn row(x: &Explanation) -> Option<Vec<String>> {
         Reach::Gives { value, error, sigma, layer } => {
             let layer = layer.map_or(String::new(), |(k, n)| match *value {
                 0.0 => ": in no layer does a whole turn come nearer than none".into(),
+                _ if n < 2 => format!(", in layer {k}"),
                 _ => format!(", in layer {k}; as plausibly in {n} layers"),
             });
             let value = format!("{} ± {}", significant(*value, 3), significant(*error, 1));

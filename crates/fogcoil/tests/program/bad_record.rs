@@ -70,7 +70,11 @@ fn rows_that_cannot_be_read() {
         &[],
         &["r.csv:3: time_s: `30` is not a date and time like that of the first row"],
     );
-    refuse(format!("{HEADER}02/30/2026 08:00:00,20,20,1\n"), &[], &["r.csv:2: time_s: `02/30/2026 08:00:00` is a day that its month"]);
+    refuse(
+        format!("{HEADER}02/30/2026 08:00:00,20,20,1\n"),
+        &[],
+        &["r.csv:2: time_s: `02/30/2026 08:00:00` is a day that its month"],
+    );
     // of two rows, each is a date with another order
     refuse(
         format!("{HEADER}02/13/2026 08:00,20,20,1\n13/02/2026 08:00,20,20,1\n"),

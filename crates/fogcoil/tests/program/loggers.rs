@@ -63,7 +63,10 @@ fn dates_between_slashes_are_read_by_their_rows() {
         let (code, said, _folder) = run(&text(first, 120), &[]);
         assert!(code == Some(0) && said.contains("59.50  min") && said.contains("instants are dates; they"), "{said}");
         let (code, said, _folder) = run(&text(first, 120), &["--unit", "time=min"]);
-        assert!(code == Some(2) && said.contains("r.csv:2: time_s: `") && said.contains("is a date, which has no unit"), "{said}");
+        assert!(
+            code == Some(2) && said.contains("r.csv:2: time_s: `") && said.contains("is a date, which has no unit"),
+            "{said}"
+        );
     }
 }
 

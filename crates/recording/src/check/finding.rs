@@ -304,6 +304,8 @@ impl fmt::Display for Finding {
             (None, _) => {}
         }
         match self.repair {
+            // of a recording that cannot be used nothing was repaired
+            _ if self.severity == Severity::Error => {}
             Repair::None => {}
             Repair::Dropped => f.write_str("; dropped")?,
             Repair::Masked => f.write_str("; not used")?,
