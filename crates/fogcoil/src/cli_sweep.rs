@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use fogcoil::output::Content;
-use fogcoil::sweep::{Parts, Plan, Sampling, Share, Summary, clear, json, merged, read_plan, report, svg, table, text};
+use fogcoil::sweep::{Parts, Plan, Row, Share, Summary, clear, json, merged, read_plan, report, svg, table, text};
 use fogcoil::{Error, sweep};
 
 use crate::cli_tables::Tables;
@@ -26,7 +26,7 @@ pub(crate) struct Sweep {
     /// Make the table of the shares that are in FILE.parts, and compute nothing; exit status 2 if one is missing
     #[arg(long, conflicts_with = "share")]
     merge: bool,
-    /// Draw the Sobol' indices of a plan with sampling: Indices(N) here
+    /// Draw the Sobol' indices of a plan with sampling: Indices(N) here; of any other plan the sensitivity against the keys that it varies
     #[arg(long, value_name = "FILE", conflicts_with = "share")]
     svg: Option<PathBuf>,
     /// Print one JSON object
@@ -48,8 +48,8 @@ pub(crate) fn run(arguments: &Sweep, progress: &Progress) -> Result<(), Error> {
     tables.make_folder()?;
     progress.reads(&inputs, &tables.files().chain(picture.as_deref()).map(Some).collect::<Vec<_>>())?;
     progress.tell(&plan.variants.case.warnings);
-    if let (Some(path), false) = (picture, matches!(plan.sampling, Sampling::Indices(_))) {
-        return Err(without_indices(path));
+    if let (Some(path), false) = (picture, plan.can_be_drawn()) {
+        return Err(nothing_to_draw(path));
     }
     let parts = Parts::beside(&tables.stem(), plan.hash());
     let rows = match merge {
@@ -61,19 +61,19 @@ pub(crate) fn run(arguments: &Sweep, progress: &Progress) -> Result<(), Error> {
         return Ok(());
     }
     let summary = progress.during("summing up", || Summary::of(&plan, &rows))?;
-    let picture = picture.as_deref().map(|path| drawn(&plan, &summary, path)).transpose()?;
+    let picture = picture.as_deref().map(|path| drawn(&plan, &summary, &rows, path)).transpose()?;
     tables.save(&table(&plan, &rows), || report(&plan, &summary, &rows), picture.into_iter().collect(), progress)?;
     clear(&plan, &parts);
     print(&if *object { line(&json(&plan, &summary)) } else { text(&plan, &summary) })
 }
 
-/// The picture of the indices, and its file.
-fn drawn<'a>(plan: &Plan, summary: &Summary, path: &'a Path) -> Result<(&'a Path, Content<'a>), Error> {
-    let indices = summary.indices.as_ref().ok_or_else(|| without_indices(path))?;
-    Ok((path, Content::Text(svg(&plan.variants.case.name, indices))))
+/// The picture, and its file.
+fn drawn<'a>(plan: &Plan, summary: &Summary, rows: &[Row], path: &'a Path) -> Result<(&'a Path, Content<'a>), Error> {
+    let picture = svg(plan, summary, rows).ok_or_else(|| nothing_to_draw(path))?;
+    Ok((path, Content::Text(picture)))
 }
 
-fn without_indices(path: &Path) -> Error {
-    let remedy = "give a plan with sampling: Indices(N) whose |S| varies";
-    Error::usage(format!("{}: there are no Sobol' indices to draw; {remedy}", files::shown_path(path)))
+fn nothing_to_draw(path: &Path) -> Error {
+    let remedy = "give a plan that varies a number of its own, with Sensitivity among its outputs, or one with sampling: Indices(N) whose |S| varies";
+    Error::usage(format!("{}: there is nothing to draw; {remedy}", files::shown_path(path)))
 }

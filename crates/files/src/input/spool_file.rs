@@ -118,7 +118,8 @@ pub(super) fn spool(at: &Group, file: &SpoolFile, inner_radius: f64) -> Result<S
     let (thickness, room) = (file.hub_thickness_mm.0, to_mm(inner_radius - contact.gap()));
     if thickness >= room {
         let problem = format!("{thickness} mm leaves no bore inside the coil's inner radius");
-        return Err(at.fault("hub_thickness_mm", problem, format!("make it less than {room} mm")));
+        let remedy = format!("make it less than {room} mm, or check winding.inner_radius_mm, which is in mm");
+        return Err(at.fault("hub_thickness_mm", problem, remedy));
     }
     let spool: Spool = file.model();
     for (i, flange) in spool.flanges.iter().enumerate() {

@@ -6,6 +6,7 @@
 //! from many machines.
 
 mod columns;
+mod course;
 mod indices;
 mod json;
 mod outputs;

@@ -1,15 +1,23 @@
-//! The indices as a picture.
+//! A sweep as a picture.
 
 use charts::{Axis, Figure, Panel, Series, Style};
 
+use super::course::against_keys;
 use super::indices::{Index, Indices, WithInterval};
+use super::plan::Plan;
+use super::row::Row;
+use super::statistics::Summary;
 
 /// A kind of index: its name, the style of its lines, its number.
 type Shown = (&'static str, u8, fn(&Index) -> WithInterval);
 
-/// Every group's indices as marks with their intervals, a document of its own.
-pub fn svg(name: &str, indices: &Indices) -> String {
-    figure(name, indices).document()
+/// The picture of a sweep, a document of its own: every group's Sobol' indices with their intervals; of a plan without indices the sensitivity against its
+/// keys. `None` where there is neither.
+pub fn svg(plan: &Plan, summary: &Summary, rows: &[Row]) -> Option<String> {
+    match &summary.indices {
+        Some(indices) => Some(figure(&plan.variants.case.name, indices).document()),
+        None => against_keys(plan, rows).map(|course| course.document()),
+    }
 }
 
 pub(super) fn figure<'a>(name: &str, indices: &Indices) -> Figure<'a> {

@@ -7,8 +7,11 @@ use sha2::{Digest, Sha256};
 
 use super::outputs::Output;
 use super::points::{LONGEST_SEQUENCE, Points, Sampling};
+use super::statistics::TOTAL;
 use crate::input::{CoilCase, Fingerprint, InputError, check_ron, fault_in, hexadecimal, read_profile, read_ron};
-use crate::variants::{Dimensions, Drawing, Factor, Group, MOST_FACTORS, Others, Variants, Varied, each_once, variants};
+use crate::variants::{
+    Choice, Dimensions, Drawing, Factor, Group, Kind, MOST_FACTORS, Others, Variants, Varied, each_once, variants,
+};
 use crate::{Error, program};
 
 /// Most points of a plan.
@@ -191,6 +194,18 @@ impl Plan {
     /// Names of all outputs.
     pub fn names(&self) -> Vec<&'static str> {
         self.outputs.iter().flat_map(|output| output.names().iter().copied()).collect()
+    }
+
+    /// Whether there is a picture of it: of indices, or of the sensitivity against a number that it states.
+    pub fn can_be_drawn(&self) -> bool {
+        let is_number = |varied: &Varied| match varied {
+            Varied::Named(_) => false,
+            Varied::OneOf(choices) => choices.iter().any(|choice| matches!(choice, Choice::Number(_))),
+            _ => true,
+        };
+        let states_one =
+            || self.variants.factors.iter().any(|factor| matches!(&factor.kind, Kind::Key(varied) if is_number(varied)));
+        matches!(self.sampling, Sampling::Indices(_)) || self.names().contains(&TOTAL) && states_one()
     }
 
     /// SHA-256 of all inputs of the rows: the program, the plan, the files that it names.

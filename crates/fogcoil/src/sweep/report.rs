@@ -3,6 +3,7 @@
 use charts::{Axis, Cells, Figure, Panel, Series, Style, grid, nice, sections, significant};
 use maud::html;
 
+use super::course::against_keys;
 use super::picture::figure;
 use super::plan::Plan;
 use super::row::Row;
@@ -34,6 +35,7 @@ pub fn report(plan: &Plan, summary: &Summary, rows: &[Row]) -> String {
     let files: Vec<_> = ["plan", "coil"].into_iter().chain(std::iter::repeat("input")).zip(&plan.files).collect();
     let spreads: Vec<_> = summary.spreads.iter().map(numbers).collect();
     let mut parts = vec![("Numbers", grid("Every number over all designs", Cells::Numbers, &head, &spreads))];
+    parts.extend(against_keys(plan, rows).map(|course| ("Sensitivity by key", course.element())));
     parts.extend(distribution(plan, rows).map(|distribution| ("Sensitivity", distribution.element())));
     parts.extend(summary.indices.iter().map(|indices| ("Where its spread comes from", figure(name, indices).element())));
     parts.push(provenance("sweep", &files, &[]));

@@ -124,7 +124,13 @@ fn a_grid_has_the_designs_that_a_user_would_write() {
         \"spool.hub_thickness_mm\": Steps(3.0, 5.0, 2), \"winding.cw_climbs\": OneOf([\"Right\", \"Left\"]),\
         \"spool.flanges\": Named({\"one\": \"[(side: Right, thickness_mm: 2.0, overhang_mm: 1.0, bonded: true)]\", \"none\": \"[]\"})})";
     let folder = with_plan(plan);
-    let json = swept(&folder, &["plan.ron", "--out", "g.csv"]);
+    let json = swept(&folder, &["plan.ron", "--out", "g.csv", "--svg", "g.svg"]);
+    // the sensitivity against the only number, a colour for each value of the first name
+    let picture = fs::read_to_string(folder.path("g.svg")).unwrap();
+    assert!(faults(&picture).is_empty(), "{:?}", faults(&picture));
+    for said in ["spool.hub_thickness_mm", ">Left<", ">Right<", "Of 8 designs"] {
+        assert!(picture.contains(said), "{said}");
+    }
     assert_eq!((json["points"].as_u64(), json["failed"].as_u64(), &json["linear_sd"]), (Some(8), Some(0), &Value::Null));
     let total = column(&folder, "g.csv", "total");
     assert_eq!(column(&folder, "g.csv", "spool.flanges")[..4], ["one", "none", "one", "none"]);
@@ -218,11 +224,13 @@ fn bad_plans_are_refused_and_nothing_is_written() {
         (&["--out", "coil.ron"], "ends in .parquet or .csv"),
         (&["--out", "no/t.csv"], "there is no folder no"),
         (&["--out", "t.csv", "--svg", "t.csv"], "is given twice"),
-        (&["--out", "t.csv", "--svg", "i.svg"], "there are no Sobol' indices to draw"),
     ];
     for (arguments, said) in refused {
         let output = folder.run(&[&["sweep", "plan.ron"], arguments].concat());
         assert!(output.status.code() == Some(2) && stderr(&output).contains(said), "{arguments:?}: {}", stderr(&output));
     }
+    folder.write("plan.ron", change(good, ")})", ")}, outputs: [Winding])"));
+    let output = folder.run(&["sweep", "plan.ron", "--out", "t.csv", "--svg", "i.svg"]);
+    assert!(output.status.code() == Some(2) && stderr(&output).contains("there is nothing to draw"), "{}", stderr(&output));
     assert!(!folder.path("t.csv").exists() && !folder.path("i.svg").exists());
 }
