@@ -267,6 +267,10 @@ remarks! {
         "A recording starts while the chamber still moves, or spool and chamber differ.",
         "The model starts at rest: what that leaves in the first hours is no finding.",
         "Soak until chamber and spool agree before recording, or cut the beginning off.";
+    SpoolFirst "spool-first":
+        "The chamber's readings follow the spool's, with a time constant; the other way round no time constant explains them.",
+        "If the columns are exchanged, every answer about the record is void.",
+        "Check the header, the map file, or --column KEY=NAME; of a chamber's thermometer that is slower than the spool, state its lag_s in meta.ron.";
     ExchangedColumns "exchanged-columns":
         "The model follows the recording far better with two columns exchanged.",
         "The answer is void if they are.",

@@ -5,6 +5,7 @@
 //! linear lag remains: the slow terms are then upper bounds.
 
 mod json;
+mod order;
 mod text;
 
 use bias::units::S_PER_H;
@@ -17,6 +18,7 @@ use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Series, Term, Whitener
 
 use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
 use crate::prepare::starts_off_rest;
+use order::spool_first;
 
 pub use json::json;
 pub use text::{several, text, text_without_notes, unreadable};
@@ -114,7 +116,8 @@ impl<'a> Analysis<'a> {
     pub fn new(case: &'a RecordCase) -> Self {
         let usable = case.report.usable();
         let noise = if usable { gyro_noise(case) } else { None };
-        let notes = case.notes.iter().cloned().chain(usable.then(|| starts_off_rest(case)).flatten()).collect();
+        let seen = usable.then(|| [spool_first(case), starts_off_rest(case)]).into_iter().flatten().flatten();
+        let notes = case.notes.iter().cloned().chain(seen).collect();
         Self { case, notes, noise }
     }
 }

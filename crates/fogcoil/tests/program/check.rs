@@ -312,3 +312,17 @@ fn white_noise_that_is_hidden_is_not_told() {
     assert!(measured["not_known"]["arw"].as_str().unwrap().contains("hidden by slower noise"), "{measured}");
     assert!(stdout(&folder.run(&["check", record])).contains("hidden by slower noise"));
 }
+
+/// The spool follows the chamber: where it is the other way round, the columns are exchanged, or the chamber's thermometer is the slower one.
+#[test]
+fn exchanged_thermometers_are_seen_without_a_model() {
+    let folder = Folder::new();
+    let record = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/concealed/open/case_13/fit.csv");
+    let text = std::fs::read_to_string(record).unwrap();
+    let exchanged = text.replacen("chamber_c,spool_c", "spool_c,chamber_c", 1);
+    assert_ne!(exchanged, text);
+    folder.write("r.csv", exchanged);
+    folder.write("as-it-was.csv", text);
+    let warned = |name: &str| stdout(&folder.run(&["check", name])).contains("warning: chamber_c follows spool_c");
+    assert!(warned("r.csv") && !warned("as-it-was.csv"));
+}
