@@ -9,7 +9,10 @@ use super::plan::Plan;
 use super::search::Found;
 use crate::sensitivity::Share;
 use crate::table::{significant, table};
+use crate::variants::{Factor, Kind, Value, Varied};
 
+/// Share of its range within which a number counts as being at an end.
+const AT_END: f64 = 1e-3;
 /// Most designs of a front that are shown.
 const SHOWN: usize = 12;
 
@@ -32,6 +35,9 @@ pub fn text(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
             let [first, second] = of_optimum(plan, found, checked);
             let steps = with_end(steps(found, checked));
             let _ = write!(out, "\n{first}\n{second}\n\n{steps}\n{}\n", of_spread(checked));
+            if let Some(ends) = at_ends(plan, found, &best) {
+                let _ = writeln!(out, "{ends}");
+            }
         }
     }
     out
@@ -65,9 +71,9 @@ pub(super) fn designs(plan: &Plan, found: &Found, best: &[usize]) -> Vec<Vec<Str
     rows
 }
 
-fn short(value: &crate::variants::Value) -> String {
+fn short(value: &Value) -> String {
     match value {
-        crate::variants::Value::Number(value) => significant(*value, 4),
+        Value::Number(value) => significant(*value, 4),
         other => other.shown(),
     }
 }
@@ -76,21 +82,20 @@ fn short(value: &crate::variants::Value) -> String {
 pub(super) fn of_optimum(plan: &Plan, found: &Found, checked: &Checked) -> [String; 2] {
     let total = checked.steady.sensitivity.total();
     let [most, largest] = checked.quantiles();
-    let ratio = found.drawn.sensitivity.abs() / total.abs();
+    let share = 100.0 * total.abs() / found.drawn.sensitivity.abs();
     let model = format!(
-        "the optimum (least {}) by the full model: S = {} ± {} (deg/h)/(degC/min), |S| {} times below the drawing's",
+        "the optimum (least {}) by the full model: S = {} ± {} (deg/h)/(degC/min), |S| is {} % of the drawing's",
         plan.minimise[0].name(),
         significant(total, 3),
         significant(checked.steady.error_estimate, 2),
-        significant(ratio, 2),
+        significant(share, 2),
     );
     let units = format!(
-        "by its tolerances {} (1 sigma, linear); of {} units within them |S| is below {} in 95 %, {} at most; below 0.5 in {:.1} %",
+        "by its tolerances {} (1 sigma, linear); of {} units within them |S| is below {} in 95 %, {} at most",
         significant(checked.band.sd, 2),
         checked.within.len(),
         significant(most, 3),
         significant(largest, 3),
-        100.0 * checked.share_below(0.5),
     );
     [model, units]
 }
@@ -111,4 +116,22 @@ pub(super) fn of_spread(checked: &Checked) -> String {
     let shares =
         Share::of(&checked.case, &checked.band).into_iter().take(4).map(|s| format!("{} ({:.0} %)", s.key, 100.0 * s.share));
     format!("what is left of its spread comes from {}", shares.collect::<Vec<_>>().join(", "))
+}
+
+/// The keys of which the optimum stands at an end of what the plan lets them be, if there are such.
+pub(super) fn at_ends(plan: &Plan, found: &Found, best: &[usize]) -> Option<String> {
+    let optimum = &found.all[*best.first()?];
+    let ends = |varied: &Varied| match varied {
+        Varied::Uniform(low, high) | Varied::LogUniform(low, high) | Varied::Steps(low, high, _) => Some([*low, *high]),
+        Varied::Whole(low, high, by) => Some([*low as f64, (low + (high - low) / by * by) as f64]),
+        _ => None,
+    };
+    let at = |(factor, value): (&Factor, &Option<Value>)| {
+        let (Kind::Key(varied), Some(Value::Number(value))) = (&factor.kind, value) else { return None };
+        let [low, high] = ends(varied)?;
+        let near = |end: f64| (value - end).abs() <= AT_END * (high - low);
+        (near(low) || near(high)).then(|| format!("{} = {}", factor.key, short(&Value::Number(*value)).trim_end_matches(".00")))
+    };
+    let all: Vec<String> = plan.variants.factors.iter().zip(&optimum.values).filter_map(at).collect();
+    (!all.is_empty()).then(|| format!("at an end of its range in the plan: {}; a wider range may give a better design", all.join(", ")))
 }
