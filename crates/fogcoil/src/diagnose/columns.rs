@@ -12,18 +12,21 @@ use crate::table::significant;
 const SUSPECT: f64 = 4.0;
 /// The same for the rate's sign: beside the thermal bias there is noise.
 const REVERSED: f64 = 2.5;
+/// Largest ratio of what a mistake leaves to what the answer leaves at which the mistake explains as much: it does so with nothing fitted, so that a
+/// tail of metres that turns the rate about, and leaves as little, is no rival.
+const AS_WELL: f64 = 1.1;
 /// Root mean square of the nominal model's residual of the thermometer below which no column is suspected \[K\].
 const FAIR_K: f64 = 0.5;
 
 /// The warning about a record, if there is one: `number` is its number in `gyro`, the design as it is, and `answered` what the answer leaves of
-/// each channel, rms. What the answer explains as well is no mistake; without an explanation nothing is answered.
+/// each channel, rms. What the answer explains better is no mistake; without an explanation nothing is answered.
 pub(super) fn warning(
     gyro: &Gyro,
     number: usize,
     record: &Record,
     answered: Option<&[f64]>,
 ) -> Result<Option<Note>, coil::Error> {
-    let explains_more = |would: f64, channel: usize| answered.is_none_or(|answered| would < answered[channel]);
+    let explains_more = |would: f64, channel: usize| answered.is_none_or(|answered| would < AS_WELL * answered[channel]);
     let predicted = gyro.respond(number, &expected(gyro.nuisances()), &[])?;
     let Observation { time, channels } = &record.observed;
     let (spool, rate) = (&channels[SPOOL_CHANNEL], &channels[RATE_CHANNEL]);
