@@ -38,7 +38,9 @@ pub(crate) fn run(arguments: &Check, progress: &Progress) -> Result<(), Error> {
     let options = format.options(meta.clone());
     match &recordings(records)?[..] {
         [record] => one(record, &options, arguments, progress),
-        _ if write_map.is_some() || svg.is_some() => Err(Error::usage("--write-map and --svg are of one recording; give one: its map serves all of them with --map FILE.map.ron")),
+        _ if write_map.is_some() || svg.is_some() => Err(Error::usage(
+            "--write-map and --svg are of one recording; give one: its map serves all of them with --map FILE.map.ron",
+        )),
         all => several(all, &options, *json, progress),
     }
 }

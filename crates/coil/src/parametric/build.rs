@@ -14,6 +14,7 @@ use crate::layout::Skins;
 use crate::thermal::{Shifted, properties};
 use crate::{Design, Error, Grid, Layout, MechanicalState, MeshFineness, Model, Parameter, Region, Side};
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
 /// Rates of growth at which a design's heat flow is solved, besides none. More designs are worth more than more rates.
 const RATES: usize = 6;
@@ -123,8 +124,8 @@ impl ParametricModel {
         let lattice = Lattice::of(&grid);
         let strips = [Strip::all(&grid, 0, &section.lines[0]), Strip::all(&grid, 1, &section.lines[1])];
         let mut fields: Vec<DVector<f64>> = vec![lattice.lay(&grid, &vec![1.0; grid.mesh().nodes().len()])];
-        let mut slowest = 0.0;
-        for k in 0..=effort.heat {
+        // fields of a training design at the rates that are made of the slowest one, which is that of the design itself
+        let solved_at = |k: usize, slowest: Option<f64>| -> Result<Option<(Vec<DVector<f64>>, f64)>, Error> {
             solved();
             let changed = if k == 0 { design.clone() } else { placed(design, &hot, &training(k, hot.len())) };
             let made = || -> Result<_, Error> {
@@ -137,7 +138,7 @@ impl ParametricModel {
             let (layout, of_changed, heat) = match made() {
                 Ok(made) if Lattice::of(made.2.grid()) == lattice => made,
                 Err(error) if k == 0 => return Err(error),
-                _ => continue,
+                _ => return Ok(None),
             };
             let load = |capacity: &dyn Fn(Region) -> f64| -> Result<Vec<f64>, Error> {
                 let laid = stored(&section, &of_changed, &strips, lattice.width, lattice.size(), capacity)?;
@@ -147,18 +148,25 @@ impl ParametricModel {
             for side in &ends {
                 loads.push(load(&|region| f64::from(u8::from(region == Region::end(design, *side))))?);
             }
+            let mut fields = Vec::new();
             let mut solve = |rate: f64| -> Result<f64, Error> {
                 let solutions = heat.solve(&layout, &changed, rate, &loads)?;
                 fields.extend(solutions.iter().map(|field| lattice.lay(heat.grid(), field)));
                 Ok(solutions[0].iter().copied().fold(0.0, f64::max))
             };
-            if k == 0 {
-                slowest = 1.0 / solve(0.0)?;
-            }
+            let slowest = match slowest {
+                Some(slowest) => slowest,
+                None => 1.0 / solve(0.0)?,
+            };
             for rate in heat::rates(slowest, RATES).skip(usize::from(k == 0)) {
                 solve(rate)?;
             }
-        }
+            Ok(Some((fields, slowest)))
+        };
+        let own = solved_at(0, None)?;
+        let slowest = own.as_ref().map(|(_, slowest)| *slowest);
+        let others = (1..=effort.heat).into_par_iter().map(|k| solved_at(k, slowest)).collect::<Result<Vec<_>, _>>()?;
+        fields.extend(std::iter::once(own).chain(others).flatten().flat_map(|(fields, _)| fields));
         let raw = Fields { width: lattice.width, values: DMatrix::from_columns(&fields) };
         // those that are independent, and the constant one as it is
         let others = Fields { width: lattice.width, values: raw.values.columns(1, raw.values.ncols() - 1).into_owned() };
@@ -183,15 +191,18 @@ impl ParametricModel {
         let weights = winding.weights();
         let lengths: Vec<f64> = winding.turns().iter().map(winding::Turn::length).collect();
         displacements.extend(model.adjoints(&[weights.clone(), lengths.clone()])?);
-        for k in 0..effort.mechanics {
+        let corner = |k: usize| -> Result<Vec<Vec<f64>>, Error> {
             solved();
             let shares = training(k, stiff.len());
             let corner = mechanics(&placed(design, &stiff, &shares), &STATES[k % STATES.len()]);
             // as above
-            let Some(model) = corner.ok().filter(|corner| corner.unknowns() == model.unknowns()) else { continue };
-            displacements.extend(model.adjoints(&[weights.clone(), lengths.clone()])?);
-            displacements.extend(model.displacements(&loads[..4.min(loads.len())])?);
-        }
+            let Some(model) = corner.ok().filter(|corner| corner.unknowns() == model.unknowns()) else { return Ok(Vec::new()) };
+            let mut fields = model.adjoints(&[weights.clone(), lengths.clone()])?;
+            fields.extend(model.displacements(&loads[..4.min(loads.len())])?);
+            Ok(fields)
+        };
+        let corners = (0..effort.mechanics).into_par_iter().map(corner).collect::<Result<Vec<_>, _>>()?;
+        displacements.extend(corners.into_iter().flatten());
         let component = |c: usize| {
             let columns: Vec<DVector<f64>> = displacements
                 .iter()

@@ -133,5 +133,6 @@ pub(super) fn at_ends(plan: &Plan, found: &Found, best: &[usize]) -> Option<Stri
         (near(low) || near(high)).then(|| format!("{} = {}", factor.key, short(&Value::Number(*value)).trim_end_matches(".00")))
     };
     let all: Vec<String> = plan.variants.factors.iter().zip(&optimum.values).filter_map(at).collect();
-    (!all.is_empty()).then(|| format!("at an end of its range in the plan: {}; a wider range may give a better design", all.join(", ")))
+    (!all.is_empty())
+        .then(|| format!("at an end of its range in the plan: {}; a wider range may give a better design", all.join(", ")))
 }
