@@ -32,6 +32,14 @@ const STATES: [MechanicalState; 3] = [
 /// Weight of stored heat beside conduction in the size of a field \[1/s\]: a coil's slowest rates are of its order.
 const STORED: f64 = 1e-3;
 
+/// Heat flow of one design of the box.
+struct Solved {
+    /// Temperatures on the lattice, one for every rate and load.
+    fields: Vec<DVector<f64>>,
+    /// Rate of growth from which the others are made \[1/s\].
+    slowest: f64,
+}
+
 /// The lattice of nodes of a thermal mesh.
 #[derive(PartialEq)]
 struct Lattice {
@@ -125,7 +133,7 @@ impl ParametricModel {
         let strips = [Strip::all(&grid, 0, &section.lines[0]), Strip::all(&grid, 1, &section.lines[1])];
         let mut fields: Vec<DVector<f64>> = vec![lattice.lay(&grid, &vec![1.0; grid.mesh().nodes().len()])];
         // fields of a training design at the rates that are made of the slowest one, which is that of the design itself
-        let solved_at = |k: usize, slowest: Option<f64>| -> Result<Option<(Vec<DVector<f64>>, f64)>, Error> {
+        let solved_at = |k: usize, slowest: Option<f64>| -> Result<Option<Solved>, Error> {
             solved();
             let changed = if k == 0 { design.clone() } else { placed(design, &hot, &training(k, hot.len())) };
             let made = || -> Result<_, Error> {
@@ -161,12 +169,12 @@ impl ParametricModel {
             for rate in heat::rates(slowest, RATES).skip(usize::from(k == 0)) {
                 solve(rate)?;
             }
-            Ok(Some((fields, slowest)))
+            Ok(Some(Solved { fields, slowest }))
         };
         let own = solved_at(0, None)?;
-        let slowest = own.as_ref().map(|(_, slowest)| *slowest);
+        let slowest = own.as_ref().map(|own| own.slowest);
         let others = (1..=effort.heat).into_par_iter().map(|k| solved_at(k, slowest)).collect::<Result<Vec<_>, _>>()?;
-        fields.extend(std::iter::once(own).chain(others).flatten().flat_map(|(fields, _)| fields));
+        fields.extend(std::iter::once(own).chain(others).flatten().flat_map(|one| one.fields));
         let raw = Fields { width: lattice.width, values: DMatrix::from_columns(&fields) };
         // those that are independent, and the constant one as it is
         let others = Fields { width: lattice.width, values: raw.values.columns(1, raw.values.ncols() - 1).into_owned() };
