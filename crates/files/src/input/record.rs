@@ -13,6 +13,7 @@ use super::record_clock::Clock;
 use super::record_columns::RecordColumns;
 use super::record_expectations::{expectations, possible};
 use super::record_format::RecordFormat;
+use super::record_lines::Lines;
 use super::record_notes::{interval_note, notes};
 use super::record_options::{Key, RecordOptions};
 use super::rows::{NOT_UTF8, Rows, Table};
@@ -35,6 +36,8 @@ pub struct RecordCase {
     pub meta: Option<Meta>,
     /// Notes for the user on the reading of the file.
     pub notes: Vec<Note>,
+    /// Line of each row in the file; empty for numbers in memory.
+    pub lines: Vec<u32>,
     /// Flags of the command that name files with which it was read, `--map` and `--meta`.
     pub flags: Vec<(&'static str, PathBuf)>,
     /// The file.
@@ -52,6 +55,11 @@ impl RecordCase {
         self.recording.channels().iter().position(|other| other.name == channel)
     }
 
+    /// The lines of the file that findings are about.
+    pub fn lines_by_instant(&self) -> Lines<'_> {
+        Lines::new(self.recording.time(), &self.lines)
+    }
+
     /// Refuses a recording that cannot be used.
     ///
     /// # Errors
@@ -64,7 +72,8 @@ impl RecordCase {
             more => format!(" (and {more} more)"),
         };
         let problem = format!("cannot be used: {first}{more}");
-        Err(InputError::whole(&self.fingerprint.file, problem, ""))
+        let line = self.lines_by_instant().of(first).map(|lines| *lines.start() as usize);
+        Err(InputError { line, ..InputError::whole(&self.fingerprint.file, problem, "") })
     }
 }
 
@@ -112,14 +121,14 @@ fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<(PathBuf, Meta)>)
     for _ in 0..format.dialect.below {
         rows.advance()?;
     }
-    let (recording, dates) = read_rows(&mut rows, &columns, format)?;
+    let (recording, lines, dates) = read_rows(&mut rows, &columns, format)?;
     let report = check(&recording, &expectations(&recording, format, dates.is_some()));
     let [interval, span] = report.instants.as_ref().map_or([0.0; 2], |instants| [instants.interval, instants.span]);
     let meta = meta.map(|(path, meta)| fits(&path, meta, span)).transpose()?;
     let averaging = meta.as_ref().map(|meta| meta.sample_interval_s).filter(|seconds| *seconds > 0.0).unwrap_or(interval);
     let mut notes = notes(&columns, format, dates);
     notes.extend(meta.as_ref().and_then(|meta| interval_note(meta, interval)));
-    Ok(RecordCase { recording, report, averaging, meta, notes, flags: Vec::new(), fingerprint: rows.fingerprint() })
+    Ok(RecordCase { recording, report, averaging, meta, notes, lines, flags: Vec::new(), fingerprint: rows.fingerprint() })
 }
 
 /// The meta file of a recording that lasts `span` \[s\], unless a rate would be a mean over more.
@@ -132,15 +141,19 @@ fn fits(path: &Path, meta: Meta, span: f64) -> Result<Meta, InputError> {
     Err(InputError::whole(path, problem, "give the seconds over which a rate is a mean, or leave the field out"))
 }
 
-/// The recording, and the note on its instants.
-fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) -> Result<(Recording, Option<Note>), InputError> {
+/// The recording, the line of each of its rows, and the note on its instants.
+fn read_rows(
+    rows: &mut Rows,
+    columns: &RecordColumns,
+    format: &RecordFormat,
+) -> Result<(Recording, Vec<u32>, Option<Note>), InputError> {
     let channels: Vec<(Key, usize)> =
         [Key::Chamber, Key::Spool, Key::Rate].into_iter().filter_map(|key| Some((key, columns.column(key)?))).collect();
     let mut clock = Clock::new(columns, format);
     let mut values: Vec<Vec<f64>> = vec![Vec::new(); channels.len()];
     let mut impossible: Vec<Option<(usize, InputError)>> = vec![None; channels.len()];
     let mut further: Vec<Vec<f64>> = vec![Vec::new(); columns.further.len()];
-    let mut time: Vec<f64> = Vec::new();
+    let (mut time, mut lines): (Vec<f64>, Vec<u32>) = (Vec::new(), Vec::new());
     while rows.advance()? {
         let expected = columns.names.len();
         if rows.count() != expected {
@@ -151,6 +164,7 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
             return Err(rows.fault(None, format!("more than {MOST_ROWS} rows"), "split the recording, or average it"));
         }
         time.push(clock.read(rows, columns, time.len())?);
+        lines.extend(rows.line());
         for (((key, column), values), impossible) in channels.iter().zip(&mut values).zip(&mut impossible) {
             let name = &columns.names[*column];
             let value = rows.value(*column, name)?.map_or(f64::NAN, |value| format.column(*key).standard(value));
@@ -189,7 +203,7 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
     });
     let channels = channels.iter().zip(values).map(channel).chain(beside).collect();
     let recording = Recording::new(clock.settle(time), channels).map_err(|error| rows.whole_fault(&error.to_string(), ""))?;
-    Ok((recording, clock.note()))
+    Ok((recording, lines, clock.note()))
 }
 
 /// The complaint about a value that is impossible.

@@ -191,7 +191,7 @@ impl Rows {
             match read {
                 Ok(false) => return Ok(false),
                 Ok(true) if self.count() == 1 && self.field(0).is_empty() => {}
-                Ok(true) if !self.begun && self.line() <= self.dialect.preamble => {}
+                Ok(true) if !self.begun && self.line().is_some_and(|line| u64::from(line) <= self.dialect.preamble) => {}
                 Ok(true) if !self.begun && self.field(0).starts_with('#') => {}
                 Ok(true) => {
                     self.begun = true;
@@ -325,21 +325,20 @@ impl Rows {
         }
     }
 
-    /// The line of this row, from 1; 0 of a table without lines.
-    fn line(&self) -> u64 {
+    /// The line of this row, from 1; `None` of a table without lines.
+    pub(crate) fn line(&self) -> Option<u32> {
         match &self.source {
-            Source::Text(reader) => reader.position().line().saturating_sub(1),
-            Source::Columns { .. } => 0,
+            Source::Text(reader) => Some(u32::try_from(reader.position().line().saturating_sub(1).max(1)).unwrap_or(u32::MAX)),
+            Source::Columns { .. } => None,
         }
     }
 
     /// A complaint about this row: at a line of a text, at an element of a column.
     pub(crate) fn fault(&self, column: Option<&str>, problem: impl Into<String>, remedy: impl Into<String>) -> InputError {
-        let line = usize::try_from(self.line()).unwrap_or(usize::MAX);
-        let (line, field) = match &self.source {
-            Source::Text(_) => (Some(line.max(1)), column.map(str::to_owned)),
-            Source::Columns { row: 0, .. } => (None, column.map(str::to_owned)),
-            Source::Columns { row, .. } => (None, column.map(|column| format!("{column}[{}]", row - 1))),
+        let line = self.line().map(|line| line as usize);
+        let field = match &self.source {
+            Source::Text(_) | Source::Columns { row: 0, .. } => column.map(str::to_owned),
+            Source::Columns { row, .. } => column.map(|column| format!("{column}[{}]", row - 1)),
         };
         InputError { line, field, ..InputError::whole(&self.path, problem, remedy) }
     }

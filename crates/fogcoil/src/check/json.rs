@@ -7,11 +7,12 @@ use serde_json::{Value, json};
 
 use super::text::severity;
 use super::{Analysis, GyroNoise};
+use crate::input::Lines;
 
 /// The result; units in the keys, `null` where a number is not known.
 pub fn json(analysis: &Analysis) -> Value {
     let case = analysis.case;
-    let report = &case.report;
+    let (report, lines) = (&case.report, case.lines_by_instant());
     let instants = report.instants.as_ref();
     let gap = |gap: &recording::check::Gap| json!({"from_s": gap.from, "to_s": gap.to, "missing_rows": gap.missing});
     json!({
@@ -28,7 +29,7 @@ pub fn json(analysis: &Analysis) -> Value {
         "channels": report.channels.iter().map(channel).collect::<Vec<_>>(),
         "notes": analysis.notes,
         "note_ids": analysis.notes.iter().map(|note| note.remark.id()).collect::<Vec<_>>(),
-        "findings": report.findings.iter().map(finding).collect::<Vec<_>>(),
+        "findings": report.findings.iter().map(|found| finding(&lines, found)).collect::<Vec<_>>(),
         "noise": analysis.noise.as_ref().map(noise),
     })
 }
@@ -47,7 +48,7 @@ fn channel(channel: &recording::check::ChannelSummary) -> Value {
     })
 }
 
-fn finding(finding: &Finding) -> Value {
+fn finding(lines: &Lines<'_>, finding: &Finding) -> Value {
     json!({
         "kind": Remark::of_finding(&finding.kind).id(),
         "severity": severity(finding.severity),
@@ -55,6 +56,7 @@ fn finding(finding: &Finding) -> Value {
         "from_s": finding.span.map(|[from, _]| from),
         "to_s": finding.span.map(|[_, to]| to),
         "rows": finding.rows,
+        "lines": lines.of(finding).map(|lines| [*lines.start(), *lines.end()]),
         "repair": match finding.repair {
             Repair::None => "none",
             Repair::Dropped => "dropped",

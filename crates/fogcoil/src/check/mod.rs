@@ -5,6 +5,7 @@
 //! linear lag remains: the slow terms are then upper bounds.
 
 mod json;
+mod lags;
 mod order;
 mod text;
 
@@ -18,6 +19,7 @@ use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Series, Term, Whitener
 
 use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
 use crate::prepare::starts_off_rest;
+use lags::lags;
 use order::spool_first;
 
 pub use json::json;
@@ -74,10 +76,6 @@ pub const NO_WHITE: &str =
     "white noise is hidden by slower noise, or by what temperature does to the rate; record faster, or at one temperature";
 /// Reason why a fitted number has no interval.
 pub const NO_MAXIMUM: &str = "the likelihood of the noise has no maximum within its bounds; record longer, at one temperature";
-/// Shortest lag, in intervals; the longest is a third of the length.
-const SHORTEST_LAG: f64 = 2.0;
-/// A lag is this many times the one before.
-const LAG_RATIO: f64 = 3.0;
 /// Innovations beyond so many standard deviations are left out, of long recordings beyond √(2 ln rows): normal noise has less than one.
 const UNEXPECTED: f64 = 4.0;
 /// Slope of the Allan deviation at its beginning below which quantisation is sought: between its own, -1, and white noise's, -1/2.
@@ -86,10 +84,6 @@ const QUANTISED: f64 = -0.7;
 const MOST_PASSES: usize = 4;
 /// Factor by which guides and marks may lie below the least Allan deviation in a picture.
 const BELOW: f64 = 30.0;
-/// Most values of all lags together: memory.
-const MOST_VALUES: usize = 20_000_000;
-/// Fewest rows for each lag.
-const ROWS_A_LAG: usize = 20;
 
 impl GyroNoise {
     /// Shortest and longest averaging time \[s\].
@@ -177,18 +171,6 @@ fn leave_out(estimate: &NoiseEstimate, time: &[f64], rest: &[f64], used: &mut [b
         whitener.rows().iter().zip(white).filter(|(_, z)| z.abs() > bound).map(|(row, _)| *row).collect();
     unexpected.iter().for_each(|row| used[*row] = false);
     !unexpected.is_empty()
-}
-
-fn lags(interval: f64, span: f64, rows: usize) -> Vec<f64> {
-    let (shortest, longest) = (SHORTEST_LAG * interval, span / 3.0);
-    let count = 1.0 + (longest / shortest).max(1.0).log(LAG_RATIO).floor();
-    let count = (count as usize).min(rows / ROWS_A_LAG).min(MOST_VALUES / rows.max(1));
-    let ratio = if count as f64 * LAG_RATIO.ln() < (longest / shortest).ln() && count > 1 {
-        (longest / shortest).powf(1.0 / (count as f64 - 1.0))
-    } else {
-        LAG_RATIO
-    };
-    (0..count as i32).map(|n| shortest * ratio.powi(n)).collect()
 }
 
 /// The Allan deviation with its intervals and the fitted model, as an SVG document; `None` without identified noise.

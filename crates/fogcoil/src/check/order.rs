@@ -4,7 +4,7 @@ use files::{Note, Remark};
 use recording::condition::{bridged, span};
 use recording::lag::lagging;
 
-use super::lags;
+use super::lags::lags;
 use crate::input::{CHAMBER, RecordCase, SPOOL};
 
 /// Share of their difference that a follower with one time constant leaves where one thermometer follows the other, and that which no time constant

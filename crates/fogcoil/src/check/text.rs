@@ -50,7 +50,7 @@ fn written(analysis: &Analysis, least: Severity) -> String {
     if case.report.findings.is_empty() {
         out.push_str("nothing suspicious found\n");
     }
-    findings(&mut out, &found);
+    findings(&mut out, case, &found);
     match &analysis.noise {
         Some(noise) => gyro(&mut out, analysis, noise),
         None if case.report.usable() => out.push_str("\nThe rate's noise cannot be identified: too few rows, or no noise.\n"),
@@ -89,7 +89,8 @@ fn channels(analysis: &Analysis) -> String {
 }
 
 /// A line for each, up to a number of one kind.
-fn findings(out: &mut String, findings: &[&Finding]) {
+fn findings(out: &mut String, case: &RecordCase, findings: &[&Finding]) {
+    let lines = case.lines_by_instant();
     let alike = |n: usize| {
         let (kind, channel) = (std::mem::discriminant(&findings[n].kind), &findings[n].channel);
         move |m: &usize| std::mem::discriminant(&findings[*m].kind) == kind && findings[*m].channel == *channel
@@ -97,7 +98,12 @@ fn findings(out: &mut String, findings: &[&Finding]) {
     for (n, finding) in findings.iter().enumerate() {
         let before = (0..n).filter(alike(n)).count();
         if before < MOST_ALIKE {
-            let _ = writeln!(out, "{}: {finding} [{}]", severity(finding.severity), Remark::of_finding(&finding.kind).id());
+            let place = lines.of(finding).map_or(String::new(), |lines| match (lines.start(), lines.end()) {
+                (first, last) if first == last => format!("line {first}: "),
+                (first, last) => format!("lines {first} to {last}: "),
+            });
+            let _ =
+                writeln!(out, "{}: {place}{finding} [{}]", severity(finding.severity), Remark::of_finding(&finding.kind).id());
         } else if before == MOST_ALIKE {
             let more = (n..findings.len()).filter(alike(n)).count();
             let _ = writeln!(out, "{}: ... and {more} more of this kind (all with --json)", severity(finding.severity));

@@ -143,7 +143,7 @@ fn parts<'a>(simulation: &'a Simulation, windows: Vec<Window>, band: Option<&'a 
         caption: format!(
             "Bias: means since the previous row, as a gyroscope reports them. Shupe: eq. (1), the thermal phase; elasto-optic: the two \
              terms of eq. (2), from the strain of the glass along and across the fibre. Temperature rate: differences over {WINDOW_S} s, \
-             or over one row where rows are further apart. Counterpart of the paper's Fig. 7.{}",
+             or over one row where rows are further apart. Counterpart of Osunluk et al., Fig. 7.{}",
             if simulation.profile.recorded.is_some() {
                 " The record is drawn less the rate that it has where the simulated one vanishes, by regression: Earth's rate and offset."
             } else {

@@ -46,7 +46,7 @@ pub(super) fn all<'a>(simulation: &'a Simulation, fields: &TurnFields) -> Vec<Fi
         absolute: Some("fibre's mean temperature [°C]"),
         caption: format!(
             "Deviation of each turn from the fibre's mean, which is drawn above: a rate that all turns share drops out of the Shupe \
-             bias. {instants} Counterpart of the paper's Fig. 4."
+             bias. {instants} Counterpart of Osunluk et al., Fig. 4."
         ),
         field: |at| at.values.temperature.iter().map(|t| t - at.mean).collect(),
         least: LEAST_K,

@@ -22,7 +22,7 @@ pub(super) fn figure<'a>(case: &CoilCase) -> Figure<'a> {
         description: "Half cross-section of coil, hub and flanges in the chamber, and the solids enlarged with the mesh.".into(),
         caption: format!(
             "Half of the cross-section; the axis of symmetry is r = 0, the chamber's wall the heavy line. Mesh: elements of order {}, \
-             graded towards the edges of the coil. Counterpart of the paper's Fig. 2.",
+             graded towards the edges of the coil. Counterpart of Osunluk et al., Fig. 2.",
             COARSE.order
         ),
         columns: 2,

@@ -2,9 +2,9 @@
 
 use charts::{Axis, Figure, Panel, Series, Style};
 
+use super::outputs::TOTAL;
 use super::plan::Plan;
 use super::row::Row;
-use super::statistics::TOTAL;
 use crate::variants::{Kind, Value};
 
 /// Most keys, names and points of a name that are drawn.

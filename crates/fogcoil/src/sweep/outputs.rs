@@ -8,6 +8,9 @@ use winding::wind;
 use crate::input::ProfileCase;
 use crate::units::to_mm;
 
+/// The name of the sensitivity among the outputs.
+pub(super) const TOTAL: &str = "total";
+
 /// Numbers that are computed of each design.
 pub enum Output {
     /// Steady-ramp sensitivity by part and in all, by adjoint on one mesh.
@@ -24,7 +27,7 @@ impl Output {
     /// Names of the numbers.
     pub fn names(&self) -> &'static [&'static str] {
         match self {
-            Self::Sensitivity => &["shupe", "eo_axial", "eo_radial", "total"],
+            Self::Sensitivity => &["shupe", "eo_axial", "eo_radial", TOTAL],
             Self::Tolerances => &["tolerance_sd"],
             Self::Winding => &["length_m", "turns", "outer_radius_mm", "height_mm", "mass_kg"],
             Self::Simulation(_) => &["peak_deg_per_h", "rms_deg_per_h", "end_deg_per_h"],

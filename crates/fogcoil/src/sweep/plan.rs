@@ -5,9 +5,8 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
 
-use super::outputs::Output;
+use super::outputs::{Output, TOTAL};
 use super::points::{LONGEST_SEQUENCE, Points, Sampling};
-use super::statistics::TOTAL;
 use crate::input::{CoilCase, Fingerprint, InputError, check_ron, fault_in, hexadecimal, read_profile, read_ron};
 use crate::variants::{
     Choice, Dimensions, Drawing, Factor, Group, Kind, MOST_FACTORS, Others, Variants, Varied, each_once, variants,

@@ -4,10 +4,11 @@ use charts::{Axis, Cells, Figure, Panel, Series, Style, grid, nice, sections, si
 use maud::html;
 
 use super::course::against_keys;
+use super::outputs::TOTAL;
 use super::picture::figure;
 use super::plan::Plan;
 use super::row::Row;
-use super::statistics::{Spread, Summary, TOTAL};
+use super::statistics::{Spread, Summary};
 use super::text::unit;
 use crate::report::provenance;
 

@@ -1,6 +1,7 @@
 //! Summary of a sweep's rows.
 
 use super::indices::Indices;
+use super::outputs::TOTAL;
 use super::plan::Plan;
 use super::points::Sampling;
 use super::row::Row;
@@ -33,9 +34,6 @@ pub struct Summary {
     /// Groups from which the spread of |S| comes.
     pub indices: Option<Indices>,
 }
-
-/// The name of the sensitivity among the outputs.
-pub(super) const TOTAL: &str = "total";
 
 impl Summary {
     /// Summary of the rows of a plan, all of them and in order.

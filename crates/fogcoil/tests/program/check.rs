@@ -90,9 +90,9 @@ fn text_json_and_picture() {
         "rows kept",
         "gaps",
         "(20 rows missing)",
-        "note: rate_deg_per_h: outliers of up to",
+        "note: line 302: rate_deg_per_h: outliers of up to",
         ", at 9000 s; not used",
-        "note: gap of 630 s, 20 rows missing, from 14970 to 15600 s",
+        "note: lines 501 to 502: gap of 630 s, 20 rows missing, from 14970 to 15600 s",
         "angle random walk",
         "the meta file's",
         "from neighbours' differences, 1 sd",
@@ -126,6 +126,8 @@ fn text_json_and_picture() {
     assert_eq!(json["gaps"][0]["missing_rows"], 20);
     assert_eq!(json["channels"][2]["used"], 879);
     assert_eq!(json["findings"].as_array().unwrap().len(), 2);
+    let mut lines = json["findings"].as_array().unwrap().iter().map(|finding| &finding["lines"]);
+    assert!(lines.all(|lines| *lines == serde_json::json!([302, 302]) || *lines == serde_json::json!([501, 502])), "{json}");
     let white = json["noise"]["white_deg_per_h"].as_f64().unwrap();
     let walk = json["noise"]["angle_random_walk_deg_per_sqrt_h"].as_f64().unwrap();
     assert!((walk / (white * (30.0 / 3600.0_f64).sqrt()) - 1.0).abs() < 1e-12, "N = white · √(30 s)");
