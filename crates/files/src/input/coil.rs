@@ -292,7 +292,7 @@ impl Cells<'_> {
         if let Some(done) = self.done.iter().find(|(known, _)| *known == path) {
             return Ok(done.clone());
         }
-        let unusable = |inner: InputError| self.top.fault(field, format!("the cell {named:?} cannot be used: {inner}"), "");
+        let unusable = |inner: InputError| self.top.fault(field, format!("the cell cannot be used: {inner}"), "");
         let (constants, fingerprint) = match read_any_cell(&path).map_err(unusable)? {
             AnyCell::General(case) => (self.nearest(field, named, &case)?, case.fingerprint),
             AnyCell::Regular(case, _) if case.cell.packing == Packing::Square => {

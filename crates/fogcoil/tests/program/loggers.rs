@@ -161,7 +161,10 @@ fn codes_for_an_overload_are_missing_values() {
                 _ => format!("{t},{c:.5},{s:.5},{r:.6}"),
             });
         let (status, said, _folder) = run(&text, &[]);
-        assert!(status == Some(0) && said.contains("note: line 52: rate_deg_per_h: values are missing, at 1500 s"), "{code}: {said}");
+        assert!(
+            status == Some(0) && said.contains("note: line 52: rate_deg_per_h: values are missing, at 1500 s"),
+            "{code}: {said}"
+        );
     }
 }
 
