@@ -149,3 +149,57 @@ fn longest_stretch(time: &[f64], interval: f64) -> Range<usize> {
     let stretches = rows.chunk_by(|&a, &b| time[b] - time[a] <= GAP * interval);
     stretches.min_by_key(|rows| Reverse(rows.len())).map_or(0..0, |rows| rows[0]..rows[0] + rows.len())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Fractional frequency noise as a filter of white noise, by the slope of its deviation (N. J. Kasdin, 1995).
+    fn filter(slope: f64, length: usize) -> Vec<f64> {
+        let mut filter = vec![1.0];
+        // white noise in phase, in frequency, flicker and random walk of frequency: orders -1, 0, 1/2 and 1 of integration
+        let order = if slope == 0.0 { 0.5 } else { (slope + 0.5) * if slope < 0.0 { 2.0 } else { 1.0 } };
+        for k in 1..length {
+            filter.push(filter[k - 1] * (k as f64 - 1.0 + order) / k as f64);
+        }
+        filter
+    }
+
+    /// Degrees of freedom 2 E²/V of the mean square of overlapping differences, from their covariance.
+    fn by_covariance(m: usize, terms: usize, slope: f64) -> f64 {
+        const LONG: usize = 4000;
+        let noise = filter(slope, LONG);
+        let difference = |k: usize| match k {
+            k if k < m => -1.0,
+            k if k < 2 * m => 1.0,
+            _ => 0.0,
+        };
+        let response: Vec<f64> = (0..LONG).map(|n| (0..=n.min(2 * m)).map(|k| difference(k) * noise[n - k]).sum()).collect();
+        let covariance = |lag: usize| response.iter().zip(&response[lag..]).map(|(a, b)| a * b).sum::<f64>();
+        let square = |lag: usize| (terms - lag) as f64 * covariance(lag).powi(2);
+        let all = terms as f64;
+        (all * covariance(0)).powi(2) / (square(0) + 2.0 * (1..terms).map(square).sum::<f64>())
+    }
+
+    #[test]
+    fn exact_the_degrees_of_freedom_are_those_of_the_differences_covariance() {
+        for (slope, tolerance) in [(-1.0, 0.03), (-0.5, 0.012), (0.0, 0.075), (0.5, 0.055)] {
+            for (m, n) in [(1, 61), (1, 200), (2, 61), (2, 200), (5, 61), (5, 200), (20, 200)] {
+                let terms = n - 2 * m;
+                let (found, exact) = (freedom(m as f64, terms as f64, slope), by_covariance(m, terms, slope));
+                assert!((found / exact - 1.0).abs() < tolerance, "m {m} of {n}, slope {slope}: {found}, exact {exact}");
+            }
+        }
+        // printed by Riley, NIST SP 1065: 1000 frequencies, m = 10, white noise
+        assert!((freedom(10.0, 981.0, -0.5) - 146.177).abs() < 5e-4);
+    }
+
+    #[test]
+    fn islands_are_told_apart_at_any_interval() {
+        for interval in [0.01, 30.0] {
+            let time: Vec<f64> = (0..100).map(|i| f64::from(i) * interval + if i >= 40 { 1e6 * interval } else { 0.0 }).collect();
+            assert_eq!(longest_stretch(&time, interval), 40..100);
+        }
+        assert_eq!(longest_stretch(&[], 1.0), 0..0);
+    }
+}
