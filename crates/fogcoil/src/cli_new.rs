@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use fogcoil::{Error, output, templates};
 
@@ -12,9 +13,12 @@ pub(crate) struct New {
     /// The file to write; an existing one is left as it is
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Kind of the file
+    /// Kind of the file; it may stand before the file, too
     #[arg(long, value_enum, default_value_t = Kind::Coil)]
     kind: Kind,
+    /// The file, where its kind stands first
+    #[arg(value_name = "FILE", hide = true, conflicts_with = "kind")]
+    second: Option<PathBuf>,
 }
 
 /// Kinds of files to start from.
@@ -59,7 +63,19 @@ impl Kind {
     }
 }
 
-pub(crate) fn run(New { file, kind }: &New) -> Result<(), Error> {
+pub(crate) fn run(New { file, kind, second }: &New) -> Result<(), Error> {
+    let (file, kind) = match second {
+        None => (file, *kind),
+        Some(second) => {
+            let first = file.to_string_lossy();
+            let kind = Kind::from_str(&first, false).map_err(|_| {
+                let kinds: Vec<_> = Kind::value_variants().iter().filter_map(Kind::to_possible_value).collect();
+                let kinds = kinds.iter().map(PossibleValue::get_name).collect::<Vec<_>>().join(", ");
+                Error::usage(format!("{} is no kind of file; one file at a time, of a kind: {kinds}", files::shown(&first)))
+            })?;
+            (second, kind)
+        }
+    };
     output::write_new(file, kind.template())?;
     print(&format!("{} is written; try `{} {0}`\n", files::shown_path(file), kind.first()))
 }

@@ -155,6 +155,10 @@ fn read_rows(
     let mut further: Vec<Vec<f64>> = vec![Vec::new(); columns.further.len()];
     let (mut time, mut lines): (Vec<f64>, Vec<u32>) = (Vec::new(), Vec::new());
     while rows.advance()? {
+        // a spreadsheet's empty line; without instants it stands for one of them
+        if format.interval.is_none() && rows.line().is_some() && rows.fields().all(str::is_empty) {
+            continue;
+        }
         let expected = columns.names.len();
         if rows.count() != expected {
             rows.check_commas()?;

@@ -69,7 +69,8 @@ pub(super) fn sniff(path: &Path) -> Result<Sniffed, InputError> {
 fn table(lines: &[&str], separator: char, name: &'static str) -> Option<Sniffed> {
     (0..lines.len()).find_map(|header| {
         let names = names(lines[header], separator)?;
-        let mut below = lines[header + 1..].iter().filter(|line| !line.trim().is_empty()).peekable();
+        let mut below =
+            lines[header + 1..].iter().filter(|line| fields(line, separator).iter().any(|f| !f.is_empty())).peekable();
         let units =
             below.peek().map(|line| fields(line, separator)).filter(|units| are_units(units) && units.len() == names.len());
         if units.is_some() {

@@ -30,6 +30,20 @@ fn prefixed_units_in_names_are_heard() {
     }
 }
 
+/// A spreadsheet writes a row without values as its separators alone.
+#[test]
+fn empty_rows_are_none() {
+    let all = lines(|_, [t, c, s, r]| format!("{t};{c:.5};{s:.5};{r:.6}"));
+    let rows: String =
+        all.split_inclusive('\n').enumerate().map(|(n, row)| row.to_owned() + if n == 9 { " ; ;;\n" } else { "" }).collect();
+    let text = format!("Stand 3\ntime_s;chamber_c;spool_c;rate_deg_per_h\n;;;\n{rows};;;\n;;;\n");
+    let map = "(\n    preamble_lines: 1,\n    separator: \";\",\n)\n";
+    proposes(text.into_bytes(), map);
+    // without instants each row stands for one
+    let (_, said, _folder) = run("chamber_c,rate_deg_per_h\n20,1\n,\n20,2\n", &["--interval", "30"]);
+    assert!(said.contains("of 3") || said.contains("too few rows, 3"), "{said}");
+}
+
 #[test]
 fn what_is_no_unit_is_said() {
     let text = "time_s,chamber_c,spool_c,Rate [xyz]\n".to_owned() + &lines(|_, [t, c, s, r]| format!("{t},{c:.5},{s:.5},{r:.6}"));

@@ -34,7 +34,7 @@ fn a_new_design_runs_and_gives_the_reference_and_is_never_overwritten() {
         assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), ""), "{kind}");
         let text = fs::read_to_string(folder.path(file)).unwrap();
         assert!(reference.is_none_or(|reference| bare(&text) == bare(reference)), "{kind}: {}", bare(&text));
-        let again = folder.run(&["new", file, "--kind", kind]);
+        let again = folder.run(&["new", kind, file]);
         assert_eq!(again.status.code(), Some(2));
         assert!(
             stderr(&again).contains(&format!("{file}: exists and is left as it is; give another name")),
@@ -43,6 +43,11 @@ fn a_new_design_runs_and_gives_the_reference_and_is_never_overwritten() {
         );
         assert_eq!(fs::read_to_string(folder.path(file)).unwrap(), text);
     }
+    // the kind may stand first
+    let limits = folder.run(&["new", "limits", "l.ron"]);
+    assert!(limits.status.success() && folder.path("l.ron").exists() && !folder.path("limits").exists());
+    let two = folder.run(&["new", "a.ron", "b.ron"]);
+    assert!(two.status.code() == Some(2) && stderr(&two).contains("a.ron is no kind of file"), "{}", stderr(&two));
     fogcoil::input::read_targets(&folder.path("t.ron")).unwrap();
     let case = fogcoil::input::read_coil(&folder.path("c.ron")).unwrap();
     assert!(
