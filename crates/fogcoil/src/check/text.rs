@@ -16,6 +16,8 @@ use crate::units::DurationUnit;
 
 /// Most findings of one kind in one channel that are written out.
 const MOST_ALIKE: usize = 8;
+/// Judgement on a recording that nothing can be done with.
+const UNUSABLE: &str = "cannot be used";
 
 /// All findings but the first error, which [`RecordCase::require_usable`] reports.
 fn listed(case: &RecordCase) -> Vec<&Finding> {
@@ -188,24 +190,37 @@ fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
     out.push_str(&table(&rows));
 }
 
-/// A line for each recording.
+/// A line for each recording; a reason for which several cannot be used stands below them, once.
 pub fn several(lines: &[[String; 7]]) -> String {
     let head = ["recording", "", "rows", "span", "interval [s]", "angle random walk [deg/sqrt(h)]", "remarks"].map(str::to_owned);
-    table(&std::iter::once(&head).chain(lines).map(|line| line.to_vec()).collect::<Vec<_>>())
+    let why = |line: &[String; 7]| Some(line[6].clone()).filter(|_| line[1] == UNUSABLE);
+    let mut shared: Vec<String> = Vec::new();
+    for reason in lines.iter().filter_map(why) {
+        if !shared.contains(&reason) && lines.iter().filter_map(why).filter(|other| *other == reason).count() > 1 {
+            shared.push(reason);
+        }
+    }
+    let shown = |line: &[String; 7]| {
+        let number = why(line).and_then(|reason| shared.iter().position(|other| *other == reason));
+        let remarks = number.map_or_else(|| line[6].clone(), |n| format!("({})", n + 1));
+        [&line[..6], &[remarks]].concat()
+    };
+    let mut out = table(&std::iter::once(head.to_vec()).chain(lines.iter().map(shown)).collect::<Vec<_>>());
+    for (n, reason) in shared.iter().enumerate() {
+        let _ = writeln!(out, "({}) {reason}", n + 1);
+    }
+    out
 }
 
 /// The line of a recording that cannot be read.
 pub fn unreadable(file: &Path, why: &str) -> [String; 7] {
     let none = || "-".to_owned();
-    [
-        files::shown_path(file),
-        "cannot be used".into(),
-        none(),
-        none(),
-        none(),
-        none(),
-        why.strip_prefix(&format!("{}: ", files::shown_path(file))).unwrap_or(why).to_owned(),
-    ]
+    // the file is named in the first column
+    let place = why.strip_prefix(&format!("{}:", files::shown_path(file))).map(|rest| match rest.split_once(':') {
+        Some((line, rest)) if !line.is_empty() && line.bytes().all(|byte| byte.is_ascii_digit()) => format!("line {line}:{rest}"),
+        _ => rest.trim_start().to_owned(),
+    });
+    [files::shown_path(file), UNUSABLE.into(), none(), none(), none(), none(), place.unwrap_or_else(|| why.to_owned())]
 }
 
 impl Analysis<'_> {

@@ -154,6 +154,13 @@ fn several_recordings_have_a_line_each() {
     let found: Value = serde_json::from_str(&stdout(&output)).unwrap();
     let usable: Vec<&Value> = found["records"].as_array().unwrap().iter().map(|record| &record["usable"]).collect();
     assert_eq!(usable, [true, false, true]);
+    // the reason that two of them share stands once, below them
+    folder.write("lot/d.csv", "t,rate\n0,1\n");
+    folder.write("lot/e.csv", "t,rate\n0,1\n");
+    let text = stdout(&folder.run(&["check", "lot"]));
+    assert_eq!(text.matches("line 1: time_s: the column is missing").count(), 1, "{text}");
+    assert!(text.lines().filter(|line| line.starts_with("lot/") && line.trim_end().ends_with("(1)")).count() == 2, "{text}");
+    assert!(text.lines().last().is_some_and(|line| line.starts_with("(1) line 1: ")), "{text}");
     let output = folder.run(&["check", "lot", "--svg", "a.svg"]);
     assert!(output.status.code() == Some(2) && stderr(&output).contains("are of one recording"), "{}", stderr(&output));
 }
