@@ -300,7 +300,9 @@ fn instruments_of(records: &[Record]) -> Instruments {
     let least = first(&|meta| meta.resolutions()[1]).filter(|_| as_read).map_or(0.0, of_rounding);
     white[SPOOL_NUMBER] = white[SPOOL_NUMBER].max(least);
     let (chamber, spool) = (thermometer(|meta| &meta.chamber_c), thermometer(|meta| &meta.spool_c));
-    Instruments { white, chamber, spool, rate, earth: None }
+    let is_silent = |record: &&Record| record.meta.as_ref().is_none_or(|meta| meta.sample_interval_s <= 0.0);
+    let unsaid = records.iter().filter(is_silent).filter_map(|record| median_interval(record.instants())).fold(0.0, f64::max);
+    Instruments { white, chamber, spool, rate, earth: None, unsaid }
 }
 
 /// Earth's rate, where all records tell the same.

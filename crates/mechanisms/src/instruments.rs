@@ -62,12 +62,14 @@ pub struct Instruments {
     pub rate: Instrument,
     /// Earth's rate in the record \[deg/h\].
     pub earth: Option<f64>,
+    /// Interval of rows of which nothing says whether a rate is their mean, and of which time \[s\]; 0 where it is said.
+    pub unsaid: f64,
 }
 
 impl Default for Instruments {
     fn default() -> Self {
         let unknown = Instrument::default();
-        Self { white: USUAL_NOISE, chamber: unknown, spool: unknown, rate: unknown, earth: None }
+        Self { white: USUAL_NOISE, chamber: unknown, spool: unknown, rate: unknown, earth: None, unsaid: 0.0 }
     }
 }
 
@@ -181,9 +183,11 @@ pub(crate) fn nuisances(design: &Design, tolerances: &Tolerances, instruments: &
         let of_drawn = lag / design.sensor.lag;
         all[LAG].parameter.prior = Prior::Normal { mean: of_drawn, sd: (LAG_SHARE * of_drawn).max(KNOWN) };
     }
-    all.push(sensor(4, 0.0, FILTER_SQUARED_S2));
+    // a mean over the row that begins at its instant is a row early, a momentary value half a row, which no averaging has smoothed
+    let unsaid = instruments.unsaid;
+    all.push(sensor(4, 0.0, FILTER_SQUARED_S2.hypot(unsaid * unsaid / 12.0)));
     let [of_spool, of_rate] = [instruments.spool.clock_sd, instruments.rate.clock_sd];
-    let apart = of_spool.unwrap_or(RATE_DELAY_S).hypot(of_rate.unwrap_or(0.0)).max(KNOWN);
+    let apart = of_spool.unwrap_or(RATE_DELAY_S).hypot(of_rate.unwrap_or(0.0)).hypot(unsaid / 2.0).max(KNOWN);
     all.push(sensor(5, 0.0, apart));
     all.extend(constants(design, tolerances).iter().map(|constant| constant.nuisance()));
     all

@@ -11,7 +11,7 @@ use crate::Error;
 use crate::cache::Cache;
 use crate::diagnose::diagnose;
 use crate::input::{Asked, CoilCase, RecordCase, RecordOptions, hexadecimal, read_record};
-use crate::measure::{self, Prediction, measure};
+use crate::measure::{self, Measurement, Prediction, measure};
 
 /// Inputs that all units share.
 pub struct Inputs<'a> {
@@ -99,13 +99,21 @@ impl Inputs<'_> {
         (finding, page)
     }
 
-    /// The figures of the record that tells the sensitivity best; of the first where none tells it.
+    /// The figures of the unit.
     fn measured(&self, unit: &Read) -> Value {
-        let all: Vec<measure::Measurement> = unit.fits.iter().filter_map(|record| measure(record).ok()).collect();
-        let width = |m: &measure::Measurement| m.sensitivity.as_ref().map_or(f64::INFINITY, |f| f.ci90[1] - f.ci90[0]);
-        let best = all.iter().min_by(|a, b| width(a).total_cmp(&width(b)));
-        best.map_or(Value::Null, |best| measure::json(best, Some(self.prediction)))
+        let all: Vec<Measurement> = unit.fits.iter().filter_map(|record| measure(record).ok()).collect();
+        of_unit(&all).map_or(Value::Null, |figures| measure::json(&figures, Some(self.prediction)))
     }
+}
+
+/// The figures of the record that tells the sensitivity best, of the first where none tells it; the peak is the largest of all records, so that units
+/// whose records tell the sensitivity equally well are compared at the same turn of the programme.
+fn of_unit(all: &[Measurement]) -> Option<Measurement> {
+    let width = |m: &Measurement| m.sensitivity.as_ref().map_or(f64::INFINITY, |f| f.ci90[1] - f.ci90[0]);
+    let best = all.iter().min_by(|a, b| width(a).total_cmp(&width(b)))?;
+    let size = |m: &Measurement| m.peak.as_ref().map_or(0.0, |peak| peak.value.abs());
+    let highest = all.iter().fold(best, |highest, m| if size(m) > size(highest) { m } else { highest });
+    Some(Measurement { peak: highest.peak.clone(), peak_time: highest.peak_time, ..best.clone() })
 }
 
 /// The page of a unit, which is that of a diagnosis of the design, under the unit's name.
@@ -118,6 +126,37 @@ fn titled(page: &str, unit: &str, design: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::input::check_record;
+    use crate::measure::Figure;
+
+    #[test]
+    fn a_units_peak_is_that_of_all_its_records_whichever_tells_the_sensitivity_best() {
+        let rows: String = (0..40).map(|n| format!("{},20,20,{}\n", 30 * n, n * n % 7)).collect();
+        let record =
+            check_record(Path::new("r.csv"), "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &rows, None, &[]).unwrap();
+        let measured = measure(&record).unwrap();
+        let of = |sd: f64, peak: Option<(f64, f64)>| {
+            let told = |value: f64, sd: f64| Figure { value, ci90: [value - sd, value + sd] };
+            Measurement {
+                sensitivity: Ok(told(-2.8, sd)),
+                peak: peak.map_or_else(|| Err("it moved".to_owned().into()), |(value, _)| Ok(told(value, 0.1))),
+                peak_time: peak.map(|(_, time)| time),
+                ..measured.clone()
+            }
+        };
+        let (slow, fast, none) = (of(0.1, Some((2.7, 100.0))), of(0.2, Some((-4.9, 500.0))), of(0.05, None));
+        let peak = |all: &[Measurement]| of_unit(all).map(|unit| (unit.peak.map(|peak| peak.value).ok(), unit.peak_time));
+        for all in [[slow.clone(), fast.clone()], [fast.clone(), slow.clone()], [none.clone(), fast.clone()]] {
+            assert_eq!(peak(&all), Some((Some(-4.9), Some(500.0))));
+        }
+        let unit = of_unit(&[fast, slow, none.clone()]).unwrap();
+        assert_eq!(unit.sensitivity.unwrap().ci90, none.sensitivity.clone().unwrap().ci90);
+        assert!(peak(&[none]) == Some((None, None)) && of_unit(&[]).is_none());
+    }
+
     #[test]
     fn a_units_page_begins_with_its_name() {
         let page = "<title>a &amp; b: unknown</title><h1>a &amp; b: unknown</h1><p>a &amp; b: unknown</p>";

@@ -98,9 +98,9 @@ impl Gyro<'_> {
         change(&record.slower, squared);
         change(&record.off_rest, u[instruments::REST]);
         let Series { mut parts, mut sensor } = series;
-        let filter = u[instruments::RATE_FILTER] / 2.0;
-        parts.iter_mut().zip(&record.rates[1].parts).for_each(|(part, second)| add(part, second, filter));
         let late = u[instruments::RATE_DELAY];
+        let bent = (u[instruments::RATE_FILTER] + late * late) / 2.0;
+        parts.iter_mut().zip(&record.rates[1].parts).for_each(|(part, second)| add(part, second, bent));
         parts.iter_mut().zip(&record.rates[0].parts).for_each(|(part, first)| add(part, first, -late));
         let thermo_optic = {
             let o = &library.design().optics;
