@@ -46,6 +46,35 @@ fn a_concealed_bond_is_named_and_the_held_out_record_predicted() {
     the_page_stands_alone(&std::fs::read_to_string(folder.path("r.html")).unwrap());
 }
 
+/// A good unit whose logger writes momentary rates, or stamps a mean where it begins: nothing says so, and it is no fault.
+#[test]
+fn another_loggers_stamp_is_no_fault() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    folder.write("profile.csv", "time_s,chamber_c\n0,20\n1800,20\n4800,70\n12000,70\n18600,-40\n27000,-40\n30600,20\n38400,20\n");
+    let output = folder.run(&["simulate", "coil.ron", "--profile", "profile.csv", "--step", "20", "--out", "fine.csv"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let fine = std::fs::read_to_string(folder.path("fine.csv")).unwrap();
+    let fine: Vec<Vec<f64>> = fine.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect();
+    let noise = |n: usize| ((n * 7919) % 1009) as f64 / 504.5 + ((n * 104_729) % 997) as f64 / 498.5 - 2.0;
+    // each minute's row: the rate at its instant, or the mean of the minute that follows
+    let logged = |ahead: usize| -> String {
+        let rate = |n: usize| fine[n..(n + ahead).min(fine.len() - 1) + 1].iter().map(|row| row[6]).sum::<f64>();
+        let rows = (0..fine.len() - ahead).step_by(3).map(|n| {
+            let [time, chamber, spool] = [0, 1, 2].map(|k| fine[n][k]);
+            let rate = 3.0 + rate(n) / (ahead + 1) as f64 + 0.01 * noise(n);
+            format!("{time},{:.2},{:.2},{rate:.5}\n", chamber + 0.02 * noise(n + 31), spool + 0.02 * noise(n + 77))
+        });
+        "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &rows.collect::<String>()
+    };
+    for ahead in [0, 2] {
+        folder.write("r.csv", logged(ahead));
+        let output = folder.run(&["diagnose", "coil.ron", "--fit", "r.csv", "--json"]);
+        let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+        assert!(json["verdict"] == "none" || json["verdict"] == "recalibrate", "{ahead}: {json}");
+    }
+}
+
 fn the_model_is_the_design_with_the_bond(folder: &Folder, json: &serde_json::Value) {
     let below = json["parameters"]["debond_c"]["value"].as_f64().unwrap();
     let text = std::fs::read_to_string(folder.path("m.ron")).unwrap();
