@@ -307,6 +307,10 @@ remarks! {
         "The likeliest explanation predicts a record that was held out worse than the nominal model, or no better and far from its noise.",
         "The explanation is taken back: the verdict is none or unknown, and `taken_back` lists what it was.",
         "Check that the records are of one unit in one state; something may have changed between them.";
+    InstrumentOff "instrument-off":
+        "The answer rests on a thermometer, a clock or a scale factor that is more than three standard deviations off what is usual or was told of it.",
+        "What was found may be right, or make up for what the instrument seems to do; that is the likelier the farther it is off.",
+        "Check the instrument that the message names: its clock, calibration, place and column. Tell what is known of it in a meta file.";
     WrittenModel "written-model":
         "Simulated under the fitted records, the design that --model-out wrote leaves more than 1.3 times what the fit leaves.",
         "What was found stands; its sizes are rough: a strong mechanism acts otherwise than the fit takes it to, or the file rounds what was fitted.",

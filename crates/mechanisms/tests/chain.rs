@@ -16,9 +16,12 @@ use std::sync::OnceLock;
 /// Twelve hours of a smooth course between −20 and 60 °C that starts at rest, a row a minute.
 fn course() -> (Vec<f64>, Vec<f64>) {
     let time: Vec<f64> = (0..720).map(|n| 60.0 * f64::from(n)).collect();
-    let rise = |t: f64| 1.0 - (-(t / 2000.0).powi(2)).exp();
-    let chamber = time.iter().map(|t| 20.0 + rise(*t) * 40.0 * (t / 4000.0).sin() * (0.3 + 0.7 * (t / 9000.0).cos())).collect();
+    let chamber = time.iter().map(|t| chamber_at(*t)).collect();
     (time, chamber)
+}
+
+fn chamber_at(t: f64) -> f64 {
+    20.0 + (1.0 - (-(t / 2000.0).powi(2)).exp()) * 40.0 * (t / 4000.0).sin() * (0.3 + 0.7 * (t / 9000.0).cos())
 }
 
 fn gyro() -> &'static std::sync::Mutex<Gyro<'static>> {
@@ -37,9 +40,14 @@ fn of(library: Library, mechanisms: &[&'static dyn Mechanism]) -> Gyro<'static> 
 
 /// Thermometer and rate \[deg/h\] of a design modelled anew.
 fn anew(design: &Design) -> [Vec<f64>; 2] {
+    under(design, course().1)
+}
+
+/// The same under another course of the air.
+fn under(design: &Design, chamber: Vec<f64>) -> [Vec<f64>; 2] {
     const PARTS: usize = 4;
     let dynamics = Dynamics::new(design, &[Drive::Chamber], &STANDARD).expect("dynamics");
-    let (time, chamber) = course();
+    let time = course().0;
     let rows = dynamics.simulate(&Profile { time, drives: vec![chamber] }.smoothed(PARTS)).expect("run");
     let scale = bias::units::DEG_PER_H_PER_RAD_PER_S;
     let rate = |rows: &[coil::Response]| rows.iter().map(|r| scale * r.rate()).sum::<f64>() / PARTS as f64;
@@ -275,6 +283,28 @@ fn optics_read_out_and_sensor_follow_the_chain() {
     agrees("thermo-optic-curvature", &[2.5e-8], None, &[RATE]);
     agrees("rate-temperature-coefficient", &[2e-3], None, &[RATE]);
     agrees("sensor-lag", &[70.0], None, &[SPOOL]);
+}
+
+/// Air that follows the recorded chamber, stepped second by second, drives a chain of its own.
+#[test]
+fn air_that_lags_behind_the_chamber_s_reading_follows_the_chain() {
+    const LAG: f64 = 400.0;
+    let mut air = vec![chamber_at(0.0)];
+    for minute in 1..course().0.len() {
+        let step = |air: f64, s: usize| {
+            let t = 60.0 * (minute - 1) as f64 + s as f64;
+            let slope = |t: f64, air: f64| (chamber_at(t) - air) / LAG;
+            let first = slope(t, air);
+            air + (first + slope(t + 1.0, air + first)) / 2.0
+        };
+        air.push((0..60).fold(air[minute - 1], step));
+    }
+    let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let active = Active { mechanism: gyro.find("chamber-lag").expect("a mechanism"), values: vec![LAG], choice: None };
+    let responses = [&[][..], std::slice::from_ref(&active)].map(|active| gyro.respond(0, &middle, active).expect("response"));
+    agree("chamber-lag", &responses, &under(&design(), air), &anew(&design()), &[SPOOL, RATE]);
+    assert!(gyro.extended(&design(), &active).is_none(), "it is of the test");
 }
 
 /// Effect of each mechanism on a design, by hand.

@@ -180,7 +180,7 @@ pub(crate) fn stage(id: &str) -> Option<&'static str> {
         "interface-resistance" | "air-path" | "axial-heat-path" | "self-heating" => "thermal",
         "thermo-optic-curvature" => "optics",
         "rate-temperature-coefficient" => "electronics",
-        "sensor-lag" => "sensor",
+        "sensor-lag" | "chamber-lag" => "sensor",
         _ => return None,
     })
 }

@@ -311,6 +311,38 @@ fn without_course(gain: &Vector) -> Matrix {
 mod tests {
     use super::*;
 
+    #[test]
+    fn exact_two_intervals_are_one_twice_as_long() {
+        for (a, b, lag) in [(30.0, 30.0, 300.0), (10.0, 25.0, 90.0), (1.0, 2.0, 40.0)] {
+            let twice = forward(b, lag) * forward(a, lag);
+            assert!((twice - forward(a + b, lag)).abs().max() < 1e-12 * twice.abs().max(), "{a} {b} {lag}");
+            let both = forward(b, lag) * wander(a, lag) * forward(b, lag).transpose() + wander(b, lag);
+            let whole = wander(a + b, lag);
+            assert!((whole[(1, 1)] / (a + b) - 1.0).abs() < 1e-14, "unit intensity");
+            // two points of Gauss's rule leave the fifth order
+            assert!(both.iter().zip(whole.iter()).all(|(x, y)| (x / y - 1.0).abs() < 0.03), "{both} {whole}");
+        }
+    }
+
+    #[test]
+    fn new_weights_are_never_less_likely() {
+        let (_, course) = programme(120.0);
+        for (seed, digit) in [(0, 0.0), (1, 0.01), (2, 0.1)] {
+            let noise = |n: usize| ((n * 7919 + seed * 31) % 1009) as f64 / 504.5 - 1.0;
+            let values: Vec<f64> = course.iter().enumerate().map(|(n, x)| x + 0.02 * noise(n)).take(500).collect();
+            let steps = vec![1.0; values.len() - 1];
+            let series = Readings { values: &values, moves: moves(&steps, LAGS[3]), least: digit * digit * (1.0 + 1.0 / 12.0) };
+            let mut found = series.even();
+            let mut before = series.deviance(&found);
+            for round in 0..TRIED {
+                series.reweigh(&mut found);
+                let after = series.deviance(&found);
+                assert!(after <= before + 0.1, "round {round}: {before} to {after}");
+                before = after;
+            }
+        }
+    }
+
     /// Ramps of 0.01 K/s and soaks, rounded by a lag of `lag` \[s\].
     fn programme(lag: f64) -> (Vec<f64>, Vec<f64>) {
         let time: Vec<f64> = (0..1200).map(|n| 30.0 * f64::from(n)).collect();

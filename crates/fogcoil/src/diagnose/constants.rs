@@ -1,14 +1,19 @@
 //! Constants of the design and the instruments by the records, beside their prior values.
 
 use diagnosis::{Place, Posterior, Role};
+use files::{Note, Remark};
 use mechanisms::reading_of;
 use serde_json::{Value, json};
 
 use super::Outcome;
 use crate::keys::interval_by_key;
+use crate::table::significant;
 
 /// Standard deviations from the drawing from which a constant is worth a line.
 const MOVED: f64 = 1.0;
+
+/// The same from which an instrument is not believed.
+const FAR: f64 = 3.0;
 
 /// A number of design or instrument as the records leave it.
 pub(super) struct Constant {
@@ -42,6 +47,20 @@ impl Outcome<'_> {
         let mut moved: Vec<Constant> = self.constants().into_iter().filter(|c| c.moved().abs() >= MOVED).collect();
         moved.sort_by(|a, b| b.moved().abs().total_cmp(&a.moved().abs()));
         moved
+    }
+
+    /// A warning for each instrument that the answer takes to be far off.
+    pub(super) fn far_off(&self) -> Vec<Note> {
+        let far = |c: &&Constant| c.kind == "instrument" && c.moved().abs() > FAR;
+        let said = |c: &Constant| {
+            let [value, low, high] = ends(&c.posterior).map(|value| significant(value, 4));
+            let sigmas = significant(c.moved().abs(), 2);
+            Remark::InstrumentOff.warning(format!(
+                "the answer takes the {} to be {value} (90 % interval {low} to {high}), {sigmas} standard deviations off what is known of it: check the instrument",
+                c.posterior.name
+            ))
+        };
+        self.moved().iter().filter(far).map(said).collect()
     }
 
     /// Whether something moved, and none of it is of the design.

@@ -128,7 +128,7 @@ pub fn diagnose<'m>(
     notes.extend(holdouts.iter().filter(|_| diagnosis.verdict != Verdict::Unknown).filter_map(left_over));
     let (name, coil, design) = (case.name.clone(), case.file.clone(), case.fingerprints.clone());
     let gyro = settled.model.unwrap_or(drawn);
-    Ok(Outcome {
+    let mut outcome = Outcome {
         name,
         coil,
         design,
@@ -141,7 +141,10 @@ pub fn diagnose<'m>(
         holdouts,
         withdrawn,
         notes,
-    })
+    };
+    let far_off = outcome.far_off();
+    outcome.notes.extend(far_off);
+    Ok(outcome)
 }
 
 impl Outcome<'_> {

@@ -1,5 +1,7 @@
 //! `fogcoil diagnose` as a user runs it, on a recording in which a bond opens.
 
+use std::fmt::Write;
+
 use crate::common::{CLEAN_COIL, COIL, Folder, change, schema, stderr, stdout};
 use coil::{Design, Mechanics, Parameter};
 use fogcoil::input::read_coil;
@@ -46,7 +48,7 @@ fn a_concealed_bond_is_named_and_the_held_out_record_predicted() {
     the_page_stands_alone(&std::fs::read_to_string(folder.path("r.html")).unwrap());
 }
 
-/// A good unit whose logger writes momentary rates, or stamps a mean where it begins: nothing says so, and it is no fault.
+/// A good unit whose logger writes momentary rates, stamps a mean where it begins, or has another clock: nothing says so, and it is no fault.
 #[test]
 fn another_loggers_stamp_is_no_fault() {
     let folder = Folder::new();
@@ -58,21 +60,62 @@ fn another_loggers_stamp_is_no_fault() {
     let fine: Vec<Vec<f64>> = fine.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect();
     let noise = |n: usize| ((n * 7919) % 1009) as f64 / 504.5 + ((n * 104_729) % 997) as f64 / 498.5 - 2.0;
     // each minute's row: the rate at its instant, or the mean of the minute that follows
-    let logged = |ahead: usize| -> String {
+    // the chamber's clock is late by so many rows
+    let logged = |ahead: usize, late: usize| -> String {
         let rate = |n: usize| fine[n..(n + ahead).min(fine.len() - 1) + 1].iter().map(|row| row[6]).sum::<f64>();
         let rows = (0..fine.len() - ahead).step_by(3).map(|n| {
-            let [time, chamber, spool] = [0, 1, 2].map(|k| fine[n][k]);
+            let ([time, spool], chamber) = ([0, 2].map(|k| fine[n][k]), fine[n.saturating_sub(late)][1]);
             let rate = 3.0 + rate(n) / (ahead + 1) as f64 + 0.01 * noise(n);
             format!("{time},{:.2},{:.2},{rate:.5}\n", chamber + 0.02 * noise(n + 31), spool + 0.02 * noise(n + 77))
         });
         "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &rows.collect::<String>()
     };
-    for ahead in [0, 2] {
-        folder.write("r.csv", logged(ahead));
+    for (ahead, late) in [(0, 0), (2, 0), (0, 15)] {
+        folder.write("r.csv", logged(ahead, late));
         let output = folder.run(&["diagnose", "coil.ron", "--fit", "r.csv", "--json"]);
         let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
-        assert!(json["verdict"] == "none" || json["verdict"] == "recalibrate", "{ahead}: {json}");
+        assert!(json["verdict"] == "none" || json["verdict"] == "recalibrate", "{ahead} {late}: {json}");
+        // a clock five minutes off is not believed without a word
+        let is_warned = json["note_ids"].as_array().unwrap().iter().any(|id| id == "instrument-off");
+        assert_eq!(is_warned, late > 0, "{json}");
     }
+}
+
+/// A good unit of whose chamber the set point was logged, which the air at the unit follows with five minutes.
+#[test]
+fn a_logged_set_point_is_no_fault_of_the_unit() {
+    const LAG: f64 = 300.0;
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let corners =
+        [(0.0, 20.0), (1800.0, 20.0), (4800.0, 70.0), (12_000.0, 70.0), (18_600.0, -40.0), (27_000.0, -40.0), (30_600.0, 20.0)];
+    let corners = [&corners[..], &[(38_400.0, 20.0)]].concat();
+    let set_point = |t: f64| {
+        let [a, b] = *corners.windows(2).find(|pair| t <= pair[1].0).unwrap() else { panic!("two") };
+        a.1 + (b.1 - a.1) * (t - a.0) / (b.0 - a.0)
+    };
+    let (mut air, mut profile) = (20.0, String::from("time_s,chamber_c\n"));
+    for n in 0..=38_400 / 20 {
+        let t = 20.0 * f64::from(n);
+        air += (set_point(t) - air) * (1.0 - (-20.0 / LAG).exp());
+        writeln!(profile, "{t},{air:.5}").unwrap();
+    }
+    folder.write("profile.csv", profile);
+    let output = folder.run(&["simulate", "coil.ron", "--profile", "profile.csv", "--out", "fine.csv"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let fine = std::fs::read_to_string(folder.path("fine.csv")).unwrap();
+    let fine: Vec<Vec<f64>> = fine.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect();
+    let noise = |n: usize| ((n * 7919) % 1009) as f64 / 504.5 + ((n * 104_729) % 997) as f64 / 498.5 - 2.0;
+    let rows = (3..fine.len()).step_by(3).map(|n| {
+        let rate = 3.0 + fine[n - 2..=n].iter().map(|row| row[6]).sum::<f64>() / 3.0 + 0.01 * noise(n);
+        format!("{},{:.2},{:.2},{rate:.5}\n", fine[n][0], set_point(fine[n][0]), fine[n][2] + 0.02 * noise(n + 77))
+    });
+    folder.write("r.csv", "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &rows.collect::<String>());
+    let output = folder.run(&["diagnose", "coil.ron", "--fit", "r.csv", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!((&json["verdict"], &json["named"]["id"]), (&"explained".into(), &"chamber-lag".into()), "{json}");
+    let lag = &json["parameters"]["lag_s"];
+    assert!((lag["value"].as_f64().unwrap() / LAG - 1.0).abs() < 0.1, "{lag}");
 }
 
 fn the_model_is_the_design_with_the_bond(folder: &Folder, json: &serde_json::Value) {

@@ -24,6 +24,7 @@ catalogue! {
     axial_heat_path AXIAL_HEAT_PATH
     self_heating SELF_HEATING
     sensor_lag SENSOR_LAG
+    chamber_lag CHAMBER_LAG
     thermo_optic_curvature THERMO_OPTIC_CURVATURE
     rate_temperature_coefficient RATE_TEMPERATURE_COEFFICIENT
     polarisation_ripple POLARISATION_RIPPLE

@@ -48,3 +48,15 @@ fn jumps(values: &[f64], rows: &[usize]) -> bool {
     let largest = rows.windows(2).map(|pair| (values[pair[1]] - values[pair[0]]).abs()).fold(0.0, f64::max);
     largest > JUMP * change.abs()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_change_between_two_rows_is_a_jump() {
+        let jump = |values: &[f64]| jumps(values, &(0..values.len()).collect::<Vec<_>>());
+        assert!(jump(&[0.0, 0.1, 10.1, 10.2]) && jump(&[5.0, 5.0, -5.0]));
+        assert!(!jump(&[0.0, 4.0, 8.0, 12.0]) && !jump(&[0.0, -4.0, -8.0, -12.0]));
+    }
+}

@@ -313,3 +313,22 @@ impl fmt::Display for Finding {
         if self.advice().is_empty() { Ok(()) } else { write!(f, "; {}", self.advice()) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_numbers_have_four_figures() {
+        let written = [0.0, 12.0, -0.5, 6.54321, 1234.56, 12_345_678.0, 0.000_123_456, 0.000_012_3, 99.999, f64::INFINITY];
+        let expected = ["0", "12", "-0.5", "6.543", "1235", "1.235e7", "0.0001235", "1.230e-5", "100", "inf"];
+        assert_eq!(written.map(|value| Short(value).to_string()), expected);
+    }
+
+    #[test]
+    fn an_offset_has_advice_by_what_explains_it() {
+        let of = |is_explained| FindingKind::Offset { median: 7.0, largest: 0.5, of: "Earth's rate".into(), is_explained };
+        let advice = |is_explained| Finding::whole(of(is_explained), Severity::Note).advice().into_owned();
+        assert!(advice(true).starts_with("remove it") && advice(false).starts_with("check unit and scale"));
+    }
+}

@@ -149,3 +149,14 @@ fn range(values: &[f64]) -> f64 {
 fn root_mean_square(values: &[f64]) -> f64 {
     (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_sizes() {
+        assert_eq!((root_mean_square(&[3.0, -4.0, 0.0, 0.0]), root_mean_square(&[])), (2.5, 0.0));
+        assert_eq!(range(&[3.0, -4.0, 1.0]), 7.0);
+    }
+}
