@@ -20,8 +20,8 @@ pub(super) const CHAMBER_LAG: Named = Named {
     steady: &[Steady::Nothing("it delays a ramp, whose rate stays")],
     extent: Extent::everywhere,
     caveat: |_| None,
-    // chambers settle behind their set point within minutes, boxes within tens of them; shorter delays are a thermometer's tolerance
-    offer: |_, _| Some(Offer::one("lag_s", Prior::LogNormal { median: 300.0, spread: 0.9 }, &[100.0, 300.0, 1000.0])),
+    // chambers settle behind their set point within minutes, boxes within tens of them; what is shorter is a tolerance of thermometer and clock
+    offer: |_, _| Some(Offer::one("lag_s", Prior::LogNormal { median: 400.0, spread: 0.5 }, &[150.0, 400.0, 1000.0])),
     effect: |_, _, active| {
         let lag = active.values[0];
         Ok(Effect::Readings(Box::new(move |r| {
