@@ -140,7 +140,8 @@ fn fed(reader: &'static str, seeds: &[&str], seconds: u64) -> Result<Fed, Failur
     let run = fed_for(seconds)?;
     let lasted = (time()? - before) as u64;
     let said = String::from_utf8_lossy(&run.stderr).into_owned();
-    let crashed = names(&crashes)?.len();
+    // by the clock: a machine that stood still makes any input slow
+    let crashed = names(&crashes)?.iter().filter(|name| !name.starts_with("slow-unit")).count();
     if !run.status.success() && crashed == 0 {
         return Err(Failure(format!("{reader} was not fuzzed: {}", said.lines().rev().take(5).collect::<Vec<_>>().join("; "))));
     }
