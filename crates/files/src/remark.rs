@@ -200,6 +200,12 @@ remarks! {
         "A channel stays at its largest or least value for longer than noise explains.",
         "The run is not used.",
         "Check the range of sensor and converter.";
+    Held "held":
+        "Each value of a channel stands for several rows, as if a slower logger's were repeated until the next.",
+        "The row in which a value is new is used. Of a rate, which is a mean, the rows between are dropped; of a temperature they count as missing. \
+         When a value was read is known to a row only: a diagnosis allows the rate's clock as much.",
+        "None is needed if values stand for a whole number of rows. If not, each is off by another part of a row, and ramps tell less: give the slower \
+         logger's own rows.";
     Quantised "quantised":
         "The resolution of a channel is coarser than its noise.",
         "Its noise is known as an upper bound only, and small effects below a step cannot be seen.",
@@ -407,6 +413,7 @@ impl Remark {
             FindingKind::Outliers { .. } => Self::Outliers,
             FindingKind::Stuck { .. } => Self::Stuck,
             FindingKind::Saturation { .. } => Self::Saturation,
+            FindingKind::Held { .. } => Self::Held,
             FindingKind::Quantised { .. } => Self::Quantised,
             FindingKind::Unit { .. } => Self::Unit,
             FindingKind::TooFast { .. } => Self::TooFast,

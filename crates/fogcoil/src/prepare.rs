@@ -12,7 +12,7 @@ use mechanisms::{
     SPOOL as SPOOL_NUMBER, USUAL_NOISE,
 };
 use progress::Step;
-use recording::check::{Severity, white_noise};
+use recording::check::{Finding, FindingKind, Severity, white_noise};
 use recording::condition::{Rest, Thinned, Thinning, Unrest, bridged, span, thinned, unrest};
 use recording::smooth::resolution;
 use recording::{Recording, Seconds, median_interval};
@@ -54,6 +54,8 @@ pub(crate) struct Record {
     columns: BTreeMap<String, Vec<f64>>,
     /// facts about its instruments
     meta: Option<Meta>,
+    /// whether a reading stands for several rows
+    is_held: bool,
     /// instants of the rows before they were averaged \[s\], and how much earlier than its instant the middle of an averaged one lies
     instants: (Vec<f64>, f64),
 }
@@ -182,7 +184,10 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     let fine = thinned(&used, interval, &THINNING_CHAMBER).map(|thinned| thinned.recording);
     // means of readings have no last digit
     let digit = case.meta.as_ref().filter(|_| fine.is_none()).and_then(|meta| meta.resolutions()[0]);
-    let drive = drive(fine.as_ref().unwrap_or(&used), digit);
+    let is_held = |finding: &&Finding| matches!(finding.kind, FindingKind::Held { .. });
+    let of_chamber = |finding: &Finding| finding.channel.as_deref() == Some(CHAMBER);
+    let chamber_is_held = case.report.findings.iter().filter(is_held).any(of_chamber);
+    let drive = drive(fine.as_ref().unwrap_or(&used), digit, chamber_is_held);
     let mut earlier = 0.0;
     let (used, averaging) = match thinned(&used, interval, &THINNING) {
         None => (used, case.averaging),
@@ -221,8 +226,13 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
         let problem = format!("{count} rows with a rate are too few to tell anything");
         return Err(refuse(case, RATE, problem, "record at least an hour, with ramps"));
     }
-    let warnings = case.report.findings.iter().filter(|finding| finding.severity == Severity::Warning);
-    notes.extend(warnings.map(|finding| Remark::of_finding(&finding.kind).warning(finding.to_string()).at(file)));
+    notes.extend(case.report.findings.iter().filter_map(|finding| {
+        let (remark, text) = (Remark::of_finding(&finding.kind), finding.to_string());
+        match finding.severity {
+            Severity::Warning => Some(remark.warning(text).at(file)),
+            _ => is_held(&finding).then(|| remark.note(text).at(file)),
+        }
+    }));
     // how the file was read, where that is doubtful
     notes.extend(case.notes.iter().filter(|note| note.is_warning()).map(|note| note.clone().at(file)));
     notes.extend(moved_in_gap(case).map(|note| note.at(file)));
@@ -239,7 +249,8 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     notes.extend(off_rest(&time, &chamber, &spool).map(|note| note.at(file)));
     let (fingerprint, observed) = (case.fingerprint.clone(), Observation { time, channels: vec![spool, rate] });
     let (meta, flags, instants) = (case.meta.clone(), case.flags.clone(), (before, earlier));
-    Ok(Record { fingerprint, observed, chamber, drive, averaging, flags, columns, meta, instants })
+    let is_held = case.report.findings.iter().any(|finding| is_held(&finding));
+    Ok(Record { fingerprint, observed, chamber, drive, averaging, flags, columns, meta, is_held, instants })
 }
 
 /// Note on a record whose unit was built to a design of another name; files that the program writes have the drawing's name before a comma.
@@ -250,11 +261,12 @@ pub(crate) fn other_design(case: &CoilCase, record: &RecordCase) -> Option<Note>
     (!told.eq_ignore_ascii_case(name)).then(|| Remark::OtherDesign.warning(message()).at(&record.fingerprint.file))
 }
 
-/// The chamber by its readings; `None` where there are none.
-fn drive(recording: &Recording, digit: Option<f64>) -> Option<Chamber> {
-    let readings = recording.time().iter().zip(&recording.channel(CHAMBER)?.values).filter(|(_, value)| value.is_finite());
+/// The chamber by its readings; `None` where there are none. Those of a slower logger leave its course between them to what is likely.
+fn drive(recording: &Recording, digit: Option<f64>, is_held: bool) -> Option<Chamber> {
+    let chamber = &recording.channel(CHAMBER)?.values;
+    let readings = recording.time().iter().zip(chamber).filter(|(_, value)| is_held || value.is_finite());
     let (time, readings): (Vec<f64>, Vec<f64>) = readings.unzip();
-    (!time.is_empty()).then(|| Chamber::recorded(&time, &readings, digit))
+    chamber.iter().any(|value| value.is_finite()).then(|| Chamber::recorded(&time, &readings, digit))
 }
 
 /// The forward model of some records, of which the first `fitted` are fitted.
@@ -300,8 +312,9 @@ fn instruments_of(records: &[Record]) -> Instruments {
     let least = first(&|meta| meta.resolutions()[1]).filter(|_| as_read).map_or(0.0, of_rounding);
     white[SPOOL_NUMBER] = white[SPOOL_NUMBER].max(least);
     let (chamber, spool) = (thermometer(|meta| &meta.chamber_c), thermometer(|meta| &meta.spool_c));
-    let is_silent = |record: &&Record| record.meta.as_ref().is_none_or(|meta| meta.sample_interval_s <= 0.0);
-    let unsaid = records.iter().filter(is_silent).filter_map(|record| median_interval(record.instants())).fold(0.0, f64::max);
+    // a reading that a slower logger took comes into the next row, with up to a row's delay
+    let is_vague = |record: &&Record| record.is_held || record.meta.as_ref().is_none_or(|meta| meta.sample_interval_s <= 0.0);
+    let unsaid = records.iter().filter(is_vague).filter_map(|record| median_interval(record.instants())).fold(0.0, f64::max);
     Instruments { white, chamber, spool, rate, earth: None, unsaid }
 }
 

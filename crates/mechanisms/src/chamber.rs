@@ -21,7 +21,7 @@ impl Chamber {
     }
 
     /// Frees readings \[°C\] of their noise, `digit` the last one that the thermometer shows, if it is known; what is too short is left as it is. The
-    /// more readings, the better: average none beforehand.
+    /// more readings, the better: average none beforehand. NaN is an instant between rare readings: the course there is the most likely one.
     pub fn recorded(time: &[f64], readings: &[f64], digit: Option<f64>) -> Self {
         let as_read = Self::given(time, readings);
         match recording::smooth::smoothed(time, readings, digit) {
@@ -29,7 +29,7 @@ impl Chamber {
                 let left = (smooth.left, as_read.left.1 * smooth.of);
                 Self { values: smooth.values, noise: smooth.noise, left, ..as_read }
             }
-            Err(_) => as_read,
+            Err(_) => Self { values: recording::condition::bridged(time, readings).unwrap_or_default(), ..as_read },
         }
     }
 
@@ -74,5 +74,32 @@ mod tests {
         let chamber = Chamber::recorded(&[0.0, 10.0, 20.0], &[5.0, 6.0, 8.0], None);
         assert_eq!(chamber.at(&[-5.0, 0.0, 15.0, 20.0, 99.0]).values, [5.0, 5.0, 7.0, 8.0, 8.0]);
         assert!(Chamber::recorded(&[], &[], None).at(&[1.0]).values[0].is_nan());
+    }
+
+    #[test]
+    fn between_rare_readings_the_programme_turns_where_its_lines_meet() {
+        // ramps of 1 K/min between soaks, read every five minutes, by a chamber that follows at once or within two minutes
+        for (lag, at) in
+            [(1.0, [6130.0, 20_050.0]), (1.0, [6000.0, 20_100.0]), (120.0, [6130.0, 20_050.0]), (120.0, [6000.0, 20_299.0])]
+        {
+            let programme = |t: f64| 20.0 + ((t - at[0]).clamp(0.0, 3000.0) - (t - at[1]).clamp(0.0, 3000.0)) / 60.0;
+            let mut air = programme(0.0);
+            let follow = |t: u32| {
+                air += (programme(f64::from(t)) - air) / lag;
+                air
+            };
+            let course: Vec<f64> = (0..32_000).map(follow).collect();
+            let rows: Vec<f64> = (0..530).map(|n| 60.0 * f64::from(n)).collect();
+            let noise = |n: usize| ((n * 7919 % 1000) as f64 / 1000.0 - 0.5) * 0.03;
+            let readings = (0..530).map(|n| if n % 5 == 0 { course[60 * n] + noise(n) } else { f64::NAN }).collect::<Vec<_>>();
+            let off = |values: &[f64]| {
+                let squares = values.iter().zip(&rows).map(|(value, t)| (value - course[*t as usize]).powi(2));
+                (squares.sum::<f64>() / rows.len() as f64).sqrt()
+            };
+            let recorded = Chamber::recorded(&rows, &readings, Some(0.0));
+            let (likely, lines) = (off(&recorded.values), off(&recording::condition::bridged(&rows, &readings).unwrap()));
+            // lines happen to have the corners where those fall on a reading
+            assert!(likely < 0.6 * lines || likely < 0.05, "{lag}, {at:?}: {likely} K off, {lines} K on lines");
+        }
     }
 }

@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use crate::series::GAP;
+use crate::statistics::median;
 use crate::{Channel, Recording, Sampling};
 
 /// Rule by which neighbouring rows are averaged.
@@ -36,7 +37,8 @@ pub struct Thinned {
 /// `interval` is the usual time between its rows \[s\], > 0 ([`crate::check::Instants::interval`]). A group of `every` rows without a gap (an interval over 1.5 usual ones) becomes
 /// one, at its last instant: what a gap cuts short is no mean over the interval, and is left out. A channel of means
 /// ([`Sampling::Mean`]) is averaged over the group; momentary values over as many rows on either side of the instant as are there, at most
-/// half a group, which is a reading at that instant with less noise. A mean of which less than half is finite is NaN.
+/// half a group, which is a reading at that instant with less noise. A mean of which less than half is finite is NaN. Of a momentary channel that
+/// has a value in every so many rows only, as a slower sensor's, values between count as on lines; a group without one of its own is NaN.
 pub fn thinned(recording: &Recording, interval: f64, rule: &Thinning) -> Option<Thinned> {
     let time = recording.time();
     let rows = time.len();
@@ -52,9 +54,13 @@ pub fn thinned(recording: &Recording, interval: f64, rule: &Thinning) -> Option<
         last - side..last + side + 1
     };
     let of = |channel: &Channel| {
-        let value = |group: &Range<usize>| match channel.sampling {
-            Sampling::Mean => mean(&channel.values[group.clone()]),
-            Sampling::Momentary => mean(&channel.values[about(group.end - 1)]),
+        let between = between(time, &channel.values);
+        let has_own = |group: &Range<usize>| channel.values[group.clone()].iter().any(|value| value.is_finite());
+        let value = |group: &Range<usize>| match (channel.sampling, &between) {
+            (Sampling::Mean, _) => mean(&channel.values[group.clone()]),
+            (Sampling::Momentary, None) => mean(&channel.values[about(group.end - 1)]),
+            (Sampling::Momentary, Some(values)) if has_own(group) => mean(&values[about(group.end - 1)]),
+            (Sampling::Momentary, Some(_)) => f64::NAN,
         };
         Channel { values: groups.iter().map(value).collect(), ..channel.clone() }
     };
@@ -67,6 +73,18 @@ fn groups(rows: usize, every: usize, neighbours: impl Fn(usize) -> bool) -> Vec<
     let rows: Vec<usize> = (0..rows).collect();
     let stretches = rows.chunk_by(|_, &row| neighbours(row));
     stretches.flat_map(|stretch| stretch.chunks_exact(every)).map(|group| group[0]..group[0] + every).collect()
+}
+
+/// A channel that usually has a value in every so many rows, with the rows between on lines; longer gaps stay. `None` if it usually has one in each.
+fn between(time: &[f64], values: &[f64]) -> Option<Vec<f64>> {
+    let known: Vec<usize> = (0..values.len()).filter(|&n| values[n].is_finite()).collect();
+    let usual = median(known.windows(2).map(|pair| (pair[1] - pair[0]) as f64).collect()).filter(|rows| *rows > 1.0)?;
+    let mut filled = values.to_vec();
+    for pair in known.windows(2).filter(|pair| (pair[1] - pair[0]) as f64 <= 2.0 * usual) {
+        let (a, b) = (pair[0], pair[1]);
+        (a + 1..b).for_each(|n| filled[n] = values[a] + (values[b] - values[a]) * (time[n] - time[a]) / (time[b] - time[a]));
+    }
+    Some(filled)
 }
 
 /// Mean of what is there; NaN if that is less than half.

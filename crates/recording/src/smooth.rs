@@ -66,17 +66,21 @@ pub fn resolution(values: &[f64]) -> f64 {
 /// time constant are the most likely ones. Kalman's filter and the smoother of Rauch, Tung and Striebel (1965), reweighted as Lange, Little and Taylor
 /// (1989) do. From a series without noise next to nothing is taken.
 ///
+/// NaN is a value that is missing: there the course goes as its programme's most likely steps say, which put a corner where the lines before and behind
+/// it meet.
+///
 /// # Errors
-/// [`Error`] if instants do not increase, a value is not finite, or there are fewer than [`FEWEST_ROWS`].
+/// [`Error`] if instants do not increase, a value is infinite, or there are fewer than [`FEWEST_ROWS`].
 pub fn smoothed(time: &[f64], values: &[f64], digit: Option<f64>) -> Result<Smoothed, Error> {
-    let found = check_series(time, &vec![true; time.len()], &[("values", values)])?;
+    let is_there: Vec<bool> = values.iter().map(|value| !value.is_nan()).collect();
+    let found = check_series(time, &is_there, &[("values", values)])?;
     if found < FEWEST_ROWS {
         return Err(Error::TooFew { found, needed: FEWEST_ROWS });
     }
     // intervals in units of the usual one
     let unit = median_interval(time).unwrap_or(1.0);
     let steps: Vec<f64> = time.windows(2).map(|t| (t[1] - t[0]) / unit).collect();
-    let step = digit.unwrap_or_else(|| resolution(values));
+    let step = digit.unwrap_or_else(|| resolution(&values.iter().copied().filter(|value| !value.is_nan()).collect::<Vec<_>>()));
     let least = step * step * (1.0 + 1.0 / 12.0);
     let behind = |lag: f64| Readings { values, moves: moves(&steps, lag), least };
     // weights have many optima: from even ones, and from those of the time constant before
@@ -150,7 +154,9 @@ impl Readings<'_> {
 
     /// Kalman's filter over all values; `met` is told each as it comes.
     fn follow(&self, ratio: f64, weights: &[f64], mut met: impl FnMut(Predicted)) -> Said {
-        let (mut x, mut p) = (Vector::new(self.values[0], 0.0, 0.0), UNKNOWN * Matrix::identity());
+        let first = self.values.iter().copied().find(|value| !value.is_nan()).unwrap_or_default();
+        let (mut x, mut p) = (Vector::new(first, 0.0, 0.0), UNKNOWN * Matrix::identity());
+        let mut there = 0;
         let mut said = Said { squares: 0.0, log_det: 0.0, count: 0 };
         for (n, value) in self.values.iter().enumerate() {
             if n > 0 {
@@ -158,9 +164,12 @@ impl Readings<'_> {
                 x = f * x;
                 p = f * p * f.transpose() + ratio / weights[n - 1] * q;
             }
-            let (surprise, spread) = (value - x[0], p[(0, 0)] + 1.0);
+            // a value that is missing says nothing
+            let is_there = !value.is_nan();
+            there += usize::from(is_there);
+            let (surprise, spread) = if is_there { (value - x[0], p[(0, 0)] + 1.0) } else { (0.0, f64::INFINITY) };
             // the first three say where it starts
-            if n > 2 {
+            if is_there && there > 3 {
                 said.squares += surprise * surprise / spread;
                 said.log_det += spread.ln();
                 said.count += 1;
@@ -443,7 +452,8 @@ mod tests {
     fn what_cannot_be_smoothed_is_refused() {
         assert!(matches!(smoothed(&[0.0, 1.0, 2.0], &[1.0, 2.0, 3.0], None), Err(Error::TooFew { .. })));
         let time: Vec<f64> = (0..10).map(f64::from).collect();
-        assert!(matches!(smoothed(&time, &[f64::NAN; 10], None), Err(Error::Value { .. })));
+        assert!(matches!(smoothed(&time, &[f64::INFINITY; 10], None), Err(Error::Value { .. })));
+        assert!(matches!(smoothed(&time, &[f64::NAN; 10], None), Err(Error::TooFew { found: 0, .. })));
         // a constant is kept
         assert!(smoothed(&time, &[5.0; 10], None).unwrap().values.iter().all(|v| (v - 5.0).abs() < 1e-9));
     }

@@ -188,3 +188,28 @@ proptest! {
         prop_assert!(same(&back(values(&plain, "mean")), values(&mirror, "mean")));
     }
 }
+
+#[test]
+fn a_slower_sensor_is_read_on_lines_between_its_readings() {
+    // a reading in every fifth row, or every third; groups of four
+    for every in [3, 5] {
+        let time: Vec<f64> = (0..60).map(f64::from).collect();
+        let sparse: Vec<f64> = (0..60).map(|n| if n % every == 0 { 2.0 * n as f64 } else { NAN }).collect();
+        let thin = thin(&recording(&time, &sparse, &time)).recording;
+        for (n, value) in values(&thin, "reading").iter().enumerate() {
+            let (from, to) = (4 * n, 4 * n + 3);
+            let has_own = (from..=to).any(|row| row % every == 0);
+            // of a ramp the value at the instant; behind the last reading there is no line
+            if to + 2 <= (59 / every) * every {
+                assert_eq!(value.is_finite(), has_own, "{every}: {n}");
+                assert!(!has_own || (value - 2.0 * to as f64).abs() < 1e-12, "{every}: {value} at {to}");
+            }
+        }
+    }
+    // a gap of its own is not bridged: readings of every second row, none for twelve; beside it, and at the end, half of a group is missing
+    let time: Vec<f64> = (0..40).map(f64::from).collect();
+    let gap: Vec<f64> = (0..40).map(|n| if n % 2 == 0 && !(10..22).contains(&n) { 1.0 } else { NAN }).collect();
+    let thin = thin(&recording(&time, &gap, &time)).recording;
+    let there: Vec<bool> = values(&thin, "reading").iter().map(|value| value.is_finite()).collect();
+    assert_eq!(there, [true, true, false, false, false, true, true, true, true, false]);
+}

@@ -33,6 +33,9 @@ const SPAN_S: [f64; 2] = [60.0, 100.0 * 86_400.0];
 /// Usual duration of a recording \[s\]: ten hours.
 const USUAL_S: f64 = 36_000.0;
 
+/// Longest cycle of a chamber's logger \[s\]: what stays longer is a level of its programme.
+const LONGEST_HOLD_S: f64 = 600.0;
+
 /// Range beyond which no value is possible, in the standard unit.
 pub(super) fn possible(key: Key) -> [f64; 2] {
     if key == Key::Rate { POSSIBLE_DEG_PER_H } else { POSSIBLE_C }
@@ -55,6 +58,7 @@ pub(super) fn expectations(recording: &Recording, format: &RecordFormat, has_dat
                 start,
                 fastest: if driver == Some(key) { FASTEST_C_PER_S } else { f64::INFINITY },
                 may_jump: key != Key::Spool,
+                longest_hold: if key == Key::Spool { f64::INFINITY } else { LONGEST_HOLD_S },
                 mistaken,
                 key: key.name().into(),
                 ..Expectation::default()
@@ -66,6 +70,7 @@ pub(super) fn expectations(recording: &Recording, format: &RecordFormat, has_dat
             possible: possible(key),
             noise: NOISE_DEG_PER_H,
             least_size: SMALL_DEG_PER_H,
+            longest_hold: f64::INFINITY,
             mistaken,
             key: key.name().into(),
             offset: Some(Offset { largest: OFFSET_DEG_PER_H, explained: EARTH_DEG_PER_H, of }),

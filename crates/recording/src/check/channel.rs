@@ -4,7 +4,7 @@ use super::expectation::Expectation;
 use super::summary::{COARSE, ChannelSummary, Context};
 use super::units::Course;
 use super::white_noise::white_noise;
-use super::{Clock, Finding, FindingKind, Instants, Repair, Severity, codes, fast, outliers, runs, units};
+use super::{Clock, Finding, FindingKind, Instants, Repair, Severity, codes, fast, held, outliers, runs, units};
 use crate::Channel;
 use crate::statistics::median;
 
@@ -25,6 +25,13 @@ pub(super) fn judge(
     let useless = if expectation.essential { Severity::Error } else { Severity::Warning };
     missing(time, &mask, useless, &mut findings);
     findings.extend(codes::judge(time, &channel.values, expectation, &mut mask));
+    let there = mask.iter().filter(|used| **used).count();
+    let mut interval = instants.map_or(f64::NAN, |instants| instants.interval);
+    if let Some(held) = held::held(&channel.values, &mask, expectation.longest_hold / interval) {
+        findings.push(held.finding(time, &mask, interval, Repair::Masked));
+        interval *= held.rows;
+        mask = held.fresh;
+    }
     let used = |mask: &[bool]| channel.values.iter().zip(mask).filter(|(_, used)| **used).map(|(v, _)| *v).collect::<Vec<_>>();
     let present = used(&mask);
     if present.is_empty() && findings.iter().all(|finding| finding.kind != FindingKind::Empty) {
@@ -33,7 +40,7 @@ pub(super) fn judge(
     let mut summary = ChannelSummary {
         name: channel.name.clone(),
         unit: channel.unit.clone(),
-        present: present.len(),
+        present: there,
         used: present.len(),
         least: f64::NAN,
         median: median(present.clone()).unwrap_or(f64::NAN),
@@ -41,13 +48,12 @@ pub(super) fn judge(
         noise: None,
         step: None,
     };
-    if let (Some(first), Some(instants)) = (present.first(), instants) {
+    if let (Some(first), Some(_)) = (present.first(), instants) {
         if present.iter().all(|value| value == first) {
             findings.push(Finding::whole(FindingKind::Constant(*first), useless));
         } else {
             summary.step = runs::step(&present);
             summary.noise = white_noise(time, &channel.values, &mask);
-            let interval = instants.interval;
             let context = Context { time, values: &channel.values, summary: &summary, interval, expectation };
             findings.extend(runs::judge(&context, &mut mask));
             findings.extend(outliers::judge(&context, &mut mask));

@@ -39,6 +39,8 @@ pub struct Expectation {
     pub fastest: f64,
     /// Whether it may change by a step from one row to the next: a temperature inside a mass does not.
     pub may_jump: bool,
+    /// Longest time for which a value of a slower logger may be repeated \[s\]; 0: what repeats was read that often, as levels that are commanded.
+    pub longest_hold: f64,
     /// Units in which it may be by mistake.
     pub mistaken: Vec<Unit>,
     /// Its key where its unit is declared; empty if it cannot be.
@@ -61,6 +63,7 @@ impl Default for Expectation {
             least_size: 0.0,
             fastest: f64::INFINITY,
             may_jump: true,
+            longest_hold: 0.0,
             mistaken: Vec::new(),
             key: String::new(),
             offset: None,

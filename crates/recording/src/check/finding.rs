@@ -61,6 +61,13 @@ pub enum FindingKind {
     Stuck(f64),
     /// The channel's largest or least value \[u\] for longer than resolution and noise explain.
     Saturation(f64),
+    /// Each value stands for several rows: those of a slower logger, repeated until the next.
+    Held {
+        /// Usual number of rows for which it stands.
+        rows: f64,
+        /// The time of that many rows \[s\].
+        interval: f64,
+    },
     /// The resolution is coarser than the noise, which it hides.
     Quantised {
         /// Step between values \[u\].
@@ -218,6 +225,14 @@ impl Finding {
             FindingKind::Outliers(largest) => write!(f, "outliers of up to {} {unit}", Short(*largest)),
             FindingKind::Stuck(value) => write!(f, "stuck at {} {unit}", Short(*value)),
             FindingKind::Saturation(value) => write!(f, "saturated at {} {unit}", Short(*value)),
+            FindingKind::Held { rows, interval } => {
+                write!(
+                    f,
+                    "a value stands for {} rows ({} s), as a slower logger's, repeated, does",
+                    Short(*rows),
+                    Short(*interval)
+                )
+            }
             FindingKind::Quantised { step, noise } => {
                 write!(f, "the resolution, {} {unit}, hides the noise, at most {} {unit}", Short(*step), Short(*noise))
             }

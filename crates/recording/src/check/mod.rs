@@ -7,6 +7,7 @@ mod codes;
 mod expectation;
 mod fast;
 mod finding;
+mod held;
 mod instants;
 mod outliers;
 mod runs;
@@ -20,7 +21,8 @@ pub use instants::{Gap, Instants};
 pub use summary::ChannelSummary;
 pub use white_noise::white_noise;
 
-use crate::Recording;
+use crate::series::median_interval;
+use crate::{Recording, Sampling};
 
 /// Expected content of a recording.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -38,7 +40,7 @@ pub struct Expectations {
 pub struct Report {
     /// Everything found, the worst first.
     pub findings: Vec<Finding>,
-    /// Rows of the recording to keep: all but identical repeats, and those of broken clocks.
+    /// Rows of the recording to keep: all but identical repeats, those of broken clocks, and those that repeat a mean.
     pub rows: Vec<usize>,
     /// For each channel and each row kept, whether its value is to be used.
     pub masks: Vec<Vec<bool>>,
@@ -70,7 +72,9 @@ const FEWEST_ROWS: usize = 3;
 /// Checks a recording.
 pub fn check(recording: &Recording, expectations: &Expectations) -> Report {
     let mut findings = Vec::new();
-    let rows = instants::keep(recording, &mut findings);
+    let nothing = Expectation::default();
+    let expected = |number: usize| expectations.channels.get(number).unwrap_or(&nothing);
+    let rows = slower(recording, instants::keep(recording, &mut findings), &expected, &mut findings);
     let kept = recording.select(&rows);
     let instants = Instants::new(kept.time());
     if let Some(instants) = &instants {
@@ -81,11 +85,8 @@ pub fn check(recording: &Recording, expectations: &Expectations) -> Report {
         let severity = if rows.len() < FEWEST_ROWS { Severity::Error } else { Severity::Warning };
         findings.push(Finding::whole(FindingKind::TooShort(rows.len()), severity));
     }
-    let nothing = Expectation::default();
-    let judge = |(number, channel)| {
-        let expectation = expectations.channels.get(number).unwrap_or(&nothing);
-        channel::judge(kept.time(), channel, (expectation, &expectations.clock), instants.as_ref())
-    };
+    let judge =
+        |(number, channel)| channel::judge(kept.time(), channel, (expected(number), &expectations.clock), instants.as_ref());
     let (mut masks, mut channels) = (Vec::new(), Vec::new());
     for judged in kept.channels().iter().enumerate().map(judge) {
         masks.push(judged.mask);
@@ -94,4 +95,25 @@ pub fn check(recording: &Recording, expectations: &Expectations) -> Report {
     }
     findings.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
     Report { findings, rows, masks, instants, channels }
+}
+
+/// The rows that remain where means are repeated: those that say each for the first time, as a mean is over the time since the one before.
+fn slower<'a>(
+    recording: &Recording,
+    mut rows: Vec<usize>,
+    expected: &dyn Fn(usize) -> &'a Expectation,
+    findings: &mut Vec<Finding>,
+) -> Vec<usize> {
+    for (number, channel) in recording.channels().iter().enumerate().filter(|(_, channel)| channel.sampling == Sampling::Mean) {
+        let time: Vec<f64> = rows.iter().map(|&row| recording.time()[row]).collect();
+        let values: Vec<f64> = rows.iter().map(|&row| channel.values[row]).collect();
+        let mask: Vec<bool> = values.iter().map(|value| value.is_finite()).collect();
+        let Some(interval) = median_interval(&time) else { return rows };
+        if let Some(held) = held::held(&values, &mask, expected(number).longest_hold / interval) {
+            let finding = held.finding(&time, &mask, interval, Repair::Dropped);
+            findings.push(Finding { channel: Some(channel.name.clone()), ..finding });
+            rows = rows.into_iter().zip(held.fresh).filter_map(|(row, fresh)| fresh.then_some(row)).collect();
+        }
+    }
+    rows
 }

@@ -1,0 +1,71 @@
+//! Values of a slower logger, each repeated until the next: rows of several loggers put together.
+
+use super::Finding;
+use super::finding::{FindingKind, Repair, Severity};
+use super::runs;
+
+/// Fewest runs of equal values that tell a rhythm.
+const FEWEST_RUNS: usize = 20;
+/// Largest share of runs of a single row: outliers, and rows beside a gap.
+const SINGLE: f64 = 0.05;
+/// Least share of changes by more than one step of the resolution: a course that is only coarse changes by one.
+const SEVERAL: f64 = 0.25;
+/// A change by more than one step, in steps.
+const ONE_STEP: f64 = 1.5;
+/// Runs up to so many times the usual length are of one value that was read; longer ones of several that were equal.
+const OF_ONE: f64 = 1.5;
+
+/// A series whose values are repeats of fewer readings.
+pub(super) struct Held {
+    /// Usual number of rows for which a reading stands, > 1.
+    pub(super) rows: f64,
+    /// Whether a row is the first of its reading; of those not used none is.
+    pub(super) fresh: Vec<bool>,
+}
+
+/// The readings that are repeated in a series, if each change is by itself: it goes by several steps of the resolution at once, and the
+/// rows before it and behind it stand still. What is smooth and read in every row does not do that, nor does noise.
+///
+/// `longest` is the longest time for which a reading may stand, in rows.
+pub(super) fn held(values: &[f64], mask: &[bool], longest: f64) -> Option<Held> {
+    let used: Vec<usize> = (0..values.len()).filter(|&row| mask[row]).collect();
+    let runs: Vec<&[usize]> = used.chunk_by(|a, b| values[*a] == values[*b]).collect();
+    // the first and the last may have been cut
+    let inner: Vec<usize> = runs.get(1..runs.len().checked_sub(1)?)?.iter().map(|run| run.len()).collect();
+    let single = inner.iter().filter(|length| **length == 1).count();
+    if inner.len() < FEWEST_RUNS || single as f64 > SINGLE * inner.len() as f64 {
+        return None;
+    }
+    let present: Vec<f64> = used.iter().map(|&row| values[row]).collect();
+    let step = runs::step(&present).unwrap_or(0.0);
+    let changes = || runs.windows(2).map(|pair| (values[pair[1][0]] - values[pair[0][0]]).abs());
+    let several = changes().filter(|change| *change > ONE_STEP * step).count();
+    if (several as f64) < SEVERAL * changes().count() as f64 {
+        return None;
+    }
+    // readings that are equal by chance make long runs: the shorter half is of single ones
+    let mut lengths: Vec<f64> = inner.iter().map(|length| *length as f64).collect();
+    lengths.sort_by(f64::total_cmp);
+    let usual = lengths[lengths.len() / 4];
+    let of_one: Vec<f64> = lengths.into_iter().filter(|length| *length <= OF_ONE * usual).collect();
+    let rows = of_one.iter().sum::<f64>() / of_one.len() as f64;
+    if rows > longest {
+        return None;
+    }
+    let mut fresh = vec![false; values.len()];
+    for run in runs {
+        let readings = (run.len() as f64 / rows).round().max(1.0);
+        (0..readings as usize).for_each(|n| fresh[run[(n as f64 * run.len() as f64 / readings) as usize]] = true);
+    }
+    Some(Held { rows, fresh })
+}
+
+impl Held {
+    /// The finding of a series over so many rows of `interval` each.
+    pub(super) fn finding(&self, time: &[f64], mask: &[bool], interval: f64, repair: Repair) -> Finding {
+        let repeats: Vec<usize> = (0..time.len()).filter(|&row| mask[row] && !self.fresh[row]).collect();
+        let span = [time[repeats[0]], time[repeats[repeats.len() - 1]]];
+        let kind = FindingKind::Held { rows: self.rows, interval: self.rows * interval };
+        Finding::at(kind, Severity::Note, span, repeats.len(), repair)
+    }
+}
