@@ -185,9 +185,9 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     // means of readings have no last digit
     let digit = case.meta.as_ref().filter(|_| fine.is_none()).and_then(|meta| meta.resolutions()[0]);
     let is_held = |finding: &&Finding| matches!(finding.kind, FindingKind::Held { .. });
-    let of_chamber = |finding: &Finding| finding.channel.as_deref() == Some(CHAMBER);
-    let chamber_is_held = case.report.findings.iter().filter(is_held).any(of_chamber);
-    let drive = drive(fine.as_ref().unwrap_or(&used), digit, chamber_is_held);
+    let held: Vec<&Finding> = case.report.findings.iter().filter(is_held).collect();
+    let of_chamber = |finding: &&Finding| finding.channel.as_deref() == Some(CHAMBER);
+    let drive = drive(fine.as_ref().unwrap_or(&used), digit, held.iter().any(of_chamber));
     let mut earlier = 0.0;
     let (used, averaging) = match thinned(&used, interval, &THINNING) {
         None => (used, case.averaging),
@@ -226,13 +226,9 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
         let problem = format!("{count} rows with a rate are too few to tell anything");
         return Err(refuse(case, RATE, problem, "record at least an hour, with ramps"));
     }
-    notes.extend(case.report.findings.iter().filter_map(|finding| {
-        let (remark, text) = (Remark::of_finding(&finding.kind), finding.to_string());
-        match finding.severity {
-            Severity::Warning => Some(remark.warning(text).at(file)),
-            _ => is_held(&finding).then(|| remark.note(text).at(file)),
-        }
-    }));
+    let warnings = case.report.findings.iter().filter(|finding| finding.severity == Severity::Warning);
+    notes.extend(warnings.map(|finding| Remark::of_finding(&finding.kind).warning(finding.to_string()).at(file)));
+    notes.extend(held.iter().map(|finding| Remark::Held.note(finding.to_string()).at(file)));
     // how the file was read, where that is doubtful
     notes.extend(case.notes.iter().filter(|note| note.is_warning()).map(|note| note.clone().at(file)));
     notes.extend(moved_in_gap(case).map(|note| note.at(file)));
@@ -249,7 +245,7 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     notes.extend(off_rest(&time, &chamber, &spool).map(|note| note.at(file)));
     let (fingerprint, observed) = (case.fingerprint.clone(), Observation { time, channels: vec![spool, rate] });
     let (meta, flags, instants) = (case.meta.clone(), case.flags.clone(), (before, earlier));
-    let is_held = case.report.findings.iter().any(|finding| is_held(&finding));
+    let is_held = !held.is_empty();
     Ok(Record { fingerprint, observed, chamber, drive, averaging, flags, columns, meta, is_held, instants })
 }
 

@@ -62,7 +62,8 @@ pub struct Instruments {
     pub rate: Instrument,
     /// Earth's rate in the record \[deg/h\].
     pub earth: Option<f64>,
-    /// Interval of rows of which nothing says whether a rate is their mean, and of which time \[s\]; 0 where it is said.
+    /// Interval of rows of which nothing says whether a rate is their mean, and of which time, or when in a row a slower logger's reading was taken \[s\];
+    /// 0 where it is said.
     pub unsaid: f64,
 }
 

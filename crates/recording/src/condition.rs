@@ -81,10 +81,15 @@ fn between(time: &[f64], values: &[f64]) -> Option<Vec<f64>> {
     let usual = median(known.windows(2).map(|pair| (pair[1] - pair[0]) as f64).collect()).filter(|rows| *rows > 1.0)?;
     let mut filled = values.to_vec();
     for pair in known.windows(2).filter(|pair| (pair[1] - pair[0]) as f64 <= 2.0 * usual) {
-        let (a, b) = (pair[0], pair[1]);
-        (a + 1..b).for_each(|n| filled[n] = values[a] + (values[b] - values[a]) * (time[n] - time[a]) / (time[b] - time[a]));
+        let ends = [pair[0], pair[1]];
+        (ends[0] + 1..ends[1]).for_each(|n| filled[n] = on_line(time, values, ends, n));
     }
     Some(filled)
+}
+
+/// Value in a row on the line between two others.
+fn on_line(time: &[f64], values: &[f64], [a, b]: [usize; 2], row: usize) -> f64 {
+    values[a] + (values[b] - values[a]) * (time[row] - time[a]) / (time[b] - time[a])
 }
 
 /// Mean of what is there; NaN if that is less than half.
@@ -115,7 +120,7 @@ pub fn bridged(time: &[f64], values: &[f64]) -> Option<Vec<f64>> {
         }
         let at = known.partition_point(|k| *k < n);
         match (at.checked_sub(1).map(|k| known[k]), known.get(at)) {
-            (Some(a), Some(&b)) => values[a] + (values[b] - values[a]) * (time[n] - time[a]) / (time[b] - time[a]),
+            (Some(a), Some(&b)) => on_line(time, values, [a, b], n),
             (Some(_), None) => values[last],
             _ => values[first],
         }

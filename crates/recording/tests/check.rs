@@ -4,21 +4,21 @@ use crate::common::Random;
 use recording::check::{Clock, Expectation, Expectations, Finding, FindingKind, Offset, Repair, Report, Severity, Unit, check};
 use recording::{Channel, Error, Recording, Sampling};
 
-const ROWS: usize = 2000;
+pub(crate) const ROWS: usize = 2000;
 const NAN: f64 = f64::NAN;
 
 /// A chamber that ramps, soaks and steps, a rate with noise; both with the resolution of their display.
-struct Sample {
-    time: Vec<f64>,
-    temperature: Vec<f64>,
-    rate: Vec<f64>,
+pub(crate) struct Sample {
+    pub(crate) time: Vec<f64>,
+    pub(crate) temperature: Vec<f64>,
+    pub(crate) rate: Vec<f64>,
 }
 
-fn round(value: f64, step: f64) -> f64 {
+pub(crate) fn round(value: f64, step: f64) -> f64 {
     (value / step).round() * step
 }
 
-fn sound(seed: u64, resolution: f64) -> Sample {
+pub(crate) fn sound(seed: u64, resolution: f64) -> Sample {
     let mut random = Random::new(seed);
     let time: Vec<f64> = (0..ROWS).map(|i| 30.0 * i as f64).collect();
     // a ramp of 1 °C/min, soaks, and a step through a lag of 200 s
@@ -39,7 +39,7 @@ fn clock() -> Clock {
     Clock { span: [60.0, 1e7], usual: 36_000.0, mistaken, key: "time".into() }
 }
 
-fn expectations() -> Expectations {
+pub(crate) fn expectations() -> Expectations {
     let unit = |name: &str, scale: f64, offset: f64| Unit { name: name.into(), scale, offset };
     let temperature = Expectation {
         values: [-120.0, 180.0],
@@ -64,7 +64,7 @@ impl Sample {
         self.report_of(&expectations())
     }
 
-    fn report_of(self, expectations: &Expectations) -> Report {
+    pub(crate) fn report_of(self, expectations: &Expectations) -> Report {
         let channel =
             |name: &str, unit: &str, values, sampling| Channel { name: name.into(), unit: unit.into(), values, sampling };
         let channels = vec![
@@ -76,7 +76,7 @@ impl Sample {
 }
 
 /// A sound recording with a change.
-fn altered(change: impl FnOnce(&mut Sample)) -> Sample {
+pub(crate) fn altered(change: impl FnOnce(&mut Sample)) -> Sample {
     let mut sample = sound(1, 0.01);
     change(&mut sample);
     sample
@@ -403,98 +403,4 @@ fn instants_in_another_unit() {
     });
     let close = close.report();
     assert!(close.findings.iter().all(|finding| !matches!(finding.kind, FindingKind::TooFast { .. })), "{:?}", close.findings);
-}
-
-/// Readings of every so many rows, repeated until the next.
-fn repeated(values: &[f64], every: f64) -> Vec<f64> {
-    let reading = |row: usize| ((row as f64 / every).floor() * every).ceil() as usize;
-    (0..values.len()).map(|row| values[reading(row)]).collect()
-}
-
-/// What is expected of a channel whose values may be repeated for so long.
-fn held_for(longest: f64) -> Expectations {
-    let mut expected = expectations();
-    expected.channels.iter_mut().for_each(|channel| channel.longest_hold = longest);
-    expected
-}
-
-fn is_held(finding: &&Finding) -> bool {
-    matches!(finding.kind, FindingKind::Held { .. })
-}
-
-#[test]
-fn readings_of_a_slower_logger_are_used_once() {
-    for (every, resolution) in [(2.0, 0.01), (5.0, 0.01), (11.0 / 3.0, 0.01), (5.0, 0.1), (12.0, 0.01)] {
-        let sound = sound(3, resolution);
-        let temperature = repeated(&sound.temperature, every);
-        let report = Sample { temperature, ..sound }.report_of(&held_for(f64::INFINITY));
-        let found: Vec<&Finding> = report.findings.iter().filter(is_held).collect();
-        let [finding] = found[..] else { panic!("{every}: {:?}", report.findings) };
-        let FindingKind::Held { rows, interval } = finding.kind else { unreachable!() };
-        assert!((rows / every - 1.0).abs() < 0.02 && interval == 30.0 * rows, "{rows} {interval} {every}");
-        // nothing else is said of it: what repeats is neither stuck nor an outlier
-        let others = report.findings.iter().filter(|f| f.channel == finding.channel && f.kind != finding.kind);
-        assert!(others.clone().all(|f| matches!(f.kind, FindingKind::Quantised { .. })), "{:?}", others.collect::<Vec<_>>());
-        assert_eq!(report.rows.len(), ROWS);
-        // the first row of each reading, but for some of those that are equal
-        let first = |row: usize| row == 0 || (row as f64 / every).floor() > ((row - 1) as f64 / every).floor();
-        let (right, wrong): (Vec<usize>, Vec<usize>) = (0..ROWS).filter(|&row| report.masks[0][row]).partition(|&row| first(row));
-        let readings = (0..ROWS).filter(|&row| first(row)).count();
-        assert!(right.len() * 10 >= readings * 9 && wrong.len() * 10 <= readings, "{every}: {} {}", right.len(), wrong.len());
-        assert_eq!(finding.rows, ROWS - right.len() - wrong.len());
-        if resolution < 0.1 {
-            let noise = report.channels[0].noise.unwrap();
-            assert!((noise / 0.01 - 1.0).abs() < 0.2, "{every}: {noise}");
-        }
-    }
-}
-
-#[test]
-fn a_mean_that_is_repeated_leaves_the_rows_in_which_it_is_new() {
-    let sound = sound(4, 0.01);
-    let rate = repeated(&sound.rate, 4.0);
-    let temperature = sound.temperature.clone();
-    let report = Sample { rate, ..sound }.report_of(&held_for(f64::INFINITY));
-    assert_eq!(report.rows, (0..ROWS).step_by(4).collect::<Vec<_>>());
-    assert_eq!(report.instants.as_ref().unwrap().interval, 120.0);
-    let held: Vec<&Finding> = report.findings.iter().filter(is_held).collect();
-    let [finding] = held[..] else { panic!("{:?}", report.findings) };
-    assert_eq!((finding.channel.as_deref(), finding.repair), (Some("rate"), Repair::Dropped));
-    assert_eq!(finding.span, Some([30.0, 30.0 * 1999.0]));
-    assert_eq!(
-        finding.to_string(),
-        "rate: a value stands for 4 rows (120 s), as a slower logger's, repeated, does, from 30 to 59970 s (1500 rows); dropped"
-    );
-    // a temperature that was read in every row is momentary: what is left of it is its own
-    assert!(report.masks[0].iter().filter(|used| !**used).count() < 5, "{temperature:?}");
-}
-
-#[test]
-fn what_is_read_in_every_row_is_not_taken_for_repeats() {
-    // coarse, slow or a programme's levels: neither is a slower logger's
-    let levels = |row: usize| [20.0, 33.0, 51.0, -10.0, 7.3, 44.1, -31.7, 62.9, 12.2][row / 40 % 9];
-    for resolution in [1e-4, 0.01, 0.0625, 0.5, 1.0] {
-        for seed in 0..5 {
-            let report = sound(seed, resolution).report_of(&held_for(f64::INFINITY));
-            assert!(!report.findings.iter().any(|f| is_held(&f)), "{resolution}: {:?}", report.findings);
-        }
-    }
-    let slow = altered(|sample| sample.temperature = (0..ROWS).map(|row| round(0.003 * row as f64, 0.1)).collect());
-    assert!(!slow.report_of(&held_for(f64::INFINITY)).findings.iter().any(|f| is_held(&f)));
-    // levels of twenty minutes, where a logger is not that slow
-    let programme = |longest| {
-        let sample = altered(|sample| sample.temperature = (0..ROWS).map(levels).collect());
-        sample.report_of(&held_for(longest)).findings.iter().any(|f| is_held(&f))
-    };
-    assert!(!programme(1199.0) && programme(1200.0));
-    // where nothing is expected, what repeats was read
-    let channel = |values| Channel { name: "level".into(), unit: "W".into(), values, sampling: Sampling::Momentary };
-    let own = Recording::new((0..ROWS).map(|n| n as f64).collect(), vec![channel((0..ROWS).map(levels).collect())]).unwrap();
-    assert!(check(&own, &Expectations::default()).findings.iter().all(|f| !is_held(&f)));
-    // too few readings tell no rhythm: 19 runs between the ends, and 20
-    for (runs, is_told) in [(21, false), (22, true)] {
-        let level = |row: usize| 20.0 + 0.1 * ((row * runs / ROWS) as f64).powi(2);
-        let few = altered(|sample| sample.temperature = (0..ROWS).map(level).collect());
-        assert_eq!(few.report_of(&held_for(f64::INFINITY)).findings.iter().any(|f| is_held(&f)), is_told, "{runs}");
-    }
 }

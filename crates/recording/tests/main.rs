@@ -5,5 +5,6 @@ mod check;
 mod common;
 mod condition;
 mod exact_whitener;
+mod held;
 mod identify;
 mod ramp;

@@ -32,8 +32,8 @@ const FASTEST_C_PER_S: f64 = 0.5;
 const SPAN_S: [f64; 2] = [60.0, 100.0 * 86_400.0];
 /// Usual duration of a recording \[s\]: ten hours.
 const USUAL_S: f64 = 36_000.0;
-
-/// Longest cycle of a chamber's logger \[s\]: what stays longer is a level of its programme.
+/// Longest cycle of a chamber's logger \[s\]: loggers are set to minutes, and a level of a programme lasts until the unit has settled, which takes tens of
+/// minutes.
 const LONGEST_HOLD_S: f64 = 600.0;
 
 /// Range beyond which no value is possible, in the standard unit.

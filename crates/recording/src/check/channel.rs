@@ -5,8 +5,8 @@ use super::summary::{COARSE, ChannelSummary, Context};
 use super::units::Course;
 use super::white_noise::white_noise;
 use super::{Clock, Finding, FindingKind, Instants, Repair, Severity, codes, fast, held, outliers, runs, units};
-use crate::Channel;
 use crate::statistics::median;
+use crate::{Channel, Sampling};
 
 pub(super) struct Judged {
     pub(super) mask: Vec<bool>,
@@ -27,8 +27,11 @@ pub(super) fn judge(
     findings.extend(codes::judge(time, &channel.values, expectation, &mut mask));
     let there = mask.iter().filter(|used| **used).count();
     let mut interval = instants.map_or(f64::NAN, |instants| instants.interval);
-    if let Some(held) = held::held(&channel.values, &mask, expectation.longest_hold / interval) {
-        findings.push(held.finding(time, &mask, interval, Repair::Masked));
+    // repeats of a mean are gone with their rows
+    let is_read = channel.sampling == Sampling::Momentary;
+    if let Some(held) = held::held(&channel.values, &mask, expectation.longest_hold / interval).filter(|_| is_read) {
+        let stay: Vec<bool> = mask.iter().zip(&held.fresh).map(|(used, fresh)| !used || *fresh).collect();
+        findings.push(held.finding(time, &stay, interval, Repair::Masked));
         interval *= held.rows;
         mask = held.fresh;
     }

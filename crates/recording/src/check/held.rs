@@ -4,7 +4,7 @@ use super::Finding;
 use super::finding::{FindingKind, Repair, Severity};
 use super::runs;
 
-/// Fewest runs of equal values that tell a rhythm.
+/// Fewest runs of equal values that tell a rhythm: that none of them is cut, at even odds each, has a chance of 10⁻⁶.
 const FEWEST_RUNS: usize = 20;
 /// Largest share of runs of a single row: outliers, and rows beside a gap.
 const SINGLE: f64 = 0.05;
@@ -61,9 +61,9 @@ pub(super) fn held(values: &[f64], mask: &[bool], longest: f64) -> Option<Held> 
 }
 
 impl Held {
-    /// The finding of a series over so many rows of `interval` each.
-    pub(super) fn finding(&self, time: &[f64], mask: &[bool], interval: f64, repair: Repair) -> Finding {
-        let repeats: Vec<usize> = (0..time.len()).filter(|&row| mask[row] && !self.fresh[row]).collect();
+    /// The finding of a series in rows of `interval` \[s\] each, some of which stay in use; those that do not were repeats.
+    pub(super) fn finding(&self, time: &[f64], stay: &[bool], interval: f64, repair: Repair) -> Finding {
+        let repeats: Vec<usize> = (0..time.len()).filter(|&row| !stay[row]).collect();
         let span = [time[repeats[0]], time[repeats[repeats.len() - 1]]];
         let kind = FindingKind::Held { rows: self.rows, interval: self.rows * interval };
         Finding::at(kind, Severity::Note, span, repeats.len(), repair)

@@ -97,7 +97,8 @@ pub fn check(recording: &Recording, expectations: &Expectations) -> Report {
     Report { findings, rows, masks, instants, channels }
 }
 
-/// The rows that remain where means are repeated: those that say each for the first time, as a mean is over the time since the one before.
+/// The rows that remain where means are repeated: those that say each for the first time, as a mean is over the time since the one before; where the
+/// mean is missing, other channels go on at its rhythm.
 fn slower<'a>(
     recording: &Recording,
     mut rows: Vec<usize>,
@@ -110,9 +111,16 @@ fn slower<'a>(
         let mask: Vec<bool> = values.iter().map(|value| value.is_finite()).collect();
         let Some(interval) = median_interval(&time) else { return rows };
         if let Some(held) = held::held(&values, &mask, expected(number).longest_hold / interval) {
-            let finding = held.finding(&time, &mask, interval, Repair::Dropped);
-            findings.push(Finding { channel: Some(channel.name.clone()), ..finding });
-            rows = rows.into_iter().zip(held.fresh).filter_map(|(row, fresh)| fresh.then_some(row)).collect();
+            let mut last = f64::NEG_INFINITY;
+            let stays = |row: usize| {
+                let stays = held.fresh[row] || !mask[row] && time[row] - last > (held.rows - 0.5) * interval;
+                last = if stays { time[row] } else { last };
+                stays
+            };
+            let stay: Vec<bool> = (0..time.len()).map(stays).collect();
+            let finding = held.finding(&time, &stay, interval, Repair::Dropped);
+            findings.push(Finding { channel: Some(channel.name.clone()), unit: channel.unit.clone(), ..finding });
+            rows = rows.into_iter().zip(stay).filter_map(|(row, stays)| stays.then_some(row)).collect();
         }
     }
     rows
