@@ -29,6 +29,12 @@ impl Chain {
         &self.library
     }
 
+    /// Sensitivity of the library's own design in a steady ramp, of all parts together \[deg/h per K/s\].
+    pub fn steady_sensitivity(&self) -> f64 {
+        // without a mode: the chamber's drive alone
+        self.library.base.parts().iter().map(|part| DEG_PER_H_PER_RAD_PER_S * part.vector()[0]).sum()
+    }
+
     /// Response of the coil at a coordinate of the heat path of mechanism `id` at a place, counted from 0, less that of the library's own design.
     pub fn along(&self, record: &Prepared, id: &str, place: usize, coordinate: f64) -> Change {
         Self::path(record, id, place).map_or_else(|| Self::still(record), |path| Self::at(record, path, coordinate))

@@ -1,5 +1,6 @@
 //! The library's interpolated responses against the chain itself: every mechanism as a changed design, modelled anew.
 
+mod chamber_lag;
 #[path = "../../coil/tests/common/mod.rs"]
 mod common;
 mod on_request;
@@ -305,6 +306,33 @@ fn air_that_lags_behind_the_chamber_s_reading_follows_the_chain() {
     let responses = [&[][..], std::slice::from_ref(&active)].map(|active| gyro.respond(0, &middle, active).expect("response"));
     agree("chamber-lag", &responses, &under(&design(), air), &anew(&design()), &[SPOOL, RATE]);
     assert!(gyro.extended(&design(), &active).is_none(), "it is of the test");
+}
+
+/// The chain's own readings, compensated step by step with the sensitivity that the coil has on a mesh of its own.
+#[test]
+fn a_compensated_rate_follows_the_chain() {
+    const TAKEN: f64 = 0.9;
+    const FILTER: f64 = 90.0;
+    let nominal = anew(&design());
+    let [thermometer, rate] = &nominal;
+    let per_k_per_s = coil::steady_sensitivity(&design()).expect("a ramp").sensitivity.total() * bias::units::S_PER_MIN;
+    let (mut filtered, mut compensated) = (thermometer[0], rate.clone());
+    for n in 1..rate.len() {
+        let before = filtered;
+        for second in 1..=60 {
+            let read = thermometer[n - 1] + (thermometer[n] - thermometer[n - 1]) * (f64::from(second) - 0.5) / 60.0;
+            filtered += (read - filtered) / (FILTER + 0.5);
+        }
+        compensated[n] -= TAKEN * per_k_per_s * (filtered - before) / 60.0;
+    }
+    let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let active =
+        Active { mechanism: gyro.find("compensated-rate").expect("a mechanism"), values: vec![TAKEN, FILTER], choice: None };
+    let responses = [&[][..], std::slice::from_ref(&active)].map(|active| gyro.respond(0, &middle, active).expect("response"));
+    assert!(rms(&compensated) < 0.6 * rms(rate), "compensation takes bias off");
+    agree("compensated-rate", &responses, &[thermometer.clone(), compensated], &nominal, &[RATE]);
+    assert!(gyro.extended(&design(), &active).is_none(), "it is of the electronics");
 }
 
 /// Effect of each mechanism on a design, by hand.

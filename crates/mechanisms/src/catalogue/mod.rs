@@ -27,6 +27,7 @@ catalogue! {
     chamber_lag CHAMBER_LAG
     thermo_optic_curvature THERMO_OPTIC_CURVATURE
     rate_temperature_coefficient RATE_TEMPERATURE_COEFFICIENT
+    compensated_rate COMPENSATED_RATE
     polarisation_ripple POLARISATION_RIPPLE
     moisture MOISTURE
     ratcheting RATCHETING

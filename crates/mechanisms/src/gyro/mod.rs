@@ -342,6 +342,9 @@ impl Known {
     }
 }
 
+/// Deviation at which the square of a usual time constant is that of half of it.
+const HALF_A_LAG: f64 = 0.25;
+
 impl ForwardModel for Gyro<'_> {
     fn channels(&self) -> &[Channel] {
         &self.channels
@@ -407,15 +410,18 @@ impl ForwardModel for Gyro<'_> {
         }))
     }
 
-    /// With a slow thermometer in the chamber, and a very slow one: beyond its two cumulants its lag is not linear.
+    /// With a thermometer in the chamber of half a usual time constant, of a whole one, and a very slow one: beyond its two cumulants its lag is not
+    /// linear. Readings are late by that lag; about a model whose readings are not, the delay has far to go, and fits end at another coil.
     fn starts(&self) -> Vec<Vec<f64>> {
         let squared = self.nuisances[instruments::CHAMBER_LAG_SQUARED].parameter.prior;
         let with_lag = |deviations: f64| {
             let mut start = diagnosis::expected(&self.nuisances);
-            start[instruments::CHAMBER_LAG_SQUARED] = squared.value(deviations);
+            let squared = squared.value(deviations);
+            start[instruments::CHAMBER_LAG_SQUARED] = squared;
+            start[instruments::CHAMBER_DELAY] = squared.max(0.0).sqrt().max(start[instruments::CHAMBER_DELAY]);
             start
         };
-        vec![with_lag(1.0), with_lag(3.0)]
+        [HALF_A_LAG, 1.0, 3.0].map(with_lag).to_vec()
     }
 
     fn latent(&self, record: usize) -> Result<Vec<Latent>, Failure> {

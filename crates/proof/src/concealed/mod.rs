@@ -69,6 +69,9 @@ pub struct Prove {
     /// How many of those; every second one conceals nothing
     #[arg(long = "drawn", value_name = "N", requires = "composed", default_value_t = 120)]
     drawn: usize,
+    /// Of those one by its number, printed instead of written
+    #[arg(long = "number", value_name = "N", requires = "composed", conflicts_with = "drawn")]
+    numbers: Vec<usize>,
     #[command(flatten)]
     plan: synthetic::Plan,
 }
@@ -95,7 +98,7 @@ impl Prove {
             return ordinary::rows();
         }
         if self.composed {
-            return composed::run(self.drawn);
+            return composed::run(self.drawn, &self.numbers);
         }
         if self.synthetic {
             return synthetic::run(&self.plan);
