@@ -154,8 +154,8 @@ pub trait ForwardModel {
     }
 
     /// Nuisances about which the model may be made first, beside the middles of their priors: where it is far from linear in one of them, the
-    /// nearest minimum need not be the least.
-    fn starts(&self) -> Vec<Vec<f64>> {
+    /// nearest minimum need not be the least. Those that the search from the middles has come to, `found`, may be the better ones for the others.
+    fn starts(&self, _found: &[f64]) -> Vec<Vec<f64>> {
         Vec::new()
     }
 

@@ -76,10 +76,9 @@ pub fn settled<M: ForwardModel>(
     observations: &[Observation],
     progress: &dyn Fn(Step),
 ) -> Result<Settled<M>, Error> {
-    let starts = model.starts();
-    let (mut steps, most) = (0, 1 + starts.len() + 3 * ROUNDS - TRIED);
-    let mut told = || {
-        progress(Step::counted(TASK, steps, most));
+    let mut steps = 0;
+    let mut told = |starts: usize| {
+        progress(Step::counted(TASK, steps, 1 + starts + 3 * ROUNDS - TRIED));
         steps += 1;
     };
     let way = |start: Option<&Vec<f64>>| -> Result<Way<M>, Error> {
@@ -87,17 +86,24 @@ pub fn settled<M: ForwardModel>(
         Ok(Way { model, records, observations, about, known: None, only: None, rival: None, rounds: 0, arrived: false })
     };
     // how likely the constants are from where a way starts is seen when they have been found about it
-    let mut likeliest = None;
-    for start in std::iter::once(None).chain(starts.iter().map(Some)) {
-        told();
+    let tried = |start: Option<&Vec<f64>>| -> Result<(Way<M>, f64), Error> {
         let mut tried = way(start)?;
         (0..TRIED).try_for_each(|_| tried.go_on(false))?;
         let evidence = tried.settled()?.log_evidence;
-        if likeliest.as_ref().is_none_or(|(_, _, most)| evidence > *most) {
-            likeliest = Some((tried, start, evidence));
+        Ok((tried, evidence))
+    };
+    told(0);
+    let (mut alone, mut likeliest) = tried(None)?;
+    let mut first = None;
+    let starts = alone.known.as_ref().map_or_else(Vec::new, |known| model.starts(&known.nuisances[0]));
+    for start in &starts {
+        told(starts.len());
+        let (other, evidence) = tried(Some(start))?;
+        if evidence > likeliest {
+            (alone, likeliest, first) = (other, evidence, Some(start));
         }
     }
-    let (mut alone, first, _) = likeliest.ok_or(Error::NoStart)?;
+    let mut told = || told(starts.len());
     while !alone.arrived {
         told();
         alone.go_on(false)?;

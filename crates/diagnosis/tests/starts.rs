@@ -63,7 +63,7 @@ impl ForwardModel for Oscillation {
         Ok(((frequency[0] - self.here).abs() > 1e-4).then(anew))
     }
 
-    fn starts(&self) -> Vec<Vec<f64>> {
+    fn starts(&self, _: &[f64]) -> Vec<Vec<f64>> {
         self.starts.clone()
     }
 

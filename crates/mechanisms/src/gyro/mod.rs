@@ -410,15 +410,15 @@ impl ForwardModel for Gyro<'_> {
         }))
     }
 
-    /// With a thermometer in the chamber of half a usual time constant, of a whole one, and a very slow one: beyond its two cumulants its lag is not
-    /// linear. Readings are late by that lag; about a model whose readings are not, the delay has far to go, and fits end at another coil.
-    fn starts(&self) -> Vec<Vec<f64>> {
+    /// With a thermometer in the chamber of half a usual time constant, of a whole one, and a very slow one, whose readings are as late as was found:
+    /// beyond its two cumulants its lag is not linear. The delay itself is found from anywhere; about a model with another one, fits of the lag end at
+    /// another coil.
+    fn starts(&self, found: &[f64]) -> Vec<Vec<f64>> {
         let squared = self.nuisances[instruments::CHAMBER_LAG_SQUARED].parameter.prior;
         let with_lag = |deviations: f64| {
             let mut start = diagnosis::expected(&self.nuisances);
-            let squared = squared.value(deviations);
-            start[instruments::CHAMBER_LAG_SQUARED] = squared;
-            start[instruments::CHAMBER_DELAY] = squared.max(0.0).sqrt().max(start[instruments::CHAMBER_DELAY]);
+            start[instruments::CHAMBER_LAG_SQUARED] = squared.value(deviations);
+            start[instruments::CHAMBER_DELAY] = found[instruments::CHAMBER_DELAY];
             start
         };
         [HALF_A_LAG, 1.0, 3.0].map(with_lag).to_vec()
