@@ -78,7 +78,7 @@ pub fn settled<M: ForwardModel>(
 ) -> Result<Settled<M>, Error> {
     let mut steps = 0;
     let mut told = |starts: usize| {
-        progress(Step::counted(TASK, steps, 1 + starts + 3 * ROUNDS - TRIED));
+        progress(Step::counted(TASK, steps, 2 + starts + 3 * ROUNDS - 2 * TRIED));
         steps += 1;
     };
     let way = |start: Option<&Vec<f64>>| -> Result<Way<M>, Error> {
@@ -86,19 +86,19 @@ pub fn settled<M: ForwardModel>(
         Ok(Way { model, records, observations, about, known: None, only: None, rival: None, rounds: 0, arrived: false })
     };
     // how likely the constants are from where a way starts is seen when they have been found about it
-    let tried = |start: Option<&Vec<f64>>| -> Result<(Way<M>, f64), Error> {
+    let tried = |start: Option<&Vec<f64>>, mechanisms: bool| -> Result<(Way<M>, f64), Error> {
         let mut tried = way(start)?;
-        (0..TRIED).try_for_each(|_| tried.go_on(false))?;
+        (0..TRIED).try_for_each(|_| tried.go_on(mechanisms))?;
         let evidence = tried.settled()?.log_evidence;
         Ok((tried, evidence))
     };
     told(0);
-    let (mut alone, mut likeliest) = tried(None)?;
+    let (mut alone, mut likeliest) = tried(None, false)?;
     let mut first = None;
     let starts = alone.known.as_ref().map_or_else(Vec::new, |known| model.starts(&known.nuisances[0]));
     for start in &starts {
         told(starts.len());
-        let (other, evidence) = tried(Some(start))?;
+        let (other, evidence) = tried(Some(start), false)?;
         if evidence > likeliest {
             (alone, likeliest, first) = (other, evidence, Some(start));
         }
@@ -116,7 +116,17 @@ pub fn settled<M: ForwardModel>(
     if gain <= MATTERS && strain(model, &recalibrated) <= STRAINED {
         return Ok(Settled { model: alone.about, alone: Alone::Settled, recalibrated, leading: None, suspect });
     }
-    let mut beside = way(first)?;
+    // the constants alone may have made up for a mechanism by the start that they prefer
+    told();
+    let (mut beside, likeliest) = tried(None, true)?;
+    if first.is_some() {
+        let (other, evidence) = tried(first, true)?;
+        if evidence > likeliest {
+            beside = other;
+        } else {
+            first = None;
+        }
+    }
     while !beside.arrived {
         told();
         beside.go_on(true)?;
