@@ -78,7 +78,7 @@ pub fn settled<M: ForwardModel>(
 ) -> Result<Settled<M>, Error> {
     let mut steps = 0;
     let mut told = |starts: usize| {
-        progress(Step::counted(TASK, steps, 2 + starts + 3 * ROUNDS - 2 * TRIED));
+        progress(Step::counted(TASK, steps, 1 + starts + 3 * ROUNDS - TRIED));
         steps += 1;
     };
     let way = |start: Option<&Vec<f64>>| -> Result<Way<M>, Error> {
@@ -117,16 +117,13 @@ pub fn settled<M: ForwardModel>(
         return Ok(Settled { model: alone.about, alone: Alone::Settled, recalibrated, leading: None, suspect });
     }
     // the constants alone may have made up for a mechanism by the start that they prefer
-    told();
-    let (mut beside, likeliest) = tried(None, true)?;
-    if first.is_some() {
-        let (other, evidence) = tried(first, true)?;
-        if evidence > likeliest {
-            beside = other;
-        } else {
-            first = None;
-        }
-    }
+    let (mut beside, first) = if first.is_some() {
+        told();
+        let [(drawn, of_drawn), (other, of_other)] = [tried(None, true)?, tried(first, true)?];
+        if of_other > of_drawn { (other, first) } else { (drawn, None) }
+    } else {
+        (way(None)?, None)
+    };
     while !beside.arrived {
         told();
         beside.go_on(true)?;

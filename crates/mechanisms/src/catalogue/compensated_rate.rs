@@ -13,7 +13,7 @@ pub(super) const COMPENSATED_RATE: Named = Named {
         follows with the time constant τ of a filter: τ dT_f/dt = T − T_f.",
     place: "The electronics, not the coil: a coil file has no key for it. Switch the compensation off, or log the rate before it.",
     signature: "Ramps show less bias than the design, or none, or bias of the other sign, and the corners of the chamber's programme stay. Tails change the\n\
-        sensitivity as well, but never by most of it.",
+        sensitivity as well; those of usual lengths by a smaller part.",
     source: "H. C. Lefèvre, *The Fiber-Optic Gyroscope*, 2nd ed., Artech House (2014); IEEE Std 952, *Specification Format Guide and Test Procedure for\n\
         Single-Axis Interferometric Fiber Optic Gyros*.",
     meaning: "the unit itself takes compensated_fraction of the design's bias off, by the rate of its thermometer through a filter of filter_s",
@@ -28,6 +28,7 @@ pub(super) const COMPENSATED_RATE: Named = Named {
     caveat: |_| None,
     offer: |_, _| {
         Some(Offer {
+            // a unit that is built to take its bias off takes most of it; a minute or so keeps a thermometer's noise from the rate. Both are estimates
             parameters: vec![
                 Parameter::new("compensated_fraction", Prior::LogNormal { median: 0.8, spread: 0.35 }),
                 Parameter::new("filter_s", Prior::LogNormal { median: 60.0, spread: 0.8 }),

@@ -342,7 +342,7 @@ impl Known {
     }
 }
 
-/// Deviation at which the square of a usual time constant is that of half of it.
+/// Deviation at which the square of a time constant of which nothing is known is that of half the usual one.
 const HALF_A_LAG: f64 = 0.25;
 
 impl ForwardModel for Gyro<'_> {
