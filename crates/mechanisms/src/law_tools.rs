@@ -40,7 +40,7 @@ impl Chain {
         Self::path(record, id, place).map_or_else(|| Self::still(record), |path| Self::at(record, path, coordinate))
     }
 
-    /// What a small step along a heat path changes, from where the library's own design is.
+    /// Change by a small step along a heat path, from the library's own design.
     pub(crate) fn nudged(&self, record: &Prepared, id: &str, place: usize, by: f64) -> Change {
         let step = |path: &Along| {
             let ahead = path.own + by;

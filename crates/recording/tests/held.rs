@@ -10,7 +10,7 @@ fn repeated(values: &[f64], every: f64) -> Vec<f64> {
     (0..values.len()).map(|row| values[reading(row)]).collect()
 }
 
-/// What is expected of a channel whose values may be repeated for so long.
+/// Expectations of a channel whose values may be repeated for so long.
 fn held_for(longest: f64) -> Expectations {
     let mut expected = expectations();
     expected.channels.iter_mut().for_each(|channel| channel.longest_hold = longest);

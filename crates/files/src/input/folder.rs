@@ -22,14 +22,23 @@ pub fn recordings(paths: &[PathBuf]) -> Result<Vec<PathBuf>, InputError> {
             all.extend(below(folder)?.into_iter().filter(|file| is_record(file)));
         }
         if all.len() == before {
-            return Err(InputError::whole(path, "has no recording (*.csv)", "give a recording, or a folder with recordings"));
+            return Err(no_recording(path, "a folder with recordings"));
         }
     }
     Ok(all)
 }
 
+/// A folder without a recording, in place of which one may give `others`.
+pub fn no_recording(folder: &Path, others: &str) -> InputError {
+    let remedy = format!("give {others}, or each recording by its name, which may then have another ending");
+    InputError::whole(folder, "has no recording (*.csv)", remedy)
+}
+
 /// Content of a folder, by name.
-fn below(folder: &Path) -> Result<Vec<PathBuf>, InputError> {
+///
+/// # Errors
+/// [`InputError`] of a folder that cannot be read.
+pub fn below(folder: &Path) -> Result<Vec<PathBuf>, InputError> {
     let unreadable = |error: std::io::Error| InputError::whole(folder, format!("cannot be read: {error}"), "check it");
     let entries = std::fs::read_dir(folder).map_err(unreadable)?;
     let mut below: Vec<PathBuf> = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<_, _>>().map_err(unreadable)?;
@@ -37,7 +46,8 @@ fn below(folder: &Path) -> Result<Vec<PathBuf>, InputError> {
     Ok(below)
 }
 
-fn is_record(file: &Path) -> bool {
+/// Whether a file in a folder is taken for a recording: by its ending.
+pub fn is_record(file: &Path) -> bool {
     file.is_file() && file.extension().is_some_and(|end| end.eq_ignore_ascii_case("csv"))
 }
 
@@ -56,6 +66,10 @@ mod tests {
         files.iter().for_each(|name| std::fs::write(at(name), "").unwrap());
         let found = recordings(&[at("one.txt"), at("lot")]).unwrap();
         assert_eq!(found, ["one.txt", "lot/a.csv", "lot/U1/b.CSV", "lot/U2/c.csv"].map(at));
-        assert!(recordings(&[at("empty")]).unwrap_err().to_string().contains("has no recording"));
+        let said = recordings(&[at("empty")]).unwrap_err().to_string();
+        assert!(
+            said.contains("has no recording (*.csv); give a folder with recordings, or each recording by its name"),
+            "{said}"
+        );
     }
 }

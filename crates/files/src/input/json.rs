@@ -66,7 +66,7 @@ impl<'a> Translation<'a> {
         &rest[..length]
     }
 
-    /// What a reference refers to.
+    /// The schema that a reference names.
     fn resolved(&self, schema: &'a Value) -> &'a Value {
         let of = schema["$ref"].as_str().and_then(|of| self.root.pointer(of.trim_start_matches('#')));
         of.map_or(schema, |of| self.resolved(of))

@@ -38,7 +38,7 @@ pub(crate) struct Date {
     pub(crate) exists: bool,
 }
 
-/// What stands first in a date between slashes, of which nobody says it: `02/03/2026`.
+/// Day or month: the first number of a date between slashes where no value decides it: `02/03/2026`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum First {
     Day,

@@ -115,14 +115,14 @@ impl Row {
         NUMBERS.iter().position(|known| *known == name).and_then(|n| self.numbers[n])
     }
 
-    /// What the records do not exclude, best first, in words.
+    /// Explanations that the records do not exclude, best first, in words.
     pub(super) fn open(&self) -> String {
         let others = self.set.iter().filter(|id| !self.together.contains(id)).cloned();
         let together: Vec<String> = self.set.iter().filter(|id| self.together.contains(id)).cloned().collect();
         Some(together.join(" and ")).filter(|all| !all.is_empty()).into_iter().chain(others).collect::<Vec<_>>().join(" or ")
     }
 
-    /// What its records were warned of, in words.
+    /// Warnings of its records, in words.
     pub(super) fn warned(&self) -> Option<String> {
         (!self.warnings.is_empty()).then(|| format!("warned of {}", self.warnings.join(", ")))
     }

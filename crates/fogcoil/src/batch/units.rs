@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::Error;
-use crate::input::InputError;
+use crate::input::{InputError, below, is_record, no_recording};
 
 /// A unit and its records.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -51,14 +51,6 @@ pub fn units(paths: &[PathBuf], out: &Path) -> Result<Vec<Unit>, Error> {
             add(path, Unit { name, fits: vec![path.clone()], holdouts: Vec::new(), lot })?;
             continue;
         }
-        let below = |folder: &Path| -> Result<Vec<PathBuf>, Error> {
-            let unreadable = |error: std::io::Error| InputError::whole(folder, format!("cannot be read: {error}"), "check it");
-            let entries = std::fs::read_dir(folder).map_err(unreadable)?;
-            let mut below: Vec<PathBuf> =
-                entries.map(|entry| entry.map(|e| e.path())).collect::<Result<_, _>>().map_err(unreadable)?;
-            below.sort();
-            Ok(below)
-        };
         let mut found = 0;
         if is_out(path) {
             return Err(InputError::whole(path, "has recordings, and would have the results", "give another --out").into());
@@ -72,15 +64,10 @@ pub fn units(paths: &[PathBuf], out: &Path) -> Result<Vec<Unit>, Error> {
             }
         }
         if found == 0 {
-            let remedy = "give a recording, a folder with the recordings of one unit, or a folder of such folders";
-            return Err(InputError::whole(path, "has no recording (*.csv)", remedy).into());
+            return Err(no_recording(path, "a folder with the recordings of one unit, or a folder of such folders").into());
         }
     }
     Ok(all.into_values().collect())
-}
-
-fn is_record(file: &Path) -> bool {
-    file.is_file() && file.extension().is_some_and(|end| end.eq_ignore_ascii_case("csv"))
 }
 
 fn of_folder(folder: &Path, records: Vec<PathBuf>) -> Unit {
@@ -126,7 +113,7 @@ mod tests {
         assert_eq!(told, ["U1 1 1", "U2 1 0", "lone 1 0", "one_b 1 0"]);
         assert_eq!((found[0].lot.as_deref(), found[3].lot.as_deref()), (Some("lot"), found[2].lot.as_deref()));
         let says = |paths: &[PathBuf]| units(paths, &at("out")).unwrap_err().to_string();
-        assert!(says(&[at("empty")]).contains("has no recording"));
+        assert!(says(&[at("empty")]).contains("each recording by its name"));
         assert!(says(&[at("lot"), at("lot/U1")]).contains("is the second unit of the name U1"));
         // tables of an earlier run are no recordings
         assert_eq!(units(&[at("lot")], &at("lot/U2")).unwrap().len(), 1);

@@ -27,7 +27,7 @@ pub(crate) struct Composed {
     pub(crate) accepted: bool,
 }
 
-/// What was composed for a diagnosis.
+/// The laws that were composed for a diagnosis.
 pub(crate) struct Sought {
     /// For what it leaves unknown; `None` where it leaves nothing, no law gains enough, or a name is likelier.
     pub(crate) composed: Option<Composed>,

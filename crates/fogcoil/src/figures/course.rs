@@ -85,7 +85,7 @@ fn edges<'a>(
     [("± 1 standard deviation by the design's tolerances", 1.0), ("", -1.0)].into_iter().filter_map(edge)
 }
 
-/// What was recorded, less an offset, where there is anything.
+/// The recorded values less an offset, where there are any.
 fn recorded<'a>(
     simulation: &'a Simulation,
     name: &str,

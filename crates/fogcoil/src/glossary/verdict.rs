@@ -7,7 +7,7 @@ pub struct Verdict {
     pub id: &'static str,
     /// Its meaning.
     pub meaning: &'static str,
-    /// What it does not say.
+    /// Its limits: a conclusion that it does not support.
     pub limits: &'static str,
     /// The next step.
     pub next: &'static str,

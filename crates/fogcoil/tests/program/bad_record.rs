@@ -44,7 +44,13 @@ fn columns_and_dialects_that_were_not_declared() {
     refuse(
         "Zeit;rate_deg_per_h\n0;1\n",
         &["--separator", ";"],
-        &["r.csv:1: time_s: the column is missing", "`Zeit`", "--column time=NAME", "--interval"],
+        &[
+            "r.csv:1: time_s: the column is missing",
+            "`Zeit`",
+            "--column time=NAME",
+            "--interval",
+            "--write-map MAP.ron find columns, units and lines above the names",
+        ],
     );
     refuse("time_s,w\n0,1\n", &[], &["r.csv:1: rate_deg_per_h: the column is missing", "--column rate=NAME"]);
     refuse("time_s,w\n0,1\n", &["--column", "rate=v"], &["r.csv:1: v: the column is missing"]);

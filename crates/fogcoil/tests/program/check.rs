@@ -308,7 +308,7 @@ fn instants_are_told_to_the_microsecond() {
     assert!(!text.contains("00000000"), "{text}");
 }
 
-/// What slower noise hides has no size: a fit at its bound is no measurement.
+/// A term that slower noise hides has no size: a fit at its bound is no measurement.
 #[test]
 fn white_noise_that_is_hidden_is_not_told() {
     let folder = Folder::new();

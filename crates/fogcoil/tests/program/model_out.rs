@@ -237,7 +237,7 @@ fn missed(gyro: &Gyro, found: &[(&str, &[f64], Option<f64>)]) -> Option<f64> {
     Some(rms(missed[RATE_CHANNEL].iter().copied()) / active.iter().map(effect).fold(0.0, f64::max))
 }
 
-/// What two mechanisms do together is worked out from what each does alone, and by what is common to their kinds.
+/// The joint effect of two mechanisms follows from the effect of each, and from their kinds.
 #[test]
 fn mechanisms_act_together_as_a_full_simulation_has_it() {
     let gyro = gyro();

@@ -25,7 +25,7 @@ pub struct Produced {
     pub name: String,
     /// Its record, as CSV.
     pub record: String,
-    /// What is known of the record, as RON: serial number and date among it.
+    /// Facts about the record, as RON: serial number and date among them.
     pub meta: String,
     /// The mechanism that is concealed, by its id; `None` for a good unit.
     pub fault: Option<String>,
