@@ -109,6 +109,21 @@ impl Mesh {
         &self.regions
     }
 
+    /// Small quadrilaterals between neighbouring nodes, p² for each element in its order: a mesh of straight sides for a file or a picture, with
+    /// corners that go round once.
+    pub fn quadrilaterals(&self) -> Vec<[usize; 4]> {
+        let p = self.order;
+        let of = |element: &Vec<usize>| {
+            let at = |i: usize, j: usize| element[j * (p + 1) + i];
+            let corners = |k: usize| {
+                let (i, j) = (k % p, k / p);
+                [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]
+            };
+            (0..p * p).map(corners).collect::<Vec<_>>()
+        };
+        self.elements.iter().flat_map(of).collect()
+    }
+
     /// One more than the largest region number.
     pub fn region_count(&self) -> usize {
         self.regions.iter().max().map_or(0, |r| r + 1)

@@ -147,3 +147,18 @@ fn exact_rectangles_between_breaks() {
     assert!((areas[0] - 0.2 * 1.9).abs() < 1e-14 && (areas[1] - 0.4 * 0.7).abs() < 1e-14, "{areas:?}");
     assert!(mesh.nodes().contains(&[0.3, 0.2]) && mesh.nodes().contains(&[0.7, 0.9]));
 }
+
+/// The small quadrilaterals of a mesh cover what its elements do, and go round the same way.
+#[test]
+fn exact_small_quadrilaterals_cover_the_mesh() {
+    let mesh = Mesh::rectangles(3, &[0.0, 0.3, 0.7], &[-1.0, 0.2], |i, _| Some(i)).expect("a mesh");
+    let twice_area = |corners: &[usize; 4]| -> f64 {
+        let point = |k: usize| mesh.nodes()[corners[k % 4]];
+        (0..4).map(|k| point(k)[0] * point(k + 1)[1] - point(k + 1)[0] * point(k)[1]).sum()
+    };
+    let small = mesh.quadrilaterals();
+    assert_eq!(small.len(), 2 * 9);
+    assert!(small.iter().all(|corners| twice_area(corners) > 0.0));
+    let area = |of: &[[usize; 4]]| of.iter().map(twice_area).sum::<f64>() / 2.0;
+    assert!((area(&small[..9]) - 0.3 * 1.2).abs() < 1e-14 && (area(&small[9..]) - 0.4 * 1.2).abs() < 1e-14);
+}
