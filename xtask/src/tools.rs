@@ -35,13 +35,18 @@ pub(crate) fn cargo() -> Command {
 }
 
 /// A tool of this version, which is installed if it is not there yet.
-pub(crate) fn tool([name, version]: [&str; 2]) -> Result<Command, Failure> {
+pub(crate) fn tool(of: [&str; 2]) -> Result<Command, Failure> {
+    tool_with(of, &[])
+}
+
+/// A tool of this version, built with these flags if it is not there yet.
+pub(crate) fn tool_with([name, version]: [&str; 2], flags: &[&str]) -> Result<Command, Failure> {
     let tools = root().join("target/tools").join(version);
     let program = tools.join("bin").join(name);
     if !program.exists() {
         eprintln!("installing {name} {version}");
         let install = ["install", "--quiet", "--locked", "--version", version, "--root"];
-        if !run(cargo().args(install).arg(&tools).arg(name))? {
+        if !run(cargo().args(install).arg(&tools).args(flags).arg(name))? {
             return Err(Failure(format!("{name} {version} cannot be installed")));
         }
     }

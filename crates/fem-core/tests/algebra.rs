@@ -1,6 +1,6 @@
 //! Assembly and sparse algebra against dense matrices; the coupling against the load.
 
-use crate::common::{Noise, distorted};
+use crate::common::{Noise, distorted, isotropic, solve, stiffness, thermal_stress};
 use fem_core::{Constraints, DofMap, Edge, Error, Form, Mesh, Pattern, Problem, ReferenceElement, SparseMatrix, material};
 use nalgebra::{DMatrix, DVector};
 
@@ -149,6 +149,38 @@ fn symmetry_stiffness_and_mass_are_symmetric_and_mass_adds_up_to_the_measure() {
         let measures = problem.region_measures().unwrap();
         assert!((mass.sum() / ((2.0 * measures[0] + 5.0 * measures[1]) * c as f64) - 1.0).abs() < 1e-12);
         assert!((0..c).all(|i| mass[(i, (i + 1) % c)] == 0.0 || c == 1), "components must not mix");
+    }
+}
+
+/// Other numbers of nodes and elements: the same field at the same places.
+#[test]
+fn symmetry_renumbering_nodes_and_elements_moves_no_field() {
+    let form = Form::PLANE_STRAIN;
+    let mesh = distorted(4, 17);
+    let n = mesh.nodes().len();
+    // a step that shares no factor with n visits every number once
+    let step = (2..).find(|step| (2..=n).all(|d| n % d != 0 || step % d != 0)).expect("a step");
+    let number = |node: usize| (node * step + 5) % n;
+    let mut nodes = vec![[0.0; 2]; n];
+    mesh.nodes().iter().enumerate().for_each(|(node, position)| nodes[number(node)] = *position);
+    let elements = mesh.elements().iter().rev().map(|element| element.iter().map(|&node| number(node)).collect()).collect();
+    let other = Mesh::new(mesh.order(), nodes, elements, mesh.regions().iter().rev().copied().collect()).expect("a mesh");
+
+    let constituents = [isotropic(1.0, 0.3, 1e-3), isotropic(50.0, 0.2, 1e-4)];
+    let laws = constituents.each_ref().map(|law| Some(stiffness(form, law)));
+    let stresses = constituents.each_ref().map(|law| Some(thermal_stress(form, law)));
+    let solved = |mesh: &Mesh, held: [usize; 2]| {
+        let problem = Problem::new(mesh, form, 6);
+        let mut prescribed = vec![None; 2 * n];
+        [2 * held[0], 2 * held[0] + 1, 2 * held[1] + 1].into_iter().for_each(|i| prescribed[i] = Some(0.0));
+        solve(&problem, &laws, &prescribed, &problem.loads(&stresses).expect("a load")[0])
+    };
+    let held = [0, mesh.order()];
+    let (plain, renumbered) = (solved(&mesh, held), solved(&other, held.map(number)));
+    let largest = plain.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+    for node in 0..n {
+        let [a, b] = [0, 1].map(|i| (plain[2 * node + i] - renumbered[2 * number(node) + i]).abs());
+        assert!(largest > 1e-5 && a.max(b) < 1e-11 * largest, "{node}: {a} {b} of {largest}");
     }
 }
 
