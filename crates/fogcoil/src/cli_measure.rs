@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use fogcoil::input::recordings;
-use fogcoil::measure::{Measurement, Prediction, all, measure, text, text_without_notes};
+use fogcoil::measure::{Prediction, all, measure, several, text, text_without_notes};
 use fogcoil::{Error, input};
 
 use crate::cli_check::Format;
@@ -13,7 +13,7 @@ use crate::{line, print};
 
 #[derive(Args)]
 pub(crate) struct Measure {
-    /// Recordings, of a folder its *.csv and those of its folders; and the case file of the coil where its prediction is to stand beside them
+    /// Recordings, of several a line each; of a folder its *.csv and those of its folders; and the case file of the coil where its prediction is to stand beside them
     #[arg(value_name = "RECORD.csv|FOLDER|COIL.ron", required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]
@@ -59,15 +59,11 @@ pub(crate) fn run(arguments: &Measure, progress: &Progress) -> Result<(), Error>
     };
     let prediction = case.as_ref().map(predict).transpose()?;
     let prediction = prediction.as_ref();
-    let text = if progress.is_silent() { text_without_notes } else { text };
-    print(&if *json {
-        line(&all(&measured, prediction))
-    } else {
-        let of = |one: &Result<Measurement, (PathBuf, Error)>| match one {
-            Ok(measured) => text(measured, prediction),
-            Err((_, error)) => format!("{error}\n"),
-        };
-        measured.iter().map(of).collect::<Vec<_>>().join("\n")
+    print(&match &measured[..] {
+        _ if *json => line(&all(&measured, prediction)),
+        [Ok(measured)] if progress.is_silent() => text_without_notes(measured, prediction),
+        [Ok(measured)] => text(measured, prediction),
+        _ => several(&measured, prediction),
     })?;
     match measured.iter().filter(|one| one.is_err()).count() {
         0 => Ok(()),

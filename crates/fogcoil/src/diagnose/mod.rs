@@ -61,7 +61,7 @@ struct Held {
     accepted: bool,
 }
 
-/// Diagnoses a unit of the design `case` from the records `fits`, judged on `holdouts`, as far as `mechanisms` go: [`mechanisms::CATALOGUE`], or more.
+/// Diagnoses a unit of the design `case` from the records `fits`, in whichever order, judged on `holdouts`, as far as `mechanisms` go: [`mechanisms::CATALOGUE`], or more.
 ///
 /// `progress` is told each task as it begins; of one that can be counted again and again.
 ///
@@ -76,9 +76,13 @@ pub fn diagnose<'m>(
     progress: &(dyn Fn(Step) + Sync),
 ) -> Result<Outcome<'m>, Error> {
     let coil = Error::of_coil(&case.file);
-    refuse_copies(fits.iter().chain(holdouts))?;
-    let mut notes: Vec<Note> = fits.iter().chain(holdouts).filter_map(|record| other_design(case, record)).collect();
-    let mut read: Vec<Record> = fits.iter().chain(holdouts).map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
+    // by name: searches round as their sums do, and the order in which records are given says nothing
+    let mut fits: Vec<&RecordCase> = fits.iter().collect();
+    fits.sort_by(|a, b| a.fingerprint.file.cmp(&b.fingerprint.file));
+    let all = || fits.iter().copied().chain(holdouts);
+    refuse_copies(all())?;
+    let mut notes: Vec<Note> = all().filter_map(|record| other_design(case, record)).collect();
+    let mut read: Vec<Record> = all().map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
     let library = library(case, cache, progress)?;
     progress(Step::begins("running every model under the recorded chamber"));
     let drawn = gyro(&library, mechanisms, &read, fits.len()).map_err(coil)?;

@@ -22,7 +22,7 @@ use crate::input::{CHAMBER, Fingerprint, InputError, RATE, RecordCase, SPOOL};
 pub use figure::{Figure, Told, Untold};
 pub use json::{all, json};
 pub use prediction::Prediction;
-pub use text::{text, text_without_notes};
+pub use text::{several, text, text_without_notes};
 
 /// Rows beyond which neighbours are averaged: a ramp of an hour in a day's record is then of more than a hundred.
 const MOST_ROWS: usize = 3_000;

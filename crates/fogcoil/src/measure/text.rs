@@ -1,11 +1,13 @@
 //! The figures for people.
 
 use std::fmt::Write;
+use std::path::PathBuf;
 
 use files::{Note, Remark};
 use recording::Seconds;
 
-use super::{Figure, Measurement, Prediction, Untold};
+use super::{Figure, Measurement, Prediction, Told, Untold};
+use crate::Error;
 use crate::table::{significant, table};
 
 /// A table of the figures, the design's prediction among them, how they are meant, and the notes.
@@ -19,6 +21,56 @@ pub fn text(measured: &Measurement, prediction: Option<&Prediction>) -> String {
 pub fn text_without_notes(measured: &Measurement, prediction: Option<&Prediction>) -> String {
     let warnings = measured.notes.iter().filter(|note| note.is_warning());
     figures(measured, prediction) + &warnings.map(|note| note.line() + "\n").collect::<String>()
+}
+
+/// Several recordings, a line each: figures with half of their intervals, ids of warnings; below, the design's prediction, and recordings that cannot be used.
+pub fn several(measured: &[Result<Measurement, (PathBuf, Error)>], prediction: Option<&Prediction>) -> String {
+    const SHOWN: [(&str, &str); 7] = [
+        ("sensitivity", "sensitivity"),
+        ("asymmetry", "heating less cooling"),
+        ("hysteresis", "hysteresis"),
+        ("bias_span", "bias over temperature"),
+        ("peak", "largest bias"),
+        ("arw", "angle random walk"),
+        ("bias_instability", "bias instability"),
+    ];
+    let mut rows =
+        vec![["recording"].into_iter().chain(SHOWN.map(|(_, name)| name)).chain(["warnings"]).map(str::to_owned).collect()];
+    for one in measured.iter().flatten() {
+        let figures = one.figures();
+        let of =
+            |key: &str| figures.iter().find(|(known, ..)| *known == key).map_or_else(|| "-".into(), |(.., told)| short(told));
+        let mut warnings: Vec<&str> = one.notes.iter().filter(|note| note.is_warning()).map(|note| note.remark.id()).collect();
+        warnings.dedup();
+        let row = [files::shown_path(&one.fingerprint.file)]
+            .into_iter()
+            .chain(SHOWN.map(|(key, _)| of(key)))
+            .chain([warnings.join(", ")]);
+        rows.push(row.collect::<Vec<_>>());
+    }
+    let mut out = table(&rows);
+    out.push_str("\nFitted; ± is half of the 90 % interval. Sensitivity and heating less cooling are in (deg/h)/(degC/min), the random walk is in deg/sqrt(h), the\nothers are in deg/h. One recording alone gives the ends of intervals, and the reason for each -; --json gives both for all.\n");
+    if let Some(prediction) = prediction {
+        let _ = writeln!(out, "The sensitivity of {} is {}.", prediction.design, short(&Ok(prediction.sensitivity)));
+    }
+    for (_, error) in measured.iter().filter_map(|one| one.as_ref().err()) {
+        let _ = writeln!(out, "{error}");
+    }
+    out
+}
+
+/// A number with half of its interval.
+fn short(told: &Told) -> String {
+    match told {
+        Ok(Figure { value, ci90: [low, high] }) => {
+            let half = (high - low) / 2.0;
+            // two digits of the half, and as many decimals of the number
+            let decimals = (1.0 - half.log10().floor()).clamp(0.0, 9.0) as usize;
+            format!("{value:.decimals$} ± {half:.decimals$}")
+        }
+        Err(Untold { value: Some(value), .. }) => significant(*value, 3),
+        Err(_) => "-".into(),
+    }
 }
 
 /// A line for each reason, with the figures that are not told because of it.

@@ -163,39 +163,42 @@ fn a_compensated_rate_is_told() {
     }
 }
 
-/// The order of records and of flags, the clock's zero, the rate's unit and the number of threads say nothing of a coil.
+/// The order of records and of flags and the number of threads change no digit of an answer; the clock's zero and the rate's unit round its numbers otherwise.
 #[test]
 #[ignore = "minutes"]
 fn order_clock_unit_and_threads_change_no_answer() {
     let folder = Folder::new();
-    let fine = under_ramps(&folder);
-    // what a tail does, from noon on in another record
-    let logged = |rows: std::ops::Range<f64>, zero: f64, name: &str, per_deg_per_h: f64| {
-        let rows = (3..fine.len()).step_by(3).filter(|&n| rows.contains(&fine[n][0])).map(|n| {
+    let profile = "time_s,chamber_c\n0,20\n1800,20\n6000,-40\n12000,-40\n16800,60\n24000,60\n";
+    let runs = [under_ramps(&folder), simulated(&folder, profile, &["--step", "20"])];
+    // with the effect of a tail
+    let logged = |fine: &[Vec<f64>], zero: f64, name: &str, per_deg_per_h: f64| {
+        let rows = (3..fine.len()).step_by(3).map(|n| {
             let rate = 3.0 + fine[n - 2..=n].iter().map(|row| row[6]).sum::<f64>() / 3.0 + 1.5 * (fine[n][2] - fine[n - 3][2]);
             let [chamber, spool] = [(1, 31), (2, 77)].map(|(column, seed)| fine[n][column] + 0.02 * noise(n + seed));
             format!("{},{chamber:.2},{spool:.2},{:?}\n", zero + fine[n][0], per_deg_per_h * (rate + 0.1 * noise(n)))
         });
         format!("time_s,chamber_c,spool_c,{name}\n") + &rows.collect::<String>()
     };
-    for (name, zero, rate, per_deg_per_h) in [("", 0.0, "rate_deg_per_h", 1.0), ("other-", 1e6, "w", 1.0 / 3600.0)] {
-        folder.write(&format!("{name}warm.csv"), logged(0.0..12_000.0, zero, rate, per_deg_per_h));
-        folder.write(&format!("{name}cold.csv"), logged(12_000.0..27_000.0, zero, rate, per_deg_per_h));
+    for (fine, name) in runs.iter().zip(["a", "b"]) {
+        folder.write(&format!("{name}.csv"), logged(fine, 0.0, "rate_deg_per_h", 1.0));
+        folder.write(&format!("other-{name}.csv"), logged(fine, 1e6, "w", 1.0 / 3600.0));
     }
-    let said = |arguments: &[&str]| -> serde_json::Value { serde_json::from_str(&stdout(&folder.run(arguments))).unwrap() };
-    let plain = said(&["diagnose", "coil.ron", "--fit", "warm.csv", "--fit", "cold.csv", "--json"]);
-    let columns = ["--unit", "rate=deg/s", "--column", "rate=w"];
-    let records = ["--fit", "other-cold.csv", "coil.ron", "--fit", "other-warm.csv"];
-    let other = said(&[&["--jobs", "1", "diagnose", "--json"][..], &columns, &records].concat());
-    assert_eq!((&plain["verdict"], &plain["named"]["id"]), (&other["verdict"], &other["named"]["id"]), "{plain} {other}");
+    let said = |arguments: &[&str]| stdout(&folder.run(arguments));
+    let plain = said(&["diagnose", "coil.ron", "--fit", "a.csv", "--fit", "b.csv", "--json"]);
+    assert!(said(&["--jobs", "1", "diagnose", "--json", "--fit", "b.csv", "coil.ron", "--fit", "a.csv"]) == plain);
+
+    let read = ["--unit", "rate=deg/s", "--column", "rate=w", "--fit", "other-a.csv", "--fit", "other-b.csv"];
+    let other = said(&[&["diagnose", "coil.ron", "--json"][..], &read].concat());
+    let [plain, other]: [serde_json::Value; 2] = [plain, other].map(|json| serde_json::from_str(&json).unwrap());
+    assert_eq!((&plain["verdict"], &plain["named"]["ids"]), (&other["verdict"], &other["named"]["ids"]), "{plain} {other}");
     let probabilities = |json: &serde_json::Value| -> std::collections::BTreeMap<String, f64> {
         let all = json["mechanisms"].as_array().unwrap().iter();
         all.map(|m| (m["id"].as_str().unwrap().to_owned(), m["probability"].as_f64().unwrap())).collect()
     };
     let (plain, other) = (probabilities(&plain), probabilities(&other));
-    assert!(plain.len() > 10 && plain.keys().eq(other.keys()), "{plain:?} {other:?}");
+    assert!(plain.values().any(|p| *p > 0.5) && plain.keys().eq(other.keys()), "{plain:?} {other:?}");
     for (id, probability) in &plain {
-        assert!((probability - other[id]).abs() < 0.01, "{id}: {probability} {}", other[id]);
+        assert!((probability - other[id]).abs() < 0.05, "{id}: {probability} {}", other[id]);
     }
 }
 

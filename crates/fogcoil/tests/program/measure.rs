@@ -123,6 +123,16 @@ fn the_steady_sensitivity_of_a_coil_is_measured_again() {
     assert_eq!(lot["records"][1]["sensitivity"], found["sensitivity"]);
     let output = folder.run(&["measure", "lot", "--quiet"]);
     assert!(stdout(&output).contains("lot/bad.csv") && stdout(&output).contains("angle random walk"), "{}", stdout(&output));
+    // a line each, with the design's number once
+    let table = stdout(&folder.run(&["measure", "r.csv", "lot/r.csv", "coil.ron"]));
+    let [low, value, high] = interval(&found["sensitivity"]);
+    let lines: Vec<&str> = table.lines().filter(|line| line.contains("r.csv ")).collect();
+    assert!(lines.len() == 2 && table.matches("The sensitivity of").count() == 1, "{table}");
+    for line in lines {
+        let shown: Vec<f64> = line.split_whitespace().skip(1).step_by(2).take(2).map(|n| n.parse().unwrap()).collect();
+        let half = (high - low) / 2.0;
+        assert!((shown[0] - value).abs() < 0.1 * half && (shown[1] / half - 1.0).abs() < 0.05, "{line}: {value} {half}");
+    }
 }
 
 /// Steady sensitivity of the reference coil \[(deg/h)/(degC/min)\].
