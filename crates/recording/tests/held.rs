@@ -68,6 +68,17 @@ fn a_mean_that_is_repeated_leaves_the_rows_in_which_it_is_new() {
 }
 
 #[test]
+fn a_mean_is_not_repeated_for_longer_than_a_logger_is_slow() {
+    // four rows of 30 s
+    let kept = |longest| {
+        let sound = sound(4, 0.01);
+        let rate = repeated(&sound.rate, 4.0);
+        Sample { rate, ..sound }.report_of(&held_for(longest)).rows.len()
+    };
+    assert_eq!([kept(119.0), kept(120.0)], [ROWS, ROWS / 4]);
+}
+
+#[test]
 fn where_a_repeated_mean_is_missing_the_other_channels_go_on() {
     let sound = sound(4, 0.01);
     let mut rate = repeated(&sound.rate, 4.0);
