@@ -35,3 +35,39 @@ fn every_file_of_tests_is_compiled() {
     }
     assert!(seen > 60, "{seen}");
 }
+
+/// The page on trust names tests by what they hold the program to: each is a function of the crate that it names.
+#[test]
+fn the_tests_that_the_page_on_trust_names_are_there() {
+    fn sources(folder: &Path, all: &mut String) {
+        for entry in std::fs::read_dir(folder).into_iter().flatten() {
+            let path = entry.expect("a file").path();
+            if path.is_dir() {
+                sources(&path, all);
+            } else if path.extension().is_some_and(|end| end == "rs") {
+                all.push_str(&std::fs::read_to_string(&path).expect("a source"));
+            }
+        }
+    }
+    let page = read("docs/trust.md");
+    let rows = page.lines().filter(|line| line.starts_with('|') && line.contains("(`crates/"));
+    let mut seen = 0;
+    for cell in rows.filter_map(|row| row.split('|').nth(3)) {
+        let mut waiting = Vec::new();
+        for name in cell.split('`').skip(1).step_by(2) {
+            let Some(krate) = name.strip_prefix("crates/") else {
+                waiting.push(name);
+                continue;
+            };
+            let (root, mut all) =
+                ([env!("CARGO_MANIFEST_DIR"), "..", "crates", krate].iter().collect::<PathBuf>(), String::new());
+            ["src", "tests"].iter().for_each(|part| sources(&root.join(part), &mut all));
+            for test in waiting.drain(..) {
+                assert!(all.contains(&format!("fn {test}(")), "{krate} has no test {test}");
+                seen += 1;
+            }
+        }
+        assert!(waiting.is_empty(), "{cell}: of which crate?");
+    }
+    assert!(seen >= 15, "{seen}");
+}
