@@ -248,6 +248,12 @@ fn codes_are_masked_and_a_short_signal_is_not() {
         only(altered(|s| codes.iter().for_each(|&row| s.rate[row] = if row < 703 { 9999.0 } else { -9999.0 })));
     assert!(matches!(finding.kind, FindingKind::Impossible(size) if size.abs() == 9999.0), "{finding}");
     assert_eq!((0..ROWS).filter(|&row| !report.masks[1][row]).collect::<Vec<_>>(), codes);
+    // one alone is a code at an end; elsewhere its neighbours tell it, and it is an outlier
+    for (row, is_code) in [(0, true), (1, true), (2, false), (700, false), (ROWS - 3, false), (ROWS - 1, true)] {
+        let (finding, report) = only(altered(|s| s.rate[row] = 9999.0));
+        assert_eq!(matches!(finding.kind, FindingKind::Impossible(_)), is_code, "{row}: {finding}");
+        assert_eq!((0..ROWS).filter(|&row| !report.masks[1][row]).collect::<Vec<_>>(), [row]);
+    }
     // a pulse of twenty minutes, 500 times the noise of a quiet day
     let pulse = |row: usize| {
         if (600..640).contains(&row) { 10.0 * ((row - 600) as f64 / 40.0 * std::f64::consts::PI).sin() } else { 0.0 }
