@@ -47,6 +47,24 @@ fn white_noise_and_drift() {
     assert!(slow.share() >= 0.75, "{}", slow.share());
 }
 
+/// The error of a number that follows from the noise: of a parameter its own, of its square twice that, of a product with the correlation.
+#[test]
+fn exact_errors_of_derived_numbers() {
+    let truth = NoiseModel { drift: 0.4, drift_time: 5000.0, ..NoiseModel::white(1.0, 30.0) };
+    let time = even(COUNT, 30.0);
+    let bounds = Bounds { terms: vec![Term::Drift], ..Bounds::new(30.0, &time) };
+    let found = estimate(&time, &simulate(&truth, COUNT, &mut Random::new(3)), &bounds);
+    let (white, drift) = (found.standard_errors.white.expect("known"), found.standard_errors.drift.expect("known"));
+    let error = |of: &dyn Fn(&NoiseModel) -> f64| found.relative_error(of).expect("known");
+    assert!((error(&|m| m.white) / white - 1.0).abs() < 1e-6, "{white}");
+    assert!((error(&|m| m.drift.powi(2)) / (2.0 * drift) - 1.0).abs() < 1e-6, "{drift}");
+    assert!(error(&|_| 5.0) < 1e-12);
+    // Var(ln a + ln b) + Var(ln a − ln b) = 2 Var(ln a) + 2 Var(ln b)
+    let (product, ratio) = (error(&|m| m.white * m.drift), error(&|m| m.white / m.drift));
+    let sum = 2.0 * (white.powi(2) + drift.powi(2));
+    assert!(((product.powi(2) + ratio.powi(2)) / sum - 1.0).abs() < 1e-6 && product != ratio, "{product} {ratio} {sum}");
+}
+
 #[test]
 fn white_noise_and_walk() {
     let truth = NoiseModel { walk: 0.01, ..NoiseModel::white(1.0, 30.0) };
