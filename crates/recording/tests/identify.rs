@@ -65,6 +65,17 @@ fn exact_errors_of_derived_numbers() {
     assert!(((product.powi(2) + ratio.powi(2)) / sum - 1.0).abs() < 1e-6 && product != ratio, "{product} {ratio} {sum}");
 }
 
+/// N falls with the root of the time of a mean; momentary values have none.
+#[test]
+fn exact_the_angle_random_walk_is_that_of_the_allan_deviation() {
+    let model = NoiseModel::white(0.3, 30.0);
+    let walk = model.angle_random_walk().expect("a mean");
+    for tau in [30.0, 300.0, 3000.0_f64] {
+        assert!((model.allan_deviation(tau, 30.0) * tau.sqrt() / walk - 1.0).abs() < 1e-12, "{tau}");
+    }
+    assert_eq!(NoiseModel::white(0.3, 0.0).angle_random_walk(), None);
+}
+
 #[test]
 fn white_noise_and_walk() {
     let truth = NoiseModel { walk: 0.01, ..NoiseModel::white(1.0, 30.0) };
