@@ -159,7 +159,7 @@ fn symmetry_renumbering_nodes_and_elements_moves_no_field() {
     let mesh = distorted(4, 17);
     let n = mesh.nodes().len();
     // a step that shares no factor with n visits every number once
-    let step = (2..).find(|step| (2..=n).all(|d| n % d != 0 || step % d != 0)).expect("a step");
+    let step = (2..).find(|step: &usize| (2..=n).all(|d| !n.is_multiple_of(d) || !step.is_multiple_of(d))).expect("a step");
     let number = |node: usize| (node * step + 5) % n;
     let mut nodes = vec![[0.0; 2]; n];
     mesh.nodes().iter().enumerate().for_each(|(node, position)| nodes[number(node)] = *position);
