@@ -92,7 +92,7 @@ fn absent(rows: &Rows, key: Key, name: &str, names: &[String]) -> InputError {
     let interval = if key == Key::Time { ", or, without instants, --interval SECONDS" } else { "" };
     let key = key.name();
     let remedy = format!(
-        "the columns here are {}; say which it is: --column {key}=NAME{interval}; or let fogcoil check RECORD --write-map MAP.ron find columns, units and lines above the names, and read by it with --map MAP.ron",
+        "the columns here are {}; say which it is: --column {key}=NAME{interval}; or {key}: (column: \"NAME\") in a file for --map: fogcoil check RECORD --write-map MAP.ron proposes one, with columns, units and lines above the names",
         shown(names)
     );
     rows.fault(Some(name), "the column is missing", remedy)

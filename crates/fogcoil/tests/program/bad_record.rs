@@ -49,7 +49,7 @@ fn columns_and_dialects_that_were_not_declared() {
             "`Zeit`",
             "--column time=NAME",
             "--interval",
-            "--write-map MAP.ron find columns, units and lines above the names",
+            "--write-map MAP.ron proposes one, with columns, units and lines above the names",
         ],
     );
     refuse("time_s,w\n0,1\n", &[], &["r.csv:1: rate_deg_per_h: the column is missing", "--column rate=NAME"]);
