@@ -178,6 +178,16 @@ mod tests {
         assert!((course.movement[0][399] - 40.0).abs() < 1.5 && (course.movement[1][399] + 20.0).abs() < 1.5);
     }
 
+    /// A branch ends with its last row within 0.7 of the threshold of the extreme: of a triangle of a little over a tenth of the threshold a row, the sixth behind the tip.
+    #[test]
+    fn exact_a_branch_ends_near_its_extreme() {
+        let down_first: Vec<f64> = (0..401_usize).map(|row| 0.41 * (row % 200).abs_diff(100) as f64).collect();
+        let of = |temperature: &[f64]| turns(temperature, 4.0).into_iter().map(|(_, end)| end).collect::<Vec<_>>();
+        assert_eq!(of(&down_first), [106, 206, 306, 400]);
+        let up_first: Vec<f64> = down_first.iter().map(|value| -value).collect();
+        assert_eq!(of(&up_first), [106, 206, 306, 400]);
+    }
+
     #[test]
     fn a_rest_on_the_way_ends_a_ramp() {
         let time: Vec<f64> = (0..1000).map(f64::from).collect();

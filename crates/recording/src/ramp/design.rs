@@ -127,3 +127,24 @@ pub(super) fn lagging_rate(time: &[f64], moved: &[f64], lag: f64, interval: f64)
     };
     (0..time.len()).map(|row| if row == 0 { 0.0 } else { mean(row) }).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A ramp of 2 K/s behind a lag of 30 s, over a gap: its rate as the lag has it, 2 (1 − e^(−t/30)) at the gap's end, its mean over other rows.
+    #[test]
+    fn exact_the_rate_behind_a_lag_and_over_a_gap() {
+        let lag = 30.0_f64;
+        let time = [0.0, 10.0, 20.0, 500.0, 510.0];
+        let moved = time.map(|t| 2.0 * t);
+        let rate = lagging_rate(&time, &moved, lag, 10.0);
+        // the response is 2 (t − lag (1 − e^(−t/lag)))
+        let response = |t: f64| 2.0 * (t - lag * (1.0 - (-t / lag).exp()));
+        let mean = |from: f64, to: f64| (response(to) - response(from)) / (to - from);
+        let expected = [0.0, mean(0.0, 10.0), mean(10.0, 20.0), 2.0 * (1.0 - (-500.0 / lag).exp()), mean(500.0, 510.0)];
+        for (found, expected) in rate.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-12, "{rate:?}");
+        }
+    }
+}

@@ -78,3 +78,28 @@ fn noises(noise: &NoiseEstimate) -> Vec<(f64, NoiseModel)> {
     all.iter_mut().for_each(|(probability, _)| *probability /= total);
     all
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::noise::Candidate;
+
+    /// A noise that is 3 worse by the BIC is e^(−3/2) times as probable.
+    #[test]
+    fn exact_noises_have_the_probabilities_of_their_bic() {
+        let values: Vec<f64> = (0..400).map(|n| f64::from((n * n / 7) % 2)).collect();
+        let (time, mask): (Vec<f64>, Vec<bool>) = (0..400).map(|n| (10.0 * f64::from(n), true)).unzip();
+        let series = Series { time: &time, values: &values, mask: &mask, columns: &[&vec![1.0; 400]] };
+        let mut noise = identify(&series, &Bounds::new(10.0, &time)).expect("a noise");
+        let best = noise.candidates[0].clone();
+        noise.candidates =
+            vec![best.clone(), Candidate { bic: best.bic + 3.0, ..best.clone() }, Candidate { bic: best.bic + 300.0, ..best }];
+        let all = noises(&noise);
+        let (about, other) = all.split_at(all.len() - 1);
+        let best: f64 = about.iter().map(|(probability, _)| probability).sum();
+        assert!(
+            (best + other[0].0 - 1.0).abs() < 1e-12 && (other[0].0 / best - (-1.5_f64).exp()).abs() < 1e-12,
+            "{best} {other:?}"
+        );
+    }
+}
