@@ -41,3 +41,39 @@ pub(crate) fn least(effective: &Effective) -> f64 {
     let condition = scaled.try_inverse().map_or(f64::INFINITY, |inverse| scaled.norm() * inverse.norm());
     LEAST * f64::EPSILON * condition
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Ring, Role};
+    use fem_core::material::Isotropic;
+
+    #[test]
+    fn bounds_every_input_moves_and_by_a_few_roundings() {
+        let constituent = |k: f64| {
+            Constituent::new(Isotropic { youngs_modulus: 1e9 * k, poisson_ratio: 0.3, thermal_expansion: 1e-5 * k }, 0.2 * k)
+        };
+        let ring = |outer_radius, role| Ring { outer_radius, role, constituent: constituent(1.7) };
+        let cell = FibreCell::hexagonal(170e-6, vec![ring(40e-6, Role::Glass), ring(80e-6, Role::Coating)], constituent(1.1));
+        let inputs = |cell: &FibreCell| {
+            let mut all: Vec<(f64, f64)> = Vec::new();
+            for c in cell.rings.iter().map(|ring| &ring.constituent).chain([&cell.adhesive]) {
+                let e = &c.elastic;
+                all.extend([e.youngs_modulus, e.thermal_expansion, c.conductivity].map(|value| (value, ROUNDINGS)));
+                all.push((e.poisson_ratio, 1.0));
+            }
+            all.push((cell.rings[0].outer_radius, ROUNDINGS));
+            all
+        };
+        let mut farthest = vec![0.0_f64; inputs(&cell).len()];
+        for seed in 0..64 {
+            let shaken = shaken(&cell, seed);
+            assert_eq!((shaken.pitch, shaken.rings[1].outer_radius), (cell.pitch, cell.rings[1].outer_radius));
+            for ((far, (a, most)), (b, _)) in farthest.iter_mut().zip(inputs(&shaken)).zip(inputs(&cell)) {
+                *far = far.max((a / b - 1.0).abs() / (most * f64::EPSILON));
+            }
+        }
+        // half a rounding more by the last product, and as much by the quotient
+        assert!(farthest.iter().all(|far| (0.5..=2.0).contains(far)), "{farthest:?}");
+    }
+}

@@ -91,4 +91,9 @@ fn a_cell_is_found_again() {
         assert!((again.e_r / targets[1].value - 1.0).abs() < 0.03 && (again.k_r / targets[4].value - 1.0).abs() < 0.03);
     }
     assert!(alternatives.measurements[0].separation() > 2.0);
+    // what is known of glass is not measured again, but for its diameter
+    let of_glass: Vec<&str> =
+        alternatives.measurements.iter().map(|m| m.what.as_str()).filter(|what| what.ends_with("silica")).collect();
+    assert_eq!(of_glass, ["outer diameter (microscope) of the silica"]);
+    assert!(alternatives.measurements.iter().any(|m| m.what == "Young's modulus of the adhesive"));
 }

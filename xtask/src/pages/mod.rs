@@ -66,7 +66,7 @@ impl Pages {
         wrong.iter().for_each(|fault| println!("{fault}"));
         let holds = looks.iter().all(Look::holds) && wrong.is_empty();
         if !self.kept {
-            proof::files::write(DOCUMENT.as_ref(), &markdown(&looks, &browser.version))?;
+            proof::files::write(DOCUMENT.as_ref(), &markdown(&looks, &sizes(&files)?, &browser.version))?;
         }
         println!("screenshots and prints are in {FOLDER}");
         Ok(holds)
@@ -79,8 +79,17 @@ fn kept(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(names.iter().filter(|name| name.ends_with(".html")).map(|name| folder.join(name)).collect())
 }
 
+/// Pages by name, each with its size, kB.
+fn sizes(files: &[PathBuf]) -> Result<String, Failure> {
+    let size = |file: &PathBuf| {
+        let name = file.file_stem().unwrap_or_default().display();
+        Ok(format!("{name} {} kB", fs::metadata(file)?.len().div_ceil(1000)))
+    };
+    Ok(files.iter().map(size).collect::<Result<Vec<_>, Failure>>()?.join(", "))
+}
+
 /// The findings, as docs/pages.md.
-fn markdown(looks: &[Look], chromium: &str) -> String {
+fn markdown(looks: &[Look], sizes: &str, chromium: &str) -> String {
     let version = looks.first().map_or(axe::VERSION, |look| look.axe.as_str());
     let mut out = format!(
         "# Pages\n\n\
@@ -91,6 +100,7 @@ fn markdown(looks: &[Look], chromium: &str) -> String {
          figure, covers another or is smaller than 9 px, on an error or a warning of the console, on any request besides the page itself, and on \
          a figure that does not answer to a hand: values under the pointer beside those of its table, a part of it, other units, a line taken away. \
          Screenshots and prints on A4 are left in target/pages.\n\n\
+         Each page is one file that holds its figures, tables and script: {sizes}.\n\n\
          | page | width [px] | colours | axe: serious, critical | axe: others | wider than the page | labels | console | requests |\n\
          |---|---|---|---|---|---|---|---|---|\n"
     );

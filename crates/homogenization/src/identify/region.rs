@@ -130,3 +130,27 @@ fn effective(draws: &[Vec<f64>]) -> f64 {
     };
     (0..draws.first().map_or(0, Vec::len)).map(of).fold(f64::INFINITY, f64::min)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_weights_are_shares_of_the_evidence_however_small_it_is() {
+        for offset in [0.0, 3.0, -5000.0, 5000.0] {
+            let region = |odds: f64| Region {
+                weight: 0.0,
+                centre: vec![odds],
+                acceptance: 1.0,
+                effective_draws: 1.0,
+                draws: Vec::new(),
+                log_evidence: offset + odds.ln(),
+            };
+            let mut regions = [region(1.0), region(3.0)];
+            weigh(&mut regions);
+            for (region, [odds, weight]) in regions.iter().zip([[3.0, 0.75], [1.0, 0.25]]) {
+                assert!(region.centre == [odds] && (region.weight - weight).abs() < 1e-11, "{region:?} at {offset}");
+            }
+        }
+    }
+}
