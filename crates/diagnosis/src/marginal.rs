@@ -75,3 +75,26 @@ fn quantile(prior: &Prior, mixture: &[(Normal, f64)], share: f64) -> f64 {
     }
     prior.value((low + high) / 2.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_quantiles_of_one_normal_and_of_two() {
+        let prior = Prior::Normal { mean: 2.0, sd: 3.0 };
+        let normal = |mean: f64, sd: f64, weight: f64| (Normal::new(mean, sd).expect("a density"), weight);
+        for (mean, sd) in [(0.3, 0.5), (-4.0, 0.01), (7.0, 1.0)] {
+            let one = [normal(mean, sd, 1.0)];
+            for (share, z) in [(0.05, -1.644_853_626_951), (0.5, 0.0), (0.95, 1.644_853_626_951)] {
+                let value = quantile(&prior, &one, share);
+                assert!((value - prior.value(mean + z * sd)).abs() < 1e-9, "{value} at {share}");
+            }
+        }
+        // far apart: a quarter of all is half of the lower one's
+        let two = [normal(-3.0, 0.1, 0.5), normal(4.0, 0.1, 0.5)];
+        for (share, u) in [(0.25, -3.0), (0.75, 4.0)] {
+            assert!((quantile(&prior, &two, share) - prior.value(u)).abs() < 1e-9);
+        }
+    }
+}

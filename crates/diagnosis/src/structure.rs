@@ -236,3 +236,27 @@ fn lags(longest: f64) -> Vec<f64> {
     let of = |k: usize| SHORTEST * longest * (LONGEST / SHORTEST).powf(k as f64 / (LAGS - 1) as f64);
     (0..LAGS).map(of).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_what_accumulates_grows_and_what_settles_falls() {
+        let time: Vec<f64> = (0..101).map(|n| 500.0 + 10.0 * f64::from(n)).collect();
+        let level: Vec<f64> = (0..101).map(|n| (f64::from(n) / 8.0).sin()).collect();
+        let state = State { rate: vec![0.0; level.len()], level };
+        let reach = Reach { level: [-1.0, 1.0], rate: [0.0; 2], longest: 1000.0, together: 1000.0 };
+        let all = bases(Structure::Accumulation, &time, &state, &reach, &[]);
+        let [Basis { at: None, share: 1.0, functions }] = &all[..] else { panic!("one set of functions") };
+        let [wandered, elapsed, fast, slow] = &functions[..] else { panic!("four functions") };
+        let way: f64 = state.level.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
+        assert!((wandered[100] - way).abs() < 1e-12 && wandered[0] == 0.0 && wandered.is_sorted(), "{wandered:?}");
+        assert_eq!((elapsed[0], elapsed[100]), (0.0, 1000.0));
+        for (settling, after) in [(fast, 100.0), (slow, 300.0)] {
+            let at = |t: f64| settling[(t / 10.0) as usize];
+            assert!((at(0.0) - 1.0).abs() < 1e-12 && (at(after) - (-1.0_f64).exp()).abs() < 1e-12, "{settling:?}");
+            assert!((at(2.0 * after) - (-2.0_f64).exp()).abs() < 1e-12);
+        }
+    }
+}

@@ -37,6 +37,22 @@ fn the_law_that_made_a_record_is_composed_with_its_size() {
 }
 
 #[test]
+fn a_law_is_found_at_any_scale_of_its_size() {
+    for scale in [1e-6, 1.0, 1e6] {
+        let lines = Lines::new(ROWS).starting_at(scale).sized(scale);
+        let mut random = SmallRng::seed_from_u64(6);
+        let noise = Normal::new(0.0, WHITE).expect("a density");
+        let y: Vec<f64> = lines.column(1).iter().map(|x| 1.5 * scale * x + noise.sample(&mut random)).collect();
+        let observed = [lines.observed(&y)];
+        let nothing = fitted(&lines, &[0], &observed, &[Hypothesis::NOMINAL]).expect("a fit");
+        let found = compose(&lines, 0..2, &[0], &observed, &nothing, &|_| ()).expect("composed").expect("a law");
+        assert_eq!(found.fit.hypothesis.mechanisms, [(1, None)], "{scale}");
+        let estimate = &found.fit.estimates(&lines, 0)[0];
+        assert!(estimate.ci90[0] < 1.5 * scale && 1.5 * scale < estimate.ci90[1], "{scale}: {estimate:?}");
+    }
+}
+
+#[test]
 fn a_law_in_the_place_of_a_mechanism_is_behind_by_what_the_record_tells() {
     // the second mechanism made the record: another one with its own column stands for it, the first does not
     let (lines, observed, _) = record(1.5, 5);

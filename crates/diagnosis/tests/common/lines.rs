@@ -10,6 +10,8 @@ pub(crate) const WHITE: f64 = 0.5;
 /// Standard deviation of a size beforehand.
 pub(crate) const PRIOR_SD: f64 = 2.0;
 const STEP_S: f64 = 30.0;
+/// Sizes beyond so many times their order are refused, as a coil's model refuses the impossible.
+const MOST: f64 = 1000.0;
 /// A spread of the noise's priors that hardly lets it move.
 const KNOWN: f64 = 1e-4;
 const TINY: f64 = 1e-9;
@@ -19,6 +21,7 @@ pub(crate) struct Lines {
     mechanisms: Vec<Omission>,
     state: State,
     unit: f64,
+    scale: f64,
     power: i32,
 }
 
@@ -49,6 +52,7 @@ impl Lines {
             mechanisms: vec![mechanism("wave"), mechanism("bend")],
             state: State { level: vec![0.0; rows], rate: vec![0.0; rows] },
             unit,
+            scale: 1.0,
             power: 1,
         }
     }
@@ -63,6 +67,20 @@ impl Lines {
     /// The same where fits start from a size.
     pub(crate) fn starting_at(mut self, size: f64) -> Self {
         self.mechanisms.iter_mut().for_each(|mechanism| mechanism.starts = vec![vec![size]]);
+        self
+    }
+
+    /// The same in another state.
+    pub(crate) fn in_state(self, state: State) -> Self {
+        Self { state, ..self }
+    }
+
+    /// The same where a size is of the order of `scale`, may be far larger, and acts in proportion to that order.
+    pub(crate) fn sized(mut self, scale: f64) -> Self {
+        self.scale = scale;
+        self.mechanisms
+            .iter_mut()
+            .for_each(|mechanism| mechanism.parameters = vec![Parameter::new("size", Prior::Size { scale })]);
         self
     }
 
@@ -89,7 +107,7 @@ impl Lines {
         let rows = self.state.level.len();
         let of = |n: usize| {
             let x = n as f64 / rows as f64;
-            self.unit * if mechanism == 0 { (7.0 * x).sin() } else { (7.0 * x).sin() + x * x }
+            self.unit / self.scale * if mechanism == 0 { (7.0 * x).sin() } else { (7.0 * x).sin() + x * x }
         };
         (0..rows).map(of).collect()
     }
@@ -115,6 +133,9 @@ impl ForwardModel for Lines {
     fn respond(&self, _: usize, _: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
         let mut y = vec![0.0; self.state.level.len()];
         for active in active {
+            if active.values[0].abs() > MOST * self.scale {
+                return Err(format!("a size of {}", active.values[0]).into());
+            }
             y.iter_mut()
                 .zip(self.column(active.choice.map_or(active.mechanism, |c| c as usize)))
                 .for_each(|(y, x)| *y += active.values[0].powi(self.power) * x);

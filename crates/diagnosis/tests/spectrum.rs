@@ -1,0 +1,79 @@
+//! Coherence of a residual with the state, of series whose coherence is known.
+
+use crate::common::lines::Lines;
+use crate::common::normal;
+use diagnosis::{Hypothesis, Spectrum, State, fitted};
+
+const ROWS: usize = 2000;
+
+/// A white series.
+fn white(seed: u64) -> Vec<f64> {
+    let mut normal = normal(seed);
+    (0..ROWS).map(|_| normal()).collect()
+}
+
+/// Changes from row to row.
+fn changes(series: &[f64]) -> Vec<f64> {
+    std::iter::once(0.0).chain(series.windows(2).map(|pair| pair[1] - pair[0])).collect()
+}
+
+/// Coherence of `y` with the state.
+fn spectra(state: &State, y: &[f64]) -> Vec<Spectrum> {
+    let lines = Lines::new(ROWS).in_state(state.clone());
+    let observed = lines.observed(y);
+    let fit = fitted(&lines, &[0], std::slice::from_ref(&observed), &[Hypothesis::NOMINAL]).expect("a fit");
+    fit.in_frequency(&lines, (0, 0), 0, &observed)
+}
+
+/// Values of one of the three coherences.
+fn of(spectra: &[Spectrum], k: usize) -> Vec<f64> {
+    spectra.iter().map(|s| s.coherence[k]).collect()
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+#[test]
+fn a_late_copy_is_coherent_and_other_noise_is_not() {
+    let state = State { level: white(1), rate: white(2) };
+    let late: Vec<f64> = (0..ROWS).map(|k| 3.0 * state.level[k.saturating_sub(2)]).collect();
+    let spectra = spectra(&state, &late);
+    assert!(!spectra.is_empty());
+    assert!(of(&spectra, 0).iter().all(|c| (0.95..=1.0 + 1e-12).contains(c)), "{spectra:?}");
+    // noise of nine segments, half overlapping: a ninth and little more, and above the threshold once in twenty
+    for k in [1, 2] {
+        let others = of(&spectra, k);
+        assert!((0.06..0.2).contains(&mean(&others)), "{others:?}");
+    }
+}
+
+#[test]
+fn a_residual_like_the_change_of_the_rate_is_coherent_with_that() {
+    let state = State { level: white(3), rate: white(4) };
+    let spectra = spectra(&state, &changes(&state.rate));
+    assert!(of(&spectra, 2).iter().all(|c| (0.99..=1.0 + 1e-12).contains(c)), "{spectra:?}");
+    assert!(mean(&of(&spectra, 0)) < 0.2, "{spectra:?}");
+}
+
+#[test]
+fn noise_exceeds_the_threshold_once_in_twenty() {
+    let mut above = Vec::new();
+    for seed in 0..24 {
+        let state = State { level: white(100 + 3 * seed), rate: white(101 + 3 * seed) };
+        for s in spectra(&state, &white(102 + 3 * seed)) {
+            above.extend([s.coherence[0], s.coherence[1]].map(|c| f64::from(u8::from(c > s.threshold))));
+        }
+    }
+    let share = mean(&above);
+    assert!((0.03..0.08).contains(&share), "{share} of {}", above.len());
+}
+
+#[test]
+fn a_short_record_has_no_spectrum() {
+    let rows = 300;
+    let lines = Lines::new(rows);
+    let observed = lines.observed(&white(5)[..rows]);
+    let fit = fitted(&lines, &[0], std::slice::from_ref(&observed), &[Hypothesis::NOMINAL]).expect("a fit");
+    assert!(fit.in_frequency(&lines, (0, 0), 0, &observed).is_empty());
+}
