@@ -2,7 +2,7 @@
 
 use crate::common::lines::{Lines, WHITE, alone};
 use diagnosis::{
-    Active, Breadth, Channel, Earlier, Fit, ForwardModel, Hypothesis, Nuisance, Observation, Omission, State, compose,
+    Active, Breadth, Channel, Earlier, Fit, ForwardModel, Hypothesis, Nuisance, Observation, Omission, Settings, State, compose,
     compose_within, fitted, in_place_of, prove, proven,
 };
 use rand::SeedableRng;
@@ -66,6 +66,18 @@ fn a_law_in_the_place_of_a_mechanism_is_behind_by_what_the_record_tells() {
     let best = of(0..2);
     assert_eq!(best.hypothesis.mechanisms, [(1, None)]);
     assert_eq!(other.hypothesis.mechanisms, [(0, None)]);
+}
+
+#[test]
+fn exact_laws_share_the_probability_of_the_unknown() {
+    let lines = Lines::new(ROWS);
+    for settings in [Settings::default(), Settings { unknown: 0.3, single: 0.2, ..Settings::default() }] {
+        let by_itself = settings.log_unlisted(&lines, &Hypothesis::NOMINAL);
+        // half of the unknown is of laws, one or two of them; of two mechanisms each has half of what all have
+        assert!((by_itself - (settings.unknown / 4.0).ln()).abs() < 1e-12, "{by_itself}");
+        let beside = settings.log_unlisted(&lines, &alone(1));
+        assert!((beside - by_itself - (settings.single / 2.0).ln()).abs() < 1e-12, "{beside}");
+    }
 }
 
 #[test]
