@@ -17,6 +17,8 @@ const RUNNER: [&str; 2] = ["cargo-mutants", "27.1.0"];
 const TESTER: [&str; 2] = ["cargo-nextest", "0.9.151"];
 /// Without the part that fetches new versions of itself.
 const TESTER_FLAGS: [&str; 3] = ["--no-default-features", "--features", "default-no-update"];
+/// Crates whose tests share a model that takes longer to make than the tests take: one process for all.
+const TOGETHER: [&str; 1] = ["mechanisms"];
 const PAGE: &str = "docs/trust.md";
 const MARKS: [&str; 2] = ["<!-- mutants: written by `cargo xtask mutants` -->", "<!-- mutants end -->"];
 /// Outcomes by crate and mutant, kept from run to run.
@@ -51,10 +53,24 @@ pub(crate) struct Mutants {
     /// The part, from 0
     #[arg(long, value_name = "N", default_value_t = 0)]
     part: usize,
+    /// Try again what was missed and is not argued away, after tests were written
+    #[arg(long, conflicts_with_all = ["parts", "part"])]
+    missed: bool,
 }
 
-/// Caught or not, by mutant, by crate.
-type Outcomes = BTreeMap<String, BTreeMap<String, bool>>;
+/// Outcome of a mutant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Outcome {
+    /// A test failed, or took for ever, when it was first tried.
+    Caught,
+    /// A test that was written since fails.
+    CaughtSince,
+    Missed,
+}
+
+/// Outcomes by mutant, by crate.
+type Outcomes = BTreeMap<String, BTreeMap<String, Outcome>>;
 
 impl Mutants {
     pub(crate) fn run(&self) -> Result<bool, Failure> {
@@ -66,19 +82,36 @@ impl Mutants {
         }
         let kept = root().join(KEPT);
         let mut outcomes: Outcomes = if kept.exists() { serde_json::from_str(&read(&kept)?)? } else { Outcomes::new() };
+        let reasons = read(&root().join(ARGUED))?;
+        let argued = argued(&reasons);
         for (name, share) in CRATES.iter().filter(|(name, _)| self.crates.is_empty() || self.crates.iter().any(|c| c == name)) {
-            let tried = tried(name, self.part * share, self.parts * share)?;
             let known = outcomes.entry((*name).into()).or_default();
+            let which = if self.missed {
+                let missed = known
+                    .iter()
+                    .filter(|(mutant, outcome)| **outcome == Outcome::Missed && !argued.contains_key(mutant.as_str()));
+                missed.flat_map(|(mutant, _)| ["--re".to_owned(), format!("^{}$", regex_of(mutant))]).collect()
+            } else {
+                ["--sharding", "round-robin", "--shard", &format!("{}/{}", self.part * share, self.parts * share)]
+                    .map(str::to_owned)
+                    .to_vec()
+            };
+            if which.is_empty() {
+                continue;
+            }
             // lines move: a run of all leaves nothing of the runs before it
-            if self.parts == 1 {
+            if self.parts == 1 && !self.missed {
                 known.clear();
             }
-            known.extend(tried);
+            for (mutant, outcome) in tried(name, &which)? {
+                let before = known.get(&mutant).copied();
+                let since = outcome == Outcome::Caught && matches!(before, Some(Outcome::Missed | Outcome::CaughtSince));
+                known.insert(mutant, if since { Outcome::CaughtSince } else { outcome });
+            }
             write(&kept, &(serde_json::to_string_pretty(&outcomes)? + "\n"))?;
         }
-        let reasons = read(&root().join(ARGUED))?;
         let all = outcomes.keys().map(|name| Ok((name.clone(), all_of(name)?))).collect::<Result<_, Failure>>()?;
-        let (text, sound) = table(&outcomes, &all, &argued(&reasons));
+        let (text, sound) = table(&outcomes, &all, &argued);
         print!("{text}");
         renew(&root().join(PAGE), MARKS, &text)?;
         Ok(sound)
@@ -101,8 +134,14 @@ fn all_of(name: &str) -> Result<usize, Failure> {
     Ok(printed(runner()?.args(["--list", "--colors", "never", "--package", name]))?.lines().count())
 }
 
-/// Outcomes of the mutants of one part of a crate, those aside that do not compile.
-fn tried(name: &str, part: usize, parts: usize) -> Result<BTreeMap<String, bool>, Failure> {
+/// The pattern that a text alone fits.
+fn regex_of(text: &str) -> String {
+    let mark = |c: char| if r"\.+*?()|[]{}^$#&-~".contains(c) { format!("\\{c}") } else { c.to_string() };
+    text.chars().map(mark).collect()
+}
+
+/// Outcomes of some mutants of a crate, those aside that do not compile.
+fn tried(name: &str, which: &[String]) -> Result<BTreeMap<String, Outcome>, Failure> {
     let into: PathBuf = root().join("target/mutants").join(name);
     std::fs::create_dir_all(&into)?;
     let mut runner = runner()?;
@@ -112,15 +151,13 @@ fn tried(name: &str, part: usize, parts: usize) -> Result<BTreeMap<String, bool>
             "--colors",
             "never",
             "--test-tool",
-            "nextest",
-            "--sharding",
-            "round-robin",
+            if TOGETHER.contains(&name) { "cargo" } else { "nextest" },
             "--package",
             name,
             "--output",
         ])
         .arg(&into);
-    let status = runner.arg("--shard").arg(format!("{part}/{parts}")).args(["--", "--lib", "--tests"]).status()?;
+    let status = runner.args(which).args(["--", "--lib", "--tests"]).status()?;
     if !status.code().is_some_and(|code| TRIED.contains(&code)) {
         return Err(Failure(format!("the mutants of {name} were not tried ({status}): do its tests pass unchanged?")));
     }
@@ -128,13 +165,13 @@ fn tried(name: &str, part: usize, parts: usize) -> Result<BTreeMap<String, bool>
 }
 
 /// Mutants of the runner's report that were caught (a test failed, or took for ever) or missed.
-fn of_report(path: &Path) -> Result<BTreeMap<String, bool>, Failure> {
+fn of_report(path: &Path) -> Result<BTreeMap<String, Outcome>, Failure> {
     let report: Value = serde_json::from_str(&read(path)?)?;
     let of = |outcome: &Value| {
         let name = outcome["scenario"]["Mutant"]["name"].as_str()?.to_owned();
         match outcome["summary"].as_str()? {
-            "CaughtMutant" | "Timeout" => Some((name, true)),
-            "MissedMutant" => Some((name, false)),
+            "CaughtMutant" | "Timeout" => Some((name, Outcome::Caught)),
+            "MissedMutant" => Some((name, Outcome::Missed)),
             _ => None,
         }
     };
@@ -150,23 +187,26 @@ fn argued(text: &str) -> BTreeMap<&str, &str> {
 /// The table and the survivors; whether enough are caught everywhere.
 fn table(outcomes: &Outcomes, all: &BTreeMap<String, usize>, argued: &BTreeMap<&str, &str>) -> (String, bool) {
     let mut text = String::from(
-        "\n| crate | mutants | tried | caught | argued away | left | caught of all that could be [90 % interval] |\n|---|---|---|---|---|---|---|\n",
+        "\n| crate | mutants | tried | caught | caught by tests written since | argued away | left | caught when first tried, of all that could be [90 % interval] |\n\
+         |---|---|---|---|---|---|---|---|\n",
     );
     let (mut sound, mut left) = (true, BTreeSet::new());
     for (name, _) in CRATES {
         let Some(tried) = outcomes.get(name) else { continue };
-        let missed: Vec<&str> = tried.iter().filter(|(_, caught)| !**caught).map(|(mutant, _)| mutant.as_str()).collect();
-        let survivors: Vec<&str> = missed.iter().copied().filter(|mutant| !argued.contains_key(mutant)).collect();
-        let caught = tried.len() - missed.len();
-        let Some(share) = rate(caught, caught + survivors.len()) else { continue };
-        sound &= share.value >= CAUGHT;
+        let of =
+            |wanted: Outcome| tried.iter().filter(move |(_, outcome)| **outcome == wanted).map(|(mutant, _)| mutant.as_str());
+        let (caught, since) = (of(Outcome::Caught).count(), of(Outcome::CaughtSince).count());
+        let (argued, survivors): (Vec<&str>, Vec<&str>) = of(Outcome::Missed).partition(|mutant| argued.contains_key(mutant));
+        let could = caught + since + survivors.len();
+        let Some(share) = rate(caught, could) else { continue };
+        sound &= (caught + since) as f64 >= CAUGHT * could as f64;
         let [low, high] = share.interval.map(|end| 100.0 * end);
         let _ = writeln!(
             text,
-            "| `{name}` | {} | {} | {caught} | {} | {} | {:.1} % [{low:.1} to {high:.1} %] |",
+            "| `{name}` | {} | {} | {caught} | {since} | {} | {} | {:.1} % [{low:.1} to {high:.1} %] |",
             all.get(name).copied().unwrap_or_default(),
             tried.len(),
-            missed.len() - survivors.len(),
+            argued.len(),
             survivors.len(),
             100.0 * share.value
         );
@@ -199,10 +239,25 @@ mod tests {
         let all = BTreeMap::from([("bias".to_owned(), 40)]);
         let (text, sound) = table(&outcomes, &all, &argued("b :: no result depends on it\nno line of this kind"));
         assert!(
-            text.contains("| `bias` | 40 | 4 | 2 | 1 | 1 | 66.7 % [") && text.contains("- `e`") && !text.contains("- `b`"),
+            text.contains("| `bias` | 40 | 4 | 2 | 0 | 1 | 1 | 66.7 % [") && text.contains("- `e`") && !text.contains("- `b`"),
             "{text}"
         );
         assert!(!sound);
         assert!(table(&outcomes, &all, &argued("b :: x\ne :: y")).1);
+        // a test written since catches it: nothing is left, and the share of those first tried stays
+        let mut since = outcomes;
+        since.values_mut().for_each(|tried| drop(tried.insert("e".into(), Outcome::CaughtSince)));
+        let (text, sound) = table(&since, &all, &argued("b :: no result depends on it"));
+        assert!(text.contains("| `bias` | 40 | 4 | 2 | 1 | 1 | 0 | 66.7 % [") && sound, "{text}");
+    }
+
+    #[test]
+    fn a_mutant_is_found_by_its_own_pattern_alone() {
+        let name = "crates/a/src/b.rs:22:71: replace * with / in C<'_>::d -> Option<f64>";
+        let pattern = regex_of(name);
+        assert!(
+            pattern.ends_with(r"replace \* with / in C<'_>::d \-> Option<f64>") && pattern.starts_with(r"crates/a/src/b\.rs:22"),
+            "{pattern}"
+        );
     }
 }
