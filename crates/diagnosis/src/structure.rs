@@ -242,6 +242,17 @@ mod tests {
     use super::*;
 
     #[test]
+    fn exact_hats_add_up_to_one_and_peak_in_turn() {
+        let x: Vec<f64> = (0..=60).map(|n| -2.0 + 5.0 * f64::from(n) / 60.0).collect();
+        let hats = hats(&x, [-2.0, 3.0], 6);
+        assert_eq!(hats.len(), 6);
+        (0..x.len()).for_each(|n| assert!((hats.iter().map(|hat| hat[n]).sum::<f64>() - 1.0).abs() < 1e-12));
+        (0..6).for_each(|k| assert!((hats[k][12 * k] - 1.0).abs() < 1e-12));
+        // of a level that never moves there are none
+        assert!(super::hats(&x, [1.0, 1.0], 6).is_empty());
+    }
+
+    #[test]
     fn exact_what_accumulates_grows_and_what_settles_falls() {
         let time: Vec<f64> = (0..101).map(|n| 500.0 + 10.0 * f64::from(n)).collect();
         let level: Vec<f64> = (0..101).map(|n| (f64::from(n) / 8.0).sin()).collect();

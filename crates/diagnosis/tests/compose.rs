@@ -39,7 +39,7 @@ fn the_law_that_made_a_record_is_composed_with_its_size() {
 #[test]
 fn a_law_is_found_at_any_scale_of_its_size() {
     for scale in [1e-6, 1.0, 1e6] {
-        let lines = Lines::new(ROWS).starting_at(scale).sized(scale);
+        let lines = Lines::new(ROWS).sized([scale; 2], 1.0);
         let mut random = SmallRng::seed_from_u64(6);
         let noise = Normal::new(0.0, WHITE).expect("a density");
         let y: Vec<f64> = lines.column(1).iter().map(|x| 1.5 * scale * x + noise.sample(&mut random)).collect();
@@ -49,6 +49,28 @@ fn a_law_is_found_at_any_scale_of_its_size() {
         assert_eq!(found.fit.hypothesis.mechanisms, [(1, None)], "{scale}");
         let estimate = &found.fit.estimates(&lines, 0)[0];
         assert!(estimate.ci90[0] < 1.5 * scale && 1.5 * scale < estimate.ci90[1], "{scale}: {estimate:?}");
+    }
+}
+
+/// Far more than a size usually is, in noise that hardly tells the two laws apart: the law that is tried is the one of the two that explains more,
+/// whatever the units of the sizes.
+#[test]
+fn the_law_to_try_is_chosen_in_any_units() {
+    const FAR: f64 = 30.0;
+    const EFFECT: f64 = 0.015;
+    let mut random = SmallRng::seed_from_u64(2);
+    let noise = Normal::new(0.0, WHITE).expect("a density");
+    let noise: Vec<f64> = (0..ROWS).map(|_| noise.sample(&mut random)).collect();
+    for scales in [[1.0, 1.0], [1e-6, 1e6], [1e6, 1e-6]] {
+        let lines = Lines::new(ROWS).sized(scales, EFFECT);
+        for law in 0..2 {
+            let y: Vec<f64> = lines.column(law).iter().zip(&noise).map(|(x, n)| FAR * scales[law] * x + n).collect();
+            let observed = [lines.observed(&y)];
+            let nothing = fitted(&lines, &[0], &observed, &[Hypothesis::NOMINAL]).expect("a fit");
+            let breadth = Breadth { followed: 1, ..Breadth::default() };
+            let found = compose_within(&lines, 0..2, &[0], &observed, &nothing, breadth, &|_| ()).expect("composed");
+            assert_eq!(found.expect("a law").fit.hypothesis.mechanisms, [(law, None)], "{scales:?}");
+        }
     }
 }
 

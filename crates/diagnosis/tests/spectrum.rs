@@ -2,7 +2,7 @@
 
 use crate::common::lines::Lines;
 use crate::common::normal;
-use diagnosis::{Hypothesis, Spectrum, State, fitted};
+use diagnosis::{Hypothesis, Observation, Spectrum, State, fitted};
 
 const ROWS: usize = 2000;
 
@@ -12,15 +12,15 @@ fn white(seed: u64) -> Vec<f64> {
     (0..ROWS).map(|_| normal()).collect()
 }
 
-/// Changes from row to row.
-fn changes(series: &[f64]) -> Vec<f64> {
-    std::iter::once(0.0).chain(series.windows(2).map(|pair| pair[1] - pair[0])).collect()
+/// Instants at even steps, or where every third step is twice as long.
+fn instants(even: bool) -> Vec<f64> {
+    (0..ROWS).map(|n| 30.0 * (n + if even { 0 } else { n / 3 }) as f64).collect()
 }
 
 /// Coherence of `y` with the state.
-fn spectra(state: &State, y: &[f64]) -> Vec<Spectrum> {
+fn spectra(state: &State, y: &[f64], time: Vec<f64>) -> Vec<Spectrum> {
     let lines = Lines::new(ROWS).in_state(state.clone());
-    let observed = lines.observed(y);
+    let observed = Observation { time, channels: vec![y.to_vec()] };
     let fit = fitted(&lines, &[0], std::slice::from_ref(&observed), &[Hypothesis::NOMINAL]).expect("a fit");
     fit.in_frequency(&lines, (0, 0), 0, &observed)
 }
@@ -38,7 +38,7 @@ fn mean(values: &[f64]) -> f64 {
 fn a_late_copy_is_coherent_and_other_noise_is_not() {
     let state = State { level: white(1), rate: white(2) };
     let late: Vec<f64> = (0..ROWS).map(|k| 3.0 * state.level[k.saturating_sub(2)]).collect();
-    let spectra = spectra(&state, &late);
+    let spectra = spectra(&state, &late, instants(true));
     assert!(!spectra.is_empty());
     assert!(of(&spectra, 0).iter().all(|c| (0.95..=1.0 + 1e-12).contains(c)), "{spectra:?}");
     // noise of nine segments, half overlapping: a ninth and little more, and above the threshold once in twenty
@@ -51,7 +51,10 @@ fn a_late_copy_is_coherent_and_other_noise_is_not() {
 #[test]
 fn a_residual_like_the_change_of_the_rate_is_coherent_with_that() {
     let state = State { level: white(3), rate: white(4) };
-    let spectra = spectra(&state, &changes(&state.rate));
+    let time = instants(false);
+    let by_time = |(pair, t): (&[f64], &[f64])| (pair[1] - pair[0]) / (t[1] - t[0]);
+    let changes: Vec<f64> = std::iter::once(0.0).chain(state.rate.windows(2).zip(time.windows(2)).map(by_time)).collect();
+    let spectra = spectra(&state, &changes, time);
     assert!(of(&spectra, 2).iter().all(|c| (0.99..=1.0 + 1e-12).contains(c)), "{spectra:?}");
     assert!(mean(&of(&spectra, 0)) < 0.2, "{spectra:?}");
 }
@@ -61,7 +64,7 @@ fn noise_exceeds_the_threshold_once_in_twenty() {
     let mut above = Vec::new();
     for seed in 0..24 {
         let state = State { level: white(100 + 3 * seed), rate: white(101 + 3 * seed) };
-        for s in spectra(&state, &white(102 + 3 * seed)) {
+        for s in spectra(&state, &white(102 + 3 * seed), instants(true)) {
             above.extend([s.coherence[0], s.coherence[1]].map(|c| f64::from(u8::from(c > s.threshold))));
         }
     }

@@ -21,7 +21,8 @@ pub(crate) struct Lines {
     mechanisms: Vec<Omission>,
     state: State,
     unit: f64,
-    scale: f64,
+    scales: [f64; 2],
+    effect: f64,
     power: i32,
 }
 
@@ -52,7 +53,8 @@ impl Lines {
             mechanisms: vec![mechanism("wave"), mechanism("bend")],
             state: State { level: vec![0.0; rows], rate: vec![0.0; rows] },
             unit,
-            scale: 1.0,
+            scales: [1.0; 2],
+            effect: 1.0,
             power: 1,
         }
     }
@@ -75,12 +77,13 @@ impl Lines {
         Self { state, ..self }
     }
 
-    /// The same where a size is of the order of `scale`, may be far larger, and acts in proportion to that order.
-    pub(crate) fn sized(mut self, scale: f64) -> Self {
-        self.scale = scale;
-        self.mechanisms
-            .iter_mut()
-            .for_each(|mechanism| mechanism.parameters = vec![Parameter::new("size", Prior::Size { scale })]);
+    /// The same where sizes are of the order of `scales` and may be far larger; one of that order has so much of the effect.
+    pub(crate) fn sized(mut self, scales: [f64; 2], effect: f64) -> Self {
+        (self.scales, self.effect) = (scales, effect);
+        for (mechanism, scale) in self.mechanisms.iter_mut().zip(scales) {
+            mechanism.parameters = vec![Parameter::new("size", Prior::Size { scale })];
+            mechanism.starts = vec![vec![scale]];
+        }
         self
     }
 
@@ -107,7 +110,8 @@ impl Lines {
         let rows = self.state.level.len();
         let of = |n: usize| {
             let x = n as f64 / rows as f64;
-            self.unit / self.scale * if mechanism == 0 { (7.0 * x).sin() } else { (7.0 * x).sin() + x * x }
+            self.unit * self.effect / self.scales[mechanism]
+                * if mechanism == 0 { (7.0 * x).sin() } else { (7.0 * x).sin() + x * x }
         };
         (0..rows).map(of).collect()
     }
@@ -133,7 +137,7 @@ impl ForwardModel for Lines {
     fn respond(&self, _: usize, _: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
         let mut y = vec![0.0; self.state.level.len()];
         for active in active {
-            if active.values[0].abs() > MOST * self.scale {
+            if active.values[0].abs() > MOST * self.scales[active.mechanism.min(1)] {
                 return Err(format!("a size of {}", active.values[0]).into());
             }
             y.iter_mut()
