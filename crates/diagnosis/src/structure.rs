@@ -253,6 +253,16 @@ mod tests {
     }
 
     #[test]
+    fn exact_jumps_are_where_a_series_changes_the_largest_first() {
+        let time: Vec<f64> = (0..400).map(|n| 100.0 + 30.0 * f64::from(n)).collect();
+        let mut series: Vec<f64> =
+            (0..400).map(|n| 5.0 + if n >= 120 { 1.0 } else { 0.0 } - if n >= 300 { 3.0 } else { 0.0 }).collect();
+        series[50] = f64::NAN;
+        let found = jumps(&time, &series);
+        assert_eq!(found[..2], [time[300], time[120]], "{found:?}");
+    }
+
+    #[test]
     fn exact_what_accumulates_grows_and_what_settles_falls() {
         let time: Vec<f64> = (0..101).map(|n| 500.0 + 10.0 * f64::from(n)).collect();
         let level: Vec<f64> = (0..101).map(|n| (f64::from(n) / 8.0).sin()).collect();
