@@ -5,6 +5,7 @@ mod compose;
 mod elsewhere;
 mod exact_evidence;
 mod hidden;
+mod kept;
 mod real_recordings;
 mod rivals;
 mod sampled;

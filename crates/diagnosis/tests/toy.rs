@@ -5,13 +5,13 @@ use diagnosis::{
     Parameter, Prior, Role, Ruling, Settings, State, Structure, Verdict, diagnose,
 };
 
-const ROWS: usize = 600;
+pub(crate) const ROWS: usize = 600;
 const STEP_S: f64 = 30.0;
 
 /// Number of the mechanism that stands for the constant, where a bath has it.
 const FACTOR: usize = 2;
 
-struct Bath {
+pub(crate) struct Bath {
     channels: Vec<Channel>,
     nuisances: Vec<Nuisance>,
     mechanisms: Vec<Omission>,
@@ -26,7 +26,7 @@ fn mechanism(id: &str, stage: &str, parameters: Vec<Parameter>, start: Vec<f64>)
 
 impl Bath {
     /// Two courses of the bath: one to fit, one to judge.
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let time: Vec<f64> = (0..ROWS).map(|n| STEP_S * n as f64).collect();
         let course = |fast: f64| {
             let level: Vec<f64> = time.iter().map(|t| 20.0 * (t / 2000.0).sin() + 15.0 * (fast * t / 2000.0).sin()).collect();
@@ -54,7 +54,11 @@ impl Bath {
         }
     }
 
-    fn truth(&self, record: usize, mechanism: Option<(usize, f64)>) -> Vec<f64> {
+    pub(crate) fn level(&self, record: usize) -> &[f64] {
+        &self.states[record].level
+    }
+
+    pub(crate) fn truth(&self, record: usize, mechanism: Option<(usize, f64)>) -> Vec<f64> {
         let active: Vec<Active> =
             mechanism.map(|(mechanism, value)| Active { mechanism, values: vec![value], choice: None }).into_iter().collect();
         self.respond(record, &[1.0, 1.0], &active).expect("a response").remove(0)
@@ -133,7 +137,7 @@ fn noise(seed: u64) -> Vec<f64> {
         .collect()
 }
 
-fn observed(bath: &Bath, y: &[f64], seed: u64) -> Observation {
+pub(crate) fn observed(bath: &Bath, y: &[f64], seed: u64) -> Observation {
     let y = y.iter().zip(noise(seed)).map(|(y, n)| y + n + 0.4).collect();
     Observation { time: bath.time.clone(), channels: vec![y] }
 }
