@@ -48,6 +48,21 @@ fn readings_of_a_slower_logger_are_used_once() {
     }
 }
 
+/// Neighbours of a reading are those of the slower logger, many rows away.
+#[test]
+fn a_wrong_reading_of_a_slower_logger_is_masked() {
+    const EVERY: usize = 12;
+    let mut sample = sound(3, 0.01);
+    sample.temperature = repeated(&sample.temperature, EVERY as f64);
+    let wrong = 40 * EVERY..41 * EVERY;
+    sample.temperature[wrong.clone()].iter_mut().for_each(|value| *value += 3.0);
+    let report = sample.report_of(&held_for(f64::INFINITY));
+    let found: Vec<&Finding> = report.findings.iter().filter(|f| matches!(f.kind, FindingKind::Outliers(_))).collect();
+    let [Finding { kind: FindingKind::Outliers(largest), rows: 1, .. }] = found[..] else { panic!("{:?}", report.findings) };
+    assert!((largest.abs() - 3.0).abs() < 0.3, "{largest}");
+    assert!(wrong.clone().all(|row| !report.masks[0][row]));
+}
+
 #[test]
 fn a_mean_that_is_repeated_leaves_the_rows_in_which_it_is_new() {
     let sound = sound(4, 0.01);
