@@ -362,6 +362,48 @@ fn units_and_offsets() {
     );
 }
 
+/// Rates that no resting gyroscope reports: a few are outliers, more say that it was moved.
+#[test]
+fn rates_of_a_gyroscope_that_was_moved_are_an_error() {
+    let moved = |rows: std::ops::Range<usize>| {
+        altered(|s| s.rate[rows].iter_mut().enumerate().for_each(|(k, rate)| *rate += 5000.0 - 40.0 * k as f64)).report()
+    };
+    let found = |report: &Report| {
+        let moving = report.findings.iter().filter_map(|f| match f.kind {
+            FindingKind::Moving { largest, range } => Some((largest.round(), range, f.rows, f.severity)),
+            _ => None,
+        });
+        moving.collect::<Vec<_>>()
+    };
+    let (long, short) = (moved(700..730), moved(700..702));
+    assert_eq!(found(&long), [(5000.0, [-1000.0, 1000.0], 30, Severity::Error)], "{:?}", long.findings);
+    assert!((700..730).all(|row| !long.masks[1][row]) && !long.usable());
+    assert_eq!(found(&short), []);
+    assert!(short.usable() && (700..702).all(|row| !short.masks[1][row]));
+}
+
+/// Noise in another unit than expected, of values that are no larger than it: the unit is wrong. Large values beside it are what they seem.
+#[test]
+fn noise_of_a_wrong_size_is_an_error_where_the_values_are_small_too() {
+    let mut expected = expectations();
+    expected.channels[1].least_size = 0.01;
+    for (size, severity) in [(1.0 / 3600.0, Severity::Error), (40.0, Severity::Warning)] {
+        let sample = altered(|s| {
+            let sine = s.time.iter().map(|t| size * 0.3 * (t / 5000.0).sin());
+            let mut random = Random::new(3);
+            s.rate = sine.map(|rate| rate + 1e-5 * random.normal()).collect();
+        });
+        let report = sample.report_of(&expected);
+        let noise: Vec<Severity> = report
+            .findings
+            .iter()
+            .filter(|f| matches!(f.kind, FindingKind::Unit { what: "noise", .. }))
+            .map(|f| f.severity)
+            .collect();
+        assert_eq!(noise, [severity], "{:?}", report.findings);
+    }
+}
+
 #[test]
 fn short_and_misshapen() {
     let cut = |rows: usize| {
