@@ -350,3 +350,19 @@ fn a_mechanism_with_a_name_beside_a_structure_is_accepted_with_its_probability()
     // a ripple alone stands beside nothing
     assert!(!run(&bath, &rippled(0, None, 0.15), 11).is_beside_named(&bath));
 }
+
+#[test]
+fn exact_a_law_takes_its_probability_from_all_others_alike() {
+    let bath = Bath::new();
+    let mut found = run(&bath, &bath.truth(0, Some((0, 45.0))), 71);
+    let before: Vec<f64> = found.candidates.iter().map(|c| c.probability).collect();
+    let verdicts = found.verdicts();
+    // as likely as all that were compared together
+    let weight = found.best().log_weight - found.best().probability.ln();
+    found.weigh_unlisted(weight, &[], 0.0, 0.0);
+    for (c, before) in found.candidates.iter().zip(&before) {
+        assert!((c.probability - before / 2.0).abs() < 1e-9, "{} was {before}", c.probability);
+    }
+    let after = found.verdicts();
+    assert!((after.iter().sum::<f64>() - 1.0).abs() < 1e-9 && (after[3] - (0.5 + verdicts[3] / 2.0)).abs() < 1e-9, "{after:?}");
+}

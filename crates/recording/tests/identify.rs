@@ -47,6 +47,32 @@ fn white_noise_and_drift() {
     assert!(slow.share() >= 0.75, "{}", slow.share());
 }
 
+/// A logger that is a thousand times faster or slower gives the same noise in its own time.
+#[test]
+fn exact_noise_does_not_depend_on_the_unit_of_time() {
+    let cases = [
+        (Term::Drift, NoiseModel { drift: 0.4, drift_time: 5000.0, ..NoiseModel::white(1.0, 30.0) }),
+        (Term::Walk, NoiseModel { walk: 0.004, ..NoiseModel::white(1.0, 30.0) }),
+        (Term::Quantisation, NoiseModel { quantisation: 60.0, ..NoiseModel::white(1.0, 30.0) }),
+    ];
+    for (term, truth) in cases {
+        let values = simulate(&truth, COUNT, &mut Random::new(8));
+        let of = |unit: f64| {
+            let time = even(COUNT, 30.0 * unit);
+            let model = estimate(&time, &values, &Bounds { terms: vec![term], ..Bounds::new(30.0 * unit, &time) }).model;
+            let drift_time = if model.drift > 0.0 { model.drift_time / unit } else { 0.0 };
+            [model.white, model.drift, drift_time, model.walk * unit.sqrt(), model.quantisation / unit]
+        };
+        let own = of(1.0);
+        assert!(own[1] + own[3] + own[4] > 0.0, "{term:?} is found");
+        for unit in [1e-3, 1e3] {
+            for (a, b) in of(unit).into_iter().zip(own) {
+                assert!((a - b).abs() <= 2e-3 * b.abs(), "{term:?} in {unit} s: {:?} {own:?}", of(unit));
+            }
+        }
+    }
+}
+
 /// The error of a number that follows from the noise: of a parameter its own, of its square twice that, of a product with the correlation.
 #[test]
 fn exact_errors_of_derived_numbers() {

@@ -110,5 +110,9 @@ mod tests {
     fn the_series_meets_the_closed_form() {
         let closed = |x: f64| 2.0 / x * (1.0 - (3.0 - 4.0 * (-x).exp() + (-2.0 * x).exp()) / (2.0 * x));
         assert!((drift_allan(0.999e-3) / closed(0.999e-3) - 1.0).abs() < 1e-6);
+        // where the closed form would cancel
+        for x in [1e-12, 1e-8, 1e-6, 1e-5] {
+            assert!((drift_allan(x) / (2.0 * x / 3.0) - 1.0).abs() < 1e-5, "{x}");
+        }
     }
 }
