@@ -73,7 +73,7 @@ fn said(fit: &Fit, bath: &Bath) -> impl Debug + use<> {
         fit.offsets.clone(),
         left,
         fit.posteriors(bath),
-        fit.noise_model(0, 0).clone(),
+        *fit.noise_model(0, 0),
     )
 }
 
