@@ -2,8 +2,8 @@
 
 use crate::common::normal;
 use diagnosis::{
-    Active, Candidate, Channel, ForwardModel, Hypothesis, NoisePrior, Nuisance, Observation, Omission, Parameter, Prior, Role,
-    Settings, State, diagnose_settled, settled,
+    Active, Channel, ForwardModel, NoisePrior, Nuisance, Observation, Omission, Parameter, Prior, Role, Settings, State,
+    diagnose_settled, settled,
 };
 
 const WHITE: f64 = 0.05;
@@ -107,7 +107,6 @@ fn the_constants_alone_are_as_likely_as_about_themselves() {
     let mut settled = settled(&hidden, &[0], &records, &|_| ()).expect("a fit");
     let alone = settled.recalibrated.log_evidence;
     let found = diagnose_settled(&hidden, &mut settled, &[0], &records, &Settings::default(), &|_| ()).expect("a diagnosis");
-    let alone_too = |c: &&Candidate| c.fit.hypothesis == Hypothesis::RECALIBRATED && c.rival.is_none();
-    let constants: Vec<f64> = found.candidates.iter().filter(alone_too).map(|c| c.fit.log_evidence).collect();
+    let constants: Vec<f64> = found.candidates.iter().filter(|c| c.is_constants_alone()).map(|c| c.fit.log_evidence).collect();
     assert!(constants.iter().all(|evidence| (evidence - alone).abs() < 0.5) && !constants.is_empty(), "{constants:?}, {alone}");
 }
