@@ -39,6 +39,12 @@ fn larger(mechanism: usize, about_itself: bool, x: f64) -> f64 {
     if mechanism == LOOKS || about_itself { (5.0 * x).sin() } else { 1.25 * (5.0 * x).sin() }
 }
 
+/// The same of both, but of a shape that is a little worse where it is not rare.
+fn both_larger(mechanism: usize, about_itself: bool, x: f64) -> f64 {
+    let worse = if mechanism == WORKS { -0.003 * (3.0 * x).cos() } else { 0.0 };
+    larger(WORKS, about_itself, x) + worse
+}
+
 fn x() -> impl Iterator<Item = f64> {
     (0..ROWS).map(|n| n as f64 / (ROWS - 1) as f64)
 }
@@ -115,6 +121,23 @@ fn the_size_of_the_likeliest_is_that_of_a_model_about_it() {
     assert_eq!((best.mechanism, settled.model.expect("a model").about), (WORKS, Some(WORKS)));
     assert!((best.values[0] - TRUTH).abs() < 0.1, "{best:?}");
     assert!((found.parameters[0][0].value - TRUTH).abs() < 0.1, "{:?}", found.parameters);
+}
+
+/// The one that led before the comparison is the second in it: its size, too, is that of a model about itself.
+#[test]
+fn whatever_was_followed_counts_as_about_itself() {
+    let (pair, observed) = (Pair::new(both_larger, [0.001, 1.0], None), [observed()]);
+    let mut settled = settled(&pair, &[0], &observed, &|_| ()).expect("a fit");
+    assert_eq!(settled.leading.as_ref().expect("one leads").active[0].mechanism, LOOKS);
+    let found = diagnose_settled(&pair, &mut settled, &[0], &observed, &Settings::default(), &|_| ()).expect("a diagnosis");
+    assert_eq!(found.best().fit.active[0].mechanism, WORKS);
+    let of_one_that_led = found
+        .candidates
+        .iter()
+        .map(|candidate| &candidate.fit)
+        .find(|fit| fit.active.len() == 1 && fit.active[0].mechanism == LOOKS);
+    let size = of_one_that_led.expect("it was compared").active[0].values[0];
+    assert!((size - TRUTH).abs() < 0.1, "{size}");
 }
 
 #[test]

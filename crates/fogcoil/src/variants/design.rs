@@ -60,6 +60,7 @@ impl Variants {
     }
 
     /// A design made of the drawing, with the drawing's text.
+    #[cfg(not(target_family = "wasm"))]
     pub(crate) fn drawing_of(&self, case: CoilCase) -> Drawing {
         Drawing { case, text: self.text.clone() }
     }
