@@ -100,7 +100,7 @@ pub(super) fn tried(chromium: &str, page: &Path, program: &Path) -> Result<Tried
     let text = format!(
         "In {} it opens with all its numbers after {:.1} s; a change takes {slowest:.1} s at most, sensitivity, band and a profile of {rows} rows included, on two cores that other \
          work shares. Over {} designs its numbers and the program's differ by at most {} (lengths of the winding), {sensitivity:.1e} (sensitivity and band) \
-         and {bias:.1e} (bias, of its largest value), relatively; over a recording by {noise:.1e} (sizes of the noise). It asks for nothing.",
+         and {bias:.1e} (bias, of its largest value), relatively; over a recording by {noise:.1e} (sizes of the noise). It makes no network request.",
         browser.version,
         times[0],
         DESIGNS.len(),
