@@ -72,22 +72,21 @@ impl Fit {
         (!columns.is_empty()).then(|| (DMatrix::from_columns(&columns), scales))
     }
 
-    /// The latent inputs of every record, together.
+    /// The latent inputs of the stages that every record has.
     fn latent(
         records: &[usize],
         of: impl Fn(usize) -> Result<Vec<Latent>, Failure>,
     ) -> Result<Vec<(String, Vec<Functions>)>, Error> {
         let mut stages: Vec<(String, Vec<Functions>)> = Vec::new();
-        for (n, record) in records.iter().enumerate() {
+        for record in records {
             for latent in of(*record).map_err(Error::Model)? {
                 match stages.iter_mut().find(|(stage, _)| *stage == latent.stage) {
-                    Some((_, functions)) if functions.len() == n => functions.push(latent.functions),
-                    Some(_) => {}
-                    None if n == 0 => stages.push((latent.stage, vec![latent.functions])),
-                    None => {}
+                    Some((_, functions)) => functions.push(latent.functions),
+                    None => stages.push((latent.stage, vec![latent.functions])),
                 }
             }
         }
+        stages.retain(|(_, functions)| functions.len() == records.len());
         Ok(stages)
     }
 

@@ -162,7 +162,8 @@ pub trait ForwardModel {
     /// State of the nominal system during a record.
     fn state(&self, record: usize) -> &State;
 
-    /// A flexible input at every stage where one can act; without any, a mismatch is not located by stage.
+    /// A flexible input at every stage where one can act, one at each; without any, a mismatch is not located by stage. Of several records those stages
+    /// are compared that each of them has.
     ///
     /// # Errors
     /// The model's error if it cannot respond.

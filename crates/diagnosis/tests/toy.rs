@@ -17,6 +17,8 @@ pub(crate) struct Bath {
     mechanisms: Vec<Omission>,
     states: Vec<State>,
     time: Vec<f64>,
+    /// A record in which nothing can act at a stage.
+    lacking: Option<(usize, &'static str)>,
 }
 
 fn mechanism(id: &str, stage: &str, parameters: Vec<Parameter>, start: Vec<f64>) -> Omission {
@@ -51,6 +53,7 @@ impl Bath {
             ],
             states: vec![course(2.7), course(1.9)],
             time,
+            lacking: None,
         }
     }
 
@@ -109,11 +112,13 @@ impl ForwardModel for Bath {
     fn latent(&self, record: usize) -> Result<Vec<Latent>, diagnosis::Failure> {
         let State { level, rate } = &self.states[record];
         let one = |stage: &str, series: Vec<f64>| Latent { stage: stage.to_owned(), functions: vec![vec![series]] };
-        Ok(vec![
+        let mut stages = vec![
             one("sensor", rate.windows(2).map(|r| r[1] - r[0]).chain([0.0]).collect()),
             one("optics", level.iter().zip(rate).map(|(l, r)| l * r).collect()),
             one("electronics", level.clone()),
-        ])
+        ];
+        stages.retain(|latent| self.lacking.is_none_or(|(of, stage)| of != record || stage != latent.stage));
+        Ok(stages)
     }
 
     /// Two that do the same, and one of its own.
@@ -243,6 +248,11 @@ fn a_mismatch_is_located_over_the_state_and_in_time() {
     let blocks = diagnosis.nominal.in_time(0, 0, &record, judge);
     let most = blocks.iter().max_by(|a, b| a.excess.total_cmp(&b.excess)).expect("blocks");
     assert!(most.significant && most.time[1] > hour.start && most.time[0] < hour.end, "{blocks:?}");
+    // wherever the clock starts
+    let late = |t: &f64| t + 1e6;
+    let later = Observation { time: record.time.iter().map(late).collect(), ..record };
+    let moved = diagnosis.nominal.in_time(0, 0, &later, judge);
+    assert!(moved.iter().zip(&blocks).all(|(m, b)| m.excess == b.excess && m.time == [late(&b.time[0]), late(&b.time[1])]));
 }
 
 #[test]
@@ -254,6 +264,19 @@ fn a_flexible_input_at_the_right_stage_restores_whiteness() {
         assert_eq!(first.stage, stage);
         assert!(first.probability > 0.9 && first.whiteness[0] > 0.01, "{first:?}");
         assert!(others.iter().all(|s| s.gain < first.gain - 5.0), "{others:?}");
+    }
+}
+
+/// A stage is compared with the others where each record has it.
+#[test]
+fn a_stage_that_one_record_lacks_is_left_out() {
+    for lacking in [(0, "electronics"), (1, "electronics")] {
+        let bath = Bath { lacking: Some(lacking), ..Bath::new() };
+        let records = [0, 1].map(|number| observed(&bath, &bath.truth(number, Some((0, 45.0))), 31 + number as u64));
+        let diagnosis = diagnose(&bath, &[0, 1], &records, &Settings::default(), &|_| ()).expect("a diagnosis");
+        let names: Vec<&str> = diagnosis.stages.iter().map(|stage| stage.stage.as_str()).collect();
+        assert_eq!(names, ["sensor", "optics"]);
+        assert!(diagnosis.stages[0].probability > 0.9, "{:?}", diagnosis.stages);
     }
 }
 
