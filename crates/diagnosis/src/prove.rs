@@ -17,8 +17,12 @@ pub struct Proof {
 impl Proof {
     /// Root mean squares of a channel's residuals over all records, each with the same weight: before and after.
     pub fn rmse(&self, channel: usize) -> [f64; 2] {
+        self.over_all(|held| held.rmse[channel])
+    }
+
+    fn over_all(&self, of: impl Fn(&HeldOut) -> f64) -> [f64; 2] {
         [&self.before, &self.after].map(|held| {
-            let squares: f64 = held.iter().map(|held| held.rmse[channel].powi(2)).sum();
+            let squares: f64 = held.iter().map(|held| of(held).powi(2)).sum();
             (squares / held.len().max(1) as f64).sqrt()
         })
     }
@@ -35,7 +39,8 @@ pub fn prove(model: &dyn ForwardModel, before: &Fit, fit: &Fit, held: &[(usize, 
     let mut proof = Proof { before: by(before)?, after: by(fit)?, accepted: false };
     let channels = 0..model.channels().len();
     let better = channels.clone().any(|c| {
-        let [before, after] = proof.rmse(c);
+        // whatever the length of the rows
+        let [before, after] = proof.over_all(|held| held.of_minutes[c]);
         after < BARELY * before
     });
     let mut each = proof.before.iter().zip(&proof.after);

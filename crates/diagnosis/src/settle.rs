@@ -10,7 +10,7 @@ const TASK: &str = "finding the constants about which to compare";
 const ROUNDS: usize = 6;
 /// Rounds after which the likeliest of several starts is followed.
 const TRIED: usize = 2;
-/// Gain of ln evidence by which a mechanism beside the constants leads.
+/// Gain of ln evidence from which a mechanism beside the constants is followed where these are within their tolerances.
 const MATTERS: f64 = 3.0;
 /// Standard deviations from the drawing beyond which a constant may hide a mechanism.
 const STRAINED: f64 = 1.0;
@@ -30,7 +30,8 @@ pub struct Settled<M> {
     pub recalibrated: Fit,
     /// The likeliest mechanism beside the constants, where [`Self::model`] is good about those: where a search begins.
     pub leading: Option<Fit>,
-    /// The mechanism that explains most beside the constants, by its number, and how much ln evidence it gains on them alone, if it leads on them.
+    /// The mechanism that explains most beside the constants, by its number, and how much ln evidence it gains on them alone: little or less than
+    /// nothing if they suffice.
     pub suspect: Option<(usize, f64)>,
 }
 
@@ -54,13 +55,27 @@ impl<M> Settled<M> {
         }
     }
 
-    /// Takes another model, the one about `leading`.
-    pub(crate) fn lead(&mut self, about: M, leading: Fit) {
-        let before = self.model.replace(about);
-        if matches!(self.alone, Alone::Settled) {
-            self.alone = before.map_or(Alone::Given, Alone::Other);
+    /// The same for good; `None` if it is the one given.
+    pub fn into_alone(self) -> Option<M> {
+        match self.alone {
+            Alone::Settled => self.model,
+            Alone::Given => None,
+            Alone::Other(model) => Some(model),
         }
-        self.leading = Some(leading);
+    }
+
+    /// Takes another model, the one about `leading`; gives back what led before, with its model.
+    pub(crate) fn lead(&mut self, about: Option<M>, leading: Fit) -> Option<(Fit, Option<M>)> {
+        let before = std::mem::replace(&mut self.model, about);
+        match self.leading.replace(leading) {
+            Some(led) => Some((led, before)),
+            None => {
+                if matches!(self.alone, Alone::Settled) {
+                    self.alone = before.map_or(Alone::Given, Alone::Other);
+                }
+                None
+            }
+        }
     }
 }
 
@@ -217,7 +232,7 @@ fn candidates(model: &dyn ForwardModel, mechanisms: bool) -> Vec<Hypothesis> {
     named
         .flat_map(|mechanism| {
             let hypotheses = alternatives(model, mechanism);
-            let every = hypotheses.len().div_ceil(CHOICES);
+            let every = hypotheses.len().div_ceil(CHOICES).max(1);
             hypotheses.into_iter().skip(every / 2).step_by(every).collect::<Vec<_>>()
         })
         .collect()

@@ -185,7 +185,7 @@ const JUMPS: usize = 6;
 /// Stretch that is compared before and after a jump \[s\], and the fewest rows of it.
 const BESIDE_JUMP: f64 = 300.0;
 const FEWEST_BESIDE: usize = 3;
-/// Stretch of time for which a jump stands \[s\]: a step may be anywhere.
+/// Stretch of time for which a jump stands \[s\], if a row is not longer: a step may be anywhere.
 const JUMP: f64 = 60.0;
 
 /// Instants at which a step may be, of every record: half of the probability evenly in time, half on all instants, of which those are tried at which the
@@ -196,7 +196,8 @@ pub(crate) fn steps(times: &[&[f64]], residuals: &[&[f64]], reach: &Reach) -> Ve
         let (Some(first), Some(last)) = (time.first(), time.last()) else { continue };
         let even = 0.5 * (last - first) / reach.together / (STEPS - 1) as f64;
         own.extend((1..STEPS).map(|k| (record, first + (last - first) * k as f64 / STEPS as f64, even)));
-        own.extend(jumps(time, residual).into_iter().map(|at| (record, at, 0.5 * JUMP / reach.together)));
+        let stretch = recording::median_interval(time).map_or(JUMP, |row| row.max(JUMP));
+        own.extend(jumps(time, residual).into_iter().map(|at| (record, at, 0.5 * stretch / reach.together)));
     }
     let of = |record: usize| own.iter().map(move |&(r, at, share)| Jump { at: (r == record).then_some(at), share }).collect();
     (0..times.len()).map(of).collect()

@@ -16,8 +16,13 @@ struct Exact {
 
 /// By the dense covariance matrix of the data: another route than the engine's.
 fn exact(columns: &[Vec<f64>], prior_sds: &[f64], y: &[f64]) -> Exact {
-    let a = DMatrix::from_vec(y.len(), columns.len(), columns.concat());
     let prior = DMatrix::from_diagonal(&DVector::from_iterator(prior_sds.len(), prior_sds.iter().map(|sd| sd * sd)));
+    exact_of(columns, prior, y)
+}
+
+/// The same where unknowns go together.
+fn exact_of(columns: &[Vec<f64>], prior: DMatrix<f64>, y: &[f64]) -> Exact {
+    let a = DMatrix::from_vec(y.len(), columns.len(), columns.concat());
     let covariance = &a * &prior * a.transpose() + DMatrix::identity(y.len(), y.len()) * WHITE.powi(2);
     let factor = covariance.cholesky().expect("positive definite");
     let y = DVector::from_column_slice(y);
@@ -89,6 +94,25 @@ proptest! {
         prop_assert!((plain.log_evidence - density).abs() < 1e-6 * (1.0 + density.abs()), "{} {density}", plain.log_evidence);
     }
 
+    /// Two constants that go together, and a mechanism in the place of one of them: then the other is as it is alone.
+    #[test]
+    fn a_constant_that_is_stood_for_says_nothing_of_another(seed in any::<u64>(), correlation in -0.95..0.95_f64, size in -3.0..3.0_f64) {
+        let lines = Lines::with_constants(40, correlation);
+        let y: Vec<f64> = noise(40, seed).iter().zip(lines.column(1)).map(|(e, x)| e + size * x).collect();
+        let columns = [lines.column(0), lines.column(1), vec![1.0; 40]];
+        let mut prior = DMatrix::from_diagonal(&DVector::from_column_slice(&[PRIOR_SD, PRIOR_SD, lines.offset_sd()].map(|sd| sd * sd)));
+        let apart = exact_of(&columns, prior.clone(), &y);
+        (prior[(0, 1)], prior[(1, 0)]) = (correlation * PRIOR_SD.powi(2), correlation * PRIOR_SD.powi(2));
+        let together = exact_of(&columns, prior, &y);
+        let [constants, mechanism] = [Hypothesis::RECALIBRATED, alone(0)].map(|hypothesis| fit(&lines, &y, &hypothesis));
+        let (gain, expected) = (mechanism.log_evidence - constants.log_evidence, apart.log_evidence - together.log_evidence);
+        prop_assert!((gain - expected).abs() < 1e-4 * (1.0 + expected.abs()), "{gain} {expected}");
+        for (fit, exact) in [(&constants, &together), (&mechanism, &apart)] {
+            let sd = exact.covariance[(1, 1)].sqrt();
+            prop_assert!((fit.nuisances[0][1] - exact.mean[1]).abs() < 1e-3 * sd, "{:?} {}", fit.nuisances, exact.mean);
+        }
+    }
+
     #[test]
     fn separation_is_the_distance_of_least_squares(size in 0.5..3.0_f64, every in 1..4_usize) {
         let lines = Lines::new(60);
@@ -107,6 +131,33 @@ proptest! {
         let squared = -2.0 * (exact(&columns, &sds, &response).log_evidence - zero);
         prop_assert!((found.squared / squared - 1.0).abs() < 1e-4, "{} {squared}", found.squared);
         prop_assert!((found.own - (size / PRIOR_SD).powi(2)).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_channel_that_stands_still_is_the_same_in_any_unit() {
+    let of = |unit: f64| {
+        let lines = Lines::in_unit(40, unit).with_any_offset();
+        fit(&lines, &[3.0 * unit; 40], &alone(0)).log_evidence + 40.0 * unit.ln()
+    };
+    assert!((of(1.0) - of(50.0)).abs() < 1e-6, "{} {}", of(1.0), of(50.0));
+}
+
+#[test]
+fn nothing_to_fit_or_to_choose_is_an_error() {
+    let lines = Lines::new(40);
+    let nothing = |said: diagnosis::Error| assert!(said.to_string().contains("at least one"), "{said}");
+    nothing(fitted(&lines, &[], &[], &[alone(0)]).expect_err("no record"));
+    nothing(fitted(&lines, &[0, 0], &[lines.observed(&[0.0; 40])], &[alone(0)]).expect_err("no observation"));
+    nothing(diagnose(&lines, &[], &[], &Settings::default(), &|_| ()).expect_err("no record"));
+    nothing(diagnosis::settled(&lines, &[], &[], &|_| ()).err().expect("no record"));
+    let lines = Lines::with_no_choice(40);
+    let observed = [lines.observed(&noise(40, 1))];
+    for said in [
+        diagnose(&lines, &[0], &observed, &Settings::default(), &|_| ()).expect_err("no choice"),
+        diagnosis::settled(&lines, &[0], &observed, &|_| ()).err().expect("no choice"),
+    ] {
+        assert!(said.to_string().contains("either: nothing to choose"), "{said}");
     }
 }
 

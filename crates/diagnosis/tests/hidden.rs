@@ -109,4 +109,9 @@ fn the_constants_alone_are_as_likely_as_about_themselves() {
     let found = diagnose_settled(&hidden, &mut settled, &[0], &records, &Settings::default(), &|_| ()).expect("a diagnosis");
     let constants: Vec<f64> = found.candidates.iter().filter(|c| c.is_constants_alone()).map(|c| c.fit.log_evidence).collect();
     assert!(constants.iter().all(|evidence| (evidence - alone).abs() < 0.5) && !constants.is_empty(), "{constants:?}, {alone}");
+    // and the model that is left for them is the one about them
+    let of_them = settled.recalibrated.nuisances[0][0];
+    let [leading, alone] = [settled.model.as_ref().expect("a model").about, settled.alone(&hidden).about];
+    assert!((alone - of_them).abs() < 0.1 && (leading - of_them).abs() > 1.0, "{leading}, {alone}, {of_them}");
+    assert_eq!(settled.into_alone().map(|model| model.about), Some(alone));
 }

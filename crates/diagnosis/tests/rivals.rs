@@ -45,6 +45,15 @@ fn both_larger(mechanism: usize, about_itself: bool, x: f64) -> f64 {
     larger(WORKS, about_itself, x) + worse
 }
 
+/// One a quarter too large elsewhere; the other better elsewhere than in a model about itself, and a little better than the first.
+fn better_elsewhere(mechanism: usize, about_itself: bool, x: f64) -> f64 {
+    match mechanism {
+        LOOKS => larger(WORKS, about_itself, x) - 0.003 * (3.0 * x).cos(),
+        _ if about_itself => (5.0 * x).sin() + 0.03 * (14.0 * x).cos(),
+        _ => (5.0 * x).sin(),
+    }
+}
+
 fn x() -> impl Iterator<Item = f64> {
     (0..ROWS).map(|n| n as f64 / (ROWS - 1) as f64)
 }
@@ -138,6 +147,23 @@ fn whatever_was_followed_counts_as_about_itself() {
         .find(|fit| fit.active.len() == 1 && fit.active[0].mechanism == LOOKS);
     let size = of_one_that_led.expect("it was compared").active[0].values[0];
     assert!((size - TRUTH).abs() < 0.1, "{size}");
+}
+
+/// The one that led is likelier than the one that was followed: its model is the one that is left, not that about the other.
+#[test]
+fn the_model_is_that_of_the_likeliest_if_it_led_before() {
+    let (pair, observed) = (Pair::new(better_elsewhere, [1.0; 2], None), [observed()]);
+    let mut settled = settled(&pair, &[0], &observed, &|_| ()).expect("a fit");
+    let led = settled.leading.clone().expect("one leads");
+    assert_eq!(led.active[0].mechanism, LOOKS);
+    // under its model the other seems likelier
+    let about = settled.model.as_ref().expect("a model");
+    let there = diagnosis::diagnose(about, &[0], &observed, &Settings::default(), &|_| ()).expect("a diagnosis");
+    assert_eq!(there.best().fit.active[0].mechanism, WORKS);
+    let found = diagnose_settled(&pair, &mut settled, &[0], &observed, &Settings::default(), &|_| ()).expect("a diagnosis");
+    assert_eq!(found.best().fit.active[0].mechanism, LOOKS);
+    assert_eq!(settled.model.expect("a model").about, Some(LOOKS));
+    assert_eq!(settled.leading.expect("one leads").active, led.active);
 }
 
 #[test]

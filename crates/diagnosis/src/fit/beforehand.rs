@@ -52,3 +52,13 @@ impl Beforehand {
         curvature
     }
 }
+
+/// Precision of the rest where some of the unknowns may have any value: their Schur complement. `None` if that of those is no precision.
+pub(super) fn without(precision: &DMatrix<f64>, unknowns: &[usize]) -> Option<DMatrix<f64>> {
+    if unknowns.is_empty() {
+        return Some(precision.clone());
+    }
+    let beside = precision.select_columns(unknowns);
+    let own: Cholesky<f64, Dyn> = Cholesky::new(beside.select_rows(unknowns))?;
+    Some(precision - &beside * own.solve(&beside.transpose()))
+}

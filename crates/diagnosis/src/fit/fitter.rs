@@ -1,11 +1,11 @@
 //! The quantities to fit, and the result of a fit.
 
-use super::beforehand::Beforehand;
+use super::beforehand::{Beforehand, without};
 use super::derivatives::Derivatives;
 use super::hypothesis::Hypothesis;
 use super::unknowns::{Layout, Unknown, expected};
 use crate::noise::Noise;
-use crate::{Active, Channel, Failure, ForwardModel, Observation, Role};
+use crate::{Active, Channel, Failure, ForwardModel, Observation, Omission, Role};
 use nalgebra::{DMatrix, DVector};
 
 /// A hypothesis at its most probable parameters.
@@ -71,7 +71,8 @@ pub(crate) struct Offset {
     pub(crate) sd: f64,
 }
 
-/// Standard deviation, in those of the recorded channel, that stands for an infinite one: a record cannot tell the two apart.
+/// Standard deviation, in those of the recorded channel or of its noise where it stands still, that stands for an infinite one: a record cannot tell the
+/// two apart.
 const ANYTHING: f64 = 10.0;
 
 impl Offset {
@@ -92,19 +93,31 @@ impl Offset {
         let (mean, _) = moments(&mut recorded.iter().zip(predicted).map(|(y, p)| y - p));
         let (_, spread) = moments(&mut recorded.iter().map(|y| y - mean));
         // a channel that stands still has an offset all the same
-        let sd = if spread > 0.0 { ANYTHING * spread } else { 1.0 };
+        let sd = ANYTHING * if spread > 0.0 { spread } else { channel.noise.white.0 };
         Self { mean, sd }
     }
 }
 
 impl<'a> Fitter<'a> {
     /// # Errors
-    /// The model's error if it cannot respond.
+    /// The model's error if it cannot respond; a message if there is no record, or nothing to choose for a mechanism that has a choice.
     pub(crate) fn new(
         model: &'a dyn ForwardModel,
         records: &'a [usize],
         observations: &'a [Observation],
     ) -> Result<Self, Failure> {
+        if records.is_empty() || records.len() != observations.len() {
+            return Err(format!(
+                "{} observations of {} records; give one of each, and at least one",
+                observations.len(),
+                records.len()
+            )
+            .into());
+        }
+        let without = |m: &&Omission| m.choice.as_ref().is_some_and(|(_, values)| values.is_empty());
+        if let Some(mechanism) = model.mechanisms().iter().find(without) {
+            return Err(format!("{}: nothing to choose; give its choice a value, or leave it out", mechanism.id).into());
+        }
         let middle = expected(model.nuisances());
         let of = |(record, observed): (&usize, &Observation)| -> Result<Vec<Offset>, Failure> {
             let predicted = model.respond(*record, &middle, &[])?;
@@ -121,7 +134,7 @@ impl<'a> Fitter<'a> {
 
     /// The unknowns of a hypothesis: nuisances that are free and not stood for by a mechanism, mechanisms' parameters, offsets.
     pub(super) fn layout(&self, hypothesis: &Hypothesis) -> Layout {
-        let taken: Vec<usize> = hypothesis.mechanisms.iter().filter_map(|(m, _)| self.model.stands_for(*m)).collect();
+        let taken = self.taken(hypothesis);
         let free = |number: usize, role: Role| (role != Role::Constant || hypothesis.constants_free) && !taken.contains(&number);
         let mut layout = Layout::new();
         for (number, nuisance) in self.model.nuisances().iter().enumerate().filter(|(n, nuisance)| free(*n, nuisance.role)) {
@@ -141,13 +154,22 @@ impl<'a> Fitter<'a> {
         layout
     }
 
-    /// Prior of some unknowns; `None` if the model's precision is not that of a density.
-    pub(super) fn beforehand(&self, layout: &Layout) -> Option<Beforehand> {
+    /// The nuisances that a hypothesis' mechanisms stand for.
+    fn taken(&self, hypothesis: &Hypothesis) -> Vec<usize> {
+        hypothesis.mechanisms.iter().filter_map(|(m, _)| self.model.stands_for(*m)).collect()
+    }
+
+    /// Prior of a hypothesis' unknowns; `None` if the model's precision is not that of a density. A constant that is not free is known, one that a
+    /// mechanism stands for may have any value: the others are as the model says of them alone.
+    pub(super) fn beforehand(&self, hypothesis: &Hypothesis, layout: &Layout) -> Option<Beforehand> {
         let shared = |i: usize| match layout[i] {
             Unknown::Nuisance { number, record: None } => Some(number),
             _ => None,
         };
-        let precision = self.model.precision();
-        Beforehand::new(layout.len(), |i, j| Some(precision?[(shared(i)?, shared(j)?)]))
+        let precision = match self.model.precision() {
+            Some(precision) => Some(without(precision, &self.taken(hypothesis))?),
+            None => None,
+        };
+        Beforehand::new(layout.len(), |i, j| Some(precision.as_ref()?[(shared(i)?, shared(j)?)]))
     }
 }

@@ -35,7 +35,7 @@ impl<'a> Objective<'a> {
     /// [`Error::NotFinite`] if the model's prior of its nuisances is no density.
     pub(super) fn new(fitter: &'a Fitter<'a>, hypothesis: &'a Hypothesis, noise: &'a Noise) -> Result<Self, Error> {
         let layout = fitter.layout(hypothesis);
-        let beforehand = fitter.beforehand(&layout).ok_or(Error::NotFinite)?;
+        let beforehand = fitter.beforehand(hypothesis, &layout).ok_or(Error::NotFinite)?;
         Ok(Self { fitter, hypothesis, noise, layout, beforehand, like: None })
     }
 

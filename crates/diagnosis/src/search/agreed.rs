@@ -18,7 +18,7 @@ const MOVED: f64 = 0.3;
 
 /// Compares all hypotheses under the model that is good about the likeliest of them: beside other constants a mechanism acts otherwise, and its size would
 /// be wrong. Where the comparison finds another hypothesis than that of [`Settled::model`], the model is made about that one and left in `settled`; a
-/// hypothesis that was followed so counts as it is about its own constants.
+/// hypothesis that was followed so counts as it is about its own constants, and if it is the likeliest after all its model is left there.
 ///
 /// # Errors
 /// [`Error`] if the model or a fit fails.
@@ -30,23 +30,32 @@ pub fn diagnose_settled<M: ForwardModel>(
     settings: &Settings,
     progress: &dyn Fn(Step),
 ) -> Result<Diagnosis, Error> {
-    let mut followed: Vec<Fit> = settled.leading.iter().cloned().collect();
+    // those that led before, each with the model about it unless that is the one given
+    let mut followed: Vec<(Fit, Option<M>)> = Vec::new();
     let mut comparisons = 1;
     loop {
-        let known: Vec<Fit> = [&settled.recalibrated].into_iter().chain(&followed).cloned().collect();
+        let led = settled.leading.iter().chain(followed.iter().map(|(fit, _)| fit));
+        let known: Vec<Fit> = [&settled.recalibrated].into_iter().chain(led).cloned().collect();
         let model = settled.model.as_ref().unwrap_or(given);
         let found = diagnose_beside(model, records, observations, settings, (&known, settled.leading.clone()), progress)?;
-        let best = &found.best().fit;
-        let is_its_own = settled.leading.as_ref().is_some_and(|leading| leading.hypothesis == best.hypothesis);
-        if best.active.is_empty() || is_its_own || comparisons == COMPARISONS {
+        let best = found.best();
+        let is_best = |fit: &Fit| fit.hypothesis == best.fit.hypothesis;
+        // beside a structure it is what this comparison found of it
+        if let Some(at) = followed.iter().position(|(fit, _)| best.rival.is_none() && is_best(fit)) {
+            let (fit, about) = followed.swap_remove(at);
+            settled.lead(about, fit);
+            return Ok(found);
+        }
+        if best.fit.active.is_empty() || settled.leading.as_ref().is_some_and(is_best) || comparisons == COMPARISONS {
             return Ok(found);
         }
         progress(Step::begins(TASK));
-        let (fit, about) = about_itself(model, best, records, observations)?;
-        let Some(about) = about.filter(|_| differ(best, &fit)) else { return Ok(found) };
-        followed.retain(|other| other.hypothesis != fit.hypothesis);
-        followed.push(fit.clone());
-        settled.lead(about, fit);
+        let (fit, about) = about_itself(model, &best.fit, records, observations)?;
+        if about.is_none() || !differ(&best.fit, &fit) {
+            return Ok(found);
+        }
+        followed.retain(|(other, _)| other.hypothesis != fit.hypothesis);
+        followed.extend(settled.lead(about, fit));
         comparisons += 1;
     }
 }

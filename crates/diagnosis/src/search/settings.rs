@@ -14,7 +14,7 @@ pub struct Settings {
     pub single: f64,
     /// Prior probability of two mechanisms, all pairs together.
     pub pair: f64,
-    /// Prior probability of something that is not in the library.
+    /// Prior probability of something that has no name in the library: a mechanism without one, a structure or a law.
     pub unknown: f64,
     /// Smallest probability of a mechanism, relative to the best, at which it is not excluded.
     pub excluded: f64,
@@ -22,13 +22,13 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { none: 0.20, recalibrate: 0.20, single: 0.45, pair: 0.07, unknown: 0.08, excluded: 0.03 }
+        Self { none: 0.20, recalibrate: 0.20, single: 0.41, pair: 0.07, unknown: 0.12, excluded: 0.03 }
     }
 }
 
-/// Share of the unknown that the unnamed mechanisms have; the rest is the structures'.
-const DESCRIBED: f64 = 0.5;
-/// Most terms of a law that the library does not hold.
+/// Share of the unknown that each of its kinds has: mechanisms without a name, structures, and laws that the library does not hold.
+const KIND: f64 = 1.0 / 3.0;
+/// Most terms of such a law.
 const NUMBERS: f64 = 2.0;
 
 impl Settings {
@@ -36,7 +36,7 @@ impl Settings {
     /// constants, with mechanisms or without. The choice among the laws is not in it.
     pub fn log_unlisted(&self, model: &dyn ForwardModel, beside: &Hypothesis) -> f64 {
         let mechanisms = if beside.mechanisms.is_empty() { 0.0 } else { self.log_prior(model, beside, false) };
-        mechanisms + (self.unknown * DESCRIBED / NUMBERS).ln()
+        mechanisms + (self.unknown * KIND / NUMBERS).ln()
     }
 
     /// ln of the prior probability of a hypothesis, beside a structure or alone.
@@ -55,11 +55,11 @@ impl Settings {
             [] if hypothesis.constants_free => self.recalibrate,
             [] => none,
             [one] if library[one.0].named => self.single * share(one),
-            [one] => self.unknown * DESCRIBED * share(one),
+            [one] => self.unknown * KIND * share(one),
             // each pair is met in two orders
             many => self.pair * 2.0 * many.iter().map(share).product::<f64>(),
         };
         let structures = (Structure::ALL.len() * model.channels().len()) as f64;
-        (base * if rival { self.unknown * (1.0 - DESCRIBED) / structures } else { 1.0 }).ln()
+        (base * if rival { self.unknown * KIND / structures } else { 1.0 }).ln()
     }
 }

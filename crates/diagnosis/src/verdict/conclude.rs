@@ -7,8 +7,9 @@ use crate::{Candidate, Error, ForwardModel, Settings};
 
 /// Probability of the design, as it is or with its constants re-estimated, from which nothing is called a finding: odds of about 2 to 1.
 const SUFFICES: f64 = 0.65;
-/// Least gain of ln evidence over the design and its constants of anything that is called a finding. If they are right a likelihood ratio of
-/// e³ = 20 or more has a probability of at most 1/20 (Markov's inequality); on the scale of Kass and Raftery (1995) it is strong evidence.
+/// Least gain of ln evidence over the design and its constants of anything that is called a finding: strong evidence on the scale of Kass and
+/// Raftery (1995). Were there but one finding to look for, the design would show such a ratio by chance at most once in twenty times (Markov's
+/// inequality); for the choice among many their prior probabilities pay.
 const FINDING: f64 = 3.0;
 
 impl Diagnosis {

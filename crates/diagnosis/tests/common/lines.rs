@@ -2,8 +2,9 @@
 //! a third, if it is asked for, chooses between their columns.
 
 use diagnosis::{
-    Active, Channel, ForwardModel, Hypothesis, NoisePrior, Nuisance, Observation, Omission, Parameter, Prior, State,
+    Active, Channel, ForwardModel, Hypothesis, NoisePrior, Nuisance, Observation, Omission, Parameter, Prior, Role, State,
 };
+use nalgebra::DMatrix;
 
 /// Standard deviation of the noise.
 pub(crate) const WHITE: f64 = 0.5;
@@ -24,6 +25,8 @@ pub(crate) struct Lines {
     scales: [f64; 2],
     effect: f64,
     power: i32,
+    constants: Vec<Nuisance>,
+    precision: Option<DMatrix<f64>>,
 }
 
 /// One mechanism alone.
@@ -56,7 +59,16 @@ impl Lines {
             scales: [1.0; 2],
             effect: 1.0,
             power: 1,
+            constants: Vec::new(),
+            precision: None,
         }
+    }
+
+    /// The same with a constant for each column beside the offset, which go together; the first mechanism stands for the first one.
+    pub(crate) fn with_constants(rows: usize, correlation: f64) -> Self {
+        let constants = ["a", "b"].map(|name| Nuisance::normal(name, 0.0, PRIOR_SD, Role::Constant)).to_vec();
+        let together = DMatrix::from_row_slice(2, 2, &[1.0, correlation, correlation, 1.0]);
+        Self { constants, precision: together.try_inverse(), ..Self::new(rows) }
     }
 
     /// The same where the first mechanism acts by the square of its size: a size and its opposite are one.
@@ -95,6 +107,19 @@ impl Lines {
         lines
     }
 
+    /// The same with an offset that may be anything.
+    pub(crate) fn with_any_offset(mut self) -> Self {
+        self.channels[0].offset.1 = f64::INFINITY;
+        self
+    }
+
+    /// The same with a mechanism that has nothing to choose from.
+    pub(crate) fn with_no_choice(rows: usize) -> Self {
+        let mut lines = Self::with_either(rows);
+        lines.mechanisms[2].choice = Some(("column".to_owned(), Vec::new()));
+        lines
+    }
+
     /// The same with an offset that is known to be 0.
     pub(crate) fn without_offset(mut self) -> Self {
         self.channels[0].offset.1 = TINY;
@@ -127,15 +152,27 @@ impl ForwardModel for Lines {
     }
 
     fn nuisances(&self) -> &[Nuisance] {
-        &[]
+        &self.constants
+    }
+
+    fn precision(&self) -> Option<&DMatrix<f64>> {
+        self.precision.as_ref()
+    }
+
+    fn stands_for(&self, mechanism: usize) -> Option<usize> {
+        (mechanism == 0 && !self.constants.is_empty()).then_some(0)
     }
 
     fn mechanisms(&self) -> &[Omission] {
         &self.mechanisms
     }
 
-    fn respond(&self, _: usize, _: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
+    fn respond(&self, _: usize, constants: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
         let mut y = vec![0.0; self.state.level.len()];
+        let stood_for = |constant: usize| active.iter().any(|active| self.stands_for(active.mechanism) == Some(constant));
+        for (constant, value) in constants.iter().enumerate().filter(|(constant, _)| !stood_for(*constant)) {
+            y.iter_mut().zip(self.column(constant)).for_each(|(y, x)| *y += value * x);
+        }
         for active in active {
             if active.values[0].abs() > MOST * self.scales[active.mechanism.min(1)] {
                 return Err(format!("a size of {}", active.values[0]).into());

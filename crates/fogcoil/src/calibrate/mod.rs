@@ -11,7 +11,7 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 use coil::{Design, Number, Tolerance, Tolerances};
-use diagnosis::{Active, Believed, ForwardModel, Lot, Observation, Prior, Said, Settled};
+use diagnosis::{Active, Believed, ForwardModel, Lot, Observation, Prior, Said};
 use files::{Note, Remark};
 use mechanisms::{CATALOGUE, Gyro, Library, number_of, with_constant};
 use progress::Step;
@@ -153,12 +153,12 @@ fn fit(
     let observations: Vec<Observation> = read.iter().map(|r| r.observed.clone()).collect();
     let numbers: Vec<usize> = (0..read.len()).collect();
     let settled = diagnosis::settled(&drawn, &numbers, &observations, progress).map_err(Error::of_diagnosis(&case.file))?;
-    let Settled { model, recalibrated, suspect, .. } = settled;
-    let doubt = suspect.filter(|(_, gain)| *gain > DOUBTED).map(|(mechanism, gain)| {
+    let recalibrated = settled.recalibrated.clone();
+    let doubt = settled.suspect.filter(|(_, gain)| *gain > DOUBTED).map(|(mechanism, gain)| {
         let id = &drawn.mechanisms()[mechanism].id;
         format!("{id} explains this unit better than its constants do (ln odds {gain:.0} before its prior): is it a good one? See fogcoil diagnose")
     });
-    let gyro = model.unwrap_or(drawn);
+    let gyro = settled.into_alone().unwrap_or(drawn);
     let left = LeftOfUnit::of(&gyro, &recalibrated, &observations);
     let doubts = doubt.map(|text| Remark::DoubtedUnit.warning(text));
     let doubts = doubts.into_iter().chain(left.misfit().map(|text| Remark::UnitMisfit.warning(text))).collect();

@@ -131,7 +131,8 @@ pub fn diagnose<'m>(
     }
     notes.extend(holdouts.iter().filter(|_| diagnosis.verdict != Verdict::Unknown).filter_map(left_over));
     let (name, coil, design) = (case.name.clone(), case.file.clone(), case.fingerprints.clone());
-    let gyro = settled.model.unwrap_or(drawn);
+    let alone = diagnosis.best().is_constants_alone();
+    let gyro = if alone { settled.into_alone() } else { settled.model }.unwrap_or(drawn);
     let mut outcome = Outcome {
         name,
         coil,
