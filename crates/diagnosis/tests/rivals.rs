@@ -22,6 +22,8 @@ struct Pair {
     about: Option<usize>,
     /// effect of a mechanism of size one, in a model about itself or not
     effect: fn(usize, bool, f64) -> f64,
+    /// whether there is always a model that is better still
+    restless: bool,
 }
 
 /// Known badly elsewhere, and then looked like by the other one.
@@ -77,6 +79,7 @@ impl Pair {
             state: State { level: vec![0.0; ROWS], rate: vec![0.0; ROWS] },
             about,
             effect,
+            restless: false,
         }
     }
 }
@@ -105,7 +108,8 @@ impl ForwardModel for Pair {
     fn about(&self, _: &[f64], active: &[Active]) -> Result<Option<Self>, diagnosis::Failure> {
         let leads = active.first().map(|a| a.mechanism);
         let weights = [LOOKS, WORKS].map(|mechanism| self.mechanisms[mechanism].weight);
-        Ok((leads != self.about).then(|| Self::new(self.effect, weights, leads)))
+        let next = || Self { restless: self.restless, ..Self::new(self.effect, weights, leads) };
+        Ok((self.restless || leads != self.about).then(next))
     }
 
     fn state(&self, _: usize) -> &State {
@@ -164,6 +168,17 @@ fn the_model_is_that_of_the_likeliest_if_it_led_before() {
     assert_eq!(found.best().fit.active[0].mechanism, LOOKS);
     assert_eq!(settled.model.expect("a model").about, Some(LOOKS));
     assert_eq!(settled.leading.expect("one leads").active, led.active);
+}
+
+/// A search that never arrives ends all the same, and its progress with it.
+#[test]
+fn a_search_without_an_end_is_as_long_as_was_said() {
+    let pair = Pair { restless: true, ..Pair::new(bent, [1.0; 2], None) };
+    let told = std::cell::RefCell::new(Vec::new());
+    settled(&pair, &[0], &[observed()], &|step| told.borrow_mut().push(step.done.expect("a count"))).expect("a fit");
+    let told = told.into_inner();
+    let of = told[0].1;
+    assert_eq!(told, (0..of).map(|done| (done, of)).collect::<Vec<_>>());
 }
 
 #[test]
