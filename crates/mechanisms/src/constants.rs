@@ -97,16 +97,19 @@ const TAILS: &str = "CW tail less CCW tail [m]";
 /// Name of the nuisance that is the factor on the thermometer's lag.
 const SENSOR_LAG: &str = "lag of the spool's thermometer";
 
+/// Standard deviation of the difference of the tails, both of which vary \[m\].
+pub(crate) fn tails(design: &Design, tolerances: &Tolerances) -> f64 {
+    let of = |length: f64| tolerances.of(Number::Tail).of(length);
+    of(design.winding.tails.cw).hypot(of(design.winding.tails.ccw))
+}
+
 /// Further numbers of a design with a tolerance: optics, tails, thermometer.
 pub(crate) fn others(design: &Design, tolerances: &Tolerances) -> [Nuisance; 3] {
     // none at all is a number that is known: a hair keeps the unknown one
     let share = |number: Number, value: f64| (tolerances.of(number).of(value) / value.abs().max(f64::MIN_POSITIVE)).max(KNOWN);
-    // both tails vary
-    let tails =
-        tolerances.of(Number::Tail).of(design.winding.tails.cw).hypot(tolerances.of(Number::Tail).of(design.winding.tails.ccw));
     [
         Nuisance::normal(DN_DT, 1.0, share(Number::ThermoOptic, design.optics.thermo_optic), Role::Constant),
-        Nuisance::normal(TAILS, 0.0, tails.max(KNOWN), Role::Constant),
+        Nuisance::normal(TAILS, 0.0, tails(design, tolerances).max(KNOWN), Role::Constant),
         Nuisance::normal(SENSOR_LAG, 1.0, share(Number::SensorLag, design.sensor.lag.max(KNOWN)), Role::Sensor),
     ]
 }

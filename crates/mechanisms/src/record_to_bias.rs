@@ -1,6 +1,7 @@
 //! A library's responses to the chamber of one recording.
 
 use crate::chamber::Chamber;
+use crate::constants::tails;
 use crate::course::{BETWEEN, Clock, Course, Delay, Parts, Series, minus, product, undelayed};
 use crate::curvature::Curvature;
 use crate::library::{Functionals, Library};
@@ -28,6 +29,8 @@ pub struct Prepared {
     pub(crate) nominal: Series,
     /// sums of its parts' squares
     pub(crate) squares: [f64; 3],
+    /// what the tolerances make of these
+    pub(crate) spread: [f64; 3],
     /// mean temperature of the coil \[°C\]
     pub(crate) coil: Vec<f64>,
     pub(crate) state: State,
@@ -232,6 +235,10 @@ impl Prepared {
         let second_rates = changing(&first_rates);
         let [longer, sound] = [library.rewound(1.0, None)?, library.rewound(0.0, None)?];
         let tail = course.parts(&[0, 1, 2].map(|p: usize| &longer[p] - &sound[p]));
+        let slopes = clock.slopes(library);
+        let tolerances = library.constants.iter().map(|c| c.tolerance).zip(slopes.iter().map(|slope| &slope.parts));
+        let all: Vec<(f64, &Parts)> = tolerances.chain([(tails(library.design(), library.tolerances()), &tail)]).collect();
+        let spread = [0, 1, 2].map(|p: usize| all.iter().map(|(sd, by)| sd * sd * product(&by[p], &by[p])).sum());
         Ok(Self {
             time: time.to_vec(),
             chamber: clock.rows.iter().map(|&n| clock.chamber[n]).collect(),
@@ -240,7 +247,8 @@ impl Prepared {
             delay,
             averaging,
             off_rest: minus(&off.series(&library.base), &base),
-            slopes: clock.slopes(library),
+            spread,
+            slopes,
             curved: Curvature::new(library, crate::REFERENCE_C)?.rates(&course, time, averaging),
             expansion: library
                 .constants

@@ -252,9 +252,7 @@ impl<'m> Gyro<'m> {
         let prepared = &self.records[record];
         let effect = self.kinds[active.mechanism].effect(&self.chain, prepared, active)?;
         let gain = match &effect {
-            Effect::Coil(change) => {
-                [0, 1, 2].map(|p: usize| share(&change.parts[p], &prepared.nominal.parts[p], prepared.squares[p]))
-            }
+            Effect::Coil(change) => [0, 1, 2].map(|p: usize| share(&change.parts[p], prepared, p)),
             Effect::Readings(_) => [0.0; 3],
         };
         let effect = Arc::new(Known { effect, gain });

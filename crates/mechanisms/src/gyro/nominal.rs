@@ -112,17 +112,19 @@ impl Gyro<'_> {
         let factors = [thermo_optic * u[instruments::SHUPE] * more, more, more];
         let mut gain = [1.0; 3];
         for (p, part) in parts.iter_mut().enumerate() {
-            part.iter_mut().for_each(|x| *x *= factors[p]);
             // of a part that is nothing throughout, as at rest, nobody can say what share is left: all
             if record.squares[p] > 0.0 {
-                gain[p] = share(part, &record.nominal.parts[p], record.squares[p]);
+                let moved: Vec<f64> = part.iter().zip(&record.nominal.parts[p]).map(|(here, drawn)| here - drawn).collect();
+                gain[p] = factors[p] * (1.0 + share(&moved, record, p));
             }
-            // a tail weighs the coil's rates otherwise, which is no gain on what changes them
-            add(part, &record.tail[p], u[instruments::TAIL] * factors[p]);
+            part.iter_mut().for_each(|x| *x *= factors[p]);
         }
+        // a tail weighs the coil's rates otherwise, which is no gain on what changes them
+        let tails = [0, 1, 2].map(|p: usize| u[instruments::TAIL] * factors[p]);
+        let of_tails = [0, 1, 2].map(|p: usize| record.tail[p].iter().map(|x| x * tails[p]).collect());
         let rest = sensor[0];
         sensor.iter_mut().for_each(|t| *t = rest + (*t - rest) * more);
-        Recalibrated { record: number, at: u.to_vec(), parts, thermometer: sensor, gain }
+        Recalibrated { record: number, at: u.to_vec(), parts, of_tails, thermometer: sensor, gain }
     }
 
     /// Reading of a thermometer of the spool from its temperature.

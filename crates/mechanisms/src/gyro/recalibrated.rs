@@ -1,19 +1,25 @@
 //! Parts of the nominal model that are kept at a point.
 
 use crate::course::{Parts, product};
+use crate::record_to_bias::Prepared;
 
 /// The nominal model with its uncertain numbers somewhere.
 pub(super) struct Recalibrated {
     pub(super) record: usize,
     /// the uncertain numbers
     pub(super) at: Vec<f64>,
+    /// but for the tails'
     pub(super) parts: Parts,
+    /// what the tails' difference adds
+    pub(super) of_tails: Parts,
     pub(super) thermometer: Vec<f64>,
-    /// share of every nominal part in these
+    /// share of every nominal part in `parts`
     pub(super) gain: [f64; 3],
 }
 
-/// Share of a second series, the sum of whose squares is known, in the first: ⟨a, b⟩/⟨b, b⟩.
-pub(super) fn share(a: &[f64], b: &[f64], squares: f64) -> f64 {
-    if squares > 0.0 { product(a, b) / squares } else { 0.0 }
+/// Share of a part of the nominal bias in a change: ⟨change, part⟩/⟨part, part⟩, as far as that part is more than the tolerances make of it. A winding
+/// that cancels nearly leaves a part of which no change is a share.
+pub(super) fn share(change: &[f64], record: &Prepared, part: usize) -> f64 {
+    let certain = record.squares[part] + record.spread[part];
+    if certain > 0.0 { product(change, &record.nominal.parts[part]) / certain } else { 0.0 }
 }

@@ -17,7 +17,7 @@ pub(super) struct Acting<'a> {
 ///
 /// A path of heat changes the temperatures that all others act on: its gain on a part is one on their changes, too, and theirs is one on what it adds
 /// beyond its gain. The others act on different things, and their changes add up: a tail's share of a part that cancels nearly, as a
-/// quadrupole's does, says nothing of what it does to a softer coil.
+/// quadrupole's does, says nothing of what it does to a softer coil. What the tolerance of the tails adds is of that kind, too.
 pub(super) fn together(nominal: &Parts, without: &Recalibrated, changes: &[Acting]) -> Parts {
     let mut parts = without.parts.clone();
     for (p, part) in parts.iter_mut().enumerate() {
@@ -27,7 +27,7 @@ pub(super) fn together(nominal: &Parts, without: &Recalibrated, changes: &[Actin
         };
         let (all_paths, of_constants) = (of_paths(None), without.gain[p]);
         let of_others = 1.0 + changes.iter().filter(|acting| !acting.is_path).map(|acting| acting.gain[p]).sum::<f64>();
-        part.iter_mut().for_each(|rate| *rate *= all_paths);
+        part.iter_mut().zip(&without.of_tails[p]).for_each(|(rate, of_tails)| *rate = all_paths * (*rate + of_tails));
         for (k, Acting { change, gain, is_path }) in changes.iter().enumerate() {
             let own = gain[p];
             let rows = part.iter_mut().zip(&change.parts[p]).zip(nominal[p].iter().zip(&without.parts[p]));
@@ -60,7 +60,8 @@ mod tests {
     }
 
     fn at(series: [f64; 4], gain: f64) -> Recalibrated {
-        Recalibrated { record: 0, at: Vec::new(), parts: parts(series), thermometer: Vec::new(), gain: [gain; 3] }
+        let of_tails = parts([0.0; 4]);
+        Recalibrated { record: 0, at: Vec::new(), parts: parts(series), of_tails, thermometer: Vec::new(), gain: [gain; 3] }
     }
 
     fn acting(change: &Change, gain: f64, is_path: bool) -> Acting<'_> {
@@ -97,6 +98,18 @@ mod tests {
                 near(&both(paths, constants), &NOMINAL.map(|x| constants * 3.0 * x));
             }
             near(&both([false, false], constants), &NOMINAL.map(|x| constants * 2.5 * x));
+        }
+    }
+
+    /// A change eighteen times the nominal bias, beside tails that differ by a little.
+    #[test]
+    fn tails_that_differ_are_no_gain_and_have_none() {
+        let (tail, large) = ([0.5, 0.4, -0.3, 0.2], NOMINAL.map(|x| 18.0 * x));
+        let without = Recalibrated { of_tails: parts(tail), ..at(NOMINAL, 1.0) };
+        for is_path in [true, false] {
+            let paths = if is_path { 19.0 } else { 1.0 };
+            let sum: Vec<f64> = NOMINAL.iter().zip(&large).zip(&tail).map(|((n, l), t)| n + l + paths * t).collect();
+            near(&first(&[acting(&change(large), 18.0, is_path)], &without), &sum);
         }
     }
 
