@@ -77,7 +77,11 @@ impl Sample {
 
 /// A sound recording with a change.
 pub(crate) fn altered(change: impl FnOnce(&mut Sample)) -> Sample {
-    let mut sample = sound(1, 0.01);
+    altered_of(1, change)
+}
+
+fn altered_of(seed: u64, change: impl FnOnce(&mut Sample)) -> Sample {
+    let mut sample = sound(seed, 0.01);
     change(&mut sample);
     sample
 }
@@ -223,6 +227,23 @@ fn outliers_are_masked_and_nothing_else() {
         let masked = |channel: usize| (0..ROWS).filter(|&row| !report.masks[channel][row]).collect::<Vec<_>>();
         assert_eq!((masked(0), masked(1)), (vec![300], rows.to_vec()), "seed {seed}");
         assert!(report.findings.iter().all(|finding| finding.repair == Repair::Masked));
+    }
+}
+
+/// A row that was cut in its last number, and one from before the unit was warm.
+#[test]
+fn an_outlier_at_an_end_is_masked_and_a_bend_there_is_none() {
+    for seed in 0..50 {
+        let masked = |sample: Sample| {
+            let report = sample.report();
+            (0..ROWS).filter(|&row| !report.masks[1][row]).collect::<Vec<_>>()
+        };
+        assert_eq!(masked(altered_of(seed, |s| (s.rate[0], s.rate[ROWS - 1]) = (1.0, -1.0))), [0, ROWS - 1], "seed {seed}");
+        assert_eq!(masked(sound(seed, 0.01)), [0_usize; 0], "seed {seed}");
+        // a ramp of six noises a row that begins at the last one
+        assert_eq!(masked(altered_of(seed, |s| s.rate[ROWS - 1] += 0.12)), [0_usize; 0], "seed {seed}");
+        let steep = altered_of(seed, |s| (ROWS - 40..ROWS).for_each(|row| s.rate[row] += 2.0 * (row + 40 - ROWS) as f64));
+        assert_eq!(masked(steep), [0_usize; 0], "seed {seed}");
     }
 }
 

@@ -14,13 +14,19 @@ const FAR: f64 = 6.5;
 /// Share of the distance that the value has to keep to both values beside it, and share by which the neighbours may differ.
 const LONE: [f64; 2] = [0.6, 0.5];
 
+/// Rows at an end: the one that is judged, and those by which it is.
+const ENDS: usize = 6;
+/// Distance of an end from the line of the rows beside it, in standard deviations of the noise and in the largest change between two of those. The line
+/// is known there to 1.3 standard deviations, which leaves the chance that [`FAR`] has.
+const FAR_END: [f64; 2] = [11.0, 10.0];
+
 /// Values in a row that may be outliers together: a logger that repeats a bad one.
 const TOGETHER: usize = 3;
 
 /// Hampel's test against three neighbours on each side, less the line of their median slope (Theil and Sen): a ramp hides no outlier, and a step, or a
 /// bend, is none. Up to three rows may be off together.
 ///
-/// The first and last two rows are not judged.
+/// The first and the last row are judged by the five beside them, and have to be farther off; those next to them are not judged.
 pub(super) fn judge(context: &Context, mask: &mut [bool]) -> Vec<Finding> {
     let before = mask.to_vec();
     let mut found = lone_values(context, mask).unwrap_or_default();
@@ -51,6 +57,12 @@ fn lone_values(context: &Context, mask: &mut [bool]) -> Option<Vec<(usize, f64)>
             }
         }
         found.iter().for_each(|(row, _)| mask[*row] = false);
+    }
+    let used: Vec<usize> = (0..time.len()).filter(|&row| mask[row]).collect();
+    let inwards: [Vec<usize>; 2] = [used.iter().take(ENDS).copied().collect(), used.iter().rev().take(ENDS).copied().collect()];
+    for (row, distance) in inwards.iter().filter_map(|rows| end(context, rows, noise)) {
+        mask[row] = false;
+        found.push((row, distance));
     }
     Some(found)
 }
@@ -99,6 +111,21 @@ fn lone(context: &Context, used: &[usize], n: usize, together: usize, noise: f64
     let alone = beside(&level).into_iter().all(|side| side * distance.signum() > LONE[0] * distance.abs())
         && range < LONE[1] * distance.abs();
     (same && distance.abs() > FAR * noise && alone).then_some(distance.abs())
+}
+
+/// The first of some rows from an end inwards with its distance from the line of the others, if it is an outlier: a row that was cut, or a start.
+fn end(context: &Context, rows: &[usize], noise: f64) -> Option<(usize, f64)> {
+    let Context { time, values, interval, .. } = context;
+    let near = |pair: &[usize]| (time[pair[0]] - time[pair[1]]).abs() < NEAR * interval;
+    let (&row, others) = rows.split_first()?;
+    if rows.len() < ENDS || !rows.windows(2).all(near) {
+        return None;
+    }
+    let slope = median_slope(context, others)?;
+    let middle = median(others.iter().map(|m| values[*m] - slope * (time[*m] - time[row])).collect())?;
+    let change = others.windows(2).map(|m| (values[m[0]] - values[m[1]]).abs()).fold(0.0, f64::max);
+    let distance = (values[row] - middle).abs();
+    (distance > FAR_END[0] * noise && distance > FAR_END[1] * change).then_some((row, distance))
 }
 
 /// Median of the slopes between any two of some rows.
