@@ -3,7 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use fogcoil::batch::{self, Batch, Inputs, Unit, json, kept_files, kept_in, read_limits, report, table, text, units};
+use fogcoil::batch::{
+    self, Batch, Inputs, Unit, json, kept_beside, kept_files, kept_in, read_limits, report, table, text, units,
+    without_recordings,
+};
 use fogcoil::cache::Cache;
 use fogcoil::input::{self, RecordOptions};
 use fogcoil::measure::Prediction;
@@ -55,6 +58,17 @@ pub(crate) fn run(arguments: &BatchOf, progress: &Progress) -> Result<(), Error>
         let (name, records) = (&unit.name, unit.records());
         progress.note(&format!(
             "the {records} records in {name} are taken for those of one unit; give the files themselves if each is a unit"
+        ));
+    }
+    for folder in without_recordings(records, out)? {
+        progress.note(&format!("{} has no recording (*.csv) and is no unit: are its files missing?", files::shown_path(&folder)));
+    }
+    let others = kept_beside(out, &units);
+    if let Some(first) = others.first() {
+        let count = others.len();
+        progress.note(&format!(
+            "{count} further units are kept in {}, {first} the first: this table does not hold them; give all units together if it should",
+            files::shown_path(&kept_in(out))
         ));
     }
     let limits = limits.as_deref().map(read_limits).transpose()?;

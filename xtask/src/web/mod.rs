@@ -38,7 +38,11 @@ impl Web {
         let file = root().join(PAGE);
         let html = page(&module)?;
         fs::write(&file, &html).map_err(failed(&file))?;
-        let sizes = format!("The module is {:.2} MB; the page, which holds it compressed, is {:.2} MB.", module.len() as f64 / 1e6, html.len() as f64 / 1e6);
+        let sizes = format!(
+            "The module is {:.2} MB; the page, which holds it compressed, is {:.2} MB.",
+            module.len() as f64 / 1e6,
+            html.len() as f64 / 1e6
+        );
         println!("{PAGE} is written. {sizes}");
         if self.untried {
             return Ok(true);

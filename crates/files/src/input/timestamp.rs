@@ -45,7 +45,7 @@ pub(super) enum First {
     Month,
 }
 
-/// Reads `2024-05-01T12:00:00.5+02:00`, `01.05.2024 12:00:00.5` or `01-May-2024 12:00:00 PM`; a blank may stand for the T, a comma for the
+/// Reads `2024-05-01T12:00:00.5+02:00`, `01.05.2024 12:00:00.5`, `01.05.24 12:00` of this century, or `01-May-2024 12:00:00 PM`; a blank may stand for the T, a comma for the
 /// point, and the zone, then UTC, be absent.
 pub(crate) fn date(text: &str) -> Option<Date> {
     dated(text, day_of)
@@ -99,8 +99,9 @@ fn day_of(text: &str) -> Option<(i64, i64, i64)> {
             () if is(first, [4, 4]) && is(second, [1, 2]) && is(third, [1, 2]) && !text.contains('.') => {
                 Some((whole(first)?, whole(second)?, whole(third)?))
             }
-            () if is(first, [1, 2]) && is(second, [1, 2]) && is(third, [4, 4]) && text.contains('.') => {
-                Some((whole(third)?, whole(second)?, whole(first)?))
+            () if is(first, [1, 2]) && is(second, [1, 2]) && [2, 4].contains(&third.len()) && text.contains('.') => {
+                let year = whole(third)?;
+                Some((if third.len() == 2 { 2000 + year } else { year }, whole(second)?, whole(first)?))
             }
             () if is(first, [1, 2]) && is(third, [4, 4]) => Some((whole(third)?, named?, whole(first)?)),
             () => None,
@@ -201,6 +202,7 @@ mod tests {
             ("01.05.2024 12:00:00.5+02:00", 1_714_557_600.5),
             ("29.02.2000 12:00", 951_825_600.0),
             ("01.01.1970T00:00:01,25", 1.25),
+            ("29.2.00 12:00", 951_825_600.0),
             ("1.1.1970 0:00:01", 1.0),
             ("1970/01/02 00:00", 86_400.0),
             ("02-Jan-1970 12:00:01 AM", 86_401.0),
@@ -217,7 +219,7 @@ mod tests {
         let refused = [
             "", "12:00:00", "20.5", "2024-05-01", "2024-13-01T00:00:00", "2024-05-01T25:00:00", "2024-05-01T10:00:00+2",
             "2024-05-01T1:2:3:4", "2024-05-01_10:00:00", "2024-05-0\u{e9}T10:00:00", "2024-05-01T10:00:00+0\u{e9}",
-            "05/01/2024 10:00:00", "2024.05.01 10:00:00", "01-05-2024 10:00:00", "01.13.2024 10:00:00", "01.5.20241 10:00:00",
+            "05/01/2024 10:00:00", "2024.05.01 10:00:00", "01-05-2024 10:00:00", "01.13.2024 10:00:00", "01.5.20241 10:00:00", "01.5.202 10:00",
             "14-Mar-2026 13:00 AM", "14-Foo-2026 08:00", "14-Mar-26 08:00", "2024/05/01", "m", "\u{e4}", "1-1-1-1 08:00",
         ];
         for text in refused {

@@ -26,9 +26,9 @@ impl Doubt {
         Self { below: usual.map_or(SURE, |usual| far(usual).min(SURE)), doubtful, judged: all.len(), usual }
     }
 
-    /// The verdict of a unit, with a question mark where it is not sure; where most are not, only far below the others.
+    /// The verdict of a unit, with a question mark where it is not sure; where most are not, only far below the others, or below another verdict.
     pub(super) fn shown(&self, row: &Row) -> Option<String> {
-        let mark = if probability(row).is_some_and(|p| p < self.below) { "?" } else { "" };
+        let mark = if row.rivalled || probability(row).is_some_and(|p| p < self.below) { "?" } else { "" };
         row.verdict.as_ref().map(|verdict| format!("{verdict}{mark}"))
     }
 
@@ -39,7 +39,7 @@ impl Doubt {
             _ if *doubtful == 0 => None,
             Some(usual) => Some(format!(
                 "the verdict's probability is below {SURE} in {doubtful} of {judged} units, {usual:.2} in the middle: a fault as small as the tolerances may hide in \
-                 any of them; ? marks those far below the others (column verdict_probability)"
+                 any of them; ? marks those far below the others, or less likely than another verdict (column verdict_probability)"
             )),
             None => Some(format!(
                 "a verdict with a ? has a probability below {SURE} ({doubtful} of {judged} units): a small fault may hide there (column verdict_probability)"
@@ -93,6 +93,9 @@ mod tests {
         let said = Doubt::of(&batch(&all)).said().unwrap();
         assert!(said.contains("below 0.8 in 8 of 8 units, 0.59 in the middle"), "{said}");
         let one = [&all[..], &[0.2]].concat();
+        assert_eq!(marked(&batch(&one)), ["U8"]);
+        // one of which the opposite is likelier
+        let one = [&all[..], &[0.49]].concat();
         assert_eq!(marked(&batch(&one)), ["U8"]);
         // of few units nothing is usual
         assert_eq!(marked(&batch(&all[..3])), ["U0", "U1", "U2"]);

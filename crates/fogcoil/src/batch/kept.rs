@@ -33,6 +33,16 @@ pub fn kept_files(batch: &Path, units: &[Unit]) -> Vec<PathBuf> {
     units.iter().flat_map(|unit| ["json", "html"].map(|end| file(unit, end))).collect()
 }
 
+/// Units that are kept in the folder of a batch beside some, by their names.
+pub fn kept_beside(batch: &Path, units: &[Unit]) -> Vec<String> {
+    let all = fs::read_dir(kept_in(batch)).into_iter().flatten().flatten().map(|entry| entry.path());
+    let findings = all.filter(|path| path.extension().is_some_and(|end| end == "json"));
+    let named = findings.filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned()));
+    let mut others: Vec<String> = named.filter(|name| units.iter().all(|unit| unit.name != *name)).collect();
+    others.sort();
+    others
+}
+
 impl Kept {
     /// Findings in the folder of a batch, which is created.
     ///

@@ -10,7 +10,7 @@ use super::limits::Limits;
 use super::lot::{Common, FEWEST, Outlier, common, lots, outliers, within_tolerances};
 use super::row::{Row, unit_of};
 use super::run::Batch;
-use super::serials::repeated;
+use super::serials::{copied, repeated};
 use super::text::named;
 use super::trends::trends;
 use crate::input::Fingerprint;
@@ -48,6 +48,9 @@ fn lead(batch: &Batch, limits: Option<&Limits>) -> Markup {
         @if let Some(said) = Doubt::of(batch).said() { p { "Doubt: " (said) "." } }
         @for (serial, units) in repeated(&batch.units()) {
             p { (units.len()) " units have the serial number " (serial) ": " (units.join(", ")) "." }
+        }
+        @for units in copied(&batch.units()) {
+            p { (units.join(", ")) " have a recording in common, byte for byte: is one of them a copy?" }
         }
     }
 }

@@ -65,6 +65,8 @@ pub struct Row {
     pub constants: Vec<Constant>,
     /// Reason why there is no diagnosis.
     pub problem: Option<String>,
+    /// Whether another verdict is likelier: no other explanation was strong enough to be named.
+    pub rivalled: bool,
     /// Figures that were not measured, and why.
     missing: Vec<(String, String)>,
     numbers: Vec<Option<f64>>,
@@ -96,6 +98,7 @@ impl Row {
             files: texts(&finding["files"]),
             hashes: texts(&finding["sha256"]),
             verdict: text(&diagnosis["verdict"]),
+            rivalled: is_rivalled(diagnosis),
             set: texts(&diagnosis["set"]),
             together: probable(diagnosis),
             warnings: warnings(diagnosis),
@@ -115,11 +118,19 @@ impl Row {
         NUMBERS.iter().position(|known| *known == name).and_then(|n| self.numbers[n])
     }
 
-    /// Explanations that the records do not exclude, best first, in words.
+    /// Explanations that the records do not exclude, best first, in words; of a verdict that has a likelier rival the likeliest mechanism.
     pub(super) fn open(&self) -> String {
+        if let Some((first, probability)) = self.first.as_ref().zip(self.number("first_probability")).filter(|_| self.is_open()) {
+            return format!("{first} ({probability:.2})");
+        }
         let others = self.set.iter().filter(|id| !self.together.contains(id)).cloned();
         let together: Vec<String> = self.set.iter().filter(|id| self.together.contains(id)).cloned().collect();
         Some(together.join(" and ")).filter(|all| !all.is_empty()).into_iter().chain(others).collect::<Vec<_>>().join(" or ")
+    }
+
+    /// Whether the verdict says nothing of mechanisms although something else is likelier.
+    fn is_open(&self) -> bool {
+        self.rivalled && self.set.is_empty()
     }
 
     /// Warnings of its records, in words.
@@ -148,6 +159,16 @@ fn of_verdict(diagnosis: &Value) -> Option<f64> {
         "none" | "recalibrate" => Some(of("none")? + of("recalibrate")?),
         verdict => of(verdict),
     }
+}
+
+/// Whether another verdict is likelier than a diagnosis' own.
+fn is_rivalled(diagnosis: &Value) -> bool {
+    let own = diagnosis["verdict"].as_str().unwrap_or_default();
+    let is_design = |verdict: &str| ["none", "recalibrate"].contains(&verdict);
+    let others = diagnosis["verdicts"].as_object().into_iter().flatten();
+    let others = others.filter(|(verdict, _)| *verdict != own && !(is_design(verdict) && is_design(own)));
+    let most = others.filter_map(|(_, p)| p.as_f64()).fold(0.0, f64::max);
+    of_verdict(diagnosis).is_some_and(|p| p < most)
 }
 
 /// Unit of a number of the table.
@@ -251,6 +272,23 @@ mod tests {
         }));
         assert_eq!(row.open(), "tail-asymmetry and air-path or debond");
         assert_eq!(row.warned().unwrap(), "warned of exchanged-columns, stuck");
+    }
+
+    #[test]
+    fn a_verdict_less_likely_than_another_is_open() {
+        let of = |recalibrate: f64, explained: f64, set: &[&str]| {
+            let verdicts = json!({"none": 0.03, "recalibrate": recalibrate, "explained": explained, "unknown": 0.0});
+            let mechanisms = json!([{"id": "sensor-lag", "probability": 0.46}]);
+            Row::of(&json!({"unit": "U", "diagnosis":
+                {"verdict": "recalibrate", "verdicts": verdicts, "mechanisms": mechanisms, "set": set}}))
+        };
+        let open = of(0.39, 0.57, &[]);
+        assert!(open.rivalled);
+        assert_eq!(open.open(), "sensor-lag (0.46)");
+        // none and recalibrate are one: the design suffices
+        let closed = of(0.47, 0.49, &[]);
+        assert!(!closed.rivalled && closed.open().is_empty());
+        assert_eq!(of(0.39, 0.57, &["sensor-lag"]).open(), "sensor-lag");
     }
 
     #[test]

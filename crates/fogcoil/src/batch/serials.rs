@@ -14,16 +14,29 @@ pub(super) fn settle(rows: &mut [Row]) {
 
 /// Serial numbers that more than one unit has, with these units' names.
 pub(super) fn repeated<'a>(rows: &[&'a Row]) -> Vec<(&'a str, Vec<&'a str>)> {
-    let mut all: Vec<(&str, Vec<&str>)> = Vec::new();
-    for row in rows {
-        let Some(serial) = row.serial.as_deref() else { continue };
-        match all.iter_mut().find(|(known, _)| *known == serial) {
-            Some((_, units)) => units.push(&row.unit),
-            None => all.push((serial, vec![&row.unit])),
+    shared(rows.iter().filter_map(|row| Some((row.serial.as_deref()?, row.unit.as_str()))))
+}
+
+/// Units that have a recording in common, byte for byte: of each such recording their names.
+pub(super) fn copied<'a>(rows: &[&'a Row]) -> Vec<Vec<&'a str>> {
+    let all = rows.iter().flat_map(|row| row.hashes.iter().map(|hash| (hash.as_str(), row.unit.as_str())));
+    let mut units: Vec<Vec<&str>> = shared(all).into_iter().map(|(_, units)| units).collect();
+    units.dedup();
+    units
+}
+
+/// What several units have, with their names.
+fn shared<'a>(all: impl Iterator<Item = (&'a str, &'a str)>) -> Vec<(&'a str, Vec<&'a str>)> {
+    let mut known: Vec<(&str, Vec<&str>)> = Vec::new();
+    for (what, unit) in all {
+        match known.iter_mut().find(|(other, _)| *other == what) {
+            Some((_, units)) if units.last() == Some(&unit) => {}
+            Some((_, units)) => units.push(unit),
+            None => known.push((what, vec![unit])),
         }
     }
-    all.retain(|(_, units)| units.len() > 1);
-    all
+    known.retain(|(_, units)| units.len() > 1);
+    known
 }
 
 /// Number in a unit's serial number.

@@ -6,7 +6,7 @@ use super::doubt::Doubt;
 use super::lot::{common, lots, outliers};
 use super::row::unit_of;
 use super::run::Batch;
-use super::serials::repeated;
+use super::serials::{copied, repeated};
 use crate::table::{significant, table};
 
 /// A line for each unit, and the units that stand out.
@@ -42,6 +42,9 @@ pub fn text(batch: &Batch) -> String {
     for (serial, units) in repeated(&batch.units()) {
         let _ = writeln!(out, "note: {} units have the serial number {serial}: {}", units.len(), units.join(", "));
     }
+    for units in copied(&batch.units()) {
+        let _ = writeln!(out, "warning: {} have a recording in common, byte for byte: is one of them a copy?", units.join(", "));
+    }
     for outlier in outliers(batch) {
         let unit = unit_of(outlier.number);
         let _ = writeln!(
@@ -75,7 +78,7 @@ fn judged(batch: &Batch) -> String {
         (0, _) => String::new(),
         (all, 0) => format!("{passing} of {all} units pass, {failing} fail{}\n", named(batch, "fail")),
         (all, _) => format!(
-            "{passing} of {all} units pass, {failing} fail{}; of {not_known} it is not known{} (a figure is missing, so they have not passed)\n",
+            "{passing} of {all} units pass, {failing} fail{}; of {not_known} it is not known{} (a figure is missing or too uncertain, so they have not passed)\n",
             named(batch, "fail"),
             named(batch, "not known")
         ),
@@ -104,7 +107,7 @@ mod tests {
             let verdicts = json!({"none": 0.0, "recalibrate": 0.6, "explained": 0.4, "unknown": 0.0});
             let sensitivity = if n == 0 { -1.0 } else { -2.7 - 0.01 * n as f64 };
             let mut row = Row::of(&json!({
-                "unit": format!("U{n}"), "serial": "7",
+                "unit": format!("U{n}"), "serial": "7", "sha256": [format!("{}", n / 2), "other"[n..n + 1].to_owned()],
                 "measured": {"cooling": {"value": sensitivity, "ci90": [sensitivity, sensitivity]}},
                 "diagnosis": {"verdict": "recalibrate", "verdicts": verdicts},
             }));
@@ -124,6 +127,7 @@ mod tests {
             "the verdict's probability is below 0.8 in 5 of 5 units, 0.60 in the middle",
             "3 of 5 units pass, 1 fail (U1); of 1 it is not known (U2) (a figure is missing",
             "note: 5 units have the serial number 7: U0, U1, U2, U3, U4",
+            "warning: U0, U1 have a recording in common, byte for byte: is one of them a copy?\nwarning: U2, U3 have",
             "U0: cooling is -1.000 (deg/h)/(degC/min), far from the median -2.720 (deg/h)/(degC/min)",
         ] {
             assert!(text.contains(part), "{part}: {text}");

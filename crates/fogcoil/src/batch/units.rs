@@ -29,13 +29,35 @@ impl Unit {
 /// Begins the name of a record that judges.
 const HELD_OUT: &str = "holdout";
 
+/// Folders beside those of units that have no recording: whose files are missing, perhaps.
+///
+/// # Errors
+/// [`files::Error::Input`] of a folder that cannot be read.
+pub fn without_recordings(paths: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, Error> {
+    let mut empty = Vec::new();
+    for path in paths.iter().filter(|path| path.is_dir()) {
+        for folder in below(path)?.into_iter().filter(|inside| inside.is_dir() && !is_same(inside, out)) {
+            let inside = below(&folder)?;
+            // what has folders alone is no unit's
+            if !inside.iter().any(|file| is_record(file) || file.is_dir()) {
+                empty.push(folder);
+            }
+        }
+    }
+    Ok(empty)
+}
+
+fn is_same(a: &Path, b: &Path) -> bool {
+    a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b)
+}
+
 /// The units that paths name, by their names: a recording; a folder with the recordings (`*.csv`) of one unit; a folder of such folders. The batch's own
 /// folder `out` is none of them.
 ///
 /// # Errors
 /// [`files::Error::Input`] of a path without recordings, of two units of one name, or where results would lie among recordings.
 pub fn units(paths: &[PathBuf], out: &Path) -> Result<Vec<Unit>, Error> {
-    let is_out = |folder: &Path| folder.canonicalize().ok().zip(out.canonicalize().ok()).is_some_and(|(a, b)| a == b);
+    let is_out = |folder: &Path| is_same(folder, out);
     let mut all: BTreeMap<String, Unit> = BTreeMap::new();
     let mut add = |at: &Path, unit: Unit| match all.insert(unit.name.clone(), unit) {
         None => Ok(()),
@@ -115,6 +137,12 @@ mod tests {
         let says = |paths: &[PathBuf]| units(paths, &at("out")).unwrap_err().to_string();
         assert!(says(&[at("empty")]).contains("each recording by its name"));
         assert!(says(&[at("lot"), at("lot/U1")]).contains("is the second unit of the name U1"));
+        let without = |paths: &[PathBuf]| without_recordings(paths, &at("lot/out")).unwrap();
+        assert!(without(&[at("lot"), at("one b.csv")]).is_empty());
+        for name in ["lot/U3", "lot/out", "lot/deep/U4"] {
+            std::fs::create_dir_all(at(name)).unwrap();
+        }
+        assert_eq!(without(&[at("lot")]), [at("lot/U3")]);
         // tables of an earlier run are no recordings
         assert_eq!(units(&[at("lot")], &at("lot/U2")).unwrap().len(), 1);
         assert!(units(&[at("lone")], &at("lone")).unwrap_err().to_string().contains("give another --out"));

@@ -90,10 +90,12 @@ pub fn calibrate(
         );
         notes.push(Remark::FewUnits.warning(message).at(&case.file));
     }
+    let prepared = |records: &Vec<RecordCase>| records.iter().map(|record| ready(record, &mut notes)).collect();
+    // a record that cannot be used is refused before anything is modelled
+    let all = units.iter().map(prepared).collect::<Result<Vec<Vec<Record>>, Error>>()?;
     let library = library(case, cache, progress)?;
     let (mut fitted, mut told) = (Vec::new(), Vec::new());
-    for (records, name) in units.iter().zip(names(units)) {
-        let read: Vec<Record> = records.iter().map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
+    for ((records, name), read) in units.iter().zip(names(units)).zip(all) {
         let (unit, doubts) = fit(case, &library, &read, progress)?;
         let files: Vec<Fingerprint> = records.iter().map(|record| record.fingerprint.clone()).collect();
         let other = records.iter().any(|record| other_design(case, record).is_some());

@@ -126,15 +126,14 @@ impl Outcome<'_> {
             Verdict::None if !self.withdrawn.is_empty() => {
                 "The explanation of the fitted records is taken back: the nominal model predicts the record that was held out.".to_owned()
             }
-            Verdict::None => format!("The nominal model suffices{}.", self.how_surely("no difference beyond noise")),
-            Verdict::Recalibrate if self.drawing_stands() => format!(
-                "The instruments, recalibrated within what is known of them, suffice{}.",
-                self.how_surely("the design is as drawn, and nothing is left out")
+            Verdict::None => self.suffices("he nominal model suffices", "no difference beyond noise"),
+            Verdict::Recalibrate if self.drawing_stands() => self.suffices(
+                "he instruments, recalibrated within what is known of them, suffice",
+                "the design is as drawn, and nothing is left out",
             ),
-            Verdict::Recalibrate => format!(
-                "The design's own constants, re-estimated within their tolerances, suffice{}.",
-                self.how_surely("nothing is left out")
-            ),
+            Verdict::Recalibrate => {
+                self.suffices("he design's own constants, re-estimated within their tolerances, suffice", "nothing is left out")
+            }
             Verdict::Explained => {
                 let (best, first) = (self.names(), self.diagnosis.mechanisms.first().map_or("", |(m, _)| self.id(*m)));
                 let all = best.join(" and ");
@@ -227,15 +226,21 @@ impl Outcome<'_> {
         none + recalibrate >= LIKELY
     }
 
-    /// Strength of the statement that the design suffices: `surely` where it is likely, and no held-out record is far from its noise.
-    fn how_surely(&self, surely: &str) -> String {
+    /// The statement that the design suffices, which goes on after a `t`: `surely` where it is likely, and no held-out record is far from its noise; open
+    /// where it is less likely than not.
+    fn suffices(&self, statement: &str, surely: &str) -> String {
         let [none, recalibrate, ..] = self.diagnosis.verdicts();
+        let probability = none + recalibrate;
         if self.is_left_over() {
-            " for the fitted records, but a record that was held out is left with far more than noise".to_owned()
+            format!("T{statement} for the fitted records, but a record that was held out is left with far more than noise.")
+        } else if probability < 0.5 {
+            format!(
+                "It is open whether t{statement} (probability {probability:.2}): no other explanation is strong enough to be named."
+            )
         } else if !self.suffices_surely() {
-            format!(", but not surely (probability {:.2})", none + recalibrate)
+            format!("T{statement}, but not surely (probability {probability:.2}).")
         } else {
-            format!(": {surely}")
+            format!("T{statement}: {surely}.")
         }
     }
 
@@ -244,7 +249,7 @@ impl Outcome<'_> {
         let ids = self.apart();
         let command = (!ids.is_empty() && self.misread().is_none()).then(|| self.recommend(&ids))?;
         Some(format!(
-            "These records do not exclude: {}. This command finds the test that separates them best: {command}",
+            "These records do not exclude: {}. This command seeks the test that separates them best: {command}",
             self.others().join(", ")
         ))
     }

@@ -130,6 +130,15 @@ fn bad_batches_are_refused_and_nothing_is_written() {
         let output = folder.run(&[&["batch"], arguments, &["--out", "out"]].concat());
         assert!(output.status.code() == Some(2) && stderr(&output).contains(said), "{arguments:?}: {}", stderr(&output));
     }
+    // a unit whose files are missing, and units of another run
+    fs::create_dir_all(folder.path("lot/U9999")).unwrap();
+    fs::create_dir_all(folder.path("kept/units")).unwrap();
+    for unit in ["U1", "U2", "U7986"] {
+        folder.write(&format!("kept/units/{unit}.json"), "{}");
+    }
+    let said = stderr(&folder.run(&["batch", "drawing.ron", "lot", "--limits", "missing.ron", "--out", "kept"]));
+    assert!(said.contains("U9999 has no recording (*.csv) and is no unit"), "{said}");
+    assert!(said.contains("2 further units are kept in kept/units, U1 the first"), "{said}");
     let good = "(limits: {\"sensitivity\": Magnitude(3.0)}, verdicts: [\"none\"])";
     let cases = [
         (change(good, "sensitivity", "sensitivty"), "did you mean `sensitivity`?"),

@@ -45,14 +45,14 @@ impl Outcome<'_> {
                 let surer = names.first().filter(|id| listed(id)).map_or(String::new(), |first| {
                     let command = self.recommend(&[(*first).to_owned(), rival.to_owned()]);
                     format!(
-                        " To be surer before it is taken apart: {command} finds the test that tells {first} from {rival} best."
+                        " To be surer before it is taken apart: {command} seeks the test that tells {first} from {rival} best."
                     )
                 });
                 format!("{next} Inspection: {}.{surer}", looks.join("; "))
             }
             (Verdict::None, Some((id, p))) => {
                 let command = self.recommend(&[id.to_owned(), "nominal".into()]);
-                format!("{next} They exclude {id} least (probability {p:.3}); {command} finds the test that would show it.")
+                format!("{next} They exclude {id} least (probability {p:.3}); {command} seeks the test that would show it.")
             }
             _ => next,
         }
