@@ -125,6 +125,16 @@ fn winding_type_mechanisms_follow_the_chain() {
     agrees("winding-defect", &[-3.0], Some(24.0), &[RATE]);
 }
 
+/// A fit tries a part of a turn.
+#[test]
+fn a_part_of_a_turn_is_that_part_of_its_effect() {
+    let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let of = |turns: f64| with_mechanism(&gyro, &design(), "winding-defect", &[turns], Some(24.0)).1[1].swap_remove(RATE);
+    let [two, part, three] = [-2.0, -2.75, -3.0].map(of);
+    let (whole, between) = (minus(&three, &two), minus(&part, &two));
+    assert!(rms(&whole) > 1e-3 && rms(&minus(&between, &whole.iter().map(|x| 0.75 * x).collect::<Vec<_>>())) < 1e-9);
+}
+
 /// A shorter coil of fewer layers, with a thicker flange, whose bias is nearly all elasto-optic.
 fn short() -> Design {
     let mut short = design();
@@ -409,6 +419,28 @@ fn surroundings_that_conduct_four_times_as_well_are_named() {
     assert_eq!((found.verdict, &found.set[..]), (diagnosis::Verdict::Explained, &[own][..]));
     let estimate = &found.parameters[0][0];
     assert!((estimate.ci90[0]..estimate.ci90[1]).contains(&4.0), "{estimate:?}");
+}
+
+/// The spool's expansion as a constant of the design, and as one that changes with temperature.
+#[test]
+fn an_expansion_that_changes_has_the_effect_of_the_constant_s_change() {
+    const BY: f64 = 1e-3;
+    let library = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner).library().clone();
+    let gyro = of(library, &[mechanisms::find("unknown:spool-expansion").expect("in the catalogue")]);
+    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let mut larger = middle.clone();
+    let constant = gyro.nuisances().iter().position(|n| n.parameter.name == "spool expansion").expect("a constant");
+    larger[constant] += BY;
+    let nominal = gyro.respond(0, &middle, &[]).expect("response");
+    let of_constant = minus(&gyro.respond(0, &larger, &[]).expect("response")[RATE], &nominal[RATE]);
+    let active = Active { mechanism: 0, values: vec![BY], choice: None };
+    let with = gyro.respond(0, &middle, &[active]).expect("response");
+    let of_change = minus(&with[RATE], &nominal[RATE]);
+    // a row is a mean since the one before
+    let between = |n: usize| f64::midpoint(nominal[SPOOL][n.saturating_sub(1)], nominal[SPOOL][n]);
+    let expected: Vec<f64> = of_constant.iter().enumerate().map(|(n, x)| x * (between(n) - REFERENCE_C)).collect();
+    assert!(rms(&of_constant) > 1e-6, "{}", rms(&of_constant));
+    assert!(rms(&minus(&of_change, &expected)) < 1e-3 * rms(&expected), "{} {}", rms(&of_change), rms(&expected));
 }
 
 /// docs/adding-a-mechanism.md: a mechanism that the crate does not know is fitted, compared and named like any other.
