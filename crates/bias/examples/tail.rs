@@ -1,5 +1,7 @@
 //! Bias of one metre of bare tail that warms by 1 °C/min at the CW end of a kilometre of fibre, free to expand.
 
+#![allow(clippy::print_stdout, reason = "the example is a program")]
+
 use bias::{Error, Optics, Sensitivity, Slice, StrainConvention, bias};
 
 fn main() -> Result<(), Error> {
@@ -22,6 +24,7 @@ fn main() -> Result<(), Error> {
         radial_strain_rate: strain_rate,
     };
     let sensitivity = Sensitivity::from_ramp(&bias(&optics, 1000.0, &[tail])?, rate)?;
+    println!("{:.4} (deg/h)/(degC/min)", sensitivity.total());
     assert!((sensitivity.total() - -0.5824).abs() < 5e-5, "{sensitivity:?}");
     Ok(())
 }

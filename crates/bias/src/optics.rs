@@ -31,7 +31,7 @@ pub struct Optics {
     pub p11: f64,
     /// Photoelastic coefficient p12 of the glass.
     pub p12: f64,
-    /// Mean diameter D of the coil \[m\], > 0.
+    /// Mean diameter D of the coil \[m\], > 0: the mean of its inner and outer diameter, unless it was measured.
     pub sagnac_diameter: f64,
     /// Strain in eq. (2).
     pub strain: StrainConvention,
@@ -59,13 +59,13 @@ impl Optics {
         positive("sagnac_diameter", self.sagnac_diameter)
     }
 
-    /// A = n (1 − n² p12 / 2): optical path gained per length and axial strain, eq. (2).
+    /// A = n (1 − n² p12 / 2): optical path gained per length and axial strain, eq. (2); of an arm of an interferometer, too.
     pub fn a(&self) -> f64 {
         let n = self.refractive_index;
         n * (1.0 - n * n * self.p12 / 2.0)
     }
 
-    /// B = n³ (p11 + p12) / 2: optical path lost per length and radial strain, eq. (2).
+    /// B = n³ (p11 + p12) / 2: optical path lost per length and radial strain, eq. (2); of an arm of an interferometer, too.
     pub fn b(&self) -> f64 {
         self.refractive_index.powi(3) * (self.p11 + self.p12) / 2.0
     }
@@ -73,7 +73,7 @@ impl Optics {
     /// Sagnac phase \[rad\] of a rotation `rate` Ω \[rad/s\], `Ω 2π L D/(λ c)`, for a fibre of `length` L \[m\] and light of vacuum `wavelength` λ \[m\].
     ///
     /// With the sign of eqs. (1) and (2) it is the phase that the wave which enters at z = L has gathered, less that of the wave which enters at z = 0: fibre near
-    /// z = 0 that warms up meets the first of them later, and gives it more.
+    /// z = 0 that warms up meets the first of them later, and gives it more. Nothing is checked: no wavelength gives no finite phase.
     pub fn phase(&self, rate: f64, length: f64, wavelength: f64) -> f64 {
         rate * TAU * length * self.sagnac_diameter / (wavelength * SPEED_OF_LIGHT)
     }

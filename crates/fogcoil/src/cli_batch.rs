@@ -65,10 +65,9 @@ pub(crate) fn run(arguments: &BatchOf, progress: &Progress) -> Result<(), Error>
     }
     let others = kept_beside(out, &units);
     if let Some(first) = others.first() {
-        let count = others.len();
+        let (count, folder) = (others.len(), files::shown_path(&kept_in(out)));
         progress.note(&format!(
-            "{count} further units are kept in {}, {first} the first: this table does not hold them; give all units together if it should",
-            files::shown_path(&kept_in(out))
+            "units that this table does not hold are kept in {folder}: {count}, {first} the first; give all units together if it should hold them"
         ));
     }
     let limits = limits.as_deref().map(read_limits).transpose()?;

@@ -1,6 +1,8 @@
 //! Bias of a coil while it warms from outside, from the turn table and a temperature of one's own: each layer follows the air later than the
 //! one around it. The glass is taken to expand freely; the strain that the winding puts on it takes a model of the coil.
 
+#![allow(clippy::print_stdout, reason = "the example is a program")]
+
 use bias::{Optics, Slice, StrainConvention, bias, units::DEG_PER_H_PER_RAD_PER_S};
 use winding::{ClimbSide, Pattern, Spec, Tails, TurnLength, Winding, wind};
 
@@ -32,7 +34,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         thermal_expansion: 0.55e-6,
         p11: 0.121,
         p12: 0.270,
-        sagnac_diameter: 92.325e-3,
+        sagnac_diameter: coil.mean_diameter(),
         strain: StrainConvention::Mechanical,
     };
     let mut course = Vec::new();
@@ -52,6 +54,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         course.push(bias(&optics, coil.length(), &slices)?.total() * DEG_PER_H_PER_RAD_PER_S);
     }
     let largest = course.iter().fold(0.0, |most: f64, rate| if rate.abs() > most.abs() { *rate } else { most });
+    println!("minute  rate [deg/h]");
+    for (minute, rate) in course.iter().enumerate().step_by(10) {
+        println!("{minute:6}  {rate:12.4}");
+    }
     assert_eq!(format!("{largest:.4} deg/h, {:.4} after an hour", course[60]), "-0.1265 deg/h, 0.0014 after an hour");
     Ok(())
 }

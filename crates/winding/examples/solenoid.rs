@@ -1,6 +1,8 @@
 //! A solenoid of round wire: from the turn table its wire, its resistance and the field at its centre, beside the formula for a
 //! thick coil of even current density.
 
+#![allow(clippy::print_stdout, reason = "the example is a program")]
+
 use std::f64::consts::PI;
 use winding::{ClimbSide, Error, Pattern, Spec, Tails, TurnLength, wind};
 
@@ -43,6 +45,8 @@ fn main() -> Result<(), Error> {
     let density = CURRENT * turns.len() as f64 / (height * (b - a));
     let thick = VACUUM * density * h * ((b + b.hypot(h)) / (a + a.hypot(h))).ln();
     assert!((field / thick - 1.0).abs() < 3e-3, "{field:e} {thick:e}");
-    assert_eq!(format!("{wire:.2} m, {resistance:.2} ohm, {:.2} mT/A", 1e3 * field), "75.71 m, 6.48 ohm, 25.45 mT/A");
+    let found = format!("{wire:.2} m, {resistance:.2} ohm, {:.2} mT/A", 1e3 * field);
+    println!("wire, resistance, field at the centre: {found}");
+    assert_eq!(found, "75.71 m, 6.48 ohm, 25.45 mT/A");
     Ok(())
 }

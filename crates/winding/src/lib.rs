@@ -20,7 +20,8 @@
 //! first turn of every layer belongs to one half, the last to the other. That lets the fibre climb, and costs axial symmetry.
 //!
 //! Conventions: SI units. y = 0 is the coil's left face. z runs from the outer end of the CCW half (0), or of its bare tail, to
-//! the outer end of the CW half (L); the halves meet in layer 1.
+//! the outer end of the CW half (L). The halves meet inside, in layer 1; where each lays whole layers of its own, between its own
+//! innermost layer and the other's, 1 and 2.
 //!
 //! References: D. M. Shupe, *Applied Optics* 19, 654 (1980); N. J. Frigo, *Proc. SPIE* 412, 268 (1983), the quadrupole;
 //! B. Osunluk, S. Ogut and E. Ozbay, *Thermally Induced Bias Errors for a Fiber Coil with Practical Quadrupole Winding*, Fig. 3
@@ -45,6 +46,7 @@
 //! })?;
 //! assert_eq!(format!("{:.4}", winding.length()), "1101.5666"); // m
 //! assert_eq!(winding.count(Half::Cw), 1899);
+//! assert_eq!(format!("{:.2}", 1e3 * winding.mean_diameter()), "92.32"); // mm
 //! # Ok::<(), winding::Error>(())
 //! ```
 

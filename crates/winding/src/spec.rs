@@ -88,7 +88,8 @@ pub struct LayerDefect {
 pub struct Spec {
     /// Order in which the halves take the layers.
     pub pattern: Pattern,
-    /// Number of layers, ≥ 1.
+    /// Number of layers, ≥ 1. A pattern cancels what it can if its halves have as many layers in each of its groups: a dipole's is of two, a quadrupole's
+    /// of four, an octupole's of eight.
     pub layers: usize,
     /// Turns in layers 1, 3, 5, …; ≥ 1, for the practical quadrupole ≥ 2.
     pub turns_odd_layers: usize,
@@ -101,7 +102,8 @@ pub struct Spec {
     pub pitch: f64,
     /// Axial place at which the winding begins, the outer edge of its first turn \[m\]: 0 where it touches the coil's left face.
     pub start: f64,
-    /// Axial place at which it ends, the outer edge of its last turn \[m\]: turns are spread evenly between both. `None`: they touch.
+    /// Axial place at which it ends, the outer edge of its last turn \[m\]: turns are spread evenly between both. `None`: they touch. A
+    /// place that is too short presses them closer than the pitch, as a tolerance may; this is not refused.
     pub end: Option<f64>,
     /// The end of the coil at which the CW half climbs.
     pub cw_climbs: ClimbSide,

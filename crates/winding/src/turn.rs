@@ -9,7 +9,7 @@ pub struct Turn {
     pub half: Half,
     /// Layer, 1 = innermost.
     pub layer: usize,
-    /// Turn within the layer, 1 = at −y.
+    /// Turn within the layer, 1 = nearest to y = 0.
     pub turn: usize,
     /// Radius of its centre \[m\].
     pub r: f64,

@@ -55,7 +55,8 @@ impl Winding {
         &self.spec
     }
 
-    /// The turns in order along the fibre from z = 0; without the tails. Each begins where the one before ends.
+    /// The turns in order along the fibre from z = 0; without the tails. Each begins where the one before ends. The first of them lie in an outermost layer of
+    /// the CCW half, not in layer 1.
     pub fn turns(&self) -> &[Turn] {
         &self.turns
     }
@@ -82,6 +83,11 @@ impl Winding {
     /// Outer radius of the coil \[m\]: half a pitch beyond the centres of the last layer.
     pub fn outer_radius(&self) -> f64 {
         self.spec.radius(self.spec.layers) + self.spec.pitch / 2.0
+    }
+
+    /// Mean of the inner and the outer diameter \[m\], the D of the Sagnac effect unless another was measured.
+    pub fn mean_diameter(&self) -> f64 {
+        self.spec.inner_radius + self.outer_radius()
     }
 
     /// Height of the winding \[m\], from the outer edge of its first turn to that of its last.

@@ -38,7 +38,7 @@ fn lead(batch: &Batch, limits: Option<&Limits>) -> Markup {
                 (Some(_), 0) => { "All " (all) " units keep the limits." }
                 (Some(_), _) => {
                     (all - failing - not_known) " of " (all) " units pass, " (failing) " fail" (named(batch, "fail"))
-                    @if not_known > 0 { "; of " (not_known) " it is not known" (named(batch, "not known")) ": a figure is missing, so they have not passed" }
+                    @if not_known > 0 { "; of " (not_known) " it is not known" (named(batch, "not known")) ": a figure is missing or too uncertain, so they have not passed" }
                     "."
                 }
             }

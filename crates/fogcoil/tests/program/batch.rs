@@ -138,7 +138,7 @@ fn bad_batches_are_refused_and_nothing_is_written() {
     }
     let said = stderr(&folder.run(&["batch", "drawing.ron", "lot", "--limits", "missing.ron", "--out", "kept"]));
     assert!(said.contains("U9999 has no recording (*.csv) and is no unit"), "{said}");
-    assert!(said.contains("2 further units are kept in kept/units, U1 the first"), "{said}");
+    assert!(said.contains("units that this table does not hold are kept in kept/units: 2, U1 the first"), "{said}");
     let good = "(limits: {\"sensitivity\": Magnitude(3.0)}, verdicts: [\"none\"])";
     let cases = [
         (change(good, "sensitivity", "sensitivty"), "did you mean `sensitivity`?"),
