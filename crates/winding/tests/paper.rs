@@ -14,6 +14,7 @@ fn paper_table_iii_length_and_dimensions() {
     assert_eq!((coil.count(Half::Cw), coil.count(Half::Ccw)), (1899, 1899));
     // printed as a radius, but it is the diameter
     assert_eq!(format!("{:.2}", 2e3 * coil.outer_radius()), "97.65");
+    assert_eq!(format!("{:.2}", 1e3 * coil.mean_diameter()), "92.32");
     assert_eq!(format!("{:.2}", 1e3 * coil.height()), "18.02");
 }
 

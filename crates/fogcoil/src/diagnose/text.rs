@@ -126,13 +126,13 @@ impl Outcome<'_> {
             Verdict::None if !self.withdrawn.is_empty() => {
                 "The explanation of the fitted records is taken back: the nominal model predicts the record that was held out.".to_owned()
             }
-            Verdict::None => self.suffices("he nominal model suffices", "no difference beyond noise"),
+            Verdict::None => self.suffices("the nominal model suffices", "no difference beyond noise"),
             Verdict::Recalibrate if self.drawing_stands() => self.suffices(
-                "he instruments, recalibrated within what is known of them, suffice",
+                "the instruments, recalibrated within what is known of them, suffice",
                 "the design is as drawn, and nothing is left out",
             ),
             Verdict::Recalibrate => {
-                self.suffices("he design's own constants, re-estimated within their tolerances, suffice", "nothing is left out")
+                self.suffices("the design's own constants, re-estimated within their tolerances, suffice", "nothing is left out")
             }
             Verdict::Explained => {
                 let (best, first) = (self.names(), self.diagnosis.mechanisms.first().map_or("", |(m, _)| self.id(*m)));
@@ -226,21 +226,22 @@ impl Outcome<'_> {
         none + recalibrate >= LIKELY
     }
 
-    /// The statement that the design suffices, which goes on after a `t`: `surely` where it is likely, and no held-out record is far from its noise; open
-    /// where it is less likely than not.
+    /// The statement that the design suffices: `surely` where it is likely, and no held-out record is far from its noise; open where it is less likely than
+    /// not.
     fn suffices(&self, statement: &str, surely: &str) -> String {
         let [none, recalibrate, ..] = self.diagnosis.verdicts();
         let probability = none + recalibrate;
+        let sentence = capital(statement);
         if self.is_left_over() {
-            format!("T{statement} for the fitted records, but a record that was held out is left with far more than noise.")
+            format!("{sentence} for the fitted records, but a record that was held out is left with far more than noise.")
         } else if probability < 0.5 {
             format!(
-                "It is open whether t{statement} (probability {probability:.2}): no other explanation is strong enough to be named."
+                "It is open whether {statement} (probability {probability:.2}): no other explanation is strong enough to be named."
             )
         } else if !self.suffices_surely() {
-            format!("T{statement}, but not surely (probability {probability:.2}).")
+            format!("{sentence}, but not surely (probability {probability:.2}).")
         } else {
-            format!("T{statement}: {surely}.")
+            format!("{sentence}: {surely}.")
         }
     }
 
@@ -268,4 +269,9 @@ pub(super) fn place(stage: &str, extent: &Extent) -> String {
         let _ = write!(place, ", from {} to {} h", significant(from / S_PER_H, 3), significant(to / S_PER_H, 3));
     }
     place
+}
+
+/// The words with a capital at their beginning.
+pub(super) fn capital(words: &str) -> String {
+    words.chars().take(1).flat_map(char::to_uppercase).chain(words.chars().skip(1)).collect()
 }

@@ -17,11 +17,11 @@ use maud::{Markup, html};
 use mechanisms::{Naming, RATE, SPOOL};
 
 use super::apart::TOLD;
+use super::text::capital;
 use super::{NOMINAL, Outcome, REFITTED, Record};
 use crate::compose::StandIn;
 use crate::report::provenance;
 use crate::units::{DurationUnit, parameter_unit};
-use next_test::capital;
 
 /// A fit beside the record that it is shown for.
 #[derive(Clone, Copy)]

@@ -5,6 +5,7 @@ use diagnosis::{Settings, Verdict};
 use maud::{Markup, html};
 
 use crate::diagnose::Outcome;
+use crate::diagnose::text::capital;
 use crate::recommend::{Limits, Odds, Question, Recommendation, figure, number, sentence};
 
 impl Outcome<'_> {
@@ -57,11 +58,6 @@ impl Outcome<'_> {
             _ => next,
         }
     }
-}
-
-/// The words with a capital at their beginning.
-pub(super) fn capital(words: &str) -> String {
-    words.chars().take(1).flat_map(char::to_uppercase).chain(words.chars().skip(1)).collect()
 }
 
 fn recommended(found: &Recommendation) -> Markup {
