@@ -120,9 +120,9 @@ remarks! {
         "Check the power of `heat.heaters` (in W, cooling is negative) and the profile.";
     // recordings as they are read
     DeclaredInterval "declared-interval":
-        "A recording has no column of instants; they are counted with the interval that was declared.",
-        "Lost rows and a drifting clock cannot be seen.",
-        "Record the instants.";
+        "The instants of a recording's rows are counted with the interval that was declared; a column of instants, if there is one, is not read.",
+        "Lost rows and a drifting clock cannot be seen. It is a warning where the column tells of a length that differs by more than half.",
+        "Record the instants, or leave out the interval (--interval, interval_s in the map file) if the column's instants are right.";
     AbsentColumn "absent-column":
         "A recording lacks the chamber's, the spool's temperature, or the rate.",
         "What that column would tell is not used; without chamber_c there is no diagnosis.",

@@ -9,7 +9,7 @@ use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::meta::{self, Meta};
 use super::opened::open;
-use super::record_clock::Clock;
+use super::record_clock::{Clock, Unread};
 use super::record_columns::RecordColumns;
 use super::record_expectations::{expectations, possible};
 use super::record_format::RecordFormat;
@@ -149,7 +149,8 @@ fn read_rows(
 ) -> Result<(Recording, Vec<u32>, Option<Note>), InputError> {
     let channels: Vec<(Key, usize)> =
         [Key::Chamber, Key::Spool, Key::Rate].into_iter().filter_map(|key| Some((key, columns.column(key)?))).collect();
-    let mut clock = Clock::new(columns, format);
+    let mut clock = Clock::new(columns.column(Key::Time), columns, format);
+    let mut unread = Unread::of(columns, format);
     let mut values: Vec<Vec<f64>> = vec![Vec::new(); channels.len()];
     let mut impossible: Vec<Option<(usize, InputError)>> = vec![None; channels.len()];
     let mut further: Vec<Vec<f64>> = vec![Vec::new(); columns.further.len()];
@@ -167,6 +168,7 @@ fn read_rows(
         if time.len() == MOST_ROWS {
             return Err(rows.fault(None, format!("more than {MOST_ROWS} rows"), "split the recording, or average it"));
         }
+        unread.iter_mut().for_each(|unread| unread.read(rows, columns, time.len()));
         time.push(clock.read(rows, columns, time.len())?);
         lines.extend(rows.line());
         for (((key, column), values), impossible) in channels.iter().zip(&mut values).zip(&mut impossible) {
@@ -206,8 +208,10 @@ fn read_rows(
         sampling: Sampling::Momentary,
     });
     let channels = channels.iter().zip(values).map(channel).chain(beside).collect();
-    let recording = Recording::new(clock.settle(time), channels).map_err(|error| rows.whole_fault(&error.to_string(), ""))?;
-    Ok((recording, lines, clock.note()))
+    let time = clock.settle(time);
+    let note = unread.map(|unread| unread.note(columns, &time)).or_else(|| clock.note());
+    let recording = Recording::new(time, channels).map_err(|error| rows.whole_fault(&error.to_string(), ""))?;
+    Ok((recording, lines, note))
 }
 
 /// The complaint about a value that is impossible.

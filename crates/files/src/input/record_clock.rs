@@ -6,6 +6,7 @@ use super::InputError;
 use super::profile::MOST_S;
 use super::record_columns::RecordColumns;
 use super::record_format::RecordFormat;
+use super::record_notes::unread_clock;
 use super::record_options::Key;
 use super::rows::{Rows, quoted};
 use super::timestamp::{self, Date, FORMS, First, is_day, slashed, time_of_day};
@@ -43,9 +44,9 @@ enum Form {
 }
 
 impl<'a> Clock<'a> {
-    pub(super) fn new(columns: &RecordColumns, format: &'a RecordFormat) -> Self {
+    pub(super) fn new(column: Option<usize>, columns: &RecordColumns, format: &'a RecordFormat) -> Self {
         let orders = [First::Day, First::Month].map(|first| (first, None));
-        Self { column: columns.column(Key::Time), time_of_day: columns.time_of_day, format, form: Form::Numbers, orders }
+        Self { column, time_of_day: columns.time_of_day, format, form: Form::Numbers, orders }
     }
 
     /// The instants of all rows \[s\] from those of [`Self::read`]: dates between slashes in the order in which they go on with the smaller jumps. Orders
@@ -150,6 +151,39 @@ impl<'a> Clock<'a> {
                 None => Err(rows.fault(Some(name), "is empty", "every row needs an instant; remove the row")),
             },
         }
+    }
+}
+
+/// A column of instants for which an interval stands.
+pub(super) struct Unread<'a> {
+    column: usize,
+    clock: Clock<'a>,
+    /// Its instants; none if one of them cannot be read.
+    instants: Option<Vec<f64>>,
+}
+
+impl<'a> Unread<'a> {
+    /// The one of these columns, if there is one.
+    pub(super) fn of(columns: &RecordColumns, format: &'a RecordFormat) -> Option<Self> {
+        let column = columns.unread_clock?;
+        Some(Self { column, clock: Clock::new(Some(column), columns, format), instants: Some(Vec::new()) })
+    }
+
+    /// Reads row `number`.
+    pub(super) fn read(&mut self, rows: &Rows, columns: &RecordColumns, number: usize) {
+        if let Some(mut instants) = self.instants.take() {
+            self.instants = self.clock.read(rows, columns, number).ok().map(|instant| {
+                instants.push(instant);
+                instants
+            });
+        }
+    }
+
+    /// The note that it is not read, and how it differs from the instants \[s\] that stand for it.
+    pub(super) fn note(mut self, columns: &RecordColumns, time: &[f64]) -> Note {
+        let lasts = |time: &[f64]| Some(time.last()? - time.first()?);
+        let by_column = self.instants.take().map(|instants| self.clock.settle(instants)).and_then(|instants| lasts(&instants));
+        unread_clock(&columns.names[self.column], lasts(time).unwrap_or(0.0), by_column)
     }
 }
 

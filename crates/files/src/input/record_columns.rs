@@ -11,6 +11,8 @@ pub(super) struct RecordColumns {
     pub(super) names: Vec<String>,
     /// Column of each key; of the temperatures, and of the time where an interval stands for it, `None` if there is none.
     at: [Option<usize>; 4],
+    /// Column of instants that is not read, as an interval stands for it.
+    pub(super) unread_clock: Option<usize>,
     /// Column of the time of day, where that of the time holds the date alone.
     pub(super) time_of_day: Option<usize>,
     /// Further columns.
@@ -26,16 +28,16 @@ impl RecordColumns {
             let remedy = "put a line above it that names them, e.g. time_s,chamber_c,spool_c,rate_deg_per_h";
             return Err(rows.fault(None, "the first line holds numbers, not the names of the columns", remedy));
         }
-        let mut at = [None; 4];
+        let (mut at, mut unread_clock) = ([None; 4], None);
         for key in Key::ALL {
             let declared = format.column(key).name.as_deref();
             let name = declared.unwrap_or(key.standard());
             let found: Vec<usize> = (0..names.len()).filter(|&column| names[column] == name).collect();
             let plain = declared.is_none() && format.column(key).is_standard(key);
             at[key as usize] = match found[..] {
-                [_] if key == Key::Time && format.interval.is_some() => {
-                    let problem = "the instants stand in this column, and an interval is given too";
-                    return Err(rows.fault(Some(name), problem, "leave out --interval (interval_s in the map file)"));
+                [column] if key == Key::Time && format.interval.is_some() => {
+                    unread_clock = Some(column);
+                    None
                 }
                 [column] => Some(column),
                 [] if plain && (key == Key::Chamber || key == Key::Spool) => None,
@@ -50,7 +52,7 @@ impl RecordColumns {
         let time_of_day = format.time_of_day.as_ref();
         let time_of_day =
             time_of_day.map(|name| beside(name, "--time-of-day (time_of_day in the map file) names this one")).transpose()?;
-        Ok(Self { names, at, time_of_day, further })
+        Ok(Self { names, at, unread_clock, time_of_day, further })
     }
 
     pub(super) fn column(&self, key: Key) -> Option<usize> {
@@ -60,7 +62,7 @@ impl RecordColumns {
     pub(super) fn ignored(&self) -> Vec<&str> {
         let unused = |column: &usize| {
             let some = Some(*column);
-            !self.at.contains(&some) && self.time_of_day != some && !self.further.contains(column)
+            !self.at.contains(&some) && self.unread_clock != some && self.time_of_day != some && !self.further.contains(column)
         };
         let names = (0..self.names.len()).filter(unused).map(|column| self.names[column].as_str());
         names.filter(|name| !name.is_empty()).collect()

@@ -10,11 +10,13 @@ use super::rows::quoted;
 use super::unit_names::{foreign, is_temperature};
 use crate::remark::{Note, Remark};
 
-/// Notes on the columns; `dates` is the note on the instants.
+/// Notes on the columns; `dates` is the note on instants that are not seconds of a column.
 pub(super) fn notes(columns: &RecordColumns, format: &RecordFormat, dates: Option<Note>) -> Vec<Note> {
     let mut notes = Vec::new();
     for key in Key::ALL {
         match columns.column(key) {
+            // the note on the instants tells of a clock that is not read
+            None if key == Key::Time && columns.unread_clock.is_some() => {}
             None => notes.push(absent(key)),
             Some(column) => {
                 let (name, form) = (&columns.names[column], format.column(key));
@@ -48,6 +50,22 @@ fn absent(key: Key) -> Note {
         return Remark::DeclaredInterval.note("there is no column of instants: the interval that was declared stands for it");
     }
     Remark::AbsentColumn.note(format!("there is no column {}; a model can do without it, less surely", key.standard()))
+}
+
+/// Note on a column of instants that is not read, of rows that last `rows` \[s\] by the interval that was declared, and `column` \[s\] by that column, if its
+/// instants can be read.
+pub(super) fn unread_clock(name: &str, rows: f64, column: Option<f64>) -> Note {
+    /// Ratio of the two from which one of them is taken to be wrong; a clock that is put forward or back, or shows no seconds, changes less.
+    const FAR: f64 = 1.5;
+    let text = format!(
+        "the instants of the column {} are not read: the interval that was declared stands for them; the rows last {} s",
+        quoted(name),
+        Seconds(rows)
+    );
+    let Some(column) = column else { return Remark::DeclaredInterval.note(text) };
+    let text = format!("{text}, by the column {} s", Seconds(column));
+    let is_far = rows > 0.0 && !(1.0 / FAR..FAR).contains(&(column / rows));
+    if is_far { Remark::DeclaredInterval.warning(text) } else { Remark::DeclaredInterval.note(text) }
 }
 
 /// Note on a column that is not the standard one.

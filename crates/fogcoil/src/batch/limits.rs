@@ -148,6 +148,9 @@ impl Limits {
 
     /// Judges a unit: of a number that was not measured, or whose interval is wider than its limits, it is not known whether it keeps them.
     pub fn judge(&self, row: &Row) -> Judged {
+        if let Some(problem) = row.problem.as_ref().filter(|_| row.is_unread()) {
+            return Judged::NotKnown(vec![problem.clone()]);
+        }
         let verdict = (!self.verdicts.is_empty()).then(|| match &row.verdict {
             Some(verdict) if self.verdicts.contains(verdict) => Kept::Yes,
             Some(verdict) if verdict == "explained" => Kept::No(format!("an effect was found: {}", row.open())),

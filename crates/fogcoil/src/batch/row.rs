@@ -113,6 +113,11 @@ impl Row {
         }
     }
 
+    /// Whether nothing was found: its records cannot be used.
+    pub(super) fn is_unread(&self) -> bool {
+        self.verdict.is_none() && self.numbers.iter().all(Option::is_none)
+    }
+
     /// A column by its name; none if it was not found, or there is no such column.
     pub fn number(&self, name: &str) -> Option<f64> {
         NUMBERS.iter().position(|known| *known == name).and_then(|n| self.numbers[n])

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use progress::Step;
 use rayon::prelude::*;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::finding::{Inputs, Read};
 use super::kept::Kept;
@@ -28,7 +28,7 @@ pub struct Batch {
 /// Measures, diagnoses and judges all units, those aside whose findings are in `folder` already; every other finding is kept there as soon as it is known.
 ///
 /// # Errors
-/// [`files::Error::Input`] of the first record that cannot be used; [`files::Error::Coil`] if the design cannot be modelled; [`files::Error::Output`] where
+/// [`files::Error::Input`] of the first record if no unit's records can be used: of some that cannot, their rows tell the problem; [`files::Error::Coil`] if the design cannot be modelled; [`files::Error::Output`] where
 /// a finding cannot be kept.
 pub fn run(
     inputs: &Inputs,
@@ -39,7 +39,11 @@ pub fn run(
 ) -> Result<Batch, Error> {
     progress(Step::begins("reading the records"));
     let program = program::hash(inputs.cache.code());
-    let read: Vec<Read> = units.par_iter().map(|unit| inputs.read(unit, &program)).collect::<Result<_, _>>()?;
+    let (read, unusable) = apart(units, units.par_iter().map(|unit| inputs.read(unit, &program)).collect())?;
+    if let Some(first) = unusable.first() {
+        let (count, all, first) = (unusable.len(), units.len(), &first.unit);
+        progress(Step::begins(&format!("going on without {count} of {all} units, whose records cannot be used ({first} the first)")));
+    }
     let kept = Kept::within(folder)?;
     let found: Vec<Option<Value>> = read.iter().map(|unit| kept.load(&unit.name, &unit.key)).collect();
     if found.iter().any(Option::is_none) {
@@ -64,12 +68,40 @@ pub fn run(
         Ok(row)
     };
     let mut rows: Vec<Row> = read.par_iter().zip(found).map(row).collect::<Result<_, Error>>()?;
+    rows.extend(unusable);
+    rows.sort_by(|a, b| a.unit.cmp(&b.unit));
     settle(&mut rows);
     let judged = |row: Row| {
         let judged = limits.map_or(Judged::Unjudged, |limits| limits.judge(&row));
         (row, judged)
     };
     Ok(Batch { rows: rows.into_iter().map(judged).collect() })
+}
+
+/// The units whose records can be used, and the rows of the others.
+///
+/// # Errors
+/// That of the first if none can.
+fn apart(units: &[Unit], read: Vec<Result<Read, Error>>) -> Result<(Vec<Read>, Vec<Row>), Error> {
+    if read.iter().any(Result::is_ok) {
+        let (mut usable, mut unusable) = (Vec::new(), Vec::new());
+        for (unit, read) in units.iter().zip(read) {
+            match read {
+                Ok(read) => usable.push(read),
+                Err(error) => unusable.push(row_of(unit, &error)),
+            }
+        }
+        return Ok((usable, unusable));
+    }
+    Ok((read.into_iter().collect::<Result<_, _>>()?, Vec::new()))
+}
+
+/// The row of a unit whose records cannot be used.
+fn row_of(unit: &Unit, error: &Error) -> Row {
+    let files: Vec<String> = unit.fits.iter().chain(&unit.holdouts).map(|file| file.display().to_string()).collect();
+    let mut row = Row::of(&json!({"unit": unit.name, "files": files, "problem": error.to_string()}));
+    row.lot.clone_from(&unit.lot);
+    row
 }
 
 impl Batch {

@@ -90,10 +90,28 @@ fn a_point_beside_a_decimal_comma() {
 }
 
 #[test]
+fn an_interval_stands_for_a_clock_that_is_wrong() {
+    let told = |content: &str, interval: &str, parts: &[&str]| {
+        let folder = Folder::new();
+        folder.write("r.csv", content);
+        let output = folder.run(&["check", "r.csv", "--interval", interval]);
+        let said = stdout(&output) + &stderr(&output);
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        parts.iter().for_each(|part| assert!(said.contains(part), "`{part}` in {said}"));
+    };
+    let plain = table((0..121).map(|n| (30 * n).to_string()));
+    let unread = "the instants of the column `time_s` are not read: the interval that was declared stands for them";
+    let lasts = "the rows last 120 s, by the column 3600 s";
+    told(&plain, "1", &["warning: ", unread, lasts, "span         120.0  s"]);
+    // without seconds, put back by an hour, and one that cannot be read
+    let back = |n: usize| format!("2026-10-25T0{}:{:02}:00Z", if n < 180 { n / 60 } else { n / 60 - 1 }, n % 60);
+    told(&table((0..300).map(back)), "60", &["note: ", unread, "the rows last 17940 s, by the column 14340 s"]);
+    told(&plain.replace("\n60,", "\nabc,"), "30", &["note: ", unread, "the rows last 3600 s ["]);
+}
+
+#[test]
 fn no_flag_is_ignored() {
     let plain = table((0..121).map(|n| (30 * n).to_string()));
-    let says = ["r.csv:1: time_s: the instants stand in this column, and an interval is given too", "leave out --interval"];
-    refuse(&plain, &["--interval", "1"], &says);
     let dates = table((0..60).map(|n| format!("2026-03-01T00:{n:02}:00Z")));
     refuse(&dates, &["--unit", "time=ms"], &["r.csv:2: time_s: `2026-03-01T00:00:00Z` is a date, which has no unit or scale"]);
     refuse(&dates, &["--scale", "time=2"], &["r.csv:2: time_s: "]);

@@ -71,6 +71,7 @@ fn units_become_a_table_and_a_page_whatever_interrupts_them() {
     let old = hash("U4907");
     let output = folder.run(&[&RUN[..], &["--out", "whole"]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    a_unit_that_cannot_be_used_does_not_keep_the_others(&folder);
     assert!(hash("U4907") != old && fs::metadata(folder.path("whole/units/U8378.json")).unwrap().modified().unwrap() == before);
 }
 
@@ -159,6 +160,26 @@ fn bad_batches_are_refused_and_nothing_is_written() {
     assert!(!folder.path("out").exists());
     many_records_in_a_folder_are_of_one_unit(&folder);
     results_never_lie_on_inputs(&folder);
+}
+
+/// A unit whose record cannot be used is a row like the others, with its problem; the others are judged.
+fn a_unit_that_cannot_be_used_does_not_keep_the_others(folder: &Folder) {
+    fs::create_dir_all(folder.path("other")).unwrap();
+    folder.write("other/A1.csv", "time_s,chamber_c,spool_c,rate_deg_per_h\n0,20,20,0\n60,20,x,0\n");
+    folder.write("limits.ron", "(limits: {\"arw\": Within(0.0, 1e3)}, verdicts: [\"none\"])");
+    let arguments =
+        ["batch", "drawing.ron", "U8378.csv", "other/A1.csv", "U4907.csv", "--limits", "limits.ron", "--out", "whole"];
+    let output = folder.run(&arguments);
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("going on without 1 of 3 units, whose records cannot be used (A1 the first)"), "{said}");
+    assert!(said.contains("1 of 3 units are not diagnosed; A1: other/A1.csv:3: spool_c: "), "{said}");
+    let table = fs::read_to_string(folder.path("whole/table.csv")).unwrap();
+    let lines: Vec<&str> = table.lines().collect();
+    assert!(lines.len() == 4 && lines[1].starts_with("A1,1,,not known,"), "{table}");
+    assert!(lines[2].starts_with("U4907,4907,,") && lines[3].starts_with("U8378,8378,,"), "{table}");
+    assert_eq!(lines[1].matches("other/A1.csv:3: spool_c: ").count(), 2, "as reason and as problem, each once: {table}");
+    assert!(!folder.path("whole/units/A1.json").exists());
 }
 
 /// Who gives a folder of units, a file each, is told how they are taken; where columns have other names, how to say so once for all.
