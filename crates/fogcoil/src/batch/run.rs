@@ -42,7 +42,9 @@ pub fn run(
     let (read, unusable) = apart(units, units.par_iter().map(|unit| inputs.read(unit, &program)).collect())?;
     if let Some(first) = unusable.first() {
         let (count, all, first) = (unusable.len(), units.len(), &first.unit);
-        progress(Step::begins(&format!("going on without {count} of {all} units, whose records cannot be used ({first} the first)")));
+        progress(Step::begins(&format!(
+            "going on without {count} of {all} units, whose records cannot be used ({first} the first)"
+        )));
     }
     let kept = Kept::within(folder)?;
     let found: Vec<Option<Value>> = read.iter().map(|unit| kept.load(&unit.name, &unit.key)).collect();
