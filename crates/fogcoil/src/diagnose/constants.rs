@@ -12,8 +12,8 @@ use crate::table::significant;
 /// Standard deviations from the drawing from which a constant is worth a line.
 const MOVED: f64 = 1.0;
 
-/// The same from which an instrument is not believed.
-const FAR: f64 = 3.0;
+/// The same from which an instrument is not believed, and a constant that stands for a mechanism is worth a line.
+pub(super) const FAR: f64 = 3.0;
 
 /// A number of design or instrument as the records leave it.
 pub(super) struct Constant {

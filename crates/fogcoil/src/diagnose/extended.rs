@@ -31,6 +31,7 @@ impl Outcome<'_> {
         if found.is_empty() {
             return Ok(coil_file(&self.name, nominal, known, &comments));
         }
+        comments.extend(self.doubts());
         comments.extend(found.iter().filter(|p| p.record.is_none()).map(|p| said(p, self.interval(p))));
         let mut design = nominal.clone();
         for posterior in found.iter().filter(|p| p.place == Place::Nominal(Role::Constant)) {

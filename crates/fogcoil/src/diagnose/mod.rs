@@ -3,6 +3,7 @@
 mod apart;
 mod columns;
 mod constants;
+mod doubts;
 mod extended;
 mod json;
 mod left;

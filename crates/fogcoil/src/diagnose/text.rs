@@ -36,6 +36,7 @@ impl Outcome<'_> {
             if let Some(structure) = self.structure() {
                 let _ = writeln!(out, "Besides, {structure}.");
             }
+            self.doubts().iter().for_each(|doubt| out += &format!("{doubt}\n"));
         }
         if self.holdouts.is_empty() && d.verdict != Verdict::None {
             out.push_str("No record was held out, so the result is not proven on data outside the fit (--holdout).\n");
@@ -137,16 +138,20 @@ impl Outcome<'_> {
             Verdict::Explained => {
                 let (best, first) = (self.names(), self.diagnosis.mechanisms.first().map_or("", |(m, _)| self.id(*m)));
                 let all = best.join(" and ");
-                let sure = |id: &str| {
-                    let probability = self.likely().find(|(name, _)| *name == id).map_or(0.0, |(_, probability)| probability);
-                    format!("{id} (probability {probability:.3})")
-                };
+                let sure = |id: &str| format!("{id} (probability {:.3})", self.probability(id).unwrap_or(0.0));
                 if best.contains(&first) {
-                    let all: Vec<String> = best.iter().map(|id| sure(id)).collect();
-                    let law = self.law_in_place().filter(|p| *p >= TOLD).map_or(String::new(), |p| {
-                        format!(", or a law that nobody listed and that does the same (probability {p:.3})")
-                    });
-                    format!("The recording differs from the design. Most likely: {}{law}.", all.join(" and "))
+                    let named = best.iter().map(|id| sure(id)).collect::<Vec<_>>().join(" and ");
+                    let likelier = best.iter().all(|id| self.law_in_place() > self.probability(id));
+                    match self.law_in_place().filter(|p| *p >= TOLD) {
+                        Some(p) if likelier => format!(
+                            "The recording differs from the design. Most likely: a law that nobody listed (probability {p:.3}), or what does the same, {named}."
+                        ),
+                        Some(p) => format!(
+                            "The recording differs from the design. Most likely: {named}, or a law that nobody listed and that does the same \
+                             (probability {p:.3})."
+                        ),
+                        None => format!("The recording differs from the design. Most likely: {named}."),
+                    }
                 } else {
                     // many choices of one mechanism together outweigh the best single hypothesis
                     format!("The recording differs from the design. Most likely: {}; the best single hypothesis: {all}.", sure(first))
@@ -161,6 +166,11 @@ impl Outcome<'_> {
                 format!("The recording differs from the design in a way that nothing in the library explains{structure}.")
             }
         }
+    }
+
+    /// Probability of a mechanism, if it is worth saying.
+    fn probability(&self, id: &str) -> Option<f64> {
+        self.likely().find(|(name, _)| *name == id).map(|(_, probability)| probability)
     }
 
     /// The step after this answer, where no two mechanisms are to be told apart.

@@ -193,6 +193,7 @@ impl Outcome<'_> {
         if let Some(alternatives) = self.alternatives() {
             rows.push(row("not told apart", format!("{alternatives} (see the next test)")));
         }
+        rows.extend(self.doubts().iter().map(|doubt| row("doubt", nice(doubt))));
         if let Some(structure) = self.structure() {
             rows.push(row("structure", nice(&structure)));
         }
