@@ -119,7 +119,7 @@ pub(crate) struct Format {
     /// Numbers are written like 20,5
     #[arg(long)]
     decimal_comma: bool,
-    /// Seconds between rows, for a file without instants
+    /// Seconds between rows, for a file without instants, or in place of its clock
     #[arg(long, value_name = "S")]
     interval: Option<f64>,
     /// Column of the time of day, where the column of instants holds the date alone

@@ -29,6 +29,9 @@ pub(crate) struct Simulate {
     /// reads it, with RECORD.map.ron beside it if it is there
     #[arg(long, value_name = "RECORD.csv", conflicts_with = "step")]
     record: Option<PathBuf>,
+    /// A file that says how that recording is read, in place of one beside it
+    #[arg(long, value_name = "FILE.ron", requires = "record")]
+    map: Option<PathBuf>,
     /// Course of the temperatures between the profile's rows
     #[arg(long, value_enum, default_value_t = Between::Linear, conflicts_with = "spool")]
     between: Between,
@@ -76,7 +79,7 @@ fn noise(text: &str) -> Result<f64, String> {
 pub(crate) fn run(arguments: &Simulate, progress: &Progress) -> Result<(), Error> {
     let Simulate { coil, profile, record, spool, mechanisms, out, report, vtu, band, json, no_cache, .. } = arguments;
     let own = input::read_simulated(mechanisms)?;
-    let recorded = record.iter().flat_map(|path| RecordOptions::default().files(path));
+    let recorded = record.iter().flat_map(|path| arguments.reading(&[]).files(path));
     let inputs: Vec<PathBuf> = [profile, spool].into_iter().flatten().chain(mechanisms).cloned().chain(recorded).collect();
     let section = vtu.as_deref().map_or(Vec::new(), places);
     let mut outputs = vec![Some(out.as_path()), report.as_deref(), band.as_deref()];
@@ -104,6 +107,11 @@ fn places(folder: &Path) -> Vec<PathBuf> {
 }
 
 impl Simulate {
+    /// Options for reading the recording, with these columns beside the usual ones.
+    fn reading(&self, further: &[String]) -> RecordOptions {
+        RecordOptions { map: self.map.clone(), further: further.to_vec(), ..RecordOptions::default() }
+    }
+
     /// Refuses a coil of too many turns where its fields are asked for as files.
     fn require_drawable(&self, case: &CoilCase) -> Result<(), Error> {
         let (turns, most) = (case.winding.turns().len(), figures::MOST_TURNS);
@@ -147,7 +155,7 @@ impl Simulate {
             }
             (None, None) => {
                 let path = self.record.as_deref().ok_or_else(|| Error::usage("give --profile, --record or --spool"))?;
-                let options = RecordOptions { further: further.to_vec(), ..RecordOptions::default() };
+                let options = self.reading(further);
                 let record = progress.during(&reading(path), || input::read_recorded(path, &options, &case.design))?;
                 let record = self.divided(record)?;
                 let modelled = model(&record.drives)?;

@@ -14,6 +14,9 @@ pub(crate) struct Under {
     /// In place of a profile: a recording, whose chamber drives the coil; read as `fogcoil check` reads it, with RECORD.map.ron beside it if it is there
     #[arg(long, value_name = "RECORD.csv", conflicts_with_all = ["profile", "step"])]
     record: Option<PathBuf>,
+    /// A file that says how that recording is read, in place of one beside it
+    #[arg(long, value_name = "FILE.ron", requires = "record")]
+    map: Option<PathBuf>,
     /// Add a row every S seconds from the first row, on the straight lines between the profile's own
     #[arg(long, value_name = "S", value_parser = step, requires = "profile")]
     step: Option<f64>,
@@ -22,8 +25,13 @@ pub(crate) struct Under {
 impl Under {
     /// Files that are read.
     pub(crate) fn files(&self) -> Vec<PathBuf> {
-        let recorded = self.record.iter().flat_map(|path| RecordOptions::default().files(path));
+        let recorded = self.record.iter().flat_map(|path| self.reading().files(path));
         self.profile.iter().cloned().chain(recorded).collect()
+    }
+
+    /// Options for reading the recording.
+    fn reading(&self) -> RecordOptions {
+        RecordOptions { map: self.map.clone(), ..RecordOptions::default() }
     }
 
     /// The chamber's course, for a coil, where one is given.
@@ -34,7 +42,7 @@ impl Under {
                 divide(&mut profile, self.step)?;
                 Ok(Some(profile))
             }
-            (None, Some(path)) => Ok(Some(input::read_recorded(path, &RecordOptions::default(), &case.design)?)),
+            (None, Some(path)) => Ok(Some(input::read_recorded(path, &self.reading(), &case.design)?)),
             (None, None) => Ok(None),
         }
     }

@@ -77,6 +77,16 @@ fn days_that_are_not_and_zones_that_come_and_go() {
 }
 
 #[test]
+fn a_remark_below_the_rows() {
+    let rows = table((0..40).map(|n| (30 * n).to_string()));
+    refuse(
+        &(rows + "Ende der Messung,,,\n"),
+        &[],
+        &["r.csv:42: time_s: `Ende der Messung` is not a number; if the line is a remark, remove it"],
+    );
+}
+
+#[test]
 fn a_point_beside_a_decimal_comma() {
     let row = |n: usize| format!("{};{}.{:03}\n", 30 * n, 1 + n % 3, 7 * n);
     let text = "time_s;rate_deg_per_h\n".to_owned() + &(0..100).map(row).collect::<String>();
@@ -111,7 +121,6 @@ fn an_interval_stands_for_a_clock_that_is_wrong() {
 
 #[test]
 fn no_flag_is_ignored() {
-    let plain = table((0..121).map(|n| (30 * n).to_string()));
     let dates = table((0..60).map(|n| format!("2026-03-01T00:{n:02}:00Z")));
     refuse(&dates, &["--unit", "time=ms"], &["r.csv:2: time_s: `2026-03-01T00:00:00Z` is a date, which has no unit or scale"]);
     refuse(&dates, &["--scale", "time=2"], &["r.csv:2: time_s: "]);

@@ -111,6 +111,14 @@ fn a_recording_stands_beside_its_simulation() {
     assert!(by_record > 0.0 && (by_record / by_result - 1.0).abs() < 1e-9, "{by_record} {by_result}");
     let compared = stdout(&folder.run(&["compare", "coil.ron", "coil.ron", "--record", "logger.csv", "--quiet"]));
     assert!(compared.contains("largest |rate|"), "{compared}");
+    // with its map elsewhere
+    std::fs::copy(folder.path("logger.csv"), folder.path("moved.csv")).unwrap();
+    let mapped = ["--record", "moved.csv", "--map", "logger.map.ron"];
+    let elsewhere = peak(&mapped);
+    assert!((by_record / elsewhere - 1.0).abs() < 1e-12, "{by_record} {elsewhere}");
+    assert!(folder.run(&[&["simulate", "coil.ron", "--out", "m.csv", "--quiet"], &mapped[..]].concat()).status.success());
+    let (moved, beside) = (folder.path("m.csv"), folder.path("b.csv"));
+    assert!(std::fs::read(moved).unwrap() == std::fs::read(beside).unwrap());
     // the map is an input: no output may be written over it
     let output = folder.run(&["simulate", "coil.ron", "--record", "logger.csv", "--out", "logger.map.ron"]);
     assert_eq!(output.status.code(), Some(2));
