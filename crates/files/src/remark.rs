@@ -322,9 +322,13 @@ remarks! {
         "What was found stands; its sizes are rough: a strong mechanism acts otherwise than the fit takes it to, or the file rounds what was fitted.",
         "Give the written file to `diagnose` as the design, with the same records: what is left is fitted about it.";
     NoModel "no-model":
-        "--model-out was given, but the verdict leaves nothing to put into the design.",
+        "--model-out was given, but the verdict leaves nothing that a coil file could hold.",
         "The file is not written.",
-        "None is needed; the reason stands in the message.";
+        "If the unit is known not to have the mechanism that the message names, leave it out with --without ID; otherwise none is needed.";
+    LeftOut "left-out":
+        "Mechanisms were not weighed, as --without says that the unit does not have them.",
+        "If it has one of them all the same, another takes its place, or none.",
+        "Leave out --without unless an inspection showed it.";
 }
 
 /// Importance of a note.

@@ -136,6 +136,9 @@ pub(crate) struct Diagnose {
     /// A mechanism of your own beside the program's (`fogcoil new --kind mechanism`), or the id of one that is weighed on request (`fogcoil explain`); may be given more than once
     #[arg(long = "mechanism", value_name = "MECHANISM.ron|ID")]
     pub(crate) mechanisms: Vec<PathBuf>,
+    /// Id of a mechanism that the unit is known not to have, as by its inspection; may be given more than once
+    #[arg(long, value_name = "ID")]
+    pub(crate) without: Vec<String>,
     /// Write one JSON object here; without a file, print it alone
     #[arg(long, value_name = "J", num_args = 0..=1)]
     pub(crate) json: Option<Option<PathBuf>>,

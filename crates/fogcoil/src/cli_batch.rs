@@ -37,6 +37,9 @@ pub(crate) struct BatchOf {
     /// A mechanism of your own beside the program's, or the id of one that is weighed on request; may be given more than once
     #[arg(long = "mechanism", value_name = "MECHANISM.ron|ID")]
     mechanisms: Vec<PathBuf>,
+    /// Id of a mechanism that the units are known not to have; may be given more than once
+    #[arg(long, value_name = "ID")]
+    without: Vec<String>,
     /// Facts about the records besides their columns [default: meta.ron beside each, if it is there]
     #[arg(long, value_name = "FILE")]
     meta: Option<PathBuf>,
@@ -49,8 +52,8 @@ pub(crate) struct BatchOf {
 const MANY: usize = 5;
 
 pub(crate) fn run(arguments: &BatchOf, progress: &Progress) -> Result<(), Error> {
-    let BatchOf { coil, records, limits, out, json: as_json, mechanisms, meta, map } = arguments;
-    let asked = input::read_mechanisms(mechanisms)?;
+    let BatchOf { coil, records, limits, out, json: as_json, mechanisms, without, meta, map } = arguments;
+    let asked = input::read_mechanisms(mechanisms)?.without(without)?;
     let further = asked.further_columns();
     let options = RecordOptions { map: map.clone(), meta: meta.clone(), further, ..RecordOptions::default() };
     let units = units(records, out)?;

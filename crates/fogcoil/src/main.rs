@@ -111,8 +111,9 @@ fn run_wind(coil: &Path, csv: Option<&Path>, svg: Option<&Path>, json: bool, pro
 }
 
 fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> {
-    let Diagnose { coil, fits, holdouts, mechanisms, json, prediction, model_out, report, meta, format, no_cache } = arguments;
-    let asked = input::read_mechanisms(mechanisms)?;
+    let Diagnose { coil, fits, holdouts, mechanisms, without, json, prediction, model_out, report, meta, format, no_cache } =
+        arguments;
+    let asked = input::read_mechanisms(mechanisms)?.without(without)?;
     let own = &asked.own;
     let options = RecordOptions { further: asked.further_columns(), ..format.options(meta.clone()) };
     let records = fits.iter().chain(holdouts).flat_map(|record| options.files(record));

@@ -4,7 +4,7 @@ use crate::course::total;
 use crate::law_tools::Chain;
 use crate::mechanism::{Change, Mechanism, Stage};
 use crate::record_to_bias::Prepared;
-use crate::series::lagged;
+use crate::series::{lagged, rates_per_hour};
 use coil::{Error, Parameter};
 use diagnosis::Latent;
 
@@ -18,6 +18,8 @@ const SWITCHED_ON: [f64; 4] = [1.0, 60.0, 300.0, 1500.0];
 /// Factors on transverse modulus and expansion.
 const SOFTER: f64 = 0.95;
 const WIDER: f64 = 1.02;
+/// Filters through which a unit may use its thermometer's rate \[s\].
+const FILTERS: [f64; 2] = [30.0, 120.0];
 /// A thermometer's lag \[s\].
 const LAG: f64 = 30.0;
 /// Tail \[m\] and every which layer for the winding as a whole.
@@ -103,9 +105,13 @@ impl Chain {
         optics.push(of_rate(record.curved.clone()));
         add(Stage::Optics, optics);
 
-        add(Stage::Electronics, hats.iter().map(|h| of_rate(h.clone())).collect());
-
         let spool = &record.nominal.sensor;
+        let mut electronics: Functions = hats.iter().map(|h| of_rate(h.clone())).collect();
+        // a unit knows its own thermometer
+        electronics
+            .extend(FILTERS.iter().map(|filter| of_rate(rates_per_hour(&record.time, &lagged(&record.time, spool, *filter)))));
+        add(Stage::Electronics, electronics);
+
         let behind: Vec<f64> = lagged(&record.time, spool, LAG).iter().zip(spool).map(|(a, b)| a - b).collect();
         let of_spool = |series: Vec<f64>| vec![series, vec![0.0; rows]];
         let mut sensor = vec![of_spool(behind)];

@@ -16,6 +16,8 @@ pub struct Asked {
     pub own: Vec<MechanismCase>,
     /// Those of [`mechanisms::ON_REQUEST`], by their ids.
     pub listed: Vec<&'static dyn Mechanism>,
+    /// Ids of the program's usual mechanisms that the unit is known not to have.
+    pub left_out: Vec<String>,
 }
 
 /// Reads the values of `--mechanism`, each once: files, or ids of mechanisms that are weighed on request.
@@ -37,7 +39,7 @@ pub fn read_mechanisms(paths: &[PathBuf]) -> Result<Asked, Error> {
             },
         }
     }
-    Ok(Asked { own: read_own(&files)?, listed })
+    Ok(Asked { own: read_own(&files)?, listed, left_out: Vec::new() })
 }
 
 /// Whether a word can be an id and no file's name: it has neither a point nor a separator.
@@ -118,10 +120,28 @@ impl Asked {
         all.into_iter().map(str::to_owned).collect()
     }
 
-    /// The program's mechanisms and those asked for.
+    /// The same without mechanisms of these ids (`--without`), which the unit is known not to have.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] of an id that is none of the program's usual mechanisms.
+    pub fn without(self, ids: &[String]) -> Result<Self, Error> {
+        let usual = || CATALOGUE.iter().map(|mechanism| mechanism.facts().id);
+        match ids.iter().find(|id| usual().all(|usual| usual != id.as_str())) {
+            Some(id) => {
+                let (word, meant) = (shown(id), meant(id, usual()));
+                Err(Error::Usage(format!(
+                    "--without: `{word}` is no mechanism that is weighed in any case (`fogcoil explain`){meant}"
+                )))
+            }
+            None => Ok(Self { left_out: ids.to_vec(), ..self }),
+        }
+    }
+
+    /// The program's mechanisms but those left out, and those asked for.
     pub fn with_catalogue(&self) -> Vec<&dyn Mechanism> {
         let own = self.own.iter().map(|own| &own.mechanism as &dyn Mechanism);
-        CATALOGUE.iter().chain(&self.listed).map(|known| *known as &dyn Mechanism).chain(own).collect()
+        let usual = CATALOGUE.iter().filter(|usual| self.left_out.iter().all(|id| id != usual.facts().id));
+        usual.chain(&self.listed).map(|known| *known as &dyn Mechanism).chain(own).collect()
     }
 }
 
@@ -141,5 +161,19 @@ mod tests {
         // once each, and by its whole id; one of the usual mechanisms is weighed anyway
         assert!(ask(&["drying", "drying"]).is_err());
         assert!(ask(&["dryin"]).is_err() && ask(&["debond"]).is_err());
+    }
+
+    #[test]
+    fn what_a_unit_has_not_is_left_out() {
+        let asked = || read_mechanisms(&["drying".into()]).unwrap();
+        let without = |id: &str| asked().without(&[id.to_owned()]);
+        let left = without("debond").unwrap();
+        let ids: Vec<&str> = left.with_catalogue().iter().map(|mechanism| mechanism.facts().id).collect();
+        assert!(ids.len() == CATALOGUE.len() && !ids.contains(&"debond") && ids.contains(&"drying"));
+        let says = |id: &str| without(id).unwrap_err().to_string();
+        assert!(
+            says("debnd").contains("did you mean `debond`?")
+                && says("drying").contains("`drying` is no mechanism that is weighed in any case")
+        );
     }
 }

@@ -22,7 +22,7 @@ use diagnosis::{
     Verdict,
 };
 use files::{Note, Remark, shown_path};
-use mechanisms::{Extent, Gyro, Mechanism, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
+use mechanisms::{CATALOGUE, Extent, Gyro, Mechanism, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 use progress::Step;
 use recording::Seconds;
 
@@ -87,6 +87,15 @@ pub fn diagnose<'m>(
     let library = library(case, cache, progress)?;
     progress(Step::begins("running every model under the recorded chamber"));
     let drawn = gyro(&library, mechanisms, &read, fits.len()).map_err(coil)?;
+    let left_out = CATALOGUE.iter().map(|usual| usual.facts().id).filter(|id| mechanisms.iter().all(|own| own.facts().id != *id));
+    let left_out: Vec<&str> = left_out.collect();
+    if !left_out.is_empty() {
+        notes.push(
+            Remark::LeftOut
+                .note(format!("not weighed, as the unit is said not to have them: {}", left_out.join(", ")))
+                .at(&case.file),
+        );
+    }
     let offered = |mechanism: &&&dyn Mechanism| drawn.find(mechanism.facts().id).is_none();
     let missing: Vec<String> = mechanisms.iter().filter(offered).map(|mechanism| mechanism.facts().id.to_owned()).collect();
     if !missing.is_empty() {

@@ -150,6 +150,7 @@ impl Outcome<'_> {
                             "The recording differs from the design. Most likely: {named}, or a law that nobody listed and that does the same \
                              (probability {p:.3})."
                         ),
+                        None if self.is_one_of_several() => format!("The recording differs from the design. Likeliest of several: {named}."),
                         None => format!("The recording differs from the design. Most likely: {named}."),
                     }
                 } else {
@@ -166,6 +167,11 @@ impl Outcome<'_> {
                 format!("The recording differs from the design in a way that nothing in the library explains{structure}.")
             }
         }
+    }
+
+    /// Whether the best explanation is less likely than not.
+    fn is_one_of_several(&self) -> bool {
+        self.names().iter().any(|id| self.probability(id).is_none_or(|p| p < 0.5)) && !self.others().is_empty()
     }
 
     /// Probability of a mechanism, if it is worth saying.

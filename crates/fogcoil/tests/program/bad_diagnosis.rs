@@ -102,7 +102,8 @@ fn what_check_refuses_or_doubts_is_refused_or_doubted() {
     let (_, notes, _) = verdict(&text.lines().take(121).fold(String::new(), |hour, line| hour + line + "\n"));
     for channel in ["chamber_c", "spool_c"] {
         let hint = format!("warning: r.csv: {channel}: starts at ");
-        assert!(notes.lines().any(|line| line.starts_with(&hint) && line.contains("is it in degF?")), "{notes}");
+        let said = notes.lines().filter(|line| line.starts_with(&hint) && line.contains("is it in degF?"));
+        assert_eq!(said.count(), 1, "on the page of text or beside it, once: {notes}");
     }
 }
 

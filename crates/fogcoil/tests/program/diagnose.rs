@@ -86,17 +86,17 @@ fn noise(n: usize) -> f64 {
 /// repeats them: nothing says so, and it is no fault.
 #[test]
 fn another_loggers_stamp_is_no_fault() {
-    stamped([(0, 15, 1), (0, 0, 15)]);
+    stamped([(0, 15, 1)]);
 }
 
 #[test]
-#[ignore = "a minute"]
+#[ignore = "minutes"]
 fn another_loggers_rates_are_no_fault() {
-    stamped([(0, 0, 1), (2, 0, 1)]);
+    stamped([(0, 0, 15), (0, 0, 1), (2, 0, 1)]);
 }
 
 /// Rows ahead of the instant over which a rate is a mean, rows by which the chamber's clock is late, and rows of one reading.
-fn stamped(cases: [(usize, usize, usize); 2]) {
+fn stamped<const N: usize>(cases: [(usize, usize, usize); N]) {
     let folder = Folder::new();
     let fine = under_ramps(&folder);
     // each minute's row: the rate at its instant, or the mean of the minute that follows
@@ -150,28 +150,36 @@ fn a_logged_set_point_is_no_fault_of_the_unit() {
     assert!((lag["value"].as_f64().unwrap() / LAG - 1.0).abs() < 0.1, "{lag}");
 }
 
-/// A good unit that takes half of the bias that the design has, or all of it, off its rate by its own thermometer.
+/// A good unit that takes half of the bias that the design has off its rate by its own thermometer.
 #[test]
 fn a_compensated_rate_is_told() {
+    compensated(0.5);
+}
+
+#[test]
+#[ignore = "a minute"]
+fn a_rate_compensated_in_full_is_told() {
+    compensated(1.0);
+}
+
+fn compensated(taken: f64) {
     let folder = Folder::new();
     let fine = under_ramps(&folder);
     let nominal = folder.run(&["sensitivity", "coil.ron", "--json"]);
     let nominal: serde_json::Value = serde_json::from_str(&stdout(&nominal)).unwrap();
     let per_k_per_min = nominal["total"].as_f64().unwrap();
-    for taken in [0.5, 1.0] {
-        let rows = (3..fine.len()).step_by(3).map(|n| {
-            let warmed = fine[n][2] - fine[n - 3][2];
-            let rate = 3.0 + fine[n - 2..=n].iter().map(|row| row[6]).sum::<f64>() / 3.0 - taken * per_k_per_min * warmed;
-            let [chamber, spool] = [(1, 31), (2, 77)].map(|(column, seed)| fine[n][column] + 0.02 * noise(n + seed));
-            format!("{},{chamber:.2},{spool:.2},{:.5}\n", fine[n][0], rate + 0.01 * noise(n))
-        });
-        folder.write("r.csv", "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &rows.collect::<String>());
-        let output = folder.run(&["diagnose", "coil.ron", "--fit", "r.csv", "--json"]);
-        let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
-        assert_eq!((&json["verdict"], &json["named"]["id"]), (&"explained".into(), &"compensated-rate".into()), "{json}");
-        let ci = &json["parameters"]["compensated_fraction"]["ci90"];
-        assert!(ci[0].as_f64().unwrap() < taken && taken < ci[1].as_f64().unwrap(), "{taken}: {json}");
-    }
+    let rows = (3..fine.len()).step_by(3).map(|n| {
+        let warmed = fine[n][2] - fine[n - 3][2];
+        let rate = 3.0 + fine[n - 2..=n].iter().map(|row| row[6]).sum::<f64>() / 3.0 - taken * per_k_per_min * warmed;
+        let [chamber, spool] = [(1, 31), (2, 77)].map(|(column, seed)| fine[n][column] + 0.02 * noise(n + seed));
+        format!("{},{chamber:.2},{spool:.2},{:.5}\n", fine[n][0], rate + 0.01 * noise(n))
+    });
+    folder.write("r.csv", "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &rows.collect::<String>());
+    let output = folder.run(&["diagnose", "coil.ron", "--fit", "r.csv", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!((&json["verdict"], &json["named"]["id"]), (&"explained".into(), &"compensated-rate".into()), "{json}");
+    let ci = &json["parameters"]["compensated_fraction"]["ci90"];
+    assert!(ci[0].as_f64().unwrap() < taken && taken < ci[1].as_f64().unwrap(), "{taken}: {json}");
 }
 
 /// The order of records and of flags and the number of threads change no digit of an answer; the clock's zero and the rate's unit round its numbers otherwise.
@@ -347,7 +355,7 @@ fn exchanged_columns_and_a_reversed_rate_are_named() {
         let text = std::fs::read_to_string(format!("{CASE}/{name}")).unwrap();
         let (head, rows) = text.split_once('\n').unwrap();
         rows.lines()
-            .take(400)
+            .take(240)
             .map(|line| row(&line.split(',').collect::<Vec<_>>()) + "\n")
             .fold(head.to_owned() + "\n", |t, r| t + &r)
     };
@@ -399,24 +407,4 @@ fn what_cannot_be_diagnosed_is_said_at_once() {
     let output = folder.run(&["diagnose", "coil.ron", "--fit", "good.csv", "--holdout", "good.csv"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("same recording"), "{}", stderr(&output));
-}
-
-#[test]
-fn a_warning_is_said_once() {
-    let folder = Folder::new();
-    folder.write("coil.ron", COIL);
-    let text = std::fs::read_to_string(format!("{CASE}/fit.csv")).unwrap();
-    let (header, rows) = text.split_once('\n').unwrap();
-    let columns: Vec<&str> = header.split(',').collect();
-    let chamber = columns.iter().position(|name| *name == "chamber_c").unwrap();
-    let fahrenheit = |row: &str| {
-        let mut fields: Vec<String> = row.split(',').map(str::to_owned).collect();
-        fields[chamber] = format!("{:.2}", fields[chamber].parse::<f64>().unwrap() * 1.8 + 32.0);
-        fields.join(",") + "\n"
-    };
-    folder.write("r.csv", format!("{header}\n{}", rows.lines().take(130).map(fahrenheit).collect::<String>()));
-    let output = folder.run(&["diagnose", "coil.ron", "--fit", "r.csv"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let said = |text: &str| text.matches("is it in degF?").count();
-    assert_eq!((said(&stdout(&output)), said(&stderr(&output))), (1, 0), "{}{}", stdout(&output), stderr(&output));
 }

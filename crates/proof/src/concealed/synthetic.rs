@@ -178,12 +178,12 @@ mod tests {
         // the library that the program's tests have it keep, if they ran
         let built = std::env::current_exe().unwrap().ancestors().nth(2).unwrap().to_owned();
         let cache = Cache::in_folder(built.join("../tmp/cache")).of_code_in(built.join("fogcoil"));
-        let plan = Plan { seed: 2, nulls: 1, concealed: 4 };
+        let plan = Plan { seed: 2, nulls: 1, concealed: 2 };
         let run = || plan.cases(folder.path(), &cache).unwrap_or_else(|e| panic!("{}", e.0));
         let scored: Vec<_> = run().into_iter().map(|case| case.scored).collect();
         println!("{scored:#?}");
         let of = |kind: Kind| scored.iter().filter(move |s| s.kind == kind);
-        assert_eq!((scored.len(), of(Kind::Null).count()), (5, 1));
+        assert_eq!((scored.len(), of(Kind::Null).count()), (3, 1));
         assert_eq!(of(Kind::Null).filter(|s| s.detected).count(), 0, "falsely detected");
         assert!(scored.iter().all(|s| !s.misnamed), "confident and wrong");
         let strong = || of(Kind::Single).filter(|s| matches!(s.tier, Tier::Medium | Tier::Strong));
@@ -200,6 +200,6 @@ mod tests {
         };
         let before = written();
         let again: Vec<_> = run().into_iter().map(|case| case.scored).collect();
-        assert!(scored == again && before.len() == 10 && written() == before, "{before:?}");
+        assert!(scored == again && before.len() == 6 && written() == before, "{before:?}");
     }
 }

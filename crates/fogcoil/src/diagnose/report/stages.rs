@@ -1,7 +1,7 @@
 //! Stage of the chain in which the difference enters, and whether it is in single layers.
 
 use charts::{Axis, Cells, Figure, Panel, Series, Style, grid, significant};
-use diagnosis::MemberResolution;
+use diagnosis::{MemberResolution, Verdict};
 use maud::{Markup, html};
 use mechanisms::RATE;
 
@@ -33,9 +33,25 @@ impl Outcome<'_> {
                 h3 { "Part of the chain" } "\n"
                 (grid("Parts of the chain compared", Cells::Words, &head, &rows))
                 p { "One flexible input at a time takes the place of every mechanism. " (said) } "\n"
+                @if let Some(elsewhere) = self.elsewhere() { p { (elsewhere) } "\n" }
             }
             (self.layers())
         }
+    }
+
+    /// A sentence on an explanation that acts where the flexible input gains little.
+    fn elsewhere(&self) -> Option<String> {
+        /// Probability below which the two speak of different parts of the chain.
+        const FAR: f64 = 0.05;
+        let explained = self.diagnosis.verdict == Verdict::Explained;
+        let mut acts = self.places().map(|(id, stage, _)| (id.to_owned(), stage.to_owned())).filter(|_| explained);
+        let share = |name: &str| self.diagnosis.stages.iter().find(|s| s.stage == name).map_or(1.0, |s| s.probability);
+        acts.find(|(_, stage)| share(stage) < FAR).map(|(id, stage)| {
+            format!(
+                "{id} acts in another part, {stage}: the smooth input there cannot take its shape, or another part can as well. Of mechanisms, the table of \
+                 probabilities above counts; of parts, this one is no proof."
+            )
+        })
     }
 
     fn layers(&self) -> Markup {
