@@ -123,6 +123,10 @@ remarks! {
         "The instants of a recording's rows are counted with the interval that was declared; a column of instants, if there is one, is not read.",
         "Lost rows and a drifting clock cannot be seen. It is a warning where the column tells of a length that differs by more than half.",
         "Record the instants, or leave out the interval (--interval, interval_s in the map file) if the column's instants are right.";
+    Footer "footer":
+        "Below the last row of a recording stand lines without a number, a date or a time of day: remarks of the logger.",
+        "They are not read.",
+        "None is needed. A line that was a row once, and lost its numbers, is not read either: see the line that the message names.";
     AbsentColumn "absent-column":
         "A recording lacks the chamber's, the spool's temperature, or the rate.",
         "What that column would tell is not used; without chamber_c there is no diagnosis.",
@@ -325,6 +329,10 @@ remarks! {
         "--model-out was given, but the verdict leaves nothing that a coil file could hold.",
         "The file is not written.",
         "If the unit is known not to have the mechanism that the message names, leave it out with --without ID; otherwise none is needed.";
+    CopiedRecording "copied-recording":
+        "Two units of a batch have a recording in common, byte for byte.",
+        "One of them was not recorded, or its file is lost; its verdict is the other's.",
+        "Look for the right file, and take the copy away.";
     LeftOut "left-out":
         "Mechanisms were not weighed, as --without says that the unit does not have them.",
         "If it has one of them all the same, another takes its place, or none.",

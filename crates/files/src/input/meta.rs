@@ -21,7 +21,7 @@ pub struct Meta {
     pub lot: Option<Serial>,
     /// Date of the recording, e.g. "2026-03-02".
     pub date: String,
-    /// Nominal interval between rows \[s\]; 0 if it is not given.
+    /// Seconds over which a rate is the mean, up to its instant: the interval between rows \[s\]. It rules out stamps at the middle or the start of a row; 0 if it is not given.
     #[schemars(with = "NotNegative")]
     pub sample_interval_s: f64,
     /// Meaning of a row's rate, in words.

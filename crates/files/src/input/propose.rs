@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use recording::check::{FindingKind, Severity};
+use recording::check::{Finding, FindingKind, Severity};
 
 use super::encoding::Encoding;
 use super::map_file::{MapFile, in_quotes};
@@ -27,18 +27,18 @@ const MOST_ASIDES: usize = 25;
 pub fn propose_map(path: &Path, options: &RecordOptions) -> Result<(String, RecordCase), Error> {
     let Proposal { mut map, mut doubts, asides } = proposed(&sniff(path)?);
     map.declare(options);
-    let case = read(path, &map, options)?;
-    let case = match another_unit(&map, &case) {
-        Some((key, units)) => {
-            let standard = key.units()[0].names[0];
-            let others: String = units[1..].iter().map(|other| format!(", or {other}")).collect();
-            doubts.retain(|(of, doubt)| *of != key || doubt.starts_with("or "));
-            doubts.insert(0, (key, format!("the values are not of the size of {standard}: taken as {}{others}", units[0])));
-            map.column_mut(key).unit.clone_from(&units[0]);
-            read(path, &map, options)?
-        }
-        None => case,
-    };
+    let mut case = read(path, &map, options)?;
+    let others = other_units(&map, &case);
+    for (key, units) in &others {
+        let standard = key.units()[0].names[0];
+        let others: String = units[1..].iter().map(|other| format!(", or {other}")).collect();
+        doubts.retain(|(of, doubt)| of != key || doubt.starts_with("or "));
+        doubts.insert(0, (*key, format!("the values are not of the size of {standard}: taken as {}{others}", units[0])));
+        map.column_mut(*key).unit.clone_from(&units[0]);
+    }
+    if !others.is_empty() {
+        case = read(path, &map, options)?;
+    }
     let file = path.file_name().unwrap_or_default().to_string_lossy();
     let heading = format!("How {} is read, proposed by `fogcoil check --write-map`: see whether it is right.", quoted(&file));
     Ok((map.text(&heading, &doubts, &asides), case))
@@ -50,15 +50,18 @@ fn read(path: &Path, map: &MapFile, options: &RecordOptions) -> Result<RecordCas
     record::read_as(path, &format, options)
 }
 
-/// The rate with the units that its values admit, the likeliest first, where nothing states its unit and the standard one cannot be right.
-fn another_unit(map: &MapFile, case: &RecordCase) -> Option<(Key, Vec<String>)> {
-    let rate = map.column(Key::Rate);
-    let said = !rate.unit.is_empty() || rate.scale != 0.0;
-    let units = case.report.findings.iter().find_map(|finding| match &finding.kind {
-        FindingKind::Unit { candidates, .. } if finding.severity == Severity::Error && !candidates.is_empty() => Some(candidates),
+/// Columns with the units that their values admit, the likeliest first, where nothing states the unit and the standard one cannot be right.
+fn other_units(map: &MapFile, case: &RecordCase) -> Vec<(Key, Vec<String>)> {
+    let unsaid = |key: &Key| map.column(*key).unit.is_empty() && map.column(*key).scale == 0.0;
+    let of = |finding: &Finding| match &finding.kind {
+        FindingKind::Unit { candidates, key, range: [low, high], found, .. } if !candidates.is_empty() => {
+            let beyond = finding.severity == Severity::Error || !(low..=high).contains(&found);
+            let key = key.parse().ok().filter(unsaid).filter(|_| beyond);
+            key.map(|key| (key, candidates.clone()))
+        }
         _ => None,
-    });
-    units.filter(|_| !said).map(|units| (Key::Rate, units.clone()))
+    };
+    case.report.findings.iter().filter_map(of).collect()
 }
 
 /// The map that a table suggests.

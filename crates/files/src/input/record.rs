@@ -16,9 +16,10 @@ use super::record_format::RecordFormat;
 use super::record_lines::Lines;
 use super::record_notes::{interval_note, notes};
 use super::record_options::{Key, RecordOptions};
-use super::rows::{NOT_UTF8, Rows, Table};
+use super::rows::{NOT_UTF8, Rows, Table, quoted};
+use super::timestamp;
 use crate::Error;
-use crate::remark::Note;
+use crate::remark::{Note, Remark};
 
 /// Most rows: what fits in a gigabyte with its checks.
 const MOST_ROWS: usize = 10_000_000;
@@ -121,12 +122,13 @@ fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<(PathBuf, Meta)>)
     for _ in 0..format.dialect.below {
         rows.advance()?;
     }
-    let (recording, lines, dates) = read_rows(&mut rows, &columns, format)?;
+    let ReadRows { recording, lines, dates, footer } = read_rows(&mut rows, &columns, format)?;
     let report = check(&recording, &expectations(&recording, format, dates.is_some()));
     let [interval, span] = report.instants.as_ref().map_or([0.0; 2], |instants| [instants.interval, instants.span]);
     let meta = meta.map(|(path, meta)| fits(&path, meta, span)).transpose()?;
     let averaging = meta.as_ref().map(|meta| meta.sample_interval_s).filter(|seconds| *seconds > 0.0).unwrap_or(interval);
     let mut notes = notes(&columns, format, dates);
+    notes.extend(footer);
     notes.extend(meta.as_ref().and_then(|meta| interval_note(meta, interval)));
     Ok(RecordCase { recording, report, averaging, meta, notes, lines, flags: Vec::new(), fingerprint: rows.fingerprint() })
 }
@@ -141,12 +143,18 @@ fn fits(path: &Path, meta: Meta, span: f64) -> Result<Meta, InputError> {
     Err(InputError::whole(path, problem, "give the seconds over which a rate is a mean, or leave the field out"))
 }
 
-/// The recording, the line of each of its rows, and the note on its instants.
-fn read_rows(
-    rows: &mut Rows,
-    columns: &RecordColumns,
-    format: &RecordFormat,
-) -> Result<(Recording, Vec<u32>, Option<Note>), InputError> {
+/// What the rows hold.
+struct ReadRows {
+    recording: Recording,
+    /// The line of each row.
+    lines: Vec<u32>,
+    /// The note on instants that are not seconds of a column.
+    dates: Option<Note>,
+    /// The note on remarks below the rows.
+    footer: Option<Note>,
+}
+
+fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) -> Result<ReadRows, InputError> {
     let channels: Vec<(Key, usize)> =
         [Key::Chamber, Key::Spool, Key::Rate].into_iter().filter_map(|key| Some((key, columns.column(key)?))).collect();
     let mut clock = Clock::new(columns.column(Key::Time), columns, format);
@@ -155,10 +163,21 @@ fn read_rows(
     let mut impossible: Vec<Option<(usize, InputError)>> = vec![None; channels.len()];
     let mut further: Vec<Vec<f64>> = vec![Vec::new(); columns.further.len()];
     let (mut time, mut lines): (Vec<f64>, Vec<u32>) = (Vec::new(), Vec::new());
+    let mut footer: Option<(u32, String, InputError)> = None;
     while rows.advance()? {
         // a spreadsheet's empty line; without instants it stands for one of them
         if format.interval.is_none() && rows.line().is_some() && rows.fields().all(str::is_empty) {
             continue;
+        }
+        if !time.is_empty() && is_remark(rows) {
+            let (line, text) = (rows.line().unwrap_or(0), quoted(&rows.fields().collect::<Vec<_>>().join(" ")));
+            footer.get_or_insert_with(|| {
+                (line, text, rows.fault(None, "holds no number, and rows follow", "if the line is a remark, remove it"))
+            });
+            continue;
+        }
+        if let Some((.., fault)) = footer.take() {
+            return Err(fault);
         }
         let expected = columns.names.len();
         if rows.count() != expected {
@@ -209,9 +228,21 @@ fn read_rows(
     });
     let channels = channels.iter().zip(values).map(channel).chain(beside).collect();
     let time = clock.settle(time);
-    let note = unread.map(|unread| unread.note(columns, &time)).or_else(|| clock.note());
+    let dates = unread.map(|unread| unread.note(columns, &time)).or_else(|| clock.note());
+    let footer = footer.map(|(line, text, _)| {
+        Remark::Footer
+            .note(format!("what begins in line {line}, {text}, holds no number: a remark below the rows, which is not read"))
+    });
     let recording = Recording::new(time, channels).map_err(|error| rows.whole_fault(&error.to_string(), ""))?;
-    Ok((recording, lines, note))
+    Ok(ReadRows { recording, lines, dates, footer })
+}
+
+/// Whether a line of text says something, and no field of it is a number, a date or a time of day.
+fn is_remark(rows: &Rows) -> bool {
+    let is_value = |field: &str| {
+        field.replace(',', ".").parse::<f64>().is_ok() || timestamp::is_date(field) || timestamp::time_of_day(field).is_some()
+    };
+    rows.line().is_some() && rows.fields().any(|field| !field.is_empty()) && !rows.fields().any(is_value)
 }
 
 /// The complaint about a value that is impossible.

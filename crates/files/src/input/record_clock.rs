@@ -232,8 +232,6 @@ fn not_an_instant(error: InputError, text: &str) -> InputError {
         "if the time of day stands in a column of its own, name it: --time-of-day NAME (time_of_day in the map file)".into()
     } else if spelled(text, Key::Time).is_some() {
         "if the line holds the units, let `fogcoil check RECORD --write-map` find it, or write lines_below_names: 1 into a map file".into()
-    } else if !text.contains(|c: char| c.is_ascii_digit()) {
-        format!("if the line is a remark, remove it; instants are seconds like 20.5, or dates like {FORMS}")
     } else {
         format!("write seconds like 20.5, or dates like {FORMS}; with no column of instants, --interval SECONDS")
     };

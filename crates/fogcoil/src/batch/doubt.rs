@@ -28,7 +28,7 @@ impl Doubt {
 
     /// The verdict of a unit, with a question mark where it is not sure; where most are not, only far below the others, or below another verdict.
     pub(super) fn shown(&self, row: &Row) -> Option<String> {
-        let mark = if row.rivalled || probability(row).is_some_and(|p| p < self.below) { "?" } else { "" };
+        let mark = if row.rivalled || row.is_pressed() || probability(row).is_some_and(|p| p < self.below) { "?" } else { "" };
         row.verdict.as_ref().map(|verdict| format!("{verdict}{mark}"))
     }
 
@@ -39,7 +39,7 @@ impl Doubt {
             _ if *doubtful == 0 => None,
             Some(usual) => Some(format!(
                 "the verdict's probability is below {SURE} in {doubtful} of {judged} units, {usual:.2} in the middle: a fault as small as the tolerances may hide in \
-                 any of them; ? marks those far below the others, or less likely than another verdict (column verdict_probability)"
+                 any of them; ? marks those far below the others, less likely than another verdict, or less than twice as likely as a mechanism (column verdict_probability)"
             )),
             None => Some(format!(
                 "a verdict with a ? has a probability below {SURE} ({doubtful} of {judged} units): a small fault may hide there (column verdict_probability)"

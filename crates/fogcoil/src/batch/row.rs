@@ -123,7 +123,8 @@ impl Row {
         NUMBERS.iter().position(|known| *known == name).and_then(|n| self.numbers[n])
     }
 
-    /// Explanations that the records do not exclude, best first, in words; of a verdict that has a likelier rival the likeliest mechanism.
+    /// Explanations that the records do not exclude, best first, in words; of a verdict that has a likelier rival, or one half as likely, the likeliest
+    /// mechanism.
     pub(super) fn open(&self) -> String {
         if let Some((first, probability)) = self.first.as_ref().zip(self.number("first_probability")).filter(|_| self.is_open()) {
             return format!("{first} ({probability:.2})");
@@ -133,9 +134,16 @@ impl Row {
         Some(together.join(" and ")).filter(|all| !all.is_empty()).into_iter().chain(others).collect::<Vec<_>>().join(" or ")
     }
 
-    /// Whether the verdict says nothing of mechanisms although something else is likelier.
+    /// Whether the verdict says nothing of mechanisms although something else is likelier, or one of them half as likely.
     fn is_open(&self) -> bool {
-        self.rivalled && self.set.is_empty()
+        (self.rivalled || self.is_pressed()) && self.set.is_empty()
+    }
+
+    /// Whether a mechanism is at least half as likely as that the design suffices, where that is the verdict.
+    pub(super) fn is_pressed(&self) -> bool {
+        let suffices = matches!(self.verdict.as_deref(), Some("none" | "recalibrate"));
+        let rival = self.number("first_probability").zip(self.number("verdict_probability"));
+        suffices && rival.is_some_and(|(first, verdict)| 2.0 * first >= verdict)
     }
 
     /// Warnings of its records, in words.
@@ -291,8 +299,10 @@ mod tests {
         assert!(open.rivalled);
         assert_eq!(open.open(), "sensor-lag (0.46)");
         // none and recalibrate are one: the design suffices
-        let closed = of(0.47, 0.49, &[]);
-        assert!(!closed.rivalled && closed.open().is_empty());
+        let pressed = of(0.47, 0.49, &[]);
+        assert!(!pressed.rivalled && pressed.is_pressed() && pressed.open() == "sensor-lag (0.46)");
+        let closed = of(0.93, 0.04, &[]);
+        assert!(!closed.rivalled && !closed.is_pressed() && closed.open().is_empty());
         assert_eq!(of(0.39, 0.57, &["sensor-lag"]).open(), "sensor-lag");
     }
 

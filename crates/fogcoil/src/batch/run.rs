@@ -11,7 +11,7 @@ use super::finding::{Inputs, Read};
 use super::kept::Kept;
 use super::limits::{Judged, Limits};
 use super::row::Row;
-use super::serials::settle;
+use super::serials::{settle, warn_of_copies};
 use super::units::Unit;
 use crate::prepare::models;
 use crate::{Error, program};
@@ -73,6 +73,7 @@ pub fn run(
     rows.extend(unusable);
     rows.sort_by(|a, b| a.unit.cmp(&b.unit));
     settle(&mut rows);
+    warn_of_copies(&mut rows);
     let judged = |row: Row| {
         let judged = limits.map_or(Judged::Unjudged, |limits| limits.judge(&row));
         (row, judged)

@@ -1,5 +1,9 @@
 //! Serial numbers of the units of a batch, and those that stand for several.
 
+use std::collections::BTreeSet;
+
+use files::Remark;
+
 use super::row::{Row, trailing};
 
 /// Gives a unit without a serial number the digits that its name ends in; its whole name where another unit has the same.
@@ -23,6 +27,14 @@ pub(super) fn copied<'a>(rows: &[&'a Row]) -> Vec<Vec<&'a str>> {
     let mut units: Vec<Vec<&str>> = shared(all).into_iter().map(|(_, units)| units).collect();
     units.dedup();
     units
+}
+
+/// Puts the warning that a recording is another unit's, too, into the rows of both.
+pub(super) fn warn_of_copies(rows: &mut [Row]) {
+    let copied: BTreeSet<String> = copied(&rows.iter().collect::<Vec<_>>()).into_iter().flatten().map(str::to_owned).collect();
+    for row in rows.iter_mut().filter(|row| copied.contains(&row.unit)) {
+        row.warnings.push(Remark::CopiedRecording.id().to_owned());
+    }
 }
 
 /// What several units have, with their names.
@@ -72,6 +84,15 @@ mod tests {
         assert_eq!(serials(&lots), [Some("L1-01"), Some("02"), Some("L2-01"), None]);
         let all: Vec<&Row> = lots.iter().collect();
         assert!(!tell_apart(&all) && tell_apart(&all[..2]) && repeated(&all).is_empty());
+    }
+
+    #[test]
+    fn both_units_of_one_recording_are_warned_of() {
+        let row = |unit: &str, hashes: &[&str]| Row::of(&json!({"unit": unit, "sha256": hashes}));
+        let mut rows = [row("A", &["1", "2"]), row("B", &["3"]), row("C", &["2"])];
+        warn_of_copies(&mut rows);
+        let warned = rows.each_ref().map(|row| row.warnings.join(","));
+        assert_eq!(warned, ["copied-recording", "", "copied-recording"]);
     }
 
     #[test]

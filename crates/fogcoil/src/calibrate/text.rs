@@ -152,7 +152,7 @@ impl Outcome {
              A constant is a factor on the drawing's value; sigma is what the lot deviates by, in tolerances;\n\
              tolerance: of a unit about the drawing, and of a further unit about the lot.\n\n{}\n\
              The smallest effect of a fault that a record of a further unit shows, with the lot's design over with the drawing\n\
-             (0.50: half as large a fault is found; 1.00: the lot does not help):\n\n{}",
+             (0.50: half as large a fault is found; 1.00: none that is smaller; a mechanism that looks like a constant which the lot narrows is told from it all the same):\n\n{}",
             self.case.name,
             self.of_units(),
             self.deviation(),

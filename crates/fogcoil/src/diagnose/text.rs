@@ -16,6 +16,9 @@ use crate::units::parameter_unit;
 /// Probability from which the design is said to suffice without more words.
 const LIKELY: f64 = 0.65;
 
+/// Standard deviations from which a constant that moved is worth a word beside a mechanism that would do the same.
+const MUCH: f64 = 2.0;
+
 impl Outcome<'_> {
     /// For people: verdict, place, alternatives, parameters, held-out errors.
     pub fn text(&self) -> String {
@@ -209,6 +212,16 @@ impl Outcome<'_> {
             Verdict::Explained => {
                 format!("inspect the unit; to confirm {} on data outside the fit, {another}.", self.names().join(" and "))
             }
+            Verdict::None | Verdict::Recalibrate if self.runner_up().is_some() => {
+                let (id, probability, inspection) = self.runner_up().unwrap_or_default();
+                let far = self.moved().into_iter().find(|c| c.moved().abs() > MUCH);
+                let far = far.map_or(String::new(), |c| {
+                    format!("; {} would be {:+.1} standard deviations off what is known of it", c.posterior.name, c.moved())
+                });
+                format!(
+                    "{id} is not far behind (probability {probability:.2}){far}. To decide: {inspection}; or give a record under another profile with --fit."
+                )
+            }
             Verdict::None | Verdict::Recalibrate if !self.suffices_surely() => {
                 "nothing stands out that an inspection could look for; a small fault may hide behind the tolerances. A record under another \
                  profile, given with --fit, or a design of the lot (fogcoil calibrate) may narrow them."
@@ -235,6 +248,14 @@ impl Outcome<'_> {
         let constants = matches!(d.verdict, Verdict::None | Verdict::Recalibrate);
         let inspection = self.gyro.mechanism(first).facts().inspection()?;
         (constants && probability > none + recalibrate).then(|| (self.id(first), inspection))
+    }
+
+    /// The mechanism that is at least half as likely as that the design suffices, with its probability and a check that decides about it.
+    fn runner_up(&self) -> Option<(&str, f64, &str)> {
+        let [none, recalibrate, ..] = self.diagnosis.verdicts();
+        let (first, probability) = *self.diagnosis.mechanisms.first()?;
+        let inspection = self.gyro.mechanism(first).facts().inspection()?;
+        (2.0 * probability >= none + recalibrate).then(|| (self.id(first), probability, inspection))
     }
 
     fn suffices_surely(&self) -> bool {

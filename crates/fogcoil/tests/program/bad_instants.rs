@@ -20,6 +20,15 @@ fn refuse(content: &str, arguments: &[&str], parts: &[&str]) {
     parts.iter().for_each(|part| assert!(message.contains(part), "`{part}` in {message}"));
 }
 
+fn told(content: &str, arguments: &[&str], parts: &[&str]) {
+    let folder = Folder::new();
+    folder.write("r.csv", content);
+    let output = folder.run(&[&["check", "r.csv"], arguments].concat());
+    let said = stdout(&output) + &stderr(&output);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    parts.iter().for_each(|part| assert!(said.contains(part), "`{part}` in {said}"));
+}
+
 #[test]
 fn instants_are_bounded() {
     let seconds = |n: usize| (30 * n).to_string();
@@ -79,11 +88,15 @@ fn days_that_are_not_and_zones_that_come_and_go() {
 #[test]
 fn a_remark_below_the_rows() {
     let rows = table((0..40).map(|n| (30 * n).to_string()));
-    refuse(
-        &(rows + "Ende der Messung,,,\n"),
-        &[],
-        &["r.csv:42: time_s: `Ende der Messung` is not a number; if the line is a remark, remove it"],
-    );
+    for footer in ["Ende der Messung,,,\n", "*** recording ended ***\n", "# end\n\n# of it\n"] {
+        told(
+            &(rows.clone() + footer),
+            &[],
+            &["note: ", "begins in line 42", "which is not read [footer]", "rows kept       40  of 40"],
+        );
+    }
+    let between = rows.replacen("\n60,", "\npause\n60,", 1);
+    refuse(&between, &[], &["r.csv:4: holds no number, and rows follow; if the line is a remark, remove it"]);
 }
 
 #[test]
@@ -101,14 +114,7 @@ fn a_point_beside_a_decimal_comma() {
 
 #[test]
 fn an_interval_stands_for_a_clock_that_is_wrong() {
-    let told = |content: &str, interval: &str, parts: &[&str]| {
-        let folder = Folder::new();
-        folder.write("r.csv", content);
-        let output = folder.run(&["check", "r.csv", "--interval", interval]);
-        let said = stdout(&output) + &stderr(&output);
-        assert_eq!(output.status.code(), Some(0), "{said}");
-        parts.iter().for_each(|part| assert!(said.contains(part), "`{part}` in {said}"));
-    };
+    let told = |content: &str, interval: &str, parts: &[&str]| told(content, &["--interval", interval], parts);
     let plain = table((0..121).map(|n| (30 * n).to_string()));
     let unread = "the instants of the column `time_s` are not read: the interval that was declared stands for them";
     let lasts = "the rows last 120 s, by the column 3600 s";

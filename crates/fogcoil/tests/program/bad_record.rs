@@ -90,7 +90,7 @@ fn rows_that_cannot_be_read() {
     refuse(format!("{HEADER}noon,20,20,1\n"), &[], &["time_s: `noon` is not a number", "2024-05-01T12:00:00.5Z", "--interval"]);
     // a logger's remarks count as lines
     refuse(format!("# logger 7\n\n#a, b\n{}", bad("30,20,20,fast")), &[], &["r.csv:6: rate_deg_per_h: `fast`"]);
-    refuse(bad("# paused"), &[], &["r.csv:3: `# paused` has 1 field"]);
+    refuse(bad("# paused\n30,20,20,1"), &[], &["r.csv:3: holds no number, and rows follow"]);
     refuse("# logger 7\n", &[], &["r.csv: is empty"]);
 }
 

@@ -159,8 +159,21 @@ fn a_unit_that_was_not_said_is_proposed() {
     let says = "    rate: (unit: \"deg/s\"), // the values are not of the size of deg/h: taken as deg/s, or rad/s, or mrad/s\n";
     assert!(map.contains(says), "{map}");
     assert_eq!(folder.run(&["check", "r.csv"]).status.code(), Some(0));
-    // what the user says stays
-    std::fs::remove_file(folder.path("r.map.ron")).unwrap();
+    // so is a temperature's
+    let kelvin = |row: [f64; 3]| written([row[0] + 273.15, row[1], row[2]]);
+    let folder = Folder::new();
+    folder.write("r.csv", record(|_, row| kelvin(row)));
+    let output = folder.run(&["check", "r.csv", "--write-map"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let map = std::fs::read_to_string(folder.path("r.map.ron")).unwrap();
+    assert!(map.contains("    chamber: (unit: \"K\"), // the values are not of the size of degC: taken as K"), "{map}");
+    assert_eq!(folder.run(&["check", "r.csv"]).status.code(), Some(0));
+}
+
+#[test]
+fn a_unit_that_the_user_says_stays() {
+    let folder = Folder::new();
+    folder.write("r.csv", record(|_, [c, s, r]| [format!("{c:.2}"), format!("{s:.2}"), format!("{:e}", r / 3600.0)]));
     let output = folder.run(&["check", "r.csv", "--write-map", "--unit", "rate=deg/h"]);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
 }

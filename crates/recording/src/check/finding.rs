@@ -188,10 +188,10 @@ impl Finding {
                 _,
             ) => return declare(key, candidates),
             (FindingKind::Conflict, _) => {
-                "keep the row that is right; if the clock shows no seconds, give the rows' interval in the map file in place of its column"
+                "keep the row that is right; if the clock shows no seconds, give the rows' interval in its place (--interval SECONDS, or interval_s in the map file)"
             }
             (FindingKind::Backwards { .. }, _) => {
-                "sort the rows by time, or split the file where the clock restarts; if it was put back an hour as summer time ended, give the rows' interval in the map file in place of its column"
+                "sort the rows by time, or split the file where the clock restarts; if it was put back an hour as summer time ended, give the rows' interval in its place (--interval SECONDS, or interval_s in the map file)"
             }
             (FindingKind::ClockStep { .. }, _) => "if the clock was set, split the file there or mend the instants",
             (FindingKind::Empty | FindingKind::Constant { .. }, Severity::Error) => {
