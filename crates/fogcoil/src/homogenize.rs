@@ -13,7 +13,7 @@ use serde_json::Value;
 
 use crate::input::CellCase;
 use crate::table::{plus_minus, significant, table};
-use constants::{HEAVY, object, presentation};
+use constants::{heavy, object, presentation};
 
 pub use load::{parse_load, words};
 pub use quantity::{Quantity, parse_quantity};
@@ -32,8 +32,8 @@ fn extras(case: &CellCase, result: &Homogenized) -> impl Iterator<Item = (&'stat
     let square = (case.cell.packing == Packing::Square).then(|| result.effective.shear_moduli_across()[1]);
     // a density out of range was refused when the file was read
     let known = |value: Result<Option<f64>, homogenization::Error>| value.ok().flatten();
-    let heavy = HEAVY.into_iter().zip([known(case.cell.density()), known(case.cell.heat_capacity())]);
-    [("g_r_45", square)].into_iter().chain(heavy).filter_map(|(key, value)| Some((key, value?)))
+    let heavy = heavy([known(case.cell.density()), known(case.cell.heat_capacity())]);
+    square.map(|value| ("g_r_45", value)).into_iter().chain(heavy)
 }
 
 /// The constants as a table with units and numerical errors.

@@ -4,8 +4,13 @@ use serde_json::{Map, Value};
 
 use crate::units::{to_mpa, to_ppm};
 
-/// Keys of the constants that follow from densities.
-pub(super) const HEAVY: [&str; 2] = ["density_kg_per_m3", "heat_capacity_j_per_m3k"];
+/// The constants that follow from densities, by their keys: density \[kg/m³\] and heat capacity of a volume \[J/(m³ K)\] as they are known, and where both are
+/// the heat capacity of a mass.
+pub(super) fn heavy([density, capacity]: [Option<f64>; 2]) -> impl Iterator<Item = (&'static str, f64)> {
+    let specific = density.zip(capacity).map(|(density, capacity)| capacity / density);
+    let all = [("density_kg_per_m3", density), ("heat_capacity_j_per_m3k", capacity), ("specific_heat_j_per_kgk", specific)];
+    all.into_iter().filter_map(|(key, value)| Some((key, value?)))
+}
 
 pub(super) fn object(named: impl IntoIterator<Item = (&'static str, f64)>) -> Map<String, Value> {
     named.into_iter().map(|(key, value)| (key.to_owned(), value.into())).collect()
@@ -45,6 +50,7 @@ pub(crate) fn presentation(key: &str) -> (&'static str, fn(f64) -> f64, &'static
         "g_r_45" => ("Pa", same, "shear modulus across the fibre at 45 deg to its rows"),
         "density_kg_per_m3" => ("kg/m3", same, "density"),
         "heat_capacity_j_per_m3k" => ("J/(m3 K)", same, "heat capacity of a volume, thermoelastic part neglected"),
+        "specific_heat_j_per_kgk" => ("J/(kg K)", same, "specific heat, as a coil file takes it"),
         _ => ("SI", same, ""),
     }
 }

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::constants::{HEAVY, object, presentation};
+use super::constants::{heavy, object, presentation};
 use crate::input::{AtTemperature, GeneralCase};
 use crate::table::{plus_minus, significant, table};
 
@@ -12,7 +12,7 @@ pub fn json(found: &AtTemperature) -> Value {
     let temperature = found.celsius.map(|celsius| ("temperature_c", celsius));
     let mut all = object(temperature.into_iter().chain(found.first.constants.named()));
     all.insert("error_estimate".into(), object(found.first.relative_error.clone()).into());
-    all.append(&mut object(heavy(found)));
+    all.append(&mut object(heavy(found.heavy)));
     all.insert("anisotropy".into(), found.anisotropy.into());
     all.insert("void_fraction".into(), void_fraction(found).into());
     let rows = |m: &nalgebra::Matrix6<f64>| (0..6).map(|i| m.row(i).iter().copied().collect()).collect::<Vec<Vec<f64>>>();
@@ -28,10 +28,6 @@ pub fn json(found: &AtTemperature) -> Value {
         all.insert("spread".into(), all_of);
     }
     all.into()
-}
-
-fn heavy(found: &AtTemperature) -> impl Iterator<Item = (&'static str, f64)> + use<> {
-    HEAVY.into_iter().zip(found.heavy).filter_map(|(key, value)| Some((key, value?)))
 }
 
 fn void_fraction(found: &AtTemperature) -> f64 {
@@ -60,7 +56,7 @@ pub fn text(found: &AtTemperature, case: &GeneralCase) -> String {
         row.extend([unit.into(), meaning.into()]);
         rows.push(row);
     }
-    for (key, value) in heavy(found) {
+    for (key, value) in heavy(found.heavy) {
         let (gap, (unit, _, meaning)) = (vec![String::new(); rows[0].len() - 4], presentation(key));
         rows.push([vec![key.into(), significant(value, 6)], gap, vec![unit.into(), meaning.into()]].concat());
     }

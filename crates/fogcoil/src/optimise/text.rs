@@ -108,7 +108,10 @@ pub(super) fn steps(found: &Found, checked: &Checked) -> Vec<Vec<String>> {
         let value = value.parse().map_or_else(|_| value.clone(), |number: f64| significant(number, 5));
         vec![key.clone(), value, total.map_or("no design".into(), |total| significant(total, 4))]
     };
-    [head, start].into_iter().chain(checked.path.iter().map(step)).collect()
+    // a key whose value is the drawing's changes nothing
+    let mut before = Some(found.drawn.sensitivity);
+    let changes = checked.path.iter().filter(|(.., total)| std::mem::replace(&mut before, *total) != *total);
+    [head, start].into_iter().chain(changes.map(step)).collect()
 }
 
 /// The tolerances that the optimum's spread comes from.

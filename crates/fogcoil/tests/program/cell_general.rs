@@ -162,6 +162,9 @@ fn densities_of_general_cells() {
     let solid = 1.0 - number(&result, "void_fraction");
     assert!((number(&result, "density_kg_per_m3") / (1200.0 * solid) - 1.0).abs() < 1e-6);
     assert!((number(&result, "heat_capacity_j_per_m3k") / (1.8e6 * solid) - 1.0).abs() < 1e-6);
+    let [capacity, density, specific] =
+        ["heat_capacity_j_per_m3k", "density_kg_per_m3", "specific_heat_j_per_kgk"].map(|key| number(&result, key));
+    assert!((specific * density / capacity - 1.0).abs() < 1e-12);
     let file = folder.write("t.ron", with(TEMPERATURE));
     let result = json(&folder, &[file.to_str().unwrap(), "--temperatures", "50", "--tolerance", "1e-2"]);
     assert!((number(&result["temperatures"][0], "density_kg_per_m3") / 1200.0 - 1.0).abs() < 1e-6);
