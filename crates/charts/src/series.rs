@@ -37,7 +37,7 @@ pub enum Style {
     Fine(u8),
     /// Thin and violet: readings, below what is computed.
     Record,
-    /// Points joined by a line: blue rings, vermilion squares.
+    /// Points joined by a line: blue rings, vermilion squares, green triangles, black diamonds.
     Marked(u8),
     /// Marks alone, each of its own shape and colour: blue ring, vermilion square, green triangle, black diamond, blue cross.
     Points(u8),
@@ -50,9 +50,10 @@ impl Style {
         match self {
             Self::Total => "line total",
             Self::First | Self::Marked(0) => "line first",
-            Self::Second | Self::Marked(_) => "line second",
+            Self::Second | Self::Marked(1) => "line second",
             Self::Points(kind) => MARKS[kind as usize % MARKS.len()],
-            Self::Third => "line third",
+            Self::Third | Self::Marked(2) => "line third",
+            Self::Marked(_) => "line total",
             Self::Record => "line fine record",
             Self::Fine(0) => "line fine second",
             Self::Fine(1) => "line fine total",

@@ -10,6 +10,8 @@ use crate::variants::{Kind, Value};
 /// Most keys, names and points of a name that are drawn.
 const KEYS: usize = 6;
 const NAMES: usize = 5;
+/// Most of them that are lines, each of its own kind.
+const LINES: usize = 4;
 const POINTS: usize = 1000;
 /// Least span of the sensitivity's axis \[(deg/h)/(degC/min)\]: below it differences are rounding.
 const LEAST_SPAN: f64 = 1e-3;
@@ -51,7 +53,7 @@ pub(super) fn against_keys<'a>(plan: &Plan, rows: &[Row]) -> Option<Figure<'a>> 
         }
         let stride = points.len().div_ceil(POINTS).max(1);
         let points = points.into_iter().step_by(stride).collect();
-        let style = if is_course && n < 2 { Style::Marked(n as u8) } else { Style::Points(n as u8) };
+        let style = if is_course && n < LINES { Style::Marked(n as u8) } else { Style::Points(n as u8) };
         Series::new(name.clone(), style, points)
     };
     let panel = |key: &usize| {
