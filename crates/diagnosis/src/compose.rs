@@ -3,7 +3,7 @@
 //! A law's first parameter is its size, in which the response is linear. All laws are ranked by the gain of the size at each of the law's starts;
 //! the best are fitted, constants and sensors free, and the best of those is kept; then a second law is sought beside it.
 
-use crate::fit::{Fit, Fitter, Hypothesis};
+use crate::fit::{Fit, Fitter, Hypothesis, checked};
 use crate::rival::Rival;
 use crate::{Active, Candidate, Error, ForwardModel, Observation, Prior};
 use nalgebra::DMatrix;
@@ -105,7 +105,7 @@ pub fn compose_within(
     breadth: Breadth,
     progress: &dyn Fn(Step),
 ) -> Result<Option<Composed>, Error> {
-    let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
+    let fitter = Fitter::new(model, records, observations)?;
     let weights: f64 = laws.clone().map(|law| model.mechanisms()[law].weight).sum();
     // ln of how unlikely a law is before anything is seen
     let cost = |law: usize| (weights / model.mechanisms()[law].weight).ln();
@@ -173,7 +173,7 @@ pub fn in_place_of(
     fit: &Fit,
     mechanism: usize,
 ) -> Result<Option<Fit>, Error> {
-    let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
+    let fitter = Fitter::new(model, records, observations)?;
     let mut without = fit.hypothesis.clone();
     without.mechanisms.retain(|(other, _)| *other != mechanism);
     // with the noise that the mechanism leaves, which has swallowed nothing of it
@@ -194,7 +194,10 @@ pub fn gained_by_noise_of(
     candidate: &Candidate,
     other: &Fit,
 ) -> Result<f64, Error> {
-    let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
+    let fitter = Fitter::new(model, records, observations)?;
+    if candidate.rival.is_some() {
+        checked::states(model, records, observations)?;
+    }
     let fit = &candidate.fit;
     let from = Fit { noise: other.noise.clone(), ..fit.clone() };
     let Some(again) = defined(fitter.fit_with_noise(&fit.hypothesis, &from, 2))? else { return Ok(0.0) };
@@ -309,14 +312,16 @@ impl Fitter<'_> {
     /// Laws with the gain of their sizes beside a fit, each at the best of its starts and at the best size there.
     fn ranked(&self, laws: impl Iterator<Item = usize>, base: &Fit) -> Result<Vec<(f64, Active)>, Error> {
         let respond = |at: usize, active: &[Active]| {
-            self.model.respond(self.records[at], &base.nuisances[at], active).map_err(Error::Model)
+            let rows = self.observations[at].time.len();
+            checked::responded(self.model, self.records[at], rows, &base.nuisances[at], active)
         };
         let without = (0..self.records.len()).map(|at| respond(at, &base.active)).collect::<Result<Vec<_>, _>>()?;
         let mut ranked: Vec<(f64, Active)> = Vec::new();
         for law in laws {
             let omission = &self.model.mechanisms()[law];
-            let prior = omission.parameters[0].prior;
-            let (Prior::Normal { .. } | Prior::Size { .. }) = prior else { continue };
+            let Some(prior @ (Prior::Normal { .. } | Prior::Size { .. })) = omission.parameters.first().map(|p| p.prior) else {
+                continue;
+            };
             let sd = prior.sd();
             let mut most: Option<(f64, Active)> = None;
             for start in &omission.starts {

@@ -1,6 +1,6 @@
 //! Expected separation of hypotheses by records yet to be made.
 
-use crate::fit::{Fit, Fitter, Hypothesis, expected};
+use crate::fit::{Fit, Fitter, Hypothesis, checked, expected};
 use crate::noise::Noise;
 use crate::{Active, Channel, Error, Failure, ForwardModel, Nuisance, Observation, Omission, State};
 use nalgebra::DMatrix;
@@ -99,14 +99,14 @@ pub fn separation(
     let middle = expected(model.nuisances());
     let mut observations = plan.instants.to_vec();
     for (record, observation) in records.iter().zip(&mut observations) {
-        let response = model.respond(*record, &middle, truth).map_err(Error::Model)?;
+        let response = checked::responded(model, *record, observation.time.len(), &middle, truth)?;
         for (series, response) in observation.channels.iter_mut().zip(response) {
             series.iter_mut().zip(response).filter(|(y, _)| !y.is_nan()).for_each(|(y, r)| *y = r);
         }
     }
     let under = Under { model, channels: with_noise(channels, plan.noise) };
     let noise = Noise::typical(&under.channels, &observations)?;
-    let fitter = Fitter::new(&under, records, &observations).map_err(Error::Model)?;
+    let fitter = Fitter::new(&under, records, &observations)?;
     let mut nearest: Option<(f64, Fit)> = None;
     for rival in rivals {
         let fit = fitter.fit(rival, &noise, None)?;
@@ -144,7 +144,7 @@ pub fn fitted(
     observations: &[Observation],
     hypotheses: &[Hypothesis],
 ) -> Result<Fit, Error> {
-    let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
+    let fitter = Fitter::new(model, records, observations)?;
     let typical = Noise::typical(model.channels(), observations)?;
     let mut best: Option<Fit> = None;
     for hypothesis in hypotheses {

@@ -19,7 +19,11 @@ pub enum Error {
     /// A mechanism has no start.
     #[error("a mechanism has no start for its fit")]
     NoStart,
-    /// There is nothing to compare.
+    /// The model contradicts itself: a response or a state of another shape than the record's, a prior that is no distribution, a start without a
+    /// value for each parameter, a weight that is no weight.
+    #[error("{0}")]
+    Definition(String),
+    /// Records, observations or another argument do not fit the model, or there is nothing to compare.
     #[error("{0}")]
     Data(String),
 }

@@ -1,6 +1,6 @@
 //! A fit's prediction of a record that it has not seen.
 
-use crate::fit::{Fit, Offset, Unseen, designed};
+use crate::fit::{Fit, Offset, Unseen, checked, designed};
 use crate::noise::{MINUTE, Noise};
 use crate::{Error, ForwardModel, Observation};
 use nalgebra::{Cholesky, DMatrix, DVector};
@@ -74,7 +74,7 @@ impl Fit {
     /// Predicts `record` of the model and compares with its observations; `judge` gives the noise under which it is scored.
     ///
     /// # Errors
-    /// [`Error`] if the model fails.
+    /// [`Error::Data`] if the observation does not fit the model or has no value; [`Error`] if the model fails.
     pub fn hold_out(
         &self,
         model: &dyn ForwardModel,
@@ -82,21 +82,26 @@ impl Fit {
         observed: &Observation,
         judge: &Self,
     ) -> Result<HeldOut, Error> {
-        judged(model, self.unseen(model, record)?, &self.offsets[0], observed, judge)
+        checked::observed(model, record, observed)?;
+        judged(model, self.unseen(model, (record, observed.time.len()))?, &self.offsets[0], observed, judge)
     }
 }
 
 /// The same for the model as it is designed: nothing fitted but the offsets, which are the means of its residuals in `fitted`.
 ///
 /// # Errors
-/// [`Error`] if the model fails.
+/// [`Error::Data`] if an observation does not fit the model or has no value; [`Error`] if the model fails.
 pub fn as_designed(
     model: &dyn ForwardModel,
     fitted: (usize, &Observation),
     held: (usize, &Observation),
     judge: &Fit,
 ) -> Result<HeldOut, Error> {
-    let offsets: Vec<f64> = designed(model, fitted.0)?
+    for (record, observed) in [fitted, held] {
+        checked::observed(model, record, observed)?;
+    }
+    let rows = |(record, observed): (usize, &Observation)| (record, observed.time.len());
+    let offsets: Vec<f64> = designed(model, rows(fitted))?
         .response
         .iter()
         .zip(&fitted.1.channels)
@@ -105,7 +110,7 @@ pub fn as_designed(
             left.iter().sum::<f64>() / left.len().max(1) as f64
         })
         .collect();
-    judged(model, designed(model, held.0)?, &offsets, held.1, judge)
+    judged(model, designed(model, rows(held))?, &offsets, held.1, judge)
 }
 
 /// A prediction with offsets against the observations.

@@ -1,6 +1,6 @@
 //! Origin of a mismatch in the chain, found by one flexible input at a time, placed at each stage.
 
-use crate::fit::{Fit, products};
+use crate::fit::{Fit, checked, products};
 use crate::locate::whiteness;
 use crate::{Error, Failure, ForwardModel, Latent, Observation};
 use nalgebra::{Cholesky, DMatrix, DVector};
@@ -74,12 +74,16 @@ impl Fit {
 
     /// The latent inputs of the stages that every record has.
     fn latent(
+        &self,
+        model: &dyn ForwardModel,
         records: &[usize],
         of: impl Fn(usize) -> Result<Vec<Latent>, Failure>,
     ) -> Result<Vec<(String, Vec<Functions>)>, Error> {
         let mut stages: Vec<(String, Vec<Functions>)> = Vec::new();
-        for record in records {
+        for (record, residuals) in records.iter().zip(&self.residuals) {
             for latent in of(*record).map_err(Error::Model)? {
+                let (rows, what) = (residuals.first().map_or(0, Vec::len), format!("an input at stage `{}`", latent.stage));
+                latent.functions.iter().try_for_each(|f| checked::shape(model, *record, rows, &what, f))?;
                 match stages.iter_mut().find(|(stage, _)| *stage == latent.stage) {
                     Some((_, functions)) => functions.push(latent.functions),
                     None => stages.push((latent.stage, vec![latent.functions])),
@@ -97,7 +101,7 @@ impl Fit {
     /// [`Error`] if the model fails.
     pub fn stages(&self, model: &dyn ForwardModel, records: &[usize], observations: &[Observation]) -> Result<Vec<Stage>, Error> {
         let mut stages = Vec::new();
-        for (stage, functions) in Self::latent(records, |r| model.latent(r))? {
+        for (stage, functions) in self.latent(model, records, |r| model.latent(r))? {
             let Some((columns, _)) = self.whitened_functions(&functions) else { continue };
             let gains = self.gain(&columns, &AMPLITUDES);
             let most = gains.iter().fold(f64::NEG_INFINITY, |m, g| m.max(*g));
@@ -138,7 +142,7 @@ impl Fit {
     /// # Errors
     /// [`Error`] if the model fails.
     pub fn resolution(&self, model: &dyn ForwardModel, records: &[usize], prior: f64) -> Result<Option<MemberResolution>, Error> {
-        let group = Self::latent(records, |r| Ok(model.members(r)?.into_iter().collect()))?;
+        let group = self.latent(model, records, |r| Ok(model.members(r)?.into_iter().collect()))?;
         let Some((mut columns, scales)) = group.first().and_then(|(_, functions)| self.whitened_functions(functions)) else {
             return Ok(None);
         };

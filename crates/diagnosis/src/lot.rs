@@ -9,7 +9,7 @@
 //! and ℓ has the precision Λ = S⁻¹ + Σ Λₖ and the mean Λ⁻¹ Σ ηₖ: an empirical Bayes model of two levels (Gelman et al. 2013, ch. 5), exact for
 //! normal densities. The constants of a further unit have that mean and the covariance Λ⁻¹ + D.
 
-use crate::fit::{Fit, Unknown};
+use crate::fit::{Fit, Unknown, checked};
 use crate::{Active, Error, ForwardModel};
 use nalgebra::{DMatrix, DVector};
 
@@ -132,7 +132,8 @@ impl Fit {
     ) -> Result<f64, Error> {
         let mut column = Vec::with_capacity(self.whitened.len());
         for (at, (record, nuisances)) in records.iter().zip(&self.nuisances).enumerate() {
-            let respond = |active: &[Active]| model.respond(*record, nuisances, active).map_err(Error::Model);
+            let rows = self.residuals[at].first().map_or(0, Vec::len);
+            let respond = |active: &[Active]| checked::responded(model, *record, rows, nuisances, active);
             let [with, without] = [respond(std::slice::from_ref(effect))?, respond(&[])?];
             for (channel, (with, without)) in with.iter().zip(&without).enumerate() {
                 let change: Vec<f64> = with.iter().zip(without).map(|(a, b)| a - b).collect();

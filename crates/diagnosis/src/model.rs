@@ -76,11 +76,11 @@ pub struct Omission {
     pub parameters: Vec<Parameter>,
     /// A further, whole-numbered parameter with its candidates, which are compared one by one.
     pub choice: Option<(String, Vec<f64>)>,
-    /// Values of the parameters from which fits start, at least one.
+    /// Values of the parameters from which fits start, at least one, each with a value for every parameter.
     pub starts: Vec<Vec<f64>>,
     /// Whether an explanation by it counts as explained; else it only describes an unknown.
     pub named: bool,
-    /// Weight before the recording is seen, relative to the others.
+    /// Weight before the recording is seen, relative to the others: finite and at least 0.
     pub weight: f64,
 }
 
@@ -136,7 +136,7 @@ pub trait ForwardModel {
         None
     }
 
-    /// Response of every channel at the instants of a record, with nuisances at given values and mechanisms at work.
+    /// Response of every channel, `[channel][row]`, at the instants of a record, with nuisances at given values and mechanisms at work.
     ///
     /// # Errors
     /// The model's error if it cannot respond.
@@ -159,7 +159,7 @@ pub trait ForwardModel {
         Vec::new()
     }
 
-    /// State of the nominal system during a record.
+    /// State of the nominal system during a record, one level and one rate for each instant.
     fn state(&self, record: usize) -> &State;
 
     /// A flexible input at every stage where one can act, one at each; without any, a mismatch is not located by stage. Of several records those stages

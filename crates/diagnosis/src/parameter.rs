@@ -42,6 +42,25 @@ const SINH_1: f64 = 1.175_201_193_643_801_4;
 const MOST: f64 = 8.0;
 
 impl Prior {
+    /// The problem of a prior that is no distribution.
+    pub(crate) fn problem(&self) -> Option<String> {
+        let size = |name: &str, value: f64| {
+            let is_size = value.is_finite() && value > 0.0;
+            (!is_size).then(|| format!("the {name} of its prior is {value}; it has to be finite and above 0"))
+        };
+        let number = |name: &str, value: f64| {
+            (!value.is_finite()).then(|| format!("the {name} of its prior is {value}; it has to be finite"))
+        };
+        match *self {
+            Prior::Normal { mean, sd } => number("mean", mean).or_else(|| size("sd", sd)),
+            Prior::Size { scale } => size("scale", scale),
+            Prior::LogNormal { median, spread } => size("median", median).or_else(|| size("spread", spread)),
+            Prior::Uniform { low, high } => number("lower end", low).or_else(|| number("upper end", high)).or_else(|| {
+                (low >= high).then(|| format!("its prior reaches from {low} to {high}; the upper end has to be above the lower"))
+            }),
+        }
+    }
+
     /// The value at u.
     pub fn value(&self, u: f64) -> f64 {
         let u = u.clamp(-MOST, MOST);

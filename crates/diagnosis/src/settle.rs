@@ -84,6 +84,7 @@ impl<M> Settled<M> {
 /// the likeliest.
 ///
 /// # Errors
+/// [`Error::Data`] if the observations do not fit the model or one of them has no value, [`Error::Definition`] if the model contradicts itself;
 /// [`Error`] if the model or a fit fails.
 pub fn settled<M: ForwardModel>(
     model: &M,
@@ -211,7 +212,7 @@ impl<M: ForwardModel> Way<'_, M> {
     fn settled(&self) -> Result<Fit, Error> {
         let among = self.known.as_ref().map_or_else(Vec::new, |known| vec![known.hypothesis.clone()]);
         let Led { fit: last, .. } = leader(self.here(), self.records, self.observations, self.known.as_ref(), &among)?;
-        let fitter = Fitter::new(self.here(), self.records, self.observations).map_err(Error::Model)?;
+        let fitter = Fitter::new(self.here(), self.records, self.observations)?;
         fitter.fit_with_noise(&last.hypothesis, &last, 2)
     }
 }
@@ -256,7 +257,7 @@ fn leader(
     known: Option<&Fit>,
     among: &[Hypothesis],
 ) -> Result<Led, Error> {
-    let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
+    let fitter = Fitter::new(model, records, observations)?;
     let noise = match known {
         Some(fit) => fit.noise.calmed(model.channels(), observations)?,
         None => Noise::typical(model.channels(), observations)?,

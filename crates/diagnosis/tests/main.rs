@@ -7,6 +7,7 @@ mod exact_evidence;
 mod hidden;
 mod kept;
 mod real_recordings;
+mod refused;
 mod rivals;
 mod sampled;
 mod separation;

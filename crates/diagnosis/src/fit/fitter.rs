@@ -1,11 +1,12 @@
 //! The quantities to fit, and the result of a fit.
 
 use super::beforehand::{Beforehand, without};
+use super::checked;
 use super::derivatives::Derivatives;
 use super::hypothesis::Hypothesis;
 use super::unknowns::{Layout, Unknown, expected};
 use crate::noise::Noise;
-use crate::{Active, Channel, Failure, ForwardModel, Observation, Omission, Role};
+use crate::{Active, Channel, Error, ForwardModel, Observation, Role};
 use nalgebra::{DMatrix, DVector};
 
 /// A hypothesis at its most probable parameters.
@@ -100,27 +101,19 @@ impl Offset {
 
 impl<'a> Fitter<'a> {
     /// # Errors
-    /// The model's error if it cannot respond; a message if there is no record, or nothing to choose for a mechanism that has a choice.
-    pub(crate) fn new(
-        model: &'a dyn ForwardModel,
-        records: &'a [usize],
-        observations: &'a [Observation],
-    ) -> Result<Self, Failure> {
+    /// [`Error::Data`] if there is no record, or one that does not fit the model; [`Error::Definition`] if the model contradicts itself;
+    /// [`Error::Model`] if it cannot respond.
+    pub(crate) fn new(model: &'a dyn ForwardModel, records: &'a [usize], observations: &'a [Observation]) -> Result<Self, Error> {
         if records.is_empty() || records.len() != observations.len() {
-            return Err(format!(
-                "{} observations of {} records; give one of each, and at least one",
-                observations.len(),
-                records.len()
-            )
-            .into());
+            let (found, of) = (observations.len(), records.len());
+            return Err(Error::Data(format!("{found} observations of {of} records; give one of each, and at least one")));
         }
-        let without = |m: &&Omission| m.choice.as_ref().is_some_and(|(_, values)| values.is_empty());
-        if let Some(mechanism) = model.mechanisms().iter().find(without) {
-            return Err(format!("{}: nothing to choose; give its choice a value, or leave it out", mechanism.id).into());
-        }
+        checked::definition(model)?;
         let middle = expected(model.nuisances());
-        let of = |(record, observed): (&usize, &Observation)| -> Result<Vec<Offset>, Failure> {
-            let predicted = model.respond(*record, &middle, &[])?;
+        let of = |(record, observed): (&usize, &Observation)| -> Result<Vec<Offset>, Error> {
+            let rows = observed.time.len();
+            checked::observed(model, *record, observed)?;
+            let predicted = checked::responded(model, *record, rows, &middle, &[])?;
             let channels = model.channels().iter().zip(&observed.channels).zip(&predicted);
             Ok(channels.map(|((channel, recorded), predicted)| Offset::of(channel, recorded, predicted)).collect())
         };

@@ -1,9 +1,10 @@
 //! One hypothesis fitted to the records, and its evidence.
 //!
-//! [`hypothesis`]: the mechanisms at work; [`unknowns`]: the quantities to find, and [`beforehand`] their prior; [`objective`]: the function to minimise, with its
+//! [`checked`]: what cannot be fitted; [`hypothesis`]: the mechanisms at work; [`unknowns`]: the quantities to find, and [`beforehand`] their prior; [`objective`]: the function to minimise, with its
 //! [`derivatives`], found by [`differences`]; from [`starts`] by [`descent`], and beside [`kinks`]: how; [`laplace`]: the evidence; [`fitter`]: all together; [`unseen`]: what it foretells. [`mod@sampled`] checks it.
 
 mod beforehand;
+pub(crate) mod checked;
 mod derivatives;
 mod descent;
 mod differences;

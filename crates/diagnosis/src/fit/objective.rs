@@ -2,6 +2,7 @@
 //! channels and the precision P of the prior.
 
 use super::beforehand::Beforehand;
+use super::checked;
 use super::fitter::{Fit, Fitter, Offset};
 use super::hypothesis::Hypothesis;
 use super::unknowns::{Layout, Unknown, expected, parameter};
@@ -95,8 +96,11 @@ impl<'a> Objective<'a> {
 
     pub(super) fn responses(&self, u: &DVector<f64>) -> Result<Series, Error> {
         let (nuisances, active) = self.at(u);
-        let of = |(record, n): (&usize, &Vec<f64>)| self.fitter.model.respond(*record, n, &active).map_err(Error::Model);
-        self.fitter.records.iter().zip(&nuisances).map(of).collect()
+        let Fitter { model, records, observations, .. } = self.fitter;
+        let of = |((record, observed), n): ((&usize, &Observation), &Vec<f64>)| {
+            checked::responded(*model, *record, observed.time.len(), n, &active)
+        };
+        records.iter().zip(*observations).zip(&nuisances).map(of).collect()
     }
 
     /// Series of all records and channels, whitened, one behind another.

@@ -122,7 +122,7 @@ pub fn sampled(
     seed: u64,
 ) -> Result<Samples, Error> {
     let steps = steps.max(FEWEST);
-    let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
+    let fitter = Fitter::new(model, records, observations)?;
     let hypothesis: &Hypothesis = &fit.hypothesis;
     let objective = Objective::new(&fitter, hypothesis, &fit.noise)?;
     let modes = objective.modes(fit)?;

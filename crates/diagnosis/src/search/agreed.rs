@@ -21,6 +21,7 @@ const MOVED: f64 = 0.3;
 /// hypothesis that was followed so counts as it is about its own constants, and if it is the likeliest after all its model is left there.
 ///
 /// # Errors
+/// [`Error::Data`] if the observations do not fit the model or one of them has no value, [`Error::Definition`] if the model contradicts itself;
 /// [`Error`] if the model or a fit fails.
 pub fn diagnose_settled<M: ForwardModel>(
     given: &M,
@@ -71,7 +72,7 @@ fn about_itself<M: ForwardModel>(
     for _ in 0..ROUNDS {
         let here = about.as_ref().unwrap_or(model);
         let Some(next) = here.about(&fit.nuisances[0], &fit.active).map_err(Error::Model)? else { break };
-        fit = Fitter::new(&next, records, observations).map_err(Error::Model)?.fit_with_noise(&fit.hypothesis, &fit, 2)?;
+        fit = Fitter::new(&next, records, observations)?.fit_with_noise(&fit.hypothesis, &fit, 2)?;
         about = Some(next);
     }
     Ok((fit, about))

@@ -12,7 +12,7 @@ pub use settings::Settings;
 
 use progress::Step;
 
-use crate::fit::{Fit, Fitter, Hypothesis, alternatives};
+use crate::fit::{Fit, Fitter, Hypothesis, alternatives, checked};
 use crate::noise::Noise;
 use crate::{Candidate, Diagnosis, Error, ForwardModel, Observation, Rival, Role};
 
@@ -46,6 +46,7 @@ struct Pool<'a> {
 /// `progress` is told each task as it begins, and the long ones as they go.
 ///
 /// # Errors
+/// [`Error::Data`] if the observations do not fit the model or one of them has no value, [`Error::Definition`] if the model contradicts itself;
 /// [`Error`] if the model or a fit fails.
 pub fn diagnose(
     model: &dyn ForwardModel,
@@ -67,7 +68,8 @@ fn diagnose_beside(
     (known, leading): (&[Fit], Option<Fit>),
     progress: &dyn Fn(Step),
 ) -> Result<Diagnosis, Error> {
-    let fitter = Fitter::new(model, records, observations).map_err(Error::Model)?;
+    let fitter = Fitter::new(model, records, observations)?;
+    checked::states(model, records, observations)?;
     let singles = (0..model.mechanisms().len()).map(|m| alternatives(model, m)).collect();
     let mut pool = Pool { fitter, settings: *settings, singles, candidates: Vec::new(), known, leading, progress };
     if let Some(fit) = known.iter().find(|fit| fit.hypothesis == Hypothesis::RECALIBRATED) {

@@ -85,7 +85,7 @@ impl Diagnosis {
     ///   fitted records alone.
     ///
     /// # Errors
-    /// [`Error`] if the model fails.
+    /// [`Error::Data`] if an observation does not fit the model or has no value, or if there is no such channel; [`Error`] if the model fails.
     pub fn judge(
         &mut self,
         model: &dyn ForwardModel,
@@ -95,6 +95,10 @@ impl Diagnosis {
         held: &[(usize, &Observation)],
         channel: usize,
     ) -> Result<Judgement, Error> {
+        if channel >= model.channels().len() {
+            let count = model.channels().len();
+            return Err(Error::Data(format!("channel {channel} is to judge, the model has {count}, numbered from 0")));
+        }
         let best = self.best();
         let own = self.candidates.iter().find(|c| c.is_constants_alone()).map(|c| (model, &c.fit));
         let constants = own.map(|own| alone.unwrap_or(own));
