@@ -138,29 +138,7 @@ impl Outcome<'_> {
             Verdict::Recalibrate => {
                 self.suffices("the design's own constants, re-estimated within their tolerances, suffice", "nothing is left out")
             }
-            Verdict::Explained => {
-                let (best, first) = (self.names(), self.diagnosis.mechanisms.first().map_or("", |(m, _)| self.id(*m)));
-                let all = best.join(" and ");
-                let sure = |id: &str| format!("{id} (probability {:.3})", self.probability(id).unwrap_or(0.0));
-                if best.contains(&first) {
-                    let named = best.iter().map(|id| sure(id)).collect::<Vec<_>>().join(" and ");
-                    let likelier = best.iter().all(|id| self.law_in_place() > self.probability(id));
-                    match self.law_in_place().filter(|p| *p >= TOLD) {
-                        Some(p) if likelier => format!(
-                            "The recording differs from the design. Most likely: a law that nobody listed (probability {p:.3}), or what does the same, {named}."
-                        ),
-                        Some(p) => format!(
-                            "The recording differs from the design. Most likely: {named}, or a law that nobody listed and that does the same \
-                             (probability {p:.3})."
-                        ),
-                        None if self.is_one_of_several() => format!("The recording differs from the design. Likeliest of several: {named}."),
-                        None => format!("The recording differs from the design. Most likely: {named}."),
-                    }
-                } else {
-                    // many choices of one mechanism together outweigh the best single hypothesis
-                    format!("The recording differs from the design. Most likely: {}; the best single hypothesis: {all}.", sure(first))
-                }
-            }
+            Verdict::Explained => format!("The recording differs from the design. {}.", self.likeliest()),
             Verdict::Unknown if !self.withdrawn.is_empty() && self.law().is_none() => {
                 "The explanation of the fitted records is taken back: a record that was held out contradicts it. The cause is unknown."
                     .to_owned()
@@ -172,9 +150,26 @@ impl Outcome<'_> {
         }
     }
 
-    /// Whether the best explanation is less likely than not.
-    fn is_one_of_several(&self) -> bool {
-        self.names().iter().any(|id| self.probability(id).is_none_or(|p| p < 0.5)) && !self.others().is_empty()
+    /// The likeliest explanation, how likely it is, and a law that does the same.
+    fn likeliest(&self) -> String {
+        let (best, first) = (self.names(), self.diagnosis.mechanisms.first().map_or("", |(m, _)| self.id(*m)));
+        let sure = |id: &str| format!("{id} (probability {:.3})", self.probability(id).unwrap_or(0.0));
+        let unlikely = |id: &str| self.probability(id).is_none_or(|p| p < 0.5);
+        let several =
+            !self.others().is_empty() && (unlikely(first) || best.contains(&first) && best.iter().any(|id| unlikely(id)));
+        let lead = if several { "Likeliest of several" } else { "Most likely" };
+        if !best.contains(&first) {
+            // many choices of one mechanism together outweigh the best single hypothesis
+            return format!("{lead}: {}; the best single hypothesis: {}", sure(first), best.join(" and "));
+        }
+        let named = best.iter().map(|id| sure(id)).collect::<Vec<_>>().join(" and ");
+        match self.law_in_place().filter(|p| *p >= TOLD) {
+            Some(p) if best.iter().all(|id| Some(p) > self.probability(id)) => {
+                format!("Most likely: a law that nobody listed (probability {p:.3}), or what does the same, {named}")
+            }
+            Some(p) => format!("{lead}: {named}, or a law that nobody listed and that does the same (probability {p:.3})"),
+            None => format!("{lead}: {named}"),
+        }
     }
 
     /// Probability of a mechanism, if it is worth saying.
