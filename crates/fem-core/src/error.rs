@@ -74,16 +74,19 @@ pub enum Error {
         /// Message of the factorisation.
         detail: String,
     },
-    /// A solve left a residual that rounding cannot explain.
-    #[error("backward error {backward_error:.3e} of a solve with {unknowns} unknowns exceeds {limit:.1e}: the factor is wrong")]
+    /// A solve left a residual that rounding cannot explain, or gave a number that is not finite.
+    #[error("{}", residual(*backward_error, *limit, *unknowns))]
     Residual {
-        /// Largest residual relative to |A| |x| + |b|.
+        /// Largest residual relative to |A| |x| + |b|; NaN if it is not finite.
         backward_error: f64,
         /// The limit.
         limit: f64,
         /// Number of unknowns.
         unknowns: usize,
     },
+    /// A load, a state, a matrix or a number of steps in time has the wrong size, or is outside its range.
+    #[error("{0}")]
+    Argument(String),
     /// No time step is short enough.
     #[error("even steps of {step:e} s leave an error above {tolerance:e}; raise the tolerance")]
     Step {
@@ -92,6 +95,30 @@ pub enum Error {
         /// The smallest step tried \[s\].
         step: f64,
     },
+}
+
+impl Error {
+    /// An error if a vector, `name`, has not one entry for each of so many unknowns.
+    pub(crate) fn check_length(name: &str, vector: &[f64], unknowns: usize) -> Result<(), Self> {
+        if vector.len() == unknowns {
+            return Ok(());
+        }
+        let (found, noun) = (vector.len(), plural(unknowns, "unknown"));
+        Err(Self::Argument(format!(
+            "the {name} has a length of {found}, the system has {unknowns} {noun}; give one entry for each"
+        )))
+    }
+}
+
+/// The text of [`Error::Residual`].
+fn residual(backward_error: f64, limit: f64, unknowns: usize) -> String {
+    let noun = plural(unknowns, "unknown");
+    if backward_error.is_nan() {
+        return format!(
+            "a solve with {unknowns} {noun} gave a number that is not finite: its load has one, or is too large; check the load"
+        );
+    }
+    format!("backward error {backward_error:.3e} of a solve with {unknowns} {noun} exceeds {limit:.1e}: the factor is wrong")
 }
 
 /// The noun of a count.

@@ -3,7 +3,8 @@
 //! One weak form, `∫ (B v)ᵀ D (B u)`, on curved quadrilaterals of any order: [`Form`] lists the strain operators (conduction and
 //! antiplane shear, generalised plane strain, axisymmetric conduction and elasticity), [`material`] gives D, [`Constraints`]
 //! eliminate periodic, mirror and rigid-motion conditions so that every system is symmetric positive definite, and [`Factor`]
-//! is a sparse Cholesky factor whose residual is checked.
+//! is a sparse Cholesky factor whose residual is checked. [`Problem::mass`] and [`Problem::boundary_mass`] join the stiffness in a heat-like system
+//! `C ẏ + K y = f`, which [`Transient`] follows in time; initial values get into its unknowns by [`DofMap::get`].
 //!
 //! SI units; Voigt order xx, yy, zz, yz, xz, xy with engineering shear; axisymmetric strains in the order rr, yy, hoop, ry.
 //!

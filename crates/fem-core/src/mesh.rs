@@ -6,6 +6,9 @@ use crate::polynomial::gauss_lobatto;
 /// A node lies on the axis of a body of revolution if its radius is less than this share of the largest one: rounding.
 const ON_AXIS: f64 = 1e-12;
 
+/// Region numbers are below this: each of them has an entry among the laws.
+const MOST_REGIONS: usize = u32::MAX as usize;
+
 /// Quadrilaterals of polynomial order p with (p+1)² nodes each, on a tensor grid of Gauss–Lobatto points.
 ///
 /// Node (i, j) of an element, i along ξ and j along η, is `elements[e][j * (p + 1) + i]`.
@@ -23,7 +26,7 @@ impl Mesh {
     /// `nodes` are positions \[m\]; `elements` list (order+1)² node numbers each; `regions` give each element's material.
     ///
     /// # Errors
-    /// [`Error::Mesh`] if a length or a node number does not fit, or a coordinate is not finite.
+    /// [`Error::Mesh`] if a length, a node number or a region number (2³² − 1 or more) does not fit, or a coordinate is not finite.
     pub fn new(order: usize, nodes: Vec<[f64; 2]>, elements: Vec<Vec<usize>>, regions: Vec<usize>) -> Result<Self, Error> {
         if order == 0 {
             return Err(Error::Mesh("the polynomial order must be at least 1".into()));
@@ -31,6 +34,9 @@ impl Mesh {
         let per_element = (order + 1) * (order + 1);
         if regions.len() != elements.len() {
             return Err(Error::Mesh(format!("{} regions for {} elements", regions.len(), elements.len())));
+        }
+        if let Some(e) = regions.iter().position(|&region| region >= MOST_REGIONS) {
+            return Err(Error::Mesh(format!("element {e} is of region {}; number the regions from 0", regions[e])));
         }
         for (e, element) in elements.iter().enumerate() {
             if element.len() != per_element {
@@ -59,7 +65,7 @@ impl Mesh {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Mesh`] for order 0, fewer than two breaks, or breaks that do not increase.
+    /// [`Error::Mesh`] for order 0, fewer than two breaks, breaks that do not increase, or a region number of 2³² − 1 or more.
     pub fn rectangles(order: usize, x: &[f64], y: &[f64], region: impl Fn(usize, usize) -> Option<usize>) -> Result<Self, Error> {
         if order == 0 {
             return Err(Error::Mesh("the polynomial order must be at least 1".into()));

@@ -20,7 +20,11 @@ impl Coupling {
     }
 
     /// H T: load vector (nodes × components, component fastest) of nodal values.
+    ///
+    /// # Panics
+    /// If `field` has not one value for each node of the mesh.
     pub fn multiply(&self, field: &[f64]) -> Vec<f64> {
+        assert!(field.len() == self.count, "a field of {} values for {} nodes", field.len(), self.count);
         let c = self.components;
         let mut load = vec![0.0; self.count * c];
         for (nodes, matrix) in self.active() {
@@ -33,8 +37,12 @@ impl Coupling {
     }
 
     /// Hᵀ u: what a displacement (nodes × components) says of each node's value.
+    ///
+    /// # Panics
+    /// If `displacement` has not one entry for each component of each node of the mesh.
     pub fn multiply_transposed(&self, displacement: &[f64]) -> Vec<f64> {
-        let c = self.components;
+        let (c, needed) = (self.components, self.count * self.components);
+        assert!(displacement.len() == needed, "a displacement of {} entries, not {needed}", displacement.len());
         let mut result = vec![0.0; self.count];
         for (nodes, matrix) in self.active() {
             let local = nodes.iter().flat_map(|&node| &displacement[node * c..(node + 1) * c]);

@@ -30,6 +30,9 @@ impl SparseMatrix {
     }
 
     /// A x.
+    ///
+    /// # Panics
+    /// If `x` has not one entry for each column.
     pub fn multiply(&self, x: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; self.rows()];
         sprs::prod::mul_acc_mat_vec_csc(self.0.view(), x, &mut y);
@@ -37,6 +40,9 @@ impl SparseMatrix {
     }
 
     /// Aᵀ x.
+    ///
+    /// # Panics
+    /// If `x` has not one entry for each row.
     pub fn multiply_transposed(&self, x: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; self.columns()];
         sprs::prod::mul_acc_mat_vec_csr(self.0.transpose_view(), x, &mut y);
@@ -55,12 +61,18 @@ impl SparseMatrix {
         y
     }
 
+    /// Whether two matrices have their entries in the same places.
+    pub(crate) fn has_pattern_of(&self, other: &Self) -> bool {
+        let ((starts, indices, _), (of_starts, of_indices, _)) = (self.parts(), other.parts());
+        self.rows() == other.rows() && starts == of_starts && indices == of_indices
+    }
+
     /// α A + β B of two matrices on the same pattern.
     ///
     /// # Panics
     /// If the patterns differ: a programming error, both must come from the same [`Pattern`].
     pub fn combine(alpha: f64, a: &Self, beta: f64, b: &Self) -> Self {
-        assert!(a.parts().0 == b.parts().0 && a.parts().1 == b.parts().1, "matrices of one Pattern");
+        assert!(a.has_pattern_of(b), "matrices of one Pattern");
         let mut sum = a.clone();
         for (s, b) in sum.0.data_mut().iter_mut().zip(b.0.data()) {
             *s = alpha * *s + beta * b;

@@ -57,11 +57,13 @@ pub struct State {
 }
 
 impl Transient {
-    /// `C ẏ + K y = f`, both matrices symmetric positive definite and of one pattern.
+    /// `C ẏ + K y = f`, both matrices symmetric positive definite and of one pattern, as [`crate::Problem::mass`] and
+    /// [`crate::Problem::stiffness`] of one map make them where the same regions have a law.
     ///
     /// # Errors
-    /// [`Error::NotPositiveDefinite`] if the ordering fails.
+    /// [`Error::Argument`] if the matrices are of different sizes or patterns; [`Error::NotPositiveDefinite`] if the ordering fails.
     pub fn new(capacity: SparseMatrix, conductivity: SparseMatrix) -> Result<Self, Error> {
+        check_patterns(&capacity, &conductivity)?;
         let symbolic = SymbolicFactor::new(&SparseMatrix::combine(1.0, &capacity, 1.0, &conductivity))?;
         Ok(Self { capacity, conductivity, symbolic, factors: BTreeMap::new(), effort: Effort::default() })
     }
@@ -98,6 +100,14 @@ impl Transient {
         Ok(self.factor(step)?.substitute(&[rhs]).remove(0))
     }
 
+    /// Whether a state and a load have one entry for each unknown.
+    fn check(&self, state: &State, load: &[f64]) -> Result<(), Error> {
+        let unknowns = self.capacity.rows();
+        Error::check_length("state's value", &state.value, unknowns)?;
+        Error::check_length("state's rate", &state.rate, unknowns)?;
+        Error::check_length("load", load, unknowns)
+    }
+
     /// The state after a step, and the rate at its inner stage.
     fn stages(&mut self, state: &State, load: &[f64], step: f64, solve: Solve) -> Result<(State, Vec<f64>), Error> {
         let (y, z1) = (&state.value, &state.rate);
@@ -112,11 +122,19 @@ impl Transient {
         Ok((State { value, rate: z3 }, z2))
     }
 
-    /// One step of size `step` under a constant load `f`: the new state and the estimated error of its value.
+    /// One step of size `step` \[s\], at least 0, under a constant load `f`: the new state and the estimated error of its value.
     ///
     /// # Errors
-    /// As [`Factor::solve`].
+    /// [`Error::Argument`] if the step is negative or not finite, or if the state or the load has not one entry for each unknown; as
+    /// [`Factor::solve`].
     pub fn step(&mut self, state: &State, load: &[f64], step: f64) -> Result<(State, Vec<f64>), Error> {
+        self.check(state, load)?;
+        check_duration("step", step)?;
+        self.estimated(state, load, step)
+    }
+
+    /// [`Self::step`] of what is known to fit.
+    fn estimated(&mut self, state: &State, load: &[f64], step: f64) -> Result<(State, Vec<f64>), Error> {
         let (next, z2) = self.stages(state, load, step, Self::solve)?;
         let (z1, z3) = (&state.rate, &next.rate);
         let weights = [W - (1.0 - W) / 3.0, W - (3.0 * W + 1.0) / 3.0, D - D / 3.0];
@@ -130,8 +148,10 @@ impl Transient {
     /// whose size is known to be small enough.
     ///
     /// # Errors
-    /// As [`Factor::new`]; [`Error::Residual`] if the new state is not finite.
+    /// [`Error::Argument`] as in [`Self::step`]; as [`Factor::new`]; [`Error::Residual`] if the new state is not finite.
     pub fn plain_step(&mut self, state: &State, load: &[f64], step: f64) -> Result<State, Error> {
+        self.check(state, load)?;
+        check_duration("step", step)?;
         let (next, _) = self.stages(state, load, step, Self::substitute)?;
         if next.value.iter().all(|v| v.is_finite()) {
             return Ok(next);
@@ -142,19 +162,21 @@ impl Transient {
     /// C⁻¹ f: what a sudden change of load by `f` adds to the rate.
     ///
     /// # Errors
-    /// As [`Factor::new`].
+    /// [`Error::Argument`] if the load has not one entry for each unknown; as [`Factor::new`].
     pub fn rate_of_load(&mut self, load: &[f64]) -> Result<Vec<f64>, Error> {
+        Error::check_length("load", load, self.capacity.rows())?;
         // the matrix of a step of no length is C
         self.solve(0.0, load.to_vec())
     }
 
-    /// Advances by `interval` under a constant load, in steps of `interval / 2^k` whose error is at most `tolerance` each (largest
-    /// entry of the value). `halvings` is the k to begin with and, on return, to go on with.
+    /// Advances by `interval` \[s\], at least 0, under a constant load, in steps of `interval / 2^k` whose error is at most `tolerance`, above 0,
+    /// each (largest entry of the value). `halvings` is the k, at most 30, to begin with and, on return, to go on with.
     ///
     /// The state's rate must be that under this load: add [`Self::rate_of_load`] of every change of load to it.
     ///
     /// # Errors
-    /// As [`Factor::solve`]; [`Error::Step`] if even the smallest step is not accurate enough.
+    /// [`Error::Argument`] if a number is outside its range, or the state or the load has not one entry for each unknown; as
+    /// [`Factor::solve`]; [`Error::Step`] if even the smallest step is not accurate enough.
     pub fn advance(
         &mut self,
         state: &State,
@@ -163,13 +185,16 @@ impl Transient {
         tolerance: f64,
         halvings: &mut u32,
     ) -> Result<State, Error> {
+        self.check(state, load)?;
+        check_duration("interval", interval)?;
+        check_control(tolerance, *halvings)?;
         let mut now = state.clone();
         // time in units of the smallest step, so that it stays exact
         let whole = 1u64 << MOST_HALVINGS;
         let mut done = 0u64;
         while done < whole {
             let units = whole >> *halvings;
-            let (next, error) = self.step(&now, load, interval / (whole / units) as f64)?;
+            let (next, error) = self.estimated(&now, load, interval / (whole / units) as f64)?;
             let size = error.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
             if size > tolerance {
                 self.effort.refused += 1;
@@ -189,6 +214,39 @@ impl Transient {
         }
         Ok(now)
     }
+}
+
+fn check_patterns(capacity: &SparseMatrix, conductivity: &SparseMatrix) -> Result<(), Error> {
+    if capacity.has_pattern_of(conductivity) {
+        return Ok(());
+    }
+    let size = |matrix: &SparseMatrix| format!("{} × {}", matrix.rows(), matrix.columns());
+    let (of_capacity, of_conductivity) = (size(capacity), size(conductivity));
+    Err(Error::Argument(if of_capacity == of_conductivity {
+        "the capacity and the conductivity have entries in different places; make both of one map, a law in the same regions"
+            .into()
+    } else {
+        format!("the capacity is {of_capacity}, the conductivity {of_conductivity}; make both of one map")
+    }))
+}
+
+fn check_duration(name: &str, seconds: f64) -> Result<(), Error> {
+    if seconds.is_finite() && seconds >= 0.0 {
+        return Ok(());
+    }
+    Err(Error::Argument(format!("the {name} is {seconds} s; it must be finite and at least 0")))
+}
+
+fn check_control(tolerance: f64, halvings: u32) -> Result<(), Error> {
+    if tolerance.is_nan() || tolerance <= 0.0 {
+        return Err(Error::Argument(format!("the tolerance is {tolerance}; it must be above 0")));
+    }
+    if halvings > MOST_HALVINGS {
+        return Err(Error::Argument(format!(
+            "{halvings} halvings of the interval are given; they must be at most {MOST_HALVINGS}"
+        )));
+    }
+    Ok(())
 }
 
 fn add(y: &[f64], terms: &[(f64, &Vec<f64>)]) -> Vec<f64> {

@@ -1,7 +1,7 @@
 //! Input that does not fit is refused by an error that names the remedy.
 
 use crate::common::isotropic;
-use fem_core::{Constraints, DofMap, Edge, Error, Form, Mesh, Problem};
+use fem_core::{Constraints, Coupling, DofMap, Edge, Error, Factor, Form, Mesh, Problem, SparseMatrix, State, Transient};
 use nalgebra::DMatrix;
 
 const AXI: Form = Form::AXISYMMETRIC_ELASTICITY;
@@ -125,6 +125,134 @@ fn bounds_a_region_without_an_entry_and_a_quadrature_without_points_are_refused(
     let laws = [laws[0].clone(), laws[0].clone()];
     assert_eq!(problem.stiffness(&map, &laws).err(), Some(Error::NoPoints));
     assert_eq!(problem.region_measures().err(), Some(Error::NoPoints));
+}
+
+/// The heat of a square of unit properties, its left side held at zero.
+fn square() -> (DofMap, SparseMatrix, SparseMatrix) {
+    let mesh = Mesh::rectangles(2, &[0.0, 1.0], &[0.0, 1.0], |_, _| Some(0)).expect("a mesh");
+    let problem = Problem::new(&mesh, Form::DIFFUSION, 3);
+    let mut constraints = Constraints::new(mesh.nodes().len());
+    (0..mesh.nodes().len()).filter(|&i| mesh.nodes()[i][0] == 0.0).for_each(|i| constraints.hold(i).expect("a node"));
+    let map = constraints.eliminate(&problem.used(|_| true));
+    let capacity = problem.mass(&map, &[Some(DMatrix::identity(1, 1))]).expect("a mass");
+    let conductivity = problem.stiffness(&map, &[Some(DMatrix::identity(2, 2))]).expect("a stiffness");
+    (map, capacity, conductivity)
+}
+
+#[test]
+fn bounds_steps_in_time_with_arguments_out_of_range_are_refused() {
+    let (map, capacity, conductivity) = square();
+    let n = map.reduced();
+    let mut transient = Transient::new(capacity, conductivity).expect("a system");
+    let state = State { value: vec![1.0; n], rate: vec![0.0; n] };
+    let mut said = |interval: f64, tolerance: f64, mut halvings: u32| {
+        let end = transient.advance(&state, &vec![0.0; n], interval, tolerance, &mut halvings);
+        end.map(|_| ()).map_err(|error| error.to_string())
+    };
+    assert_eq!((said(0.1, 1e-3, 30), said(0.0, 1e-3, 0)), (Ok(()), Ok(())));
+    for halvings in [31, 64, u32::MAX] {
+        let text = format!("{halvings} halvings of the interval are given; they must be at most 30");
+        assert_eq!(said(0.1, 1e-3, halvings), Err(text));
+    }
+    for tolerance in [0.0, -1e-3, f64::NAN] {
+        assert_eq!(said(0.1, tolerance, 0), Err(format!("the tolerance is {tolerance}; it must be above 0")));
+    }
+    for interval in [-0.1, f64::NAN, f64::INFINITY] {
+        assert_eq!(said(interval, 1e-3, 0), Err(format!("the interval is {interval} s; it must be finite and at least 0")));
+    }
+}
+
+#[test]
+fn bounds_loads_and_states_of_another_length_are_refused() {
+    let (map, capacity, conductivity) = square();
+    let n = map.reduced();
+    let mut transient = Transient::new(capacity, conductivity).expect("a system");
+    for (value, rate, load, name) in
+        [(n - 1, n, n, "state's value"), (n, n + 1, n, "state's rate"), (n, n, 0, "load"), (n, n, n + 1, "load")]
+    {
+        let found = [value, rate, load].into_iter().find(|&length| length != n).expect("a length");
+        let text = format!("the {name} has a length of {found}, the system has {n} unknowns; give one entry for each");
+        let state = State { value: vec![1.0; value], rate: vec![0.0; rate] };
+        let load = vec![0.0; load];
+        let errors = [
+            transient.step(&state, &load, 0.1).err(),
+            transient.plain_step(&state, &load, 0.1).err(),
+            transient.advance(&state, &load, 0.1, 1e-3, &mut 0).err(),
+        ];
+        assert!(errors.iter().all(|error| error.as_ref().is_some_and(|error| error.to_string() == text)), "{errors:?}");
+    }
+    let error = transient.rate_of_load(&[1.0]).expect_err("a short load").to_string();
+    assert!(error.starts_with("the load has a length of 1, "), "{error}");
+    let state = State { value: vec![1.0; n], rate: vec![0.0; n] };
+    for step in [-1.0, f64::NAN] {
+        let error = transient.plain_step(&state, &vec![0.0; n], step).expect_err("no step").to_string();
+        assert_eq!(error, format!("the step is {step} s; it must be finite and at least 0"));
+        assert_eq!(transient.step(&state, &vec![0.0; n], step).expect_err("no step").to_string(), error);
+    }
+}
+
+#[test]
+fn bounds_matrices_of_different_systems_are_refused() {
+    let (_, capacity, conductivity) = square();
+    let mesh = Mesh::rectangles(1, &[0.0, 1.0, 2.0], &[0.0, 1.0], |i, _| Some(i)).expect("a mesh");
+    let problem = Problem::new(&mesh, Form::DIFFUSION, 2);
+    let map = whole(6);
+    let [all, partly] = [Some(DMatrix::identity(1, 1)), None]
+        .map(|second| problem.mass(&map, &[Some(DMatrix::identity(1, 1)), second]).expect("a mass"));
+    let error = Transient::new(all.clone(), conductivity).expect_err("6 and 6 unknowns of other patterns").to_string();
+    assert_eq!(
+        error,
+        "the capacity and the conductivity have entries in different places; make both of one map, a law in the same regions"
+    );
+    assert_eq!(Transient::new(all.clone(), partly).expect_err("a region without a law").to_string(), error);
+    let small = Problem::new(&mesh, Form::DIFFUSION, 2).mass(
+        &{
+            let mut held = Constraints::new(6);
+            held.hold(0).expect("a node");
+            held.eliminate(&[true; 6])
+        },
+        &[Some(DMatrix::identity(1, 1)), Some(DMatrix::identity(1, 1))],
+    );
+    let error = Transient::new(capacity, small.expect("a mass")).expect_err("6 and 5 unknowns").to_string();
+    assert_eq!(error, "the capacity is 6 × 6, the conductivity 5 × 5; make both of one map");
+}
+
+#[test]
+fn bounds_a_load_that_is_not_finite_is_not_the_factor_s_fault() {
+    let (map, _, conductivity) = square();
+    let factor = Factor::new(conductivity).expect("a factor");
+    let mut load = vec![1.0; map.reduced()];
+    load[2] = f64::NAN;
+    let error = factor.solve(&[load]).expect_err("no number").to_string();
+    assert_eq!(
+        error,
+        "a solve with 6 unknowns gave a number that is not finite: its load has one, or is too large; check the load"
+    );
+}
+
+#[test]
+fn bounds_a_region_number_without_a_count_is_refused() {
+    let mesh = |region: usize| Mesh::rectangles(1, &[0.0, 1.0], &[0.0, 1.0], |_, _| Some(region));
+    assert_eq!(mesh(7).map(|mesh| mesh.region_count()), Ok(8));
+    let expected = Error::Mesh(format!("element 0 is of region {}; number the regions from 0", usize::MAX));
+    assert_eq!(mesh(usize::MAX), Err(expected));
+}
+
+fn coupling() -> Coupling {
+    let mesh = Mesh::rectangles(1, &[0.0, 1.0], &[0.0, 1.0], |_, _| Some(0)).expect("a mesh");
+    Problem::new(&mesh, Form::DIFFUSION, 2).coupling(&[Some(DMatrix::from_element(2, 1, 1.0))]).expect("a coupling")
+}
+
+#[test]
+#[should_panic(expected = "a field of 5 values for 4 nodes")]
+fn bounds_a_long_field_is_a_mistake() {
+    coupling().multiply(&[1.0; 5]);
+}
+
+#[test]
+#[should_panic(expected = "a displacement of 5 entries, not 4")]
+fn bounds_a_long_displacement_is_a_mistake() {
+    coupling().multiply_transposed(&[1.0; 5]);
 }
 
 #[test]
