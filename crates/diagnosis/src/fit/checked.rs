@@ -1,6 +1,6 @@
 //! Models and observations that cannot be compared are refused before anything is computed: shapes, priors, starts, weights.
 
-use crate::{Active, Error, ForwardModel, Observation, Omission};
+use crate::{Active, Channel, Error, ForwardModel, Observation, Omission};
 
 /// Response `[channel][row]`.
 pub(crate) type Response = Vec<Vec<f64>>;
@@ -91,7 +91,8 @@ pub(crate) fn observed(model: &dyn ForwardModel, record: usize, observed: &Obser
         let (found, needed) = (observed.channels.len(), plural(channels.len(), "channel"));
         return refused(format!("{found} series are observed, the model has {needed}; give one series for each"));
     }
-    for (channel, series) in channels.iter().zip(&observed.channels).filter(|(_, s)| s.len() != observed.time.len()) {
+    let of_other_length = |(_, series): &(&Channel, &Vec<f64>)| series.len() != observed.time.len();
+    if let Some((channel, series)) = channels.iter().zip(&observed.channels).find(of_other_length) {
         let (name, found) = (&channel.name, plural(series.len(), "observed value"));
         return refused(format!("channel `{name}` has {found} at {instants}; give one for each, NaN where there is none"));
     }

@@ -72,9 +72,17 @@ pub struct Judgement {
 }
 
 impl Diagnosis {
-    /// Predicts the records `held` (their numbers in the model, and their observations) and judges the verdict by the errors of `channel`. `fitted` is
-    /// the first record that was fitted, `drawn` the model that is exact as it is designed, before it [`crate::settled`]. `alone` is the fit of the
-    /// constants alone with the model that is good about them ([`crate::Settled::alone`]), if there is one.
+    /// Predicts records that were held out and judges the verdict by them.
+    ///
+    /// - `model`: the model of the diagnosis; after [`crate::settled`], the one that is good about the result.
+    /// - `drawn`: the model that is exact as it is designed, before it [`crate::settled`]; else the same one.
+    /// - `alone`: the model that is good about the constants alone ([`crate::Settled::alone`]) and their fit there, if there is one; `None` takes
+    ///   both from the diagnosis.
+    /// - `fitted`: the first record that was fitted, its number in the model and its observation.
+    /// - `held`: the records that were held out, each by its number in the model and its observation.
+    /// - `channel`: the channel whose errors judge, from 0.
+    ///
+    /// The rules:
     ///
     /// - A structure beside mechanisms that have a name, one of them nearly certain, is no bar to naming them if *every* record is predicted to within
     ///   its noise, and clearly better than by the nominal model and by its constants re-estimated: the verdict becomes [`Verdict::Explained`], and
