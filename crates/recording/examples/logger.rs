@@ -10,7 +10,8 @@ use recording::{Channel, Error, Recording, Sampling, median_interval};
 
 /// A recording from a header of names and rows of numbers; what is no number is missing.
 fn read(text: &str, unit: &str) -> Result<Recording, Error> {
-    let mut rows = text.lines().map(|line| line.split(',').map(str::trim).collect::<Vec<_>>());
+    let lines = text.lines().filter(|line| !line.trim().is_empty());
+    let mut rows = lines.map(|line| line.split(',').map(str::trim).collect::<Vec<_>>());
     let names = rows.next().unwrap_or_default();
     let rows: Vec<Vec<f64>> = rows.map(|row| row.iter().map(|cell| cell.parse().unwrap_or(f64::NAN)).collect()).collect();
     let column = |i: usize| rows.iter().map(|row| row.get(i).copied().unwrap_or(f64::NAN)).collect::<Vec<_>>();

@@ -29,8 +29,8 @@ pub enum Error {
         /// The instant before \[s\].
         previous: f64,
     },
-    /// A row that is used has no finite value.
-    #[error("`{name}` is {value} in row {row}, which is used; mask the row")]
+    /// A row that is used has no finite value, or an instant is not finite: no mask is of instants.
+    #[error("`{name}` is {value} in row {row}, {}", remedy(name))]
     Value {
         /// Name of the series.
         name: String,
@@ -60,4 +60,9 @@ pub enum Error {
     /// The series is explained exactly: there is no noise to identify.
     #[error("the series has no noise beyond rounding: it is constant or explained exactly by the columns given")]
     NoNoise,
+}
+
+/// Remedy for a value that is not finite; no mask is of instants.
+fn remedy(name: &str) -> &'static str {
+    if name == "time" { "and every row needs an instant; drop the row" } else { "which is used; mask the row" }
 }

@@ -441,7 +441,9 @@ fn short_and_misshapen() {
     let new = |time: Vec<f64>, channels| Recording::new(time, channels).unwrap_err();
     assert!(matches!(new(vec![0.0], vec![channel("a", vec![])]), Error::Length { .. }));
     assert!(matches!(new(vec![0.0], vec![channel("a", vec![0.0]), channel("a", vec![0.0])]), Error::Name(_)));
-    assert!(matches!(new(vec![0.0, NAN], vec![]), Error::Value { row: 1, .. }));
+    let no_instant = new(vec![0.0, NAN], vec![]);
+    assert!(matches!(no_instant, Error::Value { row: 1, .. }));
+    assert_eq!(no_instant.to_string(), "`time` is NaN in row 1, and every row needs an instant; drop the row");
 }
 
 /// The unit of the instants is asked for where the chamber is faster than any, or the recording too short or too long.
