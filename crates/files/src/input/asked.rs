@@ -170,7 +170,7 @@ mod tests {
         let left = without("debond").unwrap();
         let ids: Vec<&str> = left.with_catalogue().iter().map(|mechanism| mechanism.facts().id).collect();
         assert!(ids.len() == CATALOGUE.len() && !ids.contains(&"debond") && ids.contains(&"drying"));
-        let says = |id: &str| without(id).unwrap_err().to_string();
+        let says = |id: &str| without(id).err().unwrap().to_string();
         assert!(
             says("debnd").contains("did you mean `debond`?")
                 && says("drying").contains("`drying` is no mechanism that is weighed in any case")
