@@ -43,7 +43,9 @@ fn lead(batch: &Batch, limits: Option<&Limits>) -> Markup {
                 }
             }
             " Units that show no difference from the design: " (count("none")) "; that differ within tolerances: " (count("recalibrate"))
-            "; by something that has a name: " (count("explained")) "; by something that has none: " (count("unknown")) "."
+            "; by something that has a name: " (count("explained")) "; by something that has none: " (count("unknown"))
+            @if batch.problems().next().is_some() { "; not diagnosed: " (batch.problems().count()) }
+            "."
         }
         @if let Some(said) = Doubt::of(batch).said() { p { "Doubt: " (said) "." } }
         @for (serial, units) in repeated(&batch.units()) {

@@ -36,6 +36,9 @@ impl Outcome<'_> {
                     let _ = writeln!(out, "  Meaning: {meaning}.\n  Inspection: {inspection}.");
                 }
             }
+            if let Some((id, inspection)) = self.first_elsewhere() {
+                let _ = writeln!(out, "{id}, by many choices together:\n  Inspection: {inspection}.");
+            }
             if let Some(structure) = self.structure() {
                 let _ = writeln!(out, "Besides, {structure}.");
             }
@@ -172,6 +175,12 @@ impl Outcome<'_> {
         }
     }
 
+    /// The likeliest mechanism and a check that decides about it, where it is not part of the best single hypothesis.
+    fn first_elsewhere(&self) -> Option<(&str, &str)> {
+        let id = self.id(self.diagnosis.mechanisms.first()?.0);
+        self.inspection(id).filter(|_| !self.names().contains(&id)).map(|inspection| (id, inspection))
+    }
+
     /// Probability of a mechanism, if it is worth saying.
     fn probability(&self, id: &str) -> Option<f64> {
         self.likely().find(|(name, _)| *name == id).map(|(_, probability)| probability)
@@ -214,7 +223,7 @@ impl Outcome<'_> {
                     format!("; {} would be {:+.1} standard deviations off what is known of it", c.posterior.name, c.moved())
                 });
                 format!(
-                    "{id} is not far behind (probability {probability:.2}){far}. To decide: {inspection}; or give a record under another profile with --fit."
+                    "{id} is not far behind (probability {probability:.2}){far}. To decide: {inspection}; or give a record under another profile with --fit, or a design of the lot (fogcoil calibrate)."
                 )
             }
             Verdict::None | Verdict::Recalibrate if !self.suffices_surely() => {
