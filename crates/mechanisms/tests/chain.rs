@@ -481,27 +481,6 @@ fn a_mechanism_of_one_s_own_is_named() {
     assert!((estimate.ci90[0]..estimate.ci90[1]).contains(&6e-5), "{estimate:?}");
 }
 
-/// Tails that double the bias, read a quarter of a row late: all of the rate is late, not the design's part alone.
-#[test]
-fn a_rate_that_is_read_late_is_late_with_what_a_mechanism_adds() {
-    const LATE_S: f64 = 15.0;
-    let (changed, told) = {
-        let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        let place =
-            gyro.nuisances().iter().position(|n| n.parameter.name == "delay of the rate's readings [s]").expect("a place");
-        let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
-        let mut late = middle.clone();
-        late[place] = LATE_S;
-        let tail = Active { mechanism: gyro.find("tail-asymmetry").expect("a mechanism"), values: vec![-1.5], choice: None };
-        let rate = |u: &[f64]| gyro.respond(0, u, std::slice::from_ref(&tail)).expect("response").swap_remove(RATE);
-        (gyro.extended(&design(), &tail).expect("a place"), minus(&rate(&late), &rate(&middle)))
-    };
-    let [exact, on_time] = [LATE_S, 0.0].map(|late| under(&changed, course().0.iter().map(|t| chamber_at(t - late)).collect()));
-    let effect = minus(&exact[RATE], &on_time[RATE]);
-    let off = rms(&minus(&told, &effect));
-    assert!(off < SHARE * rms(&effect), "off by {off:e} of {:e}", rms(&effect));
-}
-
 /// Derivatives by the chamber's instruments, about a thermometer without a lag and about a slow one, against models made beside it: behind a follower
 /// the derivatives are not those of the course itself.
 #[test]

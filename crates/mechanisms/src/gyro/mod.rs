@@ -300,7 +300,6 @@ impl<'m> Gyro<'m> {
                 act(&mut readings);
             }
         }
-        self.read_late(&mut readings, &without, u);
         let gain = u[instruments::SPOOL_GAIN];
         let thermometer = readings.thermometer.iter().map(|t| REFERENCE_C + (t - REFERENCE_C) * gain).collect();
         Ok(vec![thermometer, readings.rate])

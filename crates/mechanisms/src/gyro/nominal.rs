@@ -3,11 +3,10 @@
 use super::Gyro;
 use super::recalibrated::{Recalibrated, share};
 use crate::change::Change;
-use crate::course::{Series, add, total};
+use crate::course::{Series, add};
 use crate::instruments;
-use crate::mechanism::Readings;
 use crate::record_to_bias::Prepared;
-use crate::series::{lagged, read_late};
+use crate::series::lagged;
 use std::sync::Arc;
 
 /// Constants that are moved from where others are known.
@@ -99,6 +98,10 @@ impl Gyro<'_> {
         change(&record.slower, squared);
         change(&record.off_rest, u[instruments::REST]);
         let Series { mut parts, mut sensor } = series;
+        let late = u[instruments::RATE_DELAY];
+        let bent = (u[instruments::RATE_FILTER] + late * late) / 2.0;
+        parts.iter_mut().zip(&record.rates[1].parts).for_each(|(part, second)| add(part, second, bent));
+        parts.iter_mut().zip(&record.rates[0].parts).for_each(|(part, first)| add(part, first, -late));
         let thermo_optic = {
             let o = &library.design().optics;
             let (a, b) = (o.thermo_optic, o.refractive_index * o.thermal_expansion);
@@ -121,25 +124,7 @@ impl Gyro<'_> {
         let of_tails = [0, 1, 2].map(|p: usize| record.tail[p].iter().map(|x| x * tails[p]).collect());
         let rest = sensor[0];
         sensor.iter_mut().for_each(|t| *t = rest + (*t - rest) * more);
-        let ([late, bent], mut read_late) = (delayed(u), vec![0.0; record.time.len()]);
-        for (p, factor) in factors.iter().enumerate() {
-            add(&mut read_late, &record.rates[0].parts[p], -late * factor);
-            add(&mut read_late, &record.rates[1].parts[p], bent * factor);
-        }
-        Recalibrated { record: number, at: u.to_vec(), parts, of_tails, read_late, thermometer: sensor, gain }
-    }
-
-    /// Reading of the rate, late and through the output filter: of the nominal model by its own derivatives, of what tails and mechanisms add by differences.
-    pub(super) fn read_late(&self, readings: &mut Readings, without: &Recalibrated, u: &[f64]) {
-        let [late, bent] = delayed(u);
-        if late == 0.0 && bent == 0.0 {
-            return;
-        }
-        let nominal: Vec<f64> = total(&without.parts).iter().map(|rate| rate * u[instruments::GAIN]).collect();
-        let added: Vec<f64> = readings.rate.iter().zip(&nominal).map(|(rate, nominal)| rate - nominal).collect();
-        let added = read_late(readings.time, &added, late, bent);
-        readings.rate = nominal.iter().zip(&added).map(|(nominal, added)| nominal + added).collect();
-        add(&mut readings.rate, &without.read_late, u[instruments::GAIN]);
+        Recalibrated { record: number, at: u.to_vec(), parts, of_tails, thermometer: sensor, gain }
     }
 
     /// Reading of a thermometer of the spool from its temperature.
@@ -149,10 +134,4 @@ impl Gyro<'_> {
             *thermometer = lagged(&record.time, thermometer, lag);
         }
     }
-}
-
-/// Factors of a rate's first derivative, with a minus, and of its second \[s, s²\]: its delay and its filter.
-fn delayed(u: &[f64]) -> [f64; 2] {
-    let late = u[instruments::RATE_DELAY];
-    [late, (u[instruments::RATE_FILTER] + late * late) / 2.0]
 }

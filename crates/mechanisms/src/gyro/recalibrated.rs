@@ -12,8 +12,6 @@ pub(super) struct Recalibrated {
     pub(super) parts: Parts,
     /// what the tails' difference adds
     pub(super) of_tails: Parts,
-    /// what the rate's delay and filter do to the sum of the parts
-    pub(super) read_late: Vec<f64>,
     pub(super) thermometer: Vec<f64>,
     /// share of every nominal part in `parts`
     pub(super) gain: [f64; 3],

@@ -61,16 +61,7 @@ mod tests {
 
     fn at(series: [f64; 4], gain: f64) -> Recalibrated {
         let of_tails = parts([0.0; 4]);
-        let read_late = vec![0.0; 4];
-        Recalibrated {
-            record: 0,
-            at: Vec::new(),
-            parts: parts(series),
-            of_tails,
-            read_late,
-            thermometer: Vec::new(),
-            gain: [gain; 3],
-        }
+        Recalibrated { record: 0, at: Vec::new(), parts: parts(series), of_tails, thermometer: Vec::new(), gain: [gain; 3] }
     }
 
     fn acting(change: &Change, gain: f64, is_path: bool) -> Acting<'_> {
