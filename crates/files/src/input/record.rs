@@ -170,8 +170,8 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
             continue;
         }
         if !time.is_empty() && is_remark(rows) {
-            let (line, text) = (rows.line().unwrap_or(0), quoted(&rows.fields().collect::<Vec<_>>().join(" ")));
             footer.get_or_insert_with(|| {
+                let (line, text) = (rows.line().unwrap_or(0), quoted(&rows.fields().collect::<Vec<_>>().join(" ")));
                 (line, text, rows.fault(None, "holds no number, and rows follow", "if the line is a remark, remove it"))
             });
             continue;

@@ -108,7 +108,7 @@ pub(super) fn steps(found: &Found, checked: &Checked) -> Vec<Vec<String>> {
         let value = value.parse().map_or_else(|_| value.clone(), |number: f64| significant(number, 5));
         vec![key.clone(), value, total.map_or("no design".into(), |total| significant(total, 4))]
     };
-    // a key whose value is the drawing's changes nothing
+    // what leaves the sensitivity as it is leads nowhere, as a key that has the drawing's value
     let mut before = Some(found.drawn.sensitivity);
     let changes = checked.path.iter().filter(|(.., total)| std::mem::replace(&mut before, *total) != *total);
     [head, start].into_iter().chain(changes.map(step)).collect()

@@ -335,3 +335,20 @@ fn exchanged_thermometers_are_seen_without_a_model() {
     let warned = |name: &str| stdout(&folder.run(&["check", name])).contains("warning: chamber_c follows spool_c");
     assert!(warned("r.csv") && !warned("as-it-was.csv"));
 }
+
+/// Of several records, one of which cannot be used, the object is another one, and keeps the same schema.
+#[test]
+fn several_records_keep_their_schema() {
+    let folder = Folder::new();
+    let row = |n: usize| format!("{},{},{},{}\n", 30 * n, 20 + n % 7, 20 + n % 5, n * n % 5);
+    let rows: String = (0..121).map(row).collect();
+    folder.write("a.csv", "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &rows);
+    folder.write("b.csv", "time_s,chamber_c,spool_c,rate_deg_per_h\n0,20,x,0\n");
+    for command in ["check", "measure"] {
+        let output = folder.run(&[command, "a.csv", "b.csv", "--json"]);
+        assert_eq!(output.status.code(), Some(2));
+        let found: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+        assert_eq!(fogcoil::schema::misfit(&found, &crate::common::schema(command)), None, "{command}");
+        assert!(found["records"][1]["problem"].as_str().unwrap().contains("spool_c"), "{found}");
+    }
+}
