@@ -159,11 +159,14 @@ pub fn settled<M: ForwardModel>(
     // each at its best, about its own constants
     let gain = leader.log_evidence - recalibrated.log_evidence;
     let suspect = leader.hypothesis.mechanisms.first().map(|(mechanism, _)| (*mechanism, gain));
-    Ok(if gain > 0.0 {
-        let leading = Some(leader).filter(|leader| !leader.hypothesis.mechanisms.is_empty());
-        Settled { model: beside.about, alone: alone.about.map_or(Alone::Given, Alone::Other), recalibrated, leading, suspect }
-    } else {
+    Ok(if gain <= 0.0 {
         Settled { model: alone.about, alone: Alone::Settled, recalibrated, leading: None, suspect }
+    } else if leader.hypothesis == Hypothesis::RECALIBRATED {
+        // with mechanisms on the way, the constants alone came to more likely ones
+        Settled { model: beside.about, alone: Alone::Settled, recalibrated: leader, leading: None, suspect }
+    } else {
+        let alone = alone.about.map_or(Alone::Given, Alone::Other);
+        Settled { model: beside.about, alone, recalibrated, leading: Some(leader), suspect }
     })
 }
 

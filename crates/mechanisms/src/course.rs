@@ -82,27 +82,33 @@ impl Clock {
     }
 }
 
-/// A course at later instants, plus a time constant times its rate: the chamber behind its thermometer and its log. Beyond its ends it stays.
-pub(crate) fn undelayed(time: &[f64], course: &[f64], Delay { lag, clock }: Delay) -> Vec<f64> {
-    if lag == 0.0 && clock == 0.0 {
-        return course.to_vec();
+/// The chamber behind a thermometer and a log that are late.
+#[derive(Debug, Clone)]
+pub(crate) struct Undelayed {
+    pub(crate) chamber: Vec<f64>,
+    /// its derivative by the whole delay where the thermometer's lag is kept \[K/s\]
+    pub(crate) later: Vec<f64>,
+    /// its derivative by the square of that lag where the whole delay is kept \[K/s²\]
+    pub(crate) slower: Vec<f64>,
+}
+
+/// The chamber from the course s that its thermometer said: s(t + c) + τ s′(t + c) with the delay c of the log and the lag τ. Beyond its ends s goes on straight.
+/// By c + τ the derivative is s′ + τ s″, by τ² where c + τ is kept −½ s″.
+pub(crate) fn undelayed(time: &[f64], course: &[f64], Delay { lag, clock }: Delay) -> Undelayed {
+    let slopes = |of: &[f64]| recording::condition::slopes(time, of);
+    let rates = slopes(course);
+    let (of_course, of_rates) = (Smooth::with_rates(time, course, &rates), Smooth::with_rates(time, &rates, &slopes(&rates)));
+    let (first, last) = (time[0], time[time.len() - 1]);
+    let mut found = Undelayed { chamber: Vec::new(), later: Vec::new(), slower: Vec::new() };
+    for instant in time.iter().map(|t| t + clock) {
+        let within = instant.clamp(first, last);
+        let (value, (rate, bend)) = (of_course.at(within).0, of_rates.at(within));
+        let bend = if first < instant && instant < last { bend } else { 0.0 };
+        found.chamber.push(value + (lag + instant - within) * rate);
+        found.later.push(rate + lag * bend);
+        found.slower.push(-bend / 2.0);
     }
-    let rates = recording::condition::slopes(time, course);
-    let last = time.len() - 1;
-    let at = |t: &f64| {
-        let t = (t + clock).clamp(time[0], time[last]);
-        let after = time.partition_point(|instant| *instant < t).clamp(last.min(1), last);
-        let before = after.saturating_sub(1);
-        let span = time[after] - time[before];
-        let share = if after > before { (t - time[before]) / span } else { 0.0 };
-        let between = |x: &[f64]| x[before] + share * (x[after] - x[before]);
-        // the cubic that has the rates at both ends
-        let rise = course[after] - course[before];
-        let (leaving, arriving) = (span * rates[before] - rise, span * rates[after] - rise);
-        let bend = share * (1.0 - share) * ((1.0 - share) * leaving - share * arriving);
-        between(course) + bend + lag * between(&rates)
-    };
-    time.iter().map(at).collect()
+    found
 }
 
 /// Thermometer and bias parts of one model in the rows of a recording.
@@ -211,4 +217,41 @@ pub(crate) fn product(a: &[f64], b: &[f64]) -> f64 {
 
 pub(crate) fn add(to: &mut [f64], what: &[f64], factor: f64) {
     to.iter_mut().zip(what).for_each(|(t, w)| *t += factor * w);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against differences, far from the ends and at them, where the course goes on straight: in a start that is not quite at rest, too.
+    #[test]
+    fn the_chamber_s_derivatives_by_lag_and_clock_are_those_of_its_courses() {
+        let time: Vec<f64> = (0..200).map(|n| 5.0 * f64::from(n)).collect();
+        let course: Vec<f64> = time.iter().map(|t| 20.0 + 0.004 * t + 3.0 * (t / 150.0).sin()).collect();
+        let of = |total: f64, lag: f64| undelayed(&time, &course, Delay { lag, clock: total - lag });
+        for (total, lag) in [(20.0, 0.0), (40.0, 52.5), (-7.5, 45.0)] {
+            let here = of(total, lag);
+            let by = |ahead: &[f64], back: &[f64], step: f64| -> Vec<f64> {
+                ahead.iter().zip(back).map(|(a, b)| (a - b) / step).collect()
+            };
+            let later = by(&of(total + 0.5, lag).chamber, &of(total - 0.5, lag).chamber, 1.0);
+            let to = (lag * lag + 20.0).sqrt();
+            let slower = by(&of(total, to).chamber, &here.chamber, 20.0);
+            let near = |told: &[f64], found: &[f64], close: f64| {
+                let largest = found.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+                // a kink at either end is met within a step of the clock
+                let off = told.iter().zip(found).enumerate().filter(|(n, _)| (14..186).contains(n) || *n < 1);
+                off.map(|(_, (a, b))| (a - b).abs()).fold(0.0, f64::max) < close * largest
+            };
+            assert!(near(&here.later, &later, 0.02), "later: {total} s, lag {lag} s");
+            assert!(near(&here.slower, &slower, 0.1), "slower: {total} s, lag {lag} s");
+        }
+    }
+
+    #[test]
+    fn exact_a_course_without_delay_is_itself() {
+        let (time, course) = ([0.0, 1.0, 3.0, 4.5], [2.0, 2.5, 1.0, -1.0]);
+        assert_eq!(undelayed(&time, &course, Delay::default()).chamber, course);
+        assert_eq!(undelayed(&[1.0], &[4.0], Delay { lag: 3.0, clock: -2.0 }).chamber, [4.0]);
+    }
 }

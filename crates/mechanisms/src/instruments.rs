@@ -194,6 +194,11 @@ pub(crate) fn nuisances(design: &Design, tolerances: &Tolerances, instruments: &
     all
 }
 
+/// Whether the rate may be later than usual against the thermometer: nobody said of which interval it is the mean, or how well its clock is set.
+pub(crate) fn may_be_late(nuisances: &[Nuisance]) -> bool {
+    nuisances[RATE_DELAY].parameter.prior.sd() > RATE_DELAY_S
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,7 +2,7 @@
 
 use crate::chamber::Chamber;
 use crate::constants::tails;
-use crate::course::{BETWEEN, Clock, Course, Delay, Parts, Series, minus, product, undelayed};
+use crate::course::{BETWEEN, Clock, Course, Delay, Parts, Series, Undelayed, minus, product, undelayed};
 use crate::curvature::Curvature;
 use crate::library::{Functionals, Library};
 use crate::passed::{Passed, passed};
@@ -196,25 +196,19 @@ impl Prepared {
 
     fn run(library: &Library, time: &[f64], recorded: Chamber, averaging: f64, delay: Delay) -> Result<Self, Error> {
         let mut clock = Clock::new(time, &recorded.values, averaging);
-        let said = clock.chamber;
-        clock.chamber = undelayed(&clock.time, &said, delay);
+        let Undelayed { chamber, later, slower } = undelayed(&clock.time, &clock.chamber, delay);
+        clock.chamber = chamber;
         let first = clock.chamber[0];
         let run = |model: &Reduced| Course::new(model, &clock, std::slice::from_ref(&clock.chamber), &[first]);
         let course = run(&library.base);
         let base = course.series(&library.base);
         let nominal = library.with_drifts(&course, &base, time, averaging)?;
         let off = Course::new(&library.base, &clock, std::slice::from_ref(&clock.chamber), &[first + OFF_REST]);
-        // everything is linear in what drives it, which with s as it was said is s(t + c) + τ s′(t + c): its derivative by the delay c + τ is the same of s′,
-        // that by τ² where c + τ is kept −½ s″(t + c)
-        let under = |change: Vec<f64>| {
+        // everything is linear in what drives it
+        let [later, slower] = [later, slower].map(|change| {
             let first = change[0];
             Course::new(&library.base, &clock, &[change], &[first]).series(&library.base)
-        };
-        let said_rates = recording::condition::slopes(&clock.time, &said);
-        let bends = recording::condition::slopes(&clock.time, &said_rates);
-        let later = under(undelayed(&clock.time, &said_rates, delay));
-        let bends = undelayed(&clock.time, &bends, Delay { lag: 0.0, ..delay });
-        let slower = under(bends.iter().map(|bend| -bend / 2.0).collect());
+        });
         let paths = library.paths.iter().map(|path| {
             let change = |model: &Option<Reduced>| {
                 minus(model.as_ref().map(|model| run(model).series(model)).as_ref().unwrap_or(&base), &base)

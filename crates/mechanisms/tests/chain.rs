@@ -10,7 +10,7 @@ mod written;
 use coil::{Contact, Design, Drive, Dynamics, Heater, Mechanics, Profile, STANDARD, Side};
 use common::reference as design;
 use diagnosis::{Active, ForwardModel};
-use mechanisms::{CATALOGUE, Gyro, Library, Mechanism, Prepared, RATE, REFERENCE_C, SPOOL};
+use mechanisms::{CATALOGUE, Gyro, Instruments, Library, Mechanism, Prepared, RATE, REFERENCE_C, SPOOL};
 use read_out_curvature::ReadOutCurvature;
 use std::sync::OnceLock;
 
@@ -34,9 +34,13 @@ fn gyro() -> &'static std::sync::Mutex<Gyro<'static>> {
 }
 
 fn of(library: Library, mechanisms: &[&'static dyn Mechanism]) -> Gyro<'static> {
+    read_by(&Instruments::default(), library, mechanisms)
+}
+
+fn read_by(instruments: &Instruments, library: Library, mechanisms: &[&'static dyn Mechanism]) -> Gyro<'static> {
     let (time, chamber) = course();
     let prepared = Prepared::new(&library, &time, &chamber, 60.0).expect("prepared");
-    Gyro::new(library, mechanisms, vec![prepared]).expect("gyro")
+    Gyro::fitted_to(library, mechanisms, vec![prepared], 1, instruments).expect("gyro")
 }
 
 /// Thermometer and rate \[deg/h\] of a design modelled anew.
@@ -479,6 +483,29 @@ fn a_mechanism_of_one_s_own_is_named() {
     assert_eq!(found.set, [own]);
     let estimate = &found.parameters[0][0];
     assert!((estimate.ci90[0]..estimate.ci90[1]).contains(&6e-5), "{estimate:?}");
+}
+
+/// Tails that double the bias, read a quarter of a row late: where nobody said which minute a rate is the mean of, all of it is late, not the design's
+/// part alone.
+#[test]
+fn a_rate_that_is_read_late_is_late_with_what_a_mechanism_adds() {
+    const LATE_S: f64 = 15.0;
+    let (changed, told) = {
+        let library = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner).library().clone();
+        let gyro = read_by(&Instruments { unsaid: 60.0, ..Instruments::default() }, library, CATALOGUE);
+        let place =
+            gyro.nuisances().iter().position(|n| n.parameter.name == "delay of the rate's readings [s]").expect("a place");
+        let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+        let mut late = middle.clone();
+        late[place] = LATE_S;
+        let tail = Active { mechanism: gyro.find("tail-asymmetry").expect("a mechanism"), values: vec![-1.5], choice: None };
+        let rate = |u: &[f64]| gyro.respond(0, u, std::slice::from_ref(&tail)).expect("response").swap_remove(RATE);
+        (gyro.extended(&design(), &tail).expect("a place"), minus(&rate(&late), &rate(&middle)))
+    };
+    let [exact, on_time] = [LATE_S, 0.0].map(|late| under(&changed, course().0.iter().map(|t| chamber_at(t - late)).collect()));
+    let effect = minus(&exact[RATE], &on_time[RATE]);
+    let off = rms(&minus(&told, &effect));
+    assert!(off < SHARE * rms(&effect), "off by {off:e} of {:e}", rms(&effect));
 }
 
 /// Derivatives by the chamber's instruments, about a thermometer without a lag and about a slow one, against models made beside it: behind a follower

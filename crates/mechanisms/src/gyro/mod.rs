@@ -16,6 +16,7 @@ use crate::library::Library;
 use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Scene, Sight, Stage};
 use crate::passed::Passed;
 use crate::record_to_bias::Prepared;
+use crate::series::read_late;
 use coil::{Design, Error, Number, Tolerances};
 use diagnosis::{Active, Channel, Failure, ForwardModel, Latent, Nuisance, State};
 use nalgebra::DMatrix;
@@ -299,6 +300,9 @@ impl<'m> Gyro<'m> {
             if let Effect::Readings(act) = &known.effect {
                 act(&mut readings);
             }
+        }
+        if instruments::may_be_late(&self.nuisances) {
+            readings.rate = read_late(&record.time, &readings.rate, u[instruments::RATE_DELAY], u[instruments::RATE_FILTER]);
         }
         let gain = u[instruments::SPOOL_GAIN];
         let thermometer = readings.thermometer.iter().map(|t| REFERENCE_C + (t - REFERENCE_C) * gain).collect();

@@ -98,10 +98,13 @@ impl Gyro<'_> {
         change(&record.slower, squared);
         change(&record.off_rest, u[instruments::REST]);
         let Series { mut parts, mut sensor } = series;
-        let late = u[instruments::RATE_DELAY];
-        let bent = (u[instruments::RATE_FILTER] + late * late) / 2.0;
-        parts.iter_mut().zip(&record.rates[1].parts).for_each(|(part, second)| add(part, second, bent));
-        parts.iter_mut().zip(&record.rates[0].parts).for_each(|(part, first)| add(part, first, -late));
+        // by a little, with what mechanisms add as far as that is a share of the parts; by more, all of the rate is late
+        if !instruments::may_be_late(&self.nuisances) {
+            let late = u[instruments::RATE_DELAY];
+            let bent = (u[instruments::RATE_FILTER] + late * late) / 2.0;
+            parts.iter_mut().zip(&record.rates[1].parts).for_each(|(part, second)| add(part, second, bent));
+            parts.iter_mut().zip(&record.rates[0].parts).for_each(|(part, first)| add(part, first, -late));
+        }
         let thermo_optic = {
             let o = &library.design().optics;
             let (a, b) = (o.thermo_optic, o.refractive_index * o.thermal_expansion);
