@@ -89,6 +89,12 @@ impl Instruments {
         ]
     }
 
+    /// Standard deviation of the delay of the rate's readings behind the spool's thermometer \[s\].
+    fn rate_delay_sd(&self) -> f64 {
+        let [of_spool, of_rate] = [self.spool.clock_sd, self.rate.clock_sd];
+        of_spool.unwrap_or(RATE_DELAY_S).hypot(of_rate.unwrap_or(0.0)).hypot(self.unsaid / 2.0).max(KNOWN)
+    }
+
     /// Mean and standard deviation of the delay \[s\] and of the squared lag \[s²\] of the chamber's readings.
     fn delay(&self) -> [(f64, f64); 2] {
         let Instrument { lag, clock_sd, .. } = self.chamber;
@@ -147,6 +153,8 @@ const LAG_SQUARED_S2: f64 = 3600.0;
 const FILTER_SQUARED_S2: f64 = 500.0;
 /// Possible delay of the rate's readings behind the spool's thermometer \[s\]: another logger, and the filter.
 const RATE_DELAY_S: f64 = 5.0;
+/// Its standard deviation with as much that nobody said.
+const LATE_S: f64 = std::f64::consts::SQRT_2 * RATE_DELAY_S;
 
 /// Numbers of the instruments: name, and the column that it is of with what it is there.
 const READINGS: [(&str, &str); 6] = [
@@ -187,16 +195,15 @@ pub(crate) fn nuisances(design: &Design, tolerances: &Tolerances, instruments: &
     // a mean over the row that begins at its instant is a row early, a momentary value half a row, which no averaging has smoothed
     let unsaid = instruments.unsaid;
     all.push(sensor(4, 0.0, FILTER_SQUARED_S2.hypot(unsaid * unsaid / 12.0)));
-    let [of_spool, of_rate] = [instruments.spool.clock_sd, instruments.rate.clock_sd];
-    let apart = of_spool.unwrap_or(RATE_DELAY_S).hypot(of_rate.unwrap_or(0.0)).hypot(unsaid / 2.0).max(KNOWN);
-    all.push(sensor(5, 0.0, apart));
+    all.push(sensor(5, 0.0, instruments.rate_delay_sd()));
     all.extend(constants(design, tolerances).iter().map(|constant| constant.nuisance()));
     all
 }
 
-/// Whether the rate may be later than usual against the thermometer: nobody said of which interval it is the mean, or how well its clock is set.
+/// Whether the rate may be later than usual against the thermometer: what nobody said, of which interval it is the mean or how well its clock is set, counts
+/// for more than the usual delay does.
 pub(crate) fn may_be_late(nuisances: &[Nuisance]) -> bool {
-    nuisances[RATE_DELAY].parameter.prior.sd() > RATE_DELAY_S
+    nuisances[RATE_DELAY].parameter.prior.sd() > LATE_S
 }
 
 #[cfg(test)]
@@ -227,5 +234,17 @@ mod tests {
         assert!(gyroscope.offsets()[1].1.is_infinite());
         let (earth, sd) = Instruments { earth: Some(9.7), ..gyroscope }.offsets()[1];
         assert!(earth == 9.7 && (sd - 0.02_f64.hypot(9.7e-4)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_rate_may_be_late_where_nobody_said_when_it_was_read() {
+        let late = |rate_clock_sd: f64, unsaid: f64| {
+            let rate = Instrument { clock_sd: Some(rate_clock_sd), ..Instrument::default() };
+            let instruments = Instruments { rate, unsaid, ..Instruments::default() };
+            instruments.rate_delay_sd() > LATE_S
+        };
+        // a clock that is known well makes nothing later
+        assert!(!late(0.0, 0.0) && !late(0.5, 0.0) && !late(0.0, 1.0));
+        assert!(late(0.0, 30.0) && late(20.0, 0.0));
     }
 }
