@@ -53,6 +53,10 @@ remarks! {
         "`winding.start_mm` and `end_mm` set the turns of a layer more than 3 % closer or farther apart than `pitch_mm`.",
         "Closer turns than a pitch do not fit between the ends; farther ones leave gaps of adhesive. The sensitivity follows the ends: some per cent for a tenth of a turn.",
         "Check both ends, the number of turns and `pitch_mm` against the winding record.";
+    TurnOutside "turn-outside":
+        "`winding.start_mm` or `end_mm` puts the outermost turns of a layer in part outside the coil's height.",
+        "That part of the fibre is taken to be in the flange or the medium beside the coil, in temperature and in strain: the sensitivity changes at once.",
+        "Check both ends and `coil.height_mm`: the edges of the turns lie from 0 to the height.";
     SagnacOutside "sagnac-outside":
         "`optics.sagnac_diameter_mm` lies outside the coil, from its inner to its outer diameter.",
         "Every rate is inversely proportional to it.",
@@ -73,6 +77,10 @@ remarks! {
         "The cell that `FromCell` names has another pitch than the winding.",
         "Stiffness and expansion are those of a coil wound more closely or more loosely than this one: the sensitivity may change by half.",
         "Make the cell's `pitch_um` and the coil's `winding.pitch_mm` the same distance between neighbouring turns.";
+    OtherCell "other-cell":
+        "`coil.material` and `dehomogenization` name different cells by `FromCell`.",
+        "The strain in the fibre is that of another cell than the winding's stiffness and expansion: the sensitivity is no coil's.",
+        "Name one cell in both; in a plan vary both under one key, `coil.material and dehomogenization`.";
     BrokenPattern "broken-pattern":
         "The number of layers is no multiple of the pattern's period: 2 of a dipole, 4 of a quadrupole, 8 of an octupole.",
         "The two halves of the fibre are not balanced; the sensitivity may be several times as large.",
@@ -162,7 +170,7 @@ remarks! {
     MetaContradicted "meta-contradicted":
         "A number of the meta file is several times what the record itself shows, or lies further from it than its own uncertainty.",
         "What the meta file says is believed: noise, offsets and what is left are weighed by it.",
-        "Correct the number in the meta file, or leave it out: what is not known is found from the record.";
+        "Correct the number in the meta file, or leave it out: what is not known is found from the record. If noise or offset are a factor such as 3.6 or 60 off, check the column's unit first.";
     // recordings as they are judged: the kinds of `check`
     Gap "gap":
         "Rows are missing: an interval is much longer than usual.",

@@ -34,14 +34,24 @@ pub(crate) fn passed(model: &Reduced, (sd, width): (f64, f64), averaging: f64) -
     let window = ((averaging / step).round() as usize).max(1);
     let mean: Vec<f64> =
         (0..rate.len()).map(|n| rate[n.saturating_sub(window - 1)..=n].iter().sum::<f64>() / window as f64).collect();
-    let of = |h: &[f64]| {
-        let product = |lag: usize| h.iter().zip(&h[lag..]).map(|(a, b)| a * b).sum::<f64>();
-        let square = product(0);
-        let lag = (1..h.len()).find(|lag| product(*lag) < square / std::f64::consts::E).unwrap_or(h.len());
-        ((square * step / width).sqrt(), lag as f64 * step)
-    };
-    let [spool, rate] = [of(&sensor), of(&mean)];
+    let [spool, rate] = [&sensor, &mean].map(|h| (overlaid(h, step, width), decay(h, step)));
     Passed { sd: [spool.0, rate.0], time: [spool.1, rate.1] }
+}
+
+/// Standard deviation of a sum of responses h, one after each `width` \[s\] and of either sign: h in steps of `step` \[s\].
+fn overlaid(h: &[f64], step: f64, width: f64) -> f64 {
+    (squares(h) * step / width).sqrt()
+}
+
+/// Time after which the autocorrelation of a response in steps of `step` \[s\] has fallen to 1/e; the length of the response where it never does.
+fn decay(h: &[f64], step: f64) -> f64 {
+    let product = |lag: usize| h.iter().zip(&h[lag..]).map(|(a, b)| a * b).sum::<f64>();
+    let limit = squares(h) / std::f64::consts::E;
+    (1..h.len()).find(|lag| product(*lag) < limit).unwrap_or(h.len()) as f64 * step
+}
+
+fn squares(h: &[f64]) -> f64 {
+    h.iter().map(|x| x * x).sum()
 }
 
 impl Passed {
@@ -70,3 +80,20 @@ impl Passed {
 /// 40, 90 and 130 mm. Another code, or a section that is no rectangle, may be off by more.
 const MODEL_ERROR: [f64; 2] = [2e-4, 1.5e-3];
 const MODEL_ERROR_TIME: f64 = 1500.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_responses_that_decay_have_their_own_time_and_add_up_to_their_size() {
+        // h = a exp(-t/τ): ∫h² = a² τ/2, autocorrelation exp(-lag/τ)
+        let (a, tau, step, width) = (3.0, 40.0, 0.5, 10.0);
+        let h: Vec<f64> = (0..4000).map(|n| a * f64::exp(-step * f64::from(n) / tau)).collect();
+        assert!((decay(&h, step) - tau).abs() <= step, "{}", decay(&h, step));
+        let expected = a * (tau / 2.0 / width).sqrt();
+        assert!((overlaid(&h, step, width) / expected - 1.0).abs() < 1e-2, "{}", overlaid(&h, step, width));
+        assert_eq!(decay(&[1.0; 4], step), 1.5);
+        assert_eq!(decay(&[0.0; 4], step), 2.0);
+    }
+}

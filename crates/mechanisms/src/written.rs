@@ -187,15 +187,18 @@ impl Written {
 
 /// Means over the interval that ends at each row of what is momentary and linear between rows; after a gap, over the span of a reading.
 fn means(record: &Prepared, series: &[f64]) -> Vec<f64> {
-    let averaging = record.averaging;
     let of = |n: usize| {
         let Some(before) = n.checked_sub(1) else { return series[0] };
-        let dt = record.time[n] - record.time[before];
-        let gap = averaging > 0.0 && dt > GAP * averaging;
-        let began = if gap { series[n] - (series[n] - series[before]) * averaging / dt } else { series[before] };
-        (began + series[n]) / 2.0
+        mean([series[before], series[n]], record.time[n] - record.time[before], record.averaging)
     };
     (0..series.len()).map(of).collect()
+}
+
+/// Mean of a line over an interval of `dt` \[s\]; of one that is a gap between readings of so much `averaging` \[s\], over the last of these.
+fn mean([first, last]: [f64; 2], dt: f64, averaging: f64) -> f64 {
+    let gap = averaging > 0.0 && dt > GAP * averaging;
+    let began = if gap { last - (last - first) * averaging / dt } else { first };
+    (began + last) / 2.0
 }
 
 /// At the rows, of means over the intervals that end there.
@@ -307,5 +310,19 @@ impl Mechanism for Written {
             }
         }
         columns
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_after_a_gap_a_reading_is_the_mean_of_its_own_span() {
+        assert_eq!(mean([1.0, 5.0], 10.0, 10.0), 3.0);
+        // the last 10 s of a line that rises by 4 in 100 s
+        assert_eq!(mean([1.0, 5.0], 100.0, 10.0), 4.8);
+        // rows of which nobody said how long a reading is
+        assert_eq!(mean([1.0, 5.0], 100.0, 0.0), 3.0);
     }
 }

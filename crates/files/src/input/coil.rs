@@ -21,9 +21,9 @@ use super::tolerances::tolerances;
 use super::warnings::{in_medium, warnings};
 use super::winding_file::winding;
 use super::{InputError, heat};
-use crate::Error;
 use crate::remark::{Note, Remark};
 use crate::units::to_mm;
+use crate::{Error, shown_path};
 
 /// Table II of Osunluk, Ogut and Ozbay as printed; its exponents and the last sign are misprints (see the validation).
 pub const PRINTED: Dehomogenization = Dehomogenization { m_rx: 2.74e-6, m_ry: 2.70e-6, m_rz: -0.17, m_rt: 9.98e-6 };
@@ -140,6 +140,17 @@ fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
     };
     let (constants, material) = material(&mut cells, &file.coil.material)?;
     let (dehomogenization, row) = dehomogenization(&mut cells, &file.dehomogenization)?;
+    // by their content: one cell may have two paths
+    if let (Origin::Cell(of_constants), Origin::Cell(of_row)) = (&material, &row)
+        && let [_, first, second] = &cells.fingerprints[..]
+        && first.sha256 != second.sha256
+    {
+        let [of_constants, of_row] = [of_constants, of_row].map(|path| shown_path(path));
+        cells.notes.push(
+            Remark::OtherCell
+                .warning(format!("dehomogenization is that of {of_row}, coil.material that of {of_constants}; is this meant?")),
+        );
+    }
     let coil_file::Constants { elastic, conductivity_z, conductivity_r } = constants;
     let body = Body {
         outer_radius: file.coil.outer_radius_mm.model(),

@@ -10,7 +10,7 @@ fn words(key: Key) -> &'static [&'static str] {
     match key {
         Key::Time => &["time", "zeit", "date", "datum", "elapsed", "stamp", "seconds", "temps", "uhrzeit"],
         Key::Chamber => &["chamber", "kammer", "oven", "ofen", "ambient", "umgebung", "enceinte", "climat", "klima", "air"],
-        Key::Spool => &["spool", "spule", "coil", "hub", "bobbin", "bobine", "wickel"],
+        Key::Spool => &["spool", "spule", "coil", "hub", "bobbin", "bobine", "wickel", "nabe", "moyeu"],
         Key::Rate => &["rate", "gyro", "omega", "angular", "fog", "rotation", "winkelgeschw", "kreisel", "drehrate"],
     }
 }

@@ -13,6 +13,8 @@ const AXIAL_ROOM: f64 = 0.1;
 
 /// Largest relative distance of neighbouring turns' spacing from the pitch that passes without a word: the film of adhesive between two fibres.
 const SAME_SPACING: f64 = 0.03;
+/// Part of a pitch by which turns may stand out of the coil without a word: the rounding of a drawing.
+const OUTSIDE: f64 = 0.01;
 /// Largest relative distance of the effective diameter from the coil's mean diameter that passes without a word.
 const SAME_DIAMETER: f64 = 0.02;
 
@@ -47,6 +49,15 @@ pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> V
         let (spacing, pitch) = (to_mm(spacing), to_mm(pitch));
         let message = format!("winding.end_mm: turns lie {spacing:.4} mm apart, where the pitch is {pitch} mm; is this meant?");
         found.push(Remark::OtherSpacing.warning(message));
+    }
+    let [first, last] = design.winding.edges();
+    let outside = (-first).max(last - body.height);
+    if outside > OUTSIDE * pitch {
+        let [outside, height] = [outside, body.height].map(to_mm);
+        let message = format!(
+            "winding: the outermost turns reach {outside:.3} mm out of the coil's {height:.3} mm, into what is beside it; is this meant?"
+        );
+        found.push(Remark::TurnOutside.warning(message));
     }
     let (inner, outer) = (2.0 * design.winding.inner_radius, 2.0 * body.outer_radius);
     let sagnac = design.optics.sagnac_diameter;

@@ -91,7 +91,9 @@ pub(super) fn outliers(batch: &Batch) -> Vec<Outlier<'_>> {
     // half of a 90 % interval of a normal number in its standard deviations
     let half = normal_quantile(0.95);
     for number in NUMBERS.iter().filter(|number| !number.ends_with("probability")) {
-        let known: Vec<(&Row, f64)> = batch.rows.iter().filter_map(|(row, _)| Some((row, row.number(number)?))).collect();
+        // of a peak the noise may decide which way it points
+        let size = |value: f64| if *number == "peak" { value.abs() } else { value };
+        let known: Vec<(&Row, f64)> = batch.rows.iter().filter_map(|(row, _)| Some((row, size(row.number(number)?)))).collect();
         if known.len() < FEWEST {
             continue;
         }

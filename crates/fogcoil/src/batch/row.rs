@@ -61,6 +61,8 @@ pub struct Row {
     pub first: Option<String>,
     /// Parameters of the explanation: name, value and both ends of the 90 % interval.
     pub parameters: Vec<(String, [f64; 3])>,
+    /// Shape of a difference without a name: the law that was composed and accepted, or a description.
+    shape: Option<String>,
     /// Constants of the design as the records leave them.
     pub constants: Vec<Constant>,
     /// Reason why there is no diagnosis.
@@ -104,6 +106,7 @@ impl Row {
             warnings: warnings(diagnosis),
             first: text(&first["id"]),
             parameters: parameters(&diagnosis["parameters"]),
+            shape: shape(diagnosis),
             constants: constants.filter_map(constant).collect(),
             problem: text(&finding["problem"]),
             missing: pairs(&measured["not_known"]),
@@ -124,8 +127,11 @@ impl Row {
     }
 
     /// Explanations that the records do not exclude, best first, in words; of a verdict that has a likelier rival, or one half as likely, the likeliest
-    /// mechanism.
+    /// mechanism; of what has no name, its shape.
     pub(super) fn open(&self) -> String {
+        if let Some(shape) = self.shape.as_ref().filter(|_| self.verdict.as_deref() == Some("unknown")) {
+            return shape.clone();
+        }
         if let Some((first, probability)) = self.first.as_ref().zip(self.number("first_probability")).filter(|_| self.is_open()) {
             return format!("{first} ({probability:.2})");
         }
@@ -172,6 +178,15 @@ fn of_verdict(diagnosis: &Value) -> Option<f64> {
         "none" | "recalibrate" => Some(of("none")? + of("recalibrate")?),
         verdict => of(verdict),
     }
+}
+
+/// Shape of what has no name.
+fn shape(diagnosis: &Value) -> Option<String> {
+    let composed = &diagnosis["composed"];
+    let terms = composed["terms"].as_array().filter(|_| composed["accepted"] == true);
+    let law: Vec<&str> = terms.into_iter().flatten().filter_map(|term| term["title"].as_str()).collect();
+    let law = (!law.is_empty()).then(|| format!("a composed law, accepted: {}", law.join(" + ")));
+    law.or_else(|| diagnosis["structure"].as_str().map(str::to_owned))
 }
 
 /// Whether another verdict is likelier than a diagnosis' own.

@@ -35,14 +35,15 @@ pub(super) fn trends<'a>(batch: &'a Batch, limits: Option<&Limits>) -> Vec<Figur
     let mut figures = Vec::new();
     if tell_apart(&units) && units.iter().any(|row| number(row).is_some()) {
         let places = all().map(|(_, (row, _))| number(row)).collect();
-        figures.push(trend(batch, limits, ["serial", "Over serial numbers", "serial number"], places));
+        figures.push(trend(batch, limits, ("serial", "Over serial numbers"), "serial number", places));
     } else {
         let places = all().map(|(n, _)| Some(1.0 + n as f64)).collect();
-        figures.push(trend(batch, limits, ["serial", "Over units by name", "row of the unit in the table"], places));
+        figures.push(trend(batch, limits, ("serial", "Over units by name"), "row of the unit in the table", places));
     }
-    if units.iter().any(|row| day(row).is_some()) {
-        let places = all().map(|(_, (row, _))| day(row)).collect();
-        figures.push(trend(batch, limits, ["date", "Over dates", "days since 1 January 2000"], places));
+    let first = units.iter().filter_map(|row| Some((day(row)?, row.date.as_deref()?))).min_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some((first, date)) = first {
+        let places = all().map(|(_, (row, _))| Some(day(row)? - first)).collect();
+        figures.push(trend(batch, limits, ("date", "Over dates"), &format!("days since {date}"), places));
     }
     figures
 }
@@ -51,7 +52,8 @@ pub(super) fn trends<'a>(batch: &'a Batch, limits: Option<&Limits>) -> Vec<Figur
 fn trend<'a>(
     batch: &'a Batch,
     limits: Option<&Limits>,
-    [id, title, axis]: [&'static str; 3],
+    (id, title): (&'static str, &str),
+    axis: &str,
     places: Vec<Option<f64>>,
 ) -> Figure<'a> {
     let known: Vec<f64> = places.iter().copied().flatten().collect();

@@ -17,6 +17,7 @@ use recording::condition::bridged;
 use recording::lag::lagging;
 use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Series, Term, Whitener, identify, residual};
 
+use crate::contradictions::contradictions;
 use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
 use crate::prepare::starts_off_rest;
 use lags::lags;
@@ -111,7 +112,8 @@ impl<'a> Analysis<'a> {
         let usable = case.report.usable();
         let noise = if usable { gyro_noise(case) } else { None };
         let seen = usable.then(|| [spool_first(case), starts_off_rest(case)]).into_iter().flatten().flatten();
-        let notes = case.notes.iter().cloned().chain(seen).collect();
+        let contradicted = if usable { contradictions(case) } else { Vec::new() };
+        let notes = case.notes.iter().cloned().chain(seen).chain(contradicted).collect();
         Self { case, notes, noise }
     }
 }

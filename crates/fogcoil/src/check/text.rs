@@ -4,9 +4,9 @@ use std::fmt::Write;
 use std::path::Path;
 
 use bias::units::S_PER_H;
-use files::Remark;
+use files::{Note, Remark};
 use recording::Seconds;
-use recording::check::{Finding, Severity};
+use recording::check::{Finding, FindingKind, Severity};
 use recording::noise::{StandardErrors, Term};
 
 use super::{Analysis, GyroNoise, NO_MAXIMUM};
@@ -49,7 +49,7 @@ fn written(analysis: &Analysis, least: Severity) -> String {
     }
     let shown = |finding: &&Finding| least == Severity::Note || finding.severity != Severity::Note;
     let found: Vec<&Finding> = listed(case).into_iter().filter(shown).collect();
-    if case.report.findings.is_empty() {
+    if case.report.findings.is_empty() && !analysis.notes.iter().any(Note::is_warning) {
         out.push_str("nothing suspicious found\n");
     }
     findings(&mut out, case, &found);
@@ -239,7 +239,12 @@ impl Analysis<'_> {
         });
         let walk = noise.as_ref().and_then(GyroNoise::angle_random_walk);
         let notes = notes.iter().filter(|note| note.is_warning()).map(|note| note.remark.id());
-        let severe = case.report.findings.iter().filter(|finding| finding.severity != Severity::Note);
+        // of values that were left out, and of a size that nothing explains, a note is worth a word here, too
+        let worth = |finding: &&Finding| {
+            finding.severity != Severity::Note
+                || matches!(finding.kind, FindingKind::Outliers(_) | FindingKind::Offset { is_explained: false, .. })
+        };
+        let severe = case.report.findings.iter().filter(worth);
         let mut warnings: Vec<&str> = notes.chain(severe.map(|finding| Remark::of_finding(&finding.kind).id())).collect();
         warnings.dedup();
         [

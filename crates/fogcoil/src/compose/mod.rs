@@ -274,8 +274,11 @@ impl StandIn {
 
     /// One object, as scripts read it.
     pub(crate) fn json(&self) -> Value {
-        let Self { of, id, title, known, behind, share, .. } = self;
-        json!({"in_place_of": of, "id": id, "title": title, "known_physics": known, "behind": behind, "share": share})
+        let Self { of, id, title, known, behind, share, taken } = self;
+        json!({
+            "in_place_of": of, "id": id, "title": title, "known_physics": known,
+            "behind": behind, "share": share, "probability": if self.is_near() { *taken } else { 0.0 },
+        })
     }
 
     /// For people; `None` where the records tell the name from the law.
@@ -292,6 +295,12 @@ impl StandIn {
 }
 
 impl Composed {
+    /// Its terms by their titles.
+    pub(crate) fn name(&self) -> String {
+        let terms: Vec<&str> = self.terms.iter().map(|term| term.case.mechanism.title.as_str()).collect();
+        format!("composed law: {}", terms.join(" + "))
+    }
+
     /// The law with its sizes as mechanisms' files: names and texts.
     pub(crate) fn files(&self) -> Result<Vec<(String, String)>, Error> {
         let of = |term: &Term| Ok((term.case.mechanism.id.clone(), term.case.with_values(&term.values)?));

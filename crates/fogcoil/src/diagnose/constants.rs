@@ -26,6 +26,12 @@ impl Constant {
     pub(super) fn moved(&self) -> f64 {
         self.posterior.u
     }
+
+    /// Whether it is an instrument's number of which little was known, and the records tell that it is not the usual one.
+    fn is_told(&self) -> bool {
+        let Posterior { u, sd, .. } = self.posterior;
+        self.kind == "instrument" && u.abs() > WORTH && u.abs() > FAR * sd
+    }
 }
 
 impl Outcome<'_> {
@@ -42,9 +48,10 @@ impl Outcome<'_> {
         self.diagnosis.best().fit.posteriors(&self.gyro).into_iter().filter_map(of).collect()
     }
 
-    /// The constants that moved, the farthest first.
+    /// The constants that moved, and the instruments that the records tell to be off, the farthest first.
     pub(super) fn moved(&self) -> Vec<Constant> {
-        let mut moved: Vec<Constant> = self.constants().into_iter().filter(|c| c.moved().abs() >= MOVED).collect();
+        let told = |c: &Constant| c.moved().abs() >= MOVED || c.is_told();
+        let mut moved: Vec<Constant> = self.constants().into_iter().filter(told).collect();
         moved.sort_by(|a, b| b.moved().abs().total_cmp(&a.moved().abs()));
         moved
     }

@@ -7,6 +7,18 @@ use super::constants::FAR;
 use crate::table::significant;
 use crate::units::parameter_unit;
 
+/// Fewest and most digits of a constant.
+const LEAST_DIGITS: usize = 3;
+const MOST_DIGITS: usize = 8;
+
+/// A value and that of the drawing, with the digits that show how far they are apart.
+fn apart(value: f64, drawn: f64) -> [String; 2] {
+    let size = value.abs().max(drawn.abs());
+    let ratio = (size / (value - drawn).abs()).max(1.0);
+    let digits = if ratio.is_finite() { 2 + ratio.log10().ceil() as usize } else { LEAST_DIGITS };
+    [value, drawn].map(|x| significant(x, digits.clamp(LEAST_DIGITS, MOST_DIGITS)))
+}
+
 impl Outcome<'_> {
     /// Sentences on an explanation by mechanisms: parameters of which not even the sign is known, and the constants that would have to move without it.
     pub(super) fn doubts(&self) -> Vec<String> {
@@ -37,9 +49,22 @@ impl Outcome<'_> {
             .map(|p| {
                 let unit = parameter_unit(&p.name);
                 let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
-                format!("{} {}{unit} ({:+.1} standard deviations of its tolerance)", p.name, significant(p.value(), 3), p.u)
+                let [value, drawn] = apart(p.value(), p.prior.value(0.0));
+                format!("{} {value}{unit} for {drawn} ({:+.1} standard deviations of its tolerance)", p.name, p.u)
             })
             .collect();
         (!said.is_empty()).then(|| format!("If nothing but constants differed, these would be: {}.", said.join("; ")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_small_change_of_a_large_number_shows() {
+        assert_eq!(apart(15.906, 15.84), ["15.906", "15.840"]);
+        assert_eq!(apart(0.31, 0.2), ["0.310", "0.200"]);
+        assert_eq!(apart(2.0, 2.0), ["2.00", "2.00"]);
     }
 }

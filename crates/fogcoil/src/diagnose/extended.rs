@@ -16,11 +16,10 @@ impl Outcome<'_> {
     /// # Errors
     /// Reason why there is none: nothing was found, or a coil file cannot hold it.
     pub fn model(&self) -> Result<String, String> {
-        let composed = self.law();
-        let best = composed.map_or(&self.diagnosis.best().fit, |composed| &composed.fit);
+        let best = self.leading();
         let (nominal, known) = (self.gyro.library().design(), self.gyro.library().tolerances());
         let found = match self.diagnosis.verdict {
-            Verdict::Unknown if composed.is_some() => {
+            Verdict::Unknown if self.law().is_some() => {
                 best.posteriors(&self.gyro).into_iter().filter(|p| matches!(p.place, Place::Nominal(_))).collect()
             }
             Verdict::Unknown | Verdict::None => Vec::new(),
@@ -31,7 +30,6 @@ impl Outcome<'_> {
         if found.is_empty() {
             return Ok(coil_file(&self.name, nominal, known, &comments));
         }
-        comments.extend(self.doubts());
         comments.extend(found.iter().filter(|p| p.record.is_none()).map(|p| said(p, self.interval(p))));
         let mut design = nominal.clone();
         for posterior in found.iter().filter(|p| p.place == Place::Nominal(Role::Constant)) {
@@ -53,7 +51,9 @@ impl Outcome<'_> {
                 None => return Err(format!("a coil file cannot hold {}", self.names().join(" and "))),
             }
         }
+        comments.extend(self.doubts());
         let name = match self.names().join(" and ") {
+            _ if self.law().is_some() => format!("{}, beside a composed law", self.name),
             names if names.is_empty() => format!("{}, recalibrated", self.name),
             names => format!("{}, {names}", self.name),
         };

@@ -10,7 +10,7 @@ impl Outcome<'_> {
     /// from their neighbours \[deg/h\]; `None` where a record has no noise to tell.
     pub fn left_of_rate(&self) -> Option<[f64; 2]> {
         let (mut squares, mut noise, mut count) = (0.0, 0.0, 0.0);
-        for (record, channels) in self.fits.iter().zip(&self.diagnosis.best().fit.residuals) {
+        for (record, channels) in self.fits.iter().zip(&self.leading().residuals) {
             let residual = &channels[RATE_CHANNEL];
             let used: Vec<bool> = residual.iter().map(|r| r.is_finite()).collect();
             let rows = used.iter().filter(|used| **used).count() as f64;

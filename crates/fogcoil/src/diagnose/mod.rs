@@ -18,8 +18,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use diagnosis::{
-    Candidate, Contradiction, Diagnosis, ForwardModel, HeldOut, Hypothesis, Judged, Judgement, Observation, Ruling, Settings,
-    Verdict,
+    Candidate, Contradiction, Diagnosis, Fit, ForwardModel, HeldOut, Hypothesis, Judged, Judgement, Observation, Ruling,
+    Settings, Verdict,
 };
 use files::{Note, Remark, shown_path};
 use mechanisms::{CATALOGUE, Extent, Gyro, Mechanism, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
@@ -259,8 +259,8 @@ fn name(verdict: Verdict) -> &'static str {
 /// Name of the unchanged design.
 const NOMINAL: &str = "nominal model";
 
-/// Name of the design with constants and instruments fitted to the records, nothing else.
-const REFITTED: &str = "constants and instruments fitted";
+/// Name of the design with its constants as drawn, and the instruments' own numbers fitted to the records.
+const REFITTED: &str = "design as drawn, instruments fitted";
 
 impl Outcome<'_> {
     /// Name of the model that the verdict rests on, where it is not the nominal one.
@@ -343,6 +343,11 @@ impl Outcome<'_> {
     /// The law that was composed, if records held out bear it out.
     fn law(&self) -> Option<&Composed> {
         self.composed.as_ref().filter(|composed| composed.accepted)
+    }
+
+    /// The fit that the answer rests on: that of an accepted law, or of the best candidate.
+    fn leading(&self) -> &Fit {
+        self.law().map_or(&self.diagnosis.best().fit, |law| &law.fit)
     }
 
     /// Mechanisms' files with what was composed, by their ids; none unless records held out bear it out.

@@ -8,7 +8,7 @@ use files::{Note, Remark};
 use mechanisms::{Extent, Naming, RATE as RATE_CHANNEL};
 
 use super::apart::TOLD;
-use super::{NOMINAL, Outcome};
+use super::{NOMINAL, Outcome, REFITTED};
 use crate::compose::StandIn;
 use crate::table::{significant, table};
 use crate::units::parameter_unit;
@@ -59,7 +59,14 @@ impl Outcome<'_> {
             let _ = writeln!(out, "Nearest named mechanism: {ids} ({values}).");
         }
         match self.alternatives() {
-            Some(alternatives) => out += &format!("{alternatives}\n"),
+            Some(alternatives) => {
+                out += &format!("{alternatives}\n");
+                for other in self.others() {
+                    if let Some(inspection) = self.inspection(other) {
+                        let _ = writeln!(out, "  Or inspect, for {other}: {inspection}.");
+                    }
+                }
+            }
             None if d.verdict != Verdict::None || self.misread().is_some() => out += &format!("Next: {}\n", self.next()),
             None => {}
         }
@@ -81,7 +88,7 @@ impl Outcome<'_> {
                 rows.push(vec![estimate.name.clone(), significant(estimate.value, 4), unit, interval]);
             }
         }
-        let moved = if matches!(d.verdict, Verdict::Recalibrate | Verdict::Explained) { self.moved() } else { Vec::new() };
+        let moved = if d.verdict == Verdict::Unknown { Vec::new() } else { self.moved() };
         if !moved.is_empty() {
             rows.push(["constant that moved (fitted)", "value", "sigma", "90 % interval"].map(str::to_owned).to_vec());
         }
@@ -94,8 +101,14 @@ impl Outcome<'_> {
             let file = held.record.name();
             rows.push(line(&format!("held-out record {file}"), "rms, deg/h".into(), ""));
             rows.push(line(&format!("  {NOMINAL}"), significant(held.nominal.rmse[RATE_CHANNEL], 3), ""));
-            if let Some(name) = self.found() {
-                rows.push(line(&format!("  {name}"), significant(held.model.rmse[RATE_CHANNEL], 3), ""));
+            let fitted = significant(held.model.rmse[RATE_CHANNEL], 3);
+            match self.found() {
+                Some(name) => rows.push(line(&format!("  {name}"), fitted, "")),
+                // offsets, gains and delays that the fitted records tell
+                None if fitted != significant(held.nominal.rmse[RATE_CHANNEL], 3) => {
+                    rows.push(line(&format!("  {REFITTED}"), fitted, ""));
+                }
+                None => {}
             }
             rows.push(line("  noise as identified", significant(held.model.noise_floor[RATE_CHANNEL], 3), ""));
             if let Some(([nominal, model], name)) = self.thermometer(held).zip(self.found()) {
@@ -168,7 +181,7 @@ impl Outcome<'_> {
         let named = best.iter().map(|id| sure(id)).collect::<Vec<_>>().join(" and ");
         match self.law_in_place().filter(|p| *p >= TOLD) {
             Some(p) if best.iter().all(|id| Some(p) > self.probability(id)) => {
-                format!("Most likely: a law that nobody listed (probability {p:.3}), or what does the same, {named}")
+                format!("Either {named}, or a law that nobody listed and that does the same (probability {p:.3})")
             }
             Some(p) => format!("{lead}: {named}, or a law that nobody listed and that does the same (probability {p:.3})"),
             None => format!("{lead}: {named}"),
@@ -235,6 +248,11 @@ impl Outcome<'_> {
                 "no further test is needed. The re-estimated constants predict a record that was held out.".into()
             }
             Verdict::Recalibrate => format!("to confirm the re-estimated constants, {another}."),
+            Verdict::Unknown if self.law().is_some() => {
+                "the law predicts, but its form is no cause: seek the cause among the known physics of this form. --model-out FILE.ron keeps the law \
+                 as a mechanism's file beside FILE.ron, for simulate and for the next diagnose (--mechanism)."
+                    .into()
+            }
             Verdict::Unknown => {
                 "check signs, columns, units and times (fogcoil check), then repeat the same profile: a difference that does not \
                                  return belongs to the test and not to the unit. Try a mechanism of your own with --mechanism."

@@ -16,7 +16,18 @@ const POINTS: usize = 1000;
 /// Least span of the sensitivity's axis \[(deg/h)/(degC/min)\]: below it differences are rounding.
 const LEAST_SPAN: f64 = 1e-3;
 
-/// A panel for each key of the plan that is a number and varies; a colour for each value of the first one that is a name. `None` where there is no such
+/// Share of the drawn range that stays free beyond its values, so that no mark is cut.
+const MARGIN: f64 = 0.04;
+
+/// Range of a number with a margin.
+fn around(made: &[(&Row, f64)], number: impl Fn(&Row) -> Option<f64>) -> [f64; 2] {
+    let values = made.iter().filter_map(|(row, _)| number(row));
+    let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+    let margin = MARGIN * (high - low);
+    [low - margin, high + margin]
+}
+
+/// A panel for each key of the plan that is a number and varies; a colour for each combination of those that are names, of as many of them as leave few. `None` where there is no such
 /// number, or no sensitivity.
 pub(super) fn against_keys<'a>(plan: &Plan, rows: &[Row]) -> Option<Figure<'a>> {
     let place = plan.names().iter().position(|name| *name == TOTAL)?;
@@ -35,17 +46,23 @@ pub(super) fn against_keys<'a>(plan: &Plan, rows: &[Row]) -> Option<Figure<'a>> 
     let keys: Vec<usize> = stated.iter().copied().filter(varies).take(KEYS).collect();
     let is_name = |key: &&usize| made.first().is_some_and(|(row, _)| row.values[**key].is_some() && number(row, **key).is_none());
     let name_of = |row: &Row, key: usize| row.values[key].as_ref().map_or(String::new(), Value::shown);
-    let named = stated.iter().find(is_name).copied();
-    let mut names: Vec<String> = named.iter().flat_map(|key| made.iter().map(|(row, _)| name_of(row, *key))).collect();
-    names.sort();
-    names.dedup();
-    if names.len() > NAMES || named.is_none() {
-        names = vec![String::new()];
-    }
+    let all_named: Vec<usize> = stated.iter().filter(is_name).copied().collect();
+    let names_of = |row: &Row, keys: &[usize]| keys.iter().map(|key| name_of(row, *key)).collect::<Vec<_>>().join(", ");
+    // of as many keys as leave few enough combinations
+    let few = |keys: &[usize]| {
+        let mut names: Vec<String> = made.iter().map(|(row, _)| names_of(row, keys)).collect();
+        names.sort();
+        names.dedup();
+        (names.len() <= NAMES).then_some(names)
+    };
+    let (named, names) = (1..=all_named.len())
+        .rev()
+        .find_map(|count| Some((&all_named[..count], few(&all_named[..count])?)))
+        .unwrap_or((&[], vec![String::new()]));
     // of one key alone every name is a course
-    let is_course = stated.len() == keys.len() + usize::from(names.len() > 1) && keys.len() == 1;
+    let is_course = stated.len() == keys.len() + if names.len() > 1 { named.len() } else { 0 } && keys.len() == 1;
     let series = |key: usize, (n, name): (usize, &String)| {
-        let own = |row: &Row| name.is_empty() || named.is_some_and(|key| name_of(row, key) == *name);
+        let own = |row: &Row| names_of(row, named) == *name;
         let mut points: Vec<(f64, f64)> =
             made.iter().filter(|(row, _)| own(row)).filter_map(|(row, s)| Some((number(row, key)?, *s))).collect();
         if is_course {
@@ -58,7 +75,7 @@ pub(super) fn against_keys<'a>(plan: &Plan, rows: &[Row]) -> Option<Figure<'a>> 
     };
     let panel = |key: &usize| {
         Panel::lines(
-            Axis::tight(plan.variants.factors[*key].key.clone(), 1e-12),
+            Axis::tight(plan.variants.factors[*key].key.clone(), 1e-12).covering(around(&made, |row| number(row, *key))),
             Axis::round("sensitivity [(°/h)/(°C/min)]", LEAST_SPAN),
             14.0,
             names.iter().enumerate().map(|named| series(*key, named)).collect(),

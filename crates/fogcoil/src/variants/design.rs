@@ -11,6 +11,10 @@ use super::value::Value;
 use super::varied::{Varied, normal};
 use crate::FileError;
 use crate::input::{CoilCase, check_coil, field_text, read_coil_with_text, with_fields};
+use files::Note;
+
+/// Most choices of a key that are looked at for warnings.
+const MOST_CHOICES: usize = 100;
 
 /// A drawing, with the text of its file.
 pub struct Drawing {
@@ -106,19 +110,44 @@ impl Variants {
         if written.is_empty() {
             return Ok(self.case.design.clone());
         }
+        self.case_with(written).map(|case| case.design)
+    }
+
+    /// Warnings of designs with one choice in place of the drawing's, that the drawing itself has not: each once.
+    pub(super) fn warnings_of_choices(&self) -> Vec<Note> {
+        let mut found: Vec<Note> = Vec::new();
+        for (n, varied) in self.keys().filter(|(n, _)| self.factors[*n].is_choice()) {
+            let count = varied.count().unwrap_or(0);
+            for place in 0..count.min(MOST_CHOICES) {
+                let value = varied.at((place as f64 + 0.5) / count as f64);
+                let warnings = self.case_with(&[(n, value)]).map_or(Vec::new(), |case| case.warnings);
+                for warning in warnings {
+                    if !self.case.warnings.contains(&warning) && !found.contains(&warning) {
+                        found.push(warning);
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    fn case_with(&self, written: &[(usize, Value)]) -> Result<CoilCase, String> {
         let of = |(n, value): &(usize, Value)| {
-            let key = self.factors[*n].key.as_str();
-            let optional = field_text(&self.case.file, &self.text, key).is_ok_and(|text| text.starts_with("Some("));
             let text = value.ron();
-            (key.to_owned(), if optional && !text.starts_with("None") { format!("Some({text})") } else { text })
+            let one = move |key: &str| {
+                let optional = field_text(&self.case.file, &self.text, key).is_ok_and(|text| text.starts_with("Some("));
+                let text = if optional && !text.starts_with("None") { format!("Some({text})") } else { text.clone() };
+                (key.to_owned(), text)
+            };
+            self.factors[*n].keys().map(one).collect::<Vec<_>>()
         };
-        let edits: Vec<(String, String)> = written.iter().map(of).collect();
+        let edits: Vec<(String, String)> = written.iter().flat_map(of).collect();
         let room = self.dimensions.room(&self.case, &edits);
         let file = &self.case.file;
         let text = with_fields(file, &self.text, &[&edits[..], &room].concat()).map_err(|error| error.to_string())?;
         let mut case = check_coil(file, &text).map_err(|error| error.to_string())?;
         self.dimensions.follow(&self.case, &edits, &mut case);
-        Ok(case.design)
+        Ok(case)
     }
 
     fn keys(&self) -> impl Iterator<Item = (usize, &Varied)> {

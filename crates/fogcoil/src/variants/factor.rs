@@ -7,10 +7,13 @@ use super::value::Value;
 use super::varied::Varied;
 use crate::input::keyed;
 
+/// Word between keys that are given one value.
+const TOGETHER: &str = " and ";
+
 /// Something that is varied.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Factor {
-    /// Key of a coil file.
+    /// Key of a coil file, or several that are given one value: `coil.material and dehomogenization`.
     pub key: String,
     /// The group of its key.
     pub group: Group,
@@ -53,6 +56,11 @@ impl Factor {
             }
         };
         Number::every().flat_map(of).collect()
+    }
+
+    /// Its keys, one by one.
+    pub(super) fn keys(&self) -> impl Iterator<Item = &str> {
+        self.key.split(TOGETHER).map(str::trim)
     }
 
     /// Number of values; `None` for a number between two ends.

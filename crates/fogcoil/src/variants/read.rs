@@ -63,8 +63,10 @@ pub fn variants(
         let problem = format!("{} numbers and choices vary", factors.len());
         return Err(in_plan(file, problem, &format!("vary 1 to {MOST_FACTORS}, or set others: WithinTolerances")));
     }
-    let variants = Variants::new(drawing, factors, dimensions);
+    let mut variants = Variants::new(drawing, factors, dimensions);
     check(file, &variants)?;
+    let warnings = variants.warnings_of_choices();
+    variants.case.warnings.extend(warnings);
     Ok(variants)
 }
 

@@ -125,7 +125,8 @@ impl Form<'_> {
         let Self { id, title, stage, states, target, law, .. } = self;
         let states = if states.is_empty() { String::new() } else { format!("    states: [\n{states}    ],\n") };
         let text = format!(
-            "(\n    id: \"{id}\",\n    title: \"{title}\",\n    stage: {stage},\n    source: \"composed by fogcoil diagnose; \
+            "(\n    id: \"{id}\",\n    title: \"{title}\",\n    stage: {stage},\n    meaning: \"a law of this form predicts the records; it names no \
+             cause\",\n    inspection: \"seek the cause among the known physics of this form\",\n    source: \"composed by fogcoil diagnose; \
              known physics of this form: {}\",\n    parameters: [\n{parameters}    ],\n{states}    laws: [{target}(\"{law}\")],\n)\n",
             self.known
         );

@@ -57,10 +57,16 @@ impl Outcome<'_> {
 
     fn hypotheses(&self) -> Markup {
         let groups = self.groups();
-        let best = groups.first().map_or(0.0, |group| group.log_weight);
-        let said =
-            |group: &Group| vec![self.said(group), format!("{:.3}", group.probability), significant(group.log_weight - best, 2)];
-        let rows: Vec<Vec<String>> = groups.iter().take(MOST).map(said).collect();
+        // a law that was composed is none of the candidates, and leads them
+        let [.., unknown] = self.diagnosis.verdicts();
+        let law = self.law().map(|law| (vec![law.name(), format!("{unknown:.3}"), "0".into()], unknown));
+        let first = groups.first();
+        let best = first.map_or(0.0, |group| group.log_weight);
+        let behind = law.as_ref().zip(first).map_or(0.0, |((_, law), group)| (group.probability / law).ln());
+        let said = |group: &Group| {
+            vec![self.said(group), format!("{:.3}", group.probability), significant(group.log_weight - best + behind, 2)]
+        };
+        let rows: Vec<Vec<String>> = law.into_iter().map(|(row, _)| row).chain(groups.iter().map(said)).take(MOST).collect();
         html! {
             details {
                 summary { "The " (rows.len()) " most probable hypotheses" } "\n"
@@ -113,6 +119,10 @@ impl Outcome<'_> {
     }
 
     pub(super) fn rivals(&self) -> Markup {
+        // it has no candidate that it could be compared with, one by one: the table of hypotheses says how far they are behind
+        if self.law().is_some() {
+            return Markup::default();
+        }
         let (groups, best) = (self.groups(), self.diagnosis.best());
         let Some(winner) = groups.iter().find(|group| alike(group.first, best)) else { return Markup::default() };
         let ids: Vec<&str> = best.fit.hypothesis.mechanisms.iter().map(|(number, _)| self.id(*number)).collect();

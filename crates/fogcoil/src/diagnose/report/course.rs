@@ -57,16 +57,17 @@ impl Outcome<'_> {
             id: "residuals",
             title: "What each model leaves".into(),
             description:
-                "Recorded less modelled rate and spool temperature over time, for the design with constants and instruments fitted, and for what was found."
+                "Recorded less modelled rate and spool temperature over time, for the design as drawn with the instruments fitted, and for what was found."
                     .into(),
-            caption: "A channel's panels have one scale. What is noise has no shape; what has one is missing in the model."
+            caption: "A channel's panels have one scale. What is noise has no shape; what has one is missing in the model. As drawn: the constants of the \
+                      design are those of the drawing, and offsets, gains and delays of the instruments are fitted."
                 .into(),
             columns,
             panels,
         }
     }
 
-    /// The first quantity's residuals in the first record: of the design with constants and instruments fitted, and of what was found.
+    /// The first quantity's residuals in the first record: of the design as drawn with the instruments fitted, and of what was found.
     pub(super) fn before_and_after(&self) -> Figure<'static> {
         let panels = self.each().next().map_or(Vec::new(), |shown| self.left(&shown, self.quantities().take(1), 6.0));
         Figure {

@@ -93,5 +93,5 @@ fn judged(outcome: &Outcome<'_>, held: &Held, prediction: &HeldOut) -> String {
     let used: Vec<f64> = residual.iter().copied().filter(|r| r.is_finite()).collect();
     let mean = used.iter().sum::<f64>() / (used.len() as f64).max(1.0);
     let centred: Vec<f64> = residual.iter().map(|r| r - mean).collect();
-    spectrum::judged(whiteness(&outcome.diagnosis.best().fit.whiten(RATE, observed, &centred)))
+    spectrum::judged(whiteness(&outcome.leading().whiten(RATE, observed, &centred)))
 }

@@ -106,9 +106,9 @@ impl Outcome<'_> {
         page(&format!("{}: what differs from the design", self.name), &lead, &body)
     }
 
-    /// The design with what may be recalibrated and, where it is another, what the verdict rests on, for a record that was fitted.
+    /// The design as drawn and, where it is another, what the answer rests on, for a record that was fitted.
     fn shown(&self, number: usize) -> Vec<Shown<'_>> {
-        let best = &self.diagnosis.best().fit;
+        let best = self.leading();
         let of = |name, fit| Shown { name, fit, number, record: &self.fits[number], judge: best };
         match self.found() {
             None => vec![of(REFITTED, best)],

@@ -13,7 +13,7 @@ use crate::diagnose::Outcome;
 
 impl Outcome<'_> {
     pub(super) fn noise(&self) -> Markup {
-        let best = &self.diagnosis.best().fit;
+        let best = self.leading();
         let mut rows = Vec::new();
         for (n, record) in self.fits.iter().enumerate() {
             for q in self.quantities() {

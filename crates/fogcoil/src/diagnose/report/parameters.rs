@@ -1,7 +1,7 @@
 //! The fitted parameters: densities after the recording beside those before.
 
 use charts::{Axis, Cells, Figure, Panel, Series, Style, grid, significant};
-use diagnosis::{Place, Posterior, Role, Verdict};
+use diagnosis::{Estimate, Place, Posterior, Role, Verdict};
 use maud::{Markup, html};
 
 use crate::diagnose::Outcome;
@@ -13,6 +13,9 @@ const REACH: f64 = 5.0;
 
 impl Outcome<'_> {
     pub(super) fn parameters(&self) -> Markup {
+        if let Some(law) = self.law() {
+            return of_law(&law.text().1);
+        }
         let all = self.diagnosis.best().fit.posteriors(&self.gyro);
         let wanted = |p: &&Posterior| match self.diagnosis.verdict {
             Verdict::Explained | Verdict::Unknown => matches!(p.place, Place::Mechanism(_)),
@@ -39,7 +42,6 @@ impl Outcome<'_> {
         let rows: Vec<Vec<String>> = fitted
             .iter()
             .map(|p| {
-                let interval = |ends: [f64; 2]| ends.map(|end| significant(end, 4)).join(" to ");
                 let unit = parameter_unit(&p.name).into_owned();
                 let [after, before] = [self.interval(p), central(p, 0.0, 1.0)].map(interval);
                 vec![p.name.clone(), significant(p.value(), 4), unit, after, before]
@@ -57,6 +59,21 @@ impl Outcome<'_> {
             @for choice in chosen { p { (choice) } "\n" }
         }
     }
+}
+
+/// The numbers of a law that was composed.
+fn of_law(estimates: &[Estimate]) -> Markup {
+    let row =
+        |e: &Estimate| vec![e.name.clone(), significant(e.value, 4), parameter_unit(&e.name).into_owned(), interval(e.ci90)];
+    let rows: Vec<Vec<String>> = estimates.iter().map(row).collect();
+    html! {
+        h3 { "Parameters of the composed law (fitted)" } "\n"
+        (grid("Fitted values", Cells::Words, &["parameter", "value (fitted)", "unit", "90 % interval"], &rows))
+    }
+}
+
+fn interval(ends: [f64; 2]) -> String {
+    ends.map(|end| significant(end, 4)).join(" to ")
 }
 
 /// 90 % interval of a normal u.

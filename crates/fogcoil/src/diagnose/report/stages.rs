@@ -31,9 +31,9 @@ impl Outcome<'_> {
         html! {
             @if !stages.is_empty() {
                 h3 { "Part of the chain" } "\n"
+                @if let Some(elsewhere) = self.elsewhere() { p { (elsewhere) } "\n" }
                 (grid("Parts of the chain compared", Cells::Words, &head, &rows))
                 p { "One flexible input at a time takes the place of every mechanism. " (said) } "\n"
-                @if let Some(elsewhere) = self.elsewhere() { p { (elsewhere) } "\n" }
             }
             (self.layers())
         }
@@ -48,8 +48,8 @@ impl Outcome<'_> {
         let share = |name: &str| self.diagnosis.stages.iter().find(|s| s.stage == name).map_or(1.0, |s| s.probability);
         acts.find(|(_, stage)| share(stage) < FAR).map(|(id, stage)| {
             format!(
-                "{id} acts in another part, {stage}: the smooth input there cannot take its shape, or another part can as well. Of mechanisms, the table of \
-                 probabilities above counts; of parts, this one is no proof."
+                "{id} acts in the {stage}, where the smooth input of the table below gains little: it cannot take that shape, or another part can as \
+                 well. Of mechanisms, the table of probabilities above counts; of parts, the one below is no proof."
             )
         })
     }
