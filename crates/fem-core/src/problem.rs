@@ -334,6 +334,45 @@ impl<'a> Problem<'a> {
         Ok(self.edge_mass(map, edges))
     }
 
+    /// Full load vector of a source per volume, `∫ N q`, alike in all components: `sources[region]` is 1 × 1 \[W/m³ of heat\], or is `None`.
+    /// [`DofMap::restrict`] makes the load of the unknowns of it.
+    ///
+    /// # Errors
+    /// As [`Self::stiffness`].
+    pub fn source(&self, sources: &[Option<DMatrix<f64>>]) -> Result<Vec<f64>, Error> {
+        let mut load = self.no_load();
+        for (e, element) in self.masses(sources)?.enumerate() {
+            self.add(&mut load, e, &element?);
+        }
+        Ok(load)
+    }
+
+    /// Full load vector of a flux per area into edges, `∫ N q ds`, of a scalar form: (element, edge, q \[W/m² of heat\]). For a surface that exchanges heat
+    /// with a medium, q = h T₀.
+    ///
+    /// # Errors
+    /// [`Error::Edges`] as [`Self::boundary_mass`].
+    pub fn surface_load(&self, edges: &[(usize, Edge, f64)]) -> Result<Vec<f64>, Error> {
+        self.check_edges(edges)?;
+        let mut load = self.no_load();
+        for &(e, edge, q) in edges {
+            self.add(&mut load, e, &(self.reference.edge_mass(self.mesh, e, edge, self.form.measure) * q));
+        }
+        Ok(load)
+    }
+
+    fn no_load(&self) -> Vec<f64> {
+        vec![0.0; self.mesh.nodes().len() * self.form.components]
+    }
+
+    /// Adds what an element's mass makes of one everywhere; of an element without a mass nothing.
+    fn add(&self, load: &mut [f64], e: usize, mass: &DMatrix<f64>) {
+        let (c, sums) = (self.form.components, mass.column_sum());
+        for (a, node) in self.mesh.elements()[e].iter().enumerate().filter(|_| !mass.is_empty()) {
+            (0..c).for_each(|i| load[node * c + i] += sums[a * c + i]);
+        }
+    }
+
     /// As [`Self::boundary_mass`], of edges and a map that are known to fit.
     ///
     /// # Panics

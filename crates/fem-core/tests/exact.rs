@@ -2,8 +2,9 @@
 
 use crate::common::{annulus, coil, edge_weights, isotropic, nodal_error, solve, stiffness, thermal_stress, wall};
 use fem_core::material::ThermoElastic;
-use fem_core::{Constraints, Form, Mesh, Problem};
+use fem_core::{Constraints, Edge, Factor, Form, Mesh, Problem, SparseMatrix};
 use nalgebra::{DMatrix, Matrix2, Vector2};
+use std::f64::consts::PI;
 
 const AXI: Form = Form::AXISYMMETRIC_ELASTICITY;
 
@@ -161,4 +162,40 @@ fn exact_measures_of_an_annulus_and_of_a_torus() {
     for (volume, area) in volumes.iter().zip(&areas) {
         assert!((volume / (std::f64::consts::TAU * 5.0 * area) - 1.0).abs() < 1e-10);
     }
+}
+
+/// A tube that is heated inside its wall, held at 0 on its bore and cooled from outside: T = c + d ln r − q r²/4k, where the source meets a node that is held.
+#[test]
+fn exact_a_source_beside_a_held_face_and_a_cooled_one() {
+    let ([a, b], [k, q, h, air]) = ([10e-3, 30e-3], [2.0, 2e6, 40.0, 25.0]);
+    // 4 elements of order 8 along the radius
+    let radii: Vec<f64> = (0..5).map(|n| a + (b - a) * f64::from(n) / 4.0).collect();
+    let mesh = Mesh::rectangles(8, &radii, &[0.0, 2e-3], |_, _| Some(0)).expect("a mesh");
+    let problem = Problem::new(&mesh, Form::AXISYMMETRIC_DIFFUSION, 10);
+    let mut constraints = Constraints::new(mesh.nodes().len());
+    for (node, [r, _]) in mesh.nodes().iter().enumerate() {
+        if *r == a {
+            constraints.hold(node).expect("held");
+        }
+    }
+    let map = constraints.eliminate(&problem.used(|_| true));
+    let outer = |value: f64| [(3, Edge::XiHigh, value)];
+    let conductivity = problem.stiffness(&map, &[Some(DMatrix::identity(2, 2) * k)]).expect("a conductivity");
+    let exchange = problem.boundary_mass(&map, &outer(h)).expect("a surface");
+    let inside = problem.source(&[Some(DMatrix::from_element(1, 1, q))]).expect("a source");
+    let through = problem.surface_load(&outer(h * air)).expect("a load");
+    // all that enters
+    let [volume, area] = [PI * (b * b - a * a) * 2e-3, 2.0 * PI * b * 2e-3];
+    assert!((inside.iter().sum::<f64>() / (q * volume) - 1.0).abs() < 1e-12);
+    assert!((through.iter().sum::<f64>() / (h * air * area) - 1.0).abs() < 1e-12);
+    assert_eq!(problem.source(&[None]).expect("nothing"), vec![0.0; mesh.nodes().len()]);
+
+    let load: Vec<f64> = inside.iter().zip(&through).map(|(x, y)| x + y).collect();
+    let factor = Factor::new(SparseMatrix::combine(1.0, &conductivity, 1.0, &exchange)).expect("a factor");
+    let t = map.expand(&factor.solve(&[map.restrict(&load)]).expect("a solution")[0]);
+    let bend = |r: f64| q * r * r / (4.0 * k);
+    let d = (q * b / 2.0 + h * (bend(b) - bend(a) + air)) / (k / b + h * (b / a).ln());
+    let exact = |r: f64| bend(a) - bend(r) + d * (r / a).ln();
+    let error = mesh.nodes().iter().zip(&t).map(|([r, _], t)| (t - exact(*r)).abs()).fold(0.0, f64::max);
+    assert!(error < 1e-6 * exact(b).abs(), "{error:e} of {}", exact(b));
 }

@@ -102,6 +102,7 @@ fn bounds_a_boundary_mass_needs_a_scalar_form_and_its_elements() {
         };
         let plain = problem.boundary_mass(&map, &edges).map(|_| ());
         assert_eq!(plain, shifted().map(|_| ()));
+        assert_eq!(plain, problem.surface_load(&edges).map(|_| ()));
         plain.map_err(|error| error.to_string())
     };
     assert_eq!(said(Form::AXISYMMETRIC_DIFFUSION, nodes, 1), Ok(()));

@@ -2,7 +2,7 @@
 
 use coil::{Design, Error};
 use diagnosis::{Active, Prior};
-use mechanisms::{Chain, Effect, Extent, Facts, Mechanism, Naming, Offer, Prepared, REFERENCE_C, Scene, Stage, Steady};
+use mechanisms::{Chain, Effect, Extent, Facts, Mechanism, Naming, Offer, Prepared, REFERENCE_C, Scene, Stage, Steady, middles};
 
 pub(crate) struct ReadOutCurvature;
 
@@ -36,9 +36,9 @@ impl Mechanism for ReadOutCurvature {
     fn effect(&self, _: &Chain, _: &Prepared, active: &Active) -> Result<Effect, Error> {
         let q = active.values[0];
         Ok(Effect::Readings(Box::new(move |readings| {
-            for (rate, t) in readings.rate.iter_mut().zip(&readings.thermometer) {
-                *rate += q * (t - REFERENCE_C).powi(2);
-            }
+            // a temperature is of the row's instant, a rate is the mean since the row before
+            let bent = middles(&readings.thermometer, |t| q * (t - REFERENCE_C).powi(2));
+            readings.rate.iter_mut().zip(bent).for_each(|(rate, bent)| *rate += bent);
         })))
     }
 
