@@ -145,6 +145,18 @@ mod tests {
     }
 
     #[test]
+    fn a_peak_that_points_the_other_way_is_no_outlier() {
+        let peaks = [0.31, 0.33, -0.32, 0.30, 0.31, -0.33, 0.9];
+        let row = |(n, value): (usize, &f64)| {
+            let measured = json!({"peak": {"value": value, "ci90": [value - 0.01, value + 0.01]}});
+            (Row::of(&json!({"unit": format!("U{n}"), "measured": measured})), Judged::Unjudged)
+        };
+        let batch = Batch { rows: peaks.iter().enumerate().map(row).collect() };
+        let far: Vec<&str> = outliers(&batch).iter().map(|outlier| outlier.unit).collect();
+        assert_eq!(far, ["U6"]);
+    }
+
+    #[test]
     fn lots_are_told_apart() {
         let mut batch = batch(&[-2.7; 12]);
         assert_eq!(lots(&batch).iter().map(|(lot, rows)| (*lot, rows.len())).collect::<Vec<_>>(), [(None, 12)]);

@@ -289,6 +289,17 @@ mod tests {
     }
 
     #[test]
+    fn the_shape_of_what_has_no_name_is_told() {
+        let of = |verdict: &str, accepted: bool| {
+            let composed = json!({"accepted": accepted, "terms": [{"title": "A rate like the square"}]});
+            let diagnosis = json!({"verdict": verdict, "structure": "a step", "composed": composed});
+            Row::of(&json!({"unit": "U", "diagnosis": diagnosis})).open()
+        };
+        assert_eq!(of("unknown", true), "a composed law, accepted: A rate like the square");
+        assert_eq!((of("unknown", false).as_str(), of("none", true).as_str()), ("a step", ""));
+    }
+
+    #[test]
     fn what_acts_together_is_not_one_or_the_other_and_warnings_are_told() {
         let row = Row::of(&json!({
             "unit": "U", "diagnosis": {

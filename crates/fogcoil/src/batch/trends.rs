@@ -147,6 +147,20 @@ mod tests {
         assert_eq!([of("1999-12-31"), of("2026-13-01"), of("soon"), of("")], [Some(-1.0), None, None, None]);
     }
 
+    #[test]
+    fn dates_count_from_the_first_of_them() {
+        let row = |date: &str| {
+            let finding = json!({"unit": date, "date": date, "measured": {"sensitivity": {"value": 1.0}}});
+            (Row::of(&finding), Judged::Unjudged)
+        };
+        let batch = Batch { rows: ["2026-11-05", "2026-11-01", "soon"].map(row).into() };
+        let figures = trends(&batch, None);
+        let over_dates = figures.iter().find(|figure| figure.id == "date").unwrap();
+        assert_eq!(over_dates.panels.last().unwrap().x.label, "days since 2026-11-01");
+        let [low, high] = over_dates.panels[0].x.covers.unwrap();
+        assert!(low < 0.0 && low > -1.0 && high > 4.0 && high < 5.0, "{low} {high}");
+    }
+
     fn mark(x: f64, y: f64, interval: [f64; 2]) -> Mark<'static> {
         Mark { x, y, interval: Some(interval), judged: &Judged::Passes }
     }

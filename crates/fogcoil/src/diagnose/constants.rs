@@ -122,3 +122,22 @@ fn worth(all: &[Constant], kind: &str, of: impl Fn(&Posterior) -> Option<(&'stat
     };
     moved.into_iter().filter_map(told).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use diagnosis::Prior;
+
+    use super::*;
+
+    /// A delay of 14 s of which ±16 s was known is worth a word if the records tell it to a second, and none if they say as little as before.
+    #[test]
+    fn what_records_tell_of_an_instrument_is_told() {
+        let told = |kind: &'static str, u: f64, sd: f64| {
+            let (name, place) = ("delay".to_owned(), Place::Nominal(Role::Sensor));
+            let posterior = Posterior { name, place, record: None, prior: Prior::Normal { mean: 0.0, sd: 15.8 }, u, sd };
+            Constant { posterior, kind }.is_told()
+        };
+        assert!(told("instrument", 0.9, 0.06) && told("instrument", -0.9, 0.06));
+        assert!(!told("instrument", 0.9, 0.5) && !told("instrument", 0.1, 0.01) && !told("design", 0.9, 0.06));
+    }
+}

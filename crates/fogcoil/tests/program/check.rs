@@ -154,6 +154,17 @@ fn several_recordings_have_a_line_each() {
     let found: Value = serde_json::from_str(&stdout(&output)).unwrap();
     let usable: Vec<&Value> = found["records"].as_array().unwrap().iter().map(|record| &record["usable"]).collect();
     assert_eq!(usable, [true, false, true]);
+    // what is left out, a size that nothing explains, and a meta file that says otherwise have a word in the line
+    std::fs::create_dir_all(folder.path("lot/U3")).unwrap();
+    let mut odd = rows(700);
+    odd.iter_mut().for_each(|row| row[3] = 3.6 * row[3] + 40.0);
+    odd[300][3] += 30.0;
+    folder.write("lot/U3/f.csv", standard(&odd));
+    folder.write("lot/U3/meta.ron", "(nominal_arw_deg_per_sqrt_h: Some(1e-5))");
+    let text = stdout(&folder.run(&["check", "lot"]));
+    let line = text.lines().find(|line| line.starts_with("lot/U3/f.csv")).unwrap();
+    assert!(["outliers", "offset", "meta-contradicted"].iter().all(|id| line.contains(id)), "{text}");
+    std::fs::remove_dir_all(folder.path("lot/U3")).unwrap();
     // the reason that two of them share stands once, below them
     folder.write("lot/d.csv", "t,rate\n0,1\n");
     folder.write("lot/e.csv", "t,rate\n0,1\n");

@@ -181,6 +181,14 @@ fn constants_and_row_from_a_cell() {
         panic!("one warning, though it is named twice")
     };
     assert!(warning.text.contains("172.00 um") && warning.remark == Remark::OtherPitch, "{warning:?}");
+    // a row M of another cell is warned of, of a copy of the cell it is not
+    folder.write("cells/cell.ron", CELL);
+    for (other, warned) in [(change(CELL, "youngs_modulus_mpa: 5.593", "youngs_modulus_mpa: 6.5"), 1), (CELL.to_owned(), 0)] {
+        folder.write("cells/other.ron", other);
+        let mixed = change(&coil, matrix, "FromCell(\"cells/other.ron\")");
+        let warnings = read_coil(&folder.write("coil.ron", mixed)).unwrap().warnings;
+        assert_eq!(warnings.iter().filter(|warning| warning.remark == Remark::OtherCell).count(), warned, "{warnings:?}");
+    }
     let printed = read_coil(&folder.write("coil.ron", change(COIL, matrix, "Printed"))).unwrap();
     assert_eq!(printed.design.dehomogenization.m_rx, 2.74e-6);
     assert_eq!(printed.provenance.dehomogenization, Origin::Printed);
@@ -265,7 +273,11 @@ fn room_beside_the_winding_is_warned_of_where_the_sensitivity_feels_it() {
         change(&change(COIL, "height_mm: 18.02", "height_mm: 18.05"), "cw_climbs", "start_mm: 0.01, end_mm: 18.04, cw_climbs"),
     );
     let said = stderr(&folder.run(&["wind", "placed.ron"]));
-    assert!(!said.contains("unfilled-coil") && !said.contains("other-spacing"), "{said}");
+    assert!(["unfilled-coil", "other-spacing", "turn-outside"].iter().all(|id| !said.contains(id)), "{said}");
+    // turns that stand out of the coil are warned of
+    folder.write("out.ron", change(COIL, "cw_climbs", "start_mm: 0.0, end_mm: 18.08, cw_climbs"));
+    let said = stderr(&folder.run(&["wind", "out.ron"]));
+    assert!(said.contains("reach 0.060 mm out of the coil's 18.020 mm") && said.contains("[turn-outside]"), "{said}");
     // 17.4 mm for 106 turns: 0.1642 mm for each
     folder.write("squeezed.ron", change(COIL, "cw_climbs", "start_mm: 0.31, end_mm: 17.71, cw_climbs"));
     let said = stderr(&folder.run(&["wind", "squeezed.ron"]));

@@ -8,7 +8,7 @@ use charts::faults;
 use fogcoil::schema::misfit;
 use serde_json::Value;
 
-use crate::common::{COIL, Folder, change, schema, stderr, stdout};
+use crate::common::{CELL, COIL, Folder, change, schema, stderr, stdout};
 
 fn swept(folder: &Folder, arguments: &[&str]) -> Value {
     let output = folder.run(&[&["sweep"], arguments, &["--json", "--quiet"]].concat());
@@ -125,9 +125,9 @@ fn a_grid_has_the_designs_that_a_user_would_write() {
         \"spool.flanges\": Named({\"one\": \"[(side: Right, thickness_mm: 2.0, overhang_mm: 1.0, bonded: true)]\", \"none\": \"[]\"})})";
     let folder = with_plan(plan);
     let json = swept(&folder, &["plan.ron", "--out", "g.csv", "--svg", "g.svg"]);
-    // the sensitivity against the only number, a colour for each value of the first name
+    // the sensitivity against the only number, a colour for each pair of names
     let picture = fs::read_to_string(folder.path("g.svg")).unwrap();
-    for said in ["spool.hub_thickness_mm", ">Left<", ">Right<", "Of 8 designs"] {
+    for said in ["spool.hub_thickness_mm", ">Left, none<", ">Left, one<", ">Right, none<", ">Right, one<", "Of 8 designs"] {
         assert!(picture.contains(said), "{said}");
     }
     assert_eq!((json["points"].as_u64(), json["failed"].as_u64(), &json["linear_sd"]), (Some(8), Some(0), &Value::Null));
@@ -138,6 +138,36 @@ fn a_grid_has_the_designs_that_a_user_would_write() {
     folder.write("other.ron", other);
     let alone: Value = serde_json::from_str(&stdout(&folder.run(&["sensitivity", "other.ron", "--json", "--quiet"]))).unwrap();
     assert_eq!(total[6].parse::<f64>().ok(), alone["total"].as_f64());
+}
+
+/// Cells of one coil are exchanged in both places by one key; in one place alone they are warned of.
+#[test]
+fn keys_that_belong_together_get_one_value() {
+    let keys = |key: &str| {
+        format!(
+            "(design: \"coil.ron\", sampling: Grid, vary: {{\"{key}\": Named({{\"soft\": \"FromCell(\\\"soft.ron\\\")\", \
+             \"stiff\": \"FromCell(\\\"stiff.ron\\\")\"}})}})"
+        )
+    };
+    let folder = with_plan(&keys("coil.material and dehomogenization"));
+    folder.write("soft.ron", CELL);
+    folder.write("stiff.ron", change(CELL, "youngs_modulus_mpa: 5.593", "youngs_modulus_mpa: 11.0"));
+    let both = |cell: &str| {
+        let (start, end) = (COIL.find("Constants((").unwrap(), COIL.find("))").unwrap() + 2);
+        let material = change(COIL, &COIL[start..end], &format!("FromCell({cell:?})"));
+        let (start, end) = (material.find("Matrix((").unwrap(), material.rfind("))").unwrap() + 2);
+        change(&material, &material[start..end], &format!("FromCell({cell:?})"))
+    };
+    folder.write("coil.ron", both("soft.ron"));
+    swept(&folder, &["plan.ron", "--out", "both.csv"]);
+    folder.write("other.ron", both("stiff.ron"));
+    let alone: Value = serde_json::from_str(&stdout(&folder.run(&["sensitivity", "other.ron", "--json", "--quiet"]))).unwrap();
+    assert_eq!(column(&folder, "both.csv", "total")[1].parse::<f64>().ok(), alone["total"].as_f64());
+    let warned = |plan: &str| {
+        folder.write("plan.ron", plan);
+        stderr(&folder.run(&["sweep", "plan.ron", "--out", "mixed.csv"])).contains("[other-cell]")
+    };
+    assert!(warned(&keys("coil.material")) && !warned(&keys("coil.material and dehomogenization")));
 }
 
 #[test]

@@ -57,22 +57,29 @@ impl Outcome<'_> {
 
     fn hypotheses(&self) -> Markup {
         let groups = self.groups();
-        // a law that was composed is none of the candidates, and leads them
-        let [.., unknown] = self.diagnosis.verdicts();
-        let law = self.law().map(|law| (vec![law.name(), format!("{unknown:.3}"), "0".into()], unknown));
-        let first = groups.first();
-        let best = first.map_or(0.0, |group| group.log_weight);
-        let behind = law.as_ref().zip(first).map_or(0.0, |((_, law), group)| (group.probability / law).ln());
-        let said = |group: &Group| {
-            vec![self.said(group), format!("{:.3}", group.probability), significant(group.log_weight - best + behind, 2)]
-        };
-        let rows: Vec<Vec<String>> = law.into_iter().map(|(row, _)| row).chain(groups.iter().map(said)).take(MOST).collect();
+        let (most, best) = groups.first().map_or((0.0, 0.0), |group| (group.probability, group.log_weight));
+        let mut all: Vec<(f64, String, f64)> =
+            groups.iter().map(|group| (group.log_weight - best, self.said(group), group.probability)).collect();
+        if let Some((law, probability)) = self.law_beside() {
+            let ln = (probability.max(f64::MIN_POSITIVE) / most.max(f64::MIN_POSITIVE)).ln();
+            all.push((ln, law, probability));
+            all.sort_by(|a, b| b.0.total_cmp(&a.0));
+        }
+        let first = all.first().map_or(0.0, |(ln, ..)| *ln);
+        let said = |(ln, said, p): &(f64, String, f64)| vec![said.clone(), format!("{p:.3}"), significant(ln - first, 2)];
+        let rows: Vec<Vec<String>> = all.iter().take(MOST).map(said).collect();
         html! {
             details {
                 summary { "The " (rows.len()) " most probable hypotheses" } "\n"
                 (grid("The most probable hypotheses", Cells::Words, &["hypothesis", "probability", "ln odds to the first"], &rows))
             } "\n"
         }
+    }
+
+    /// An accepted law, which is none of the candidates, with the probability that they leave.
+    fn law_beside(&self) -> Option<(String, f64)> {
+        let known: f64 = self.diagnosis.candidates.iter().map(|candidate| candidate.probability).sum();
+        self.law().map(|law| (law.name(), (1.0 - known).max(0.0)))
     }
 
     /// All candidates, most probable first.
@@ -119,11 +126,11 @@ impl Outcome<'_> {
     }
 
     pub(super) fn rivals(&self) -> Markup {
-        // it has no candidate that it could be compared with, one by one: the table of hypotheses says how far they are behind
-        if self.law().is_some() {
+        let (groups, best) = (self.groups(), self.diagnosis.best());
+        // where a law leads, the table of hypotheses says how far they all are behind it
+        if self.law_beside().is_some_and(|(_, probability)| probability > best.probability) {
             return Markup::default();
         }
-        let (groups, best) = (self.groups(), self.diagnosis.best());
         let Some(winner) = groups.iter().find(|group| alike(group.first, best)) else { return Markup::default() };
         let ids: Vec<&str> = best.fit.hypothesis.mechanisms.iter().map(|(number, _)| self.id(*number)).collect();
         let name = if ids.is_empty() { self.said(winner) } else { ids.join(" + ") };
