@@ -65,8 +65,8 @@ pub enum Error {
     NoPoints,
     /// The matrix is not positive definite: a material law or a missing constraint.
     #[error(
-        "the matrix of {unknowns} unknowns is not positive definite ({detail}); hold the rigid motions (of heat: a temperature, or give a surface that exchanges it), check the material \
-         constants, and take at least one Gauss point more than the order"
+        "the matrix of {unknowns} unknowns is not positive definite ({detail}); hold the rigid motions (of heat: a temperature, or give a surface that \
+         exchanges it), check the material constants, and take at least one Gauss point more than the order"
     )]
     NotPositiveDefinite {
         /// Number of unknowns.

@@ -6,7 +6,7 @@
 use recording::allan::allan;
 use recording::check::{Expectations, check};
 use recording::noise::{Bounds, Series, identify};
-use recording::{Channel, Error, Recording, Sampling, median_interval};
+use recording::{Channel, Error, Recording, Sampling, Seconds, median_interval};
 
 /// A recording from a header of names and rows of numbers; what is no number is missing.
 fn read(text: &str, unit: &str) -> Result<Recording, Error> {
@@ -52,7 +52,14 @@ fn report(recording: &Recording) -> Result<f64, Error> {
         let noise = identify(&series, &Bounds::new(median_interval(time).unwrap_or(0.0), time))?;
         println!("{}: white noise of {:.3} {} a row", channel.name, noise.model.white, channel.unit);
         for point in allan(time, &channel.values, mask)? {
-            println!("  {:6} s: {:.3} ({:.3} to {:.3}) {}", point.tau, point.deviation, point.low, point.high, channel.unit);
+            println!(
+                "  {} s: {:.3} ({:.3} to {:.3}) {}",
+                Seconds(point.tau),
+                point.deviation,
+                point.low,
+                point.high,
+                channel.unit
+            );
         }
         white = noise.model.white;
     }

@@ -40,8 +40,8 @@ impl Pool<'_> {
         fits.sort_by(|a, b| b.0.log_evidence.total_cmp(&a.0.log_evidence));
         let lead = fits.first().map_or(0.0, |f| f.0.log_evidence);
         for (rank, (pair, kin)) in fits.into_iter().enumerate() {
-            let promising = pair.log_evidence - fit.log_evidence > PAIRED && lead - pair.log_evidence < BEHIND;
-            let own = if rank < FOLLOWED && promising { self.fitter.fit_with_noise(&pair.hypothesis, &pair, 2)? } else { pair };
+            let promising = rank < FOLLOWED && is_promising(pair.log_evidence, fit.log_evidence, lead);
+            let own = if promising { self.fitter.fit_with_noise(&pair.hypothesis, &pair, 2)? } else { pair };
             self.push_for(own, None, kin + kin_of_first);
         }
         Ok(())
@@ -77,9 +77,28 @@ impl Pool<'_> {
     }
 }
 
+/// Whether a pair of this ln evidence is worth a fit with its own noise: it explains more than one of its mechanisms alone, and is not far behind the best pair.
+fn is_promising(pair: f64, alone: f64, best: f64) -> bool {
+    pair - alone > PAIRED && best - pair < BEHIND
+}
+
 /// Whether two hypotheses hold the same mechanisms, in any order and with any choices.
 fn same(a: &Hypothesis, b: &Hypothesis) -> bool {
     a.constants_free == b.constants_free
         && a.mechanisms.len() == b.mechanisms.len()
         && a.mechanisms.iter().all(|(mechanism, _)| b.has(*mechanism))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pair_is_promising_that_explains_more_and_is_not_far_behind() {
+        let alone = 100.0;
+        let best = alone + PAIRED + 2.0 * BEHIND;
+        assert!(is_promising(best, alone, best) && is_promising(best - 0.9 * BEHIND, alone, best));
+        assert!(!is_promising(best - 1.1 * BEHIND, alone, best));
+        assert!(!is_promising(alone + 0.9 * PAIRED, alone, alone + 0.9 * PAIRED));
+    }
 }
