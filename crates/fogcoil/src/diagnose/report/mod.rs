@@ -145,6 +145,7 @@ impl Outcome<'_> {
                 rows.extend([row(self.id(active.mechanism), nice(meaning)), row("inspect", nice(inspection))]);
             }
         }
+        rows.extend(self.law().map(|law| row("it is like", nice(&law.name()))));
         for other in self.others() {
             rows.extend(self.inspection(other).map(|inspection| row("or inspect", format!("{}, for {other}", nice(inspection)))));
         }
@@ -156,11 +157,12 @@ impl Outcome<'_> {
         html! { (self.before_and_after().element()) (facts("The answer in short", &rows)) }
     }
 
-    /// Parameters of what was found, with their intervals.
+    /// Parameters of what was found, or of an accepted law, with their intervals.
     fn sizes(&self) -> Option<String> {
         let explained = self.diagnosis.verdict == Verdict::Explained;
-        let found: Vec<&Estimate> = self.diagnosis.parameters.iter().flatten().filter(|_| explained).collect();
-        let of = |estimate: &&Estimate| {
+        let mut found: Vec<Estimate> = self.diagnosis.parameters.iter().flatten().filter(|_| explained).cloned().collect();
+        found.extend(self.law().into_iter().flat_map(|law| law.text().1));
+        let of = |estimate: &Estimate| {
             let unit = parameter_unit(&estimate.name);
             let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
             let [low, high] = estimate.ci90.map(|end| significant(end, 3));
