@@ -58,5 +58,7 @@ mod tests {
         let jump = |values: &[f64]| jumps(values, &(0..values.len()).collect::<Vec<_>>());
         assert!(jump(&[0.0, 0.1, 10.1, 10.2]) && jump(&[5.0, 5.0, -5.0]));
         assert!(!jump(&[0.0, 4.0, 8.0, 12.0]) && !jump(&[0.0, -4.0, -8.0, -12.0]));
+        // two steps of one size are no jump
+        assert!(!jump(&[0.0, 5.0, 10.0]));
     }
 }

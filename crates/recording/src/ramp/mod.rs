@@ -123,13 +123,18 @@ fn over(models: &[Model], of: impl Fn(&Model) -> Result<Estimate, Absent>) -> Re
 /// Largest less least of the parabola over the temperature: between the ends, or an end and its vertex.
 fn span(models: &[Model]) -> Result<Estimate, Absent> {
     let amount = |number: usize| over(models, |model| model.sum(&vec![(number, 1.0)])).map_or(0.0, |estimate| estimate.value);
-    let (slope, curvature) = (amount(1), amount(2));
+    let [lowest, highest] = extremes(amount(1), amount(2));
+    // the ends are where the parabola has its extremes: they move to second order only
+    over(models, |model| model.sum(&Design::at_rest(lowest, highest)))
+}
+
+/// Places from −1 to 1 at which slope x + curvature x² is least and largest.
+fn extremes(slope: f64, curvature: f64) -> [f64; 2] {
     let vertex = (-slope / (2.0 * curvature)).clamp(-1.0, 1.0);
     let height = |x: &f64| slope * x + curvature * x * x;
     let mut places = [-1.0, 1.0, if vertex.is_finite() { vertex } else { 1.0 }];
     places.sort_by(|a, b| height(a).total_cmp(&height(b)));
-    // the ends are where the parabola has its extremes: they move to second order only
-    over(models, |model| model.sum(&Design::at_rest(places[0], places[2])))
+    [places[0], places[2]]
 }
 
 /// The row in which the temperature does most.
@@ -158,5 +163,11 @@ mod tests {
     fn exact_sizes() {
         assert_eq!((root_mean_square(&[3.0, -4.0, 0.0, 0.0]), root_mean_square(&[])), (2.5, 0.0));
         assert_eq!(range(&[3.0, -4.0, 1.0]), 7.0);
+    }
+
+    #[test]
+    fn exact_a_parabola_is_least_or_largest_at_its_vertex_where_that_is_inside() {
+        assert_eq!((extremes(3.0, 3.0), extremes(3.0, -3.0)), ([-0.5, 1.0], [-1.0, 0.5]));
+        assert_eq!((extremes(-1.0, 0.1), extremes(2.0, 0.0)), ([1.0, -1.0], [-1.0, 1.0]));
     }
 }
