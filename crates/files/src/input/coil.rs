@@ -140,16 +140,16 @@ fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
     };
     let (constants, material) = material(&mut cells, &file.coil.material)?;
     let (dehomogenization, row) = dehomogenization(&mut cells, &file.dehomogenization)?;
-    // by their content: one cell may have two paths
+    // by their constants: one cell may have two paths
     if let (Origin::Cell(of_constants), Origin::Cell(of_row)) = (&material, &row)
-        && let [_, first, second] = &cells.fingerprints[..]
-        && first.sha256 != second.sha256
+        && let [(_, first), (_, second)] = &cells.done[..]
+        && first != second
     {
         let [of_constants, of_row] = [of_constants, of_row].map(|path| shown_path(path));
-        cells.notes.push(
-            Remark::OtherCell
-                .warning(format!("dehomogenization is that of {of_row}, coil.material that of {of_constants}; is this meant?")),
-        );
+        cells.notes.push(Remark::OtherCell.warning(format!(
+            "dehomogenization is that of {of_row}, coil.material that of {of_constants}; is this meant? A plan exchanges both by the key \
+             \"coil.material and dehomogenization\""
+        )));
     }
     let coil_file::Constants { elastic, conductivity_z, conductivity_r } = constants;
     let body = Body {

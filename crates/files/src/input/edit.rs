@@ -72,7 +72,7 @@ fn absent(path: &Path, text: &str, field: &str, nearest: &str) -> InputError {
     let problem = format!("{field:?} is no field here");
     let remedy = match nearest {
         "" => "write the path of one of its keys with its unit, e.g. spool.hub_thickness_mm of a coil or rings[1].outer_diameter_um of a cell; a coil takes \
-               what a cell's keys say by FromCell of another cell"
+               what a cell's keys say by FromCell of another cell, in a plan under the key \"coil.material and dehomogenization\""
             .to_owned(),
         _ => format!("there is {nearest}; write keys with their units, and replace a value that has no fields as a whole"),
     };

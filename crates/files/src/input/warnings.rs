@@ -50,8 +50,8 @@ pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> V
         let message = format!("winding.end_mm: turns lie {spacing:.4} mm apart, where the pitch is {pitch} mm; is this meant?");
         found.push(Remark::OtherSpacing.warning(message));
     }
-    let [first, last] = design.winding.edges();
-    let outside = (-first).max(last - body.height);
+    let ([first, last], [lowest, highest]) = (design.winding.edges(), design.winding.reach());
+    let outside = (-first).max(spacing / 2.0 - lowest).max(last - body.height).max(highest + spacing / 2.0 - body.height);
     if outside > OUTSIDE * pitch {
         let [outside, height] = [outside, body.height].map(to_mm);
         let message = format!(

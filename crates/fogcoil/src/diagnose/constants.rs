@@ -9,6 +9,9 @@ use super::Outcome;
 use crate::keys::interval_by_key;
 use crate::table::significant;
 
+/// Name of the delay of the rate, as the model has it.
+const RATE_DELAY: &str = "delay of the rate's readings [s]";
+
 /// Standard deviations from the drawing from which a constant is worth a line.
 const MOVED: f64 = 1.0;
 
@@ -45,7 +48,7 @@ impl Outcome<'_> {
             };
             Some(Constant { posterior, kind })
         };
-        self.diagnosis.best().fit.posteriors(&self.gyro).into_iter().filter_map(of).collect()
+        self.leading().posteriors(&self.gyro).into_iter().filter_map(of).collect()
     }
 
     /// The constants that moved, and the instruments that the records tell to be off, the farthest first.
@@ -54,6 +57,23 @@ impl Outcome<'_> {
         let mut moved: Vec<Constant> = self.constants().into_iter().filter(told).collect();
         moved.sort_by(|a, b| b.moved().abs().total_cmp(&a.moved().abs()));
         moved
+    }
+
+    /// A sentence on rates that the records show to be read late or early.
+    pub(super) fn late(&self) -> Option<String> {
+        let delay = self.constants().into_iter().find(|c| c.posterior.name == RATE_DELAY)?;
+        let sure = delay.posterior.u.abs() > FAR * delay.posterior.sd && delay.moved().abs() > WORTH;
+        let [value, low, high] = ends(&delay.posterior);
+        let how = if value > 0.0 { "late" } else { "early" };
+        let [low, high] = if value > 0.0 { [low, high] } else { [-high, -low] };
+        sure.then(|| {
+            format!(
+                "The rate is read {} s {how} (90 %: {} to {}), beside the temperatures: compare how the loggers stamp their rows.",
+                significant(value.abs(), 2),
+                significant(low, 2),
+                significant(high, 2)
+            )
+        })
     }
 
     /// A warning for each instrument that the answer takes to be far off.
@@ -72,7 +92,7 @@ impl Outcome<'_> {
 
     /// Whether something moved, and none of it is of the design.
     pub(super) fn drawing_stands(&self) -> bool {
-        let moved = self.moved();
+        let moved: Vec<Constant> = self.moved().into_iter().filter(|c| c.moved().abs() >= MOVED).collect();
         !moved.is_empty() && moved.iter().all(|c| c.kind != "design")
     }
 

@@ -345,6 +345,14 @@ impl Outcome<'_> {
         self.composed.as_ref().filter(|composed| composed.accepted)
     }
 
+    /// An accepted law by its titles, with the mechanisms beside which it stands.
+    fn law_name(&self) -> Option<String> {
+        let law = self.law()?;
+        let listed = law.fit.active.iter().filter(|active| active.mechanism < self.gyro.mechanisms().len());
+        let beside: String = listed.map(|active| format!("{} + ", self.id(active.mechanism))).collect();
+        Some(beside + &law.name())
+    }
+
     /// The fit that the answer rests on: that of an accepted law, or of the best candidate.
     fn leading(&self) -> &Fit {
         self.law().map_or(&self.diagnosis.best().fit, |law| &law.fit)

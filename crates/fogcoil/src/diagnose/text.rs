@@ -8,6 +8,7 @@ use files::{Note, Remark};
 use mechanisms::{Extent, Naming, RATE as RATE_CHANNEL};
 
 use super::apart::TOLD;
+use super::constants::Constant;
 use super::{NOMINAL, Outcome, REFITTED};
 use crate::compose::StandIn;
 use crate::table::{significant, table};
@@ -43,6 +44,9 @@ impl Outcome<'_> {
                 let _ = writeln!(out, "Besides, {structure}.");
             }
             self.doubts().iter().for_each(|doubt| out += &format!("{doubt}\n"));
+        }
+        if let Some(late) = self.late() {
+            let _ = writeln!(out, "{late}");
         }
         if self.holdouts.is_empty() && d.verdict != Verdict::None {
             out.push_str("No record was held out, so the result is not proven on data outside the fit (--holdout).\n");
@@ -88,15 +92,7 @@ impl Outcome<'_> {
                 rows.push(vec![estimate.name.clone(), significant(estimate.value, 4), unit, interval]);
             }
         }
-        let moved = if d.verdict == Verdict::Unknown { Vec::new() } else { self.moved() };
-        if !moved.is_empty() {
-            rows.push(["constant that moved (fitted)", "value", "sigma", "90 % interval"].map(str::to_owned).to_vec());
-        }
-        for constant in &moved {
-            let p = &constant.posterior;
-            let interval = p.ci90().map(|end| significant(end, 4)).join(" to ");
-            rows.push(vec![p.name.clone(), significant(p.value(), 4), format!("{:+.1}", constant.moved()), interval]);
-        }
+        rows.extend(self.moved_rows());
         for held in &self.holdouts {
             let file = held.record.name();
             rows.push(line(&format!("held-out record {file}"), "rms, deg/h".into(), ""));
@@ -127,6 +123,20 @@ impl Outcome<'_> {
             );
         }
         out
+    }
+
+    /// The constants that moved, below their head: value, standard deviations of what was known, 90 % interval. None where nothing explains the records.
+    pub(super) fn moved_rows(&self) -> Vec<Vec<String>> {
+        let suffices = self.diagnosis.verdict != Verdict::Unknown || self.law_name().is_some();
+        let moved = if suffices { self.moved() } else { Vec::new() };
+        let row = |constant: &Constant| {
+            let p = &constant.posterior;
+            let interval = p.ci90().map(|end| significant(end, 4)).join(" to ");
+            vec![p.name.clone(), significant(p.value(), 4), format!("{:+.1}", constant.moved()), interval]
+        };
+        let head = ["constant that moved (fitted)", "value", "sigma", "90 % interval"].map(str::to_owned).to_vec();
+        let all = moved.iter().map(row);
+        if moved.is_empty() { Vec::new() } else { std::iter::once(head).chain(all).collect() }
     }
 
     pub(super) fn verdict(&self) -> String {

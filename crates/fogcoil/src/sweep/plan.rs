@@ -95,6 +95,7 @@ fn checked(path: &Path, (file, own): (PlanFile, Fingerprint)) -> Result<Plan, Er
     let outputs = outputs(path, &file.outputs, case, &mut files)?;
     let is_band = file.vary.iter().all(|(_, varied)| *varied == Varied::Tolerance) && file.others == Others::WithinTolerances;
     let variants = variants(path, drawing, &file.vary, file.others, file.dimensions)?;
+    files.extend(variants.cells.iter().cloned());
     let groups: Vec<Group> =
         Group::ALL.into_iter().filter(|group| variants.factors.iter().any(|factor| factor.group == *group)).collect();
     let points = points(path, &file, &variants, &groups)?;

@@ -10,11 +10,8 @@ use super::follow::Dimensions;
 use super::value::Value;
 use super::varied::{Varied, normal};
 use crate::FileError;
-use crate::input::{CoilCase, check_coil, field_text, read_coil_with_text, with_fields};
-use files::Note;
-
-/// Most choices of a key that are looked at for warnings.
-const MOST_CHOICES: usize = 100;
+use crate::input::{CoilCase, Fingerprint, check_coil, field_text, read_coil_with_text, with_fields};
+use files::{Note, Remark};
 
 /// A drawing, with the text of its file.
 pub struct Drawing {
@@ -42,6 +39,8 @@ pub struct Variants {
     pub factors: Vec<Factor>,
     /// Whether the body follows the winding.
     pub dimensions: Dimensions,
+    /// Files of cells that choices name.
+    pub cells: Vec<Fingerprint>,
     text: String,
     /// Lower triangle that gives the numbers within their tolerances their correlations.
     mixing: DMatrix<f64>,
@@ -60,7 +59,7 @@ impl Variants {
     /// Variations of a drawing.
     pub fn new(Drawing { case, text }: Drawing, factors: Vec<Factor>, dimensions: Dimensions) -> Self {
         let mixing = mixing(&factors, &case.tolerances);
-        Self { case, factors, dimensions, text, mixing }
+        Self { case, factors, dimensions, cells: Vec::new(), text, mixing }
     }
 
     /// A design made of the drawing, with the drawing's text.
@@ -113,22 +112,23 @@ impl Variants {
         self.case_with(written).map(|case| case.design)
     }
 
-    /// Warnings of designs with one choice in place of the drawing's, that the drawing itself has not: each once.
-    pub(super) fn warnings_of_choices(&self) -> Vec<Note> {
-        let mut found: Vec<Note> = Vec::new();
+    /// Files of cells that choices name beside the drawing's, and warnings of such cells that the drawing has not: each once.
+    pub(super) fn cells_of_choices(&self) -> (Vec<Fingerprint>, Vec<Note>) {
+        let (mut files, mut warnings) = (Vec::new(), Vec::new());
         for (n, varied) in self.keys().filter(|(n, _)| self.factors[*n].is_choice()) {
             let count = varied.count().unwrap_or(0);
-            for place in 0..count.min(MOST_CHOICES) {
-                let value = varied.at((place as f64 + 0.5) / count as f64);
-                let warnings = self.case_with(&[(n, value)]).map_or(Vec::new(), |case| case.warnings);
-                for warning in warnings {
-                    if !self.case.warnings.contains(&warning) && !found.contains(&warning) {
-                        found.push(warning);
-                    }
-                }
+            let values = (0..count).map(|place| varied.at((place as f64 + 0.5) / count as f64));
+            for value in values.filter(|value| value.ron().contains("FromCell")) {
+                // a choice that no design can have says so in its rows
+                let Ok(case) = self.case_with(&[(n, value)]) else { continue };
+                // the first is the coil's own text
+                add_new(&mut files, case.fingerprints.into_iter().skip(1), &self.case.fingerprints);
+                let of_cells =
+                    |note: &Note| matches!(note.remark, Remark::OtherCell | Remark::OtherPitch | Remark::AnisotropicCell);
+                add_new(&mut warnings, case.warnings.into_iter().filter(of_cells), &self.case.warnings);
             }
         }
-        found
+        (files, warnings)
     }
 
     fn case_with(&self, written: &[(usize, Value)]) -> Result<CoilCase, String> {
@@ -166,6 +166,15 @@ impl Variants {
         let of = |(factor, u): (&Factor, &f64)| matches!(factor.kind, Kind::Tolerance(_)).then(|| normal(*u));
         let independent: Vec<f64> = self.factors.iter().zip(point).filter_map(of).collect();
         &self.mixing * DVector::from_vec(independent)
+    }
+}
+
+/// Adds those that are in neither list.
+fn add_new<T: PartialEq>(all: &mut Vec<T>, more: impl Iterator<Item = T>, known: &[T]) {
+    for one in more {
+        if !known.contains(&one) && !all.contains(&one) {
+            all.push(one);
+        }
     }
 }
 

@@ -58,6 +58,13 @@ impl Factor {
         Number::every().flat_map(of).collect()
     }
 
+    /// One key, or several that are given one value; of several the group that comes last.
+    pub(super) fn of_keys(key: &str, varied: &Varied) -> Self {
+        let one = Self { key: key.to_owned(), group: Group::Fibre, kind: Kind::Key(varied.clone()) };
+        let group = one.keys().map(Group::of).max().unwrap_or(Group::Fibre);
+        Self { group, ..one }
+    }
+
     /// Its keys, one by one.
     pub(super) fn keys(&self) -> impl Iterator<Item = &str> {
         self.key.split(TOGETHER).map(str::trim)

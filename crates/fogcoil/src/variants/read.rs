@@ -7,7 +7,6 @@ use serde::Deserialize;
 use super::design::{Drawing, Variants};
 use super::factor::{Factor, Kind};
 use super::follow::Dimensions;
-use super::group::Group;
 use super::varied::Varied;
 use crate::Error;
 use crate::input::{InputError, fault_in};
@@ -51,13 +50,17 @@ pub fn variants(
                 }
                 factors.extend(own.into_iter().cloned());
             }
-            _ => factors.push(Factor { key: key.clone(), group: Group::of(key), kind: Kind::Key(varied.clone()) }),
+            _ => factors.push(Factor::of_keys(key, varied)),
         }
     }
     if others == Others::WithinTolerances {
-        let known: Vec<String> = factors.iter().map(|factor| factor.key.clone()).collect();
+        let known: Vec<String> = factors.iter().flat_map(|factor| factor.keys().map(str::to_owned)).collect();
         let free = |factor: &Factor| !known.iter().any(|key| is_of(key, &factor.key) || *key == factor.key);
         factors.extend(toleranced.into_iter().filter(free));
+    }
+    let keys: Vec<&str> = factors.iter().flat_map(Factor::keys).collect();
+    if let Some(n) = (1..keys.len()).find(|n| keys[..*n].contains(&keys[*n])) {
+        return Err(in_plan(file, format!("{:?} varies by two keys", keys[n]), "name a field in one key of the plan only"));
     }
     if factors.is_empty() || factors.len() > MOST_FACTORS {
         let problem = format!("{} numbers and choices vary", factors.len());
@@ -65,7 +68,8 @@ pub fn variants(
     }
     let mut variants = Variants::new(drawing, factors, dimensions);
     check(file, &variants)?;
-    let warnings = variants.warnings_of_choices();
+    let (cells, warnings) = variants.cells_of_choices();
+    variants.cells = cells;
     variants.case.warnings.extend(warnings);
     Ok(variants)
 }

@@ -168,6 +168,17 @@ fn keys_that_belong_together_get_one_value() {
         stderr(&folder.run(&["sweep", "plan.ron", "--out", "mixed.csv"])).contains("[other-cell]")
     };
     assert!(warned(&keys("coil.material")) && !warned(&keys("coil.material and dehomogenization")));
+    // the dimensions of a coil that follows its winding are not those of the plan's text
+    let following = change(&keys("coil.material and dehomogenization"), "sampling", "dimensions: FollowWinding, sampling");
+    folder.write("plan.ron", &following);
+    assert!(!stderr(&folder.run(&["sweep", "plan.ron", "--out", "follow.csv"])).contains("warning"));
+    // rows of another content of a cell are rows of another plan
+    folder.write("plan.ron", keys("coil.material and dehomogenization"));
+    let share = |share: &str| folder.run(&["sweep", "plan.ron", "--out", "shares.csv", "--share", share]);
+    assert!(["1/2", "2/2"].iter().all(|k| share(k).status.code() == Some(0)));
+    folder.write("stiff.ron", change(CELL, "youngs_modulus_mpa: 5.593", "youngs_modulus_mpa: 12.0"));
+    let merged = folder.run(&["sweep", "plan.ron", "--out", "shares.csv", "--merge"]);
+    assert_eq!(merged.status.code(), Some(2), "{}", stderr(&merged));
 }
 
 #[test]
@@ -225,6 +236,10 @@ fn bad_plans_are_refused_and_nothing_is_written() {
         (change(good, "Uniform(3.0, 5.0)", "Uniform(-5.0, -3.0)"), "hub_thickness_mm"),
         (change(good, "Uniform(3.0, 5.0)", "Sometimes"), "plan.ron:1"),
         (change(good, vary, ""), "0 numbers and choices vary"),
+        (
+            change(good, vary, &format!("{vary}, \"spool.hub_thickness_mm and spool.hub_thickness_mm\": Uniform(2.0, 3.0)")),
+            "varies by two keys",
+        ),
         (change(good, vary, &format!("{vary}, {vary}")), "is given twice"),
         (change(good, vary, "\"optics.p11\": Tolerance"), "\"optics.p11\": has no tolerance"),
         (change(good, "Sobol(8)", "Sobol(0)"), "these are 0 points"),

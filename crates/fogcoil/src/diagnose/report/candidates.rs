@@ -5,10 +5,14 @@ use diagnosis::{Candidate, ForwardModel, Structure};
 use maud::{Markup, html};
 
 use crate::diagnose::Outcome;
+use crate::diagnose::apart::TOLD;
 use crate::table::odds;
 
 /// Most rows of the table of hypotheses.
 const MOST: usize = 8;
+
+/// Probability from which its ratio to another is no rounding.
+const LEAST: f64 = 1e-12;
 
 /// Hypotheses that differ in a choice alone.
 struct Group<'a> {
@@ -26,7 +30,8 @@ type Fits = Box<dyn Fn(&Candidate) -> bool>;
 impl Outcome<'_> {
     pub(super) fn candidates(&self) -> Markup {
         let d = &self.diagnosis;
-        let [.., library, _] = d.verdicts();
+        let [.., explained, _] = d.verdicts();
+        let library = explained - self.law_in_place().unwrap_or(0.0);
         let unnamed = self.gyro.mechanisms().iter().filter(|m| !m.named).count();
         html! {
             h3 { "Explanations" } "\n"
@@ -57,29 +62,44 @@ impl Outcome<'_> {
 
     fn hypotheses(&self) -> Markup {
         let groups = self.groups();
-        let (most, best) = groups.first().map_or((0.0, 0.0), |group| (group.probability, group.log_weight));
-        let mut all: Vec<(f64, String, f64)> =
-            groups.iter().map(|group| (group.log_weight - best, self.said(group), group.probability)).collect();
+        let best = groups.first().map_or(0.0, |group| group.log_weight);
+        let known = |group: &Group| (group.probability, self.said(group), Some(group.log_weight - best));
+        let mut all: Vec<(f64, String, Option<f64>)> = groups.iter().map(known).collect();
         if let Some((law, probability)) = self.law_beside() {
-            let ln = (probability.max(f64::MIN_POSITIVE) / most.max(f64::MIN_POSITIVE)).ln();
-            all.push((ln, law, probability));
+            all.push((probability, law, None));
             all.sort_by(|a, b| b.0.total_cmp(&a.0));
         }
-        let first = all.first().map_or(0.0, |(ln, ..)| *ln);
-        let said = |(ln, said, p): &(f64, String, f64)| vec![said.clone(), format!("{p:.3}"), significant(ln - first, 2)];
+        let first = all.first().map_or(1.0, |(p, ..)| *p);
+        // of a law and a candidate the probabilities tell the odds, down to what rounding leaves of them
+        let leads = all.first().is_some_and(|(.., ln)| ln.is_none());
+        let odds = |p: f64, ln: Option<f64>| match ln.filter(|_| !leads) {
+            Some(ln) => significant(ln, 2),
+            None if p > LEAST => significant((p / first).ln(), 2),
+            None => format!("below {}", significant(LEAST.ln(), 2)),
+        };
+        let said = |(p, said, ln): &(f64, String, Option<f64>)| vec![said.clone(), format!("{p:.3}"), odds(*p, *ln)];
         let rows: Vec<Vec<String>> = all.iter().take(MOST).map(said).collect();
         html! {
             details {
                 summary { "The " (rows.len()) " most probable hypotheses" } "\n"
                 (grid("The most probable hypotheses", Cells::Words, &["hypothesis", "probability", "ln odds to the first"], &rows))
+                @if let Some(before) = self.before_the_law() { p { (before) } "\n" }
             } "\n"
         }
+    }
+
+    /// A sentence on numbers that are of names alone, where a law in the place of one took its part.
+    fn before_the_law(&self) -> Option<String> {
+        let law = self.law_in_place().filter(|p| *p >= TOLD)?;
+        Some(format!(
+            "These numbers compare what has a name; under Explanations a law that nobody listed, which does the same, has taken {law:.3} of it."
+        ))
     }
 
     /// An accepted law, which is none of the candidates, with the probability that they leave.
     fn law_beside(&self) -> Option<(String, f64)> {
         let known: f64 = self.diagnosis.candidates.iter().map(|candidate| candidate.probability).sum();
-        self.law().map(|law| (law.name(), (1.0 - known).max(0.0)))
+        self.law_name().map(|law| (law, (1.0 - known).max(0.0)))
     }
 
     /// All candidates, most probable first.
@@ -156,6 +176,7 @@ impl Outcome<'_> {
                 in. A mechanism is excluded by its probability in all hypotheses together, as under Explanations."
             } "\n"
             (grid(&format!("ln odds of {name} over each rival"), Cells::Words, &["rival", "ln odds", "its best hypothesis"], &rows))
+            @if let Some(before) = self.before_the_law() { p { (before) } "\n" }
         }
     }
 

@@ -7,7 +7,7 @@ use mechanisms::{RATE, SPOOL};
 
 use super::course::{self, multiples};
 use super::spectrum;
-use crate::diagnose::{Held, NOMINAL, Outcome};
+use crate::diagnose::{Held, NOMINAL, Outcome, REFITTED};
 
 impl Outcome<'_> {
     pub(super) fn held_out(&self) -> Markup {
@@ -29,7 +29,8 @@ impl Outcome<'_> {
         } else if self.holdouts.iter().any(|held| !held.accepted) {
             "What was fitted predicts a held-out record worse than the nominal model: it is not accepted."
         } else {
-            "No parameter was adjusted to a held-out record. Even its rate offset is taken from the first fitted record."
+            "No parameter was adjusted to a held-out record. Errors are about the mean of the record where a channel's offset may be anything; the prediction itself, in \
+             the figure and by --prediction, has the offset of the first fitted record."
         };
         html! {
             (grid("Errors of the predictions", Cells::Words, &head, &rows))
@@ -40,7 +41,9 @@ impl Outcome<'_> {
 
     /// Predictions of a held-out record that are shown: the nominal model's, and the found model's where it is another.
     fn predictions<'a>(&self, held: &'a Held) -> Vec<(&'static str, &'a HeldOut)> {
-        let found = self.found().map(|name| (name, &held.model));
+        // of the design alone, offsets, gains and delays that the fitted records tell
+        let refitted = (held.model.rmse != held.nominal.rmse).then_some(REFITTED);
+        let found = self.found().or(refitted).map(|name| (name, &held.model));
         [(NOMINAL, &held.nominal)].into_iter().chain(found).collect()
     }
 

@@ -89,7 +89,7 @@ impl Outcome<'_> {
     /// A page that needs nothing but itself.
     pub fn report(&self) -> String {
         let mut parts = vec![
-            ("Finding", html! { (self.finding()) (self.candidates()) (self.rivals()) (self.parameters()) }),
+            ("Finding", html! { (self.finding()) (self.candidates()) (self.rivals()) (self.parameters()) (self.moved_table()) }),
             ("Recording and model", self.course()),
             ("Is what is left noise?", self.spectra()),
             ("Where the difference is", html! { (self.stages()) (self.place()) }),
@@ -145,7 +145,7 @@ impl Outcome<'_> {
                 rows.extend([row(self.id(active.mechanism), nice(meaning)), row("inspect", nice(inspection))]);
             }
         }
-        rows.extend(self.law().map(|law| row("it is like", nice(&law.name()))));
+        rows.extend(self.law_name().map(|law| row("it is like", nice(&law))));
         for other in self.others() {
             rows.extend(self.inspection(other).map(|inspection| row("or inspect", format!("{}, for {other}", nice(inspection)))));
         }
@@ -196,6 +196,7 @@ impl Outcome<'_> {
             rows.push(row("not told apart", format!("{alternatives} (see the next test)")));
         }
         rows.extend(self.doubts().iter().map(|doubt| row("doubt", nice(doubt))));
+        rows.extend(self.late().map(|late| row("late", late)));
         if let Some(structure) = self.structure() {
             rows.push(row("structure", nice(&structure)));
         }

@@ -12,6 +12,17 @@ const POINTS: usize = 400;
 const REACH: f64 = 5.0;
 
 impl Outcome<'_> {
+    /// Constants and instruments that the records put elsewhere than was known.
+    pub(super) fn moved_table(&self) -> Markup {
+        let rows = self.moved_rows();
+        let Some((_, moved)) = rows.split_first() else { return Markup::default() };
+        let head = ["constant or instrument", "value (fitted)", "standard deviations of what was known", "90 % interval"];
+        html! {
+            h3 { "Constants and instruments that moved" } "\n"
+            (grid("Constants and instruments that moved", Cells::Words, &head, moved))
+        }
+    }
+
     pub(super) fn parameters(&self) -> Markup {
         if let Some(law) = self.law() {
             return of_law(&law.text().1);

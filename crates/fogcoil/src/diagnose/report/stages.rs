@@ -20,7 +20,8 @@ impl Outcome<'_> {
             vec![s.stage.clone(), gain(s.gain), format!("{:.3}", s.probability), white]
         };
         let rows: Vec<Vec<String>> = stages.iter().map(row).collect();
-        let head = ["flexible input at", "ln evidence gained", "probability", "rate's residual, Ljung–Box"];
+        let head =
+            ["flexible input at", "ln evidence gained", "probability, of one smooth input alone", "rate's residual, Ljung–Box"];
         let restored = stages.iter().any(|s| s.whiteness.get(RATE).is_some_and(|p| *p >= spectrum::WHITE));
         let said = if restored {
             "Where several gain alike, this recording does not tell them apart."
@@ -39,19 +40,19 @@ impl Outcome<'_> {
         }
     }
 
-    /// A sentence on an explanation that acts where the flexible input gains little.
+    /// A sentence on an explanation that acts elsewhere than where one flexible input gains most.
     fn elsewhere(&self) -> Option<String> {
         /// Probability below which the two speak of different parts of the chain.
         const FAR: f64 = 0.05;
-        let explained = self.diagnosis.verdict == Verdict::Explained;
-        let mut acts = self.places().map(|(id, stage, _)| (id.to_owned(), stage.to_owned())).filter(|_| explained);
-        let share = |name: &str| self.diagnosis.stages.iter().find(|s| s.stage == name).map_or(1.0, |s| s.probability);
-        acts.find(|(_, stage)| share(stage) < FAR).map(|(id, stage)| {
-            format!(
-                "{id} acts in the {stage}, where the smooth input of the table below gains little: it cannot take that shape, or another part can as \
-                 well. Of mechanisms, the table of probabilities above counts; of parts, the one below is no proof."
-            )
-        })
+        let stages = &self.diagnosis.stages;
+        let first = stages.first().filter(|_| self.diagnosis.verdict == Verdict::Explained)?;
+        let own = |name: &str| stages.iter().find(|s| s.stage == name && s.probability < FAR);
+        let (id, own) = self.places().find_map(|(id, stage, _)| Some((id.to_owned(), own(stage)?)))?;
+        Some(format!(
+            "{id} acts in the {}. One smooth input there gains {:.1} of ln evidence, in the {} {:.1}. Such an input has not the law of a mechanism: which \
+             mechanism it is, the table of probabilities above says; this one is no proof of it.",
+            own.stage, own.gain, first.stage, first.gain
+        ))
     }
 
     fn layers(&self) -> Markup {
