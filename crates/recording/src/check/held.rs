@@ -69,3 +69,18 @@ impl Held {
         Finding::at(kind, Severity::Note, span, repeats.len(), repair)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Readings of five rows each, one of which was cut to a single row by a value that came early: the usual length is that of the others.
+    #[test]
+    fn exact_a_short_run_is_not_the_usual_one() {
+        let lengths = (0..42).map(|n| if n == 20 { 1 } else { 5 });
+        let values: Vec<f64> = lengths.enumerate().flat_map(|(n, rows)| vec![0.1 * ((7 * n) % 31) as f64; rows]).collect();
+        let found = held(&values, &vec![true; values.len()], 100.0).expect("a rhythm");
+        assert!((found.rows - (39.0 * 5.0 + 1.0) / 40.0).abs() < 1e-12, "{}", found.rows);
+        assert_eq!(found.fresh.iter().filter(|fresh| **fresh).count(), 42);
+    }
+}

@@ -98,3 +98,17 @@ fn groups(time: &[f64], mask: &[bool], group: usize, interval: f64) -> Vec<usize
     let stretches = used.chunk_by(|&a, &b| b == a + 1 && time[b] - time[a] <= GAP * interval);
     stretches.flat_map(|stretch| stretch.chunks_exact(group)).map(|rows| rows[0]).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_groups_stop_at_a_gap_whenever_the_clock_began() {
+        for start in [0.0, 1e6] {
+            let time = [0.0, 1.0, 2.0, 10.0, 11.0, 12.0].map(|t| start + t);
+            assert_eq!(groups(&time, &[true; 6], 2, 1.0), [0, 3]);
+            assert_eq!(groups(&time, &[true, true, true, true, false, true], 1, 1.0), [0, 1, 2, 3, 5]);
+        }
+    }
+}

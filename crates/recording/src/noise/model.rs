@@ -115,4 +115,11 @@ mod tests {
             assert!((drift_allan(x) / (2.0 * x / 3.0) - 1.0).abs() < 1e-5, "{x}");
         }
     }
+
+    /// White noise falls with the root of the time over the span of a mean, or, of momentary values, over the time between them.
+    #[test]
+    fn exact_white_noise_in_an_allan_plot() {
+        assert_eq!(NoiseModel::white(3.0, 2.0).allan_deviation(8.0, 99.0), 1.5);
+        assert_eq!(NoiseModel::white(3.0, 0.0).allan_deviation(8.0, 2.0), 1.5);
+    }
 }

@@ -147,4 +147,13 @@ mod tests {
             assert!((found - expected).abs() < 1e-12, "{rate:?}");
         }
     }
+
+    /// An interval of one and a half usual ones is no gap.
+    #[test]
+    fn exact_the_mean_over_a_long_interval() {
+        let (lag, time) = (30.0_f64, [0.0, 10.0, 20.0, 35.0]);
+        let state = |t: f64| 2.0 * (t - lag * (1.0 - (-t / lag).exp()));
+        let rate = lagging_rate(&time, &time.map(|t| 2.0 * t), lag, 10.0);
+        assert!((rate[3] - (state(35.0) - state(20.0)) / 15.0).abs() < 1e-12, "{rate:?}");
+    }
 }
