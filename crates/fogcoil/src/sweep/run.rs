@@ -83,7 +83,8 @@ pub fn merged(plan: &Plan, parts: &Parts) -> Result<Vec<Row>, Error> {
     let (count, folder) = (missing.iter().map(Range::len).sum::<usize>(), files::shown_path(parts.folder()));
     Err(Error::usage(format!(
         "{folder}: of {} rows of this plan by this program {count} are missing, the first from point {}; compute the shares that are not \
-         finished, or leave out --merge to compute what is missing here",
+         finished, or leave out --merge to compute what is missing here (rows from before a change of the plan, of the design, of a cell that they name, or of \
+         the program do not count)",
         plan.count(),
         first.start
     )))

@@ -9,6 +9,10 @@ use super::course::{self, multiples};
 use super::spectrum;
 use crate::diagnose::{Held, NOMINAL, Outcome, REFITTED};
 
+/// Meaning of the errors of a prediction.
+const ABOUT: &str = "Errors are about the mean of the record where a channel's offset may be anything; the prediction itself, in the figure and by \
+                     --prediction, has the offset of the first fitted record.";
+
 impl Outcome<'_> {
     pub(super) fn held_out(&self) -> Markup {
         let all = self.holdouts.iter().flat_map(|held| self.predictions(held).into_iter().map(move |shown| (held, shown)));
@@ -24,17 +28,16 @@ impl Outcome<'_> {
         let rows: Vec<Vec<String>> = all.map(row).collect();
         let head =
             ["prediction", "rms error [°/h]", "noise as identified [°/h]", "Ljung–Box, 30 lags", "thermometer, rms error [K]"];
-        let said = if self.diagnosis.verdict == Verdict::None {
-            "No effect was found, so the nominal model is the prediction."
-        } else if self.holdouts.iter().any(|held| !held.accepted) {
+        let said = if self.holdouts.iter().any(|held| !held.accepted) {
             "What was fitted predicts a held-out record worse than the nominal model: it is not accepted."
+        } else if self.diagnosis.verdict == Verdict::None {
+            "No effect was found: the prediction is that of the design as drawn, with the instruments as the fitted records tell them."
         } else {
-            "No parameter was adjusted to a held-out record. Errors are about the mean of the record where a channel's offset may be anything; the prediction itself, in \
-             the figure and by --prediction, has the offset of the first fitted record."
+            "No parameter was adjusted to a held-out record."
         };
         html! {
             (grid("Errors of the predictions", Cells::Words, &head, &rows))
-            p { (said) } "\n"
+            p { (said) " " (ABOUT) } "\n"
             (self.proof().element())
         }
     }

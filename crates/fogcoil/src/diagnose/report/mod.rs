@@ -152,6 +152,7 @@ impl Outcome<'_> {
         let likely = self.explanations().into_iter().filter(|e| e.open || e.probability >= TOLD);
         let sure: Vec<String> = likely.map(|e| format!("{} {:.2}", e.said(), e.probability)).collect();
         rows.push(row("how sure", format!("probability of {}", sure.join(", "))));
+        rows.extend(self.late().map(|late| row("late", late)));
         rows.extend(self.held_in_short().map(|said| row("proof", said)));
         rows.push(row("next", self.alternatives().unwrap_or_else(|| capital(&self.next()))));
         html! { (self.before_and_after().element()) (facts("The answer in short", &rows)) }
@@ -175,7 +176,8 @@ impl Outcome<'_> {
     fn held_in_short(&self) -> Option<String> {
         let held = self.holdouts.first()?;
         let of = |prediction: &HeldOut| significant(prediction.rmse[RATE], 3);
-        let model = self.found().map_or(String::new(), |name| format!(", of the {name} {}", of(&held.model)));
+        let refitted = (held.model.rmse != held.nominal.rmse).then_some(REFITTED);
+        let model = self.found().or(refitted).map_or(String::new(), |name| format!(", of the {name} {}", of(&held.model)));
         let noise = significant(held.model.noise_floor[RATE], 3);
         Some(format!(
             "on {}, held out, the error of the {NOMINAL} is {}{model} °/h; its noise is {noise} °/h (rms)",
