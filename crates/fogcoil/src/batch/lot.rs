@@ -94,7 +94,6 @@ pub(super) fn outliers(batch: &Batch) -> Vec<Outlier<'_>> {
         // of a peak the noise may decide which way it points
         let size = |value: f64| if *number == "peak" { value.abs() } else { value };
         let known: Vec<(&Row, f64)> = batch.rows.iter().filter_map(|(row, _)| Some((row, size(row.number(number)?)))).collect();
-        let signed = |row: &Row, size: f64| row.number(number).unwrap_or(size);
         if known.len() < FEWEST {
             continue;
         }
@@ -105,7 +104,13 @@ pub(super) fn outliers(batch: &Batch) -> Vec<Outlier<'_>> {
             let own = row.interval(number).map_or(0.0, |[low, high]| (high - low) / (2.0 * half));
             let distance = (value - middle) / scale.hypot(own);
             if scale > 0.0 && distance.abs() > FAR {
-                all.push(Outlier { unit: &row.unit, number, value: signed(row, value), median: middle, distance });
+                all.push(Outlier {
+                    unit: &row.unit,
+                    number,
+                    value: row.number(number).unwrap_or(value),
+                    median: middle,
+                    distance,
+                });
             }
         }
     }

@@ -275,6 +275,12 @@ impl Outcome<'_> {
         }
     }
 
+    /// Name of what was fitted beside the nominal model: what the verdict rests on, or, where the design suffices, the instruments, if they change the prediction of a
+    /// record held out.
+    fn fitted(&self, held: &Held) -> Option<&'static str> {
+        self.found().or((held.model.rmse != held.nominal.rmse).then_some(REFITTED))
+    }
+
     fn id(&self, mechanism: usize) -> &str {
         &self.gyro.mechanisms()[mechanism].id
     }

@@ -9,7 +9,7 @@ use mechanisms::{Extent, Naming, RATE as RATE_CHANNEL};
 
 use super::apart::TOLD;
 use super::constants::Constant;
-use super::{NOMINAL, Outcome, REFITTED};
+use super::{NOMINAL, Outcome};
 use crate::compose::StandIn;
 use crate::table::{significant, table};
 use crate::units::parameter_unit;
@@ -97,14 +97,8 @@ impl Outcome<'_> {
             let file = held.record.name();
             rows.push(line(&format!("held-out record {file}"), "rms, deg/h".into(), ""));
             rows.push(line(&format!("  {NOMINAL}"), significant(held.nominal.rmse[RATE_CHANNEL], 3), ""));
-            let fitted = significant(held.model.rmse[RATE_CHANNEL], 3);
-            match self.found() {
-                Some(name) => rows.push(line(&format!("  {name}"), fitted, "")),
-                // offsets, gains and delays that the fitted records tell
-                None if fitted != significant(held.nominal.rmse[RATE_CHANNEL], 3) => {
-                    rows.push(line(&format!("  {REFITTED}"), fitted, ""));
-                }
-                None => {}
+            if let Some(name) = self.fitted(held) {
+                rows.push(line(&format!("  {name}"), significant(held.model.rmse[RATE_CHANNEL], 3), ""));
             }
             rows.push(line("  noise as identified", significant(held.model.noise_floor[RATE_CHANNEL], 3), ""));
             if let Some(([nominal, model], name)) = self.thermometer(held).zip(self.found()) {

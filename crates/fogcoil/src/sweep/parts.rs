@@ -42,6 +42,11 @@ impl Parts {
         self.folder.join(format!("{}-{:08}-{:08}.{END}", &self.hash[..16], range.start, range.end))
     }
 
+    /// Beginning of the name of a file that is being written: of this plan alone.
+    fn begun(&self) -> String {
+        format!(".fogcoil-{}-", &self.hash[..16])
+    }
+
     fn check(&self, range: &Range<usize>, rows: &[u8]) -> Vec<u8> {
         let name = format!("{} {} {}\n", self.hash, range.start, range.end);
         Sha256::new().chain_update(name).chain_update(rows).finalize().to_vec()
@@ -66,16 +71,22 @@ impl Parts {
         let failed = |source: std::io::Error| Error::File(FileError::Output { file: path.clone(), source });
         let rows = postcard::to_stdvec(rows).map_err(|error| failed(std::io::Error::other(error)))?;
         fs::create_dir_all(&self.folder).map_err(failed)?;
-        let mut file = tempfile::Builder::new().prefix(".fogcoil-").tempfile_in(&self.folder).map_err(failed)?;
+        let mut file = tempfile::Builder::new().prefix(&self.begun()).tempfile_in(&self.folder).map_err(failed)?;
         file.write_all(&self.check(range, &rows)).and_then(|()| file.write_all(&rows)).map_err(failed)?;
         file.persist(&path).map(drop).map_err(|error| failed(error.error))
     }
 
-    /// Removes the rows of some ranges, and the folder if nothing else is in it.
+    /// Removes the rows of some ranges and what a killed run left half-written of this plan, and the folder if nothing else is in it.
     pub fn clear(&self, ranges: impl Iterator<Item = Range<usize>>) {
         for range in ranges {
             // what stays is only in the way
             let _ = fs::remove_file(self.path(&range));
+        }
+        let begun = self.begun();
+        for file in fs::read_dir(&self.folder).into_iter().flatten().flatten() {
+            if file.file_name().to_string_lossy().starts_with(&begun) {
+                let _ = fs::remove_file(file.path());
+            }
         }
         let _ = fs::remove_dir(&self.folder);
     }
@@ -108,8 +119,11 @@ mod tests {
             fs::write(parts.path(&(0..3)), &sound[..length]).unwrap();
             assert_eq!(parts.load(&(0..3)), None, "{length} bytes");
         }
+        // a run that was killed between writing and renaming
+        fs::write(parts.folder().join(parts.begun() + "x"), [0]).unwrap();
         other.clear(std::iter::once(0..3));
         assert!(parts.folder().exists(), "another plan's rows stay");
+        assert!(parts.folder().join(parts.begun() + "x").exists(), "and what it is writing");
         parts.clear([0..3, 3..6].into_iter());
         assert!(!parts.folder().exists());
     }

@@ -7,7 +7,7 @@ use mechanisms::{RATE, SPOOL};
 
 use super::course::{self, multiples};
 use super::spectrum;
-use crate::diagnose::{Held, NOMINAL, Outcome, REFITTED};
+use crate::diagnose::{Held, NOMINAL, Outcome};
 
 /// Meaning of the errors of a prediction.
 const ABOUT: &str = "Errors are about the mean of the record where a channel's offset may be anything; the prediction itself, in the figure and by \
@@ -44,9 +44,7 @@ impl Outcome<'_> {
 
     /// Predictions of a held-out record that are shown: the nominal model's, and the found model's where it is another.
     fn predictions<'a>(&self, held: &'a Held) -> Vec<(&'static str, &'a HeldOut)> {
-        // of the design alone, offsets, gains and delays that the fitted records tell
-        let refitted = (held.model.rmse != held.nominal.rmse).then_some(REFITTED);
-        let found = self.found().or(refitted).map(|name| (name, &held.model));
+        let found = self.fitted(held).map(|name| (name, &held.model));
         [(NOMINAL, &held.nominal)].into_iter().chain(found).collect()
     }
 

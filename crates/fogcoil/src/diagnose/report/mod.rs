@@ -176,8 +176,7 @@ impl Outcome<'_> {
     fn held_in_short(&self) -> Option<String> {
         let held = self.holdouts.first()?;
         let of = |prediction: &HeldOut| significant(prediction.rmse[RATE], 3);
-        let refitted = (held.model.rmse != held.nominal.rmse).then_some(REFITTED);
-        let model = self.found().or(refitted).map_or(String::new(), |name| format!(", of the {name} {}", of(&held.model)));
+        let model = self.fitted(held).map_or(String::new(), |name| format!(", of the {name} {}", of(&held.model)));
         let noise = significant(held.model.noise_floor[RATE], 3);
         Some(format!(
             "on {}, held out, the error of the {NOMINAL} is {}{model} °/h; its noise is {noise} °/h (rms)",
