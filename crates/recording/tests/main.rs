@@ -5,6 +5,7 @@ mod check;
 mod common;
 mod condition;
 mod exact_whitener;
+mod figures;
 mod held;
 mod identify;
 mod ramp;

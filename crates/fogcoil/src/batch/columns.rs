@@ -30,6 +30,7 @@ pub fn table(batch: &Batch) -> Table {
     columns.extend([
         text("first_mechanism", &|row| row.first.clone()),
         text("lot", &|row| row.lot.clone()),
+        text("shape", &|row| row.shape.clone()),
         text("warnings", &|row| joined(&row.warnings)),
     ]);
     columns.extend(parameters(batch));

@@ -61,8 +61,8 @@ pub struct Row {
     pub first: Option<String>,
     /// Parameters of the explanation: name, value and both ends of the 90 % interval.
     pub parameters: Vec<(String, [f64; 3])>,
-    /// Shape of a difference without a name: the law that was composed and accepted, or a description.
-    shape: Option<String>,
+    /// Shape of a difference that is unknown: the law that was composed and accepted, or a description.
+    pub(super) shape: Option<String>,
     /// Constants of the design as the records leave them.
     pub constants: Vec<Constant>,
     /// Reason why there is no diagnosis.
@@ -129,7 +129,7 @@ impl Row {
     /// Explanations that the records do not exclude, best first, in words; of a verdict that has a likelier rival, or one half as likely, the likeliest
     /// mechanism; of what has no name, its shape.
     pub(super) fn open(&self) -> String {
-        if let Some(shape) = self.shape.as_ref().filter(|_| self.verdict.as_deref() == Some("unknown")) {
+        if let Some(shape) = &self.shape {
             return shape.clone();
         }
         if let Some((first, probability)) = self.first.as_ref().zip(self.number("first_probability")).filter(|_| self.is_open()) {
@@ -180,8 +180,11 @@ fn of_verdict(diagnosis: &Value) -> Option<f64> {
     }
 }
 
-/// Shape of what has no name.
+/// Shape of what has no name, of a verdict that says so.
 fn shape(diagnosis: &Value) -> Option<String> {
+    if diagnosis["verdict"] != "unknown" {
+        return None;
+    }
     let composed = &diagnosis["composed"];
     let terms = composed["terms"].as_array().filter(|_| composed["accepted"] == true);
     let law: Vec<&str> = terms.into_iter().flatten().filter_map(|term| term["title"].as_str()).collect();

@@ -1,10 +1,11 @@
 //! A sweep as JSON. See docs/schema/sweep.schema.json.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::indices::Indices;
 use super::plan::Plan;
-use super::statistics::{Spread, Summary};
+use super::statistics::{Smallest, Spread, Summary};
+use crate::variants::Value as Varied;
 
 /// One object; sensitivities in (deg/h)/(degC/min), the rest in the unit of its name.
 pub fn json(plan: &Plan, summary: &Summary) -> Value {
@@ -22,9 +23,19 @@ pub fn json(plan: &Plan, summary: &Summary) -> Value {
         "seed": plan.seed,
         "inputs_sha256": plan.hash(),
         "outputs": summary.spreads.iter().map(spread).collect::<Vec<_>>(),
+        "smallest": summary.smallest.as_ref().map(smallest),
         "linear_sd": summary.linear_sd,
         "indices": summary.indices.as_ref().map(indices),
     })
+}
+
+fn smallest(smallest: &Smallest) -> Value {
+    let value = |value: &Varied| match value {
+        Varied::Number(value) => json!(value),
+        other => json!(other.shown()),
+    };
+    let values: Map<String, Value> = smallest.values.iter().map(|(key, told)| (key.clone(), value(told))).collect();
+    json!({"point": smallest.point, "total": smallest.total, "values": values})
 }
 
 fn indices(indices: &Indices) -> Value {

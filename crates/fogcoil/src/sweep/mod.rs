@@ -34,5 +34,5 @@ pub use points::{Points, Sampling};
 pub use report::report;
 pub use row::Row;
 pub use run::{Share, clear, merged, run};
-pub use statistics::{Spread, Summary};
+pub use statistics::{Smallest, Spread, Summary};
 pub use text::text;

@@ -22,6 +22,9 @@ pub fn report(plan: &Plan, summary: &Summary, rows: &[Row]) -> String {
         p {
             (summary.designs) " designs of " (plan.count()) " points, seed " (plan.seed) "."
             @if let Some((count, first)) = &summary.failed { " " (count) " points have no design; of the first: " (nice(first)) "." }
+            @if let Some(smallest) = &summary.smallest {
+                " The smallest sensitivity is " (significant(smallest.total, 3)) " (°/h)/(°C/min), at " (smallest.words()) "."
+            }
             @if let Some((linear, total)) = summary.linear_sd.zip(summary.total()) {
                 " The sensitivity has a standard deviation of " (significant(total.sd, 3)) " (°/h)/(°C/min); to first order in the tolerances "
                 (significant(linear, 3)) "."

@@ -6,6 +6,10 @@ use super::plan::Plan;
 use super::points::Sampling;
 use super::row::Row;
 use crate::Error;
+use crate::variants::{Kind, Value};
+
+/// Largest magnitude that is nothing but rounding, as the thermal phase of a steady ramp.
+const ROUNDING: f64 = 1e-12;
 
 /// Spread of a computed number over the designs.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,6 +24,34 @@ pub struct Spread {
     pub quantiles: [f64; 5],
 }
 
+/// The design whose sensitivity is smallest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Smallest {
+    /// Its point.
+    pub point: usize,
+    /// Its sensitivity \[(deg/h)/(degC/min)\].
+    pub total: f64,
+    /// What the plan states of it: key and value, in the unit of the key.
+    pub values: Vec<(String, Value)>,
+}
+
+impl Smallest {
+    /// Of the rows of a plan that states a key; of points within tolerances alone none is a design to build.
+    fn of(plan: &Plan, place: usize, rows: &[Row]) -> Option<Self> {
+        let totals = rows.iter().enumerate().filter_map(|(point, row)| Some((point, row.outputs[place]?)));
+        let (point, total) = totals.min_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
+        let stated = plan.variants.factors.iter().zip(&rows[point].values).filter(|(factor, _)| matches!(factor.kind, Kind::Key(_)));
+        let values: Vec<_> = stated.filter_map(|(factor, value)| Some((factor.key.clone(), value.clone()?))).collect();
+        (!values.is_empty()).then_some(Self { point, total, values })
+    }
+
+    /// Its point and values, in words.
+    pub(super) fn words(&self) -> String {
+        let values = self.values.iter().map(|(key, value)| format!("{key} {}", value.shown())).collect::<Vec<_>>().join(", ");
+        format!("point {}: {values}", self.point)
+    }
+}
+
 /// Summary of a sweep.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Summary {
@@ -29,6 +61,8 @@ pub struct Summary {
     pub failed: Option<(usize, String)>,
     /// Every number that is computed.
     pub spreads: Vec<Spread>,
+    /// The design with the smallest |S|, of a plan that states a key.
+    pub smallest: Option<Smallest>,
     /// Standard deviation of the sensitivity by its tolerances to first order, where the tolerances are all that varies.
     pub linear_sd: Option<f64>,
     /// Groups from which the spread of |S| comes.
@@ -47,6 +81,7 @@ impl Summary {
         let failed = rows.iter().filter_map(|row| row.problem.as_ref());
         let failed = failed.clone().next().map(|first| (failed.count(), first.clone()));
         let total = names.iter().position(|name| *name == TOTAL);
+        let smallest = total.and_then(|place| Smallest::of(plan, place, rows));
         let case = &plan.variants.case;
         let linear_sd = match total.filter(|_| plan.is_band) {
             Some(_) => Some(case.sensitivity_band()?.sd),
@@ -57,7 +92,7 @@ impl Summary {
             Indices::of(&plan.groups, &magnitudes, plan.seed)
         });
         let designs = rows.iter().filter(|row| row.problem.is_none()).count();
-        Ok(Self { designs, failed, spreads, linear_sd, indices })
+        Ok(Self { designs, failed, spreads, smallest, linear_sd, indices })
     }
 
     /// Spread of the sensitivity.
@@ -68,6 +103,7 @@ impl Summary {
 
 impl Spread {
     fn of(name: &'static str, mut values: Vec<f64>) -> Option<Self> {
+        values.iter_mut().filter(|value| value.abs() < ROUNDING).for_each(|value| *value = 0.0);
         values.sort_by(f64::total_cmp);
         let (count, last) = (values.len() as f64, values.len().checked_sub(1)?);
         let mean = values.iter().sum::<f64>() / count;

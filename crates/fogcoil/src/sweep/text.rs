@@ -17,11 +17,14 @@ pub fn text(plan: &Plan, summary: &Summary) -> String {
     }
     let head = ["", "mean", "sd", "least", "5 %", "median", "95 %", "largest", ""].map(str::to_owned).to_vec();
     let row = |s: &Spread| {
-        let numbers = [s.mean, s.sd].into_iter().chain(s.quantiles).map(|value| significant(without_rounding(value), 4));
+        let numbers = [s.mean, s.sd].into_iter().chain(s.quantiles).map(|value| significant(value, 4));
         std::iter::once(s.name.to_owned()).chain(numbers).chain([unit(s.name)]).collect::<Vec<_>>()
     };
     let rows: Vec<Vec<String>> = std::iter::once(head).chain(summary.spreads.iter().map(row)).collect();
     let _ = write!(out, "\n{}", table(&rows));
+    if let Some(smallest) = &summary.smallest {
+        let _ = writeln!(out, "\nsmallest |total|: {} (deg/h)/(degC/min) at {}", significant(smallest.total, 3), smallest.words());
+    }
     if let Some((linear, total)) = summary.linear_sd.zip(summary.total()) {
         let off = 100.0 * (total.sd / linear - 1.0);
         let _ = writeln!(
@@ -35,13 +38,6 @@ pub fn text(plan: &Plan, summary: &Summary) -> String {
         let _ = write!(out, "\n{}", of_groups(indices));
     }
     out
-}
-
-/// Largest magnitude that is nothing but rounding, as the thermal phase of a steady ramp.
-const ROUNDING: f64 = 1e-12;
-
-fn without_rounding(value: f64) -> f64 {
-    if value.abs() < ROUNDING { 0.0 } else { value }
 }
 
 pub(super) fn unit(name: &str) -> String {

@@ -48,6 +48,8 @@ fn tolerances_make_of_the_sensitivity_what_is_said_to_first_order() {
     assert!((sampled / linear - 1.0).abs() < 0.1, "{sampled} {linear}");
     let band: Value = serde_json::from_str(&stdout(&folder.run(&["sensitivity", "coil.ron", "--json"]))).unwrap();
     assert_eq!(band["tolerance_sd"], json["linear_sd"]);
+    // no design to build is the best of those that tolerances make
+    assert_eq!(json["smallest"], Value::Null);
     // what a plan draws is what the file says at its keys: E_r by 10 %, G with it
     let numbers = |key: &str| column(&folder, "t.csv", key).iter().map(|text| text.parse().unwrap()).collect::<Vec<f64>>();
     let modulus = numbers("coil.material.e_r_mpa");
@@ -138,6 +140,17 @@ fn a_grid_has_the_designs_that_a_user_would_write() {
     folder.write("other.ron", other);
     let alone: Value = serde_json::from_str(&stdout(&folder.run(&["sensitivity", "other.ron", "--json", "--quiet"]))).unwrap();
     assert_eq!(total[6].parse::<f64>().ok(), alone["total"].as_f64());
+    // the best design is told by its keys, and is the one of the table
+    let magnitude = |n: &usize| total[*n].parse::<f64>().unwrap().abs();
+    let best = (0..8).min_by(|a, b| magnitude(a).total_cmp(&magnitude(b))).unwrap();
+    let row = |key: &str| column(&folder, "g.csv", key)[best].clone();
+    let told = &json["smallest"];
+    assert_eq!((told["point"].as_u64(), told["total"].as_f64()), (Some(best as u64), total[best].parse().ok()));
+    let hub = told["values"]["spool.hub_thickness_mm"].as_f64();
+    assert_eq!(hub, row("spool.hub_thickness_mm").parse().ok());
+    for key in ["spool.flanges", "winding.cw_climbs"] {
+        assert_eq!(told["values"][key], row(key), "{key}");
+    }
 }
 
 /// Cells of one coil are exchanged in both places by one key; in one place alone they are warned of.
