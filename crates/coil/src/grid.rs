@@ -1,7 +1,7 @@
 //! Tensor-product meshes of the half-plane, graded towards the edges of the coil where bonded materials make stresses singular.
 
 use crate::layout::{CONTACT_SKIN, Layout, Region};
-use crate::{Error, Side};
+use crate::{Design, Error, Side};
 use fem_core::polynomial::{Lagrange, gauss_lobatto};
 use fem_core::{Edge, Measure, Mesh, ReferenceElement};
 use std::collections::HashMap;
@@ -23,8 +23,17 @@ pub struct MeshFineness {
 pub enum Domain {
     /// Coil and spool: enough for mechanics.
     Solids,
+    /// Coil, spool and what fills the gaps between them: heat flow where a film stands for the medium outside.
+    SolidsAndGaps,
     /// Everything to the chamber wall: heat flow.
     Chamber,
+}
+
+impl Domain {
+    /// Part that a design's heat flow takes.
+    pub(crate) fn of_heat(design: &Design) -> Self {
+        if design.heat.film.is_some() { Self::SolidsAndGaps } else { Self::Chamber }
+    }
 }
 
 /// Whether a bond that can open is open.
@@ -222,10 +231,8 @@ impl Grid {
         let mut cells = vec![None; columns * rows];
         for (cell, slot) in cells.iter_mut().enumerate() {
             let (i, j) = (cell % columns, cell / columns);
-            let region = layout.region((r_lines[i] + r_lines[i + 1]) / 2.0, (y_lines[j] + y_lines[j + 1]) / 2.0);
-            if region == Region::Medium && domain == Domain::Solids {
-                continue;
-            }
+            let middle = [(r_lines[i] + r_lines[i + 1]) / 2.0, (y_lines[j] + y_lines[j + 1]) / 2.0];
+            let Some(region) = layout.region_in(domain, middle[0], middle[1]) else { continue };
             let mut element = Vec::with_capacity((order + 1) * (order + 1));
             for k in 0..(order + 1) * (order + 1) {
                 let (a, b) = (i * order + k % (order + 1), j * order + k / (order + 1));

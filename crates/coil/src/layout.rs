@@ -1,6 +1,6 @@
 //! Rectangles of the (r, y) half-plane and their content.
 
-use crate::{Contact, Design, Error, Mechanics, Side};
+use crate::{Contact, Design, Domain, Error, Mechanics, Side};
 
 /// Thickness of the skin of the hub whose radial conductivity stands for a contact resistance \[m\]: thin enough to leave the hub's
 /// conduction and stiffness as they are (1/4000 of a wall of 4 mm).
@@ -51,8 +51,16 @@ pub struct Layout {
     pub chamber: Rectangle,
     /// Bore of the hub, or of the coil where there is no spool \[m\].
     pub bore: f64,
+    /// The medium between the coil and unbonded faces of the spool.
+    pub gaps: Vec<Rectangle>,
     /// Closed part of a bond that can open: flange and outer radius of the lasting bond \[m\].
     pub lasting_bond: Option<(Side, f64)>,
+}
+
+impl Rectangle {
+    fn holds(&self, r: f64, y: f64) -> bool {
+        self.r[0] <= r && r <= self.r[1] && self.y[0] <= y && y <= self.y[1]
+    }
 }
 
 impl Region {
@@ -106,7 +114,7 @@ impl Layout {
         let (inner, body) = (design.winding.inner_radius, &design.body);
         let coil = Rectangle { region: Region::Coil, r: [inner, body.outer_radius], y: [0.0, body.height] };
         let mut solids = vec![coil];
-        let mut bore = inner;
+        let (mut bore, mut gaps) = (inner, Vec::new());
         if let Some(spool) = &design.spool {
             let hub_outer = inner - spool.hub_contact.gap();
             bore = hub_outer - spool.hub_thickness;
@@ -119,6 +127,13 @@ impl Layout {
                 };
                 hub_y = [hub_y[0].min(y[0]), hub_y[1].max(y[1])];
                 let r = [bore, body.outer_radius + flange.overhang];
+                if near > 0.0 {
+                    let y = match flange.side {
+                        Side::Left => [-near, 0.0],
+                        Side::Right => [body.height, body.height + near],
+                    };
+                    gaps.push(Rectangle { region: Region::Medium, r: [hub_outer, body.outer_radius], y });
+                }
                 if skin(flange.contact, design.heat.flange_resistance(flange.side)) {
                     let y = match flange.side {
                         Side::Left => [-CONTACT_SKIN, 0.0],
@@ -127,6 +142,9 @@ impl Layout {
                     solids.push(Rectangle { region: Region::contact(flange.side), r: coil.r, y });
                 }
                 solids.push(Rectangle { region: Region::flange(flange.side), r, y });
+            }
+            if hub_outer < inner {
+                gaps.push(Rectangle { region: Region::Medium, r: [hub_outer, inner], y: coil.y });
             }
             if skin(spool.hub_contact, design.heat.hub_resistance) {
                 solids.push(Rectangle { region: Region::Contact, r: [hub_outer - CONTACT_SKIN, hub_outer], y: coil.y });
@@ -147,13 +165,23 @@ impl Layout {
             Mechanics::Opening(o) => Some((o.side, body.outer_radius - o.fraction * (body.outer_radius - inner))),
             _ => None,
         };
-        Ok(Self { solids, chamber, bore, lasting_bond })
+        Ok(Self { solids, chamber, bore, gaps, lasting_bond })
     }
 
     /// Filling of the point (r, y).
     pub fn region(&self, r: f64, y: f64) -> Region {
-        let inside = |s: &&Rectangle| s.r[0] <= r && r <= s.r[1] && s.y[0] <= y && y <= s.y[1];
-        self.solids.iter().find(inside).map_or(Region::Medium, |s| s.region)
+        self.solids.iter().find(|s| s.holds(r, y)).map_or(Region::Medium, |s| s.region)
+    }
+
+    /// Filling of the point (r, y), if it belongs to `domain`.
+    pub(crate) fn region_in(&self, domain: Domain, r: f64, y: f64) -> Option<Region> {
+        let belongs = |region: &Region| match domain {
+            _ if *region != Region::Medium => true,
+            Domain::Solids => false,
+            Domain::SolidsAndGaps => self.gaps.iter().any(|gap| gap.holds(r, y)),
+            Domain::Chamber => true,
+        };
+        Some(self.region(r, y)).filter(belongs)
     }
 }
 

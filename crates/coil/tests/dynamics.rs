@@ -145,6 +145,25 @@ fn bounds_heat_paths_act_in_the_right_direction() {
 }
 
 #[test]
+fn bounds_a_film_does_not_blow_into_gaps() {
+    // slow exchange: the lag is heat capacity over film and area, and the faces of a gap belong to no area
+    let lag = |hub: Contact, flange: Contact| {
+        let design = changed(|d| {
+            d.heat.film = Some(0.1);
+            let spool = spool(d);
+            spool.hub_contact = hub;
+            spool.flanges[0].contact = flange;
+        });
+        coil::ramp_lag(&design, &QUICK.resolution).expect("solve").sensor
+    };
+    let bonded = lag(Contact::Bonded, Contact::Bonded);
+    for (hub, flange) in [(Contact::Gap, Contact::Bonded), (Contact::Bonded, Contact::Gap), (Contact::Gap, Contact::Gap)] {
+        let loose = lag(hub, flange);
+        assert!((loose / bonded - 1.0).abs() < 0.02, "{hub:?} {flange:?}: {loose} against {bonded}");
+    }
+}
+
+#[test]
 fn exact_a_heater_settles_where_its_power_leaves_through_the_mount() {
     // nearly all heat leaves through the mount: its face sits at power / (conductance × area) above it, be it a flange's or the bare hub's
     for (flanged, outer, conductance) in [(true, 49.825e-3f64, 2000.0), (false, 43.5e-3, 20.0)] {

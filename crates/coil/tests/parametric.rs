@@ -121,7 +121,9 @@ fn the_full_chain_of_other_designs() {
     free.sensor.radius = 45e-3;
     let mut in_film = reference();
     in_film.heat.film = Some(8.0);
-    for design in [without_flange, with_two, free, in_film] {
+    let mut loose_in_film = in_film.clone();
+    crate::common::spool(&mut loose_in_film).flanges[0].contact = Contact::Gap;
+    for design in [without_flange, with_two, free, in_film, loose_in_film] {
         let model = modelled(&design);
         holds(&model, 2, &mut 7);
         heaters_settle(&model);

@@ -24,6 +24,6 @@ pub use effort::{Effort, MODULI};
 pub use model::{MODEL_SAFETY, ParametricModel, Projected};
 pub use parameter::{Parameter, Tolerance};
 pub use range::Range;
-pub(crate) use section::domain;
+
 pub use slopes::{Courses, Slopes};
 pub use tolerance::{Number, Tolerances};

@@ -27,7 +27,7 @@ impl Section {
     /// The section of `design`, with a skin at every bonded face.
     pub(super) fn new(design: &Design) -> Result<Self, Error> {
         let layout = Layout::with_skins(design, Skins::All)?;
-        let domain = domain(design);
+        let domain = Domain::of_heat(design);
         let rectangles = || layout.solids.iter().chain((domain == Domain::Chamber).then_some(&layout.chamber));
         let lines = [
             crate::grid::distinct(rectangles().flat_map(|s| s.r).collect()),
@@ -37,8 +37,7 @@ impl Section {
         let mut regions = Vec::new();
         for y in lines[1].windows(2).map(middle) {
             for r in lines[0].windows(2).map(middle) {
-                let region = layout.region(r, y);
-                regions.push((region != Region::Medium || domain == Domain::Chamber).then_some(region));
+                regions.push(layout.region_in(domain, r, y));
             }
         }
         Ok(Self { lines, regions })
@@ -98,9 +97,4 @@ impl Section {
             to[k] + (at[d] - from[k]) / (from[k + 1] - from[k]) * (to[k + 1] - to[k])
         })
     }
-}
-
-/// Part of the half-plane that a design's heat flow takes.
-pub(crate) fn domain(design: &Design) -> Domain {
-    if design.heat.film.is_some() { Domain::Solids } else { Domain::Chamber }
 }

@@ -5,11 +5,11 @@ use super::heat::Heat;
 use super::model::ParametricModel;
 use super::project::Fields;
 use super::range::Range;
-use super::section::{Section, domain};
+use super::section::Section;
 use super::structure::Structure;
 use super::turns::Turns;
 use crate::layout::Skins;
-use crate::{Bonds, Design, Error, Grid, Layout, MeshFineness};
+use crate::{Bonds, Design, Domain, Error, Grid, Layout, MeshFineness};
 use nalgebra::DVector;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -53,7 +53,7 @@ impl TryFrom<Stored> for ParametricModel {
     fn try_from(stored: Stored) -> Result<Self, Error> {
         let Stored { design, ranges, resolution, effort, section, temperatures, heat, structure, turns, coil_mean } = stored;
         let layout = Layout::with_skins(&design, Skins::All)?;
-        let grid = Grid::new(&layout, &resolution, domain(&design), Bonds::Closed)?;
+        let grid = Grid::new(&layout, &resolution, Domain::of_heat(&design), Bonds::Closed)?;
         Ok(Self { design, ranges, resolution, effort, section, grid, temperatures, heat, structure, turns, coil_mean })
     }
 }

@@ -96,7 +96,7 @@ pub(crate) struct Shifted {
 impl Shifted {
     /// Meshes a layout of `design`.
     pub(crate) fn new(layout: &Layout, design: &Design, resolution: &MeshFineness) -> Result<Self, Error> {
-        let domain = crate::parametric::domain(design);
+        let domain = Domain::of_heat(design);
         let grid = Grid::new(layout, resolution, domain, Bonds::Closed)?;
         let nodes = grid.mesh().nodes().len();
         let mut constraints = Constraints::new(nodes);
@@ -141,7 +141,7 @@ impl ThermalModel {
         if drives.first() != Some(&Drive::Chamber) {
             return Err(Error::Resolution("the first drive must be the chamber".into()));
         }
-        let domain = if design.heat.film.is_some() { Domain::Solids } else { Domain::Chamber };
+        let domain = Domain::of_heat(design);
         let grid = Grid::new(layout, resolution, domain, Bonds::Closed)?;
         let mesh = grid.mesh();
         let nodes = mesh.nodes().len();
@@ -228,7 +228,9 @@ impl ThermalModel {
 fn surface_edges(design: &Design, layout: &Layout, grid: &Grid, drives: &[Drive]) -> Vec<(usize, Edge, f64, Drive)> {
     let mut edges = Vec::new();
     if let Some(film) = design.heat.film {
-        edges.extend(grid.free_edges().into_iter().map(|(e, edge, _)| (e, edge, film, Drive::Chamber)));
+        // a gap is closed where it ends: a slit of 0.2 mm
+        let of_solids = grid.free_edges().into_iter().filter(|(.., region)| *region != Region::Medium);
+        edges.extend(of_solids.map(|(e, edge, _)| (e, edge, film, Drive::Chamber)));
     }
     for mount in &design.heat.mounts {
         let region = Region::end(design, mount.side);

@@ -102,7 +102,7 @@ fn whole(case: &CoilCase, layout: &Layout) -> Panel<'static> {
         arrows.push(Arrow { from: [at, to_mm(top)], to: [at, to_mm(chamber.r[1])], label: round(design.surroundings.margin) });
     }
     let place = [design.sensor.y, design.sensor.radius];
-    let domain = if film.is_some() { Domain::Solids } else { Domain::Chamber };
+    let domain = if film.is_some() { Domain::SolidsAndGaps } else { Domain::Chamber };
     let drawing = Drawing { areas, mesh: mesh(layout, domain), point: Some((mm(place), "thermometer".into())), arrows };
     panel("In the chamber, lengths in mm", drawing)
 }
