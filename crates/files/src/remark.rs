@@ -297,6 +297,10 @@ remarks! {
         "The model follows the recording far better with the rate negated.",
         "The answer is void if the sign is wrong.",
         "Check the sense of the gyro's axis and `winding.cw_climbs`.";
+    DoubtedDrawing "doubted-drawing":
+        "The model follows the recordings far better with one word of the drawing changed: a bond that is not there, or the side to which the winding climbs.",
+        "The answer seeks faults where the drawing may say wrongly how the unit is made.",
+        "Look at the unit, or ask its maker; put the word into the coil file if it is so.";
     DoubtedUnit "doubted-unit":
         "A unit that `calibrate` was given as a good one is explained better by a mechanism than by its constants.",
         "What it has of a fault goes into the constants of the lot.",

@@ -54,6 +54,7 @@ mod keys;
 pub mod measure;
 #[cfg(not(target_family = "wasm"))]
 pub mod optimise;
+mod other_drawing;
 pub mod picture;
 pub mod picture_cell;
 pub mod prepare;

@@ -157,6 +157,11 @@ impl Library {
         &self.models.drawing
     }
 
+    /// The design with its constants where the models are made about, and no path of heat at work.
+    pub(crate) fn unchanged(&self) -> &Design {
+        &self.unchanged
+    }
+
     /// Tolerances of a unit about the drawing.
     pub fn tolerances(&self) -> &Tolerances {
         &self.models.tolerances

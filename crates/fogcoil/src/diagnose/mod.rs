@@ -1,9 +1,11 @@
 //! `fogcoil diagnose`: recordings of a unit in; what differs from its design, and what most likely causes it, out.
 
 mod apart;
+mod as_drawn;
 mod columns;
 mod constants;
 mod doubts;
+mod drawing;
 mod extended;
 mod json;
 mod left;
@@ -130,6 +132,12 @@ pub fn diagnose<'m>(
         let explains = diagnosis.verdict != Verdict::Unknown || (!withdrawn.is_empty() && number < read.len());
         let answered = explains.then_some(answered.as_slice());
         notes.extend(columns::warning(&drawn, number, record, answered).map_err(coil)?);
+    }
+    if !matches!(diagnosis.verdict, Verdict::None | Verdict::Recalibrate) {
+        progress(Step::begins("drawings that differ in one word"));
+        let of_rate: Vec<f64> = answered[..read.len()].iter().map(|answered| answered[RATE_CHANNEL]).collect();
+        let of_rate = (diagnosis.verdict == Verdict::Explained).then_some(of_rate.as_slice());
+        notes.extend(drawing::warning(&drawn, case, &read, of_rate).map_err(coil)?);
     }
     let with_predictions =
         |(record, Judged { nominal, model, accepted, .. }): (Record, Judged)| Held { record, nominal, model, accepted };

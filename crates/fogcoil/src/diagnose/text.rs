@@ -135,14 +135,18 @@ impl Outcome<'_> {
 
     pub(super) fn verdict(&self) -> String {
         match self.misread() {
+            Some(note) if note.remark == Remark::DoubtedDrawing => {
+                format!("Void if the drawing is wrong in a word, as it seems. As it is drawn: {}", self.verdict_as_read())
+            }
             Some(_) => format!("Void if a column is read wrongly, as it seems. As it is read: {}", self.verdict_as_read()),
             None => self.verdict_as_read(),
         }
     }
 
-    /// The warning that a record seems to have columns exchanged or its rate negated, if there is one.
+    /// The warning that a record seems to have columns exchanged or its rate negated, or else that the drawing seems to be wrong, if there is one.
     pub(super) fn misread(&self) -> Option<&Note> {
-        self.notes.iter().find(|note| matches!(note.remark, Remark::ExchangedColumns | Remark::ReversedRate))
+        let first = |wanted: &[Remark]| self.notes.iter().find(|note| wanted.contains(&note.remark));
+        first(&[Remark::ExchangedColumns, Remark::ReversedRate]).or_else(|| first(&[Remark::DoubtedDrawing]))
     }
 
     fn verdict_as_read(&self) -> String {

@@ -13,6 +13,7 @@ use progress::Step;
 use crate::Error;
 use crate::cache::Cache;
 use crate::input::CoilCase;
+use crate::other_drawing::{OtherDrawing, other_drawings};
 use crate::prepare::library;
 use crate::recommend::{Limits, prepared, programmes};
 
@@ -37,6 +38,8 @@ pub struct Explained {
     pub constants: f64,
     /// Explanations, in the library's order.
     pub explanations: Vec<Explanation>,
+    /// What the design gives with one word of the drawing changed: key and value, and the sensitivity.
+    pub drawings: Vec<(String, f64)>,
     /// Tests that tell the plausible ones apart.
     pub tests: Vec<Test>,
 }
@@ -76,6 +79,8 @@ pub fn explain(
     let all = gyro.mechanisms().iter().enumerate();
     let explanations: Vec<Explanation> = all.flat_map(|(k, entry)| problem.explanations(entry, gyro.mechanism(k))).collect();
     let constants = constants(&gyro).map_err(coil)?;
+    let given = |other: OtherDrawing| Some((other.words, problem.sensitivity(&other.design, &MechanicalState::NOMINAL)?));
+    let drawings = other_drawings(&case.design).into_iter().filter_map(given).collect();
     let tests = test::tests(&gyro, &explanations, &programmes, progress).map_err(Error::of_diagnosis(&case.file))?;
     Ok(Explained {
         measured,
@@ -85,6 +90,7 @@ pub fn explain(
         recalibrate: (measured - nominal) / constants,
         constants,
         explanations,
+        drawings,
         tests,
     })
 }

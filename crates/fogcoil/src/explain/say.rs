@@ -41,6 +41,7 @@ pub fn json(e: &Explained) -> Value {
         "nominal": {"sensitivity": e.nominal, "numerical_error": e.error},
         "recalibrate": {"sigma": e.recalibrate, "verdict": verdict(e.recalibrate), "uncertainty": e.constants},
         "explanations": e.explanations.iter().map(of).collect::<Vec<_>>(),
+        "drawings": e.drawings.iter().map(|(words, total)| json!({"drawing": words, "sensitivity": total})).collect::<Vec<_>>(),
         "tests": e.tests.iter().map(test).collect::<Vec<_>>(),
     })
 }
@@ -80,6 +81,10 @@ pub fn text(case: &CoilCase, e: &Explained) -> String {
     rows.push(vec!["the design's own constants".into(), "-".into(), format!("{:+.1}", e.recalibrate), constants]);
     rows.extend(e.explanations.iter().filter_map(row));
     out.push_str(&table(&rows));
+    out.push('\n');
+    let drawings = e.drawings.iter().map(|(words, total)| vec![words.clone(), format!("{total:.3}")]);
+    let head = ["the drawing with one word changed", "gives"].map(str::to_owned).to_vec();
+    out.push_str(&table(&std::iter::once(head).chain(drawings).collect::<Vec<_>>()));
     out.push_str("\nUnable to change it:\n");
     for x in &e.explanations {
         if let Reach::Unable { why } = x.outcome {

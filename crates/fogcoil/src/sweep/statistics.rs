@@ -40,7 +40,8 @@ impl Smallest {
     fn of(plan: &Plan, place: usize, rows: &[Row]) -> Option<Self> {
         let totals = rows.iter().enumerate().filter_map(|(point, row)| Some((point, row.outputs[place]?)));
         let (point, total) = totals.min_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
-        let stated = plan.variants.factors.iter().zip(&rows[point].values).filter(|(factor, _)| matches!(factor.kind, Kind::Key(_)));
+        let stated =
+            plan.variants.factors.iter().zip(&rows[point].values).filter(|(factor, _)| matches!(factor.kind, Kind::Key(_)));
         let values: Vec<_> = stated.filter_map(|(factor, value)| Some((factor.key.clone(), value.clone()?))).collect();
         (!values.is_empty()).then_some(Self { point, total, values })
     }

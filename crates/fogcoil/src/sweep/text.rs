@@ -23,7 +23,8 @@ pub fn text(plan: &Plan, summary: &Summary) -> String {
     let rows: Vec<Vec<String>> = std::iter::once(head).chain(summary.spreads.iter().map(row)).collect();
     let _ = write!(out, "\n{}", table(&rows));
     if let Some(smallest) = &summary.smallest {
-        let _ = writeln!(out, "\nsmallest |total|: {} (deg/h)/(degC/min) at {}", significant(smallest.total, 3), smallest.words());
+        let _ =
+            writeln!(out, "\nsmallest |total|: {} (deg/h)/(degC/min) at {}", significant(smallest.total, 3), smallest.words());
     }
     if let Some((linear, total)) = summary.linear_sd.zip(summary.total()) {
         let off = 100.0 * (total.sd / linear - 1.0);

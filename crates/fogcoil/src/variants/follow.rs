@@ -21,6 +21,9 @@ const HEIGHT: &str = "coil.height_mm";
 const ODD: &str = "winding.turns_odd_layers";
 const EVEN: &str = "winding.turns_even_layers";
 const SAGNAC: &str = "optics.sagnac_diameter_mm";
+const INNER: &str = "winding.inner_radius_mm";
+const HUB: &str = "spool.hub_thickness_mm";
+const SENSOR: [&str; 2] = ["sensor.radius_mm", "sensor.y_mm"];
 
 fn is_varied(edits: &[(String, String)], key: &str) -> bool {
     edits.iter().any(|(edited, _)| edited == key)
@@ -38,7 +41,7 @@ impl Dimensions {
         };
         let pitch = number("winding.pitch_mm", to_mm(spec.pitch));
         let odd = number(ODD, spec.turns_odd_layers as f64);
-        let inner = number("winding.inner_radius_mm", to_mm(spec.inner_radius));
+        let inner = number(INNER, to_mm(spec.inner_radius));
         let layers = number("winding.layers", spec.layers as f64);
         let mut room = Vec::new();
         if is_varied(edits, ODD) && !is_varied(edits, EVEN) {
@@ -46,6 +49,14 @@ impl Dimensions {
         }
         // a layer is no higher than a pitch, a row of turns no longer than one turn more
         let bounds = [(OUTER_RADIUS, inner + (layers + 1.0) * pitch), (HEIGHT, (odd + 2.0) * pitch)];
+        let design = &case.design;
+        if let Some(hub) = design.spool.as_ref().map(|spool| to_mm(spool.hub_thickness))
+            && SENSOR.iter().all(|key| !is_varied(edits, key))
+        {
+            // from the bore, where a thermometer would else be left in the air
+            let moved = inner - to_mm(spec.inner_radius) - (number(HUB, hub) - hub);
+            room.push((SENSOR[0].to_owned(), format!("{}", to_mm(design.sensor.radius) + moved)));
+        }
         let free = bounds.into_iter().filter(|(key, _)| !is_varied(edits, key));
         room.extend(free.map(|(key, bound)| (key.to_owned(), format!("{bound}"))));
         room
@@ -65,7 +76,7 @@ impl Dimensions {
         if !varied(HEIGHT) {
             design.body.height = before.body.height + reach[1];
         }
-        if !varied("sensor.radius_mm") && !varied("sensor.y_mm") {
+        if SENSOR.iter().all(|key| !varied(key)) {
             let hub =
                 |design: &coil::Design| design.winding.inner_radius - design.spool.as_ref().map_or(0.0, |s| s.hub_thickness);
             design.sensor.radius = before.sensor.radius + hub(design) - hub(before);

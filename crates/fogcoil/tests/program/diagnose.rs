@@ -62,9 +62,14 @@ const RAMPS: [(f64, f64); 8] = [
 
 /// Rows of a simulation of the reference coil under a profile.
 fn simulated(folder: &Folder, profile: &str, step: &[&str]) -> Vec<Vec<f64>> {
+    simulated_as(folder, "coil.ron", profile, step)
+}
+
+/// The same of a unit that is made otherwise.
+fn simulated_as(folder: &Folder, unit: &str, profile: &str, step: &[&str]) -> Vec<Vec<f64>> {
     folder.write("coil.ron", COIL);
     folder.write("profile.csv", profile);
-    let arguments = [&["simulate", "coil.ron", "--profile", "profile.csv", "--out", "fine.csv"], step].concat();
+    let arguments = [&["simulate", unit, "--profile", "profile.csv", "--out", "fine.csv"], step].concat();
     let output = folder.run(&arguments);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let fine = std::fs::read_to_string(folder.path("fine.csv")).unwrap();
@@ -73,8 +78,12 @@ fn simulated(folder: &Folder, profile: &str, step: &[&str]) -> Vec<Vec<f64>> {
 
 /// The same under [`RAMPS`], every 20 s.
 fn under_ramps(folder: &Folder) -> Vec<Vec<f64>> {
+    under_ramps_as(folder, "coil.ron")
+}
+
+fn under_ramps_as(folder: &Folder, unit: &str) -> Vec<Vec<f64>> {
     let rows = RAMPS.map(|(t, chamber)| format!("{t},{chamber}\n")).concat();
-    simulated(folder, &format!("time_s,chamber_c\n{rows}"), &["--step", "20"])
+    simulated_as(folder, unit, &format!("time_s,chamber_c\n{rows}"), &["--step", "20"])
 }
 
 /// About normal, of standard deviation 0.8.
@@ -180,6 +189,45 @@ fn compensated(taken: f64) {
     assert_eq!((&json["verdict"], &json["named"]["id"]), (&"explained".into(), &"compensated-rate".into()), "{json}");
     let ci = &json["parameters"]["compensated_fraction"]["ci90"];
     assert!(ci[0].as_f64().unwrap() < taken && taken < ci[1].as_f64().unwrap(), "{taken}: {json}");
+}
+
+/// A rate whose sign was changed is one that is compensated twice, to the digit: the mistake comes first, as nothing has to be fitted for it.
+#[test]
+fn a_rate_of_the_other_sign_is_no_compensation() {
+    let folder = Folder::new();
+    let logged = logged(&folder, &under_ramps(&folder), -1.0);
+    let said = diagnosed(&folder, &logged);
+    assert!(said.contains("[reversed-rate]") && said.contains("\nVoid if a column is read wrongly, as it seems."), "{said}");
+}
+
+/// A flange that the drawing has bonded and the unit has not: no mechanism is that, and others would be named.
+#[test]
+fn a_word_of_the_drawing_that_is_wrong_comes_before_faults() {
+    let folder = Folder::new();
+    folder.write("unit.ron", change(COIL, "overhang_mm: 1.0, bonded: true", "overhang_mm: 1.0, bonded: false"));
+    let unit = under_ramps_as(&folder, "unit.ron");
+    let said = diagnosed(&folder, &logged(&folder, &unit, 1.0));
+    assert!(said.contains("with spool.flanges[0].bonded: false (the right one)") && said.contains("[doubted-drawing]"), "{said}");
+    assert!(said.contains("\nVoid if the drawing is wrong in a word, as it seems. As it is drawn: "), "{said}");
+    assert!(said.contains("\nNext: Look at the unit"), "{said}");
+}
+
+/// Minutes of a simulation as a logger writes them, the rate times a sign.
+fn logged(folder: &Folder, fine: &[Vec<f64>], sign: f64) -> &'static str {
+    let rows = (3..fine.len()).step_by(3).map(|n| {
+        let rate = 3.0 + fine[n - 2..=n].iter().map(|row| row[6]).sum::<f64>() / 3.0;
+        let [chamber, spool] = [(1, 31), (2, 77)].map(|(column, seed)| fine[n][column] + 0.02 * noise(n + seed));
+        format!("{},{chamber:.2},{spool:.2},{:.5}\n", fine[n][0], sign * rate + 0.01 * noise(n))
+    });
+    folder.write("r.csv", "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &rows.collect::<String>());
+    "r.csv"
+}
+
+/// What a diagnosis of a record says.
+fn diagnosed(folder: &Folder, record: &str) -> String {
+    let output = folder.run(&["diagnose", "coil.ron", "--fit", record]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    stdout(&output)
 }
 
 /// The order of records and of flags and the number of threads change no digit of an answer; the clock's zero and the rate's unit round its numbers otherwise.

@@ -291,6 +291,27 @@ fn a_tail_of_a_winding_that_cancels_is_the_same_beside_other_constants() {
     }
 }
 
+/// A unit far from its drawing: the model is made about the unit, and is no measure of what the drawing does.
+#[test]
+fn a_film_far_off_the_drawing_leaves_nothing_of_the_thermometer() {
+    let dehomogenization = "    dehomogenization: Matrix";
+    let coil = change(COIL, dehomogenization, &format!("    heat: (film_w_per_m2k: Some(14.0)),\n{dehomogenization}"));
+    let drawn = under_the_record(library_of(&coil));
+    let told = |n: &Nuisance| n.parameter.prior.value(if n.parameter.name == "film coefficient" { -2.8 } else { 0.0 });
+    let u: Vec<f64> = drawn.nuisances().iter().map(told).collect();
+    let (film, value) = drawn.nuisances().iter().zip(&u).find(|(n, _)| n.parameter.name == "film coefficient").unwrap();
+    let unit = with_constant(drawn.library().design(), &film.parameter.name, *value).unwrap();
+    let gyro = drawn.about(&u, &[]).unwrap().unwrap();
+    let missed = gyro.missed(0, &u, &[], &unit).unwrap().unwrap();
+    let as_drawn = gyro.in_full(0, drawn.library().design()).unwrap();
+    let of_unit = gyro.in_full(0, &unit).unwrap();
+    for (channel, most) in [(SPOOL, 1e-3), (RATE_CHANNEL, 1e-2)] {
+        let effect = rms(of_unit[channel].iter().zip(&as_drawn[channel]).map(|(a, b)| a - b));
+        let off = rms(missed[channel].iter().copied()) / effect;
+        assert!(off < most, "{channel}: {off} of {effect}");
+    }
+}
+
 #[test]
 #[ignore = "minutes"]
 fn any_two_mechanisms_act_together_as_a_full_simulation_has_it() {

@@ -217,6 +217,22 @@ fn a_body_follows_its_winding_and_what_cannot_be_says_why() {
     assert!(json["failed"].as_u64().unwrap() >= 3 && problems.contains("set it to 80 or to one less"), "{json} {problems}");
 }
 
+/// Its thermometer at the bore follows a hub of another thickness, so that it is never left in the air, where a film says nothing.
+#[test]
+fn a_thermometer_at_the_bore_stays_there() {
+    let plan = "(design: \"coil.ron\", sampling: Grid, vary: {\"spool.hub_thickness_mm\": Steps(1.5, 6.0, 10)}, dimensions: FollowWinding)";
+    let folder = with_plan(plan);
+    let dehomogenization = "    dehomogenization: Matrix";
+    folder.write(
+        "coil.ron",
+        change(COIL, dehomogenization, &format!("    heat: (film_w_per_m2k: Some(14.0)),\n{dehomogenization}")),
+    );
+    let json = swept(&folder, &["plan.ron", "--out", "f.csv"]);
+    assert_eq!((&json["designs"], &json["failed"]), (&10.into(), &0.into()), "{json}");
+    folder.write("plan.ron", change(plan, "FollowWinding", "AsDrawn"));
+    assert!(swept(&folder, &["plan.ron", "--out", "d.csv"])["failed"].as_u64().unwrap() > 0);
+}
+
 #[test]
 fn the_spread_comes_from_the_part_that_varies() {
     let varied = "\"spool.material.thermal_expansion_per_k\": Normal(23.6e-6, 0.5e-6), \"winding.tails_m\": Tolerance";

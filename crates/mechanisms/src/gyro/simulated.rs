@@ -8,7 +8,7 @@ use coil::{Design, Drive, Dynamics, Error, Profile, STANDARD};
 use diagnosis::{Active, Role};
 
 impl Gyro<'_> {
-    /// Change of thermometer \[K\] and rate \[deg/h\] that `design` makes of the drawing in the rows of a record, by full solutions, less the change that
+    /// Change of thermometer \[K\] and rate \[deg/h\] from the design that this model is made about to `design` in the rows of a record, by full solutions, less the change that
     /// this model says constants `u` and mechanisms at work make: channel by channel, as [`Self::respond`]. Instruments read both alike.
     ///
     /// `None` where a design has heaters: when they were switched on is no part of it.
@@ -16,27 +16,35 @@ impl Gyro<'_> {
     /// # Errors
     /// [`Error`] names the dimension or property at fault, or the solve that failed.
     pub fn missed(&self, record: usize, u: &[f64], active: &[Active], design: &Design) -> Result<Option<Vec<Vec<f64>>>, Error> {
-        let drawing = self.library().design();
-        if !design.heat.heaters.is_empty() || !drawing.heat.heaters.is_empty() {
+        if [design, self.library().design()].iter().any(|design| !design.heat.heaters.is_empty()) {
             return Ok(None);
         }
+        // this model is exact where it is made about, and the drawing may be far from there
         let mut undisturbed = u.to_vec();
-        for (value, nuisance) in undisturbed.iter_mut().zip(&self.nuisances) {
+        for ((value, nuisance), here) in undisturbed.iter_mut().zip(&self.nuisances).zip(self.here()) {
             if nuisance.role == Role::Constant {
-                *value = nuisance.parameter.prior.value(0.0);
+                *value = here;
             }
         }
-        let (changed, drawn) = (self.respond(record, u, active)?, self.respond(record, &undisturbed, &[])?);
-        let (full, full_drawn) = (in_full(&self.records[record], design)?, in_full(&self.records[record], drawing)?);
+        let (changed, exact) = (self.respond(record, u, active)?, self.respond(record, &undisturbed, &[])?);
+        let (full, full_exact) = (self.in_full(record, design)?, self.in_full(record, self.library().unchanged())?);
         let missed = |channel: usize| {
             let rows = 0..changed[channel].len();
-            rows.map(|n| full[channel][n] - full_drawn[channel][n] - (changed[channel][n] - drawn[channel][n])).collect()
+            rows.map(|n| full[channel][n] - full_exact[channel][n] - (changed[channel][n] - exact[channel][n])).collect()
         };
         Ok(Some((0..changed.len()).map(missed).collect()))
     }
+
+    /// Thermometer \[°C\] and rate \[deg/h\] of any design in the rows of a record, by a full solution from rest, as instruments without an error read
+    /// them: channel by channel, as [`Self::respond`].
+    ///
+    /// # Errors
+    /// As [`Self::missed`].
+    pub fn in_full(&self, record: usize, design: &Design) -> Result<[Vec<f64>; 2], Error> {
+        in_full(&self.records[record], design)
+    }
 }
 
-/// Thermometer \[°C\] and rate \[deg/h\] of a design in the rows of a record.
 fn in_full(record: &Prepared, design: &Design) -> Result<[Vec<f64>; 2], Error> {
     let clock = Clock::new(&record.time, &record.chamber, record.averaging);
     let profile = Profile { time: clock.time.clone(), drives: vec![clock.chamber.clone()] };

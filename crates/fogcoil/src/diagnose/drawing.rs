@@ -1,0 +1,56 @@
+//! A drawing that is wrong in one word, or of another unit: it explains at once what faults would have to.
+
+use files::{Note, Remark};
+use mechanisms::{Gyro, RATE as RATE_CHANNEL};
+
+use super::as_drawn::{AsDrawn, spread};
+use super::rms;
+use crate::input::CoilCase;
+use crate::other_drawing::other_drawings;
+use crate::prepare::Record;
+use crate::table::significant;
+
+/// Least ratio of what the drawing leaves to what the other one leaves at which that is reported: nine tenths of the variance go with one word.
+const RATIO: f64 = 3.0;
+
+/// The warning that another drawing follows the fitted records far better: `gyro` is the design as it is, `answered` what the answer leaves of the rate in each record, rms;
+/// `None` without an answer.
+pub(super) fn warning(
+    gyro: &Gyro,
+    case: &CoilCase,
+    records: &[Record],
+    answered: Option<&[f64]>,
+) -> Result<Option<Note>, coil::Error> {
+    // when heaters were switched on is no part of a design
+    if !case.design.heat.heaters.is_empty() {
+        return Ok(None);
+    }
+    let drawn = (0..records.len()).map(|n| AsDrawn::of(gyro, n)).collect::<Result<Vec<_>, _>>()?;
+    let full = (0..records.len()).map(|n| gyro.in_full(n, &case.design)).collect::<Result<Vec<_>, _>>()?;
+    let rate = |n: usize| &records[n].observed.channels[RATE_CHANNEL];
+    let numbers = 0..records.len();
+    let left: Vec<f64> = numbers.clone().map(|n| spread(rate(n), &drawn[n].predicted[RATE_CHANNEL], 1.0)).collect();
+    let mut best: Option<(f64, String)> = None;
+    for other in other_drawings(&case.design) {
+        let would = |n: usize| -> Result<f64, coil::Error> {
+            let (own, changed) = (&drawn[n].predicted[RATE_CHANNEL], gyro.in_full(n, &other.design)?);
+            let change = changed[RATE_CHANNEL].iter().zip(&full[n][RATE_CHANNEL]).map(|(a, b)| a - b);
+            let predicted: Vec<f64> = own.iter().zip(change).map(|(own, change)| own + change).collect();
+            Ok(spread(rate(n), &predicted, 1.0))
+        };
+        // one that cannot be solved is none
+        let Ok(would) = numbers.clone().map(would).collect::<Result<Vec<f64>, _>>() else { continue };
+        let as_much = numbers.clone().all(|n| drawn[n].explains_as_much(would[n], answered.map(|answered| answered[n])));
+        let would = rms(&would);
+        if as_much && RATIO * would < rms(&left) && best.as_ref().is_none_or(|(least, _)| would < *least) {
+            best = Some((would, other.words));
+        }
+    }
+    Ok(best.map(|(would, words)| {
+        let [left, would] = [rms(&left), would].map(|r| significant(r, 2));
+        let text = format!(
+            "the drawing may be wrong in one word: as it stands it leaves {left} deg/h rms of the fitted records, with {words} {would}, and nothing fitted"
+        );
+        Remark::DoubtedDrawing.warning(text).at(&case.file)
+    }))
+}
