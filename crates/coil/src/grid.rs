@@ -385,7 +385,7 @@ mod tests {
         let [a, b] = [0.03, 0.05];
         let coil = crate::Rectangle { region: Region::Coil, r: [a, b], y: [0.0, 0.02] };
         let chamber = crate::Rectangle { region: Region::Medium, r: [0.0, 0.06], y: [-0.01, 0.03] };
-        let layout = Layout { solids: vec![coil], chamber, bore: a, lasting_bond: None };
+        let layout = Layout { solids: vec![coil], chamber, bore: a, gaps: Vec::new(), lasting_bond: None };
         let resolution = MeshFineness { order: 3, layers: 1, ratio: 0.2 };
         let grid = Grid::new(&layout, &resolution, Domain::Chamber, Bonds::Closed).unwrap();
         let mean: f64 = grid.coil_mean().unwrap().iter().zip(grid.mesh().nodes()).map(|(m, [r, _])| m * r).sum();

@@ -99,9 +99,9 @@ impl Inputs<'_> {
         (finding, page)
     }
 
-    /// The figures of the unit.
+    /// The figures of the unit: one that was held out of the fit is measured as well.
     fn measured(&self, unit: &Read) -> Value {
-        let all: Vec<Measurement> = unit.fits.iter().filter_map(|record| measure(record).ok()).collect();
+        let all: Vec<Measurement> = unit.fits.iter().chain(&unit.holdouts).filter_map(|record| measure(record).ok()).collect();
         of_unit(&all).map_or(Value::Null, |figures| measure::json(&figures, Some(self.prediction)))
     }
 }

@@ -124,6 +124,27 @@ fn checked(path: &Path, (file, fingerprint): (LimitsFile, Fingerprint)) -> Resul
     Ok(Limits { limits, judged_by: file.judged_by, verdicts: file.verdicts, fingerprint })
 }
 
+/// Between the name of a number and the reason why it is not known.
+const NOT_KNOWN: &str = " is not known: ";
+
+/// Reasons of which each is said once, with all numbers that are not known for it.
+fn merged(reasons: Vec<String>) -> Vec<String> {
+    let mut merged: Vec<(Vec<String>, String)> = Vec::new();
+    for reason in reasons {
+        let (name, why) = reason.split_once(NOT_KNOWN).map_or((String::new(), reason.as_str()), |(name, why)| (name.to_owned(), why));
+        match merged.iter_mut().find(|(names, known)| known == why && !names[0].is_empty()) {
+            Some((names, _)) => names.push(name),
+            None => merged.push((vec![name], why.to_owned())),
+        }
+    }
+    let said = |(names, why): (Vec<String>, String)| match names.as_slice() {
+        [name] if name.is_empty() => why,
+        [name] => format!("{name}{NOT_KNOWN}{why}"),
+        _ => format!("{} are not known: {why}", names.join(", ")),
+    };
+    merged.into_iter().map(said).collect()
+}
+
 impl Limit {
     fn ends(self) -> [f64; 2] {
         match self {
@@ -165,6 +186,7 @@ impl Limits {
                 Kept::NotKnown(reason) => not_known.push(reason),
             }
         }
+        let not_known = merged(not_known);
         match (broken.is_empty(), not_known.is_empty()) {
             (true, true) => Judged::Passes,
             (true, false) => Judged::NotKnown(not_known),
@@ -174,8 +196,8 @@ impl Limits {
 
     fn kept(&self, name: &str, limit: Limit, row: &Row) -> Kept {
         let Some(value) = row.number(name) else {
-            let why = row.why(name).map_or(String::new(), |why| format!(": {why}"));
-            return Kept::NotKnown(format!("{name} is not known{why}"));
+            let why = row.why(name).map(|why| format!("{name}{NOT_KNOWN}{why}"));
+            return Kept::NotKnown(why.unwrap_or_else(|| format!("{name} is not known")));
         };
         let ([least, most], interval) = (limit.ends(), row.interval(name));
         if let Some([low, high]) = interval.filter(|[low, high]| high - low > most - least && *low < most && *high > least) {
@@ -241,6 +263,9 @@ mod tests {
     #[test]
     fn what_is_not_known_neither_passes_nor_fails() {
         let why = "slower responses: the unit may not have settled; record ramps and rests that last longer";
+        let both = ["sensitivity", "bias_span"].map(|name| format!("{name}{NOT_KNOWN}{why}")).to_vec();
+        let told_once = [format!("sensitivity, bias_span are not known: {why}"), "arw is not known".to_owned()];
+        assert_eq!(merged([both, vec!["arw is not known".to_owned()]].concat()), told_once);
         let unsettled = judged(LIMITS, json!({"sensitivity": null, "not_known": {"sensitivity": why}}));
         assert_eq!((unsettled.word(), unsettled.reasons().unwrap()), ("not known", format!("sensitivity is not known: {why}")));
         // a unit that breaks another limit fails

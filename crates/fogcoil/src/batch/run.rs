@@ -48,10 +48,14 @@ pub fn run(
     }
     let kept = Kept::within(folder)?;
     let found: Vec<Option<Value>> = read.iter().map(|unit| kept.load(&unit.name, &unit.key)).collect();
-    if found.iter().any(Option::is_none) {
+    let already = found.iter().flatten().count();
+    if already > 0 {
+        progress(Step::begins(&format!("{already} of {} units have findings that are kept", read.len())));
+    }
+    if already < read.len() {
         models(inputs.case, inputs.cache, progress)?;
     }
-    let done = AtomicUsize::new(found.iter().flatten().count());
+    let done = AtomicUsize::new(already);
     let tell = || progress(Step::counted(TASK, done.load(Ordering::Relaxed), read.len()));
     tell();
     let row = |(unit, found): (&Read, Option<Value>)| {

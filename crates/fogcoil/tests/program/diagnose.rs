@@ -196,7 +196,7 @@ fn compensated(taken: f64) {
 fn a_rate_of_the_other_sign_is_no_compensation() {
     let folder = Folder::new();
     let logged = logged(&folder, &under_ramps(&folder), -1.0);
-    let said = diagnosed(&folder, &logged);
+    let said = diagnosed(&folder, logged);
     assert!(said.contains("[reversed-rate]") && said.contains("\nVoid if a column is read wrongly, as it seems."), "{said}");
 }
 
@@ -206,7 +206,7 @@ fn a_word_of_the_drawing_that_is_wrong_comes_before_faults() {
     let folder = Folder::new();
     folder.write("unit.ron", change(COIL, "overhang_mm: 1.0, bonded: true", "overhang_mm: 1.0, bonded: false"));
     let unit = under_ramps_as(&folder, "unit.ron");
-    let said = diagnosed(&folder, &logged(&folder, &unit, 1.0));
+    let said = diagnosed(&folder, logged(&folder, &unit, 1.0));
     assert!(said.contains("with spool.flanges[0].bonded: false (the right one)") && said.contains("[doubted-drawing]"), "{said}");
     assert!(said.contains("\nVoid if the drawing is wrong in a word, as it seems. As it is drawn: "), "{said}");
     assert!(said.contains("\nNext: Look at the unit"), "{said}");

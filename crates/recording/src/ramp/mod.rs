@@ -3,8 +3,8 @@
 //! A linear system that conducts heat answers a temperature T with Σ cₖ rₖ, where rₖ is the rate of T as a first-order system of time constant τₖ
 //! follows it. In a steady ramp every rₖ settles at the ramp's rate: the **sensitivity** is Σ cₖ \[u per K/s\], and the record need not hold a ramp
 //! long enough to settle for it to be told. The time constants go down by halves from a third of the longest ramp or rest, and, in a second
-//! set, from that over √2: what the two sets differ by counts as an error. Where a time constant twice as long as the longest changes the sensitivity by more
-//! than its errors, none is told: the unit settles more slowly than the record lets it. Rates upwards and
+//! set, from that over √2: what the two sets differ by counts as an error. So does what a time constant twice as long as the longest changes beyond what noise
+//! explains; where that is more than a tenth of the sensitivity, none is told: the unit settles more slowly than the record lets it. Rates upwards and
 //! downwards have amounts of their own where the record has both: **heating** and **cooling**, the sensitivity being their mean. Beside them
 //! stand an offset, a parabola in the temperature (**span**: what it changes by over the record's range), and what settles from the state in which the
 //! record begins.
@@ -81,10 +81,15 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     let models: Vec<Model> = sets.iter().map(model).collect::<Result<_, _>>()?;
     let slower = lags::slower(&sets[0]);
     let slower = Model::new(Design::new(input, &course, &slower, heats, cools), observed)?;
-    let unsettled = unsettled(&models, &slower);
-    let settled = |found: Estimate| if unsettled { Err(Absent::Unsettled(settling.round())) } else { Ok(found) };
+    let slow = slow(&models, &slower);
+    let settled = |found: Estimate| match slow {
+        Slow::Unsettled => Err(Absent::Unsettled(settling.round())),
+        Slow::By(_) => Ok(found),
+    };
     let told = |of: &dyn Fn(&Design) -> Result<Weights, Absent>| {
-        over(&models, |model| model.told(&of(&model.design)?, noise)).and_then(settled)
+        let found = over(&models, |model| model.told(&of(&model.design)?, noise)).and_then(settled)?;
+        let slow = if let Slow::By(change) = slow { change } else { 0.0 };
+        Ok(Estimate { sd: found.sd.hypot(slow), ..found })
     };
     let sensitivity = told(&|design| Ok(design.sensitivity()));
     // of terms that cannot be told apart no sum over temperatures is known either
@@ -102,16 +107,33 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     })
 }
 
-/// Whether lags twice as long change the sensitivity by more than its errors.
-fn unsettled(models: &[Model], slower: &Model) -> bool {
+/// Change of the sensitivity by lags twice as long.
+#[derive(Debug, Clone, Copy)]
+enum Slow {
+    /// By a share of it that is no error any more: the record does not let the unit settle.
+    Unsettled,
+    /// By so much, beyond what noise explains, which counts as an error; 0 of less.
+    By(f64),
+}
+
+fn slow(models: &[Model], slower: &Model) -> Slow {
     let mean = over(models, |model| model.sum(&model.design.sensitivity()));
     let other = slower.sum(&slower.design.sensitivity());
-    let Ok((mean, other)) = mean.and_then(|mean| Ok((mean, other?))) else { return false };
-    (other.value - mean.value).abs() > SIGNIFICANT * mean.sd.hypot(other.sd)
+    let Ok((mean, other)) = mean.and_then(|mean| Ok((mean, other?))) else { return Slow::By(0.0) };
+    let change = (other.value - mean.value).abs();
+    if change <= SIGNIFICANT * mean.sd.hypot(other.sd) {
+        Slow::By(0.0)
+    } else if change <= MOST_SLOW * mean.value.abs() {
+        Slow::By(change)
+    } else {
+        Slow::Unsettled
+    }
 }
 
 /// Standard deviations from which a change of the sensitivity counts: noise alone makes it in one record of a hundred.
 const SIGNIFICANT: f64 = 2.576;
+/// Largest change by longer lags, as a share of the sensitivity, that counts as an error: a specification is read to a tenth.
+const MOST_SLOW: f64 = 0.1;
 
 /// The mean over models that are as probable as each other: what they differ by counts as an error.
 fn over(models: &[Model], of: impl Fn(&Model) -> Result<Estimate, Absent>) -> Result<Estimate, Absent> {
