@@ -3,6 +3,9 @@
 mod chamber_lag;
 #[path = "../../coil/tests/common/mod.rs"]
 mod common;
+mod figures;
+#[path = "../../recording/tests/common/figures.rs"]
+mod figures_kit;
 mod on_request;
 mod read_out_curvature;
 mod written;

@@ -1,11 +1,10 @@
-//! Every figure of made records, as it was when the tests by other routes passed: a change that moves one has to say why.
+//! Every figure of made records, held as it was.
 //!
 //! A record holds what records hold at once: gaps, repeats, a clock that was set, outliers, codes, values that stick, coloured noise. `figures.txt` has
-//! a line for each answer. A test that fails writes its own beside, for comparison.
-
-use std::fmt::{Debug, Write as _};
+//! a line for each.
 
 use crate::check::{Sample, altered, expectations, round, sound};
+use crate::common::figures::Figures;
 use crate::common::{Random, even, simulate};
 use recording::condition::{Rest, Thinning, bridged, slopes, span, thinned, unrest};
 use recording::lag::lagging;
@@ -16,55 +15,8 @@ use recording::statistics::{robust_sd, whiteness};
 use recording::{Channel, Recording, Sampling, allan};
 
 const NAN: f64 = f64::NAN;
-/// Distance of two numbers over the larger that still counts as the same: searches end within it, rounding moves them.
-const SAME: f64 = 1e-4;
-
-#[derive(Default)]
-struct Figures(String);
-
-impl Figures {
-    fn add(&mut self, name: &str, figure: &impl Debug) {
-        let _ = writeln!(self.0, "{name}: {figure:?}");
-    }
-
-    /// A few values of a series, and two sums that every one takes part in.
-    fn series(&mut self, name: &str, values: &[f64]) {
-        let known = || values.iter().enumerate().filter(|(_, value)| value.is_finite());
-        let sum: f64 = known().map(|(_, value)| value).sum();
-        let weighed: f64 = known().map(|(n, value)| value * ((n + 1) as f64).sin()).sum();
-        let some: Vec<f64> = values.iter().step_by((values.len() / 5).max(1)).copied().collect();
-        self.add(name, &(values.len(), known().count(), sum, weighed, some));
-    }
-}
-
-/// Numbers of a text, and the text without them.
-fn parts(text: &str) -> (Vec<f64>, String) {
-    let is_number = |word: &str| word.parse::<f64>().is_ok();
-    let words = || text.split_inclusive([' ', ',', ':', '(', ')', '[', ']', '{', '}', '"']);
-    let bare = |word: &str| word.trim_end_matches([' ', ',', ':', '(', ')', '[', ']', '{', '}', '"']).to_owned();
-    let numbers = words().filter_map(|word| bare(word).parse().ok()).collect();
-    let rest = words().map(|word| if is_number(&bare(word)) { word.replacen(&bare(word), "#", 1) } else { word.to_owned() });
-    (numbers, rest.collect())
-}
-
-fn is_same(a: &str, b: &str) -> bool {
-    let ((numbers, rest), (others, other_rest)) = (parts(a), parts(b));
-    let near = |a: &f64, b: &f64| (a - b).abs() <= SAME * a.abs().max(b.abs()) + 1e-12 || a.is_nan() && b.is_nan() || a == b;
-    rest == other_rest && numbers.len() == others.len() && numbers.iter().zip(&others).all(|(a, b)| near(a, b))
-}
-
-/// Holds what was found against the kept lines whose names begin with `topic`.
-fn hold(topic: &str, found: &Figures) {
-    let kept = include_str!("figures.txt").lines().filter(|line| line.starts_with(topic));
-    let (kept, found): (Vec<&str>, Vec<&str>) = (kept.collect(), found.0.lines().collect());
-    let differ = kept.iter().zip(&found).find(|(kept, found)| !is_same(kept, found));
-    if differ.is_some() || kept.len() != found.len() {
-        let own = format!("{}/figures-{topic}.txt", env!("CARGO_TARGET_TMPDIR"));
-        std::fs::write(&own, found.join("\n") + "\n").expect("it can be written");
-        panic!("{own} differs from figures.txt, which has {} lines: {differ:#?}", kept.len());
-    }
-}
-
+/// The figures as they were.
+const KEPT: &str = include_str!("figures.txt");
 /// Removes some rows of every series.
 fn without(sample: &mut Sample, rows: std::ops::Range<usize>) {
     for series in [&mut sample.time, &mut sample.temperature, &mut sample.rate] {
@@ -79,7 +31,7 @@ fn held(values: &mut [f64], rows: usize) {
 type Change = fn(&mut Sample);
 
 /// Defects, by name.
-const DEFECTS: [(&str, Change); 16] = [
+const DEFECTS: [(&str, Change); 19] = [
     ("none", |_| ()),
     ("gaps", |s| {
         without(s, 300..305);
@@ -124,6 +76,12 @@ const DEFECTS: [(&str, Change); 16] = [
         s.temperature[1600] = NAN;
     }),
     ("coarse", |s| s.rate.iter_mut().for_each(|rate| *rate = round(*rate, 0.04))),
+    ("empty", |s| s.rate.fill(NAN)),
+    ("constant", |s| {
+        s.rate.fill(0.4);
+        s.temperature.fill(20.0);
+    }),
+    ("short", |s| without(s, 40..2000)),
     ("kelvin", |s| s.temperature.iter_mut().for_each(|t| *t += 273.15)),
     ("per second", |s| s.rate.iter_mut().for_each(|rate| *rate /= 3600.0)),
     ("earth", |s| s.rate.iter_mut().for_each(|rate| *rate -= 9.7)),
@@ -146,7 +104,7 @@ fn of_defects() {
         figures.add(&format!("check {name} rows"), &(report.rows.len(), used, &report.instants));
         figures.add(&format!("check {name} channels"), &report.channels);
     }
-    hold("check", &figures);
+    figures.hold(KEPT, "check");
 }
 
 #[test]
@@ -186,7 +144,7 @@ fn of_conditioning() {
         let found = unrest(&sample.time, &whole, &moved, &Rest { duration, tolerance });
         figures.add(&format!("condition unrest {duration} {tolerance}"), &found);
     }
-    hold("condition", &figures);
+    figures.hold(KEPT, "condition");
 }
 
 /// Noise with every term.
@@ -256,7 +214,7 @@ fn of_noise() {
     let momentary = NoiseModel { averaging: 0.0, quantisation: 0.0, ..NOISE };
     figures.add("noise floor", &[NOISE, momentary].map(|model| model.floor([30.0, 40_000.0], 30.0)));
     figures.add("noise no floor", &NoiseModel::white(0.1, 30.0).floor([30.0, 40_000.0], 30.0));
-    hold("noise", &figures);
+    figures.hold(KEPT, "noise");
 }
 
 #[test]
@@ -316,7 +274,7 @@ fn of_ramps() {
         figures.add(&format!("ramp {name} peak"), &told.peak);
         figures.add(&format!("ramp {name} lags"), &told.lags);
     }
-    hold("ramp", &figures);
+    figures.hold(KEPT, "ramp");
 }
 
 #[test]
@@ -341,5 +299,5 @@ fn of_smoothing() {
         let left: Vec<f64> = found.values.iter().zip(&lagged).map(|(a, b)| a - b).collect();
         figures.add(&format!("smooth {name} error"), &robust_sd(left.iter().copied(), 0.0));
     }
-    hold("smooth", &figures);
+    figures.hold(KEPT, "smooth");
 }

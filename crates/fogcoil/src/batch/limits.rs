@@ -131,7 +131,8 @@ const NOT_KNOWN: &str = " is not known: ";
 fn merged(reasons: Vec<String>) -> Vec<String> {
     let mut merged: Vec<(Vec<String>, String)> = Vec::new();
     for reason in reasons {
-        let (name, why) = reason.split_once(NOT_KNOWN).map_or((String::new(), reason.as_str()), |(name, why)| (name.to_owned(), why));
+        let (name, why) =
+            reason.split_once(NOT_KNOWN).map_or((String::new(), reason.as_str()), |(name, why)| (name.to_owned(), why));
         match merged.iter_mut().find(|(names, known)| known == why && !names[0].is_empty()) {
             Some((names, _)) => names.push(name),
             None => merged.push((vec![name], why.to_owned())),

@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "each test binary uses its part")]
 
+pub(crate) mod figures;
+
 use recording::noise::NoiseModel;
 
 /// xorshift64* (Vigna 2016).

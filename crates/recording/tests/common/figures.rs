@@ -1,0 +1,55 @@
+//! Figures that are held as they were when the tests by other routes passed: a change that moves one has to say why.
+//!
+//! A file has a line for each. A test that fails writes its own beside, for comparison.
+
+use std::fmt::{Debug, Write as _};
+
+/// Distance of two numbers over the larger that still counts as the same: searches end within it, rounding moves them.
+const SAME: f64 = 1e-4;
+
+/// Figures, a line each: a name, a colon, and what it was found to be.
+#[derive(Default)]
+pub(crate) struct Figures(String);
+
+impl Figures {
+    pub(crate) fn add(&mut self, name: &str, figure: &impl Debug) {
+        let _ = writeln!(self.0, "{name}: {figure:?}");
+    }
+
+    /// A few values of a series, and two sums that every one takes part in.
+    pub(crate) fn series(&mut self, name: &str, values: &[f64]) {
+        let known = || values.iter().enumerate().filter(|(_, value)| value.is_finite());
+        let sum: f64 = known().map(|(_, value)| value).sum();
+        let weighed: f64 = known().map(|(n, value)| value * ((n + 1) as f64).sin()).sum();
+        let some: Vec<f64> = values.iter().step_by((values.len() / 5).max(1)).copied().collect();
+        self.add(name, &(values.len(), known().count(), sum, weighed, some));
+    }
+
+    /// Holds the figures against the `kept` lines whose names begin with `topic`.
+    pub(crate) fn hold(&self, kept: &str, topic: &str) {
+        let kept = kept.lines().filter(|line| line.starts_with(topic));
+        let (kept, found): (Vec<&str>, Vec<&str>) = (kept.collect(), self.0.lines().collect());
+        let differ = kept.iter().zip(&found).find(|(kept, found)| !is_same(kept, found));
+        if differ.is_some() || kept.len() != found.len() {
+            let own = format!("{}/figures-{topic}.txt", env!("CARGO_TARGET_TMPDIR"));
+            std::fs::write(&own, found.join("\n") + "\n").expect("it can be written");
+            panic!("{own} differs from figures.txt, which has {} lines: {differ:#?}", kept.len());
+        }
+    }
+}
+
+/// Numbers of a text, and the text without them.
+fn parts(text: &str) -> (Vec<f64>, String) {
+    let is_number = |word: &str| word.parse::<f64>().is_ok();
+    let words = || text.split_inclusive([' ', ',', ':', '(', ')', '[', ']', '{', '}', '"']);
+    let bare = |word: &str| word.trim_end_matches([' ', ',', ':', '(', ')', '[', ']', '{', '}', '"']).to_owned();
+    let numbers = words().filter_map(|word| bare(word).parse().ok()).collect();
+    let rest = words().map(|word| if is_number(&bare(word)) { word.replacen(&bare(word), "#", 1) } else { word.to_owned() });
+    (numbers, rest.collect())
+}
+
+fn is_same(a: &str, b: &str) -> bool {
+    let ((numbers, rest), (others, other_rest)) = (parts(a), parts(b));
+    let near = |a: &f64, b: &f64| (a - b).abs() <= SAME * a.abs().max(b.abs()) + 1e-12 || a.is_nan() && b.is_nan() || a == b;
+    rest == other_rest && numbers.len() == others.len() && numbers.iter().zip(&others).all(|(a, b)| near(a, b))
+}
