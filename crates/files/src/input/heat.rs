@@ -24,7 +24,7 @@ mirrored! {
         /// Heat dissipated in an end of the spool; none unless given.
         #[serde(skip_serializing_if = "Vec::is_empty")]
         heaters: Vec<HeaterFile> = heaters,
-        /// Film coefficient of every surface to the chamber, in place of the still medium; None unless given.
+        /// Film coefficient of every outer surface to the chamber, in place of the still medium; None unless given.
         film_w_per_m2k: Option<Conductance> = film,
     }
 

@@ -88,7 +88,9 @@ pub fn text(case: &CoilCase, e: &Explained) -> String {
     out.push_str("\nUnable to change it:\n");
     for x in &e.explanations {
         if let Reach::Unable { why } = x.outcome {
-            let _ = writeln!(out, "  {}: {why}", x.id);
+            let several = e.explanations.iter().filter(|other| other.id == x.id).count() > 1;
+            let parameter = if several { format!(" ({})", x.parameter) } else { String::new() };
+            let _ = writeln!(out, "  {}{parameter}: {why}", x.id);
         }
     }
     out.push_str(
