@@ -9,6 +9,13 @@ use std::sync::OnceLock;
 const ACCURACY: f64 = 1e-4;
 const UNKNOWNS: usize = 5000;
 
+#[test]
+fn exact_a_refined_mesh_has_two_orders_more_and_nothing_else() {
+    let standard = Discretization::standard(&reference());
+    assert_eq!(standard.refined(), Discretization { order: standard.order + 2, ..standard.clone() });
+    assert_eq!((standard.order, standard.extent), (6, Extent::Quarter));
+}
+
 /// Each phase with its area fraction.
 fn phases(cell: &FibreCell) -> Vec<(f64, Constituent)> {
     let area = |r: f64| std::f64::consts::PI * r * r / (cell.pitch * cell.pitch * 0.75_f64.sqrt());

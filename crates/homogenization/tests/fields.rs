@@ -95,3 +95,33 @@ fn exact_stress_concentration_at_a_void() {
     assert_relative_eq!(most, 3e6, max_relative = 5e-3);
     assert_relative_eq!(least, -1e6, max_relative = 2e-2);
 }
+
+/// Over a small quadrilateral the displacement on its edges is the mean strain inside (Gauss' theorem), to second order in its size.
+#[test]
+fn the_displacement_has_the_strain_for_its_gradient() {
+    let solution = reference_cell().solve(6, 1.0).unwrap();
+    let fields = Fields::new(&solution, load());
+    let off = |divisions: usize| {
+        let sample = fields.sample(divisions);
+        let (mut off, mut all) = (0.0, 0.0);
+        for corners in &sample.quadrilaterals {
+            let states = corners.map(|corner| sample.states[corner]);
+            let (mut area, mut gradient) = (0.0, [[0.0; 2]; 3]);
+            for (a, b) in (0..4).map(|k| (states[k], states[(k + 1) % 4])) {
+                let [dx, dy] = [0, 1].map(|c| b.position[c] - a.position[c]);
+                area += (a.position[0] * dy - a.position[1] * dx) / 2.0;
+                for (c, row) in gradient.iter_mut().enumerate() {
+                    let mean = (a.displacement[c] + b.displacement[c]) / 2.0;
+                    (row[0], row[1]) = (row[0] + mean * dy, row[1] - mean * dx);
+                }
+            }
+            let [[xx, xy], [yx, yy], [zx, zy]] = gradient;
+            let inside = states.iter().map(|state| state.strain).sum::<Vector6<f64>>() / 4.0 * area;
+            let around = Vector6::new(xx, yy, inside[2], zy, zx, xy + yx);
+            (off, all) = (off + (around - inside).norm(), all + inside.norm());
+        }
+        off / all
+    };
+    let (coarse, fine) = (off(16), off(32));
+    assert!(fine < 2e-3 && (3.5..4.5).contains(&(coarse / fine)), "{coarse} {fine}");
+}

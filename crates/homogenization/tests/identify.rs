@@ -39,6 +39,7 @@ fn impossible_cells_are_none() {
     assert!(family.cell(&u).is_none());
     assert!(Target::new("m_rx", 0.03, Uncertainty::Normal(0.01)).is_none());
     let printed = Target::new("e_r", 95.2e6, Uncertainty::Rounded(0.05e6)).unwrap();
+    assert_eq!(printed.name(), "e_r");
     assert!(printed.is_met(95.249e6) && !printed.is_met(95.251e6));
 }
 

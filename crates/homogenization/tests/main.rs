@@ -5,6 +5,9 @@ mod closed_form;
 mod common;
 mod exact;
 mod fields;
+mod figures;
+#[path = "../../recording/tests/common/figures.rs"]
+mod figures_kit;
 mod free_fibre;
 mod identify;
 mod irregular;
