@@ -125,6 +125,21 @@ impl Form {
         }
     }
 
+    /// Strains where the shape functions and their gradients are N, ∂N/∂x, ∂N/∂y at a distance x from the axis, of an element's unknowns, component fastest.
+    pub(crate) fn strain(&self, [value, dx, dy]: [&[f64]; 3], x: f64, unknowns: &[f64]) -> Vec<f64> {
+        let mut strain = vec![0.0; self.strains];
+        for t in self.terms {
+            let (shape, by) = match t.operator {
+                Operator::DX => (dx, 1.0),
+                Operator::DY => (dy, 1.0),
+                Operator::OverX => (value, x),
+            };
+            let component = unknowns.iter().skip(t.component).step_by(self.components);
+            strain[t.strain] += shape.iter().zip(component).map(|(shape, u)| shape * u).sum::<f64>() / by;
+        }
+        strain
+    }
+
     /// Element load `∫ Bᵀ σ` of a stress that is constant in the element (length `strains`).
     pub fn load(&self, value: &DMatrix<f64>, g: &ElementGeometry, stress: &[f64]) -> DVector<f64> {
         let (n, c) = (value.nrows(), self.components);

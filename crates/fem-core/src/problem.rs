@@ -315,7 +315,8 @@ impl<'a> Problem<'a> {
         let (components, elements) = (self.form.components, self.mesh.elements().len());
         if !edges.is_empty() && components != 1 {
             return Err(Error::Edges(format!(
-                "the boundary mass is of a scalar form, this one has {components} unknowns for each node"
+                "a flux through edges is of a scalar form, this one has {components} unknowns for each node; a pressure is the surface_load of \
+                 a scalar form on the same mesh, each node's entry put to the component that it pushes"
             )));
         }
         match edges.iter().find(|(e, ..)| *e >= elements) {
@@ -393,6 +394,23 @@ impl<'a> Problem<'a> {
     pub fn region_measures(&self) -> Result<Vec<f64>, Error> {
         self.check_points()?;
         self.reference.region_measures(self.mesh, self.form.measure)
+    }
+
+    /// Strains of a full vector of unknowns in element `e` at (ξ, η), in the order of the form: gradients of a temperature, strains of a displacement (shear as the
+    /// engineering strain). A stress is stiffness × strain − thermal stress × temperature rise. Where elements meet, strains jump: the element says which side.
+    /// On the axis of a body of revolution the hoop strain is 0/0: take a point beside it.
+    ///
+    /// # Panics
+    /// If there is no such element, or `u` has not one value for each component of each node.
+    pub fn strain(&self, u: &[f64], e: usize, xi: f64, eta: f64) -> Vec<f64> {
+        let (components, nodes) = (self.form.components, self.mesh.nodes());
+        assert!(u.len() == nodes.len() * components, "{} values for {} nodes of {components} components", u.len(), nodes.len());
+        let element = &self.mesh.elements()[e];
+        let [value, dx, dy] = self.at_point(e, xi, eta);
+        let x: f64 = element.iter().zip(&value).map(|(&node, value)| value * nodes[node][0]).sum();
+        let own: Vec<f64> =
+            element.iter().flat_map(|&node| u[node * components..(node + 1) * components].iter().copied()).collect();
+        self.form.strain([&value, &dx, &dy], x, &own)
     }
 
     /// Values and gradients of the shape functions of element `e` at (ξ, η): see [`ReferenceElement::at_point`].
