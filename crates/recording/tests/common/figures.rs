@@ -29,11 +29,14 @@ impl Figures {
     pub(crate) fn hold(&self, kept: &str, topic: &str) {
         let kept = kept.lines().filter(|line| line.starts_with(topic));
         let (kept, found): (Vec<&str>, Vec<&str>) = (kept.collect(), self.0.lines().collect());
-        let differ = kept.iter().zip(&found).find(|(kept, found)| !is_same(kept, found));
-        if differ.is_some() || kept.len() != found.len() {
+        let mut pairs = (0..kept.len().max(found.len())).map(|n| (kept.get(n), found.get(n)));
+        let differ = pairs.find(|pair| !matches!(pair, (Some(kept), Some(found)) if is_same(kept, found)));
+        if let Some((kept, found_line)) = differ {
             let own = format!("{}/figures-{topic}.txt", env!("CARGO_TARGET_TMPDIR"));
             std::fs::write(&own, found.join("\n") + "\n").expect("it can be written");
-            panic!("{own} differs from figures.txt, which has {} lines: {differ:#?}", kept.len());
+            panic!(
+                "kept: {kept:#?}\nfound: {found_line:#?}\nif that is meant, put the lines of {own} in place of those of figures.txt that begin with `{topic}`"
+            );
         }
     }
 }
