@@ -299,8 +299,8 @@ remarks! {
         "Check the sense of the gyro's axis and `winding.cw_climbs`.";
     DoubtedDrawing "doubted-drawing":
         "The model follows the recordings far better with one word of the drawing changed: a bond that is not there, or the side to which the winding climbs.",
-        "The answer seeks faults where the drawing may say wrongly how the unit is made.",
-        "Look at the unit, or ask its maker; put the word into the coil file if it is so.";
+        "The answer seeks faults or constants where the unit may be made otherwise than it is drawn; records alone may not tell the two apart.",
+        "Look at the unit, or ask its maker: if the word is so, put it into the coil file and diagnose again.";
     DoubtedUnit "doubted-unit":
         "A unit that `calibrate` was given as a good one is explained better by a mechanism than by its constants.",
         "What it has of a fault goes into the constants of the lot.",

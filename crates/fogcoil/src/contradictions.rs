@@ -13,6 +13,8 @@ use crate::table::significant;
 const FACTOR: f64 = 3.0;
 /// Standard deviations from which a value is not the one that is declared: one in 370 by chance.
 const SIGMAS: f64 = 3.0;
+/// Distance of the middle of the rates from Earth's rate negated, as a share of that, up to which the sign is doubted.
+const TURNED: f64 = 0.2;
 /// Share of the rows' changes smaller than a declared last digit, from which that digit contradicts the record.
 const SMALL: f64 = 0.5;
 const S_PER_H: f64 = 3600.0;
@@ -108,10 +110,21 @@ fn of_walk(meta: &Meta, record: &Recording, interval: f64) -> Option<Note> {
 /// Earth's rate, where the gyroscope's own offset is known: the middle of the rates lies elsewhere.
 fn of_earth(meta: &Meta, record: &Recording) -> Option<Note> {
     let (rate, earth) = (&meta.rate_deg_per_h, meta.rate_deg_per_h.earth()?);
-    let known = rate.offset_sd?.hypot(earth * rate.scale_factor_sd.unwrap_or(0.0));
+    let known = rate.offset_sd.map(|sd| sd.hypot(earth * rate.scale_factor_sd.unwrap_or(0.0)));
     let mut rates: Vec<f64> = values(record, RATE)?.iter().copied().filter(|rate| rate.is_finite()).collect();
     rates.sort_by(f64::total_cmp);
     let middle = *rates.get(rates.len() / 2)?;
+    let Some(known) = known else {
+        // an offset that nobody knows turns Earth's rate about by chance once in many units
+        let message = || {
+            format!(
+                "rate_deg_per_h: the meta file makes Earth's rate {} deg/h, and the middle of the record's rates is {} deg/h: is the rate's sign, or the axis, the other one?",
+                significant(earth, 4),
+                significant(middle, 4)
+            )
+        };
+        return ((middle + earth).abs() < TURNED * earth.abs()).then(|| contradiction(message()));
+    };
     // what a test does to the rate is no contradiction
     let sd = known.hypot(robust_sd(rates.iter().copied(), middle)?);
     let message = || {
@@ -171,6 +184,7 @@ mod tests {
             ("Some(0.02)", "Some(0.5)", ["0.5 deg/√h", "is 0.01"]),
             ("Some(0.02)", "Some(0.001)", ["0.001 deg/√h", "is 0.01"]),
             ("Some(9.9)", "Some(12.0)", ["Earth's rate 12.00 deg/h, known to 0.10", "rates is 9."]),
+            ("Some(9.9), offset_sd: Some(0.1)", "Some(-9.9)", ["Earth's rate -9.900 deg/h", "is the rate's sign"]),
         ] {
             let told = with(&right.replacen(from, to, 1));
             assert!(says.iter().all(|part| told.iter().any(|line| line.contains(part))), "{to}: {told:?}");

@@ -119,7 +119,9 @@ fn standing_out(batch: &Batch) -> Markup {
         ]
     };
     html! {
-        @if all.is_empty() {
+        @if batch.rows.len() < FEWEST {
+            p { "Only " (batch.rows.len()) " units; " (FEWEST) " are needed to tell which number is far from the others." }
+        } @else if all.is_empty() {
             p { "No number of a unit is far from those of the others." }
         } @else {
             (grid("Numbers farther than 3.5 robust standard deviations from the median of all units", Cells::Words,

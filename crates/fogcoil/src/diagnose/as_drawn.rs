@@ -8,7 +8,7 @@ use super::rms;
 /// Largest ratio of what a mistake leaves to what the answer leaves at which the mistake explains as much.
 const AS_WELL: f64 = 1.1;
 /// Standard deviations of the tolerances within which the constants, which a mistake leaves as drawn, make the rest.
-const TOLERATED: f64 = 2.0;
+pub(super) const TOLERATED: f64 = 2.0;
 
 /// The design as it is drawn under a record.
 pub(super) struct AsDrawn {

@@ -3,7 +3,7 @@
 use files::{Note, Remark};
 use mechanisms::{Gyro, RATE as RATE_CHANNEL};
 
-use super::as_drawn::{AsDrawn, spread};
+use super::as_drawn::{AsDrawn, TOLERATED, spread};
 use super::rms;
 use crate::input::CoilCase;
 use crate::other_drawing::other_drawings;
@@ -14,12 +14,13 @@ use crate::table::significant;
 const RATIO: f64 = 3.0;
 
 /// The warning that another drawing follows the fitted records far better: `gyro` is the design as it is, `answered` what the answer leaves of the rate in each record, rms;
-/// `None` without an answer.
+/// `None` without an answer. Where the constants suffice, it has to be more than their tolerances usually make.
 pub(super) fn warning(
     gyro: &Gyro,
     case: &CoilCase,
     records: &[Record],
     answered: Option<&[f64]>,
+    constants_suffice: bool,
 ) -> Result<Option<Note>, coil::Error> {
     // when heaters were switched on is no part of a design
     if !case.design.heat.heaters.is_empty() {
@@ -27,9 +28,13 @@ pub(super) fn warning(
     }
     let drawn = (0..records.len()).map(|n| AsDrawn::of(gyro, n)).collect::<Result<Vec<_>, _>>()?;
     let full = (0..records.len()).map(|n| gyro.in_full(n, &case.design)).collect::<Result<Vec<_>, _>>()?;
+    let tolerated = rms(&drawn.iter().map(|drawn| drawn.tolerated).collect::<Vec<_>>());
     let rate = |n: usize| &records[n].observed.channels[RATE_CHANNEL];
     let numbers = 0..records.len();
     let left: Vec<f64> = numbers.clone().map(|n| spread(rate(n), &drawn[n].predicted[RATE_CHANNEL], 1.0)).collect();
+    if constants_suffice && rms(&left) < TOLERATED * tolerated {
+        return Ok(None);
+    }
     let mut best: Option<(f64, String)> = None;
     for other in other_drawings(&case.design) {
         let would = |n: usize| -> Result<f64, coil::Error> {
@@ -49,7 +54,7 @@ pub(super) fn warning(
     Ok(best.map(|(would, words)| {
         let [left, would] = [rms(&left), would].map(|r| significant(r, 2));
         let text = format!(
-            "the drawing may be wrong in one word: as it stands it leaves {left} deg/h rms of the fitted records, with {words} {would}, and nothing fitted"
+            "the unit may differ from its drawing in one word: as drawn it leaves {left} deg/h rms of the fitted records, with {words} {would}, and nothing fitted"
         );
         Remark::DoubtedDrawing.warning(text).at(&case.file)
     }))

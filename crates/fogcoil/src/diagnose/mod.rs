@@ -133,11 +133,12 @@ pub fn diagnose<'m>(
         let answered = explains.then_some(answered.as_slice());
         notes.extend(columns::warning(&drawn, number, record, answered).map_err(coil)?);
     }
-    if !matches!(diagnosis.verdict, Verdict::None | Verdict::Recalibrate) {
+    if diagnosis.verdict != Verdict::None {
         progress(Step::begins("drawings that differ in one word"));
         let of_rate: Vec<f64> = answered[..read.len()].iter().map(|answered| answered[RATE_CHANNEL]).collect();
-        let of_rate = (diagnosis.verdict == Verdict::Explained).then_some(of_rate.as_slice());
-        notes.extend(drawing::warning(&drawn, case, &read, of_rate).map_err(coil)?);
+        let of_rate = (diagnosis.verdict != Verdict::Unknown).then_some(of_rate.as_slice());
+        let constants_suffice = diagnosis.verdict == Verdict::Recalibrate;
+        notes.extend(drawing::warning(&drawn, case, &read, of_rate, constants_suffice).map_err(coil)?);
     }
     let with_predictions =
         |(record, Judged { nominal, model, accepted, .. }): (Record, Judged)| Held { record, nominal, model, accepted };

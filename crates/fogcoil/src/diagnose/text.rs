@@ -135,18 +135,25 @@ impl Outcome<'_> {
 
     pub(super) fn verdict(&self) -> String {
         match self.misread() {
-            Some(note) if note.remark == Remark::DoubtedDrawing => {
-                format!("Void if the drawing is wrong in a word, as it seems. As it is drawn: {}", self.verdict_as_read())
-            }
             Some(_) => format!("Void if a column is read wrongly, as it seems. As it is read: {}", self.verdict_as_read()),
+            None if self.other_word().is_some() => {
+                format!(
+                    "Either the unit differs from its drawing in one word, as the warning says, or this. {}",
+                    self.verdict_as_read()
+                )
+            }
             None => self.verdict_as_read(),
         }
     }
 
-    /// The warning that a record seems to have columns exchanged or its rate negated, or else that the drawing seems to be wrong, if there is one.
+    /// The warning that a record seems to have columns exchanged or its rate negated, if there is one.
     pub(super) fn misread(&self) -> Option<&Note> {
-        let first = |wanted: &[Remark]| self.notes.iter().find(|note| wanted.contains(&note.remark));
-        first(&[Remark::ExchangedColumns, Remark::ReversedRate]).or_else(|| first(&[Remark::DoubtedDrawing]))
+        self.notes.iter().find(|note| matches!(note.remark, Remark::ExchangedColumns | Remark::ReversedRate))
+    }
+
+    /// The warning that the unit seems to differ from its drawing in one word, if there is one.
+    fn other_word(&self) -> Option<&Note> {
+        self.notes.iter().find(|note| note.remark == Remark::DoubtedDrawing)
     }
 
     fn verdict_as_read(&self) -> String {
@@ -215,6 +222,14 @@ impl Outcome<'_> {
                 warning.remark.explanation().remedy
             );
         }
+        match self.other_word() {
+            Some(warning) => format!("{} Or {}", warning.remark.explanation().remedy, self.next_as_drawn()),
+            None => self.next_as_drawn(),
+        }
+    }
+
+    /// The step after this answer if the unit is as it is drawn.
+    fn next_as_drawn(&self) -> String {
         let proven = !self.holdouts.is_empty() && self.accepted();
         let another = "make a record of the same unit under another profile and give it with --holdout";
         if let Some((id, inspection)) = self.suspect() {
@@ -262,9 +277,11 @@ impl Outcome<'_> {
                     .into()
             }
             Verdict::Unknown => {
-                "check signs, columns, units and times (fogcoil check), then repeat the same profile: a difference that does not \
-                                 return belongs to the test and not to the unit. Try a mechanism of your own with --mechanism."
-                    .into()
+                let tried = if self.composed.is_none() { "None of the laws that the program composes follows it. " } else { "" };
+                format!(
+                    "check signs, columns, units and times (fogcoil check), then repeat the same profile: a difference that does not return belongs to \
+                     the test and not to the unit. {tried}Try a mechanism of your own with --mechanism."
+                )
             }
             Verdict::None => "no test is needed to explain these records.".into(),
         }
