@@ -223,7 +223,7 @@ impl Outcome<'_> {
             );
         }
         match self.other_word() {
-            Some(warning) => format!("{} Or {}", warning.remark.explanation().remedy, self.next_as_drawn()),
+            Some(warning) => format!("{} If it is as drawn: {}", warning.remark.explanation().remedy, self.next_as_drawn()),
             None => self.next_as_drawn(),
         }
     }
