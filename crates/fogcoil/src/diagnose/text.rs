@@ -333,8 +333,9 @@ impl Outcome<'_> {
     pub(super) fn alternatives(&self) -> Option<String> {
         let ids = self.apart();
         let command = (!ids.is_empty() && self.misread().is_none()).then(|| self.recommend(&ids))?;
+        let first = self.other_word().map_or(String::new(), |warning| format!("{} ", warning.remark.explanation().remedy));
         Some(format!(
-            "These records do not exclude: {}. This command seeks the test that separates them best: {command}",
+            "{first}These records do not exclude: {}. This command seeks the test that separates them best: {command}",
             self.others().join(", ")
         ))
     }

@@ -209,7 +209,7 @@ fn a_word_of_the_drawing_that_is_wrong_comes_before_faults() {
     let said = diagnosed(&folder, logged(&folder, &unit, 1.0));
     assert!(said.contains("with spool.flanges[0].bonded: false (the right one)") && said.contains("[doubted-drawing]"), "{said}");
     assert!(said.contains("\nEither the unit differs from its drawing in one word, as the warning says, or this. "), "{said}");
-    assert!(said.contains("\nNext: Look at the unit"), "{said}");
+    assert!(said.contains("Look at the unit, or ask its maker: "), "{said}");
 }
 
 /// Minutes of a simulation as a logger writes them, the rate times a sign.
