@@ -135,6 +135,15 @@ fn effective(draws: &[Vec<f64>]) -> f64 {
 mod tests {
     use super::*;
 
+    /// Two independent directions of standard deviation 2 and 3, far from zero: √det = 6. Of draws on a line there is no volume.
+    #[test]
+    fn exact_a_volume_is_that_of_the_spread_wherever_it_lies() {
+        let corners = [(2.0, 3.0), (2.0, -3.0), (-2.0, 3.0), (-2.0, -3.0)];
+        let draws: Vec<Vec<f64>> = corners.map(|(x, y)| vec![50.0 + x, y - 70.0]).to_vec();
+        assert!((log_volume(&draws).unwrap() - 6.0_f64.ln()).abs() < 1e-12);
+        assert_eq!(log_volume(&[vec![1.0, 1.0], vec![1.0, 1.0]]), None);
+    }
+
     #[test]
     fn exact_weights_are_shares_of_the_evidence_however_small_it_is() {
         for offset in [0.0, 3.0, -5000.0, 5000.0] {
