@@ -1,6 +1,6 @@
 //! Drawings that differ from a design in one word, which a drawing, or a unit, may have otherwise.
 
-use coil::{Contact, Design, Flange, Side};
+use coil::{Contact, Design, Flange, Layout, Region, Side};
 use winding::ClimbSide;
 
 /// A design with one word changed.
@@ -14,8 +14,9 @@ pub(crate) struct OtherDrawing {
 /// Every bond of coil and spool that is not, or is, and the side to which the winding climbs.
 pub(crate) fn other_drawings(design: &Design) -> Vec<OtherDrawing> {
     let changed = |words: String, change: &dyn Fn(&mut Design)| {
-        let mut design = design.clone();
+        let (drawn, mut design) = (design, design.clone());
         change(&mut design);
+        follow(drawn, &mut design);
         OtherDrawing { words, design }
     };
     let mut all = Vec::new();
@@ -35,6 +36,23 @@ pub(crate) fn other_drawings(design: &Design) -> Vec<OtherDrawing> {
     };
     all.push(changed(format!("winding.cw_climbs: {is}"), &|d| d.winding.cw_climbs = other));
     all
+}
+
+/// A part that comes nearer to the coil, or stands back from it, takes the thermometer with it that sits on it.
+fn follow(drawn: &Design, changed: &mut Design) {
+    let (Some(before), Some(after)) = (&drawn.spool, &changed.spool) else { return };
+    let Ok(layout) = Layout::new(drawn) else { return };
+    let sensor = &mut changed.sensor;
+    match layout.region(drawn.sensor.radius, drawn.sensor.y) {
+        Region::Coil | Region::Medium => {}
+        region => {
+            sensor.radius -= after.hub_contact.gap() - before.hub_contact.gap();
+            for (was, is) in before.flanges.iter().zip(&after.flanges).filter(|(was, _)| Region::flange(was.side) == region) {
+                let back = is.contact.gap() - was.contact.gap();
+                sensor.y += if was.side == Side::Left { -back } else { back };
+            }
+        }
+    }
 }
 
 fn exchanged(contact: Contact) -> (bool, Contact) {
@@ -63,7 +81,15 @@ mod tests {
         for other in &others {
             assert!(other.design != design);
             // changed twice it is the design again
-            assert!(other_drawings(&other.design).iter().any(|back| back.design == design), "{}", other.words);
+            let back = |back: &OtherDrawing| {
+                let sensor =
+                    (back.design.sensor.radius - design.sensor.radius).abs() + (back.design.sensor.y - design.sensor.y).abs();
+                sensor < 1e-12 && Design { sensor: design.sensor, ..back.design.clone() } == design
+            };
+            assert!(other_drawings(&other.design).iter().any(back), "{}", other.words);
+            // its thermometer, at the bore, is never left in the air
+            let layout = Layout::new(&other.design).unwrap();
+            assert!(layout.region(other.design.sensor.radius + 1e-9, other.design.sensor.y) == Region::Hub, "{}", other.words);
         }
     }
 }

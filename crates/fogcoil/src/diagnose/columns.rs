@@ -4,7 +4,7 @@ use diagnosis::Observation;
 use files::{Note, Remark};
 use mechanisms::{Gyro, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL, thermometer_under};
 
-use super::as_drawn::{AsDrawn, as_well, spread};
+use super::as_drawn::{AsDrawn, TOLERATED, as_well, spread};
 use crate::input::{CHAMBER, RATE, SPOOL};
 use crate::prepare::Record;
 use crate::table::significant;
@@ -49,7 +49,10 @@ pub(super) fn warning(
         }
     }
     let [left, would] = [1.0, -1.0].map(|sign| spread(rate, &predicted[RATE_CHANNEL], sign));
-    Ok((REVERSED * would < left && drawn.explains_as_much(would, answered(RATE_CHANNEL))).then(|| {
+    // of a design that nearly cancels, tolerances turn the sign about
+    let has_a_sign = spread(&predicted[RATE_CHANNEL], &predicted[RATE_CHANNEL], 0.0) > TOLERATED * drawn.tolerated;
+    let as_much = as_well(would, answered(RATE_CHANNEL)) || has_a_sign && drawn.explains_as_much(would, answered(RATE_CHANNEL));
+    Ok((REVERSED * would < left && as_much).then(|| {
         let [left, would] = [left, would].map(|r| significant(r, 2));
         let text = format!(
             "{RATE} seems to have the other sign: the nominal model leaves {left} deg/h rms as it stands, {would} with the rate \

@@ -4,7 +4,6 @@ use files::{Note, Remark};
 use mechanisms::{Gyro, RATE as RATE_CHANNEL};
 
 use super::as_drawn::{AsDrawn, TOLERATED, spread};
-use super::rms;
 use crate::input::CoilCase;
 use crate::other_drawing::other_drawings;
 use crate::prepare::Record;
@@ -28,11 +27,18 @@ pub(super) fn warning(
     }
     let drawn = (0..records.len()).map(|n| AsDrawn::of(gyro, n)).collect::<Result<Vec<_>, _>>()?;
     let full = (0..records.len()).map(|n| gyro.in_full(n, &case.design)).collect::<Result<Vec<_>, _>>()?;
-    let tolerated = rms(&drawn.iter().map(|drawn| drawn.tolerated).collect::<Vec<_>>());
     let rate = |n: usize| &records[n].observed.channels[RATE_CHANNEL];
+    // over the rows of all records
+    let pooled = |each: &[f64]| {
+        let rows = |n: usize| rate(n).iter().filter(|rate| rate.is_finite()).count() as f64;
+        let squares: f64 = each.iter().enumerate().map(|(n, rms)| rows(n) * rms * rms).sum();
+        (squares / (0..each.len()).map(rows).sum::<f64>().max(1.0)).sqrt()
+    };
+    let tolerated = pooled(&drawn.iter().map(|drawn| drawn.tolerated).collect::<Vec<_>>());
     let numbers = 0..records.len();
     let left: Vec<f64> = numbers.clone().map(|n| spread(rate(n), &drawn[n].predicted[RATE_CHANNEL], 1.0)).collect();
-    if constants_suffice && rms(&left) < TOLERATED * tolerated {
+    let left_of_all = pooled(&left);
+    if constants_suffice && left_of_all < TOLERATED * tolerated {
         return Ok(None);
     }
     let mut best: Option<(f64, String)> = None;
@@ -46,13 +52,13 @@ pub(super) fn warning(
         // one that cannot be solved is none
         let Ok(would) = numbers.clone().map(would).collect::<Result<Vec<f64>, _>>() else { continue };
         let as_much = numbers.clone().all(|n| drawn[n].explains_as_much(would[n], answered.map(|answered| answered[n])));
-        let would = rms(&would);
-        if as_much && RATIO * would < rms(&left) && best.as_ref().is_none_or(|(least, _)| would < *least) {
+        let would = pooled(&would);
+        if as_much && RATIO * would < left_of_all && best.as_ref().is_none_or(|(least, _)| would < *least) {
             best = Some((would, other.words));
         }
     }
     Ok(best.map(|(would, words)| {
-        let [left, would] = [rms(&left), would].map(|r| significant(r, 2));
+        let [left, would] = [left_of_all, would].map(|r| significant(r, 2));
         let text = format!(
             "the unit may differ from its drawing in one word: as drawn it leaves {left} deg/h rms of the fitted records, with {words} {would}, and nothing fitted"
         );

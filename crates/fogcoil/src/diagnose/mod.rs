@@ -135,8 +135,13 @@ pub fn diagnose<'m>(
     }
     if diagnosis.verdict != Verdict::None {
         progress(Step::begins("drawings that differ in one word"));
-        let of_rate: Vec<f64> = answered[..read.len()].iter().map(|answered| answered[RATE_CHANNEL]).collect();
-        let of_rate = (diagnosis.verdict != Verdict::Unknown).then_some(of_rate.as_slice());
+        let law = composed.as_ref().filter(|composed| composed.accepted);
+        let of_rate: Vec<f64> = match law {
+            Some(law) => law.fit.residuals.iter().map(|channels| rms(&channels[RATE_CHANNEL])).collect(),
+            None => answered[..read.len()].iter().map(|answered| answered[RATE_CHANNEL]).collect(),
+        };
+        let explains = law.is_some() || diagnosis.verdict != Verdict::Unknown || !withdrawn.is_empty();
+        let of_rate = explains.then_some(of_rate.as_slice());
         let constants_suffice = diagnosis.verdict == Verdict::Recalibrate;
         notes.extend(drawing::warning(&drawn, case, &read, of_rate, constants_suffice).map_err(coil)?);
     }

@@ -83,7 +83,7 @@ fn whole(case: &CoilCase, layout: &Layout) -> Panel<'static> {
     let (design, chamber) = (&case.design, &layout.chamber);
     let film = design.heat.film;
     let around = match film {
-        Some(film) => format!("film of {film} W/(m² K) on every surface"),
+        Some(film) => format!("film of {film} W/(m² K) on every outer surface"),
         None => "chamber wall, medium inside".into(),
     };
     let mut areas = vec![area(chamber, String::new())];

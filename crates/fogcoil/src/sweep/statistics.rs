@@ -6,7 +6,7 @@ use super::plan::Plan;
 use super::points::Sampling;
 use super::row::Row;
 use crate::Error;
-use crate::variants::{Kind, Value};
+use crate::variants::{Factor, Kind, Value, Varied};
 
 /// Largest magnitude that is nothing but rounding, as the thermal phase of a steady ramp.
 const ROUNDING: f64 = 1e-12;
@@ -36,14 +36,21 @@ pub struct Smallest {
 }
 
 impl Smallest {
-    /// Of the rows of a plan that states a key; of points within tolerances alone none is a design to build.
+    /// Of the rows of a plan whose keys are all for a designer to choose: what chance draws is no design to build.
     fn of(plan: &Plan, place: usize, rows: &[Row]) -> Option<Self> {
+        let is_chosen = |factor: &Factor| match &factor.kind {
+            Kind::Key(varied) => !matches!(varied, Varied::Tolerance | Varied::Normal(..)),
+            _ => false,
+        };
+        let factors = &plan.variants.factors;
         let totals = rows.iter().enumerate().filter_map(|(point, row)| Some((point, row.outputs[place]?)));
         let (point, total) = totals.min_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
-        let stated =
-            plan.variants.factors.iter().zip(&rows[point].values).filter(|(factor, _)| matches!(factor.kind, Kind::Key(_)));
-        let values: Vec<_> = stated.filter_map(|(factor, value)| Some((factor.key.clone(), value.clone()?))).collect();
-        (!values.is_empty()).then_some(Self { point, total, values })
+        let values: Vec<_> = factors
+            .iter()
+            .zip(&rows[point].values)
+            .filter_map(|(factor, value)| Some((factor.key.clone(), value.clone()?)))
+            .collect();
+        (!values.is_empty() && factors.iter().all(is_chosen)).then_some(Self { point, total, values })
     }
 
     /// Its point and values, in words.

@@ -33,7 +33,7 @@ pub enum Absent {
     )]
     Indistinct,
     /// The response settles more slowly than the ramps and rests last.
-    #[error("responses slower than a third of the longest ramp or rest, which lasts {} s, change it by more than a tenth, and by more than its errors: the unit may not have settled; record ramps and rests that last longer", Seconds(*.0))]
+    #[error("responses slower than a third of the longest ramp or rest, which lasts {} s, change it, or the sensitivity beside it, by more than its errors: the unit may not have settled; record ramps and rests that last longer", Seconds(*.0))]
     Unsettled(f64),
     /// No temperature is held after heating and after cooling.
     #[error(

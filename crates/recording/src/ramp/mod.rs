@@ -82,22 +82,24 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     let slower = lags::slower(&sets[0]);
     let slower = Model::new(Design::new(input, &course, &slower, heats, cools), observed)?;
     let slow = slow(&models, &slower);
-    let settled = |found: Estimate| match slow {
-        Slow::Unsettled => Err(Absent::Unsettled(settling.round())),
-        Slow::By(_) => Ok(found),
-    };
+    let not_settled = || Err(Absent::Unsettled(settling.round()));
+    let found = |of: &dyn Fn(&Design) -> Result<Weights, Absent>| over(&models, |model| model.told(&of(&model.design)?, noise));
     let told = |of: &dyn Fn(&Design) -> Result<Weights, Absent>| {
-        let found = over(&models, |model| model.told(&of(&model.design)?, noise)).and_then(settled)?;
-        let slow = if let Slow::By(change) = slow { change } else { 0.0 };
-        Ok(Estimate { sd: found.sd.hypot(slow), ..found })
+        let found = found(of)?;
+        match slow {
+            Slow::Unsettled => not_settled(),
+            Slow::By(change) => Ok(Estimate { sd: found.sd.hypot(change), ..found }),
+        }
     };
+    // the change is that of the sensitivity, and no error of a difference, or of a bias at rest
+    let settled = |found: Estimate| if matches!(slow, Slow::By(0.0)) { Ok(found) } else { not_settled() };
     let sensitivity = told(&|design| Ok(design.sensitivity()));
     // of terms that cannot be told apart no sum over temperatures is known either
     let apart = if sensitivity == Err(Absent::Indistinct) { Err(Absent::Indistinct) } else { Ok(()) };
     Ok(Response {
         heating: told(&|design| design.towards(Direction::Heating)),
         cooling: told(&|design| design.towards(Direction::Cooling)),
-        asymmetry: told(&Design::asymmetry),
+        asymmetry: found(&Design::asymmetry).and_then(settled),
         hysteresis: over(&models, |model| hysteresis::hysteresis(model, &course, observed)),
         span: apart.clone().and_then(|()| span(&models)).and_then(settled),
         peak: apart.and_then(|()| peak(&models, input)),

@@ -6,6 +6,8 @@ use std::fmt::{Debug, Write as _};
 
 /// Distance of two numbers over the larger that still counts as the same: searches end within it, rounding moves them.
 const SAME: f64 = 1e-4;
+/// Distance over the largest number of the line.
+const ROUNDING: f64 = 1e-12;
 
 /// Figures, a line each: a name, a colon, and what it was found to be.
 #[derive(Default)]
@@ -53,6 +55,10 @@ fn parts(text: &str) -> (Vec<f64>, String) {
 
 fn is_same(a: &str, b: &str) -> bool {
     let ((numbers, rest), (others, other_rest)) = (parts(a), parts(b));
-    let near = |a: &f64, b: &f64| (a - b).abs() <= SAME * a.abs().max(b.abs()) + 1e-12 || a.is_nan() && b.is_nan() || a == b;
+    // what rounding leaves of the largest is nothing
+    let largest = numbers.iter().filter(|a| a.is_finite()).fold(0.0_f64, |most, a| most.max(a.abs()));
+    let is_finite_and_near =
+        |a: &f64, b: &f64| b.is_finite() && (a - b).abs() <= SAME * a.abs().max(b.abs()) + ROUNDING * largest;
+    let near = |a: &f64, b: &f64| a == b || a.is_nan() && b.is_nan() || a.is_finite() && is_finite_and_near(a, b);
     rest == other_rest && numbers.len() == others.len() && numbers.iter().zip(&others).all(|(a, b)| near(a, b))
 }
