@@ -1,7 +1,7 @@
 //! Tensor-product meshes of the half-plane, graded towards the edges of the coil where bonded materials make stresses singular.
 
-use crate::layout::{CONTACT_SKIN, Layout, Region};
-use crate::{Design, Error, Side};
+use crate::layout::{CONTACT_SKIN, Domain, Layout, Region};
+use crate::{Error, Side};
 use fem_core::polynomial::{Lagrange, gauss_lobatto};
 use fem_core::{Edge, Measure, Mesh, ReferenceElement};
 use std::collections::HashMap;
@@ -16,24 +16,6 @@ pub struct MeshFineness {
     pub layers: usize,
     /// Each layer's width as a fraction of the next one's distance from the edge, in 0.05 … 0.7.
     pub ratio: f64,
-}
-
-/// Part of the half-plane that is meshed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Domain {
-    /// Coil and spool: enough for mechanics.
-    Solids,
-    /// Coil, spool and what fills the gaps between them: heat flow where a film stands for the medium outside.
-    SolidsAndGaps,
-    /// Everything to the chamber wall: heat flow.
-    Chamber,
-}
-
-impl Domain {
-    /// Part that a design's heat flow takes.
-    pub(crate) fn of_heat(design: &Design) -> Self {
-        if design.heat.film.is_some() { Self::SolidsAndGaps } else { Self::Chamber }
-    }
 }
 
 /// Whether a bond that can open is open.

@@ -1,6 +1,6 @@
 //! Rectangles of the (r, y) half-plane and their content.
 
-use crate::{Contact, Design, Domain, Error, Mechanics, Side};
+use crate::{Contact, Design, Error, Mechanics, Side};
 
 /// Thickness of the skin of the hub whose radial conductivity stands for a contact resistance \[m\]: thin enough to leave the hub's
 /// conduction and stiffness as they are (1/4000 of a wall of 4 mm).
@@ -29,6 +29,24 @@ pub enum Region {
     RightContact,
     /// The medium around the solids.
     Medium,
+}
+
+/// Part of the half-plane that is meshed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Domain {
+    /// Coil and spool: enough for mechanics.
+    Solids,
+    /// Coil, spool and what fills the gaps between them: heat flow where a film stands for the medium outside.
+    SolidsAndGaps,
+    /// Everything to the chamber wall: heat flow.
+    Chamber,
+}
+
+impl Domain {
+    /// Part that a design's heat flow takes.
+    pub(crate) fn of_heat(design: &Design) -> Self {
+        if design.heat.film.is_some() { Self::SolidsAndGaps } else { Self::Chamber }
+    }
 }
 
 /// A solid rectangle of the half-plane.

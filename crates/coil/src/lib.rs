@@ -50,9 +50,9 @@ pub use design::{
 pub use dynamics::{COARSER, Dynamics, Fidelity, REDUCTION_SAFETY, ReductionError, Response, STANDARD, functionals};
 pub use error::Error;
 pub use fields::TurnFields;
-pub use grid::{Bonds, Domain, Grid, MeshFineness};
+pub use grid::{Bonds, Grid, MeshFineness};
 pub use inverse::{FEWEST_ROWS, Inferred, LEAST_NOISE, chamber_from_sensor};
-pub use layout::{Layout, Rectangle, Region};
+pub use layout::{Domain, Layout, Rectangle, Region};
 pub use mechanics::{MechanicalState, Relaxation};
 pub use model::{BiasOperator, Model};
 pub use parametric::{

@@ -3,8 +3,6 @@
 use diagnosis::{ForwardModel, Role, expected};
 use mechanisms::{Gyro, RATE as RATE_CHANNEL};
 
-use super::rms;
-
 /// Largest ratio of what a mistake leaves to what the answer leaves at which the mistake explains as much.
 const AS_WELL: f64 = 1.1;
 /// Standard deviations of the tolerances within which the constants, which a mistake leaves as drawn, make the rest.
@@ -50,4 +48,10 @@ pub(super) fn spread(recorded: &[f64], predicted: &[f64], sign: f64) -> f64 {
     let left: Vec<f64> = recorded.iter().zip(predicted).map(|(y, p)| y - sign * p).filter(|r| r.is_finite()).collect();
     let mean = left.iter().sum::<f64>() / left.len().max(1) as f64;
     rms(&left.iter().map(|r| r - mean).collect::<Vec<_>>())
+}
+
+/// Root mean square of what is there.
+pub(super) fn rms(series: &[f64]) -> f64 {
+    let (sum, count) = series.iter().filter(|v| v.is_finite()).fold((0.0, 0.0_f64), |(s, n), v| (s + v * v, n + 1.0));
+    (sum / count.max(1.0)).sqrt()
 }

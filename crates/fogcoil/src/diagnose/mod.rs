@@ -28,6 +28,7 @@ use mechanisms::{CATALOGUE, Extent, Gyro, Mechanism, RATE as RATE_CHANNEL, SPOOL
 use progress::Step;
 use recording::Seconds;
 
+use self::as_drawn::rms;
 use crate::Error;
 use crate::cache::Cache;
 use crate::compose::{Composed, Sought, StandIn, compose};
@@ -222,12 +223,6 @@ fn check_laws(gyro: &Gyro, mechanisms: &[&dyn Mechanism], records: &[Record]) ->
         }
     }
     Ok(())
-}
-
-/// Root mean square of what is there.
-fn rms(series: &[f64]) -> f64 {
-    let (sum, count) = series.iter().filter(|v| v.is_finite()).fold((0.0, 0.0_f64), |(s, n), v| (s + v * v, n + 1.0));
-    (sum / count.max(1.0)).sqrt()
 }
 
 /// Note on a held-out record in which the answer leaves more than noise.

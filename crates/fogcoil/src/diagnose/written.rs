@@ -6,7 +6,8 @@ use diagnosis::Active;
 use files::{Note, Remark};
 use mechanisms::{RATE, SPOOL};
 
-use super::{Outcome, rms};
+use super::Outcome;
+use super::as_drawn::rms;
 use crate::Error;
 use crate::input::check_coil;
 use crate::table::significant;
