@@ -31,7 +31,7 @@ pub use change::Change;
 pub use constants::{number_of, with_constant};
 pub use course::{Delay, Parts, RATE, SPOOL};
 pub use design::REFERENCE_C;
-pub use gyro::Gyro;
+pub use gyro::{Gyro, InFull};
 pub use heat_path::{AtWork, HeatPath};
 pub use instruments::{Instrument, Instruments, USUAL_NOISE, reading_of};
 pub use law_tools::Chain;

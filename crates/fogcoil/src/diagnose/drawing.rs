@@ -1,5 +1,6 @@
 //! A drawing that is wrong in one word, or of another unit: it explains at once what faults would have to.
 
+use coil::Design;
 use files::{Note, Remark};
 use mechanisms::{Gyro, RATE as RATE_CHANNEL};
 
@@ -26,7 +27,11 @@ pub(super) fn warning(
         return Ok(None);
     }
     let drawn = (0..records.len()).map(|n| AsDrawn::of(gyro, n)).collect::<Result<Vec<_>, _>>()?;
-    let full = (0..records.len()).map(|n| gyro.in_full(n, &case.design)).collect::<Result<Vec<_>, _>>()?;
+    let in_full = |design: &Design| -> Result<Vec<Vec<f64>>, coil::Error> {
+        let full = gyro.in_full(design)?;
+        (0..records.len()).map(|n| Ok(full.under(n)?[RATE_CHANNEL].clone())).collect()
+    };
+    let drawn_in_full = in_full(&case.design)?;
     let rate = |n: usize| &records[n].observed.channels[RATE_CHANNEL];
     // over the rows of all records
     let pooled = |each: &[f64]| {
@@ -43,14 +48,15 @@ pub(super) fn warning(
     }
     let mut best: Option<(f64, String)> = None;
     for other in other_drawings(&case.design) {
-        let would = |n: usize| -> Result<f64, coil::Error> {
-            let (own, changed) = (&drawn[n].predicted[RATE_CHANNEL], gyro.in_full(n, &other.design)?);
-            let change = changed[RATE_CHANNEL].iter().zip(&full[n][RATE_CHANNEL]).map(|(a, b)| a - b);
-            let predicted: Vec<f64> = own.iter().zip(change).map(|(own, change)| own + change).collect();
-            Ok(spread(rate(n), &predicted, 1.0))
-        };
         // one that cannot be solved is none
-        let Ok(would) = numbers.clone().map(would).collect::<Result<Vec<f64>, _>>() else { continue };
+        let Ok(changed) = in_full(&other.design) else { continue };
+        let would = |n: usize| {
+            let change = changed[n].iter().zip(&drawn_in_full[n]).map(|(a, b)| a - b);
+            let predicted: Vec<f64> =
+                drawn[n].predicted[RATE_CHANNEL].iter().zip(change).map(|(own, change)| own + change).collect();
+            spread(rate(n), &predicted, 1.0)
+        };
+        let would: Vec<f64> = numbers.clone().map(would).collect();
         let as_much = numbers.clone().all(|n| drawn[n].explains_as_much(would[n], answered.map(|answered| answered[n])));
         let would = pooled(&would);
         if as_much && RATIO * would < left_of_all && best.as_ref().is_none_or(|(least, _)| would < *least) {

@@ -174,6 +174,11 @@ impl Outcome<'_> {
                 "The explanation of the fitted records is taken back: a record that was held out contradicts it. The cause is unknown."
                     .to_owned()
             }
+            // the law that predicts says more of its form than what the residual looks like
+            Verdict::Unknown if self.law().is_some() => {
+                "The recording differs from the design in a way that nothing in the library explains; a law that was composed predicts it."
+                    .to_owned()
+            }
             Verdict::Unknown => {
                 let structure = self.structure().map_or(String::new(), |structure| format!(": {structure}"));
                 format!("The recording differs from the design in a way that nothing in the library explains{structure}.")

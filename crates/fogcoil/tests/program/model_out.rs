@@ -303,8 +303,8 @@ fn a_film_far_off_the_drawing_leaves_nothing_of_the_thermometer() {
     let unit = with_constant(drawn.library().design(), &film.parameter.name, *value).unwrap();
     let gyro = drawn.about(&u, &[]).unwrap().unwrap();
     let missed = gyro.missed(0, &u, &[], &unit).unwrap().unwrap();
-    let as_drawn = gyro.in_full(0, drawn.library().design()).unwrap();
-    let of_unit = gyro.in_full(0, &unit).unwrap();
+    let as_drawn = gyro.in_full(drawn.library().design()).unwrap().under(0).unwrap();
+    let of_unit = gyro.in_full(&unit).unwrap().under(0).unwrap();
     for (channel, most) in [(SPOOL, 1e-3), (RATE_CHANNEL, 1e-2)] {
         let effect = rms(of_unit[channel].iter().zip(&as_drawn[channel]).map(|(a, b)| a - b));
         let off = rms(missed[channel].iter().copied()) / effect;

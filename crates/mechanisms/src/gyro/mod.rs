@@ -5,6 +5,8 @@ mod recalibrated;
 mod simulated;
 mod together;
 
+pub use simulated::InFull;
+
 use crate::REFERENCE_C;
 use crate::constants::{Constant, number_of};
 use crate::course::{Delay, RATE, Series, add, total};

@@ -27,7 +27,7 @@ impl Gyro<'_> {
             }
         }
         let (changed, exact) = (self.respond(record, u, active)?, self.respond(record, &undisturbed, &[])?);
-        let (full, full_exact) = (self.in_full(record, design)?, self.in_full(record, self.library().unchanged())?);
+        let (full, full_exact) = (self.in_full(design)?.under(record)?, self.in_full(self.library().unchanged())?.under(record)?);
         let missed = |channel: usize| {
             let rows = 0..changed[channel].len();
             rows.map(|n| full[channel][n] - full_exact[channel][n] - (changed[channel][n] - exact[channel][n])).collect()
@@ -35,27 +35,40 @@ impl Gyro<'_> {
         Ok(Some((0..changed.len()).map(missed).collect()))
     }
 
-    /// Thermometer \[°C\] and rate \[deg/h\] of any design in the rows of a record, by a full solution from rest, as instruments without an error read
-    /// them: channel by channel, as [`Self::respond`].
+    /// Any design in full, to be asked for what it makes of these records.
     ///
     /// # Errors
     /// As [`Self::missed`].
-    pub fn in_full(&self, record: usize, design: &Design) -> Result<[Vec<f64>; 2], Error> {
-        in_full(&self.records[record], design)
+    pub fn in_full(&self, design: &Design) -> Result<InFull<'_>, Error> {
+        Ok(InFull { records: &self.records, dynamics: Dynamics::new(design, &[Drive::Chamber], &STANDARD)? })
     }
 }
 
-fn in_full(record: &Prepared, design: &Design) -> Result<[Vec<f64>; 2], Error> {
-    let clock = Clock::new(&record.time, &record.chamber, record.averaging);
-    let profile = Profile { time: clock.time.clone(), drives: vec![clock.chamber.clone()] };
-    let responses = Dynamics::new(design, &[Drive::Chamber], &STANDARD)?.simulate(&profile)?;
-    let turned = |n: usize| responses[n].rate() * DEG_PER_H_PER_RAD_PER_S * (clock.time[n] - clock.time[n - 1]);
-    let mean = |[from, to]: [usize; 2]| match to > from {
-        true => (from + 1..=to).map(turned).sum::<f64>() / (clock.time[to] - clock.time[from]),
-        false => 0.0,
-    };
-    let mut channels = [const { Vec::new() }; 2];
-    channels[SPOOL] = clock.rows.iter().map(|&n| responses[n].sensor).collect();
-    channels[RATE] = clock.readings().map(mean).collect();
-    Ok(channels)
+/// A design in full under the records of a [`Gyro`]: each is simulated from rest.
+pub struct InFull<'g> {
+    records: &'g [Prepared],
+    dynamics: Dynamics,
+}
+
+impl InFull<'_> {
+    /// Thermometer \[°C\] and rate \[deg/h\] in the rows of a record, as instruments without an error read them: channel by channel, as
+    /// [`ForwardModel::respond`](diagnosis::ForwardModel::respond).
+    ///
+    /// # Errors
+    /// As [`Gyro::missed`].
+    pub fn under(&self, record: usize) -> Result<[Vec<f64>; 2], Error> {
+        let record = &self.records[record];
+        let clock = Clock::new(&record.time, &record.chamber, record.averaging);
+        let profile = Profile { time: clock.time.clone(), drives: vec![clock.chamber.clone()] };
+        let responses = self.dynamics.simulate(&profile)?;
+        let turned = |n: usize| responses[n].rate() * DEG_PER_H_PER_RAD_PER_S * (clock.time[n] - clock.time[n - 1]);
+        let mean = |[from, to]: [usize; 2]| match to > from {
+            true => (from + 1..=to).map(turned).sum::<f64>() / (clock.time[to] - clock.time[from]),
+            false => 0.0,
+        };
+        let mut channels = [const { Vec::new() }; 2];
+        channels[SPOOL] = clock.rows.iter().map(|&n| responses[n].sensor).collect();
+        channels[RATE] = clock.readings().map(mean).collect();
+        Ok(channels)
+    }
 }

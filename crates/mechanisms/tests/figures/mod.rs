@@ -123,7 +123,7 @@ fn of_readings() {
     figures.series("reading nominal thermometer", &nominal[SPOOL]);
     figures.series("reading nominal rate", &nominal[RATE]);
     figures.add("reading channels", &gyro.channels());
-    let full = gyro.in_full(0, &reference()).expect("a solution");
+    let full = gyro.in_full(&reference()).expect("a solution").under(0).expect("a solution");
     figures.series("reading full thermometer", &full[SPOOL]);
     figures.series("reading full rate", &full[RATE]);
     figures.hold(KEPT, "reading");

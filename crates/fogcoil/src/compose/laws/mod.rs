@@ -42,6 +42,6 @@ mod tests {
             assert!(!ids.contains(&case.mechanism.id), "{}", case.mechanism.id);
             ids.push(case.mechanism.id);
         }
-        assert_eq!(ids.len(), 79);
+        assert_eq!(ids.len(), 82);
     }
 }

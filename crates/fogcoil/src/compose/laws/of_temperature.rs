@@ -199,6 +199,17 @@ pub(super) fn forms<'a>(t: &str, ranges: &Ranges) -> Vec<Form<'a>> {
             none(),
             "size * T_rate * exp(-((T - at) / width)^2)".into(),
         ),
+        // something happens at one temperature, nothing on both sides of it
+        form(
+            "bump",
+            "that peaks at one value of",
+            "a resonance or a mode that crosses, or a loss of a polymer that peaks",
+            "deg/h",
+            1.0,
+            vec![("at", "degC", at().2, ranges.every(2.0 * TRANSITION_K)), width()],
+            none(),
+            "size * exp(-((T - at) / width)^2)".into(),
+        ),
         form(
             "growth",
             "that grows exponentially with",
