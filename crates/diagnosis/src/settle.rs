@@ -18,6 +18,10 @@ const STRAINED: f64 = 1.0;
 const STRAYED: f64 = 3.0;
 /// Share of the leader's gain from which another mechanism is followed, too: about the drawing nobody can tell which of two strong ones it is.
 const RIVALS: f64 = 0.5;
+/// Ways of a usual record: constants alone, the leader beside them, one rival.
+const USUAL_WAYS: usize = 3;
+/// Most hypotheses of a round that are followed so: both flanges, of a mechanism that may be at either.
+const FOLLOWED: usize = 2;
 /// Choices of a mechanism that are tried.
 const CHOICES: usize = 3;
 
@@ -30,6 +34,8 @@ pub struct Settled<M> {
     pub recalibrated: Fit,
     /// The likeliest mechanism beside the constants, where [`Self::model`] is good about those: where a search begins.
     pub leading: Option<Fit>,
+    /// Other mechanisms that were followed, each with the model about it, unless that is the one given.
+    pub(crate) rivals: Vec<(Fit, Option<M>)>,
     /// The mechanism that explains most beside the constants, by its number, and how much ln evidence it gains on them alone: little or less than
     /// nothing if they suffice.
     pub suspect: Option<(usize, f64)>,
@@ -93,13 +99,14 @@ pub fn settled<M: ForwardModel>(
     progress: &dyn Fn(Step),
 ) -> Result<Settled<M>, Error> {
     let mut steps = 0;
-    let mut told = |starts: usize| {
-        progress(Step::counted(TASK, steps, 1 + starts + 3 * ROUNDS - TRIED));
+    let mut told = |starts: usize, ways: usize| {
+        progress(Step::counted(TASK, steps, 1 + starts + ways * ROUNDS - TRIED));
         steps += 1;
     };
     let way = |start: Option<&Vec<f64>>| -> Result<Way<M>, Error> {
         let about = start.map(|start| model.about(start, &[])).transpose().map_err(Error::Model)?.flatten();
-        Ok(Way { model, records, observations, about, known: None, only: None, rival: None, rounds: 0, arrived: false })
+        let (known, only, rivals) = (None, None, Vec::new());
+        Ok(Way { model, records, observations, about, known, only, rivals, rounds: 0, arrived: false })
     };
     // how likely the constants are from where a way starts is seen when they have been found about it
     let tried = |start: Option<&Vec<f64>>, mechanisms: bool| -> Result<(Way<M>, f64), Error> {
@@ -108,20 +115,20 @@ pub fn settled<M: ForwardModel>(
         let evidence = tried.settled()?.log_evidence;
         Ok((tried, evidence))
     };
-    told(0);
+    told(0, USUAL_WAYS);
     let (mut alone, mut likeliest) = tried(None, false)?;
     let mut first = None;
     let starts = alone.known.as_ref().map_or_else(Vec::new, |known| model.starts(&known.nuisances[0]));
     for start in &starts {
-        told(starts.len());
+        told(starts.len(), USUAL_WAYS);
         let (other, evidence) = tried(Some(start), false)?;
         if evidence > likeliest {
             (alone, likeliest, first) = (other, evidence, Some(start));
         }
     }
-    let mut told = || told(starts.len());
+    let mut told = |ways: usize| told(starts.len(), ways);
     while !alone.arrived {
-        told();
+        told(USUAL_WAYS);
         alone.go_on(false)?;
     }
     let recalibrated = alone.settled()?;
@@ -130,43 +137,61 @@ pub fn settled<M: ForwardModel>(
     // constants that had to go far may stand for a mechanism that is near the drawing: about them it does not show
     let suspect = leading.hypothesis.mechanisms.first().map(|(mechanism, _)| (*mechanism, gain));
     if gain <= MATTERS && strain(model, &recalibrated) <= STRAINED {
-        return Ok(Settled { model: alone.about, alone: Alone::Settled, recalibrated, leading: None, suspect });
+        return Ok(Settled {
+            model: alone.about,
+            alone: Alone::Settled,
+            recalibrated,
+            leading: None,
+            rivals: Vec::new(),
+            suspect,
+        });
     }
     // the constants alone may have made up for a mechanism by the start that they prefer
     let (mut beside, first) = if first.is_some() {
-        told();
+        told(USUAL_WAYS);
         let [(drawn, of_drawn), (other, of_other)] = [tried(None, true)?, tried(first, true)?];
         if of_other > of_drawn { (other, first) } else { (drawn, None) }
     } else {
         (way(None)?, None)
     };
     while !beside.arrived {
-        told();
+        told(USUAL_WAYS);
         beside.go_on(true)?;
     }
     let mut leader = beside.settled()?;
-    if let Some(rival) = beside.rival.take() {
+    // about the leader's constants a rival may look much worse than it is: what it comes to by itself counts
+    let mut rivals = Vec::new();
+    let others = std::mem::take(&mut beside.rivals);
+    let ways = 2 + others.len();
+    for rival in others {
+        if rival == leader.hypothesis {
+            continue;
+        }
         let mut other = Way { only: Some(rival), ..way(first)? };
         while !other.arrived {
-            told();
+            told(ways);
             other.go_on(true)?;
         }
-        let led = other.settled()?;
+        let mut led = other.settled()?;
         if led.log_evidence > leader.log_evidence {
-            (beside, leader) = (other, led);
+            (beside, other) = (other, beside);
+            (leader, led) = (led, leader);
+        }
+        if !led.active.is_empty() {
+            rivals.push((led, other.about));
         }
     }
     // each at its best, about its own constants
     let gain = leader.log_evidence - recalibrated.log_evidence;
     let suspect = leader.hypothesis.mechanisms.first().map(|(mechanism, _)| (*mechanism, gain));
     Ok(if gain <= 0.0 {
-        Settled { model: alone.about, alone: Alone::Settled, recalibrated, leading: None, suspect }
+        Settled { model: alone.about, alone: Alone::Settled, recalibrated, leading: None, rivals, suspect }
     } else if leader.hypothesis == Hypothesis::RECALIBRATED {
         // with mechanisms on the way, the constants alone came to more likely ones
-        Settled { model: beside.about, alone: Alone::Settled, recalibrated: leader, leading: None, suspect }
+        Settled { model: beside.about, alone: Alone::Settled, recalibrated: leader, leading: None, rivals, suspect }
     } else {
         let alone = alone.about.map_or(Alone::Given, Alone::Other);
-        Settled { model: beside.about, alone, recalibrated, leading: Some(leader), suspect }
+        Settled { model: beside.about, alone, recalibrated, leading: Some(leader), rivals, suspect }
     })
 }
 
@@ -179,8 +204,8 @@ struct Way<'a, M> {
     known: Option<Fit>,
     /// The hypothesis that is followed, if there is but one.
     only: Option<Hypothesis>,
-    /// The mechanism that comes next to the likeliest.
-    rival: Option<Hypothesis>,
+    /// Mechanisms that come next to the likeliest, in each round in which all are tried.
+    rivals: Vec<Hypothesis>,
     rounds: usize,
     arrived: bool,
 }
@@ -200,10 +225,13 @@ impl<M: ForwardModel> Way<'_, M> {
             Some(known) if self.rounds > 1 => vec![known.hypothesis.clone()],
             _ => self.only.clone().map_or_else(|| candidates(self.model, mechanisms), |only| vec![only]),
         };
-        let Led { fit, rival, .. } = leader(self.here(), self.records, self.observations, self.known.as_ref(), &among)?;
+        let Led { fit, rivals, .. } = leader(self.here(), self.records, self.observations, self.known.as_ref(), &among)?;
         let next = self.here().about(&fit.nuisances[0], &fit.active).map_err(Error::Model)?;
-        // of the last round in which all are tried
-        self.rival = rival.or(self.rival.take());
+        rivals.into_iter().for_each(|rival| {
+            if !self.rivals.contains(&rival) {
+                self.rivals.push(rival);
+            }
+        });
         self.known = Some(fit);
         self.rounds += 1;
         self.arrived = next.is_none() || self.rounds == ROUNDS;
@@ -248,8 +276,8 @@ struct Led {
     fit: Fit,
     /// Its lead on the constants alone, ln evidence.
     gain: f64,
-    /// The best of those with another mechanism, if it leads on the constants by nearly as much.
-    rival: Option<Hypothesis>,
+    /// The best of those with another mechanism that lead on the constants by nearly as much.
+    rivals: Vec<Hypothesis>,
 }
 
 /// The best of some hypotheses and the constants alone.
@@ -278,9 +306,9 @@ fn leader(
     let best = fits.first().filter(|fit| gain_of(fit) > 0.0).unwrap_or(&recalibrated);
     let gain = gain_of(best);
     let mechanism = |fit: &Fit| fit.hypothesis.mechanisms.first().map(|(mechanism, _)| *mechanism);
-    let next = fits.iter().find(|fit| mechanism(fit) != mechanism(best));
-    let rival = next.filter(|fit| gain_of(fit) > MATTERS.max(RIVALS * gain)).map(|fit| fit.hypothesis.clone());
+    let next = fits.iter().filter(|fit| mechanism(fit) != mechanism(best) && gain_of(fit) > MATTERS.max(RIVALS * gain));
+    let rivals = next.take(FOLLOWED).map(|fit| fit.hypothesis.clone()).collect();
     // what the leader leaves is noise: the next round compares under that
     let noise = best.noise.refitted(model.channels(), observations, &best.residuals)?;
-    Ok(Led { fit: Fit { noise, ..best.clone() }, gain, rival })
+    Ok(Led { fit: Fit { noise, ..best.clone() }, gain, rivals })
 }

@@ -33,9 +33,11 @@ pub fn diagnose_settled<M: ForwardModel>(
 ) -> Result<Diagnosis, Error> {
     // those that led before, each with the model about it unless that is the one given
     let mut followed: Vec<(Fit, Option<M>)> = Vec::new();
+    // those that were followed and did not lead: all hypotheses have not been compared about them
+    let mut rivals = std::mem::take(&mut settled.rivals);
     let mut comparisons = 1;
     loop {
-        let led = settled.leading.iter().chain(followed.iter().map(|(fit, _)| fit));
+        let led = settled.leading.iter().chain(followed.iter().chain(&rivals).map(|(fit, _)| fit));
         let known: Vec<Fit> = [&settled.recalibrated].into_iter().chain(led).cloned().collect();
         let model = settled.model.as_ref().unwrap_or(given);
         let found = diagnose_beside(model, records, observations, settings, (&known, settled.leading.clone()), progress)?;
@@ -51,10 +53,16 @@ pub fn diagnose_settled<M: ForwardModel>(
             return Ok(found);
         }
         progress(Step::begins(TASK));
-        let (fit, about) = about_itself(model, &best.fit, records, observations)?;
-        if about.is_none() || !differ(&best.fit, &fit) {
-            return Ok(found);
-        }
+        let (fit, about) = match rivals.iter().position(|(fit, _)| is_best(fit)) {
+            Some(at) => rivals.swap_remove(at),
+            None => {
+                let (fit, about) = about_itself(model, &best.fit, records, observations)?;
+                if about.is_none() || !differ(&best.fit, &fit) {
+                    return Ok(found);
+                }
+                (fit, about)
+            }
+        };
         followed.retain(|(other, _)| other.hypothesis != fit.hypothesis);
         followed.extend(settled.lead(about, fit));
         comparisons += 1;
