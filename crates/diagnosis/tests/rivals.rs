@@ -56,6 +56,11 @@ fn better_elsewhere(mechanism: usize, about_itself: bool, x: f64) -> f64 {
     }
 }
 
+/// Both the same about themselves, and both known badly elsewhere.
+fn both_bent(_: usize, about_itself: bool, x: f64) -> f64 {
+    bent(WORKS, about_itself, x)
+}
+
 fn x() -> impl Iterator<Item = f64> {
     (0..ROWS).map(|n| n as f64 / (ROWS - 1) as f64)
 }
@@ -188,4 +193,14 @@ fn the_runner_up_is_followed_to_where_it_leads() {
     assert_eq!(leading.active[0].mechanism, WORKS);
     assert!((leading.active[0].values[0] - TRUTH).abs() < 0.1, "{:?}", leading.active);
     assert_eq!(settled.model.expect("a model").about, Some(WORKS));
+}
+
+/// Nothing tells the two from one another: the one that does not lead has no model about it in the comparison, but what it came to about itself.
+#[test]
+fn whatever_did_not_lead_counts_as_about_itself() {
+    let (pair, observed) = (Pair::new(both_bent, [1.0; 2], None), [observed()]);
+    let mut settled = settled(&pair, &[0], &observed, &|_| ()).expect("a fit");
+    let found = diagnose_settled(&pair, &mut settled, &[0], &observed, &Settings::default(), &|_| ()).expect("a diagnosis");
+    let probability = |mechanism: usize| found.mechanisms.iter().find(|(m, _)| *m == mechanism).map_or(0.0, |(_, p)| *p);
+    assert!([LOOKS, WORKS].iter().all(|m| (0.4..0.6).contains(&probability(*m))), "{:?}", found.mechanisms);
 }
