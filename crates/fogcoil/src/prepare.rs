@@ -13,7 +13,7 @@ use mechanisms::{
 };
 use progress::Step;
 use recording::check::{Finding, FindingKind, Severity, white_noise};
-use recording::condition::{Rest, Thinned, Thinning, Unrest, bridged, span, thinned, unrest};
+use recording::condition::{Rest, Thinned, Thinning, Unrest, bridged, filled, span, thinned, unrest};
 use recording::smooth::resolution;
 use recording::{Recording, Seconds, median_interval};
 
@@ -76,12 +76,15 @@ impl Record {
     pub(crate) fn at_instants(&self, values: &[f64]) -> Vec<f64> {
         let (instants, earlier) = (&self.instants.0, self.instants.1);
         let time = &self.observed.time;
-        if instants.len() == time.len() || time.len() < 2 {
+        if time.len() < 2 {
             return values.to_vec();
         }
         let at = |t: &f64| {
             let t = t + earlier;
             let after = time.partition_point(|end| *end < t).clamp(1, time.len() - 1);
+            if time[after] == t {
+                return values[after];
+            }
             let share = (t - time[after - 1]) / (time[after] - time[after - 1]);
             values[after - 1] + share * (values[after] - values[after - 1])
         };
@@ -149,7 +152,7 @@ fn moved_in_gap(case: &RecordCase) -> Option<Note> {
     };
     let (gap, off) = (1..readings.len()).filter_map(within).max_by(|a, b| a.1.total_cmp(&b.1))?;
     let text = format!(
-        "the chamber turned within a gap of {} s, over which it is taken for a straight line: some {off:.1} K off; what the next hours leave may be no finding",
+        "the chamber turned within a gap of {} s, over which its likeliest course is taken: up to {off:.1} K off; what the next hours leave may be no finding",
         Seconds(gap)
     );
     (off > REST.tolerance).then(|| Remark::Gap.warning(text))
@@ -186,8 +189,7 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     let digit = case.meta.as_ref().filter(|_| fine.is_none()).and_then(|meta| meta.resolutions()[0]);
     let is_held = |finding: &&Finding| matches!(finding.kind, FindingKind::Held { .. });
     let held: Vec<&Finding> = case.report.findings.iter().filter(is_held).collect();
-    let of_chamber = |finding: &&Finding| finding.channel.as_deref() == Some(CHAMBER);
-    let drive = drive(fine.as_ref().unwrap_or(&used), digit, held.iter().any(of_chamber));
+    let drive = drive(&filled(fine.as_ref().unwrap_or(&used)), digit);
     let mut earlier = 0.0;
     let (used, averaging) = match thinned(&used, interval, &THINNING) {
         None => (used, case.averaging),
@@ -199,6 +201,8 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
             (recording, case.averaging * every as f64)
         }
     };
+    // the chamber may have turned where a logger left rows out
+    let used = filled(&used);
     let time = used.time().to_vec();
     let values = |name| used.channel(name).map_or_else(|| vec![f64::NAN; time.len()], |channel| channel.values.clone());
     let (spool, rate) = (values(SPOOL), values(RATE));
@@ -257,12 +261,12 @@ pub(crate) fn other_design(case: &CoilCase, record: &RecordCase) -> Option<Note>
     (!told.eq_ignore_ascii_case(name)).then(|| Remark::OtherDesign.warning(message()).at(&record.fingerprint.file))
 }
 
-/// The chamber by its readings; `None` where there are none. Those of a slower logger leave its course between them to what is likely.
-fn drive(recording: &Recording, digit: Option<f64>, is_held: bool) -> Option<Chamber> {
+/// The chamber by its readings; `None` where there are none. They leave its course between them to what is likely.
+fn drive(recording: &Recording, digit: Option<f64>) -> Option<Chamber> {
     let chamber = &recording.channel(CHAMBER)?.values;
-    let readings = recording.time().iter().zip(chamber).filter(|(_, value)| is_held || value.is_finite());
-    let (time, readings): (Vec<f64>, Vec<f64>) = readings.unzip();
-    chamber.iter().any(|value| value.is_finite()).then(|| Chamber::recorded(&time, &readings, digit))
+    let first = chamber.iter().position(|value| value.is_finite())?;
+    let last = chamber.iter().rposition(|value| value.is_finite())?;
+    Some(Chamber::recorded(&recording.time()[first..=last], &chamber[first..=last], digit))
 }
 
 /// The forward model of some records, of which the first `fitted` are fitted.
@@ -302,7 +306,7 @@ fn instruments_of(records: &[Record]) -> Instruments {
         clock_sd: first(&|meta| meta.rate_deg_per_h.clock_offset_sd_s),
     };
     // a display adds the noise of its rounding, and means of readings have neither its nor the sensor's
-    let as_read = records.iter().all(|record| record.instants().len() == record.observed.time.len());
+    let as_read = records.iter().all(|record| record.instants.1 == 0.0);
     let of_spool = first(&|meta| meta.spool_c.noise).filter(|_| as_read).filter(|noise| *noise > 0.0);
     let mut white = noise_of(records, [of_spool.unwrap_or(USUAL_NOISE[SPOOL_NUMBER]), USUAL_NOISE[RATE_NUMBER]]);
     let least = first(&|meta| meta.resolutions()[1]).filter(|_| as_read).map_or(0.0, of_rounding);
@@ -392,13 +396,15 @@ mod tests {
         let [spool, rate] = &ready.observed.channels[..] else { panic!() };
         let time = &ready.observed.time;
         // 200 whole groups before the gap, of which 15 rows are cut off, and 199 after it
-        assert_eq!((time.len(), time[0], time[199], time[200]), (399, 29.0, 5999.0, 6044.0 + 3600.0));
+        // and as many rows without a value as the gap has room for
+        assert_eq!((time.len(), time[0], time[199], time[321]), (399 + 121, 29.0, 5999.0, 6044.0 + 3600.0));
+        assert!(rate[200..321].iter().chain(&spool[200..321]).all(|value| value.is_nan()));
         assert_eq!(ready.averaging, 30.0);
         // what is told of the means reads back at every row: the rate rises on a straight line, but for an hour without one
         assert_eq!(ready.instants().len(), 12_000);
         let again = ready.at_instants(rate);
         assert!([0, 15, 3000, 9000, 11_999].iter().all(|&n| (again[n] - (0.001 * n as f64 + 0.0001)).abs() < 1e-9), "{again:?}");
-        assert!((rate[0] - (0.0145 + 0.0001)).abs() < 1e-12 && (rate[200] - (6.0295 + 0.0001)).abs() < 1e-9, "{rate:?}");
+        assert!((rate[0] - (0.0145 + 0.0001)).abs() < 1e-12 && (rate[321] - (6.0295 + 0.0001)).abs() < 1e-9, "{rate:?}");
         assert!((ready.chamber[0] - 20.029).abs() < 1e-12 && (spool[0] - 20.0195).abs() < 1e-3, "{}", spool[0]);
         assert!(notes.iter().any(|note| note.text.contains("12000 rows are averaged by 30 to 399 of 30.000 s")), "{notes:?}");
     }

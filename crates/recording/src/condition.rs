@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use crate::series::GAP;
+use crate::series::{GAP, median_interval};
 use crate::statistics::median;
 use crate::{Channel, Recording, Sampling};
 
@@ -66,6 +66,28 @@ pub fn thinned(recording: &Recording, interval: f64, rule: &Thinning) -> Option<
     };
     let left = groups.iter().map(|group| time[group.end - 1]).collect();
     Some(Thinned { recording: recording.with(left, of), every, rows })
+}
+
+/// A recording whose gaps (intervals over 1.5 usual ones) have rows without a value, evenly, as many as the usual interval has room for; of more than the
+/// recording has rows, each gap gets its share. What a programme did meanwhile has a place then.
+pub fn filled(recording: &Recording) -> Recording {
+    let time = recording.time();
+    let Some(interval) = median_interval(time).filter(|interval| *interval > 0.0) else { return recording.clone() };
+    let left_out = |n: usize| if time[n] - time[n - 1] > GAP * interval { (time[n] - time[n - 1]) / interval - 1.0 } else { 0.0 };
+    let share = (time.len() as f64 / (1..time.len()).map(left_out).sum::<f64>()).min(1.0);
+    // the row of the recording that each row is, if it is one
+    let mut rows: Vec<(f64, Option<usize>)> = Vec::with_capacity(time.len());
+    for n in 0..time.len() {
+        let more = if n > 0 { (share * left_out(n)).round() as usize } else { 0 };
+        let between = |k: usize| time[n - 1] + (time[n] - time[n - 1]) * k as f64 / (more + 1) as f64;
+        rows.extend((1..=more).map(|k| (between(k), None)));
+        rows.push((time[n], Some(n)));
+    }
+    let of = |channel: &Channel| {
+        let values = rows.iter().map(|(_, row)| row.map_or(f64::NAN, |n| channel.values[n])).collect();
+        Channel { values, ..channel.clone() }
+    };
+    recording.with(rows.iter().map(|(t, _)| *t).collect(), of)
 }
 
 /// Groups of `every` rows between gaps.

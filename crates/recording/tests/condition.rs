@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use recording::check::{Expectations, check};
-use recording::condition::{Rest, Thinned, Thinning, Unrest, bridged, span, thinned, unrest};
+use recording::condition::{Rest, Thinned, Thinning, Unrest, bridged, filled, span, thinned, unrest};
 use recording::{Channel, Recording, Sampling};
 
 const NAN: f64 = f64::NAN;
@@ -25,6 +25,57 @@ fn thin(recording: &Recording) -> Thinned {
 
 fn values<'a>(recording: &'a Recording, name: &str) -> &'a [f64] {
     &recording.channel(name).expect("a channel").values
+}
+
+#[test]
+fn exact_a_gap_has_rows_without_a_value() {
+    let whole = recording(&[0.0, 2.0, 4.0, 6.0], &[1.0, 2.0, 3.0, 4.0], &[5.0, 6.0, 7.0, 8.0]);
+    assert_eq!(filled(&whole), whole);
+    // an interval of one and a half is none, one of 2.4 has room for one row, one of 4 for three
+    let time = [0.0, 2.0, 5.0, 9.8, 11.8, 13.8, 15.8, 17.8, 25.8];
+    let given: Vec<f64> = (0..9).map(f64::from).collect();
+    let found = filled(&recording(&time, &given, &given));
+    assert_eq!(found.time(), [0.0, 2.0, 5.0, 5.0 + 4.8 / 2.0, 9.8, 11.8, 13.8, 15.8, 17.8, 19.8, 21.8, 23.8, 25.8]);
+    for name in ["reading", "mean"] {
+        let found = values(&found, name);
+        assert!([3, 9, 10, 11].iter().all(|&n| found[n].is_nan()), "{found:?}");
+        assert_eq!(found.iter().copied().filter(|value| value.is_finite()).collect::<Vec<_>>(), given);
+    }
+    // no more rows than there were
+    let long = filled(&recording(&[0.0, 1.0, 2.0, 1002.0], &[1.0; 4], &[1.0; 4]));
+    assert_eq!(long.time(), [0.0, 1.0, 2.0, 202.0, 402.0, 602.0, 802.0, 1002.0]);
+    // nor is an empty or a short one any other
+    for rows in 0..2 {
+        let short = recording(&time[..rows], &given[..rows], &given[..rows]);
+        assert_eq!(filled(&short), short);
+    }
+}
+
+/// A chamber that follows its programme within 150 s turns in the middle of seven rows that a logger left out: its course there is that of the programme.
+#[test]
+fn where_rows_are_left_out_the_chamber_turns_as_its_programme_does() {
+    let mut air = 20.0;
+    let course: Vec<f64> = (0..24_000_u32)
+        .map(|t| {
+            let t = f64::from(t);
+            let programme = 20.0 + ((t - 6000.0).clamp(0.0, 6000.0) - (t - 12_000.0).clamp(0.0, 6000.0)) / 60.0;
+            air += (programme - air) / 150.0;
+            air
+        })
+        .collect();
+    let noise = |n: usize| ((n * 7919 % 1000) as f64 / 1000.0 - 0.5) * 0.02;
+    let kept: Vec<usize> = (0..400).filter(|n| !(197..204).contains(n)).collect();
+    let time: Vec<f64> = kept.iter().map(|n| 60.0 * *n as f64).collect();
+    let readings: Vec<f64> = kept.iter().map(|&n| course[60 * n] + noise(n)).collect();
+    let found = filled(&recording(&time, &readings, &readings));
+    let off = |values: &[f64]| {
+        let off = |(value, t): (&f64, &f64)| (value - course[*t as usize]).abs();
+        values.iter().zip(found.time()).map(off).fold(0.0, f64::max)
+    };
+    let likely = recording::smooth::smoothed(found.time(), values(&found, "reading"), None).expect("a course").values;
+    let line = bridged(found.time(), values(&found, "reading")).expect("a course");
+    let [likely, line] = [off(&likely), off(&line)];
+    assert!(line > 1.0 && likely < 0.2 * line, "{likely} K, {line} K on a line");
 }
 
 #[test]
