@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::Args;
-use fogcoil::input::{Key, RecordOptions, recordings};
+use fogcoil::input::{InputError, Key, RecordOptions, recordings};
 use fogcoil::output::Content;
 use fogcoil::{Error, check, input, output};
 use serde_json::json;
@@ -53,10 +53,10 @@ fn one(record: &Path, options: &RecordOptions, arguments: &Check, progress: &Pro
     let case = match map {
         None => progress.during(&reading, || input::read_record(record, options))?,
         Some(path) => {
-            let (map, case) = progress.during(&reading, || input::propose_map(record, options))?;
-            output::write_new(&path, &map)?;
+            let proposed = progress.during(&reading, || input::propose_map(record, options))?;
+            output::write_new(&path, &proposed.text)?;
             progress.note(&format!("{} is written", files::shown_path(&path)));
-            case
+            proposed.case.map_err(|missing| unchosen(record, &path, &missing))?
         }
     };
     let analysis = progress.during("identifying the noise", || check::Analysis::new(&case));
@@ -71,6 +71,16 @@ fn one(record: &Path, options: &RecordOptions, arguments: &Check, progress: &Pro
         (Some(path), None) => Err(Error::usage(format!("{}: there is no Allan deviation to draw", files::shown_path(path)))),
         (None, _) => Ok(()),
     }
+}
+
+/// The complaint about columns that are still to be chosen in a map.
+fn unchosen(record: &Path, map: &Path, missing: &[&str]) -> InputError {
+    let problem = format!("no column's name says that it is the {}", missing.join(", nor one that it is the "));
+    let remedy = format!(
+        "{} lists what may be it: take the // from the line that is right, give its unit, and check again without --write-map",
+        files::shown_path(map)
+    );
+    InputError::whole(record, problem, remedy)
 }
 
 /// A line for each; one that cannot be used does not keep the others from being checked.

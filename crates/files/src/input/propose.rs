@@ -11,22 +11,38 @@ use super::record_format::RecordFormat;
 use super::record_options::{Key, RecordOptions};
 use super::rows::quoted;
 use super::sniff::{Sniffed, sniff};
-use super::sniff_columns::{Found, date_and_time, find, holds, perhaps_temperatures, unit, unused_temperatures};
-use super::timestamp;
+use super::sniff_columns::{
+    Found, date_and_time, find, holds, is_instant, perhaps, perhaps_temperatures, unit, unused_temperatures,
+};
 use crate::Error;
 
 /// Most lines of temperatures that are not used.
 const MOST_ASIDES: usize = 25;
 
-/// A map file for a recording, `RECORD.map.ron`: its content, and the recording as it is read with it.
+/// A map file that is proposed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProposedMap {
+    /// Its content.
+    pub text: String,
+    /// The recording as it is read with it; an error are the names of the columns that are still to be chosen in it.
+    pub case: Result<RecordCase, Vec<&'static str>>,
+}
+
+/// A map file for a recording, `RECORD.map.ron`, and the recording as it is read with it.
 ///
-/// The `options` win over the proposal from the file's content.
+/// The `options` win over the proposal from the file's content. A map in which time or rate is still to be chosen lists what may be it.
 ///
 /// # Errors
 /// As [`read_record`](super::read_record), and if the file shows no table.
-pub fn propose_map(path: &Path, options: &RecordOptions) -> Result<(String, RecordCase), Error> {
-    let Proposal { mut map, mut doubts, asides } = proposed(&sniff(path)?);
-    map.declare(options);
+pub fn propose_map(path: &Path, options: &RecordOptions) -> Result<ProposedMap, Error> {
+    let Proposal { mut map, mut doubts, asides, missing } = proposed(&sniff(path)?, options);
+    let file = path.file_name().unwrap_or_default().to_string_lossy();
+    let heading = format!("How {} is read, proposed by `fogcoil check --write-map`: see whether it is right.", quoted(&file));
+    if !missing.is_empty() {
+        RecordFormat::of_map(&map, options)?;
+        let missing = missing.into_iter().map(Key::name).collect();
+        return Ok(ProposedMap { text: map.text(&heading, &doubts, &asides), case: Err(missing) });
+    }
     let mut case = read(path, &map, options)?;
     let others = other_units(&map, &case);
     for (key, units) in &others {
@@ -39,15 +55,11 @@ pub fn propose_map(path: &Path, options: &RecordOptions) -> Result<(String, Reco
     if !others.is_empty() {
         case = read(path, &map, options)?;
     }
-    let file = path.file_name().unwrap_or_default().to_string_lossy();
-    let heading = format!("How {} is read, proposed by `fogcoil check --write-map`: see whether it is right.", quoted(&file));
-    Ok((map.text(&heading, &doubts, &asides), case))
+    Ok(ProposedMap { text: map.text(&heading, &doubts, &asides), case: Ok(case) })
 }
 
 fn read(path: &Path, map: &MapFile, options: &RecordOptions) -> Result<RecordCase, Error> {
-    let mut format = RecordFormat::of(map).map_err(|(field, problem)| Error::Usage(format!("{field}: {problem}")))?;
-    format.declare(options).map_err(Error::Usage)?;
-    record::read_as(path, &format, options)
+    record::read_as(path, &RecordFormat::of_map(map, options)?, options)
 }
 
 /// Columns with the units that their values admit, the likeliest first, where nothing states the unit and the standard one cannot be right.
@@ -71,9 +83,11 @@ struct Proposal {
     doubts: Vec<(Key, String)>,
     /// Lines that may be in the map.
     asides: Vec<String>,
+    /// Columns without which no recording is read.
+    missing: Vec<Key>,
 }
 
-fn proposed(table: &Sniffed) -> Proposal {
+fn proposed(table: &Sniffed, options: &RecordOptions) -> Proposal {
     let skipped = u32::try_from(table.preamble).unwrap_or(u32::MAX);
     let mut map = MapFile {
         encoding: if table.encoding == Encoding::Utf8 { String::new() } else { table.encoding.name().into() },
@@ -86,26 +100,39 @@ fn proposed(table: &Sniffed) -> Proposal {
     let (mut doubts, mut taken) = (Vec::new(), Vec::new());
     for key in Key::ALL {
         let two = date_and_time(table).filter(|_| key == Key::Time);
-        let found = find(table, key);
+        let found = match options.columns.iter().find(|(of, _)| *of == key) {
+            Some((_, name)) => table.names.iter().position(|other| other == name).map(|column| Found::of(table, column, key)),
+            None => find(table, key),
+        };
         if let Some((day, time)) =
             two.filter(|(day, time)| found.as_ref().is_none_or(|found| [*day, *time].contains(&found.column)))
         {
             map.time.column.clone_from(&table.names[day]);
             map.time_of_day.clone_from(&table.names[time]);
+            taken.extend([day, time]);
         } else if let Some(found) = found {
             propose_column(table, key, &found, &mut map, &mut doubts);
             taken.push(found.column);
         }
     }
-    let asides = asides(table, &map, &taken);
-    Proposal { map, doubts, asides }
+    map.declare(options);
+    let said = |key: Key| options.units.iter().any(|(of, _)| *of == key) || options.scales.iter().any(|(of, _)| *of == key);
+    doubts.retain(|(key, doubt)| doubt.starts_with("or ") || !said(*key));
+    let missing: Vec<Key> = [Key::Time, Key::Rate].into_iter().filter(|key| !has(table, &map, *key)).collect();
+    Proposal { asides: asides(table, &map, &taken, &missing), map, doubts, missing }
+}
+
+/// Whether a map, or the name of a column, says which column is a key's; an interval stands for the time.
+fn has(table: &Sniffed, map: &MapFile, key: Key) -> bool {
+    !map.column(key).column.is_empty()
+        || table.names.iter().any(|name| name == key.standard())
+        || key == Key::Time && map.interval_s > 0.0
 }
 
 /// Puts a column that was found into the map, and its uncertainties among the doubts.
 fn propose_column(table: &Sniffed, key: Key, found: &Found, map: &mut MapFile, doubts: &mut Vec<(Key, String)>) {
     let Found { column, unit, foreign, others } = found;
     let (name, standard) = (&table.names[*column], key.units()[0].names[0]);
-    let is_instant = |field: &str| timestamp::is_date(field) || timestamp::time_of_day(field).is_some();
     let dates = key == Key::Time && holds(table, *column, is_instant);
     let of = map.column_mut(key);
     if name != key.standard() {
@@ -122,26 +149,43 @@ fn propose_column(table: &Sniffed, key: Key, found: &Found, map: &mut MapFile, d
     }
 }
 
-/// Temperatures of unknown origin, as lines of the map for those that are wanted.
-fn asides(table: &Sniffed, map: &MapFile, taken: &[usize]) -> Vec<String> {
-    let has = |key: Key| !map.column(key).column.is_empty() || table.names.iter().any(|name| name == key.standard());
+/// Columns of unknown meaning, as lines of the map for the keys that are wanted.
+fn asides(table: &Sniffed, map: &MapFile, taken: &[usize], missing: &[Key]) -> Vec<String> {
+    let line = |key: Key, column: usize, unsaid: &str| {
+        let (name, standard) = (&table.names[column], key.units()[0].names[0]);
+        let unit = unit(table, column, key).unwrap_or(unsaid);
+        let unit = if [standard, ""].contains(&unit) { String::new() } else { format!(", unit: {}", in_quotes(unit)) };
+        format!("{}: (column: {}{unit}),", key.name(), in_quotes(name))
+    };
+    let (mut asides, mut instants) = (Vec::new(), taken.to_vec());
+    for key in missing {
+        let columns = perhaps(table, *key, &instants);
+        let without =
+            if *key == Key::Time { "dates need none; without instants write interval_s: SECONDS" } else { "or give a scale" };
+        asides.push(format!(
+            "no column's name says that it is the {}; take the // from the line that is right, and put its unit for ?; {without}:",
+            key.name()
+        ));
+        let unsaid = |column: &usize| if holds(table, *column, is_instant) { "" } else { "?" };
+        asides.extend(columns.iter().take(MOST_ASIDES).map(|column| line(*key, *column, unsaid(column))));
+        if *key == Key::Time {
+            instants.extend(columns);
+        }
+    }
     let named = unused_temperatures(table, taken);
     let (unused, heading) = if named.is_empty() {
-        (perhaps_temperatures(table, taken), "columns that may be temperatures; take the // from the lines that are right:")
+        (perhaps_temperatures(table, &instants), "columns that may be temperatures; take the // from the lines that are right:")
     } else {
         (named, "temperatures that are not used; take the // from the lines that are right:")
     };
-    let line = |key: Key, column: usize| {
-        let (name, standard) = (&table.names[column], key.units()[0].names[0]);
-        let unit = unit(table, column, key).filter(|unit| *unit != standard);
-        let unit = unit.map_or(String::new(), |unit| format!(", unit: {}", in_quotes(unit)));
-        format!("{}: (column: {}{unit}),", key.name(), in_quotes(name))
-    };
-    let wanted = [Key::Chamber, Key::Spool].into_iter().filter(|key| !has(*key));
-    let lines: Vec<String> =
-        wanted.flat_map(|key| unused.iter().map(move |column| (key, *column))).map(|(key, column)| line(key, column)).collect();
+    let wanted = [Key::Chamber, Key::Spool].into_iter().filter(|key| !has(table, map, *key));
+    let lines: Vec<String> = wanted
+        .flat_map(|key| unused.iter().map(move |column| (key, *column)))
+        .map(|(key, column)| line(key, column, ""))
+        .collect();
     let heading = (!lines.is_empty()).then(|| heading.to_owned());
-    heading.into_iter().chain(lines).take(MOST_ASIDES).collect()
+    asides.extend(heading.into_iter().chain(lines).take(MOST_ASIDES));
+    asides
 }
 
 /// Remark on a column whose name has no unit, or a text in its place that is none.

@@ -68,6 +68,13 @@ impl RecordFormat {
         Self::of(&source.parse(None)?).map_err(|(field, problem)| source.fault(&field, problem, ""))
     }
 
+    /// The form by a map that is proposed; the options win.
+    pub(super) fn of_map(map: &MapFile, options: &RecordOptions) -> Result<Self, Error> {
+        let mut format = Self::of(map).map_err(|(field, problem)| Error::Usage(format!("{field}: {problem}")))?;
+        format.declare(options).map_err(Error::Usage)?;
+        Ok(format)
+    }
+
     /// The form by a map file; an error is field and problem.
     pub(super) fn of(file: &MapFile) -> Result<Self, (String, String)> {
         let at = |field: String| |problem: String| (field, problem);

@@ -7,7 +7,7 @@ use super::record_columns::RecordColumns;
 use super::record_format::{ColumnFormat, RecordFormat};
 use super::record_options::Key;
 use super::rows::quoted;
-use super::unit_names::{foreign, is_temperature};
+use super::unit_names::{bracketed, ending, foreign, is_temperature};
 use crate::remark::{Note, Remark};
 
 /// Notes on the columns; `dates` is the note on instants that are not seconds of a column.
@@ -79,7 +79,9 @@ fn mapped(key: Key, name: &str, form: &ColumnFormat) -> Option<Note> {
 /// Note on the unit in a column's name if it is not the one that is read.
 fn unit(key: Key, name: &str, form: &ColumnFormat) -> Option<Note> {
     let (read, shown, key_name) = (form.unit.names[0], quoted(name), key.name());
-    if let Some(named) = key.unit_in(name).filter(|named| *named != form.unit) {
+    // what the user says wins over an ending like that of `TC K`
+    let is_heard = bracketed(name).is_some() || !form.is_said;
+    if let Some(named) = ending(name, key).filter(|named| is_heard && *named != form.unit) {
         let named = named.names[0];
         let message = format!("the column {shown} is read in {read}; if its name is right, add --unit {key_name}={named}");
         return Some(Remark::UnitInName.warning(message));

@@ -2,8 +2,8 @@
 
 use super::record_options::Key;
 use super::sniff::{Sniffed, is_value};
-use super::timestamp::{is_day, time_of_day};
-use super::unit_names::{bracketed, ending, foreign, is_temperature, spelled};
+use super::timestamp::{is_date, is_day, time_of_day};
+use super::unit_names::{bracketed, ending, foreign, is_long, is_temperature, parted, spelled};
 
 /// Words in names of columns, in lower case; those of up to three letters stand alone.
 fn words(key: Key) -> &'static [&'static str] {
@@ -32,7 +32,8 @@ pub(super) struct Found {
 
 /// The column of a key, if there seems to be one.
 pub(super) fn find(table: &Sniffed, key: Key) -> Option<Found> {
-    let fits = |column: &usize| is_of(&table.names[*column], key) && holds_values(table, *column);
+    let is = |column: usize| is_of(&table.names[column], key) || key == Key::Time && is_counted(table, column);
+    let fits = |column: &usize| is(*column) && holds_values(table, *column);
     let mut candidates: Vec<usize> = (0..table.names.len()).filter(fits).collect();
     let standard = |column: &usize| table.names[*column] != key.standard();
     // a unit that is said speaks for a column, a word more; a day alone is no instant
@@ -41,8 +42,46 @@ pub(super) fn find(table: &Sniffed, key: Key) -> Option<Found> {
         (standard(&column), holds(table, column, is_day), !says, unit(table, column, key).is_none())
     });
     let (column, others) = candidates.split_first()?;
-    let foreign = foreign(&table.names[*column], key).map(str::to_owned);
-    Some(Found { column: *column, unit: unit(table, *column, key), foreign, others: others.to_vec() })
+    Some(Found { others: others.to_vec(), ..Found::of(table, *column, key) })
+}
+
+impl Found {
+    /// The column of a key by its number.
+    pub(super) fn of(table: &Sniffed, column: usize, key: Key) -> Self {
+        let foreign = foreign(&table.names[column], key).map(str::to_owned);
+        Self { column, unit: unit(table, column, key), foreign, others: Vec::new() }
+    }
+}
+
+/// Columns that may be a key's for all that their names say, none of those that are `taken`: numbers that increase, or dates, as the time; other numbers
+/// as a rate.
+pub(super) fn perhaps(table: &Sniffed, key: Key, taken: &[usize]) -> Vec<usize> {
+    let is = |column: &usize| match key {
+        Key::Time => increases(table, *column) || holds(table, *column, |field| is_instant(field) || is_day(field)),
+        _ => holds(table, *column, |field| number(field).is_some()) && !is_temperature(&table.names[*column]),
+    };
+    (0..table.names.len()).filter(|column| !taken.contains(column) && is(column)).collect()
+}
+
+/// Whether a field is an instant that is no number.
+pub(super) fn is_instant(field: &str) -> bool {
+    is_date(field) || time_of_day(field).is_some()
+}
+
+fn number(field: &str) -> Option<f64> {
+    field.trim().replace(',', ".").parse().ok()
+}
+
+/// Whether a column's numbers increase from each row to the next.
+fn increases(table: &Sniffed, column: usize) -> bool {
+    let values: Vec<f64> = table.rows.iter().map(|row| number(&row[column]).unwrap_or(f64::NAN)).collect();
+    values.len() > 1 && values.windows(2).all(|pair| pair[1] > pair[0])
+}
+
+/// Whether a column counts in a unit of time by the end of its name alone, like `t_min` or `Minutes`: then its numbers must increase.
+fn is_counted(table: &Sniffed, column: usize) -> bool {
+    let says = |(bare, text, _): (&str, &str, _)| bare.trim().eq_ignore_ascii_case("t") || is_long(text);
+    parted(&table.names[column], Key::Time).is_some_and(says) && increases(table, column)
 }
 
 /// Columns that hold date and time of day, if there are such.
@@ -66,7 +105,6 @@ pub(super) fn unused_temperatures(table: &Sniffed, taken: &[usize]) -> Vec<usize
 pub(super) fn perhaps_temperatures(table: &Sniffed, taken: &[usize]) -> Vec<usize> {
     /// Temperatures of a chamber \[°C\].
     const USUAL: std::ops::RangeInclusive<f64> = -100.0..=200.0;
-    let number = |field: &str| field.trim().replace(',', ".").parse::<f64>().ok();
     let is = |column: &usize| {
         let unit =
             bracketed(&table.names[*column]).is_some() || table.units.get(*column).is_some_and(|unit| !unit.trim().is_empty());
@@ -106,7 +144,7 @@ fn says(name: &str, key: Key) -> bool {
     let bare = bare(&lower);
     let tokens = tokens(bare);
     let says = |word: &&str| if word.len() <= 3 { tokens.contains(word) } else { bare.contains(*word) };
-    (key == Key::Time && bare.trim() == "t") || words(key).iter().any(says)
+    (key == Key::Time && (bare.trim() == "t" || bare.starts_with("t/"))) || words(key).iter().any(says)
 }
 
 fn is_of(name: &str, key: Key) -> bool {

@@ -104,13 +104,26 @@ pub(super) fn bracketed(name: &str) -> Option<(&str, &str)> {
     [('[', ']'), ('(', ')')].into_iter().find_map(|(open, close)| name.trim_end().strip_suffix(close)?.rsplit_once(open))
 }
 
-/// The unit that a column's name ends in: in brackets, or behind a last line or blank.
+/// The unit that a column's name ends in.
 pub(super) fn ending(name: &str, key: Key) -> Option<ColumnUnit> {
-    match bracketed(name) {
-        Some((_, unit)) => spelled(unit, key),
-        // the longest ending: rad/s before s
-        None => name.match_indices(['_', ' ', ',', '/']).find_map(|(at, _)| spelled(&name[at + 1..], key)),
+    parted(name, key).map(|(.., unit)| unit)
+}
+
+/// A column's name without the unit that it ends in, the text of that unit, and the unit: in brackets, behind a low line, a blank, a comma or a slash, or
+/// the whole name if it is a word like `Minutes`.
+pub(super) fn parted(name: &str, key: Key) -> Option<(&str, &str, ColumnUnit)> {
+    if let Some((bare, text)) = bracketed(name) {
+        return Some((bare, text, spelled(text, key)?));
     }
+    // the longest ending: rad/s before s
+    let behind = |(at, _): (usize, &str)| Some((&name[..at], &name[at + 1..], spelled(&name[at + 1..], key)?));
+    let whole = || Some(("", name, spelled(name, key).filter(|_| is_long(name))?));
+    name.match_indices(['_', ' ', ',', '/']).find_map(behind).or_else(whole)
+}
+
+/// Whether the text of a unit is a word that stands for nothing else, not a letter or `min`.
+pub(super) fn is_long(unit: &str) -> bool {
+    unit.trim().chars().count() > 3
 }
 
 /// Text in brackets of a column's name that seems to be a unit and is none of the key's.
@@ -134,13 +147,6 @@ pub(super) fn is_temperature(name: &str) -> bool {
                 |(at, _): (usize, &str)| name[at + 1..].chars().count() > 1 && spelled(&name[at + 1..], Key::Chamber).is_some();
             lower.contains("temp") && !lower.contains("temps") || name.match_indices(['_', ' ', ',']).any(long)
         }
-    }
-}
-
-impl Key {
-    /// The unit that a column's name has in brackets at its end, like `T [K]` or `Zeit (min)`, if it is one of the key's.
-    pub(super) fn unit_in(self, name: &str) -> Option<ColumnUnit> {
-        spelled(bracketed(name)?.1, self)
     }
 }
 

@@ -151,10 +151,6 @@ fn nothing_is_overwritten_and_nothing_written_in_vain() {
     };
     let text = "Zeit;Kammer;Wert\n".to_owned() + &lines(|n, [t, c, _, r]| format!("{t};{c:.3};{}", r + n as f64 * 1e-4));
     folder.write("r.csv", &text);
-    refused(
-        &["check", "r.csv", "--write-map"],
-        &["r.csv:1: rate_deg_per_h: the column is missing", "`Wert`", "--column rate=NAME"],
-    );
     folder.write("empty.csv", "");
     refused(&["check", "empty.csv", "--write-map"], &["empty.csv: shows no table", "a line of names above rows"]);
     folder.write("image.csv", [0x89, b'P', b'N', b'G', 0, 0, 1, 255].repeat(500));
@@ -188,6 +184,83 @@ fn nothing_is_overwritten_and_nothing_written_in_vain() {
     );
     assert_eq!(std::fs::read_to_string(folder.path("m.ron")).unwrap(), map);
     assert_eq!(folder.run(&["check", "r.csv", "--map", "m.ron", "--scale", "rate=1"]).status.code(), Some(0));
+}
+
+/// `t/min` is how ISO 80000 writes it; a unit is read at the same places wherever one is read.
+#[test]
+fn the_time_is_known_by_its_letter_and_its_unit() {
+    let below = lines(|n, [t, c, s, r]| format!("{};{c:.5};{s:.5};{}", t / 60.0, r + n as f64 * 1e-4));
+    let folder = Folder::new();
+    for name in ["t/min", "t_min", "t [min]", "T (min)", "Minutes", "minuten", "Prog minute", "Zeit/min"] {
+        folder.write("r.csv", format!("{name};Cabinet;spool;gyro\r\n{below}"));
+        let map = format!("{}.map.ron", name.replace(['/', ' '], "-"));
+        let arguments = ["check", "r.csv", "--write-map", &map];
+        let output = folder.run(&arguments);
+        let written = std::fs::read_to_string(folder.path(&map)).unwrap_or_else(|_| panic!("{name}: {}", stderr(&output)));
+        assert!(written.contains(&format!("    time: (column: \"{name}\", unit: \"min\"),\n")), "{written}");
+        assert!(written.contains("// chamber: (column: \"Cabinet\")") && !written.contains("chamber: (column: \"T"), "{written}");
+        assert!(!written.contains(&format!("chamber: (column: \"{name}\"")), "{written}");
+        // a column that the user names is not offered again, and its unit is heard alike
+        std::fs::remove_file(folder.path(&map)).unwrap();
+        folder.run(&[&arguments[..], &["--column", &format!("time={name}"), "--column", "chamber=Cabinet"]].concat());
+        let declared = std::fs::read_to_string(folder.path(&map)).unwrap();
+        assert!(declared.contains(&format!("    time: (column: \"{name}\", unit: \"min\"),\n")), "{declared}");
+        assert!(declared.contains("    chamber: (column: \"Cabinet\"),") && !declared.contains("// chamber"), "{declared}");
+    }
+    // without a map the unit in a name is warned of
+    folder.write("r.csv", format!("t/min;chamber_c;spool_c;rate_deg_per_h\r\n{below}"));
+    let output = folder.run(&["check", "r.csv", "--separator", ";", "--column", "time=t/min"]);
+    assert!(stdout(&output).contains("`t/min` is read in s; if its name is right, add --unit time=min [unit-in-name]"));
+    // a temperature in degrees, and a least temperature, are no instants
+    for name in ["t/\u{b0}C", "T_min"] {
+        folder.write(
+            "r.csv",
+            format!("Zeit;{name};spool;gyro\r\n{}", lines(|n, [t, _, s, r]| format!("{t};{};{s:.5};{r}", n % 3))),
+        );
+        folder.run(&["check", "r.csv", "--write-map", "zeit.ron"]);
+        let written = std::fs::read_to_string(folder.path("zeit.ron")).unwrap();
+        assert!(
+            written.contains("time: (column: \"Zeit\"), // its name says no unit") && !written.contains(" or `"),
+            "{written}"
+        );
+        std::fs::remove_file(folder.path("zeit.ron")).unwrap();
+    }
+}
+
+/// Where no name says which column is the time, or the rate, the map lists what may be it.
+#[test]
+fn columns_that_are_not_known_are_left_to_choose() {
+    let folder = Folder::new();
+    let below = lines(|n, [t, c, s, r]| format!("{};{:.4};{s:.5};{}", t / 60.0, c - (n % 2) as f64, r + n as f64 * 1e-4));
+    folder.write("r.csv", format!("Prog;Cabinet;spool;Wert\r\n{below}"));
+    let output = folder.run(&["check", "r.csv", "--write-map"]);
+    let message = stderr(&output);
+    assert_eq!((output.status.code(), stdout(&output).as_str()), (Some(2), ""), "{message}");
+    for part in [
+        "error: r.csv: no column's name says that it is the time, nor one that it is the rate",
+        "; r.map.ron lists what may be it",
+    ] {
+        assert!(message.contains(part), "{part}: {message}");
+    }
+    let written = std::fs::read_to_string(folder.path("r.map.ron")).unwrap();
+    let (prog, wert) = ("// time: (column: \"Prog\", unit: \"?\"),", "// rate: (column: \"Wert\", unit: \"?\"),");
+    assert!(
+        written.contains(prog) && written.contains(wert) && written.contains("// chamber: (column: \"Cabinet\"),"),
+        "{written}"
+    );
+    assert!(!written.contains("time: (column: \"Cabinet") && !written.contains("chamber: (column: \"Prog"), "{written}");
+    // chosen without a unit is not chosen
+    let chosen = written.replace(prog, &prog[3..]).replace(wert, &wert[3..]);
+    folder.write("r.map.ron", &chosen);
+    assert!(stderr(&folder.run(&["check", "r.csv"])).contains("time.unit: `?` is no unit of time; choose s, ms"));
+    folder.write(
+        "r.map.ron",
+        chosen.replace("Prog\", unit: \"?\"", "Prog\", unit: \"min\"").replace("Wert\", unit: \"?\"", "Wert\""),
+    );
+    assert_eq!(folder.run(&["check", "r.csv"]).status.code(), Some(0));
+    // an interval stands for the time
+    let output = folder.run(&["check", "r.csv", "--write-map", "i.ron", "--interval", "30", "--column", "rate=Wert"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }
 
 #[test]
