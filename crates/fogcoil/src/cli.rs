@@ -49,7 +49,7 @@ pub(crate) enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Turn table and cross-section picture; without flags a summary
+    /// Summary of the winding; turn table and cross-section picture
     Wind {
         /// Case file of the coil
         #[arg(value_name = "COIL.ron")]

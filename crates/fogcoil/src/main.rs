@@ -103,11 +103,7 @@ fn run_wind(coil: &Path, csv: Option<&Path>, svg: Option<&Path>, json: bool, pro
     files.extend(csv.map(|path| (path, Content::Text(wind::csv(&case.winding)))));
     files.extend(svg.map(|path| (path, Content::Text(picture::svg(&case.name, &case.winding)))));
     progress.save(&files)?;
-    match (json, files.is_empty()) {
-        (true, _) => print(&line(&wind::json(&case))),
-        (false, true) => print(&wind::text(&case)),
-        (false, false) => Ok(()),
-    }
+    print(&if json { line(&wind::json(&case)) } else { wind::text(&case) })
 }
 
 fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> {
