@@ -69,6 +69,9 @@ pub(crate) enum Command {
         /// Case file of the coil
         #[arg(value_name = "COIL.ron")]
         coil: PathBuf,
+        /// List every tolerance, also those below 1 % of the variance
+        #[arg(long)]
+        all: bool,
         /// Print one JSON object
         #[arg(long)]
         json: bool,

@@ -87,12 +87,12 @@ fn run(Cli { command, quiet, jobs }: &Cli) -> Result<(), Error> {
             let result = progress.tasks(|tell| identify::identify(&case, tell))?;
             print(&if *json { line(&identify::json(&case, &result)) } else { identify::text(&case, &result) })
         }
-        Command::Sensitivity { coil, json } => {
+        Command::Sensitivity { coil, all, json } => {
             let case = progress.read_coil(coil)?;
             let result = progress.during("modelling the coil", || case.steady_sensitivity())?;
             let band = progress.during("varying it within its tolerances", || case.sensitivity_band())?;
             let object = || line(&sensitivity::json(&case, &result, &band));
-            print(&if *json { object() } else { sensitivity::text(&case, &result, &band) })
+            print(&if *json { object() } else { sensitivity::text(&case, &result, &band, *all) })
         }
     }
 }

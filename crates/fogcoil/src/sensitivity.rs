@@ -36,10 +36,19 @@ const WORTH: f64 = 0.005;
 impl Share {
     /// Shares of a design's band that are worth a line, the largest first.
     pub(crate) fn of(case: &CoilCase, band: &Band) -> Vec<Self> {
+        Self::all(case, band).into_iter().filter(Self::is_worth).collect()
+    }
+
+    fn is_worth(&self) -> bool {
+        self.share.abs() >= WORTH
+    }
+
+    /// Shares of a design's band, the largest first.
+    fn all(case: &CoilCase, band: &Band) -> Vec<Self> {
         let of = |((number, change), share): (&(Number, f64), &f64)| {
             let (key, _) = keyed(*number, &case.design)?;
             let tolerance = tolerance_in_words(case, *number)?;
-            (share.abs() >= WORTH).then_some(Self { key, tolerance, change: *change, share: *share })
+            Some(Self { key, tolerance, change: *change, share: *share })
         };
         band.changes.iter().zip(&band.shares).filter_map(of).collect()
     }
@@ -49,11 +58,10 @@ impl Share {
 /// by tolerances.
 pub fn json(case: &CoilCase, result: &SteadySensitivity, band: &Band) -> Value {
     let parts = result.sensitivity;
-    let shares = Share::of(case, band);
-    let share = |s: &Share| json!({"key": s.key, "tolerance": s.tolerance, "change": s.change, "share": s.share});
+    let share = |s: Share| json!({"key": s.key, "tolerance": s.tolerance, "change": s.change, "share": s.share});
     json!({
         "tolerance_sd": band.sd,
-        "tolerance_shares": shares.iter().map(share).collect::<Vec<_>>(),
+        "tolerance_shares": Share::all(case, band).into_iter().map(share).collect::<Vec<_>>(),
         "shupe": parts.shupe,
         "eo_axial": parts.eo_axial,
         "eo_radial": parts.eo_radial,
@@ -63,8 +71,8 @@ pub fn json(case: &CoilCase, result: &SteadySensitivity, band: &Band) -> Value {
     })
 }
 
-/// The parts as a table, and the origin of the numbers behind them.
-pub fn text(case: &CoilCase, result: &SteadySensitivity, band: &Band) -> String {
+/// The parts as a table, the tolerances that matter, or `all`, and the origin of the numbers behind them.
+pub fn text(case: &CoilCase, result: &SteadySensitivity, band: &Band, all: bool) -> String {
     let (parts, errors) = (result.sensitivity, result.part_errors);
     let row = |name: &str, value: f64, error: f64, meaning: &str| {
         vec![name.to_owned(), format!("{:.5}", (value * 1e5).round() / 1e5 + 0.0), plus_minus(error), meaning.to_owned()]
@@ -76,11 +84,17 @@ pub fn text(case: &CoilCase, result: &SteadySensitivity, band: &Band) -> String 
         row("total", parts.total(), result.error_estimate, "the sum of the three"),
     ];
     let head = ["tolerance (1 sigma)", "", "change", "share"].map(str::to_owned).to_vec();
-    let share = |s: Share| vec![s.key.into(), s.tolerance, format!("{:+.4}", s.change), format!("{:.0} %", 100.0 * s.share)];
-    let shares: Vec<Vec<String>> = std::iter::once(head).chain(Share::of(case, band).into_iter().map(share)).collect();
+    let share = |s: Share| {
+        let percent = 100.0 * s.share;
+        let percent = if s.is_worth() { format!("{percent:.0}") } else { significant(percent, 1) };
+        vec![s.key.into(), s.tolerance, format!("{:+.4}", s.change), format!("{percent} %")]
+    };
+    let (shown, less): (Vec<Share>, Vec<Share>) = Share::all(case, band).into_iter().partition(|s| all || s.is_worth());
+    let more = if less.is_empty() { String::new() } else { format!("{} more below 1 %: --all\n\n", less.len()) };
+    let shares: Vec<Vec<String>> = std::iter::once(head).chain(shown.into_iter().map(share)).collect();
     format!(
         "{}: steady-ramp sensitivity in (deg/h)/(degC/min), numerical error beside it\n\n{}\n\
-         tolerances of the design leave the total uncertain by {} (1 sigma, linear); optical constants are taken as exact\n\n{}\n\
+         tolerances of the design leave the total uncertain by {} (1 sigma, linear); optical constants are taken as exact\n\n{}\n{more}\
          fibre {:.4} m; {} unknowns\n\
          coil constants: {}; dehomogenisation row: {}\n\
          The value follows from the file's spool, bonding and materials; where one of them was chosen to match a measurement, so was\n\

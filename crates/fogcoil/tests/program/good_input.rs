@@ -61,7 +61,18 @@ fn sensitivity_reports_its_parts() {
     assert!((shupe + axial + radial - total).abs() < 1e-12 && error > 0.0 && error < 0.01);
     assert!((-2.74..-2.72).contains(&total), "{total}");
     assert_eq!(format!("{length:.4}"), "1101.5666");
-    assert!(run(&folder, &["sensitivity", "coil.ron"]).contains("the sum of the three"));
+    let text = run(&folder, &["sensitivity", "coil.ron"]);
+    assert!(text.contains("the sum of the three"));
+    // every tolerance is in the JSON; the table says how many it leaves out
+    let shares = result["tolerance_shares"].as_array().unwrap();
+    let small = shares.iter().filter(|share| share["share"].as_f64().unwrap().abs() < 0.005).count();
+    let sum: f64 = shares.iter().map(|share| share["share"].as_f64().unwrap()).sum();
+    assert!(small > 0 && (sum - 1.0).abs() < 1e-9, "{result}");
+    let left = format!("{small} more below 1 %: --all\n");
+    assert!(text.contains(&left), "{text}");
+    let all = run(&folder, &["sensitivity", "coil.ron", "--all"]);
+    assert!(!all.contains("--all") && all.lines().count() == text.lines().count() + small - 2, "{all}");
+    assert!(shares.iter().all(|share| all.contains(share["key"].as_str().unwrap())), "{all}");
 }
 
 #[test]
