@@ -123,23 +123,25 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
     let read = |paths: &[PathBuf]| paths.iter().map(|path| input::read_record(path, &options)).collect::<Result<Vec<_>, _>>();
     let (fits, holdouts) = progress.during("reading the records", || Ok::<_, Error>((read(fits)?, read(holdouts)?)))?;
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
-    let outcome = progress.tasks(|tell| diagnose::diagnose(&case, &asked.with_catalogue(), &fits, &holdouts, &cache, tell))?;
+    let mut outcome =
+        progress.tasks(|tell| diagnose::diagnose(&case, &asked.with_catalogue(), &fits, &holdouts, &cache, tell))?;
+    let mut files = Vec::new();
+    if let Some(path) = model_out {
+        let note = match progress.during("simulating the extended model", || outcome.written())? {
+            Ok(Written { text, note }) => {
+                files.push((path.as_path(), Content::Text(text)));
+                note
+            }
+            Err(why) => Some(Remark::NoModel.warning(format!("nothing to write: {why}"))),
+        };
+        outcome.add_notes(note.map(|note| note.at(path)));
+    }
     // the text that is printed begins with the warnings
     let not_in_text = |note: &&Note| *json == Some(None) || !note.is_warning();
     progress.tell(&outcome.notes().iter().filter(not_in_text).cloned().collect::<Vec<_>>());
     let object = line(&outcome.json());
-    let mut files = Vec::new();
     files.extend(json_file.map(|path| (path, Content::Text(object.clone()))));
     files.extend(prediction.as_deref().zip(outcome.prediction()).map(|(path, text)| (path, Content::Text(text))));
-    if let Some(path) = model_out {
-        match progress.during("simulating the extended model", || outcome.written())? {
-            Ok(Written { text, note }) => {
-                progress.tell(&note.map(|note| note.at(path)).into_iter().collect::<Vec<_>>());
-                files.push((path, Content::Text(text)));
-            }
-            Err(why) => progress.tell(&[Remark::NoModel.note(format!("nothing to write: {why}")).at(path)]),
-        }
-    }
     for (own, path) in own.iter().zip(&own_out) {
         if let (Some(path), Some(values)) = (path, outcome.found_of(&own.mechanism.id)) {
             files.push((path, Content::Text(own.with_values(&values)?)));

@@ -397,6 +397,11 @@ impl Outcome<'_> {
     pub fn notes(&self) -> &[Note] {
         &self.notes
     }
+
+    /// Adds remarks, which stand in text, JSON and page from then on.
+    pub fn add_notes(&mut self, notes: impl IntoIterator<Item = Note>) {
+        self.notes.extend(notes);
+    }
 }
 
 /// Refuses a design that the library cannot be made for.

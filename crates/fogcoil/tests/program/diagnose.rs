@@ -152,11 +152,18 @@ fn a_logged_set_point_is_no_fault_of_the_unit() {
         format!("{},{:.2},{:.2},{rate:.5}\n", fine[n][0], set_point(fine[n][0]), fine[n][2] + 0.02 * noise(n + 77))
     });
     folder.write("r.csv", "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &rows.collect::<String>());
-    let output = folder.run(&["diagnose", "coil.ron", "--fit", "r.csv", "--json"]);
-    let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let output = folder.run(&["-q", "diagnose", "coil.ron", "--fit", "r.csv", "--json", "j.json", "--model-out", "m.ron"]);
+    let json: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(folder.path("j.json")).unwrap()).unwrap();
     assert_eq!((&json["verdict"], &json["named"]["id"]), (&"explained".into(), &"chamber-lag".into()), "{json}");
     let lag = &json["parameters"]["lag_s"];
     assert!((lag["value"].as_f64().unwrap() / LAG - 1.0).abs() < 0.1, "{lag}");
+    // what is no part of the coil is in no coil file: a file that was asked for and is not written is warned of, also with -q
+    let text = stdout(&output);
+    assert!(
+        text.lines().any(|line| line.starts_with("warning: m.ron: nothing to write: ") && line.ends_with("[no-model]")),
+        "{text}"
+    );
+    assert!(json["note_ids"].as_array().unwrap().iter().any(|id| id == "no-model") && !folder.path("m.ron").exists(), "{json}");
 }
 
 /// A good unit that takes half of the bias that the design has off its rate by its own thermometer.
