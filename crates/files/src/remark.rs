@@ -97,7 +97,7 @@ remarks! {
     IgnoredColumn "ignored-column":
         "A file has columns that are not read.",
         "None, unless one of them was meant: then its name is not the one that is sought.",
-        "Rename it (profiles: time_s, chamber_c, left_c, right_c, mount_left_c, mount_right_c), or give --column KEY=NAME for a recording.";
+        "Rename it (profiles: time_s, chamber_c, left_c, right_c, mount_left_c, mount_right_c), or give --column KEY=NAME for a recording, --map FILE.ron for a profile.";
     CloseRows "close-rows":
         "Rows of a profile lie closer together than the model resolves a jump.",
         "Means over such intervals are not reliable just after the chamber's temperature changes suddenly.",

@@ -12,7 +12,7 @@ use fogcoil::section_files::{self, SectionFiles};
 use fogcoil::simulate::{self, Fields, Model, Simulation};
 use fogcoil::{Error, band, figures, report, summary};
 
-use crate::cli_under::{divide, step};
+use crate::cli_under::{self, divide, step};
 use crate::progress::Progress;
 use crate::{line, print};
 
@@ -29,8 +29,9 @@ pub(crate) struct Simulate {
     /// reads it, with RECORD.map.ron beside it if it is there
     #[arg(long, value_name = "RECORD.csv", conflicts_with = "step")]
     record: Option<PathBuf>,
-    /// A file that says how that recording is read, in place of one beside it
-    #[arg(long, value_name = "FILE.ron", requires = "record")]
+    /// A file that says how that recording is read, in place of one beside it, or how the profile is read: names and units of time and chamber, separator,
+    /// decimal comma
+    #[arg(long, value_name = "FILE.ron", conflicts_with = "spool")]
     map: Option<PathBuf>,
     /// Course of the temperatures between the profile's rows
     #[arg(long, value_enum, default_value_t = Between::Linear, conflicts_with = "spool")]
@@ -77,10 +78,12 @@ fn noise(text: &str) -> Result<f64, String> {
 }
 
 pub(crate) fn run(arguments: &Simulate, progress: &Progress) -> Result<(), Error> {
-    let Simulate { coil, profile, record, spool, mechanisms, out, report, vtu, band, json, no_cache, .. } = arguments;
+    let Simulate { coil, profile, record, map, spool, mechanisms, out, report, vtu, band, json, no_cache, .. } = arguments;
     let own = input::read_simulated(mechanisms)?;
     let recorded = record.iter().flat_map(|path| arguments.reading(&[]).files(path));
-    let inputs: Vec<PathBuf> = [profile, spool].into_iter().flatten().chain(mechanisms).cloned().chain(recorded).collect();
+    let mapped = map.as_ref().filter(|_| profile.is_some());
+    let given = [profile.as_ref(), mapped, spool.as_ref()].into_iter().flatten();
+    let inputs: Vec<PathBuf> = given.chain(mechanisms).cloned().chain(recorded).collect();
     let section = vtu.as_deref().map_or(Vec::new(), places);
     let mut outputs = vec![Some(out.as_path()), report.as_deref(), band.as_deref()];
     outputs.extend(section.iter().map(|path| Some(path.as_path())));
@@ -148,7 +151,7 @@ impl Simulate {
                 Ok((inferred, modelled))
             }
             (Some(path), None) => {
-                let profile = progress.during(&reading(path), || input::read_profile(path, &case.design, further))?;
+                let profile = progress.during(&reading(path), || cli_under::profile(path, self.map.as_deref(), case, further))?;
                 let profile = self.divided(profile)?;
                 let modelled = model(&profile.drives)?;
                 Ok((profile, modelled))

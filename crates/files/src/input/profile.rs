@@ -7,7 +7,9 @@ use coil::{Design, Drive, Profile};
 
 use super::InputError;
 use super::fingerprint::Fingerprint;
-use super::profile_columns::{Columns, TIME};
+use super::profile_columns::Columns;
+use super::record_format::{ColumnFormat, RecordFormat};
+use super::record_notes;
 use super::record_options::Key;
 use super::rows::{Dialect, Rows, Table};
 use crate::remark::{Note, Remark};
@@ -163,7 +165,22 @@ const BESIDE: f64 = 1e-3;
 /// # Errors
 /// The fault, in which file, line and column, and how to mend it.
 pub fn read_profile(path: &Path, design: &Design, further: &[String]) -> Result<ProfileCase, InputError> {
-    read(Rows::open(path, "a profile (*.csv)", Dialect::STANDARD)?, path, design, further)
+    read(Rows::open(path, "a profile (*.csv)", Dialect::STANDARD)?, path, None, design, further)
+}
+
+/// [`read_profile`] through a map file, which says how the table is written, and names and units of time and chamber; further columns are ignored.
+///
+/// # Errors
+/// As [`read_profile`], and for a map that cannot be that of a profile.
+pub fn read_mapped_profile(path: &Path, map: &Path, design: &Design, further: &[String]) -> Result<ProfileCase, InputError> {
+    let format = RecordFormat::from_file(map)?;
+    let without = [("interval_s", format.interval.is_some()), ("time_of_day", format.time_of_day.is_some())];
+    if let Some((field, _)) = without.into_iter().find(|(_, is_said)| *is_said) {
+        let problem = "a profile has its instants in one column of numbers";
+        let remedy = "take it out; a recording is read with --record, and its chamber drives the coil";
+        return Err(InputError { field: Some(field.into()), ..InputError::whole(map, problem, remedy) });
+    }
+    read(Rows::open(path, "a profile (*.csv)", format.dialect)?, path, Some(&format), design, further)
 }
 
 /// Checks a profile that is not in a file: the case that [`read_profile`] would read from a file of this content.
@@ -176,16 +193,31 @@ pub fn check_profile(
     design: &Design,
     further: &[String],
 ) -> Result<ProfileCase, InputError> {
-    read(Rows::of(path, table.into()), path, design, further)
+    read(Rows::of(path, table.into()), path, None, design, further)
 }
 
-fn read(mut rows: Rows, path: &Path, design: &Design, further: &[String]) -> Result<ProfileCase, InputError> {
+fn read(
+    mut rows: Rows,
+    path: &Path,
+    map: Option<&RecordFormat>,
+    design: &Design,
+    further: &[String],
+) -> Result<ProfileCase, InputError> {
     rows.header("time_s,chamber_c")?;
-    let columns = Columns::read(&rows, design, further)?;
-    let drives = columns.drives.iter().map(|(column, _)| Wanted::temperature(*column, &columns.names[*column]));
+    let columns = Columns::read(&rows, map, design, further)?;
+    for _ in 0..map.map_or(0, |format| format.dialect.below) {
+        rows.advance()?;
+    }
+    let form = |key: Key| map.map(|format| format.column(key));
+    let drives = columns.drives.iter().map(|(column, drive)| {
+        let form = form(Key::Chamber).filter(|_| *drive == Drive::Chamber);
+        Wanted { form, ..Wanted::temperature(*column, &columns.names[*column]) }
+    });
     let beside = columns.further.iter().map(|column| Wanted::number(*column, &columns.names[*column]));
     let read: Vec<Wanted> = drives.chain(beside).collect();
-    let (time, mut courses) = read_rows(&mut rows, columns.names.len(), columns.time, &read, (MOST_ROWS, "profile"))?;
+    let time = Wanted { form: form(Key::Time), ..Wanted::number(columns.time, &columns.names[columns.time]) };
+    let (time, mut courses) = read_rows(&mut rows, columns.names.len(), &time, &read, (MOST_ROWS, "profile"))?;
+    rows.check_commas()?;
     if time.is_empty() {
         return Err(rows.whole_fault("has no row below its header", "give one for each instant, e.g. 0,20.0"));
     }
@@ -197,6 +229,10 @@ fn read(mut rows: Rows, path: &Path, design: &Design, further: &[String]) -> Res
         courses.push(vec![1.0; time.len()]);
     }
     let mut notes = Vec::from_iter(columns.note(path));
+    for (key, column) in [(Key::Time, columns.time), (Key::Chamber, columns.drives[0].0)] {
+        let note = |form| record_notes::of_column(key, &columns.names[column], form);
+        notes.extend(form(key).map_or(Vec::new(), note).into_iter().map(|note| note.at(path)));
+    }
     if time.len() == 1 {
         notes.push(Remark::OneRow.note("has one row, in which nothing can happen").at(path));
     }
@@ -239,18 +275,25 @@ fn other_unit(chamber: &[f64]) -> Option<Note> {
 pub(super) struct Wanted<'a> {
     column: usize,
     name: &'a str,
-    read: fn(&Rows, usize, &str) -> Result<f64, InputError>,
+    /// Unit and count, where a map says them.
+    form: Option<&'a ColumnFormat>,
+    check: fn(&Rows, &str, f64) -> Result<f64, InputError>,
 }
 
 impl<'a> Wanted<'a> {
     /// A temperature \[°C\].
     pub(super) fn temperature(column: usize, name: &'a str) -> Self {
-        Self { column, name, read: temperature }
+        Self { check: temperature, ..Self::number(column, name) }
     }
 
     /// Any number.
-    fn number(column: usize, name: &'a str) -> Self {
-        Self { column, name, read: Rows::number }
+    pub(super) fn number(column: usize, name: &'a str) -> Self {
+        Self { column, name, form: None, check: |_, _, value| Ok(value) }
+    }
+
+    fn read(&self, rows: &Rows) -> Result<f64, InputError> {
+        let value = rows.number(self.column, self.name)?;
+        (self.check)(rows, self.name, self.form.map_or(value, |form| form.standard(value)))
     }
 }
 
@@ -258,7 +301,7 @@ impl<'a> Wanted<'a> {
 pub(super) fn read_rows(
     rows: &mut Rows,
     count: usize,
-    at_time: usize,
+    at_time: &Wanted,
     columns: &[Wanted],
     (most, kind): (usize, &str),
 ) -> Result<(Vec<f64>, Vec<Vec<f64>>), InputError> {
@@ -270,8 +313,8 @@ pub(super) fn read_rows(
             return Err(rows.fault(None, format!("more than {most} rows"), format!("split the {kind}, or thin it out")));
         }
         time.push(instant(rows, at_time, time.last().copied())?);
-        for (Wanted { column, name, read }, course) in columns.iter().zip(&mut courses) {
-            course.push(read(rows, *column, name)?);
+        for (column, course) in columns.iter().zip(&mut courses) {
+            course.push(column.read(rows)?);
         }
     }
     Ok((time, courses))
@@ -287,9 +330,9 @@ fn count_remedy(line: &str, more: bool) -> &'static str {
     }
 }
 
-fn instant(rows: &Rows, column: usize, last: Option<f64>) -> Result<f64, InputError> {
-    let time = rows.number(column, TIME)?;
-    let fault = |problem: String, remedy: &str| Err(rows.fault(Some(TIME), problem, remedy));
+fn instant(rows: &Rows, column: &Wanted, last: Option<f64>) -> Result<f64, InputError> {
+    let time = column.read(rows)?;
+    let fault = |problem: String, remedy: &str| Err(rows.fault(Some(column.name), problem, remedy));
     if time.abs() > MOST_S {
         return fault(format!("{time} s is beyond {MOST_S:e} s"), "give seconds from any start");
     }
@@ -308,8 +351,7 @@ fn instant(rows: &Rows, column: usize, last: Option<f64>) -> Result<f64, InputEr
     }
 }
 
-fn temperature(rows: &Rows, column: usize, name: &str) -> Result<f64, InputError> {
-    let celsius = rows.number(column, name)?;
+fn temperature(rows: &Rows, name: &str, celsius: f64) -> Result<f64, InputError> {
     let fault = |problem: String, remedy: &str| Err(rows.fault(Some(name), problem, remedy));
     if celsius < ABSOLUTE_ZERO_C {
         fault(

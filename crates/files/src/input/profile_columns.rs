@@ -5,6 +5,9 @@ use std::path::Path;
 use coil::{Design, Drive, Side};
 
 use super::InputError;
+use super::record_columns::shown;
+use super::record_format::RecordFormat;
+use super::record_options::Key;
 use super::rows::{Rows, quoted};
 use crate::remark::{Note, Remark};
 
@@ -43,27 +46,39 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    /// Reads them from the row at which `rows` stands.
-    pub(crate) fn read(rows: &Rows, design: &Design, further: &[String]) -> Result<Self, InputError> {
+    /// Reads them from the row at which `rows` stands; a map may name those of time and chamber otherwise.
+    pub(crate) fn read(rows: &Rows, map: Option<&RecordFormat>, design: &Design, further: &[String]) -> Result<Self, InputError> {
+        let mapped = |key: Key| map.and_then(|format| format.column(key).name.as_deref()).unwrap_or(key.standard());
+        let (time_name, chamber_name) = (mapped(Key::Time), mapped(Key::Chamber));
+        let called = |drive: &'static str| if drive == CHAMBER { chamber_name } else { drive };
         let names = names(rows, "time_s,chamber_c")?;
         let mut ignored = Vec::new();
         for name in &names {
-            if let Some((_, drive)) = DRIVES.iter().find(|(known, _)| known == name) {
+            if let Some((_, drive)) = DRIVES.iter().find(|(known, _)| called(known) == name) {
                 check_drive(rows, name, *drive, design)?;
             } else if RESULTS.contains(&name.as_str()) {
                 ignored.push(name.clone());
-            } else if name != TIME && !further.contains(name) {
-                return Err(unknown(rows, name));
+            } else if name != time_name && !further.contains(name) {
+                // a map says what is meant; without one the name may be misspelt
+                match map {
+                    Some(_) if name.is_empty() => {}
+                    Some(_) => ignored.push(name.clone()),
+                    None => return Err(unknown(rows, name)),
+                }
             }
         }
         let find = |wanted: &str| names.iter().position(|name| name == wanted);
         let record = if find("spool_c").is_some() { "; a record of the spool's thermometer goes to --spool" } else { "" };
         let missing = |name| {
-            rows.fault(Some(name), "the column is missing", format!("a profile starts with a line {TIME},{CHAMBER}{record}"))
+            let remedy = match map {
+                Some(_) => format!("the columns here are {}; say in the map which it is", shown(&names)),
+                None => format!("a profile starts with a line {TIME},{CHAMBER}{record}"),
+            };
+            rows.fault(Some(name), "the column is missing", remedy)
         };
-        let time = find(TIME).ok_or_else(|| missing(TIME))?;
-        find(CHAMBER).ok_or_else(|| missing(CHAMBER))?;
-        let drives = DRIVES.iter().filter_map(|(name, drive)| Some((find(name)?, *drive))).collect();
+        let time = find(time_name).ok_or_else(|| missing(time_name))?;
+        find(chamber_name).ok_or_else(|| missing(chamber_name))?;
+        let drives = DRIVES.iter().filter_map(|(name, drive)| Some((find(called(name))?, *drive))).collect();
         let beside = |name: &String| {
             let remedy = "give it a number in each row; the law of a mechanism that is added names it";
             find(name).ok_or_else(|| rows.fault(Some(name), "the column is missing", remedy))

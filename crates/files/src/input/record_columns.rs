@@ -82,7 +82,7 @@ fn named(rows: &Rows, name: &str, names: &[String], who: &str) -> Result<usize, 
     }
 }
 
-fn shown(names: &[String]) -> String {
+pub(super) fn shown(names: &[String]) -> String {
     let mut shown: Vec<String> = names.iter().take(MOST_NAMES).map(|name| quoted(name)).collect();
     if names.len() > MOST_NAMES {
         shown.push("...".into());

@@ -63,7 +63,7 @@ impl RecordFormat {
         Self { dialect: Dialect::STANDARD, interval: None, columns, time_of_day: None, further: Vec::new() }
     }
 
-    fn from_file(path: &Path) -> Result<Self, InputError> {
+    pub(super) fn from_file(path: &Path) -> Result<Self, InputError> {
         let source = open(path)?;
         Self::of(&source.parse(None)?).map_err(|(field, problem)| source.fault(&field, problem, ""))
     }

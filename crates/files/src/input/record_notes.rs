@@ -20,10 +20,9 @@ pub(super) fn notes(columns: &RecordColumns, format: &RecordFormat, dates: Optio
             None => notes.push(absent(key)),
             Some(column) => {
                 let (name, form) = (&columns.names[column], format.column(key));
-                notes.extend(mapped(key, name, form));
                 // dates have no unit
                 let has_unit = key != Key::Time || dates.is_none();
-                notes.extend(unit(key, name, form).filter(|_| has_unit));
+                notes.extend(of_column(key, name, form).into_iter().filter(|note| has_unit || !note.is_warning()));
             }
         }
     }
@@ -66,6 +65,11 @@ pub(super) fn unread_clock(name: &str, rows: f64, column: Option<f64>) -> Note {
     let text = format!("{text}, by the column {} s", Seconds(column));
     let is_far = rows > 0.0 && !(1.0 / FAR..FAR).contains(&(column / rows));
     if is_far { Remark::DeclaredInterval.warning(text) } else { Remark::DeclaredInterval.note(text) }
+}
+
+/// Notes on name and unit of a column that is read; those on the unit are warnings.
+pub(super) fn of_column(key: Key, name: &str, form: &ColumnFormat) -> Vec<Note> {
+    mapped(key, name, form).into_iter().chain(unit(key, name, form)).collect()
 }
 
 /// Note on a column that is not the standard one.

@@ -280,7 +280,8 @@ impl Rows {
             return Some(value).filter(|value| value.is_finite()).ok_or_else(fault);
         }
         let text = self.field(column);
-        match text.parse::<f64>() {
+        self.check_point(text, name)?;
+        match text.replace(self.dialect.decimal, ".").parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
             Ok(_) => {
                 let problem = format!("{} is not a finite number", quoted(text));
@@ -304,13 +305,8 @@ impl Rows {
             return if value.is_infinite() { Err(fault()) } else { Ok(Some(value).filter(|value| !value.is_nan())) };
         }
         let text = self.field(column);
-        let decimal = self.dialect.decimal;
-        if decimal != '.' && text.contains('.') && text.replace([decimal, '.'], "").parse::<f64>().is_ok() {
-            let problem = format!("{} has a point, but decimals have a comma here", quoted(text));
-            let remedy = "take out points between thousands, or leave out --decimal-comma (decimal_comma in the map file)";
-            return Err(self.fault(Some(name), problem, remedy));
-        }
-        let value = text.replace(decimal, ".").parse::<f64>();
+        self.check_point(text, name)?;
+        let value = text.replace(self.dialect.decimal, ".").parse::<f64>();
         match value {
             Ok(value) if value.is_finite() => Ok(Some(value)),
             _ if is_missing(text) => Ok(None),
@@ -323,6 +319,17 @@ impl Rows {
                 Err(self.fault(Some(name), format!("{} is not a number", quoted(text)), remedy))
             }
         }
+    }
+
+    /// Refuses a number with a point where decimals have a comma.
+    fn check_point(&self, text: &str, name: &str) -> Result<(), InputError> {
+        let decimal = self.dialect.decimal;
+        if decimal != '.' && text.contains('.') && text.replace([decimal, '.'], "").parse::<f64>().is_ok() {
+            let problem = format!("{} has a point, but decimals have a comma here", quoted(text));
+            let remedy = "take out points between thousands, or leave out --decimal-comma (decimal_comma in the map file)";
+            return Err(self.fault(Some(name), problem, remedy));
+        }
+        Ok(())
     }
 
     /// The line of this row, from 1; `None` of a table without lines.

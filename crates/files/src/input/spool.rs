@@ -44,8 +44,13 @@ pub fn read_spool(path: &Path, design: &Design) -> Result<SpoolCase, InputError>
     let [at_time, at_spool] = [TIME, SPOOL].map(|wanted| names.iter().position(|name| name == wanted));
     let missing = |name| rows.fault(Some(name), "the column is missing", format!("a record starts with a line {TIME},{SPOOL}"));
     let (at_time, at_spool) = (at_time.ok_or_else(|| missing(TIME))?, at_spool.ok_or_else(|| missing(SPOOL))?);
-    let (time, mut courses) =
-        read_rows(&mut rows, names.len(), at_time, &[Wanted::temperature(at_spool, SPOOL)], (MOST_ROWS, "record"))?;
+    let (time, mut courses) = read_rows(
+        &mut rows,
+        names.len(),
+        &Wanted::number(at_time, TIME),
+        &[Wanted::temperature(at_spool, SPOOL)],
+        (MOST_ROWS, "record"),
+    )?;
     let spool = courses.pop().unwrap_or_default();
     if time.len() < FEWEST_ROWS {
         let problem = format!("has {} rows below its header, too few to infer the chamber from", time.len());

@@ -308,6 +308,60 @@ fn exact_drives_that_follow_the_chamber_change_nothing() {
     assert!(columns(",left_c", |_| ",20".into())[60][2] < one[60][2] - 1.0);
 }
 
+/// A chamber's own file through a map gives what the plain profile gives, in every command that takes one.
+#[test]
+fn a_profile_is_read_through_a_map() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    folder.write("p.csv", "time_s,chamber_c\n0,20\n600,20\n3000,60.5\n");
+    let own = "Programm 7\nProg minute;Kammer;Feuchte;\nmin;K;%;\n0;293,15;40;\n10;293,15;;\n50;333,65;x;\n";
+    folder.write("own.csv", own);
+    let map = "(preamble_lines: 1, lines_below_names: 1, separator: \";\", decimal_comma: true, \
+               time: (column: \"Prog minute\", unit: \"min\"), chamber: (column: \"Kammer\", unit: \"K\"))";
+    folder.write("own.ron", map);
+    let run = |arguments: &[&str]| {
+        let output = folder.run(arguments);
+        (output.status.code(), stdout(&output), stderr(&output))
+    };
+    let simulate = ["simulate", "coil.ron", "--out", "b.csv", "--profile"];
+    let result = |more: &[&str]| {
+        let (status, _, notes) = run(&[&simulate[..], more].concat());
+        assert_eq!(status, Some(0), "{notes}");
+        (std::fs::read_to_string(folder.path("b.csv")).unwrap(), notes)
+    };
+    let (plain, _) = result(&["p.csv"]);
+    let (mapped, notes) = result(&["own.csv", "--map", "own.ron"]);
+    for (a, b) in plain.lines().zip(mapped.lines()).skip(1) {
+        let numbers = |line: &str| line.split(',').map(|text| text.parse().unwrap()).collect::<Vec<f64>>();
+        assert!(numbers(a).iter().zip(numbers(b)).all(|(a, b)| (a - b).abs() < 1e-9), "{a} {b}");
+    }
+    assert_eq!(plain.lines().count(), mapped.lines().count());
+    assert!(notes.contains("own.csv: the column Feuchte drives nothing and is ignored"), "{notes}");
+    assert!(notes.contains("own.csv: chamber is read from the column `Kammer`, in K [mapped-column]"), "{notes}");
+    assert_eq!(run(&["trim", "coil.ron", "--profile", "own.csv", "--map", "own.ron"]).0, Some(0));
+    // no map is passed over
+    folder.write("wrong.ron", map.replace("Kammer", "Ofen"));
+    folder.write("even.ron", map.replace("(preamble", "(interval_s: 30.0, preamble"));
+    folder.write("point.csv", own.replace("333,65", "333.65"));
+    for (arguments, says) in [
+        (["own.csv", "--map", "none.ron"], "none.ron: cannot be read"),
+        (
+            ["own.csv", "--map", "wrong.ron"],
+            "own.csv:2: Ofen: the column is missing; the columns here are `Prog minute`, `Kammer`",
+        ),
+        (
+            ["own.csv", "--map", "even.ron"],
+            "even.ron: interval_s: a profile has its instants in one column of numbers; take it out",
+        ),
+        (["point.csv", "--map", "own.ron"], "point.csv:6: Kammer: `333.65` has a point, but decimals have a comma here"),
+    ] {
+        let (status, _, message) = run(&[&simulate[..], &arguments].concat());
+        assert!(status == Some(2) && message.contains(says), "{says}: {message}");
+    }
+    let (status, _, message) = run(&["trim", "coil.ron", "--map", "own.ron"]);
+    assert!(status == Some(2) && message.contains("--map says how a table is read"), "{message}");
+}
+
 #[test]
 fn notes_go_to_standard_error_unless_silenced() {
     let folder = Folder::new();
