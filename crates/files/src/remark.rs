@@ -296,9 +296,9 @@ remarks! {
     ReversedRate "reversed-rate":
         "The model follows the recording far better with the rate negated.",
         "The answer is void if the sign is wrong.",
-        "Check the sense of the gyro's axis and `winding.cw_climbs`.";
+        "Check the sense of the gyro's axis and `winding.cw_climbs`; if the rate is logged with the other sign, read it so: `--scale rate=-1`.";
     DoubtedDrawing "doubted-drawing":
-        "The model follows the recordings far better with one word of the drawing changed: a bond that is not there, or the side to which the winding climbs.",
+        "The model follows the recordings far better with one word of the drawing changed: a bond that is not there, the side to which the winding climbs, or the spool's material.",
         "The answer seeks faults or constants where the unit may be made otherwise than it is drawn; records alone may not tell the two apart.",
         "Look at the unit, or ask its maker: if the word is so, put it into the coil file and diagnose again.";
     DoubtedUnit "doubted-unit":

@@ -1,6 +1,7 @@
 //! Drawings that differ from a design in one word, which a drawing, or a unit, may have otherwise.
 
-use coil::{Contact, Design, Flange, Layout, Region, Side};
+use coil::{Contact, Design, Flange, Layout, Region, Side, Solid};
+use fem_core::material::Isotropic;
 use winding::ClimbSide;
 
 /// A design with one word changed.
@@ -11,7 +12,19 @@ pub(crate) struct OtherDrawing {
     pub(crate) design: Design,
 }
 
-/// Every bond of coil and spool that is not, or is, and the side to which the winding climbs.
+/// Materials that spools are made of: name, Young's modulus \[GPa\], Poisson's ratio, expansion \[1e-6/K\], conductivity \[W/(m K)\], density \[kg/m³\] and
+/// specific heat \[J/(kg K)\]. Handbook values, those of `fixtures/spool-materials.ron`.
+const MATERIALS: [(&str, [f64; 6]); 5] = [
+    ("Al 6061", [68.9, 0.33, 23.6, 167.0, 2700.0, 896.0]),
+    ("Ti-6Al-4V", [113.8, 0.342, 8.6, 6.7, 4430.0, 526.0]),
+    ("steel 304", [193.0, 0.29, 17.3, 16.2, 8000.0, 500.0]),
+    ("Invar", [141.0, 0.29, 1.3, 10.5, 8050.0, 515.0]),
+    ("quasi-isotropic CFRP", [60.0, 0.30, 2.0, 5.0, 1600.0, 900.0]),
+];
+/// Relative difference of modulus and expansion up to which a material is the drawing's own: alloys of one kind.
+const ALIKE: f64 = 0.1;
+
+/// Every bond of coil and spool that is not, or is, the side to which the winding climbs, and other materials of the spool.
 pub(crate) fn other_drawings(design: &Design) -> Vec<OtherDrawing> {
     let changed = |words: String, change: &dyn Fn(&mut Design)| {
         let (drawn, mut design) = (design, design.clone());
@@ -35,7 +48,25 @@ pub(crate) fn other_drawings(design: &Design) -> Vec<OtherDrawing> {
         ClimbSide::Right => ("Left", ClimbSide::Left),
     };
     all.push(changed(format!("winding.cw_climbs: {is}"), &|d| d.winding.cw_climbs = other));
+    if let Some(spool) = &design.spool {
+        for (name, values) in MATERIALS {
+            let material = solid(values);
+            let [drawn, other] = [&spool.material.elastic, &material.elastic];
+            let alike = |a: f64, b: f64| (a - b).abs() <= ALIKE * b;
+            let same =
+                alike(drawn.youngs_modulus, other.youngs_modulus) && alike(drawn.thermal_expansion, other.thermal_expansion);
+            if !same {
+                let words = format!("spool.material: that of {name}");
+                all.push(changed(words, &|d| d.spool.iter_mut().for_each(|spool| spool.material = material)));
+            }
+        }
+    }
     all
+}
+
+fn solid([modulus, poisson_ratio, expansion, conductivity, density, specific_heat]: [f64; 6]) -> Solid {
+    let elastic = Isotropic { youngs_modulus: 1e9 * modulus, poisson_ratio, thermal_expansion: 1e-6 * expansion };
+    Solid { elastic, conductivity, density, specific_heat }
 }
 
 /// A part that comes nearer to the coil, or stands back from it, takes the thermometer with it that sits on it.
@@ -76,7 +107,15 @@ mod tests {
         let words: Vec<&str> = others.iter().map(|other| other.words.as_str()).collect();
         assert_eq!(
             words,
-            ["spool.hub_bonded: false", "spool.flanges[0].bonded: false (the right one)", "winding.cw_climbs: Left"]
+            [
+                "spool.hub_bonded: false",
+                "spool.flanges[0].bonded: false (the right one)",
+                "winding.cw_climbs: Left",
+                "spool.material: that of Ti-6Al-4V",
+                "spool.material: that of steel 304",
+                "spool.material: that of Invar",
+                "spool.material: that of quasi-isotropic CFRP"
+            ]
         );
         for other in &others {
             assert!(other.design != design);
@@ -86,10 +125,31 @@ mod tests {
                     (back.design.sensor.radius - design.sensor.radius).abs() + (back.design.sensor.y - design.sensor.y).abs();
                 sensor < 1e-12 && Design { sensor: design.sensor, ..back.design.clone() } == design
             };
-            assert!(other_drawings(&other.design).iter().any(back), "{}", other.words);
+            let is_material = other.words.starts_with("spool.material");
+            assert!(is_material || other_drawings(&other.design).iter().any(back), "{}", other.words);
             // its thermometer, at the bore, is never left in the air
             let layout = Layout::new(&other.design).unwrap();
             assert!(layout.region(other.design.sensor.radius + 1e-9, other.design.sensor.y) == Region::Hub, "{}", other.words);
+        }
+    }
+
+    /// A spool of a listed material is not tried as one of that material; the list is that of the fixture.
+    #[test]
+    fn the_materials_are_those_of_the_fixture() {
+        let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/spool-materials.ron"));
+        for (name, values) in MATERIALS {
+            let [modulus, poisson, expansion, conductivity, density, specific_heat] = values;
+            let listed = format!(
+                "(name: \"{name}\", youngs_modulus_gpa: {modulus:.1}, poisson_ratio: {poisson:?}, thermal_expansion_per_k: {expansion:?}e-6, \
+                 conductivity_w_per_mk: {conductivity:?}, density_kg_per_m3: {density:?}, specific_heat_j_per_kgk: {specific_heat:?})"
+            );
+            let plain = |text: &str| text.split_whitespace().collect::<String>().replace("0.30,", "0.3,");
+            assert!(plain(text).contains(&plain(&listed)), "{listed}");
+            let coil = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/coil-reference.ron"));
+            let mut design = crate::input::check_coil(Path::new("coil.ron"), coil).unwrap().design;
+            design.spool.as_mut().unwrap().material = solid(values);
+            let tried: Vec<String> = other_drawings(&design).into_iter().map(|other| other.words).collect();
+            assert!(tried.iter().all(|words| !words.ends_with(name)), "{tried:?}");
         }
     }
 }
