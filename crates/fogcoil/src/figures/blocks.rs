@@ -34,24 +34,26 @@ impl Cells {
     }
 }
 
-/// Means over cells of half a pitch by a layer, larger where there are too many, or sums over blocks; equal cells that fill the winding.
+/// Means over cells of half a pitch by a layer, larger where there are too many, or sums over blocks; equal cells that fill the winding. Blocks
+/// take the turns by their number within the layer, so that of each layer they hold the same, wherever it begins; the last ones may reach beyond the
+/// last layer.
 pub(super) fn cells(winding: &Winding, values: &[f64], blocks: bool) -> Cells {
     let spec = winding.spec();
     let (height, pitch) = (winding.height(), spec.pitch);
-    let (wanted, most_rows) = if blocks {
-        ((height / (BLOCK as f64 * pitch)).round(), spec.layers.div_ceil(BLOCK))
+    let most_turns = winding.turns().iter().map(|turn| turn.turn).max().unwrap_or(1);
+    let (wanted, depth) = if blocks {
+        ((most_turns + BLOCK / 2) / BLOCK, BLOCK * spec.layers.div_ceil(BLOCK * MOST_CELLS[1]))
     } else {
-        ((height / (pitch / 2.0) - SLACK).ceil(), spec.layers)
+        ((height / (pitch / 2.0) - SLACK).ceil() as usize, spec.layers.div_ceil(MOST_CELLS[1]))
     };
-    let columns = (wanted.max(1.0) as usize).min(MOST_CELLS[0]);
+    let columns = wanted.clamp(1, MOST_CELLS[0]);
     let width = height / columns as f64;
-    let rows = most_rows.clamp(1, MOST_CELLS[1]);
+    let rows = spec.layers.div_ceil(depth);
     let (mut sums, mut counts) = (vec![0.0; rows * columns], vec![0.0; rows * columns]);
     for (turn, value) in winding.turns().iter().zip(values) {
-        let row = (turn.layer - 1) * rows / spec.layers * columns;
+        let row = (turn.layer - 1) / depth * columns;
         let (first, end) = if blocks {
-            // a quarter of a pitch puts both kinds of layers well inside
-            let column = (((turn.y - pitch / 4.0) / width).max(0.0) as usize).min(columns - 1);
+            let column = (turn.turn - 1) * columns / most_turns;
             (column, column + 1)
         } else {
             let [first, end] = [-0.5, 0.5].map(|half| (((turn.y + half * pitch) / width).round().max(0.0) as usize).min(columns));
@@ -67,40 +69,68 @@ pub(super) fn cells(winding: &Winding, values: &[f64], blocks: bool) -> Cells {
     let values = sums.iter().zip(&counts).map(cell).collect();
     let step = 3_f64.sqrt() / 2.0 * pitch;
     let lower = spec.inner_radius + (pitch - step) / 2.0;
-    Cells { columns, values, y: [0.0, height], r: [lower, lower + spec.layers as f64 * step] }
+    Cells { columns, values, y: [0.0, height], r: [lower, lower + (rows * depth) as f64 * step] }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use winding::{ClimbSide, Pattern, Spec, Tails, TurnLength};
+    use winding::{ClimbSide, Half, Pattern, Spec, Tails, TurnLength};
+
+    fn wound(pattern: Pattern, layers: usize, [odd, even]: [usize; 2]) -> Winding {
+        winding::wind(&Spec {
+            pattern,
+            layers,
+            turns_odd_layers: odd,
+            turns_even_layers: even,
+            inner_radius: 0.04,
+            pitch: 1.7e-4,
+            start: 0.0,
+            end: None,
+            cw_climbs: ClimbSide::Right,
+            turn_length: TurnLength::True,
+            tails: Tails { cw: 0.0, ccw: 0.0 },
+            defect: None,
+        })
+        .unwrap()
+    }
 
     #[test]
     fn blocks_lie_in_the_winding_and_keep_its_sum() {
-        for (layers, odd) in [(36, 106), (8, 3), (4, 3), (40, 27)] {
-            let spec = Spec {
-                pattern: Pattern::PracticalQuadrupole,
-                layers,
-                turns_odd_layers: odd,
-                turns_even_layers: odd - 1,
-                inner_radius: 0.04,
-                pitch: 1.7e-4,
-                start: 0.0,
-                end: None,
-                cw_climbs: ClimbSide::Right,
-                turn_length: TurnLength::True,
-                tails: Tails { cw: 0.0, ccw: 0.0 },
-                defect: None,
-            };
-            let winding = winding::wind(&spec).unwrap();
+        for (layers, odd) in [(36, 106), (8, 3), (4, 3), (40, 27), (30, 41), (500, 5)] {
+            let winding = wound(Pattern::PracticalQuadrupole, layers, [odd, odd - 1]);
             let values: Vec<f64> = winding.turns().iter().map(|t| t.r + t.y).collect();
             let blocks = cells(&winding, &values, true);
             assert_eq!(blocks.y, [0.0, winding.height()]);
-            assert!(blocks.r[0] >= spec.inner_radius && blocks.values.len() == layers / BLOCK * blocks.columns);
+            assert!(blocks.r[0] >= winding.spec().inner_radius && blocks.values.len().is_multiple_of(blocks.columns));
             let (sum, expected): (f64, f64) = (blocks.values.iter().sum(), values.iter().sum());
             assert!((sum / expected - 1.0).abs() < 1e-12, "{layers} layers: {sum} of {expected}");
             assert!(winding.turns().iter().all(|t| blocks.at([t.r, t.y]).is_finite()), "{layers} layers");
             assert!(blocks.at([0.0, 0.0]).is_nan() && blocks.at([blocks.r[0], 1.0]).is_nan());
+        }
+    }
+
+    #[test]
+    fn a_block_holds_as_many_turns_of_either_half() {
+        for (turns, layers) in [([40, 40], 32), ([41, 41], 32), ([40, 39], 32), ([106, 105], 36), ([40, 40], 30)] {
+            for pattern in [Pattern::Octupole, Pattern::Quadrupole] {
+                let winding = wound(pattern, layers, turns);
+                let of = |half: Half| {
+                    let own: Vec<f64> = winding.turns().iter().map(|t| f64::from(u8::from(t.half == half))).collect();
+                    cells(&winding, &own, true)
+                };
+                let [cw, ccw] = [Half::Cw, Half::Ccw].map(of);
+                // an unfinished period at the outside is of its own
+                let full = layers / BLOCK * cw.columns;
+                assert_eq!(cw.values[..full], ccw.values[..full], "{pattern:?}, {layers} layers, {turns:?} turns");
+                let whole = |turns: usize| turns.is_multiple_of(BLOCK);
+                let sizes = cw.values[..full].iter().map(|count| 2.0 * count);
+                assert!(sizes.into_iter().all(|size| if turns.into_iter().all(whole) {
+                    size == 16.0
+                } else {
+                    (10.0..=20.0).contains(&size)
+                }));
+            }
         }
     }
 }
