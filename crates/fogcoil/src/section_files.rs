@@ -10,7 +10,7 @@ use winding::Half;
 
 use crate::Error;
 use crate::simulate::{Fields, MOST_FRAMES, Sample, Simulation};
-use crate::turn_bias::turn_bias;
+use crate::turn_bias::Contributions;
 
 /// The series' file in its folder.
 const SERIES: &str = "section.pvd";
@@ -109,8 +109,7 @@ impl<'a> SectionFiles<'a> {
         let centres: Vec<[f64; 2]> = turns.iter().map(|turn| [turn.r, turn.y]).collect();
         let found = self.state(sample).at_places(&self.section.places(&centres));
         let value = |of: fn(&coil::PointValues) -> f64| found.iter().map(|at| at.as_ref().map_or(f64::NAN, of)).collect();
-        let bias = turn_bias(case, &self.fields.turns, &sample.change).map_err(io::Error::other)?;
-        let part = |of: fn(&Bias) -> f64| bias.iter().map(of).collect();
+        let bias = Contributions::of(case, &self.fields.turns, &sample.change).map_err(io::Error::other)?;
         let pitch = case.winding.spec().pitch;
         let (high, wide) = (3_f64.sqrt() / 4.0 * pitch, pitch / 2.0);
         let corners = |[r, y]: &[f64; 2]| {
@@ -124,10 +123,10 @@ impl<'a> SectionFiles<'a> {
                 Array::scalar("temperature_c", value(|at| at.temperature)),
                 Array::scalar("glass_axial_strain", value(|at| at.strain[2])),
                 Array::scalar("glass_radial_strain", value(|at| at.glass_radial)),
-                Array::scalar("bias_deg_per_h", part(Bias::total)),
-                Array::scalar("shupe_deg_per_h", part(|b| b.shupe)),
-                Array::scalar("eo_axial_deg_per_h", part(|b| b.eo_axial)),
-                Array::scalar("eo_radial_deg_per_h", part(|b| b.eo_radial)),
+                Array::scalar("bias_deg_per_h", bias.part(Bias::total)),
+                Array::scalar("shupe_deg_per_h", bias.part(|b| b.shupe)),
+                Array::scalar("eo_axial_deg_per_h", bias.part(|b| b.eo_axial)),
+                Array::scalar("eo_radial_deg_per_h", bias.part(|b| b.eo_radial)),
                 Array::scalar("z_m", turns.iter().map(|t| (t.z_start + t.z_end) / 2.0).collect()),
                 Array::whole("layer", turns.iter().map(|t| t.layer as i32).collect()),
                 Array::whole("is_cw", turns.iter().map(|t| i32::from(t.half == Half::Cw)).collect()),

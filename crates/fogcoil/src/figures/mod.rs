@@ -23,6 +23,7 @@ use crate::band::CourseBand;
 use crate::input::CoilCase;
 use crate::simulate::{Fields, Simulation};
 
+pub use crate::turn_bias::Contributions;
 pub use contributions::contributions_in_ramp;
 pub use convergence::{Convergence, convergence};
 pub use course::Measured;

@@ -1,11 +1,11 @@
 //! The coil's section: temperature, strain, displacement and contribution to the bias over (r, y), at instants and over time.
 
-use charts::{Axis, Colours, Figure, HeatMap, Height, Panel, signed};
+use charts::{Axis, Colours, Figure, HeatMap, Height, Panel};
 use coil::Mechanics;
 
 use super::course::time_axis;
 use super::document::MOST_TURNS;
-use super::instants::Instants;
+use super::instants::{Chosen, Instants};
 use super::section_maps::{Kind, Maps, QUANTITIES, Raster};
 use crate::simulate::{Fields, Simulation};
 use crate::units::to_mm;
@@ -47,7 +47,7 @@ fn at_instants<'a>(simulation: &'a Simulation, raster: &Raster, instants: &Insta
         for (chosen, at) in instants.chosen.iter().zip(maps) {
             let heading = match (k, &quantity.kind) {
                 (0, _) => format!("{}, {}", chosen.what, instants.when(simulation, *chosen).join(", ")),
-                (_, Kind::Bias) => format!("{}: sum {} °/h", chosen.what, signed(at.bias, 4)),
+                (_, Kind::Bias) => format!("{}: {} °/h", chosen.what, at.bias.whole(4)),
                 _ => chosen.what.to_owned(),
             };
             let colours = Colours::of(quantity.label, ends(&at.values[k]), quantity.least);
@@ -65,6 +65,8 @@ fn at_instants<'a>(simulation: &'a Simulation, raster: &Raster, instants: &Insta
             panels.push(Panel::map(axial, radial, Height::ToScale(14.0), map).headed(heading));
         }
     }
+    let sum = |(chosen, at): (&Chosen, &Maps)| format!("{}: {} °/h", chosen.what, at.bias.apart(4));
+    let sums: Vec<String> = instants.chosen.iter().zip(maps).map(sum).collect();
     Figure {
         id: "section",
         title: "The coil's section".into(),
@@ -75,7 +77,8 @@ fn at_instants<'a>(simulation: &'a Simulation, raster: &Raster, instants: &Insta
             "Coil, hub and flanges, the coil outlined, each map with a scale of its own; above the first maps the time since the first row and the fibre's mean \
              temperature. Strains and displacements are those since the first row. In the coil the \
              hoop strain is the glass's axial strain. The bias is that of the instant, summed over blocks of 4 layers by about 4 turns, in \
-             which most of it cancels. A scale of one sign is dark at the least magnitude and bright at the largest.{}",
+             which most of it cancels; {}. A scale of one sign is dark at the least magnitude and bright at the largest.{}",
+            sums.join("; "),
             state(simulation)
         ),
         columns: instants.chosen.len(),

@@ -5,7 +5,7 @@ use coil::{Design, Error, Layout, Places, PointValues, STANDARD, Section, TurnFi
 use super::blocks::{Cells, cells};
 use super::instants::Instants;
 use crate::simulate::{Fields, Sample, Simulation};
-use crate::turn_bias::turn_bias;
+use crate::turn_bias::{Contributions, Sum};
 use crate::units::{to_mm, to_ppm, to_um};
 
 /// Cells of a raster, about.
@@ -79,8 +79,8 @@ pub(super) struct Maps {
     pub(super) values: Vec<Vec<f64>>,
     /// Blocks of turns with the contribution of each to the bias.
     pub(super) blocks: Cells,
-    /// Sum over all turns \[°/h\].
-    pub(super) bias: f64,
+    /// What the bias adds up to \[°/h\].
+    pub(super) bias: Sum,
 }
 
 impl<'a> Raster<'a> {
@@ -101,15 +101,14 @@ impl<'a> Raster<'a> {
     pub(super) fn at(&self, sample: usize) -> Result<Maps, bias::Error> {
         let Sample { state, change, .. } = &self.simulation.samples[sample];
         let points = self.section.at(state, &self.rest).at_places(&self.places);
-        let of_turns = turn_bias(self.simulation.case, self.turns, change)?;
-        let totals: Vec<f64> = of_turns.iter().map(bias::Bias::total).collect();
-        let blocks = cells(&self.simulation.case.winding, &totals, true);
+        let contributions = Contributions::of(self.simulation.case, self.turns, change)?;
+        let blocks = cells(&self.simulation.case.winding, &contributions.part(bias::Bias::total), true);
         let mean = self.instants.means[sample];
         let values = |quantity: &Quantity| match quantity.kind {
             Kind::Point(of) => points.iter().map(|point| point.as_ref().map_or(f64::NAN, |point| of(point, mean))).collect(),
             Kind::Bias => centres(self.count, self.y, self.r).into_iter().map(|place| blocks.at(place)).collect(),
         };
-        Ok(Maps { values: QUANTITIES.iter().map(values).collect(), bias: totals.iter().sum(), blocks })
+        Ok(Maps { values: QUANTITIES.iter().map(values).collect(), bias: contributions.sum(bias::Bias::total), blocks })
     }
 
     /// Means of each row over the coil's height, and of each column over the coil's layers; where there is nothing, not a number.

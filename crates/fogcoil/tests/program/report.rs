@@ -87,7 +87,8 @@ fn every_design_has_its_figures() {
 #[test]
 fn figures_alone_are_documents_and_the_contributions_add_up() {
     let folder = Folder::new();
-    folder.write("coil.ron", COIL);
+    // unequal tails have a part in the bias
+    folder.write("coil.ron", change(COIL, "tails_m: (cw: 0.0, ccw: 0.0)", "tails_m: (cw: 0.4, ccw: 0.0)"));
     folder.write("p.csv", "time_s,chamber_c\n0,20\n3600,40\n7200,30\n");
     let case = fogcoil::input::read_coil(&folder.path("coil.ron")).unwrap();
     let profile = fogcoil::input::read_profile(&folder.path("p.csv"), &case.design, &[]).unwrap();
@@ -108,13 +109,18 @@ fn figures_alone_are_documents_and_the_contributions_add_up() {
         assert!(svg.starts_with("<svg xmlns=") && svg.len() < 400_000, "{name}: {} bytes", svg.len());
         assert!(!svg.contains("NaN") && !svg.contains("var(") && !svg.contains(">inf"), "{name}");
     }
-    let turns = fogcoil::figures::contributions_in_ramp(&simulation, &fields.turns).unwrap();
-    let sum = turns.iter().fold(bias::Bias::ZERO, |sum, turn| sum + *turn);
+    let ramp = fogcoil::figures::contributions_in_ramp(&simulation, &fields.turns).unwrap();
+    let sum = ramp.turns.iter().fold(ramp.tails, |sum, turn| sum + *turn);
     // on the mesh of the fields
     let steady = coil::Model::new(&case.design, &coil::COARSE).unwrap().sensitivity().unwrap();
     for (part, expected) in [(sum.shupe, steady.shupe), (sum.eo_axial, steady.eo_axial), (sum.eo_radial, steady.eo_radial)] {
         assert!((part - expected).abs() < 1e-8, "{part} against {expected}");
     }
+    // a title's sum is that of the whole fibre
+    let together = format!("tails {}, together {}", charts::signed(ramp.tails.total(), 3), charts::signed(steady.total(), 3));
+    let of = |figure: &str| &documents.iter().find(|(name, _)| *name == figure).unwrap().1;
+    assert!(ramp.tails.total().abs() > 0.01 && of("contributions").contains(&together), "{together}");
+    assert!(of("section").contains(": together "));
 }
 
 #[test]
