@@ -21,6 +21,9 @@ use crate::signals;
 const PATIENCE: Duration = Duration::from_secs(1);
 /// Interval between two pictures of a bar that turns.
 const TICK: Duration = Duration::from_millis(120);
+/// Duration of a counted task from which the time left is said where nobody watches, and the least time that is worth a line.
+const KNOWN: Duration = Duration::from_secs(3);
+const LONG: Duration = Duration::from_secs(10);
 /// A bar, and its form where nothing can be counted.
 const COUNTED: &str = "{spinner} {msg} [{bar:32}] {pos} of {len}, {elapsed}{left}";
 const UNCOUNTED: &str = "{spinner} {msg} {elapsed}";
@@ -83,12 +86,14 @@ struct Expected {
     begun: Option<(Instant, usize)>,
     done: usize,
     end: Option<Instant>,
+    /// Whether it was said once, where there is no bar.
+    said: bool,
 }
 
 impl Expected {
     fn told(&mut self, task: &str, (done, all): (usize, usize), now: Instant) {
         let Some((since, first)) = self.begun.filter(|(_, first)| self.task == task && *first <= done) else {
-            *self = Self { task: task.to_owned(), begun: Some((now, done)), done, end: None };
+            *self = Self { task: task.to_owned(), begun: Some((now, done)), done, ..Self::default() };
             return;
         };
         if done > self.done {
@@ -96,6 +101,14 @@ impl Expected {
             self.done = done;
             self.end = Some(now + each.mul_f64(all.saturating_sub(done) as f64));
         }
+    }
+
+    /// What is done and the time left, once for each task, as soon as it is known well enough; not where little is left.
+    fn once(&mut self, (done, all): (usize, usize), now: Instant) -> Option<String> {
+        let known = self.begun.is_some_and(|(since, _)| now.duration_since(since) >= KNOWN);
+        let long = self.end.is_some_and(|end| end.saturating_duration_since(now) >= LONG);
+        (known && long && !std::mem::replace(&mut self.said, true))
+            .then(|| format!("{}: {done} of {all}{}", self.task, self.left(now)))
     }
 
     /// The time left, in words after those of a bar; empty where it is not known.
@@ -169,9 +182,11 @@ impl Progress {
         {
             kept.count = Some(count);
         }
-        if let Some(count) = done {
-            lock(&self.expected).told(task, count, Instant::now());
-        }
+        let left = done.and_then(|count| {
+            let (mut expected, now) = (lock(&self.expected), Instant::now());
+            expected.told(task, count, now);
+            if self.how == How::Lines { expected.once(count, now) } else { None }
+        });
         if let Some(bar) = lock(&self.bar).as_ref() {
             if let Some((done, all)) = done {
                 bar.set_length(all as u64);
@@ -191,6 +206,7 @@ impl Progress {
             *named = task.to_owned();
             self.note(task);
         }
+        left.iter().for_each(|left| self.note(left));
     }
 
     /// Does work that tells its tasks.
@@ -389,6 +405,20 @@ mod tests {
         assert_eq!(expected.left(at(1000)), "");
         expected.told("another", (0, 2), at(1000));
         assert_eq!(expected.left(at(1000)), "");
+    }
+
+    #[test]
+    fn where_nobody_watches_the_time_left_is_said_once() {
+        let (mut expected, begin) = (Expected::default(), Instant::now());
+        let mut at = |seconds: u64, done: usize| {
+            let now = begin + Duration::from_secs(seconds);
+            expected.told("trying designs", (done, 100), now);
+            expected.once((done, 100), now)
+        };
+        let said = [(0, 0), (1, 1), (4, 4), (50, 50)].map(|(seconds, done)| at(seconds, done));
+        assert_eq!(said, [None, None, Some("trying designs: 4 of 100, 2m left".to_owned()), None]);
+        // little is left of a short task
+        assert_eq!([(0, 0), (4, 50)].map(|(seconds, done)| at(100 + seconds, done)), [None, None]);
     }
 
     #[test]
