@@ -24,9 +24,12 @@ pub struct Checked {
     pub band: Band,
     /// |S| of designs within the tolerances, the least first.
     pub within: Vec<f64>,
-    /// Way from the drawing to it, change by change: key, value, sensitivity then; `None` where there is no design on the way.
-    pub path: Vec<(String, String, Option<f64>)>,
+    /// Way from the drawing to it, change by change.
+    pub path: Vec<Change>,
 }
+
+/// A change on the way: key, value, sensitivity then; `None` where there is no design on the way.
+pub(super) type Change = (String, String, Option<f64>);
 
 /// Designs within the tolerances.
 const UNITS: usize = 256;
@@ -58,7 +61,7 @@ fn within(plan: &Plan, case: &CoilCase) -> Vec<f64> {
 }
 
 /// Effect of each change, in the plan's order, each beside those before it.
-fn path(plan: &Plan, tried: &Tried) -> Vec<(String, String, Option<f64>)> {
+fn path(plan: &Plan, tried: &Tried) -> Vec<Change> {
     let mut written: Vec<(usize, Value)> = Vec::new();
     let mut steps = Vec::new();
     for (n, value) in tried.values.iter().enumerate().filter_map(|(n, value)| Some((n, value.clone()?))) {

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::check::Checked;
+use super::check::{Change, Checked};
 use super::evaluate::Tried;
 use super::front::front;
 use super::measure::{Measure, Measures};
@@ -43,7 +43,7 @@ fn design(plan: &Plan, tried: &Tried) -> Value {
 
 fn optimum(plan: &Plan, checked: &Checked) -> Value {
     let [most, largest] = checked.quantiles();
-    let step = |(key, value, total): &(String, String, Option<f64>)| json!({"key": key, "value": value, "total": total});
+    let step = |(key, value, total): &Change| json!({"key": key, "value": value, "total": total});
     json!({
         "design": design(plan, &checked.tried),
         "total": checked.steady.sensitivity.total(),

@@ -9,6 +9,7 @@ use progress::Step;
 use rayon::prelude::*;
 
 use super::evaluate::Tried;
+use super::front::front;
 use super::measure::Measure;
 use super::plan::Plan;
 use super::weigh::{NONE, weighed, weighings};
@@ -29,6 +30,8 @@ const DESCENTS: usize = 2;
 const STEP: f64 = 0.15;
 /// Trials of an iteration of the method, about.
 const TRIALS_OF_ITERATION: f64 = 1.7;
+/// Trials of a descent beyond its corners at least.
+const LEAST_TRIALS: usize = 4;
 /// Spread of what is weighed among a simplex at which a descent ends: what no drawing is made to.
 const SETTLED: f64 = 1e-5;
 /// Longest sequence of points.
@@ -54,14 +57,41 @@ pub fn search(plan: &Plan, progress: &(dyn Fn(Step) + Sync)) -> Result<Found, Er
         return Err(Error::usage("no design of the plan can be computed; vary less, or give dimensions: FollowWinding"));
     }
     let scales: Vec<f64> = plan.minimise.iter().map(|measure| scale(measure.of(&drawn))).collect();
-    let descents = starts(plan, &screened, &scales);
     let left = plan.trials.saturating_sub(screened.len());
-    let iterations = (left as f64 / TRIALS_OF_ITERATION / descents.len().max(1) as f64) as u64;
+    let descents = starts(plan, &screened, &scales, left);
+    let iterations = iterations(plan, left / descents.len().max(1));
     let descend = |(start, weights): &(usize, Vec<f64>)| {
         Descent { plan, start: &screened[*start], weights, scales: &scales, tell: &tell, trail: Mutex::default() }.run(iterations)
     };
     let followed: Vec<Vec<Tried>> = descents.par_iter().map(descend).collect();
-    Ok(Found { drawn, all: [vec![screened], followed].concat().concat() })
+    let mut all = [vec![screened], followed].concat().concat();
+    all.extend(on_the_way(plan, &all));
+    Ok(Found { drawn, all })
+}
+
+/// The designs on the way from the drawing to the best one, change by change, as far as the plan has them: one of them may be better than it.
+fn on_the_way(plan: &Plan, all: &[Tried]) -> Vec<Tried> {
+    let Some(best) = front(all, &plan.minimise).first().map(|n| &all[*n]) else { return Vec::new() };
+    let drawn = plan.variants.drawn();
+    let step = |changed: usize| {
+        let mut point = best.point.clone();
+        for n in changed..point.len() {
+            point[n] = drawn[n]?;
+        }
+        Some(point).filter(|point| *point != best.point)
+    };
+    let steps: Vec<Vec<f64>> = (0..best.point.len()).filter_map(step).collect();
+    steps.par_iter().filter_map(|point| plan.tried(point)).collect()
+}
+
+/// Iterations of a descent of so many trials, its corners among them.
+fn iterations(plan: &Plan, trials: usize) -> u64 {
+    (trials.saturating_sub(corners(plan)) as f64 / TRIALS_OF_ITERATION) as u64
+}
+
+/// Corners of a descent's simplex.
+fn corners(plan: &Plan) -> usize {
+    numbers(plan).len() + 1
 }
 
 /// A number of the drawing that others are measured by; 1 where it is nothing.
@@ -90,8 +120,9 @@ fn screening(plan: &Plan) -> Vec<Vec<f64>> {
     (0..count).map(point).collect()
 }
 
-/// Places of the designs from which descents start, with the weights of each: the best of each weighing, of other choices each.
-fn starts(plan: &Plan, screened: &[Tried], scales: &[f64]) -> Vec<(usize, Vec<f64>)> {
+/// Places of the designs from which descents start, with the weights of each: the best of each weighing, of other choices each; as many as `left`
+/// trials are enough for, the best ones and those of the first measure before others.
+fn starts(plan: &Plan, screened: &[Tried], scales: &[f64], left: usize) -> Vec<(usize, Vec<f64>)> {
     let numbers = numbers(plan);
     if numbers.is_empty() {
         return Vec::new();
@@ -100,7 +131,7 @@ fn starts(plan: &Plan, screened: &[Tried], scales: &[f64]) -> Vec<(usize, Vec<f6
         (0..tried.point.len()).filter(|n| !numbers.contains(n)).map(|n| tried.point[n].to_bits()).collect::<Vec<_>>()
     };
     let mut all = Vec::new();
-    for weights in weighings(plan.minimise.len()) {
+    for weights in weighings(plan.minimise.len()).into_iter().rev() {
         let mut order: Vec<usize> = (0..screened.len()).collect();
         let cost = |n: &usize| weighed(&screened[*n], &plan.minimise, scales, &weights);
         order.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
@@ -108,12 +139,14 @@ fn starts(plan: &Plan, screened: &[Tried], scales: &[f64]) -> Vec<(usize, Vec<f6
         for n in order {
             let own = choices(&screened[n]);
             if known.len() < DESCENTS && !known.contains(&own) {
+                all.push((known.len(), n, weights.clone()));
                 known.push(own);
-                all.push((n, weights.clone()));
             }
         }
     }
-    all
+    all.sort_by_key(|(rank, ..)| *rank);
+    all.truncate(left / (corners(plan) + LEAST_TRIALS));
+    all.into_iter().map(|(_, n, weights)| (n, weights)).collect()
 }
 
 /// A descent by the Nelder–Mead method over the numbers, the choices as they are.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::check::Checked;
+use super::check::{Change, Checked};
 use super::front::front;
 use super::measure::{Measure, Measures};
 use super::plan::Plan;
@@ -34,9 +34,10 @@ pub fn text(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
         Some(checked) => {
             let [first, second] = of_optimum(plan, found, checked);
             let steps = with_end(steps(found, checked));
-            let _ = write!(out, "\n{first}\n{second}\n\n{steps}\n{}\n", of_spread(checked));
-            if let Some(ends) = at_ends(plan, found, &best) {
-                let _ = writeln!(out, "{ends}");
+            let _ = write!(out, "\n{first}\n{second}\n\n{steps}\n");
+            let remarks = [within_error(found, checked), Some(of_spread(checked)), at_ends(plan, found, &best)];
+            for remark in remarks.into_iter().flatten() {
+                let _ = writeln!(out, "{remark}");
             }
         }
     }
@@ -104,14 +105,29 @@ pub(super) fn of_optimum(plan: &Plan, found: &Found, checked: &Checked) -> [Stri
 pub(super) fn steps(found: &Found, checked: &Checked) -> Vec<Vec<String>> {
     let head = ["what leads there, change by change", "", "S then"].map(str::to_owned).to_vec();
     let start = vec!["the drawing".to_owned(), String::new(), significant(found.drawn.sensitivity, 4)];
-    let step = |(key, value, total): &(String, String, Option<f64>)| {
+    let step = |(key, value, total): &Change| {
         let value = value.parse().map_or_else(|_| value.clone(), |number: f64| significant(number, 5));
         vec![key.clone(), value, total.map_or("no design".into(), |total| significant(total, 4))]
     };
-    // what leaves the sensitivity as it is leads nowhere, as a key that has the drawing's value
+    [head, start].into_iter().chain(changes(found, checked).map(|(change, _)| step(change))).collect()
+}
+
+/// The changes on the way, each with its effect on the sensitivity if it is known. What leaves the sensitivity as it is leads nowhere, as a key that has the
+/// drawing's value.
+fn changes<'a>(found: &Found, checked: &'a Checked) -> impl Iterator<Item = (&'a Change, Option<f64>)> {
     let mut before = Some(found.drawn.sensitivity);
-    let changes = checked.path.iter().filter(|(.., total)| std::mem::replace(&mut before, *total) != *total);
-    [head, start].into_iter().chain(changes.map(step)).collect()
+    checked.path.iter().filter_map(move |change| {
+        let last = std::mem::replace(&mut before, change.2);
+        (last != change.2).then(|| (change, last.zip(change.2).map(|(last, now)| now - last)))
+    })
+}
+
+/// The changes whose effect is no larger than the sensitivity's numerical error, if there are such.
+pub(super) fn within_error(found: &Found, checked: &Checked) -> Option<String> {
+    let small = |effect: Option<f64>| effect.is_some_and(|effect| effect.abs() <= checked.steady.error_estimate);
+    let keys: Vec<&str> =
+        changes(found, checked).filter(|(_, effect)| small(*effect)).map(|(change, _)| change.0.as_str()).collect();
+    (!keys.is_empty()).then(|| format!("changes within the numerical error: {}", keys.join(", ")))
 }
 
 /// The tolerances that the optimum's spread comes from.

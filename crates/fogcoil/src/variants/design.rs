@@ -116,8 +116,7 @@ impl Variants {
     pub(super) fn cells_of_choices(&self) -> (Vec<Fingerprint>, Vec<Note>) {
         let (mut files, mut warnings) = (Vec::new(), Vec::new());
         for (n, varied) in self.keys().filter(|(n, _)| self.factors[*n].is_choice()) {
-            let count = varied.count().unwrap_or(0);
-            let values = (0..count).map(|place| varied.at((place as f64 + 0.5) / count as f64));
+            let values = varied.middles().map(|u| varied.at(u));
             for value in values.filter(|value| value.ron().contains("FromCell")) {
                 // a choice that no design can have says so in its rows
                 let Ok(case) = self.case_with(&[(n, value)]) else { continue };
@@ -129,6 +128,26 @@ impl Variants {
             }
         }
         (files, warnings)
+    }
+
+    /// The drawing's own coordinate of each factor that the plan states; `None` where the plan does not let it be as drawn.
+    pub fn drawn(&self) -> Vec<Option<f64>> {
+        let mut drawn = vec![None; self.factors.len()];
+        for (n, varied) in self.keys() {
+            drawn[n] = if varied.count().is_some() {
+                let as_drawn = |u: &f64| self.with(&[(n, varied.at(*u))]).is_ok_and(|design| design == self.case.design);
+                varied.middles().find(as_drawn)
+            } else {
+                let of_key = |key: &str| {
+                    let text = field_text(&self.case.file, &self.text, key).ok()?;
+                    let inner = text.strip_prefix("Some(").and_then(|rest| rest.strip_suffix(')')).unwrap_or(text);
+                    varied.coordinate(inner.trim().parse().ok()?)
+                };
+                let all: Option<Vec<f64>> = self.factors[n].keys().map(of_key).collect();
+                all.filter(|all| all.iter().all(|u| *u == all[0])).map(|all| all[0])
+            };
+        }
+        drawn
     }
 
     fn case_with(&self, written: &[(usize, Value)]) -> Result<CoilCase, String> {

@@ -134,6 +134,22 @@ impl Varied {
         }
     }
 
+    /// The coordinate at which a number between two ends, of no distribution, has a value; `None` beyond its ends.
+    pub(super) fn coordinate(&self, value: f64) -> Option<f64> {
+        let u = match self {
+            Self::Uniform(low, high) => (value - low) / (high - low),
+            Self::LogUniform(low, high) => (value / low).ln() / (high / low).ln(),
+            _ => return None,
+        };
+        (0.0..=1.0).contains(&u).then_some(u)
+    }
+
+    /// The middles of the coordinates that share a value; none where every coordinate has its own.
+    pub(super) fn middles(&self) -> impl Iterator<Item = f64> + use<> {
+        let count = self.count().unwrap_or(0);
+        (0..count).map(move |place| (place as f64 + 0.5) / count as f64)
+    }
+
     /// Its value at a coordinate between 0 and 1.
     pub fn at(&self, u: f64) -> Value {
         let between = |low: f64, high: f64| low + u * (high - low);
@@ -163,6 +179,9 @@ mod tests {
     #[test]
     fn coordinates_become_values() {
         assert_eq!(Varied::Uniform(2.0, 6.0).at(0.25), Value::Number(3.0));
+        assert_eq!(Varied::Uniform(2.0, 6.0).coordinate(3.0), Some(0.25));
+        assert!((Varied::LogUniform(1.0, 100.0).coordinate(10.0).unwrap() - 0.5).abs() < 1e-12);
+        assert_eq!(Varied::Uniform(2.0, 6.0).coordinate(1.9), None);
         let Value::Number(middle) = Varied::LogUniform(1.0, 100.0).at(0.5) else { panic!() };
         assert!((middle - 10.0).abs() < 1e-12);
         assert_eq!(Varied::Whole(24, 60, 4).count(), Some(10));

@@ -87,6 +87,34 @@ fn the_optimum_is_found_checked_and_explained() {
 }
 
 #[test]
+fn no_design_on_the_way_is_better_than_the_optimum() {
+    let folder = Folder::new();
+    folder.write("reference.ron", COIL);
+    let case = fogcoil::input::read_coil(&folder.path("reference.ron")).unwrap();
+    let (asymmetry, _) = coil::tail_asymmetry(&case.design, 0.0).unwrap();
+    let tails = coil::with_asymmetry(&case.design, asymmetry).winding.tails;
+    // a drawing without a sensitivity, in a plan of so few trials that none comes near
+    folder.write(
+        "coil.ron",
+        change(COIL, "tails_m: (cw: 0.0, ccw: 0.0)", &format!("tails_m: (cw: {}, ccw: {})", tails.cw, tails.ccw)),
+    );
+    let varied = if tails.cw > 0.0 { "cw" } else { "ccw" };
+    let plan = format!(
+        "(design: \"coil.ron\", vary: {{\"spool.hub_thickness_mm\": Uniform(2.0, 6.0), \"winding.tails_m.{varied}\": Uniform(0.0, 20.0), \
+         \"winding.cw_climbs\": OneOf([\"Right\", \"Left\"])}}, minimise: [Sensitivity], trials: 10)"
+    );
+    folder.write("plan.ron", plan);
+    let output = folder.run(&["optimise", "plan.ron", "--json", "--quiet"]);
+    let json: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let best = &json["optimum"];
+    let own = number(&best["design"]["numbers"]["sensitivity"]);
+    assert!(own <= number(&json["drawing"]["sensitivity"]) + 1e-9, "{json}");
+    assert!(best["path"].as_array().unwrap().iter().all(|step| own <= number(&step["total"]).abs() + 1e-9), "{best}");
+    // those on the way are beyond the plan's
+    assert!(json["tried"].as_u64().unwrap() <= 10 + 3, "{json}");
+}
+
+#[test]
 fn limits_that_nothing_keeps_leave_no_optimum() {
     let folder = Folder::new();
     folder.write("coil.ron", COIL);
