@@ -22,7 +22,7 @@ mirrored! {
         turns_odd_layers: usize = turns_odd_layers,
         /// Turns of layers 2, 4, 6, ...: as many, or one fewer.
         turns_even_layers: usize = turns_even_layers,
-        /// Radius on which the first layer lies.
+        /// Inner radius of the wound coil: outer radius of the hub, plus any gap; the first layer lies on it.
         inner_radius_mm: LengthMm = inner_radius,
         /// Distance of neighbouring turns.
         pitch_mm: PitchMm = pitch,
