@@ -89,7 +89,7 @@ pub fn text(case: &CoilCase, e: &Explained) -> String {
     for x in &e.explanations {
         if let Reach::Unable { why } = x.outcome {
             let several = e.explanations.iter().filter(|other| other.id == x.id).count() > 1;
-            let parameter = if several { format!(" ({})", x.parameter) } else { String::new() };
+            let parameter = if several && !x.parameter.is_empty() { format!(" ({})", x.parameter) } else { String::new() };
             let _ = writeln!(out, "  {}{parameter}: {why}", x.id);
         }
     }

@@ -117,6 +117,8 @@ fn the_paper_s_second_coil_is_explained_by_a_tail_and_hardly_by_its_constants() 
     folder.write("tail.ron", change(COIL, "tails_m: (cw: 0.0, ccw: 0.0)", &tails));
     let s: Value = serde_json::from_str(&stdout(&folder.run(&["sensitivity", "tail.ron", "--json"]))).unwrap();
     assert!((s["total"].as_f64().unwrap() + 1.39).abs() < 0.003, "{s}");
+    let text = stdout(&folder.run(&["explain", "coil.ron", "--sensitivity", "1.39", "--quiet"]));
+    assert!(text.contains("compensated-rate: it is of the electronics") && !text.contains("()"), "{text}");
     let output = folder.run(&["explain", "coil.ron", "--sensitivity", "-1.0"]);
     assert!(output.status.code() == Some(2) && stderr(&output).contains("--signed"), "{}", stderr(&output));
 }
