@@ -31,7 +31,26 @@ pub(crate) fn odds(log_odds: f64, shown: impl Fn(f64) -> String) -> String {
     if log_odds >= 99.5 { "> 99".into() } else { shown(log_odds) }
 }
 
+/// Share of a number below which what stands beside it is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// A number that stands beside larger ones of its kind, the largest of them `scale`: nothing where it is but rounding of that.
+pub(crate) fn beside(value: f64, scale: f64) -> f64 {
+    if value.abs() < ROUNDING * scale.abs() { 0.0 } else { value }
+}
+
 /// An error estimate: two significant digits.
 pub(crate) fn plus_minus(error: f64) -> String {
     if error == 0.0 { "± 0".into() } else { format!("± {error:.1e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_beside_a_number_is_nothing() {
+        assert_eq!([2.8e-12, -1.8e-15, 1e-8, -0.1].map(|value| beside(value, 5.67)), [0.0, 0.0, 1e-8, -0.1]);
+        assert_eq!(beside(1e-20, 0.0), 1e-20);
+    }
 }

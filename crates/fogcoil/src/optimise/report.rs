@@ -1,6 +1,6 @@
 //! The page of an optimisation.
 
-use charts::{Cells, grid, nice, sections};
+use charts::{Cells, grid, sections};
 use maud::{Markup, html};
 
 use super::check::Checked;
@@ -9,7 +9,7 @@ use super::picture::figure;
 use super::plan::Plan;
 use super::search::Found;
 use super::text::{NOTHING, at_ends, designs, of_optimum, of_spread, steps, within_error};
-use crate::report::provenance;
+use crate::report::{provenance, sentence};
 
 /// The front, the optimum with its check, and the changes that lead to it.
 pub fn report(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
@@ -43,11 +43,4 @@ pub fn report(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
 /// A table whose first row is its head.
 fn headed(caption: &str, rows: &[Vec<String>]) -> Markup {
     html! { @if let Some((head, rows)) = rows.split_first() { (grid(caption, Cells::Words, head, rows)) } }
-}
-
-/// The text with a capital and a full stop.
-fn sentence(text: &str) -> String {
-    let mut rest = text.chars();
-    let first: String = rest.next().into_iter().flat_map(char::to_uppercase).collect();
-    nice(&format!("{first}{}.", rest.as_str()))
 }

@@ -83,3 +83,10 @@ fn summary(simulation: &Simulation) -> Markup {
     };
     charts::facts("Summary", &entries(simulation).into_iter().map(words).collect::<Vec<_>>())
 }
+
+/// The text with a capital and a full stop.
+pub(crate) fn sentence(text: &str) -> String {
+    let mut rest = text.chars();
+    let first: String = rest.next().into_iter().flat_map(char::to_uppercase).collect();
+    charts::nice(&format!("{first}{}.", rest.as_str()))
+}

@@ -8,9 +8,9 @@ use super::outputs::TOTAL;
 use super::picture::figure;
 use super::plan::Plan;
 use super::row::Row;
-use super::statistics::{Spread, Summary};
-use super::text::unit;
-use crate::report::provenance;
+use super::statistics::Summary;
+use super::text::{of_error, spread};
+use crate::report::{provenance, sentence};
 
 /// Most points of a line that is drawn.
 const DRAWN: usize = 500;
@@ -29,15 +29,12 @@ pub fn report(plan: &Plan, summary: &Summary, rows: &[Row]) -> String {
                 " The sensitivity has a standard deviation of " (significant(total.sd, 3)) " (°/h)/(°C/min); to first order in the tolerances "
                 (significant(linear, 3)) "."
             }
+            @if let Some(error) = summary.error { " " (sentence(&of_error(error))) }
         }
     };
     let head = ["", "mean", "sd", "least", "5 %", "median", "95 %", "largest", "unit"];
-    let numbers = |s: &Spread| {
-        let numbers = [s.mean, s.sd].into_iter().chain(s.quantiles).map(|value| significant(value, 4));
-        std::iter::once(s.name.to_owned()).chain(numbers).chain([unit(s.name)]).collect::<Vec<_>>()
-    };
     let files: Vec<_> = ["plan", "coil"].into_iter().chain(std::iter::repeat("input")).zip(&plan.files).collect();
-    let spreads: Vec<_> = summary.spreads.iter().map(numbers).collect();
+    let spreads: Vec<_> = summary.spreads.iter().map(spread).collect();
     let mut parts = vec![("Numbers", grid("Every number over all designs", Cells::Numbers, &head, &spreads))];
     parts.extend(against_keys(plan, rows).map(|course| ("Sensitivity by key", course.element())));
     parts.extend(distribution(plan, rows).map(|distribution| ("Sensitivity", distribution.element())));

@@ -73,6 +73,8 @@ pub struct Summary {
     pub smallest: Option<Smallest>,
     /// Standard deviation of the sensitivity by its tolerances to first order, where the tolerances are all that varies.
     pub linear_sd: Option<f64>,
+    /// Numerical error of the drawing's sensitivity, where sensitivities are computed \[(deg/h)/(degC/min)\].
+    pub error: Option<f64>,
     /// Groups from which the spread of |S| comes.
     pub indices: Option<Indices>,
 }
@@ -95,12 +97,13 @@ impl Summary {
             Some(_) => Some(case.sensitivity_band()?.sd),
             None => None,
         };
+        let error = total.map(|_| case.steady_sensitivity()).transpose()?.map(|steady| steady.error_estimate);
         let indices = total.filter(|_| matches!(plan.sampling, Sampling::Indices(_))).and_then(|n| {
             let magnitudes: Vec<Option<f64>> = rows.iter().map(|row| row.outputs[n].map(f64::abs)).collect();
             Indices::of(&plan.groups, &magnitudes, plan.seed)
         });
         let designs = rows.iter().filter(|row| row.problem.is_none()).count();
-        Ok(Self { designs, failed, spreads, smallest, linear_sd, indices })
+        Ok(Self { designs, failed, spreads, smallest, linear_sd, error, indices })
     }
 
     /// Spread of the sensitivity.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::indices::Indices;
 use super::plan::Plan;
 use super::statistics::{Spread, Summary};
-use crate::table::{significant, table};
+use crate::table::{beside, significant, table};
 use crate::units::parameter_unit;
 
 /// The computed designs, the spread of their outputs and its origins.
@@ -16,12 +16,11 @@ pub fn text(plan: &Plan, summary: &Summary) -> String {
         let _ = writeln!(out, "{count} points have no design; of the first: {first}");
     }
     let head = ["", "mean", "sd", "least", "5 %", "median", "95 %", "largest", ""].map(str::to_owned).to_vec();
-    let row = |s: &Spread| {
-        let numbers = [s.mean, s.sd].into_iter().chain(s.quantiles).map(|value| significant(value, 4));
-        std::iter::once(s.name.to_owned()).chain(numbers).chain([unit(s.name)]).collect::<Vec<_>>()
-    };
-    let rows: Vec<Vec<String>> = std::iter::once(head).chain(summary.spreads.iter().map(row)).collect();
+    let rows: Vec<Vec<String>> = std::iter::once(head).chain(summary.spreads.iter().map(spread)).collect();
     let _ = write!(out, "\n{}", table(&rows));
+    if let Some(error) = summary.error {
+        let _ = writeln!(out, "\n{}", of_error(error));
+    }
     if let Some(smallest) = &summary.smallest {
         let _ =
             writeln!(out, "\nsmallest |total|: {} (deg/h)/(degC/min) at {}", significant(smallest.total, 3), smallest.words());
@@ -41,7 +40,19 @@ pub fn text(plan: &Plan, summary: &Summary) -> String {
     out
 }
 
-pub(super) fn unit(name: &str) -> String {
+/// The numerical error of the sensitivities, in words.
+pub(super) fn of_error(error: f64) -> String {
+    format!("numerical error of a sensitivity: about {} (deg/h)/(degC/min), estimated of the drawing", significant(error, 2))
+}
+
+/// Name, mean, standard deviation, quantiles and unit; rounding is nothing.
+pub(super) fn spread(s: &Spread) -> Vec<String> {
+    let most = s.quantiles.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let numbers = [s.mean, s.sd].into_iter().chain(s.quantiles).map(|value| significant(beside(value, most), 4));
+    std::iter::once(s.name.to_owned()).chain(numbers).chain([unit(s.name)]).collect()
+}
+
+fn unit(name: &str) -> String {
     match name {
         "turns" => String::new(),
         "mass_kg" => "kg".into(),

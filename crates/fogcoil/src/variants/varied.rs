@@ -83,6 +83,11 @@ fn part(u: f64, count: usize) -> usize {
     ((u * count as f64) as usize).min(count.saturating_sub(1))
 }
 
+/// A number of a grid as one would write it: what twelve digits do not show is rounding.
+fn as_written(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
+}
+
 impl Varied {
     /// Fault of the range or of the values, if there is one.
     pub fn fault(&self) -> Option<String> {
@@ -161,7 +166,7 @@ impl Varied {
             Self::Normal(mean, sd) => Value::Number(mean + sd * normal(u)),
             Self::Whole(from, _, by) => Value::Number((from + by * place as i64) as f64),
             Self::Steps(from, to, count) => {
-                Value::Number(from + (to - from) * place as f64 / (count.saturating_sub(1)).max(1) as f64)
+                Value::Number(as_written(from + (to - from) * place as f64 / (count.saturating_sub(1)).max(1) as f64))
             }
             Self::OneOf(choices) => match &choices[place] {
                 Choice::Number(value) => Value::Number(*value),
@@ -187,6 +192,11 @@ mod tests {
         assert_eq!(Varied::Whole(24, 60, 4).count(), Some(10));
         assert_eq!([0.0, 0.11, 0.999, 1.0].map(|u| Varied::Whole(24, 60, 4).at(u).ron()), ["24", "28", "60", "60"]);
         assert_eq!([0.0, 0.5, 1.0].map(|u| Varied::Steps(1.0, 2.0, 3).at(u)), [1.0, 1.5, 2.0].map(Value::Number));
+        let grid = Varied::Steps(0.3, 0.6, 7);
+        assert_eq!(
+            grid.middles().map(|u| grid.at(u).shown()).collect::<Vec<_>>(),
+            ["0.3", "0.35", "0.4", "0.45", "0.5", "0.55", "0.6"]
+        );
         let pair = Varied::OneOf(vec![Choice::Text("Left".into()), Choice::Number(2.0)]);
         assert_eq!([0.49, 0.5].map(|u| pair.at(u).ron()), ["Left", "2"]);
         // one standard deviation, and finite ends
