@@ -8,6 +8,7 @@ mod report;
 mod text;
 
 use coil::{Number, SteadySensitivity};
+use files::{Note, Remark};
 use progress::Step;
 
 pub use course::CourseNumbers;
@@ -105,6 +106,14 @@ pub fn compare<'a>(
         length: steady.map(|steady| steady.length),
         simulations,
     })
+}
+
+impl Comparison<'_> {
+    /// What the profile's rows are too long for, if they are.
+    fn long_rows(&self) -> impl Iterator<Item = String> {
+        let notes = self.simulations.iter().flat_map(|[a, _]| &a.profile.notes);
+        notes.filter(|note| matches!(note.remark, Remark::LongRows)).map(Note::line)
+    }
 }
 
 fn with_total([a, b, c]: [f64; 3]) -> [f64; 4] {

@@ -19,6 +19,7 @@ pub fn report(c: &Comparison) -> String {
     let under_profile = c.bias().map(|bias| {
         html! {
             (grid("Bias under the profile, with numerical errors", Cells::Numbers, &head, &bias_rows(&bias)))
+            @for note in c.long_rows() { p { (note) } }
             (course(c).element())
         }
     });

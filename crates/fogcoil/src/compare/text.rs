@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use super::{Comparison, CourseNumbers, Differing, PARTS, Part};
 use crate::summary::rounded;
-use crate::table::{plus_minus, significant, table};
+use crate::table::{beside, plus_minus, significant, table};
 
 /// Origin of the band of the difference.
 pub(super) const HOW: [&str; 4] = [
@@ -70,12 +70,14 @@ pub(super) fn differing_rows(all: &[Differing]) -> Vec<Vec<String>> {
 
 /// Name of a part, and value, error and standard deviation of A, of B, and of B less A.
 pub(super) fn part_rows(parts: &[Part; 4]) -> Vec<Vec<String>> {
+    let most = parts.iter().flat_map(|part| part.value).fold(0.0, |most: f64, value| most.max(value.abs()));
+    let sd = |sd: f64| significant(beside(sd, most), 2);
     let of = |(name, part): (&&str, &Part)| {
         let each = |k: usize| {
-            [format!("{:.5}", (part.value[k] * 1e5).round() / 1e5 + 0.0), plus_minus(part.error[k]), significant(part.sd[k], 2)]
+            [format!("{:.5}", (part.value[k] * 1e5).round() / 1e5 + 0.0), plus_minus(beside(part.error[k], most)), sd(part.sd[k])]
         };
         let name = std::iter::once((*name).to_owned());
-        name.chain([0, 1, 2].into_iter().flat_map(each)).chain([significant(part.sd_apart, 2)]).collect()
+        name.chain([0, 1, 2].into_iter().flat_map(each)).chain([sd(part.sd_apart)]).collect()
     };
     PARTS.iter().zip(parts).map(of).collect()
 }
@@ -134,6 +136,7 @@ pub fn text(c: &Comparison) -> String {
         let file = shown_path(&simulation.profile.fingerprint.file);
         let head = ["", "A", "B", "B - A, row by row"];
         let _ = write!(text, "\nbias under {file}, ± numerical error\n\n{}", aligned(&head, bias_rows(&bias)));
+        c.long_rows().for_each(|note| text += &format!("\n{note}\n"));
     }
     text
 }

@@ -141,6 +141,7 @@ fn the_page_is_whole_and_the_text_says_how() {
         "that both designs share",
         "bias under p.csv",
         "B - A, row by row",
+        "rows last up to 3600 s",
     ] {
         assert!(text.contains(says), "{says}: {text}");
     }
@@ -153,6 +154,7 @@ fn the_page_is_whole_and_the_text_says_how() {
         "id=\"parts-wide-title\"",
         "id=\"bias-wide-title\"",
         "id=\"coils-wide-title\"",
+        "rows last up to 3600 s",
     ] {
         assert!(page.contains(says), "{says}");
     }
