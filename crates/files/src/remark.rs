@@ -293,6 +293,10 @@ remarks! {
         "The model follows the recording far better with two columns exchanged.",
         "The answer is void if they are.",
         "Check the header, or give --column KEY=NAME.";
+    LooseThermometer "loose-thermometer":
+        "Up to one instant the spool's thermometer follows the model, from then on the chamber.",
+        "The answer is void if it came loose: a heat path is sought, or a fault of the rate, for what the thermometer does.",
+        "Look at the thermometer's bond; empty `spool_c` from there on.";
     ReversedRate "reversed-rate":
         "The model follows the recording far better with the rate negated.",
         "The answer is void if the sign is wrong.",

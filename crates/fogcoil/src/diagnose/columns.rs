@@ -1,10 +1,11 @@
-//! Records whose columns are exchanged, or whose rate has the other sign: what a mechanism would hardly do, and a mistake does.
+//! Records whose columns are exchanged, whose thermometer came loose, or whose rate has the other sign: what a mechanism would hardly do, and a mistake does.
 
 use diagnosis::Observation;
 use files::{Note, Remark};
 use mechanisms::{Gyro, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL, thermometer_under};
 
 use super::as_drawn::{AsDrawn, TOLERATED, as_well, spread};
+use super::loose::Loose;
 use crate::input::{CHAMBER, RATE, SPOOL};
 use crate::prepare::Record;
 use crate::table::significant;
@@ -46,6 +47,10 @@ pub(super) fn warning(
                 );
                 return Ok(Some(Remark::ExchangedColumns.warning(text).at(&record.fingerprint.file)));
             }
+        }
+        let loose = Loose::found(time, spool, &predicted[SPOOL_CHANNEL], &record.chamber);
+        if let Some(loose) = loose.filter(|loose| as_well(loose.would, answered(SPOOL_CHANNEL))) {
+            return Ok(Some(loose.warning(left).at(&record.fingerprint.file)));
         }
     }
     let [left, would] = [1.0, -1.0].map(|sign| spread(rate, &predicted[RATE_CHANNEL], sign));

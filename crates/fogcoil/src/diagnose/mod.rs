@@ -9,6 +9,7 @@ mod drawing;
 mod extended;
 mod json;
 mod left;
+mod loose;
 mod report;
 mod structure;
 mod text;

@@ -135,7 +135,14 @@ impl Outcome<'_> {
 
     pub(super) fn verdict(&self) -> String {
         match self.misread() {
-            Some(_) => format!("Void if a column is read wrongly, as it seems. As it is read: {}", self.verdict_as_read()),
+            Some(warning) => {
+                let mistake = match warning.remark {
+                    Remark::LooseThermometer => "the spool's thermometer came loose",
+                    Remark::ReversedRate => "the rate has the other sign",
+                    _ => "a column is read wrongly",
+                };
+                format!("Void if {mistake}, as it seems. As it is read: {}", self.verdict_as_read())
+            }
             None if self.other_word().is_some() => {
                 format!(
                     "Either the unit differs from its drawing in one word, as the warning says, or this. {}",
@@ -146,9 +153,11 @@ impl Outcome<'_> {
         }
     }
 
-    /// The warning that a record seems to have columns exchanged or its rate negated, if there is one.
+    /// The warning that a record seems to have columns exchanged, a loose thermometer or its rate negated, if there is one.
     pub(super) fn misread(&self) -> Option<&Note> {
-        self.notes.iter().find(|note| matches!(note.remark, Remark::ExchangedColumns | Remark::ReversedRate))
+        self.notes
+            .iter()
+            .find(|note| matches!(note.remark, Remark::ExchangedColumns | Remark::LooseThermometer | Remark::ReversedRate))
     }
 
     /// The warning that the unit seems to differ from its drawing in one word, if there is one.

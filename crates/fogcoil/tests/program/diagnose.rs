@@ -204,7 +204,7 @@ fn a_rate_of_the_other_sign_is_no_compensation() {
     let folder = Folder::new();
     let logged = logged(&folder, &under_ramps(&folder), -1.0);
     let said = diagnosed(&folder, logged);
-    assert!(said.contains("[reversed-rate]") && said.contains("\nVoid if a column is read wrongly, as it seems."), "{said}");
+    assert!(said.contains("[reversed-rate]") && said.contains("\nVoid if the rate has the other sign, as it seems."), "{said}");
 }
 
 /// A flange that the drawing has bonded and the unit has not: no mechanism is that, and others would be named.
@@ -424,7 +424,7 @@ fn exchanged_columns_and_a_reversed_rate_are_named() {
     let lines: Vec<&str> = text.lines().take_while(|line| line.starts_with("warning: ")).collect();
     assert!(lines.iter().any(|l| says(l, ["negated.csv: rate_deg_per_h", "other sign"])), "{text}");
     assert!(lines.iter().any(|l| says(l, ["exchanged.csv: chamber_c and spool_c", "exchanged"])), "{text}");
-    assert!(text.contains("\nVoid if a column is read wrongly, as it seems. As it is read: "), "{text}");
+    assert!(text.contains("\nVoid if the rate has the other sign, as it seems. As it is read: "), "{text}");
     assert!(text.contains("\nNext: Check the ") && !text.contains("do not exclude"), "{text}");
     // what was not changed is not suspected: the other test's records have no warning
     assert!(!lines.iter().any(|l| l.contains("negated.csv: chamber_c") || l.contains("exchanged.csv: rate")), "{text}");
