@@ -13,6 +13,7 @@ use super::mechanism_quantities::{Quantities, Sight, expressions};
 use super::mirror::Mirror;
 use super::opened::open;
 use super::source::{MECHANISM, Source};
+use crate::shown;
 
 /// Most parameters, columns, states and laws, each.
 const MOST: usize = 8;
@@ -276,7 +277,9 @@ fn starts(top: &Group, files: &[ParameterFile], parameters: &[Parameter]) -> Res
 }
 
 fn equation(file: &MechanismFile) -> String {
-    let mut lines = Vec::new();
+    let renamed = file.columns.iter().filter(|column| column.column.is_some());
+    let mut lines: Vec<String> =
+        renamed.map(|column| format!("{}: the column `{}` of the record", column.name, shown(column.in_record()))).collect();
     for state in &file.states {
         let name = &state.name;
         lines.push(match &state.goes {
@@ -333,6 +336,25 @@ mod tests {
         let spool = time.iter().map(|t| if *t > 0.0 { 1.0 } else { 0.0 }).collect();
         let rate = system.run(&time, &[0.5, 600.0], &[spool, vec![5.0; 61]]);
         assert!((rate[0][60] - 0.5 * (-595.0_f64 / 600.0).exp()).abs() < 2e-3, "{}", rate[0][60]);
+    }
+
+    #[test]
+    fn a_column_has_a_name_of_its_own_in_the_record() {
+        let logged = SLOW.replace("name: \"supply_v\", unit", "name: \"supply_v\", column: \"Ub [V]\", unit");
+        let case = read(&logged).expect("a mechanism");
+        assert_eq!(case.mechanism.columns(), ["Ub [V]"]);
+        assert!(
+            case.mechanism.equation.starts_with("supply_v: the column `Ub [V]` of the record\n"),
+            "{}",
+            case.mechanism.equation
+        );
+        let again = case.with_values(&[0.002, 900.0]).expect("a text");
+        assert_eq!(read(&again).expect("a mechanism").mechanism, case.mechanism);
+        let message = read(&SLOW.replace("name: \"supply_v\"", "name: \"Ub [V]\"")).expect_err("no name");
+        assert!(
+            message.contains("columns[0].name: \"Ub [V]\" is no name; give its name in the file by column: \"Ub [V]\""),
+            "{message}"
+        );
     }
 
     #[test]

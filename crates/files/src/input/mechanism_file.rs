@@ -84,10 +84,20 @@ pub(crate) enum PriorFile {
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ColumnFile {
-    /// Its name in the record, and in states and laws.
+    /// Its name in states and laws, and in the record unless `column` gives another.
     pub(crate) name: String,
+    /// Its name in the record where that has blanks, brackets or other signs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) column: Option<String>,
     /// Its unit in the record.
     pub(crate) unit: String,
+}
+
+impl ColumnFile {
+    /// Its name in the record.
+    pub(crate) fn in_record(&self) -> &str {
+        self.column.as_deref().unwrap_or(&self.name)
+    }
 }
 
 /// A state of a mechanism, its memory.

@@ -35,8 +35,15 @@ impl Quantities {
             all.inputs.push(input);
         }
         for (here, column) in top.each("columns", &file.columns) {
+            if let (Err(fault), None) = (check_name(&column.name), &column.column) {
+                let remedy = format!(
+                    "give its name in the file by column: {:?}, and a name of letters, digits and _ for laws",
+                    column.name
+                );
+                return Err(here.fault("name", fault.problem, remedy));
+            }
             all.take(&here, &column.name, &column.unit)?;
-            all.inputs.push(Input::Column(column.name.clone()));
+            all.inputs.push(Input::Column(column.in_record().to_owned()));
         }
         for (here, state) in top.each("states", &file.states) {
             all.take(&here, &state.name, &state.unit)?;

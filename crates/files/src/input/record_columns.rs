@@ -47,7 +47,7 @@ impl RecordColumns {
             };
         }
         let beside = |name: &String, who| named(rows, name, &names, who);
-        let further = format.further.iter().map(|name| beside(name, "a mechanism's file names this one"));
+        let further = format.further.iter().map(|name| beside(name, "a mechanism's file names this one, by `column` or `name`"));
         let further = further.collect::<Result<_, _>>()?;
         let time_of_day = format.time_of_day.as_ref();
         let time_of_day =
