@@ -52,6 +52,8 @@ pub(crate) struct Record {
     pub(crate) flags: Vec<(&'static str, PathBuf)>,
     /// further columns, which laws name, without gaps
     columns: BTreeMap<String, Vec<f64>>,
+    /// columns that nothing reads, by their names; NaN where a value is missing
+    pub(crate) ignored: BTreeMap<String, Vec<f64>>,
     /// facts about its instruments
     meta: Option<Meta>,
     /// whether a reading stands for several rows
@@ -250,7 +252,15 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     let (fingerprint, observed) = (case.fingerprint.clone(), Observation { time, channels: vec![spool, rate] });
     let (meta, flags, instants) = (case.meta.clone(), case.flags.clone(), (before, earlier));
     let is_held = !held.is_empty();
-    Ok(Record { fingerprint, observed, chamber, drive, averaging, flags, columns, meta, is_held, instants })
+    let ignored = ignored(case, interval);
+    Ok(Record { fingerprint, observed, chamber, drive, averaging, flags, columns, ignored, meta, is_held, instants })
+}
+
+/// Columns that nothing reads, in the rows of a record that was made ready.
+fn ignored(case: &RecordCase, interval: f64) -> BTreeMap<String, Vec<f64>> {
+    let kept = case.ignored.select(&case.report.rows);
+    let kept = thinned(&kept, interval, &THINNING).map_or(kept, |thinned| thinned.recording);
+    kept.channels().iter().map(|channel| (channel.name.clone(), channel.values.clone())).collect()
 }
 
 /// Note on a record whose unit was built to a design of another name; files that the program writes have the drawing's name before a comma.
@@ -388,8 +398,9 @@ mod tests {
             let (time, rate) = (n + if n < 6015 { 0 } else { 3600 }, 0.001 * n as f64 + 0.0001 * (n % 3) as f64);
             format!("{time},{},{},{rate:.4}\n", 20.0 + 0.001 * n as f64, 20.0 + 0.0005 * n as f64 + 0.01 * (n % 2) as f64)
         };
-        std::fs::write(&path, "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &(0..12_000).map(row).collect::<String>())
-            .unwrap();
+        let rows = (0..12_000).map(row).enumerate().map(|(n, row)| format!("{},{n},ok\n", row.trim_end()));
+        let header = "time_s,chamber_c,spool_c,rate_deg_per_h,Ub [V],state\n".to_owned();
+        std::fs::write(&path, header + &rows.collect::<String>()).unwrap();
         let case = crate::input::read_record(&path, &crate::input::RecordOptions::default()).unwrap();
         let mut notes = Vec::new();
         let ready = ready(&case, &mut notes).unwrap();
@@ -400,6 +411,9 @@ mod tests {
         assert_eq!((time.len(), time[0], time[199], time[321]), (399 + 121, 29.0, 5999.0, 6044.0 + 3600.0));
         assert!(rate[200..321].iter().chain(&spool[200..321]).all(|value| value.is_nan()));
         assert_eq!(ready.averaging, 30.0);
+        // what nothing reads stands in the same rows; words are no numbers
+        let beside = &ready.ignored["Ub [V]"];
+        assert_eq!((ready.ignored.len(), beside.len(), beside[0], beside[200]), (1, 399, 29.0, 6044.0));
         // what is told of the means reads back at every row: the rate rises on a straight line, but for an hour without one
         assert_eq!(ready.instants().len(), 12_000);
         let again = ready.at_instants(rate);

@@ -29,6 +29,8 @@ const MOST_ROWS: usize = 10_000_000;
 pub struct RecordCase {
     /// All rows; channels [`super::CHAMBER`], [`super::SPOOL`] (where the file has them) and [`super::RATE`], in degC and deg/h.
     pub recording: Recording,
+    /// Columns of numbers that nothing reads, in the same rows.
+    pub ignored: Recording,
     /// The result: rows to keep, values to use.
     pub report: Report,
     /// Seconds over which a rate is a mean.
@@ -122,7 +124,7 @@ fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<(PathBuf, Meta)>)
     for _ in 0..format.dialect.below {
         rows.advance()?;
     }
-    let ReadRows { recording, lines, dates, footer } = read_rows(&mut rows, &columns, format)?;
+    let ReadRows { recording, ignored, lines, dates, footer } = read_rows(&mut rows, &columns, format)?;
     let report = check(&recording, &expectations(&recording, format, dates.is_some()));
     let [interval, span] = report.instants.as_ref().map_or([0.0; 2], |instants| [instants.interval, instants.span]);
     let meta = meta.map(|(path, meta)| fits(&path, meta, span)).transpose()?;
@@ -130,7 +132,8 @@ fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<(PathBuf, Meta)>)
     let mut notes = notes(&columns, format, dates);
     notes.extend(footer);
     notes.extend(meta.as_ref().and_then(|meta| interval_note(meta, interval)));
-    Ok(RecordCase { recording, report, averaging, meta, notes, lines, flags: Vec::new(), fingerprint: rows.fingerprint() })
+    let (flags, fingerprint) = (Vec::new(), rows.fingerprint());
+    Ok(RecordCase { recording, ignored, report, averaging, meta, notes, lines, flags, fingerprint })
 }
 
 /// The meta file of a recording that lasts `span` \[s\], unless a rate would be a mean over more.
@@ -146,6 +149,7 @@ fn fits(path: &Path, meta: Meta, span: f64) -> Result<Meta, InputError> {
 /// What the rows hold.
 struct ReadRows {
     recording: Recording,
+    ignored: Recording,
     /// The line of each row.
     lines: Vec<u32>,
     /// The note on instants that are not seconds of a column.
@@ -162,6 +166,7 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
     let mut values: Vec<Vec<f64>> = vec![Vec::new(); channels.len()];
     let mut impossible: Vec<Option<(usize, InputError)>> = vec![None; channels.len()];
     let mut further: Vec<Vec<f64>> = vec![Vec::new(); columns.further.len()];
+    let mut unused: Vec<(usize, Vec<f64>)> = columns.unused().into_iter().map(|column| (column, Vec::new())).collect();
     let (mut time, mut lines): (Vec<f64>, Vec<u32>) = (Vec::new(), Vec::new());
     let mut footer: Option<(u32, String, InputError)> = None;
     while rows.advance()? {
@@ -202,6 +207,11 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
         for (column, values) in columns.further.iter().zip(&mut further) {
             values.push(rows.value(*column, &columns.names[*column])?.unwrap_or(f64::NAN));
         }
+        // a column of words tells no numbers
+        unused.retain_mut(|(column, values)| {
+            let value = rows.value(*column, &columns.names[*column]);
+            value.map(|value| values.push(value.unwrap_or(f64::NAN))).is_ok()
+        });
     }
     rows.check_commas()?;
     for (values, impossible) in values.iter().zip(impossible) {
@@ -220,12 +230,17 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
         values,
         sampling: if *key == Key::Rate { Sampling::Mean } else { Sampling::Momentary },
     };
-    let beside = columns.further.iter().zip(further).map(|(column, values)| Channel {
-        name: columns.names[*column].clone(),
+    let as_it_stands = |(column, values): (usize, Vec<f64>)| Channel {
+        name: columns.names[column].clone(),
         unit: String::new(),
         values,
         sampling: Sampling::Momentary,
-    });
+    };
+    let beside = columns.further.iter().copied().zip(further).map(as_it_stands);
+    // of a name that stands twice none is meant
+    let is_one =
+        |(column, _): &(usize, Vec<f64>)| columns.names.iter().filter(|name| **name == columns.names[*column]).count() == 1;
+    let unused = unused.into_iter().filter(is_one).map(as_it_stands).collect();
     let channels = channels.iter().zip(values).map(channel).chain(beside).collect();
     let time = clock.settle(time);
     let dates = unread.map(|unread| unread.note(columns, &time)).or_else(|| clock.note());
@@ -233,8 +248,9 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
         Remark::Footer
             .note(format!("what begins in line {line}, {text}, holds no number: a remark below the rows, which is not read"))
     });
-    let recording = Recording::new(time, channels).map_err(|error| rows.whole_fault(&error.to_string(), ""))?;
-    Ok(ReadRows { recording, lines, dates, footer })
+    let of_rows = |time, channels| Recording::new(time, channels).map_err(|error| rows.whole_fault(&error.to_string(), ""));
+    let (ignored, recording) = (of_rows(time.clone(), unused)?, of_rows(time, channels)?);
+    Ok(ReadRows { recording, ignored, lines, dates, footer })
 }
 
 /// Whether a line of text says something, and no field of it is a number, a date or a time of day.

@@ -59,13 +59,17 @@ impl RecordColumns {
         self.at[key as usize]
     }
 
-    pub(super) fn ignored(&self) -> Vec<&str> {
+    /// Columns that have a name and no meaning.
+    pub(super) fn unused(&self) -> Vec<usize> {
         let unused = |column: &usize| {
             let some = Some(*column);
             !self.at.contains(&some) && self.unread_clock != some && self.time_of_day != some && !self.further.contains(column)
         };
-        let names = (0..self.names.len()).filter(unused).map(|column| self.names[column].as_str());
-        names.filter(|name| !name.is_empty()).collect()
+        (0..self.names.len()).filter(unused).filter(|column| !self.names[*column].is_empty()).collect()
+    }
+
+    pub(super) fn ignored(&self) -> Vec<&str> {
+        self.unused().into_iter().map(|column| self.names[column].as_str()).collect()
     }
 }
 

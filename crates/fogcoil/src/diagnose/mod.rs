@@ -7,6 +7,7 @@ mod constants;
 mod doubts;
 mod drawing;
 mod extended;
+mod ignored;
 mod json;
 mod left;
 mod loose;
@@ -175,6 +176,10 @@ pub fn diagnose<'m>(
     };
     let far_off = outcome.far_off();
     outcome.notes.extend(far_off);
+    if outcome.diagnosis.verdict != Verdict::None {
+        let follows = outcome.follows_ignored();
+        outcome.notes.extend(follows);
+    }
     Ok(outcome)
 }
 
