@@ -121,11 +121,16 @@ fn refuse(case: &RecordCase, field: &str, problem: String, remedy: &str) -> Erro
     InputError { file, line: None, field: Some(field.to_owned()), problem, remedy: remedy.to_owned() }.into()
 }
 
+/// Whether a temperature whose readings span so much \[K\] stands still: thermometers' noise makes as much.
+pub(crate) fn stands_still(span: f64) -> bool {
+    span <= 2.0 * REST.tolerance
+}
+
 /// Refuses a chamber that has one value throughout beside a spool that moves: what moves it was not recorded.
 fn refuse_dead(case: &RecordCase, chamber: &[f64], spool: &[f64]) -> Result<(), Error> {
     let moved: Vec<f64> = spool.iter().copied().filter(|value| value.is_finite()).collect();
     // from rest, where chamber and spool agree to the tolerance, a chamber at rest holds the spool within it on either side
-    if moved.is_empty() || span(chamber) > 0.0 || span(&moved) <= 2.0 * REST.tolerance {
+    if moved.is_empty() || span(chamber) > 0.0 || stands_still(span(&moved)) {
         return Ok(());
     }
     let problem = format!("is {} degC throughout, while the spool moves by {:.1} K", chamber[0], span(&moved));

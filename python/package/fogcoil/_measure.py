@@ -41,6 +41,8 @@ class Measurement(TypedDict):
     bias_instability: Figure | None
     """Floor of the Allan deviation [deg/h]; B of IEEE Std 952 is the floor over 0.664."""
     floor_time_s: float | None
+    bias_instability_is_bound: bool
+    """Whether it is an upper bound, as the temperature changed."""
     prediction: dict[str, Any] | None
     """Of the design that was given: ``value``, ``ci90`` and ``sigmas``, measured less predicted in standard deviations of both together."""
     notes: list[str]

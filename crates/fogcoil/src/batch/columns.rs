@@ -32,6 +32,7 @@ pub fn table(batch: &Batch) -> Table {
         text("lot", &|row| row.lot.clone()),
         text("shape", &|row| row.shape.clone()),
         text("warnings", &|row| joined(&row.warnings)),
+        text("bias_instability_is", &|row| row.instability_is_bound.then(|| "upper bound".to_owned())),
     ]);
     columns.extend(parameters(batch));
     columns.extend([

@@ -223,6 +223,10 @@ impl Limits {
         };
         if ends.iter().all(|end| (least..=most).contains(end)) {
             Kept::Yes
+        } else if name == "bias_instability" && row.instability_is_bound {
+            Kept::NotKnown(format!(
+                "{name} is an upper bound, {shown}, as the temperature changed: a limit that it does not keep may be kept; record at rest"
+            ))
         } else {
             Kept::No(format!("{name} is {shown}, {}", limit.broken()))
         }
@@ -288,6 +292,18 @@ mod tests {
                 .unwrap()
                 .contains("its 90 % interval, -3.500 to -2.000, is wider than the limits, -3.2 to -2.3")
         );
+    }
+
+    #[test]
+    fn an_upper_bound_keeps_a_limit_and_breaks_none() {
+        let of = |value: f64, is_bound: bool| {
+            let instability = json!({"value": value, "ci90": [0.9 * value, 1.1 * value]});
+            let measured = json!({"bias_instability": instability, "bias_instability_is_bound": is_bound});
+            judged("(limits: {\"bias_instability\": Magnitude(0.003)})", measured)
+        };
+        assert_eq!((of(0.0025, true).word(), of(0.0052, false).word()), ("pass", "fail"));
+        let bound = of(0.0052, true);
+        assert!(bound.word() == "not known" && bound.reasons().unwrap().contains("is an upper bound"), "{bound:?}");
     }
 
     #[test]

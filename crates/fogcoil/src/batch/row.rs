@@ -71,6 +71,8 @@ pub struct Row {
     pub rivalled: bool,
     /// Figures that were not measured, and why.
     missing: Vec<(String, String)>,
+    /// Whether the bias instability is an upper bound, as the temperature changed.
+    pub(super) instability_is_bound: bool,
     numbers: Vec<Option<f64>>,
     intervals: Vec<Option<[f64; 2]>>,
 }
@@ -110,6 +112,7 @@ impl Row {
             constants: constants.filter_map(constant).collect(),
             problem: text(&finding["problem"]),
             missing: pairs(&measured["not_known"]),
+            instability_is_bound: measured["bias_instability_is_bound"] == true,
             intervals: NUMBERS[..MEASURED].iter().map(|name| ends(&measured[name]["ci90"])).collect(),
             numbers,
             unit,

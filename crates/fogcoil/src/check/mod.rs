@@ -13,13 +13,13 @@ use bias::units::S_PER_H;
 use charts::{Axis, Figure, Panel, Series as Line, Style, significant};
 use files::Note;
 use recording::allan::{AllanPoint, CONFIDENCE, allan};
-use recording::condition::bridged;
+use recording::condition::{bridged, span};
 use recording::lag::lagging;
 use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Series, Term, Whitener, identify, residual};
 
 use crate::contradictions::contradictions;
 use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
-use crate::prepare::starts_off_rest;
+use crate::prepare::{stands_still, starts_off_rest};
 use lags::lags;
 use order::spool_first;
 
@@ -44,6 +44,8 @@ pub struct GyroNoise {
     pub estimate: NoiseEstimate,
     /// The temperature whose lags were taken off; `None` if only an offset was.
     pub driver: Option<&'static str>,
+    /// Whether that temperature changed: what of the thermal bias is no linear lag is in the slow terms, which are then upper bounds.
+    pub is_bound: bool,
     /// Time constants of the lags \[s\].
     pub lags: Vec<f64>,
     /// Rows left out because the model does not expect them: fast transients.
@@ -133,6 +135,7 @@ fn gyro_noise(case: &RecordCase) -> Option<GyroNoise> {
         // masked values on the line between their neighbours
         bridged(time, &case.report.used(&case.recording).channel(name)?.values)
     });
+    let is_bound = temperature.as_deref().is_some_and(|values| !stands_still(span(values)));
     let lags = if driver.is_some() { lags(instants.interval, instants.span, time.len()) } else { Vec::new() };
     let mut columns = vec![vec![1.0; time.len()]];
     if let Some(temperature) = &temperature {
@@ -161,7 +164,7 @@ fn gyro_noise(case: &RecordCase) -> Option<GyroNoise> {
         }
     };
     let left_out = mask.iter().zip(&used).filter(|(there, used)| **there && !**used).count();
-    Some(GyroNoise { estimate, driver, lags, left_out, allan, interval: instants.interval })
+    Some(GyroNoise { estimate, driver, is_bound, lags, left_out, allan, interval: instants.interval })
 }
 
 /// Masks the rows that the model does not expect, where the temperature turns too fast for its lags; whether there were any.
@@ -182,7 +185,7 @@ pub fn svg(analysis: &Analysis) -> Option<String> {
     let caption = format!("{file}; beside {}.", noise.taken_off());
     let less = noise.driver.map_or(String::new(), |_| " less its linear response to temperature".to_owned());
     let title = format!("Allan deviation of the rate{less}, {file}");
-    let allan = Allan { points: &noise.allan, model: &noise.estimate.model, interval: noise.interval };
+    let allan = Allan { points: &noise.allan, model: &noise.estimate.model, interval: noise.interval, is_bound: noise.is_bound };
     Some(allan.figure("allan", title, caption)?.document())
 }
 
@@ -193,6 +196,8 @@ pub(crate) struct Allan<'a> {
     pub(crate) model: &'a NoiseModel,
     /// Interval of the rows \[s\].
     pub(crate) interval: f64,
+    /// Whether slow terms are upper bounds.
+    pub(crate) is_bound: bool,
 }
 
 impl<'a> Allan<'a> {
@@ -282,7 +287,8 @@ impl<'a> Allan<'a> {
             Line::new(name, Style::Points(2), vec![(S_PER_H, self.white(S_PER_H))])
         });
         let floor = self.floor().map(|(tau, floor)| {
-            let name = format!("bias instability {} °/h, at {} s", significant(floor, 2), significant(tau, 2));
+            let at_most = if self.is_bound { "at most " } else { "" };
+            let name = format!("bias instability {at_most}{} °/h, at {} s", significant(floor, 2), significant(tau, 2));
             Line::new(name, Style::Points(3), vec![(tau, floor)])
         });
         walk.into_iter().chain(floor).collect()

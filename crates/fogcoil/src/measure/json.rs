@@ -21,6 +21,7 @@ pub fn json(measured: &Measurement, prediction: Option<&Prediction>) -> Value {
         "lags_s": measured.lags,
         "peak_time_s": measured.peak_time,
         "floor_time_s": measured.floor_time,
+        "bias_instability_is_bound": measured.floor_time.is_some() && measured.floor_is_bound,
         "prediction": prediction.map(|prediction| json!({
             "design": prediction.design,
             "value": prediction.sensitivity.value,

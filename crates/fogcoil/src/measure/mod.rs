@@ -58,6 +58,8 @@ pub struct Measurement {
     pub bias_instability: Told,
     /// Averaging time of the floor \[s\].
     pub floor_time: Option<f64>,
+    /// Whether the floor is an upper bound, as the temperature changed.
+    pub floor_is_bound: bool,
     /// Further remarks for the user, with the reason for each number that is not told.
     pub notes: Vec<Note>,
 }
@@ -96,6 +98,7 @@ pub fn measure(case: &RecordCase) -> Result<Measurement, InputError> {
         arw: noise.arw,
         bias_instability: noise.floor,
         floor_time: noise.floor_time,
+        floor_is_bound: analysis.noise.as_ref().is_some_and(|noise| noise.is_bound),
         notes,
     };
     let missing = measured
@@ -108,6 +111,11 @@ pub fn measure(case: &RecordCase) -> Result<Measurement, InputError> {
 }
 
 impl Measurement {
+    /// Whether the number of a key is an upper bound.
+    pub(super) fn is_bound(&self, key: &str) -> bool {
+        key == "bias_instability" && self.floor_is_bound
+    }
+
     /// Keys, units and numbers, in the order in which they are shown.
     pub fn figures(&self) -> [(&'static str, &'static str, &Told); 9] {
         const RAMP: &str = "(deg/h)/(degC/min)";

@@ -38,8 +38,11 @@ pub fn several(measured: &[Result<Measurement, (PathBuf, Error)>], prediction: O
         vec![["recording"].into_iter().chain(SHOWN.map(|(_, name)| name)).chain(["warnings"]).map(str::to_owned).collect()];
     for one in measured.iter().flatten() {
         let figures = one.figures();
-        let of =
-            |key: &str| figures.iter().find(|(known, ..)| *known == key).map_or_else(|| "-".into(), |(.., told)| short(told));
+        let shown = |(key, _, told): &(&str, &str, &Told)| match told {
+            Ok(figure) if one.is_bound(key) => at_most(figure, "<"),
+            told => short(told),
+        };
+        let of = |key: &str| figures.iter().find(|(known, ..)| *known == key).map_or_else(|| "-".into(), shown);
         let mut warnings: Vec<&str> = one.notes.iter().filter(|note| note.is_warning()).map(|note| note.remark.id()).collect();
         warnings.dedup();
         let row = [files::shown_path(&one.fingerprint.file)]
@@ -49,7 +52,7 @@ pub fn several(measured: &[Result<Measurement, (PathBuf, Error)>], prediction: O
         rows.push(row.collect::<Vec<_>>());
     }
     let mut out = table(&rows);
-    out.push_str("\nFitted; ± is half of the 90 % interval. Sensitivity and heating less cooling are in (deg/h)/(degC/min), the random walk is in deg/sqrt(h), the\nothers are in deg/h. One recording alone gives the ends of intervals, and the reason for each -; --json gives both for all.\n");
+    out.push_str("\nFitted; ± is half of the 90 % interval. Sensitivity and heating less cooling are in (deg/h)/(degC/min), the random walk is in deg/sqrt(h), the\nothers are in deg/h. Behind < stands an upper bound, as the temperature\nchanged. One recording alone gives the ends of intervals, and the reason for each -; --json gives both for all.\n");
     if let Some(prediction) = prediction {
         let _ = writeln!(out, "The sensitivity of {} is {}.", prediction.design, short(&Ok(prediction.sensitivity)));
     }
@@ -57,6 +60,11 @@ pub fn several(measured: &[Result<Measurement, (PathBuf, Error)>], prediction: O
         let _ = writeln!(out, "{error}");
     }
     out
+}
+
+/// The upper end of a number that is an upper bound itself.
+fn at_most(figure: &Figure, word: &str) -> String {
+    format!("{word} {}", significant(figure.ci90[1], 2))
 }
 
 /// A number with half of its interval.
@@ -91,6 +99,10 @@ fn figures(measured: &Measurement, prediction: Option<&Prediction>) -> String {
     let mut rows = vec![["", "value", "90 % interval", "unit"].map(str::to_owned).to_vec()];
     for (key, unit, told) in measured.figures() {
         rows.push(match told {
+            Ok(figure) if measured.is_bound(key) => {
+                let why = "upper bound: the temperature changed".to_owned();
+                vec![name(key).into(), at_most(figure, "at most"), why, unit.into()]
+            }
             Ok(figure) => row(name(key), figure, unit),
             Err(Untold { value: Some(value), .. }) => {
                 vec![name(key).into(), significant(*value, 3), "not known".into(), unit.into()]

@@ -207,6 +207,33 @@ fn what_a_record_does_not_tell_is_null() {
     }
 }
 
+/// A drift on white noise: at rest its floor is measured, in a ramp the floor holds what of the thermal bias is no lag, too.
+#[test]
+fn a_floor_in_a_ramp_is_an_upper_bound() {
+    let folder = Folder::new();
+    let record = |name: &str, chamber: &dyn Fn(i32) -> f64| {
+        let (mut normal, mut walk) = (normals(), 0.0);
+        let mut row = |n: i32| {
+            walk += 0.003 * normal();
+            format!("{},{},{}\n", 60 * n, chamber(n) + 0.01 * normal(), walk + 0.01 * normal())
+        };
+        folder.write(name, "time_s,chamber_c,rate_deg_per_h\n".to_owned() + &(0..600).map(&mut row).collect::<String>());
+        let found = json(&folder, &["measure", name, "--json"]);
+        assert_eq!(fogcoil::schema::misfit(&found, &schema("measure")), None);
+        (found, stdout(&folder.run(&["measure", name])))
+    };
+    let (still, said) = record("still.csv", &|_| 20.0);
+    assert!(still["bias_instability_is_bound"] == false && !said.contains("at most"), "{still} {said}");
+    let (ramp, said) = record("ramp.csv", &|n| 20.0 + f64::from((n - 100).clamp(0, 60)));
+    assert!(ramp["bias_instability_is_bound"] == true && ramp["bias_instability"]["value"].is_f64(), "{ramp}");
+    let line = said.lines().find(|line| line.starts_with("bias instability")).unwrap();
+    assert!(line.contains("at most 0.0") && line.contains("upper bound: the temperature changed"), "{said}");
+    let table = stdout(&folder.run(&["measure", "still.csv", "ramp.csv"]));
+    let bounds =
+        ["still.csv", "ramp.csv"].map(|name| table.lines().any(|line| line.starts_with(name) && line.contains("< 0.00")));
+    assert!(bounds == [false, true] && table.contains("Behind < stands an upper bound"), "{table}");
+}
+
 #[test]
 fn what_cannot_be_measured_is_said() {
     let folder = Folder::new();

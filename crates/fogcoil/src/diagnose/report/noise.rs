@@ -36,7 +36,7 @@ impl Outcome<'_> {
             self.each().filter_map(|mut shown| shown.pop()).map(|shown| (shown, deviation(&shown))).collect();
         let figures = left.iter().filter_map(|(shown, points)| {
             let interval = median_interval(&shown.record.observed.time).unwrap_or(1.0);
-            let allan = Allan { points, model: best.noise_model(shown.number, RATE), interval };
+            let allan = Allan { points, model: best.noise_model(shown.number, RATE), interval, is_bound: false };
             let caption =
                 format!("Of what the {} leaves of the rate, and of the noise model that was fitted with it.", shown.name);
             let mut figure = allan.figure("allan", "Allan deviation of what is left of the rate".into(), caption)?;
