@@ -36,6 +36,8 @@ class Measurement(TypedDict):
     peak: Figure | None
     """Bias by temperature where it is largest, relative to the first row [deg/h]."""
     peak_time_s: float | None
+    peak_under: dict[str, float] | None
+    """Length of the record of the peak, ``length_s``, and its fastest change of temperature, ``fastest_c_per_min``."""
     arw: Figure | None
     """Angle random walk [deg/sqrt(h)]."""
     bias_instability: Figure | None

@@ -113,7 +113,8 @@ fn of_unit(all: &[Measurement]) -> Option<Measurement> {
     let best = all.iter().min_by(|a, b| width(a).total_cmp(&width(b)))?;
     let size = |m: &Measurement| m.peak.as_ref().map_or(0.0, |peak| peak.value.abs());
     let highest = all.iter().fold(best, |highest, m| if size(m) > size(highest) { m } else { highest });
-    Some(Measurement { peak: highest.peak.clone(), peak_time: highest.peak_time, ..best.clone() })
+    let (peak, peak_time, peak_under) = (highest.peak.clone(), highest.peak_time, highest.peak_under);
+    Some(Measurement { peak, peak_time, peak_under, ..best.clone() })
 }
 
 /// The page of a unit, which is that of a diagnosis of the design, under the unit's name.

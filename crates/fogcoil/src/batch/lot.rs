@@ -94,12 +94,14 @@ pub(super) fn outliers(batch: &Batch) -> Vec<Outlier<'_>> {
         // of a peak the noise may decide which way it points
         let size = |value: f64| if *number == "peak" { value.abs() } else { value };
         let known: Vec<(&Row, f64)> = batch.rows.iter().filter_map(|(row, _)| Some((row, size(row.number(number)?)))).collect();
-        if known.len() < FEWEST {
-            continue;
-        }
-        let Some(middle) = median(known.iter().map(|(_, value)| *value).collect()) else { continue };
-        let Some(scale) = robust_sd(known.iter().map(|(_, value)| *value), middle) else { continue };
-        for (row, value) in known {
+        for (row, value) in &known {
+            let peers: Vec<f64> =
+                known.iter().filter(|(other, _)| row.compares(number, other)).map(|(_, value)| *value).collect();
+            if peers.len() < FEWEST {
+                continue;
+            }
+            let Some(middle) = median(peers.clone()) else { continue };
+            let Some(scale) = robust_sd(peers.into_iter(), middle) else { continue };
             // what is poorly known is not far because of that
             let own = row.interval(number).map_or(0.0, |[low, high]| (high - low) / (2.0 * half));
             let distance = (value - middle) / scale.hypot(own);
@@ -109,7 +111,7 @@ pub(super) fn outliers(batch: &Batch) -> Vec<Outlier<'_>> {
                 all.push(Outlier {
                     unit: &row.unit,
                     number,
-                    value: row.number(number).unwrap_or(value),
+                    value: row.number(number).unwrap_or(*value),
                     median: middle,
                     distance,
                 });
@@ -162,6 +164,25 @@ mod tests {
         let batch = Batch { rows: peaks.iter().enumerate().map(row).collect() };
         let far: Vec<&str> = outliers(&batch).iter().map(|outlier| outlier.unit).collect();
         assert_eq!(far, ["U6"]);
+    }
+
+    #[test]
+    fn peaks_under_another_programme_are_not_compared() {
+        let row = |n: usize, value: f64, length: f64, fastest: f64| {
+            let under = json!({"length_s": length, "fastest_c_per_min": fastest});
+            let measured = json!({"peak": {"value": value, "ci90": [value - 0.01, value + 0.01]}, "peak_under": under});
+            (Row::of(&json!({"unit": format!("U{n}"), "measured": measured})), Judged::Unjudged)
+        };
+        let usual = |n: usize| row(n, 1.35 + 0.01 * (n % 3) as f64, 54_600.0, 1.0 + 0.01 * (n % 2) as f64);
+        let of = |last: (Row, Judged)| {
+            let batch = Batch { rows: (0..6).map(usual).chain([last]).collect() };
+            outliers(&batch).len()
+        };
+        // twice as fast, or half as long; only under the same programme it stands out
+        assert_eq!(
+            [of(row(6, -2.36, 54_600.0, 2.0)), of(row(6, -2.36, 27_000.0, 1.0)), of(row(6, -2.36, 54_600.0, 1.0))],
+            [0, 0, 1]
+        );
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A unit as a row of the table.
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// Numbers of a unit, in the order of the table; the first eight have intervals, as `fogcoil measure` tells them.
 pub(super) const NUMBERS: [&str; 16] = [
@@ -73,6 +73,8 @@ pub struct Row {
     missing: Vec<(String, String)>,
     /// Whether the bias instability is an upper bound, as the temperature changed.
     pub(super) instability_is_bound: bool,
+    /// Length and fastest change of temperature of the record whose peak it is, if they are known.
+    peak_under: Option<[f64; 2]>,
     numbers: Vec<Option<f64>>,
     intervals: Vec<Option<[f64; 2]>>,
 }
@@ -112,6 +114,7 @@ impl Row {
             constants: constants.filter_map(constant).collect(),
             problem: text(&finding["problem"]),
             missing: pairs(&measured["not_known"]),
+            peak_under: ends(&json!(["length_s", "fastest_c_per_min"].map(|key| &measured["peak_under"][key]))),
             instability_is_bound: measured["bias_instability_is_bound"] == true,
             intervals: NUMBERS[..MEASURED].iter().map(|name| ends(&measured[name]["ci90"])).collect(),
             numbers,
@@ -127,6 +130,17 @@ impl Row {
     /// A column by its name; none if it was not found, or there is no such column.
     pub fn number(&self, name: &str) -> Option<f64> {
         NUMBERS.iter().position(|known| *known == name).and_then(|n| self.numbers[n])
+    }
+
+    /// Whether a number of this row and of another are of equals: of peaks, under programmes of one length and one rate to a tenth.
+    pub(super) fn compares(&self, number: &str, other: &Self) -> bool {
+        const ALIKE: f64 = 0.1;
+        let alike = |(a, b): (f64, f64)| (a - b).abs() <= ALIKE * a.max(b);
+        match (self.peak_under, other.peak_under) {
+            _ if number != "peak" => true,
+            (Some(own), Some(other)) => own.into_iter().zip(other).all(alike),
+            (own, other) => own == other,
+        }
     }
 
     /// Explanations that the records do not exclude, best first, in words; of a verdict that has a likelier rival, or one half as likely, the likeliest
@@ -270,7 +284,6 @@ pub(super) fn trailing(name: &str) -> Option<&str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde_json::json;
 
     #[test]
     fn a_finding_becomes_a_row() {

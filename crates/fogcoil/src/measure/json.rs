@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use bias::units::S_PER_MIN;
 use serde_json::{Map, Value, json};
 
 use super::{Figure, Measurement, Prediction, Untold};
@@ -20,6 +21,7 @@ pub fn json(measured: &Measurement, prediction: Option<&Prediction>) -> Value {
         "span_over": measured.temperatures.map(|[_, seat]| seat),
         "lags_s": measured.lags,
         "peak_time_s": measured.peak_time,
+        "peak_under": measured.peak_under.map(|[length, fastest]| json!({"length_s": length, "fastest_c_per_min": fastest * S_PER_MIN})),
         "floor_time_s": measured.floor_time,
         "bias_instability_is_bound": measured.floor_time.is_some() && measured.floor_is_bound,
         "prediction": prediction.map(|prediction| json!({

@@ -52,6 +52,8 @@ pub struct Measurement {
     pub peak: Told,
     /// The instant of the peak \[s\].
     pub peak_time: Option<f64>,
+    /// Length of the record of the peak \[s\], and the fastest change of its temperature in ten minutes \[K/s\]: peaks of other programmes are no equals.
+    pub peak_under: Option<[f64; 2]>,
     /// Angle random walk \[deg/sqrt(h)\].
     pub arw: Told,
     /// Floor of the Allan deviation \[deg/h\].
@@ -74,7 +76,7 @@ pub fn measure(case: &RecordCase) -> Result<Measurement, InputError> {
     let mut notes: Vec<Note> = case.notes.iter().filter(|note| note.is_warning()).map(|note| note.clone().at(file)).collect();
     let severe = case.report.findings.iter().filter(|finding| finding.severity == recording::check::Severity::Warning);
     notes.extend(severe.map(|finding| Remark::of_finding(&finding.kind).warning(finding.to_string()).at(file)));
-    let (temperatures, response) = response(case);
+    let (drive, response) = response(case);
     let analysis = Analysis::new(case);
     let noise = noise::of(analysis.noise.as_ref());
     // u/(K/s) to u/(K/min)
@@ -85,7 +87,7 @@ pub fn measure(case: &RecordCase) -> Result<Measurement, InputError> {
     let peak = peak.map(|(estimate, time)| (figure(*estimate), *time));
     let mut measured = Measurement {
         fingerprint: case.fingerprint.clone(),
-        temperatures,
+        temperatures: drive.as_ref().map(|drive| drive.names),
         lags: response.as_ref().map_or_else(|_| Vec::new(), |response| response.lags.clone()),
         sensitivity: per_minute(|r| &r.sensitivity),
         heating: per_minute(|r| &r.heating),
@@ -95,6 +97,7 @@ pub fn measure(case: &RecordCase) -> Result<Measurement, InputError> {
         bias_span: plain(|r| &r.span).map(|Figure { value, ci90: [low, high] }| Figure { value, ci90: [low.max(0.0), high] }),
         peak: peak.clone().map(|(figure, _)| figure),
         peak_time: peak.ok().map(|(_, time)| time),
+        peak_under: drive.and_then(|drive| drive.programme),
         arw: noise.arw,
         bias_instability: noise.floor,
         floor_time: noise.floor_time,
@@ -142,8 +145,25 @@ fn told(response: &Result<Response, String>, of: fn(&Response) -> &Result<Estima
     of(response).as_ref().map(|estimate| figure(estimate.times(factor))).map_err(|absent| absent.to_string().into())
 }
 
-/// Response of the rate to the temperatures, with the names of these.
-fn response(case: &RecordCase) -> (Option<[&'static str; 2]>, Result<Response, String>) {
+/// Length of a programme \[s\], and its fastest change in ten minutes \[K/s\], which the noise of readings hardly touches.
+fn programme(time: &[f64], drive: &[f64]) -> Option<[f64; 2]> {
+    const WITHIN: f64 = 600.0;
+    let slope = |n: usize| {
+        let before = time[..n].partition_point(|t| *t <= time[n] - WITHIN).checked_sub(1)?;
+        Some((drive[n] - drive[before]).abs() / (time[n] - time[before]))
+    };
+    let fastest = (0..time.len()).filter_map(slope).reduce(f64::max)?;
+    Some([time[time.len() - 1] - time[0], fastest])
+}
+
+/// Names of the temperature whose rate counts and of the one over which a bias at rest is sought, and the [`programme`] of the first.
+struct Drive {
+    names: [&'static str; 2],
+    programme: Option<[f64; 2]>,
+}
+
+/// Response of the rate to the temperatures, with these.
+fn response(case: &RecordCase) -> (Option<Drive>, Result<Response, String>) {
     let used = case.report.used(&case.recording);
     let interval = case.report.instants.as_ref().map_or(0.0, |instants| instants.interval);
     let rule = Thinning { many_rows: MOST_ROWS, interval, most_rows: MOST_ROWS };
@@ -176,5 +196,6 @@ fn response(case: &RecordCase) -> (Option<[&'static str; 2]>, Result<Response, S
         interval: interval * every,
         averaging: case.averaging * every,
     });
-    (Some([driver, seated]), answered.map_err(|absent| absent.to_string()))
+    let drive = Drive { names: [driver, seated], programme: programme(used.time(), &drive) };
+    (Some(drive), answered.map_err(|absent| absent.to_string()))
 }
