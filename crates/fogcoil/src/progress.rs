@@ -19,6 +19,8 @@ use crate::signals;
 
 /// Duration from which a task is named.
 const PATIENCE: Duration = Duration::from_secs(1);
+/// Least time between two lines on how far a task is.
+const AGAIN: Duration = Duration::from_secs(60);
 /// Interval between two pictures of a bar that turns.
 const TICK: Duration = Duration::from_millis(120);
 /// Duration of a counted task from which the time left is said where nobody watches, and the least time that is worth a line.
@@ -45,8 +47,8 @@ enum How {
 pub(crate) struct Progress {
     how: How,
     bar: Arc<Mutex<Option<ProgressBar>>>,
-    /// The task that was named last.
-    named: Mutex<String>,
+    /// The task that was named last, where there are no bars.
+    named: Mutex<Named>,
     /// The files that are written; locked while some are being written.
     written: Arc<Mutex<Vec<String>>>,
     /// Whether files that are being written are to be given up.
@@ -75,6 +77,26 @@ impl Kept {
     fn said(&self) -> Option<String> {
         let Self { folder, name, count, .. } = self;
         count.map(|(done, all)| format!("{done} of {all} {name} are kept in {folder}; the same command goes on from there"))
+    }
+}
+
+/// The task that was named last, and when it was.
+#[derive(Default)]
+struct Named {
+    task: String,
+    at: Option<Instant>,
+}
+
+impl Named {
+    /// The line about a step: of a task that begins its name, of one that is counted from time to time how far it is.
+    fn says(&mut self, step: Step, now: Instant) -> Option<String> {
+        let begins = self.task != step.task;
+        let is_due = step.done.is_some() && self.at.is_some_and(|at| now.duration_since(at) >= AGAIN);
+        if !begins && !is_due {
+            return None;
+        }
+        *self = Self { task: step.task.to_owned(), at: Some(now) };
+        Some(if begins { step.task.to_owned() } else { step.to_string() })
     }
 }
 
@@ -201,10 +223,8 @@ impl Progress {
             bar.set_message(task.to_owned());
             return;
         }
-        let mut named = lock(&self.named);
-        if *named != task {
-            *named = task.to_owned();
-            self.note(task);
+        if let Some(line) = lock(&self.named).says(Step { task, done }, Instant::now()) {
+            self.note(&line);
         }
         left.iter().for_each(|left| self.note(left));
     }
@@ -387,6 +407,18 @@ mod tests {
         assert_eq!(said(), None);
         progress.task(Step::counted("diagnosing units", 7, 30));
         assert_eq!(said().unwrap(), "7 of 30 units are kept in lot/units; the same command goes on from there");
+    }
+
+    #[test]
+    fn without_bars_a_counted_task_is_told_once_a_minute() {
+        let (mut named, begin) = (Named::default(), Instant::now());
+        let mut says = |step: Step, seconds: u64| named.says(step, begin + Duration::from_secs(seconds));
+        assert_eq!(says(Step::counted("diagnosing units", 0, 30), 0).as_deref(), Some("diagnosing units"));
+        assert_eq!(says(Step::counted("diagnosing units", 3, 30), 59), None);
+        assert_eq!(says(Step::counted("diagnosing units", 7, 30), 61).as_deref(), Some("diagnosing units (7 of 30)"));
+        assert_eq!(says(Step::counted("diagnosing units", 9, 30), 100), None);
+        assert_eq!(says(Step::begins("writing"), 101).as_deref(), Some("writing"));
+        assert_eq!(says(Step::begins("writing"), 1000), None);
     }
 
     #[test]

@@ -10,6 +10,7 @@ mod text;
 use std::ffi::OsStr;
 use std::path::Path;
 
+use bias::units::S_PER_MIN;
 use coil::{Design, Number, Tolerance, Tolerances};
 use diagnosis::{Active, Believed, ForwardModel, Lot, Observation, Prior, Said};
 use files::{Note, Remark};
@@ -28,6 +29,17 @@ const LEAST_CORRELATION: f64 = 1e-3;
 const DOUBTED: f64 = 5.0;
 /// Units of which two can outvote one.
 const FEW: usize = 3;
+
+/// Duration of the fit of a record of half a day on one core \[s\].
+const EACH: f64 = 6.0;
+/// The task that is counted.
+const TASK: &str = "fitting units";
+
+/// What is ahead, in words.
+fn ahead(units: usize, records: usize) -> String {
+    let minutes = (EACH * records as f64 / S_PER_MIN).round().max(1.0);
+    format!("{units} unit{}, about {minutes} min on one core", if units == 1 { "" } else { "s" })
+}
 
 /// A lot, calibrated.
 pub struct Outcome {
@@ -93,10 +105,12 @@ pub fn calibrate(
     let prepared = |records: &Vec<RecordCase>| records.iter().map(|record| ready(record, &mut notes)).collect();
     // a record that cannot be used is refused before anything is modelled
     let all = units.iter().map(prepared).collect::<Result<Vec<Vec<Record>>, Error>>()?;
+    progress(Step::begins(&ahead(units.len(), all.iter().map(Vec::len).sum())));
     let library = library(case, cache, progress)?;
     let (mut fitted, mut told) = (Vec::new(), Vec::new());
     for ((records, name), read) in units.iter().zip(names(units)).zip(all) {
-        let (unit, doubts) = fit(case, &library, &read, progress)?;
+        let done = fitted.len();
+        let (unit, doubts) = fit(case, &library, &read, &|_| progress(Step::counted(TASK, done, units.len())))?;
         let files: Vec<Fingerprint> = records.iter().map(|record| record.fingerprint.clone()).collect();
         let other = records.iter().any(|record| other_design(case, record).is_some());
         told.push(Told { name, left: unit.left, good: doubts.is_empty() && !other, files });
@@ -242,6 +256,12 @@ fn rounded(share: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_ahead_is_told() {
+        assert_eq!(ahead(22, 22), "22 units, about 2 min on one core");
+        assert_eq!(ahead(1, 2), "1 unit, about 1 min on one core");
+    }
 
     #[test]
     fn units_have_the_names_of_their_folders_or_files() {
