@@ -38,10 +38,7 @@ pub fn several(measured: &[Result<Measurement, (PathBuf, Error)>], prediction: O
         vec![["recording"].into_iter().chain(SHOWN.map(|(_, name)| name)).chain(["warnings"]).map(str::to_owned).collect()];
     for one in measured.iter().flatten() {
         let figures = one.figures();
-        let shown = |(key, _, told): &(&str, &str, &Told)| match told {
-            Ok(figure) if one.is_bound(key) => at_most(figure, "<"),
-            told => short(told),
-        };
+        let shown = |(key, _, told): &(&str, &str, &Told)| brief(key, told, one.is_bound(key));
         let of = |key: &str| figures.iter().find(|(known, ..)| *known == key).map_or_else(|| "-".into(), shown);
         let mut warnings: Vec<&str> = one.notes.iter().filter(|note| note.is_warning()).map(|note| note.remark.id()).collect();
         warnings.dedup();
@@ -52,7 +49,7 @@ pub fn several(measured: &[Result<Measurement, (PathBuf, Error)>], prediction: O
         rows.push(row.collect::<Vec<_>>());
     }
     let mut out = table(&rows);
-    out.push_str("\nFitted; ± is half of the 90 % interval. Sensitivity and heating less cooling are in (deg/h)/(degC/min), the random walk is in deg/sqrt(h), the\nothers are in deg/h. Behind < stands an upper bound, as the temperature\nchanged. One recording alone gives the ends of intervals, and the reason for each -; --json gives both for all.\n");
+    out.push_str("\nFitted; ± is half of the 90 % interval. Sensitivity and heating less cooling are in (deg/h)/(degC/min), the random walk is in deg/sqrt(h), the\nothers are in deg/h. Behind < stands an upper bound: of a bias instability, as the temperature changed,\nand of a bias over temperature that may be 0. One recording alone gives the ends of intervals, and the reason for each -; --json gives both for all.\n");
     if let Some(prediction) = prediction {
         let _ = writeln!(out, "The sensitivity of {} is {}.", prediction.design, short(&Ok(prediction.sensitivity)));
     }
@@ -60,6 +57,14 @@ pub fn several(measured: &[Result<Measurement, (PathBuf, Error)>], prediction: O
         let _ = writeln!(out, "{error}");
     }
     out
+}
+
+/// A number of a key in a line: what is an upper bound, or a span that may be 0, by its upper end.
+fn brief(key: &str, told: &Told, is_bound: bool) -> String {
+    match told {
+        Ok(figure) if is_bound || (key == "bias_span" && figure.ci90[0] <= 0.0) => at_most(figure, "<"),
+        told => short(told),
+    }
 }
 
 /// The upper end of a number that is an upper bound itself.
@@ -163,4 +168,18 @@ fn row(name: &str, figure: &Figure, unit: &str) -> Vec<String> {
 fn digits(value: f64, width: f64) -> usize {
     let more = (value.abs() / width).log10().ceil();
     if more.is_finite() { (1.0 + more).clamp(2.0, 6.0) as usize } else { 3 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_span_that_may_be_nothing_is_told_by_its_upper_end() {
+        let of = |key: &str, low: f64| brief(key, &Ok(Figure { value: 0.007, ci90: [low, 0.072] }), false);
+        assert_eq!(
+            [of("bias_span", 0.0), of("bias_span", 0.002), of("peak", 0.0)],
+            ["< 0.072", "0.007 ± 0.035", "0.007 ± 0.036"]
+        );
+    }
 }
