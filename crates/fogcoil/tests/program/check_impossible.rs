@@ -151,7 +151,12 @@ fn a_unit_that_was_not_said_is_proposed() {
         let output = folder.run(arguments);
         let said = stdout(&output) + &stderr(&output);
         assert_eq!((output.status.code(), said.matches("rate_deg_per_h: noise of").count()), (Some(2), 1), "{said}");
-        assert!(said.contains("; if so, say it: --unit rate=deg/s (or rad/s, mrad/s), or unit in the map file"), "{said}");
+        assert!(
+            said.contains(
+                "; if so, say it: --unit rate=deg/s (or rad/s, mrad/s), or unit in the map file; or --scale rate=FACTOR where"
+            ),
+            "{said}"
+        );
     }
     let output = folder.run(&["check", "r.csv", "--write-map"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

@@ -181,6 +181,9 @@ impl Finding {
     pub fn advice(&self) -> Cow<'static, str> {
         let advice = match (&self.kind, self.severity) {
             (FindingKind::Start { candidate, key, .. }, _) => return declare(key, std::slice::from_ref(candidate)),
+            (FindingKind::Unit { candidates, key, .. }, _) if !key.is_empty() => {
+                return format!("{}; or --scale {key}=FACTOR where it holds counts", declare(key, candidates)).into();
+            }
             (
                 FindingKind::Unit { candidates, key, .. }
                 | FindingKind::TooFast { candidates, key, .. }
