@@ -59,11 +59,12 @@ pub(crate) fn run(arguments: &Explain, progress: &Progress) -> Result<(), Error>
 
 fn look_up(id: &Path) -> Result<glossary::Entry, Error> {
     let name = shown_path(id);
-    if id.exists() {
-        let text = "give an id, a mechanism's file (*.ron), or a coil's with --sensitivity S; `fogcoil check` reads recordings";
-        return Err(Error::usage(format!("{name}: is no mechanism's file; {text}")));
-    }
     glossary::look_up(&id.to_string_lossy()).map_err(|near| {
+        if id.exists() {
+            let text =
+                "give an id, a mechanism's file (*.ron), or a coil's with --sensitivity S; `fogcoil check` reads recordings";
+            return Error::usage(format!("{name}: is no mechanism's file; {text}"));
+        }
         let (near, none) = (near.join(", "), if id.extension().is_some() { "no file, and no id" } else { "no id" });
         Error::usage(format!(
             "{name}: is {none} of a mechanism, a warning or a note; nearest: {near}; `fogcoil explain` lists all"

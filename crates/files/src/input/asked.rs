@@ -33,7 +33,7 @@ pub fn read_mechanisms(paths: &[PathBuf]) -> Result<Asked, Error> {
                 return Err(Error::Usage(format!("--mechanism: `{id}` is asked for twice; give each id once")));
             }
             Some(mechanism) => listed.push(*mechanism),
-            None => match path.to_str().filter(|id| is_id(id) && !path.exists()) {
+            None => match path.to_str().filter(|id| is_id(id) && !path.is_file()) {
                 Some(id) => return Err(unknown_id(id)),
                 None => files.push(path),
             },
@@ -80,7 +80,7 @@ fn read_own(paths: &[&PathBuf]) -> Result<Vec<MechanismCase>, Error> {
 /// As [`read_mechanism`]; [`Error::Usage`] if one is given twice, or if an id is given: the program's own mechanisms stand in the design.
 pub fn read_simulated(paths: &[PathBuf]) -> Result<Vec<MechanismCase>, Error> {
     let files: Vec<&PathBuf> = paths.iter().collect();
-    match files.iter().find_map(|path| path.to_str().filter(|id| is_id(id) && !path.exists())) {
+    match files.iter().find_map(|path| path.to_str().filter(|id| is_id(id) && !path.is_file())) {
         Some(id) => Err(not_simulated(id)),
         None => read_own(&files),
     }

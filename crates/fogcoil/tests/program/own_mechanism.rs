@@ -129,6 +129,10 @@ fn what_cannot_be_is_refused_with_line_and_remedy() {
         "coil.ron: is a coil file; add --sensitivity S, as it was measured, and the changes that would give it are explained",
     );
     refused(&["explain", "missing.csv"], "missing.csv: is no file, and no id of a mechanism, a warning or a note; nearest:");
+    // a folder of that name is no mechanism's file
+    std::fs::create_dir(folder.path("debond")).unwrap();
+    assert!(stdout(&folder.run(&["explain", "debond"])).starts_with("debond: "));
+    refused(&[&simulate[..], &["debond"]].concat(), "`debond` is one of the program's");
     refused(&["explain", "p.csv"], "p.csv: is no mechanism's file; give an id, a mechanism's file (*.ron)");
     assert_eq!(text(&folder), include_str!("../../templates/mechanism.ron"), "nothing was overwritten");
 }
