@@ -335,7 +335,12 @@ impl Composed {
         for (k, term) in self.terms.iter().enumerate() {
             let mechanism = &term.case.mechanism;
             let begins = if k == 0 { "A law was composed" } else { "and beside it" };
-            out += &format!("{begins}: {} (known physics of this form: {}).\n", mechanism.title, term.known);
+            out += &format!(
+                "{begins}: {}{} (known physics of this form: {}).\n",
+                numbered(k, self.terms.len()),
+                mechanism.title,
+                term.known
+            );
             out.extend(mechanism.equation.lines().map(|line| format!("  {line}\n")));
         }
         let by = format!("It gains {:.1} of ln evidence, the choice among all laws paid for", self.gain);
@@ -350,6 +355,30 @@ impl Composed {
             }
         };
         out += &format!("{by}{others}; {judged}.\n");
-        (out, self.terms.iter().flat_map(|term| term.estimates.clone()).collect())
+        let of = |(k, term): (usize, &Term)| -> Vec<Estimate> {
+            let number = numbered(k, self.terms.len());
+            term.estimates.iter().map(|e| Estimate { name: format!("{number}{}", e.name), ..e.clone() }).collect()
+        };
+        (out, self.terms.iter().enumerate().flat_map(of).collect())
+    }
+}
+
+/// The number of a term before what is its own; nothing where there is but one.
+fn numbered(k: usize, terms: usize) -> String {
+    if terms > 1 { format!("({}) ", k + 1) } else { String::new() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn terms_have_numbers_where_there_are_several() {
+        assert_eq!([numbered(0, 1), numbered(0, 2), numbered(1, 2)], ["", "(1) ", "(2) "]);
+        // the unit of a numbered parameter is that of the parameter
+        assert_eq!(
+            crate::units::parameter_unit("(2) size_deg_per_h_per_k"),
+            crate::units::parameter_unit("size_deg_per_h_per_k")
+        );
     }
 }
