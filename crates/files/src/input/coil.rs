@@ -188,6 +188,11 @@ fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
 }
 
 impl CoilCase {
+    /// Whether it is a lot's design, as `fogcoil calibrate` writes it: a drawing knows no correlations of its constants.
+    pub fn is_calibrated(&self) -> bool {
+        !self.tolerances.correlations.is_empty()
+    }
+
     /// Bias per temperature rate in a steady ramp.
     ///
     /// # Errors

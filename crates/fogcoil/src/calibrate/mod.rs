@@ -89,7 +89,7 @@ pub fn calibrate(
     progress: &(dyn Fn(Step) + Sync),
 ) -> Result<Outcome, Error> {
     refuse_copies(units.iter().flatten())?;
-    if !case.tolerances.correlations.is_empty() {
+    if case.is_calibrated() {
         let (file, problem) = (case.file.clone(), "is calibrated already".to_owned());
         let remedy = "give the drawing, and all units of the lot together".to_owned();
         return Err(InputError { file, line: None, field: Some("correlations".into()), problem, remedy }.into());

@@ -56,6 +56,8 @@ pub struct Outcome<'m> {
     holdouts: Vec<Held>,
     /// mechanisms that a record held out took back, with their probabilities by what was fitted
     withdrawn: Vec<(usize, f64)>,
+    /// whether the design is a lot's already
+    is_lots: bool,
     notes: Vec<Note>,
 }
 
@@ -172,6 +174,7 @@ pub fn diagnose<'m>(
         fits: read,
         holdouts,
         withdrawn,
+        is_lots: case.is_calibrated(),
         notes,
     };
     let far_off = outcome.far_off();

@@ -228,6 +228,11 @@ impl Outcome<'_> {
         self.likely().find(|(name, _)| *name == id).map(|(_, probability)| probability)
     }
 
+    /// What narrows tolerances beside another record; a lot's design has been narrowed.
+    fn or_lot(&self) -> &'static str {
+        if self.is_lots { "" } else { ", or a design of the lot (fogcoil calibrate)" }
+    }
+
     /// The step after this answer, where no two mechanisms are to be told apart.
     pub(super) fn next(&self) -> String {
         if let Some(warning) = self.misread() {
@@ -273,13 +278,15 @@ impl Outcome<'_> {
                     format!("; {} would be {:+.1} standard deviations off what is known of it", c.posterior.name, c.moved())
                 });
                 format!(
-                    "{id} is not far behind (probability {probability:.2}){far}. To decide: {inspection}; or give a record under another profile with --fit, or a design of the lot (fogcoil calibrate)."
+                    "{id} is not far behind (probability {probability:.2}){far}. To decide: {inspection}; or give a record under another profile with --fit{}.", self.or_lot()
                 )
             }
             Verdict::None | Verdict::Recalibrate if !self.suffices_surely() => {
-                "nothing stands out that an inspection could look for; a small fault may hide behind the tolerances. A record under another \
-                 profile, given with --fit, or a design of the lot (fogcoil calibrate) may narrow them."
-                    .into()
+                format!(
+                    "nothing stands out that an inspection could look for; a small fault may hide behind the tolerances. A record under another \
+                     profile, given with --fit{} may narrow them.",
+                    self.or_lot()
+                )
             }
             Verdict::Recalibrate if proven => {
                 "no further test is needed. The re-estimated constants predict a record that was held out.".into()

@@ -67,6 +67,7 @@ fn a_lot_is_a_design_that_other_commands_read() {
     }
     assert!(text.contains("by fogcoil calibrate") && text.contains("U4907-run1.csv") && text.contains("correlations:"));
     let case = fogcoil::input::read_coil(&folder.path("lot.ron")).unwrap();
+    assert!(case.is_calibrated() && !fogcoil::input::read_coil(&folder.path("drawing.ron")).unwrap().is_calibrated());
     let conductivity = key(medium).unwrap()["value"].as_f64().unwrap();
     assert!((case.design.surroundings.conductivity / conductivity - 1.0).abs() < 1e-9);
     assert_eq!(folder.run(&["sensitivity", "lot.ron"]).status.code(), Some(0));
