@@ -52,7 +52,7 @@ mod tests {
         near(of("G/E_r", 1.05), ("coil.material.g_zr_mpa", 1.1 * 1.05 * 24.1));
         near(of("hub thickness [mm]", 4.05), ("spool.hub_thickness_mm", 4.05));
         near(of("dn/dT", 0.9), ("optics.thermo_optic_per_k", 0.9 * design.optics.thermo_optic));
-        near(of("CW tail less CCW tail [m]", 0.4), ("winding.tails_m", 0.4));
+        near(of("CW tail less CCW tail, beyond the drawing's [m]", 0.4), ("winding.tails_m", 0.4));
         assert_eq!(by_key(&design, all.into_iter(), "gain of the rate", 1.0), None);
         let (key, value, [low, high]) = interval_by_key(&design, all.into_iter(), "E_r and G", [1.1, 1.2, 1.0]).unwrap();
         assert!(key == "coil.material.e_r_mpa" && low < value && value < high);

@@ -92,8 +92,8 @@ fn name(parameter: Parameter) -> &'static str {
 
 /// Name of the nuisance that is the factor on ∂n/∂T.
 const DN_DT: &str = "dn/dT";
-/// Name of the nuisance that is the CW tail's length less the CCW one's.
-const TAILS: &str = "CW tail less CCW tail [m]";
+/// Name of the nuisance that is the CW tail's length less the CCW one's, beyond what is drawn.
+const TAILS: &str = "CW tail less CCW tail, beyond the drawing's [m]";
 /// Name of the nuisance that is the factor on the thermometer's lag.
 const SENSOR_LAG: &str = "lag of the spool's thermometer";
 

@@ -108,7 +108,10 @@ impl Truth {
             "hub thickness [mm]" => Some(drawn + of("hub_mm")?),
             "flange thickness [mm]" => Some(drawn + of("flange_mm")?),
             "margin [mm]" => Some(drawn + of("margin_mm")?),
-            "CW tail less CCW tail [m]" => Some(of("tail_cw_m")? - of("tail_ccw_m")?),
+            // the second is its name in older answers
+            "CW tail less CCW tail, beyond the drawing's [m]" | "CW tail less CCW tail [m]" => {
+                Some(of("tail_cw_m")? - of("tail_ccw_m")?)
+            }
             _ => None,
         }
     }
