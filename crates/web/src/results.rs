@@ -16,7 +16,7 @@ const LEAST_STEP_S: f64 = 1.0;
 pub(crate) fn sensitivity(coil: &str) -> Result<Value, Error> {
     let case = case(coil)?;
     let (result, band) = (case.steady_sensitivity()?, case.sensitivity_band()?);
-    Ok(json!({ "json": ramp::json(&case, &result, &band), "text": ramp::text(&case, &result, &band) }))
+    Ok(json!({ "json": ramp::json(&case, &result, &band), "text": ramp::text(&case, &result, &band, false) }))
 }
 
 pub(crate) fn simulate(coil: &str, profile: &str, step: Option<f64>) -> Result<Value, Error> {
