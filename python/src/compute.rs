@@ -60,7 +60,7 @@ pub(crate) fn sensitivity(py: Python, coil: &Coil) -> PyResult<Found> {
         let (mut object, errors) = (ramp::json(case, &result, &band), result.part_errors);
         object["part_error_estimates"] =
             json!({"shupe": errors.shupe, "eo_axial": errors.eo_axial, "eo_radial": errors.eo_radial});
-        Ok(Found::new(&object, ramp::text(case, &result, &band)).with_picture(figures::section(case)))
+        Ok(Found::new(&object, ramp::text(case, &result, &band, false)).with_picture(figures::section(case)))
     })
 }
 
