@@ -20,7 +20,7 @@ const STRAYED: f64 = 3.0;
 const RIVALS: f64 = 0.5;
 /// Ways of a usual record: constants alone, the leader beside them, one rival.
 const USUAL_WAYS: usize = 3;
-/// Most hypotheses of a round that are followed so: both flanges, of a mechanism that may be at either.
+/// Most hypotheses that are followed so from each of the two rounds in which all are tried: both flanges, of a mechanism that may be at either.
 const FOLLOWED: usize = 2;
 /// Choices of a mechanism that are tried.
 const CHOICES: usize = 3;
@@ -86,8 +86,8 @@ impl<M> Settled<M> {
 }
 
 /// The model about the constants of the likeliest hypothesis: constants alone, or one mechanism beside them. Each is followed to where the model
-/// about its own constants leads, as constants that make up for a mechanism that is left out may be far from those beside it; so is the mechanism that comes next to
-/// the likeliest.
+/// about its own constants leads, as constants that make up for a mechanism that is left out may be far from those beside it; so are a few mechanisms that come next
+/// to the likeliest.
 ///
 /// # Errors
 /// [`Error::Data`] if the observations do not fit the model or one of them has no value, [`Error::Definition`] if the model contradicts itself;
@@ -164,7 +164,8 @@ pub fn settled<M: ForwardModel>(
     let others = std::mem::take(&mut beside.rivals);
     let ways = 2 + others.len();
     for rival in others {
-        if rival == leader.hypothesis {
+        let is_followed = |(fit, _): &(Fit, _)| fit.hypothesis == rival;
+        if rival == leader.hypothesis || rivals.iter().any(is_followed) {
             continue;
         }
         let mut other = Way { only: Some(rival), ..way(first)? };

@@ -69,7 +69,7 @@ pub(crate) enum Command {
         /// Case file of the coil
         #[arg(value_name = "COIL.ron")]
         coil: PathBuf,
-        /// List every tolerance, also those below 1 % of the variance
+        /// List every tolerance, also those below 0.5 % of the variance
         #[arg(long)]
         all: bool,
         /// Print one JSON object

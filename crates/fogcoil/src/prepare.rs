@@ -264,7 +264,7 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
 /// Columns that nothing reads, in the rows of a record that was made ready.
 fn ignored(case: &RecordCase, interval: f64) -> BTreeMap<String, Vec<f64>> {
     let kept = case.ignored.select(&case.report.rows);
-    let kept = thinned(&kept, interval, &THINNING).map_or(kept, |thinned| thinned.recording);
+    let kept = filled(&thinned(&kept, interval, &THINNING).map_or(kept, |thinned| thinned.recording));
     kept.channels().iter().map(|channel| (channel.name.clone(), channel.values.clone())).collect()
 }
 
@@ -418,7 +418,8 @@ mod tests {
         assert_eq!(ready.averaging, 30.0);
         // what nothing reads stands in the same rows; words are no numbers
         let beside = &ready.ignored["Ub [V]"];
-        assert_eq!((ready.ignored.len(), beside.len(), beside[0], beside[200]), (1, 399, 29.0, 6044.0));
+        assert_eq!((ready.ignored.len(), beside.len(), beside[0], beside[321]), (1, time.len(), 29.0, 6044.0));
+        assert!(beside[200..321].iter().all(|value| value.is_nan()));
         // what is told of the means reads back at every row: the rate rises on a straight line, but for an hour without one
         assert_eq!(ready.instants().len(), 12_000);
         let again = ready.at_instants(rate);

@@ -90,7 +90,7 @@ pub fn text(case: &CoilCase, result: &SteadySensitivity, band: &Band, all: bool)
         vec![s.key.into(), s.tolerance, format!("{:+.4}", s.change), format!("{percent} %")]
     };
     let (shown, less): (Vec<Share>, Vec<Share>) = Share::all(case, band).into_iter().partition(|s| all || s.is_worth());
-    let more = if less.is_empty() { String::new() } else { format!("{} more below 1 %: --all\n\n", less.len()) };
+    let more = if less.is_empty() { String::new() } else { format!("{} more below 0.5 %: --all\n\n", less.len()) };
     let shares: Vec<Vec<String>> = std::iter::once(head).chain(shown.into_iter().map(share)).collect();
     format!(
         "{}: steady-ramp sensitivity in (deg/h)/(degC/min), numerical error beside it\n\n{}\n\

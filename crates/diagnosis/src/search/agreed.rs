@@ -49,7 +49,15 @@ pub fn diagnose_settled<M: ForwardModel>(
             settled.lead(about, fit);
             return Ok(found);
         }
-        if best.fit.active.is_empty() || settled.leading.as_ref().is_some_and(is_best) || comparisons == COMPARISONS {
+        if best.fit.active.is_empty() || settled.leading.as_ref().is_some_and(is_best) {
+            return Ok(found);
+        }
+        if comparisons == COMPARISONS {
+            // what was fitted about its own constants has its model
+            if let Some(at) = rivals.iter().position(|(fit, _)| best.rival.is_none() && is_best(fit)) {
+                let (fit, about) = rivals.swap_remove(at);
+                settled.lead(about, fit);
+            }
             return Ok(found);
         }
         progress(Step::begins(TASK));

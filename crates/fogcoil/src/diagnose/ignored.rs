@@ -13,7 +13,7 @@ use crate::table::significant;
 
 /// Least share that a column explains of what is left beyond the rows' white noise: with more than a half it is the largest part, whatever else is there.
 const MOST_OF_IT: f64 = 0.5;
-/// Standard errors by which white noise alone puts a slope off 0 that is told.
+/// Standard errors by which chance alone puts a correlation off 0 that is told, as many rows counted as are independent.
 const PLAIN: f64 = 5.0;
 /// Correlation from which a column merely repeats a temperature, or the time.
 const REPEATS: f64 = 0.95;
@@ -52,6 +52,17 @@ fn repeats<'a>(records: impl Iterator<Item = (&'a [f64], &'a [f64])>) -> bool {
     ab.abs() >= REPEATS * (aa * bb).sqrt()
 }
 
+/// Number of rows that count where both series wander: chance correlates two slow courses easily (Bartlett 1935).
+fn independent(pairs: &[(f64, f64)], white: f64) -> f64 {
+    let [aa, _, bb] = sums(pairs);
+    let product = |lag: usize| {
+        let (a, b) = pairs.iter().zip(&pairs[lag..]).fold((0.0, 0.0), |(a, b), (x, y)| (a + x.0 * y.0, b + x.1 * y.1));
+        a / (aa - white) * (b / bb)
+    };
+    let alike: f64 = (1..pairs.len()).map(product).take_while(|product| *product > 0.0).sum();
+    pairs.len() as f64 / (1.0 + 2.0 * alike)
+}
+
 /// The regression of what is left of the rate on a column, if it explains the most of it.
 fn followed(records: &[Rows]) -> Option<Followed> {
     let (mut pairs, mut white) = (Vec::new(), 0.0);
@@ -64,7 +75,9 @@ fn followed(records: &[Rows]) -> Option<Followed> {
     let ([total, product, spread], count) = (sums(&pairs), pairs.len() as f64);
     let (slope, explained) = (product / spread, product * product / spread);
     let share = explained / (total - white);
-    let told = total > white && share >= MOST_OF_IT && explained >= PLAIN * PLAIN * white / count;
+    // of the correlation over its standard error
+    let plain = || share >= 1.0 || share * (independent(&pairs, white) - 2.0) >= PLAIN * PLAIN * (1.0 - share);
+    let told = total > white && share >= MOST_OF_IT && explained >= PLAIN * PLAIN * white / count && plain();
     told.then(|| Followed { slope, share: share.min(1.0), left: ((total - explained) / count).sqrt() })
 }
 
@@ -152,5 +165,28 @@ mod tests {
         assert!(repeats([(volts.as_slice(), line.as_slice())].into_iter()));
         assert!(!repeats([(volts.as_slice(), time.as_slice())].into_iter()));
         assert!(repeats([(vec![24.0; 600].as_slice(), time.as_slice())].into_iter()));
+    }
+
+    /// A walk of steps that a linear congruence makes.
+    fn walk(seed: u64, rows: usize) -> Vec<f64> {
+        let (mut state, mut at) = (seed, 0.0);
+        let step = |_| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            at += (state >> 33) as f64 / f64::from(1_u32 << 30) - 1.0;
+            at
+        };
+        (0..rows).map(step).collect()
+    }
+
+    #[test]
+    fn two_walks_follow_one_another_by_chance_alone() {
+        let time: Vec<f64> = (0..700).map(|n| 60.0 * f64::from(n)).collect();
+        let told =
+            (0..200_u64).filter(|n| followed(&[(&time, &walk(2 * n + 1, 700), &walk(1000 + 2 * n, 700))]).is_some()).count();
+        assert!(told <= 4, "{told} of 200");
+        // one that does follow the other is told
+        let column = walk(5, 700);
+        let rate: Vec<f64> = column.iter().enumerate().map(|(n, x)| 0.5 * x + noise(n)).collect();
+        assert!(followed(&[(&time, &rate, &column)]).is_some());
     }
 }

@@ -130,23 +130,26 @@ pub fn diagnose<'m>(
     let Sought { composed, stand_ins } =
         compose(gyro, &mut diagnosis, &settings, &observations, &numbered, &records, progress).map_err(failed)?;
     let best = diagnosis.best();
-    let fitted_to = best.fit.residuals.iter().map(|channels| channels.iter().map(|r| rms(r)).collect());
-    let answered: Vec<Vec<f64>> = fitted_to.chain(records.iter().map(|judged| judged.model.rmse.clone())).collect();
+    let of_fit =
+        |fit: &Fit| -> Vec<Vec<f64>> { fit.residuals.iter().map(|channels| channels.iter().map(|r| rms(r)).collect()).collect() };
+    // what an accepted law leaves, or the best candidate, in all records
+    let law = composed.as_ref().filter(|composed| composed.accepted);
+    let mut answered = of_fit(law.map_or(&best.fit, |law| &law.fit));
+    match law {
+        Some(law) => answered.extend(law.held.iter().map(|held| held.rmse.to_vec())),
+        None => answered.extend(records.iter().map(|judged| judged.model.rmse.to_vec())),
+    }
+    // what was taken back explains the records that were fitted all the same
+    let explains_fitted = law.is_some() || diagnosis.verdict != Verdict::Unknown || !withdrawn.is_empty();
+    let explains_held = law.is_some() || diagnosis.verdict != Verdict::Unknown;
     for (number, (record, answered)) in read.iter().chain(&held).zip(&answered).enumerate() {
-        // what was taken back explains the records that were fitted all the same
-        let explains = diagnosis.verdict != Verdict::Unknown || (!withdrawn.is_empty() && number < read.len());
-        let answered = explains.then_some(answered.as_slice());
-        notes.extend(columns::warning(&drawn, number, record, answered).map_err(coil)?);
+        let explains = if number < read.len() { explains_fitted } else { explains_held };
+        notes.extend(columns::warning(&drawn, number, record, explains.then_some(answered.as_slice())).map_err(coil)?);
     }
     if diagnosis.verdict != Verdict::None {
         progress(Step::begins("drawings that differ in one word"));
-        let law = composed.as_ref().filter(|composed| composed.accepted);
-        let of_rate: Vec<f64> = match law {
-            Some(law) => law.fit.residuals.iter().map(|channels| rms(&channels[RATE_CHANNEL])).collect(),
-            None => answered[..read.len()].iter().map(|answered| answered[RATE_CHANNEL]).collect(),
-        };
-        let explains = law.is_some() || diagnosis.verdict != Verdict::Unknown || !withdrawn.is_empty();
-        let of_rate = explains.then_some(of_rate.as_slice());
+        let of_rate: Vec<f64> = answered[..read.len()].iter().map(|answered| answered[RATE_CHANNEL]).collect();
+        let of_rate = explains_fitted.then_some(of_rate.as_slice());
         let constants_suffice = diagnosis.verdict == Verdict::Recalibrate;
         notes.extend(drawing::warning(&drawn, case, &read, of_rate, constants_suffice).map_err(coil)?);
     }

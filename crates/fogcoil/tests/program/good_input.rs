@@ -68,7 +68,7 @@ fn sensitivity_reports_its_parts() {
     let small = shares.iter().filter(|share| share["share"].as_f64().unwrap().abs() < 0.005).count();
     let sum: f64 = shares.iter().map(|share| share["share"].as_f64().unwrap()).sum();
     assert!(small > 0 && (sum - 1.0).abs() < 1e-9, "{result}");
-    let left = format!("{small} more below 1 %: --all\n");
+    let left = format!("{small} more below 0.5 %: --all\n");
     assert!(text.contains(&left), "{text}");
     let all = run(&folder, &["sensitivity", "coil.ron", "--all"]);
     assert!(!all.contains("--all") && all.lines().count() == text.lines().count() + small - 2, "{all}");
