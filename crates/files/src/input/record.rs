@@ -158,6 +158,9 @@ struct ReadRows {
     footer: Option<Note>,
 }
 
+/// Most values of columns that nothing reads that are kept: 160 MB.
+const MOST_UNUSED: usize = 20_000_000;
+
 fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) -> Result<ReadRows, InputError> {
     let channels: Vec<(Key, usize)> =
         [Key::Chamber, Key::Spool, Key::Rate].into_iter().filter_map(|key| Some((key, columns.column(key)?))).collect();
@@ -206,6 +209,10 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
         }
         for (column, values) in columns.further.iter().zip(&mut further) {
             values.push(rows.value(*column, &columns.names[*column])?.unwrap_or(f64::NAN));
+        }
+        // of very many nobody looks for a course
+        if unused.len() * time.len() > MOST_UNUSED {
+            unused.clear();
         }
         // a column of words tells no numbers
         unused.retain_mut(|(column, values)| {
