@@ -62,8 +62,8 @@ pub(crate) struct Independent {
     pub(crate) ideal_quadrupole: Known,
 }
 
+/// What a spool's material has to do with a steady sensitivity; the fixture has its thermal numbers, too.
 #[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(crate) struct SpoolMaterial {
     pub(crate) name: String,
     pub(crate) youngs_modulus_gpa: f64,
