@@ -7,11 +7,10 @@ use coil::{Design, Drive, Side};
 use super::InputError;
 use super::record_columns::shown;
 use super::record_format::RecordFormat;
-use super::record_options::Key;
+use super::record_options::{Key, TIME};
 use super::rows::{Rows, quoted};
 use crate::remark::{Note, Remark};
 
-pub(crate) const TIME: &str = "time_s";
 const CHAMBER: &str = "chamber_c";
 
 /// Columns that a profile may have, and their drives.

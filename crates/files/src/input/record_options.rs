@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use super::profile_columns::TIME;
 use crate::units::{ColumnUnit, RATES, TEMPERATURES, TIMES};
 
+/// The instant \[s\].
+pub(super) const TIME: &str = "time_s";
 /// The chamber's temperature \[°C\].
 pub const CHAMBER: &str = "chamber_c";
 /// The thermometer on the spool \[°C\].

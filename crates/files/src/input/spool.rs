@@ -8,7 +8,8 @@ use recording::Seconds;
 use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::profile::{Wanted, read_rows};
-use super::profile_columns::{DRIVES, RESULTS, TIME, names};
+use super::profile_columns::{DRIVES, RESULTS, names};
+use super::record_options::TIME;
 use super::rows::{Dialect, Rows, quoted};
 use crate::remark::{Note, Remark};
 
