@@ -68,20 +68,22 @@ pub fn thinned(recording: &Recording, interval: f64, rule: &Thinning) -> Option<
     Some(Thinned { recording: recording.with(left, of), every, rows })
 }
 
-/// A recording whose gaps (intervals over 1.5 usual ones) have rows without a value, back from the row that ends each, as many as the usual interval has room for; of more than
-/// half of the recording's rows, each gap gets its share, so that the usual interval stays what it is. What a programme did meanwhile has a place then.
+/// A recording whose gaps (intervals over 1.5 usual ones) have rows without a value, back from the row that ends each, as many as the usual interval has
+/// room for; of more than half of the recording's rows, each gap gets its share, so that the usual interval stays what it is. What a programme did
+/// meanwhile has a place then.
 pub fn filled(recording: &Recording) -> Recording {
     let time = recording.time();
     let Some(interval) = median_interval(time).filter(|interval| *interval > 0.0) else { return recording.clone() };
-    let left_out = |n: usize| if time[n] - time[n - 1] > GAP * interval { (time[n] - time[n - 1]) / interval - 1.0 } else { 0.0 };
-    let share = (time.len() as f64 / 2.0 / (1..time.len()).map(left_out).sum::<f64>()).min(1.0);
+    let left_out = |gap: f64| if gap > GAP * interval { gap / interval - 1.0 } else { 0.0 };
+    let share = (time.len() as f64 / 2.0 / time.windows(2).map(|t| left_out(t[1] - t[0])).sum::<f64>()).min(1.0);
     // the row of the recording that each row is, if it is one
     let mut rows: Vec<(f64, Option<usize>)> = Vec::with_capacity(time.len());
     for n in 0..time.len() {
-        let more = if n > 0 { (share * left_out(n)).round() as usize } else { 0 };
+        let gap = time[n] - time[n.saturating_sub(1)];
+        let more = (share * left_out(gap)).round() as usize;
         // what is read over an interval began one before its row
-        let spacing = |n: usize| if share < 1.0 { (time[n] - time[n - 1]) / (more + 1) as f64 } else { interval };
-        rows.extend((1..=more).rev().map(|k| (time[n] - spacing(n) * k as f64, None)));
+        let spacing = if share < 1.0 { gap / (more + 1) as f64 } else { interval };
+        rows.extend((1..=more).rev().map(|k| (time[n] - spacing * k as f64, None)));
         rows.push((time[n], Some(n)));
     }
     let of = |channel: &Channel| {
