@@ -100,17 +100,38 @@ pub fn as_designed(
     for (record, observed) in [fitted, held] {
         checked::observed(model, record, observed)?;
     }
-    let rows = |(record, observed): (usize, &Observation)| (record, observed.time.len());
-    let offsets: Vec<f64> = designed(model, rows(fitted))?
-        .response
-        .iter()
-        .zip(&fitted.1.channels)
-        .map(|(predicted, recorded)| {
-            let left: Vec<f64> = recorded.iter().zip(predicted).map(|(y, p)| y - p).filter(|r| r.is_finite()).collect();
-            left.iter().sum::<f64>() / left.len().max(1) as f64
-        })
-        .collect();
-    judged(model, designed(model, rows(held))?, &offsets, held.1, judge)
+    let (_, offsets) = left_by_design(model, fitted)?;
+    judged(model, designed(model, (held.0, held.1.time.len()))?, &offsets, held.1, judge)
+}
+
+/// Residuals `[channel][row]` of a record by the model as it is designed, nothing fitted but the offsets, which are their means.
+///
+/// # Errors
+/// [`Error::Data`] if the observation does not fit the model or has no value; [`Error`] if the model fails.
+pub fn designed_residuals(model: &dyn ForwardModel, (record, observed): (usize, &Observation)) -> Result<Vec<Vec<f64>>, Error> {
+    checked::observed(model, record, observed)?;
+    let (mut left, offsets) = left_by_design(model, (record, observed))?;
+    for (left, offset) in left.iter_mut().zip(offsets) {
+        left.iter_mut().for_each(|r| *r -= offset);
+    }
+    Ok(left)
+}
+
+/// Recorded less predicted by the model as it is designed, of every channel, and its means.
+fn left_by_design(
+    model: &dyn ForwardModel,
+    (record, observed): (usize, &Observation),
+) -> Result<(Vec<Vec<f64>>, Vec<f64>), Error> {
+    let response = designed(model, (record, observed.time.len()))?.response;
+    let channels = observed.channels.iter().zip(&response);
+    let left: Vec<Vec<f64>> =
+        channels.map(|(recorded, predicted)| recorded.iter().zip(predicted).map(|(y, p)| y - p).collect()).collect();
+    let mean = |left: &Vec<f64>| {
+        let known: Vec<f64> = left.iter().copied().filter(|r| r.is_finite()).collect();
+        known.iter().sum::<f64>() / known.len().max(1) as f64
+    };
+    let offsets = left.iter().map(mean).collect();
+    Ok((left, offsets))
 }
 
 /// A prediction with offsets against the observations.

@@ -24,7 +24,7 @@ pub use compose::{Breadth, Composed, Earlier, compose, compose_within, gained_by
 pub use discriminate::{Plan, Separation, fitted, separation};
 pub use error::{Error, Failure};
 pub use fit::{Fit, Hypothesis, Sampled, Samples, alternatives, expected, sampled};
-pub use hold_out::{HeldOut, as_designed};
+pub use hold_out::{HeldOut, as_designed, designed_residuals};
 pub use latent::{MemberResolution, Stage};
 pub use locate::{Block, Cell, FREQUENCIES, Spectrum, whiteness};
 pub use lot::{Believed, Known, Lot, Said};

@@ -188,6 +188,24 @@ fn what_is_concealed_is_named_its_parameter_covered_and_the_held_out_record_pred
     }
 }
 
+/// Whatever was fitted, what the design leaves is what was concealed, but for a constant.
+#[test]
+fn what_the_design_leaves_is_the_effect_and_a_gap_stays_a_gap() {
+    let bath = Bath::new();
+    let concealed = bath.truth(0, Some((1, 1.5)));
+    let mut y: Vec<f64> = concealed.iter().map(|y| y + 0.7).collect();
+    y[17] = f64::NAN;
+    let record = Observation { time: bath.time.clone(), channels: vec![y] };
+    let left = diagnosis::designed_residuals(&bath, (0, &record)).expect("residuals").remove(0);
+    let effect: Vec<f64> = concealed.iter().zip(bath.truth(0, None)).map(|(y, p)| y - p).collect();
+    let known = || (0..ROWS).filter(|row| *row != 17);
+    let mean = known().map(|row| effect[row]).sum::<f64>() / (ROWS - 1) as f64;
+    assert!(left[17].is_nan());
+    for row in known() {
+        assert!((left[row] - (effect[row] - mean)).abs() < 1e-12, "{row}: {} {}", left[row], effect[row] - mean);
+    }
+}
+
 /// A third mechanism that is a factor on the constant, far beyond its tolerance: it takes the constant's place, and is not found beside it.
 #[test]
 fn a_mechanism_that_stands_for_a_constant_takes_its_place() {

@@ -348,7 +348,7 @@ remarks! {
     FollowsColumn "follows-column":
         "What an explanation leaves of the rate, or what the constants alone would leave, follows a column of the records that the model does not use: most of what lies beyond the noise.",
         "What was found may make up for what the column tells, such as a supply or a pressure; measurements of other parts that the answer advises may be in vain.",
-        "Write it as a mechanism of your own, with the column in `columns`, and diagnose again with --mechanism; or keep constant what the column tells.";
+        "Write what the column does to the rate as a mechanism of your own, whose file names it in `columns`, and diagnose again with --mechanism; or keep constant what the column tells.";
     CopiedRecording "copied-recording":
         "Two units of a batch have a recording in common, byte for byte.",
         "One of them was not recorded, or its file is lost; its verdict is the other's.",

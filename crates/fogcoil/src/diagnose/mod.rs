@@ -14,6 +14,7 @@ mod loose;
 mod report;
 mod structure;
 mod text;
+mod told;
 mod written;
 
 pub use written::Written;
@@ -53,6 +54,8 @@ pub struct Outcome<'m> {
     /// laws in the place of what is named
     stand_ins: Vec<StandIn>,
     fits: Vec<Record>,
+    /// residuals of each of them, by channel and row, by the design as drawn
+    by_design: Vec<Vec<Vec<f64>>>,
     holdouts: Vec<Held>,
     /// mechanisms that a record held out took back, with their probabilities by what was fitted
     withdrawn: Vec<(usize, f64)>,
@@ -153,6 +156,8 @@ pub fn diagnose<'m>(
         let constants_suffice = diagnosis.verdict == Verdict::Recalibrate;
         notes.extend(drawing::warning(&drawn, case, &read, of_rate, constants_suffice).map_err(coil)?);
     }
+    let left = |pair: (usize, &Observation)| diagnosis::designed_residuals(&drawn, pair);
+    let by_design = observations.iter().enumerate().map(left).collect::<Result<_, _>>().map_err(failed)?;
     let with_predictions =
         |(record, Judged { nominal, model, accepted, .. }): (Record, Judged)| Held { record, nominal, model, accepted };
     let mut holdouts: Vec<Held> = held.into_iter().zip(records).map(with_predictions).collect();
@@ -175,6 +180,7 @@ pub fn diagnose<'m>(
         composed,
         stand_ins,
         fits: read,
+        by_design,
         holdouts,
         withdrawn,
         is_lots: case.is_calibrated(),

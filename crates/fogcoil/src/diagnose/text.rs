@@ -58,7 +58,7 @@ impl Outcome<'_> {
         if let (Verdict::Unknown, Some(best)) = (d.verdict, self.best_named()) {
             let ids: Vec<&str> = best.fit.active.iter().map(|a| self.id(a.mechanism)).collect();
             let values = (0..ids.len()).flat_map(|place| best.fit.estimates(&self.gyro, place));
-            let values: Vec<String> = values.map(|e| format!("{} = {}", e.name, significant(e.value, 4))).collect();
+            let values: Vec<String> = values.map(|e| format!("{} = {}", e.name, self.told(&e, 4).0)).collect();
             let [ids, values] = [ids.join(" and "), values.join(", ")];
             let _ = writeln!(out, "Nearest named mechanism: {ids} ({values}).");
         }
@@ -86,10 +86,10 @@ impl Outcome<'_> {
         if !estimates.is_empty() {
             rows.push(["parameter (fitted)", "value", "", "90 % interval"].map(str::to_owned).to_vec());
             for estimate in estimates {
-                let interval = estimate.ci90.map(|end| significant(end, 4)).join(" to ");
+                let (value, ends) = self.told(estimate, 4);
                 let unit = parameter_unit(&estimate.name);
                 let unit = if unit == "1" { "-".into() } else { unit.into_owned() };
-                rows.push(vec![estimate.name.clone(), significant(estimate.value, 4), unit, interval]);
+                rows.push(vec![estimate.name.clone(), value, unit, ends.join(" to ")]);
             }
         }
         rows.extend(self.moved_rows());
@@ -143,7 +143,7 @@ impl Outcome<'_> {
                 };
                 format!("Void if {mistake}, as it seems. As it is read: {}", self.verdict_as_read())
             }
-            None if self.other_word().is_some() => {
+            None if self.warned(Remark::DoubtedDrawing).is_some() => {
                 format!(
                     "Either the unit differs from its drawing in one word, as the warning says, or this. {}",
                     self.verdict_as_read()
@@ -160,9 +160,9 @@ impl Outcome<'_> {
             .find(|note| matches!(note.remark, Remark::ExchangedColumns | Remark::LooseThermometer | Remark::ReversedRate))
     }
 
-    /// The warning that the unit seems to differ from its drawing in one word, if there is one.
-    fn other_word(&self) -> Option<&Note> {
-        self.notes.iter().find(|note| note.remark == Remark::DoubtedDrawing)
+    /// The note of a kind, if there is one.
+    fn warned(&self, remark: Remark) -> Option<&Note> {
+        self.notes.iter().find(|note| note.remark == remark)
     }
 
     fn verdict_as_read(&self) -> String {
@@ -241,8 +241,11 @@ impl Outcome<'_> {
                 warning.remark.explanation().remedy
             );
         }
-        match self.other_word() {
-            Some(warning) => format!("{} If it is as drawn: {}", warning.remark.explanation().remedy, self.next_as_drawn()),
+        let before = self.warned(Remark::DoubtedDrawing).map(|warning| (warning, "If it is as drawn"));
+        match before.or_else(|| self.warned(Remark::FollowsColumn).map(|warning| (warning, "If that does not explain it"))) {
+            Some((warning, otherwise)) => {
+                format!("{} {otherwise}: {}", warning.remark.explanation().remedy, self.next_as_drawn())
+            }
             None => self.next_as_drawn(),
         }
     }
@@ -354,7 +357,8 @@ impl Outcome<'_> {
     pub(super) fn alternatives(&self) -> Option<String> {
         let ids = self.apart();
         let command = (!ids.is_empty() && self.misread().is_none()).then(|| self.recommend(&ids))?;
-        let first = self.other_word().map_or(String::new(), |warning| format!("{} ", warning.remark.explanation().remedy));
+        let before = self.warned(Remark::DoubtedDrawing).or_else(|| self.warned(Remark::FollowsColumn));
+        let first = before.map_or(String::new(), |warning| format!("{} ", warning.remark.explanation().remedy));
         Some(format!(
             "{first}These records do not exclude: {}. This command seeks the test that separates them best: {command}",
             self.others().join(", ")

@@ -328,6 +328,10 @@ fn the_page_stands_alone(page: &str) {
     ] {
         assert!(page.contains(part), "{part}");
     }
+    // before is the design as drawn, without an instrument that may bend to the fault
+    let (_, first) = page.split_once("id=\"before-and-after-wide").unwrap();
+    let first = first.split("</figure>").next().unwrap();
+    assert!(first.contains("recorded less nominal model") && first.contains("recorded less extended model"), "{first}");
     assert_eq!(charts::faults(page), [""; 0]);
     // a row for every mechanism but debond, the design, its constants and a structure; each rival does without debond
     let (_, rivals) = page.split_once("ln odds of debond over each rival</caption>").unwrap();

@@ -3,10 +3,41 @@
 use charts::{Axis, Content, Figure, Panel, Series, Style};
 use maud::{Markup, html};
 
-use super::{Clock, Quantity, Shown};
-use crate::diagnose::{Outcome, Record};
+use super::{Clock, Quantity};
+use crate::diagnose::{NOMINAL, Outcome, REFITTED, Record};
+
+/// The residuals that a model leaves of a record that was fitted.
+#[derive(Clone, Copy)]
+struct Left<'a> {
+    model: &'static str,
+    record: &'a Record,
+    /// by channel and row
+    residuals: &'a [Vec<f64>],
+}
+
+impl Left<'_> {
+    /// Rows of a channel with a value, and the residual there.
+    fn of(&self, channel: usize) -> Vec<(f64, f64)> {
+        let all = self.record.observed.time.iter().zip(&self.residuals[channel]);
+        all.filter(|(_, r)| r.is_finite()).map(|(t, r)| (*t, *r)).collect()
+    }
+}
 
 impl Outcome<'_> {
+    /// Of each record that was fitted what the design leaves, and what the answer leaves; where they are one, that with the instruments fitted.
+    ///
+    /// The design has nothing fitted but an offset: an instrument's delay that may bend to a fault draws peaks that nobody recorded.
+    fn before_and_after_of_each(&self) -> impl Iterator<Item = Vec<Left<'_>>> {
+        let answer = &self.leading().residuals;
+        self.fits.iter().zip(&self.by_design).zip(answer).map(|((record, by_design), answer)| {
+            let left = |model, residuals| Left { model, record, residuals };
+            match self.found() {
+                None => vec![left(REFITTED, answer)],
+                Some(name) => vec![left(NOMINAL, by_design), left(name, answer)],
+            }
+        })
+    }
+
     pub(super) fn course(&self) -> Markup {
         html! { (self.recording().element()) (self.residuals().element()) }
     }
@@ -17,7 +48,7 @@ impl Outcome<'_> {
     }
 
     fn recording(&self) -> Figure<'static> {
-        let (columns, panels) = multiples(self.each().map(|shown| self.recorded(&shown)).collect());
+        let (columns, panels) = multiples(self.before_and_after_of_each().map(|shown| self.recorded(&shown)).collect());
         Figure {
             id: "course",
             title: format!("{}: recording and model", whose(&self.fits.iter().collect::<Vec<_>>())),
@@ -30,8 +61,8 @@ impl Outcome<'_> {
         }
     }
 
-    fn recorded(&self, shown: &[Shown]) -> Vec<Panel<'static>> {
-        let Some(Shown { record, .. }) = shown.first() else { return Vec::new() };
+    fn recorded(&self, shown: &[Left]) -> Vec<Panel<'static>> {
+        let Some(Left { record, .. }) = shown.first() else { return Vec::new() };
         let (clock, time) = (self.clock(record), &record.observed.time);
         let chamber = time.iter().zip(&record.chamber).map(|(t, c)| (clock.at(*t), *c)).collect();
         let mut panels = vec![panel(&clock, "chamber [°C]", 0.1, 9.0, vec![Series::new("", Style::First, chamber)])];
@@ -40,9 +71,9 @@ impl Outcome<'_> {
             let rows = || time.iter().zip(recorded).filter(|(_, y)| y.is_finite()).map(|(t, y)| (clock.at(*t), *y));
             let mut series = vec![Series::new("recording", Style::Fine(2), rows().collect())];
             for (n, fit) in shown.iter().enumerate() {
-                let left = fit.residual(q.channel);
+                let left = fit.of(q.channel);
                 let predicted = rows().zip(left).map(|((t, y), (_, r))| (t, y - r)).collect();
-                series.push(Series::new(fit.name, if n + 1 == shown.len() { Style::Second } else { Style::Third }, predicted));
+                series.push(Series::new(fit.model, if n + 1 == shown.len() { Style::Second } else { Style::Third }, predicted));
             }
             panels.push(panel(&clock, q.label, q.least, 14.0, series));
         }
@@ -52,24 +83,26 @@ impl Outcome<'_> {
     }
 
     fn residuals(&self) -> Figure<'static> {
-        let (columns, panels) = multiples(self.each().map(|shown| self.left(&shown, self.quantities(), 9.0)).collect());
+        let (columns, panels) =
+            multiples(self.before_and_after_of_each().map(|shown| self.left(&shown, self.quantities(), 9.0)).collect());
         Figure {
             id: "residuals",
             title: "What each model leaves".into(),
             description:
-                "Recorded less modelled rate and spool temperature over time, for the design as drawn with the instruments fitted, and for what was found."
+                "Recorded less modelled rate and spool temperature over time, for the design as drawn, and for what was found."
                     .into(),
-            caption: "A channel's panels have one scale. What is noise has no shape; what has one is missing in the model. As drawn: the constants of the \
-                      design are those of the drawing, and offsets, gains and delays of the instruments are fitted."
+            caption: "A channel's panels have one scale. What is noise has no shape; what has one is missing in the model. The nominal model is the \
+                      design as drawn with usual instruments, of which nothing but a constant offset was fitted."
                 .into(),
             columns,
             panels,
         }
     }
 
-    /// The first quantity's residuals in the first record: of the design as drawn with the instruments fitted, and of what was found.
+    /// The first quantity's residuals in the first record: of the design as drawn, and of what was found.
     pub(super) fn before_and_after(&self) -> Figure<'static> {
-        let panels = self.each().next().map_or(Vec::new(), |shown| self.left(&shown, self.quantities().take(1), 6.0));
+        let panels =
+            self.before_and_after_of_each().next().map_or(Vec::new(), |shown| self.left(&shown, self.quantities().take(1), 6.0));
         Figure {
             id: "before-and-after",
             title: "What is left, before and after".into(),
@@ -80,19 +113,19 @@ impl Outcome<'_> {
         }
     }
 
-    fn left(&self, shown: &[Shown], quantities: impl Iterator<Item = Quantity>, height: f64) -> Vec<Panel<'static>> {
-        let Some(Shown { record, .. }) = shown.first() else { return Vec::new() };
+    fn left(&self, shown: &[Left], quantities: impl Iterator<Item = Quantity>, height: f64) -> Vec<Panel<'static>> {
+        let Some(Left { record, .. }) = shown.first() else { return Vec::new() };
         let clock = self.clock(record);
         let mut panels = Vec::new();
         for q in quantities {
-            let of = |fit: &Shown| fit.residual(q.channel).into_iter().map(|(t, r)| (clock.at(t), r)).collect::<Vec<_>>();
+            let of = |fit: &Left| fit.of(q.channel).into_iter().map(|(t, r)| (clock.at(t), r)).collect::<Vec<_>>();
             // both on one scale
-            let all = self.each().flatten().flat_map(|fit| fit.residual(q.channel));
+            let all = self.before_and_after_of_each().flatten().flat_map(|fit| fit.of(q.channel));
             let most = all.fold(q.least / 2.0, |most, (_, r)| r.abs().max(most));
             for (n, fit) in shown.iter().enumerate() {
                 let style = if n + 1 == shown.len() { Style::Fine(2) } else { Style::Fine(0) };
                 let label = format!("{} [{}]", q.name, q.unit);
-                let heading = self.headed(&format!("recorded less {}", fit.name), record);
+                let heading = self.headed(&format!("recorded less {}", fit.model), record);
                 let mut panel = panel(&clock, &label, q.least, height, vec![Series::new("", style, of(fit))]).headed(heading);
                 panel.y.covers = Some([-most, most]);
                 panels.push(panel);

@@ -36,12 +36,6 @@ struct Shown<'a> {
 }
 
 impl Shown<'_> {
-    /// Rows of a channel with a value, and the residual there.
-    fn residual(&self, channel: usize) -> Vec<(f64, f64)> {
-        let all = self.record.observed.time.iter().zip(&self.fit.residuals[self.number][channel]);
-        all.filter(|(_, r)| r.is_finite()).map(|(t, r)| (*t, *r)).collect()
-    }
-
     fn whitened(&self, channel: usize) -> Vec<f64> {
         self.fit.whitened_residual(self.number, channel, &self.record.observed, self.judge).1
     }
@@ -166,8 +160,8 @@ impl Outcome<'_> {
         let of = |estimate: &Estimate| {
             let unit = parameter_unit(&estimate.name);
             let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
-            let [low, high] = estimate.ci90.map(|end| significant(end, 3));
-            format!("{} {}{unit} (90 %: {low} to {high})", estimate.name, significant(estimate.value, 3))
+            let (value, [low, high]) = self.told(estimate, 3);
+            format!("{} {value}{unit} (90 %: {low} to {high})", estimate.name)
         };
         (!found.is_empty()).then(|| nice(&found.iter().map(of).collect::<Vec<_>>().join("; ")))
     }

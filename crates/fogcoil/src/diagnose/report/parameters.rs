@@ -62,6 +62,7 @@ impl Outcome<'_> {
         let chosen = self.diagnosis.best().fit.active.iter().enumerate().filter_map(|(place, active)| {
             let ((name, value), [low, high]) = (self.choice(active)?, self.diagnosis.choice(place)?);
             let id = self.id(active.mechanism);
+            let [value, low, high] = [value, low, high].map(|k| self.chosen(name, k));
             Some(format!("{id}: {name} {value}, each compared with every other; 90 % lies in {low} to {high}."))
         });
         html! {
