@@ -121,16 +121,21 @@ fn refuse(case: &RecordCase, field: &str, problem: String, remedy: &str) -> Erro
     InputError { file, line: None, field: Some(field.to_owned()), problem, remedy: remedy.to_owned() }.into()
 }
 
-/// Whether a temperature whose readings span so much \[K\] stands still: thermometers' noise makes as much.
-pub(crate) fn stands_still(span: f64) -> bool {
-    span <= 2.0 * REST.tolerance
+/// Whether a temperature \[°C\], read at an interval \[s\], stands still. Means over a minute tell it: of single readings a thermometer's noise spans
+/// the more, the more there are.
+pub(crate) fn stands_still(readings: &[f64], interval: f64) -> bool {
+    let known: Vec<f64> = readings.iter().copied().filter(|value| value.is_finite()).collect();
+    let minute = ((S_PER_MIN / interval) as usize).min(known.len()).max(1);
+    let means: Vec<f64> = known.chunks_exact(minute).map(|chunk| chunk.iter().sum::<f64>() / chunk.len() as f64).collect();
+    span(&means) <= 2.0 * REST.tolerance
 }
 
 /// Refuses a chamber that has one value throughout beside a spool that moves: what moves it was not recorded.
 fn refuse_dead(case: &RecordCase, chamber: &[f64], spool: &[f64]) -> Result<(), Error> {
     let moved: Vec<f64> = spool.iter().copied().filter(|value| value.is_finite()).collect();
     // from rest, where chamber and spool agree to the tolerance, a chamber at rest holds the spool within it on either side
-    if moved.is_empty() || span(chamber) > 0.0 || stands_still(span(&moved)) {
+    let interval = case.report.instants.as_ref().map_or(S_PER_MIN, |instants| instants.interval);
+    if moved.is_empty() || span(chamber) > 0.0 || stands_still(&moved, interval) {
         return Ok(());
     }
     let problem = format!("is {} degC throughout, while the spool moves by {:.1} K", chamber[0], span(&moved));
@@ -393,6 +398,17 @@ pub(crate) fn refuse_copies<'a>(records: impl Iterator<Item = &'a RecordCase>) -
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A thermometer's noise of 0.3 K spans 2.4 K in an hour of seconds, and no more than a minute's mean of it moves.
+    #[test]
+    fn a_noisy_thermometer_stands_still_however_often_it_is_read() {
+        let reading = |n: usize| 20.0 + if n.is_multiple_of(600) { 1.2 } else { 0.3 * (n % 2) as f64 };
+        let rest: Vec<f64> = (0..3600).map(reading).collect();
+        assert!(stands_still(&rest, 1.0) && !stands_still(&rest, 60.0));
+        let warmed: Vec<f64> = rest.iter().enumerate().map(|(n, t)| t + 1.2 * n as f64 / 3600.0).collect();
+        assert!(!stands_still(&warmed, 1.0));
+        assert!(stands_still(&[f64::NAN; 3], 1.0) && stands_still(&[20.0, f64::NAN, 20.9], 600.0));
+    }
 
     /// 12 000 rows of a second, the rate rising by 1 deg/h a row; from row 6000 on all is an hour later.
     #[test]

@@ -125,7 +125,8 @@ fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<(PathBuf, Meta)>)
         rows.advance()?;
     }
     let ReadRows { recording, ignored, lines, dates, footer } = read_rows(&mut rows, &columns, format)?;
-    let report = check(&recording, &expectations(&recording, format, dates.is_some()));
+    let earth = meta.as_ref().and_then(|(_, meta)| meta.rate_deg_per_h.earth());
+    let report = check(&recording, &expectations(&recording, format, dates.is_some(), earth));
     let [interval, span] = report.instants.as_ref().map_or([0.0; 2], |instants| [instants.interval, instants.span]);
     let meta = meta.map(|(path, meta)| fits(&path, meta, span)).transpose()?;
     let averaging = meta.as_ref().map(|meta| meta.sample_interval_s).filter(|seconds| *seconds > 0.0).unwrap_or(interval);

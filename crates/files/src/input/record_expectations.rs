@@ -41,8 +41,8 @@ pub(super) fn possible(key: Key) -> [f64; 2] {
     if key == Key::Rate { POSSIBLE_DEG_PER_H } else { POSSIBLE_C }
 }
 
-/// Expectations of a gyro's record.
-pub(super) fn expectations(recording: &Recording, format: &RecordFormat, has_dates: bool) -> Expectations {
+/// Expectations of a gyro's record; `earth` is Earth's rate along the axis \[deg/h\], where it is told.
+pub(super) fn expectations(recording: &Recording, format: &RecordFormat, has_dates: bool, earth: Option<f64>) -> Expectations {
     // one word is enough where both are too fast
     let driver = [Key::Chamber, Key::Spool].into_iter().find(|key| recording.channel(key.standard()).is_some());
     let of = |channel: &Channel| {
@@ -64,7 +64,20 @@ pub(super) fn expectations(recording: &Recording, format: &RecordFormat, has_dat
                 ..Expectation::default()
             };
         }
-        let of = format!("Earth's rate not removed (up to {:.2} deg/h times the sine of the latitude)", EARTH_DEG_PER_H / 1.002);
+        let offset = match earth {
+            Some(earth) => {
+                let largest = OFFSET_DEG_PER_H + earth.abs();
+                Offset { largest, explained: largest, of: format!("Earth's rate, {earth:.2} deg/h by the meta file") }
+            }
+            None => Offset {
+                largest: OFFSET_DEG_PER_H,
+                explained: EARTH_DEG_PER_H,
+                of: format!(
+                    "Earth's rate not removed (up to {:.2} deg/h times the sine of the latitude)",
+                    EARTH_DEG_PER_H / 1.002
+                ),
+            },
+        };
         Expectation {
             values: RATE_DEG_PER_H,
             possible: possible(key),
@@ -73,7 +86,7 @@ pub(super) fn expectations(recording: &Recording, format: &RecordFormat, has_dat
             longest_hold: f64::INFINITY,
             mistaken,
             key: key.name().into(),
-            offset: Some(Offset { largest: OFFSET_DEG_PER_H, explained: EARTH_DEG_PER_H, of }),
+            offset: Some(offset),
             essential: true,
             ..Expectation::default()
         }

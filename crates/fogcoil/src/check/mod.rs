@@ -13,7 +13,7 @@ use bias::units::S_PER_H;
 use charts::{Axis, Figure, Panel, Series as Line, Style, significant};
 use files::Note;
 use recording::allan::{AllanPoint, CONFIDENCE, allan};
-use recording::condition::{bridged, span};
+use recording::condition::bridged;
 use recording::lag::lagging;
 use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Series, Term, Whitener, identify, residual};
 
@@ -135,7 +135,7 @@ fn gyro_noise(case: &RecordCase) -> Option<GyroNoise> {
         // masked values on the line between their neighbours
         bridged(time, &case.report.used(&case.recording).channel(name)?.values)
     });
-    let is_bound = temperature.as_deref().is_some_and(|values| !stands_still(span(values)));
+    let is_bound = temperature.as_deref().is_some_and(|values| !stands_still(values, instants.interval));
     let lags = if driver.is_some() { lags(instants.interval, instants.span, time.len()) } else { Vec::new() };
     let mut columns = vec![vec![1.0; time.len()]];
     if let Some(temperature) = &temperature {

@@ -195,6 +195,20 @@ fn an_offset_beyond_the_earths_rate_is_noted() {
     }
 }
 
+/// Who tells where the axis points need not be told of Earth's rate, but of what is beyond it.
+#[test]
+fn an_offset_of_the_earths_rate_that_is_told_is_not_noted() {
+    let folder = Folder::new();
+    folder.write("meta.ron", "(rate_deg_per_h: (latitude_deg: Some(48.1), elevation_deg: Some(90.0)))");
+    for (offset, is_noted) in [(-11.2, false), (-13.2, true)] {
+        let path = folder.write("r.csv", record(|_, [c, s, r]| written([c, s, r + offset])));
+        let case = read_record(&path, &RecordOptions::default()).expect("a record");
+        let says = "is more than 11.7 deg/h, and more than this explains: Earth's rate, 11.20 deg/h by the meta file";
+        let told = findings(&case);
+        assert_eq!((told.contains("the median"), told.contains(says)), (is_noted, is_noted), "{told}");
+    }
+}
+
 /// Minutes, milliseconds and days under `time_s` are asked for by name.
 #[test]
 fn instants_in_another_unit_are_suspected() {

@@ -10,14 +10,24 @@ use crate::diagnose::Outcome;
 
 /// Turns that a layer may be off by beforehand, 1σ: as the library's.
 const TURNS: f64 = 3.0;
+/// Largest gain of ln evidence that is told by its digits.
+const MOST_TOLD: f64 = 1000.0;
+
+/// A gain of ln evidence in words: beyond a thousand its digits say nothing.
+fn gained(gain: f64) -> String {
+    match gain {
+        gain if gain.abs() < 0.05 => "0.0".into(),
+        gain if gain > MOST_TOLD => format!("> {MOST_TOLD}"),
+        gain => format!("{gain:.1}"),
+    }
+}
 
 impl Outcome<'_> {
     pub(super) fn stages(&self) -> Markup {
         let stages = &self.diagnosis.stages;
-        let gain = |gain: f64| if gain.abs() < 0.05 { "0.0".into() } else { format!("{gain:.1}") };
         let row = |s: &diagnosis::Stage| {
             let white = s.whiteness.get(RATE).map_or(String::new(), |p| spectrum::judged(*p));
-            vec![s.stage.clone(), gain(s.gain), format!("{:.3}", s.probability), white]
+            vec![s.stage.clone(), gained(s.gain), format!("{:.3}", s.probability), white]
         };
         let rows: Vec<Vec<String>> = stages.iter().map(row).collect();
         let head =
@@ -49,9 +59,12 @@ impl Outcome<'_> {
         let own = |name: &str| stages.iter().find(|s| s.stage == name && s.probability < FAR);
         let (id, own) = self.places().find_map(|(id, stage, _)| Some((id.to_owned(), own(stage)?)))?;
         Some(format!(
-            "{id} acts in the {}. One smooth input there gains {:.1} of ln evidence, in the {} {:.1}. Such an input has not the law of a mechanism: which \
-             mechanism it is, the table of probabilities above says; this one is no proof of it.",
-            own.stage, own.gain, first.stage, first.gain
+            "{id} acts in the part \"{}\". One smooth input there gains {} of ln evidence, in the part \"{}\" {}. Such an input has not the law of a \
+             mechanism: which mechanism it is, the table of probabilities above says; this one is no proof of it.",
+            own.stage,
+            gained(own.gain),
+            first.stage,
+            gained(first.gain)
         ))
     }
 
