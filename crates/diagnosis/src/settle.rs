@@ -22,6 +22,8 @@ const RIVALS: f64 = 0.5;
 const USUAL_WAYS: usize = 3;
 /// Most hypotheses that are followed so from each of the two rounds in which all are tried: both flanges, of a mechanism that may be at either.
 const FOLLOWED: usize = 2;
+/// Most choices of the leader's own mechanism that are followed so: the other flange.
+const ELSEWHERE: usize = 1;
 /// Choices of a mechanism that are tried.
 const CHOICES: usize = 3;
 
@@ -205,7 +207,7 @@ struct Way<'a, M> {
     known: Option<Fit>,
     /// The hypothesis that is followed, if there is but one.
     only: Option<Hypothesis>,
-    /// Mechanisms that come next to the likeliest, in each round in which all are tried.
+    /// Mechanisms, and other choices of the likeliest one, that come next to it, in each round in which all are tried.
     rivals: Vec<Hypothesis>,
     rounds: usize,
     arrived: bool,
@@ -277,7 +279,7 @@ struct Led {
     fit: Fit,
     /// Its lead on the constants alone, ln evidence.
     gain: f64,
-    /// The best of those with another mechanism that lead on the constants by nearly as much.
+    /// The best of the others that lead on the constants by nearly as much: of other mechanisms, and the leader's own elsewhere.
     rivals: Vec<Hypothesis>,
 }
 
@@ -307,8 +309,11 @@ fn leader(
     let best = fits.first().filter(|fit| gain_of(fit) > 0.0).unwrap_or(&recalibrated);
     let gain = gain_of(best);
     let mechanism = |fit: &Fit| fit.hypothesis.mechanisms.first().map(|(mechanism, _)| *mechanism);
-    let next = fits.iter().filter(|fit| mechanism(fit) != mechanism(best) && gain_of(fit) > MATTERS.max(RIVALS * gain));
-    let rivals = next.take(FOLLOWED).map(|fit| fit.hypothesis.clone()).collect();
+    let near: Vec<&Fit> =
+        fits.iter().filter(|fit| fit.hypothesis != best.hypothesis && gain_of(fit) > MATTERS.max(RIVALS * gain)).collect();
+    let (own, others): (Vec<&Fit>, Vec<&Fit>) = near.into_iter().partition(|fit| mechanism(fit) == mechanism(best));
+    let next = others.into_iter().take(FOLLOWED).chain(own.into_iter().take(ELSEWHERE));
+    let rivals = next.map(|fit| fit.hypothesis.clone()).collect();
     // what the leader leaves is noise: the next round compares under that
     let noise = best.noise.refitted(model.channels(), observations, &best.residuals)?;
     Ok(Led { fit: Fit { noise, ..best.clone() }, gain, rivals })

@@ -87,6 +87,19 @@ impl Pair {
             restless: false,
         }
     }
+
+    /// The two as one mechanism at either of two places.
+    fn at_two_places(effect: fn(usize, bool, f64) -> f64, about: Option<usize>) -> Self {
+        let mut pair = Self::new(effect, [1.0; 2], about);
+        pair.mechanisms.truncate(1);
+        pair.mechanisms[0].choice = Some(("place".into(), vec![LOOKS as f64, WORKS as f64]));
+        pair
+    }
+}
+
+/// Which of the two is at work: a mechanism, or the place of the only one.
+fn which(active: &Active) -> usize {
+    active.choice.map_or(active.mechanism, |place| place as usize)
 }
 
 impl ForwardModel for Pair {
@@ -104,16 +117,22 @@ impl ForwardModel for Pair {
 
     fn respond(&self, _: usize, gain: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
         let of = |x: f64| {
-            let effect = |a: &Active| a.values[0] * (self.effect)(a.mechanism, self.about == Some(a.mechanism), x);
+            let effect = |a: &Active| a.values[0] * (self.effect)(which(a), self.about == Some(which(a)), x);
             gain[0] * (x + active.iter().map(effect).sum::<f64>())
         };
         Ok(vec![x().map(of).collect()])
     }
 
     fn about(&self, _: &[f64], active: &[Active]) -> Result<Option<Self>, diagnosis::Failure> {
-        let leads = active.first().map(|a| a.mechanism);
-        let weights = [LOOKS, WORKS].map(|mechanism| self.mechanisms[mechanism].weight);
-        let next = || Self { restless: self.restless, ..Self::new(self.effect, weights, leads) };
+        let leads = active.first().map(which);
+        let next = || Self {
+            channels: self.channels.clone(),
+            nuisances: self.nuisances.clone(),
+            mechanisms: self.mechanisms.clone(),
+            state: self.state.clone(),
+            about: leads,
+            ..*self
+        };
         Ok((self.restless || leads != self.about).then(next))
     }
 
@@ -191,6 +210,16 @@ fn the_runner_up_is_followed_to_where_it_leads() {
     let settled = settled(&Pair::new(bent, [1.0; 2], None), &[0], &[observed()], &|_| ()).expect("a fit");
     let leading = settled.leading.expect("one leads");
     assert_eq!(leading.active[0].mechanism, WORKS);
+    assert!((leading.active[0].values[0] - TRUTH).abs() < 0.1, "{:?}", leading.active);
+    assert_eq!(settled.model.expect("a model").about, Some(WORKS));
+}
+
+/// One mechanism at either of two places, known badly elsewhere: the place where it is at work is found, not the one that looks like it about the drawing.
+#[test]
+fn a_mechanism_is_followed_at_its_other_place_too() {
+    let settled = settled(&Pair::at_two_places(bent, None), &[0], &[observed()], &|_| ()).expect("a fit");
+    let leading = settled.leading.expect("one leads");
+    assert_eq!((leading.active[0].mechanism, leading.active[0].choice), (0, Some(WORKS as f64)));
     assert!((leading.active[0].values[0] - TRUTH).abs() < 0.1, "{:?}", leading.active);
     assert_eq!(settled.model.expect("a model").about, Some(WORKS));
 }

@@ -49,9 +49,11 @@ impl View {
 /// The picture as an SVG document: an overview with axes, and the two inner corners enlarged.
 pub fn svg(case_name: &str, winding: &Winding) -> String {
     let spec = winding.spec();
-    let (width, inner, outer) = (to_mm(winding.height()), to_mm(spec.inner_radius), to_mm(winding.outer_radius()));
-    let scale = (PLOT.0 / width).min(PLOT.1 / (outer - inner));
-    let overview = View { y: [0.0, width], r: [inner, outer], left: LEFT, top: TOP, scale };
+    let ([first, last], inner, outer) = (winding.edges().map(to_mm), to_mm(spec.inner_radius), to_mm(winding.outer_radius()));
+    // from the coil's left face on, or from where a winding begins before it
+    let left = first.min(0.0);
+    let scale = (PLOT.0 / (last - left)).min(PLOT.1 / (outer - inner));
+    let overview = View { y: [left, last], r: [inner, outer], left: LEFT, top: TOP, scale };
     let corners = corners(winding, overview.bottom() + 130.0);
     let height = corners.iter().map(View::bottom).fold(overview.bottom(), f64::max) + 60.0;
     let [cw, ccw] = [Half::Cw, Half::Ccw].map(|half| winding.count(half));
@@ -78,17 +80,17 @@ pub fn svg(case_name: &str, winding: &Winding) -> String {
 /// The enlarged inner corners at the left and the right end; none where they would meet.
 fn corners(winding: &Winding, top: f64) -> Vec<View> {
     let spec = winding.spec();
-    let (pitch, width, inner) = (to_mm(spec.pitch), to_mm(winding.height()), to_mm(spec.inner_radius));
+    let (pitch, [first, last], inner) = (to_mm(spec.pitch), winding.edges().map(to_mm), to_mm(spec.inner_radius));
     let across = (CORNER.1 as f64 + 0.5) * pitch;
-    if width < 2.0 * across {
+    if last - first < 2.0 * across {
         return Vec::new();
     }
     let layers = spec.layers.min(CORNER.0) as f64;
     let up = (1.0 + (layers - 1.0) * 3_f64.sqrt() / 2.0) * pitch;
     let scale = 430.0 / across;
     let r = [inner, inner + up];
-    let right = View { y: [width - across, width], r, left: LEFT + PLOT.0 - across * scale, top, scale };
-    vec![View { y: [0.0, across], r, left: LEFT, top, scale }, right]
+    let right = View { y: [last - across, last], r, left: LEFT + PLOT.0 - across * scale, top, scale };
+    vec![View { y: [first, first + across], r, left: LEFT, top, scale }, right]
 }
 
 fn heading(svg: &mut Svg, case_name: &str, winding: &Winding) {
@@ -217,4 +219,52 @@ fn enlarged(svg: &mut Svg, overview: &View, corner: &View, winding: &Winding, si
     }
     let caption = format!("{side} end enlarged, y = {:.2} to {:.2} mm, by layer", corner.y[0], corner.y[1]);
     svg.text([caption_x, corner.top - 14.0], towards, &caption);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use winding::{ClimbSide, Pattern, Spec, Tails, TurnLength, wind};
+
+    /// Every turn lies in the overview, and the enlarged corners hold turns, wherever the winding begins and ends.
+    #[test]
+    fn a_winding_that_begins_off_the_face_is_drawn_whole() {
+        let spec = Spec {
+            pattern: Pattern::Octupole,
+            layers: 16,
+            turns_odd_layers: 60,
+            turns_even_layers: 59,
+            inner_radius: 0.12,
+            pitch: 0.262e-3,
+            start: 2e-3,
+            end: Some(17.8e-3),
+            cw_climbs: ClimbSide::Left,
+            turn_length: TurnLength::True,
+            tails: Tails { cw: 0.0, ccw: 0.0 },
+            defect: None,
+        };
+        let of = |text: &str, key: &str| -> Vec<f64> {
+            let key = format!(" {key}=\"");
+            let values = text.split(&key).skip(1);
+            values.filter_map(|rest| rest.split('"').next()?.parse().ok()).collect()
+        };
+        for (start, end) in [(0.0, None), (2e-3, Some(17.8e-3)), (-1e-3, None)] {
+            let picture = svg("c", &wind(&Spec { start, end, ..spec }).expect("a winding"));
+            let [left, right] = [LEFT, LEFT + PLOT.0 + 1e-6];
+            let places = of(&picture, "cx");
+            assert!(places.iter().all(|x| (left..right).contains(x)), "{start}: {places:?}");
+            let first = 1e3 * start;
+            assert!(picture.contains(&format!("left end enlarged, y = {first:.2} to ")), "{start}");
+            // the large discs of either corner
+            let half = (left + right) / 2.0;
+            let large: Vec<f64> = picture
+                .split("<circle ")
+                .skip(1)
+                .filter(|disc| of(&format!(" {disc}"), "r").first().is_some_and(|r| *r > 10.0))
+                .filter_map(|disc| of(&format!(" {disc}"), "cx").first().copied())
+                .collect();
+            let counts = [large.iter().filter(|x| **x < half).count(), large.iter().filter(|x| **x > half).count()];
+            assert!(counts.iter().all(|count| *count > 20), "{start}: {counts:?}");
+        }
+    }
 }

@@ -92,8 +92,13 @@ impl Winding {
 
     /// Height of the winding \[m\], from the outer edge of its first turn to that of its last.
     pub fn height(&self) -> f64 {
-        let [start, end] = self.spec.edges();
+        let [start, end] = self.edges();
         end - start
+    }
+
+    /// Axial places of the outer edges of its first and its last turn \[m\].
+    pub fn edges(&self) -> [f64; 2] {
+        self.spec.edges()
     }
 
     /// Weight of every turn in the bias, W = ∫ (L − 2z) dz \[m²\], in the order of [`turns`](Self::turns).

@@ -16,7 +16,8 @@ pub struct Judged {
     pub model: HeldOut,
     /// Prediction by the design's own constants re-estimated, nothing fitted anew, if that was compared.
     pub constants: Option<HeldOut>,
-    /// Whether the best candidate's error of the channel that judges is no larger than the nominal model's.
+    /// Whether the best candidate's error of the channel that judges is no larger than the nominal model's, or hardly larger while the whole record, with its
+    /// other channels, is far likelier.
     pub accepted: bool,
 }
 
@@ -186,8 +187,9 @@ impl Diagnosis {
     }
 }
 
+/// No larger error than the nominal model's; or hardly a larger one, where another channel shows that the model is right.
 fn is_accepted(model: &HeldOut, nominal: &HeldOut, channel: usize) -> bool {
-    model.rmse[channel] <= nominal.rmse[channel]
+    model.rmse[channel] <= nominal.rmse[channel] || model.is_likelier_than(nominal, channel)
 }
 
 /// Probabilities of none, recalibrate, explained and unknown by fitted and held-out records; the leading candidate stands for a verdict without a
@@ -288,6 +290,16 @@ mod tests {
         for verdict in [Verdict::None, Verdict::Unknown] {
             assert_eq!(ruled(verdict, std::slice::from_ref(&worse)), Ruling::Stands);
         }
+    }
+
+    #[test]
+    fn hardly_a_larger_error_is_accepted_where_the_whole_record_is_far_likelier() {
+        let accepted = |nominal, model, gain| {
+            let judged = judged(nominal, model, gain);
+            is_accepted(&judged.model, &judged.nominal, 1)
+        };
+        assert!(accepted(1.0, 1.0, -50.0) && accepted(1.0, 1.009, 5.1));
+        assert!(!accepted(1.0, 1.009, 4.9) && !accepted(1.0, 1.011, 5000.0));
     }
 
     #[test]

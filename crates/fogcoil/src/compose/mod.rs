@@ -58,6 +58,11 @@ struct Term {
     estimates: Vec<Estimate>,
 }
 
+/// Share of the records' temperatures below which nobody sees a knee.
+const EDGE: f64 = 0.1;
+/// What has the form of a knee that is not seen.
+const STRAIGHT: &str = "a straight line over these records, as a temperature coefficient of the read-out makes; the knee lies at their cold end and is not seen";
+
 /// Laws that were found beside a hypothesis, with their predictions of the held-out records.
 struct Found {
     law: diagnosis::Composed,
@@ -209,6 +214,8 @@ impl Search<'_> {
         let term = |(place, active): (usize, &Active)| {
             let (case, known) = self.case(&self.with.mechanisms()[active.mechanism].id)?;
             let estimates = fit.estimates(&self.with, place);
+            let known =
+                if is_straight(&case.mechanism.id, &estimates, self.with.scene().temperatures) { STRAIGHT } else { known };
             Some(Term { case: case.clone(), known, values: active.values.clone(), estimates })
         };
         let other = |(law, behind): &(usize, f64)| {
@@ -363,6 +370,12 @@ impl Composed {
     }
 }
 
+/// Whether a knee lies so near the cold end of the records' temperatures that over them the law is a straight line.
+fn is_straight(id: &str, estimates: &[Estimate], [low, high]: [f64; 2]) -> bool {
+    let at = estimates.iter().find(|estimate| estimate.name.starts_with("at_"));
+    id.starts_with("composed-knee-") && at.is_some_and(|at| at.value < low + EDGE * (high - low))
+}
+
 /// The number of a term before what is its own; nothing where there is but one.
 fn numbered(k: usize, terms: usize) -> String {
     if terms > 1 { format!("({}) ", k + 1) } else { String::new() }
@@ -371,6 +384,23 @@ fn numbered(k: usize, terms: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_knee_at_the_cold_end_is_a_straight_line() {
+        let at = |value: f64| {
+            let of = |name: &str, value: f64| Estimate { name: name.into(), value, ci90: [value; 2] };
+            is_straight("composed-knee-coil", &[of("size_deg_per_h_per_k", -33.0), of("at_c", value)], [-34.5, 45.5])
+        };
+        assert!(at(-34.0) && at(-26.6) && !at(-26.4) && !at(45.0));
+        let of = Estimate { name: "at_c".into(), value: -34.0, ci90: [-34.0; 2] };
+        assert!(!is_straight("composed-threshold-coil", &[of], [-34.5, 45.5]));
+        // as the laws are called that are composed
+        let scene = mechanisms::Scene { temperatures: [-34.5, 45.5], noise: 0.01, earth: None };
+        let ids: Vec<String> = laws::laws(&Ranges::new(&scene, 0.01, 3e4, [1.0; 4])).into_iter().map(|law| law.text).collect();
+        assert!(
+            ids.iter().any(|text| text.contains("id: \"composed-knee-coil\"") && text.contains("(name: \"at\", unit: \"degC\""))
+        );
+    }
 
     #[test]
     fn terms_have_numbers_where_there_are_several() {

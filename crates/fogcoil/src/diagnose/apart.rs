@@ -15,6 +15,11 @@ const NEGLIGIBLE: f64 = 5e-4;
 /// Least probability that is told beside the answer.
 pub(super) const TOLD: f64 = 0.05;
 
+/// File of the design with all that was found but what is to be told apart.
+const BESIDE: &str = "beside.ron";
+/// Name of the design as it is among ids to be told apart.
+const NOMINAL: &str = "nominal";
+
 /// A row of the table of probabilities.
 pub(super) struct Explanation<'a> {
     pub(super) name: &'a str,
@@ -94,21 +99,34 @@ impl Outcome<'_> {
         let kept = |id: &str| with_it.is_some_and(|c| c.fit.active.iter().any(|a| self.id(a.mechanism) == id));
         // of a pair the one whose place it takes
         let best = self.names();
-        let replaced = best.iter().find(|id| !kept(id)).or(best.first());
+        let Some(replaced) = best.iter().find(|id| !kept(id)) else {
+            // it takes nobody's place: whether it is there beside them is the question
+            return vec![(*first).to_owned(), NOMINAL.to_owned()];
+        };
+        let replaced = Some(replaced);
         let ids: Vec<String> = replaced.into_iter().chain(&others).take(MOST).map(|id| (*id).to_owned()).collect();
         if ids.len() > 1 { ids } else { Vec::new() }
     }
 
-    /// The command that finds the test that tells `ids` apart.
+    /// The command that finds the test that tells `ids` apart: where others were found beside them, after one that writes the design with those.
     pub(super) fn recommend(&self, ids: &[String]) -> String {
-        let from: String = self.fits.iter().map(|record| format!(" --from {}", word(&record.fingerprint.file))).collect();
+        let each = |flag: &str| -> String {
+            self.fits.iter().map(|record| format!(" {flag} {}", word(&record.fingerprint.file))).collect()
+        };
         // all were read alike
         let flags = self.fits.first().map_or(&[][..], |record| &record.flags);
         let flags: String = flags.iter().map(|(flag, file)| format!(" {flag} {}", word(file))).collect();
         let on_request = mechanisms::ON_REQUEST.iter().map(|mechanism| mechanism.facts().id);
         let asked: String =
             on_request.filter(|id| ids.iter().any(|other| other == id)).map(|id| format!(" --mechanism {id}")).collect();
-        format!("fogcoil recommend {} --between {}{asked}{from}{flags}", word(&self.coil), ids.join(","))
+        let coil = word(&self.coil);
+        let command =
+            |coil: &str| format!("fogcoil recommend {coil} --between {}{asked}{}{flags}", ids.join(","), each("--from"));
+        if self.names().iter().all(|name| ids.iter().any(|id| id == name)) {
+            return command(&coil);
+        }
+        let without: String = ids.iter().filter(|id| *id != NOMINAL).map(|id| format!(" --without {id}")).collect();
+        format!("fogcoil diagnose {coil}{}{flags}{without} --model-out {BESIDE} && {}", each("--fit"), command(BESIDE))
     }
 }
 

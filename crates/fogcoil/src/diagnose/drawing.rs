@@ -13,6 +13,16 @@ use crate::table::significant;
 /// Least ratio of what the drawing leaves to what the other one leaves at which that is reported: nine tenths of the variance go with one word.
 const RATIO: f64 = 3.0;
 
+/// Ratio of what the negated rate leaves to what another drawing leaves from which it is the drawing, and not the sign.
+const RATHER: f64 = 2.0;
+
+/// A word of the drawing that seems to be another.
+pub(super) struct Doubt {
+    pub(super) note: Note,
+    /// whether it follows the records so much better than the rate of the other sign does that this is no longer to be suspected
+    pub(super) rather_than_sign: bool,
+}
+
 /// The warning that another drawing follows the fitted records far better: `gyro` is the design as it is, `answered` what the answer leaves of the rate in each record, rms;
 /// `None` without an answer. Where the constants suffice, it has to be more than their tolerances usually make.
 pub(super) fn warning(
@@ -21,7 +31,7 @@ pub(super) fn warning(
     records: &[Record],
     answered: Option<&[f64]>,
     constants_suffice: bool,
-) -> Result<Option<Note>, coil::Error> {
+) -> Result<Option<Doubt>, coil::Error> {
     // when heaters were switched on is no part of a design
     if !case.design.heat.heaters.is_empty() {
         return Ok(None);
@@ -41,8 +51,9 @@ pub(super) fn warning(
     };
     let tolerated = pooled(&drawn.iter().map(|drawn| drawn.tolerated).collect::<Vec<_>>());
     let numbers = 0..records.len();
-    let left: Vec<f64> = numbers.clone().map(|n| spread(rate(n), &drawn[n].predicted[RATE_CHANNEL], 1.0)).collect();
-    let left_of_all = pooled(&left);
+    let left =
+        |sign: f64| -> Vec<f64> { numbers.clone().map(|n| spread(rate(n), &drawn[n].predicted[RATE_CHANNEL], sign)).collect() };
+    let [left_of_all, negated] = [1.0, -1.0].map(|sign| pooled(&left(sign)));
     if constants_suffice && left_of_all < TOLERATED * tolerated {
         return Ok(None);
     }
@@ -64,10 +75,11 @@ pub(super) fn warning(
         }
     }
     Ok(best.map(|(would, words)| {
+        let rather_than_sign = RATHER * would < negated;
         let [left, would] = [left_of_all, would].map(|r| significant(r, 2));
         let text = format!(
             "the unit may differ from its drawing in one word: as drawn it leaves {left} deg/h rms of the fitted records, with {words} {would}, and nothing fitted"
         );
-        Remark::DoubtedDrawing.warning(text).at(&case.file)
+        Doubt { note: Remark::DoubtedDrawing.warning(text).at(&case.file), rather_than_sign }
     }))
 }

@@ -72,6 +72,14 @@ struct Held {
     accepted: bool,
 }
 
+impl Held {
+    /// The prediction by what a verdict says: the nominal model's where that is said to suffice.
+    fn answer(&self, verdict: Verdict) -> &HeldOut {
+        let is_found = matches!(verdict, Verdict::Explained | Verdict::Recalibrate);
+        if is_found || self.accepted { &self.model } else { &self.nominal }
+    }
+}
+
 /// Diagnoses a unit of the design `case` from the records `fits`, in whichever order, judged on `holdouts`, as far as `mechanisms` go: [`mechanisms::CATALOGUE`], or more.
 ///
 /// `progress` is told each task as it begins; of one that can be counted again and again.
@@ -154,7 +162,10 @@ pub fn diagnose<'m>(
         let of_rate: Vec<f64> = answered[..read.len()].iter().map(|answered| answered[RATE_CHANNEL]).collect();
         let of_rate = explains_fitted.then_some(of_rate.as_slice());
         let constants_suffice = diagnosis.verdict == Verdict::Recalibrate;
-        notes.extend(drawing::warning(&drawn, case, &read, of_rate, constants_suffice).map_err(coil)?);
+        if let Some(doubt) = drawing::warning(&drawn, case, &read, of_rate, constants_suffice).map_err(coil)? {
+            notes.retain(|note| !(doubt.rather_than_sign && note.remark == Remark::ReversedRate));
+            notes.push(doubt.note);
+        }
     }
     let left = |pair: (usize, &Observation)| diagnosis::designed_residuals(&drawn, pair);
     let by_design = observations.iter().enumerate().map(left).collect::<Result<_, _>>().map_err(failed)?;
@@ -166,7 +177,8 @@ pub fn diagnose<'m>(
             (held.model, held.accepted) = (by_law.clone(), true);
         }
     }
-    notes.extend(holdouts.iter().filter(|_| diagnosis.verdict != Verdict::Unknown).filter_map(left_over));
+    let verdict = diagnosis.verdict;
+    notes.extend(holdouts.iter().filter(|_| verdict != Verdict::Unknown).filter_map(|held| left_over(held, verdict)));
     let (name, coil, design) = (case.name.clone(), case.file.clone(), case.fingerprints.clone());
     let alone = diagnosis.best().is_constants_alone();
     let gyro = if alone { settled.into_alone() } else { settled.model }.unwrap_or(drawn);
@@ -244,8 +256,8 @@ fn check_laws(gyro: &Gyro, mechanisms: &[&dyn Mechanism], records: &[Record]) ->
 }
 
 /// Note on a held-out record in which the answer leaves more than noise.
-fn left_over(held: &Held) -> Option<Note> {
-    let answer = if held.accepted { &held.model } else { &held.nominal };
+fn left_over(held: &Held, verdict: Verdict) -> Option<Note> {
+    let answer = held.answer(verdict);
     let of = |channel: usize, name: &str| {
         let left = format!("{name} {} times its noise", significant(answer.over_noise(channel), 2));
         (!answer.within_noise(channel)).then_some((answer.is_far_from_noise(channel), left))
@@ -345,8 +357,8 @@ impl Outcome<'_> {
 
     /// Whether a record that was held out is left with far more than noise.
     fn is_left_over(&self) -> bool {
-        let answer = |held: &Held| if held.accepted { held.model.clone() } else { held.nominal.clone() };
-        self.holdouts.iter().any(|held| [RATE_CHANNEL, SPOOL_CHANNEL].iter().any(|c| answer(held).is_far_from_noise(*c)))
+        let far = |held: &Held, channel: &usize| held.answer(self.diagnosis.verdict).is_far_from_noise(*channel);
+        self.holdouts.iter().any(|held| [RATE_CHANNEL, SPOOL_CHANNEL].iter().any(|channel| far(held, channel)))
     }
 
     /// Whether no record that was held out is predicted worse than by the nominal model.

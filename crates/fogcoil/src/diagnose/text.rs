@@ -31,7 +31,9 @@ impl Outcome<'_> {
         out.push_str(&self.verdict());
         out.push('\n');
         if d.verdict == Verdict::Explained {
-            for ((id, stage, extent), active) in self.places().zip(&d.best().fit.active) {
+            let named = self.told_names();
+            let best = self.places().zip(&d.best().fit.active);
+            for ((id, stage, extent), active) in best.filter(|((id, ..), _)| named.contains(id)) {
                 let _ = writeln!(out, "{id}: {}.", place(stage, &extent));
                 if let Naming::Named { meaning, inspection } = self.gyro.mechanism(active.mechanism).facts().naming {
                     let _ = writeln!(out, "  Meaning: {meaning}.\n  Inspection: {inspection}.");
@@ -149,6 +151,10 @@ impl Outcome<'_> {
                     self.verdict_as_read()
                 )
             }
+            None if self.warned(Remark::FollowsColumn).is_some() => format!(
+                "What is left of the rate follows a column that the model does not use, as the warning says. Apart from that: {}",
+                self.verdict_as_read()
+            ),
             None => self.verdict_as_read(),
         }
     }
@@ -173,10 +179,10 @@ impl Outcome<'_> {
             Verdict::None => self.suffices("the nominal model suffices", "no difference beyond noise"),
             Verdict::Recalibrate if self.drawing_stands() => self.suffices(
                 "the instruments, recalibrated within what is known of them, suffice",
-                "the design is as drawn, and nothing is left out",
+                "these records show no other departure from the drawing",
             ),
             Verdict::Recalibrate => {
-                self.suffices("the design's own constants, re-estimated within their tolerances, suffice", "nothing is left out")
+                self.suffices("the design's own constants, re-estimated within their tolerances, suffice", "these records show nothing that is left out")
             }
             Verdict::Explained => format!("The recording differs from the design. {}.", self.likeliest()),
             Verdict::Unknown if !self.withdrawn.is_empty() && self.law().is_none() => {
@@ -207,14 +213,26 @@ impl Outcome<'_> {
             // many choices of one mechanism together outweigh the best single hypothesis
             return format!("{lead}: {}; the best single hypothesis: {}", sure(first), best.join(" and "));
         }
-        let named = best.iter().map(|id| sure(id)).collect::<Vec<_>>().join(" and ");
+        let told = self.told_names();
+        let named = told.iter().map(|id| sure(id)).collect::<Vec<_>>().join(" and ");
         match self.law_in_place().filter(|p| *p >= TOLD) {
+            Some(p) if told.len() < best.len() => {
+                format!("{lead}: {named}, and beside it a law that nobody listed (probability {p:.3})")
+            }
             Some(p) if best.iter().all(|id| Some(p) > self.probability(id)) => {
                 format!("Either {named}, or a law that nobody listed and that does the same (probability {p:.3})")
             }
             Some(p) => format!("{lead}: {named}, or a law that nobody listed and that does the same (probability {p:.3})"),
             None => format!("{lead}: {named}"),
         }
+    }
+
+    /// Ids of the best candidate's mechanisms, without those whose place a law took: nobody should look for these.
+    pub(super) fn told_names(&self) -> Vec<&str> {
+        let names = self.names();
+        let told = names.iter().copied().filter(|id| self.probability(id).is_some_and(|p| p >= TOLD));
+        let told: Vec<&str> = told.collect();
+        if told.is_empty() { names } else { told }
     }
 
     /// The likeliest mechanism and a check that decides about it, where it is not part of the best single hypothesis.
@@ -261,7 +279,7 @@ impl Outcome<'_> {
         }
         match self.diagnosis.verdict {
             Verdict::Explained if proven => {
-                let (names, several) = (self.names().join(" and "), self.names().len() > 1);
+                let (names, several) = (self.told_names().join(" and "), self.told_names().len() > 1);
                 let [is, it] = if several { ["are", "them"] } else { ["is", "it"] };
                 match self.law_in_place() {
                     Some(_) => format!(
@@ -271,8 +289,12 @@ impl Outcome<'_> {
                     None => format!("inspect the unit. Only {names} {is} left, and a record that was held out confirms {it}."),
                 }
             }
+            Verdict::Explained if !self.holdouts.is_empty() => format!(
+                "inspect the unit. The record that was held out does not confirm {}: if the inspection does not, {another}.",
+                self.told_names().join(" and ")
+            ),
             Verdict::Explained => {
-                format!("inspect the unit; to confirm {} on data outside the fit, {another}.", self.names().join(" and "))
+                format!("inspect the unit; to confirm {} on data outside the fit, {another}.", self.told_names().join(" and "))
             }
             Verdict::None | Verdict::Recalibrate if self.runner_up().is_some() => {
                 let (id, probability, inspection) = self.runner_up().unwrap_or_default();
@@ -292,7 +314,7 @@ impl Outcome<'_> {
                 )
             }
             Verdict::Recalibrate if proven => {
-                "no further test is needed. The re-estimated constants predict a record that was held out.".into()
+                "no further test is called for: the re-estimated constants predict a record that was held out.".into()
             }
             Verdict::Recalibrate => format!("to confirm the re-estimated constants, {another}."),
             Verdict::Unknown if self.law().is_some() => {
@@ -349,7 +371,7 @@ impl Outcome<'_> {
         } else if !self.suffices_surely() {
             format!("{sentence}, but not surely (probability {probability:.2}).")
         } else {
-            format!("{sentence}: {surely}.")
+            format!("{sentence} (probability {probability:.2}): {surely}.")
         }
     }
 
@@ -360,7 +382,7 @@ impl Outcome<'_> {
         let before = self.warned(Remark::DoubtedDrawing).or_else(|| self.warned(Remark::FollowsColumn));
         let first = before.map_or(String::new(), |warning| format!("{} ", warning.remark.explanation().remedy));
         Some(format!(
-            "{first}These records do not exclude: {}. This command seeks the test that separates them best: {command}",
+            "{first}These records do not exclude: {}. This seeks a test that separates them: {command}",
             self.others().join(", ")
         ))
     }

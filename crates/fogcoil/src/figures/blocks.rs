@@ -39,7 +39,7 @@ impl Cells {
 /// last layer.
 pub(super) fn cells(winding: &Winding, values: &[f64], blocks: bool) -> Cells {
     let spec = winding.spec();
-    let (height, pitch) = (winding.height(), spec.pitch);
+    let (height, pitch, edges) = (winding.height(), spec.pitch, winding.edges());
     let most_turns = winding.turns().iter().map(|turn| turn.turn).max().unwrap_or(1);
     let (wanted, depth) = if blocks {
         ((most_turns + BLOCK / 2) / BLOCK, BLOCK * spec.layers.div_ceil(BLOCK * MOST_CELLS[1]))
@@ -56,7 +56,8 @@ pub(super) fn cells(winding: &Winding, values: &[f64], blocks: bool) -> Cells {
             let column = (turn.turn - 1) * columns / most_turns;
             (column, column + 1)
         } else {
-            let [first, end] = [-0.5, 0.5].map(|half| (((turn.y + half * pitch) / width).round().max(0.0) as usize).min(columns));
+            let [first, end] =
+                [-0.5, 0.5].map(|half| (((turn.y - edges[0] + half * pitch) / width).round().max(0.0) as usize).min(columns));
             (first.min(columns - 1), end.max(first + 1).min(columns))
         };
         for column in first..end {
@@ -69,7 +70,7 @@ pub(super) fn cells(winding: &Winding, values: &[f64], blocks: bool) -> Cells {
     let values = sums.iter().zip(&counts).map(cell).collect();
     let step = 3_f64.sqrt() / 2.0 * pitch;
     let lower = spec.inner_radius + (pitch - step) / 2.0;
-    Cells { columns, values, y: [0.0, height], r: [lower, lower + (rows * depth) as f64 * step] }
+    Cells { columns, values, y: edges, r: [lower, lower + (rows * depth) as f64 * step] }
 }
 
 #[cfg(test)]
@@ -77,7 +78,11 @@ mod tests {
     use super::*;
     use winding::{ClimbSide, Half, Pattern, Spec, Tails, TurnLength};
 
-    fn wound(pattern: Pattern, layers: usize, [odd, even]: [usize; 2]) -> Winding {
+    fn wound(pattern: Pattern, layers: usize, turns: [usize; 2]) -> Winding {
+        wound_from(0.0, pattern, layers, turns)
+    }
+
+    fn wound_from(start: f64, pattern: Pattern, layers: usize, [odd, even]: [usize; 2]) -> Winding {
         winding::wind(&Spec {
             pattern,
             layers,
@@ -85,7 +90,7 @@ mod tests {
             turns_even_layers: even,
             inner_radius: 0.04,
             pitch: 1.7e-4,
-            start: 0.0,
+            start,
             end: None,
             cw_climbs: ClimbSide::Right,
             turn_length: TurnLength::True,
@@ -97,11 +102,11 @@ mod tests {
 
     #[test]
     fn blocks_lie_in_the_winding_and_keep_its_sum() {
-        for (layers, odd) in [(36, 106), (8, 3), (4, 3), (40, 27), (30, 41), (500, 5)] {
-            let winding = wound(Pattern::PracticalQuadrupole, layers, [odd, odd - 1]);
+        for (layers, odd, start) in [(36, 106, 0.0), (8, 3, 0.0), (4, 3, 2e-3), (40, 27, 2e-3), (30, 41, 0.0), (500, 5, 0.0)] {
+            let winding = wound_from(start, Pattern::PracticalQuadrupole, layers, [odd, odd - 1]);
             let values: Vec<f64> = winding.turns().iter().map(|t| t.r + t.y).collect();
             let blocks = cells(&winding, &values, true);
-            assert_eq!(blocks.y, [0.0, winding.height()]);
+            assert_eq!(blocks.y, winding.edges());
             assert!(blocks.r[0] >= winding.spec().inner_radius && blocks.values.len().is_multiple_of(blocks.columns));
             let (sum, expected): (f64, f64) = (blocks.values.iter().sum(), values.iter().sum());
             assert!((sum / expected - 1.0).abs() < 1e-12, "{layers} layers: {sum} of {expected}");

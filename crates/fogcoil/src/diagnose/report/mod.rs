@@ -134,7 +134,9 @@ impl Outcome<'_> {
     fn in_short(&self) -> Markup {
         let explained = self.diagnosis.verdict == Verdict::Explained;
         let mut rows = Vec::new();
-        for active in self.diagnosis.best().fit.active.iter().filter(|_| explained) {
+        let named = self.told_names();
+        let best = self.diagnosis.best().fit.active.iter();
+        for active in best.filter(|active| explained && named.contains(&self.id(active.mechanism))) {
             if let Naming::Named { meaning, inspection } = self.gyro.mechanism(active.mechanism).facts().naming {
                 rows.extend([row(self.id(active.mechanism), nice(meaning)), row("inspect", nice(inspection))]);
             }
@@ -184,7 +186,8 @@ impl Outcome<'_> {
         // what may make the rest void comes first
         let (warnings, notes): (Vec<&Note>, Vec<&Note>) = self.notes.iter().partition(|note| note.is_warning());
         let mut rows: Vec<_> = warnings.iter().map(|note| row("warning", note.message())).collect();
-        for (id, stage, extent) in self.places().filter(|_| d.verdict == Verdict::Explained) {
+        let named = self.told_names();
+        for (id, stage, extent) in self.places().filter(|(id, ..)| d.verdict == Verdict::Explained && named.contains(id)) {
             rows.push(row(id, nice(&super::text::place(stage, &extent))));
         }
         if let Some(alternatives) = self.alternatives() {

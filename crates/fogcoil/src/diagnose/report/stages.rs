@@ -33,7 +33,13 @@ impl Outcome<'_> {
         let head =
             ["flexible input at", "ln evidence gained", "probability, of one smooth input alone", "rate's residual, Ljung–Box"];
         let restored = stages.iter().any(|s| s.whiteness.get(RATE).is_some_and(|p| *p >= spectrum::WHITE));
-        let said = if restored {
+        let leads_white = stages.first().is_some_and(|s| s.whiteness.get(RATE).is_some_and(|p| *p >= spectrum::WHITE));
+        let said = if matches!(self.diagnosis.verdict, Verdict::None | Verdict::Recalibrate) {
+            "The design, its constants and its instruments within their tolerances do the same here: no part is at fault."
+        } else if restored && !leads_white {
+            "The part that gains most does not leave the rate's residual white: the difference is not one smooth input there, and the \
+             probabilities compare shapes, not causes."
+        } else if restored {
             "Where several gain alike, this recording does not tell them apart."
         } else {
             "None leaves the rate's residual white: the difference is not what one smooth input makes, and the probabilities compare \
