@@ -464,8 +464,8 @@ fn instants_in_another_unit() {
         let said = format!("; if so, say it: --unit time={unit}");
         assert!(report.findings.iter().any(|finding| finding.to_string().contains(&said)), "{:?}", report.findings);
     }
-    // all rows of a ramp that is too fast are told: of 1600 rows that alternate by 40 K in 100 rows of half a second, those of every stretch
-    let triangle = |row: usize| 0.4 * (row % 200).abs_diff(100) as f64;
+    // all rows of a ramp that is too fast are told: of 1600 rows that alternate by 50 K in 100 rows of half a second, those of every stretch
+    let triangle = |row: usize| 0.5 * (row % 200).abs_diff(100) as f64;
     let fast = altered(|sample| {
         sample.time.iter_mut().enumerate().for_each(|(n, t)| *t = 0.5 * n as f64);
         sample.temperature = (0..ROWS).map(triangle).collect();
@@ -473,6 +473,8 @@ fn instants_in_another_unit() {
     let fast = fast.report();
     let told = fast.findings.iter().find(|finding| matches!(finding.kind, FindingKind::TooFast { .. })).unwrap();
     assert!(told.rows > ROWS / 2 && told.rows < ROWS, "{told:?}");
+    // of several as fast the first is shown
+    assert_eq!(told.span.map(|[from, _]| from), Some(0.0), "{told:?}");
     // a jump from row to row is none of a chamber, nor is noise in close rows
     let jump = altered(|sample| add(&mut sample.temperature[1000..], 60.0)).report();
     assert!(jump.findings.iter().all(|finding| !matches!(finding.kind, FindingKind::TooFast { .. })), "{:?}", jump.findings);
