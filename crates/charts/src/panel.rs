@@ -69,7 +69,10 @@ fn width_of(content: &str, m: &Measures) -> f64 {
     LETTER * m.font * content.chars().count() as f64
 }
 
-/// Width of a label of an axis.
+/// Distance of a heading's lines in font sizes.
+const HEADING_LINE: f64 = 1.3;
+
+/// Width of a label of an axis, or of a line of a heading.
 fn wide(label: &str, m: &Measures) -> f64 {
     label.chars().count() as f64 * DIGIT * m.font
 }
@@ -172,13 +175,35 @@ impl<'a> Panel<'a> {
         x.ticks().iter().map(|(tick, label)| wide(label, m) / 2.0 - x.pixel(*tick)).fold(labels, f64::max)
     }
 
+    /// The heading in lines that are no wider than the panel, as far as its words are not.
+    fn heading_lines(&self, m: &Measures, width: f64) -> Vec<String> {
+        let mut lines: Vec<String> = Vec::new();
+        for word in self.heading.split(' ').filter(|word| !word.is_empty()) {
+            match lines.last_mut() {
+                Some(line) if wide(&format!("{line} {word}"), m) <= width - m.font => {
+                    line.push(' ');
+                    line.push_str(word);
+                }
+                _ => lines.push(word.to_owned()),
+            }
+        }
+        lines
+    }
+
+    fn heading_height(&self, m: &Measures, width: f64) -> f64 {
+        match self.heading_lines(m, width).len() {
+            0 => 0.0,
+            lines => (1.8 + HEADING_LINE * (lines - 1) as f64) * m.font,
+        }
+    }
+
     pub(crate) fn place(&self, m: &Measures, width: f64, left: f64) -> Place {
         let rows = Self::legend_places(&self.legend(), m, width).last().map_or(0, |(row, _)| row + 1);
         let bar = match &self.content {
             Content::Map(map) if map.bar => 4.2 * m.font,
             _ => 0.0,
         };
-        let heading = if self.heading.is_empty() { 0.0 } else { 1.8 * m.font };
+        let heading = self.heading_height(m, width);
         let [x, y] = self.ranges();
         let space = width - left;
         let along = Scale::new(&self.x, x, [0.0, space - 1.6 * m.font], m.apart[0]);
@@ -200,11 +225,11 @@ impl<'a> Panel<'a> {
 
     /// The panel, as wide as `width`; `id` names a map's cells, `along` is the label of its abscissa, which a panel below may have.
     pub(crate) fn draw(&self, svg: &mut Svg, m: &Measures, width: f64, place: &Place, [id, along]: [&str; 2]) {
-        let mut at = 0.0;
-        if !self.heading.is_empty() {
-            svg.element("text", attributes! { "class": "heading", "x": "4", "y": "{:.1}"(1.2 * m.font) }, &self.heading);
-            at += 1.8 * m.font;
+        for (row, line) in self.heading_lines(m, width).iter().enumerate() {
+            let y = 1.2 * m.font + HEADING_LINE * m.font * row as f64;
+            svg.element("text", attributes! { "class": "heading", "x": "4", "y": "{y:.1}" }, line);
         }
+        let at = self.heading_height(m, width);
         let entries = self.legend();
         for (Entry(sample, name), (row, x)) in entries.iter().zip(Self::legend_places(&entries, m, width)) {
             let y = at + 1.5 * m.font * row as f64;
@@ -306,4 +331,29 @@ impl<'a> Panel<'a> {
 fn outward_ticks(x: &Scale, y: &Scale, height: f64) -> String {
     let along = x.ticks().into_iter().map(|(tick, _)| format!("M{:.1} {height:.1}v4", x.pixel(tick)));
     along.chain(y.ticks().into_iter().map(|(tick, _)| format!("M0 {:.1}h-4", y.pixel(tick)))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::size::{NARROW, WIDE};
+
+    #[test]
+    fn a_long_heading_has_lines_no_wider_than_its_panel_and_room_for_them() {
+        let text = "recorded less extended model, a/unit/with/a/long/folder/run1.csv, and another word";
+        let line = || vec![Series::new("", crate::Style::First, vec![(0.0, 0.0), (1.0, 1.0)])];
+        let panel = || Panel::lines(Axis::tight("t", 1.0), Axis::round("y", 1.0), 9.0, line());
+        for m in &[WIDE, NARROW] {
+            let headed = panel().headed(text);
+            let width = 22.0 * m.font;
+            let lines = headed.heading_lines(m, width);
+            assert_eq!(lines.join(" "), text);
+            assert!(
+                lines.len() > 1 && lines.iter().filter(|line| line.contains(' ')).all(|line| wide(line, m) <= width),
+                "{lines:?}"
+            );
+            let [one, all] = ["short", text].map(|text| panel().headed(text).place(m, width, 30.0).above);
+            assert!((all - one - HEADING_LINE * m.font * (lines.len() - 1) as f64).abs() < 1e-9);
+        }
+    }
 }

@@ -87,7 +87,9 @@ pub fn text(case: &CoilCase, result: &SteadySensitivity, band: &Band, all: bool)
     let share = |s: Share| {
         let percent = 100.0 * s.share;
         let percent = if s.is_worth() { format!("{percent:.0}") } else { significant(percent, 1) };
-        vec![s.key.into(), s.tolerance, format!("{:+.4}", s.change), format!("{percent} %")]
+        // what is less than the last place is told by its size
+        let change = if s.change.abs() < 5e-4 { format!("{:+.1e}", s.change) } else { format!("{:+.4}", s.change) };
+        vec![s.key.into(), s.tolerance, change, format!("{percent} %")]
     };
     let (shown, less): (Vec<Share>, Vec<Share>) = Share::all(case, band).into_iter().partition(|s| all || s.is_worth());
     let more = if less.is_empty() { String::new() } else { format!("{} more below 0.5 %: --all\n\n", less.len()) };

@@ -31,6 +31,15 @@ pub(super) struct Outlier<'a> {
     pub(super) distance: f64,
 }
 
+impl Outlier<'_> {
+    /// Words behind a median that is one of sizes.
+    pub(super) fn of_sizes(&self) -> &'static str {
+        if self.number == SIGNLESS { " of sizes" } else { "" }
+    }
+}
+
+/// The number of which the sign says nothing: which way a peak points, the noise may decide.
+const SIGNLESS: &str = "peak";
 /// Distance from which a number stands out (B. Iglewicz and D. C. Hoaglin, *How to Detect and Handle Outliers*, 1993).
 pub(super) const FAR: f64 = 3.5;
 /// Distance from the design, in standard deviations of its tolerance, from which a constant is worth a line.
@@ -91,8 +100,7 @@ pub(super) fn outliers(batch: &Batch) -> Vec<Outlier<'_>> {
     // half of a 90 % interval of a normal number in its standard deviations
     let half = normal_quantile(0.95);
     for number in NUMBERS.iter().filter(|number| !number.ends_with("probability")) {
-        // of a peak the noise may decide which way it points
-        let size = |value: f64| if *number == "peak" { value.abs() } else { value };
+        let size = |value: f64| if *number == SIGNLESS { value.abs() } else { value };
         let known: Vec<(&Row, f64)> = batch.rows.iter().filter_map(|(row, _)| Some((row, size(row.number(number)?)))).collect();
         for (row, value) in &known {
             let peers: Vec<f64> =

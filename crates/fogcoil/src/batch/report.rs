@@ -114,7 +114,7 @@ fn standing_out(batch: &Batch) -> Markup {
             o.unit.to_owned(),
             o.number.to_owned(),
             format!("{}{}", significant(o.value, 4), unit_of(o.number)),
-            format!("{}{}", significant(o.median, 4), unit_of(o.number)),
+            format!("{}{}{}", significant(o.median, 4), unit_of(o.number), o.of_sizes()),
             format!("{:+.1}", o.distance),
         ]
     };

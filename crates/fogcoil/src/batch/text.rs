@@ -49,11 +49,12 @@ pub fn text(batch: &Batch) -> String {
         let unit = unit_of(outlier.number);
         let _ = writeln!(
             out,
-            "{}: {} is {}{unit}, far from the median {}{unit} ({:+.1} robust standard deviations)",
+            "{}: {} is {}{unit}, far from the median {}{unit}{} ({:+.1} robust standard deviations)",
             outlier.unit,
             outlier.number,
             significant(outlier.value, 4),
             significant(outlier.median, 4),
+            outlier.of_sizes(),
             outlier.distance
         );
     }

@@ -60,12 +60,25 @@ pub fn json(c: &Comparison) -> Value {
     })
 }
 
+/// Digits of a number that a cell's solution gave all of its own.
+const DIGITS: usize = 6;
+
 /// Key, A, B and unit of each differing number.
 pub(super) fn differing_rows(all: &[Differing]) -> Vec<Vec<String>> {
-    let value = |value: &Option<String>| value.clone().unwrap_or_else(|| "-".into());
-    all.iter()
-        .map(|d| vec![d.key.clone(), value(&d.values[0]), value(&d.values[1]), d.unit.clone().unwrap_or_default()])
-        .collect()
+    let row = |d: &Differing| {
+        let short = d.values.each_ref().map(|value| value.as_deref().map(short));
+        // where they differ in later digits all are told
+        let told = if short[0] == short[1] { d.values.clone() } else { short };
+        let [a, b] = told.map(|value| value.unwrap_or_else(|| "-".into()));
+        vec![d.key.clone(), a, b, d.unit.clone().unwrap_or_default()]
+    };
+    all.iter().map(row).collect()
+}
+
+/// A value as a file writes it, of a number no more than so many digits.
+fn short(value: &str) -> String {
+    let rounded = value.parse::<f64>().ok().map(|number| significant(number, DIGITS));
+    rounded.filter(|rounded| rounded.len() < value.len()).unwrap_or_else(|| value.to_owned())
 }
 
 /// Name of a part, and value, error and standard deviation of A, of B, and of B less A.
@@ -139,4 +152,22 @@ pub fn text(c: &Comparison) -> String {
         c.long_rows().for_each(|note| text += &format!("\n{note}\n"));
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_told_with_the_digits_in_which_they_differ() {
+        let row = |a: &str, b: &str| {
+            let values = [Some(a.to_owned()), Some(b.to_owned())];
+            let rows = differing_rows(&[Differing { key: "k".into(), unit: None, values }]);
+            [rows[0][1].clone(), rows[0][2].clone()]
+        };
+        assert_eq!(row("102.33147462212466", "312.4952197942044"), ["102.331", "312.495"]);
+        assert_eq!(row("102.33147462212466", "102.33148"), ["102.33147462212466", "102.33148"]);
+        assert_eq!(row("36", "4"), ["36", "4"]);
+        assert_eq!(row("Right", "Left"), ["Right", "Left"]);
+    }
 }

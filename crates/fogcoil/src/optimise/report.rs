@@ -8,6 +8,7 @@ use super::front::front;
 use super::picture::figure;
 use super::plan::Plan;
 use super::search::Found;
+use super::text::on_the_front;
 use super::text::{NOTHING, at_ends, designs, of_optimum, of_spread, steps, within_error};
 use crate::report::{provenance, sentence};
 
@@ -16,7 +17,7 @@ pub fn report(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
     let best = front(&found.all, &plan.minimise);
     let sound = found.all.iter().filter(|tried| tried.violation == 0.0).count();
     let lead = html! {
-        p { (found.all.len()) " designs were tried, " (sound) " keep the limits, " (best.len()) " are on the front." }
+        p { (found.all.len()) " designs were tried, " (sound) " keep the limits, " (on_the_front(best.len())) "." }
     };
     let files: Vec<_> = ["plan", "coil"].into_iter().chain(std::iter::repeat("cell")).zip(&plan.files).collect();
     let front = html! {

@@ -21,10 +21,10 @@ pub fn text(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
     let best = front(&found.all, &plan.minimise);
     let sound = found.all.iter().filter(|tried| tried.violation == 0.0).count();
     let mut out = format!(
-        "{}: {} designs tried, {sound} keep the limits, {} on the front\n\n",
+        "{}: {} designs tried, {sound} keep the limits, {}\n\n",
         plan.variants.case.name,
         found.all.len(),
-        best.len()
+        on_the_front(best.len())
     );
     out.push_str(&with_end(designs(plan, found, &best)));
     match checked {
@@ -60,16 +60,25 @@ pub(super) fn designs(plan: &Plan, found: &Found, best: &[usize]) -> Vec<Vec<Str
     let keys = plan.variants.factors.iter().map(|factor| factor.key.rsplit('.').next().unwrap_or_default().to_owned());
     let head = [vec![String::new()], known.iter().map(|m| m.name().to_owned()).collect(), keys.collect()].concat();
     let mut rows = vec![head, [vec!["drawing".to_owned()], numbers(&found.drawn)].concat()];
-    // evenly over the front, both ends among them
-    let every = best.len().saturating_sub(1).div_ceil(SHOWN - 1).max(1);
-    let chosen = (0..best.len()).filter(|n| n % every == 0 || n + 1 == best.len());
-    for n in chosen {
+    for n in shown(best.len()) {
         let tried = &found.all[best[n]];
         let values = tried.values.iter().map(|value| value.as_ref().map_or("-".into(), short)).collect();
         let name = if n == 0 { "optimum".to_owned() } else { String::new() };
         rows.push([vec![name], numbers(&tried.measures), values].concat());
     }
     rows
+}
+
+/// The designs of a front of so many that are shown: evenly over it, both ends among them.
+fn shown(count: usize) -> impl Iterator<Item = usize> {
+    let every = count.saturating_sub(1).div_ceil(SHOWN - 1).max(1);
+    (0..count).filter(move |n| n.is_multiple_of(every) || n + 1 == count)
+}
+
+/// How many designs are on the front, and how many of them are shown.
+pub(super) fn on_the_front(count: usize) -> String {
+    let shown = shown(count).count();
+    if shown < count { format!("{count} on the front, {shown} of them shown") } else { format!("{count} on the front") }
 }
 
 fn short(value: &Value) -> String {

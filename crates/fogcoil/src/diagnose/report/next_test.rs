@@ -5,6 +5,7 @@ use diagnosis::{Settings, Verdict};
 use maud::{Markup, html};
 
 use crate::diagnose::Outcome;
+use crate::diagnose::apart::TOLD;
 use crate::diagnose::text::capital;
 use crate::recommend::{Limits, Odds, Question, Recommendation, figure, number, sentence};
 
@@ -42,8 +43,10 @@ impl Outcome<'_> {
                 let looks: Vec<&str> = names.iter().filter_map(|id| self.inspection(id)).collect();
                 // of a mechanism of the user's own the command would need the file
                 let listed = |id: &str| mechanisms::find(id).is_some();
-                let rival = self.likely().map(|(id, _)| id).find(|id| !names.contains(id) && listed(id)).unwrap_or("nominal");
-                let surer = names.first().filter(|id| listed(id)).map_or(String::new(), |first| {
+                // of a rival that is far behind no test is worth its time
+                let near = |(id, probability): &(&str, f64)| !names.contains(id) && listed(id) && *probability >= TOLD;
+                let rival = self.likely().find(near).map(|(id, _)| id);
+                let surer = names.first().filter(|id| listed(id)).zip(rival).map_or(String::new(), |(first, rival)| {
                     let command = self.recommend(&[(*first).to_owned(), rival.to_owned()]);
                     format!(
                         " To be surer before it is taken apart: {command} seeks the test that tells {first} from {rival} best."
