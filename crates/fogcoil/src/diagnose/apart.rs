@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use diagnosis::{Candidate, ForwardModel, Verdict};
+use diagnosis::{Active, Candidate, ForwardModel, Verdict};
+use mechanisms::CATALOGUE;
 
 use super::Outcome;
 
@@ -99,11 +100,11 @@ impl Outcome<'_> {
         let kept = |id: &str| with_it.is_some_and(|c| c.fit.active.iter().any(|a| self.id(a.mechanism) == id));
         // of a pair the one whose place it takes
         let best = self.names();
-        let Some(replaced) = best.iter().find(|id| !kept(id)) else {
+        let replaced = best.iter().find(|id| !kept(id));
+        if replaced.is_none() && !best.is_empty() {
             // it takes nobody's place: whether it is there beside them is the question
             return vec![(*first).to_owned(), NOMINAL.to_owned()];
-        };
-        let replaced = Some(replaced);
+        }
         let ids: Vec<String> = replaced.into_iter().chain(&others).take(MOST).map(|id| (*id).to_owned()).collect();
         if ids.len() > 1 { ids } else { Vec::new() }
     }
@@ -122,10 +123,16 @@ impl Outcome<'_> {
         let coil = word(&self.coil);
         let command =
             |coil: &str| format!("fogcoil recommend {coil} --between {}{asked}{}{flags}", ids.join(","), each("--from"));
-        if self.names().iter().all(|name| ids.iter().any(|id| id == name)) {
+        let is_usual = |id: &str| CATALOGUE.iter().any(|usual| usual.facts().id == id);
+        let is_asked = |active: &&Active| ids.iter().any(|id| id == self.id(active.mechanism));
+        let beside: Vec<&Active> = self.diagnosis.best().fit.active.iter().filter(|active| !is_asked(active)).collect();
+        // a file of the user's own would have to be given again, and what a coil file cannot hold stays out of it
+        let design = self.gyro.library().design();
+        let holds = |active: &&Active| is_usual(self.id(active.mechanism)) && self.gyro.extended(design, active).is_some();
+        if beside.is_empty() || !beside.iter().all(holds) {
             return command(&coil);
         }
-        let without: String = ids.iter().filter(|id| *id != NOMINAL).map(|id| format!(" --without {id}")).collect();
+        let without: String = ids.iter().filter(|id| is_usual(id)).map(|id| format!(" --without {id}")).collect();
         format!("fogcoil diagnose {coil}{}{flags}{without} --model-out {BESIDE} && {}", each("--fit"), command(BESIDE))
     }
 }
