@@ -219,6 +219,17 @@ fn a_word_of_the_drawing_that_is_wrong_comes_before_faults() {
     assert!(said.contains("Look at the unit, or ask its maker: "), "{said}");
 }
 
+/// A coil wound with the other handedness may look like a rate of the other sign; the word of the drawing that leaves far less is what is said.
+#[test]
+#[ignore = "minutes"]
+fn the_other_handedness_is_no_sign_of_the_rate() {
+    let folder = Folder::new();
+    folder.write("unit.ron", change(COIL, "cw_climbs: Right", "cw_climbs: Left"));
+    let unit = under_ramps_as(&folder, "unit.ron");
+    let said = diagnosed(&folder, logged(&folder, &unit, 1.0));
+    assert!(said.contains("with winding.cw_climbs: Left") && !said.contains("[reversed-rate]"), "{said}");
+}
+
 /// Minutes of a simulation as a logger writes them, the rate times a sign.
 fn logged(folder: &Folder, fine: &[Vec<f64>], sign: f64) -> &'static str {
     let rows = (3..fine.len()).step_by(3).map(|n| {
