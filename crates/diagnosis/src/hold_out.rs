@@ -63,9 +63,10 @@ impl HeldOut {
         self.is_far_from_noise(channel) && self.of_minutes[channel] > BARELY * nominal.of_minutes[channel]
     }
 
-    /// Whether the whole record is clearly likelier than by `other`, and a channel is predicted as well to two digits.
+    /// Whether the whole record is clearly likelier than by `other`, a channel is predicted as well to two digits, and another one better.
     pub(crate) fn is_likelier_than(&self, other: &Self, channel: usize) -> bool {
-        self.rmse[channel] <= (1.0 + WORSE) * other.rmse[channel] && self.log_score > other.log_score + CLEAR
+        let better = (0..self.rmse.len()).any(|c| c != channel && self.of_minutes[c] < BARELY * other.of_minutes[c]);
+        better && self.rmse[channel] <= (1.0 + WORSE) * other.rmse[channel] && self.log_score > other.log_score + CLEAR
     }
 
     /// Whether `other` predicts a channel clearly better: by its error, and by the probability of the whole record, for a fault of one channel may be

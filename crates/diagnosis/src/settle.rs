@@ -22,7 +22,7 @@ const RIVALS: f64 = 0.5;
 const USUAL_WAYS: usize = 3;
 /// Most hypotheses that are followed so from each of the two rounds in which all are tried: both flanges, of a mechanism that may be at either.
 const FOLLOWED: usize = 2;
-/// Most choices of the leader's own mechanism that are followed so: the other flange.
+/// Most choices of the leader's own mechanism that are followed so, where it has few: the other flange.
 const ELSEWHERE: usize = 1;
 /// Choices of a mechanism that are tried.
 const CHOICES: usize = 3;
@@ -308,12 +308,19 @@ fn leader(
     let gain_of = |fit: &Fit| fit.log_evidence - recalibrated.log_evidence;
     let best = fits.first().filter(|fit| gain_of(fit) > 0.0).unwrap_or(&recalibrated);
     let gain = gain_of(best);
-    let mechanism = |fit: &Fit| fit.hypothesis.mechanisms.first().map(|(mechanism, _)| *mechanism);
-    let near: Vec<&Fit> =
-        fits.iter().filter(|fit| fit.hypothesis != best.hypothesis && gain_of(fit) > MATTERS.max(RIVALS * gain)).collect();
-    let (own, others): (Vec<&Fit>, Vec<&Fit>) = near.into_iter().partition(|fit| mechanism(fit) == mechanism(best));
-    let next = others.into_iter().take(FOLLOWED).chain(own.into_iter().take(ELSEWHERE));
-    let rivals = next.map(|fit| fit.hypothesis.clone()).collect();
+    let mut near: Vec<&Hypothesis> = Vec::new();
+    for fit in fits.iter().filter(|fit| gain_of(fit) > MATTERS.max(RIVALS * gain)) {
+        if fit.hypothesis != best.hypothesis && !near.contains(&&fit.hypothesis) {
+            near.push(&fit.hypothesis);
+        }
+    }
+    let mechanism = |hypothesis: &Hypothesis| hypothesis.mechanisms.first().map(|(mechanism, _)| *mechanism);
+    let leads = mechanism(&best.hypothesis);
+    let (own, others): (Vec<&Hypothesis>, Vec<&Hypothesis>) = near.into_iter().partition(|near| mechanism(near) == leads);
+    // of many choices a few are tried, and none of these is better known than its neighbours
+    let has_few = leads.is_some_and(|mechanism| alternatives(model, mechanism).len() <= CHOICES);
+    let next = others.into_iter().take(FOLLOWED).chain(own.into_iter().take(if has_few { ELSEWHERE } else { 0 }));
+    let rivals = next.cloned().collect();
     // what the leader leaves is noise: the next round compares under that
     let noise = best.noise.refitted(model.channels(), observations, &best.residuals)?;
     Ok(Led { fit: Fit { noise, ..best.clone() }, gain, rivals })

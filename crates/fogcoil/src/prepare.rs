@@ -122,19 +122,20 @@ fn refuse(case: &RecordCase, field: &str, problem: String, remedy: &str) -> Erro
 }
 
 /// Whether a temperature \[°C\], read at an interval \[s\], stands still. Means over a minute tell it: of single readings a thermometer's noise spans
-/// the more, the more there are.
+/// the more, the more there are. A recording of less than two minutes has no others.
 pub(crate) fn stands_still(readings: &[f64], interval: f64) -> bool {
     let known: Vec<f64> = readings.iter().copied().filter(|value| value.is_finite()).collect();
-    let minute = ((S_PER_MIN / interval) as usize).min(known.len()).max(1);
+    let minute = ((S_PER_MIN / interval) as usize).max(1);
+    let minute = if known.len() < 2 * minute { 1 } else { minute };
     let means: Vec<f64> = known.chunks_exact(minute).map(|chunk| chunk.iter().sum::<f64>() / chunk.len() as f64).collect();
     span(&means) <= 2.0 * REST.tolerance
 }
 
 /// Refuses a chamber that has one value throughout beside a spool that moves: what moves it was not recorded.
-fn refuse_dead(case: &RecordCase, chamber: &[f64], spool: &[f64]) -> Result<(), Error> {
+fn refuse_dead(case: &RecordCase, time: &[f64], chamber: &[f64], spool: &[f64]) -> Result<(), Error> {
     let moved: Vec<f64> = spool.iter().copied().filter(|value| value.is_finite()).collect();
     // from rest, where chamber and spool agree to the tolerance, a chamber at rest holds the spool within it on either side
-    let interval = case.report.instants.as_ref().map_or(S_PER_MIN, |instants| instants.interval);
+    let interval = median_interval(time).unwrap_or(S_PER_MIN);
     if moved.is_empty() || span(chamber) > 0.0 || stands_still(&moved, interval) {
         return Ok(());
     }
@@ -236,7 +237,7 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
         let problem = "there is no chamber temperature to drive the model with".to_owned();
         return Err(refuse(case, CHAMBER, problem, "give a column with values"));
     };
-    refuse_dead(case, &chamber, &spool)?;
+    refuse_dead(case, &time, &chamber, &spool)?;
     let count = rate.iter().filter(|r| r.is_finite()).count();
     if count < FEWEST_ROWS {
         let problem = format!("{count} rows with a rate are too few to tell anything");
@@ -408,6 +409,27 @@ mod tests {
         let warmed: Vec<f64> = rest.iter().enumerate().map(|(n, t)| t + 1.2 * n as f64 / 3600.0).collect();
         assert!(!stands_still(&warmed, 1.0));
         assert!(stands_still(&[f64::NAN; 3], 1.0) && stands_still(&[20.0, f64::NAN, 20.9], 600.0));
+        // less than two minutes have no means
+        assert!(!stands_still(&warmed[..119].iter().enumerate().map(|(n, t)| t + 0.02 * n as f64).collect::<Vec<_>>(), 1.0));
+    }
+
+    /// Whatever the logger's interval: rows of a tenth of a second become means, and the spool moves through each of them.
+    #[test]
+    fn a_dead_chamber_beside_a_moving_spool_is_refused_at_any_rate() {
+        let folder = tempfile::tempdir().unwrap();
+        for interval in [0.5, 2.0, 60.0] {
+            let path = folder.path().join("r.csv");
+            let row = |n: usize| {
+                let time = interval * n as f64;
+                let spool = 20.0 + 8.0 * (time / 1800.0).sin();
+                format!("{time},20.0,{spool:.3},{:.4}\n", 0.01 * (n % 7) as f64)
+            };
+            let rows: String = (0..(14_400.0 / interval) as usize).map(row).collect();
+            std::fs::write(&path, format!("time_s,chamber_c,spool_c,rate_deg_per_h\n{rows}")).unwrap();
+            let case = crate::input::read_record(&path, &crate::input::RecordOptions::default()).unwrap();
+            let refused = ready(&case, &mut Vec::new()).err().map(|error| error.to_string()).unwrap_or_default();
+            assert!(refused.contains("while the spool moves by"), "{interval}: {refused}");
+        }
     }
 
     /// 12 000 rows of a second, the rate rising by 1 deg/h a row; from row 6000 on all is an hour later.

@@ -71,6 +71,9 @@ pub fn json(case: &CoilCase, result: &SteadySensitivity, band: &Band) -> Value {
     })
 }
 
+/// Half of the last place to which changes are told.
+const LAST_PLACE: f64 = 5e-5;
+
 /// The parts as a table, the tolerances that matter, or `all`, and the origin of the numbers behind them.
 pub fn text(case: &CoilCase, result: &SteadySensitivity, band: &Band, all: bool) -> String {
     let (parts, errors) = (result.sensitivity, result.part_errors);
@@ -88,7 +91,8 @@ pub fn text(case: &CoilCase, result: &SteadySensitivity, band: &Band, all: bool)
         let percent = 100.0 * s.share;
         let percent = if s.is_worth() { format!("{percent:.0}") } else { significant(percent, 1) };
         // what is less than the last place is told by its size
-        let change = if s.change.abs() < 5e-4 { format!("{:+.1e}", s.change) } else { format!("{:+.4}", s.change) };
+        let is_small = s.change != 0.0 && s.change.abs() < LAST_PLACE;
+        let change = if is_small { format!("{:+.1e}", s.change) } else { format!("{:+.4}", s.change) };
         vec![s.key.into(), s.tolerance, change, format!("{percent} %")]
     };
     let (shown, less): (Vec<Share>, Vec<Share>) = Share::all(case, band).into_iter().partition(|s| all || s.is_worth());

@@ -52,7 +52,7 @@ pub(crate) fn expectations() -> Expectations {
         values: [-1000.0, 1000.0],
         noise: [1e-4, 100.0],
         mistaken: vec![unit("deg/s", 3600.0, 0.0)],
-        offset: Some(Offset { largest: 0.5, explained: 15.1, of: "Earth rate not removed".into() }),
+        offset: Some(Offset { known: 0.0, largest: 0.5, explained: 15.1, of: "Earth rate not removed".into() }),
         essential: true,
         ..Expectation::default()
     };

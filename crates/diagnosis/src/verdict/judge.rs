@@ -294,12 +294,16 @@ mod tests {
 
     #[test]
     fn hardly_a_larger_error_is_accepted_where_the_whole_record_is_far_likelier() {
-        let accepted = |nominal, model, gain| {
-            let judged = judged(nominal, model, gain);
+        let accepted = |nominal, model, gain, thermometer: [f64; 2]| {
+            let mut judged = judged(nominal, model, gain);
+            [judged.nominal.of_minutes[0], judged.model.of_minutes[0]] = thermometer;
             is_accepted(&judged.model, &judged.nominal, 1)
         };
-        assert!(accepted(1.0, 1.0, -50.0) && accepted(1.0, 1.009, 5.1));
-        assert!(!accepted(1.0, 1.009, 4.9) && !accepted(1.0, 1.011, 5000.0));
+        let better = [11.0, 0.01];
+        assert!(accepted(1.0, 1.0, -50.0, [0.01, 11.0]) && accepted(1.0, 1.009, 5.1, better));
+        assert!(!accepted(1.0, 1.009, 4.9, better) && !accepted(1.0, 1.011, 5000.0, better));
+        // nothing but the rate shows anything
+        assert!(!accepted(1.0, 1.009, 50.0, [1.0, 0.96]) && !accepted(1.0, 1.009, 50.0, [f64::NAN; 2]));
     }
 
     #[test]

@@ -65,11 +65,14 @@ pub(super) fn expectations(recording: &Recording, format: &RecordFormat, has_dat
             };
         }
         let offset = match earth {
-            Some(earth) => {
-                let largest = OFFSET_DEG_PER_H + earth.abs();
-                Offset { largest, explained: largest, of: format!("Earth's rate, {earth:.2} deg/h by the meta file") }
-            }
+            Some(earth) => Offset {
+                known: earth,
+                largest: OFFSET_DEG_PER_H,
+                explained: OFFSET_DEG_PER_H,
+                of: format!("Earth's rate, {earth:.2} deg/h by the meta file, with the other sign"),
+            },
             None => Offset {
+                known: 0.0,
                 largest: OFFSET_DEG_PER_H,
                 explained: EARTH_DEG_PER_H,
                 of: format!(

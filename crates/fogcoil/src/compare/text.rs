@@ -68,7 +68,9 @@ pub(super) fn differing_rows(all: &[Differing]) -> Vec<Vec<String>> {
     let row = |d: &Differing| {
         let short = d.values.each_ref().map(|value| value.as_deref().map(short));
         // where they differ in later digits all are told
-        let told = if short[0] == short[1] { d.values.clone() } else { short };
+        let number = |value: &Option<String>| value.as_deref().and_then(|text| text.parse::<f64>().ok());
+        let alike = number(&short[0]).is_some_and(|a| number(&short[1]) == Some(a));
+        let told = if alike { d.values.clone() } else { short };
         let [a, b] = told.map(|value| value.unwrap_or_else(|| "-".into()));
         vec![d.key.clone(), a, b, d.unit.clone().unwrap_or_default()]
     };
@@ -167,6 +169,7 @@ mod tests {
         };
         assert_eq!(row("102.33147462212466", "312.4952197942044"), ["102.331", "312.495"]);
         assert_eq!(row("102.33147462212466", "102.33148"), ["102.33147462212466", "102.33148"]);
+        assert_eq!(row("43.5", "43.500000001"), ["43.5", "43.500000001"]);
         assert_eq!(row("36", "4"), ["36", "4"]);
         assert_eq!(row("Right", "Left"), ["Right", "Left"]);
     }

@@ -5,7 +5,7 @@ mod laws;
 use std::ops::Range;
 
 use diagnosis::{Active, Candidate, Diagnosis, Estimate, Fit, ForwardModel, HeldOut, Judged, Observation, Settings, Verdict};
-use mechanisms::{Gyro, Mechanism, RATE};
+use mechanisms::{Gyro, Mechanism, RATE, Scene};
 use progress::Step;
 use serde_json::{Value, json};
 
@@ -58,8 +58,10 @@ struct Term {
     estimates: Vec<Estimate>,
 }
 
-/// Share of the records' temperatures below which nobody sees a knee.
+/// Share of the records' temperatures that a knee leaves below it at most where nobody sees it, and by how many noises of a reading of a minute the law then
+/// differs from a straight line at most.
 const EDGE: f64 = 0.1;
+const UNSEEN: f64 = 3.0;
 /// What has the form of a knee that is not seen.
 const STRAIGHT: &str = "a straight line over these records, as a temperature coefficient of the read-out makes; the knee lies at their cold end and is not seen";
 
@@ -214,8 +216,7 @@ impl Search<'_> {
         let term = |(place, active): (usize, &Active)| {
             let (case, known) = self.case(&self.with.mechanisms()[active.mechanism].id)?;
             let estimates = fit.estimates(&self.with, place);
-            let known =
-                if is_straight(&case.mechanism.id, &estimates, self.with.scene().temperatures) { STRAIGHT } else { known };
+            let known = if is_straight(&case.mechanism.id, &estimates, self.with.scene()) { STRAIGHT } else { known };
             Some(Term { case: case.clone(), known, values: active.values.clone(), estimates })
         };
         let other = |(law, behind): &(usize, f64)| {
@@ -370,10 +371,13 @@ impl Composed {
     }
 }
 
-/// Whether a knee lies so near the cold end of the records' temperatures that over them the law is a straight line.
-fn is_straight(id: &str, estimates: &[Estimate], [low, high]: [f64; 2]) -> bool {
-    let at = estimates.iter().find(|estimate| estimate.name.starts_with("at_"));
-    id.starts_with("composed-knee-") && at.is_some_and(|at| at.value < low + EDGE * (high - low))
+/// Whether a knee of the coil's or the spool's temperature lies so near the cold end of what these were that the law is a straight line.
+fn is_straight(id: &str, estimates: &[Estimate], Scene { temperatures: [low, high], noise, .. }: &Scene) -> bool {
+    let of = |name: &str| estimates.iter().find(|estimate| estimate.name.starts_with(name)).map(|estimate| estimate.value);
+    let Some((at, size)) = of("at_").zip(of("size_")) else { return false };
+    let below = (at - low).max(0.0);
+    let is_own = ["composed-knee-coil", "composed-knee-spool"].contains(&id);
+    is_own && below < EDGE * (high - low) && (size * below).abs() < UNSEEN * noise
 }
 
 /// The number of a term before what is its own; nothing where there is but one.
@@ -387,15 +391,17 @@ mod tests {
 
     #[test]
     fn a_knee_at_the_cold_end_is_a_straight_line() {
-        let at = |value: f64| {
+        let scene = Scene { temperatures: [-34.5, 45.5], noise: 0.01, earth: None };
+        let of = |id: &str, size: f64, at: f64| {
             let of = |name: &str, value: f64| Estimate { name: name.into(), value, ci90: [value; 2] };
-            is_straight("composed-knee-coil", &[of("size_deg_per_h_per_k", -33.0), of("at_c", value)], [-34.5, 45.5])
+            is_straight(id, &[of("size_deg_per_h_per_k", size), of("at_c", at)], &scene)
         };
-        assert!(at(-34.0) && at(-26.6) && !at(-26.4) && !at(45.0));
-        let of = Estimate { name: "at_c".into(), value: -34.0, ci90: [-34.0; 2] };
-        assert!(!is_straight("composed-threshold-coil", &[of], [-34.5, 45.5]));
+        let knee = "composed-knee-spool";
+        assert!(of(knee, -0.01, -34.0) && of(knee, 0.003, -26.6) && of(knee, 0.01, -40.0));
+        // seen, or not at the cold end
+        assert!(!of(knee, -0.01, -30.0) && !of(knee, 1e-3, -26.4) && !of(knee, 1e-3, 45.0));
+        assert!(!of("composed-threshold-coil", 1e-3, -34.0) && !of("composed-knee-chamber", 1e-3, -34.0));
         // as the laws are called that are composed
-        let scene = mechanisms::Scene { temperatures: [-34.5, 45.5], noise: 0.01, earth: None };
         let ids: Vec<String> = laws::laws(&Ranges::new(&scene, 0.01, 3e4, [1.0; 4])).into_iter().map(|law| law.text).collect();
         assert!(
             ids.iter().any(|text| text.contains("id: \"composed-knee-coil\"") && text.contains("(name: \"at\", unit: \"degC\""))

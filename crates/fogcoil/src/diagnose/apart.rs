@@ -1,7 +1,8 @@
 //! Explanations that the records leave to be told apart, with their probabilities.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use coil::Mechanics;
 use diagnosis::{Active, Candidate, ForwardModel, Verdict};
 use mechanisms::CATALOGUE;
 
@@ -16,10 +17,8 @@ const NEGLIGIBLE: f64 = 5e-4;
 /// Least probability that is told beside the answer.
 pub(super) const TOLD: f64 = 0.05;
 
-/// File of the design with all that was found but what is to be told apart.
-const BESIDE: &str = "beside.ron";
 /// Name of the design as it is among ids to be told apart.
-const NOMINAL: &str = "nominal";
+pub(super) const NOMINAL: &str = "nominal";
 
 /// A row of the table of probabilities.
 pub(super) struct Explanation<'a> {
@@ -120,20 +119,34 @@ impl Outcome<'_> {
         let on_request = mechanisms::ON_REQUEST.iter().map(|mechanism| mechanism.facts().id);
         let asked: String =
             on_request.filter(|id| ids.iter().any(|other| other == id)).map(|id| format!(" --mechanism {id}")).collect();
-        let coil = word(&self.coil);
         let command =
-            |coil: &str| format!("fogcoil recommend {coil} --between {}{asked}{}{flags}", ids.join(","), each("--from"));
+            |coil: &Path| format!("fogcoil recommend {} --between {}{asked}{}{flags}", word(coil), ids.join(","), each("--from"));
+        let beside = self.beside(ids);
+        if beside.is_empty() {
+            return command(&self.coil);
+        }
+        let left_out =
+            CATALOGUE.iter().map(|usual| usual.facts().id).filter(|id| self.mechanisms.iter().all(|m| m.facts().id != *id));
+        let without = ids.iter().map(String::as_str).filter(|id| *id != NOMINAL).chain(left_out);
+        let without: String = without.map(|id| format!(" --without {id}")).collect();
+        let stem = self.coil.file_stem().unwrap_or_default().to_string_lossy();
+        let file = PathBuf::from(format!("{stem}-with-{}.ron", beside.join("-and-")));
+        let [coil, with] = [&self.coil, &file].map(|path| word(path));
+        format!("fogcoil diagnose {coil}{}{flags}{without} --model-out {with} && {}", each("--fit"), command(&file))
+    }
+
+    /// Ids of what was found beside those that a test is to tell apart, if a design that a test can be sought for can hold it.
+    pub(super) fn beside(&self, ids: &[String]) -> Vec<&str> {
         let is_usual = |id: &str| CATALOGUE.iter().any(|usual| usual.facts().id == id);
         let is_asked = |active: &&Active| ids.iter().any(|id| id == self.id(active.mechanism));
-        let beside: Vec<&Active> = self.diagnosis.best().fit.active.iter().filter(|active| !is_asked(active)).collect();
-        // a file of the user's own would have to be given again, and what a coil file cannot hold stays out of it
-        let design = self.gyro.library().design();
-        let holds = |active: &&Active| is_usual(self.id(active.mechanism)) && self.gyro.extended(design, active).is_some();
-        if beside.is_empty() || !beside.iter().all(holds) {
-            return command(&coil);
-        }
-        let without: String = ids.iter().filter(|id| is_usual(id)).map(|id| format!(" --without {id}")).collect();
-        format!("fogcoil diagnose {coil}{}{flags}{without} --model-out {BESIDE} && {}", each("--fit"), command(BESIDE))
+        let kept: Vec<&Active> = self.diagnosis.best().fit.active.iter().filter(|active| !is_asked(active)).collect();
+        let named: Vec<&str> = kept.iter().map(|active| self.id(active.mechanism)).collect();
+        // a file of the user's own would have to be given again
+        let usual = ids.iter().map(String::as_str).filter(|id| *id != NOMINAL).chain(named.iter().copied()).all(is_usual);
+        let drawn = self.gyro.library().design();
+        let design = kept.iter().try_fold(drawn.clone(), |design, active| self.gyro.extended(&design, active));
+        let is_sought_for = design.is_some_and(|design| design.mechanics == Mechanics::Elastic);
+        if usual && is_sought_for { named } else { Vec::new() }
     }
 }
 

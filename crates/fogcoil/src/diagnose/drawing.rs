@@ -19,8 +19,8 @@ const RATHER: f64 = 2.0;
 /// A word of the drawing that seems to be another.
 pub(super) struct Doubt {
     pub(super) note: Note,
-    /// whether it follows the records so much better than the rate of the other sign does that this is no longer to be suspected
-    pub(super) rather_than_sign: bool,
+    /// Of each record, whether it is followed so much better than by the rate of the other sign that this is no longer to be suspected.
+    pub(super) rather_than_sign: Vec<bool>,
 }
 
 /// The warning that another drawing follows the fitted records far better: `gyro` is the design as it is, `answered` what the answer leaves of the rate in each record, rms;
@@ -51,13 +51,13 @@ pub(super) fn warning(
     };
     let tolerated = pooled(&drawn.iter().map(|drawn| drawn.tolerated).collect::<Vec<_>>());
     let numbers = 0..records.len();
-    let left =
-        |sign: f64| -> Vec<f64> { numbers.clone().map(|n| spread(rate(n), &drawn[n].predicted[RATE_CHANNEL], sign)).collect() };
-    let [left_of_all, negated] = [1.0, -1.0].map(|sign| pooled(&left(sign)));
+    let [left, negated] = [1.0, -1.0]
+        .map(|sign| -> Vec<f64> { numbers.clone().map(|n| spread(rate(n), &drawn[n].predicted[RATE_CHANNEL], sign)).collect() });
+    let left_of_all = pooled(&left);
     if constants_suffice && left_of_all < TOLERATED * tolerated {
         return Ok(None);
     }
-    let mut best: Option<(f64, String)> = None;
+    let mut best: Option<(f64, String, Vec<bool>)> = None;
     for other in other_drawings(&case.design) {
         // one that cannot be solved is none
         let Ok(changed) = in_full(&other.design) else { continue };
@@ -69,13 +69,13 @@ pub(super) fn warning(
         };
         let would: Vec<f64> = numbers.clone().map(would).collect();
         let as_much = numbers.clone().all(|n| drawn[n].explains_as_much(would[n], answered.map(|answered| answered[n])));
-        let would = pooled(&would);
-        if as_much && RATIO * would < left_of_all && best.as_ref().is_none_or(|(least, _)| would < *least) {
-            best = Some((would, other.words));
+        let of_all = pooled(&would);
+        if as_much && RATIO * of_all < left_of_all && best.as_ref().is_none_or(|(least, ..)| of_all < *least) {
+            let rather_than_sign = would.iter().zip(&negated).map(|(would, negated)| RATHER * would < *negated).collect();
+            best = Some((of_all, other.words, rather_than_sign));
         }
     }
-    Ok(best.map(|(would, words)| {
-        let rather_than_sign = RATHER * would < negated;
+    Ok(best.map(|(would, words, rather_than_sign)| {
         let [left, would] = [left_of_all, would].map(|r| significant(r, 2));
         let text = format!(
             "the unit may differ from its drawing in one word: as drawn it leaves {left} deg/h rms of the fitted records, with {words} {would}, and nothing fitted"

@@ -73,10 +73,10 @@ struct Held {
 }
 
 impl Held {
-    /// The prediction by what a verdict says: the nominal model's where that is said to suffice.
-    fn answer(&self, verdict: Verdict) -> &HeldOut {
+    /// The prediction by what a verdict says: the nominal model's where it is no better, or where what was found was `taken_back`.
+    fn answer(&self, verdict: Verdict, taken_back: bool) -> &HeldOut {
         let is_found = matches!(verdict, Verdict::Explained | Verdict::Recalibrate);
-        if is_found || self.accepted { &self.model } else { &self.nominal }
+        if is_found || self.accepted && !taken_back { &self.model } else { &self.nominal }
     }
 }
 
@@ -163,7 +163,11 @@ pub fn diagnose<'m>(
         let of_rate = explains_fitted.then_some(of_rate.as_slice());
         let constants_suffice = diagnosis.verdict == Verdict::Recalibrate;
         if let Some(doubt) = drawing::warning(&drawn, case, &read, of_rate, constants_suffice).map_err(coil)? {
-            notes.retain(|note| !(doubt.rather_than_sign && note.remark == Remark::ReversedRate));
+            let rather = read.iter().zip(&doubt.rather_than_sign).filter(|(_, rather)| **rather);
+            let files: Vec<&Path> = rather.map(|(record, _)| record.fingerprint.file.as_path()).collect();
+            notes.retain(|note| {
+                note.remark != Remark::ReversedRate || !note.place.as_deref().is_some_and(|file| files.contains(&file))
+            });
             notes.push(doubt.note);
         }
     }
@@ -177,8 +181,9 @@ pub fn diagnose<'m>(
             (held.model, held.accepted) = (by_law.clone(), true);
         }
     }
-    let verdict = diagnosis.verdict;
-    notes.extend(holdouts.iter().filter(|_| verdict != Verdict::Unknown).filter_map(|held| left_over(held, verdict)));
+    let (verdict, taken_back) = (diagnosis.verdict, !withdrawn.is_empty());
+    let judged = holdouts.iter().filter(|_| verdict != Verdict::Unknown);
+    notes.extend(judged.filter_map(|held| left_over(held, held.answer(verdict, taken_back))));
     let (name, coil, design) = (case.name.clone(), case.file.clone(), case.fingerprints.clone());
     let alone = diagnosis.best().is_constants_alone();
     let gyro = if alone { settled.into_alone() } else { settled.model }.unwrap_or(drawn);
@@ -256,8 +261,7 @@ fn check_laws(gyro: &Gyro, mechanisms: &[&dyn Mechanism], records: &[Record]) ->
 }
 
 /// Note on a held-out record in which the answer leaves more than noise.
-fn left_over(held: &Held, verdict: Verdict) -> Option<Note> {
-    let answer = held.answer(verdict);
+fn left_over(held: &Held, answer: &HeldOut) -> Option<Note> {
     let of = |channel: usize, name: &str| {
         let left = format!("{name} {} times its noise", significant(answer.over_noise(channel), 2));
         (!answer.within_noise(channel)).then_some((answer.is_far_from_noise(channel), left))
@@ -357,7 +361,8 @@ impl Outcome<'_> {
 
     /// Whether a record that was held out is left with far more than noise.
     fn is_left_over(&self) -> bool {
-        let far = |held: &Held, channel: &usize| held.answer(self.diagnosis.verdict).is_far_from_noise(*channel);
+        let taken_back = !self.withdrawn.is_empty();
+        let far = |held: &Held, channel: &usize| held.answer(self.diagnosis.verdict, taken_back).is_far_from_noise(*channel);
         self.holdouts.iter().any(|held| [RATE_CHANNEL, SPOOL_CHANNEL].iter().any(|channel| far(held, channel)))
     }
 

@@ -152,7 +152,7 @@ impl Outcome<'_> {
                 )
             }
             None if self.warned(Remark::FollowsColumn).is_some() => format!(
-                "What is left of the rate follows a column that the model does not use, as the warning says. Apart from that: {}",
+                "The rate follows a column that the model does not use, as the warning says. Without that column: {}",
                 self.verdict_as_read()
             ),
             None => self.verdict_as_read(),
@@ -227,11 +227,14 @@ impl Outcome<'_> {
         }
     }
 
-    /// Ids of the best candidate's mechanisms, without those whose place a law took: nobody should look for these.
+    /// Ids of the best candidate's mechanisms, without those whose place a law took beside others: nobody should look for these.
     pub(super) fn told_names(&self) -> Vec<&str> {
         let names = self.names();
-        let told = names.iter().copied().filter(|id| self.probability(id).is_some_and(|p| p >= TOLD));
-        let told: Vec<&str> = told.collect();
+        let is_displaced = |id: &str| {
+            let by_law = self.stand_ins.iter().any(|stand_in| stand_in.is_near() && stand_in.of == id);
+            by_law && self.probability(id).is_none_or(|p| p < TOLD)
+        };
+        let told: Vec<&str> = names.iter().copied().filter(|id| !is_displaced(id)).collect();
         if told.is_empty() { names } else { told }
     }
 
@@ -282,6 +285,10 @@ impl Outcome<'_> {
                 let (names, several) = (self.told_names().join(" and "), self.told_names().len() > 1);
                 let [is, it] = if several { ["are", "them"] } else { ["is", "it"] };
                 match self.law_in_place() {
+                    Some(_) if self.told_names().len() < self.names().len() => format!(
+                        "inspect the unit for {names}. A record that was held out confirms the size of the effect; what acts beside {names} is best \
+                         described by a law that nobody listed: seek its cause among the known physics of that form."
+                    ),
                     Some(_) => format!(
                         "inspect the unit for {names}. A record that was held out confirms the size of the effect; it does not tell {names} from a \
                          law that nobody listed, which only the inspection does."
@@ -290,7 +297,7 @@ impl Outcome<'_> {
                 }
             }
             Verdict::Explained if !self.holdouts.is_empty() => format!(
-                "inspect the unit. The record that was held out does not confirm {}: if the inspection does not, {another}.",
+                "inspect the unit. What was held out does not confirm {}: if the inspection does not, {another}.",
                 self.told_names().join(" and ")
             ),
             Verdict::Explained => {
@@ -351,6 +358,11 @@ impl Outcome<'_> {
         (2.0 * probability >= none + recalibrate).then(|| (self.id(first), probability, inspection))
     }
 
+    /// Whether the design, or its constants, suffice for all records, and likely so.
+    pub(super) fn stands_surely(&self) -> bool {
+        self.suffices_surely() && !self.is_left_over() && self.withdrawn.is_empty()
+    }
+
     fn suffices_surely(&self) -> bool {
         let [none, recalibrate, ..] = self.diagnosis.verdicts();
         none + recalibrate >= LIKELY
@@ -381,10 +393,12 @@ impl Outcome<'_> {
         let command = (!ids.is_empty() && self.misread().is_none()).then(|| self.recommend(&ids))?;
         let before = self.warned(Remark::DoubtedDrawing).or_else(|| self.warned(Remark::FollowsColumn));
         let first = before.map_or(String::new(), |warning| format!("{} ", warning.remark.explanation().remedy));
-        Some(format!(
-            "{first}These records do not exclude: {}. This seeks a test that separates them: {command}",
-            self.others().join(", ")
-        ))
+        let others = self.others().join(", ");
+        let sought = match ids.as_slice() {
+            [other, nominal] if nominal == NOMINAL => format!("a test that shows whether {other} is at work, too"),
+            _ => "a test that separates them".to_owned(),
+        };
+        Some(format!("{first}These records do not exclude: {others}. This seeks {sought}: {command}"))
     }
 }
 

@@ -8,8 +8,7 @@ use super::front::front;
 use super::picture::figure;
 use super::plan::Plan;
 use super::search::Found;
-use super::text::on_the_front;
-use super::text::{NOTHING, at_ends, designs, of_optimum, of_spread, steps, within_error};
+use super::text::{NOTHING, at_ends, designs, of_optimum, of_spread, on_the_front, steps, within_error};
 use crate::report::{provenance, sentence};
 
 /// The front, the optimum with its check, and the changes that lead to it.

@@ -78,7 +78,7 @@ fn shown(count: usize) -> impl Iterator<Item = usize> {
 /// How many designs are on the front, and how many of them are shown.
 pub(super) fn on_the_front(count: usize) -> String {
     let shown = shown(count).count();
-    if shown < count { format!("{count} on the front, {shown} of them shown") } else { format!("{count} on the front") }
+    if shown < count { format!("{count} on the front, {shown} of them in the table") } else { format!("{count} on the front") }
 }
 
 fn short(value: &Value) -> String {

@@ -14,7 +14,9 @@ pub struct Unit {
 /// An offset that something known explains.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Offset {
-    /// The most that is expected \[u\].
+    /// An offset that is known and no mistake \[u\], 0 if there is none; its opposite is one.
+    pub known: f64,
+    /// The most that is expected beside it, or without it \[u\].
     pub largest: f64,
     /// The most that what is known explains \[u\].
     pub explained: f64,

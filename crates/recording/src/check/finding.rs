@@ -272,7 +272,7 @@ impl Finding {
             FindingKind::TooShort(rows) => write!(f, "too few rows, {rows}"),
             FindingKind::Offset { median, largest, of, is_explained } => {
                 write!(f, "the median, {} {unit}, is more than {} {unit}", Short(*median), Short(*largest))?;
-                if *is_explained { write!(f, ": perhaps {of}") } else { write!(f, ", and more than this explains: {of}") }
+                if *is_explained { write!(f, ": perhaps {of}") } else { write!(f, ", which this does not explain: {of}") }
             }
         }
     }

@@ -52,10 +52,12 @@ pub(super) fn judge(summary: &ChannelSummary, course: &Course, expectation: &Exp
     {
         let kind = FindingKind::Start { found: start, candidate: unit.name.clone(), key: key() };
         findings.push(Finding::whole(kind, Severity::Warning));
-    } else if let Some(Offset { largest, explained, of }) = offset
-        && summary.median.abs() > *largest
+    } else if let Some(Offset { known, largest, explained, of }) = offset
+        && summary.median.abs().min((summary.median - known).abs()) > *largest
     {
-        let is_explained = summary.median.abs() <= *explained;
+        // what is known explains its opposite alone
+        let is_explained =
+            if *known == 0.0 { summary.median.abs() <= *explained } else { (summary.median + known).abs() <= *largest };
         let kind = FindingKind::Offset { median: summary.median, largest: *largest, of: of.clone(), is_explained };
         findings.push(Finding::whole(kind, Severity::Note));
     }

@@ -6,6 +6,10 @@ use maud::{Markup, html};
 use super::{Clock, Quantity};
 use crate::diagnose::{NOMINAL, Outcome, REFITTED, Record};
 
+/// What the first of two models is.
+const NOMINAL_IS: &str =
+    " The nominal model is the design as drawn with usual instruments, of which nothing but a constant offset was fitted.";
+
 /// The residuals that a model leaves of a record that was fitted.
 #[derive(Clone, Copy)]
 struct Left<'a> {
@@ -32,6 +36,7 @@ impl Outcome<'_> {
         self.fits.iter().zip(&self.by_design).zip(answer).map(|((record, by_design), answer)| {
             let left = |model, residuals| Left { model, record, residuals };
             match self.found() {
+                None if !self.withdrawn.is_empty() => vec![left(NOMINAL, by_design)],
                 None => vec![left(REFITTED, answer)],
                 Some(name) => vec![left(NOMINAL, by_design), left(name, answer)],
             }
@@ -91,9 +96,10 @@ impl Outcome<'_> {
             description:
                 "Recorded less modelled rate and spool temperature over time, for the design as drawn, and for what was found."
                     .into(),
-            caption: "A channel's panels have one scale. What is noise has no shape; what has one is missing in the model. The nominal model is the \
-                      design as drawn with usual instruments, of which nothing but a constant offset was fitted."
-                .into(),
+            caption: format!(
+                "A channel's panels have one scale. What is noise has no shape; what has one is missing in the model.{}",
+                if self.found().is_some() { NOMINAL_IS } else { "" }
+            ),
             columns,
             panels,
         }

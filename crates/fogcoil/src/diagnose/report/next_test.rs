@@ -16,6 +16,16 @@ impl Outcome<'_> {
             return html! { p { (self.nothing_to_tell_apart()) } };
         }
         let command = format!("{} --out next.csv", self.recommend(&between));
+        let beside = self.beside(&between);
+        if !beside.is_empty() {
+            return html! {
+                p {
+                    "The test is to be sought for the design with " (beside.join(" and ")) ". The first command writes that design, the second \
+                     seeks the test and writes its profile:"
+                } "\n"
+                p { code { (command) } }
+            };
+        }
         let (records, limits) = (self.fits.clone(), Limits::USUAL);
         let question =
             Question { file: &self.coil, mechanisms: &self.mechanisms, between: &between, records, limits, thorough: false };
@@ -39,7 +49,7 @@ impl Outcome<'_> {
         match (self.diagnosis.verdict, likeliest) {
             _ if self.misread().is_some() => next,
             (Verdict::Explained, _) => {
-                let names = self.names();
+                let names = self.told_names();
                 let looks: Vec<&str> = names.iter().filter_map(|id| self.inspection(id)).collect();
                 // of a mechanism of the user's own the command would need the file
                 let listed = |id: &str| mechanisms::find(id).is_some();

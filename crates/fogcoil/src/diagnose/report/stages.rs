@@ -34,8 +34,8 @@ impl Outcome<'_> {
             ["flexible input at", "ln evidence gained", "probability, of one smooth input alone", "rate's residual, Ljung–Box"];
         let restored = stages.iter().any(|s| s.whiteness.get(RATE).is_some_and(|p| *p >= spectrum::WHITE));
         let leads_white = stages.first().is_some_and(|s| s.whiteness.get(RATE).is_some_and(|p| *p >= spectrum::WHITE));
-        let said = if matches!(self.diagnosis.verdict, Verdict::None | Verdict::Recalibrate) {
-            "The design, its constants and its instruments within their tolerances do the same here: no part is at fault."
+        let said = if matches!(self.diagnosis.verdict, Verdict::None | Verdict::Recalibrate) && self.stands_surely() {
+            "Design, constants and instruments do the same here, and these records show no part at fault."
         } else if restored && !leads_white {
             "The part that gains most does not leave the rate's residual white: the difference is not one smooth input there, and the \
              probabilities compare shapes, not causes."
@@ -65,12 +65,12 @@ impl Outcome<'_> {
         let own = |name: &str| stages.iter().find(|s| s.stage == name && s.probability < FAR);
         let (id, own) = self.places().find_map(|(id, stage, _)| Some((id.to_owned(), own(stage)?)))?;
         Some(format!(
-            "{id} acts in the part \"{}\". One smooth input there gains {} of ln evidence, in the part \"{}\" {}. Such an input has not the law of a \
+            "{id} acts in the part \"{}\". One smooth input there gains {} of ln evidence, in the part \"{}\" {} more. Such an input has not the law of a \
              mechanism: which mechanism it is, the table of probabilities above says; this one is no proof of it.",
             own.stage,
             gained(own.gain),
             first.stage,
-            gained(first.gain)
+            gained(first.gain - own.gain)
         ))
     }
 
