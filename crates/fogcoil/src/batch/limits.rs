@@ -174,8 +174,14 @@ impl Limits {
             return Judged::NotKnown(vec![problem.clone()]);
         }
         let verdict = (!self.verdicts.is_empty()).then(|| match &row.verdict {
+            Some(verdict) if self.verdicts.contains(verdict) && row.rivalled => {
+                Kept::NotKnown(format!("the verdict {verdict} is less likely than another: {}", row.open()))
+            }
             Some(verdict) if self.verdicts.contains(verdict) => Kept::Yes,
-            Some(verdict) if verdict == "explained" => Kept::No(format!("an effect was found: {}", row.open())),
+            Some(verdict) if verdict == "explained" => {
+                let drawing = row.drawing.as_ref().map_or(String::new(), |word| format!("{word} in place of the drawing's, or "));
+                Kept::No(format!("an effect was found: {drawing}{}", row.open()))
+            }
             Some(verdict) => Kept::No(format!("the verdict is {verdict}")),
             None => Kept::NotKnown("there is no verdict".into()),
         });

@@ -57,6 +57,10 @@ pub struct Row {
     together: Vec<String>,
     /// Ids of the warnings about its records, each once.
     pub warnings: Vec<String>,
+    /// The word of the drawing that may be another, as the records have it.
+    pub drawing: Option<String>,
+    /// The column that the rate follows and the model does not use.
+    pub column: Option<String>,
     /// The likeliest mechanism.
     pub first: Option<String>,
     /// Parameters of the explanation: name, value and both ends of the 90 % interval.
@@ -108,6 +112,8 @@ impl Row {
             set: texts(&diagnosis["set"]),
             together: probable(diagnosis),
             warnings: warnings(diagnosis),
+            drawing: text(&diagnosis["other_drawing"]),
+            column: text(&diagnosis["follows_column"]),
             first: text(&first["id"]),
             parameters: parameters(&diagnosis["parameters"]),
             shape: shape(diagnosis),
@@ -171,7 +177,15 @@ impl Row {
 
     /// Warnings of its records, in words.
     pub(super) fn warned(&self) -> Option<String> {
-        (!self.warnings.is_empty()).then(|| format!("warned of {}", self.warnings.join(", ")))
+        let of = |id: &String| {
+            let which = match id.as_str() {
+                "doubted-drawing" => self.drawing.as_ref(),
+                "follows-column" => self.column.as_ref(),
+                _ => None,
+            };
+            which.map_or_else(|| id.clone(), |which| format!("{id} ({which})"))
+        };
+        (!self.warnings.is_empty()).then(|| format!("warned of {}", self.warnings.iter().map(of).collect::<Vec<_>>().join(", ")))
     }
 
     /// Reason why a number is not known.
@@ -191,10 +205,12 @@ impl Row {
 /// Probability of a diagnosis' verdict; of none and recalibrate together where one of them is it: the design suffices.
 fn of_verdict(diagnosis: &Value) -> Option<f64> {
     let of = |verdict: &str| diagnosis["verdicts"][verdict].as_f64();
-    match diagnosis["verdict"].as_str()? {
-        "none" | "recalibrate" => Some(of("none")? + of("recalibrate")?),
-        verdict => of(verdict),
-    }
+    let probability = match diagnosis["verdict"].as_str()? {
+        "none" | "recalibrate" => of("none")? + of("recalibrate")?,
+        verdict => of(verdict)?,
+    };
+    // a sum of parts rounds beyond 1
+    Some(probability.min(1.0))
 }
 
 /// Shape of what has no name, of a verdict that says so.

@@ -132,7 +132,9 @@ impl Outcome<'_> {
         let stem = self.coil.file_stem().unwrap_or_default().to_string_lossy();
         let file = PathBuf::from(format!("{stem}-with-{}.ron", beside.join("-and-")));
         let [coil, with] = [&self.coil, &file].map(|path| word(path));
-        format!("fogcoil diagnose {coil}{}{flags}{without} --model-out {with} && {}", each("--fit"), command(&file))
+        let held: String =
+            self.holdouts.iter().map(|held| format!(" --holdout {}", word(&held.record.fingerprint.file))).collect();
+        format!("fogcoil diagnose {coil}{}{held}{flags}{without} --model-out {with} && {}", each("--fit"), command(&file))
     }
 
     /// Ids of what was found beside those that a test is to tell apart, if a design that a test can be sought for can hold it.

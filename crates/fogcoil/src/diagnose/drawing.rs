@@ -19,6 +19,8 @@ const RATHER: f64 = 2.0;
 /// A word of the drawing that seems to be another.
 pub(super) struct Doubt {
     pub(super) note: Note,
+    /// The word, as a coil file has it.
+    pub(super) words: String,
     /// Of each record, whether it is followed so much better than by the rate of the other sign that this is no longer to be suspected.
     pub(super) rather_than_sign: Vec<bool>,
 }
@@ -80,6 +82,6 @@ pub(super) fn warning(
         let text = format!(
             "the unit may differ from its drawing in one word: as drawn it leaves {left} deg/h rms of the fitted records, with {words} {would}, and nothing fitted"
         );
-        Doubt { note: Remark::DoubtedDrawing.warning(text).at(&case.file), rather_than_sign }
+        Doubt { note: Remark::DoubtedDrawing.warning(text).at(&case.file), words, rather_than_sign }
     }))
 }

@@ -84,7 +84,7 @@ fn followed(records: &[Rows]) -> Option<Followed> {
 impl Outcome<'_> {
     /// A warning of the column, read by nothing, that explains most of what is left of the rate: by the leading explanation, or by the constants alone if they leave
     /// no more beside the column than that explanation does.
-    pub(super) fn follows_ignored(&self) -> Option<Note> {
+    pub(super) fn follows_ignored(&self) -> Option<(String, Note)> {
         let leading = &self.leading().residuals;
         let answered: Vec<f64> = leading.iter().flat_map(|channels| channels[RATE_CHANNEL].iter().copied()).collect();
         let alone = self.diagnosis.candidates.iter().find(|candidate| candidate.is_constants_alone());
@@ -110,7 +110,7 @@ impl Outcome<'_> {
             significant(found.slope, 2),
             100.0 * found.share
         );
-        Some(Remark::FollowsColumn.warning(text).at(&self.fits.first()?.fingerprint.file))
+        Some((shown(name), Remark::FollowsColumn.warning(text).at(&self.fits.first()?.fingerprint.file)))
     }
 
     /// Whether a column is in all records, and neither constant nor a line of the time or of a temperature.

@@ -49,6 +49,8 @@ impl Outcome<'_> {
             "named": self.named_json(),
             "located": located.unwrap_or(nowhere),
             "structure": self.structure(),
+            "other_drawing": self.other_drawing,
+            "follows_column": self.follows_column,
             "stand_ins": self.stand_ins.iter().map(StandIn::json).collect::<Vec<_>>(),
             "composed": self.composed.as_ref().map(Composed::json),
             "holdout": held,

@@ -59,6 +59,10 @@ pub struct Outcome<'m> {
     holdouts: Vec<Held>,
     /// mechanisms that a record held out took back, with their probabilities by what was fitted
     withdrawn: Vec<(usize, f64)>,
+    /// the word of the drawing that may be another
+    other_drawing: Option<String>,
+    /// the column that the rate follows and the model does not use
+    follows_column: Option<String>,
     /// whether the design is a lot's already
     is_lots: bool,
     notes: Vec<Note>,
@@ -157,6 +161,7 @@ pub fn diagnose<'m>(
         let explains = if number < read.len() { explains_fitted } else { explains_held };
         notes.extend(columns::warning(&drawn, number, record, explains.then_some(answered.as_slice())).map_err(coil)?);
     }
+    let mut other_drawing = None;
     if diagnosis.verdict != Verdict::None {
         progress(Step::begins("drawings that differ in one word"));
         let of_rate: Vec<f64> = answered[..read.len()].iter().map(|answered| answered[RATE_CHANNEL]).collect();
@@ -169,6 +174,7 @@ pub fn diagnose<'m>(
                 note.remark != Remark::ReversedRate || !note.place.as_deref().is_some_and(|file| files.contains(&file))
             });
             notes.push(doubt.note);
+            other_drawing = Some(doubt.words);
         }
     }
     let left = |pair: (usize, &Observation)| diagnosis::designed_residuals(&drawn, pair);
@@ -200,14 +206,18 @@ pub fn diagnose<'m>(
         by_design,
         holdouts,
         withdrawn,
+        other_drawing,
+        follows_column: None,
         is_lots: case.is_calibrated(),
         notes,
     };
     let far_off = outcome.far_off();
     outcome.notes.extend(far_off);
-    if outcome.diagnosis.verdict != Verdict::None {
-        let follows = outcome.follows_ignored();
-        outcome.notes.extend(follows);
+    if outcome.diagnosis.verdict != Verdict::None
+        && let Some((column, note)) = outcome.follows_ignored()
+    {
+        outcome.notes.push(note);
+        outcome.follows_column = Some(column);
     }
     Ok(outcome)
 }

@@ -57,12 +57,8 @@ impl Outcome<'_> {
         if let Some((law, _)) = &composed {
             out.push_str(law);
         }
-        if let (Verdict::Unknown, Some(best)) = (d.verdict, self.best_named()) {
-            let ids: Vec<&str> = best.fit.active.iter().map(|a| self.id(a.mechanism)).collect();
-            let values = (0..ids.len()).flat_map(|place| best.fit.estimates(&self.gyro, place));
-            let values: Vec<String> = values.map(|e| format!("{} = {}", e.name, self.told(&e, 4).0)).collect();
-            let [ids, values] = [ids.join(" and "), values.join(", ")];
-            let _ = writeln!(out, "Nearest named mechanism: {ids} ({values}).");
+        if let Some(nearest) = self.nearest_named() {
+            let _ = writeln!(out, "Nearest named mechanism: {nearest}.");
         }
         match self.alternatives() {
             Some(alternatives) => {
@@ -225,6 +221,15 @@ impl Outcome<'_> {
             Some(p) => format!("{lead}: {named}, or a law that nobody listed and that does the same (probability {p:.3})"),
             None => format!("{lead}: {named}"),
         }
+    }
+
+    /// Of what is unknown the best description by mechanisms with a name, with their parameters.
+    pub(super) fn nearest_named(&self) -> Option<String> {
+        let best = self.best_named().filter(|_| self.diagnosis.verdict == Verdict::Unknown)?;
+        let ids: Vec<&str> = best.fit.active.iter().map(|a| self.id(a.mechanism)).collect();
+        let values = (0..ids.len()).flat_map(|place| best.fit.estimates(&self.gyro, place));
+        let values: Vec<String> = values.map(|e| format!("{} = {}", e.name, self.told(&e, 4).0)).collect();
+        Some(format!("{} ({})", ids.join(" and "), values.join(", ")))
     }
 
     /// Ids of the best candidate's mechanisms, without those whose place a law took beside others: nobody should look for these.

@@ -142,6 +142,7 @@ impl Outcome<'_> {
             }
         }
         rows.extend(self.law_name().map(|law| row("it is like", nice(&law))));
+        rows.extend(self.nearest_named().map(|nearest| row("nearest named", nice(&nearest))));
         for other in self.others() {
             rows.extend(self.inspection(other).map(|inspection| row("or inspect", format!("{}, for {other}", nice(inspection)))));
         }
