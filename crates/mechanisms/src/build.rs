@@ -63,8 +63,11 @@ impl Models {
         let open = debond::flanges(design);
         let (done, all) = (AtomicUsize::new(0), ModelEffort::default().solutions() + open.len() * OPEN.len());
         let one = || progress(Step::counted(TASK, done.fetch_add(1, Ordering::Relaxed) + 1, all));
-        let model =
-            ParametricModel::new(design, &ranges(design, tolerances, mechanisms), &COARSE, &ModelEffort::default(), &one)?;
+        let mut ranges = ranges(design, tolerances, mechanisms);
+        for heater in &drawing.heat.heaters {
+            Range::widened(&mut ranges, design, &with_heater(design, heater.side, 1.0));
+        }
+        let model = ParametricModel::new(design, &ranges, &COARSE, &ModelEffort::default(), &one)?;
         // temperatures at which the bond opens do not matter: both states are known
         let [below, hysteresis] = debond::OPENS;
         let opening = |side: Side, share: f64| -> Result<_, Error> {

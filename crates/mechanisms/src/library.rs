@@ -6,8 +6,8 @@ use crate::heat_path::{AtWork, HeatPath};
 use crate::interpolation::{cubic_weights, nodes};
 
 use coil::{
-    Design, Error, HeatPaths, MODULI, MechanicalState, Mechanics, Output, Parameter, ParametricModel, Projected, Reduced, Side,
-    Slopes, Tolerances, TurnFields,
+    Design, Error, HeatPaths, Heater, MODULI, MechanicalState, Mechanics, Output, Parameter, ParametricModel, Projected, Reduced,
+    Side, Slopes, Tolerances, TurnFields,
 };
 use nalgebra::DVector;
 use std::collections::HashMap;
@@ -68,9 +68,11 @@ pub struct Library {
     pub(crate) paths: Vec<Tabulated>,
     /// driven by the chamber and by 1 W in a flange: of each that may be heated
     pub(crate) heaters: Vec<Reduced>,
+    /// the power of each heater of the drawing \[W\], and the same of 1 W there
+    pub(crate) drawn_heaters: Vec<(f64, Reduced)>,
 }
 
-/// A design without a heater of its own: that is no drive of a recording.
+/// A design without a heater of its own: it is no drive of a recording, but is added to what the chamber drives.
 pub(crate) fn unheated(design: &Design) -> Design {
     Design { heat: HeatPaths { heaters: Vec::new(), ..design.heat.clone() }, ..design.clone() }
 }
@@ -149,7 +151,23 @@ impl Library {
         }
         let heated = |side: Side| model.in_states(&with_heater(&design, side, 1.0), &[MechanicalState::NOMINAL]);
         let heaters = heatable_flanges(&models.drawing).into_iter().map(heated).collect::<Result<_, _>>()?;
-        Ok(Self { models, heat_paths, unchanged, design, at_work, constants, base, slopes, fields, moduli, paths, heaters })
+        let drawn = |heater: &Heater| heated(heater.side).map(|model| (heater.power, model));
+        let drawn_heaters = models.drawing.heat.heaters.iter().map(drawn).collect::<Result<_, _>>()?;
+        Ok(Self {
+            models,
+            heat_paths,
+            unchanged,
+            design,
+            at_work,
+            constants,
+            base,
+            slopes,
+            fields,
+            moduli,
+            paths,
+            heaters,
+            drawn_heaters,
+        })
     }
 
     /// The design that it was made for, as it is drawn.

@@ -202,7 +202,11 @@ impl Prepared {
         let run = |model: &Reduced| Course::new(model, &clock, std::slice::from_ref(&clock.chamber), &[first]);
         let course = run(&library.base);
         let base = course.series(&library.base);
-        let nominal = library.with_drifts(&course, &base, time, averaging)?;
+        let mut nominal = library.with_drifts(&course, &base, time, averaging)?;
+        // as in a simulation they are on from the first row, where all is at rest
+        for (power, model) in &library.drawn_heaters {
+            nominal.change(&Heating::new(model, &clock, averaging).at(model, 0.0), *power);
+        }
         let off = Course::new(&library.base, &clock, std::slice::from_ref(&clock.chamber), &[first + OFF_REST]);
         // everything is linear in what drives it
         let [later, slower] = [later, slower].map(|change| {
