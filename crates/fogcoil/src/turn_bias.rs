@@ -62,6 +62,10 @@ pub(crate) struct Sum {
     tails: Option<f64>,
 }
 
+/// Beside sums of turns and of tails.
+pub(crate) const OF_TAILS: &str = "The thermal phase of the tails cancels against that of the turns, so the tails' sum is no measure of what other tails would \
+    do: trim tells that.";
+
 impl Sum {
     /// The sum over the whole fibre, in words.
     pub(crate) fn whole(self, decimals: usize) -> String {

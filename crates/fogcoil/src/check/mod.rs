@@ -13,6 +13,7 @@ use bias::units::S_PER_H;
 use charts::{Axis, Figure, Panel, Series as Line, Style, significant};
 use files::Note;
 use recording::allan::{AllanPoint, CONFIDENCE, allan};
+use recording::check::white_noise_beyond_cubics;
 use recording::condition::bridged;
 use recording::lag::lagging;
 use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Series, Term, Whitener, identify, residual};
@@ -54,6 +55,9 @@ pub struct GyroNoise {
     pub allan: Vec<AllanPoint>,
     /// Interval of the rows \[s\].
     pub interval: f64,
+    /// White noise of a sample from fourth differences of neighbours in the rate itself \[deg/h\], and the number of rows: what is taken off brings the noise of
+    /// the thermometer with it.
+    pub neighbours: Option<(f64, usize)>,
 }
 
 impl GyroNoise {
@@ -146,7 +150,7 @@ fn gyro_noise(case: &RecordCase) -> Option<GyroNoise> {
     let mut bounds = Bounds::new(case.averaging, time);
     let mut used = mask.clone();
     let mut passes = 0;
-    let (estimate, allan) = loop {
+    let (estimate, allan, neighbours) = loop {
         let series = Series { time, values, mask: &used, columns: &columns };
         let estimate = identify(&series, &bounds).ok()?;
         let rest = residual(&series, &estimate.model).ok()?;
@@ -160,11 +164,13 @@ fn gyro_noise(case: &RecordCase) -> Option<GyroNoise> {
         }
         let more = leave_out(&estimate, time, &rest, &mut used) || quantised;
         if !more || passes == MOST_PASSES {
-            break (estimate, allan);
+            let rows = still.iter().filter(|there| **there).count();
+            let neighbours = white_noise_beyond_cubics(time, values, &still).filter(|sd| *sd > 0.0).map(|sd| (sd, rows));
+            break (estimate, allan, neighbours);
         }
     };
     let left_out = mask.iter().zip(&used).filter(|(there, used)| **there && !**used).count();
-    Some(GyroNoise { estimate, driver, is_bound, lags, left_out, allan, interval: instants.interval })
+    Some(GyroNoise { estimate, driver, is_bound, lags, left_out, allan, interval: instants.interval, neighbours })
 }
 
 /// Masks the rows that the model does not expect, where the temperature turns too fast for its lags; whether there were any.

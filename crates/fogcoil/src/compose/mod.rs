@@ -212,6 +212,14 @@ impl Search<'_> {
     /// Laws as they are told.
     fn told(&self, found: Found, accepted: bool) -> Composed {
         let Found { law: diagnosis::Composed { fit, laws, gain, others, .. }, held, .. } = found;
+        // judged by the noise that it leaves itself: that of the search has swallowed what the law explains
+        let by_itself = || {
+            self.held
+                .iter()
+                .map(|(record, observed)| fit.hold_out(&self.with, *record, observed, &fit))
+                .collect::<Result<Vec<_>, _>>()
+        };
+        let held = if accepted { by_itself().unwrap_or(held) } else { held };
         let own = fit.active.iter().enumerate().skip(fit.active.len() - laws);
         let term = |(place, active): (usize, &Active)| {
             let (case, known) = self.case(&self.with.mechanisms()[active.mechanism].id)?;

@@ -21,13 +21,14 @@ pub use written::Written;
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use diagnosis::{
     Candidate, Contradiction, Diagnosis, Fit, ForwardModel, HeldOut, Hypothesis, Judged, Judgement, Observation, Ruling,
     Settings, Verdict,
 };
 use files::{Note, Remark, shown_path};
-use mechanisms::{CATALOGUE, Extent, Gyro, Mechanism, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
+use mechanisms::{CATALOGUE, Extent, Gyro, Library, Mechanism, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 use progress::Step;
 use recording::Seconds;
 
@@ -46,6 +47,10 @@ pub struct Outcome<'m> {
     design: Vec<Fingerprint>,
     /// about the constants that the records speak for
     gyro: Gyro<'m>,
+    /// about the drawing
+    library: Library,
+    /// the next test, in a sentence, once it was worked out
+    sought: OnceLock<String>,
     /// what it was asked for
     mechanisms: Vec<&'m dyn Mechanism>,
     diagnosis: Diagnosis,
@@ -198,6 +203,8 @@ pub fn diagnose<'m>(
         coil,
         design,
         gyro,
+        library,
+        sought: OnceLock::new(),
         mechanisms: mechanisms.to_vec(),
         diagnosis,
         composed,

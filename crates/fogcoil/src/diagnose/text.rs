@@ -162,6 +162,13 @@ impl Outcome<'_> {
             .find(|note| matches!(note.remark, Remark::ExchangedColumns | Remark::LooseThermometer | Remark::ReversedRate))
     }
 
+    /// The step that a warning asks for; of a drawing with the word that is in doubt.
+    fn remedy(&self, warning: &Note) -> String {
+        let remedy = warning.remark.explanation().remedy;
+        let word = self.other_drawing.as_ref().filter(|_| warning.remark == Remark::DoubtedDrawing);
+        word.map_or_else(|| remedy.to_owned(), |word| format!("{remedy} The word is {word}."))
+    }
+
     /// The note of a kind, if there is one.
     fn warned(&self, remark: Remark) -> Option<&Note> {
         self.notes.iter().find(|note| note.remark == remark)
@@ -270,7 +277,7 @@ impl Outcome<'_> {
         let before = self.warned(Remark::DoubtedDrawing).map(|warning| (warning, "If it is as drawn"));
         match before.or_else(|| self.warned(Remark::FollowsColumn).map(|warning| (warning, "If that does not explain it"))) {
             Some((warning, otherwise)) => {
-                format!("{} {otherwise}: {}", warning.remark.explanation().remedy, self.next_as_drawn())
+                format!("{} {otherwise}: {}", self.remedy(warning), self.next_as_drawn())
             }
             None => self.next_as_drawn(),
         }
@@ -397,13 +404,14 @@ impl Outcome<'_> {
         let ids = self.apart();
         let command = (!ids.is_empty() && self.misread().is_none()).then(|| self.recommend(&ids))?;
         let before = self.warned(Remark::DoubtedDrawing).or_else(|| self.warned(Remark::FollowsColumn));
-        let first = before.map_or(String::new(), |warning| format!("{} ", warning.remark.explanation().remedy));
+        let first = before.map_or(String::new(), |warning| format!("{} ", self.remedy(warning)));
         let others = self.others().join(", ");
         let sought = match ids.as_slice() {
             [other, nominal] if nominal == NOMINAL => format!("a test that shows whether {other} is at work, too"),
             _ => "a test that separates them".to_owned(),
         };
-        Some(format!("{first}These records do not exclude: {others}. This seeks {sought}: {command}"))
+        let found = self.sought.get().map_or(String::new(), |found| format!("\n  It finds: {found}"));
+        Some(format!("{first}These records do not exclude: {others}. This seeks {sought}: {command}{found}"))
     }
 }
 

@@ -8,7 +8,7 @@ use coil::{Drive, ThermalState, TurnFields};
 use super::blocks::{BLOCK, Cells, cells};
 use super::document::MOST_TURNS;
 use crate::simulate::Simulation;
-use crate::turn_bias::Contributions;
+use crate::turn_bias::{Contributions, OF_TAILS};
 use crate::units::to_mm;
 
 /// Smallest scale \[(°/h)/(°C/min)\].
@@ -68,7 +68,7 @@ pub(super) fn figure<'a>(simulation: &'a Simulation, fields: &TurnFields) -> Opt
         caption: format!(
             "Bias per temperature rate in a steady ramp, at its place in the cross-section. Of each turn: the two halves of the fibre have \
              opposite signs and nearly all of it cancels. In blocks: summed over {BLOCK} layers by about {BLOCK} turns, where most of it has \
-             cancelled; what is left adds up to the sum given of the turns. Bare tails lie outside the cross-section. One scale for all maps of turns, one for all of blocks."
+             cancelled; what is left adds up to the sum given of the turns. Bare tails lie outside the cross-section. {OF_TAILS} One scale for all maps of turns, one for all of blocks."
         ),
         columns: 2,
         panels,

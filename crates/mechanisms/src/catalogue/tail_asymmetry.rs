@@ -8,7 +8,7 @@ pub(super) const TAIL_ASYMMETRY: Named = Named {
     id: "tail-asymmetry",
     title: "Tails of unequal length",
     stage: Stage::Winding,
-    equation: "Bare fibre beyond the winding, longer on one end by Δ = CW tail − CCW tail, at the spool's temperature and free to expand. It moves the\n\
+    equation: "Bare fibre beyond the winding, longer on one end than drawn: Δ is how much CW tail − CCW tail exceeds the drawing's, at the spool's temperature and free to expand. It moves the\n\
         middle of the fibre: with z the place along the fibre and L its length, every weight L − 2z of\n\
         \n\
         ```\n\
@@ -20,8 +20,8 @@ pub(super) const TAIL_ASYMMETRY: Named = Named {
     signature: "One constant added to all weights weighs the coil's mean phase rate: nearly a gain on the rate in a slow ramp. A changed coil gives the\n\
         same gain. Only the transient tells the two apart, because the mean of the coil and its ends follow the chamber differently.",
     source: "D. M. Shupe, *Applied Optics* 19, 654 (1980); F. Mohr, *Journal of Lightwave Technology* 14, 27 (1996).",
-    meaning: "the fibre's tails outside the winding are of unequal length; tail_m is the CW one less the CCW one",
-    inspection: "measure both tails' lengths outside the winding",
+    meaning: "one of the fibre's tails outside the winding is longer than drawn; tail_m is the CW one less the CCW one, beyond what the drawing has",
+    inspection: "measure both tails' lengths outside the winding, and take the drawing's difference off",
     columns: &[],
     heat_path: None,
     steady: &[Steady::Design(with_tail)],

@@ -19,7 +19,7 @@ pub use expectation::{Clock, Expectation, Offset, Unit};
 pub use finding::{Finding, FindingKind, Repair, Severity};
 pub use instants::{Gap, Instants};
 pub use summary::ChannelSummary;
-pub use white_noise::white_noise;
+pub use white_noise::{white_noise, white_noise_beyond_cubics};
 
 use crate::series::median_interval;
 use crate::{Recording, Sampling};

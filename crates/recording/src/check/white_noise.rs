@@ -8,22 +8,28 @@ use crate::statistics::{normal_quantile, robust_sd};
 /// Second differences, or fourth ones where those show that the second hold a signal's curvature. Of noise far below the resolution
 /// it gives what the resolution leaves of it. `None` without three used neighbours.
 pub fn white_noise(time: &[f64], values: &[f64], mask: &[bool]) -> Option<f64> {
+    let second = from_differences(time, values, mask, &SECOND)?;
+    Some(white_noise_beyond_cubics(time, values, mask).filter(|fourth| *fourth < CURVED * second).unwrap_or(second))
+}
+
+/// The same from fourth differences alone, which no cubic touches: a little less certain, and freer of a signal. `None` without five used neighbours.
+pub fn white_noise_beyond_cubics(time: &[f64], values: &[f64], mask: &[bool]) -> Option<f64> {
+    from_differences(time, values, mask, &FOURTH)
+}
+
+fn from_differences(time: &[f64], values: &[f64], mask: &[bool], weights: &[f64]) -> Option<f64> {
     // of readings that do not stand in every row, neighbours are those that follow each other
     let used: Vec<usize> = (0..time.len()).filter(|&row| mask[row]).collect();
     let at: Vec<f64> = used.iter().map(|&row| time[row]).collect();
     let interval = series::median_interval(&at)?;
     let rounding = ROUNDING * used.iter().fold(0.0_f64, |most, &row| most.max(values[row].abs()));
-    let from = |weights: &[f64]| {
-        let reach = weights.len() - 1;
-        let difference = |n: usize| {
-            let together = at[n + reach] - at[n] < (reach as f64 + 0.5) * interval;
-            together.then(|| used[n..=n + reach].iter().zip(weights).map(|(&row, weight)| weight * values[row]).sum::<f64>())
-        };
-        let differences: Vec<f64> = (0..used.len().saturating_sub(reach)).filter_map(difference).collect();
-        Some(inner_sd(&differences, rounding)? / weights.iter().map(|weight| weight * weight).sum::<f64>().sqrt())
+    let reach = weights.len() - 1;
+    let difference = |n: usize| {
+        let together = at[n + reach] - at[n] < (reach as f64 + 0.5) * interval;
+        together.then(|| used[n..=n + reach].iter().zip(weights).map(|(&row, weight)| weight * values[row]).sum::<f64>())
     };
-    let second = from(&SECOND)?;
-    Some(from(&FOURTH).filter(|fourth| *fourth < CURVED * second).unwrap_or(second))
+    let differences: Vec<f64> = (0..used.len().saturating_sub(reach)).filter_map(difference).collect();
+    Some(inner_sd(&differences, rounding)? / weights.iter().map(|weight| weight * weight).sum::<f64>().sqrt())
 }
 
 /// Weights of second differences: no slope passes.

@@ -29,8 +29,13 @@ impl Outcome<'_> {
         let (records, limits) = (self.fits.clone(), Limits::USUAL);
         let question =
             Question { file: &self.coil, mechanisms: &self.mechanisms, between: &between, records, limits, thorough: false };
+        // of the drawing, as the command works it out
+        let answer = question.answer(self.library.clone(), &|_| ());
+        if let Ok(found) = &answer {
+            self.sought.get_or_init(|| sentence(found));
+        }
         html! {
-            @match question.answer(self.gyro.library().clone(), &|_| ()) {
+            @match answer {
                 Ok(found) => (recommended(&found)),
                 Err(error) => p { "It could not be worked out: " (error) },
             }
