@@ -95,11 +95,18 @@ impl Pair {
         pair.mechanisms[0].choice = Some(("place".into(), vec![LOOKS as f64, WORKS as f64]));
         pair
     }
-}
 
-/// Which of the two is at work: a mechanism, or the place of the only one.
-fn which(active: &Active) -> usize {
-    active.choice.map_or(active.mechanism, |place| place as usize)
+    /// The one that looks like the other at any of many places.
+    fn with_many_places(effect: fn(usize, bool, f64) -> f64, about: Option<usize>) -> Self {
+        let mut pair = Self::new(effect, [1.0; 2], about);
+        pair.mechanisms[LOOKS].choice = Some(("place".into(), (1..=9).map(f64::from).collect()));
+        pair
+    }
+
+    /// Which of the two is at work: a mechanism, or the place of the only one.
+    fn which(&self, active: &Active) -> usize {
+        active.choice.filter(|_| self.mechanisms.len() == 1).map_or(active.mechanism, |place| place as usize)
+    }
 }
 
 impl ForwardModel for Pair {
@@ -117,14 +124,14 @@ impl ForwardModel for Pair {
 
     fn respond(&self, _: usize, gain: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
         let of = |x: f64| {
-            let effect = |a: &Active| a.values[0] * (self.effect)(which(a), self.about == Some(which(a)), x);
+            let effect = |a: &Active| a.values[0] * (self.effect)(self.which(a), self.about == Some(self.which(a)), x);
             gain[0] * (x + active.iter().map(effect).sum::<f64>())
         };
         Ok(vec![x().map(of).collect()])
     }
 
     fn about(&self, _: &[f64], active: &[Active]) -> Result<Option<Self>, diagnosis::Failure> {
-        let leads = active.first().map(which);
+        let leads = active.first().map(|a| self.which(a));
         let next = || Self {
             channels: self.channels.clone(),
             nuisances: self.nuisances.clone(),
@@ -222,6 +229,13 @@ fn a_mechanism_is_followed_at_its_other_place_too() {
     assert_eq!((leading.active[0].mechanism, leading.active[0].choice), (0, Some(WORKS as f64)));
     assert!((leading.active[0].values[0] - TRUTH).abs() < 0.1, "{:?}", leading.active);
     assert_eq!(settled.model.expect("a model").about, Some(WORKS));
+}
+
+/// Many places of the one that leads do not keep another mechanism from being followed.
+#[test]
+fn a_rival_of_a_mechanism_with_many_places_is_followed() {
+    let settled = settled(&Pair::with_many_places(bent, None), &[0], &[observed()], &|_| ()).expect("a fit");
+    assert_eq!(settled.leading.expect("one leads").active[0].mechanism, WORKS);
 }
 
 /// Nothing tells the two from one another: the one that does not lead has no model about it in the comparison, but what it came to about itself.
