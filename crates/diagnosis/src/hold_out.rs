@@ -15,8 +15,8 @@ pub struct HeldOut {
     /// Standard deviation of the noise in a sample as identified in the fit, of every channel, with no more drift and walk than are usual: where a fit
     /// leaves something unexplained, its noise has swallowed that.
     pub noise_floor: Vec<f64>,
-    /// Root mean square of means over a minute, or over a row that is longer, so that the length of a record's rows does not matter. A record of
-    /// less than an hour has sixty means.
+    /// Root mean square of means over a minute, or over a row that is longer, so that the length of a record's rows does not matter, with the numbers that the
+    /// record has of its own at their most probable values. A record of less than an hour has sixty means.
     pub of_minutes: Vec<f64>,
     /// The same noise in those means.
     pub quiet: Vec<f64>,
@@ -152,7 +152,7 @@ fn judged(
     let Unseen { response: mut prediction, moved, loadings } = unseen;
     let (rows, channels) = (recording::median_interval(&observed.time).unwrap_or(MINUTE), model.channels());
     let of_a_minute = ((MINUTE / rows).floor() as usize).min(observed.time.len() / FEWEST).max(1);
-    let (mut rmse, mut of_minutes) = (Vec::new(), Vec::new());
+    let (mut rmse, mut residuals) = (Vec::new(), Vec::new());
     let (mut left, mut by_offset, mut by_moved) = (Vec::new(), Vec::new(), vec![Vec::new(); moved.len()]);
     for (c, (predicted, recorded)) in prediction.iter_mut().zip(&observed.channels).enumerate() {
         let own = Offset::of(&channels[c], recorded, predicted);
@@ -162,20 +162,34 @@ fn judged(
         let residual: Vec<f64> = recorded.iter().zip(predicted.iter()).map(|(y, p)| y - (p - offsets[c] + by)).collect();
         let used: Vec<f64> = residual.iter().copied().filter(|r| !r.is_nan()).collect();
         rmse.push(root_mean_square(&used));
-        let whole = used.chunks_exact(of_a_minute).map(|rows| rows.iter().sum::<f64>() / rows.len() as f64);
-        of_minutes.push(root_mean_square(&whole.collect::<Vec<_>>()));
         left.extend(noise.whiten(0, c, &residual));
         let ones = vec![own.sd; residual.len()];
         by_offset.push(noise.whiten(0, c, &ones));
         for (all, moved) in by_moved.iter_mut().zip(&moved) {
             all.extend(noise.whiten(0, c, &moved[c]));
         }
+        residuals.push(residual);
     }
     let floor = |rows: usize| (0..channels.len()).map(|c| noise_of(&noise, observed, &channels[c], c, rows)).collect();
     let (noise_floor, quiet) = (floor(1), floor(of_a_minute));
     let columns = stacked(&by_offset, &by_moved, loadings, left.len());
+    let left = DVector::from_vec(left);
     // what is no number predicts nothing
-    let log_score = log_density(&DVector::from_vec(left), &columns).unwrap_or(f64::NEG_INFINITY);
+    let log_score = log_density(&left, &columns).unwrap_or(f64::NEG_INFINITY);
+    // the numbers that the record has of its own, such as its start, are no error of the prediction
+    let own = model.nuisances().iter().filter(|nuisance| nuisance.local).count();
+    let sizes = most_probable(&left, &columns).map_or_else(Vec::new, |all| all.as_slice()[all.len() - own..].to_vec());
+    for (size, moved) in sizes.iter().zip(&moved[moved.len() - own..]) {
+        for (residual, by) in residuals.iter_mut().flatten().zip(moved.iter().flatten()) {
+            *residual -= size * by;
+        }
+    }
+    let in_minutes = |residual: &Vec<f64>| {
+        let used: Vec<f64> = residual.iter().copied().filter(|r| !r.is_nan()).collect();
+        let whole = used.chunks_exact(of_a_minute).map(|rows| rows.iter().sum::<f64>() / rows.len() as f64);
+        root_mean_square(&whole.collect::<Vec<_>>())
+    };
+    let of_minutes = residuals.iter().map(in_minutes).collect();
     Ok(HeldOut { prediction, rmse, noise_floor, of_minutes, quiet, log_score })
 }
 
@@ -208,6 +222,13 @@ fn stacked(by_offset: &[Vec<f64>], by_moved: &[Vec<f64>], loadings: DMatrix<f64>
     columns
 }
 
+/// The most probable sizes of independent standard normal variables that move whitened values by these columns; `None` if they are no numbers.
+fn most_probable(left: &DVector<f64>, columns: &DMatrix<f64>) -> Option<DVector<f64>> {
+    let precision = columns.tr_mul(columns) + DMatrix::identity(columns.ncols(), columns.ncols());
+    let sizes = Cholesky::new(precision)?.solve(&columns.tr_mul(left));
+    sizes.iter().all(|size| size.is_finite()).then_some(sizes)
+}
+
 /// ln of the density of whitened values that independent standard normal variables move by these columns, without the constant of the normal density;
 /// `None` if it is no number.
 fn log_density(left: &DVector<f64>, columns: &DMatrix<f64>) -> Option<f64> {
@@ -227,6 +248,7 @@ mod tests {
     /// A reading of nothing at rows of some seconds.
     struct Still {
         channels: Vec<Channel>,
+        nuisances: Vec<Nuisance>,
         rows: usize,
         state: State,
     }
@@ -237,15 +259,16 @@ mod tests {
         }
 
         fn nuisances(&self) -> &[Nuisance] {
-            &[]
+            &self.nuisances
         }
 
         fn mechanisms(&self) -> &[Omission] {
             &[]
         }
 
-        fn respond(&self, _: usize, _: &[f64], _: &[crate::Active]) -> Result<Vec<Vec<f64>>, crate::Failure> {
-            Ok(vec![vec![0.0; self.rows]])
+        fn respond(&self, _: usize, start: &[f64], _: &[crate::Active]) -> Result<Vec<Vec<f64>>, crate::Failure> {
+            let start = start.first().copied().unwrap_or(0.0);
+            Ok(vec![(0..self.rows).map(|n| start * (-(n as f64) / 40.0).exp()).collect()])
         }
 
         fn state(&self, _: usize) -> &State {
@@ -273,7 +296,7 @@ mod tests {
         let channel =
             Channel { name: "y".into(), unit: "1".into(), offset: (0.0, f64::INFINITY), averaging: seconds as f64, noise };
         let state = State { level: vec![0.0; rows], rate: vec![0.0; rows] };
-        let model = Still { channels: vec![channel], rows, state };
+        let model = Still { channels: vec![channel], nuisances: Vec::new(), rows, state };
         let observed = Observation { time, channels: vec![values] };
         let fitter = crate::fit::Fitter::new(&model, &[0], std::slice::from_ref(&observed)).unwrap();
         let typical = Noise::typical(&model.channels, std::slice::from_ref(&observed)).unwrap();
@@ -287,6 +310,36 @@ mod tests {
         assert!(of[0] > 1.8 && of.iter().all(|ratio| (ratio / of[0] - 1.0).abs() < 0.1), "{of:?}");
         // a record of a minute has an error, too
         assert!(over_noise(1, 60) > 0.5);
+    }
+
+    /// A record that starts off rest by two standard deviations, in white noise of a tenth of that.
+    #[test]
+    fn a_start_of_a_record_s_own_is_no_error_of_a_prediction() {
+        let held = |local: bool| {
+            const ROWS: usize = 400;
+            let mut state = 5_u64;
+            let mut white = || {
+                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                0.1 * 12.0_f64.sqrt() * ((state >> 40) as f64 / f64::from(1_u32 << 24) - 0.5)
+            };
+            let mut record = |start: f64| Observation {
+                time: (0..ROWS).map(|n| 60.0 * n as f64).collect(),
+                channels: vec![(0..ROWS).map(|n| start * (-(n as f64) / 40.0).exp() + white()).collect()],
+            };
+            let noise = NoisePrior::new((0.1, 1e-3), (1e-9, 1e-3), (1500.0, 1e-3), (1e-12, 1e-3));
+            let channel = Channel { name: "y".into(), unit: "1".into(), offset: (0.0, 1e-6), averaging: 60.0, noise };
+            let start = Nuisance { local, ..Nuisance::normal("start", 0.0, 0.5, crate::Role::Sensor) };
+            let state = State { level: vec![0.0; ROWS], rate: vec![0.0; ROWS] };
+            let model = Still { channels: vec![channel], nuisances: vec![start], rows: ROWS, state };
+            let (fitted, other) = (record(0.0), record(1.0));
+            let fitter = crate::fit::Fitter::new(&model, &[0], std::slice::from_ref(&fitted)).unwrap();
+            let typical = Noise::typical(&model.channels, std::slice::from_ref(&fitted)).unwrap();
+            let fit = fitter.fit(&crate::Hypothesis::NOMINAL, &typical, None).unwrap();
+            fit.hold_out(&model, 1, &other, &fit).unwrap()
+        };
+        let [own, shared] = [true, false].map(held);
+        assert!(own.within_noise(0) && own.rmse[0] > 2.0 * own.quiet[0], "{own:?}");
+        assert!(!shared.within_noise(0), "{shared:?}");
     }
 
     #[test]

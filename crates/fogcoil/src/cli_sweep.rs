@@ -48,6 +48,7 @@ pub(crate) fn run(arguments: &Sweep, progress: &Progress) -> Result<(), Error> {
     tables.make_folder()?;
     progress.reads(&inputs, &tables.files().chain(picture.as_deref()).map(Some).collect::<Vec<_>>())?;
     progress.tell(&plan.variants.case.warnings);
+    progress.tell(&plan.notes().cloned().collect::<Vec<_>>());
     if let (Some(path), false) = (picture, plan.can_be_drawn()) {
         return Err(nothing_to_draw(path));
     }

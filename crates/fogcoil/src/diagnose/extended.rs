@@ -68,7 +68,7 @@ impl Outcome<'_> {
         let mut lines = vec![format!("{}, extended by fogcoil diagnose.", self.name), self.verdict()];
         lines.push(format!("Fitted to: {}.", names(&mut self.fits.iter())));
         if !self.holdouts.is_empty() {
-            let verdict = if self.accepted() { "predicted no worse, to two digits, than by" } else { "predicted worse than by" };
+            let verdict = if self.accepted() { "predicted, to two digits, no worse than by" } else { "predicted worse than by" };
             lines.push(format!(
                 "Held out: {}; {verdict} the nominal design.",
                 names(&mut self.holdouts.iter().map(|held| &held.record))

@@ -290,7 +290,7 @@ fn left_over(held: &Held, answer: &HeldOut) -> Option<Note> {
     let meaning = if far {
         "something else is at work in it; is it of the same unit, mounted alike?"
     } else {
-        "little, but more than chance leaves"
+        "little, but more than noise; the model's own error may be as much"
     };
     let text = format!("what was found leaves {} in this record, which was held out: {meaning}", words.join(" and "));
     let note = if far { Remark::HeldOutLeft.warning(text) } else { Remark::HeldOutLeft.note(text) };

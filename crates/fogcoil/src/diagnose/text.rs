@@ -293,6 +293,10 @@ impl Outcome<'_> {
             );
         }
         match self.diagnosis.verdict {
+            Verdict::None | Verdict::Recalibrate if self.is_left_over() => {
+                "look at the record that was held out: it may be of another unit, or mounted otherwise. If it is of this one, give it with --fit, too."
+                    .into()
+            }
             Verdict::Explained if proven => {
                 let (names, several) = (self.told_names().join(" and "), self.told_names().len() > 1);
                 let [is, it] = if several { ["are", "them"] } else { ["is", "it"] };

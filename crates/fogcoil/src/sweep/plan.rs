@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use files::{Note, Remark};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
 
@@ -137,7 +138,8 @@ fn outputs(path: &Path, named: &[OutputFile], case: &CoilCase, files: &mut Vec<F
             OutputFile::Tolerances => Output::Tolerances,
             OutputFile::Winding => Output::Winding,
             OutputFile::Simulation(profile) => {
-                let profile = read_profile(&beside(path, profile), &case.design, &[])?;
+                let mut profile = read_profile(&beside(path, profile), &case.design, &[])?;
+                profile.note_long_rows("give it rows of half a minute");
                 files.push(profile.fingerprint.clone());
                 Output::Simulation(Box::new(profile))
             }
@@ -184,6 +186,15 @@ impl Plan {
     #[must_use]
     pub fn of_code_in(self, file: impl Into<PathBuf>) -> Self {
         Self { code: Some(file.into()), ..self }
+    }
+
+    /// Notes on the profiles whose rows are too long.
+    pub fn notes(&self) -> impl Iterator<Item = &Note> {
+        let notes = self.outputs.iter().flat_map(|output| match output {
+            Output::Simulation(profile) => profile.notes.as_slice(),
+            _ => &[],
+        });
+        notes.filter(|note| note.remark == Remark::LongRows)
     }
 
     /// Number of points.

@@ -31,6 +31,7 @@ pub fn report(plan: &Plan, summary: &Summary, rows: &[Row]) -> String {
             }
             @if let Some(error) = summary.error { " " (sentence(&of_error(error))) }
         }
+        @for note in plan.notes() { p { (note.line()) } }
     };
     let head = ["", "mean", "sd", "least", "5 %", "median", "95 %", "largest", "unit"];
     let files: Vec<_> = ["plan", "coil"].into_iter().chain(std::iter::repeat("input")).zip(&plan.files).collect();

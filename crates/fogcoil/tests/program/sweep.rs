@@ -307,3 +307,21 @@ fn bad_plans_are_refused_and_nothing_is_written() {
     assert!(output.status.code() == Some(2) && stderr(&output).contains("there is nothing to draw"), "{}", stderr(&output));
     assert!(!folder.path("t.csv").exists() && !folder.path("i.svg").exists());
 }
+
+/// A peak between rows of half an hour is averaged away: the terminal says so, as `simulate` does.
+#[test]
+fn long_rows_of_a_profile_are_noted() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    folder.write("p.csv", "time_s,chamber_c\n0,20\n1800,50\n3600,50\n");
+    let plan = "(design: \"coil.ron\", vary: {\"spool.hub_thickness_mm\": Steps(2.0, 3.0, 2)}, sampling: Grid, outputs: [Simulation(\"p.csv\")])";
+    folder.write("plan.ron", plan);
+    let output = folder.run(&["sweep", "plan.ron", "--out", "t.csv"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stderr(&output).contains("[long-rows]"), "{}", stderr(&output));
+    // and not of close ones
+    let rows: String = (0..=120).map(|n| format!("{},{}\n", 30 * n, 20.0 + 0.25 * f64::from(n))).collect();
+    folder.write("p.csv", format!("time_s,chamber_c\n{rows}"));
+    let output = folder.run(&["sweep", "plan.ron", "--out", "t2.csv"]);
+    assert!(output.status.success() && !stderr(&output).contains("[long-rows]"), "{}", stderr(&output));
+}

@@ -64,10 +64,18 @@ impl Instants {
             findings.push(Finding::at(kind, Severity::Note, [gap.from, gap.to], 0, Repair::None));
         }
         let slack = (STEP[0] * self.interval).max(STEP[1] * self.largest_jitter);
-        for pair in time.windows(2) {
+        let is_odd = |from: f64, to: f64| {
+            let (interval, whole) = (to - from, ((to - from) / self.interval).round() * self.interval);
+            (interval - whole).abs() > slack || interval < 0.5 * self.interval
+        };
+        // a row between two others, beside which the clock goes on, is no step: the corner of a programme, say
+        let is_between = |row: usize| {
+            let around = row.checked_sub(1).and_then(|before| time.get(before)).zip(time.get(row + 1));
+            around.is_some_and(|(from, to)| !is_odd(*from, *to))
+        };
+        for (row, pair) in time.windows(2).enumerate() {
             let interval = pair[1] - pair[0];
-            let whole = (interval / self.interval).round() * self.interval;
-            if (interval - whole).abs() > slack || interval < 0.5 * self.interval {
+            if is_odd(pair[0], pair[1]) && !is_between(row) && !is_between(row + 1) {
                 findings.push(Finding::at(
                     FindingKind::ClockStep(interval),
                     Severity::Warning,

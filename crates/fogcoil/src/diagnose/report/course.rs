@@ -6,6 +6,9 @@ use maud::{Markup, html};
 use super::{Clock, Quantity};
 use crate::diagnose::{NOMINAL, Outcome, REFITTED, Record};
 
+/// Ratio of what is left before to what is left after from which a picture shows it.
+const SHOWS: f64 = 1.2;
+
 /// What the first of two models is.
 const NOMINAL_IS: &str =
     " The nominal model is the design as drawn with usual instruments, of which nothing but a constant offset was fitted.";
@@ -105,14 +108,23 @@ impl Outcome<'_> {
         }
     }
 
-    /// The first quantity's residuals in the first record: of the design as drawn, and of what was found.
+    /// Residuals in the first record: of the design as drawn, and of what was found; of the rate, or of the thermometer where that alone shows it.
     pub(super) fn before_and_after(&self) -> Figure<'static> {
-        let panels =
-            self.before_and_after_of_each().next().map_or(Vec::new(), |shown| self.left(&shown, self.quantities().take(1), 6.0));
+        let panels = self.before_and_after_of_each().next().map_or(Vec::new(), |shown| {
+            let rms = |left: &Left, q: &Quantity| {
+                let left = left.of(q.channel);
+                (left.iter().map(|(_, r)| r * r).sum::<f64>() / left.len().max(1) as f64).sqrt()
+            };
+            let shows = |q: &Quantity| {
+                shown.first().zip(shown.last()).is_some_and(|(before, after)| rms(before, q) > SHOWS * rms(after, q))
+            };
+            let quantity = self.quantities().find(shows).or_else(|| self.quantities().next());
+            self.left(&shown, quantity.into_iter(), 6.0)
+        });
         Figure {
             id: "before-and-after",
             title: "What is left, before and after".into(),
-            description: "Recorded less modelled rate over time, before and after what was found.".into(),
+            description: "Recorded less modelled over time, before and after what was found.".into(),
             caption: "Both panels have one scale. Noise has no shape.".into(),
             columns: 1,
             panels,
