@@ -175,11 +175,10 @@ fn judged(
     let columns = stacked(&by_offset, &by_moved, loadings, left.len());
     let left = DVector::from_vec(left);
     // what is no number predicts nothing
-    let log_score = log_density(&left, &columns).unwrap_or(f64::NEG_INFINITY);
+    let (log_score, sizes) = scored(&left, &columns).unwrap_or((f64::NEG_INFINITY, DVector::zeros(columns.ncols())));
     // the numbers that the record has of its own, such as its start, are no error of the prediction
     let own = model.nuisances().iter().filter(|nuisance| nuisance.local).count();
-    let sizes = most_probable(&left, &columns).map_or_else(Vec::new, |all| all.as_slice()[all.len() - own..].to_vec());
-    for (size, moved) in sizes.iter().zip(&moved[moved.len() - own..]) {
+    for (size, moved) in sizes.iter().rev().zip(moved.iter().rev()).take(own) {
         for (residual, by) in residuals.iter_mut().flatten().zip(moved.iter().flatten()) {
             *residual -= size * by;
         }
@@ -222,22 +221,16 @@ fn stacked(by_offset: &[Vec<f64>], by_moved: &[Vec<f64>], loadings: DMatrix<f64>
     columns
 }
 
-/// The most probable sizes of independent standard normal variables that move whitened values by these columns; `None` if they are no numbers.
-fn most_probable(left: &DVector<f64>, columns: &DMatrix<f64>) -> Option<DVector<f64>> {
-    let precision = columns.tr_mul(columns) + DMatrix::identity(columns.ncols(), columns.ncols());
-    let sizes = Cholesky::new(precision)?.solve(&columns.tr_mul(left));
-    sizes.iter().all(|size| size.is_finite()).then_some(sizes)
-}
-
-/// ln of the density of whitened values that independent standard normal variables move by these columns, without the constant of the normal density;
-/// `None` if it is no number.
-fn log_density(left: &DVector<f64>, columns: &DMatrix<f64>) -> Option<f64> {
+/// ln of the density of whitened values that independent standard normal variables move by these columns, without the constant of the normal density, and the most
+/// probable sizes of these; `None` if they are no numbers.
+fn scored(left: &DVector<f64>, columns: &DMatrix<f64>) -> Option<(f64, DVector<f64>)> {
     let precision = columns.tr_mul(columns) + DMatrix::identity(columns.ncols(), columns.ncols());
     let factor = Cholesky::new(precision)?;
     let along = columns.tr_mul(left);
     let log_det: f64 = 2.0 * factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum::<f64>();
-    let score = -(left.norm_squared() - along.dot(&factor.solve(&along)) + log_det) / 2.0;
-    score.is_finite().then_some(score)
+    let sizes = factor.solve(&along);
+    let score = -(left.norm_squared() - along.dot(&sizes) + log_det) / 2.0;
+    score.is_finite().then_some((score, sizes))
 }
 
 #[cfg(test)]
@@ -348,7 +341,11 @@ mod tests {
         let left = DVector::from_vec(vec![0.4_f64, -1.0, 2.0]);
         let covariance = DMatrix::<f64>::identity(3, 3) + &columns * columns.transpose();
         let direct = -(left.dot(&(covariance.clone().try_inverse().unwrap() * &left)) + covariance.determinant().ln()) / 2.0;
-        assert!((log_density(&left, &columns).unwrap() - direct).abs() < 1e-12);
-        assert!(log_density(&DVector::from_vec(vec![f64::NAN, 0.0, 0.0]), &columns).is_none());
+        let (score, sizes) = scored(&left, &columns).unwrap();
+        assert!((score - direct).abs() < 1e-12);
+        // the sizes are those of the regression
+        let rest = columns.transpose() * (&left - &columns * &sizes) - &sizes;
+        assert!(rest.norm() < 1e-12);
+        assert!(scored(&DVector::from_vec(vec![f64::NAN, 0.0, 0.0]), &columns).is_none());
     }
 }
