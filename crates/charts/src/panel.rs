@@ -72,7 +72,7 @@ fn width_of(content: &str, m: &Measures) -> f64 {
 /// Distance of a heading's lines in font sizes.
 const HEADING_LINE: f64 = 1.3;
 
-/// Width of a label of an axis, or of a line of a heading.
+/// Width of a label of an axis.
 fn wide(label: &str, m: &Measures) -> f64 {
     label.chars().count() as f64 * DIGIT * m.font
 }
@@ -180,7 +180,7 @@ impl<'a> Panel<'a> {
         let mut lines: Vec<String> = Vec::new();
         for word in self.heading.split(' ').filter(|word| !word.is_empty()) {
             match lines.last_mut() {
-                Some(line) if wide(&format!("{line} {word}"), m) <= width - m.font => {
+                Some(line) if width_of(&format!("{line} {word}"), m) <= width => {
                     line.push(' ');
                     line.push_str(word);
                 }
@@ -349,7 +349,7 @@ mod tests {
             let lines = headed.heading_lines(m, width);
             assert_eq!(lines.join(" "), text);
             assert!(
-                lines.len() > 1 && lines.iter().filter(|line| line.contains(' ')).all(|line| wide(line, m) <= width),
+                lines.len() > 1 && lines.iter().filter(|line| line.contains(' ')).all(|line| width_of(line, m) <= width),
                 "{lines:?}"
             );
             let [one, all] = ["short", text].map(|text| panel().headed(text).place(m, width, 30.0).above);
