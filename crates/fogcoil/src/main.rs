@@ -30,7 +30,7 @@ use cli_under::Under;
 use fogcoil::cache::Cache;
 use fogcoil::diagnose::{self, Written};
 use fogcoil::glossary::{Note, Remark};
-use fogcoil::input::RecordOptions;
+use fogcoil::input::{MechanismCase, RecordOptions};
 use fogcoil::output::Content;
 use fogcoil::{Error, identify, input, picture, sensitivity, trim, wind};
 
@@ -109,12 +109,12 @@ fn run_wind(coil: &Path, csv: Option<&Path>, svg: Option<&Path>, json: bool, pro
 fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> {
     let Diagnose { coil, fits, holdouts, mechanisms, without, json, prediction, model_out, report, meta, format, no_cache } =
         arguments;
-    let asked = input::read_mechanisms(mechanisms)?.without(without)?;
-    let own = &asked.own;
+    let mut asked = input::read_mechanisms(mechanisms)?.without(without)?;
     let options = RecordOptions { further: asked.further_columns(), ..format.options(meta.clone()) };
     let records = fits.iter().chain(holdouts).flat_map(|record| options.files(record));
-    let inputs: Vec<PathBuf> = records.chain(own.iter().map(|own| own.file.clone())).collect();
-    let own_out: Vec<Option<PathBuf>> = own.iter().map(|own| Some(beside(model_out.as_deref()?, &own.mechanism.id))).collect();
+    let inputs: Vec<PathBuf> = records.chain(asked.own.iter().map(|own| own.file.clone())).collect();
+    let out_of = |own: &MechanismCase| Some(beside(model_out.as_deref()?, &own.mechanism.id));
+    let own_out: Vec<Option<PathBuf>> = asked.own.iter().map(out_of).collect();
     let json_file = json.as_ref().and_then(Option::as_deref);
     let mut outputs = vec![json_file, prediction.as_deref(), model_out.as_deref(), report.as_deref()];
     outputs.extend(own_out.iter().map(Option::as_deref));
@@ -122,6 +122,7 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
     diagnose::check_design(&case, coil)?;
     let read = |paths: &[PathBuf]| paths.iter().map(|path| input::read_record(path, &options)).collect::<Result<Vec<_>, _>>();
     let (fits, holdouts) = progress.during("reading the records", || Ok::<_, Error>((read(fits)?, read(holdouts)?)))?;
+    asked.own.extend(diagnose::of_columns(&fits, &holdouts));
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
     let mut outcome =
         progress.tasks(|tell| diagnose::diagnose(&case, &asked.with_catalogue(), &fits, &holdouts, &cache, tell))?;
@@ -142,7 +143,8 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
     let object = line(&outcome.json());
     files.extend(json_file.map(|path| (path, Content::Text(object.clone()))));
     files.extend(prediction.as_deref().zip(outcome.prediction()).map(|(path, text)| (path, Content::Text(text))));
-    for (own, path) in own.iter().zip(&own_out) {
+    let own_out: Vec<Option<PathBuf>> = asked.own.iter().map(out_of).collect();
+    for (own, path) in asked.own.iter().zip(&own_out) {
         if let (Some(path), Some(values)) = (path, outcome.found_of(&own.mechanism.id)) {
             files.push((path, Content::Text(own.with_values(&values)?)));
         }

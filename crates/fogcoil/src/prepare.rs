@@ -1,6 +1,6 @@
 //! Inputs of a diagnosis or a recommendation: a design's library of models, and recordings in the engine's form.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use bias::units::S_PER_MIN;
@@ -67,6 +67,17 @@ impl Record {
     pub(crate) fn prepared(&self, library: &Library) -> Result<Prepared, coil::Error> {
         let prepared = Prepared::under(library, &self.observed.time, &self.drive, self.averaging)?;
         Ok(prepared.with_columns(self.columns.clone()))
+    }
+
+    /// Takes columns of these names, of those that nothing read, for laws that name them.
+    pub(crate) fn read_columns(&mut self, names: &BTreeSet<String>) {
+        for name in names {
+            let values = self.ignored.get(name).and_then(|values| bridged(&self.observed.time, values));
+            if let Some(values) = values {
+                self.ignored.remove(name);
+                self.columns.insert(name.clone(), values);
+            }
+        }
     }
 
     /// Instants of the record's rows, before they were averaged.

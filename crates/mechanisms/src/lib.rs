@@ -25,7 +25,7 @@ mod series;
 mod written;
 
 pub use build::ranges;
-pub use catalogue::{CATALOGUE, ON_REQUEST, find};
+pub use catalogue::{CATALOGUE, ON_REQUEST, find, usual_coefficient};
 pub use chamber::Chamber;
 pub use change::Change;
 pub use constants::{number_of, with_constant};

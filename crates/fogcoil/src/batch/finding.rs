@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use mechanisms::Mechanism;
 use progress::Step;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -9,7 +10,7 @@ use sha2::{Digest, Sha256};
 use super::units::Unit;
 use crate::Error;
 use crate::cache::Cache;
-use crate::diagnose::diagnose;
+use crate::diagnose::{diagnose, of_columns};
 use crate::input::{Asked, CoilCase, RecordCase, RecordOptions, hexadecimal, read_record};
 use crate::measure::{self, Measurement, Prediction, measure};
 
@@ -73,7 +74,10 @@ impl Inputs<'_> {
     pub(super) fn find(&self, unit: &Read, progress: &(dyn Fn(Step) + Sync)) -> (Value, Option<String>) {
         let records = || unit.fits.iter().chain(&unit.holdouts);
         let measured = self.measured(unit);
-        let diagnosis = diagnose(self.case, &self.asked.with_catalogue(), &unit.fits, &unit.holdouts, self.cache, progress);
+        let columns = of_columns(&unit.fits, &unit.holdouts);
+        let mut mechanisms = self.asked.with_catalogue();
+        mechanisms.extend(columns.iter().map(|own| &own.mechanism as &dyn Mechanism));
+        let diagnosis = diagnose(self.case, &mechanisms, &unit.fits, &unit.holdouts, self.cache, progress);
         let (told, left, page, problem) = match &diagnosis {
             Ok(outcome) => {
                 let page = titled(&outcome.report(), &unit.name, &self.case.name);

@@ -7,6 +7,7 @@ use diagnosis::{Active, Candidate, ForwardModel, Verdict};
 use mechanisms::CATALOGUE;
 
 use super::Outcome;
+use super::weighed::is_of_column;
 
 /// Most ids that one test is asked to tell apart.
 const MOST: usize = 3;
@@ -66,7 +67,8 @@ impl Outcome<'_> {
         // a user's own are told in any case; those that are not offered are noted
         for (number, mechanism) in self.gyro.mechanisms().iter().enumerate() {
             let name = mechanism.id.as_str();
-            if mechanisms::find(name).is_none() && all.iter().all(|told| told.name != name) {
+            let is_asked = mechanisms::find(name).is_none() && !is_of_column(self.gyro.mechanism(number));
+            if is_asked && all.iter().all(|told| told.name != name) {
                 let probability = d.mechanisms.iter().find(|(m, _)| *m == number).map_or(0.0, |(_, p)| *p);
                 all.push(Explanation { name, probability, open: set.contains(&name), withdrawn: false });
             }
@@ -92,8 +94,10 @@ impl Outcome<'_> {
 
     /// Ids that the next test should tell apart, most probable first; empty where there is nothing to tell apart.
     pub(super) fn apart(&self) -> Vec<String> {
-        let others = self.others();
-        let Some(first) = others.first() else { return Vec::new() };
+        // no programme of the chamber tells what a column holds
+        let has_column = |id: &str| self.gyro.find(id).is_some_and(|own| !self.gyro.mechanism(own).columns().is_empty());
+        let others: Vec<&str> = self.others().into_iter().filter(|id| !has_column(id)).collect();
+        let Some(first) = others.first().filter(|_| !self.names().iter().any(|id| has_column(id))) else { return Vec::new() };
         let holds = |c: &&Candidate| c.rival.is_none() && c.fit.active.iter().any(|a| self.id(a.mechanism) == *first);
         let with_it = self.diagnosis.candidates.iter().filter(holds).max_by(|a, b| a.probability.total_cmp(&b.probability));
         let kept = |id: &str| with_it.is_some_and(|c| c.fit.active.iter().any(|a| self.id(a.mechanism) == id));

@@ -16,7 +16,7 @@ const MOST_OF_IT: f64 = 0.5;
 /// Standard errors by which chance alone puts a correlation off 0 that is told, as many rows counted as are independent.
 const PLAIN: f64 = 5.0;
 /// Correlation from which a column merely repeats a temperature, or the time.
-const REPEATS: f64 = 0.95;
+const REPEATS: f64 = 0.99;
 
 /// A column that what is left of the rate follows.
 #[derive(Debug, PartialEq)]
@@ -33,7 +33,7 @@ struct Followed {
 type Rows<'a> = (&'a [f64], &'a [f64], &'a [f64]);
 
 /// Rows in which both have a value, less the mean of each.
-fn centred(a: &[f64], b: &[f64]) -> Vec<(f64, f64)> {
+pub(super) fn centred(a: &[f64], b: &[f64]) -> Vec<(f64, f64)> {
     let both: Vec<(f64, f64)> =
         a.iter().copied().zip(b.iter().copied()).filter(|(a, b)| a.is_finite() && b.is_finite()).collect();
     let count = both.len().max(1) as f64;
@@ -42,12 +42,12 @@ fn centred(a: &[f64], b: &[f64]) -> Vec<(f64, f64)> {
 }
 
 /// Sums of squares and of products.
-fn sums(pairs: &[(f64, f64)]) -> [f64; 3] {
+pub(super) fn sums(pairs: &[(f64, f64)]) -> [f64; 3] {
     pairs.iter().fold([0.0; 3], |[aa, ab, bb], (a, b)| [aa + a * a, ab + a * b, bb + b * b])
 }
 
 /// Whether two series in the rows of some records are straight lines of each other, or one of them is constant.
-fn repeats<'a>(records: impl Iterator<Item = (&'a [f64], &'a [f64])>) -> bool {
+pub(super) fn repeats<'a>(records: impl Iterator<Item = (&'a [f64], &'a [f64])>) -> bool {
     let [aa, ab, bb] = sums(&records.flat_map(|(a, b)| centred(a, b)).collect::<Vec<_>>());
     ab.abs() >= REPEATS * (aa * bb).sqrt()
 }

@@ -15,10 +15,13 @@ mod report;
 mod structure;
 mod text;
 mod told;
+mod weighed;
 mod written;
 
+pub use weighed::of_columns;
 pub use written::Written;
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -27,7 +30,7 @@ use diagnosis::{
     Candidate, Contradiction, Diagnosis, Fit, ForwardModel, HeldOut, Hypothesis, Judged, Judgement, Observation, Ruling,
     Settings, Verdict,
 };
-use files::{Note, Remark, shown_path};
+use files::{Note, Remark, shown, shown_path};
 use mechanisms::{CATALOGUE, Extent, Gyro, Library, Mechanism, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 use progress::Step;
 use recording::Seconds;
@@ -66,7 +69,7 @@ pub struct Outcome<'m> {
     withdrawn: Vec<(usize, f64)>,
     /// the word of the drawing that may be another
     other_drawing: Option<String>,
-    /// the column that the rate follows and the model does not use
+    /// the column that the rate follows and the model of the coil does not use
     follows_column: Option<String>,
     /// whether the design is a lot's already
     is_lots: bool,
@@ -111,6 +114,10 @@ pub fn diagnose<'m>(
     refuse_copies(all())?;
     let mut notes: Vec<Note> = all().filter_map(|record| other_design(case, record)).collect();
     let mut read: Vec<Record> = all().map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
+    let named = mechanisms.iter().flat_map(|mechanism| mechanism.columns()).map(str::to_owned);
+    let named: BTreeSet<String> = named.collect();
+    read.iter_mut().for_each(|record| record.read_columns(&named));
+    notes.extend(weighed::note(mechanisms).map(|note| note.at(&case.file)));
     let library = library(case, cache, progress)?;
     progress(Step::begins("running every model under the recorded chamber"));
     let drawn = gyro(&library, mechanisms, &read, fits.len()).map_err(coil)?;
@@ -225,6 +232,11 @@ pub fn diagnose<'m>(
     {
         outcome.notes.push(note);
         outcome.follows_column = Some(column);
+    }
+    if outcome.diagnosis.verdict == Verdict::Explained {
+        let found = outcome.diagnosis.best().fit.active.iter().map(|active| outcome.gyro.mechanism(active.mechanism));
+        let column = found.filter(|own| weighed::is_of_column(*own)).flat_map(|own| own.columns()).next().map(shown);
+        outcome.follows_column = outcome.follows_column.or(column);
     }
     Ok(outcome)
 }

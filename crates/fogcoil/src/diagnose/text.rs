@@ -297,6 +297,13 @@ impl Outcome<'_> {
                 "look at the record that was held out: it may be of another unit, or mounted otherwise. If it is of this one, give it with --fit, too."
                     .into()
             }
+            // a chamber's programme would have told them apart, but for a column
+            Verdict::Explained if !self.others().is_empty() => format!(
+                "inspect the unit for {}. These records do not exclude: {}. No programme of the chamber tells these apart, as one of them is the rate's way \
+                 with a column: hold the temperature and change the quantity in that column alone.",
+                self.told_names().join(" and "),
+                self.others().join(", ")
+            ),
             Verdict::Explained if proven => {
                 let (names, several) = (self.told_names().join(" and "), self.told_names().len() > 1);
                 let [is, it] = if several { ["are", "them"] } else { ["is", "it"] };

@@ -136,3 +136,58 @@ fn what_cannot_be_is_refused_with_line_and_remedy() {
     refused(&["explain", "p.csv"], "p.csv: is no mechanism's file; give an id, a mechanism's file (*.ron)");
     assert_eq!(text(&folder), include_str!("../../templates/mechanism.ron"), "nothing was overwritten");
 }
+
+/// The slow board of the fixtures, with the board's lag behind the spool logged as a voltage of 0.1 V/K, and a further column that says nothing.
+#[test]
+#[ignore = "a minute"]
+fn a_column_that_nobody_named_is_found() {
+    let folder = folder();
+    for name in ["fit", "holdout"] {
+        let path = format!("{}/../../fixtures/slow-board/{name}.csv", env!("CARGO_MANIFEST_DIR"));
+        let (mut before, mut lag, mut rows) = (None::<[f64; 2]>, 0.0_f64, String::new());
+        for (n, line) in std::fs::read_to_string(path).unwrap().lines().enumerate() {
+            if n == 0 {
+                rows += &format!("{line},Ub [V],room\n");
+                continue;
+            }
+            let field = |k: usize| line.split(',').nth(k).unwrap().parse::<f64>().unwrap();
+            let now = [field(0), field(2)];
+            if let Some(then) = before {
+                let decay = (-(now[0] - then[0]) / 1500.0).exp();
+                lag = lag * decay + (now[1] - then[1]) / (now[0] - then[0]) * 1500.0 * (1.0 - decay);
+            }
+            before = Some(now);
+            rows += &format!("{line},{:.4},{}\n", 24.0 - 0.1 * lag, 21 + n * n % 3);
+        }
+        folder.write(&format!("{name}.csv"), rows);
+    }
+    let reference = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/coil-reference.ron");
+    let output = folder.run(&[
+        "diagnose",
+        reference,
+        "--fit",
+        "fit.csv",
+        "--holdout",
+        "holdout.csv",
+        "--json",
+        "d.json",
+        "--model-out",
+        "m.ron",
+        "--report",
+        "d.html",
+    ]);
+    let (told, noted) = (stdout(&output), stderr(&output));
+    assert_eq!(output.status.code(), Some(0), "{noted}");
+    assert!(told.contains("Most likely: follows-ub (probability 0.9"), "{told}");
+    assert!(told.contains("the rate follows the column Ub [V]") && !told.contains("follows-room"), "{told}");
+    assert!(noted.contains("a column that the model does not use (`Ub [V]`, `room`)"), "{noted}");
+    let answer: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(folder.path("d.json")).unwrap()).unwrap();
+    assert_eq!(answer["follows_column"], "Ub [V]");
+    // of 0.006 (deg/h)/K and 0.1 V/K
+    let size = &answer["parameters"]["size_deg_per_h_per_v"];
+    let [low, high] = [0, 1].map(|end| size["ci90"][end].as_f64().unwrap());
+    assert!(low < -0.06 + 0.003 && -0.06 - 0.003 < high && high - low < 0.02, "{size}");
+    // its file holds what was found, as one of a user's own
+    let law = stdout(&folder.run(&["explain", "m.follows-ub.ron"]));
+    assert!(law.contains("column: the column `Ub [V]` of the record") && law.contains("size_deg_per_h_per_v"), "{law}");
+}

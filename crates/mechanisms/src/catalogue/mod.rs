@@ -39,6 +39,7 @@ catalogue! {
 pub(crate) mod on_request;
 
 pub use on_request::ON_REQUEST;
+pub use rate_temperature_coefficient::usual_coefficient;
 
 /// A mechanism of the [`CATALOGUE`], or of those [`ON_REQUEST`], by its id.
 pub fn find(id: &str) -> Option<&'static dyn Mechanism> {

@@ -39,5 +39,10 @@ pub(super) const RATE_TEMPERATURE_COEFFICIENT: Named = Named {
 
 /// Usual temperature coefficient of the rate, of all causes together (1σ) \[deg/h/K\].
 pub(super) fn usual(scene: &Scene) -> f64 {
-    2.0 * scene.noise
+    usual_coefficient(scene.noise)
+}
+
+/// The same of a gyroscope with this white noise in a reading of a minute \[deg/h\].
+pub fn usual_coefficient(noise: f64) -> f64 {
+    2.0 * noise
 }
