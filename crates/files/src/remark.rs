@@ -297,6 +297,10 @@ remarks! {
         "Up to one instant the spool's thermometer follows the model, from then on the chamber.",
         "The answer is void if it came loose: a heat path is sought, or a fault of the rate, for what the thermometer does.",
         "Look at the thermometer's bond; empty `spool_c` from there on.";
+    ChamberJump "chamber-jump":
+        "The chamber's readings go on at another level from one row to the next, and the spool's thermometer goes on as if they had not.",
+        "The answer is void if the sensor moved, or its channel: a drift, or a fault, is sought for heat that was not there.",
+        "Look at the chamber's sensor and its channel; use the rows before it alone, or subtract the jump from the readings behind it.";
     ReversedRate "reversed-rate":
         "The model follows the recording far better with the rate negated.",
         "The answer is void if the sign is wrong.",

@@ -1,4 +1,4 @@
-//! Records whose columns are exchanged, whose thermometer came loose, or whose rate has the other sign: what a mechanism would hardly do, and a mistake does.
+//! Records whose columns are exchanged, whose thermometer came loose or jumped, or whose rate has the other sign: what a mechanism would hardly do, and a mistake does.
 
 use diagnosis::Observation;
 use files::{Note, Remark};
@@ -52,6 +52,10 @@ pub(super) fn warning(
         if let Some(loose) = loose.filter(|loose| as_well(loose.would, answered(SPOOL_CHANNEL))) {
             return Ok(Some(loose.warning(left).at(&record.fingerprint.file)));
         }
+    }
+    let jumped = super::jumped::warning(gyro, number, record, &predicted[SPOOL_CHANNEL])?;
+    if jumped.is_some() {
+        return Ok(jumped);
     }
     let [left, would] = [1.0, -1.0].map(|sign| spread(rate, &predicted[RATE_CHANNEL], sign));
     // of a design that nearly cancels, tolerances turn the sign about

@@ -9,6 +9,7 @@ mod drawing;
 mod extended;
 mod ignored;
 mod json;
+mod jumped;
 mod left;
 mod loose;
 mod report;

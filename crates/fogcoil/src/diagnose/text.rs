@@ -136,6 +136,7 @@ impl Outcome<'_> {
             Some(warning) => {
                 let mistake = match warning.remark {
                     Remark::LooseThermometer => "the spool's thermometer came loose",
+                    Remark::ChamberJump => "the chamber's readings jumped and not the air",
                     Remark::ReversedRate => "the rate has the other sign",
                     _ => "a column is read wrongly",
                 };
@@ -155,11 +156,14 @@ impl Outcome<'_> {
         }
     }
 
-    /// The warning that a record seems to have columns exchanged, a loose thermometer or its rate negated, if there is one.
+    /// The warning that a record seems to have columns exchanged, a loose thermometer, a chamber whose readings jumped or its rate negated, if there is one.
     pub(super) fn misread(&self) -> Option<&Note> {
-        self.notes
-            .iter()
-            .find(|note| matches!(note.remark, Remark::ExchangedColumns | Remark::LooseThermometer | Remark::ReversedRate))
+        self.notes.iter().find(|note| {
+            matches!(
+                note.remark,
+                Remark::ExchangedColumns | Remark::LooseThermometer | Remark::ChamberJump | Remark::ReversedRate
+            )
+        })
     }
 
     /// The step that a warning asks for; of a drawing with the word that is in doubt.

@@ -1,0 +1,194 @@
+//! Jumps of the chamber's readings that the spool does not follow: its thermometer jumped, or its channel, and not the air.
+
+use diagnosis::{ForwardModel, expected};
+use files::{Note, Remark};
+use mechanisms::{Gyro, SPOOL as SPOOL_CHANNEL, thermometer_under};
+use nalgebra::{DMatrix, DVector};
+use recording::Seconds;
+use recording::check::white_noise;
+
+use crate::input::{CHAMBER, SPOOL};
+use crate::prepare::Record;
+use crate::table::significant;
+
+/// Rows on either side of a jump from which the level there is taken.
+const BESIDE: usize = 10;
+/// Least size of a jump, in standard deviations of the difference of two such levels, and in what the chamber's own course makes of it in the rows of the jump.
+const PLAIN: f64 = 8.0;
+const ALONE: f64 = 3.0;
+/// Most jumps that are looked at, the largest.
+const MOST: usize = 6;
+/// Shares of a jump that the spool leaves out where it leaves it out whole, and least share that the jumps explain of what the model leaves of the spool.
+const WHOLE: [f64; 2] = [0.75, 1.25];
+const EXPLAINS: f64 = 0.5;
+
+/// A jump of the chamber's readings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Jump {
+    /// First row after it.
+    row: usize,
+    /// By so much \[K\].
+    by: f64,
+}
+
+/// A straight line through rows: its value in the middle of the jump, and its slope by rows; rows are counted from there.
+fn line(points: impl Iterator<Item = (f64, f64)> + Clone) -> [f64; 2] {
+    let count = points.clone().count() as f64;
+    let mean = points.clone().fold([0.0; 2], |[x, y], p| [x + p.0 / count, y + p.1 / count]);
+    let [xx, xy] = points.fold([0.0; 2], |[xx, xy], p| [xx + (p.0 - mean[0]).powi(2), xy + (p.0 - mean[0]) * (p.1 - mean[1])]);
+    [mean[1] - xy / xx * mean[0], xy / xx]
+}
+
+/// The largest jumps from one course to the same course at another level, within a row, or within two where rows are means.
+fn jumps(time: &[f64], chamber: &[f64]) -> Vec<Jump> {
+    let Some(noise) = white_noise(time, chamber, &vec![true; chamber.len()]) else { return Vec::new() };
+    let at = |row: usize| -> Option<Jump> {
+        let first = row.checked_sub(BESIDE)?;
+        let last = row + BESIDE;
+        // of rows of means the one with the jump is between both levels
+        let of = |from: usize, to: usize| line((from..to).map(|n| (n as f64 - row as f64 + 0.5, chamber[n])));
+        let ([before, slope_before], [after, slope_after]) = (of(first, row - 1), of(row + 1, last.min(chamber.len())));
+        let by = after - before;
+        // a line's end is twice as uncertain as its mean
+        let sure = PLAIN * 2.0 * noise * (2.0 / BESIDE as f64).sqrt();
+        let alone = by.abs() > sure && by.abs() > ALONE * (slope_before.abs() + slope_after.abs());
+        let within = (chamber[row] - chamber[row - 1]) / by;
+        (last < chamber.len() && alone && within > 0.4).then_some(Jump { row, by })
+    };
+    let mut all: Vec<Jump> = (1..chamber.len()).filter_map(at).collect();
+    all.sort_by(|a, b| b.by.abs().total_cmp(&a.by.abs()));
+    let mut kept: Vec<Jump> = Vec::new();
+    for jump in all {
+        if kept.len() < MOST && kept.iter().all(|other| other.row.abs_diff(jump.row) > BESIDE) {
+            kept.push(jump);
+        }
+    }
+    kept
+}
+
+/// Shares of some jumps that are missing from the spool: `responses` are those of the spool to each, `left` is what the model leaves of it, with white `noise`,
+/// and `slopes` are what a standard deviation of each of its constants changes there. `None` where those that are left out whole explain little of what the
+/// constants alone leave.
+fn missing(left: &[f64], noise: f64, slopes: &[Vec<f64>], responses: &[Vec<f64>]) -> Option<Vec<bool>> {
+    let rows: Vec<usize> = (0..left.len()).filter(|&n| left[n].is_finite()).collect();
+    // less its mean: offsets are free; a constant that moves by one standard deviation costs as much as a row that is off by its noise
+    let stacked = |series: &[f64], constant: Option<usize>| -> DVector<f64> {
+        let mean = rows.iter().map(|&n| series[n]).sum::<f64>() / rows.len().max(1) as f64;
+        let costs = (0..slopes.len()).map(|k| if constant == Some(k) { noise } else { 0.0 });
+        DVector::from_iterator(rows.len() + slopes.len(), rows.iter().map(|&n| series[n] - mean).chain(costs))
+    };
+    let slopes: Vec<DVector<f64>> = slopes.iter().enumerate().map(|(k, slope)| stacked(slope, Some(k))).collect();
+    let responses: Vec<DVector<f64>> = responses.iter().map(|response| stacked(response, None)).collect();
+    let residual = stacked(left, None);
+    let fitted = |columns: &[DVector<f64>], to: &DVector<f64>| -> Option<(DVector<f64>, f64)> {
+        if columns.is_empty() {
+            return Some((DVector::zeros(0), to.norm_squared()));
+        }
+        let matrix = DMatrix::from_columns(columns);
+        let found = matrix.clone().svd(true, true).solve(to, 1e-9).ok()?;
+        let left = (to - matrix * &found).norm_squared();
+        Some((found, left))
+    };
+    let (shares, _) = fitted(&[&responses[..], &slopes].concat(), &-&residual)?;
+    let whole: Vec<bool> = shares.iter().take(responses.len()).map(|share| (WHOLE[0]..WHOLE[1]).contains(share)).collect();
+    let without = responses.iter().zip(&whole).filter(|(_, whole)| **whole).fold(residual.clone(), |sum, (r, _)| sum + r);
+    let ((_, as_read), (_, without)) = (fitted(&slopes, &residual)?, fitted(&slopes, &without)?);
+    (whole.contains(&true) && without <= (1.0 - EXPLAINS) * as_read).then_some(whole)
+}
+
+/// The warning of the largest jump that the spool does not follow, if there is one: in the record of this `number` in `gyro`, the design as it is.
+pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record, predicted: &[f64]) -> Result<Option<Note>, coil::Error> {
+    let (time, chamber, spool) = (&record.observed.time, &record.chamber, &record.observed.channels[SPOOL_CHANNEL]);
+    let used: Vec<bool> = spool.iter().map(|value| value.is_finite()).collect();
+    let (jumps, noise) = (jumps(time, chamber), white_noise(time, spool, &used));
+    let Some(noise) = noise.filter(|_| !jumps.is_empty()) else { return Ok(None) };
+    let as_read = thermometer_under(gyro.library(), time, chamber)?;
+    let response = |jump: &Jump| -> Result<Vec<f64>, coil::Error> {
+        let without: Vec<f64> = chamber.iter().enumerate().map(|(n, c)| if n < jump.row { *c } else { c - jump.by }).collect();
+        Ok(thermometer_under(gyro.library(), time, &without)?
+            .iter()
+            .zip(&as_read)
+            .map(|(without, with)| with - without)
+            .collect())
+    };
+    let responses = jumps.iter().map(response).collect::<Result<Vec<_>, _>>()?;
+    let middle = expected(gyro.nuisances());
+    let slope = |k: usize| -> Result<Vec<f64>, coil::Error> {
+        let mut moved = middle.clone();
+        moved[k] = gyro.nuisances()[k].parameter.prior.value(1.0);
+        let moved = gyro.respond(number, &moved, &[])?.swap_remove(SPOOL_CHANNEL);
+        Ok(moved.iter().zip(predicted).map(|(moved, predicted)| moved - predicted).collect())
+    };
+    let slopes = (0..middle.len()).map(slope).collect::<Result<Vec<_>, _>>()?;
+    let left: Vec<f64> = spool.iter().zip(predicted).map(|(read, predicted)| read - predicted).collect();
+    let told = missing(&left, noise, &slopes, &responses);
+    let mut told = told.into_iter().flat_map(|whole| jumps.iter().zip(whole).filter(|(_, whole)| *whole)).map(|(jump, _)| jump);
+    Ok(told.next().map(|jump| {
+        let text = format!(
+            "{CHAMBER} jumps by {} K at {} s, and {SPOOL} goes on as if it had not: its sensor seems to have moved, or its channel",
+            significant(jump.by, 2),
+            Seconds(time[jump.row])
+        );
+        Remark::ChamberJump.warning(text).at(&record.fingerprint.file)
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mechanisms::lagged;
+
+    /// Ten hours of minutes: a chamber that is cooled, held and warmed, with noise; its readings are off by `off` from row 320 on.
+    fn chamber(off: f64) -> [Vec<f64>; 2] {
+        let time: Vec<f64> = (0..600).map(|n| 60.0 * f64::from(n)).collect();
+        let of = |n: usize| {
+            let t = time[n];
+            let course = 20.0 - ((t - 3000.0).clamp(0.0, 6000.0) - (t - 24_000.0).clamp(0.0, 6000.0)) / 150.0;
+            course + 0.03 * ((n * 7919 % 1000) as f64 / 1000.0 - 0.5) + if n < 320 { 0.0 } else { off }
+        };
+        let readings = (0..600).map(of).collect();
+        [time, readings]
+    }
+
+    #[test]
+    fn a_jump_is_seen_where_it_is_and_a_ramp_is_none() {
+        let [time, sound] = chamber(0.0);
+        assert_eq!(jumps(&time, &sound), []);
+        let [_, jumped] = chamber(-0.7);
+        let found = jumps(&time, &jumped);
+        assert!(found.len() == 1 && found[0].row == 320 && (found[0].by + 0.7).abs() < 0.05, "{found:?}");
+        // means over three rows
+        let means = |series: &[f64]| -> Vec<f64> { series.chunks(3).map(|c| c.iter().sum::<f64>() / 3.0).collect() };
+        let found = jumps(&means(&time), &means(&jumped));
+        assert!(found.len() == 1 && found[0].row.abs_diff(107) <= 1 && (found[0].by + 0.7).abs() < 0.05, "{found:?}");
+        // steps of degrees are jumps as well; whether they are real the spool tells
+        let steps: Vec<f64> = sound.iter().enumerate().map(|(n, c)| c + if n < 100 { 0.0 } else { 15.0 }).collect();
+        assert_eq!(jumps(&time, &steps).iter().map(|jump| jump.row).collect::<Vec<_>>(), [100]);
+    }
+
+    #[test]
+    fn the_spool_tells_whether_the_air_jumped() {
+        let lag = |time: &[f64], c: &[f64]| lagged(time, c, 1800.0);
+        let [time, jumped] = chamber(-0.7);
+        let [_, sound] = chamber(0.0);
+        let step: Vec<f64> = (0..600).map(|n| if n < 320 { 0.0 } else { -0.7 }).collect();
+        let response = [lag(&time, &step)];
+        // what a model of the coil leaves that is a tenth too slow, driven by what was read; a standard deviation of its time constant is half as much
+        let model = |by: f64| lagged(&time, &jumped, by);
+        let slope: Vec<f64> = model(1890.0).iter().zip(model(1800.0)).map(|(a, b)| a - b).collect();
+        let noise = |n: usize| 0.02 * ((n * 7907 % 1000) as f64 / 1000.0 - 0.5);
+        let left = |driven: &[f64]| -> Vec<f64> {
+            lag(&time, driven).iter().zip(model(1980.0)).enumerate().map(|(n, (spool, model))| spool - model + noise(n)).collect()
+        };
+        let told = |left: &[f64]| missing(left, 0.006, std::slice::from_ref(&slope), &response);
+        assert_eq!(told(&left(&sound)), Some(vec![true]));
+        assert_eq!(told(&left(&jumped)), None);
+        // without what is known of the constants it could not be told
+        assert_eq!(missing(&left(&sound), 0.006, &[], &response), None);
+        // half a jump is something else, and so is one that explains little
+        let half: Vec<f64> = sound.iter().zip(&jumped).map(|(a, b)| (a + b) / 2.0).collect();
+        assert_eq!(told(&left(&half)), None);
+        let tilted: Vec<f64> = left(&sound).iter().zip(&time).map(|(r, t)| r + t / 10_000.0).collect();
+        assert_eq!(told(&tilted), None);
+    }
+}
