@@ -21,10 +21,26 @@ pub struct Fitted {
 /// # Errors
 /// As [`super::identify`].
 pub fn fitted(series: &Series, model: &NoiseModel) -> Result<Fitted, Error> {
+    fitted_within(series, model, &[])
+}
+
+/// The same where sums of amounts, each given by numbers of columns and weights, are known beforehand to be 0 within a standard deviation of 1.
+///
+/// # Errors
+/// As [`super::identify`].
+pub fn fitted_within(series: &Series, model: &NoiseModel, known: &[Vec<(usize, f64)>]) -> Result<Fitted, Error> {
     let data = Data::new(series)?;
     let whitener = Whitener::new(&data.model(model), &data.time, &data.mask)?;
-    let columns = data.columns.iter().map(|column| whitener.apply(column)).collect();
-    let regression = Regression::new(columns, whitener.apply(&data.values));
+    // each is a row below the series'
+    let in_row = |row: &Vec<(usize, f64)>, number: usize| -> f64 {
+        row.iter().filter(|(other, _)| *other == number).map(|(_, weight)| weight).sum()
+    };
+    let of = |(number, column): (&usize, &Vec<f64>)| -> Vec<f64> {
+        whitener.apply(column).into_iter().chain(known.iter().map(|row| in_row(row, *number))).collect()
+    };
+    let columns = data.numbers.iter().zip(&data.columns).map(of).collect();
+    let values = whitener.apply(&data.values).into_iter().chain(known.iter().map(|_| 0.0)).collect();
+    let regression = Regression::new(columns, values);
     let covariance = regression.covariance();
     Ok(Fitted { numbers: data.numbers, amounts: regression.amounts, covariance })
 }

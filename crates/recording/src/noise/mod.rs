@@ -9,7 +9,7 @@ mod regression;
 mod whitener;
 
 pub use data::Series;
-pub use fitted::{Fitted, fitted};
+pub use fitted::{Fitted, fitted, fitted_within};
 pub use identify::{Bounds, Candidate, NoiseEstimate, StandardErrors, Term, identify, residual};
 pub use model::NoiseModel;
 pub use whitener::Whitener;

@@ -64,6 +64,18 @@ impl Design {
         if self.split { end..end + self.lags.len() } else { end..end }
     }
 
+    /// Each lag's amount less their mean, over `size`, in both directions together and between them: what is known beforehand leaves the sums as they are.
+    pub(super) fn apart(&self, size: f64) -> Vec<Weights> {
+        let share = 1.0 / self.lags.len() as f64;
+        let of = |all: std::ops::Range<usize>| {
+            let rows = all.clone();
+            rows.map(move |own| {
+                all.clone().map(|number| (number, (f64::from(u8::from(number == own)) - share) / size)).collect::<Weights>()
+            })
+        };
+        of(self.common()).chain(of(self.difference())).collect()
+    }
+
     /// Settled response to a steady ramp of rate 1: the mean of both directions, or the only one.
     pub(super) fn sensitivity(&self) -> Weights {
         self.common().map(|number| (number, 1.0)).collect()

@@ -3,7 +3,7 @@
 use super::absent::Absent;
 use super::design::{Design, Weights};
 use super::estimate::Estimate;
-use crate::noise::{Bounds, Fitted, NoiseEstimate, NoiseModel, Series, fitted, identify};
+use crate::noise::{Bounds, Fitted, NoiseEstimate, NoiseModel, Series, fitted_within, identify};
 
 /// A design that was fitted.
 pub(super) struct Model {
@@ -38,12 +38,20 @@ const MOST_NOISE: f64 = 0.1;
 impl Model {
     /// Identifies the noise beside the columns of a design, and fits these.
     pub(super) fn new(design: Design, observed: Observed) -> Result<Self, Absent> {
+        Self::within(design, observed, &[])
+    }
+
+    /// The same with sums of amounts that are `known` beforehand to be 0 within 1.
+    pub(super) fn within(design: Design, observed: Observed, known: &[Weights]) -> Result<Self, Absent> {
         let columns: Vec<&[f64]> = design.columns.iter().map(Vec::as_slice).collect();
         let series = observed.beside(&columns);
         let noise = identify(&series, &Bounds::new(observed.averaging, observed.time))?;
-        let fit = |(probability, model): (f64, NoiseModel)| Ok((probability, fitted(&series, &model)?));
+        let fit = |(probability, model): (f64, NoiseModel)| Ok((probability, fitted_within(&series, &model, known)?));
         let fits = noises(&noise).into_iter().map(fit).collect::<Result<_, Absent>>()?;
-        let plain = fitted(&series, &NoiseModel::white(1.0, observed.averaging))?;
+        // what is known weighs as much beside a noise of 1 as it does beside the series' own
+        let scaled = |row: &Weights| row.iter().map(|(number, weight)| (*number, weight * noise.model.white)).collect();
+        let beside: Vec<Weights> = known.iter().map(scaled).collect();
+        let plain = fitted_within(&series, &NoiseModel::white(1.0, observed.averaging), &beside)?;
         Ok(Self { design, noise, fits, plain })
     }
 
