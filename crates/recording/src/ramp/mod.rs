@@ -4,7 +4,7 @@
 //! follows it. In a steady ramp every rₖ settles at the ramp's rate: the **sensitivity** is Σ cₖ \[u per K/s\], and the record need not hold a ramp
 //! long enough to settle for it to be told. The time constants go down by halves from a third of the longest ramp or rest, and, in a second
 //! set, from that over √2: what the two sets differ by counts as an error, and so do two parts in a hundred of the sensitivity, by which both may miss what
-//! lies between. All lags in one set miss no more than one in a thousand; where a record tells the sensitivity by these with a smaller error, the amounts
+//! lies between. All lags in one set miss no more than one in a thousand; where a record tells the sensitivity by these with half the error, the amounts
 //! being taken to differ by no more than a few sensitivities, it is told by these. What a time constant twice as long as the longest changes beyond what noise
 //! explains is an error, too; where that is more than a tenth of the sensitivity, none is told: the unit settles more slowly than the record lets it. Rates upwards and
 //! downwards have amounts of their own where the record has both: **heating** and **cooling**, the sensitivity being their mean. Beside them
@@ -103,7 +103,7 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     };
     let is_finer = fine(total).ok().zip(coarse(total).ok()).is_some_and(|(fine, coarse)| {
         // so many amounts may follow what is no lag, as a hysteresis: it then contradicts the sets
-        fine.sd < coarse.sd && (fine.value - coarse.value).abs() < SIGNIFICANT * coarse.sd
+        fine.sd < WORTH * coarse.sd && (fine.value - coarse.value).abs() < SIGNIFICANT * coarse.sd
     });
     let told = |of: &dyn Fn(&Design) -> Result<Weights, Absent>| {
         let coarse = coarse(of)?;
@@ -163,6 +163,8 @@ const SIGNIFICANT: f64 = 2.576;
 /// Error of a set whose time constants are halves of each other, as a share of the sensitivity (1σ): of coils it misses 0.2 to 1.8 % by what lies between, of
 /// two lags in a row 1 to 6 %. All lags in one set miss a tenth of a per cent or less.
 const BETWEEN: f64 = 0.02;
+/// Largest error of that set beside the coarse ones' at which it is taken.
+const WORTH: f64 = 0.5;
 /// Amount of a lag less the mean of all in that set (1σ), in sensitivities.
 const AMOUNT: f64 = 3.0;
 /// Largest change by longer lags, as a share of the sensitivity, that counts as an error: a specification is read to a tenth.
