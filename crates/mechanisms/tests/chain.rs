@@ -531,6 +531,15 @@ fn a_mechanism_of_one_s_own_is_named() {
 /// Tails that double the bias, read a quarter of a row late: where nobody said which minute a rate is the mean of, all of it is late, not the design's
 /// part alone.
 #[test]
+fn a_chamber_that_rests_has_a_range_of_temperatures_all_the_same() {
+    let library = gyro().lock().expect("a gyro").library().clone();
+    let time: Vec<f64> = (0..60).map(|n| 60.0 * f64::from(n)).collect();
+    let rest = Prepared::new(&library, &time, &[25.0; 60], 60.0).expect("prepared");
+    let [low, high] = Gyro::new(library, &[], vec![rest]).expect("gyro").scene().temperatures;
+    assert!((low - 25.0).abs() < 1e-9 && high > low && high < 25.01, "{low} {high}");
+}
+
+#[test]
 fn a_rate_that_is_read_late_is_late_with_what_a_mechanism_adds() {
     const LATE_S: f64 = 15.0;
     let (changed, told) = {
