@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &Check, progress: &Progress) -> Result<(), Error> {
     match &recordings(records)?[..] {
         [record] => one(record, &options, arguments, progress),
         _ if write_map.is_some() || svg.is_some() => Err(Error::usage(
-            "--write-map and --svg are of one recording; give one: its map serves all of them with --map FILE.map.ron",
+            "--write-map and --svg are of one recording; give one: its map serves all of them with --map FILE.map.ron, here and in every other command",
         )),
         all => several(all, &options, *json, progress),
     }

@@ -136,6 +136,9 @@ impl Homogenize {
             *text += &format!("\n{}", strains.text());
             object["strains"] = strains.json();
         }
+        if self.svg.is_some() && self.load.is_some() && self.field.is_none() {
+            progress.note("the picture shows phases and mesh; add --field NAME, e.g. --field radial, for a field under the load");
+        }
         let at = celsius.map_or(String::new(), |t| format!(" at {t} degC"));
         let caption = match (self.field, &self.load) {
             (Some(quantity), Some(load)) => format!("{} under {}{at}", quantity.label(), homogenize::words(load)),

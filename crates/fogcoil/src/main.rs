@@ -109,7 +109,7 @@ fn run_wind(coil: &Path, csv: Option<&Path>, svg: Option<&Path>, json: bool, pro
 fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> {
     let Diagnose { coil, fits, holdouts, mechanisms, without, json, prediction, model_out, report, meta, format, no_cache } =
         arguments;
-    let mut asked = input::read_mechanisms(mechanisms)?.without(without)?;
+    let asked = input::read_mechanisms(mechanisms)?.without(without)?;
     let options = RecordOptions { further: asked.further_columns(), ..format.options(meta.clone()) };
     let records = fits.iter().chain(holdouts).flat_map(|record| options.files(record));
     let inputs: Vec<PathBuf> = records.chain(asked.own.iter().map(|own| own.file.clone())).collect();
@@ -122,10 +122,10 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
     diagnose::check_design(&case, coil)?;
     let read = |paths: &[PathBuf]| paths.iter().map(|path| input::read_record(path, &options)).collect::<Result<Vec<_>, _>>();
     let (fits, holdouts) = progress.during("reading the records", || Ok::<_, Error>((read(fits)?, read(holdouts)?)))?;
-    asked.own.extend(diagnose::of_columns(&fits, &holdouts));
+    let mechanisms = asked.with_catalogue();
+    let columns = diagnose::of_columns(&fits, &holdouts, &mechanisms);
     let cache = if *no_cache { Cache::NONE } else { Cache::of_user() };
-    let mut outcome =
-        progress.tasks(|tell| diagnose::diagnose(&case, &asked.with_catalogue(), &fits, &holdouts, &cache, tell))?;
+    let mut outcome = progress.tasks(|tell| diagnose::diagnose(&case, &mechanisms, &columns, &fits, &holdouts, &cache, tell))?;
     let mut files = Vec::new();
     if let Some(path) = model_out {
         let note = match progress.during("simulating the extended model", || outcome.written())? {
@@ -143,8 +143,9 @@ fn run_diagnose(arguments: &Diagnose, progress: &Progress) -> Result<(), Error> 
     let object = line(&outcome.json());
     files.extend(json_file.map(|path| (path, Content::Text(object.clone()))));
     files.extend(prediction.as_deref().zip(outcome.prediction()).map(|(path, text)| (path, Content::Text(text))));
-    let own_out: Vec<Option<PathBuf>> = asked.own.iter().map(out_of).collect();
-    for (own, path) in asked.own.iter().zip(&own_out) {
+    let own: Vec<&MechanismCase> = asked.own.iter().chain(&columns).collect();
+    let own_out: Vec<Option<PathBuf>> = own.iter().map(|own| out_of(own)).collect();
+    for (own, path) in own.iter().zip(&own_out) {
         if let (Some(path), Some(values)) = (path, outcome.found_of(&own.mechanism.id)) {
             files.push((path, Content::Text(own.with_values(&values)?)));
         }

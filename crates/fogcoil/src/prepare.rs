@@ -69,13 +69,18 @@ impl Record {
         Ok(prepared.with_columns(self.columns.clone()))
     }
 
+    /// Whether a column that nothing read has values in its rows.
+    pub(crate) fn has_column(&self, name: &str) -> bool {
+        self.ignored.get(name).is_some_and(|values| values.iter().any(|value| value.is_finite()))
+    }
+
     /// Takes columns of these names, of those that nothing read, for laws that name them.
-    pub(crate) fn read_columns(&mut self, names: &BTreeSet<String>) {
+    pub(crate) fn read_columns(&mut self, names: &BTreeSet<&str>) {
         for name in names {
-            let values = self.ignored.get(name).and_then(|values| bridged(&self.observed.time, values));
+            let values = self.ignored.get(*name).and_then(|values| bridged(&self.observed.time, values));
             if let Some(values) = values {
-                self.ignored.remove(name);
-                self.columns.insert(name.clone(), values);
+                self.ignored.remove(*name);
+                self.columns.insert((*name).to_owned(), values);
             }
         }
     }

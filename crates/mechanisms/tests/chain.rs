@@ -528,8 +528,6 @@ fn a_mechanism_of_one_s_own_is_named() {
     assert!((estimate.ci90[0]..estimate.ci90[1]).contains(&6e-5), "{estimate:?}");
 }
 
-/// Tails that double the bias, read a quarter of a row late: where nobody said which minute a rate is the mean of, all of it is late, not the design's
-/// part alone.
 #[test]
 fn a_chamber_that_rests_has_a_range_of_temperatures_all_the_same() {
     let library = gyro().lock().expect("a gyro").library().clone();
@@ -539,6 +537,8 @@ fn a_chamber_that_rests_has_a_range_of_temperatures_all_the_same() {
     assert!((low - 25.0).abs() < 1e-9 && high > low && high < 25.01, "{low} {high}");
 }
 
+/// Tails that double the bias, read a quarter of a row late: where nobody said which minute a rate is the mean of, all of it is late, not the design's
+/// part alone.
 #[test]
 fn a_rate_that_is_read_late_is_late_with_what_a_mechanism_adds() {
     const LATE_S: f64 = 15.0;

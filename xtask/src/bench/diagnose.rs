@@ -44,7 +44,7 @@ impl Kind {
         let fitted = self.fitted.iter().map(read).collect::<Result<Vec<_>, _>>()?;
         let held = read(&HELD_OUT)?;
         let rows = fitted.iter().chain([&held]).map(|record| record.kept().time().len()).sum();
-        let outcome = diagnose::diagnose(coil, ::mechanisms::CATALOGUE, &fitted, &[held], cache, &|_| ())?;
+        let outcome = diagnose::diagnose(coil, ::mechanisms::CATALOGUE, &[], &fitted, &[held], cache, &|_| ())?;
         let (json, page) = (outcome.json(), outcome.report());
         let seconds = watch.lap();
         std::hint::black_box(page);

@@ -37,7 +37,8 @@ pub(super) fn all(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
             let path = Path::new("fixtures/concealed/open").join(unit).join(file);
             input::read_record(&path, &RecordOptions::default())
         };
-        let outcome = diagnose(&case, mechanisms::CATALOGUE, &[record("fit.csv")?], &[record("holdout.csv")?], &cache, &|_| ())?;
+        let outcome =
+            diagnose(&case, mechanisms::CATALOGUE, &[], &[record("fit.csv")?], &[record("holdout.csv")?], &cache, &|_| ())?;
         write(&format!("diagnose-{verdict}"), outcome.report())?;
     }
     write("validate", validate::html()?)?;

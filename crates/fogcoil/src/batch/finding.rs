@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use mechanisms::Mechanism;
 use progress::Step;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -74,10 +73,9 @@ impl Inputs<'_> {
     pub(super) fn find(&self, unit: &Read, progress: &(dyn Fn(Step) + Sync)) -> (Value, Option<String>) {
         let records = || unit.fits.iter().chain(&unit.holdouts);
         let measured = self.measured(unit);
-        let columns = of_columns(&unit.fits, &unit.holdouts);
-        let mut mechanisms = self.asked.with_catalogue();
-        mechanisms.extend(columns.iter().map(|own| &own.mechanism as &dyn Mechanism));
-        let diagnosis = diagnose(self.case, &mechanisms, &unit.fits, &unit.holdouts, self.cache, progress);
+        let mechanisms = self.asked.with_catalogue();
+        let columns = of_columns(&unit.fits, &unit.holdouts, &mechanisms);
+        let diagnosis = diagnose(self.case, &mechanisms, &columns, &unit.fits, &unit.holdouts, self.cache, progress);
         let (told, left, page, problem) = match &diagnosis {
             Ok(outcome) => {
                 let page = titled(&outcome.report(), &unit.name, &self.case.name);

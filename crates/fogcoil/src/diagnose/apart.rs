@@ -7,7 +7,6 @@ use diagnosis::{Active, Candidate, ForwardModel, Verdict};
 use mechanisms::CATALOGUE;
 
 use super::Outcome;
-use super::weighed::is_of_column;
 
 /// Most ids that one test is asked to tell apart.
 const MOST: usize = 3;
@@ -67,7 +66,7 @@ impl Outcome<'_> {
         // a user's own are told in any case; those that are not offered are noted
         for (number, mechanism) in self.gyro.mechanisms().iter().enumerate() {
             let name = mechanism.id.as_str();
-            let is_asked = mechanisms::find(name).is_none() && !is_of_column(self.gyro.mechanism(number));
+            let is_asked = mechanisms::find(name).is_none() && !self.of_columns.contains(name);
             if is_asked && all.iter().all(|told| told.name != name) {
                 let probability = d.mechanisms.iter().find(|(m, _)| *m == number).map_or(0.0, |(_, p)| *p);
                 all.push(Explanation { name, probability, open: set.contains(&name), withdrawn: false });
@@ -95,21 +94,28 @@ impl Outcome<'_> {
     /// Ids that the next test should tell apart, most probable first; empty where there is nothing to tell apart.
     pub(super) fn apart(&self) -> Vec<String> {
         // no programme of the chamber tells what a column holds
-        let has_column = |id: &str| self.gyro.find(id).is_some_and(|own| !self.gyro.mechanism(own).columns().is_empty());
-        let others: Vec<&str> = self.others().into_iter().filter(|id| !has_column(id)).collect();
-        let Some(first) = others.first().filter(|_| !self.names().iter().any(|id| has_column(id))) else { return Vec::new() };
+        let others: Vec<&str> = self.others().into_iter().filter(|id| self.column_of(id).is_none()).collect();
+        let Some(first) = others.first() else { return Vec::new() };
         let holds = |c: &&Candidate| c.rival.is_none() && c.fit.active.iter().any(|a| self.id(a.mechanism) == *first);
         let with_it = self.diagnosis.candidates.iter().filter(holds).max_by(|a, b| a.probability.total_cmp(&b.probability));
         let kept = |id: &str| with_it.is_some_and(|c| c.fit.active.iter().any(|a| self.id(a.mechanism) == id));
         // of a pair the one whose place it takes
         let best = self.names();
         let replaced = best.iter().find(|id| !kept(id));
+        if replaced.is_some_and(|id| self.column_of(id).is_some()) {
+            return Vec::new();
+        }
         if replaced.is_none() && !best.is_empty() {
             // it takes nobody's place: whether it is there beside them is the question
             return vec![(*first).to_owned(), NOMINAL.to_owned()];
         }
         let ids: Vec<String> = replaced.into_iter().chain(&others).take(MOST).map(|id| (*id).to_owned()).collect();
         if ids.len() > 1 { ids } else { Vec::new() }
+    }
+
+    /// A column of the records that a mechanism's law names, if it names one.
+    pub(super) fn column_of(&self, id: &str) -> Option<&str> {
+        self.gyro.find(id).and_then(|own| self.gyro.mechanism(own).columns().first().copied())
     }
 
     /// The command that finds the test that tells `ids` apart: where others were found beside them, after one that writes the design with those.

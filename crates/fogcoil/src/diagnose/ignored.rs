@@ -15,7 +15,7 @@ use crate::table::significant;
 const MOST_OF_IT: f64 = 0.5;
 /// Standard errors by which chance alone puts a correlation off 0 that is told, as many rows counted as are independent.
 const PLAIN: f64 = 5.0;
-/// Correlation from which a column merely repeats a temperature, or the time.
+/// Correlation from which a column merely repeats a temperature, the rate, or the time.
 const REPEATS: f64 = 0.99;
 
 /// A column that what is left of the rate follows.
@@ -113,7 +113,7 @@ impl Outcome<'_> {
         Some((shown(name), Remark::FollowsColumn.warning(text).at(&self.fits.first()?.fingerprint.file)))
     }
 
-    /// Whether a column is in all records, and neither constant nor a line of the time or of a temperature.
+    /// Whether a column is in all records, and neither constant nor a line of the time, of a temperature or of the rate.
     fn is_own_course(&self, name: &str) -> bool {
         let of = |other: fn(&Record) -> &[f64]| {
             repeats(self.fits.iter().filter_map(|record| Some((record.ignored.get(name)?.as_slice(), other(record)))))
@@ -122,6 +122,7 @@ impl Outcome<'_> {
             of(|record| &record.observed.time),
             of(|record| &record.chamber),
             of(|record| &record.observed.channels[SPOOL_CHANNEL]) && self.has_spool(),
+            of(|record| &record.observed.channels[RATE_CHANNEL]),
         ];
         self.fits.iter().all(|record| record.ignored.contains_key(name)) && !repeated.contains(&true)
     }

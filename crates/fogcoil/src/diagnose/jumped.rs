@@ -6,7 +6,9 @@ use mechanisms::{Gyro, SPOOL as SPOOL_CHANNEL, thermometer_under};
 use nalgebra::{DMatrix, DVector};
 use recording::Seconds;
 use recording::check::white_noise;
+use recording::smooth::resolution;
 
+use super::as_drawn::{as_well, spread};
 use crate::input::{CHAMBER, SPOOL};
 use crate::prepare::Record;
 use crate::table::significant;
@@ -21,6 +23,8 @@ const MOST: usize = 6;
 /// Shares of a jump that the spool leaves out where it leaves it out whole, and least share that the jumps explain of what the model leaves of the spool.
 const WHOLE: [f64; 2] = [0.75, 1.25];
 const EXPLAINS: f64 = 0.5;
+/// Largest part of the spool's own course that is left without the jumps.
+const FOLLOWS: f64 = 0.3;
 
 /// A jump of the chamber's readings.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +45,9 @@ fn line(points: impl Iterator<Item = (f64, f64)> + Clone) -> [f64; 2] {
 
 /// The largest jumps from one course to the same course at another level, within a row, or within two where rows are means.
 fn jumps(time: &[f64], chamber: &[f64]) -> Vec<Jump> {
-    let Some(noise) = white_noise(time, chamber, &vec![true; chamber.len()]) else { return Vec::new() };
+    let Some(white) = white_noise(time, chamber, &vec![true; chamber.len()]) else { return Vec::new() };
+    // the steps of a display are no jumps
+    let noise = white.max(resolution(chamber) / 12.0_f64.sqrt());
     let at = |row: usize| -> Option<Jump> {
         let first = row.checked_sub(BESIDE)?;
         let last = row + BESIDE;
@@ -66,10 +72,10 @@ fn jumps(time: &[f64], chamber: &[f64]) -> Vec<Jump> {
     kept
 }
 
-/// Shares of some jumps that are missing from the spool: `responses` are those of the spool to each, `left` is what the model leaves of it, with white `noise`,
-/// and `slopes` are what a standard deviation of each of its constants changes there. `None` where those that are left out whole explain little of what the
-/// constants alone leave.
-fn missing(left: &[f64], noise: f64, slopes: &[Vec<f64>], responses: &[Vec<f64>]) -> Option<Vec<bool>> {
+/// Jumps that the spool leaves out whole, and what is left of it without them \[K\], rms. `responses` are those of the spool to each jump; `left` is what the
+/// model leaves of it, with white `noise`, and its `own` course \[K\], rms; `slopes` are what a standard deviation of each of the model's constants changes there.
+/// `None` where such jumps explain little of what the constants alone leave.
+fn missing(left: &[f64], [noise, own]: [f64; 2], slopes: &[Vec<f64>], responses: &[Vec<f64>]) -> Option<(Vec<bool>, f64)> {
     let rows: Vec<usize> = (0..left.len()).filter(|&n| left[n].is_finite()).collect();
     // less its mean: offsets are free; a constant that moves by one standard deviation costs as much as a row that is off by its noise
     let stacked = |series: &[f64], constant: Option<usize>| -> DVector<f64> {
@@ -93,11 +99,21 @@ fn missing(left: &[f64], noise: f64, slopes: &[Vec<f64>], responses: &[Vec<f64>]
     let whole: Vec<bool> = shares.iter().take(responses.len()).map(|share| (WHOLE[0]..WHOLE[1]).contains(share)).collect();
     let without = responses.iter().zip(&whole).filter(|(_, whole)| **whole).fold(residual.clone(), |sum, (r, _)| sum + r);
     let ((_, as_read), (_, without)) = (fitted(&slopes, &residual)?, fitted(&slopes, &without)?);
-    (whole.contains(&true) && without <= (1.0 - EXPLAINS) * as_read).then_some(whole)
+    let would = (without / rows.len().max(1) as f64).sqrt();
+    // a thermometer that follows nothing does not tell; one that follows the rest does
+    let told = whole.contains(&true) && without <= (1.0 - EXPLAINS) * as_read && would < FOLLOWS * own;
+    told.then_some((whole, would))
 }
 
-/// The warning of the largest jump that the spool does not follow, if there is one: in the record of this `number` in `gyro`, the design as it is.
-pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record, predicted: &[f64]) -> Result<Option<Note>, coil::Error> {
+/// The warning of the largest jump that the spool does not follow, if there is one: in the record of this `number` in `gyro`, the design as it is, which
+/// predicts so much of the spool. What the answer leaves less of, `answered`, rms \[K\], is no mistake.
+pub(super) fn warning(
+    gyro: &Gyro,
+    number: usize,
+    record: &Record,
+    predicted: &[f64],
+    answered: Option<f64>,
+) -> Result<Option<Note>, coil::Error> {
     let (time, chamber, spool) = (&record.observed.time, &record.chamber, &record.observed.channels[SPOOL_CHANNEL]);
     let used: Vec<bool> = spool.iter().map(|value| value.is_finite()).collect();
     let (jumps, noise) = (jumps(time, chamber), white_noise(time, spool, &used));
@@ -121,8 +137,10 @@ pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record, predicted: &[
     };
     let slopes = (0..middle.len()).map(slope).collect::<Result<Vec<_>, _>>()?;
     let left: Vec<f64> = spool.iter().zip(predicted).map(|(read, predicted)| read - predicted).collect();
-    let told = missing(&left, noise, &slopes, &responses);
-    let mut told = told.into_iter().flat_map(|whole| jumps.iter().zip(whole).filter(|(_, whole)| *whole)).map(|(jump, _)| jump);
+    let own = spread(spool, &vec![0.0; spool.len()], 1.0);
+    let told = missing(&left, [noise, own], &slopes, &responses).filter(|(_, would)| as_well(*would, answered));
+    let told = told.into_iter().flat_map(|(whole, _)| jumps.iter().zip(whole).filter(|(_, whole)| *whole));
+    let mut told = told.map(|(jump, _)| jump);
     Ok(told.next().map(|jump| {
         let text = format!(
             "{CHAMBER} jumps by {} K at {} s, and {SPOOL} goes on as if it had not: its sensor seems to have moved, or its channel",
@@ -161,6 +179,9 @@ mod tests {
         let means = |series: &[f64]| -> Vec<f64> { series.chunks(3).map(|c| c.iter().sum::<f64>() / 3.0).collect() };
         let found = jumps(&means(&time), &means(&jumped));
         assert!(found.len() == 1 && found[0].row.abs_diff(107) <= 1 && (found[0].by + 0.7).abs() < 0.05, "{found:?}");
+        // a display of a tenth of a kelvin, without noise, steps in a slow course
+        let display: Vec<f64> = time.iter().map(|t| (t / 40_000.0 * 10.0).round() / 10.0).collect();
+        assert_eq!(jumps(&time, &display), []);
         // steps of degrees are jumps as well; whether they are real the spool tells
         let steps: Vec<f64> = sound.iter().enumerate().map(|(n, c)| c + if n < 100 { 0.0 } else { 15.0 }).collect();
         assert_eq!(jumps(&time, &steps).iter().map(|jump| jump.row).collect::<Vec<_>>(), [100]);
@@ -180,11 +201,14 @@ mod tests {
         let left = |driven: &[f64]| -> Vec<f64> {
             lag(&time, driven).iter().zip(model(1980.0)).enumerate().map(|(n, (spool, model))| spool - model + noise(n)).collect()
         };
-        let told = |left: &[f64]| missing(left, 0.006, std::slice::from_ref(&slope), &response);
-        assert_eq!(told(&left(&sound)), Some(vec![true]));
+        let told = |left: &[f64]| missing(left, [0.006, 10.0], std::slice::from_ref(&slope), &response);
+        let (whole, would) = told(&left(&sound)).expect("the air did not jump");
+        assert!(whole == [true] && would < 0.02, "{would}");
+        // a thermometer that lies outside moves by no more than is left
+        assert_eq!(missing(&left(&sound), [0.006, 0.01], std::slice::from_ref(&slope), &response), None);
         assert_eq!(told(&left(&jumped)), None);
         // without what is known of the constants it could not be told
-        assert_eq!(missing(&left(&sound), 0.006, &[], &response), None);
+        assert_eq!(missing(&left(&sound), [0.006, 10.0], &[], &response), None);
         // half a jump is something else, and so is one that explains little
         let half: Vec<f64> = sound.iter().zip(&jumped).map(|(a, b)| (a + b) / 2.0).collect();
         assert_eq!(told(&left(&half)), None);

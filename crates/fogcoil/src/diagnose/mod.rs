@@ -40,7 +40,7 @@ use self::as_drawn::rms;
 use crate::Error;
 use crate::cache::Cache;
 use crate::compose::{Composed, Sought, StandIn, compose};
-use crate::input::{CoilCase, Fingerprint, InputError, RecordCase};
+use crate::input::{CoilCase, Fingerprint, InputError, MechanismCase, RecordCase};
 use crate::prepare::{Record, gyro, library, other_design, ready, refuse_copies};
 use crate::table::significant;
 
@@ -57,6 +57,8 @@ pub struct Outcome<'m> {
     sought: OnceLock<String>,
     /// what it was asked for
     mechanisms: Vec<&'m dyn Mechanism>,
+    /// ids of those that nobody asked for: each is a column's
+    of_columns: BTreeSet<String>,
     diagnosis: Diagnosis,
     /// a law for what is unknown, if one gains enough
     composed: Option<Composed>,
@@ -93,7 +95,8 @@ impl Held {
     }
 }
 
-/// Diagnoses a unit of the design `case` from the records `fits`, in whichever order, judged on `holdouts`, as far as `mechanisms` go: [`mechanisms::CATALOGUE`], or more.
+/// Diagnoses a unit of the design `case` from the records `fits`, in whichever order, judged on `holdouts`, as far as `mechanisms` go: [`mechanisms::CATALOGUE`], or more,
+/// and the records' `columns` that nothing reads, by [`of_columns`].
 ///
 /// `progress` is told each task as it begins; of one that can be counted again and again.
 ///
@@ -102,6 +105,7 @@ impl Held {
 pub fn diagnose<'m>(
     case: &CoilCase,
     mechanisms: &[&'m dyn Mechanism],
+    columns: &'m [MechanismCase],
     fits: &[RecordCase],
     holdouts: &[RecordCase],
     cache: &Cache,
@@ -115,10 +119,18 @@ pub fn diagnose<'m>(
     refuse_copies(all())?;
     let mut notes: Vec<Note> = all().filter_map(|record| other_design(case, record)).collect();
     let mut read: Vec<Record> = all().map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
-    let named = mechanisms.iter().flat_map(|mechanism| mechanism.columns()).map(str::to_owned);
-    let named: BTreeSet<String> = named.collect();
-    read.iter_mut().for_each(|record| record.read_columns(&named));
-    notes.extend(weighed::note(mechanisms).map(|note| note.at(&case.file)));
+    let columns: Vec<&MechanismCase> = columns
+        .iter()
+        .filter(|own| own.mechanism.columns().iter().all(|name| read.iter().all(|record| record.has_column(name))))
+        .collect();
+    let unread: BTreeSet<&str> = columns.iter().flat_map(|own| own.mechanism.columns()).collect();
+    read.iter_mut().for_each(|record| record.read_columns(&unread));
+    notes.extend(weighed::note(&columns).map(|note| note.at(&case.file)));
+    let of_columns: BTreeSet<String> = columns.iter().map(|own| own.mechanism.id.clone()).collect();
+    let asked = mechanisms;
+    let mechanisms: Vec<&'m dyn Mechanism> =
+        asked.iter().copied().chain(columns.iter().map(|own| &own.mechanism as &dyn Mechanism)).collect();
+    let mechanisms = mechanisms.as_slice();
     let library = library(case, cache, progress)?;
     progress(Step::begins("running every model under the recorded chamber"));
     let drawn = gyro(&library, mechanisms, &read, fits.len()).map_err(coil)?;
@@ -138,11 +150,11 @@ pub fn diagnose<'m>(
             format!("not offered, as the design, or what the meta files tell, leaves no place for it: {}", missing.join(", "));
         notes.push(Remark::NotOffered.note(message).at(&case.file));
     }
-    check_laws(&drawn, mechanisms, &read)?;
+    check_laws(&drawn, asked, &read)?;
     let held = read.split_off(fits.len());
     let observations: Vec<Observation> = read.iter().map(|r| r.observed.clone()).collect();
     let numbers: Vec<usize> = (0..fits.len()).collect();
-    let failed = &Error::of_diagnosis_with(&case.file, mechanisms);
+    let failed = &Error::of_diagnosis_with(&case.file, asked);
     let (settings, mut settled) =
         (Settings::default(), diagnosis::settled(&drawn, &numbers, &observations, progress).map_err(failed)?);
     let mut diagnosis =
@@ -214,6 +226,7 @@ pub fn diagnose<'m>(
         library,
         sought: OnceLock::new(),
         mechanisms: mechanisms.to_vec(),
+        of_columns,
         diagnosis,
         composed,
         stand_ins,
@@ -236,7 +249,8 @@ pub fn diagnose<'m>(
     }
     if outcome.diagnosis.verdict == Verdict::Explained {
         let found = outcome.diagnosis.best().fit.active.iter().map(|active| outcome.gyro.mechanism(active.mechanism));
-        let column = found.filter(|own| weighed::is_of_column(*own)).flat_map(|own| own.columns()).next().map(shown);
+        let unread = found.filter(|own| outcome.of_columns.contains(own.facts().id));
+        let column = unread.flat_map(|own| own.columns()).next().map(shown);
         outcome.follows_column = outcome.follows_column.or(column);
     }
     Ok(outcome)

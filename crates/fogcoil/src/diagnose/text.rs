@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use bias::units::S_PER_H;
 use diagnosis::{Estimate, Verdict};
-use files::{Note, Remark};
+use files::{Note, Remark, shown};
 use mechanisms::{Extent, Naming, RATE as RATE_CHANNEL};
 
 use super::apart::TOLD;
@@ -301,13 +301,16 @@ impl Outcome<'_> {
                 "look at the record that was held out: it may be of another unit, or mounted otherwise. If it is of this one, give it with --fit, too."
                     .into()
             }
-            // a chamber's programme would have told them apart, but for a column
-            Verdict::Explained if !self.others().is_empty() => format!(
-                "inspect the unit for {}. These records do not exclude: {}. No programme of the chamber tells these apart, as one of them is the rate's way \
-                 with a column: hold the temperature and change the quantity in that column alone.",
-                self.told_names().join(" and "),
-                self.others().join(", ")
-            ),
+            Verdict::Explained if self.with_column().is_some() => {
+                let (id, column) = self.with_column().unwrap_or_default();
+                format!(
+                    "inspect the unit for {}. These records do not exclude: {}. The law of {id} names the column {}, which no programme of the chamber tells: \
+                     hold the temperature and change the quantity in that column alone.",
+                    self.told_names().join(" and "),
+                    self.others().join(", "),
+                    shown(column)
+                )
+            }
             Verdict::Explained if proven => {
                 let (names, several) = (self.told_names().join(" and "), self.told_names().len() > 1);
                 let [is, it] = if several { ["are", "them"] } else { ["is", "it"] };
@@ -365,6 +368,13 @@ impl Outcome<'_> {
             }
             Verdict::None => "no test is needed to explain these records.".into(),
         }
+    }
+
+    /// Of several mechanisms that are left and that no chamber's programme tells apart, one whose law names a column of the records, with the column.
+    fn with_column(&self) -> Option<(&str, &str)> {
+        let others = self.others();
+        let left = self.names().into_iter().chain(others.iter().copied());
+        left.filter(|_| !others.is_empty()).find_map(|id| Some((id, self.column_of(id)?)))
     }
 
     /// The mechanism that is likelier than the constants, where these are the verdict all the same, and a check that decides about it.

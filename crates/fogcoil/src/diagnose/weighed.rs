@@ -12,52 +12,138 @@ use recording::{Recording, median_interval};
 use super::ignored::{centred, repeats, sums};
 use crate::input::{CHAMBER, MechanismCase, RATE, RecordCase, SPOOL, check_mechanism};
 
-/// Source by which such a mechanism is known: no user writes it.
-const SOURCE: &str = "a column of the record that the model of the coil does not use";
-/// Most columns that are weighed, each of which takes its time, and takes its share of what is likely beforehand.
+/// Most columns that are weighed, those that go with the rate most: each takes its time, and its share of what is likely beforehand.
 const MOST: usize = 12;
 /// Longest name in an id.
 const LONGEST: usize = 24;
+/// Least share of a record's rows in which a column has a value.
+const FULL: f64 = 0.5;
+/// Range of a column, as a share of its largest value, below which it is constant but for rounding.
+const CONSTANT: f64 = 1e-9;
+/// Standard deviation of the chamber about its mean, at least, that a column is compared with \[K\]: one at rest says nothing of a column's size.
+const LIVELY_K: f64 = 1.0;
+/// Standard errors by which chance alone puts a correlation off 0.
+const BY_CHANCE: f64 = 5.0;
 
-/// Whether a mechanism is one of those that [`of_columns`] makes.
-pub(super) fn is_of_column(mechanism: &dyn Mechanism) -> bool {
-    mechanism.facts().source == SOURCE
+/// A column in the rows of all fitted records.
+struct Column<'a> {
+    name: &'a str,
+    courses: Vec<&'a [f64]>,
+}
+
+impl Column<'_> {
+    /// Whether it hardly moves beside its own size.
+    fn is_constant(&self) -> bool {
+        let known = || self.courses.iter().copied().flatten().filter(|value| value.is_finite());
+        let [low, high] =
+            known().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(*value), high.max(*value)]);
+        high - low <= CONSTANT * low.abs().max(high.abs())
+    }
+
+    /// Whether it is a line of another series, record by record.
+    fn repeats<'b>(&self, others: impl Iterator<Item = Option<&'b [f64]>>) -> bool {
+        let both: Vec<_> = self.courses.iter().zip(others).filter_map(|(own, other)| Some((*own, other?))).collect();
+        !both.is_empty() && repeats(both.into_iter())
+    }
+
+    /// Correlation with the rate.
+    fn with_rate(&self, read: &[Recording]) -> f64 {
+        let pairs = self.courses.iter().zip(read).filter_map(|(own, read)| Some(centred(own, &read.channel(RATE)?.values)));
+        let [aa, ab, bb] = sums(&pairs.flatten().collect::<Vec<_>>());
+        ab.abs() / (aa * bb).sqrt()
+    }
+
+    /// Whether it is made from the rate, as a filtered one is: from row to row it moves as the rate's white noise does.
+    fn is_of_rate(&self, read: &[Recording]) -> bool {
+        let steps = |series: &[f64]| series.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>();
+        let pairs = self
+            .courses
+            .iter()
+            .zip(read)
+            .filter_map(|(own, read)| Some(centred(&steps(own), &steps(&read.channel(RATE)?.values))));
+        let pairs: Vec<(f64, f64)> = pairs.flatten().collect();
+        let [aa, ab, bb] = sums(&pairs);
+        ab.abs() > BY_CHANCE / (pairs.len() as f64).sqrt() * (aa * bb).sqrt()
+    }
+
+    fn mean(&self) -> f64 {
+        let known = || self.courses.iter().copied().flatten().filter(|value| value.is_finite());
+        known().sum::<f64>() / known().count().max(1) as f64
+    }
+
+    /// The usual size of the rate for each unit of it \[deg/h\]: that of a temperature coefficient, were the column as lively as the chamber.
+    fn usual_size(&self, read: &[Recording], minute: f64) -> f64 {
+        let pairs = self.courses.iter().zip(read).filter_map(|(own, read)| Some(centred(own, &read.channel(CHAMBER)?.values)));
+        let pairs: Vec<(f64, f64)> = pairs.flatten().collect();
+        let [own, _, chamber] = sums(&pairs);
+        usual_coefficient(minute) * (chamber.max(pairs.len() as f64 * LIVELY_K * LIVELY_K) / own).sqrt()
+    }
+}
+
+/// White noise of the rate in a reading of a minute, by the quietest record \[deg/h\].
+fn noise(read: &[Recording]) -> f64 {
+    let of = |read: &Recording| {
+        let rate = &read.channel(RATE)?.values;
+        let used: Vec<bool> = rate.iter().map(|value| value.is_finite()).collect();
+        let noise = white_noise(read.time(), rate, &used).filter(|noise| *noise > 0.0)?;
+        Some(noise * (median_interval(read.time())? / S_PER_MIN).sqrt())
+    };
+    read.iter().filter_map(of).reduce(f64::min).unwrap_or(USUAL_NOISE[RATE_CHANNEL])
 }
 
 /// A mechanism for every column of numbers that all records of a unit hold, that nothing else reads, and that goes its own way: it is neither constant nor
-/// a line of the time, of a temperature or of the rate itself. Each adds a rate in proportion to its column.
-pub fn of_columns(fits: &[RecordCase], holdouts: &[RecordCase]) -> Vec<MechanismCase> {
-    let rows = |record: &RecordCase| (record.report.used(&record.recording), record.ignored.select(&record.report.rows));
-    let fitted: Vec<(Recording, Recording)> = fits.iter().map(rows).collect();
-    let has = |record: &Recording, name: &str| record.channel(name).is_some_and(|c| c.values.iter().any(|v| v.is_finite()));
-    let is_held = |name: &str| holdouts.iter().all(|record| has(&record.ignored, name));
-    let names: BTreeSet<&str> =
-        fitted.first().into_iter().flat_map(|(_, own)| own.channels()).map(|channel| channel.name.as_str()).collect();
-    let (mut ids, mut all) = (BTreeSet::new(), Vec::new());
-    for name in names.into_iter().filter(|name| is_held(name)) {
-        let course = |own: &'_ Recording| own.channel(name).map(|channel| channel.values.clone());
-        let Some(courses) = fitted.iter().map(|(_, own)| course(own)).collect::<Option<Vec<_>>>() else { continue };
-        let of = |(read, _): &'_ (Recording, Recording), other: &str| read.channel(other).map(|c| c.values.clone());
-        let like = |other: &str| {
-            let both: Vec<_> = fitted.iter().zip(&courses).filter_map(|(record, own)| Some((own, of(record, other)?))).collect();
-            !both.is_empty() && repeats(both.iter().map(|(own, other)| (own.as_slice(), other.as_slice())))
-        };
-        let is_time = repeats(fitted.iter().zip(&courses).map(|((read, _), own)| (own.as_slice(), read.time())));
-        if is_time || [CHAMBER, SPOOL, RATE].into_iter().any(like) {
+/// a line of the time, of a temperature, of the rate or of another column, nor made from the rate. Each adds a rate in proportion to its column. Their ids are
+/// none of those `taken`.
+pub fn of_columns(fits: &[RecordCase], holdouts: &[RecordCase], taken: &[&dyn Mechanism]) -> Vec<MechanismCase> {
+    // as a diagnosis has them, whose order of records says nothing
+    let mut fits: Vec<&RecordCase> = fits.iter().collect();
+    fits.sort_by(|a, b| a.fingerprint.file.cmp(&b.fingerprint.file));
+    let kept = |record: &&RecordCase| record.ignored.select(&record.report.rows);
+    let read: Vec<Recording> = fits.iter().map(|record| record.report.used(&record.recording)).collect();
+    let unread: Vec<Recording> = fits.iter().map(kept).collect();
+    let held: Vec<Recording> = holdouts.iter().map(|record| kept(&record)).collect();
+    let course = |record: &'_ Recording, name: &str| -> Option<usize> {
+        let channel = record.channels().iter().position(|channel| channel.name == name)?;
+        let values = &record.channels()[channel].values;
+        let count = values.iter().filter(|value| value.is_finite()).count();
+        (count as f64 >= FULL * values.len() as f64 && count > 0).then_some(channel)
+    };
+    let names = unread.first().map_or(&[][..], Recording::channels).iter().map(|channel| channel.name.as_str());
+    let own_way = |name: &str| -> Option<Vec<&[f64]>> {
+        held.iter().map(|record| course(record, name)).collect::<Option<Vec<_>>>()?;
+        unread.iter().map(|record| Some(record.channels()[course(record, name)?].values.as_slice())).collect()
+    };
+    let columns = names.filter_map(|name| Some(Column { name, courses: own_way(name)? }));
+    let goes_its_own_way = |column: &Column| {
+        let of = |other: &'static str| column.repeats(read.iter().map(|read| Some(read.channel(other)?.values.as_slice())));
+        !column.is_constant()
+            && !column.repeats(read.iter().map(|read| Some(read.time())))
+            && ![CHAMBER, SPOOL, RATE].into_iter().any(of)
+            && !column.is_of_rate(&read)
+    };
+    let mut columns: Vec<(f64, Column)> =
+        columns.filter(goes_its_own_way).map(|column| (column.with_rate(&read), column)).collect();
+    columns.sort_by(|a, b| b.0.total_cmp(&a.0).then_with(|| a.1.name.cmp(b.1.name)));
+    let (noise, mut ids) = (noise(&read), taken.iter().map(|own| own.facts().id.to_owned()).collect());
+    let (mut chosen, mut all): (Vec<Column>, Vec<MechanismCase>) = (Vec::new(), Vec::new());
+    for (_, column) in columns {
+        let is_another = |other: &Column| column.repeats(other.courses.iter().map(|course| Some(*course)));
+        if all.len() == MOST || chosen.iter().any(is_another) {
             continue;
         }
-        let scale = fitted.iter().zip(&courses).filter_map(|((read, _), own)| usual_size(read, own)).reduce(f64::max);
-        let id = id(name, all.len(), &mut ids);
-        all.extend(scale.and_then(|scale| mechanism(name, &id, scale, mean(&courses))));
+        let size = column.usual_size(&read, noise);
+        let own =
+            (size.is_finite() && size > 0.0).then(|| mechanism(column.name, &id(column.name, &mut ids), size, column.mean()));
+        all.extend(own.flatten());
+        chosen.push(column);
     }
-    all.truncate(MOST);
     all
 }
 
 /// The note that these are weighed, if there are any.
-pub(super) fn note(mechanisms: &[&dyn Mechanism]) -> Option<Note> {
-    let own = mechanisms.iter().filter(|mechanism| is_of_column(**mechanism));
-    let names: Vec<String> = own.flat_map(|own| own.columns()).map(|name| format!("`{}`", shown(name))).collect();
+pub(super) fn note(columns: &[&MechanismCase]) -> Option<Note> {
+    let names: Vec<String> =
+        columns.iter().flat_map(|own| own.mechanism.columns()).map(|name| format!("`{}`", shown(name))).collect();
     let text = format!(
         "weighed beside the mechanisms: that the rate follows a column that the model does not use ({})",
         names.join(", ")
@@ -65,33 +151,19 @@ pub(super) fn note(mechanisms: &[&dyn Mechanism]) -> Option<Note> {
     (!names.is_empty()).then(|| Remark::WeighedColumn.note(text))
 }
 
-fn mean(courses: &[Vec<f64>]) -> f64 {
-    let known = || courses.iter().flatten().filter(|value| value.is_finite());
-    known().sum::<f64>() / known().count().max(1) as f64
-}
-
-/// The usual size of the rate for each unit of a column \[deg/h\]: that of a temperature coefficient, were the column as lively as the chamber.
-fn usual_size(read: &Recording, column: &[f64]) -> Option<f64> {
-    let (chamber, rate) = (&read.channel(CHAMBER)?.values, &read.channel(RATE)?.values);
-    let used: Vec<bool> = rate.iter().map(|value| value.is_finite()).collect();
-    let noise = white_noise(read.time(), rate, &used).filter(|noise| *noise > 0.0);
-    let interval = median_interval(read.time())?;
-    let minute = noise.map_or(USUAL_NOISE[RATE_CHANNEL], |noise| noise * (interval / S_PER_MIN).sqrt());
-    let [chamber, _, column] = sums(&centred(chamber, column));
-    let size = usual_coefficient(minute) * (chamber / column).sqrt();
-    (size.is_finite() && size > 0.0).then_some(size)
-}
-
-/// `follows-` and the column's name without its unit, in small letters and hyphens; its number where nothing is left of it.
-fn id(name: &str, number: usize, taken: &mut BTreeSet<String>) -> String {
+/// `follows-` and the column's name without its unit, in small letters and hyphens; with a number where that is none, or another's.
+fn id(name: &str, taken: &mut BTreeSet<String>) -> String {
     let bare = name.split(['[', '(']).next().unwrap_or_default().to_lowercase();
     let words = bare.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let mut words = words.collect::<Vec<_>>().join("-");
     words.truncate(LONGEST);
-    let words = if words.is_empty() { format!("column-{}", number + 1) } else { words.trim_end_matches('-').to_owned() };
-    let id = format!("follows-{words}");
-    let id = if taken.contains(&id) { format!("{id}-{}", number + 1) } else { id };
-    taken.insert(id.clone());
+    let words = if words.is_empty() { "column" } else { words.trim_end_matches('-') };
+    let plain = format!("follows-{words}");
+    let mut numbered = (2..).map(|number| format!("{plain}-{number}"));
+    let mut id = plain.clone();
+    while !taken.insert(id.clone()) {
+        id = numbered.next().unwrap_or_default();
+    }
     id
 }
 
@@ -107,8 +179,9 @@ fn mechanism(name: &str, id: &str, scale: f64, mean: f64) -> Option<MechanismCas
         };
         let text = format!(
             "(\n    id: {id:?},\n    title: {title:?},\n    stage: Electronics,\n    meaning: {meaning:?},\n    signature: \"The rate follows the column \
-             at every instant.\",\n    inspection: {inspection:?},\n    source: {SOURCE:?},\n    parameters: [(name: \"size\", unit: {per:?}, prior: \
-             Size({scale:e}))],\n    columns: [(name: \"column\", column: {name:?}, unit: {unit:?})],\n    laws: [Rate(\"size * (column - {mean:?})\")],\n)\n",
+             at every instant.\",\n    inspection: {inspection:?},\n    source: \"a column of the record that the model of the coil does not use\",\n    parameters: [(name: \"{size}\", unit: {per:?}, prior: \
+             Size({scale:e}))],\n    columns: [(name: \"column\", column: {name:?}, unit: {unit:?})],\n    laws: [Rate(\"{size} * (column - {mean:?})\")],\n)\n",
+            size = id.replace('-', "_"),
             title = format!("A rate that follows the column {name}"),
             meaning = format!("the rate follows the column {name}, which the model of the coil does not use"),
             inspection = format!("hold the temperature and change the quantity in the column {name} alone"),
@@ -139,22 +212,41 @@ mod tests {
     }
 
     fn ids(fits: &[RecordCase], holdouts: &[RecordCase]) -> Vec<String> {
-        of_columns(fits, holdouts).iter().map(|own| own.mechanism.id.clone()).collect()
+        of_columns(fits, holdouts, &[]).iter().map(|own| own.mechanism.id.clone()).collect()
     }
 
     #[test]
     fn a_column_that_goes_its_own_way_is_weighed_and_no_other() {
         let all = |[n, chamber, board, rate]: [f64; 4]| {
             let word = if n < 90.0 { "warm" } else { "hold" };
-            format!(",{board:.2},{:.3},{},5.0,{:.4},{:.3},{word}", 32.0 + 1.8 * chamber, 1.0 + n, 4.85e-6 * rate, 0.01 * n)
+            let [second, index, raw, clock] = [32.0 + 1.8 * chamber, 1.0 + n, 4.85e-6 * rate, 0.01 * n];
+            format!(",{board:.2},{second:.3},{index},24.1,{raw:.4e},{clock:.3},{word},{:.2}", 1.8 * board + 32.0)
         };
-        let header = ",Board [degC],Oven 2 [degF],row,Vref,raw [rad/s],h,state";
+        let header = ",Board [degC],Oven 2 [degF],row,Vref,raw [rad/s],h,state,Board [degF]";
         let full = record(header, all);
-        assert_eq!(ids(std::slice::from_ref(&full), &[]), ["follows-board"]);
+        let one = |record: &RecordCase| ids(std::slice::from_ref(record), &[]);
+        assert_eq!(one(&full), ["follows-board"]);
         // every record holds it, or none is told by it
         assert_eq!(ids(&[full.clone(), full.clone()], std::slice::from_ref(&full)), ["follows-board"]);
-        let bare = record("", |_| String::new());
-        assert!(ids(&[full.clone(), bare.clone()], &[]).is_empty() && ids(std::slice::from_ref(&full), &[bare]).is_empty());
+        let empty = record(",Board [degC]", |[n, ..]| if n < 5.0 { ",20".to_owned() } else { ",".to_owned() });
+        for bare in [record("", |_| String::new()), empty] {
+            assert!(ids(&[full.clone(), bare.clone()], &[]).is_empty() && ids(std::slice::from_ref(&full), &[bare]).is_empty());
+        }
+        // a mean of ten readings of the rate, beside the board
+        let passed = std::cell::RefCell::new(Vec::new());
+        let filtered = record(",filtered,Board [degC]", |[_, _, board, rate]| {
+            passed.borrow_mut().push(rate);
+            let last = passed.borrow();
+            let last = &last[last.len().saturating_sub(10)..];
+            format!(",{:.4},{board:.2}", last.iter().sum::<f64>() / last.len() as f64)
+        });
+        assert_eq!(one(&filtered), ["follows-board"]);
+        // of very many a few
+        let many: Vec<String> = (0..20).map(|k| format!("c{k:02}")).collect();
+        let many = record(&format!(",{}", many.join(",")), |[n, ..]| {
+            (0..20).map(|k| format!(",{:.4}", (n / (5.0 + 3.0 * f64::from(k))).sin())).collect()
+        });
+        assert_eq!(one(&many).len(), MOST);
         // one that another mechanism's file names is read
         let text = "time_s,chamber_c,spool_c,rate_deg_per_h,Board [degC]\n0,20,20,0,1\n60,20,20,0,2\n120,20,20,0,3\n";
         let named = check_record(Path::new("r.csv"), text.to_owned(), None, &["Board [degC]".to_owned()]).unwrap();
@@ -164,29 +256,45 @@ mod tests {
     #[test]
     fn the_size_that_is_usual_goes_with_the_columns_unit_and_not_with_its_zero() {
         let scale = |header: &str, of: fn(f64) -> f64| {
-            let own = of_columns(&[record(header, |[_, _, board, _]| format!(",{}", of(board)))], &[]);
+            let own = of_columns(&[record(header, |[_, _, board, _]| format!(",{}", of(board)))], &[], &[]);
             let [own] = &own[..] else { panic!("{header}") };
             let parameter = &own.mechanism.parameters[0];
             let diagnosis::Prior::Size { scale } = parameter.prior else { panic!("{parameter:?}") };
             (parameter.name.clone(), scale)
         };
         let (name, kelvin) = scale(",Board [degC]", |board| board);
-        assert_eq!(name, "size_deg_per_h_per_k");
-        let (volts, name_of_volts) = (scale(",\"Board (V)\"", |board| 5.0 - board / 100.0), "size_deg_per_h_per_v");
+        assert_eq!(name, "follows_board_deg_per_h_per_k");
+        let (volts, name_of_volts) = (scale(",\"Board (V)\"", |board| 5.0 - board / 100.0), "follows_board_deg_per_h_per_v");
         assert!(volts.0 == name_of_volts && (volts.1 / kelvin / 100.0 - 1.0).abs() < 1e-9, "{volts:?}");
         // a unit that laws do not know is the column's own
         let (name, foreign) = scale(",Board [fortnights]", |board| 1e6 + board);
-        assert!(name == "size_deg_per_h" && (foreign / kelvin - 1.0).abs() < 1e-6, "{name} {foreign}");
+        assert!(name == "follows_board_deg_per_h" && (foreign / kelvin - 1.0).abs() < 1e-6, "{name} {foreign}");
     }
 
     #[test]
     fn ids_are_words_and_each_is_one() {
-        let mut taken = BTreeSet::new();
-        let names = ["Board [degC]", "board", "T\u{e4}fel \u{3b1}", "[V]", "A very long name of a column that never ends"];
-        let ids = names.map(|name| id(name, 3, &mut taken));
-        assert_eq!(
-            ids,
-            ["follows-board", "follows-board-4", "follows-t-fel", "follows-column-4", "follows-a-very-long-name-of-a-co"]
-        );
+        let mut taken = BTreeSet::from(["follows-ub".to_owned()]);
+        let names = [
+            "Board 2",
+            "board",
+            "Board [degC]",
+            "T\u{e4}fel \u{3b1}",
+            "[V]",
+            "Ub [V]",
+            "A very long name of a column that never ends",
+        ];
+        let ids = names.map(|name| id(name, &mut taken));
+        let long = "follows-a-very-long-name-of-a-co";
+        let each =
+            ["follows-board-2", "follows-board", "follows-board-3", "follows-t-fel", "follows-column", "follows-ub-2", long];
+        assert_eq!(ids, each);
+    }
+
+    #[test]
+    fn whatever_a_column_is_called() {
+        for name in ["a\\b", "\"\"q\"\"", "\u{1b}[31m", "a{b}", &"x".repeat(3000), "\u{202e}rtl"] {
+            let made = of_columns(&[record(&format!(",\"{name}\""), |[_, _, board, _]| format!(",{board}"))], &[], &[]);
+            assert!(made.len() <= 1 && made.iter().all(|own| own.mechanism.id.len() <= 40), "{name}");
+        }
     }
 }

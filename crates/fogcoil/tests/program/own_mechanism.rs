@@ -184,10 +184,10 @@ fn a_column_that_nobody_named_is_found() {
     let answer: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(folder.path("d.json")).unwrap()).unwrap();
     assert_eq!(answer["follows_column"], "Ub [V]");
     // of 0.006 (deg/h)/K and 0.1 V/K
-    let size = &answer["parameters"]["size_deg_per_h_per_v"];
+    let size = &answer["parameters"]["follows_ub_deg_per_h_per_v"];
     let [low, high] = [0, 1].map(|end| size["ci90"][end].as_f64().unwrap());
     assert!(low < -0.06 + 0.003 && -0.06 - 0.003 < high && high - low < 0.02, "{size}");
     // its file holds what was found, as one of a user's own
     let law = stdout(&folder.run(&["explain", "m.follows-ub.ron"]));
-    assert!(law.contains("column: the column `Ub [V]` of the record") && law.contains("size_deg_per_h_per_v"), "{law}");
+    assert!(law.contains("column: the column `Ub [V]` of the record") && law.contains("follows_ub_deg_per_h_per_v"), "{law}");
 }

@@ -79,10 +79,8 @@ pub(crate) fn record(file: &Path) -> Result<RecordCase, Failure> {
 pub(crate) fn answer_records(coil: &CoilCase, fitted: &[PathBuf], holdout: &Path, cache: &Cache) -> Result<Written, Failure> {
     let fitted = fitted.iter().map(|file| record(file)).collect::<Result<Vec<_>, _>>()?;
     let held_out = [record(holdout)?];
-    let columns = diagnose::of_columns(&fitted, &held_out);
-    let mut weighed = mechanisms::CATALOGUE.to_vec();
-    weighed.extend(columns.iter().map(|own| &own.mechanism as &dyn mechanisms::Mechanism));
-    let outcome = diagnose::diagnose(coil, &weighed, &fitted, &held_out, cache, &|_| ())?;
+    let columns = diagnose::of_columns(&fitted, &held_out, mechanisms::CATALOGUE);
+    let outcome = diagnose::diagnose(coil, mechanisms::CATALOGUE, &columns, &fitted, &held_out, cache, &|_| ())?;
     let prediction = outcome.prediction().ok_or_else(|| Failure(format!("{}: nothing is predicted", holdout.display())))?;
     Ok([format!("{}\n", outcome.json()), prediction])
 }

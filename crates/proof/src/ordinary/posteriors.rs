@@ -51,7 +51,7 @@ pub(crate) fn run() -> Result<bool, Failure> {
     let found = each(&UNITS.map(str::to_owned), |unit| {
         let fitted = FITTED.map(|file| record(&folder().join(unit).join(file)));
         let fitted = fitted.into_iter().collect::<Result<Vec<_>, _>>()?;
-        let outcome = diagnose::diagnose(&drawing(unit)?, mechanisms::CATALOGUE, &fitted, &[], &cache, &|_| ())?;
+        let outcome = diagnose::diagnose(&drawing(unit)?, mechanisms::CATALOGUE, &[], &fitted, &[], &cache, &|_| ())?;
         let samples = outcome.sampled(STEPS, SEED)?;
         eprintln!("{unit}: {} minima, {:.0} % of the steps are taken", samples.minima, 100.0 * samples.taken);
         Ok((outcome.hypothesis(), samples))

@@ -111,7 +111,7 @@ pub(crate) fn run() -> Result<bool, Failure> {
         files::write_all(&text.map(|(file, text)| (at.join(file), text)))?;
         let (fit, holdout) = (record(&at.join("fit.csv"))?, record(&at.join("holdout.csv"))?);
         let kinds = if row.own { &own } else { &usual }.with_catalogue();
-        let outcome = diagnose::diagnose(coil, &kinds, &[fit], &[holdout], &cache, &|_| ())?;
+        let outcome = diagnose::diagnose(coil, &kinds, &[], &[fit], &[holdout], &cache, &|_| ())?;
         let answer: Answer = serde_json::from_str(&outcome.json().to_string())?;
         eprintln!("{name}: {} {:?}", answer.verdict, answer.set);
         Ok((right(&answer, row.concealed), answer))

@@ -33,6 +33,9 @@ use branches::Course;
 use design::{Design, Weights};
 use model::{Model, Observed};
 
+/// A sum of amounts that a design has.
+type Sum<'a> = &'a dyn Fn(&Design) -> Result<Weights, Absent>;
+
 /// Response of a channel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Response {
@@ -85,39 +88,46 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     let slower = Model::new(Design::new(input, &course, &slower, heats, cools), observed)?;
     let slow = slow(&models, &slower);
     let not_settled = || Err(Absent::Unsettled(settling.round()));
-    let found = |of: &dyn Fn(&Design) -> Result<Weights, Absent>| over(&models, |model| model.told(&of(&model.design)?, noise));
-    let finer = finer(&models, |size| {
-        let design = Design::new(input, &course, &lags::finer(&sets), heats, cools);
-        let known = design.apart(size);
-        Model::within(design, observed, &known)
-    });
-    let coarse = |of: &dyn Fn(&Design) -> Result<Weights, Absent>| {
+    let found = |of: Sum| over(&models, |model| model.told(&of(&model.design)?, noise));
+    let coarse = |of: Sum| {
         let found = found(of)?;
         let Slow::By(change) = slow else { return not_settled() };
         Ok(Estimate { sd: found.sd.hypot(change).hypot(BETWEEN * found.value), ..found })
     };
-    let total: &dyn Fn(&Design) -> Result<Weights, Absent> = &|design| Ok(design.sensitivity());
-    let fine = |of: &dyn Fn(&Design) -> Result<Weights, Absent>| {
-        let finer = finer.as_ref().ok_or(Absent::Indistinct)?;
-        finer.told(&of(&finer.design)?, noise)
+    let finer = finer(
+        &models,
+        |lags, size| {
+            let design = Design::new(input, &course, lags, heats, cools);
+            let known = design.apart(size);
+            Model::within(design, observed, &known)
+        },
+        &lags::finer(&sets),
+    );
+    let fine = |of: Sum| {
+        let (finer, change) = finer.as_ref().ok_or(Absent::Indistinct)?;
+        let found = finer.told(&of(&finer.design)?, noise)?;
+        Ok::<_, Absent>(Estimate { sd: found.sd.hypot(*change), ..found })
     };
-    let is_finer = fine(total).ok().zip(coarse(total).ok()).is_some_and(|(fine, coarse)| {
-        // so many amounts may follow what is no lag, as a hysteresis: it then contradicts the sets
-        fine.sd < WORTH * coarse.sd && (fine.value - coarse.value).abs() < SIGNIFICANT * coarse.sd
-    });
-    let told = |of: &dyn Fn(&Design) -> Result<Weights, Absent>| {
+    let figures: [Sum; 3] = [&|design| Ok(design.sensitivity()), &|design| design.towards(Direction::Heating), &|design| {
+        design.towards(Direction::Cooling)
+    }];
+    // so many amounts may follow what is no lag, as a hysteresis: they then contradict the sets
+    let both = |of: Sum| Some((fine(of).ok()?, coarse(of).ok()?));
+    let agrees = |of: &Sum| both(*of).is_none_or(|(fine, coarse)| (fine.value - coarse.value).abs() < SIGNIFICANT * coarse.sd);
+    let is_finer = both(figures[0]).is_some_and(|(fine, coarse)| fine.sd < WORTH * coarse.sd) && figures.iter().all(agrees);
+    let told = |of: Sum| {
         let coarse = coarse(of)?;
         Ok(if is_finer { fine(of).unwrap_or(coarse) } else { coarse })
     };
     // the change is that of the sensitivity, and no error of a difference, or of a bias at rest
     let settled = |found: Estimate| if matches!(slow, Slow::By(0.0)) { Ok(found) } else { not_settled() };
-    let sensitivity = told(total);
+    let sensitivity = told(figures[0]);
     // of terms that cannot be told apart no sum over temperatures is known either
     let apart = if sensitivity == Err(Absent::Indistinct) { Err(Absent::Indistinct) } else { Ok(()) };
     Ok(Response {
-        heating: told(&|design| design.towards(Direction::Heating)),
-        cooling: told(&|design| design.towards(Direction::Cooling)),
-        asymmetry: found(&Design::asymmetry).and_then(settled),
+        heating: told(figures[1]),
+        cooling: told(figures[2]),
+        asymmetry: if is_finer { fine(&Design::asymmetry) } else { found(&Design::asymmetry).and_then(settled) },
         hysteresis: over(&models, |model| hysteresis::hysteresis(model, &course, observed)),
         span: apart.clone().and_then(|()| span(&models)).and_then(settled),
         peak: apart.and_then(|()| peak(&models, input)),
@@ -136,12 +146,19 @@ enum Slow {
     By(f64),
 }
 
-/// The model of all lags in one set, where the sensitivity is told at all: amounts beside each other nearly cancel, so each is taken to be off their mean
-/// by a few times the sensitivity.
-fn finer(models: &[Model], of: impl Fn(f64) -> Result<Model, Absent>) -> Option<Model> {
+/// The model of all `lags` in one set, with the change of its sensitivity by longer ones; `None` where that is not told, or changes by more than an error. Amounts
+/// beside each other nearly cancel, so each is taken to be off their mean by a few times the sensitivity: `of` makes the model with that size.
+fn finer(models: &[Model], of: impl Fn(&[f64], f64) -> Result<Model, Absent>, lags: &[f64]) -> Option<(Model, f64)> {
     let mean = over(models, |model| model.sum(&model.design.sensitivity())).ok()?;
     let size = AMOUNT * mean.value.abs().max(mean.sd);
-    if size > 0.0 { of(size).ok() } else { None }
+    if size <= 0.0 {
+        return None;
+    }
+    let (finer, slower) = (of(lags, size).ok()?, of(&lags::slower(lags), size).ok()?);
+    match slow(std::slice::from_ref(&finer), &slower) {
+        Slow::By(change) => Some((finer, change)),
+        Slow::Unsettled => None,
+    }
 }
 
 fn slow(models: &[Model], slower: &Model) -> Slow {
