@@ -181,7 +181,7 @@ remarks! {
         "Nothing: instants are used as they are.",
         "None is needed, unless the logger's clock was meant to be even.";
     Duplicate "duplicate":
-        "A row repeats the one before, instant and values.",
+        "A row repeats an earlier one, instant and values, as where a logger wrote a block twice.",
         "It is dropped.",
         "None is needed.";
     Conflict "conflict":

@@ -326,6 +326,17 @@ fn repeats_conflicts_and_time_that_goes_back() {
     assert_eq!(report.findings[0].kind, FindingKind::Conflict);
     assert!(!report.usable());
 
+    // a block that was written twice
+    let twice = |s: &mut Sample| {
+        for series in [&mut s.time, &mut s.temperature, &mut s.rate] {
+            let block = series[400..440].to_vec();
+            series.splice(440..440, block);
+        }
+    };
+    let report = altered(twice).report();
+    assert_eq!(report.findings.iter().filter(|finding| finding.kind == FindingKind::Duplicate).count(), 40);
+    assert!(report.usable() && report.rows.len() == ROWS && report.rows[440] == 480);
+
     let report = altered(|s| s.time[700] -= 100.0).report();
     assert!(matches!(report.findings[0].kind, FindingKind::Backwards { .. }) && !report.usable());
     assert!(report.findings[0].to_string().contains("sort the rows"));

@@ -17,7 +17,7 @@ use super::mirror::Mirror;
 use super::opened::open;
 use super::source::{COIL, Source};
 use super::spool_file::spool;
-use super::tolerances::tolerances;
+use super::tolerances::{Unused, tolerances};
 use super::warnings::{in_medium, warnings};
 use super::winding_file::winding;
 use super::{InputError, heat};
@@ -98,7 +98,7 @@ const MOST_ANISOTROPY: f64 = 0.01;
 /// [`Error::Input`] says what is wrong, in which file, line and field, and how to mend it; [`Error::Homogenization`] if a sound
 /// cell cannot be solved.
 pub fn read_coil(path: &Path) -> Result<CoilCase, Error> {
-    checked(path, open(path)?)
+    checked(path, open(path)?, Unused::Refused)
 }
 
 /// Reads and checks a coil file, with its text.
@@ -107,7 +107,7 @@ pub fn read_coil(path: &Path) -> Result<CoilCase, Error> {
 /// As [`read_coil`].
 pub fn read_coil_with_text(path: &Path) -> Result<(CoilCase, String), Error> {
     let source = open(path)?;
-    Ok((checked(path, source.clone())?, source.into_text()))
+    Ok((checked(path, source.clone(), Unused::Refused)?, source.into_text()))
 }
 
 /// Checks a coil file that is yet to be written: the case that [`read_coil`] would read.
@@ -115,10 +115,18 @@ pub fn read_coil_with_text(path: &Path) -> Result<(CoilCase, String), Error> {
 /// # Errors
 /// As [`read_coil`].
 pub fn check_coil(path: &Path, text: &str) -> Result<CoilCase, Error> {
-    checked(path, Source::of(path, text.to_owned()))
+    checked(path, Source::of(path, text.to_owned()), Unused::Refused)
 }
 
-fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
+/// The same of a design that was made from a drawing: tolerances and correlations of parts that it does not have are the drawing's, and left out.
+///
+/// # Errors
+/// As [`check_coil`].
+pub fn check_variant(path: &Path, text: &str) -> Result<CoilCase, Error> {
+    checked(path, Source::of(path, text.to_owned()), Unused::LeftOut)
+}
+
+fn checked(path: &Path, source: Source, unused: Unused) -> Result<CoilCase, Error> {
     let file: CoilFile = source.parse(Some(&COIL))?;
     let top = Group::whole(&source);
     let winding = winding(&top.group("winding"), &file.winding)?;
@@ -179,7 +187,7 @@ fn checked(path: &Path, source: Source) -> Result<CoilCase, Error> {
         let problem = "the thermometer lies outside the solids, and a film stands in place of the medium";
         return Err(top.fault("sensor", problem, "move it into the spool or the coil, or remove heat.film_w_per_m2k").into());
     }
-    let tolerances = tolerances(&top, &file.tolerances, &file.correlations, &design)?;
+    let tolerances = tolerances(&top, &file.tolerances, &file.correlations, &design, unused)?;
     let name = file.name;
     let provenance = Provenance { material, dehomogenization: row };
     let (file, fingerprints) = (path.to_owned(), cells.fingerprints);

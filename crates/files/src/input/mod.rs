@@ -64,7 +64,7 @@ pub use cell::{AnyCell, CellCase, check_any_cell, read_any_cell, read_cell};
 pub use cell_constants::{AtTemperature, Spread, at_temperature};
 pub use cell_general::GeneralCase;
 pub use cell_material::Material;
-pub use coil::{CoilCase, Origin, PRINTED, Provenance, check_coil, read_coil, read_coil_with_text};
+pub use coil::{CoilCase, Origin, PRINTED, Provenance, check_coil, check_variant, read_coil, read_coil_with_text};
 pub(crate) use coil_file::CoilFile;
 pub use edit::{field_text, with_fields};
 pub use error::InputError;

@@ -99,16 +99,28 @@ pub fn keyed_sd(number: Number, design: &Design, tolerances: &Tolerances) -> Opt
 /// Largest share: beyond it a number means nothing.
 const MOST: f64 = 0.5;
 
+/// Tolerances of numbers that a design does not have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Unused {
+    Refused,
+    LeftOut,
+}
+
 /// The tolerances and correlations that a file gives, checked.
 pub(super) fn tolerances(
     top: &Group,
     file: &TolerancesFile,
     correlations: &[CorrelationFile],
     design: &Design,
+    unused: Unused,
 ) -> Result<Tolerances, InputError> {
-    let given = given(&top.group("tolerances"), file, design)?;
+    let has = |key: &String| KEYS.iter().all(|(known, number, _)| known != key || number.of(design).is_some());
+    let is_used = |key: &String| unused == Unused::Refused || has(key);
+    let file = file.iter().filter(|(key, _)| is_used(key)).map(|(key, tolerance)| (key.clone(), *tolerance)).collect();
+    let given = given(&top.group("tolerances"), &file, design)?;
     let tolerances = Tolerances { given, correlations: Vec::new() };
-    let correlations = correlated_by(top, correlations, &tolerances, design)?;
+    let correlations: Vec<CorrelationFile> = correlations.iter().filter(|(a, b, _)| is_used(a) && is_used(b)).cloned().collect();
+    let correlations = correlated_by(top, &correlations, &tolerances, design)?;
     Ok(Tolerances { correlations, ..tolerances })
 }
 

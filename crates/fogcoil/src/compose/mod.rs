@@ -297,6 +297,11 @@ impl StandIn {
         })
     }
 
+    /// The law, with what is known of its form.
+    pub(crate) fn said(&self) -> String {
+        format!("{} (known physics of this form: {})", self.title, self.known)
+    }
+
     /// For people; `None` where the records tell the name from the law.
     pub(crate) fn text(&self) -> Option<String> {
         let Self { of, title, known, behind, share, .. } = self;

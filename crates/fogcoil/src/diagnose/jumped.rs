@@ -15,9 +15,12 @@ use crate::table::significant;
 
 /// Rows on either side of a jump from which the level there is taken.
 const BESIDE: usize = 10;
-/// Least size of a jump, in standard deviations of the difference of two such levels, and in what the chamber's own course makes of it in the rows of the jump.
+/// Least size of a jump, in standard deviations of the difference of two such levels.
 const PLAIN: f64 = 8.0;
-const ALONE: f64 = 3.0;
+/// The same in steps of the display.
+const DIGITS: f64 = 4.0;
+/// Least share of it between two rows, and between the rows before and behind the first.
+const WITHIN: [f64; 2] = [0.4, 0.7];
 /// Most jumps that are looked at, the largest.
 const MOST: usize = 6;
 /// Shares of a jump that the spool leaves out where it leaves it out whole, and least share that the jumps explain of what the model leaves of the spool.
@@ -46,20 +49,21 @@ fn line(points: impl Iterator<Item = (f64, f64)> + Clone) -> [f64; 2] {
 /// The largest jumps from one course to the same course at another level, within a row, or within two where rows are means.
 fn jumps(time: &[f64], chamber: &[f64]) -> Vec<Jump> {
     let Some(white) = white_noise(time, chamber, &vec![true; chamber.len()]) else { return Vec::new() };
-    // the steps of a display are no jumps
-    let noise = white.max(resolution(chamber) / 12.0_f64.sqrt());
+    let digit = resolution(chamber);
+    // a line's end is twice as uncertain as its mean, and a step of the display is no jump
+    let sure = (PLAIN * 2.0 * white * (2.0 / BESIDE as f64).sqrt()).max(DIGITS * digit);
     let at = |row: usize| -> Option<Jump> {
         let first = row.checked_sub(BESIDE)?;
-        let last = row + BESIDE;
+        let last = Some(row + BESIDE).filter(|last| *last < chamber.len())?;
         // of rows of means the one with the jump is between both levels
         let of = |from: usize, to: usize| line((from..to).map(|n| (n as f64 - row as f64 + 0.5, chamber[n])));
-        let ([before, slope_before], [after, slope_after]) = (of(first, row - 1), of(row + 1, last.min(chamber.len())));
+        let ([before, slope_before], [after, slope_after]) = (of(first, row - 1), of(row + 1, last));
         let by = after - before;
-        // a line's end is twice as uncertain as its mean
-        let sure = PLAIN * 2.0 * noise * (2.0 / BESIDE as f64).sqrt();
-        let alone = by.abs() > sure && by.abs() > ALONE * (slope_before.abs() + slope_after.abs());
-        let within = (chamber[row] - chamber[row - 1]) / by;
-        (last < chamber.len() && alone && within > 0.4).then_some(Jump { row, by })
+        // beyond the ramp's own steps: at a corner of the programme the lines part, and no row jumps
+        let slope = f64::midpoint(slope_before, slope_after);
+        let [within, around] =
+            [(chamber[row] - chamber[row - 1] - slope) / by, (chamber[row + 1] - chamber[row - 1] - 2.0 * slope) / by];
+        (by.abs() > sure && within > WITHIN[0] && around > WITHIN[1]).then_some(Jump { row, by })
     };
     let mut all: Vec<Jump> = (1..chamber.len()).filter_map(at).collect();
     all.sort_by(|a, b| b.by.abs().total_cmp(&a.by.abs()));
@@ -175,6 +179,10 @@ mod tests {
         let [_, jumped] = chamber(-0.7);
         let found = jumps(&time, &jumped);
         assert!(found.len() == 1 && found[0].row == 320 && (found[0].by + 0.7).abs() < 0.05, "{found:?}");
+        // in a ramp as well, by less than the ramp makes in three rows; its corners are none
+        let ramp: Vec<f64> = sound.iter().enumerate().map(|(n, c)| c + if n < 100 { 0.0 } else { 1.0 }).collect();
+        let found = jumps(&time, &ramp);
+        assert!(found.len() == 1 && found[0].row == 100 && (found[0].by - 1.0).abs() < 0.05, "{found:?}");
         // means over three rows
         let means = |series: &[f64]| -> Vec<f64> { series.chunks(3).map(|c| c.iter().sum::<f64>() / 3.0).collect() };
         let found = jumps(&means(&time), &means(&jumped));

@@ -3,12 +3,15 @@
 use files::Remark;
 use mechanisms::lagged;
 use recording::Seconds;
+use recording::statistics::robust_sd;
 
 use crate::input::SPOOL;
 use crate::table::significant;
 
 /// Least ratio of the residuals without a break, by the model throughout or by the chamber throughout, to that with one.
 const SUSPECT: f64 = 4.0;
+/// Standard deviations of the steps of what the model leaves from which a step belongs to the fall.
+const PARTS: f64 = 5.0;
 /// Time constants of a small thermometer in air, still or blown \[s\].
 const LAGS: [f64; 7] = [10.0, 20.0, 40.0, 80.0, 160.0, 320.0, 640.0];
 
@@ -54,7 +57,8 @@ impl Loose {
                 }
             }
         }
-        best.filter(|(left, _)| SUSPECT * SUSPECT * left < unbroken).map(|(_, loose)| loose)
+        let (_, loose) = best.filter(|(left, _)| SUSPECT * SUSPECT * left < unbroken)?;
+        Some(Self { from: fell(time, spool, predicted, loose.from), ..loose })
     }
 
     /// The warning; the model leaves so much of the readings as they stand \[K\].
@@ -66,6 +70,15 @@ impl Loose {
             Seconds(self.from)
         ))
     }
+}
+
+/// The instant from which the readings part from the model for good, at or before `from`: a thermometer that falls is in between for some rows.
+fn fell(time: &[f64], spool: &[f64], predicted: &[f64], from: f64) -> f64 {
+    let before: Vec<usize> = (0..time.len()).filter(|&n| time[n] < from && spool[n].is_finite()).collect();
+    let steps: Vec<f64> = before.windows(2).map(|w| (spool[w[1]] - predicted[w[1]]) - (spool[w[0]] - predicted[w[0]])).collect();
+    let usual = robust_sd(steps.iter().copied(), 0.0).unwrap_or(f64::INFINITY);
+    let parts = steps.iter().rev().take_while(|step| step.abs() > PARTS * usual).count();
+    before.get(before.len() - parts).map_or(from, |&row| time[row])
 }
 
 #[cfg(test)]
@@ -92,6 +105,12 @@ mod tests {
         // the model is a hundredth off
         let loose = Loose::found(&time, &read(70, 0.01), &spool, &chamber).expect("it fell off");
         assert!((loose.from - 4200.0).abs() < 300.0 && loose.lag == 40.0 && loose.would < 0.1, "{loose:?}");
+        // the first row that is off is told, even where the best break is rows later
+        let mut falling = read(72, 0.01);
+        falling[70] += (air[70] - spool[70]) / 3.0;
+        falling[71] += (air[71] - spool[71]) / 1.5;
+        let found = Loose::found(&time, &falling, &spool, &chamber).expect("it fell off");
+        assert!((4140.0..=4200.0).contains(&found.from), "{found:?}");
         // one that is fast, or wrong, throughout is another fault
         for sound in [read(600, 0.0), read(600, 0.2), read(0, 0.0)] {
             assert_eq!(Loose::found(&time, &sound, &spool, &chamber), None);

@@ -304,6 +304,11 @@ fn check_laws(gyro: &Gyro, mechanisms: &[&dyn Mechanism], records: &[Record]) ->
     Ok(())
 }
 
+/// Whether the rate is as predicted, and the thermometer far from it.
+fn reads_otherwise(answer: &HeldOut) -> bool {
+    answer.within_noise(RATE_CHANNEL) && answer.is_far_from_noise(SPOOL_CHANNEL)
+}
+
 /// Note on a held-out record in which the answer leaves more than noise.
 fn left_over(held: &Held, answer: &HeldOut) -> Option<Note> {
     let of = |channel: usize, name: &str| {
@@ -314,7 +319,9 @@ fn left_over(held: &Held, answer: &HeldOut) -> Option<Note> {
         [of(RATE_CHANNEL, "of the rate"), of(SPOOL_CHANNEL, "of the thermometer")].into_iter().flatten().collect();
     let words: Vec<&str> = left.iter().map(|(_, words)| words.as_str()).collect();
     let far = left.iter().any(|(far, _)| *far);
-    let meaning = if far {
+    let meaning = if reads_otherwise(answer) {
+        "the rate is as predicted: has the thermometer come off, or been moved?"
+    } else if far {
         "something else is at work in it; is it of the same unit, mounted alike?"
     } else {
         "little, but more than noise; the model's own error may be as much"
@@ -408,6 +415,11 @@ impl Outcome<'_> {
         let taken_back = !self.withdrawn.is_empty();
         let far = |held: &Held, channel: &usize| held.answer(self.diagnosis.verdict, taken_back).is_far_from_noise(*channel);
         self.holdouts.iter().any(|held| [RATE_CHANNEL, SPOOL_CHANNEL].iter().any(|channel| far(held, channel)))
+    }
+
+    /// Whether the rate of a record that was held out is as predicted, and its thermometer far from it.
+    fn reads_otherwise(&self, held: &Held) -> bool {
+        reads_otherwise(held.answer(self.diagnosis.verdict, !self.withdrawn.is_empty()))
     }
 
     /// Whether no record that was held out is predicted worse than by the nominal model.

@@ -79,7 +79,8 @@ impl Outcome<'_> {
         let line = |name: &str, value: String, unit: &str| vec![name.to_owned(), value, unit.to_owned(), String::new()];
         let mut rows = vec![line("explanation", "probability".into(), "")];
         rows.extend(self.explanations().iter().map(|e| line(&e.said(), format!("{:.3}", e.probability), "")));
-        let explained = d.parameters.iter().flatten().filter(|_| d.verdict == Verdict::Explained);
+        let is_named = d.verdict == Verdict::Explained && self.in_place_of_all().is_none();
+        let explained = d.parameters.iter().flatten().filter(|_| is_named);
         let estimates: Vec<&Estimate> = explained.chain(composed.iter().flat_map(|(_, estimates)| estimates)).collect();
         if !estimates.is_empty() {
             rows.push(["parameter (fitted)", "value", "", "90 % interval"].map(str::to_owned).to_vec());
@@ -210,6 +211,9 @@ impl Outcome<'_> {
 
     /// The likeliest explanation, how likely it is, and a law that does the same.
     fn likeliest(&self) -> String {
+        if let Some(law) = self.in_place_of_all() {
+            return format!("Most likely: a law that nobody listed (probability {:.3}): {}", law.taken, law.said());
+        }
         let (best, first) = (self.names(), self.diagnosis.mechanisms.first().map_or("", |(m, _)| self.id(*m)));
         let sure = |id: &str| format!("{id} (probability {:.3})", self.probability(id).unwrap_or(0.0));
         let unlikely = |id: &str| self.probability(id).is_none_or(|p| p < 0.5);
@@ -246,17 +250,27 @@ impl Outcome<'_> {
     /// Ids of the best candidate's mechanisms, without those whose place a law took beside others: nobody should look for these.
     pub(super) fn told_names(&self) -> Vec<&str> {
         let names = self.names();
-        let is_displaced = |id: &str| {
-            let by_law = self.stand_ins.iter().any(|stand_in| stand_in.is_near() && stand_in.of == id);
-            by_law && self.probability(id).is_none_or(|p| p < TOLD)
-        };
-        let told: Vec<&str> = names.iter().copied().filter(|id| !is_displaced(id)).collect();
-        if told.is_empty() { names } else { told }
+        let told: Vec<&str> = names.iter().copied().filter(|id| !self.is_displaced(id)).collect();
+        if told.is_empty() && self.in_place_of_all().is_none() { names } else { told }
+    }
+
+    /// Whether a law took the place of a mechanism.
+    fn is_displaced(&self, id: &str) -> bool {
+        let by_law = self.stand_ins.iter().any(|stand_in| stand_in.is_near() && stand_in.of == id);
+        by_law && self.probability(id).is_none_or(|p| p < TOLD)
+    }
+
+    /// The law that takes the place of everything that was named, where no other mechanism is likely either: nobody should look for these.
+    pub(super) fn in_place_of_all(&self) -> Option<&StandIn> {
+        let explained = self.diagnosis.verdict == Verdict::Explained && self.names().iter().all(|id| self.is_displaced(id));
+        let likely = self.likely().any(|(_, probability)| probability >= TOLD);
+        let near = self.stand_ins.iter().filter(|stand_in| stand_in.is_near() && explained && !likely);
+        near.max_by(|a, b| a.taken.total_cmp(&b.taken))
     }
 
     /// The likeliest mechanism and a check that decides about it, where it is not part of the best single hypothesis.
     fn first_elsewhere(&self) -> Option<(&str, &str)> {
-        let id = self.id(self.diagnosis.mechanisms.first()?.0);
+        let id = self.id(self.diagnosis.mechanisms.first().filter(|_| self.in_place_of_all().is_none())?.0);
         self.inspection(id).filter(|_| !self.names().contains(&id)).map(|inspection| (id, inspection))
     }
 
@@ -296,7 +310,19 @@ impl Outcome<'_> {
                 "{id} is likelier than that the constants suffice, but not surely enough to be named. To decide: {inspection}; or {another}."
             );
         }
+        if self.in_place_of_all().is_some() {
+            let confirmed = if proven { " A record that was held out confirms the size of the effect." } else { "" };
+            return format!(
+                "seek the cause among the known physics of the law's form; no mechanism with a name is likely, so no inspection for one is called \
+                 for.{confirmed}"
+            );
+        }
         match self.diagnosis.verdict {
+            Verdict::None | Verdict::Recalibrate if self.holdouts.iter().any(|held| self.reads_otherwise(held)) => {
+                "look at the thermometer of the record that was held out: the rate is as predicted, so it may have come off, or been moved. \
+                 Empty its column, or record it again."
+                    .into()
+            }
             Verdict::None | Verdict::Recalibrate if self.is_left_over() => {
                 "look at the record that was held out: it may be of another unit, or mounted otherwise. If it is of this one, give it with --fit, too."
                     .into()

@@ -22,11 +22,14 @@ pub struct Tried {
 }
 
 impl Plan {
-    /// The design at a point of the unit cube; `None` where there is none, or it cannot be computed.
-    pub(super) fn tried(&self, point: &[f64]) -> Option<Tried> {
-        let variant = self.variants.at(point).ok()?;
-        let measures = self.measures(&variant.design).ok()?;
-        Some(Tried { point: point.to_vec(), values: variant.values, measures, violation: self.violation(&measures) })
+    /// The design at a point of the unit cube.
+    ///
+    /// # Errors
+    /// Why there is none, or why it cannot be computed.
+    pub(super) fn tried(&self, point: &[f64]) -> Result<Tried, String> {
+        let variant = self.variants.at(point)?;
+        let measures = self.measures(&variant.design).map_err(|error| error.to_string())?;
+        Ok(Tried { point: point.to_vec(), values: variant.values, measures, violation: self.violation(&measures) })
     }
 
     /// The numbers of a design.

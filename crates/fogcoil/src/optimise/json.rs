@@ -15,6 +15,8 @@ pub fn json(plan: &Plan, found: &Found, checked: Option<&Checked>) -> Value {
     let best = front(&found.all, &plan.minimise);
     json!({
         "tried": found.all.len(),
+        "failed": found.failed.as_ref().map_or(0, |(count, _)| *count),
+        "first_problem": found.failed.as_ref().map(|(_, problem)| problem),
         "keep_limits": found.all.iter().filter(|tried| tried.violation == 0.0).count(),
         "minimised": plan.minimise.iter().map(|measure| measure.name()).collect::<Vec<_>>(),
         "drawing": numbers(plan, &found.drawn),

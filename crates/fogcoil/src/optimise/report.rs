@@ -1,6 +1,6 @@
 //! The page of an optimisation.
 
-use charts::{Cells, grid, sections};
+use charts::{Cells, grid, nice, sections};
 use maud::{Markup, html};
 
 use super::check::Checked;
@@ -16,7 +16,10 @@ pub fn report(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
     let best = front(&found.all, &plan.minimise);
     let sound = found.all.iter().filter(|tried| tried.violation == 0.0).count();
     let lead = html! {
-        p { (found.all.len()) " designs were tried, " (sound) " keep the limits, " (on_the_front(best.len())) "." }
+        p {
+            (found.all.len()) " designs were tried, " (sound) " keep the limits, " (on_the_front(best.len())) "."
+            @if let Some((count, first)) = &found.failed { " " (count) " points of the plan have no design; of the first: " (nice(first)) "." }
+        }
     };
     let files: Vec<_> = ["plan", "coil"].into_iter().chain(std::iter::repeat("cell")).zip(&plan.files).collect();
     let front = html! {

@@ -1,5 +1,6 @@
 //! The search: all combinations of choices, points of a Sobol' sequence, then descents from the best.
 
+use std::collections::HashSet;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -20,8 +21,10 @@ use crate::sweep::{Points, Sampling};
 pub struct Found {
     /// The drawing's numbers.
     pub drawn: super::measure::Measures,
-    /// Every design that was tried.
+    /// Every design that was tried, each once.
     pub all: Vec<Tried>,
+    /// Points of the plan of which there is no design, and the first reason.
+    pub failed: Option<(usize, String)>,
 }
 
 /// Descents for each weighing.
@@ -46,16 +49,23 @@ pub fn search(plan: &Plan, progress: &(dyn Fn(Step) + Sync)) -> Result<Found, Er
     let drawn = plan.measures(&case.design).map_err(Error::of_coil(&case.file))?;
     let done = AtomicUsize::new(0);
     let tell = || progress(Step::counted("trying designs", done.fetch_add(1, Ordering::Relaxed).min(plan.trials), plan.trials));
-    let screened: Vec<Tried> = screening(plan)
+    let screened: Vec<Result<Tried, String>> = screening(plan)
         .par_iter()
-        .filter_map(|point| {
+        .map(|point| {
             tell();
             plan.tried(point)
         })
         .collect();
+    let (screened, problems): (Vec<_>, Vec<_>) = screened.into_iter().partition(Result::is_ok);
+    let screened: Vec<Tried> = screened.into_iter().flatten().collect();
+    let problems: Vec<String> = problems.into_iter().filter_map(Result::err).collect();
     if screened.is_empty() {
-        return Err(Error::usage("no design of the plan can be computed; vary less, or give dimensions: FollowWinding"));
+        let first = problems.first().map_or(String::new(), |first| format!("; of the first: {first}"));
+        return Err(Error::usage(format!(
+            "no design of the plan can be computed; vary less, or give dimensions: FollowWinding{first}"
+        )));
     }
+    let failed = problems.first().map(|first| (problems.len(), first.clone()));
     let scales: Vec<f64> = plan.minimise.iter().map(|measure| scale(measure.of(&drawn))).collect();
     let left = plan.trials.saturating_sub(screened.len());
     let descents = starts(plan, &screened, &scales, left);
@@ -66,7 +76,17 @@ pub fn search(plan: &Plan, progress: &(dyn Fn(Step) + Sync)) -> Result<Found, Er
     let followed: Vec<Vec<Tried>> = descents.par_iter().map(descend).collect();
     let mut all = [vec![screened], followed].concat().concat();
     all.extend(on_the_way(plan, &all));
-    Ok(Found { drawn, all })
+    Ok(Found { drawn, all: each_once(all), failed })
+}
+
+/// Every design once: of whole numbers, points beside each other are one design.
+fn each_once(all: Vec<Tried>) -> Vec<Tried> {
+    let mut known = HashSet::new();
+    let mut is_new = |tried: &Tried| {
+        let own: Vec<String> = tried.values.iter().map(|value| format!("{value:?}")).collect();
+        known.insert(own)
+    };
+    all.into_iter().filter(|tried| is_new(tried)).collect()
 }
 
 /// The designs on the way from the drawing to the best one, change by change, as far as the plan has them: one of them may be better than it.
@@ -81,7 +101,7 @@ fn on_the_way(plan: &Plan, all: &[Tried]) -> Vec<Tried> {
         Some(point).filter(|point| *point != best.point)
     };
     let steps: Vec<Vec<f64>> = (0..best.point.len()).filter_map(step).collect();
-    steps.par_iter().filter_map(|point| plan.tried(point)).collect()
+    steps.par_iter().filter_map(|point| plan.tried(point).ok()).collect()
 }
 
 /// Iterations of a descent of so many trials, its corners among them.
@@ -186,7 +206,7 @@ impl Descent<'_> {
             point[n] = u.clamp(0.0, 1.0);
         }
         let beyond: f64 = free.iter().map(|u| (u - u.clamp(0.0, 1.0)).abs()).sum();
-        let Some(tried) = self.plan.tried(&point) else { return NONE * (1.0 + beyond) };
+        let Ok(tried) = self.plan.tried(&point) else { return NONE * (1.0 + beyond) };
         let minimise: &[Measure] = &self.plan.minimise;
         let cost = weighed(&tried, minimise, self.scales, self.weights);
         if let Ok(mut trail) = self.trail.lock() {

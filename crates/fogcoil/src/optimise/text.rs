@@ -27,6 +27,9 @@ pub fn text(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
         on_the_front(best.len())
     );
     out.push_str(&with_end(designs(plan, found, &best)));
+    if let Some((count, first)) = &found.failed {
+        let _ = writeln!(out, "\n{count} points of the plan have no design; of the first: {first}");
+    }
     match checked {
         None => {
             let _ = writeln!(out, "\n{NOTHING}");

@@ -10,7 +10,7 @@ use super::follow::Dimensions;
 use super::value::Value;
 use super::varied::{Varied, normal};
 use crate::FileError;
-use crate::input::{CoilCase, Fingerprint, check_coil, field_text, read_coil_with_text, with_fields};
+use crate::input::{CoilCase, Fingerprint, check_variant, field_text, read_coil_with_text, with_fields};
 use files::{Note, Remark};
 
 /// A drawing, with the text of its file.
@@ -164,7 +164,7 @@ impl Variants {
         let room = self.dimensions.room(&self.case, &edits);
         let file = &self.case.file;
         let text = with_fields(file, &self.text, &[&edits[..], &room].concat()).map_err(|error| error.to_string())?;
-        let mut case = check_coil(file, &text).map_err(|error| error.to_string())?;
+        let mut case = check_variant(file, &text).map_err(|error| error.to_string())?;
         self.dimensions.follow(&self.case, &edits, &mut case);
         Ok(case)
     }

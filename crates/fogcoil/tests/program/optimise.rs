@@ -114,6 +114,34 @@ fn no_design_on_the_way_is_better_than_the_optimum() {
     assert!(json["tried"].as_u64().unwrap() <= 10 + 3, "{json}");
 }
 
+/// A part that a choice takes away takes its tolerances with it; a choice that no design can have is counted and said.
+#[test]
+fn designs_without_a_part_are_tried_and_those_that_cannot_be_are_counted() {
+    let folder = Folder::new();
+    let flanged = change(COIL, "sensor:", "tolerances: {\"spool.flanges.thickness_mm\": Relative(0.02)},\n    sensor:");
+    folder.write("coil.ron", flanged);
+    let choices = |more: &str| {
+        format!(
+            "(design: \"coil.ron\", vary: {{\"spool.flanges\": Named({{\"one\": \"[(side: Right, thickness_mm: 2.0, overhang_mm: 1.0, bonded: true)]\", \
+             \"none\": \"[]\"{more}}}), \"spool.hub_thickness_mm\": Uniform(2.0, 4.0)}}, dimensions: FollowWinding, minimise: [Sensitivity], trials: 6)"
+        )
+    };
+    let run = |plan: String| -> (Value, String) {
+        folder.write("plan.ron", plan);
+        let output = folder.run(&["optimise", "plan.ron", "--out", "t.csv", "--json", "--quiet"]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        (serde_json::from_str(&stdout(&output)).unwrap(), fs::read_to_string(folder.path("t.csv")).unwrap())
+    };
+    let (json, table) = run(choices(""));
+    assert!(json["failed"] == 0 && table.contains(",none,") && table.contains(",one,"), "{json} {table}");
+    let (json, _) = run(choices(
+        ", \"twice\": \"[(side: Right, thickness_mm: 2.0, overhang_mm: 1.0, bonded: true), (side: Right, thickness_mm: 2.0, overhang_mm: 1.0, bonded: true)]\"",
+    ));
+    assert!(json["failed"].as_u64().unwrap() > 0 && json["first_problem"].as_str().unwrap().contains("flanges"), "{json}");
+    let text = stdout(&folder.run(&["optimise", "plan.ron", "--quiet"]));
+    assert!(text.contains("points of the plan have no design; of the first:"), "{text}");
+}
+
 #[test]
 fn limits_that_nothing_keeps_leave_no_optimum() {
     let folder = Folder::new();

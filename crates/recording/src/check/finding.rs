@@ -45,7 +45,7 @@ pub enum FindingKind {
         /// The largest \[s\].
         largest: f64,
     },
-    /// A row that repeats the one before.
+    /// A row that repeats an earlier one.
     Duplicate,
     /// One instant with different values.
     Conflict,

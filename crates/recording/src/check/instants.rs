@@ -98,7 +98,7 @@ impl Instants {
     }
 }
 
-/// The rows whose instants increase: repeats are dropped, the rest that does not increase is an error.
+/// The rows whose instants increase: repeats are dropped, wherever the row stands that they repeat; the rest that does not increase is an error.
 pub(super) fn keep(recording: &Recording, findings: &mut Vec<Finding>) -> Vec<usize> {
     let time = recording.time();
     let mut rows: Vec<usize> = Vec::with_capacity(time.len());
@@ -107,13 +107,15 @@ pub(super) fn keep(recording: &Recording, findings: &mut Vec<Finding>) -> Vec<us
             rows.push(row);
             continue;
         };
+        // the row of the same instant, if there is one
+        let twin = || rows.binary_search_by(|&kept| time[kept].total_cmp(&time[row])).ok().map(|place| rows[place]);
         let finding = |kind, severity| Finding::at(kind, severity, [time[row]; 2], 1, Repair::Dropped);
         if time[row] > time[last] {
             rows.push(row);
+        } else if twin().is_some_and(|twin| same(recording, row, twin)) {
+            findings.push(finding(FindingKind::Duplicate, Severity::Note));
         } else if time[row] < time[last] {
             findings.push(finding(FindingKind::Backwards(time[last] - time[row]), Severity::Error));
-        } else if same(recording, row, last) {
-            findings.push(finding(FindingKind::Duplicate, Severity::Note));
         } else {
             findings.push(finding(FindingKind::Conflict, Severity::Error));
         }

@@ -141,7 +141,8 @@ impl Outcome<'_> {
                 rows.extend([row(self.id(active.mechanism), nice(meaning)), row("inspect", nice(inspection))]);
             }
         }
-        rows.extend(self.law_name().map(|law| row("it is like", nice(&law))));
+        let law = self.law_name().or_else(|| self.in_place_of_all().map(StandIn::said));
+        rows.extend(law.map(|law| row("it is like", nice(&law))));
         rows.extend(self.nearest_named().map(|nearest| row("nearest named", nice(&nearest))));
         for other in self.others() {
             rows.extend(self.inspection(other).map(|inspection| row("or inspect", format!("{}, for {other}", nice(inspection)))));
@@ -157,7 +158,7 @@ impl Outcome<'_> {
 
     /// Parameters of what was found, or of an accepted law, with their intervals.
     fn sizes(&self) -> Option<String> {
-        let explained = self.diagnosis.verdict == Verdict::Explained;
+        let explained = self.diagnosis.verdict == Verdict::Explained && self.in_place_of_all().is_none();
         let mut found: Vec<Estimate> = self.diagnosis.parameters.iter().flatten().filter(|_| explained).cloned().collect();
         found.extend(self.law().into_iter().flat_map(|law| law.text().1));
         let of = |estimate: &Estimate| {
