@@ -326,6 +326,11 @@ pub(crate) fn gyro<'m>(
     )
 }
 
+/// Standard deviation of the offset of the chamber's thermometer \[K\], if a meta file of some records tells it.
+pub(crate) fn chamber_offset(records: &[Record]) -> Option<f64> {
+    instruments_of(records).chamber.offset_sd
+}
+
 /// Instruments by the meta files of some records; each number comes from the first record that states it.
 fn instruments_of(records: &[Record]) -> Instruments {
     let metas = || records.iter().filter_map(|record| record.meta.as_ref());

@@ -1,5 +1,6 @@
 //! `fogcoil diagnose`: recordings of a unit in; what differs from its design, and what most likely causes it, out.
 
+mod absolute;
 mod apart;
 mod as_drawn;
 mod columns;
@@ -41,7 +42,7 @@ use crate::Error;
 use crate::cache::Cache;
 use crate::compose::{Composed, Sought, StandIn, compose};
 use crate::input::{CoilCase, Fingerprint, InputError, MechanismCase, RecordCase};
-use crate::prepare::{Record, gyro, library, other_design, ready, refuse_copies};
+use crate::prepare::{Record, chamber_offset, gyro, library, other_design, ready, refuse_copies};
 use crate::table::significant;
 
 /// A diagnosis with what it was made from.
@@ -169,6 +170,7 @@ pub fn diagnose<'m>(
     }
     let Sought { composed, stand_ins } =
         compose(gyro, &mut diagnosis, &settings, &observations, &numbered, &records, progress).map_err(failed)?;
+    absolute::widen(&mut diagnosis, chamber_offset(&read).unwrap_or(absolute::USUAL_OFFSET_K));
     let best = diagnosis.best();
     let of_fit =
         |fit: &Fit| -> Vec<Vec<f64>> { fit.residuals.iter().map(|channels| channels.iter().map(|r| rms(r)).collect()).collect() };

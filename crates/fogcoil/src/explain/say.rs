@@ -85,9 +85,15 @@ pub fn text(case: &CoilCase, e: &Explained) -> String {
     let drawings = e.drawings.iter().map(|(words, total)| vec![words.clone(), format!("{total:.3}")]);
     let head = ["the drawing with one word changed", "gives"].map(str::to_owned).to_vec();
     out.push_str(&table(&std::iter::once(head).chain(drawings).collect::<Vec<_>>()));
-    out.push_str("\nUnable to change it:\n");
+    out.push_str("\nUnable to change the coil's own sensitivity:\n");
+    let mut told = Vec::new();
     for x in &e.explanations {
         if let Reach::Unable { why } = x.outcome {
+            // the first of several that have no parameter of their own says it
+            if x.parameter.is_empty() && told.contains(&x.id.as_str()) {
+                continue;
+            }
+            told.push(x.id.as_str());
             let several = e.explanations.iter().filter(|other| other.id == x.id).count() > 1;
             let parameter = if several && !x.parameter.is_empty() { format!(" ({})", x.parameter) } else { String::new() };
             let _ = writeln!(out, "  {}{parameter}: {why}", x.id);

@@ -21,7 +21,7 @@ pub(super) const COMPENSATED_RATE: Named = Named {
     columns: &[],
     heat_path: None,
     steady: &[
-        Steady::Nothing("it is of the electronics: the coil's own sensitivity stays"),
+        Steady::Nothing("it is of the electronics: it changes the number that is measured, and the coil's own sensitivity stays"),
         Steady::Nothing("a filter of the electronics"),
     ],
     extent: Extent::everywhere,
