@@ -528,6 +528,40 @@ fn a_mechanism_of_one_s_own_is_named() {
     assert!((estimate.ci90[0]..estimate.ci90[1]).contains(&6e-5), "{estimate:?}");
 }
 
+/// A coil whose constants are not those of glass in a polymer has no content of adhesive to change.
+#[test]
+fn exact_an_adhesive_content_needs_a_coil_of_glass_and_polymer() {
+    let content = mechanisms::find("adhesive-content").expect("known");
+    let scene = mechanisms::Scene { temperatures: [-40.0, 60.0], noise: 0.01, earth: None };
+    let offered = |change: &dyn Fn(&mut coil::Body)| {
+        let mut design = design();
+        change(&mut design.body);
+        content.offer(&design, &scene).is_some()
+    };
+    assert!(offered(&|_| ()));
+    assert!(!offered(&|body| body.elastic.alpha_z = 0.0));
+    assert!(!offered(&|body| body.conductivity_r *= 200.0));
+    assert!(!offered(&|body| body.density *= 0.05));
+    assert!(!offered(&|body| body.elastic.e_z *= 0.05));
+}
+
+/// In a steady ramp each parameter that matters makes its own change of the mechanical state.
+#[test]
+fn exact_a_steady_change_of_the_mechanical_state_is_that_of_its_parameter() {
+    let of = |id: &str| mechanisms::find(id).expect("known").facts().steady;
+    let states: Vec<coil::MechanicalState> = of("glass-transition")
+        .iter()
+        .filter_map(|steady| match steady {
+            mechanisms::Steady::Changes { changed, .. } => Some(changed(&design(), 0.7).1),
+            _ => None,
+        })
+        .collect();
+    let nominal = coil::MechanicalState::NOMINAL;
+    let [modulus, expansion] = states[..] else { panic!("{states:?}") };
+    assert_eq!(modulus, coil::MechanicalState { transverse_modulus: 0.7, ..nominal });
+    assert_eq!(expansion, coil::MechanicalState { transverse_expansion: 0.7, ..nominal });
+}
+
 #[test]
 fn a_chamber_that_rests_has_a_range_of_temperatures_all_the_same() {
     let library = gyro().lock().expect("a gyro").library().clone();
