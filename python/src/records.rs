@@ -87,7 +87,9 @@ pub(crate) fn diagnose(
         let further = asked.further_columns();
         let records = |records: &[Record]| all(records, meta.as_deref(), &further);
         let (fit, holdout) = (records(&fit)?, records(&holdout)?);
-        let outcome = diagnosis::diagnose(&coil.case, &asked.with_catalogue(), &fit, &holdout, &cache(code), tell)?;
+        let weighed = asked.with_catalogue();
+        let columns = diagnosis::of_columns(&fit, &holdout, &weighed);
+        let outcome = diagnosis::diagnose(&coil.case, &weighed, &columns, &fit, &holdout, &cache(code), tell)?;
         let found = Found::new(&outcome.json(), outcome.text()).with_picture(outcome.picture());
         let numbers = |name, values: Vec<f64>| Cells::numbers(name, values.into_iter().map(Some).collect());
         let found = match outcome.predicted_rate() {
