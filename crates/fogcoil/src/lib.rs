@@ -50,6 +50,7 @@ pub mod figures;
 pub mod glossary;
 pub mod homogenize;
 pub mod identify;
+mod jumps;
 mod keys;
 pub mod measure;
 #[cfg(not(target_family = "wasm"))]

@@ -21,6 +21,8 @@ const MATERIALS: [(&str, [f64; 6]); 5] = [
     ("Invar", [141.0, 0.29, 1.3, 10.5, 8050.0, 515.0]),
     ("quasi-isotropic CFRP", [60.0, 0.30, 2.0, 5.0, 1600.0, 900.0]),
 ];
+/// A steel that is taken for an austenitic one in a store, with three fifths of its expansion: a data sheet's values at room temperature.
+const FERRITIC: (&str, [f64; 6]) = ("steel 430", [200.0, 0.28, 10.4, 26.0, 7740.0, 460.0]);
 /// Relative difference of modulus and expansion up to which a material is the drawing's own: alloys of one kind.
 const ALIKE: f64 = 0.1;
 
@@ -49,7 +51,7 @@ pub(crate) fn other_drawings(design: &Design) -> Vec<OtherDrawing> {
     };
     all.push(changed(format!("winding.cw_climbs: {is}"), &|d| d.winding.cw_climbs = other));
     if let Some(spool) = &design.spool {
-        for (name, values) in MATERIALS {
+        for (name, values) in MATERIALS.into_iter().chain([FERRITIC]) {
             let material = solid(values);
             let [drawn, other] = [&spool.material.elastic, &material.elastic];
             let alike = |a: f64, b: f64| (a - b).abs() <= ALIKE * b;
@@ -114,7 +116,8 @@ mod tests {
                 "spool.material: that of Ti-6Al-4V",
                 "spool.material: that of steel 304",
                 "spool.material: that of Invar",
-                "spool.material: that of quasi-isotropic CFRP"
+                "spool.material: that of quasi-isotropic CFRP",
+                "spool.material: that of steel 430"
             ]
         );
         for other in &others {

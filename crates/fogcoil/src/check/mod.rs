@@ -5,6 +5,7 @@
 //! linear lag remains: the slow terms are then upper bounds.
 
 mod json;
+mod jumped;
 mod lags;
 mod order;
 mod text;
@@ -21,6 +22,7 @@ use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Series, Term, Whitener
 use crate::contradictions::contradictions;
 use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
 use crate::prepare::{stands_still, starts_off_rest};
+use jumped::jumped;
 use lags::lags;
 use order::spool_first;
 
@@ -117,7 +119,7 @@ impl<'a> Analysis<'a> {
     pub fn new(case: &'a RecordCase) -> Self {
         let usable = case.report.usable();
         let noise = if usable { gyro_noise(case) } else { None };
-        let seen = usable.then(|| [spool_first(case), starts_off_rest(case)]).into_iter().flatten().flatten();
+        let seen = usable.then(|| [spool_first(case), jumped(case), starts_off_rest(case)]).into_iter().flatten().flatten();
         let contradicted = if usable { contradictions(case) } else { Vec::new() };
         let notes = case.notes.iter().cloned().chain(seen).chain(contradicted).collect();
         Self { case, notes, noise }

@@ -6,75 +6,18 @@ use mechanisms::{Gyro, SPOOL as SPOOL_CHANNEL, thermometer_under};
 use nalgebra::{DMatrix, DVector};
 use recording::Seconds;
 use recording::check::white_noise;
-use recording::smooth::resolution;
 
 use super::as_drawn::{as_well, spread};
 use crate::input::{CHAMBER, SPOOL};
+use crate::jumps::{Jump, jumps};
 use crate::prepare::Record;
 use crate::table::significant;
 
-/// Rows on either side of a jump from which the level there is taken.
-const BESIDE: usize = 10;
-/// Least size of a jump, in standard deviations of the difference of two such levels.
-const PLAIN: f64 = 8.0;
-/// The same in steps of the display.
-const DIGITS: f64 = 4.0;
-/// Least share of it between two rows, and between the rows before and behind the first.
-const WITHIN: [f64; 2] = [0.4, 0.7];
-/// Most jumps that are looked at, the largest.
-const MOST: usize = 6;
 /// Shares of a jump that the spool leaves out where it leaves it out whole, and least share that the jumps explain of what the model leaves of the spool.
 const WHOLE: [f64; 2] = [0.75, 1.25];
 const EXPLAINS: f64 = 0.5;
 /// Largest part of the spool's own course that is left without the jumps.
 const FOLLOWS: f64 = 0.3;
-
-/// A jump of the chamber's readings.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Jump {
-    /// First row after it.
-    row: usize,
-    /// By so much \[K\].
-    by: f64,
-}
-
-/// A straight line through rows: its value in the middle of the jump, and its slope by rows; rows are counted from there.
-fn line(points: impl Iterator<Item = (f64, f64)> + Clone) -> [f64; 2] {
-    let count = points.clone().count() as f64;
-    let mean = points.clone().fold([0.0; 2], |[x, y], p| [x + p.0 / count, y + p.1 / count]);
-    let [xx, xy] = points.fold([0.0; 2], |[xx, xy], p| [xx + (p.0 - mean[0]).powi(2), xy + (p.0 - mean[0]) * (p.1 - mean[1])]);
-    [mean[1] - xy / xx * mean[0], xy / xx]
-}
-
-/// The largest jumps from one course to the same course at another level, within a row, or within two where rows are means.
-fn jumps(time: &[f64], chamber: &[f64]) -> Vec<Jump> {
-    let Some(white) = white_noise(time, chamber, &vec![true; chamber.len()]) else { return Vec::new() };
-    let digit = resolution(chamber);
-    // a line's end is twice as uncertain as its mean, and a step of the display is no jump
-    let sure = (PLAIN * 2.0 * white * (2.0 / BESIDE as f64).sqrt()).max(DIGITS * digit);
-    let at = |row: usize| -> Option<Jump> {
-        let first = row.checked_sub(BESIDE)?;
-        let last = Some(row + BESIDE).filter(|last| *last < chamber.len())?;
-        // of rows of means the one with the jump is between both levels
-        let of = |from: usize, to: usize| line((from..to).map(|n| (n as f64 - row as f64 + 0.5, chamber[n])));
-        let ([before, slope_before], [after, slope_after]) = (of(first, row - 1), of(row + 1, last));
-        let by = after - before;
-        // beyond the ramp's own steps: at a corner of the programme the lines part, and no row jumps
-        let slope = f64::midpoint(slope_before, slope_after);
-        let [within, around] =
-            [(chamber[row] - chamber[row - 1] - slope) / by, (chamber[row + 1] - chamber[row - 1] - 2.0 * slope) / by];
-        (by.abs() > sure && within > WITHIN[0] && around > WITHIN[1]).then_some(Jump { row, by })
-    };
-    let mut all: Vec<Jump> = (1..chamber.len()).filter_map(at).collect();
-    all.sort_by(|a, b| b.by.abs().total_cmp(&a.by.abs()));
-    let mut kept: Vec<Jump> = Vec::new();
-    for jump in all {
-        if kept.len() < MOST && kept.iter().all(|other| other.row.abs_diff(jump.row) > BESIDE) {
-            kept.push(jump);
-        }
-    }
-    kept
-}
 
 /// Jumps that the spool leaves out whole, and what is left of it without them \[K\], rms. `responses` are those of the spool to each jump; `left` is what the
 /// model leaves of it, with white `noise`, and its `own` course \[K\], rms; `slopes` are what a standard deviation of each of the model's constants changes there.
@@ -170,29 +113,6 @@ mod tests {
         };
         let readings = (0..600).map(of).collect();
         [time, readings]
-    }
-
-    #[test]
-    fn a_jump_is_seen_where_it_is_and_a_ramp_is_none() {
-        let [time, sound] = chamber(0.0);
-        assert_eq!(jumps(&time, &sound), []);
-        let [_, jumped] = chamber(-0.7);
-        let found = jumps(&time, &jumped);
-        assert!(found.len() == 1 && found[0].row == 320 && (found[0].by + 0.7).abs() < 0.05, "{found:?}");
-        // in a ramp as well, by less than the ramp makes in three rows; its corners are none
-        let ramp: Vec<f64> = sound.iter().enumerate().map(|(n, c)| c + if n < 100 { 0.0 } else { 1.0 }).collect();
-        let found = jumps(&time, &ramp);
-        assert!(found.len() == 1 && found[0].row == 100 && (found[0].by - 1.0).abs() < 0.05, "{found:?}");
-        // means over three rows
-        let means = |series: &[f64]| -> Vec<f64> { series.chunks(3).map(|c| c.iter().sum::<f64>() / 3.0).collect() };
-        let found = jumps(&means(&time), &means(&jumped));
-        assert!(found.len() == 1 && found[0].row.abs_diff(107) <= 1 && (found[0].by + 0.7).abs() < 0.05, "{found:?}");
-        // a display of a tenth of a kelvin, without noise, steps in a slow course
-        let display: Vec<f64> = time.iter().map(|t| (t / 40_000.0 * 10.0).round() / 10.0).collect();
-        assert_eq!(jumps(&time, &display), []);
-        // steps of degrees are jumps as well; whether they are real the spool tells
-        let steps: Vec<f64> = sound.iter().enumerate().map(|(n, c)| c + if n < 100 { 0.0 } else { 15.0 }).collect();
-        assert_eq!(jumps(&time, &steps).iter().map(|jump| jump.row).collect::<Vec<_>>(), [100]);
     }
 
     #[test]

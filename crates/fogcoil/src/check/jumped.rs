@@ -1,0 +1,23 @@
+//! A chamber's readings that jump: a step of its programme, or of its sensor.
+
+use files::{Note, Remark};
+use recording::Seconds;
+use recording::condition::bridged;
+
+use crate::input::{CHAMBER, RecordCase};
+use crate::jumps::jumps;
+use crate::table::significant;
+
+/// A note on the largest jump of the chamber's readings; whether the air jumped the coil's model tells.
+pub(super) fn jumped(case: &RecordCase) -> Option<Note> {
+    let used = case.report.used(&case.recording);
+    let chamber = bridged(used.time(), &used.channel(CHAMBER)?.values)?;
+    let all = jumps(used.time(), &chamber);
+    let largest = all.first()?;
+    let others = if all.len() > 1 { ", and at other times" } else { "" };
+    Some(Remark::ChamberJump.note(format!(
+        "{CHAMBER} jumps by {} K at {} s{others}: a step of the air, or of the sensor, which diagnose tells by the spool",
+        significant(largest.by, 2),
+        Seconds(used.time()[largest.row])
+    )))
+}
