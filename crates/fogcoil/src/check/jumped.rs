@@ -8,11 +8,14 @@ use crate::input::{CHAMBER, RecordCase};
 use crate::jumps::jumps;
 use crate::table::significant;
 
+/// Least jump that is worth a word \[K\]: what a thermometer may be off by, and no rounded corner of a programme makes.
+const WORTH_K: f64 = 0.5;
+
 /// A note on the largest jump of the chamber's readings; whether the air jumped the coil's model tells.
 pub(super) fn jumped(case: &RecordCase) -> Option<Note> {
     let used = case.report.used(&case.recording);
     let chamber = bridged(used.time(), &used.channel(CHAMBER)?.values)?;
-    let all = jumps(used.time(), &chamber);
+    let all: Vec<_> = jumps(used.time(), &chamber).into_iter().filter(|jump| jump.by.abs() >= WORTH_K).collect();
     let largest = all.first()?;
     let others = if all.len() > 1 { ", and at other times" } else { "" };
     Some(Remark::ChamberJump.note(format!(
