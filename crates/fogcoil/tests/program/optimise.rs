@@ -123,7 +123,7 @@ fn designs_without_a_part_are_tried_and_those_that_cannot_be_are_counted() {
     let choices = |more: &str| {
         format!(
             "(design: \"coil.ron\", vary: {{\"spool.flanges\": Named({{\"one\": \"[(side: Right, thickness_mm: 2.0, overhang_mm: 1.0, bonded: true)]\", \
-             \"none\": \"[]\"{more}}}), \"spool.hub_thickness_mm\": Uniform(2.0, 4.0)}}, dimensions: FollowWinding, minimise: [Sensitivity], trials: 6)"
+             \"none\": \"[]\"{more}}}), \"spool.hub_thickness_mm\": Uniform(2.0, 4.0)}}, dimensions: FollowWinding, minimise: [Sensitivity], trials: 10)"
         )
     };
     let run = |plan: String| -> (Value, String) {
