@@ -7,6 +7,7 @@ use mechanisms::{RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL};
 use recording::check::white_noise;
 
 use super::Outcome;
+use super::alike::{centred, repeats, sums};
 use super::as_drawn::{as_well, rms};
 use crate::prepare::Record;
 use crate::table::significant;
@@ -15,9 +16,6 @@ use crate::table::significant;
 const MOST_OF_IT: f64 = 0.5;
 /// Standard errors by which chance alone puts a correlation off 0 that is told, as many rows counted as are independent.
 const PLAIN: f64 = 5.0;
-/// Correlation from which a column merely repeats a temperature, the rate, or the time.
-const REPEATS: f64 = 0.99;
-
 /// A column that what is left of the rate follows.
 #[derive(Debug, PartialEq)]
 struct Followed {
@@ -31,26 +29,6 @@ struct Followed {
 
 /// Instants, what is left of the rate and a column, in the rows of a record.
 type Rows<'a> = (&'a [f64], &'a [f64], &'a [f64]);
-
-/// Rows in which both have a value, less the mean of each.
-pub(super) fn centred(a: &[f64], b: &[f64]) -> Vec<(f64, f64)> {
-    let both: Vec<(f64, f64)> =
-        a.iter().copied().zip(b.iter().copied()).filter(|(a, b)| a.is_finite() && b.is_finite()).collect();
-    let count = both.len().max(1) as f64;
-    let mean = [both.iter().map(|pair| pair.0).sum::<f64>() / count, both.iter().map(|pair| pair.1).sum::<f64>() / count];
-    both.into_iter().map(|(a, b)| (a - mean[0], b - mean[1])).collect()
-}
-
-/// Sums of squares and of products.
-pub(super) fn sums(pairs: &[(f64, f64)]) -> [f64; 3] {
-    pairs.iter().fold([0.0; 3], |[aa, ab, bb], (a, b)| [aa + a * a, ab + a * b, bb + b * b])
-}
-
-/// Whether two series in the rows of some records are straight lines of each other, or one of them is constant.
-pub(super) fn repeats<'a>(records: impl Iterator<Item = (&'a [f64], &'a [f64])>) -> bool {
-    let [aa, ab, bb] = sums(&records.flat_map(|(a, b)| centred(a, b)).collect::<Vec<_>>());
-    ab.abs() >= REPEATS * (aa * bb).sqrt()
-}
 
 /// Number of rows that count where both series wander: chance correlates two slow courses easily (Bartlett 1935).
 fn independent(pairs: &[(f64, f64)], white: f64) -> f64 {
@@ -157,15 +135,6 @@ mod tests {
         assert_eq!(followed(&[(&time, &beside, &volts)]), None);
         // a constant has no slope
         assert_eq!(followed(&[(&time, &rate(0.5), &vec![24.0; 600])]), None);
-    }
-
-    #[test]
-    fn a_line_of_another_series_repeats_it() {
-        let (time, volts) = column(600);
-        let line: Vec<f64> = volts.iter().enumerate().map(|(n, v)| 3.0 - 2.0 * v + 0.1 * noise(n)).collect();
-        assert!(repeats([(volts.as_slice(), line.as_slice())].into_iter()));
-        assert!(!repeats([(volts.as_slice(), time.as_slice())].into_iter()));
-        assert!(repeats([(vec![24.0; 600].as_slice(), time.as_slice())].into_iter()));
     }
 
     /// A walk of steps that a linear congruence makes.

@@ -1,6 +1,7 @@
 //! `fogcoil diagnose`: recordings of a unit in; what differs from its design, and what most likely causes it, out.
 
 mod absolute;
+mod alike;
 mod apart;
 mod as_drawn;
 mod columns;

@@ -9,7 +9,7 @@ use mechanisms::{Mechanism, RATE as RATE_CHANNEL, USUAL_NOISE, usual_coefficient
 use recording::check::white_noise;
 use recording::{Recording, median_interval};
 
-use super::ignored::{centred, repeats, sums};
+use super::alike::{centred, repeats, sums};
 use crate::input::{CHAMBER, MechanismCase, RATE, RecordCase, SPOOL, check_mechanism};
 
 /// Most columns that are weighed, those that go with the rate most: each takes its time, and its share of what is likely beforehand.
