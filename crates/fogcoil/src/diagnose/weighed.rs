@@ -55,7 +55,9 @@ impl Column<'_> {
 
     /// Whether it is made from the rate, as a filtered one is: from row to row it moves as the rate's white noise does.
     fn is_of_rate(&self, read: &[Recording]) -> bool {
-        let steps = |series: &[f64]| series.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>();
+        // fourth differences, which a slow course hardly touches: both may follow the same cause
+        let fourth = |w: &[f64]| w[0] - 4.0 * w[1] + 6.0 * w[2] - 4.0 * w[3] + w[4];
+        let steps = |series: &[f64]| series.windows(5).map(fourth).collect::<Vec<_>>();
         let pairs = self
             .courses
             .iter()
