@@ -65,11 +65,11 @@ pub(crate) fn jumps(time: &[f64], chamber: &[f64]) -> Vec<Jump> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
     /// Ten hours of minutes: a chamber that is cooled, held and warmed, with noise; its readings are off by `off` from row 320 on.
-    fn chamber(off: f64) -> [Vec<f64>; 2] {
+    pub(crate) fn chamber(off: f64) -> [Vec<f64>; 2] {
         let time: Vec<f64> = (0..600).map(|n| 60.0 * f64::from(n)).collect();
         let of = |n: usize| {
             let t = time[n];

@@ -101,19 +101,8 @@ pub(super) fn warning(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::jumps::tests::chamber;
     use mechanisms::lagged;
-
-    /// Ten hours of minutes: a chamber that is cooled, held and warmed, with noise; its readings are off by `off` from row 320 on.
-    fn chamber(off: f64) -> [Vec<f64>; 2] {
-        let time: Vec<f64> = (0..600).map(|n| 60.0 * f64::from(n)).collect();
-        let of = |n: usize| {
-            let t = time[n];
-            let course = 20.0 - ((t - 3000.0).clamp(0.0, 6000.0) - (t - 24_000.0).clamp(0.0, 6000.0)) / 150.0;
-            course + 0.03 * ((n * 7919 % 1000) as f64 / 1000.0 - 0.5) + if n < 320 { 0.0 } else { off }
-        };
-        let readings = (0..600).map(of).collect();
-        [time, readings]
-    }
 
     #[test]
     fn the_spool_tells_whether_the_air_jumped() {
