@@ -1,16 +1,24 @@
 //! `cargo xtask mutants`: every function of the crates that compute, answered wrongly or with an operator exchanged; which mutants the crate's own tests catch.
 
+mod list;
+mod trial;
+mod weave;
+mod woven;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::{Mutex, mpsc};
 
 use proof::Failure;
 use proof::files::{read, renew, root, write};
 use proof::statistics::rate;
 use serde_json::Value;
 
-use crate::tools::{printed, tool, tool_with};
+use self::trial::Tests;
+use self::woven::Woven;
+use crate::tools::{tool, tool_with};
 
 const RUNNER: [&str; 2] = ["cargo-mutants", "27.1.0"];
 /// Runs tests one by one, so that the first that fails ends a mutant's trial.
@@ -21,8 +29,8 @@ const TESTER_FLAGS: [&str; 3] = ["--no-default-features", "--features", "default
 const TOGETHER: [&str; 1] = ["mechanisms"];
 const PAGE: &str = "docs/trust.md";
 const MARKS: [&str; 2] = ["<!-- mutants: written by `cargo xtask mutants` -->", "<!-- mutants end -->"];
-/// Outcomes by crate and mutant, kept from run to run.
-const KEPT: &str = "xtask/mutants/outcomes.json";
+/// Outcomes by mutant, a file for each crate, kept from run to run.
+const KEPT: &str = "xtask/mutants/outcomes";
 /// Mutants that nothing can tell from the program, each with the reason: `name: reason` by line.
 const ARGUED: &str = "xtask/mutants/argued.txt";
 /// Statuses of the runner after all mutants were tried: caught, some missed, some endless.
@@ -33,16 +41,21 @@ const CAUGHT: f64 = 0.9;
 const CRATES: [(&str, usize); 7] = [
     ("bias", 1),
     ("winding", 1),
-    ("recording", 20),
-    ("mechanisms", 40),
-    ("diagnosis", 40),
+    ("recording", 1),
+    ("mechanisms", 1),
+    ("diagnosis", 1),
     ("fem-core", 20),
     ("homogenization", 40),
 ];
+/// Outcomes are kept whenever so many are new.
+const SAVED: usize = 20;
+/// Trials between two lines that say how far it is.
+const TOLD: usize = 100;
 
 /// Change the crates that compute, one operator or answer at a time, and count the changes that their tests catch
 ///
-/// Of the larger crates a part of all changes is tried. Writes docs/trust.md and what came of each mutant, to which further runs add. Exit status 1 if less than 90 % are caught in a crate that was tried.
+/// All changes of a crate are built into one program, and each is switched on for the tests that reach it. Of the largest crates a part of all changes is tried.
+/// Writes docs/trust.md and the outcome of each change, to which further runs add. Exit status 1 if less than 90 % are caught in a crate that was tried.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Mutants {
     /// Crates [default: all]
@@ -56,6 +69,12 @@ pub(crate) struct Mutants {
     /// Try again what was missed and is not argued away, after tests were written
     #[arg(long, conflicts_with_all = ["parts", "part"])]
     missed: bool,
+    /// Go on with a run that was stopped: try the changes that have no outcome yet
+    #[arg(long, conflicts_with = "missed")]
+    untried: bool,
+    /// Trials at once
+    #[arg(long, value_name = "N", default_value_t = 2)]
+    jobs: usize,
 }
 
 /// Outcome of a mutant.
@@ -69,8 +88,17 @@ enum Outcome {
     Missed,
 }
 
-/// Outcomes by mutant, by crate.
-type Outcomes = BTreeMap<String, BTreeMap<String, Outcome>>;
+/// Mutants of a crate that were tried.
+#[derive(Debug, Default, serde::Serialize, serde::Deserialize)]
+struct Tried {
+    /// Mutants of the crate, those among them that do not compile.
+    all: usize,
+    unviable: usize,
+    outcomes: BTreeMap<String, Outcome>,
+}
+
+/// Mutants by crate.
+type Outcomes = BTreeMap<String, Tried>;
 
 impl Mutants {
     pub(crate) fn run(&self) -> Result<bool, Failure> {
@@ -80,42 +108,109 @@ impl Mutants {
         if self.part >= self.parts {
             return Err(Failure(format!("--part {} of {}: the last is {}", self.part, self.parts, self.parts.max(1) - 1)));
         }
-        let kept = root().join(KEPT);
-        let mut outcomes: Outcomes = if kept.exists() { serde_json::from_str(&read(&kept)?)? } else { Outcomes::new() };
         let reasons = read(&root().join(ARGUED))?;
         let argued = argued(&reasons);
         for (name, share) in CRATES.iter().filter(|(name, _)| self.crates.is_empty() || self.crates.iter().any(|c| c == name)) {
-            let known = outcomes.entry((*name).into()).or_default();
-            let which = if self.missed {
-                let missed = known
-                    .iter()
-                    .filter(|(mutant, outcome)| **outcome == Outcome::Missed && !argued.contains_key(mutant.as_str()));
-                missed.flat_map(|(mutant, _)| ["--re".to_owned(), format!("^{}$", regex_of(mutant))]).collect()
-            } else {
-                ["--sharding", "round-robin", "--shard", &format!("{}/{}", self.part * share, self.parts * share)]
-                    .map(str::to_owned)
-                    .to_vec()
+            let woven = woven::woven(name)?;
+            let mut of = kept(name)?;
+            // lines move
+            let names: BTreeSet<&str> = woven.mutants.iter().map(|mutant| mutant.name.as_str()).collect();
+            of.outcomes.retain(|name, _| names.contains(name.as_str()));
+            (of.all, of.unviable) = (woven.mutants.len(), woven.unviable.len());
+            let chosen = |id: &usize| {
+                let mutant = woven.mutants[*id].name.as_str();
+                match of.outcomes.get(mutant) {
+                    _ if woven.unviable.contains(id) => false,
+                    outcome if self.missed => outcome == Some(&Outcome::Missed) && !argued.contains_key(mutant),
+                    Some(_) if self.untried => false,
+                    _ => id % (self.parts * share) == self.part * share,
+                }
             };
-            if which.is_empty() {
-                continue;
+            let chosen: Vec<usize> = (0..woven.mutants.len()).filter(chosen).collect();
+            let (alone, together): (Vec<usize>, Vec<usize>) = chosen.into_iter().partition(|id| woven.alone.contains(id));
+            eprintln!("{name}: {} mutants in one program, {} alone", together.len(), alone.len());
+            let mut new = 0;
+            let mut add = |mutant: &str, outcome: Outcome| {
+                let since =
+                    outcome == Outcome::Caught && matches!(of.outcomes.get(mutant), Some(Outcome::Missed | Outcome::CaughtSince));
+                of.outcomes.insert(mutant.to_owned(), if since { Outcome::CaughtSince } else { outcome });
+                new += 1;
+                if new % SAVED == 0 { keep(name, &of) } else { Ok(()) }
+            };
+            self.all_tried(name, &woven, &together, &mut add)?;
+            if !alone.is_empty() {
+                let which = |&id: &usize| ["--re".to_owned(), format!("^{}$", regex_of(&woven.mutants[id].name))];
+                let which: Vec<String> = alone.iter().flat_map(which).collect();
+                for (mutant, outcome) in tried(name, &which)? {
+                    add(&mutant, outcome)?;
+                }
             }
-            // lines move: a run of all leaves nothing of the runs before it
-            if self.parts == 1 && !self.missed {
-                known.clear();
-            }
-            for (mutant, outcome) in tried(name, &which)? {
-                let before = known.get(&mutant).copied();
-                let since = outcome == Outcome::Caught && matches!(before, Some(Outcome::Missed | Outcome::CaughtSince));
-                known.insert(mutant, if since { Outcome::CaughtSince } else { outcome });
-            }
-            write(&kept, &(serde_json::to_string_pretty(&outcomes)? + "\n"))?;
+            keep(name, &of)?;
         }
-        let all = outcomes.keys().map(|name| Ok((name.clone(), all_of(name)?))).collect::<Result<_, Failure>>()?;
-        let (text, sound) = table(&outcomes, &all, &argued);
+        let outcomes = CRATES.map(|(name, _)| Ok((name.to_owned(), kept(name)?))).into_iter().collect::<Result<_, Failure>>()?;
+        let (text, sound) = table(&outcomes, &argued);
         print!("{text}");
         renew(&root().join(PAGE), MARKS, &text)?;
         Ok(sound)
     }
+
+    /// Tries mutants that one program holds, function by function.
+    fn all_tried(
+        &self,
+        name: &str,
+        woven: &Woven,
+        chosen: &[usize],
+        add: &mut impl FnMut(&str, Outcome) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let scratch = root().join("target/mutants/reached");
+        let tests = Tests::measured(woven.programs.clone(), TOGETHER.contains(&name), self.jobs, &scratch)?;
+        let mut functions = BTreeMap::<(&str, &str), Vec<usize>>::new();
+        for &id in chosen {
+            functions.entry((&woven.mutants[id].file, &woven.mutants[id].function)).or_default().push(id);
+        }
+        let queue = Mutex::new(functions.into_values());
+        let (sender, results) = mpsc::channel();
+        std::thread::scope(|scope| {
+            for _ in 0..self.jobs.max(1) {
+                let (sender, tests, queue) = (sender.clone(), &tests, &queue);
+                scope.spawn(move || {
+                    while let Some(ids) = queue.lock().ok().and_then(|mut queue| queue.next()) {
+                        let mut killers = BTreeMap::new();
+                        for id in ids {
+                            if sender.send((id, tests.outcome(id, &mut killers))).is_err() {
+                                return;
+                            }
+                        }
+                    }
+                });
+            }
+            drop(sender);
+            let mut missed = 0;
+            for (n, (id, outcome)) in results.iter().enumerate() {
+                let (mutant, outcome) = (&woven.mutants[id].name, outcome?);
+                if outcome == Outcome::Missed {
+                    missed += 1;
+                    println!("missed: {mutant}");
+                }
+                if (n + 1) % TOLD == 0 || n + 1 == chosen.len() {
+                    eprintln!("{} of {}, {missed} missed", n + 1, chosen.len());
+                }
+                add(mutant, outcome)?;
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Outcomes of a crate as they were kept.
+fn kept(name: &str) -> Result<Tried, Failure> {
+    let path = root().join(KEPT).join(name).with_extension("json");
+    Ok(if path.exists() { serde_json::from_str(&read(&path)?)? } else { Tried::default() })
+}
+
+/// Keeps the outcomes of a crate.
+fn keep(name: &str, of: &Tried) -> Result<(), Failure> {
+    write(&root().join(KEPT).join(name).with_extension("json"), &(serde_json::to_string_pretty(of)? + "\n"))
 }
 
 /// The runner, with the tester in its reach.
@@ -127,11 +222,6 @@ fn runner() -> Result<Command, Failure> {
     let mut runner = tool(RUNNER)?;
     runner.arg("mutants").env("PATH", reach).current_dir(root());
     Ok(runner)
-}
-
-/// Number of the mutants of a crate, those among them that do not compile.
-fn all_of(name: &str) -> Result<usize, Failure> {
-    Ok(printed(runner()?.args(["--list", "--colors", "never", "--package", name]))?.lines().count())
 }
 
 /// The pattern that a text alone fits.
@@ -185,16 +275,17 @@ fn argued(text: &str) -> BTreeMap<&str, &str> {
 }
 
 /// The table and the survivors; whether enough are caught everywhere.
-fn table(outcomes: &Outcomes, all: &BTreeMap<String, usize>, argued: &BTreeMap<&str, &str>) -> (String, bool) {
+fn table(outcomes: &Outcomes, argued: &BTreeMap<&str, &str>) -> (String, bool) {
     let mut text = String::from(
-        "\n| crate | mutants | tried | caught | caught by tests written since | argued away | left | caught when first tried, of all that could be [90 % interval] |\n\
-         |---|---|---|---|---|---|---|---|\n",
+        "\n| crate | mutants | do not compile | tried | caught | caught by tests written since | argued away | left | caught when first tried, of all that could be [90 % interval] |\n\
+         |---|---|---|---|---|---|---|---|---|\n",
     );
     let (mut sound, mut left) = (true, BTreeSet::new());
     for (name, _) in CRATES {
         let Some(tried) = outcomes.get(name) else { continue };
-        let of =
-            |wanted: Outcome| tried.iter().filter(move |(_, outcome)| **outcome == wanted).map(|(mutant, _)| mutant.as_str());
+        let of = |wanted: Outcome| {
+            tried.outcomes.iter().filter(move |(_, outcome)| **outcome == wanted).map(|(mutant, _)| mutant.as_str())
+        };
         let (caught, since) = (of(Outcome::Caught).count(), of(Outcome::CaughtSince).count());
         let (argued, survivors): (Vec<&str>, Vec<&str>) = of(Outcome::Missed).partition(|mutant| argued.contains_key(mutant));
         let could = caught + since + survivors.len();
@@ -203,9 +294,10 @@ fn table(outcomes: &Outcomes, all: &BTreeMap<String, usize>, argued: &BTreeMap<&
         let [low, high] = share.interval.map(|end| 100.0 * end);
         let _ = writeln!(
             text,
-            "| `{name}` | {} | {} | {caught} | {since} | {} | {} | {:.1} % [{low:.1} to {high:.1} %] |",
-            all.get(name).copied().unwrap_or_default(),
-            tried.len(),
+            "| `{name}` | {} | {} | {} | {caught} | {since} | {} | {} | {:.1} % [{low:.1} to {high:.1} %] |",
+            tried.all,
+            tried.unviable,
+            tried.outcomes.len(),
             argued.len(),
             survivors.len(),
             100.0 * share.value
@@ -235,20 +327,21 @@ mod tests {
         write(&report, &format!(r#"{{"outcomes": [{{"scenario": "Baseline", "summary": "Success"}}, {all}]}}"#)).unwrap();
         let tried = of_report(&report).unwrap();
         assert_eq!(tried.len(), 4);
-        let outcomes = BTreeMap::from([("bias".to_owned(), tried)]);
-        let all = BTreeMap::from([("bias".to_owned(), 40)]);
-        let (text, sound) = table(&outcomes, &all, &argued("b :: no result depends on it\nno line of this kind"));
+        let outcomes = BTreeMap::from([("bias".to_owned(), Tried { all: 40, unviable: 1, outcomes: tried })]);
+        let (text, sound) = table(&outcomes, &argued("b :: no result depends on it\nno line of this kind"));
         assert!(
-            text.contains("| `bias` | 40 | 4 | 2 | 0 | 1 | 1 | 66.7 % [") && text.contains("- `e`") && !text.contains("- `b`"),
+            text.contains("| `bias` | 40 | 1 | 4 | 2 | 0 | 1 | 1 | 66.7 % [")
+                && text.contains("- `e`")
+                && !text.contains("- `b`"),
             "{text}"
         );
         assert!(!sound);
-        assert!(table(&outcomes, &all, &argued("b :: x\ne :: y")).1);
+        assert!(table(&outcomes, &argued("b :: x\ne :: y")).1);
         // a test written since catches it: nothing is left, and the share of those first tried stays
         let mut since = outcomes;
-        since.values_mut().for_each(|tried| tried.extend([("e".to_owned(), Outcome::CaughtSince)]));
-        let (text, sound) = table(&since, &all, &argued("b :: no result depends on it"));
-        assert!(text.contains("| `bias` | 40 | 4 | 2 | 1 | 1 | 0 | 66.7 % [") && sound, "{text}");
+        since.values_mut().for_each(|tried| tried.outcomes.extend([("e".to_owned(), Outcome::CaughtSince)]));
+        let (text, sound) = table(&since, &argued("b :: no result depends on it"));
+        assert!(text.contains("| `bias` | 40 | 1 | 4 | 2 | 1 | 1 | 0 | 66.7 % [") && sound, "{text}");
     }
 
     #[test]

@@ -1,0 +1,180 @@
+//! A program that holds all mutants: its tests, the mutants that each test reaches, and a mutant's trial by those tests alone.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{BufRead as _, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::{Mutex, mpsc};
+use std::time::{Duration, Instant};
+
+use proof::Failure;
+use proof::files::{failed, read, write};
+use proof::program::hex;
+use sha2::{Digest as _, Sha256};
+
+use super::Outcome;
+
+/// Tests that take less are run together, in seconds.
+const QUICK: f64 = 1.0;
+/// Least time that a trial may take before it is said never to end, in seconds, and the multiple of the unchanged program's.
+const PATIENCE: (f64, f64) = (20.0, 5.0);
+/// Most memory of a trial, KiB: a mutant may ask for ever more.
+const MEMORY: usize = 8 << 20;
+
+/// A test program, and the folder in which it runs.
+#[derive(Debug, Clone)]
+pub(super) struct Program {
+    pub(super) path: PathBuf,
+    pub(super) folder: PathBuf,
+}
+
+/// A test with what it reaches.
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
+struct Test {
+    /// Of the programs.
+    program: usize,
+    name: String,
+    /// In seconds.
+    takes: f64,
+    reaches: BTreeSet<usize>,
+}
+
+/// The tests of a crate.
+#[derive(Debug)]
+pub(super) struct Tests {
+    programs: Vec<Program>,
+    tests: Vec<Test>,
+    /// Whether slow tests share what they make, so that they are run in one process.
+    together: bool,
+}
+
+impl Program {
+    fn command(&self) -> Command {
+        let mut command = Command::new("sh");
+        command.args(["-c", &format!("ulimit -v {MEMORY}; exec \"$0\" \"$@\"")]).arg(&self.path);
+        command.current_dir(&self.folder).env("CARGO_MANIFEST_DIR", &self.folder).stdin(Stdio::null()).stderr(Stdio::null());
+        command
+    }
+
+    fn listed(&self, more: &[&str]) -> Result<BTreeSet<String>, Failure> {
+        let output = self.command().args(["--list", "--format", "terse"]).args(more).output()?;
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        Ok(text.lines().filter_map(|line| line.strip_suffix(": test")).map(str::to_owned).collect())
+    }
+}
+
+impl Tests {
+    /// Runs every test of the programs alone, with no mutant at work, and keeps how long it takes and which it reaches; in the folder `scratch` for the next time.
+    ///
+    /// # Errors
+    /// [`Failure`] if a test fails.
+    pub(super) fn measured(programs: Vec<Program>, together: bool, jobs: usize, scratch: &Path) -> Result<Self, Failure> {
+        std::fs::create_dir_all(scratch).map_err(failed(scratch))?;
+        let mut names = Vec::new();
+        let mut hash = Sha256::new();
+        for (n, program) in programs.iter().enumerate() {
+            hash.update(std::fs::read(&program.path).map_err(failed(&program.path))?);
+            let ignored = program.listed(&["--ignored"])?;
+            names.extend(program.listed(&[])?.difference(&ignored).map(|name| (n, name.clone())));
+        }
+        let kept = scratch.join(format!("{}.json", hex(hash)));
+        if let Some(tests) = read(&kept).ok().and_then(|text| serde_json::from_str(&text).ok()) {
+            return Ok(Self { programs, tests, together });
+        }
+        let measure = |(n, name): (usize, String)| -> Result<Test, Failure> {
+            let reached = scratch.join(format!("{n}-{}", name.replace(':', "-")));
+            std::fs::write(&reached, "").map_err(failed(&reached))?;
+            let start = Instant::now();
+            let mut command = programs[n].command();
+            command.args([name.as_str(), "--exact", "--test-threads", "1"]).env("FOGCOIL_REACHED", &reached);
+            if !command.stdout(Stdio::null()).status()?.success() {
+                return Err(Failure(format!("{name} of {} fails unchanged", programs[n].path.display())));
+            }
+            let takes = start.elapsed().as_secs_f64();
+            let reaches = read(&reached)?.lines().filter_map(|id| id.parse().ok()).collect();
+            std::fs::remove_file(&reached).map_err(failed(&reached))?;
+            Ok(Test { program: n, name, takes, reaches })
+        };
+        let queue = Mutex::new(names.into_iter());
+        let work = || {
+            let next = || queue.lock().ok()?.next();
+            std::iter::from_fn(next).map(&measure).collect::<Result<Vec<Test>, Failure>>()
+        };
+        let measured = std::thread::scope(|scope| {
+            let workers: Vec<_> = (0..jobs.max(1)).map(|_| scope.spawn(work)).collect();
+            let joined = workers.into_iter().map(std::thread::ScopedJoinHandle::join);
+            joined.map(|done| done.unwrap_or_else(|_| Err(Failure("a thread panicked".into())))).collect::<Result<Vec<_>, _>>()
+        });
+        let mut tests: Vec<Test> = measured?.concat();
+        eprintln!("{} tests, {:.0} s", tests.len(), tests.iter().map(|test| test.takes).sum::<f64>());
+        tests.sort_by(|a, b| a.takes.total_cmp(&b.takes));
+        write(&kept, &serde_json::to_string(&tests)?)?;
+        Ok(Self { programs, tests, together })
+    }
+
+    /// Whether a test fails, or never ends, while a mutant acts; `killers` counts the mutants of this function that each test caught.
+    pub(super) fn outcome(&self, id: usize, killers: &mut BTreeMap<usize, usize>) -> Result<Outcome, Failure> {
+        let mut reaching: Vec<usize> = (0..self.tests.len()).filter(|&n| self.tests[n].reaches.contains(&id)).collect();
+        reaching.sort_by_key(|n| std::cmp::Reverse(killers.get(n).copied().unwrap_or_default()));
+        let mut rounds: Vec<Vec<usize>> = Vec::new();
+        if let Some(&first) = reaching.first().filter(|n| killers.contains_key(n)) {
+            rounds.push(vec![first]);
+            reaching.remove(0);
+        }
+        let (quick, mut slow): (Vec<usize>, Vec<usize>) = reaching.into_iter().partition(|&n| self.tests[n].takes < QUICK);
+        slow.sort_by(|&a, &b| self.tests[a].takes.total_cmp(&self.tests[b].takes));
+        let of = |program: usize, all: &[usize]| all.iter().copied().filter(|&n| self.tests[n].program == program).collect();
+        rounds.extend((0..self.programs.len()).map(|program| of(program, &quick)));
+        if self.together {
+            rounds.extend((0..self.programs.len()).map(|program| of(program, &slow)));
+        } else {
+            rounds.extend(slow.into_iter().map(|n| vec![n]));
+        }
+        for round in rounds.iter().filter(|round| !round.is_empty()) {
+            if let Some(killer) = self.killer(id, round)? {
+                *killers.entry(killer).or_default() += 1;
+                return Ok(Outcome::Caught);
+            }
+        }
+        Ok(Outcome::Missed)
+    }
+
+    /// The test of those of one program that fails or does not end while a mutant acts.
+    fn killer(&self, id: usize, round: &[usize]) -> Result<Option<usize>, Failure> {
+        let usual: f64 = round.iter().map(|&n| self.tests[n].takes).sum();
+        let mut command = self.programs[self.tests[round[0]].program].command();
+        command.args(round.iter().map(|&n| self.tests[n].name.as_str())).args(["--exact", "--test-threads", "1"]);
+        let mut child = command.env("FOGCOIL_MUTANT", id.to_string()).stdout(Stdio::piped()).spawn()?;
+        let (sender, lines) = mpsc::channel();
+        let stdout = child.stdout.take();
+        let reader = std::thread::spawn(move || {
+            for line in stdout.into_iter().flat_map(|out| BufReader::new(out).lines()).map_while(Result::ok) {
+                if sender.send(line).is_err() {
+                    break;
+                }
+            }
+        });
+        let end = Instant::now() + Duration::from_secs_f64(PATIENCE.0.max(PATIENCE.1 * usual));
+        let mut running = round[0];
+        let failed = loop {
+            match lines.recv_timeout(end.saturating_duration_since(Instant::now())) {
+                Ok(line) => {
+                    let words = line.strip_prefix("test ").and_then(|rest| rest.split_once(" ... "));
+                    let named = words.and_then(|(name, _)| round.iter().copied().find(|&n| self.tests[n].name == name));
+                    running = named.unwrap_or(running);
+                    if line.ends_with("FAILED") && named.is_some() {
+                        break true;
+                    }
+                }
+                Err(mpsc::RecvTimeoutError::Timeout) => break true,
+                // the program has ended, with or without an answer
+                Err(mpsc::RecvTimeoutError::Disconnected) => break !child.wait()?.success(),
+            }
+        };
+        // it may have ended already
+        let _ = child.kill();
+        child.wait()?;
+        let _ = reader.join();
+        Ok(failed.then_some(running))
+    }
+}
