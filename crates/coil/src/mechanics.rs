@@ -164,6 +164,26 @@ impl Design {
     }
 }
 
+/// Share of an interval for which a bond is open that opens below one temperature and closes above another, while the temperature goes evenly; the bond's
+/// state afterwards.
+fn opened(bond: &mut Bonds, [below, above]: [f64; 2], from: f64, to: f64) -> f64 {
+    let beyond = |temperature: f64, before: Bonds| match temperature {
+        t if t < below => Bonds::Opened,
+        t if t > above => Bonds::Closed,
+        _ => before,
+    };
+    let before = beyond(from, *bond);
+    *bond = beyond(to, before);
+    // before the temperature at which it changes
+    let share = match (before, *bond) {
+        (Bonds::Closed, Bonds::Closed) => return 0.0,
+        (Bonds::Opened, Bonds::Opened) => return 1.0,
+        (Bonds::Closed, Bonds::Opened) => (below - from) / (to - from),
+        (Bonds::Opened, Bonds::Closed) => (above - from) / (to - from),
+    };
+    if before == Bonds::Opened { share } else { 1.0 - share }
+}
+
 impl Blend {
     /// Mean rates over an interval `dt` \[s\] in which the coil's mean temperature goes `from` … `to`, from the rates that each state
     /// alone would give.
@@ -180,9 +200,11 @@ impl Blend {
             }
             Self::Relaxing(relaxation) => relaxation.rates(states, dt),
             Self::Opening { below, above, bond } => {
-                let stays_open = *bond == Bonds::Opened && middle <= *above;
-                *bond = if middle < *below || stays_open { Bonds::Opened } else { Bonds::Closed };
-                states[*bond as usize]
+                let open = opened(bond, [*below, *above], from, to);
+                [0, 1, 2].map(|p| {
+                    let [closed, opened] = [Bonds::Closed, Bonds::Opened].map(|bond| states[bond as usize][p]);
+                    closed + open * (opened - closed)
+                })
             }
         }
     }
@@ -211,5 +233,37 @@ mod tests {
                 assert!((sums[p] / exact[p] - 1.0).abs() < 2e-3, "dt {dt}, part {p}: {} against {}", sums[p], exact[p]);
             }
         }
+    }
+
+    /// A course down and up again, through both temperatures: the mean is the same however it is divided.
+    #[test]
+    fn exact_a_bond_is_open_for_the_same_time_whatever_the_interval() {
+        let corners = [20.0, -10.0, 30.0];
+        let states: [Parts; 2] = [[1.0, 0.0, -2.0], [4.0, 1.0, -2.0]];
+        let mean = |parts: usize| {
+            let mut blend = Blend::Opening { below: 3.0, above: 8.0, bond: Bonds::Closed };
+            let mut sum = [0.0; 3];
+            for leg in corners.windows(2) {
+                let at = |k: usize| leg[0] + (leg[1] - leg[0]) * k as f64 / parts as f64;
+                for k in 0..parts {
+                    let rates = blend.rates(&states, at(k), at(k + 1), 1.0);
+                    (0..3).for_each(|p| sum[p] += rates[p] / parts as f64);
+                }
+            }
+            sum
+        };
+        // open for 13 of 30 K of the way down and 18 of 40 K of the way up
+        let open = 13.0 / 30.0 + 18.0 / 40.0;
+        for parts in [1, 2, 7, 1000] {
+            let found = mean(parts);
+            for (p, exact) in [2.0 + 3.0 * open, open, -4.0].into_iter().enumerate() {
+                assert!((found[p] - exact).abs() < 1e-9, "{parts} parts: {found:?}");
+            }
+        }
+        // at rest it stays as it is between the two, and one that begins cold begins open
+        let mut bond = Bonds::Closed;
+        assert_eq!((opened(&mut bond, [3.0, 8.0], 5.0, 5.0), bond), (0.0, Bonds::Closed));
+        assert_eq!((opened(&mut bond, [3.0, 8.0], -5.0, -5.0), bond), (1.0, Bonds::Opened));
+        assert_eq!((opened(&mut bond, [3.0, 8.0], 5.0, 5.0), bond), (1.0, Bonds::Opened));
     }
 }
